@@ -1,0 +1,21 @@
+# A room is a folder with one target; this is the only way targets of ours are made, so that all get the
+# same warnings and the same include root ("common/fixed.hpp"). What a room may include is listed in
+# tests/architecture and checked there.
+
+# strainfinger_room(NAME [SOURCES file...] [DEPENDS target...])
+# Makes strainfinger_NAME (alias strainfinger::NAME); header-only without SOURCES.
+function(strainfinger_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;DEPENDS" ${ARGN})
+  set(target strainfinger_${name})
+  if(ROOM_SOURCES)
+    add_library(${target} STATIC ${ROOM_SOURCES})
+    set(scope PUBLIC)
+    target_link_libraries(${target} PRIVATE strainfinger::warnings)
+  else()
+    add_library(${target} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  target_include_directories(${target} ${scope} ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${target} ${scope} ${ROOM_DEPENDS})
+  add_library(strainfinger::${name} ALIAS ${target})
+endfunction()

@@ -1,0 +1,18 @@
+#pragma once
+// A classic CAN frame with an 11-bit identifier: what hal/can_port.hpp carries and frames.hpp fills.
+
+#include <array>
+#include <cstdint>
+
+namespace strainfinger {
+
+struct CanFrame {
+  std::uint16_t id = 0;      ///< 0 .. 0x7FF, no flag bits
+  std::uint8_t length = 0;   ///< bytes of data in use, 0 .. 8
+  std::array<std::uint8_t, 8> data{};
+  bool operator==(const CanFrame&) const = default;
+};
+
+inline constexpr std::uint16_t kMaxCanId = 0x7FF;
+
+}  // namespace strainfinger

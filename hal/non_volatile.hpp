@@ -1,0 +1,34 @@
+#pragma once
+// Memory that survives a reset, as the firmware sees it.
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace strainfinger::hal {
+
+enum class [[nodiscard]] StoreResult : std::uint8_t {
+  kOk = 0,
+  kOutOfRange = 1,   ///< nothing was touched
+  kUnreadable = 2,   ///< the memory reports the bytes damaged (ECC); the destination is unspecified
+  kNotErased = 3,    ///< write onto bytes that were not erased; nothing was touched
+  kFailed = 4,       ///< the memory refused or verification after writing failed
+};
+
+/// Contract of a store of `size()` bytes in pages of `pageSize()`:
+///  - `erase(page)` sets a whole page to 0xFF.
+///  - `write(offset, bytes)` programs erased bytes; offset and length are multiples of 8. Interrupted by a
+///    power cut, any multiple of 8 bytes from the start may have been written, the next 8 may be unreadable.
+///  - `read(offset, bytes)` reads any range.
+template <typename T>
+concept NonVolatile = requires(T store, const T constStore, std::size_t position,
+                               std::span<const std::byte> from, std::span<std::byte> to) {
+  { constStore.size() } noexcept -> std::same_as<std::size_t>;
+  { constStore.pageSize() } noexcept -> std::same_as<std::size_t>;
+  { constStore.read(position, to) } noexcept -> std::same_as<StoreResult>;
+  { store.write(position, from) } noexcept -> std::same_as<StoreResult>;
+  { store.erase(position) } noexcept -> std::same_as<StoreResult>;
+};
+
+}  // namespace strainfinger::hal

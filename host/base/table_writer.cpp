@@ -1,0 +1,56 @@
+#include "host/base/table_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "host/base/failure.hpp"
+
+namespace strainfinger {
+namespace {
+
+std::string csvQuoted(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + '"';
+}
+
+std::string csvText(const Cell& cell) {
+  if (const auto* real = std::get_if<double>(&cell)) return std::isnan(*real) ? "" : fmt::format("{:.17g}", *real);
+  if (const auto* integer = std::get_if<std::int64_t>(&cell)) return fmt::format("{}", *integer);
+  return csvQuoted(std::get<std::string>(cell));
+}
+
+nlohmann::ordered_json jsonValue(const Cell& cell) {
+  return std::visit([](const auto& value) -> nlohmann::ordered_json { return value; }, cell);
+}
+
+}  // namespace
+
+TableWriter::TableWriter(std::FILE* stream, TableFormat format, std::vector<std::string> columns)
+    : stream_(stream), format_(format), columns_(std::move(columns)) {
+  if (format_ == TableFormat::kCsv) write(fmt::format("{}\n", fmt::join(columns_, ",")));
+}
+
+void TableWriter::row(const std::vector<Cell>& cells) {
+  assert(cells.size() == columns_.size());
+  std::string line;
+  if (format_ == TableFormat::kJson) {
+    nlohmann::ordered_json object;
+    for (std::size_t i = 0; i < cells.size(); ++i) object[columns_[i]] = jsonValue(cells[i]);
+    line = object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  } else {
+    for (std::size_t i = 0; i < cells.size(); ++i) line += (i ? "," : "") + csvText(cells[i]);
+  }
+  write(line + '\n');
+}
+
+void TableWriter::write(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stream_) != text.size())
+    throw Failure(ExitCode::kFailure, "cannot write the output: disk full or reader gone");
+}
+
+}  // namespace strainfinger

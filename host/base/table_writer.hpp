@@ -1,0 +1,33 @@
+#pragma once
+// Rows of named values to a stream: CSV with a header row, or one JSON object a line.
+
+#include <cstdint>
+#include <cstdio>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace strainfinger {
+
+enum class TableFormat { kCsv, kJson };
+
+/// A value of a table. A NaN is an empty CSV field and a JSON null: "not known".
+using Cell = std::variant<double, std::int64_t, std::string>;
+
+/// Writes the header at once and a row a call. Real numbers have 17 digits, so they read back exactly.
+/// Throws Failure(kFailure) when the stream refuses (disk full, closed pipe).
+class TableWriter {
+ public:
+  TableWriter(std::FILE* stream, TableFormat format, std::vector<std::string> columns);
+  void row(const std::vector<Cell>& cells);  ///< one cell a column
+
+ private:
+  void write(std::string_view text);
+  std::FILE* stream_;
+  TableFormat format_;
+  std::vector<std::string> columns_;
+};
+
+}  // namespace strainfinger

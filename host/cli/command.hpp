@@ -1,0 +1,36 @@
+#pragma once
+// What every subcommand shares: its options for the config and the output format.
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/base/table_writer.hpp"
+#include "host/config/finger_config.hpp"
+
+namespace strainfinger::cli {
+
+/// The options every subcommand has. Filled while the command line is parsed, read when the command runs.
+class CommonOptions {
+ public:
+  explicit CommonOptions(CLI::App& command);
+  config::FingerConfig config() const;  ///< the file of -c, or the default finger
+  TableFormat format() const { return json_ ? TableFormat::kJson : TableFormat::kCsv; }
+
+ private:
+  std::string path_;
+  bool json_ = false;
+};
+
+/// Adds a subcommand whose options live in an Options (constructed with the subcommand; its members are what
+/// the options write to) and which runs `run(options)` when it was chosen.
+template <typename Options>
+void addCommand(CLI::App& app, const std::string& name, const std::string& help,
+                void (*run)(const Options&)) {
+  CLI::App& command = *app.add_subcommand(name, help);
+  auto options = std::make_shared<Options>(command);
+  command.callback([options, run] { run(*options); });
+}
+
+}  // namespace strainfinger::cli

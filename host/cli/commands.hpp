@@ -1,0 +1,16 @@
+#pragma once
+// The subcommands, one file each; main() adds them in this order.
+
+#include <CLI/CLI.hpp>
+
+namespace strainfinger::cli {
+
+void addResponse(CLI::App& app);
+void addStrain(CLI::App& app);
+void addTables(CLI::App& app);
+void addLocate(CLI::App& app);
+void addRun(CLI::App& app);
+void addDecode(CLI::App& app);
+void addDbc(CLI::App& app);
+
+}  // namespace strainfinger::cli

@@ -1,0 +1,43 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "host/base/failure.hpp"
+#include "host/cli/commands.hpp"
+
+namespace {
+
+using strainfinger::ExitCode;
+
+int finish(ExitCode code) { return static_cast<int>(code); }
+
+int complain(ExitCode code, const char* message) {
+  std::fprintf(stderr, "strainfinger: %s\n", message);
+  return finish(code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Firmware tables, simulation and tools for strain-gauge tactile fingers", "strainfinger"};
+  app.set_version_flag("--version", STRAINFINGER_VERSION);
+  app.require_subcommand(1);
+  strainfinger::cli::addResponse(app);
+  strainfinger::cli::addStrain(app);
+  strainfinger::cli::addTables(app);
+  strainfinger::cli::addLocate(app);
+  strainfinger::cli::addRun(app);
+  strainfinger::cli::addDecode(app);
+  strainfinger::cli::addDbc(app);
+  try {
+    app.parse(argc, argv);
+    if (std::fflush(stdout) != 0) return complain(ExitCode::kFailure, "cannot write the output");
+    return finish(ExitCode::kOk);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? finish(ExitCode::kOk) : finish(ExitCode::kUsage);
+  } catch (const strainfinger::Failure& failure) {
+    return complain(failure.code(), failure.what());
+  } catch (const std::exception& error) {
+    return complain(ExitCode::kFailure, error.what());
+  }
+}

@@ -10,10 +10,10 @@ namespace strainfinger {
 enum class ExitCode : int {
   kOk = 0,
   kFailure = 1,
-  kUsage = 2,               ///< usage or bad config
-  kNoInterface = 3,         ///< no interface or no permission
-  kNoNode = 4,              ///< no node answered
-  kMismatch = 5,            ///< version or table mismatch
+  kUsage = 2,        ///< usage or bad config
+  kNoInterface = 3,  ///< no interface or no permission
+  kNoNode = 4,       ///< no node answered
+  kMismatch = 5,     ///< version or table mismatch
   kVerificationFailed = 6,
   kInterrupted = 130,
 };

@@ -14,12 +14,14 @@ namespace {
 std::string csvQuoted(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + '"';
+  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+  quoted.push_back('"');
+  return quoted;
 }
 
 std::string csvText(const Cell& cell) {
-  if (const auto* real = std::get_if<double>(&cell)) return std::isnan(*real) ? "" : fmt::format("{:.17g}", *real);
+  if (const auto* real = std::get_if<double>(&cell))
+    return std::isnan(*real) ? "" : fmt::format("{:.17g}", *real);
   if (const auto* integer = std::get_if<std::int64_t>(&cell)) return fmt::format("{}", *integer);
   return csvQuoted(std::get<std::string>(cell));
 }
@@ -43,9 +45,13 @@ void TableWriter::row(const std::vector<Cell>& cells) {
     for (std::size_t i = 0; i < cells.size(); ++i) object[columns_[i]] = jsonValue(cells[i]);
     line = object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   } else {
-    for (std::size_t i = 0; i < cells.size(); ++i) line += (i ? "," : "") + csvText(cells[i]);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (i > 0) line.push_back(',');
+      line += csvText(cells[i]);
+    }
   }
-  write(line + '\n');
+  line.push_back('\n');
+  write(line);
 }
 
 void TableWriter::write(std::string_view text) {

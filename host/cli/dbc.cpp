@@ -1,0 +1,7 @@
+#include "host/cli/commands.hpp"
+
+namespace strainfinger::cli {
+
+void addDbc(CLI::App&) {}
+
+}  // namespace strainfinger::cli

@@ -7,8 +7,8 @@
 namespace strainfinger {
 
 struct CanFrame {
-  std::uint16_t id = 0;      ///< 0 .. 0x7FF, no flag bits
-  std::uint8_t length = 0;   ///< bytes of data in use, 0 .. 8
+  std::uint16_t id = 0;     ///< 0 .. 0x7FF, no flag bits
+  std::uint8_t length = 0;  ///< bytes of data in use, 0 .. 8
   std::array<std::uint8_t, 8> data{};
   bool operator==(const CanFrame&) const = default;
 };

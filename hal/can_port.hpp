@@ -28,9 +28,12 @@ struct CanStatus {
 ///  - `status()` is cheap enough for every heartbeat.
 template <typename T>
 concept CanPort = requires(T port, const CanFrame& frame) {
-  { port.send(frame) } noexcept -> std::same_as<bool>;
-  { port.receive() } noexcept -> std::same_as<std::optional<CanFrame>>;
-  { port.status() } noexcept -> std::same_as<CanStatus>;
+  { port.send(frame) }
+  noexcept->std::same_as<bool>;
+  { port.receive() }
+  noexcept->std::same_as<std::optional<CanFrame>>;
+  { port.status() }
+  noexcept->std::same_as<CanStatus>;
 };
 
 }  // namespace strainfinger::hal

@@ -10,7 +10,8 @@ namespace strainfinger::hal {
 /// 2^32 - 1 to 0. Differences of two readings, as std::uint32_t, are therefore right up to 71 minutes.
 template <typename T>
 concept Clock = requires(const T clock) {
-  { clock.now_us() } noexcept -> std::same_as<std::uint32_t>;
+  { clock.now_us() }
+  noexcept->std::same_as<std::uint32_t>;
 };
 
 }  // namespace strainfinger::hal

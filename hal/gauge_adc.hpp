@@ -21,8 +21,10 @@ using SampleSet = std::array<std::uint16_t, kMaxGauges>;
 ///    `overruns()`, which only grows.
 template <typename T>
 concept GaugeAdc = requires(T adc, const T constAdc, SampleSet& set) {
-  { adc.read(set) } noexcept -> std::same_as<bool>;
-  { constAdc.overruns() } noexcept -> std::same_as<std::uint32_t>;
+  { adc.read(set) }
+  noexcept->std::same_as<bool>;
+  { constAdc.overruns() }
+  noexcept->std::same_as<std::uint32_t>;
 };
 
 }  // namespace strainfinger::hal

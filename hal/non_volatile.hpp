@@ -8,12 +8,12 @@
 
 namespace strainfinger::hal {
 
-enum class [[nodiscard]] StoreResult : std::uint8_t {
-  kOk = 0,
-  kOutOfRange = 1,   ///< nothing was touched
-  kUnreadable = 2,   ///< the memory reports the bytes damaged (ECC); the destination is unspecified
-  kNotErased = 3,    ///< write onto bytes that were not erased; nothing was touched
-  kFailed = 4,       ///< the memory refused or verification after writing failed
+enum class [[nodiscard]] StoreResult : std::uint8_t{
+    kOk = 0,
+    kOutOfRange = 1,  ///< nothing was touched
+    kUnreadable = 2,  ///< the memory reports the bytes damaged (ECC); the destination is unspecified
+    kNotErased = 3,   ///< write onto bytes that were not erased; nothing was touched
+    kFailed = 4,      ///< the memory refused or verification after writing failed
 };
 
 /// Contract of a store of `size()` bytes in pages of `pageSize()`:
@@ -24,11 +24,16 @@ enum class [[nodiscard]] StoreResult : std::uint8_t {
 template <typename T>
 concept NonVolatile = requires(T store, const T constStore, std::size_t position,
                                std::span<const std::byte> from, std::span<std::byte> to) {
-  { constStore.size() } noexcept -> std::same_as<std::size_t>;
-  { constStore.pageSize() } noexcept -> std::same_as<std::size_t>;
-  { constStore.read(position, to) } noexcept -> std::same_as<StoreResult>;
-  { store.write(position, from) } noexcept -> std::same_as<StoreResult>;
-  { store.erase(position) } noexcept -> std::same_as<StoreResult>;
+  { constStore.size() }
+  noexcept->std::same_as<std::size_t>;
+  { constStore.pageSize() }
+  noexcept->std::same_as<std::size_t>;
+  { constStore.read(position, to) }
+  noexcept->std::same_as<StoreResult>;
+  { store.write(position, from) }
+  noexcept->std::same_as<StoreResult>;
+  { store.erase(position) }
+  noexcept->std::same_as<StoreResult>;
 };
 
 }  // namespace strainfinger::hal

@@ -1,7 +1,7 @@
 #pragma once
 // The one way a struct of raw integers becomes a CAN frame and back: a constexpr table of fields per frame.
 // Encoder, decoder, printer, DBC file and the tables of BUS.md all come from it. No floating point, no heap
-// and no text on the way to the bus: scales, names and comments are read by host code only.
+// and no text on the way to the bus: units, names and comments are read by host code only.
 //
 // Byte order, for every field of every frame: little-endian; bit b of the frame is bit b % 8 of byte b / 8,
 // and a field covers the bits lsb .. lsb + width - 1, its lowest bit at lsb (DBC: "@1", Intel).
@@ -45,7 +45,7 @@ struct ValueName {
 };
 
 enum class FieldKind : std::uint8_t {
-  kNumber,  ///< a quantity: physical = raw * scale
+  kNumber,  ///< a quantity
   kChoice,  ///< one of `names`
   kFlags,   ///< a bit each of `names`, whose values are bit numbers within the field
 };
@@ -61,11 +61,11 @@ struct FieldBits {
 
 /// What a field's raw values mean: for people, and for host code that talks to them.
 struct FieldMeaning {
-  const char* name;        ///< snake_case, unique in its frame, at most 32 characters
-  double scale = 1;        ///< units per step
-  const char* unit = "";   ///< ASCII, SI; "" for a plain number
-  bool openEnded = false;  ///< the largest valid value means "that or more"
-  const char* comment;     ///< one sentence, ASCII, without quotation marks
+  const char* name;               ///< snake_case, unique in its frame, at most 32 characters
+  std::int32_t stepsPerUnit = 1;  ///< physical = raw / stepsPerUnit: exact where a factor of 0.01 is not
+  const char* unit = "";          ///< ASCII, SI; "" for a plain number
+  bool openEnded = false;         ///< the largest valid value means "that or more"
+  const char* comment;            ///< one sentence, ASCII, without quotation marks
   FieldKind kind = FieldKind::kNumber;
   std::span<const ValueName> names = {};
 };

@@ -106,6 +106,10 @@ struct FitRow {
 
 using FitTable = std::array<FitRow, kFitRows>;
 
+/// Which way the tangential load pulls, seen from the window's middle gauge: three readings that see the offset
+/// well for one sense are nearly blind for the other, so each has its own triples.
+enum FitSense : std::uint8_t { kWithOffset = 0, kAgainstOffset = 1 };
+
 struct TableImage {
   std::uint32_t magic;
   std::uint16_t format;
@@ -115,12 +119,12 @@ struct TableImage {
   TableParameters parameters;
   TableConstants constants;
   FitTable refined;      ///< all seven gauges
-  FitTable three_point;  ///< three of them, for each row the best conditioned
+  std::array<FitTable, 2> three_point;  ///< by FitSense: three of them, for each row the best conditioned
 };
 
 static_assert(std::is_trivially_copyable_v<TableImage>);
 static_assert(sizeof(TableParameters) == 104 && sizeof(TableConstants) == 48 && sizeof(FitRow) == 88);
-static_assert(sizeof(TableImage) == 16 + 104 + 48 + 2 * 88 * kFitRows, "no padding anywhere");
+static_assert(sizeof(TableImage) == 16 + 104 + 48 + 3 * 88 * kFitRows, "no padding anywhere");
 
 /// Why an image was refused. The numbers go on the bus and into exit statuses: never reuse one.
 enum class TableFault : std::uint8_t {

@@ -29,7 +29,10 @@ struct Problem {
   int shift;
   std::int32_t ringEnergy;
 
-  const FitTable& table() const { return mode == FitMode::kThreePoint ? tables.three_point : tables.refined; }
+  FitTables fitTables() const {
+    if (mode == FitMode::kRefined) return {&tables.refined, &tables.refined};
+    return {&tables.three_point[kWithOffset], &tables.three_point[kAgainstOffset]};
+  }
   int mirrorSign() const { return tables.constants.mirror_sign; }
   int gauges() const { return tables.constants.gauge_count; }
   std::int32_t noise(std::uint32_t variances) const;
@@ -53,6 +56,7 @@ int shiftFor(const TableConstants& constants, std::uint32_t energy) {
 struct Start {
   int row = 0;
   std::int32_t energy = -1;
+  FitSense sense = kWithOffset;
   bool isPeak = false;  ///< not merely the flank of the other side's maximum
 };
 
@@ -77,8 +81,11 @@ Scan scanWindow(const Problem& problem, int centre) {
     const std::array<std::int32_t, 2> energy{energyOf(even1 + odd1, even2 + odd2),
                                              energyOf(even1 - odd1, even2 - odd2)};
     if (row == kScanRows.front()) nextToMiddle = energy;
+    // The second projection has the sign of the tangential load, as its own side sees it.
+    const std::array<bool, 2> against{even2 + odd2 < 0, (even2 - odd2) * problem.mirrorSign() < 0};
     for (std::size_t side = 0; side < 2; ++side) {
-      if (energy[side] > scan.side[side].energy) scan.side[side] = {row, energy[side], false};
+      if (energy[side] > scan.side[side].energy)
+        scan.side[side] = {row, energy[side], against[side] ? kAgainstOffset : kWithOffset, false};
     }
   }
   for (std::size_t side = 0; side < 2; ++side) {
@@ -116,8 +123,10 @@ Answer solve(const Problem& problem, const Scan& scan, int side) {
   fit.side = side == 0 ? 1 : -1;
   fit.signal = side == 0 ? scan.signal : mirrored(scan.signal, problem.mirrorSign());
   fit.offset = scan.side[static_cast<std::size_t>(side)].row * kRowSpacing;
-  refine(problem.table(), problem.mirrorSign(), fit);
-  answer.amplitudes = amplitudesOf(problem.table(), fit);
+  const FitTables tables = problem.fitTables();
+  fit.sense = scan.side[static_cast<std::size_t>(side)].sense;
+  refine(tables, problem.mirrorSign(), fit);
+  answer.amplitudes = amplitudesOf(tables, fit);
   answer.admissible = withinCone(problem.tables.constants, answer.amplitudes);
   answer.found = true;
   answer.energy = fit.energy;
@@ -223,7 +232,7 @@ Placement placementOf(const Answer& answer, int gauges) {
 
 Fit reportOf(const Problem& problem, const Contest& contest) {
   const Answer& best = contest.best;
-  const FitRow& row = problem.table()[static_cast<std::size_t>(best.fit.row)];
+  const FitRow& row = (*problem.fitTables()[best.fit.sense])[static_cast<std::size_t>(best.fit.row)];
   const std::int32_t window = energyOf(best.fit.signal);
   Fit fit;
   fit.best = placementOf(best, problem.gauges());

@@ -33,12 +33,15 @@ PitchQ20 stepLength(std::int32_t quotient_q14, int gradientExponent) {
 
 int nearestRow(PitchQ20 offset) { return std::min((offset + kRowSpacing / 2) >> kRowBits, kFitRows - 1); }
 
-const FitRow& rowAt(const FitTable& table, int row) { return table[static_cast<std::size_t>(row)]; }
+const FitRow& rowOf(const FitTables& tables, const WindowFit& fit) {
+  return (*tables[fit.sense])[static_cast<std::size_t>(fit.row)];
+}
 
 void turnToItsSide(WindowFit& fit, int mirrorSign) {
   if (fit.offset >= 0) return;
   fit.offset = -fit.offset;
   fit.side = -fit.side;
+  fit.sense = fit.sense == kWithOffset ? kAgainstOffset : kWithOffset;
   fit.signal = mirrored(fit.signal, mirrorSign);
 }
 
@@ -70,11 +73,11 @@ FitStep fitStep(const FitRow& row, const Signal& signal) {
   return step;
 }
 
-void refine(const FitTable& table, int mirrorSign, WindowFit& fit) {
+void refine(const FitTables& tables, int mirrorSign, WindowFit& fit) {
   for (int count = 0; count < kMaxSteps; ++count) {
     turnToItsSide(fit, mirrorSign);
     fit.row = nearestRow(fit.offset);
-    const FitStep step = fitStep(rowAt(table, fit.row), fit.signal);
+    const FitStep step = fitStep(rowOf(tables, fit), fit.signal);
     fit.projection = step.projection;
     fit.information = step.information;
     fit.energy = step.energy;
@@ -83,8 +86,8 @@ void refine(const FitTable& table, int mirrorSign, WindowFit& fit) {
   }
 }
 
-Amplitudes amplitudesOf(const FitTable& table, const WindowFit& fit) {
-  const FitRow& row = rowAt(table, fit.row);
+Amplitudes amplitudesOf(const FitTables& tables, const WindowFit& fit) {
+  const FitRow& row = rowOf(tables, fit);
   const auto [u1, u2] = fit.projection;
   Amplitudes result;
   result.normalSlope = scaledBy(row.load_slope[0], u1) + scaledBy(row.load_slope[1], u2);

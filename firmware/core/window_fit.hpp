@@ -26,13 +26,17 @@ struct FitStep {
 };
 FitStep fitStep(const FitRow& row, const Signal& signal);
 
+/// The tables a fit works with, by FitSense.
+using FitTables = std::array<const FitTable*, 2>;
+
 /// A contact as one window sees it.
 struct WindowFit {
   Signal signal{};      ///< as seen from `side`
   int centre = 0;       ///< the window's middle gauge
   int side = 1;         ///< +1: the offset counts towards +theta
   PitchQ20 offset = 0;  ///< from the middle gauge; may come out slightly negative
-  int row = 0;          ///< the row the last step was taken from
+  FitSense sense = kWithOffset;
+  int row = 0;  ///< the row the last step was taken from
   std::int32_t energy = 0;
   std::int32_t information = 0;
   std::array<std::int32_t, 2> projection{};
@@ -42,7 +46,7 @@ struct WindowFit {
 
 /// Steps until the next one would no longer matter: within 5/8 of a row spacing of its row, or six steps.
 /// Two steps are typical. Changes sides where the fit walks across the middle gauge.
-void refine(const FitTable& table, int mirrorSign, WindowFit& fit);
+void refine(const FitTables& tables, int mirrorSign, WindowFit& fit);
 
 /// Amplitudes of the two loads at the fit's offset, and how they change per row spacing of it. In strains at
 /// the response's peak, scaled as the signal, * 2^(amplitude_exponent - 1). `tangential` is + towards the
@@ -53,6 +57,6 @@ struct Amplitudes {
   std::int32_t normalSlope;
   std::int32_t tangentialSlope;
 };
-Amplitudes amplitudesOf(const FitTable& table, const WindowFit& fit);
+Amplitudes amplitudesOf(const FitTables& tables, const WindowFit& fit);
 
 }  // namespace strainfinger::firmware

@@ -67,14 +67,17 @@ WindowFits windowFits(const model::ImpulseResponse& response, int gaugeCount, do
   for (std::size_t row = 0; row < kFitRows; ++row) {
     const auto window = windowResponse(response, gaugeCount, static_cast<double>(row) / kRowsPerPitch, unit);
     fits.refined[row] = windowFit(window, kAllGauges);
-    fits.threePoint[row] = windowFit(window, bestTriple(window, cone));
+    // A triple good for one sense of the tangential load serves small loads of the other one too.
+    const double overlap = cone / 8;
+    fits.threePoint[kWithOffset][row] = windowFit(window, bestTriple(window, {-overlap, cone}));
+    fits.threePoint[kAgainstOffset][row] = windowFit(window, bestTriple(window, {-cone, overlap}));
   }
   return fits;
 }
 
 int amplitudeExponent(const WindowFits& fits) {
   double largest = 0;
-  for (const auto* table : {&fits.refined, &fits.threePoint}) {
+  for (const auto* table : {&fits.refined, &fits.threePoint[0], &fits.threePoint[1]}) {
     for (const WindowFit& fit : *table) {
       largest = std::max({largest, fit.amplitude.cwiseAbs().maxCoeff(),
                           fit.amplitude_slope.cwiseAbs().maxCoeff() / kRowsPerPitch});

@@ -10,7 +10,7 @@ namespace strainfinger::tables {
 /// The fits of all rows' offsets, with all gauges or with the best three of each row.
 struct WindowFits {
   std::array<WindowFit, kFitRows> refined;
-  std::array<WindowFit, kFitRows> threePoint;
+  std::array<std::array<WindowFit, kFitRows>, 2> threePoint;  ///< by FitSense
 };
 WindowFits windowFits(const model::ImpulseResponse& response, int gaugeCount, double unit, double cone);
 

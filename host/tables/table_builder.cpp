@@ -124,7 +124,8 @@ TableImage buildTableImage(const config::FingerConfig& config) {
   const int exponent = amplitudeExponent(fits);
   fillLoads(image.constants, peak, exponent);
   image.refined = fitTable(fits.refined, exponent);
-  image.three_point = fitTable(fits.threePoint, exponent);
+  for (const FitSense sense : {kWithOffset, kAgainstOffset})
+    image.three_point[sense] = fitTable(fits.threePoint[sense], exponent);
   image.crc32 = crc32(checkedBytes(image));
   return image;
 }

@@ -1,8 +1,9 @@
 #include "host/tables/window_fit.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace strainfinger::tables {
@@ -16,17 +17,37 @@ WindowMatrix masked(const WindowMatrix& matrix, const GaugeMask& mask) {
   return result;
 }
 
-/// |d(remaining strain)/d(offset)| for unit normal load and the least favourable direction in the cone.
-double worstSensitivity(const WindowFit& fit, double cone) {
-  // With three gauges the gradient has rank 1: its length is |b1 + b2 rho| for loads (1, rho), least at an
-  // end of the cone or where it crosses zero inside.
-  const Eigen::Matrix2d loadToBasis = fit.amplitude.inverse();
-  const WindowVector normal = fit.gradient * loadToBasis.col(0);
-  const WindowVector tangential = fit.gradient * loadToBasis.col(1);
-  const WindowVector plus = normal + cone * tangential;
-  const WindowVector minus = normal - cone * tangential;
-  if (plus.dot(minus) <= 0) return 0;
-  return std::min(plus.norm(), minus.norm());
+using Variances = Eigen::Vector3d;  // of offset, normal load, tangential load
+
+/// Cramer-Rao bound for unit noise and loads (1, direction): the offset's variance is that of the gradient, the loads'
+/// their own at a known offset and what the offset's adds.
+Variances variances(const WindowFit& fit, double direction) {
+  const Eigen::Vector2d loads(1, direction);
+  const Eigen::Vector2d amplitudes = fit.amplitude.triangularView<Eigen::Upper>().solve(loads);
+  const double offset = 1 / (fit.gradient * amplitudes).squaredNorm();
+  const Eigen::Vector2d slope = fit.amplitude_slope * amplitudes;
+  const Eigen::Vector2d own = fit.amplitude.rowwise().squaredNorm();
+  return {offset, own[0] + slope[0] * slope[0] * offset, own[1] + slope[1] * slope[1] * offset};
+}
+
+/// The gradient along the load direction that three gauges see keeps its sign over the range.
+bool seesOffset(const WindowFit& fit, DirectionRange directions) {
+  const auto gradient = [&](double direction) -> WindowVector {
+    return fit.gradient * fit.amplitude.triangularView<Eigen::Upper>().solve(Eigen::Vector2d(1, direction));
+  };
+  return gradient(directions.least).dot(gradient(directions.most)) > 0;
+}
+
+constexpr int kDirections = 5;  // the errors are smooth between them once seesOffset() holds
+
+std::array<Variances, kDirections> variancesOver(const WindowFit& fit, DirectionRange directions) {
+  std::array<Variances, kDirections> result;
+  for (int i = 0; i < kDirections; ++i) {
+    const double part = static_cast<double>(i) / (kDirections - 1);
+    result[static_cast<std::size_t>(i)] =
+        variances(fit, directions.least + part * (directions.most - directions.least));
+  }
+  return result;
 }
 
 }  // namespace
@@ -62,18 +83,23 @@ WindowFit windowFit(const WindowResponse& response, const GaugeMask& mask) {
   return fit;
 }
 
-GaugeMask bestTriple(const WindowResponse& response, double cone) {
+GaugeMask bestTriple(const WindowResponse& response, DirectionRange directions) {
+  const auto reference = variancesOver(windowFit(response, kAllGauges), directions);
   GaugeMask best{};
-  double bestSensitivity = -1;
+  double least = std::numeric_limits<double>::infinity();
   for (unsigned bits = 0; bits < (1u << kWindowGauges); ++bits) {
+    if (std::popcount(bits) != 3) continue;
     GaugeMask mask{};
-    for (std::size_t k = 0; k < mask.size(); ++k) mask[k] = (bits >> k) & 1;
-    if (std::count(mask.begin(), mask.end(), true) != 3) continue;
-    const double sensitivity = worstSensitivity(windowFit(response, mask), cone);
-    if (sensitivity > bestSensitivity) {
-      best = mask;
-      bestSensitivity = sensitivity;
-    }
+    for (std::size_t k = 0; k < mask.size(); ++k) mask[k] = ((bits >> k) & 1) != 0;
+    const WindowFit fit = windowFit(response, mask);
+    if (!seesOffset(fit, directions)) continue;
+    const auto own = variancesOver(fit, directions);
+    double worst = 0;
+    for (std::size_t i = 0; i < own.size(); ++i)
+      worst = std::max(worst, own[i].cwiseQuotient(reference[i]).maxCoeff());
+    if (worst >= least) continue;
+    best = mask;
+    least = worst;
   }
   return best;
 }

@@ -35,10 +35,15 @@ struct WindowFit {
 };
 WindowFit windowFit(const WindowResponse& response, const GaugeMask& mask);
 
-/// Of all triples, the one whose worst standard error of the offset over load directions |Q| <= cone P is
-/// least. Three gauges see the offset through one number, which vanishes for one load direction: that
-/// direction must lie well outside the cone. (The three nearest gauges fail exactly so: see
-/// firmware/README.md.)
-GaugeMask bestTriple(const WindowResponse& response, double cone);
+/// Load directions, as tangential / normal load.
+struct DirectionRange {
+  double least;
+  double most;
+};
+
+/// Of all triples, the one whose standard errors of offset and loads, each over the whole window's, are least in the
+/// worst case over `directions`. Three gauges see the offset through one number, which vanishes for one load
+/// direction: it must lie outside. (For the three nearest gauges it is 0 when the contact is over the middle one.)
+GaugeMask bestTriple(const WindowResponse& response, DirectionRange directions);
 
 }  // namespace strainfinger::tables

@@ -16,10 +16,10 @@ struct Contact {
   LineLoadQ12 sigmaNormal;
   LineLoadQ12 tangential;
   LineLoadQ12 sigmaTangential;
-  TurnQ32 alternative;  ///< angle of another answer; meaningful when ambiguous
-  std::uint8_t quality =
-      0;  ///< percent: 100 when the readings fit within noise and only one way, at most 20 when ambiguous
-  bool ambiguous = false;  ///< two answers within noise of each other; the errors cover both
+  TurnQ32 alternative;       ///< angle of another answer; meaningful when ambiguous
+  std::uint8_t quality = 0;  ///< percent: 100 when one contact explains the readings within noise
+  bool ambiguous = false;    ///< two answers within noise of each other: the errors cover both
+  bool uncertain = false;    ///< quality 20 or less: ambiguous, not settled, or much left unexplained
 };
 
 }  // namespace strainfinger

@@ -81,7 +81,7 @@ struct TableConstants {
   std::uint8_t gauge_count;
   std::uint8_t gate_shift;  ///< the gate's energy is the sum of (strain >> gate_shift)^2
   AnchorRule anchor_rule;
-  std::uint8_t reserved;  ///< 0
+  std::uint8_t scan_step;  ///< rows between the starts of a scan: half a step, 3/2, 5/2 .. of it
 };
 
 /// A signal over the window, folded about the middle gauge: middle, then sums of the pairs at distance
@@ -106,8 +106,8 @@ struct FitRow {
 
 using FitTable = std::array<FitRow, kFitRows>;
 
-/// Which way the tangential load pulls, seen from the window's middle gauge: three readings that see the offset
-/// well for one sense are nearly blind for the other, so each has its own triples.
+/// Which way the tangential load pulls, seen from the window's middle gauge: three readings that see the
+/// offset well for one sense are nearly blind for the other, so each has its own triples.
 enum FitSense : std::uint8_t { kWithOffset = 0, kAgainstOffset = 1 };
 
 struct TableImage {
@@ -118,7 +118,7 @@ struct TableImage {
   std::uint32_t crc32;        ///< of everything behind this field
   TableParameters parameters;
   TableConstants constants;
-  FitTable refined;      ///< all seven gauges
+  FitTable refined;                     ///< all seven gauges
   std::array<FitTable, 2> three_point;  ///< by FitSense: three of them, for each row the best conditioned
 };
 

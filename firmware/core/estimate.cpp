@@ -7,7 +7,7 @@
 namespace strainfinger::firmware {
 namespace {
 
-constexpr std::uint8_t kAmbiguousQuality = 20;
+constexpr std::uint8_t kUncertainQuality = 20;
 
 /// A positive real number: mantissa * 2^exponent. Cheap to multiply, and its root costs one integer root.
 struct Scaled {
@@ -95,7 +95,8 @@ TurnQ32 angleOf(const TableConstants& constants, PitchQ20 position) {
 std::uint8_t qualityOf(const Fit& fit) {
   const std::int64_t percent =
       100 * std::int64_t{fit.expected} / std::max({fit.expected, fit.unexplained, 1});
-  return static_cast<std::uint8_t>(std::min<std::int64_t>(percent, fit.ambiguous ? kAmbiguousQuality : 100));
+  const bool doubt = fit.ambiguous || !fit.settled;
+  return static_cast<std::uint8_t>(std::min<std::int64_t>(percent, doubt ? kUncertainQuality : 100));
 }
 
 /// Two answers a distance apart: the reported error is at least a third of it.
@@ -128,6 +129,7 @@ Contact estimate(const TableConstants& constants, const Fit& fit) {
   contact.alternative = angleOf(constants, fit.alternative.position);
   contact.quality = qualityOf(fit);
   contact.ambiguous = fit.ambiguous;
+  contact.uncertain = contact.quality <= kUncertainQuality;
   return contact;
 }
 

@@ -7,8 +7,9 @@
 namespace strainfinger::firmware {
 namespace {
 
-/// Rows at which a window is scanned: odd sixteenths of a pitch. The best of either side leads to the truth.
-constexpr std::array<int, 5> kScanRows{4, 12, 20, 28, 36};
+/// A scan reaches this far: a little beyond half a pitch, where the next window takes over.
+constexpr int kScanReach = 36;
+constexpr int kMaxScanRows = 9;
 
 /// Fits closer than this ran into the same maximum.
 constexpr PitchQ20 kSameAnswer = kOnePitch / 12;
@@ -17,10 +18,12 @@ constexpr PitchQ20 kFarFromMiddle = kOnePitch * 53 / 100;
 
 // Likelihood ratios, in variances of a reading: energy differences are log-likelihoods * 2 sigma^2.
 constexpr std::uint32_t kAmbiguous = 12;    ///< answers closer than this are not told apart
-constexpr std::uint32_t kRivalMargin = 32;  ///< a start so much behind may still win once refined ..
+constexpr std::uint32_t kRivalMargin = 32;  ///< a peak of a scan so much behind may still win once refined ..
 constexpr int kRivalShift = 4;              ///< .. as may one within 1/16 of the energy
 constexpr std::uint32_t kUnexplained = 32;  ///< noise alone leaves less in a window ..
 constexpr int kRoundingShift = 12;          ///< .. beside 1/4096 of the energy, lost in rounding
+constexpr int kAmbiguousShift = 14;    ///< rounding makes two fits differ by less of the energy than this
+constexpr std::uint32_t kWeak = 1024;  ///< a ring with less energy than this can look right in a wrong window
 
 struct Problem {
   const TableImage& tables;
@@ -52,45 +55,46 @@ int shiftFor(const TableConstants& constants, std::uint32_t energy) {
   return constants.gate_shift + bits / 2 - 14;
 }
 
-/// Where a fit may start, and what the scan saw there.
-struct Start {
-  int row = 0;
-  std::int32_t energy = -1;
-  FitSense sense = kWithOffset;
-  bool isPeak = false;  ///< not merely the flank of the other side's maximum
-};
-
+/// Energies that the seven gauges explain with the contact at each of a row of offsets, from one side of a
+/// window to the other.
 struct Scan {
   Signal signal{};
   int centre = 0;
-  std::array<Start, 2> side;  ///< offsets towards +theta, towards -theta
+  int step = 0;     ///< rows between offsets
+  int perSide = 0;  ///< offsets on either side of the middle
+  std::array<std::int32_t, 2 * kMaxScanRows> energy{};
+  std::array<bool, 2 * kMaxScanRows> pullsBack{};  ///< the tangential load points towards the middle
 
-  int leader() const { return side[1].energy > side[0].energy ? 1 : 0; }
-  std::int32_t energy() const { return side[static_cast<std::size_t>(leader())].energy; }
+  int size() const { return 2 * perSide; }
+  int side(int index) const { return index < perSide ? -1 : 1; }
+  int row(int index) const {
+    return step / 2 + step * (index < perSide ? perSide - 1 - index : index - perSide);
+  }
+  std::int32_t at(int index) const { return energy[static_cast<std::size_t>(index)]; }
+  std::int32_t best() const { return *std::max_element(energy.begin(), energy.begin() + size()); }
+  bool isPeak(int index) const {
+    return (index == 0 || at(index - 1) <= at(index)) && (index + 1 == size() || at(index + 1) < at(index));
+  }
 };
 
 Scan scanWindow(const Problem& problem, int centre) {
+  const TableConstants& constants = problem.tables.constants;
   Scan scan;
   scan.centre = centre;
   scan.signal = windowSignal(problem.strains, centre, problem.shift);
-  std::array<std::int32_t, 2> nextToMiddle{};
-  for (const int row : kScanRows) {
-    const auto& basis = problem.tables.refined[static_cast<std::size_t>(row)].basis;
+  scan.step = constants.scan_step;
+  scan.perSide = (kScanReach - scan.step / 2) / scan.step + 1;
+  for (int index = scan.perSide; index < scan.size(); ++index) {
+    const auto& basis = problem.tables.refined[static_cast<std::size_t>(scan.row(index))].basis;
     const std::int32_t even1 = evenPart(basis[0], scan.signal), odd1 = oddPart(basis[0], scan.signal);
     const std::int32_t even2 = evenPart(basis[1], scan.signal), odd2 = oddPart(basis[1], scan.signal);
-    const std::array<std::int32_t, 2> energy{energyOf(even1 + odd1, even2 + odd2),
-                                             energyOf(even1 - odd1, even2 - odd2)};
-    if (row == kScanRows.front()) nextToMiddle = energy;
+    const auto ahead = static_cast<std::size_t>(index);
+    const auto behind = static_cast<std::size_t>(scan.size() - 1 - index);
+    scan.energy[ahead] = energyOf(even1 + odd1, even2 + odd2);
+    scan.energy[behind] = energyOf(even1 - odd1, even2 - odd2);
     // The second projection has the sign of the tangential load, as its own side sees it.
-    const std::array<bool, 2> against{even2 + odd2 < 0, (even2 - odd2) * problem.mirrorSign() < 0};
-    for (std::size_t side = 0; side < 2; ++side) {
-      if (energy[side] > scan.side[side].energy)
-        scan.side[side] = {row, energy[side], against[side] ? kAgainstOffset : kWithOffset, false};
-    }
-  }
-  for (std::size_t side = 0; side < 2; ++side) {
-    scan.side[side].isPeak =
-        scan.side[side].row != kScanRows.front() || nextToMiddle[side] >= nextToMiddle[1 - side];
+    scan.pullsBack[ahead] = even2 + odd2 < 0;
+    scan.pullsBack[behind] = (even2 - odd2) * constants.mirror_sign < 0;
   }
   return scan;
 }
@@ -100,14 +104,16 @@ struct Answer {
   WindowFit fit;
   Amplitudes amplitudes{};
   std::int32_t energy = -1;  ///< that all seven gauges say it explains
-  bool admissible = false;   ///< presses, within the friction cone
+  bool settled = false;
+  bool withinCone = false;  ///< presses, and no harder sideways than friction allows
   bool found = false;
 
   bool betterThan(const Answer& other) const {
     if (!other.found) return true;
-    if (admissible != other.admissible) return admissible;
+    if (admissible() != other.admissible()) return admissible();
     return energy > other.energy;
   }
+  bool admissible() const { return settled && withinCone; }
 };
 
 bool withinCone(const TableConstants& constants, const Amplitudes& amplitudes) {
@@ -116,18 +122,18 @@ bool withinCone(const TableConstants& constants, const Amplitudes& amplitudes) {
   return std::int64_t{std::abs(amplitudes.tangential)} * 256 <= limit;
 }
 
-Answer solve(const Problem& problem, const Scan& scan, int side) {
+Answer solve(const Problem& problem, const Scan& scan, int start) {
   Answer answer;
   WindowFit& fit = answer.fit;
   fit.centre = scan.centre;
-  fit.side = side == 0 ? 1 : -1;
-  fit.signal = side == 0 ? scan.signal : mirrored(scan.signal, problem.mirrorSign());
-  fit.offset = scan.side[static_cast<std::size_t>(side)].row * kRowSpacing;
+  fit.side = scan.side(start);
+  fit.signal = fit.side > 0 ? scan.signal : mirrored(scan.signal, problem.mirrorSign());
+  fit.offset = scan.row(start) * kRowSpacing;
+  fit.sense = scan.pullsBack[static_cast<std::size_t>(start)] ? kAgainstOffset : kWithOffset;
   const FitTables tables = problem.fitTables();
-  fit.sense = scan.side[static_cast<std::size_t>(side)].sense;
-  refine(tables, problem.mirrorSign(), fit);
+  answer.settled = refine(tables, problem.mirrorSign(), fit);
   answer.amplitudes = amplitudesOf(tables, fit);
-  answer.admissible = withinCone(problem.tables.constants, answer.amplitudes);
+  answer.withinCone = withinCone(problem.tables.constants, answer.amplitudes);
   answer.found = true;
   answer.energy = fit.energy;
   if (problem.mode == FitMode::kThreePoint)
@@ -165,19 +171,21 @@ struct Contest {
   }
 };
 
+/// Refines every peak of a scan that may yet turn out the best.
 void solveWindow(const Problem& problem, const Scan& scan, Contest& contest) {
-  const int lead = scan.leader();
-  contest.enter(solve(problem, scan, lead), problem.gauges());
-  const Start& rival = scan.side[static_cast<std::size_t>(1 - lead)];
-  const std::int32_t margin = (scan.energy() >> kRivalShift) + problem.noise(kRivalMargin);
-  if (rival.isPeak && rival.energy > scan.energy() - margin)
-    contest.enter(solve(problem, scan, 1 - lead), problem.gauges());
+  const std::int32_t best = scan.best();
+  const std::int32_t limit = best - (best >> kRivalShift) - problem.noise(kRivalMargin);
+  for (int start = 0; start < scan.size(); ++start) {
+    if (scan.isPeak(start) && scan.at(start) > limit)
+      contest.enter(solve(problem, scan, start), problem.gauges());
+  }
 }
 
 bool doubtful(const Problem& problem, const Answer& answer) {
   const std::int32_t window = energyOf(answer.fit.signal);
   const std::int32_t noise = problem.noise(kUnexplained);
-  return !answer.admissible || std::abs(answer.fit.offset) > kFarFromMiddle ||
+  return !answer.admissible() || problem.ringEnergy < problem.noise(kWeak) ||
+         std::abs(answer.fit.offset) > kFarFromMiddle ||
          window - answer.energy > noise + (window >> kRoundingShift) ||
          problem.ringEnergy - window > noise + (window >> 3);
 }
@@ -205,7 +213,7 @@ void solveBestOf(const Problem& problem, int anchor, const std::array<int, N>& o
   Scan best;
   for (const int offset : offsets) {
     const Scan scan = scanWindow(problem, wrapped(anchor + offset, problem.gauges()));
-    if (scan.energy() > best.energy()) best = scan;
+    if (best.step == 0 || scan.best() > best.best()) best = scan;
   }
   solveWindow(problem, best, contest);
 }
@@ -215,7 +223,7 @@ void solveEverywhere(const Problem& problem, Contest& contest) {
   std::array<std::int32_t, kMaxGauges> energies{};
   std::int32_t largest = 0;
   for (int gauge = 0; gauge < problem.gauges(); ++gauge) {
-    energies[static_cast<std::size_t>(gauge)] = scanWindow(problem, gauge).energy();
+    energies[static_cast<std::size_t>(gauge)] = scanWindow(problem, gauge).best();
     largest = std::max(largest, energies[static_cast<std::size_t>(gauge)]);
   }
   const std::int32_t limit = largest - (largest >> kRivalShift) - problem.noise(kRivalMargin);
@@ -223,6 +231,18 @@ void solveEverywhere(const Problem& problem, Contest& contest) {
     if (energies[static_cast<std::size_t>(gauge)] >= limit)
       solveWindow(problem, scanWindow(problem, gauge), contest);
   }
+}
+
+Contest decide(const Problem& problem) {
+  Contest contest;
+  if (problem.tables.constants.anchor_rule == AnchorRule::kExhaustive) {
+    solveEverywhere(problem, contest);
+    return contest;
+  }
+  const int anchor = bendAnchor(problem);
+  solveWindow(problem, scanWindow(problem, anchor), contest);
+  if (doubtful(problem, contest.best)) solveBestOf(problem, anchor, std::array{-3, -2, 2, 3}, contest);
+  return contest;
 }
 
 Placement placementOf(const Answer& answer, int gauges) {
@@ -237,8 +257,10 @@ Fit reportOf(const Problem& problem, const Contest& contest) {
   Fit fit;
   fit.best = placementOf(best, problem.gauges());
   fit.alternative = contest.second.found ? placementOf(contest.second, problem.gauges()) : fit.best;
-  fit.ambiguous = contest.second.found && contest.second.admissible &&
-                  contest.second.energy > best.energy - problem.noise(kAmbiguous);
+  const std::int32_t margin = problem.noise(kAmbiguous) + (window >> kAmbiguousShift);
+  fit.ambiguous =
+      contest.second.found && contest.second.withinCone && contest.second.energy > best.energy - margin;
+  fit.settled = best.admissible();
   fit.normalSlope = best.amplitudes.normalSlope;
   fit.tangentialSlope = best.amplitudes.tangentialSlope;
   fit.information = best.fit.information;
@@ -259,14 +281,10 @@ Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t>
   const int down = 2 * (shift - tables.constants.gate_shift) + 2;
   const auto ringEnergy = static_cast<std::int32_t>(down >= 0 ? energy >> down : energy << -down);
   const Problem problem{tables, strains_q32, mode, shift, ringEnergy};
-  Contest contest;
-  if (tables.constants.anchor_rule == AnchorRule::kExhaustive) {
-    solveEverywhere(problem, contest);
-  } else {
-    const int anchor = bendAnchor(problem);
-    solveWindow(problem, scanWindow(problem, anchor), contest);
-    if (doubtful(problem, contest.best)) solveBestOf(problem, anchor, std::array{-3, -2, 2, 3}, contest);
-  }
+  const Contest contest = decide(problem);
+  // Three readings that leave much unexplained are overruled by their neighbours.
+  if (mode == FitMode::kThreePoint && doubtful(problem, contest.best))
+    return locate(tables, FitMode::kRefined, strains_q32, energy);
   return reportOf(problem, contest);
 }
 

@@ -29,6 +29,7 @@ struct Fit {
   Placement best;
   Placement alternative;         ///< the next best answer; meaningful when ambiguous
   bool ambiguous = false;        ///< another answer explains the readings as well, within noise
+  bool settled = false;          ///< the fit converged, presses, and stays within the friction cone
   std::int32_t normalSlope = 0;  ///< change of the amplitudes per row spacing of offset
   std::int32_t tangentialSlope = 0;
   std::int32_t information = 0;  ///< see FitStep

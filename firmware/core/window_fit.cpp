@@ -10,7 +10,7 @@ constexpr PitchQ20 kLongestStep = kOnePitch / 8;
 /// A step this short lands so near its row that another would change nothing that matters; a little more than
 /// half a spacing, so that two neighbouring rows can't hand a fit to and fro.
 constexpr PitchQ20 kConverged = kRowSpacing * 5 / 8;
-constexpr int kMaxSteps = 6;
+constexpr int kMaxSteps = 8;
 constexpr int kQuotientBits = 14;
 
 /// numerator / denominator [* 2^14], saturating at +-4; 0 where the denominator says nothing.
@@ -73,7 +73,7 @@ FitStep fitStep(const FitRow& row, const Signal& signal) {
   return step;
 }
 
-void refine(const FitTables& tables, int mirrorSign, WindowFit& fit) {
+bool refine(const FitTables& tables, int mirrorSign, WindowFit& fit) {
   for (int count = 0; count < kMaxSteps; ++count) {
     turnToItsSide(fit, mirrorSign);
     fit.row = nearestRow(fit.offset);
@@ -82,8 +82,9 @@ void refine(const FitTables& tables, int mirrorSign, WindowFit& fit) {
     fit.information = step.information;
     fit.energy = step.energy;
     fit.offset = fit.row * kRowSpacing + step.length;
-    if (step.length <= kConverged && step.length >= -kConverged) return;
+    if (step.length <= kConverged && step.length >= -kConverged) return true;
   }
+  return false;
 }
 
 Amplitudes amplitudesOf(const FitTables& tables, const WindowFit& fit) {

@@ -44,9 +44,10 @@ struct WindowFit {
   PitchQ20 position() const { return centre * kOnePitch + side * offset; }
 };
 
-/// Steps until the next one would no longer matter: within 5/8 of a row spacing of its row, or six steps.
-/// Two steps are typical. Changes sides where the fit walks across the middle gauge.
-void refine(const FitTables& tables, int mirrorSign, WindowFit& fit);
+/// Steps until the next one would no longer matter, within 5/8 of a row spacing of its row: two steps are
+/// typical. Changes sides where the fit walks across the middle gauge. False: not there after eight steps, or
+/// walked beyond the last row; the fit is then no answer.
+bool refine(const FitTables& tables, int mirrorSign, WindowFit& fit);
 
 /// Amplitudes of the two loads at the fit's offset, and how they change per row spacing of it. In strains at
 /// the response's peak, scaled as the signal, * 2^(amplitude_exponent - 1). `tangential` is + towards the

@@ -66,6 +66,14 @@ void fillLoads(TableConstants& constants, double peak, int amplitudeExponent) {
   constants.amplitude_exponent = static_cast<std::int8_t>(amplitudeExponent);
 }
 
+/// Rings of 16 and more see a single peak over the contact, about a pitch wide. Coarser rings, and shear,
+/// whose response has two, are searched everywhere and twice as finely.
+void fillSearch(TableConstants& constants, const config::Gauges& gauges) {
+  const bool hasOnePeak = gauges.count >= 16 && gauges.component != StrainComponent::kShear;
+  constants.anchor_rule = hasOnePeak ? AnchorRule::kSecondDifference : AnchorRule::kExhaustive;
+  constants.scan_step = hasOnePeak ? 8 : 4;
+}
+
 TableConstants tableConstants(const config::FingerConfig& config, bool peakIsNegative) {
   TableConstants constants{};
   constants.gauge_count = static_cast<std::uint8_t>(config.gauges.count);
@@ -82,7 +90,7 @@ TableConstants tableConstants(const config::FingerConfig& config, bool peakIsNeg
   constants.adc_rail = static_cast<std::uint16_t>(0xFFFF << (16 - config.gauges.adc_bits));
   constants.mirror_sign = config.gauges.component == StrainComponent::kShear ? -1 : 1;
   constants.anchor_sign = peakIsNegative ? 1 : -1;
-  constants.anchor_rule = AnchorRule::kSecondDifference;
+  fillSearch(constants, config.gauges);
   return constants;
 }
 

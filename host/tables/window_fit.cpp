@@ -19,8 +19,8 @@ WindowMatrix masked(const WindowMatrix& matrix, const GaugeMask& mask) {
 
 using Variances = Eigen::Vector3d;  // of offset, normal load, tangential load
 
-/// Cramer-Rao bound for unit noise and loads (1, direction): the offset's variance is that of the gradient, the loads'
-/// their own at a known offset and what the offset's adds.
+/// Cramer-Rao bound for unit noise and loads (1, direction): the offset's variance is that of the gradient,
+/// the loads' their own at a known offset and what the offset's adds.
 Variances variances(const WindowFit& fit, double direction) {
   const Eigen::Vector2d loads(1, direction);
   const Eigen::Vector2d amplitudes = fit.amplitude.triangularView<Eigen::Upper>().solve(loads);

@@ -41,9 +41,10 @@ struct DirectionRange {
   double most;
 };
 
-/// Of all triples, the one whose standard errors of offset and loads, each over the whole window's, are least in the
-/// worst case over `directions`. Three gauges see the offset through one number, which vanishes for one load
-/// direction: it must lie outside. (For the three nearest gauges it is 0 when the contact is over the middle one.)
+/// Of all triples, the one whose standard errors of offset and loads, each over the whole window's, are least
+/// in the worst case over `directions`. Three gauges see the offset through one number, which vanishes for
+/// one load direction: it must lie outside. (For the three nearest gauges it is 0 when the contact is over
+/// the middle one.)
 GaugeMask bestTriple(const WindowResponse& response, DirectionRange directions);
 
 }  // namespace strainfinger::tables

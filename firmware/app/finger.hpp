@@ -44,14 +44,15 @@ class Finger {
         clock_(clock),
         watchdog_(watchdog),
         tableCrc_(static_cast<std::uint8_t>(tables.crc32)),
-        start_us_(clock.now_us()),
-        sampledAt_us_(start_us_),
-        heartbeatAt_us_(start_us_ - kHeartbeatPeriod_us) {}
+        steppedAt_us_(clock.now_us()),
+        sampledAt_us_(steppedAt_us_),
+        heartbeatAt_us_(steppedAt_us_ - kHeartbeatPeriod_us) {}
 
   /// One turn of the main loop: takes at most one sample set, sends what is due. Never blocks. The watchdog
   /// is fed only by sample sets that went all the way through. True: there was a sample set.
   bool step() {
     const std::uint32_t now_us = clock_.now_us();
+    countUptime(now_us);
     const bool sampled = adc_.read(codes_);
     if (sampled) take(now_us);
     beat(now_us);
@@ -65,8 +66,15 @@ class Finger {
  private:
   static constexpr std::uint32_t kHeartbeatPeriod_us = std::uint32_t{kHeartbeatPeriod_ms} * 1000;
   static constexpr std::uint32_t kSilentConverter_us = 100'000;
+  static constexpr std::uint32_t kLongestUptime_s = kNotKnown<std::uint16_t> - 1;
 
   Codes codes() const { return Codes(codes_).first(pipeline_.constants().gauge_count); }
+
+  void countUptime(std::uint32_t now_us) {
+    sinceSecond_us_ += now_us - steppedAt_us_;
+    steppedAt_us_ = now_us;
+    for (; sinceSecond_us_ >= 1'000'000; sinceSecond_us_ -= 1'000'000) ++uptime_s_;
+  }
 
   void take(std::uint32_t now_us) {
     sampledAt_us_ = now_us;
@@ -100,6 +108,7 @@ class Finger {
     reporter_.sent(*frames, now_us);
     force_ = frames->force;
     forceOwed_ = true;
+    contactAt_us_ = now_us;
     sendForce(now_us);
   }
 
@@ -108,7 +117,6 @@ class Finger {
     if (can_.send(encode(force_, settings_.node))) {
       ++counters_.touchesSent;
       forceOwed_ = false;
-      contactAt_us_ = now_us;
     } else if (now_us - contactAt_us_ >= std::uint32_t{kContactPeriod_ms} * 1000) {
       ++counters_.forcesLost;
       forceOwed_ = false;
@@ -127,7 +135,7 @@ class Finger {
     frame.faults.set(FingerFault::kConverter, now_us - sampledAt_us_ >= kSilentConverter_us);
     frame.faults.set(FingerFault::kCan, status.dropped != 0 || counters_.forcesLost != 0);
     frame.faults.set(FingerFault::kWatchdogReset, watchdog_.resetCause() == hal::ResetCause::kWatchdog);
-    frame.uptime_s = static_cast<std::uint16_t>((now_us - start_us_) / 1'000'000);
+    frame.uptime_s = saturate<std::uint16_t>(uptime_s_ < kLongestUptime_s ? uptime_s_ : kLongestUptime_s);
     if (status.txErrors) frame.tx_errors = *status.txErrors;
     if (status.rxErrors) frame.rx_errors = *status.rxErrors;
     frame.table_crc = tableCrc_;
@@ -149,7 +157,9 @@ class Finger {
   ForceFrame force_{};
   bool forceOwed_ = false;
   FingerCounters counters_{};
-  std::uint32_t start_us_;
+  std::uint32_t uptime_s_ = 0;
+  std::uint32_t sinceSecond_us_ = 0;
+  std::uint32_t steppedAt_us_;
   std::uint32_t sampledAt_us_;
   std::uint32_t heartbeatAt_us_;
   std::uint32_t contactAt_us_ = 0;

@@ -45,6 +45,15 @@ bool moved(std::int32_t by, std::int32_t sigma, bool sigmaKnown) {
   return by > 0 && (!sigmaKnown || by > sigma);
 }
 
+/// Bit i: gauge i takes part in the fit; every gauge of the ring when there is none.
+std::uint32_t gaugesUsed(const TableConstants& constants, const Observation& observation) {
+  if (!observation.fit) return ~std::uint32_t{0} >> (kMaxGauges - constants.gauge_count);
+  std::uint32_t used = 0;
+  for (int offset = -kWindowReach; offset <= kWindowReach; ++offset)
+    used |= 1u << wrapped(observation.fit->centre + offset, constants.gauge_count);
+  return used;
+}
+
 }  // namespace
 
 TouchFrames touchFrames(const TableConstants& constants, const Contact& contact, FingerFlags flags,
@@ -83,7 +92,8 @@ std::optional<TouchFrames> TouchReporter::frames(const TableConstants& constants
                                                  const Observation& observation, std::uint32_t now_us) {
   const auto next = static_cast<std::uint8_t>(last_.contact.sequence + (any_ ? 1 : 0));
   FingerFlags flags = standing_;
-  flags.set(FingerFlag::kSaturated, observation.saturated != 0);
+  const bool saturated = (observation.saturated & gaugesUsed(constants, observation)) != 0;
+  flags.set(FingerFlag::kSaturated, saturated);
   if (!observation.fit) {
     if (!any_ || !last_.contact.flags.has(FingerFlag::kContact)) return std::nullopt;
     TouchFrames released;
@@ -94,7 +104,7 @@ std::optional<TouchFrames> TouchReporter::frames(const TableConstants& constants
   if (!due(now_us)) return std::nullopt;
   const Contact contact = estimate(constants, *observation.fit);
   flags.set(FingerFlag::kContact);
-  flags.set(FingerFlag::kUncertain, contact.uncertain || observation.saturated != 0);
+  flags.set(FingerFlag::kUncertain, contact.uncertain || saturated);
   const TouchFrames frames = touchFrames(constants, contact, flags, next);
   if (!worthSaying(frames, now_us)) return std::nullopt;
   return frames;

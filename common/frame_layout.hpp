@@ -196,6 +196,7 @@ struct FrameSpec {
   FunctionCode function;
   std::uint8_t length;      ///< bytes; a frame of another length is not this frame
   std::uint16_t period_ms;  ///< longest time between two of them while there is something to say
+  bool onChange;            ///< sent when there is news, at most at the contact rate; else at its period
   const char* comment;
 };
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <tuple>
 
 #include "common/bit_set.hpp"
 #include "common/frame_layout.hpp"
@@ -240,12 +241,7 @@ inline constexpr FrameLayout kLayout<HeartbeatFrame>{
 };
 static_assert(WireFrame<HeartbeatFrame>);
 
-/// For host code that treats all frames alike: calls visit(kLayout<Frame>) for each.
-template <typename Visit>
-constexpr void forEachFrame(Visit visit) {
-  visit(kLayout<ContactFrame>);
-  visit(kLayout<ForceFrame>);
-  visit(kLayout<HeartbeatFrame>);
-}
+/// Every frame a finger sends.
+using FingerFrames = std::tuple<ContactFrame, ForceFrame, HeartbeatFrame>;
 
 }  // namespace strainfinger

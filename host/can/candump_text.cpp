@@ -57,7 +57,7 @@ class LineParser : private LineCursor {
     std::int64_t fraction = 0;
     if (!skip(".")) return fail("expected '.' and 6 or 9 digits of a second");
     const std::size_t count = digits(fraction, 6, 9);
-    if (count != 6 && count != 9) return fail("expected 6 or 9 digits of a second");
+    if (count != 6 && count != 9) return failBack(count, "expected 6 or 9 digits of a second");
     if (!skip(")")) return fail("expected ')' after the time");
     result_.time_ns = seconds * 1'000'000'000 + (count == 6 ? fraction * 1000 : fraction);
     skipBlanks();
@@ -67,7 +67,8 @@ class LineParser : private LineCursor {
   bool parseSeconds(std::int64_t& seconds) {
     constexpr std::int64_t kMost = 9'223'372'035;  // fits 64 bits of nanoseconds, whatever the fraction
     const std::size_t count = digits(seconds, 1, 10);
-    if (count == 0 || seconds > kMost) return fail("expected a time: seconds, or date and time of day");
+    if (count == 0 || seconds > kMost)
+      return failBack(count, "expected a time: seconds, or date and time of day");
     result_.timeForm = count == 10 ? TimeForm::kAbsolute : TimeForm::kRelative;
     return true;
   }
@@ -211,11 +212,11 @@ class LineParser : private LineCursor {
     if (!skip("[")) return fail("expected the length, as in [8]");
     std::int64_t value = 0;
     const std::size_t count = digits(value, 1, 4);
-    if (count == 4) return fail("a CAN XL frame; only classic CAN and CAN FD can be read");
+    if (count == 4) return failBack(count, "a CAN XL frame; only classic CAN and CAN FD can be read");
     result_.frame.fd = count == 2;
     length = static_cast<std::size_t>(value);
     if (count == 0 || count > 2 || length > capacity())
-      return fail("expected a length: [0] to [8], FD [00] to [64]");
+      return failBack(count, "expected a length: [0] to [8], FD [00] to [64]");
     return skip("]") || fail("expected ']' after the length");
   }
 
@@ -251,6 +252,12 @@ class LineParser : private LineCursor {
   bool fail(std::string reason) {
     reason_ = std::move(reason);
     return false;
+  }
+
+  /// The same, `back` characters before at_.
+  bool failBack(std::size_t back, std::string reason) {
+    at_ -= back;
+    return fail(std::move(reason));
   }
 
   LogLine result_;

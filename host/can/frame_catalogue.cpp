@@ -1,28 +1,29 @@
 #include "host/can/frame_catalogue.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <tuple>
+#include <type_traits>
 
 #include "common/frames.hpp"
 
 namespace strainfinger::can {
 namespace {
 
-std::vector<FrameEntry> makeCatalogue() {
-  std::vector<FrameEntry> catalogue;
-  forEachFrame([&catalogue](const auto& layout) {
-    const auto fields = layout.fieldSpecs();
-    catalogue.push_back({layout.spec, {fields.begin(), fields.end()}});
-  });
-  return catalogue;
+template <typename Frame>
+constexpr auto kFieldSpecs = kLayout<Frame>.fieldSpecs();
+
+template <typename... Frames>
+constexpr auto catalogueOf(std::type_identity<std::tuple<Frames...>>) {
+  return std::array{FrameEntry{kLayout<Frames>.spec, kFieldSpecs<Frames>}...};
 }
+
+constexpr auto kCatalogue = catalogueOf(std::type_identity<FingerFrames>{});
 
 }  // namespace
 
-const std::vector<FrameEntry>& frameCatalogue() {
-  static const std::vector<FrameEntry> catalogue = makeCatalogue();
-  return catalogue;
-}
+std::span<const FrameEntry> frameCatalogue() { return kCatalogue; }
 
 const FrameEntry* findFrame(const CanFrame& frame) {
   for (const FrameEntry& entry : frameCatalogue())

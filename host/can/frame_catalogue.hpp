@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <optional>
-#include <vector>
+#include <span>
 
 #include "common/can_frame.hpp"
 #include "common/frame_layout.hpp"
@@ -12,11 +12,11 @@ namespace strainfinger::can {
 
 struct FrameEntry {
   FrameSpec spec;
-  std::vector<FieldSpec> fields;  ///< in the order of their bits
+  std::span<const FieldSpec> fields;  ///< in the order of their bits
 };
 
 /// Every frame a finger sends.
-const std::vector<FrameEntry>& frameCatalogue();
+std::span<const FrameEntry> frameCatalogue();
 
 /// Which of them the frame is, by identifier and length; null if none.
 const FrameEntry* findFrame(const CanFrame& frame);

@@ -51,10 +51,7 @@ Cell timeCell(std::optional<std::int64_t> time_ns, bool csv) {
   return fmt::format("{}.{:09}", *time_ns / kSecond, *time_ns % kSecond);
 }
 
-const std::vector<std::string>& leadingColumns() {
-  static const std::vector<std::string> columns{"time_s", "interface", "node", "frame"};
-  return columns;
-}
+std::vector<std::string> leadingColumns() { return {"time_s", "interface", "node", "frame"}; }
 
 std::vector<std::string> columnsOf(const FrameEntry& entry) {
   std::vector<std::string> columns = leadingColumns();

@@ -123,11 +123,10 @@ constexpr std::int64_t extractRaw(const FieldBits& field, std::uint64_t word) {
   return field.isSigned && bits > widestRaw(field) ? bits - 2 * (widestRaw(field) + 1) : bits;
 }
 
-/// The data of a frame as one number, byte 0 lowest; bytes beyond its length count as zero.
+/// The eight bytes of a frame as one number, byte 0 lowest.
 constexpr std::uint64_t toWord(const CanFrame& frame) {
   std::uint64_t word = 0;
-  for (std::size_t i = 0; i < frame.length && i < frame.data.size(); ++i)
-    word |= std::uint64_t{frame.data[i]} << (8 * i);
+  for (std::size_t i = 0; i < frame.data.size(); ++i) word |= std::uint64_t{frame.data[i]} << (8 * i);
   return word;
 }
 
@@ -196,6 +195,7 @@ struct FrameSpec {
   FunctionCode function;
   std::uint8_t length;      ///< bytes; a frame of another length is not this frame
   std::uint16_t period_ms;  ///< longest time between two of them while there is something to say
+  bool onChange;            ///< sent when there is news, at most at the contact rate; else at its period
   const char* comment;
 };
 
@@ -256,7 +256,10 @@ constexpr bool valuesFitTheirFields(const Layout& layout) {
 
 /// A struct with a layout that can be right. A wrong one is a compile error that names what is wrong.
 template <typename Frame>
-concept WireFrame = fieldsFitTheirMembers(kLayout<Frame>) && fieldsLieInTheFrame(kLayout<Frame>) &&
+concept WireFrame = requires {
+  kLayout<Frame>.fields;
+}
+&&fieldsFitTheirMembers(kLayout<Frame>) && fieldsLieInTheFrame(kLayout<Frame>) &&
     fieldsDoNotOverlap(kLayout<Frame>) && valuesFitTheirFields(kLayout<Frame>);
 
 /// The identifier of a node's frame; node 1 .. 63.

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <tuple>
 
 #include "common/bit_set.hpp"
 #include "common/frame_layout.hpp"
@@ -111,6 +112,7 @@ inline constexpr FrameLayout kLayout<ContactFrame>{
               .function = FunctionCode::kContact,
               .length = 8,
               .period_ms = kContactPeriod_ms,
+              .onChange = true,
               .comment = "Where the finger is touched: on change, in contact at least 20 times a second"},
     Field{&ContactFrame::angle_cdeg,
           {.lsb = 0, .width = 16, .limit = 35999, .unknowable = true},
@@ -154,6 +156,7 @@ inline constexpr FrameLayout kLayout<ForceFrame>{
               .function = FunctionCode::kForce,
               .length = 8,
               .period_ms = kContactPeriod_ms,
+              .onChange = true,
               .comment = "How hard the finger is touched: after each CONTACT"},
     Field{&ForceFrame::normal_mN,
           {.lsb = 0, .width = 16, .unknowable = true},
@@ -199,6 +202,7 @@ inline constexpr FrameLayout kLayout<HeartbeatFrame>{
               .function = FunctionCode::kHeartbeat,
               .length = 8,
               .period_ms = kHeartbeatPeriod_ms,
+              .onChange = false,
               .comment = "How the finger is: always, ten times a second"},
     Field{&HeartbeatFrame::state,
           {.lsb = 0, .width = 4},
@@ -237,12 +241,7 @@ inline constexpr FrameLayout kLayout<HeartbeatFrame>{
 };
 static_assert(WireFrame<HeartbeatFrame>);
 
-/// For host code that treats all frames alike: calls visit(kLayout<Frame>) for each.
-template <typename Visit>
-constexpr void forEachFrame(Visit visit) {
-  visit(kLayout<ContactFrame>);
-  visit(kLayout<ForceFrame>);
-  visit(kLayout<HeartbeatFrame>);
-}
+/// Every frame a finger sends.
+using FingerFrames = std::tuple<ContactFrame, ForceFrame, HeartbeatFrame>;
 
 }  // namespace strainfinger

@@ -18,6 +18,7 @@ enum class ResetCause : std::uint8_t {
 
 /// Contract of a watchdog: once started it resets the board unless `feed()` is called within its period;
 /// `resetCause()` says why the board started last and does not change while it runs.
+// clang-format off
 template <typename T>
 concept Watchdog = requires(T watchdog, const T constWatchdog) {
   { watchdog.feed() }
@@ -25,5 +26,6 @@ concept Watchdog = requires(T watchdog, const T constWatchdog) {
   { constWatchdog.resetCause() }
   noexcept->std::same_as<ResetCause>;
 };
+// clang-format on
 
 }  // namespace strainfinger::hal

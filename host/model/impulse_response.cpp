@@ -1,0 +1,49 @@
+#include "host/model/impulse_response.hpp"
+
+#include <array>
+#include <numbers>
+
+#include "host/model/series.hpp"
+
+namespace strainfinger::model {
+namespace {
+
+Row rowOf(StrainComponent component) {
+  if (component == StrainComponent::kRadial) return kErr;
+  return component == StrainComponent::kHoop ? kEtt : kTrt;
+}
+
+}  // namespace
+
+// A pressing load has p = -P / (pi r_b) cos n theta, a tangential one q = Q / (pi r_b) cos n theta, half of
+// that at n = 0. By the pairing of HarmonicResponse p^c gives cosines of e_rr and -sines of tau_rt, q^c gives
+// sines of e_rr and cosines of tau_rt.
+ImpulseResponse::ImpulseResponse(const Annulus<double>& annulus, double radius_m, StrainComponent component,
+                                 double gaugeArc_m, double contactWidth_m, double tolerance)
+    : normalIsEven_(component != StrainComponent::kShear) {
+  const std::array rows{rowOf(component)};
+  const Windows windows{contactWidth_m / annulus.outer_radius_m, gaugeArc_m / radius_m};
+  Eigen::MatrixXd table = truncatedSeries(annulus, radius_m, rows, windows, tolerance);
+  table /= std::numbers::pi * annulus.outer_radius_m;
+  table.row(0) /= 2;
+  if (normalIsEven_) {
+    table.col(kNormal) *= -1;
+  } else {
+    table /= 2 * annulus.shear_modulus_pa;
+  }
+  even_ = table.col(normalIsEven_ ? kNormal : kTangential);
+  odd_ = table.col(normalIsEven_ ? kTangential : kNormal);
+}
+
+ImpulseResponse::Value ImpulseResponse::at(double angle_rad) const {
+  double even = 0, odd = 0, evenSlope = 0, oddSlope = 0;
+  visitMultiples(angle_rad, harmonics(), [&](int n, double c, double s) {
+    even += even_[n] * c;
+    odd += odd_[n] * s;
+    evenSlope -= n * even_[n] * s;
+    oddSlope += n * odd_[n] * c;
+  });
+  return normalIsEven_ ? Value{even, odd, evenSlope, oddSlope} : Value{odd, even, oddSlope, evenSlope};
+}
+
+}  // namespace strainfinger::model

@@ -1,0 +1,103 @@
+#include "host/model/series.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "host/base/failure.hpp"
+
+namespace strainfinger::model {
+namespace {
+
+double sinc(double x) { return x == 0 ? 1 : std::sin(x) / x; }
+
+void require(bool holds, const std::string& message) {
+  if (!holds) throw Failure(ExitCode::kUsage, message);
+}
+
+bool isWindow(double angle_rad) { return angle_rad >= 0 && angle_rad <= 2 * std::numbers::pi; }
+
+void requireDomain(const Annulus<double>& annulus, double radius_m, const Windows& windows,
+                   double tolerance) {
+  require(radius_m >= annulus.core_radius_m && radius_m <= annulus.outer_radius_m,
+          fmt::format("radius {} m is outside the rubber: it must be from {} to {} m", radius_m,
+                      annulus.core_radius_m, annulus.outer_radius_m));
+  require(isWindow(windows.load_rad), "the load's width must be from 0 to a whole revolution");
+  require(isWindow(windows.gauge_rad), "the gauge's length must be from 0 to a whole revolution");
+  require(tolerance > 0 && tolerance < 1, "the tolerance must be above 0 and below 1");
+}
+
+Failure notConvergent(const Annulus<double>& annulus, double radius_m) {
+  return {
+      ExitCode::kUsage,
+      fmt::format("radius {} m is too close to the surface at {} m: the response to a line load is a delta "
+                  "function there and its series needs more than {} harmonics; choose a smaller radius",
+                  radius_m, annulus.outer_radius_m, kMaxHarmonics)};
+}
+
+/// Sum of all harmonics after n, as a multiple of harmonic n.
+double restAfter(int n, double gamma) {
+  const double ratio = gamma * (1 + 1.0 / n) * (1 + 1.0 / n);
+  return ratio < 1 ? ratio / (1 - ratio) : std::numeric_limits<double>::infinity();
+}
+
+/// Grows one row of the table a harmonic and knows when to stop.
+class GrowingSeries {
+ public:
+  GrowingSeries(std::span<const Row> rows, double gamma, double tolerance)
+      : rows_(rows), gamma_(gamma), tolerance_(tolerance), power_(2 * rows.size()) {}
+
+  void append(int n, const HarmonicResponse<double>& response, double factor) {
+    done_ = n > 0;
+    const double rest = n > 0 ? restAfter(n, gamma_) : 0;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const double larger = response.row(rows_[i]).cwiseAbs().maxCoeff();
+      for (const Traction traction : {kNormal, kTangential}) {
+        const double value = factor * response(rows_[i], traction);
+        double& power = power_[2 * i + static_cast<std::size_t>(traction)];
+        power += value * value * (n == 0 ? 1 : 0.5);
+        values_.push_back(value);
+        if (larger > 0 && larger * rest > tolerance_ * std::sqrt(power)) done_ = false;
+      }
+    }
+  }
+
+  bool done() const { return done_; }
+
+  Eigen::MatrixXd table() const {
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const auto columns = static_cast<Eigen::Index>(power_.size());
+    const auto harmonics = static_cast<Eigen::Index>(values_.size()) / columns;
+    return Eigen::Map<const RowMajor>(values_.data(), harmonics, columns);
+  }
+
+ private:
+  std::span<const Row> rows_;
+  double gamma_, tolerance_;
+  bool done_ = false;
+  std::vector<double> power_;
+  std::vector<double> values_;
+};
+
+}  // namespace
+
+double Windows::factor(int n) const { return sinc(n * load_rad / 2) * sinc(n * gauge_rad / 2); }
+
+Eigen::MatrixXd truncatedSeries(const Annulus<double>& annulus, double radius_m, std::span<const Row> rows,
+                                const Windows& windows, double tolerance) {
+  requireDomain(annulus, radius_m, windows, tolerance);
+  const HarmonicModel<double> model(annulus, radius_m);
+  const double gamma = radius_m / annulus.outer_radius_m;
+  const bool hopeless = gamma >= 1 || std::log(tolerance) / std::log(gamma) > kMaxHarmonics;
+  GrowingSeries series(rows, gamma, tolerance);
+  for (int n = 0; !hopeless && n <= kMaxHarmonics; ++n) {
+    series.append(n, model(n), windows.factor(n));
+    if (series.done()) return series.table();
+  }
+  throw notConvergent(annulus, radius_m);
+}
+
+}  // namespace strainfinger::model

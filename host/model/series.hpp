@@ -1,0 +1,56 @@
+#pragma once
+// Fourier series over the harmonics: how many are needed, with which coefficients, and how they are summed.
+
+#include <Eigen/Core>
+#include <cmath>
+#include <span>
+
+#include "host/model/harmonic.hpp"
+
+namespace strainfinger::model {
+
+/// Most harmonics a series may have: enough for depths from 5e-5 r_b on, at a tolerance of 1e-15.
+inline constexpr int kMaxHarmonics = 1'000'000;
+
+/// Angles [rad] over which a load is spread and a gauge averages, both uniformly; 0: a point.
+struct Windows {
+  double load_rad = 0;
+  double gauge_rad = 0;
+
+  /// What harmonic n is multiplied by: sinc(n load / 2) sinc(n gauge / 2).
+  double factor(int n) const;
+};
+
+/// Windowed responses of harmonics 0..N: row n, column 2 i + load for the i-th of `rows`.
+///
+/// N is the first n from which on what is left out is below `tolerance` times the root mean square, and so
+/// below `tolerance` times the peak, of every series kept. What is left out is bounded by a geometric series
+/// from the last harmonic, windows ignored: beyond the peak of the spectrum a harmonic is gamma^n times a
+/// polynomial in n of degree two at most, so it is at most gamma (1 + 1/n)^2 times the one before.
+/// Domain: core_radius_m <= radius_m <= outer_radius_m, windows 0..2 pi, 0 < tolerance < 1. Throws
+/// Failure(kUsage) outside it and if it takes more than kMaxHarmonics: at r_b, where nothing converges, and
+/// too close below it.
+Eigen::MatrixXd truncatedSeries(const Annulus<double>& annulus, double radius_m, std::span<const Row> rows,
+                                const Windows& windows, double tolerance);
+
+/// Calls visit(n, cos n angle, sin n angle) for n = 0..last. By rotation, restarted every few steps from the
+/// exact product n * angle, so the error stays at 1e-14 however large n is.
+template <typename Visit>
+void visitMultiples(double angle_rad, int last, Visit visit) {
+  constexpr int kSteps = 32;
+  const double cosine = std::cos(angle_rad), sine = std::sin(angle_rad);
+  double c = 1, s = 0;
+  for (int n = 0; n <= last; ++n) {
+    if (n % kSteps == 0) {
+      const double product = n * angle_rad, rest = std::fma(n, angle_rad, -product);
+      c = std::cos(product) - rest * std::sin(product);
+      s = std::sin(product) + rest * std::cos(product);
+    }
+    visit(n, c, s);
+    const double next = c * cosine - s * sine;
+    s = s * cosine + c * sine;
+    c = next;
+  }
+}
+
+}  // namespace strainfinger::model

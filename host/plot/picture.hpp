@@ -14,7 +14,8 @@ struct DataFile {
   std::vector<std::vector<double>> rows;  ///< one number a column
 };
 
-/// The script names a data file `data('name')`; terminal, output and size are draw()'s to say.
+/// The script names a data file `data('name')` and a column that may have gaps `(gap(n))`; terminal, output
+/// and size are draw()'s to say.
 struct Picture {
   int width_px;
   int height_px;

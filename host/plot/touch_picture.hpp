@@ -26,6 +26,7 @@ struct ProfilePoint {
 struct GaugeReading {
   double angle_deg;
   double strain;
+  double fitted_strain;
   double sigma_strain;
 };
 
@@ -46,8 +47,8 @@ struct TouchRecord {
   double outerRadius_m = 0;       ///< turns an error of angle into an arc of the surface
 };
 
-/// Left: the strain around the ring at `moment_s`: true, read, fitted. Right: angle, its error and the loads
-/// over time, true and estimated. Angles may be in any revolution.
+/// Left: the strain around the ring at `moment_s`: true, read, fitted, and the residuals of the fit. Right:
+/// angle, its error and the loads over time, true and estimated. Angles may be in any revolution.
 Picture touchPicture(const TouchRecord& record);
 
 }  // namespace strainfinger::plot

@@ -112,6 +112,7 @@ TEST(SimulatedGauges, NoiseStrainIsTheDeviationOfAReadingQuantisationIncluded) {
     config.gauges.adc_bits = bits;
     config.gauges.noise_strain = noise;
     SimulatedGauges ring = gauges(sweep());
+    clock = SimulatedClock();
     clock.advance_us(80'000'000);
     CHECK_TRUE(ring.read(set) && ring.read(set));
     DOUBLES_EQUAL(noise, residual(ring), 0.02 * noise);

@@ -26,7 +26,7 @@ std::string writeConfig(const FingerConfig& config) {
   for (const Key& key : keys()) {
     if (key.section != section) text += fmt::format("\n[{}]\n", section = key.section);
     const auto value = std::visit([&](auto slot) { return valueText(slot(copy)); }, key.slot);
-    text += fmt::format("# {}: {}\n{} = {}\n", key.doc, domainText(key), key.name, value);
+    text += fmt::format("# {} [{}]\n{} = {}\n", key.doc, domainText(key), key.name, value);
   }
   return text;
 }

@@ -136,6 +136,8 @@ TEST(ReadConfig, UnknownKeysAreNamedWithWhatWasProbablyMeant) {
                  "f.toml:3:1: unknown key gauges.counts; did you mean gauges.count?");
   checkComplaint(settingOf("finger.poison_ratio", "0.5"),
                  "f.toml:3:1: unknown key finger.poison_ratio; did you mean finger.poisson_ratio?");
+  checkMention(settingOf("contact.friction_coefficien", "1"), "did you mean contact.friction_coefficient?");
+  checkMention(settingOf("contact.friction__coefficient", "1"), "did you mean contact.friction_coefficient?");
   checkMention(settingOf("can.zzz", "1"), "unknown key can.zzz; known here: can.node, can.bitrate, ");
 }
 

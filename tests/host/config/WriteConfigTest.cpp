@@ -51,7 +51,7 @@ TEST(WriteConfig, RandomConfigsReadBackExactly) {
 TEST(WriteConfig, EveryKeyIsDocumentedWithItsDomain) {
   const std::string text = writeConfig({});
   for (const Key& key : keys()) STRCMP_CONTAINS(std::string(key.doc).c_str(), text.c_str());
-  STRCMP_CONTAINS("# gauges in the ring, evenly spaced: even, 12 to 32\ncount = 16\n", text.c_str());
-  STRCMP_CONTAINS("# the strain the gauges read: one of radial, hoop, shear\ncomponent = \"radial\"\n",
+  STRCMP_CONTAINS("# gauges in the ring, evenly spaced [even, 12 to 32]\ncount = 16\n", text.c_str());
+  STRCMP_CONTAINS("# the strain the gauges read [one of radial, hoop, shear]\ncomponent = \"radial\"\n",
                   text.c_str());
 }

@@ -20,7 +20,7 @@ namespace {
 
 std::string readDocument() {
   std::ostringstream text;
-  text << std::ifstream(STRAINFINGER_TEST_DATA "/../../common/BUS.md").rdbuf();
+  text << std::ifstream(STRAINFINGER_BUS_DOCUMENT).rdbuf();
   return text.str();
 }
 

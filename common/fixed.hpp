@@ -1,6 +1,7 @@
 #pragma once
 // Fixed-point numbers as types: a format cannot be mixed up with another, nor with a plain integer.
 
+#include <compare>
 #include <concepts>
 #include <cstdint>
 #include <limits>

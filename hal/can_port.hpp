@@ -14,23 +14,30 @@ enum class CanState : std::uint8_t { kActive, kWarning, kPassive, kBusOff, kDown
 /// What a controller knows of the bus. Counters are ISO 11898's, 0..255; absent where a backend can't tell.
 struct CanStatus {
   CanState state = CanState::kDown;
-  std::optional<std::uint8_t> txErrors;
-  std::optional<std::uint8_t> rxErrors;
+  std::optional<std::uint8_t> txErrors{};
+  std::optional<std::uint8_t> rxErrors{};
   std::uint32_t dropped = 0;  ///< frames taken by send() that never reached the bus, since start
+  std::uint32_t missed = 0;   ///< frames that arrived and were lost before receive(), since start
 };
 
 /// Contract of a CAN port:
 ///  - `send(frame)` never blocks. True: the frame will go out, after every frame of the same identifier
 ///    taken before. False: not now (mailbox busy, bus off, interface down); nothing was taken, the frame is
-///    the caller's to replace by a newer one. A failed write is never reported as sent.
+///    the caller's to replace by a newer one. A failed write is never reported as sent. A frame no bus can
+///    carry (isValid()) is never taken.
 ///  - `receive()` never blocks; frames of 11-bit identifiers only, data frames only, in order of arrival.
-///    The port's own frames are not received.
+///    The port's own frames are not received. Data beyond a frame's length are zero.
 ///  - `status()` is cheap enough for every heartbeat.
+// clang-format off
 template <typename T>
 concept CanPort = requires(T port, const CanFrame& frame) {
-  { port.send(frame) } noexcept -> std::same_as<bool>;
-  { port.receive() } noexcept -> std::same_as<std::optional<CanFrame>>;
-  { port.status() } noexcept -> std::same_as<CanStatus>;
+  { port.send(frame) }
+  noexcept->std::same_as<bool>;
+  { port.receive() }
+  noexcept->std::same_as<std::optional<CanFrame>>;
+  { port.status() }
+  noexcept->std::same_as<CanStatus>;
 };
+// clang-format on
 
 }  // namespace strainfinger::hal

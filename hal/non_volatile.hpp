@@ -8,19 +8,24 @@
 
 namespace strainfinger::hal {
 
+// clang-format off
 enum class [[nodiscard]] StoreResult : std::uint8_t {
   kOk = 0,
-  kOutOfRange = 1,   ///< nothing was touched
-  kUnreadable = 2,   ///< the memory reports the bytes damaged (ECC); the destination is unspecified
-  kNotErased = 3,    ///< write onto bytes that were not erased; nothing was touched
-  kFailed = 4,       ///< the memory refused or verification after writing failed
+  kOutOfRange = 1,  ///< nothing was touched
+  kUnreadable = 2,  ///< the memory reports the bytes damaged (ECC); the destination is unspecified
+  kNotErased = 3,   ///< write onto bytes that were not erased; nothing was touched
+  kFailed = 4,      ///< the memory refused or verification after writing failed
 };
+// clang-format on
 
 /// Contract of a store of `size()` bytes in pages of `pageSize()`:
-///  - `erase(page)` sets a whole page to 0xFF.
-///  - `write(offset, bytes)` programs erased bytes; offset and length are multiples of 8. Interrupted by a
-///    power cut, any multiple of 8 bytes from the start may have been written, the next 8 may be unreadable.
+///  - `erase(page)` sets a whole page, counted from 0, to 0xFF. Interrupted by a power cut, the page may read
+///    as anything or not at all until it is erased again.
+///  - `write(offset, bytes)` programs erased bytes; offset and length are multiples of 8 (else kOutOfRange).
+///    Interrupted by a power cut, any multiple of 8 bytes from the start may have been written, the next 8
+///    may be unreadable.
 ///  - `read(offset, bytes)` reads any range.
+// clang-format off
 template <typename T>
 concept NonVolatile = requires(T store, const T constStore, std::size_t position,
                                std::span<const std::byte> from, std::span<std::byte> to) {
@@ -30,5 +35,6 @@ concept NonVolatile = requires(T store, const T constStore, std::size_t position
   { store.write(position, from) } noexcept -> std::same_as<StoreResult>;
   { store.erase(position) } noexcept -> std::same_as<StoreResult>;
 };
+// clang-format on
 
 }  // namespace strainfinger::hal

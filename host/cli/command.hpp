@@ -16,6 +16,7 @@ class CommonOptions {
  public:
   explicit CommonOptions(CLI::App& command);
   config::FingerConfig config() const;  ///< the file of -c, or the default finger
+  bool hasConfig() const { return !path_.empty(); }
   TableFormat format() const { return json_ ? TableFormat::kJson : TableFormat::kCsv; }
 
  private:

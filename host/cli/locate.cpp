@@ -1,7 +1,104 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/contact.hpp"
+#include "common/fixed_real.hpp"
+#include "firmware/core/detect.hpp"
+#include "firmware/core/estimate.hpp"
+#include "firmware/core/locate.hpp"
+#include "host/base/number_rows.hpp"
+#include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
+#include "host/tables/table_builder.hpp"
+#include "host/tables/table_file.hpp"
 
 namespace strainfinger::cli {
+namespace {
 
-void addLocate(CLI::App&) {}
+constexpr const char* kHelp =
+    "Where a finger is touched and how hard, from rows of gauge strains on stdin, by the firmware's own "
+    "code.\n"
+    "stdin: CSV, one strain a gauge in a row, a row a sample; a header row, blank lines and # comments are "
+    "passed over.\n"
+    "stdout: one row a sample; contact is 1 or 0, and without contact the other columns are empty.\n"
+    "quality: percent, 20 or less when the answer is uncertain (another angle fits as well, or none fits).";
+
+using firmware::FitMode;
+
+struct LocateOptions {
+  explicit LocateOptions(CLI::App& command) : common(command) {
+    command.add_option("--tables", tablesPath, "Table image (tables -o); made from the config without it")
+        ->type_name("FILE");
+    const std::map<std::string, FitMode> modes{{"three-point", FitMode::kThreePoint},
+                                               {"refined", FitMode::kRefined}};
+    command.add_option("--mode", mode, "three-point or refined (default)")
+        ->transform(CLI::CheckedTransformer(modes).description("MODE"));
+  }
+  CommonOptions common;
+  std::string tablesPath;
+  FitMode mode = FitMode::kRefined;
+};
+
+std::unique_ptr<TableImage> tablesFor(const LocateOptions& options) {
+  const config::FingerConfig config = options.common.config();
+  if (options.tablesPath.empty()) return std::make_unique<TableImage>(tables::buildTableImage(config));
+  auto image = tables::readTableFile(options.tablesPath);
+  if (options.common.hasConfig()) tables::requireTablesOf(*image, config, options.tablesPath);
+  return image;
+}
+
+/// As the firmware's conditioning would hand it on: rounded, saturating at what the gate's format holds.
+std::int32_t strainRaw(const TableConstants& constants, double strain) {
+  const std::int64_t limit = (std::int64_t{1} << (15 + constants.gate_shift)) - 1;
+  return static_cast<std::int32_t>(
+      std::clamp<std::int64_t>(fromReal<StrainQ32>(strain).raw(), -limit, limit));
+}
+
+double degrees(TurnQ32 angle) { return toReal(angle) * 360; }
+
+std::vector<Cell> cellsOf(const Contact& contact) {
+  return {std::int64_t{1},
+          degrees(contact.angle),
+          toReal(contact.normal),
+          toReal(contact.tangential),
+          degrees(contact.sigmaAngle),
+          toReal(contact.sigmaNormal),
+          toReal(contact.sigmaTangential),
+          std::int64_t{contact.quality}};
+}
+
+std::vector<Cell> noContact() {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  return {std::int64_t{0}, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
+}
+
+void runLocate(const LocateOptions& options) {
+  const auto image = tablesFor(options);
+  const TableConstants& constants = image->constants;
+  NumberRowReader rows(std::cin, "stdin", constants.gauge_count);
+  TableWriter table(stdout, options.common.format(),
+                    {"contact", "angle_deg", "normal_n_per_m", "tangential_n_per_m", "sigma_angle_deg",
+                     "sigma_normal_n_per_m", "sigma_tangential_n_per_m", "quality"});
+  firmware::ContactGate gate;
+  std::vector<std::int32_t> strains(constants.gauge_count);
+  for (std::vector<double> row; rows.next(row);) {
+    for (std::size_t i = 0; i < row.size(); ++i) strains[i] = strainRaw(constants, row[i]);
+    const std::uint32_t energy = firmware::gateEnergy(constants, strains);
+    const bool touched = gate.update(constants, energy);
+    table.row(touched ? cellsOf(firmware::estimate(constants,
+                                                   firmware::locate(*image, options.mode, strains, energy)))
+                      : noContact());
+  }
+}
+
+}  // namespace
+
+void addLocate(CLI::App& app) { addCommand<LocateOptions>(app, "locate", kHelp, runLocate); }
 
 }  // namespace strainfinger::cli

@@ -1,7 +1,82 @@
+#include <fmt/format.h>
+
+#include <string>
+
+#include "host/base/atomic_file.hpp"
+#include "host/base/failure.hpp"
+#include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
+#include "host/tables/table_builder.hpp"
+#include "host/tables/table_file.hpp"
 
 namespace strainfinger::cli {
+namespace {
 
-void addTables(CLI::App&) {}
+constexpr const char* kHelp =
+    "The lookup tables of a finger: the flash image that the firmware reads, made from the elastic model.\n"
+    "  tables -o FILE      makes the image of the config's finger (and --header FILE, the same as C++ "
+    "source)\n"
+    "  tables info FILE    what it was made from\n"
+    "  tables verify FILE  whether it is whole and belongs to the config: exit status 0, 6 damaged, 5 "
+    "another finger's";
+
+struct TablesOptions {
+  explicit TablesOptions(CLI::App& command) : common(command) {
+    command.add_option("-o,--output", imagePath, "Writes the flash image there")->type_name("FILE");
+    command.add_option("--header", headerPath, "Writes the image as a C++ header there")->type_name("FILE");
+    command.require_subcommand(0, 1);
+    addFileCommand(command, "info", "What an image was made from", infoPath);
+    addFileCommand(command, "verify", "Whether an image is whole and belongs to the config", verifyPath);
+  }
+  static void addFileCommand(CLI::App& command, const std::string& name, const std::string& help,
+                             std::string& path) {
+    CLI::App& sub = *command.add_subcommand(name, help);
+    sub.add_option("FILE", path, "The image")->required();
+    sub.fallthrough();  // -c and --json may stand behind FILE
+  }
+
+  CommonOptions common;
+  std::string imagePath;
+  std::string headerPath;
+  std::string infoPath;
+  std::string verifyPath;
+};
+
+void make(const TablesOptions& options) {
+  const TableImage image = tables::buildTableImage(options.common.config());
+  if (!options.imagePath.empty()) writeFileAtomically(options.imagePath, tables::imageBytes(image));
+  if (!options.headerPath.empty()) writeFileAtomically(options.headerPath, tables::imageHeader(image));
+  fmt::print(stderr, "tables: {} bytes, {} gauges, CRC-32 {:08X}\n", sizeof(image),
+             image.constants.gauge_count, image.crc32);
+}
+
+void showInfo(const TablesOptions& options) {
+  const auto image = tables::readTableFile(options.infoPath);
+  TableWriter table(stdout, options.common.format(), {"key", "value"});
+  table.row({"format", std::int64_t{image->format}});
+  table.row({"bytes", std::int64_t{image->image_bytes}});
+  table.row({"crc32", fmt::format("{:08X}", image->crc32)});
+  for (const tables::Parameter& parameter : tables::parametersOf(image->parameters))
+    table.row({parameter.key, parameter.value});
+}
+
+void verify(const TablesOptions& options) {
+  const auto image = tables::readTableFile(options.verifyPath);
+  tables::requireTablesOf(*image, options.common.config(), options.verifyPath);
+  fmt::print(stderr, "tables: {} is whole and belongs to this finger, CRC-32 {:08X}\n", options.verifyPath,
+             image->crc32);
+}
+
+void runTables(const TablesOptions& options) {
+  if (!options.infoPath.empty()) return showInfo(options);
+  if (!options.verifyPath.empty()) return verify(options);
+  if (options.imagePath.empty() && options.headerPath.empty())
+    throw Failure(ExitCode::kUsage, "tables: nothing to do: give -o FILE, or info FILE, or verify FILE");
+  make(options);
+}
+
+}  // namespace
+
+void addTables(CLI::App& app) { addCommand<TablesOptions>(app, "tables", kHelp, runTables); }
 
 }  // namespace strainfinger::cli

@@ -1,0 +1,158 @@
+#pragma once
+// The flash image of the lookup tables: what the host tools build from the elastic model and the firmware
+// reads in place. Byte by byte, with an example: TABLES.md.
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <span>
+#include <type_traits>
+
+#include "common/crc32.hpp"
+#include "common/quantities.hpp"
+
+namespace strainfinger {
+
+static_assert(std::endian::native == std::endian::little, "the image is little-endian and is read in place");
+
+inline constexpr std::uint32_t kTableMagic = 0x42544653;  ///< "SFTB" in the file's first four bytes
+inline constexpr std::uint16_t kTableFormat = 1;          ///< raised with every change of the layout
+
+/// Gauges that one fit looks at: the nearest one and three on either side. With 16 gauges they hold all but
+/// 0.4 / 0.3 / 0.9 % of what the whole ring knows of angle, normal and tangential load.
+inline constexpr int kWindowGauges = 7;
+inline constexpr int kWindowReach = kWindowGauges / 2;
+
+/// Rows of a fit table: contact offsets 0, 1/64, .. 43/64 of a pitch from the window's middle gauge. Beyond
+/// half a pitch the next gauge's window takes over; the rest is overlap, so that a fit may walk across.
+inline constexpr int kRowsPerPitch = 64;
+inline constexpr int kFitRows = 44;
+
+/// What the image was made from, as in finger.toml. The firmware carries it and doesn't look at it.
+struct TableParameters {
+  double core_radius_m;
+  double outer_radius_m;
+  double length_m;
+  double shear_modulus_pa;
+  double poisson_ratio;
+  double gauge_radius_m;
+  double first_angle_deg;
+  double arc_length_m;
+  double noise_strain;
+  double full_scale_strain;
+  double contact_width_m;
+  double friction_coefficient;
+  std::uint16_t gauge_count;
+  std::uint8_t component;  ///< StrainComponent
+  std::uint8_t adc_bits;
+  std::uint32_t reserved;  ///< 0
+
+  bool operator==(const TableParameters&) const = default;
+};
+
+/// How the locator finds the gauge nearest to the contact.
+enum class AnchorRule : std::uint8_t {
+  kSecondDifference = 0,  ///< where anchor_sign (s[c-1] - 2 s[c] + s[c+1]) is largest
+  kExhaustive = 1,        ///< the window that the model explains best: dearer, for responses without one peak
+};
+
+/// Integers the firmware works with, all derived from TableParameters.
+struct TableConstants {
+  std::uint32_t pitch_turn_q35;      ///< one pitch [revolutions * 2^35]
+  std::uint32_t first_angle_q32;     ///< angle of gauge 0, TurnQ32
+  std::uint32_t noise_variance;      ///< of a reading: sigma^2 = this (24 bits) * 2^noise_variance_exponent
+                                     ///< [(strain * 2^32)^2]
+  std::uint32_t gate_on;             ///< energy (see gate_shift) at which a contact begins
+  std::uint32_t gate_off;            ///< energy below which it ends
+  std::int32_t load_scale;           ///< LineLoadQ12 per unit of a fit's amplitude = this * 2^load_exponent
+  std::int32_t reading_gain;         ///< strain * 2^32 = ((code << 15) - zero) * reading_gain >> 32
+  std::uint32_t force_per_load_q16;  ///< mN per N/m [* 2^16]
+  std::int16_t load_exponent;
+  std::uint16_t friction_cone_q8;  ///< largest |tangential| / normal a fit may have [* 2^8]
+  std::uint16_t adc_rail;          ///< left-justified code at which the converter clips; 0 is the other
+  std::uint16_t reserved16;        ///< 0
+  std::int8_t noise_variance_exponent;
+  std::int8_t amplitude_exponent;  ///< FitRow::load counts 2^amplitude_exponent
+  std::int8_t mirror_sign;         ///< reading seen from the other side: +1 radial, hoop; -1 shear
+  std::int8_t anchor_sign;         ///< +1: peak of a pressing load is negative; -1: positive
+  std::uint8_t gauge_count;
+  std::uint8_t gate_shift;  ///< the gate's energy is the sum of (strain >> gate_shift)^2
+  AnchorRule anchor_rule;
+  std::uint8_t scan_step;  ///< rows between the starts of a scan: half a step, 3/2, 5/2 .. of it
+};
+
+/// A signal over the window, folded about the middle gauge: middle, then sums of the pairs at distance
+/// 1, 2, 3, then differences (+ side minus - side) of the same pairs, then padding.
+/// Folding halves the table (offsets of the other sign are the mirrored signal) and lets a scan share its
+/// products.
+using FoldedWeights = std::array<std::int16_t, 8>;
+
+/// The linear algebra of a fit with the contact at one offset, per unit amplitude of the response's peak.
+/// B = [normal response, tangential response] over the window (7 x 2), B = U R (QR), ' = d/d(offset in
+/// pitches).
+struct FitRow {
+  std::array<FoldedWeights, 2> basis;     ///< columns of U [* 2^15]
+  std::array<FoldedWeights, 2> gradient;  ///< W_i = (1 - U U^T) B' R^-1 e_i, each scaled to [1/2, 1) [* 2^15]
+  std::array<std::int16_t, 3> gram;       ///< W_1.W_1, 2 W_1.W_2, W_2.W_2 of the scaled W [* 2^14]
+  std::array<std::int8_t, 2> lag;         ///< W_i is scaled 2^lag less than the larger of the two
+  std::int8_t gradient_exponent;          ///< true W of the larger one = scaled * 2^gradient_exponent
+  std::int8_t reserved;                   ///< 0
+  std::array<std::int16_t, 3> load;       ///< R^-1: 11, 12, 22 [* 2^-amplitude_exponent]
+  std::array<std::int16_t, 4> load_slope;  ///< d(R^-1 U^T)/d(offset) U, per row spacing, row-major, as `load`
+};
+
+using FitTable = std::array<FitRow, kFitRows>;
+
+/// Which way the tangential load pulls, seen from the window's middle gauge: three readings that see the
+/// offset well for one sense are nearly blind for the other, so each has its own triples.
+enum FitSense : std::uint8_t { kWithOffset = 0, kAgainstOffset = 1 };
+
+struct TableImage {
+  std::uint32_t magic;
+  std::uint16_t format;
+  std::uint16_t reserved;     ///< 0
+  std::uint32_t image_bytes;  ///< all of it
+  std::uint32_t crc32;        ///< of everything behind this field
+  TableParameters parameters;
+  TableConstants constants;
+  FitTable refined;                     ///< all seven gauges
+  std::array<FitTable, 2> three_point;  ///< by FitSense: three of them, for each row the best conditioned
+};
+
+static_assert(std::is_trivially_copyable_v<TableImage>);
+static_assert(sizeof(TableParameters) == 104 && sizeof(TableConstants) == 48 && sizeof(FitRow) == 88);
+static_assert(sizeof(TableImage) == 16 + 104 + 48 + 3 * 88 * kFitRows, "no padding anywhere");
+
+/// Why an image was refused. The numbers go on the bus and into exit statuses: never reuse one.
+enum class TableFault : std::uint8_t {
+  kNone = 0,
+  kTooShort = 1,
+  kMagic = 2,
+  kFormat = 3,
+  kLength = 4,
+  kChecksum = 5,
+  kConstants = 6,  ///< checksum right, but a number is outside what the firmware can work with
+};
+
+/// Bytes that the checksum covers.
+inline std::span<const std::byte> checkedBytes(const TableImage& image) {
+  constexpr std::size_t begin = offsetof(TableImage, crc32) + sizeof(image.crc32);
+  return std::as_bytes(std::span(&image, 1)).subspan(begin);
+}
+
+/// Looks at everything that can be wrong with an image of the right size. Cost: one pass over its bytes.
+inline TableFault checkTableImage(const TableImage& image) {
+  if (image.magic != kTableMagic) return TableFault::kMagic;
+  if (image.format != kTableFormat) return TableFault::kFormat;
+  if (image.image_bytes != sizeof(TableImage)) return TableFault::kLength;
+  if (image.crc32 != crc32(checkedBytes(image))) return TableFault::kChecksum;
+  const TableConstants& constants = image.constants;
+  const bool usable = constants.gauge_count >= 12 && constants.gauge_count <= kMaxGauges &&
+                      constants.gate_shift < 32 && constants.anchor_rule <= AnchorRule::kExhaustive;
+  return usable ? TableFault::kNone : TableFault::kConstants;
+}
+
+}  // namespace strainfinger

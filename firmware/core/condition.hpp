@@ -1,0 +1,55 @@
+#pragma once
+// Converter codes to strains: zero, gain, saturation.
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "common/table_image.hpp"
+
+namespace strainfinger::firmware {
+
+/// Left-justified 16-bit codes, one a gauge (hal/gauge_adc.hpp).
+using Codes = std::span<const std::uint16_t>;
+
+/// What turns a gauge's code into its strain. Zeros are codes * 2^15, so they hold what averaging adds;
+/// gains are TableConstants::reading_gain for a gauge of nominal gain.
+struct Calibration {
+  std::array<std::int32_t, kMaxGauges> zero_q15{};
+  std::array<std::int32_t, kMaxGauges> gain{};
+};
+
+/// Every gauge at nominal gain, the zero at mid-scale.
+Calibration nominalCalibration(const TableConstants& constants);
+
+struct Readings {
+  std::array<std::int32_t, kMaxGauges> strain_q32{};
+  std::uint32_t saturated = 0;  ///< bit i: gauge i was at a rail of its converter, its strain is a bound
+
+  std::span<const std::int32_t> strains(int gauges) const {
+    return std::span(strain_q32).first(static_cast<std::size_t>(gauges));
+  }
+};
+
+/// strain = (code * 2^15 - zero) * gain / 2^32. Formats: 31-bit difference (both terms lie in [0, 2^31)),
+/// gain below 2^31, high product rounded down: at most 1 LSB (2.3e-10) low, no overflow for any code, zero
+/// and gain >= 0.
+void condition(const TableConstants& constants, const Calibration& calibration, Codes codes,
+               Readings& readings);
+
+/// Averages sample sets into zeros. Nothing may touch the finger meanwhile.
+class ZeroAverage {
+ public:
+  static constexpr int kSamples = 64;
+
+  /// True once kSamples sets are in.
+  bool add(Codes codes);
+  bool complete() const { return count_ >= kSamples; }
+  void writeTo(Calibration& calibration) const;
+
+ private:
+  std::array<std::uint32_t, kMaxGauges> sum_{};
+  int count_ = 0;
+};
+
+}  // namespace strainfinger::firmware

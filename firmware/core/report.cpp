@@ -1,0 +1,119 @@
+#include "firmware/core/report.hpp"
+
+#include "firmware/core/estimate.hpp"
+
+namespace strainfinger::firmware {
+namespace {
+
+constexpr int kQualityStep = 10;  ///< percent that count as a change
+
+std::int32_t magnitude(std::int32_t value) { return value < 0 ? -value : value; }
+
+/// Hundredths of a degree, 0 .. 36000.
+std::uint32_t centidegrees(TurnQ32 turns) {
+  return static_cast<std::uint32_t>((std::uint64_t{turns.raw()} * 36000 + (std::uint64_t{1} << 31)) >> 32);
+}
+
+std::int8_t alternativeDegrees(const Contact& contact) {
+  const auto apart = static_cast<std::int32_t>(contact.alternative.raw() - contact.angle.raw());
+  const auto degrees = static_cast<std::int32_t>((std::int64_t{apart} * 360 + (std::int64_t{1} << 31)) >> 32);
+  return saturate<std::int8_t>(degrees < -127 ? -127 : degrees);
+}
+
+/// Force of a line load [mN * 2^halvings], rounded.
+std::int64_t force(const TableConstants& constants, LineLoadQ12 load, int halvings) {
+  const int down = 16 + LineLoadQ12::kFracBits - halvings;
+  return (std::int64_t{load.raw()} * constants.force_per_load_q16 + (std::int64_t{1} << (down - 1))) >> down;
+}
+
+/// Into a field whose extreme value is reserved for "not known".
+template <typename Raw>
+Raw known(std::int64_t value) {
+  constexpr Raw kReserved = kNotKnown<Raw>;
+  const Raw saturated = saturate<Raw>(value);
+  if (saturated != kReserved) return saturated;
+  return static_cast<Raw>(kReserved < 0 ? kReserved + 1 : kReserved - 1);
+}
+
+std::int32_t angleBetween_cdeg(std::uint16_t a, std::uint16_t b) {
+  const std::int32_t apart = magnitude(std::int32_t{a} - b);
+  return apart > 18000 ? 36000 - apart : apart;
+}
+
+/// Moved by more than its own error, in units of the value; an unknown error counts as none.
+bool moved(std::int32_t by, std::int32_t sigma, bool sigmaKnown) {
+  return by > 0 && (!sigmaKnown || by > sigma);
+}
+
+/// Bit i: gauge i takes part in the fit; every gauge of the ring when there is none.
+std::uint32_t gaugesUsed(const TableConstants& constants, const Observation& observation) {
+  if (!observation.fit) return ~std::uint32_t{0} >> (kMaxGauges - constants.gauge_count);
+  std::uint32_t used = 0;
+  for (int offset = -kWindowReach; offset <= kWindowReach; ++offset)
+    used |= 1u << wrapped(observation.fit->centre + offset, constants.gauge_count);
+  return used;
+}
+
+}  // namespace
+
+TouchFrames touchFrames(const TableConstants& constants, const Contact& contact, FingerFlags flags,
+                        std::uint8_t sequence) {
+  TouchFrames frames;
+  frames.contact.angle_cdeg = static_cast<std::uint16_t>(centidegrees(contact.angle) % 36000);
+  if (contact.ambiguous) frames.contact.alternative_deg = alternativeDegrees(contact);
+  frames.contact.quality_percent = contact.quality;
+  frames.force.normal_mN = known<std::int16_t>(force(constants, contact.normal, 0));
+  frames.force.tangential_mN = known<std::int16_t>(force(constants, contact.tangential, 0));
+  if (!flags.has(FingerFlag::kSaturated)) {
+    frames.contact.sigma_angle_cdeg = known<std::uint16_t>(centidegrees(contact.sigmaAngle));
+    frames.force.sigma_normal_half_mN = known<std::uint8_t>(force(constants, contact.sigmaNormal, 1));
+    frames.force.sigma_tangential_half_mN = known<std::uint8_t>(force(constants, contact.sigmaTangential, 1));
+  }
+  frames.contact.flags = frames.force.flags = flags;
+  frames.contact.sequence = frames.force.sequence = sequence;
+  return frames;
+}
+
+bool TouchReporter::worthSaying(const TouchFrames& frames, std::uint32_t now_us) const {
+  const auto& [contact, force] = frames;
+  const auto& [lastContact, lastForce] = last_;
+  if (!any_ || contact.flags != lastContact.flags) return true;
+  if (now_us - sentAt_us_ >= std::uint32_t{kContactPeriod_ms} * 1000) return true;
+  const bool known = !contact.flags.has(FingerFlag::kSaturated);
+  return moved(angleBetween_cdeg(contact.angle_cdeg, lastContact.angle_cdeg), contact.sigma_angle_cdeg,
+               known) ||
+         moved(magnitude(force.normal_mN - lastForce.normal_mN), force.sigma_normal_half_mN / 2, known) ||
+         moved(magnitude(force.tangential_mN - lastForce.tangential_mN), force.sigma_tangential_half_mN / 2,
+               known) ||
+         magnitude(contact.quality_percent - lastContact.quality_percent) >= kQualityStep;
+}
+
+std::optional<TouchFrames> TouchReporter::frames(const TableConstants& constants,
+                                                 const Observation& observation, std::uint32_t now_us) {
+  const auto next = static_cast<std::uint8_t>(last_.contact.sequence + (any_ ? 1 : 0));
+  FingerFlags flags = standing_;
+  const bool saturated = (observation.saturated & gaugesUsed(constants, observation)) != 0;
+  flags.set(FingerFlag::kSaturated, saturated);
+  if (!observation.fit) {
+    if (!any_ || !last_.contact.flags.has(FingerFlag::kContact)) return std::nullopt;
+    TouchFrames released;
+    released.contact.flags = released.force.flags = flags;
+    released.contact.sequence = released.force.sequence = next;
+    return released;
+  }
+  if (!due(now_us)) return std::nullopt;
+  const Contact contact = estimate(constants, *observation.fit);
+  flags.set(FingerFlag::kContact);
+  flags.set(FingerFlag::kUncertain, contact.uncertain || saturated);
+  const TouchFrames frames = touchFrames(constants, contact, flags, next);
+  if (!worthSaying(frames, now_us)) return std::nullopt;
+  return frames;
+}
+
+void TouchReporter::sent(const TouchFrames& frames, std::uint32_t now_us) {
+  last_ = frames;
+  sentAt_us_ = now_us;
+  any_ = true;
+}
+
+}  // namespace strainfinger::firmware

@@ -1,0 +1,51 @@
+#pragma once
+// From observations to frames worth sending.
+
+#include <cstdint>
+#include <optional>
+
+#include "common/contact.hpp"
+#include "common/frames.hpp"
+#include "common/table_image.hpp"
+#include "firmware/core/pipeline.hpp"
+
+namespace strainfinger::firmware {
+
+/// A CONTACT frame and the FORCE frame of the same sequence number.
+struct TouchFrames {
+  ContactFrame contact;
+  ForceFrame force;
+};
+
+/// The frames' integers: rounded to nearest, saturating at the ends of their fields. Errors that are not
+/// known, because a gauge of the fit is saturated, are sent as such.
+TouchFrames touchFrames(const TableConstants& constants, const Contact& contact, FingerFlags flags,
+                        std::uint8_t sequence);
+
+/// When to say something: at most at the contact rate; when angle, a force, its flags or its quality changed
+/// by more than noise does; at least every kContactPeriod_ms in contact; once when contact ends. Otherwise
+/// never.
+class TouchReporter {
+ public:
+  /// `standing`: flags that hold for every frame (simulated, uncalibrated ..).
+  TouchReporter(std::uint32_t shortestPeriod_us, FingerFlags standing)
+      : shortestPeriod_us_(shortestPeriod_us), standing_(standing) {}
+
+  /// The frames to send for an observation, if any. The caller says with sent() that they went out;
+  /// otherwise the next observation replaces them, so that nothing old is ever sent.
+  std::optional<TouchFrames> frames(const TableConstants& constants, const Observation& observation,
+                                    std::uint32_t now_us);
+  void sent(const TouchFrames& frames, std::uint32_t now_us);
+
+ private:
+  bool due(std::uint32_t now_us) const { return !any_ || now_us - sentAt_us_ >= shortestPeriod_us_; }
+  bool worthSaying(const TouchFrames& frames, std::uint32_t now_us) const;
+
+  std::uint32_t shortestPeriod_us_;
+  FingerFlags standing_;
+  TouchFrames last_{};
+  std::uint32_t sentAt_us_ = 0;
+  bool any_ = false;
+};
+
+}  // namespace strainfinger::firmware

@@ -1,0 +1,59 @@
+#include "firmware/core/signal.hpp"
+
+namespace strainfinger::firmware {
+namespace {
+
+std::int32_t scaled(std::int32_t strain, int shift) {
+  if (shift <= 0) return saturate<std::int16_t>(std::int64_t{strain} * (std::int64_t{1} << -shift));
+  const std::int32_t half = 1 << (shift - 1);
+  return saturate<std::int16_t>((std::int64_t{strain} + half) >> shift);
+}
+
+constexpr std::size_t kOdd = 1 + kWindowReach;  ///< where the differences begin
+constexpr std::size_t kEnd = 1 + 2 * kWindowReach;
+
+}  // namespace
+
+Signal windowSignal(std::span<const std::int32_t> strains_q32, int centre, int shift) {
+  const int gauges = static_cast<int>(strains_q32.size());
+  const auto at = [&](int offset) {
+    return scaled(strains_q32[static_cast<std::size_t>(wrapped(centre + offset, gauges))], shift);
+  };
+  Signal signal{};
+  signal[0] = static_cast<std::int16_t>(at(0));
+  for (int distance = 1; distance <= kWindowReach; ++distance) {
+    const auto k = static_cast<std::size_t>(distance);
+    signal[k] = saturate<std::int16_t>(at(distance) + at(-distance));
+    signal[k + kWindowReach] = saturate<std::int16_t>(at(distance) - at(-distance));
+  }
+  return signal;
+}
+
+Signal mirrored(const Signal& signal, int mirrorSign) {
+  Signal result = signal;
+  const std::size_t begin = mirrorSign > 0 ? kOdd : 0;
+  const std::size_t end = mirrorSign > 0 ? kEnd : kOdd;
+  for (std::size_t k = begin; k < end; ++k) result[k] = saturate<std::int16_t>(-std::int32_t{signal[k]});
+  return result;
+}
+
+std::int32_t evenPart(const FoldedWeights& weights, const Signal& signal) {
+  std::int32_t sum = 0;
+  for (std::size_t k = 0; k < kOdd; ++k) sum += std::int32_t{weights[k]} * signal[k];
+  return sum;
+}
+
+std::int32_t oddPart(const FoldedWeights& weights, const Signal& signal) {
+  std::int32_t sum = 0;
+  for (std::size_t k = kOdd; k < kEnd; ++k) sum += std::int32_t{weights[k]} * signal[k];
+  return sum;
+}
+
+std::int32_t energyOf(const Signal& signal) {
+  // Sum and difference of a pair each carry its energy twice over, together: 2 (a^2 + b^2).
+  std::int64_t twice = 2 * std::int64_t{signal[0]} * signal[0];
+  for (std::size_t k = 1; k < kEnd; ++k) twice += std::int64_t{signal[k]} * signal[k];
+  return static_cast<std::int32_t>(twice >> 3);
+}
+
+}  // namespace strainfinger::firmware

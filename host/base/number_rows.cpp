@@ -1,0 +1,77 @@
+#include "host/base/number_rows.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "host/base/failure.hpp"
+
+namespace strainfinger {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r";
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+/// True if all of `text` is a number; NaN and infinities are.
+bool parseNumber(std::string_view text, double& value) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+bool beginsWithNumber(const std::string& line) {
+  double value = 0;
+  return parseNumber(trimmed(std::string_view(line).substr(0, line.find(','))), value);
+}
+
+bool isPassedOver(const std::string& line) {
+  const std::string_view content = trimmed(line);
+  return content.empty() || content.front() == '#';
+}
+
+}  // namespace
+
+NumberRowReader::NumberRowReader(std::istream& stream, std::string name, std::size_t columns)
+    : stream_(stream), name_(std::move(name)), columns_(columns) {}
+
+bool NumberRowReader::next(std::vector<double>& row) {
+  for (std::string line; std::getline(stream_, line);) {
+    ++line_;
+    if (isPassedOver(line)) continue;
+    const bool isHeader = mayBeHeader_ && !beginsWithNumber(line);
+    mayBeHeader_ = false;
+    if (isHeader) continue;
+    parse(line, row);
+    return true;
+  }
+  return false;
+}
+
+void NumberRowReader::parse(const std::string& line, std::vector<double>& row) const {
+  row.clear();
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    const std::string_view field = trimmed(std::string_view(line).substr(begin, end - begin));
+    double value = 0;
+    if (!parseNumber(field, value)) fail(begin + 1, fmt::format("\"{}\" is no number", field));
+    if (!std::isfinite(value)) fail(begin + 1, fmt::format("{} is no finite number", field));
+    if (row.size() == columns_) fail(begin + 1, fmt::format("more than {} columns", columns_));
+    row.push_back(value);
+    begin = end + 1;
+  }
+  if (row.size() < columns_)
+    fail(line.size() + 1, fmt::format("{} columns where {} are needed", row.size(), columns_));
+}
+
+void NumberRowReader::fail(std::size_t column, const std::string& what) const {
+  throw Failure(ExitCode::kFailure, fmt::format("{}:{}:{}: {}", name_, line_, column, what));
+}
+
+}  // namespace strainfinger

@@ -1,0 +1,150 @@
+#include "host/can/dbc.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <vector>
+
+#include "common/frames.hpp"
+#include "host/can/frame_catalogue.hpp"
+
+namespace strainfinger::can {
+namespace {
+
+struct NamedValue {
+  std::int64_t raw;
+  std::string name;
+};
+
+/// A field, or one bit of a flags field.
+struct Signal {
+  std::string name;
+  FieldBits bits;
+  double factor;
+  double min, max;
+  std::string unit;
+  std::string comment;
+  std::vector<NamedValue> values;
+};
+
+struct Message {
+  FrameSpec spec;
+  std::uint16_t id;
+  std::vector<Signal> signals;
+};
+
+std::vector<NamedValue> namedValues(const FieldSpec& field) {
+  std::vector<NamedValue> values;
+  for (const ValueName& value : field.meaning.names) values.push_back({value.value, value.name});
+  if (field.meaning.openEnded) values.push_back({maxRaw(field.bits), "this_or_more"});
+  if (field.bits.unknowable) values.push_back({invalidRaw(field.bits), "not_known"});
+  return values;
+}
+
+Signal fieldSignal(const FieldSpec& field) {
+  const auto& [bits, meaning] = field;
+  return {meaning.name,
+          bits,
+          1.0 / meaning.stepsPerUnit,
+          *toPhysical(field, minRaw(bits)),
+          *toPhysical(field, maxRaw(bits)),
+          meaning.unit,
+          meaning.comment,
+          namedValues(field)};
+}
+
+Signal flagSignal(const FieldSpec& field, const ValueName& flag) {
+  const FieldBits bit{.lsb = static_cast<std::uint8_t>(field.bits.lsb + flag.value), .width = 1};
+  return {flag.name, bit, 1, 0, 1, "", flag.comment, {{0, "no"}, {1, "yes"}}};
+}
+
+Message message(const FrameEntry& entry, std::uint8_t node) {
+  Message result{entry.spec, canId(entry.spec.function, node), {}};
+  for (const FieldSpec& field : entry.fields) {
+    if (field.meaning.kind != FieldKind::kFlags)
+      result.signals.push_back(fieldSignal(field));
+    else
+      for (const ValueName& flag : field.meaning.names) result.signals.push_back(flagSignal(field, flag));
+  }
+  return result;
+}
+
+/// The file, section by section, in the order the format prescribes.
+class DbcWriter {
+ public:
+  DbcWriter(std::uint8_t node, double contactRate_hz)
+      : node_(fmt::format("FINGER_{}", node)),
+        delay_ms_(static_cast<int>(std::clamp(std::round(1000 / contactRate_hz), 0.0, 65535.0))) {
+    for (const FrameEntry& entry : frameCatalogue()) messages_.push_back(message(entry, node));
+  }
+
+  std::string text() {
+    line("VERSION \"protocol {}\"\n\nNS_ :\n\nBS_:\n\nBU_: {} HOST\n", kProtocolVersion, node_);
+    for (const Message& each : messages_) writeMessage(each);
+    line("CM_ BU_ {} \"Tactile finger: where it is touched, and how hard\";", node_);
+    line("CM_ BU_ HOST \"Whoever listens\";");
+    for (const Message& each : messages_) writeComments(each);
+    writeAttributes();
+    for (const Message& each : messages_) writeValues(each);
+    return std::move(text_);
+  }
+
+ private:
+  void writeMessage(const Message& message) {
+    line("BO_ {} {}: {} {}", message.id, message.spec.name, message.spec.length, node_);
+    for (const Signal& signal : message.signals)
+      line(" SG_ {} : {}|{}@1{} ({},0) [{}|{}] \"{}\" HOST", signal.name, signal.bits.lsb, signal.bits.width,
+           signal.bits.isSigned ? '-' : '+', signal.factor, signal.min, signal.max, signal.unit);
+    line("");
+  }
+
+  void writeComments(const Message& message) {
+    line("CM_ BO_ {} \"{}\";", message.id, message.spec.comment);
+    for (const Signal& signal : message.signals)
+      line("CM_ SG_ {} {} \"{}\";", message.id, signal.name, signal.comment);
+  }
+
+  void writeAttributes() {
+    line("BA_DEF_ \"BusType\" STRING ;");
+    for (const char* name : {"GenMsgCycleTime", "GenMsgDelayTime"})
+      line("BA_DEF_ BO_ \"{}\" INT 0 65535;", name);
+    line("BA_DEF_DEF_ \"BusType\" \"CAN\";");
+    for (const char* name : {"GenMsgCycleTime", "GenMsgDelayTime"}) line("BA_DEF_DEF_ \"{}\" 0;", name);
+    line("BA_ \"BusType\" \"CAN\";");
+    for (const Message& each : messages_) {
+      line("BA_ \"GenMsgCycleTime\" BO_ {} {};", each.id, each.spec.period_ms);
+      if (each.spec.onChange) line("BA_ \"GenMsgDelayTime\" BO_ {} {};", each.id, delay_ms_);
+    }
+  }
+
+  void writeValues(const Message& message) {
+    for (const Signal& signal : message.signals) {
+      if (signal.values.empty()) continue;
+      std::string values;
+      for (const NamedValue& value : signal.values)
+        fmt::format_to(std::back_inserter(values), "{} \"{}\" ", value.raw, value.name);
+      line("VAL_ {} {} {};", message.id, signal.name, values);
+    }
+  }
+
+  template <typename... Parts>
+  void line(fmt::format_string<Parts...> format, Parts&&... parts) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Parts>(parts)...);
+    text_.push_back('\n');
+  }
+
+  std::string node_;
+  int delay_ms_;
+  std::vector<Message> messages_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string dbcText(std::uint8_t node, double contactRate_hz) {
+  return DbcWriter(node, contactRate_hz).text();
+}
+
+}  // namespace strainfinger::can

@@ -1,0 +1,47 @@
+#include "host/can/frame_catalogue.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+#include <type_traits>
+
+#include "common/frames.hpp"
+
+namespace strainfinger::can {
+namespace {
+
+template <typename Frame>
+constexpr auto kFieldSpecs = kLayout<Frame>.fieldSpecs();
+
+template <typename... Frames>
+constexpr auto catalogueOf(std::type_identity<std::tuple<Frames...>>) {
+  return std::array{FrameEntry{kLayout<Frames>.spec, kFieldSpecs<Frames>}...};
+}
+
+constexpr auto kCatalogue = catalogueOf(std::type_identity<FingerFrames>{});
+
+}  // namespace
+
+std::span<const FrameEntry> frameCatalogue() { return kCatalogue; }
+
+const FrameEntry* findFrame(const CanFrame& frame) {
+  for (const FrameEntry& entry : frameCatalogue())
+    if (nodeOf(frame.id, entry.spec.function) && frame.length == entry.spec.length) return &entry;
+  return nullptr;
+}
+
+std::optional<double> toPhysical(const FieldSpec& field, std::int64_t raw) {
+  if (!isValidRaw(field.bits, raw)) return std::nullopt;
+  return static_cast<double>(raw) / field.meaning.stepsPerUnit;
+}
+
+std::int64_t fromPhysical(const FieldSpec& field, std::optional<double> value) {
+  if (!value || std::isnan(*value))
+    return field.bits.unknowable ? invalidRaw(field.bits) : minRaw(field.bits);
+  const double raw = std::round(*value * field.meaning.stepsPerUnit);
+  return static_cast<std::int64_t>(
+      std::clamp(raw, static_cast<double>(minRaw(field.bits)), static_cast<double>(maxRaw(field.bits))));
+}
+
+}  // namespace strainfinger::can

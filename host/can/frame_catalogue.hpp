@@ -1,0 +1,31 @@
+#pragma once
+// The frames' tables as values, for code that treats all frames alike: printer, DBC file, documents.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "common/can_frame.hpp"
+#include "common/frame_layout.hpp"
+
+namespace strainfinger::can {
+
+struct FrameEntry {
+  FrameSpec spec;
+  std::span<const FieldSpec> fields;  ///< in the order of their bits
+};
+
+/// Every frame a finger sends.
+std::span<const FrameEntry> frameCatalogue();
+
+/// Which of them the frame is, by identifier and length; null if none.
+const FrameEntry* findFrame(const CanFrame& frame);
+
+/// The raw value in the field's unit; nothing where it is not a valid one (not known, or reserved).
+std::optional<double> toPhysical(const FieldSpec& field, std::int64_t raw);
+
+/// The raw value nearest to `value` (halves away from zero), at most the largest and at least the smallest
+/// valid one; nothing and NaN give "not known" (the smallest valid value where a field has none).
+std::int64_t fromPhysical(const FieldSpec& field, std::optional<double> value);
+
+}  // namespace strainfinger::can

@@ -1,0 +1,50 @@
+#pragma once
+// The keys of finger.toml: one table, from which reading, messages and the documented file all come.
+
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "host/config/domain.hpp"
+#include "host/config/finger_config.hpp"
+
+namespace strainfinger::config {
+
+inline constexpr int kSchema = 1;
+
+/// The names of StrainComponent, in the order of its numbers.
+inline constexpr std::array<std::string_view, 3> kComponentNames{"radial", "hoop", "shear"};
+
+constexpr std::string_view componentName(StrainComponent component) {
+  return kComponentNames[static_cast<std::size_t>(component)];
+}
+
+/// Where a key's value lives in a FingerConfig; its type is the key's type.
+using Slot =
+    std::variant<double& (*)(FingerConfig&), int& (*)(FingerConfig&), StrainComponent& (*)(FingerConfig&)>;
+
+struct Key {
+  std::string_view section;
+  std::string_view name;
+  Slot slot;
+  Domain domain;               ///< of the number; for a component, of its number
+  std::string_view doc;        ///< one line, with the unit if the name has none
+  std::string dotted() const;  ///< "section.name"
+};
+
+/// All keys; those of a section follow each other, in the order a file lists them.
+std::span<const Key> keys();
+
+/// A condition between keys. Its text names them all.
+struct Relation {
+  bool (*holds)(const FingerConfig&);
+  std::vector<std::string> keys;                  ///< dotted; a message points at the first the file has
+  std::string (*violation)(const FingerConfig&);  ///< names, values, and what would be right
+};
+
+std::span<const Relation> relations();
+
+}  // namespace strainfinger::config

@@ -1,0 +1,147 @@
+#include "host/config/toml_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "host/base/failure.hpp"
+
+namespace strainfinger::config {
+namespace {
+
+std::string_view typeName(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table:
+      return "a section";
+    case toml::node_type::array:
+      return "a list";
+    case toml::node_type::string:
+      return "a text";
+    case toml::node_type::integer:
+      return "an integer";
+    case toml::node_type::floating_point:
+      return "a real number";
+    case toml::node_type::boolean:
+      return "a boolean";
+    default:
+      return "a date or time";
+  }
+}
+
+[[noreturn]] void failType(const toml::node& node, std::string_view key, std::string_view wanted) {
+  failAt(node.source(), fmt::format("{} is {}; it must be {}", key, typeName(node), wanted));
+}
+
+template <typename Number>
+Number checked(Number value, const toml::node& node, std::string_view key, const Domain& domain) {
+  if (domain.contains(static_cast<double>(value))) return value;
+  failAt(node.source(),
+         fmt::format("{} = {} is out of its domain; it must be {}", key, value, domain.text()));
+}
+
+/// Levenshtein's distance: insertions, deletions and replacements of one character.
+std::size_t editDistance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = std::exchange(row[j], std::min({replaced, row[j] + 1, row[j - 1] + 1}));
+    }
+  }
+  return row[b.size()];
+}
+
+std::string_view lastPart(std::string_view dotted) { return dotted.substr(dotted.rfind('.') + 1); }
+
+/// Distance of the names; a different section costs as much as one letter.
+std::size_t distance(std::string_view word, std::string_view candidate) {
+  const auto wordName = lastPart(word), name = lastPart(candidate);
+  const bool sameSection =
+      word.substr(0, word.size() - wordName.size()) == candidate.substr(0, candidate.size() - name.size());
+  return editDistance(wordName, name) + (sameSection ? 0 : 1);
+}
+
+}  // namespace
+
+std::string readText(const std::string& path) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  std::string text;
+  std::array<char, 4096> block;
+  for (std::size_t count = 1; file && count > 0; text.append(block.data(), count))
+    count = std::fread(block.data(), 1, block.size(), file.get());
+  if (file && std::ferror(file.get()) == 0) return text;
+  throw Failure(ExitCode::kUsage, fmt::format("{}: cannot read the file: {}", path, std::strerror(errno)));
+}
+
+toml::table parseToml(std::string_view text, const std::string& name) {
+  try {
+    return toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    failAt(error.source(), error.description());
+  }
+}
+
+void failAt(const toml::source_region& where, std::string_view message) {
+  throw Failure(ExitCode::kUsage,
+                fmt::format("{}:{}:{}: {}", *where.path, where.begin.line, where.begin.column, message));
+}
+
+void checkSchema(const toml::table& root, std::int64_t version) {
+  const toml::node* node = root.get("schema");
+  if (node == nullptr)
+    failAt(root.source(), fmt::format("schema is missing; the file must begin with schema = {}", version));
+  integerIn(*node, "schema", Domain::oneOf({static_cast<double>(version)}));
+}
+
+std::string nearestTo(std::string_view word, std::span<const std::string> candidates) {
+  const auto nearer = [&](const auto& a, const auto& b) { return distance(word, a) < distance(word, b); };
+  const auto best = std::min_element(candidates.begin(), candidates.end(), nearer);
+  const std::size_t allowed = std::max<std::size_t>(2, lastPart(word).size() / 3);
+  return best != candidates.end() && distance(word, *best) <= allowed ? *best : std::string();
+}
+
+void checkKeys(const toml::table& table, std::string_view prefix, std::span<const std::string> known,
+               std::span<const std::string> suggestions) {
+  for (const auto& [key, node] : table) {
+    std::string dotted(prefix);
+    dotted += key.str();
+    if (std::find(known.begin(), known.end(), dotted) != known.end()) continue;
+    const std::string nearest = nearestTo(dotted, suggestions);
+    failAt(key.source(), nearest.empty()
+                             ? fmt::format("unknown key {}; known here: {}", dotted, fmt::join(known, ", "))
+                             : fmt::format("unknown key {}; did you mean {}?", dotted, nearest));
+  }
+}
+
+double realIn(const toml::node& node, std::string_view key, const Domain& domain) {
+  const auto value = node.value<double>();
+  if (!node.is_number() || !value) failType(node, key, fmt::format("a real number: {}", domain.text()));
+  return checked(*value, node, key, domain);
+}
+
+std::int64_t integerIn(const toml::node& node, std::string_view key, const Domain& domain) {
+  if (!node.is_integer()) failType(node, key, fmt::format("an integer: {}", domain.text()));
+  return checked(node.as_integer()->get(), node, key, domain);
+}
+
+std::string textOf(const toml::node& node, std::string_view key) {
+  if (!node.is_string()) failType(node, key, "a text in quotes");
+  return node.as_string()->get();
+}
+
+const toml::table& sectionOf(const toml::node& node, std::string_view key) {
+  if (!node.is_table()) failType(node, key, fmt::format("a section: [{}]", key));
+  return *node.as_table();
+}
+
+}  // namespace strainfinger::config

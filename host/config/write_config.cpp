@@ -1,0 +1,34 @@
+#include "host/config/write_config.hpp"
+
+#include <fmt/format.h>
+
+#include "host/config/keys.hpp"
+
+namespace strainfinger::config {
+namespace {
+
+std::string valueText(double value) { return fmt::format("{}", value); }
+std::string valueText(int value) { return fmt::format("{}", value); }
+std::string valueText(StrainComponent value) { return fmt::format("\"{}\"", componentName(value)); }
+
+std::string domainText(const Key& key) {
+  if (std::holds_alternative<StrainComponent& (*)(FingerConfig&)>(key.slot))
+    return fmt::format("one of {}", fmt::join(kComponentNames, ", "));
+  return key.domain.text();
+}
+
+}  // namespace
+
+std::string writeConfig(const FingerConfig& config) {
+  FingerConfig copy = config;
+  std::string text = fmt::format("schema = {}\n", kSchema);
+  std::string_view section;
+  for (const Key& key : keys()) {
+    if (key.section != section) text += fmt::format("\n[{}]\n", section = key.section);
+    const auto value = std::visit([&](auto slot) { return valueText(slot(copy)); }, key.slot);
+    text += fmt::format("# {} [{}]\n{} = {}\n", key.doc, domainText(key), key.name, value);
+  }
+  return text;
+}
+
+}  // namespace strainfinger::config

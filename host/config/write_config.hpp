@@ -1,0 +1,14 @@
+#pragma once
+// FingerConfig to finger.toml.
+
+#include <string>
+
+#include "host/config/finger_config.hpp"
+
+namespace strainfinger::config {
+
+/// The config as a documented TOML file: every key, its value with enough digits to read back exactly, what
+/// it is and its domain. readConfig() of it gives `config` again.
+std::string writeConfig(const FingerConfig& config);
+
+}  // namespace strainfinger::config

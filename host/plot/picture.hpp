@@ -1,0 +1,35 @@
+#pragma once
+// A picture as gnuplot draws it: a script and the data it reads, kept beside the picture so that anyone can
+// redraw it.
+
+#include <string>
+#include <vector>
+
+namespace strainfinger::plot {
+
+/// Columns of numbers. A NaN is a gap in a curve.
+struct DataFile {
+  std::string name;
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> rows;  ///< one number a column
+};
+
+/// The script names a data file `data('name')` and a column that may have gaps `(gap(n))`; terminal, output
+/// and size are draw()'s to say.
+struct Picture {
+  int width_px;
+  int height_px;
+  std::string script;
+  std::vector<DataFile> data;
+};
+
+/// Draws `picture` to `path`, which ends in .svg or .png, and leaves the script beside it (path with .gp) and
+/// the data (path's stem, a dash, the file's name, .csv). `cd` there and `gnuplot NAME.gp` draws it again.
+/// Throws Failure: kUsage for another ending, kFailure when a file cannot be written, when gnuplot is not
+/// installed, or with what gnuplot complains about.
+void draw(const Picture& picture, const std::string& path);
+
+/// The script as draw() writes it, for a picture called `stem` + `ending`.
+std::string completeScript(const Picture& picture, const std::string& stem, const std::string& ending);
+
+}  // namespace strainfinger::plot

@@ -1,0 +1,14 @@
+#pragma once
+// Running another program to its end.
+
+#include <string>
+#include <vector>
+
+namespace strainfinger::plot {
+
+/// Runs `command` (found in PATH, no shell) in `folder` and waits. Throws Failure(kFailure) when it is not
+/// installed (naming the Debian `package` that has it), cannot be started, or fails, with what it wrote to
+/// stderr.
+void runIn(const std::string& folder, const std::vector<std::string>& command, const std::string& package);
+
+}  // namespace strainfinger::plot

@@ -1,0 +1,54 @@
+#pragma once
+// The picture of a touched finger: what the gauges saw at one moment, and where the contact went.
+
+#include <limits>
+#include <vector>
+
+#include "host/plot/picture.hpp"
+
+namespace strainfinger::plot {
+
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// A contact as known or as estimated; kUnknown throughout where there is none.
+struct ContactPoint {
+  double angle_deg = kUnknown;
+  double normal_n_per_m = kUnknown;
+  double tangential_n_per_m = kUnknown;
+};
+
+struct ProfilePoint {
+  double angle_deg;
+  double true_strain;
+  double fitted_strain;
+};
+
+struct GaugeReading {
+  double angle_deg;
+  double strain;
+  double fitted_strain;
+  double sigma_strain;
+};
+
+struct TrackPoint {
+  double time_s;
+  ContactPoint truth;
+  ContactPoint estimate;
+  double sigmaAngle_deg = kUnknown;
+};
+
+struct TouchRecord {
+  double moment_s = 0;  ///< when the readings were taken
+  ContactPoint truthThen;
+  ContactPoint estimateThen;
+  std::vector<ProfilePoint> profile;  ///< in order of angle, once around
+  std::vector<GaugeReading> readings;
+  std::vector<TrackPoint> track;  ///< in order of time
+  double outerRadius_m = 0;       ///< turns an error of angle into an arc of the surface
+};
+
+/// Left: the strain around the ring at `moment_s`: true, read, fitted, and the residuals of the fit. Right:
+/// angle, its error and the loads over time, true and estimated. Angles may be in any revolution.
+Picture touchPicture(const TouchRecord& record);
+
+}  // namespace strainfinger::plot

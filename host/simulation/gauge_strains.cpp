@@ -1,0 +1,42 @@
+#include "host/simulation/gauge_strains.hpp"
+
+#include <numbers>
+
+namespace strainfinger::simulation {
+namespace {
+
+constexpr double kTolerance = 1e-9;  ///< of the peak: four orders below a step of a 16-bit converter
+
+model::Annulus<double> annulusOf(const config::Finger& finger) {
+  return {finger.core_radius_m, finger.outer_radius_m, finger.shear_modulus_pa, finger.poisson_ratio};
+}
+
+}  // namespace
+
+GaugeStrains::GaugeStrains(const config::FingerConfig& config)
+    : gauges_(config.gauges),
+      response_(annulusOf(config.finger), gauges_.radius_m, gauges_.component, gauges_.arc_length_m,
+                config.contact.width_m, kTolerance) {}
+
+Strains GaugeStrains::under(std::span<const Touch> touches) const {
+  Strains strains{};
+  if (touches.empty()) return strains;
+  for (int gauge = 0; gauge < gauges_.count; ++gauge)
+    strains[static_cast<std::size_t>(gauge)] = at(gaugeAngle_rad(gauge), touches);
+  return strains;
+}
+
+double GaugeStrains::at(double angle_rad, std::span<const Touch> touches) const {
+  double strain = 0;
+  for (const Touch& touch : touches) {
+    const auto response = response_.at(angle_rad - touch.angle_rad);
+    strain += touch.normal_n_per_m * response.normal + touch.tangential_n_per_m * response.tangential;
+  }
+  return strain;
+}
+
+double GaugeStrains::gaugeAngle_rad(int gauge) const {
+  return (gauges_.first_angle_deg / 360 + static_cast<double>(gauge) / gauges_.count) * 2 * std::numbers::pi;
+}
+
+}  // namespace strainfinger::simulation

@@ -1,0 +1,52 @@
+#include "host/simulation/scenario.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace strainfinger::simulation {
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180;
+
+Touch touchAt(const TouchCourse& touch, double time_s) {
+  const double since_s = time_s - touch.start_s;
+  return {touch.angle_deg.at(since_s) * kRadPerDeg, touch.normal_n_per_m.at(since_s),
+          touch.tangential_n_per_m.at(since_s)};
+}
+
+}  // namespace
+
+Course::Course(std::vector<Point> points) : points_(std::move(points)) { assert(!points_.empty()); }
+
+double Course::at(double time_s) const {
+  const auto later = [](double time, const Point& point) { return time < point.time_s; };
+  const auto next = std::upper_bound(points_.begin(), points_.end(), time_s, later);
+  if (next == points_.begin()) return points_.front().value;
+  if (next == points_.end()) return points_.back().value;
+  const auto last = next - 1;
+  return std::lerp(last->value, next->value, (time_s - last->time_s) / (next->time_s - last->time_s));
+}
+
+Scenario::Scenario(std::vector<TouchCourse> touches, std::optional<double> repeat_s)
+    : touches_(std::move(touches)), repeat_s_(repeat_s) {}
+
+std::vector<Touch> Scenario::at(double time_s) const {
+  const double within_s = repeat_s_ ? std::fmod(time_s, *repeat_s_) : time_s;
+  std::vector<Touch> inForce;
+  for (const TouchCourse& course : touches_) {
+    if (within_s < course.start_s || within_s >= course.end_s) continue;
+    const Touch touch = touchAt(course, within_s);
+    if (touch.normal_n_per_m != 0 || touch.tangential_n_per_m != 0) inForce.push_back(touch);
+  }
+  return inForce;
+}
+
+double Scenario::duration_s() const {
+  double end_s = 0;
+  for (const TouchCourse& touch : touches_) end_s = std::max(end_s, touch.end_s);
+  return repeat_s_.value_or(end_s);
+}
+
+}  // namespace strainfinger::simulation

@@ -1,0 +1,59 @@
+#pragma once
+// What touches the finger, and when.
+
+#include <optional>
+#include <vector>
+
+namespace strainfinger::simulation {
+
+/// One contact at one moment. Angles counter-clockwise seen from the tip, not reduced to a revolution; the
+/// normal load is positive pressing, the tangential load positive towards growing angles.
+struct Touch {
+  double angle_rad = 0;
+  double normal_n_per_m = 0;
+  double tangential_n_per_m = 0;
+  bool operator==(const Touch&) const = default;
+};
+
+/// A quantity over time: straight lines between points, constant before the first and after the last.
+class Course {
+ public:
+  struct Point {
+    double time_s;
+    double value;
+  };
+  /// At least one point, in order of time; of two points at one time the later one counts from there on.
+  explicit Course(std::vector<Point> points);
+  double at(double time_s) const;
+
+ private:
+  std::vector<Point> points_;
+};
+
+/// One contact over its life; the courses count time from its start.
+struct TouchCourse {
+  double start_s;
+  double end_s;
+  Course angle_deg;
+  Course normal_n_per_m;
+  Course tangential_n_per_m;
+};
+
+/// Touches over time, once or over and over again.
+class Scenario {
+ public:
+  /// `repeat_s` > 0: begin again after this time, which no touch outlasts.
+  explicit Scenario(std::vector<TouchCourse> touches, std::optional<double> repeat_s = std::nullopt);
+
+  /// The touches in force: start <= time < end, and some load. Linear in the number of touches.
+  std::vector<Touch> at(double time_s) const;
+
+  /// When it begins again or is over.
+  double duration_s() const;
+
+ private:
+  std::vector<TouchCourse> touches_;
+  std::optional<double> repeat_s_;
+};
+
+}  // namespace strainfinger::simulation

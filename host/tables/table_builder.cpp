@@ -1,0 +1,141 @@
+#include "host/tables/table_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/fixed_real.hpp"
+#include "host/model/impulse_response.hpp"
+#include "host/tables/fit_table.hpp"
+
+namespace strainfinger::tables {
+namespace {
+
+/// Fits may come out of the friction cone by noise: this factor times the coefficient is allowed.
+constexpr double kConeMargin = 1.25;
+
+/// Sum of `count` squared unit normal variates that one sample in a billion (z = 6.0) or in a thousand
+/// (z = 3.09) exceeds: Wilson & Hilferty (1931), good to 1 % here.
+double chiSquareQuantile(int count, double z) {
+  const double spread = 2.0 / (9.0 * count);
+  return count * std::pow(1 - spread + z * std::sqrt(spread), 3);
+}
+
+struct MantissaExponent {
+  double mantissa;  ///< in [2^(bits-1), 2^bits)
+  int exponent;
+};
+MantissaExponent normalised(double value, int bits) {
+  int exponent = 0;
+  const double fraction = std::frexp(value, &exponent);
+  return {std::ldexp(fraction, bits), exponent - bits};
+}
+
+std::uint32_t rounded(double value) { return static_cast<std::uint32_t>(std::llround(value)); }
+
+double peakPerLoad(const model::ImpulseResponse& response) {
+  double peak = 0;
+  for (int step = 0; step < 1024; ++step) {
+    const auto value = response.at(step * std::numbers::pi / 1024);
+    peak = std::max(peak, std::abs(value.normal));
+  }
+  return peak;
+}
+
+void fillNoise(TableConstants& constants, double noise_q32, double fullScale_q32) {
+  // The converter spans 2 full scales and the zero may lie anywhere in it.
+  constants.gate_shift =
+      static_cast<std::uint8_t>(std::max(0.0, std::ceil(std::log2(2 * fullScale_q32)) - 15));
+  const auto variance = normalised(noise_q32 * noise_q32, 24);
+  constants.noise_variance = rounded(variance.mantissa);
+  constants.noise_variance_exponent = static_cast<std::int8_t>(variance.exponent);
+  const double noiseInGate = std::ldexp(noise_q32, -constants.gate_shift);
+  const auto gate = [&](double z) {
+    return rounded(chiSquareQuantile(constants.gauge_count, z) * noiseInGate * noiseInGate);
+  };
+  constants.gate_on = gate(6.0);
+  constants.gate_off = gate(3.09);
+}
+
+/// A fit's amplitudes are strains at the peak * 2^32 * 2^(amplitude_exponent - 1).
+void fillLoads(TableConstants& constants, double peak, int amplitudeExponent) {
+  const auto load =
+      normalised(std::ldexp(1 / peak, LineLoadQ12::kFracBits - 32 - (amplitudeExponent - 1)), 31);
+  constants.load_scale = saturate<std::int32_t>(std::llround(load.mantissa));
+  constants.load_exponent = static_cast<std::int16_t>(load.exponent);
+  constants.amplitude_exponent = static_cast<std::int8_t>(amplitudeExponent);
+}
+
+/// Rings of 16 and more see a single peak over the contact, about a pitch wide. Coarser rings, and shear,
+/// whose response has two, are searched everywhere and twice as finely.
+void fillSearch(TableConstants& constants, const config::Gauges& gauges) {
+  const bool hasOnePeak = gauges.count >= 16 && gauges.component != StrainComponent::kShear;
+  constants.anchor_rule = hasOnePeak ? AnchorRule::kSecondDifference : AnchorRule::kExhaustive;
+  constants.scan_step = hasOnePeak ? 8 : 4;
+}
+
+TableConstants tableConstants(const config::FingerConfig& config, bool peakIsNegative) {
+  TableConstants constants{};
+  constants.gauge_count = static_cast<std::uint8_t>(config.gauges.count);
+  constants.pitch_turn_q35 = rounded(powerOfTwo(35) / config.gauges.count);
+  const double turns = config.gauges.first_angle_deg / 360;
+  constants.first_angle_q32 = fromReal<TurnQ32>(turns - std::floor(turns)).raw();
+  fillNoise(constants, config.gauges.noise_strain * powerOfTwo(32),
+            config.gauges.full_scale_strain * powerOfTwo(32));
+  constants.reading_gain =
+      static_cast<std::int32_t>(rounded(config.gauges.full_scale_strain * powerOfTwo(34)));
+  constants.force_per_load_q16 = rounded(config.finger.length_m * 1000 * powerOfTwo(16));
+  constants.friction_cone_q8 =
+      saturate<std::uint16_t>(std::llround(kConeMargin * config.contact.friction_coefficient * 256));
+  constants.adc_rail = static_cast<std::uint16_t>(0xFFFF << (16 - config.gauges.adc_bits));
+  constants.mirror_sign = config.gauges.component == StrainComponent::kShear ? -1 : 1;
+  constants.anchor_sign = peakIsNegative ? 1 : -1;
+  fillSearch(constants, config.gauges);
+  return constants;
+}
+
+}  // namespace
+
+TableParameters tableParameters(const config::FingerConfig& config) {
+  return {.core_radius_m = config.finger.core_radius_m,
+          .outer_radius_m = config.finger.outer_radius_m,
+          .length_m = config.finger.length_m,
+          .shear_modulus_pa = config.finger.shear_modulus_pa,
+          .poisson_ratio = config.finger.poisson_ratio,
+          .gauge_radius_m = config.gauges.radius_m,
+          .first_angle_deg = config.gauges.first_angle_deg,
+          .arc_length_m = config.gauges.arc_length_m,
+          .noise_strain = config.gauges.noise_strain,
+          .full_scale_strain = config.gauges.full_scale_strain,
+          .contact_width_m = config.contact.width_m,
+          .friction_coefficient = config.contact.friction_coefficient,
+          .gauge_count = static_cast<std::uint16_t>(config.gauges.count),
+          .component = static_cast<std::uint8_t>(config.gauges.component),
+          .adc_bits = static_cast<std::uint8_t>(config.gauges.adc_bits),
+          .reserved = 0};
+}
+
+TableImage buildTableImage(const config::FingerConfig& config) {
+  const model::Annulus<double> annulus{config.finger.core_radius_m, config.finger.outer_radius_m,
+                                       config.finger.shear_modulus_pa, config.finger.poisson_ratio};
+  const model::ImpulseResponse response(annulus, config.gauges.radius_m, config.gauges.component,
+                                        config.gauges.arc_length_m, config.contact.width_m);
+  const double peak = peakPerLoad(response);
+  const auto fits =
+      windowFits(response, config.gauges.count, peak, kConeMargin * config.contact.friction_coefficient);
+  TableImage image{};
+  image.magic = kTableMagic;
+  image.format = kTableFormat;
+  image.image_bytes = sizeof(TableImage);
+  image.parameters = tableParameters(config);
+  image.constants = tableConstants(config, response.at(0).normal < 0);
+  const int exponent = amplitudeExponent(fits);
+  fillLoads(image.constants, peak, exponent);
+  image.refined = fitTable(fits.refined, exponent);
+  for (const FitSense sense : {kWithOffset, kAgainstOffset})
+    image.three_point[sense] = fitTable(fits.threePoint[sense], exponent);
+  image.crc32 = crc32(checkedBytes(image));
+  return image;
+}
+
+}  // namespace strainfinger::tables

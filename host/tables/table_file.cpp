@@ -1,0 +1,119 @@
+#include "host/tables/table_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+#include "host/base/failure.hpp"
+#include "host/tables/table_builder.hpp"
+
+namespace strainfinger::tables {
+namespace {
+
+std::string readBytes(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  if (!file && !file.eof())
+    throw Failure(ExitCode::kFailure, fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+  return bytes;
+}
+
+[[noreturn]] void refuse(const std::string& path, TableFault fault, std::size_t bytes) {
+  const auto damaged = [&](const std::string& what) {
+    return Failure(ExitCode::kVerificationFailed,
+                   fmt::format("{}: {}; make it anew with: strainfinger tables -o {}", path, what, path));
+  };
+  switch (fault) {
+    case TableFault::kMagic:
+      throw damaged("not a table image");
+    case TableFault::kFormat:
+      throw Failure(
+          ExitCode::kMismatch,
+          fmt::format("{}: table image of another format than {}, which this program and its firmware read; "
+                      "make it anew with: strainfinger tables -o {}",
+                      path, kTableFormat, path));
+    case TableFault::kChecksum:
+      throw damaged("damaged, its CRC-32 does not match");
+    case TableFault::kConstants:
+      throw damaged("its constants are none that the firmware can work with");
+    default:
+      throw damaged(fmt::format("{} bytes where an image has {}", bytes, sizeof(TableImage)));
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<TableImage> readTableFile(const std::string& path) {
+  const std::string bytes = readBytes(path);
+  auto image = std::make_unique<TableImage>();
+  std::memcpy(image.get(), bytes.data(), std::min(bytes.size(), sizeof(TableImage)));
+  TableFault fault = checkTableImage(*image);
+  const bool isImage = fault != TableFault::kMagic && fault != TableFault::kFormat;
+  if (isImage && bytes.size() != sizeof(TableImage)) fault = TableFault::kLength;
+  if (fault != TableFault::kNone) refuse(path, fault, bytes.size());
+  return image;
+}
+
+std::vector<Parameter> parametersOf(const TableParameters& p) {
+  return {{"finger.core_radius_m", p.core_radius_m},
+          {"finger.outer_radius_m", p.outer_radius_m},
+          {"finger.length_m", p.length_m},
+          {"finger.shear_modulus_pa", p.shear_modulus_pa},
+          {"finger.poisson_ratio", p.poisson_ratio},
+          {"gauges.count", static_cast<double>(p.gauge_count)},
+          {"gauges.radius_m", p.gauge_radius_m},
+          {"gauges.component", static_cast<double>(p.component)},
+          {"gauges.first_angle_deg", p.first_angle_deg},
+          {"gauges.arc_length_m", p.arc_length_m},
+          {"gauges.noise_strain", p.noise_strain},
+          {"gauges.full_scale_strain", p.full_scale_strain},
+          {"gauges.adc_bits", static_cast<double>(p.adc_bits)},
+          {"contact.friction_coefficient", p.friction_coefficient},
+          {"contact.width_m", p.contact_width_m}};
+}
+
+void requireTablesOf(const TableImage& image, const config::FingerConfig& config, const std::string& path) {
+  const auto has = parametersOf(image.parameters);
+  const auto wants = parametersOf(tableParameters(config));
+  std::string differences;
+  for (std::size_t i = 0; i < has.size(); ++i) {
+    if (has[i].value == wants[i].value) continue;
+    fmt::format_to(std::back_inserter(differences), "\n  {} is {:.17g}, the config has {:.17g}", has[i].key,
+                   has[i].value, wants[i].value);
+  }
+  if (differences.empty()) return;
+  throw Failure(ExitCode::kMismatch,
+                fmt::format("{}: made for another finger than the config's:{}\nmake it anew with: "
+                            "strainfinger tables -c CONFIG -o {}",
+                            path, differences, path));
+}
+
+std::string imageBytes(const TableImage& image) {
+  std::string bytes(sizeof(image), '\0');
+  std::memcpy(bytes.data(), &image, sizeof(image));
+  return bytes;
+}
+
+std::string imageHeader(const TableImage& image) {
+  std::string text =
+      "#pragma once\n"
+      "// Lookup tables of a finger, made by `strainfinger tables --header`. Not to be edited: make them "
+      "anew.\n";
+  for (const Parameter& parameter : parametersOf(image.parameters))
+    fmt::format_to(std::back_inserter(text), "//   {} = {}\n", parameter.key, parameter.value);
+  fmt::format_to(std::back_inserter(text),
+                 "// CRC-32 0x{:08X}\n\n#include <cstdint>\n\nnamespace strainfinger {{\n\n"
+                 "alignas(8) inline constexpr std::uint8_t kDefaultTableBytes[{}] = {{",
+                 image.crc32, sizeof(image));
+  const std::string bytes = imageBytes(image);
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+    fmt::format_to(std::back_inserter(text), "{}{},", i % 20 == 0 ? "\n    " : " ",
+                   static_cast<unsigned char>(bytes[i]));
+  text += "\n};\n\n}  // namespace strainfinger\n";
+  return text;
+}
+
+}  // namespace strainfinger::tables

@@ -1,0 +1,35 @@
+#pragma once
+// Table images as files, and as C++ source for linking one into a firmware.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/table_image.hpp"
+#include "host/config/finger_config.hpp"
+
+namespace strainfinger::tables {
+
+/// A file's image, whole and checked. Throws Failure: kFailure if it can't be read, kMismatch if it is of
+/// another format, kVerificationFailed if it is damaged. On the heap, for its size.
+std::unique_ptr<TableImage> readTableFile(const std::string& path);
+
+/// Throws Failure(kMismatch) naming every parameter in which the image differs from what the config would
+/// give.
+void requireTablesOf(const TableImage& image, const config::FingerConfig& config, const std::string& path);
+
+/// One parameter of an image, as finger.toml names it; `component` and `count` are text too.
+struct Parameter {
+  std::string key;
+  double value;
+};
+std::vector<Parameter> parametersOf(const TableParameters& parameters);
+
+/// The bytes of an image: a file's content.
+std::string imageBytes(const TableImage& image);
+
+/// A C++ header that defines `strainfinger::kDefaultTableBytes`, the image's bytes aligned for reading in
+/// place.
+std::string imageHeader(const TableImage& image);
+
+}  // namespace strainfinger::tables

@@ -1,0 +1,133 @@
+#include <CppUTest/TestHarness.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "tests/commands/program.hpp"
+
+using namespace strainfinger;
+
+TEST_GROUP(Decode) {
+  const std::string contact_ = "(1609779922.655421) can0 185#E8032201808161A3\n";
+  const std::string force_ = "(1609779922.655421) can0 285#22011EFF070981A3\n";
+  const std::string heartbeat_ = "(1609779922.655421) can0 705#12004D0E190000A7\n";
+  const std::string other_ = "(1609779922.655421) can0 080#00\n";
+
+  /// The rows below the header.
+  static std::string rows(const Run& run) { return run.out.substr(run.out.find('\n') + 1); }
+  static void checkSays(const char* text, const Run& run) { STRCMP_CONTAINS(text, run.err.c_str()); }
+};
+
+TEST(Decode, PrintsARowAFrame) {
+  const Run run = runProgram("decode", contact_ + force_ + heartbeat_);
+  LONGS_EQUAL(0, run.status);
+  STRCMP_EQUAL(
+      "1609779922.655421,can0,5,CONTACT,10,2.9,,contact+simulated,97,163,,,,,,,,,,,,\n"
+      "1609779922.655421,can0,5,FORCE,,,,contact+simulated,,163,0.29,-0.226,0.0035,0.0045,,,,,,,,\n"
+      "1609779922.655421,can0,5,HEARTBEAT,,,,,,,,,,,run,1,,3661,25,0,0,167\n",
+      rows(run).c_str());
+}
+
+TEST(Decode, ReadsAnyFormOfCandump) {
+  const Run run = runProgram("decode",
+                             "  can0  285   [8]  22 01 1E FF 07 09 81 A3\r\n"
+                             " (003.000017)  can0  RX - -  285   [8]  22 01 1E FF 07 09 81 A3\n");
+  LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS("\n,can0,5,FORCE,", run.out.c_str());
+  STRCMP_CONTAINS("\n3.000017,can0,5,FORCE,", run.out.c_str());
+  checkSays("(screen, no time)", run);
+}
+
+TEST(Decode, PrintsObjects) {
+  const Run run = runProgram("decode --json", force_);
+  LONGS_EQUAL(0, run.status);
+  STRCMP_EQUAL(
+      "{\"time_s\":1609779922.655421,\"interface\":\"can0\",\"node\":5,\"frame\":\"FORCE\",\"normal_n\":0.29,"
+      "\"tangential_n\":-0.226,\"sigma_normal_n\":0.0035,\"sigma_tangential_n\":0.0045,"
+      "\"flags\":\"contact+simulated\",\"sequence\":163}\n",
+      run.out.c_str());
+}
+
+TEST(Decode, CountsWhatIsNoFingers) {
+  const Run run = runProgram("decode", other_ + contact_ + other_);
+  LONGS_EQUAL(0, run.status);
+  checkSays("3 lines (log, absolute time), 1 frames decoded, 2 others skipped", run);
+}
+
+TEST(Decode, CountsWhatWasLost) {
+  const Run run = runProgram("decode", "DROPCOUNT: dropped 4 CAN frames on 'can0' socket (total drops 4)\n" +
+                                           contact_ + "(1609779922.655421) can0 185#E8032201808161A6\n");
+  LONGS_EQUAL(0, run.status);
+  checkSays("can0 node 5: 2 CONTACT and FORCE received, 2 lost", run);
+  checkSays("candump dropped 4 frames", run);
+}
+
+TEST(Decode, PicksNodes) {
+  const Run run = runProgram("decode --node 1,2", contact_);
+  LONGS_EQUAL(0, run.status);
+  STRCMP_EQUAL("", rows(run).c_str());
+  STRCMP_CONTAINS("CONTACT", runProgram("decode --node 1,5", contact_).out.c_str());
+  LONGS_EQUAL(2, runProgram("decode --node 64", contact_).status);
+}
+
+TEST(Decode, GoesOnAfterALineItCannotRead) {
+  const Run run = runProgram("decode", contact_ + "(1609779922.655421) can0 185#E8x3\n" + force_);
+  LONGS_EQUAL(1, run.status);
+  checkSays("stdin:2:32: expected data", run);
+  checkSays("1 of 3 lines could not be read", run);
+  STRCMP_CONTAINS("FORCE", run.out.c_str());
+}
+
+TEST(Decode, StrictStopsAtALineItCannotRead) {
+  const Run run = runProgram("decode --strict", contact_ + "rubbish\n" + force_);
+  LONGS_EQUAL(1, run.status);
+  checkSays("strainfinger: stdin:2:8: ", run);
+  STRCMP_CONTAINS("CONTACT", run.out.c_str());
+  CHECK(run.out.find("FORCE") == std::string::npos);
+}
+
+TEST(Decode, ReadsALastLineWithoutLineEnd) {
+  const Run run = runProgram("decode", contact_.substr(0, contact_.size() - 1));
+  LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS("CONTACT", run.out.c_str());
+}
+
+TEST(Decode, NothingInIsOnlyAHeader) {
+  const Run run = runProgram("decode");
+  LONGS_EQUAL(0, run.status);
+  STRCMP_EQUAL("", rows(run).c_str());
+  checkSays("0 lines (no frames)", run);
+}
+
+TEST(Decode, RefusesAnotherProtocol) {
+  const Run run = runProgram("decode", "(1609779922.655421) can0 705#22004D0E190000A7\n");
+  LONGS_EQUAL(5, run.status);
+  checkSays("node 5 speaks protocol 2, this program 1", run);
+}
+
+TEST(Decode, PrintsEachRowWhileItsInputIsStillOpen) {
+  // The writer keeps the pipe open until it has seen the row; without the flush this would end by the
+  // timeout.
+  const Run run = runShell(
+      "fifo=$(mktemp -u); mkfifo $fifo\n"
+      "{ echo '(0000000001.000000) can0 185#E8032201808161A3'; read -t 10 < $fifo && echo "
+      "seen >&2; } |\n"
+      "  \"$STRAINFINGER\" decode | grep --line-buffered CONTACT > $fifo\n"
+      "rm $fifo");
+  checkSays("seen", run);
+}
+
+TEST(Decode, AReaderThatLeavesEndsItQuietly) {
+  std::string many;
+  for (int i = 0; i < 5000; ++i) many += contact_;
+  const Run run = runShell("\"$STRAINFINGER\" decode | head -n 1; echo ${PIPESTATUS[0]}", many);
+  STRCMP_CONTAINS("time_s", run.out.c_str());
+  STRCMP_CONTAINS("\n141\n", run.out.c_str());  // 128 + SIGPIPE, as filters end
+  STRCMP_EQUAL("", run.err.c_str());
+}
+
+TEST(Decode, AFullDiskIsAFailure) {
+  const Run run = runProgram("decode > /dev/full", contact_);
+  LONGS_EQUAL(1, run.status);
+  checkSays("cannot write the output", run);
+}

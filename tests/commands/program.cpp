@@ -1,0 +1,53 @@
+#include "tests/commands/program.hpp"
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace strainfinger {
+namespace {
+
+std::string read(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+std::filesystem::path temporaryFolder() {
+  std::string name = std::filesystem::temp_directory_path() / "strainfinger.XXXXXX";
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  return name;
+}
+
+}  // namespace
+
+Run runShell(const std::string& command, const std::string& input) {
+  const std::filesystem::path folder = temporaryFolder();
+  std::ofstream(folder / "in", std::ios::binary) << input;
+  std::ofstream(folder / "script") << "STRAINFINGER='" << STRAINFINGER_PROGRAM << "'\n" << command << "\n";
+  const std::string at = folder.string();
+  std::string line = "bash ";
+  line.append(at)
+      .append("/script <")
+      .append(at)
+      .append("/in >")
+      .append(at)
+      .append("/out 2>")
+      .append(at)
+      .append("/err");
+  const int status = std::system(line.c_str());
+  Run run{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read(folder / "out"),
+          read(folder / "err")};
+  std::filesystem::remove_all(folder);
+  return run;
+}
+
+Run runProgram(const std::string& arguments, const std::string& input) {
+  return runShell(std::string("\"$STRAINFINGER\" ").append(arguments), input);
+}
+
+}  // namespace strainfinger

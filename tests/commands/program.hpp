@@ -1,0 +1,21 @@
+#pragma once
+// The program, run as a user runs it.
+
+#include <string>
+
+namespace strainfinger {
+
+/// What a run left behind.
+struct Run {
+  int status = -1;  ///< exit status; 128 + signal if one ended it
+  std::string out;
+  std::string err;
+};
+
+/// Runs `strainfinger <arguments>` in a shell, with `input` on stdin.
+Run runProgram(const std::string& arguments, const std::string& input = "");
+
+/// Runs a shell command line in which $STRAINFINGER is the program.
+Run runShell(const std::string& command, const std::string& input = "");
+
+}  // namespace strainfinger

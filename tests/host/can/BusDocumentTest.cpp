@@ -1,0 +1,126 @@
+// common/BUS.md is written by people; what can be computed in it is computed here again.
+
+#include <CppUTest/TestHarness.h>
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <span>
+#include <sstream>
+#include <string>
+
+#include "common/frames.hpp"
+#include "host/can/candump_text.hpp"
+#include "host/can/frame_catalogue.hpp"
+
+using namespace strainfinger;
+using namespace strainfinger::can;
+
+namespace {
+
+std::string readDocument() {
+  std::ostringstream text;
+  text << std::ifstream(STRAINFINGER_BUS_DOCUMENT).rdbuf();
+  return text.str();
+}
+
+std::string place(const FieldBits& bits) {
+  const int byte = bits.lsb / 8;
+  if (bits.width == 16) return fmt::format("{}-{}", byte, byte + 1);
+  if (bits.width == 8) return fmt::format("{}", byte);
+  return fmt::format("{}, bits {}-{}", byte, bits.lsb % 8, bits.lsb % 8 + bits.width - 1);
+}
+
+std::string values(const FieldSpec& field) {
+  std::string text;
+  const bool flags = field.meaning.kind == FieldKind::kFlags;
+  for (const ValueName& name : field.meaning.names)
+    fmt::format_to(std::back_inserter(text), "{}{} {}", text.empty() ? (flags ? "bit " : "") : ", ",
+                   name.value, name.name);
+  if (text.empty()) text = fmt::format("{}..{}", minRaw(field.bits), maxRaw(field.bits));
+  if (field.meaning.openEnded) text += " or more";
+  return text;
+}
+
+/// The row of a field in the table of its frame.
+std::string row(const FieldSpec& field) {
+  const auto& [bits, meaning] = field;
+  return fmt::format("| {} | {} | {}{} | {} {} | {} | {} | {} |\n", place(bits), meaning.name,
+                     bits.isSigned ? 'i' : 'u', bits.width, 1.0 / meaning.stepsPerUnit, meaning.unit,
+                     values(field), bits.unknowable ? fmt::format("{}", invalidRaw(bits)) : "",
+                     meaning.comment);
+}
+
+std::string tableOf(const FrameEntry& entry) {
+  std::string table =
+      "| byte | field | type | step | raw values | not known | meaning |\n|--|--|--|--|--|--|--|\n";
+  for (const FieldSpec& field : entry.fields) table += row(field);
+  return table;
+}
+
+std::string tableOf(std::span<const ValueName> names) {
+  std::string table = "| bit | name | meaning |\n|--|--|--|\n";
+  for (const ValueName& name : names)
+    fmt::format_to(std::back_inserter(table), "| {} | {} | {} |\n", name.value, name.name, name.comment);
+  return table;
+}
+
+/// Bits of a classic frame with an 11-bit identifier on the wire, interframe space included. Of the 34 + 8 n
+/// bits from start of frame to checksum every fifth can be followed by a stuff bit, and each stuff bit counts
+/// for the next five: (34 + 8 n - 1) / 4 of them at worst (Davis, Burns, Bril, Lukkien: Controller Area
+/// Network (CAN) schedulability analysis, Real-Time Systems 35, 2007).
+constexpr int kBytes = 8;
+constexpr int kBitsUnstuffed = 47 + 8 * kBytes;
+constexpr int kBitsWorst = kBitsUnstuffed + (34 + 8 * kBytes - 1) / 4;
+
+std::string loadRow(double contactRate_hz, int fingers) {
+  const double heartbeatRate_hz = 1000.0 / kHeartbeatPeriod_ms;
+  const double frames = fingers * (2 * contactRate_hz + heartbeatRate_hz);
+  return fmt::format("| {} | {} | {} | {:.1f} % | {:.1f} % |\n", fingers, contactRate_hz, frames,
+                     frames * kBitsUnstuffed / 1e6 * 100, frames * kBitsWorst / 1e6 * 100);
+}
+
+}  // namespace
+
+TEST_GROUP(BusDocument) {
+  const std::string document_ = readDocument();
+  void checkHas(const std::string& text) { STRCMP_CONTAINS(text.c_str(), document_.c_str()); }
+};
+
+TEST(BusDocument, HasTheTableOfEachFrame) {
+  for (const FrameEntry& entry : frameCatalogue()) {
+    checkHas(fmt::format("## {}: 0x{:03X} + node\n", entry.spec.name, static_cast<int>(entry.spec.function)));
+    checkHas(tableOf(entry));
+  }
+}
+
+TEST(BusDocument, ExplainsTheFlags) {
+  checkHas(tableOf(kFingerFlagNames));
+  checkHas(tableOf(kFingerFaultNames));
+}
+
+TEST(BusDocument, ItsExamplesAreWhatIsSent) {
+  const FingerFlags flags{FingerFlag::kContact, FingerFlag::kSimulated};
+  const auto line = [](const auto& frame) {
+    return formatLogLine(1609779922655421, "can0", encode(frame, 5));
+  };
+  checkHas(line(ContactFrame{1000, 290, kNotKnown<std::int8_t>, flags, 97, 163}));
+  checkHas(line(ForceFrame{290, -226, 7, 9, flags, 163}));
+  checkHas(line(HeartbeatFrame{.state = FingerState::kRun,
+                               .uptime_s = 3661,
+                               .temperature_degC = 25,
+                               .tx_errors = 0,
+                               .rx_errors = 0,
+                               .table_crc = 0xA7}));
+}
+
+TEST(BusDocument, ItsBusLoadsAreComputed) {
+  checkHas(fmt::format("{} bits", kBitsUnstuffed));
+  checkHas(fmt::format("{} bits", kBitsWorst));
+  for (const int fingers : {1, 5}) checkHas(loadRow(500, fingers));
+  checkHas(loadRow(20, 5));
+}
+
+TEST(BusDocument, NamesTheProtocolVersion) {
+  checkHas(fmt::format("Protocol version: {}\n", kProtocolVersion));
+}

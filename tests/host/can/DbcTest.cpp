@@ -1,0 +1,51 @@
+#include "host/can/dbc.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+#include <string>
+
+using namespace strainfinger;
+
+// What the numbers mean is checked with a parser that is not ours: tests/commands/canmatrix_test.py.
+TEST_GROUP(Dbc){void checkHas(const char* line, const std::string& text = can::dbcText(5, 500)){
+    STRCMP_CONTAINS(line, std::string("\n").append(text).c_str());
+}
+}
+;
+
+TEST(Dbc, IsOfOneNode) {
+  checkHas("\nBU_: FINGER_5 HOST\n");
+  checkHas("\nBO_ 389 CONTACT: 8 FINGER_5\n");
+  checkHas("\nBO_ 645 FORCE: 8 FINGER_5\n");
+  checkHas("\nBO_ 1797 HEARTBEAT: 8 FINGER_5\n");
+}
+
+TEST(Dbc, HasSignalsWithUnitAndRange) {
+  checkHas("\n SG_ angle : 0|16@1+ (0.01,0) [0|359.99] \"deg\" HOST\n");
+  checkHas("\n SG_ normal : 0|16@1- (0.001,0) [-32.767|32.767] \"N\" HOST\n");
+  checkHas("\n SG_ sigma_normal : 32|8@1+ (0.0005,0) [0|0.127] \"N\" HOST\n");
+  checkHas("\n SG_ alternative : 32|8@1- (1,0) [-127|127] \"deg\" HOST\n");
+}
+
+TEST(Dbc, HasASignalForEachFlag) {
+  checkHas("\n SG_ simulated : 47|1@1+ (1,0) [0|1] \"\" HOST\n");
+  checkHas("\n SG_ watchdog_reset : 13|1@1+ (1,0) [0|1] \"\" HOST\n");
+}
+
+TEST(Dbc, NamesValues) {
+  checkHas("\nVAL_ 1797 state 0 \"boot\" 1 \"zeroing\" 2 \"run\" 3 \"fault\" ;\n");
+  checkHas("\nVAL_ 389 simulated 0 \"no\" 1 \"yes\" ;\n");
+  checkHas("\nVAL_ 389 sigma_angle 65534 \"this_or_more\" 65535 \"not_known\" ;\n");
+  checkHas("\nVAL_ 645 normal -32768 \"not_known\" ;\n");
+}
+
+TEST(Dbc, SaysHowOftenFramesCome) {
+  checkHas("\nBA_ \"GenMsgCycleTime\" BO_ 389 50;\n");
+  checkHas("\nBA_ \"GenMsgDelayTime\" BO_ 389 2;\n");
+  checkHas("\nBA_ \"GenMsgCycleTime\" BO_ 1797 100;\n");
+  checkHas("\nBA_ \"GenMsgDelayTime\" BO_ 645 10;\n", can::dbcText(5, 100));
+}
+
+TEST(Dbc, IsPlainAscii) {
+  for (const char c : can::dbcText(63, 1000)) CHECK(c == '\n' || (c >= ' ' && c <= '~'));
+}

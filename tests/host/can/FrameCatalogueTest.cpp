@@ -1,0 +1,116 @@
+#include "host/can/frame_catalogue.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string>
+
+#include "common/frames.hpp"
+
+using namespace strainfinger;
+using namespace strainfinger::can;
+
+TEST_GROUP(FrameCatalogue){FieldSpec field(const char* frame, const char* name){
+    for (const FrameEntry& entry
+         : frameCatalogue()) for (const FieldSpec& each
+                                  : entry.fields) if (std::string(frame) == entry.spec.name &&
+                                                      std::string(name) == each.meaning.name) return each;
+FAIL(name);
+return {};
+}
+
+template <typename Check>
+void forEachField(Check check) {
+  for (const FrameEntry& entry : frameCatalogue())
+    for (const FieldSpec& each : entry.fields) check(each);
+}
+
+static bool isName(const std::string& name) {
+  return !name.empty() && name.size() <= 32 &&
+         name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string::npos;
+}
+static bool isPlainText(const std::string& text) {
+  for (const char c : text)
+    if (c < ' ' || c > '~' || c == '"') return false;
+  return true;
+}
+}
+;
+
+TEST(FrameCatalogue, FindsFramesByIdentifierAndLength) {
+  STRCMP_EQUAL("CONTACT", findFrame({0x181, 8, {}})->spec.name);
+  STRCMP_EQUAL("FORCE", findFrame({0x2BF, 8, {}})->spec.name);
+  STRCMP_EQUAL("HEARTBEAT", findFrame({0x701, 8, {}})->spec.name);
+}
+
+TEST(FrameCatalogue, FindsNoOtherFrames) {
+  CHECK(findFrame({0x181, 7, {}}) == nullptr);
+  CHECK(findFrame({0x180, 8, {}}) == nullptr);
+  CHECK(findFrame({0x1C0, 8, {}}) == nullptr);
+  CHECK(findFrame({0x381, 8, {}}) == nullptr);
+  CHECK(findFrame({0x701, 1, {}}) == nullptr);  // the heartbeat of a CANopen device
+}
+
+TEST(FrameCatalogue, NamesUnitsAndCommentsAreFitForADbcFile) {
+  forEachField([](const FieldSpec& each) {
+    CHECK(isName(each.meaning.name));
+    CHECK(isPlainText(each.meaning.unit));
+    CHECK(isPlainText(each.meaning.comment));
+    for (const ValueName& name : each.meaning.names) CHECK(isName(name.name) && isPlainText(name.comment));
+  });
+}
+
+TEST(FrameCatalogue, NamesAreUniqueInTheirFrame) {
+  for (const FrameEntry& entry : frameCatalogue()) {
+    std::set<std::string> names;
+    for (const FieldSpec& each : entry.fields) {
+      CHECK(names.insert(each.meaning.name).second);
+      if (each.meaning.kind == FieldKind::kFlags)
+        for (const ValueName& flag : each.meaning.names) CHECK(names.insert(flag.name).second);
+    }
+  }
+}
+
+TEST(FrameCatalogue, PhysicalValuesAreTheNearestToTheDecimal) {
+  CHECK(toPhysical(field("CONTACT", "angle"), 3573) == 35.73);
+  CHECK(toPhysical(field("FORCE", "normal"), -226) == -0.226);
+  CHECK(toPhysical(field("FORCE", "sigma_normal"), 7) == 0.0035);
+  CHECK(toPhysical(field("CONTACT", "alternative"), -127) == -127.0);
+}
+
+TEST(FrameCatalogue, WhatIsNotValidHasNoPhysicalValue) {
+  CHECK_FALSE(toPhysical(field("CONTACT", "angle"), 0xFFFF).has_value());
+  CHECK_FALSE(toPhysical(field("CONTACT", "angle"), 36000).has_value());
+  CHECK_FALSE(toPhysical(field("FORCE", "normal"), -32768).has_value());
+  CHECK_FALSE(toPhysical(field("HEARTBEAT", "temperature"), -128).has_value());
+}
+
+TEST(FrameCatalogue, PhysicalValuesAreRounded) {
+  LONGS_EQUAL(291, fromPhysical(field("FORCE", "normal"), 0.2906));
+  LONGS_EQUAL(-291, fromPhysical(field("FORCE", "normal"), -0.2906));
+  LONGS_EQUAL(1, fromPhysical(field("FORCE", "sigma_normal"), 0.00025));
+}
+
+TEST(FrameCatalogue, PhysicalValuesSaturate) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  LONGS_EQUAL(32767, fromPhysical(field("FORCE", "normal"), 40.0));
+  LONGS_EQUAL(-32767, fromPhysical(field("FORCE", "normal"), -kInfinity));
+  LONGS_EQUAL(65534, fromPhysical(field("CONTACT", "sigma_angle"), kInfinity));
+  LONGS_EQUAL(0, fromPhysical(field("CONTACT", "sigma_angle"), -1.0));
+  LONGS_EQUAL(35999, fromPhysical(field("CONTACT", "angle"), 1e300));
+}
+
+TEST(FrameCatalogue, NothingAndNotANumberAreNotKnown) {
+  LONGS_EQUAL(0xFFFF, fromPhysical(field("CONTACT", "angle"), std::nullopt));
+  LONGS_EQUAL(-32768, fromPhysical(field("FORCE", "normal"), std::nan("")));
+  LONGS_EQUAL(0, fromPhysical(field("CONTACT", "sequence"), std::nullopt));
+}
+
+TEST(FrameCatalogue, EveryValidRawValueSurvivesThePhysicalOne) {
+  forEachField([](const FieldSpec& each) {
+    for (std::int64_t raw = minRaw(each.bits); raw <= maxRaw(each.bits); ++raw)
+      CHECK(fromPhysical(each, toPhysical(each, raw)) == raw);
+  });
+}

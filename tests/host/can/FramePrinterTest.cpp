@@ -1,0 +1,106 @@
+#include "host/can/frame_printer.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "common/frames.hpp"
+
+using namespace strainfinger;
+using namespace strainfinger::can;
+
+TEST_GROUP(FramePrinter) {
+  const ContactFrame contact_{.angle_cdeg = 3573,
+                              .alternative_deg = -90,
+                              .flags = {FingerFlag::kContact, FingerFlag::kSimulated},
+                              .quality_percent = 97,
+                              .sequence = 163};
+  std::FILE* stream_ = std::tmpfile();
+
+  void teardown() override { std::fclose(stream_); }
+
+  std::string printed() {
+    std::rewind(stream_);
+    std::string text;
+    for (int c = std::fgetc(stream_); c != EOF; c = std::fgetc(stream_)) text.push_back(static_cast<char>(c));
+    return text;
+  }
+
+  /// The lines below the header.
+  std::string rows() { return printed().substr(printed().find('\n') + 1); }
+
+  template <typename Frame>
+  void print(TableFormat format, const Frame& frame, std::optional<std::int64_t> time_ns = 1500000) {
+    FramePrinter printer(stream_, format);
+    CHECK(printer.print(time_ns, "can0", encode(frame, 5)));
+  }
+};
+
+TEST(FramePrinter, TheTableHasAColumnForEachFieldOfAnyFrame) {
+  FramePrinter printer(stream_, TableFormat::kCsv);
+  STRCMP_EQUAL(
+      "time_s,interface,node,frame,angle_deg,sigma_angle_deg,alternative_deg,flags,quality_percent,sequence,"
+      "normal_n,tangential_n,sigma_normal_n,sigma_tangential_n,state,protocol,faults,uptime_s,temperature_"
+      "degc,"
+      "tx_errors,rx_errors,table_crc\n",
+      printed().c_str());
+}
+
+TEST(FramePrinter, PrintsContactAsARow) {
+  print(TableFormat::kCsv, contact_);
+  STRCMP_EQUAL("0.001500,can0,5,CONTACT,35.73,,-90,contact+simulated,97,163,,,,,,,,,,,,\n", rows().c_str());
+}
+
+TEST(FramePrinter, PrintsForceAsARow) {
+  print(TableFormat::kCsv, ForceFrame{.normal_mN = 290, .tangential_mN = -226, .sigma_normal_half_mN = 7});
+  STRCMP_EQUAL("0.001500,can0,5,FORCE,,,,,,0,0.29,-0.226,0.0035,,,,,,,,,\n", rows().c_str());
+}
+
+TEST(FramePrinter, PrintsHeartbeatAsARow) {
+  print(TableFormat::kCsv, HeartbeatFrame{.state = FingerState::kFault,
+                                          .faults = {FingerFault::kTables, FingerFault::kCan},
+                                          .uptime_s = 12,
+                                          .table_crc = 167});
+  STRCMP_EQUAL("0.001500,can0,5,HEARTBEAT,,,,,,,,,,,fault,1,tables+can,12,,,,167\n", rows().c_str());
+}
+
+TEST(FramePrinter, PrintsAnObjectWithTheFramesOwnFields) {
+  print(TableFormat::kJson, contact_);
+  STRCMP_EQUAL(
+      "{\"time_s\":0.0015,\"interface\":\"can0\",\"node\":5,\"frame\":\"CONTACT\",\"angle_deg\":35.73,"
+      "\"sigma_angle_deg\":null,\"alternative_deg\":-90,\"flags\":\"contact+simulated\",\"quality_percent\":"
+      "97,"
+      "\"sequence\":163}\n",
+      printed().c_str());
+}
+
+TEST(FramePrinter, TimesHaveTheDigitsOfTheLog) {
+  print(TableFormat::kCsv, ForceFrame{}, 1609779922655421000);
+  STRCMP_CONTAINS("1609779922.655421,can0", rows().c_str());
+}
+
+TEST(FramePrinter, NanosecondsAreKept) {
+  print(TableFormat::kCsv, ForceFrame{}, 1609779922655421789);
+  STRCMP_CONTAINS("1609779922.655421789,can0", rows().c_str());
+}
+
+TEST(FramePrinter, NoTimeIsAnEmptyField) {
+  print(TableFormat::kCsv, ForceFrame{}, std::nullopt);
+  STRCMP_CONTAINS(",can0,5,FORCE", rows().c_str());
+}
+
+TEST(FramePrinter, ValuesWithoutANameArePrintedAsNumbers) {
+  print(TableFormat::kJson,
+        HeartbeatFrame{.state = static_cast<FingerState>(9), .faults = FingerFaults::fromRaw(0x81)});
+  STRCMP_CONTAINS("\"state\":\"9\"", printed().c_str());
+  STRCMP_CONTAINS("\"faults\":\"tables+7\"", printed().c_str());
+}
+
+TEST(FramePrinter, OtherFramesAreNotPrinted) {
+  FramePrinter printer(stream_, TableFormat::kJson);
+  CHECK_FALSE(printer.print(0, "can0", {0x80, 8, {}}));
+  CHECK_FALSE(printer.print(0, "can0", {0x185, 7, {}}));
+  STRCMP_EQUAL("", printed().c_str());
+}

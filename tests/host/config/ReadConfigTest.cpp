@@ -1,0 +1,212 @@
+#include "host/config/read_config.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "host/config/keys.hpp"
+#include "host/config/write_config.hpp"
+#include "tests/host/config/ConfigTest.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::config;
+
+namespace {
+
+/// The domain of each key as the interface document states it, independent of the table of keys: values that
+/// must be accepted (both ends among them, where
+/// other keys' defaults let them be reached), and values that must not.
+struct DomainCase {
+  std::string key;
+  std::vector<std::string> inside;
+  std::vector<std::string> outside;
+};
+
+const std::vector<DomainCase>& domainCases() {
+  static const std::vector<DomainCase> cases = {
+      {"finger.core_radius_m", {"1e-300", "0.0094"}, {"0", "-1e-3", "1.1", "8.9"}},
+      {"finger.outer_radius_m", {"0.0095", "1"}, {"0", "-1", "1.1", "12.7"}},
+      {"finger.length_m", {"1e-9", "1"}, {"0", "-0.02", "20"}},
+      {"finger.shear_modulus_pa", {"1e-9", "1e12"}, {"0", "-1", "1.1e12"}},
+      {"finger.poisson_ratio", {"0", "0.0", "0.5"}, {"-1e-9", "0.5000001", "1"}},
+      {"gauges.count",
+       {"12", "14", "32"},
+       {"0", "-16", "10", "11", "13", "31", "33", "34", "9223372036854775807"}},
+      {"gauges.radius_m", {"8.9e-3", "0.0126"}, {"0", "-1", "1.1"}},
+      {"gauges.component", {"\"radial\"", "\"hoop\"", "\"shear\""}, {"\"\"", "\"Radial\"", "\"err\""}},
+      {"gauges.first_angle_deg", {"0", "359.999"}, {"-0.001", "360", "1e9"}},
+      {"gauges.arc_length_m", {"0", "3.69e-3"}, {"-1e-9", "1.1"}},
+      {"gauges.noise_strain", {"1e-12", "0.1"}, {"0", "-6e-6", "0.11"}},
+      {"gauges.full_scale_strain", {"1e-12", "0.1"}, {"0", "-0.03", "0.11"}},
+      {"gauges.adc_bits", {"8", "12", "16"}, {"7", "17", "-12", "4294967304"}},
+      {"contact.friction_coefficient", {"0", "10"}, {"-0.001", "10.1"}},
+      {"contact.width_m", {"0", "0.0127"}, {"-1e-3", "1.1"}},
+      {"can.node", {"1", "63"}, {"0", "64", "-1", "4294967297"}},
+      {"can.bitrate", {"250000", "500000", "1000000"}, {"0", "999999", "125", "-1000000"}},
+      {"can.contact_rate_hz", {"20", "1000", "333.3"}, {"19.99", "1001", "0", "-500"}},
+  };
+  return cases;
+}
+
+double number(const FingerConfig& config, const Key& key) {
+  FingerConfig copy = config;
+  return std::visit([&](auto slot) { return static_cast<double>(slot(copy)); }, key.slot);
+}
+
+}  // namespace
+
+TEST_GROUP(ReadConfig){void checkComplaint(const std::string& text, const std::string& expected){
+    STRCMP_EQUAL(expected.c_str(), complaintAbout(text).c_str());
+}
+void checkMention(const std::string& text, const std::string& part) {
+  STRCMP_CONTAINS(part.c_str(), complaintAbout(text).c_str());
+}
+}
+;
+
+TEST(ReadConfig, SchemaAloneGivesTheDefaultFinger) {
+  const FingerConfig read = readConfig("schema = 1", "f.toml");
+  STRCMP_EQUAL(writeConfig(FingerConfig{}).c_str(), writeConfig(read).c_str());
+}
+
+TEST(ReadConfig, EveryKeyHasACaseInThisTest) {
+  LONGS_EQUAL(keys().size(), domainCases().size());
+  for (std::size_t i = 0; i < keys().size(); ++i)
+    STRCMP_EQUAL(domainCases()[i].key.c_str(), keys()[i].dotted().c_str());
+}
+
+TEST(ReadConfig, ValuesInTheDomainUpToItsEndsAreAccepted) {
+  for (const DomainCase& c : domainCases())
+    for (const std::string& value : c.inside) checkComplaint(settingOf(c.key, value), "accepted");
+}
+
+TEST(ReadConfig, ValuesOutOfTheDomainNameTheKeyItsPlaceAndTheDomain) {
+  for (const DomainCase& c : domainCases())
+    for (const std::string& value : c.outside) {
+      const std::string text = complaintAbout(settingOf(c.key, value));
+      const auto column = c.key.size() - c.key.find('.') + 3;
+      STRCMP_CONTAINS(fmt::format("f.toml:3:{}: {} = ", column, c.key).c_str(), text.c_str());
+      STRCMP_CONTAINS(" is out of its domain; it must be ", text.c_str());
+    }
+}
+
+TEST(ReadConfig, NotANumberAndTheInfinitiesAreInNoDomain) {
+  for (const Key& key : keys()) {
+    if (!std::holds_alternative<double& (*)(FingerConfig&)>(key.slot)) continue;
+    for (const char* value : {"nan", "inf", "-inf"})
+      checkMention(settingOf(key.dotted(), value), key.dotted() + " = " + (value[0] == 'n' ? "nan" : value));
+  }
+}
+
+TEST(ReadConfig, ValuesOfAnotherTypeNameTheKeyAndBothTypes) {
+  for (const Key& key : keys()) {
+    checkMention(settingOf(key.dotted(), "true"), key.dotted() + " is a boolean; it must be ");
+    checkMention(settingOf(key.dotted(), "[1]"), key.dotted() + " is a list; it must be ");
+    checkMention(settingOf(key.dotted(), "1979-05-27"), key.dotted() + " is a date or time; it must be ");
+    checkMention(settingOf(key.dotted(), "{a = 1}"), key.dotted() + " is a section; it must be ");
+    if (key.name != "component") checkMention(settingOf(key.dotted(), "\"1\""), " is a text; it must be ");
+  }
+}
+
+TEST(ReadConfig, AnIntegerIsTakenForARealNumberNotTheReverse) {
+  DOUBLES_EQUAL(45, readConfig(settingOf("gauges.first_angle_deg", "45"), "f").gauges.first_angle_deg, 0);
+  checkComplaint(settingOf("gauges.count", "16.0"),
+                 "f.toml:3:9: gauges.count is a real number; it must be an integer: even, 12 to 32");
+  checkMention(settingOf("gauges.component", "0"),
+               "gauges.component is an integer; it must be a text in quotes");
+}
+
+TEST(ReadConfig, EachKeySetsItsOwnMemberAndNoOther) {
+  for (std::size_t i = 0; i < keys().size(); ++i) {
+    const std::string& value = domainCases()[i].inside.back();
+    const FingerConfig read = readConfig(settingOf(keys()[i].dotted(), value), "f");
+    for (std::size_t j = 0; j < keys().size(); ++j) {
+      const double expected = i != j ? number({}, keys()[j]) : value[0] == '"' ? 2 : std::stod(value);
+      DOUBLES_EQUAL(expected, number(read, keys()[j]), 0);
+    }
+  }
+}
+
+TEST(ReadConfig, UnknownKeysAreNamedWithWhatWasProbablyMeant) {
+  checkComplaint(settingOf("gauges.counts", "16"),
+                 "f.toml:3:1: unknown key gauges.counts; did you mean gauges.count?");
+  checkComplaint(settingOf("finger.poison_ratio", "0.5"),
+                 "f.toml:3:1: unknown key finger.poison_ratio; did you mean finger.poisson_ratio?");
+  checkMention(settingOf("contact.friction_coefficien", "1"), "did you mean contact.friction_coefficient?");
+  checkMention(settingOf("contact.friction__coefficient", "1"), "did you mean contact.friction_coefficient?");
+  checkMention(settingOf("can.zzz", "1"), "unknown key can.zzz; known here: can.node, can.bitrate, ");
+}
+
+TEST(ReadConfig, AKeyInTheWrongSectionIsSentToTheRightOne) {
+  checkMention(settingOf("finger.adc_bits", "12"), "did you mean gauges.adc_bits?");
+  checkComplaint("schema = 1\nbitrate = 1", "f.toml:2:1: unknown key bitrate; did you mean can.bitrate?");
+}
+
+TEST(ReadConfig, UnknownSectionsAreNamedWithWhatWasProbablyMeant) {
+  checkMention("schema = 1\n[guages]\ncount = 16", "unknown key guages; did you mean gauges?");
+  checkMention("schema = 1\n[zzzzzzzz]",
+               "unknown key zzzzzzzz; known here: schema, finger, gauges, contact, can");
+}
+
+TEST(ReadConfig, ASectionThatIsAValueIsAnError) {
+  checkComplaint("schema = 1\nfinger = 3",
+                 "f.toml:2:10: finger is an integer; it must be a section: [finger]");
+  checkMention("schema = 1\n[[gauges]]", "gauges is a list; it must be a section: [gauges]");
+}
+
+TEST(ReadConfig, SchemaMustBeThereAndRight) {
+  checkMention("", "f.toml:1:1: schema is missing; the file must begin with schema = 1");
+  checkMention("[finger]\n", "schema is missing");
+  checkComplaint("schema = 2", "f.toml:1:10: schema = 2 is out of its domain; it must be one of 1");
+  checkMention("schema = \"1\"", "schema is a text; it must be an integer: one of 1");
+}
+
+TEST(ReadConfig, SyntaxErrorsPointAtTheirPlace) {
+  checkMention("schema = 1\n[finger\n", "f.toml:2:8: ");
+  checkMention("schema = 1\ncan.node = 1\ncan.node = 2\n", "f.toml:3:");
+  checkMention(std::string("schema = 1\n\0", 12), "f.toml:2:1: ");
+  checkMention("schema = 1 # \xff\xfe", "f.toml:1:");
+}
+
+TEST(ReadConfig, ConditionsBetweenKeysNameThemAllAndPointIntoTheFile) {
+  checkComplaint(
+      settingOf("finger.core_radius_m", "0.0127"),
+      "f.toml:3:17: finger.core_radius_m = 0.0127 must be less than finger.outer_radius_m = 0.0127");
+  checkComplaint(settingOf("gauges.radius_m", "0.0127"),
+                 "f.toml:3:12: gauges.radius_m = 0.0127 is outside the rubber: it must be at least "
+                 "finger.core_radius_m = 0.0089, less than finger.outer_radius_m = 0.0127");
+  checkMention(settingOf("gauges.radius_m", "8.8999e-3"), "is outside the rubber");
+  checkMention(settingOf("finger.outer_radius_m", "0.0094"),
+               "f.toml:3:18: gauges.radius_m = 0.0094 is outside");
+  checkMention(settingOf("gauges.arc_length_m", "3.7e-3"), "gauges.count = 16");
+  checkMention(settingOf("contact.width_m", "0.0128"), "must be at most finger.outer_radius_m = 0.0127");
+  checkMention(settingOf("can.bitrate", "125000"),
+               "f.toml:3:11: can.contact_rate_hz = 500 needs up to 135000");
+}
+
+TEST(ReadConfig, AnUnreadableFileIsNamedWithTheReason) {
+  for (const auto& [path, reason] :
+       {std::pair{"/nonexistent/f.toml", "No such file"}, {"/", "Is a directory"}}) {
+    try {
+      readConfigFile(path);
+      FAIL("accepted");
+    } catch (const Failure& failure) {
+      LONGS_EQUAL(static_cast<int>(ExitCode::kUsage), static_cast<int>(failure.code()));
+      STRCMP_CONTAINS(path, failure.what());
+      STRCMP_CONTAINS(reason, failure.what());
+    }
+  }
+}
+
+TEST(ReadConfig, AFileReadsLikeItsText) {
+  const std::string path = fmt::format("{}/read_config_test.{}.toml", P_tmpdir, getpid());
+  std::FILE* file = std::fopen(path.c_str(), "w");
+  std::fputs(settingOf("can.node", "7").c_str(), file);
+  std::fclose(file);
+  LONGS_EQUAL(7, readConfigFile(path).can.node);
+  std::remove(path.c_str());
+}

@@ -1,0 +1,57 @@
+#include "host/config/write_config.hpp"
+
+#include <random>
+#include <string>
+
+#include "host/config/keys.hpp"
+#include "tests/host/config/ConfigTest.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::config;
+
+TEST_GROUP(WriteConfig) {
+  std::mt19937_64 random{20240611};
+  double uniform(double low, double high) {
+    return low + (high - low) * static_cast<double>(random()) * 0x1p-64;
+  }
+
+  FingerConfig anyConfig() {
+    FingerConfig any;
+    any.finger = {uniform(0.001, 0.009), uniform(0.0126, 1), uniform(1e-3, 1), uniform(1, 1e12),
+                  uniform(0, 0.5)};
+    any.gauges = {12 + 2 * static_cast<int>(random() % 11),
+                  uniform(0.009, 0.0125),
+                  StrainComponent::kShear,
+                  uniform(0, 359),
+                  uniform(0, 1e-3),
+                  uniform(1e-9, 0.1),
+                  uniform(1e-9, 0.1),
+                  9};
+    any.contact = {uniform(0, 10), uniform(0, 0.01)};
+    any.can = {1 + static_cast<int>(random() % 63), 500000, uniform(20, 1000)};
+    return any;
+  }
+
+  void checkSame(FingerConfig a, FingerConfig b) {
+    for (const Key& key : keys())
+      std::visit([&](auto slot) { CHECK_TEXT(slot(a) == slot(b), key.dotted().c_str()); }, key.slot);
+  }
+};
+
+TEST(WriteConfig, RandomConfigsReadBackExactly) {
+  UT_PRINT("seed 20240611");
+  for (int i = 0; i < 1000; ++i) {
+    const FingerConfig any = anyConfig();
+    checkSame(any, readConfig(writeConfig(any), "f.toml"));
+  }
+}
+
+TEST(WriteConfig, EveryKeyIsDocumentedWithItsDomain) {
+  const std::string text = writeConfig({});
+  for (const Key& key : keys()) STRCMP_CONTAINS(std::string(key.doc).c_str(), text.c_str());
+  STRCMP_CONTAINS("# gauges in the ring, evenly spaced [even, 12 to 32]\ncount = 16\n", text.c_str());
+  STRCMP_CONTAINS("# the strain the gauges read [one of radial, hoop, shear]\ncomponent = \"radial\"\n",
+                  text.c_str());
+}

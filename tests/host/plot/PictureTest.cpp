@@ -1,0 +1,74 @@
+#include "host/plot/picture.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <string>
+
+#include "host/base/failure.hpp"
+#include "tests/host/plot/TemporaryFolder.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::plot;
+
+TEST_GROUP(Picture) {
+  const TemporaryFolder folder;
+  Picture picture{320, 200, "plot data('curve') using 1:(gap(2)) every ::1 with lines\n", {}};
+
+  void setup() override {
+    const double gap = std::numeric_limits<double>::quiet_NaN();
+    picture.data = {{"curve", {"x", "y"}, {{0, 1}, {1, gap}, {2, 0.1}}}};
+  }
+  std::string contentOf(const std::string& name) {
+    std::ifstream file(folder.file(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  }
+  std::string complaintAbout(const std::string& path, ExitCode expected) {
+    try {
+      draw(picture, path);
+    } catch (const Failure& failure) {
+      LONGS_EQUAL(static_cast<int>(expected), static_cast<int>(failure.code()));
+      return failure.what();
+    }
+    return "drawn";
+  }
+};
+
+TEST(Picture, APngIsDrawnInTheSizeAskedFor) {
+  draw(picture, folder.file("a.png"));
+  const std::string png = contentOf("a.png");
+  STRCMP_EQUAL("PNG", png.substr(1, 3).c_str());
+  LONGS_EQUAL(320, static_cast<unsigned char>(png[18]) * 256 + static_cast<unsigned char>(png[19]));
+  LONGS_EQUAL(200, static_cast<unsigned char>(png[22]) * 256 + static_cast<unsigned char>(png[23]));
+}
+
+TEST(Picture, AnSvgIsDrawnWhole) {
+  draw(picture, folder.file("a.svg"));
+  STRCMP_CONTAINS("</svg>", contentOf("a.svg").c_str());
+}
+
+TEST(Picture, DataAndScriptStayBesideThePicture) {
+  draw(picture, folder.file("a.svg"));
+  STRCMP_EQUAL("x,y\n0,1\n1,\n2,0.10000000000000001\n", contentOf("a-curve.csv").c_str());
+  STRCMP_EQUAL(completeScript(picture, "a", ".svg").c_str(), contentOf("a.gp").c_str());
+}
+
+TEST(Picture, OtherEndingsAreAUsageErrorAndLeaveNothingBehind) {
+  STRCMP_EQUAL("pictures are .svg or .png, not \".gif\"",
+               complaintAbout(folder.file("a.gif"), ExitCode::kUsage).c_str());
+  CHECK_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(Picture, AFolderThatIsNotThereIsNamedWithTheReason) {
+  STRCMP_CONTAINS("nowhere/a.gp: cannot write the file: No such file or directory",
+                  complaintAbout(folder.file("nowhere/a.png"), ExitCode::kFailure).c_str());
+}
+
+TEST(Picture, WhatGnuplotComplainsAboutIsPassedOn) {
+  picture.script = "plot nonsense\n";
+  STRCMP_CONTAINS("undefined variable: nonsense",
+                  complaintAbout(folder.file("a.png"), ExitCode::kFailure).c_str());
+}

@@ -1,0 +1,69 @@
+#include "host/simulation/converter.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "host/base/failure.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::simulation;
+
+TEST_GROUP(Converter){config::Gauges gaugesOf(int bits){config::Gauges gauges;
+gauges.adc_bits = bits;
+return gauges;
+}
+}
+;
+
+TEST(Converter, CodesAreLeftJustifiedWithZeroStrainInTheMiddle) {
+  const Converter converter(gaugesOf(12));
+  LONGS_EQUAL(0x8000, converter.codeOf(0));
+  LONGS_EQUAL(0x8010, converter.codeOf(converter.step_strain()));
+  LONGS_EQUAL(0x7FF0, converter.codeOf(-converter.step_strain()));
+  LONGS_EQUAL(0xC000, converter.codeOf(0.015));
+  DOUBLES_EQUAL(0.06 / 4096, converter.step_strain(), 1e-20);
+}
+
+TEST(Converter, TheNearestCodeIsTaken) {
+  const Converter converter(gaugesOf(8));
+  LONGS_EQUAL(0x8000, converter.codeOf(0.499 * converter.step_strain()));
+  LONGS_EQUAL(0x8100, converter.codeOf(0.501 * converter.step_strain()));
+  LONGS_EQUAL(0x8000, converter.codeOf(-0.499 * converter.step_strain()));
+  LONGS_EQUAL(0x7F00, converter.codeOf(-0.501 * converter.step_strain()));
+}
+
+TEST(Converter, BeyondTheEndsItStaysAtItsRails) {
+  for (const double strain : {-0.03, -0.031, -1e300, -HUGE_VAL, std::nan("")})
+    LONGS_EQUAL(0, Converter(gaugesOf(12)).codeOf(strain));
+  for (const double strain : {0.03, 0.031, 1e300, HUGE_VAL}) {
+    LONGS_EQUAL(0xFFF0, Converter(gaugesOf(12)).codeOf(strain));
+    LONGS_EQUAL(0xFFFF, Converter(gaugesOf(16)).codeOf(strain));
+  }
+}
+
+TEST(Converter, EveryCodeIsTheCodeOfItsStrain) {
+  for (int bits = 8; bits <= 16; ++bits) {
+    const Converter converter(gaugesOf(bits));
+    for (int code = 0; code < 0x10000; code += 1 << (16 - bits))
+      LONGS_EQUAL(code, converter.codeOf(converter.strainOf(static_cast<std::uint16_t>(code))));
+  }
+}
+
+TEST(Converter, AnalogNoiseIsWhatQuantisationLeaves) {
+  // Default: step 0.06/4096, so sqrt(6e-6^2 - (0.06/4096)^2 / 12) = 4.25660e-6.
+  DOUBLES_EQUAL(4.25660e-6, analogNoise_strain(config::Gauges{}), 1e-11);
+}
+
+TEST(Converter, NoiseBelowTheQuantisationNamesTheKeysThatDecideIt) {
+  try {
+    analogNoise_strain(gaugesOf(11));
+    FAIL("accepted");
+  } catch (const Failure& failure) {
+    LONGS_EQUAL(static_cast<int>(ExitCode::kUsage), static_cast<int>(failure.code()));
+    for (const char* part :
+         {"gauges.noise_strain = 6e-06", "gauges.adc_bits = 11", "gauges.full_scale_strain = 0.03"})
+      STRCMP_CONTAINS(part, failure.what());
+  }
+}

@@ -6,15 +6,9 @@
 
 #include "common/quantities.hpp"
 #include "common/table_image.hpp"
-#include "firmware/core/window_fit.hpp"
+#include "firmware/core/problem.hpp"
 
 namespace strainfinger::firmware {
-
-/// Which gauges a fit looks at once the neighbours have decided where it starts.
-enum class FitMode : std::uint8_t {
-  kThreePoint,  ///< three well-conditioned readings, as the paper concludes
-  kRefined,     ///< all seven of the window
-};
 
 /// A line contact at `position` [pitches * 2^20 from gauge 0, within the ring] with the amplitudes of its
 /// loads (tangential + towards +theta).

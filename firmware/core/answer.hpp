@@ -11,7 +11,8 @@ namespace strainfinger::firmware {
 struct Answer {
   WindowFit fit;
   Amplitudes amplitudes{};
-  std::int32_t energy = -1;  ///< that all seven gauges say it explains
+  std::int32_t energy = -1;    ///< that all seven gauges say it explains
+  std::int32_t standing = -1;  ///< the energy, and what a contact there may have left outside the window
   bool settled = false;
   bool withinCone = false;  ///< presses, and no harder sideways than friction allows
   bool found = false;
@@ -19,7 +20,7 @@ struct Answer {
   bool betterThan(const Answer& other) const {
     if (!other.found) return true;
     if (admissible() != other.admissible()) return admissible();
-    return energy > other.energy;
+    return standing > other.standing;
   }
   bool admissible() const { return settled && withinCone; }
 };

@@ -79,6 +79,9 @@ Contest contestOf(const Problem& problem) {
   }
   const int anchor = bendAnchor(problem);
   solveWindow(problem, scanWindow(problem, anchor), contest);
+  const WindowFit first = contest.best.fit;
+  if (std::abs(first.offset) > kFarFromMiddle)
+    solveWindow(problem, scanWindow(problem, wrapped(first.centre + first.side, problem.gauges())), contest);
   if (doubtful(problem, contest.best)) solveBestOf(problem, anchor, std::array{-3, -2, 2, 3}, contest);
   return contest;
 }

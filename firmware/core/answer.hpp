@@ -23,6 +23,10 @@ struct Answer {
     return standing > other.standing;
   }
   bool admissible() const { return settled && withinCone; }
+  /// Beyond the last row: what the fit looks for belongs to another window.
+  bool walkedOut() const { return !settled && fit.offset >= kFitRows * kRowSpacing; }
+  /// An answer to reckon with, if only as the next best.
+  bool isRival() const { return found && withinCone && !walkedOut(); }
 };
 
 /// Refines the fit that starts at one offset of a scan. In three-point mode the three readings give the

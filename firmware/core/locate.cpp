@@ -99,8 +99,7 @@ Fit reportOf(const Problem& problem, const Contest& contest) {
   fit.best = placementOf(best, problem.gauges());
   fit.alternative = contest.second.found ? placementOf(contest.second, problem.gauges()) : fit.best;
   const std::int32_t margin = problem.noise(kAmbiguous) + (window >> kAmbiguousShift);
-  fit.ambiguous =
-      contest.second.found && contest.second.withinCone && contest.second.standing > best.standing - margin;
+  fit.ambiguous = contest.second.isRival() && contest.second.standing > best.standing - margin;
   fit.settled = best.admissible();
   fit.normalSlope = best.amplitudes.normalSlope;
   fit.tangentialSlope = best.amplitudes.tangentialSlope;

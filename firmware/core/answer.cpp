@@ -41,7 +41,8 @@ Answer solve(const Problem& problem, const Scan& scan, int start) {
   answer.found = true;
   answer.energy = fit.energy;
   if (problem.mode == FitMode::kThreePoint)
-    answer.energy = fitStep(problem.tables.refined[static_cast<std::size_t>(fit.row)], fit.signal).energy;
+    answer.energy = explainedEnergy(problem.tables.refined[static_cast<std::size_t>(fit.row)], fit.signal,
+                                    fit.offset - fit.row * kRowSpacing);
   const std::int32_t window = energyOf(fit.signal);
   answer.standing = answer.energy + std::min(problem.ringEnergy - window, window >> kTailShift);
   return answer;

@@ -78,7 +78,7 @@ class LineParser : private LineCursor {
     const std::string text(line_.substr(at_, 19));
     std::tm date{};
     const char* end = strptime(text.c_str(), "%Y-%m-%d %H:%M:%S", &date);
-    if (end != text.c_str() + 19 || date.tm_year < 70) return fail("expected a date and a time of day");
+    if (end != text.c_str() + 19) return fail("expected a date and a time of day");
     date.tm_isdst = -1;
     seconds = std::mktime(&date);
     result_.timeForm = TimeForm::kDate;

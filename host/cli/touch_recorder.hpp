@@ -13,7 +13,7 @@ namespace strainfinger::cli {
 /// per second of the run.
 class TouchRecorder {
  public:
-  static constexpr double kTrackPeriod_s = 0.02;  ///< 10 s make an SVG of 250 kB
+  static constexpr double kTrackPeriod_s = 0.025;  ///< 10 s make an SVG of 250 kB
 
   explicit TouchRecorder(const config::FingerConfig& config) : config_(config) {}
 

@@ -62,6 +62,7 @@ class Finger {
   FingerState state() const { return state_; }
   const FingerCounters& counters() const { return counters_; }
   const Observation& lastObservation() const { return observation_; }
+  const Readings& readings() const { return pipeline_.readings(); }  ///< of the last observation
 
  private:
   static constexpr std::uint32_t kHeartbeatPeriod_us = std::uint32_t{kHeartbeatPeriod_ms} * 1000;

@@ -115,11 +115,11 @@ class Finger {
 
   /// A FORCE that the port can't take waits for its CONTACT's sake, but never until it is old.
   void sendForce(std::uint32_t now_us) {
-    if (can_.send(encode(force_, settings_.node))) {
-      ++counters_.touchesSent;
-      forceOwed_ = false;
-    } else if (now_us - contactAt_us_ >= std::uint32_t{kContactPeriod_ms} * 1000) {
+    if (now_us - contactAt_us_ >= std::uint32_t{kContactPeriod_ms} * 1000) {
       ++counters_.forcesLost;
+      forceOwed_ = false;
+    } else if (can_.send(encode(force_, settings_.node))) {
+      ++counters_.touchesSent;
       forceOwed_ = false;
     }
   }

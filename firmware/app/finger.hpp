@@ -54,7 +54,11 @@ class Finger {
     const std::uint32_t now_us = clock_.now_us();
     countUptime(now_us);
     const bool sampled = adc_.read(codes_);
-    if (sampled) take(now_us);
+    if (sampled) {
+      take(now_us);
+    } else if (isConverterSilent(now_us)) {
+      sampledAt_us_ = now_us - kSilentConverter_us;  // no younger when the clock has gone round
+    }
     beat(now_us);
     return sampled;
   }
@@ -76,6 +80,8 @@ class Finger {
     steppedAt_us_ = now_us;
     for (; sinceSecond_us_ >= 1'000'000; sinceSecond_us_ -= 1'000'000) ++uptime_s_;
   }
+
+  bool isConverterSilent(std::uint32_t now_us) const { return now_us - sampledAt_us_ >= kSilentConverter_us; }
 
   void take(std::uint32_t now_us) {
     sampledAt_us_ = now_us;
@@ -133,7 +139,7 @@ class Finger {
     const hal::CanStatus status = can_.status();
     HeartbeatFrame frame;
     frame.state = state_;
-    frame.faults.set(FingerFault::kConverter, now_us - sampledAt_us_ >= kSilentConverter_us);
+    frame.faults.set(FingerFault::kConverter, isConverterSilent(now_us));
     frame.faults.set(FingerFault::kCan, status.dropped != 0 || counters_.forcesLost != 0);
     frame.faults.set(FingerFault::kWatchdogReset, watchdog_.resetCause() == hal::ResetCause::kWatchdog);
     frame.uptime_s = saturate<std::uint16_t>(uptime_s_ < kLongestUptime_s ? uptime_s_ : kLongestUptime_s);

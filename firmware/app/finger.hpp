@@ -53,6 +53,7 @@ class Finger {
   bool step() {
     const std::uint32_t now_us = clock_.now_us();
     countUptime(now_us);
+    if (forceOwed_) sendForce(now_us);
     const bool sampled = adc_.read(codes_);
     if (sampled) {
       take(now_us);
@@ -104,7 +105,6 @@ class Finger {
   void observe(std::uint32_t now_us) {
     observation_ = pipeline_.process(codes());
     if (observation_.fit) ++counters_.fits;
-    if (forceOwed_) sendForce(now_us);
     if (forceOwed_) return;
     const auto frames = reporter_.frames(pipeline_.constants(), observation_, now_us);
     if (!frames) return;

@@ -53,6 +53,7 @@ class Finger {
   bool step() {
     const std::uint32_t now_us = clock_.now_us();
     countUptime(now_us);
+    if (forceOwed_) sendForce(now_us);
     const bool sampled = adc_.read(codes_);
     if (sampled) {
       take(now_us);
@@ -81,9 +82,7 @@ class Finger {
     for (; sinceSecond_us_ >= 1'000'000; sinceSecond_us_ -= 1'000'000) ++uptime_s_;
   }
 
-  bool isConverterSilent(std::uint32_t now_us) const {
-    return now_us - sampledAt_us_ >= kSilentConverter_us;
-  }
+  bool isConverterSilent(std::uint32_t now_us) const { return now_us - sampledAt_us_ >= kSilentConverter_us; }
 
   void take(std::uint32_t now_us) {
     sampledAt_us_ = now_us;
@@ -106,7 +105,6 @@ class Finger {
   void observe(std::uint32_t now_us) {
     observation_ = pipeline_.process(codes());
     if (observation_.fit) ++counters_.fits;
-    if (forceOwed_) sendForce(now_us);
     if (forceOwed_) return;
     const auto frames = reporter_.frames(pipeline_.constants(), observation_, now_us);
     if (!frames) return;

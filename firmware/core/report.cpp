@@ -97,6 +97,7 @@ bool TouchReporter::worthSaying(const TouchFrames& frames, std::uint32_t now_us)
 
 std::optional<TouchFrames> TouchReporter::frames(const TableConstants& constants,
                                                  const Observation& observation, std::uint32_t now_us) {
+  if (!due(now_us)) return std::nullopt;
   const auto next = static_cast<std::uint8_t>(last_.contact.sequence + (any_ ? 1 : 0));
   FingerFlags flags = standing_;
   const bool saturated = (observation.saturated & gaugesUsed(constants, observation)) != 0;
@@ -108,7 +109,6 @@ std::optional<TouchFrames> TouchReporter::frames(const TableConstants& constants
     released.contact.sequence = released.force.sequence = next;
     return released;
   }
-  if (!due(now_us)) return std::nullopt;
   const Contact contact = estimate(constants, *observation.fit);
   flags.set(FingerFlag::kContact);
   flags.set(FingerFlag::kUncertain, contact.uncertain || saturated);

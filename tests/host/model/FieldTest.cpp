@@ -65,7 +65,8 @@ double worstError(const Annulus<double>& finger, double radius_m, const SurfaceL
   for (Eigen::Index k = 0; k < field.rows(); ++k) {
     const auto known = exact.at(load, kAngles_rad[static_cast<std::size_t>(k)]);
     for (Eigen::Index i = 0; i < field.cols(); ++i)
-      errors(k, i) = static_cast<double>(abs(known[kAllRows[static_cast<std::size_t>(i)]] - field(k, i)));
+      errors(k, i) =
+          static_cast<double>(std::abs(known[kAllRows[static_cast<std::size_t>(i)]] - field(k, i)));
   }
   double worst = 0;
   for (Eigen::Index i = 0; i < field.cols(); ++i) {

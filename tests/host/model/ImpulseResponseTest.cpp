@@ -31,11 +31,11 @@ double worstError(const ImpulseResponse& response, const ExactField& exact, Row 
   const SurfaceLoad press{1, 0, 0, width_rad}, drag{0, 1, 0, width_rad};
   double worst = 0, peak = 0;
   for (const double angle_rad : {0.0, 0.02, -0.1, 0.2, 0.5, -1.0, 2.0, 3.1}) {
-    const Wide normal = exact.at(press, angle_rad, gauge_rad)[row];
-    const Wide tangential = exact.at(drag, angle_rad, gauge_rad)[row];
+    const long double normal = exact.at(press, angle_rad, gauge_rad)[row];
+    const long double tangential = exact.at(drag, angle_rad, gauge_rad)[row];
     const auto value = response.at(angle_rad);
-    worst = std::max({worst, static_cast<double>(abs(normal - value.normal)),
-                      static_cast<double>(abs(tangential - value.tangential))});
+    worst = std::max({worst, static_cast<double>(std::abs(normal - value.normal)),
+                      static_cast<double>(std::abs(tangential - value.tangential))});
     peak = std::max(peak, std::abs(value.normal));
   }
   return worst / peak;

@@ -48,8 +48,7 @@ struct RunOptions {
     command
         .add_option("--duration", duration_s,
                     "Seconds; without it the loopback runs the scenario once, an interface until Ctrl-C")
-        ->type_name("S")
-        ->check(CLI::Range(kShortest_s, kLongest_s));
+        ->type_name("S");
     command.add_flag("--truth", truth, "Truth beside estimate on stderr, four lines a second");
     command
         .add_option("--picture", pictures,
@@ -77,7 +76,13 @@ simulation::Scenario scenarioOf(const RunOptions& options) {
 }
 
 double durationOf(const RunOptions& options, const simulation::Scenario& scenario) {
-  if (options.duration_s) return *options.duration_s;
+  if (options.duration_s) {
+    // CLI11's ranges let NaN through.
+    if (*options.duration_s >= RunOptions::kShortest_s && *options.duration_s <= RunOptions::kLongest_s)
+      return *options.duration_s;
+    throw Failure(ExitCode::kUsage, fmt::format("--duration: {} s is not from {} to {}", *options.duration_s,
+                                                RunOptions::kShortest_s, RunOptions::kLongest_s));
+  }
   if (!options.isLoopback()) return RunOptions::kLongest_s;
   if (scenario.duration_s() > 0) return scenario.duration_s();
   throw Failure(ExitCode::kUsage, "run: the scenario has no touch and so no end: give --duration S");

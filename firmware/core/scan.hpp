@@ -11,8 +11,8 @@ namespace strainfinger::firmware {
 
 /// A scan reaches so many rows: a little beyond half a pitch, where the next window takes over.
 inline constexpr int kScanReach = 36;
-/// Offsets on either side of the finest scan, of every fourth row.
-inline constexpr int kMaxScanRows = 9;
+/// Offsets on either side of the finest scan.
+inline constexpr int kMaxScanRows = (kScanReach - kMinScanStep / 2) / kMinScanStep + 1;
 
 /// Energies that the seven gauges explain with the contact at each of a row of offsets, from one side of a
 /// window to the other.

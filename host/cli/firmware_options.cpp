@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "host/tables/table_builder.hpp"
+#include "host/tables/self_check.hpp"
 #include "host/tables/table_file.hpp"
 
 namespace strainfinger::cli {
@@ -19,7 +19,7 @@ FirmwareOptions::FirmwareOptions(CLI::App& command) {
 }
 
 std::unique_ptr<TableImage> FirmwareOptions::tables(const config::FingerConfig& config) const {
-  if (tablesPath_.empty()) return std::make_unique<TableImage>(tables::buildTableImage(config));
+  if (tablesPath_.empty()) return std::make_unique<TableImage>(tables::buildCheckedTables(config).image);
   return tables::readTableFile(tablesPath_);
 }
 

@@ -15,7 +15,7 @@ class FirmwareOptions {
  public:
   explicit FirmwareOptions(CLI::App& command);
 
-  /// The image of --tables, whole; else one made from the config.
+  /// The image of --tables, whole; else one made from the config, and checked as `tables` does.
   std::unique_ptr<TableImage> tables(const config::FingerConfig& config) const;
   /// The same; throws Failure(kMismatch) when the image is of another finger than the config's.
   std::unique_ptr<TableImage> tablesOf(const config::FingerConfig& config) const;

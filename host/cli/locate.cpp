@@ -15,6 +15,7 @@
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/firmware_options.hpp"
+#include "host/tables/readings.hpp"
 
 namespace strainfinger::cli {
 namespace {
@@ -36,13 +37,6 @@ struct LocateOptions {
 std::unique_ptr<TableImage> tablesFor(const LocateOptions& options) {
   const config::FingerConfig config = options.common.config();
   return options.common.hasConfig() ? options.firmware.tablesOf(config) : options.firmware.tables(config);
-}
-
-/// As the firmware's conditioning would hand it on: rounded, saturating at what the gate's format holds.
-std::int32_t strainRaw(const TableConstants& constants, double strain) {
-  const std::int64_t limit = (std::int64_t{1} << (15 + constants.gate_shift)) - 1;
-  return static_cast<std::int32_t>(
-      std::clamp<std::int64_t>(fromReal<StrainQ32>(strain).raw(), -limit, limit));
 }
 
 double degrees(TurnQ32 angle) { return toReal(angle) * 360; }
@@ -73,7 +67,7 @@ void runLocate(const LocateOptions& options) {
   firmware::ContactGate gate;
   std::vector<std::int32_t> strains(constants.gauge_count);
   for (std::vector<double> row; rows.next(row);) {
-    for (std::size_t i = 0; i < row.size(); ++i) strains[i] = strainRaw(constants, row[i]);
+    for (std::size_t i = 0; i < row.size(); ++i) strains[i] = tables::readingOf(constants, row[i]);
     const std::uint32_t energy = firmware::gateEnergy(constants, strains);
     const bool touched = gate.update(constants, energy);
     table.row(touched ? cellsOf(firmware::estimate(

@@ -18,11 +18,15 @@ constexpr std::uint32_t kAmbiguous = 12;    ///< answers closer than this are no
 constexpr std::uint32_t kRivalMargin = 32;  ///< a peak of a scan so far behind may still win once refined ..
 constexpr std::uint32_t kUnexplained = 32;  ///< noise alone leaves less in a window ..
 constexpr std::uint32_t kWeak = 1024;  ///< a ring with less energy than this can look right in a wrong window
+constexpr std::uint32_t kAmbiguousWeak = 24;  ///< kAmbiguous there, where the energy is far from quadratic
+constexpr std::uint32_t kFaint = 64;          ///< an answer that explains less than this may be noise
 // .. and in parts of the energy, as powers of two:
 constexpr int kRivalShift = 4;       ///< .. as may one within 1/16
 constexpr int kRoundingShift = 12;   ///< .. beside 1/4096, lost in rounding
 constexpr int kAmbiguousShift = 14;  ///< rounding makes two fits differ by less than this
 constexpr int kOutsideShift = 3;     ///< a contact leaves less than 1/8 of its energy outside its window
+
+bool isWeak(const Problem& problem) { return problem.ringEnergy < problem.noise(kWeak); }
 
 /// Refines every peak of a scan that may yet turn out the best.
 void solveWindow(const Problem& problem, const Scan& scan, Contest& contest) {
@@ -38,8 +42,7 @@ void solveWindow(const Problem& problem, const Scan& scan, Contest& contest) {
 bool doubtful(const Problem& problem, const Answer& answer) {
   const std::int32_t window = energyOf(answer.fit.signal);
   const std::int32_t noise = problem.noise(kUnexplained);
-  return !answer.admissible() || problem.ringEnergy < problem.noise(kWeak) ||
-         std::abs(answer.fit.offset) > kFarFromMiddle ||
+  return !answer.admissible() || isWeak(problem) || std::abs(answer.fit.offset) > kFarFromMiddle ||
          window - answer.energy > noise + (window >> kRoundingShift) ||
          problem.ringEnergy - window > noise + (window >> kOutsideShift);
 }
@@ -55,7 +58,8 @@ void solveBestOf(const Problem& problem, int anchor, const std::array<int, N>& o
   solveWindow(problem, best, contest);
 }
 
-/// Where the model's strongest response has no single peak over the contact, every window is looked at.
+/// Where the model's strongest response has no single peak over the contact, or noise may hide it, every
+/// window is looked at.
 void solveEverywhere(const Problem& problem, Contest& contest) {
   std::array<std::int32_t, kMaxGauges> energies{};
   std::int32_t largest = 0;
@@ -73,7 +77,7 @@ void solveEverywhere(const Problem& problem, Contest& contest) {
 /// The answers of one mode.
 Contest contestOf(const Problem& problem) {
   Contest contest;
-  if (problem.tables.constants.anchor_rule == AnchorRule::kExhaustive) {
+  if (problem.tables.constants.anchor_rule == AnchorRule::kExhaustive || isWeak(problem)) {
     solveEverywhere(problem, contest);
     return contest;
   }
@@ -98,9 +102,10 @@ Fit reportOf(const Problem& problem, const Contest& contest) {
   Fit fit;
   fit.best = placementOf(best, problem.gauges());
   fit.alternative = contest.second.found ? placementOf(contest.second, problem.gauges()) : fit.best;
-  const std::int32_t margin = problem.noise(kAmbiguous) + (window >> kAmbiguousShift);
+  const std::int32_t margin =
+      problem.noise(isWeak(problem) ? kAmbiguousWeak : kAmbiguous) + (window >> kAmbiguousShift);
   fit.ambiguous = contest.second.isRival() && contest.second.standing > best.standing - margin;
-  fit.settled = best.admissible();
+  fit.settled = best.admissible() && best.energy > problem.noise(kFaint);
   fit.normalSlope = best.amplitudes.normalSlope;
   fit.tangentialSlope = best.amplitudes.tangentialSlope;
   fit.information = best.fit.information;

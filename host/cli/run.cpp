@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -42,7 +43,8 @@ struct RunOptions {
         .add_option("--scenario", scenarioPath,
                     "What touches the finger (TOML); the built-in scenario without it")
         ->type_name("FILE");
-    command.add_option("--seed", seed, "Of the noise and of the gauges' zeros (default 1)");
+    command.add_option("--seed", seed, "Of the noise and of the gauges' zeros (default 1)")
+        ->check(CLI::NonNegativeNumber);
     command
         .add_option("--duration", duration_s,
                     "Seconds; without it the loopback runs the scenario once, an interface until Ctrl-C")
@@ -115,11 +117,11 @@ void runOn(Port& port, const RunOptions& options, Wait wait, Afterwards afterwar
   const config::FingerConfig config = options.common.config();
   const auto tables = options.firmware.tablesOf(config);
   const simulation::Scenario scenario = scenarioOf(options);
-  const double duration_s = durationOf(options, scenario);
+  const auto end_us = static_cast<std::uint64_t>(std::llround(durationOf(options, scenario) * 1e6));
   simulation::SimulatedFinger finger(config, scenario, *tables, options.firmware.mode(), options.seed, port);
   Watchers watchers(options, config);
   const system::StopSignal stop;
-  while (finger.elapsed_s() < duration_s && !stop.asked()) {
+  while (finger.elapsed_us() < end_us && !stop.asked()) {
     finger.pass(wait(), [&](const simulation::Moment& moment) { watchers.watch(moment, finger.readings()); });
     afterwards(finger.elapsed_us());
   }

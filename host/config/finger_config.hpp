@@ -3,6 +3,7 @@
 // Nicolson & Fearing (1993) compute with, and electronics that suit it.
 
 #include "common/quantities.hpp"
+#include "host/model/annulus.hpp"
 
 namespace strainfinger::config {
 
@@ -12,6 +13,10 @@ struct Finger {
   double length_m = 0.02;  ///< of the contact line: turns N/m into N
   double shear_modulus_pa = 8.3e4;
   double poisson_ratio = 0.5;
+
+  model::Annulus<double> annulus() const {
+    return {core_radius_m, outer_radius_m, shear_modulus_pa, poisson_ratio};
+  }
 };
 
 struct Gauges {

@@ -51,7 +51,8 @@ class HarmonicModel {
 
   /// Response of harmonic n >= 0. Never overflows; every power in it is of a base <= 1. Where (r / r_b)^n
   /// underflows, so does the response: it loses digits below 1e-307 and ends as 0. Error in double: below
-  /// 2e-14 of the larger of a row's two coefficients. Costs a few powers, about 0.2 us.
+  /// 1e-14 of the larger of a row's two coefficients, 3e-15 for alpha >= 0.08 (kTtt: of kTrr's, if larger).
+  /// Costs a few powers, about 0.2 us.
   HarmonicResponse<Scalar> operator()(int n) const;
 
  private:

@@ -7,15 +7,11 @@ namespace {
 
 constexpr double kTolerance = 1e-9;  ///< of the peak: four orders below a step of a 16-bit converter
 
-model::Annulus<double> annulusOf(const config::Finger& finger) {
-  return {finger.core_radius_m, finger.outer_radius_m, finger.shear_modulus_pa, finger.poisson_ratio};
-}
-
 }  // namespace
 
 GaugeStrains::GaugeStrains(const config::FingerConfig& config)
     : gauges_(config.gauges),
-      response_(annulusOf(config.finger), gauges_.radius_m, gauges_.component, gauges_.arc_length_m,
+      response_(config.finger.annulus(), gauges_.radius_m, gauges_.component, gauges_.arc_length_m,
                 config.contact.width_m, kTolerance) {}
 
 Strains GaugeStrains::under(std::span<const Touch> touches) const {

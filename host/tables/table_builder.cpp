@@ -116,10 +116,9 @@ TableParameters tableParameters(const config::FingerConfig& config) {
 }
 
 TableImage buildTableImage(const config::FingerConfig& config) {
-  const model::Annulus<double> annulus{config.finger.core_radius_m, config.finger.outer_radius_m,
-                                       config.finger.shear_modulus_pa, config.finger.poisson_ratio};
-  const model::ImpulseResponse response(annulus, config.gauges.radius_m, config.gauges.component,
-                                        config.gauges.arc_length_m, config.contact.width_m);
+  const model::ImpulseResponse response(config.finger.annulus(), config.gauges.radius_m,
+                                        config.gauges.component, config.gauges.arc_length_m,
+                                        config.contact.width_m);
   const double peak = peakPerLoad(response);
   const auto fits =
       windowFits(response, config.gauges.count, peak, kConeMargin * config.contact.friction_coefficient);

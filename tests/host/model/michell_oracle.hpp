@@ -1,8 +1,9 @@
 #pragma once
 // The response of one harmonic by another route than the product's: the Michell stress functions r^n, r^-n,
-// r^(n+2), r^(2-n) (for n = 0: ln r, r^2 and the rotations; for n = 1: 1/r, r^3, the single-valued combination
-// of r ln r sin theta and r theta cos theta, and the translation), their stresses and displacements from
-// the paper's sec. 2.3, and the four boundary conditions as a linear system, in 100 digits.
+// r^(n+2), r^(2-n) (for n = 0: ln r, r^2 and the rotations; for n = 1: 1/r, r^3, the single-valued
+// combination of r ln r sin theta and r theta cos theta, and the translation), their stresses and
+// displacements from the paper's sec. 2.3, and the four boundary conditions as a linear system, in 100
+// digits.
 
 #include <Eigen/LU>
 #include <array>
@@ -13,8 +14,8 @@
 
 namespace strainfinger::testing {
 
-using Wide = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>,
-                                           boost::multiprecision::et_off>;
+using Wide =
+    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>, boost::multiprecision::et_off>;
 using WideAnnulus = model::Annulus<Wide>;
 
 /// A double annulus, its numbers taken as exact.
@@ -32,7 +33,8 @@ class MichellOracle {
   explicit MichellOracle(const WideAnnulus& annulus) : finger_(annulus) {}
 
   model::HarmonicResponse<Wide> respond(int n, const Wide& r) const {
-    const std::array<Mode, 4> outer = modes(n, finger_.outer_radius_m), inner = modes(n, finger_.core_radius_m);
+    const std::array<Mode, 4> outer = modes(n, finger_.outer_radius_m),
+                              inner = modes(n, finger_.core_radius_m);
     Eigen::Matrix<Wide, 4, 4> system;
     for (int i = 0; i < 4; ++i) {
       const auto& [o, c] = std::pair{outer[static_cast<std::size_t>(i)], inner[static_cast<std::size_t>(i)]};
@@ -93,7 +95,7 @@ class MichellOracle {
       const Mode& m = modes[static_cast<std::size_t>(i)];
       Eigen::Matrix<Wide, kRowCount, 1> column;
       column << m.trr, m.trt, m.ttt, m.ur / twoMu, m.ut / twoMu, ((1 - nu) * m.trr - nu * m.ttt) / twoMu,
-          ((1 - nu) * m.ttt - nu * m.trr) / twoMu;
+          ((1 - nu) * m.ttt - nu * m.trr) / twoMu, m.trt / twoMu;
       sum += column * factors.row(i);
     }
     return sum;

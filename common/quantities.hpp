@@ -9,6 +9,8 @@ namespace strainfinger {
 
 /// Most gauges a ring can have; every array of gauges has this size.
 inline constexpr int kMaxGauges = 32;
+/// Fewest gauges a ring can have: a window, and enough beyond it to tell windows apart.
+inline constexpr int kMinGauges = 12;
 
 /// Strain, tensor component, extension positive: [-0.5, 0.5) in steps of 2.3e-10.
 using StrainQ32 = Fixed<32, std::int32_t>;

@@ -31,6 +31,10 @@ inline constexpr int kWindowReach = kWindowGauges / 2;
 inline constexpr int kRowsPerPitch = 64;
 inline constexpr int kFitRows = 44;
 
+/// Rows between the starts of a scan: fewer cost more, more would step over a maximum.
+inline constexpr int kMinScanStep = 4;
+inline constexpr int kMaxScanStep = 8;
+
 /// What the image was made from, as in finger.toml. The firmware carries it and doesn't look at it.
 struct TableParameters {
   double core_radius_m;
@@ -46,7 +50,7 @@ struct TableParameters {
   double contact_width_m;
   double friction_coefficient;
   std::uint16_t gauge_count;
-  std::uint8_t component;  ///< StrainComponent
+  StrainComponent component;
   std::uint8_t adc_bits;
   std::uint32_t reserved;  ///< 0
 
@@ -97,10 +101,10 @@ struct FitRow {
   std::array<FoldedWeights, 2> basis;     ///< columns of U [* 2^15]
   std::array<FoldedWeights, 2> gradient;  ///< W_i = (1 - U U^T) B' R^-1 e_i, each scaled to [1/2, 1) [* 2^15]
   std::array<std::int16_t, 3> gram;       ///< W_1.W_1, 2 W_1.W_2, W_2.W_2 of the scaled W [* 2^14]
-  std::array<std::int8_t, 2> lag;         ///< W_i is scaled 2^lag less than the larger of the two
-  std::int8_t gradient_exponent;          ///< true W of the larger one = scaled * 2^gradient_exponent
-  std::int8_t reserved;                   ///< 0
-  std::array<std::int16_t, 3> load;       ///< R^-1: 11, 12, 22 [* 2^-amplitude_exponent]
+  std::array<std::int8_t, 2> lag;    ///< W_i is scaled 2^lag less than the larger of the two; 31: W_i is 0
+  std::int8_t gradient_exponent;     ///< true W of the larger one = scaled * 2^gradient_exponent
+  std::int8_t reserved;              ///< 0
+  std::array<std::int16_t, 3> load;  ///< R^-1: 11, 12, 22 [* 2^-amplitude_exponent]
   std::array<std::int16_t, 4> load_slope;  ///< d(R^-1 U^T)/d(offset) U, per row spacing, row-major, as `load`
 };
 
@@ -129,30 +133,40 @@ static_assert(sizeof(TableImage) == 16 + 104 + 48 + 3 * 88 * kFitRows, "no paddi
 /// Why an image was refused. The numbers go on the bus and into exit statuses: never reuse one.
 enum class TableFault : std::uint8_t {
   kNone = 0,
-  kTooShort = 1,
+  kTooShort = 1,  ///< not even a header
   kMagic = 2,
-  kFormat = 3,
+  kFormat = 3,  ///< another format than kTableFormat
   kLength = 4,
   kChecksum = 5,
   kConstants = 6,  ///< checksum right, but a number is outside what the firmware can work with
 };
 
-/// Bytes that the checksum covers.
+/// Magic, format, length and checksum: what must be there before an image can be judged.
+inline constexpr std::size_t kTableHeaderBytes = offsetof(TableImage, parameters);
+
+/// Bytes that the checksum covers: all behind the header.
 inline std::span<const std::byte> checkedBytes(const TableImage& image) {
-  constexpr std::size_t begin = offsetof(TableImage, crc32) + sizeof(image.crc32);
-  return std::as_bytes(std::span(&image, 1)).subspan(begin);
+  return std::as_bytes(std::span(&image, 1)).subspan(kTableHeaderBytes);
+}
+
+constexpr bool isSign(int value) { return value == 1 || value == -1; }
+
+/// What the firmware's loops and shifts rely on, and names that have a meaning.
+constexpr bool usable(const TableParameters& parameters, const TableConstants& constants) {
+  return parameters.component <= StrainComponent::kShear && constants.gauge_count >= kMinGauges &&
+         constants.gauge_count <= kMaxGauges && constants.gauge_count % 2 == 0 && constants.gate_shift < 16 &&
+         isSign(constants.mirror_sign) && isSign(constants.anchor_sign) &&
+         constants.anchor_rule <= AnchorRule::kExhaustive && constants.scan_step >= kMinScanStep &&
+         constants.scan_step <= kMaxScanStep;
 }
 
 /// Looks at everything that can be wrong with an image of the right size. Cost: one pass over its bytes.
 inline TableFault checkTableImage(const TableImage& image) {
   if (image.magic != kTableMagic) return TableFault::kMagic;
-  if (image.format != kTableFormat) return TableFault::kFormat;
+  if (image.format != kTableFormat || image.reserved != 0) return TableFault::kFormat;
   if (image.image_bytes != sizeof(TableImage)) return TableFault::kLength;
   if (image.crc32 != crc32(checkedBytes(image))) return TableFault::kChecksum;
-  const TableConstants& constants = image.constants;
-  const bool usable = constants.gauge_count >= 12 && constants.gauge_count <= kMaxGauges &&
-                      constants.gate_shift < 32 && constants.anchor_rule <= AnchorRule::kExhaustive;
-  return usable ? TableFault::kNone : TableFault::kConstants;
+  return usable(image.parameters, image.constants) ? TableFault::kNone : TableFault::kConstants;
 }
 
 }  // namespace strainfinger

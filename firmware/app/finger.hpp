@@ -53,8 +53,13 @@ class Finger {
   bool step() {
     const std::uint32_t now_us = clock_.now_us();
     countUptime(now_us);
+    if (forceOwed_) sendForce(now_us);
     const bool sampled = adc_.read(codes_);
-    if (sampled) take(now_us);
+    if (sampled) {
+      take(now_us);
+    } else if (isConverterSilent(now_us)) {
+      sampledAt_us_ = now_us - kSilentConverter_us;  // no younger when the clock has gone round
+    }
     beat(now_us);
     return sampled;
   }
@@ -62,6 +67,7 @@ class Finger {
   FingerState state() const { return state_; }
   const FingerCounters& counters() const { return counters_; }
   const Observation& lastObservation() const { return observation_; }
+  const Readings& readings() const { return pipeline_.readings(); }  ///< of the last observation
 
  private:
   static constexpr std::uint32_t kHeartbeatPeriod_us = std::uint32_t{kHeartbeatPeriod_ms} * 1000;
@@ -75,6 +81,8 @@ class Finger {
     steppedAt_us_ = now_us;
     for (; sinceSecond_us_ >= 1'000'000; sinceSecond_us_ -= 1'000'000) ++uptime_s_;
   }
+
+  bool isConverterSilent(std::uint32_t now_us) const { return now_us - sampledAt_us_ >= kSilentConverter_us; }
 
   void take(std::uint32_t now_us) {
     sampledAt_us_ = now_us;
@@ -97,7 +105,6 @@ class Finger {
   void observe(std::uint32_t now_us) {
     observation_ = pipeline_.process(codes());
     if (observation_.fit) ++counters_.fits;
-    if (forceOwed_) sendForce(now_us);
     if (forceOwed_) return;
     const auto frames = reporter_.frames(pipeline_.constants(), observation_, now_us);
     if (!frames) return;
@@ -114,11 +121,11 @@ class Finger {
 
   /// A FORCE that the port can't take waits for its CONTACT's sake, but never until it is old.
   void sendForce(std::uint32_t now_us) {
-    if (can_.send(encode(force_, settings_.node))) {
-      ++counters_.touchesSent;
-      forceOwed_ = false;
-    } else if (now_us - contactAt_us_ >= std::uint32_t{kContactPeriod_ms} * 1000) {
+    if (now_us - contactAt_us_ >= std::uint32_t{kContactPeriod_ms} * 1000) {
       ++counters_.forcesLost;
+      forceOwed_ = false;
+    } else if (can_.send(encode(force_, settings_.node))) {
+      ++counters_.touchesSent;
       forceOwed_ = false;
     }
   }
@@ -132,7 +139,7 @@ class Finger {
     const hal::CanStatus status = can_.status();
     HeartbeatFrame frame;
     frame.state = state_;
-    frame.faults.set(FingerFault::kConverter, now_us - sampledAt_us_ >= kSilentConverter_us);
+    frame.faults.set(FingerFault::kConverter, isConverterSilent(now_us));
     frame.faults.set(FingerFault::kCan, status.dropped != 0 || counters_.forcesLost != 0);
     frame.faults.set(FingerFault::kWatchdogReset, watchdog_.resetCause() == hal::ResetCause::kWatchdog);
     frame.uptime_s = saturate<std::uint16_t>(uptime_s_ < kLongestUptime_s ? uptime_s_ : kLongestUptime_s);

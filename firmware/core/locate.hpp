@@ -6,15 +6,9 @@
 
 #include "common/quantities.hpp"
 #include "common/table_image.hpp"
-#include "firmware/core/window_fit.hpp"
+#include "firmware/core/problem.hpp"
 
 namespace strainfinger::firmware {
-
-/// Which gauges a fit looks at once the neighbours have decided where it starts.
-enum class FitMode : std::uint8_t {
-  kThreePoint,  ///< three well-conditioned readings, as the paper concludes
-  kRefined,     ///< all seven of the window
-};
 
 /// A line contact at `position` [pitches * 2^20 from gauge 0, within the ring] with the amplitudes of its
 /// loads (tangential + towards +theta).
@@ -27,9 +21,9 @@ struct Placement {
 /// What locate() found, in its own units; estimate.hpp turns it into quantities and errors.
 struct Fit {
   Placement best;
-  Placement alternative;         ///< the next best answer; meaningful when ambiguous
-  bool ambiguous = false;        ///< another answer explains the readings as well, within noise
-  bool settled = false;          ///< the fit converged, presses, and stays within the friction cone
+  Placement alternative;   ///< the next best answer; meaningful when ambiguous
+  bool ambiguous = false;  ///< another answer explains the readings as well, within noise
+  bool settled = false;  ///< the fit converged, presses, stays within the friction cone, and is no mere noise
   std::int32_t normalSlope = 0;  ///< change of the amplitudes per row spacing of offset
   std::int32_t tangentialSlope = 0;
   std::int32_t information = 0;  ///< see FitStep
@@ -43,7 +37,8 @@ struct Fit {
 
 /// Fits one line contact to the strains of a ring that is touched; one strain a gauge, each within
 /// +-2^(15 + gate_shift). `energy`: their gateEnergy().
-/// Bounded time: scans one window, five if that one leaves doubts; at most six steps for each of four starts.
+/// Bounded time: scans one window, five if that one leaves doubts, all for a weak touch; at most six steps
+/// for each of four starts.
 Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t> strains_q32,
            std::uint32_t energy);
 

@@ -25,6 +25,7 @@ class Pipeline {
 
   const TableConstants& constants() const { return tables_->constants; }
   Calibration& calibration() { return calibration_; }
+  const Readings& readings() const { return readings_; }  ///< of the last sample set
 
  private:
   const TableImage* tables_;

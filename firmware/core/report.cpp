@@ -35,6 +35,12 @@ Raw known(std::int64_t value) {
   return static_cast<Raw>(kReserved < 0 ? kReserved + 1 : kReserved - 1);
 }
 
+/// An error is never 0: the field's own step is part of it.
+template <typename Raw>
+Raw knownError(std::int64_t value) {
+  return known<Raw>(value < 1 ? 1 : value);
+}
+
 std::int32_t angleBetween_cdeg(std::uint16_t a, std::uint16_t b) {
   const std::int32_t apart = magnitude(std::int32_t{a} - b);
   return apart > 18000 ? 36000 - apart : apart;
@@ -65,9 +71,10 @@ TouchFrames touchFrames(const TableConstants& constants, const Contact& contact,
   frames.force.normal_mN = known<std::int16_t>(force(constants, contact.normal, 0));
   frames.force.tangential_mN = known<std::int16_t>(force(constants, contact.tangential, 0));
   if (!flags.has(FingerFlag::kSaturated)) {
-    frames.contact.sigma_angle_cdeg = known<std::uint16_t>(centidegrees(contact.sigmaAngle));
-    frames.force.sigma_normal_half_mN = known<std::uint8_t>(force(constants, contact.sigmaNormal, 1));
-    frames.force.sigma_tangential_half_mN = known<std::uint8_t>(force(constants, contact.sigmaTangential, 1));
+    frames.contact.sigma_angle_cdeg = knownError<std::uint16_t>(centidegrees(contact.sigmaAngle));
+    frames.force.sigma_normal_half_mN = knownError<std::uint8_t>(force(constants, contact.sigmaNormal, 1));
+    frames.force.sigma_tangential_half_mN =
+        knownError<std::uint8_t>(force(constants, contact.sigmaTangential, 1));
   }
   frames.contact.flags = frames.force.flags = flags;
   frames.contact.sequence = frames.force.sequence = sequence;
@@ -90,6 +97,7 @@ bool TouchReporter::worthSaying(const TouchFrames& frames, std::uint32_t now_us)
 
 std::optional<TouchFrames> TouchReporter::frames(const TableConstants& constants,
                                                  const Observation& observation, std::uint32_t now_us) {
+  if (!due(now_us)) return std::nullopt;
   const auto next = static_cast<std::uint8_t>(last_.contact.sequence + (any_ ? 1 : 0));
   FingerFlags flags = standing_;
   const bool saturated = (observation.saturated & gaugesUsed(constants, observation)) != 0;
@@ -101,7 +109,6 @@ std::optional<TouchFrames> TouchReporter::frames(const TableConstants& constants
     released.contact.sequence = released.force.sequence = next;
     return released;
   }
-  if (!due(now_us)) return std::nullopt;
   const Contact contact = estimate(constants, *observation.fit);
   flags.set(FingerFlag::kContact);
   flags.set(FingerFlag::kUncertain, contact.uncertain || saturated);

@@ -24,12 +24,12 @@ std::int32_t quotientQ14(std::int32_t numerator, std::int32_t denominator) {
   return static_cast<std::int32_t>(std::clamp(dividend, -limit, limit)) * (1 << kQuotientBits) / divisor;
 }
 
-PitchQ20 stepLength(std::int32_t quotient_q14, int gradientExponent) {
-  const int up = kPitchBits - kQuotientBits - gradientExponent;
-  const std::int64_t length =
-      up >= 0 ? std::int64_t{quotient_q14} * (std::int64_t{1} << up) : std::int64_t{quotient_q14} >> -up;
-  return static_cast<PitchQ20>(std::clamp<std::int64_t>(length, -kLongestStep, kLongestStep));
+std::int64_t shifted(std::int64_t value, int left) {
+  return left >= 0 ? value * (std::int64_t{1} << left) : value >> -left;
 }
+
+/// A quotient * 2^14 is a length in pitches * 2^20, so many bits further left.
+int quotientShift(const FitRow& row) { return kPitchBits - kQuotientBits - row.gradient_exponent; }
 
 int nearestRow(PitchQ20 offset) { return std::min((offset + kRowSpacing / 2) >> kRowBits, kFitRows - 1); }
 
@@ -50,27 +50,53 @@ std::int32_t scaledBy(std::int16_t coefficient, std::int32_t projection) {
   return mulHigh(std::int32_t{coefficient} * 65536, projection);
 }
 
-}  // namespace
+/// What a row says of the offsets beside it.
+struct Gradient {
+  std::array<std::int32_t, 2> projection;
+  std::int32_t numerator;    ///< of the full step, in units of the row's gradient
+  std::int32_t information;  ///< its denominator
+};
 
-FitStep fitStep(const FitRow& row, const Signal& signal) {
+Gradient gradientOf(const FitRow& row, const Signal& signal) {
   const std::int32_t u1 = project(row.basis[0], signal), u2 = project(row.basis[1], signal);
   const std::int32_t n1 = project(row.gradient[0], signal), n2 = project(row.gradient[1], signal);
   const std::int32_t v1 = u1 >> row.lag[0], v2 = u2 >> row.lag[1];
-  const std::int32_t numerator = mulHigh(v1, n1) + mulHigh(v2, n2);
   // Energies stay below 2^27 and Gram numbers (2^14) below 2^15: their high product after these shifts is
   // energy * gram.
   const auto times = [](std::int32_t energy, std::int16_t gram) {
     return mulHigh(energy * 8, std::int32_t{gram} * 32768);
   };
+  return {{u1, u2},
+          mulHigh(v1, n1) + mulHigh(v2, n2),
+          times(mulHigh(v1, v1), row.gram[0]) + times(mulHigh(v1, v2), row.gram[1]) +
+              times(mulHigh(v2, v2), row.gram[2])};
+}
+
+/// A part x of the full step numerator / information gains x (2 numerator - x information).
+std::int32_t energyBeside(const FitRow& row, const Gradient& gradient, PitchQ20 beyondRow) {
+  const std::int64_t x = shifted(beyondRow, -quotientShift(row));
+  const std::int64_t slope =
+      2 * std::int64_t{gradient.numerator} - ((x * gradient.information) >> kQuotientBits);
+  return saturate<std::int32_t>(((slope * x) >> kQuotientBits) +
+                                energyOf(gradient.projection[0], gradient.projection[1]));
+}
+
+}  // namespace
+
+FitStep fitStep(const FitRow& row, const Signal& signal) {
+  const Gradient gradient = gradientOf(row, signal);
+  const std::int64_t full =
+      shifted(quotientQ14(gradient.numerator, gradient.information), quotientShift(row));
   FitStep step;
-  step.projection = {u1, u2};
-  step.information = times(mulHigh(v1, v1), row.gram[0]) + times(mulHigh(v1, v2), row.gram[1]) +
-                     times(mulHigh(v2, v2), row.gram[2]);
-  const std::int32_t quotient = quotientQ14(numerator, step.information);
-  step.energy =
-      energyOf(u1, u2) + static_cast<std::int32_t>((std::int64_t{numerator} * quotient) >> kQuotientBits);
-  step.length = stepLength(quotient, row.gradient_exponent);
+  step.projection = gradient.projection;
+  step.information = gradient.information;
+  step.length = static_cast<PitchQ20>(std::clamp<std::int64_t>(full, -kLongestStep, kLongestStep));
+  step.energy = energyBeside(row, gradient, step.length);
   return step;
+}
+
+std::int32_t explainedEnergy(const FitRow& row, const Signal& signal, PitchQ20 beyondRow) {
+  return energyBeside(row, gradientOf(row, signal), beyondRow);
 }
 
 bool refine(const FitTables& tables, int mirrorSign, WindowFit& fit) {

@@ -26,6 +26,9 @@ struct FitStep {
 };
 FitStep fitStep(const FitRow& row, const Signal& signal);
 
+/// Energy explained with the contact `beyondRow` from the row's offset, at most an eighth of a pitch.
+std::int32_t explainedEnergy(const FitRow& row, const Signal& signal, PitchQ20 beyondRow);
+
 /// The tables a fit works with, by FitSense.
 using FitTables = std::array<const FitTable*, 2>;
 

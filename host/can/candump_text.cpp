@@ -16,6 +16,7 @@ constexpr std::uint32_t kErrorFlag = 0x20000000;
 constexpr std::uint32_t kExtendedMask = 0x1FFFFFFF;
 constexpr std::size_t kClassicBytes = 8;
 constexpr std::size_t kFdBytes = 64;
+constexpr std::int64_t kLastSecond = 9'223'372'035;  // fits 64 bits of nanoseconds, whatever the fraction
 
 /// Reads a line from left to right. Every step returns false after it has noted what is wrong at at_.
 class LineParser : private LineCursor {
@@ -52,8 +53,10 @@ class LineParser : private LineCursor {
     if (peek() != '(') return true;
     ++at_;
     const bool date = line_.substr(at_).find_first_of(" )") == 10 && line_.substr(at_, 10).find('-') == 4;
+    const std::size_t start = at_;
     std::int64_t seconds = 0;
     if (!(date ? parseDate(seconds) : parseSeconds(seconds))) return false;
+    if (seconds < 0 || seconds > kLastSecond) return failBack(at_ - start, "no such time: 1970 to 2262");
     std::int64_t fraction = 0;
     if (!skip(".")) return fail("expected '.' and 6 or 9 digits of a second");
     const std::size_t count = digits(fraction, 6, 9);
@@ -65,10 +68,8 @@ class LineParser : private LineCursor {
   }
 
   bool parseSeconds(std::int64_t& seconds) {
-    constexpr std::int64_t kMost = 9'223'372'035;  // fits 64 bits of nanoseconds, whatever the fraction
     const std::size_t count = digits(seconds, 1, 10);
-    if (count == 0 || seconds > kMost)
-      return failBack(count, "expected a time: seconds, or date and time of day");
+    if (count == 0) return fail("expected a time: seconds, or date and time of day");
     result_.timeForm = count == 10 ? TimeForm::kAbsolute : TimeForm::kRelative;
     return true;
   }
@@ -77,7 +78,7 @@ class LineParser : private LineCursor {
     const std::string text(line_.substr(at_, 19));
     std::tm date{};
     const char* end = strptime(text.c_str(), "%Y-%m-%d %H:%M:%S", &date);
-    if (end != text.c_str() + 19 || date.tm_year < 70) return fail("expected a date and a time of day");
+    if (end != text.c_str() + 19) return fail("expected a date and a time of day");
     date.tm_isdst = -1;
     seconds = std::mktime(&date);
     result_.timeForm = TimeForm::kDate;

@@ -128,6 +128,7 @@ void checkProtocol(const Tally& tally) {
 
 void runDecode(const DecodeOptions& options) {
   Decoder decoder(options);
+  std::cin.tie(nullptr);  // what is out is flushed above, and checked
   for (std::string line; std::getline(std::cin, line);) decoder.decodeLine(line);
   const Tally& tally = decoder.tally();
   summarise(tally);

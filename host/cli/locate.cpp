@@ -2,7 +2,6 @@
 
 #include <iostream>
 #include <limits>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,8 +14,8 @@
 #include "host/base/number_rows.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
-#include "host/tables/table_builder.hpp"
-#include "host/tables/table_file.hpp"
+#include "host/cli/firmware_options.hpp"
+#include "host/tables/readings.hpp"
 
 namespace strainfinger::cli {
 namespace {
@@ -29,35 +28,15 @@ constexpr const char* kHelp =
     "stdout: one row a sample; contact is 1 or 0, and without contact the other columns are empty.\n"
     "quality: percent, 20 or less when the answer is uncertain (another angle fits as well, or none fits).";
 
-using firmware::FitMode;
-
 struct LocateOptions {
-  explicit LocateOptions(CLI::App& command) : common(command) {
-    command.add_option("--tables", tablesPath, "Table image (tables -o); made from the config without it")
-        ->type_name("FILE");
-    const std::map<std::string, FitMode> modes{{"three-point", FitMode::kThreePoint},
-                                               {"refined", FitMode::kRefined}};
-    command.add_option("--mode", mode, "three-point or refined (default)")
-        ->transform(CLI::CheckedTransformer(modes).description("MODE"));
-  }
+  explicit LocateOptions(CLI::App& command) : common(command), firmware(command) {}
   CommonOptions common;
-  std::string tablesPath;
-  FitMode mode = FitMode::kRefined;
+  FirmwareOptions firmware;
 };
 
 std::unique_ptr<TableImage> tablesFor(const LocateOptions& options) {
   const config::FingerConfig config = options.common.config();
-  if (options.tablesPath.empty()) return std::make_unique<TableImage>(tables::buildTableImage(config));
-  auto image = tables::readTableFile(options.tablesPath);
-  if (options.common.hasConfig()) tables::requireTablesOf(*image, config, options.tablesPath);
-  return image;
-}
-
-/// As the firmware's conditioning would hand it on: rounded, saturating at what the gate's format holds.
-std::int32_t strainRaw(const TableConstants& constants, double strain) {
-  const std::int64_t limit = (std::int64_t{1} << (15 + constants.gate_shift)) - 1;
-  return static_cast<std::int32_t>(
-      std::clamp<std::int64_t>(fromReal<StrainQ32>(strain).raw(), -limit, limit));
+  return options.common.hasConfig() ? options.firmware.tablesOf(config) : options.firmware.tables(config);
 }
 
 double degrees(TurnQ32 angle) { return toReal(angle) * 360; }
@@ -88,11 +67,11 @@ void runLocate(const LocateOptions& options) {
   firmware::ContactGate gate;
   std::vector<std::int32_t> strains(constants.gauge_count);
   for (std::vector<double> row; rows.next(row);) {
-    for (std::size_t i = 0; i < row.size(); ++i) strains[i] = strainRaw(constants, row[i]);
+    for (std::size_t i = 0; i < row.size(); ++i) strains[i] = tables::readingOf(constants, row[i]);
     const std::uint32_t energy = firmware::gateEnergy(constants, strains);
     const bool touched = gate.update(constants, energy);
-    table.row(touched ? cellsOf(firmware::estimate(constants,
-                                                   firmware::locate(*image, options.mode, strains, energy)))
+    table.row(touched ? cellsOf(firmware::estimate(
+                            constants, firmware::locate(*image, options.firmware.mode(), strains, energy)))
                       : noContact());
   }
 }

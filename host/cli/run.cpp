@@ -1,7 +1,184 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/base/failure.hpp"
+#include "host/can/candump_text.hpp"
+#include "host/can/loopback_port.hpp"
+#include "host/can/socketcan_port.hpp"
+#include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/firmware_options.hpp"
+#include "host/cli/run_summary.hpp"
+#include "host/cli/touch_recorder.hpp"
+#include "host/cli/truth_table.hpp"
+#include "host/simulation/read_scenario.hpp"
+#include "host/simulation/simulated_finger.hpp"
+#include "host/system/metronome.hpp"
+#include "host/system/stop_signal.hpp"
 
 namespace strainfinger::cli {
+namespace {
 
-void addRun(CLI::App&) {}
+constexpr const char* kLoopback = "loopback";
+
+constexpr const char* kHelp =
+    "The finger itself on this machine: the firmware's own code, simulated gauges, frames on CAN.\n"
+    "--can loopback: needs no kernel support, runs as fast as it can and prints what `candump -L` would; the "
+    "same seed gives the same output.\n"
+    "--can IFACE: a SocketCAN interface (vcan0, can0), in real time, a sample set every millisecond; prints "
+    "nothing on stdout.\n"
+    "At the end stderr has a summary with the errors against the truth (--json: as one object). Ctrl-C ends "
+    "a run as its duration would, with exit status 130.";
+
+struct RunOptions {
+  explicit RunOptions(CLI::App& command) : common(command), firmware(command) {
+    command.add_option("--can", interface, "Interface, or loopback (default)")->type_name("IFACE");
+    command
+        .add_option("--scenario", scenarioPath,
+                    "What touches the finger (TOML); the built-in scenario without it")
+        ->type_name("FILE");
+    command.add_option("--seed", seed, "Of the noise and of the gauges' zeros (default 1)")
+        ->check(CLI::NonNegativeNumber);
+    command
+        .add_option("--duration", duration_s,
+                    "Seconds; without it the loopback runs the scenario once, an interface until Ctrl-C")
+        ->type_name("S");
+    command.add_flag("--truth", truth, "Truth beside estimate on stderr, four lines a second");
+    command
+        .add_option("--picture", pictures,
+                    "Draws the run (needs gnuplot); ends in .svg or .png, may be given twice")
+        ->type_name("FILE");
+  }
+  static constexpr double kShortest_s = 0.001;
+  static constexpr double kLongest_s = 1e6;
+
+  bool isLoopback() const { return interface == kLoopback; }
+
+  CommonOptions common;
+  FirmwareOptions firmware;
+  std::string interface = kLoopback;
+  std::string scenarioPath;
+  std::uint64_t seed = 1;
+  std::optional<double> duration_s;
+  bool truth = false;
+  std::vector<std::string> pictures;
+};
+
+simulation::Scenario scenarioOf(const RunOptions& options) {
+  return options.scenarioPath.empty() ? simulation::builtInScenario()
+                                      : simulation::readScenarioFile(options.scenarioPath);
+}
+
+double durationOf(const RunOptions& options, const simulation::Scenario& scenario) {
+  if (options.duration_s) {
+    // CLI11's ranges let NaN through.
+    if (*options.duration_s >= RunOptions::kShortest_s && *options.duration_s <= RunOptions::kLongest_s)
+      return *options.duration_s;
+    throw Failure(ExitCode::kUsage, fmt::format("--duration: {} s is not from {} to {}", *options.duration_s,
+                                                RunOptions::kShortest_s, RunOptions::kLongest_s));
+  }
+  if (!options.isLoopback()) return RunOptions::kLongest_s;
+  if (scenario.duration_s() > 0) return scenario.duration_s();
+  throw Failure(ExitCode::kUsage, "run: the scenario has no touch and so no end: give --duration S");
+}
+
+/// What watches a run: the table, the picture, the statistics.
+class Watchers {
+ public:
+  Watchers(const RunOptions& options, const config::FingerConfig& config) : config_(config) {
+    if (options.truth) table_.emplace(stderr, config.finger);
+    if (!options.pictures.empty()) recorder_.emplace(config);
+  }
+
+  void watch(const simulation::Moment& moment, const firmware::Readings& readings) {
+    if (table_) table_->add(moment);
+    if (recorder_) recorder_->add(moment, readings);
+    if (moment.compared) errors_.add(*moment.compared, config_.finger);
+  }
+
+  void draw(const std::vector<std::string>& paths, const simulation::GaugeStrains& strains) const {
+    for (const std::string& path : paths) plot::draw(plot::touchPicture(recorder_->record(strains)), path);
+  }
+
+  const simulation::TouchErrors& errors() const { return errors_; }
+
+ private:
+  config::FingerConfig config_;
+  std::optional<TruthTable> table_;
+  std::optional<TouchRecorder> recorder_;
+  simulation::TouchErrors errors_;
+};
+
+/// Runs a finger on `port` to its end. wait() lets a sample period pass and says how many really did;
+/// afterwards(time_us) comes after the work of each.
+template <typename Port, typename Wait, typename Afterwards>
+void runOn(Port& port, const RunOptions& options, Wait wait, Afterwards afterwards) {
+  const config::FingerConfig config = options.common.config();
+  const auto tables = options.firmware.tablesOf(config);
+  const simulation::Scenario scenario = scenarioOf(options);
+  const auto end_us = static_cast<std::uint64_t>(std::llround(durationOf(options, scenario) * 1e6));
+  simulation::SimulatedFinger finger(config, scenario, *tables, options.firmware.mode(), options.seed, port);
+  Watchers watchers(options, config);
+  const system::StopSignal stop;
+  while (finger.elapsed_us() < end_us && !stop.asked()) {
+    finger.pass(wait(), [&](const simulation::Moment& moment) { watchers.watch(moment, finger.readings()); });
+    afterwards(finger.elapsed_us());
+  }
+  printSummary(stderr, options.common.format(), finger.elapsed_s(), finger.counts(), watchers.errors());
+  watchers.draw(options.pictures, finger.strains());
+  if (stop.asked())
+    throw Failure(ExitCode::kInterrupted, fmt::format("run: interrupted after {:.3f} s", finger.elapsed_s()));
+}
+
+/// The other node of the loopback bus: prints what it hears.
+class Candump {
+ public:
+  explicit Candump(can::LoopbackBus& bus) : port_(bus) {}
+
+  void print(std::uint64_t time_us) {
+    while (const auto frame = port_.receive()) {
+      const auto line = can::formatLogLine(static_cast<std::int64_t>(time_us), kLoopback, *frame) + "\n";
+      if (std::fwrite(line.data(), 1, line.size(), stdout) != line.size())
+        throw Failure(ExitCode::kFailure, "cannot write the output: disk full or reader gone");
+    }
+  }
+
+ private:
+  can::LoopbackPort port_;
+};
+
+void runOnLoopback(const RunOptions& options) {
+  can::LoopbackBus bus;
+  can::LoopbackPort port(bus);
+  Candump candump(bus);
+  runOn(
+      port, options, [] { return std::uint64_t{1}; },
+      [&candump](std::uint64_t time_us) { candump.print(time_us); });
+}
+
+void runOnInterface(const RunOptions& options) {
+  can::SocketCanPort port(options.interface, options.common.config().can.bitrate);
+  std::optional<system::Metronome> metronome;  // starts with the first wait, not while tables are made
+  const auto wait = [&metronome] {
+    if (!metronome)
+      metronome.emplace(std::chrono::microseconds(simulation::SimulatedGauges::kSamplePeriod_us));
+    return metronome->wait();
+  };
+  runOn(port, options, wait, [](std::uint64_t) {});
+}
+
+void runRun(const RunOptions& options) {
+  options.isLoopback() ? runOnLoopback(options) : runOnInterface(options);
+}
+
+}  // namespace
+
+void addRun(CLI::App& app) { addCommand<RunOptions>(app, "run", kHelp, runRun); }
 
 }  // namespace strainfinger::cli

@@ -31,7 +31,7 @@ std::vector<Key> makeKeys() {
        "shear modulus of the rubber"},
       {"finger", "poisson_ratio", slot<&F::finger, &Finger::poisson_ratio>(), Domain::between(0, 0.5),
        "Poisson's ratio of the rubber; 0.5: incompressible"},
-      {"gauges", "count", slot<&F::gauges, &Gauges::count>(), Domain::evenBetween(12, kMaxGauges),
+      {"gauges", "count", slot<&F::gauges, &Gauges::count>(), Domain::evenBetween(kMinGauges, kMaxGauges),
        "gauges in the ring, evenly spaced"},
       {"gauges", "radius_m", slot<&F::gauges, &Gauges::radius_m>(), Domain::above(0, 1),
        "where the gauges are: in the rubber, core_radius_m <= radius_m < outer_radius_m"},

@@ -29,7 +29,7 @@ constexpr const char* kProfilePanels = R"(
 set lmargin at screen 0.072; set rmargin at screen 0.475
 set xrange [0:360]; set xtics 45 format ''
 set arrow 1 from contact,graph 0 to contact,graph 1 nohead linecolor rgb faint dashtype 3
-set tmargin at screen 0.92; set bmargin at screen 0.31
+set tmargin at screen 0.92; set bmargin at screen 0.37
 set label 2 heading at graph 0,1.025 left font ',13'
 set ylabel 'strain (10^{-3})'; set offsets 0,0,graph 0.05,graph 0.05
 plot 0 with lines linewidth 1 linecolor rgb faint notitle, \
@@ -37,7 +37,7 @@ plot 0 with lines linewidth 1 linecolor rgb faint notitle, \
      data('profile') using 1:2 every ::1 with lines linewidth 1.4 linecolor rgb truth title 'truth', \
      data('readings') using 1:2 every ::1 with points pointtype 7 pointsize 1 linecolor rgb reading title 'gauges'
 unset label
-set tmargin at screen 0.27; set bmargin at screen 0.115
+set tmargin at screen 0.325; set bmargin at screen 0.115
 set xtics format '%g°'; set xlabel 'angle around the ring'
 set ylabel 'gauge - fit (10^{-6})'; set offsets 0,0,graph 0.1,graph 0.1
 plot 0 with lines linewidth 1 linecolor rgb truth notitle, \
@@ -134,7 +134,7 @@ DataFile trackData(const TouchRecord& record) {
   return data;
 }
 
-/// What the error panel must show: 98 of 100 errors, rounded up to 1, 2 or 5 times a power of ten [mm].
+/// What the error panel must show: 9 of 10 errors, rounded up to 1, 2 or 5 times a power of ten [mm].
 double errorRange_mm(const TouchRecord& record) {
   std::vector<double> errors;
   for (const TrackPoint& point : record.track) {
@@ -143,7 +143,7 @@ double errorRange_mm(const TouchRecord& record) {
   }
   if (errors.empty()) return 1;
   std::sort(errors.begin(), errors.end());
-  const double needed = errors[errors.size() * 98 / 100];
+  const double needed = errors[errors.size() * 9 / 10];
   const double decade = std::pow(10.0, std::floor(std::log10(needed)));
   for (const double step : {1.0, 2.0, 5.0})
     if (needed <= step * decade) return step * decade;

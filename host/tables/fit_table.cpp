@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/fixed_real.hpp"
+#include "host/base/failure.hpp"
 
 namespace strainfinger::tables {
 namespace {
@@ -31,19 +32,21 @@ int lengthExponent(const WindowVector& vector) {
   return exponent;
 }
 
+/// A column of the gradient so much shorter than the other is rounding noise of a zero (or adds nothing).
+constexpr int kLargestLag = 31;
+
 void fillGradient(FitRow& row, const WindowFit& fit) {
-  std::array<WindowVector, 2> scaled;
-  std::array<int, 2> exponent{};
-  for (int i = 0; i < 2; ++i) {
-    const auto index = static_cast<std::size_t>(i);
-    exponent[index] = lengthExponent(fit.gradient.col(i));
-    scaled[index] = fit.gradient.col(i) * std::ldexp(1.0, -exponent[index]);
-    row.gradient[index] = folded(scaled[index]);
-  }
+  const std::array exponent{lengthExponent(fit.gradient.col(0)), lengthExponent(fit.gradient.col(1))};
   const int larger = std::max(exponent[0], exponent[1]);
+  std::array<WindowVector, 2> scaled{WindowVector::Zero(), WindowVector::Zero()};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const int lag = std::min(larger - exponent[i], kLargestLag);
+    if (lag < kLargestLag)
+      scaled[i] = fit.gradient.col(static_cast<Eigen::Index>(i)) * std::ldexp(1.0, -exponent[i]);
+    row.gradient[i] = folded(scaled[i]);
+    row.lag[i] = static_cast<std::int8_t>(lag);
+  }
   row.gradient_exponent = static_cast<std::int8_t>(larger);
-  for (std::size_t i = 0; i < 2; ++i)
-    row.lag[i] = static_cast<std::int8_t>(std::min(larger - exponent[i], 31));
   row.gram = {q16(scaled[0].dot(scaled[0]), 14), q16(2 * scaled[0].dot(scaled[1]), 14),
               q16(scaled[1].dot(scaled[1]), 14)};
 }
@@ -60,17 +63,41 @@ FitRow fitRow(const WindowFit& fit, int amplitudeExponent) {
   return row;
 }
 
+WindowFit tripleFit(const WindowResponse& response, DirectionRange directions) {
+  const GaugeMask triple = bestTriple(response, directions);
+  if (triple == GaugeMask{})
+    throw Failure(ExitCode::kUsage,
+                  "no three neighbouring gauges can tell where a contact is, so these gauges cannot be used: "
+                  "the response is too narrow or too wide for their spacing; change gauges.count or "
+                  "gauges.radius_m");
+  return windowFit(response, triple);
+}
+
 }  // namespace
 
-WindowFits windowFits(const model::ImpulseResponse& response, int gaugeCount, double unit, double cone) {
+WindowResponses windowResponses(const model::ImpulseResponse& response, int gaugeCount) {
+  WindowResponses responses;
+  for (std::size_t row = 0; row < kFitRows; ++row)
+    responses[row] = windowResponse(response, gaugeCount, static_cast<double>(row) / kRowsPerPitch);
+  return responses;
+}
+
+double peakPerLoad(const WindowResponses& responses) {
+  double peak = 0;
+  for (const WindowResponse& response : responses)
+    peak = std::max(peak, response.value.col(0).cwiseAbs().maxCoeff());
+  return peak;
+}
+
+WindowFits windowFits(const WindowResponses& responses, double peak, double cone) {
+  // A triple good for one sense of the tangential load serves small loads of the other one too.
+  const double overlap = cone / 8;
   WindowFits fits;
   for (std::size_t row = 0; row < kFitRows; ++row) {
-    const auto window = windowResponse(response, gaugeCount, static_cast<double>(row) / kRowsPerPitch, unit);
-    fits.refined[row] = windowFit(window, kAllGauges);
-    // A triple good for one sense of the tangential load serves small loads of the other one too.
-    const double overlap = cone / 8;
-    fits.threePoint[kWithOffset][row] = windowFit(window, bestTriple(window, {-overlap, cone}));
-    fits.threePoint[kAgainstOffset][row] = windowFit(window, bestTriple(window, {-cone, overlap}));
+    const WindowResponse response{responses[row].value / peak, responses[row].slope / peak};
+    fits.refined[row] = windowFit(response, kAllGauges);
+    fits.threePoint[kWithOffset][row] = tripleFit(response, {-overlap, cone});
+    fits.threePoint[kAgainstOffset][row] = tripleFit(response, {-cone, overlap});
   }
   return fits;
 }

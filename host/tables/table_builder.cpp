@@ -1,10 +1,12 @@
 #include "host/tables/table_builder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "common/fixed_real.hpp"
+#include "host/base/failure.hpp"
 #include "host/model/impulse_response.hpp"
 #include "host/tables/fit_table.hpp"
 
@@ -13,6 +15,12 @@ namespace {
 
 /// Fits may come out of the friction cone by noise: this factor times the coefficient is allowed.
 constexpr double kConeMargin = 1.25;
+/// Noise alone makes a load without friction look like one with a coefficient of this.
+constexpr double kLeastCone = 0.1;
+
+double frictionCone(const config::Contact& contact) {
+  return std::max(kConeMargin * contact.friction_coefficient, kLeastCone);
+}
 
 /// Sum of `count` squared unit normal variates that one sample in a billion (z = 6.0) or in a thousand
 /// (z = 3.09) exceeds: Wilson & Hilferty (1931), good to 1 % here.
@@ -20,6 +28,9 @@ double chiSquareQuantile(int count, double z) {
   const double spread = 2.0 / (9.0 * count);
   return count * std::pow(1 - spread + z * std::sqrt(spread), 3);
 }
+
+/// Steps of load that a full scale must have at least, for errors of a few per thousand.
+constexpr double kLeastFullScale = 1024;
 
 struct MantissaExponent {
   double mantissa;  ///< in [2^(bits-1), 2^bits)
@@ -31,16 +42,11 @@ MantissaExponent normalised(double value, int bits) {
   return {std::ldexp(fraction, bits), exponent - bits};
 }
 
-std::uint32_t rounded(double value) { return static_cast<std::uint32_t>(std::llround(value)); }
+std::uint32_t rounded(double value) { return saturate<std::uint32_t>(std::llround(value)); }
 
-double peakPerLoad(const model::ImpulseResponse& response) {
-  double peak = 0;
-  for (int step = 0; step < 1024; ++step) {
-    const auto value = response.at(step * std::numbers::pi / 1024);
-    peak = std::max(peak, std::abs(value.normal));
-  }
-  return peak;
-}
+/// The gate's strains are rounded down: that adds up to one of its steps to a reading, with a mean square of
+/// 1/3, and of 1/2 where the noise is much smaller than a step.
+constexpr double kGateRounding = 0.5;
 
 void fillNoise(TableConstants& constants, double noise_q32, double fullScale_q32) {
   // The converter spans 2 full scales and the zero may lie anywhere in it.
@@ -50,8 +56,9 @@ void fillNoise(TableConstants& constants, double noise_q32, double fullScale_q32
   constants.noise_variance = rounded(variance.mantissa);
   constants.noise_variance_exponent = static_cast<std::int8_t>(variance.exponent);
   const double noiseInGate = std::ldexp(noise_q32, -constants.gate_shift);
+  const double gateVariance = noiseInGate * noiseInGate + kGateRounding;
   const auto gate = [&](double z) {
-    return rounded(chiSquareQuantile(constants.gauge_count, z) * noiseInGate * noiseInGate);
+    return rounded(chiSquareQuantile(constants.gauge_count, z) * gateVariance);
   };
   constants.gate_on = gate(6.0);
   constants.gate_off = gate(3.09);
@@ -68,10 +75,8 @@ void fillLoads(TableConstants& constants, double peak, int amplitudeExponent) {
 
 /// Rings of 16 and more see a single peak over the contact, about a pitch wide. Coarser rings, and shear,
 /// whose response has two, are searched everywhere and twice as finely.
-void fillSearch(TableConstants& constants, const config::Gauges& gauges) {
-  const bool hasOnePeak = gauges.count >= 16 && gauges.component != StrainComponent::kShear;
-  constants.anchor_rule = hasOnePeak ? AnchorRule::kSecondDifference : AnchorRule::kExhaustive;
-  constants.scan_step = hasOnePeak ? 8 : 4;
+bool hasOnePeak(const config::Gauges& gauges) {
+  return gauges.count >= 16 && gauges.component != StrainComponent::kShear;
 }
 
 TableConstants tableConstants(const config::FingerConfig& config, bool peakIsNegative) {
@@ -85,13 +90,33 @@ TableConstants tableConstants(const config::FingerConfig& config, bool peakIsNeg
   constants.reading_gain =
       static_cast<std::int32_t>(rounded(config.gauges.full_scale_strain * powerOfTwo(34)));
   constants.force_per_load_q16 = rounded(config.finger.length_m * 1000 * powerOfTwo(16));
-  constants.friction_cone_q8 =
-      saturate<std::uint16_t>(std::llround(kConeMargin * config.contact.friction_coefficient * 256));
+  constants.friction_cone_q8 = saturate<std::uint16_t>(std::llround(frictionCone(config.contact) * 256));
   constants.adc_rail = static_cast<std::uint16_t>(0xFFFF << (16 - config.gauges.adc_bits));
   constants.mirror_sign = config.gauges.component == StrainComponent::kShear ? -1 : 1;
   constants.anchor_sign = peakIsNegative ? 1 : -1;
-  fillSearch(constants, config.gauges);
+  constants.anchor_rule = AnchorRule::kSecondDifference;
+  constants.scan_step = kMaxScanStep;
   return constants;
+}
+
+/// Readings and loads must fit the firmware's integers.
+void requireFormats(const config::Gauges& gauges, double peak) {
+  const double step = powerOfTwo(-StrainQ32::kFracBits);
+  if (gauges.noise_strain < step)
+    throw Failure(
+        ExitCode::kUsage,
+        fmt::format("gauges.noise_strain = {} is below the firmware's step of strain; it must be at "
+                    "least {:.3g}",
+                    gauges.noise_strain, step));
+  const double fullScale_n_per_m = gauges.full_scale_strain / peak;
+  const double largest = toReal(LineLoadQ12::max()),
+               least = kLeastFullScale * powerOfTwo(-LineLoadQ12::kFracBits);
+  if (!(fullScale_n_per_m >= least && fullScale_n_per_m <= largest))
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("gauges.full_scale_strain = {} is a load of {:.3g} N/m on this finger; the "
+                              "firmware's loads need one from {:.3g} to {:.3g} N/m: change it, or "
+                              "finger.shear_modulus_pa",
+                              gauges.full_scale_strain, fullScale_n_per_m, least, largest));
 }
 
 }  // namespace
@@ -110,7 +135,7 @@ TableParameters tableParameters(const config::FingerConfig& config) {
           .contact_width_m = config.contact.width_m,
           .friction_coefficient = config.contact.friction_coefficient,
           .gauge_count = static_cast<std::uint16_t>(config.gauges.count),
-          .component = static_cast<std::uint8_t>(config.gauges.component),
+          .component = config.gauges.component,
           .adc_bits = static_cast<std::uint8_t>(config.gauges.adc_bits),
           .reserved = 0};
 }
@@ -119,9 +144,10 @@ TableImage buildTableImage(const config::FingerConfig& config) {
   const model::ImpulseResponse response(config.finger.annulus(), config.gauges.radius_m,
                                         config.gauges.component, config.gauges.arc_length_m,
                                         config.contact.width_m);
-  const double peak = peakPerLoad(response);
-  const auto fits =
-      windowFits(response, config.gauges.count, peak, kConeMargin * config.contact.friction_coefficient);
+  const WindowResponses responses = windowResponses(response, config.gauges.count);
+  const double peak = peakPerLoad(responses);
+  requireFormats(config.gauges, peak);
+  const WindowFits fits = windowFits(responses, peak, frictionCone(config.contact));
   TableImage image{};
   image.magic = kTableMagic;
   image.format = kTableFormat;
@@ -134,7 +160,14 @@ TableImage buildTableImage(const config::FingerConfig& config) {
   for (const FitSense sense : {kWithOffset, kAgainstOffset})
     image.three_point[sense] = fitTable(fits.threePoint[sense], exponent);
   image.crc32 = crc32(checkedBytes(image));
+  if (!hasOnePeak(config.gauges)) searchEverywhere(image);
   return image;
+}
+
+void searchEverywhere(TableImage& image) {
+  image.constants.anchor_rule = AnchorRule::kExhaustive;
+  image.constants.scan_step = kMinScanStep;
+  image.crc32 = crc32(checkedBytes(image));
 }
 
 }  // namespace strainfinger::tables

@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <memory>
 
 #include "host/base/failure.hpp"
+#include "host/config/keys.hpp"
 #include "host/tables/table_builder.hpp"
 
 namespace strainfinger::tables {
@@ -44,15 +47,25 @@ std::string readBytes(const std::string& path) {
   }
 }
 
+TableFault faultOf(const TableImage& image, std::size_t bytes) {
+  if (bytes < kTableHeaderBytes) return TableFault::kTooShort;
+  const TableFault fault = checkTableImage(image);
+  const bool isOurs = fault != TableFault::kMagic && fault != TableFault::kFormat;
+  return isOurs && bytes != sizeof(TableImage) ? TableFault::kLength : fault;
+}
+
+/// As finger.toml would have it; the shortest digits that read back exactly.
+std::string textOf(const Cell& value) {
+  return std::visit([](const auto& content) { return fmt::format("{}", content); }, value);
+}
+
 }  // namespace
 
 std::unique_ptr<TableImage> readTableFile(const std::string& path) {
   const std::string bytes = readBytes(path);
   auto image = std::make_unique<TableImage>();
   std::memcpy(image.get(), bytes.data(), std::min(bytes.size(), sizeof(TableImage)));
-  TableFault fault = checkTableImage(*image);
-  const bool isImage = fault != TableFault::kMagic && fault != TableFault::kFormat;
-  if (isImage && bytes.size() != sizeof(TableImage)) fault = TableFault::kLength;
+  const TableFault fault = faultOf(*image, bytes.size());
   if (fault != TableFault::kNone) refuse(path, fault, bytes.size());
   return image;
 }
@@ -63,14 +76,14 @@ std::vector<Parameter> parametersOf(const TableParameters& p) {
           {"finger.length_m", p.length_m},
           {"finger.shear_modulus_pa", p.shear_modulus_pa},
           {"finger.poisson_ratio", p.poisson_ratio},
-          {"gauges.count", static_cast<double>(p.gauge_count)},
+          {"gauges.count", std::int64_t{p.gauge_count}},
           {"gauges.radius_m", p.gauge_radius_m},
-          {"gauges.component", static_cast<double>(p.component)},
+          {"gauges.component", std::string(config::componentName(p.component))},
           {"gauges.first_angle_deg", p.first_angle_deg},
           {"gauges.arc_length_m", p.arc_length_m},
           {"gauges.noise_strain", p.noise_strain},
           {"gauges.full_scale_strain", p.full_scale_strain},
-          {"gauges.adc_bits", static_cast<double>(p.adc_bits)},
+          {"gauges.adc_bits", std::int64_t{p.adc_bits}},
           {"contact.friction_coefficient", p.friction_coefficient},
           {"contact.width_m", p.contact_width_m}};
 }
@@ -81,8 +94,8 @@ void requireTablesOf(const TableImage& image, const config::FingerConfig& config
   std::string differences;
   for (std::size_t i = 0; i < has.size(); ++i) {
     if (has[i].value == wants[i].value) continue;
-    fmt::format_to(std::back_inserter(differences), "\n  {} is {:.17g}, the config has {:.17g}", has[i].key,
-                   has[i].value, wants[i].value);
+    fmt::format_to(std::back_inserter(differences), "\n  {} is {}, the config has {}", has[i].key,
+                   textOf(has[i].value), textOf(wants[i].value));
   }
   if (differences.empty()) return;
   throw Failure(ExitCode::kMismatch,
@@ -103,7 +116,7 @@ std::string imageHeader(const TableImage& image) {
       "// Lookup tables of a finger, made by `strainfinger tables --header`. Not to be edited: make them "
       "anew.\n";
   for (const Parameter& parameter : parametersOf(image.parameters))
-    fmt::format_to(std::back_inserter(text), "//   {} = {}\n", parameter.key, parameter.value);
+    fmt::format_to(std::back_inserter(text), "//   {} = {}\n", parameter.key, textOf(parameter.value));
   fmt::format_to(std::back_inserter(text),
                  "// CRC-32 0x{:08X}\n\n#include <cstdint>\n\nnamespace strainfinger {{\n\n"
                  "alignas(8) inline constexpr std::uint8_t kDefaultTableBytes[{}] = {{",

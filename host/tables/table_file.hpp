@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/table_image.hpp"
+#include "host/base/table_writer.hpp"
 #include "host/config/finger_config.hpp"
 
 namespace strainfinger::tables {
@@ -18,18 +19,19 @@ std::unique_ptr<TableImage> readTableFile(const std::string& path);
 /// give.
 void requireTablesOf(const TableImage& image, const config::FingerConfig& config, const std::string& path);
 
-/// One parameter of an image, as finger.toml names it; `component` and `count` are text too.
+/// One parameter of an image, as finger.toml names and writes it.
 struct Parameter {
   std::string key;
-  double value;
+  Cell value;
 };
 std::vector<Parameter> parametersOf(const TableParameters& parameters);
 
 /// The bytes of an image: a file's content.
 std::string imageBytes(const TableImage& image);
 
-/// A C++ header that defines `strainfinger::kDefaultTableBytes`, the image's bytes aligned for reading in
-/// place.
+/// A C++ header that defines `strainfinger::kDefaultTableBytes`, the image's bytes:
+/// `constinit const TableImage kTables = std::bit_cast<TableImage>(kDefaultTableBytes);` puts them into a
+/// firmware's flash.
 std::string imageHeader(const TableImage& image);
 
 }  // namespace strainfinger::tables

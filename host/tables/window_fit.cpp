@@ -52,14 +52,13 @@ std::array<Variances, kDirections> variancesOver(const WindowFit& fit, Direction
 
 }  // namespace
 
-WindowResponse windowResponse(const model::ImpulseResponse& response, int gaugeCount, double offset_pitch,
-                              double unit) {
+WindowResponse windowResponse(const model::ImpulseResponse& response, int gaugeCount, double offset_pitch) {
   const double pitch_rad = 2 * std::numbers::pi / gaugeCount;
   WindowResponse window;
   for (int k = 0; k < kWindowGauges; ++k) {
     const auto value = response.at((k - kWindowReach - offset_pitch) * pitch_rad);
-    window.value.row(k) << value.normal / unit, value.tangential / unit;
-    window.slope.row(k) << -value.normalSlope * pitch_rad / unit, -value.tangentialSlope * pitch_rad / unit;
+    window.value.row(k) << value.normal, value.tangential;
+    window.slope.row(k) << -value.normalSlope * pitch_rad, -value.tangentialSlope * pitch_rad;
   }
   return window;
 }

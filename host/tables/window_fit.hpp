@@ -17,13 +17,12 @@ using GaugeMask = std::array<bool, kWindowGauges>;
 inline constexpr GaugeMask kAllGauges{true, true, true, true, true, true, true};
 
 /// Responses of a window's gauges to a contact `offset` pitches towards + from the middle gauge: columns
-/// normal and tangential, per unit of `unit`; `slope` is their derivative by the offset in pitches.
+/// normal and tangential [strain per N/m]; `slope` is their derivative by the offset in pitches.
 struct WindowResponse {
   WindowMatrix value;
   WindowMatrix slope;
 };
-WindowResponse windowResponse(const model::ImpulseResponse& response, int gaugeCount, double offset_pitch,
-                              double unit);
+WindowResponse windowResponse(const model::ImpulseResponse& response, int gaugeCount, double offset_pitch);
 
 /// Variable projection (Golub & Pereyra 1973, with Kaufman's simplification): with B = U R the loads of given
 /// offset are R^-1 U^T s, what remains is s - U U^T s, and its derivative by the offset is -W (U^T s).
@@ -44,7 +43,7 @@ struct DirectionRange {
 /// Of all triples, the one whose standard errors of offset and loads, each over the whole window's, are least
 /// in the worst case over `directions`. Three gauges see the offset through one number, which vanishes for
 /// one load direction: it must lie outside. (For the three nearest gauges it is 0 when the contact is over
-/// the middle one.)
+/// the middle one.) An empty mask if there is none.
 GaugeMask bestTriple(const WindowResponse& response, DirectionRange directions);
 
 }  // namespace strainfinger::tables

@@ -38,6 +38,19 @@ TEST(Decode, ReadsAnyFormOfCandump) {
   checkSays("(screen, no time)", run);
 }
 
+TEST(Decode, ReadsWhatCanUtilsMakesOfALog) {
+  // log2long prints with the code that candump prints with; asc2log and log2asc are can-utils' too.
+  const std::string log =
+      contact_ + "(1609779922.655421) can0 12345678#11\n(1609779922.655421) can0 185#R8\n" +
+      "(1609779922.755421) can0 20000080#0000000000000000\n(1609779922.855421) can0 185##311\n" + force_;
+  const Run screen = runShell("log2long | \"$STRAINFINGER\" decode", log);
+  STRCMP_EQUAL(runProgram("decode", contact_ + force_).out.c_str(), screen.out.c_str());
+  checkSays("(screen, absolute time)", screen);
+  const Run again =
+      runShell("log2asc can0 | asc2log 2>/dev/null | \"$STRAINFINGER\" decode | cut -d, -f2-", contact_);
+  STRCMP_EQUAL(runShell("\"$STRAINFINGER\" decode | cut -d, -f2-", contact_).out.c_str(), again.out.c_str());
+}
+
 TEST(Decode, PrintsObjects) {
   const Run run = runProgram("decode --json", force_);
   LONGS_EQUAL(0, run.status);
@@ -67,6 +80,7 @@ TEST(Decode, PicksNodes) {
   LONGS_EQUAL(0, run.status);
   STRCMP_EQUAL("", rows(run).c_str());
   STRCMP_CONTAINS("CONTACT", runProgram("decode --node 1,5", contact_).out.c_str());
+  STRCMP_EQUAL("", rows(runProgram("decode --node 5", "(1.000000) can0 18D#E8032201808161A3\n")).c_str());
   LONGS_EQUAL(2, runProgram("decode --node 64", contact_).status);
 }
 

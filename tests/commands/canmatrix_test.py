@@ -176,6 +176,24 @@ class Canmatrix(unittest.TestCase):
                     f"{field[0]}_{unit}" for unit in ("deg", "n", "s", "percent", "degc")))
                 self.assertEqual(decoded[field[0]].phys_value, Decimal(printed[column]), f"{sent} {column}")
 
+    def test_reads_what_a_running_finger_sends(self):
+        run = subprocess.run([STRAINFINGER, "run", "--can", "loopback", "--duration", "2", "-c", "/dev/stdin"],
+                             input=f"schema = 1\n[can]\nnode = {NODE}\n", capture_output=True, text=True, check=True)
+        seen = {name: [] for name in FRAMES}
+        names = {identifier + NODE: name for name, (identifier, _) in FRAMES.items()}
+        for line in run.stdout.splitlines():
+            identifier, data = line.split()[2].split("#")
+            name = names[int(identifier, 16)]
+            decoded = self.frame(name).decode(bytes.fromhex(data))
+            seen[name].append({key: each.raw_value for key, each in decoded.items()})
+        contacts, forces = seen["CONTACT"], seen["FORCE"]
+        self.assertGreater(len(contacts), 100)
+        self.assertEqual([number % 256 for number in range(len(contacts))], [each["sequence"] for each in contacts])
+        self.assertEqual([each["sequence"] for each in contacts], [each["sequence"] for each in forces])
+        self.assertEqual({1}, {each["simulated"] for each in contacts + forces})
+        self.assertEqual([each["contact"] for each in contacts], [each["contact"] for each in forces])
+        self.assertEqual(20, len(seen["HEARTBEAT"]))
+
 
 if __name__ == "__main__":
     STRAINFINGER, FRAME_CODEC = sys.argv[1:3]

@@ -22,6 +22,13 @@ TEST(FakeCanPort, ABusyPortTakesNothing) {
   LONGS_EQUAL(0, port.sent.size());
 }
 
+TEST(FakeCanPort, TakesAsManyFramesAsThereIsRoom) {
+  port.room = 1;
+  CHECK_TRUE(port.send(kFrame));
+  CHECK_FALSE(port.send(kFrame));
+  LONGS_EQUAL(1, port.sent.size());
+}
+
 TEST(FakeCanPort, BusOffAndDownTakeNothing) {
   for (const CanState state : {CanState::kBusOff, CanState::kDown}) {
     port.bus.state = state;

@@ -1,6 +1,7 @@
 #pragma once
 // A CAN port that does what the test says.
 
+#include <cstdint>
 #include <deque>
 #include <vector>
 
@@ -13,6 +14,7 @@ class FakeCanPort {
   hal::CanStatus bus{.state =
                          hal::CanState::kActive};  ///< what status() says; bus-off and down refuse frames
   bool busy = false;                               ///< the mailboxes are full
+  std::size_t room = SIZE_MAX;                     ///< free mailboxes; every frame takes one for good
   std::vector<CanFrame> sent;                      ///< what send() took
 
   /// Another node's frame arrives.
@@ -20,7 +22,8 @@ class FakeCanPort {
 
   bool send(const CanFrame& frame) noexcept {
     const bool open = bus.state != hal::CanState::kBusOff && bus.state != hal::CanState::kDown;
-    if (busy || !open || !isValid(frame)) return false;
+    if (busy || room == 0 || !open || !isValid(frame)) return false;
+    --room;
     sent.push_back(asReceived(frame));
     return true;
   }

@@ -24,7 +24,8 @@ class FakeSocketCalls final : public can::SocketCalls {
     std::optional<std::uint32_t> lost{};
   };
 
-  int openResult = 0;  ///< these four: 0, or the -errno to fail with
+  int openResult = 0;        ///< these four: 0, or the -errno to fail with
+  int opensThatWork = 1000;  ///< then open() fails with -EMFILE
   int optionResult = 0;
   int indexResult = 0;
   int bindResult = 0;
@@ -41,6 +42,7 @@ class FakeSocketCalls final : public can::SocketCalls {
 
   int open() noexcept override {
     if (openResult < 0) return openResult;
+    if (opensThatWork-- == 0) return -EMFILE;
     hearsErrors_[++lastSocket_] = false;
     return lastSocket_;
   }

@@ -1,4 +1,5 @@
 #include "host/can/loopback_port.hpp"
+#include "host/can/tapped_port.hpp"
 #include "tests/doubles/fake_can_port.hpp"
 #include "tests/hal/can_port_contract.hpp"
 
@@ -26,6 +27,16 @@ class LoopbackBench {
   can::LoopbackPort other_{bus_};
 };
 
+/// The loopback port again, seen through a tap.
+class TappedBench : public LoopbackBench {
+ public:
+  can::TappedPort<can::LoopbackPort>& port() { return tapped_; }
+  std::optional<CanFrame> portHears() { return tapped_.receive(); }
+
+ private:
+  can::TappedPort<can::LoopbackPort> tapped_{LoopbackBench::port()};
+};
+
 class FakeBench {
  public:
   doubles::FakeCanPort& port() { return port_; }
@@ -50,3 +61,4 @@ class FakeBench {
 
 CAN_PORT_CONTRACT(Loopback, LoopbackBench)
 CAN_PORT_CONTRACT(Fake, FakeBench)
+CAN_PORT_CONTRACT(Tapped, TappedBench)

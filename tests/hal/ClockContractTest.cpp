@@ -1,5 +1,6 @@
 #include <thread>
 
+#include "host/simulation/simulated_clock.hpp"
 #include "host/system/steady_clock.hpp"
 #include "tests/doubles/fake_clock.hpp"
 #include "tests/hal/clock_contract.hpp"
@@ -26,7 +27,18 @@ class FakeBench {
   doubles::FakeClock clock_{UINT32_MAX - 1000};  // so that it wraps on the way
 };
 
+class SimulatedBench {
+ public:
+  SimulatedBench() { clock_.advance_us(UINT32_MAX - 1000); }
+  simulation::SimulatedClock& clock() { return clock_; }
+  void pass(std::uint32_t time_us) { clock_.advance_us(time_us); }
+
+ private:
+  simulation::SimulatedClock clock_;
+};
+
 }  // namespace
 
 CLOCK_CONTRACT(Steady, SteadyBench)
 CLOCK_CONTRACT(Fake, FakeBench)
+CLOCK_CONTRACT(Simulated, SimulatedBench)

@@ -1,3 +1,4 @@
+#include "host/simulation/simulated_gauges.hpp"
 #include "tests/doubles/fake_gauge_adc.hpp"
 #include "tests/hal/gauge_adc_contract.hpp"
 
@@ -22,6 +23,26 @@ class FakeBench {
   std::uint16_t code_ = 0;
 };
 
+/// A twin that is read at once tells what each conversion gave; the noise makes every set another.
+class SimulatedBench {
+ public:
+  static constexpr int kGauges = config::Gauges{}.count;
+  static constexpr int kCapacity = simulation::SimulatedGauges::kBuffers;
+  simulation::SimulatedGauges& adc() { return adc_; }
+  hal::SampleSet convert() {
+    clock_.advance_us(simulation::SimulatedGauges::kSamplePeriod_us);
+    hal::SampleSet set{};
+    twin_.read(set);
+    return set;
+  }
+
+ private:
+  simulation::SimulatedClock clock_;
+  simulation::SimulatedGauges adc_{config::FingerConfig{}, simulation::Scenario({}), clock_};
+  simulation::SimulatedGauges twin_{config::FingerConfig{}, simulation::Scenario({}), clock_};
+};
+
 }  // namespace
 
 GAUGE_ADC_CONTRACT(Fake, FakeBench)
+GAUGE_ADC_CONTRACT(Simulated, SimulatedBench)

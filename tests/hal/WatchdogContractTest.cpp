@@ -1,3 +1,4 @@
+#include "host/system/no_watchdog.hpp"
 #include "tests/doubles/spy_watchdog.hpp"
 #include "tests/hal/watchdog_contract.hpp"
 
@@ -13,6 +14,15 @@ class SpyBench {
   doubles::SpyWatchdog watchdog_{hal::ResetCause::kBrownOut};
 };
 
+class NoneBench {
+ public:
+  system::NoWatchdog& watchdog() { return watchdog_; }
+
+ private:
+  system::NoWatchdog watchdog_;
+};
+
 }  // namespace
 
 WATCHDOG_CONTRACT(Spy, SpyBench)
+WATCHDOG_CONTRACT(None, NoneBench)

@@ -12,24 +12,25 @@ using strainfinger::ExitCode;
 using strainfinger::Failure;
 using strainfinger::NumberRowReader;
 
-TEST_GROUP(NumberRows) {
-  static std::vector<std::vector<double>> read(const std::string& text, std::size_t columns = 2) {
-    std::istringstream stream(text);
-    NumberRowReader reader(stream, "stdin", columns);
-    std::vector<std::vector<double>> rows;
-    for (std::vector<double> row; reader.next(row);) rows.push_back(row);
-    return rows;
+TEST_GROUP(NumberRows){
+    static std::vector<std::vector<double>> read(const std::string& text,
+                                                 std::size_t columns = 2){std::istringstream stream(text);
+NumberRowReader reader(stream, "stdin", columns);
+std::vector<std::vector<double>> rows;
+for (std::vector<double> row; reader.next(row);) rows.push_back(row);
+return rows;
+}
+static std::string complaintAbout(const std::string& text) {
+  try {
+    read(text);
+  } catch (const Failure& failure) {
+    LONGS_EQUAL(static_cast<int>(ExitCode::kFailure), static_cast<int>(failure.code()));
+    return failure.what();
   }
-  static std::string complaintAbout(const std::string& text) {
-    try {
-      read(text);
-    } catch (const Failure& failure) {
-      LONGS_EQUAL(static_cast<int>(ExitCode::kFailure), static_cast<int>(failure.code()));
-      return failure.what();
-    }
-    return "none";
-  }
-};
+  return "none";
+}
+}
+;
 
 TEST(NumberRows, RowsAreReadInOrder) {
   const auto rows = read("1,2\n-3.5e-4,+4\n");
@@ -50,7 +51,9 @@ TEST(NumberRows, AWordBelowTheFirstRowIsNamedWithItsPlace) {
   STRCMP_EQUAL("stdin:2:3: \"x\" is no number", complaintAbout("1,2\n3,x\n").c_str());
 }
 
-TEST(NumberRows, AnEmptyFieldIsNamed) { STRCMP_EQUAL("stdin:1:3: \"\" is no number", complaintAbout("1,\n").c_str()); }
+TEST(NumberRows, AnEmptyFieldIsNamed) {
+  STRCMP_EQUAL("stdin:1:3: \"\" is no number", complaintAbout("1,\n").c_str());
+}
 
 TEST(NumberRows, NotANumberAndInfinityAreRefused) {
   STRCMP_EQUAL("stdin:2:1: nan is no finite number", complaintAbout("1,2\nnan,2\n").c_str());

@@ -213,7 +213,9 @@ TEST(CandumpText, SaysWhichFormItIs) {
 
 TEST(CandumpText, SaysWhereATimeIsWrong) {
   checkError(2, "a time", "(x) can0 185#");
-  checkError(2, "a time", "(9223372036.000000) can0 185#");
+  checkError(2, "no such time", "(9223372036.000000) can0 185#");
+  checkError(2, "no such time", "(1960-01-04 18:05:22.655421)  can0  185   [0]");
+  checkError(2, "no such time", "(2721-01-04 18:05:22.655421)  can0  185   [0]");
   checkError(5, "6 or 9 digits", "(160) can0 185#");
   checkError(6, "6 or 9 digits", "(160.12345) can0 185#");
   checkError(6, "6 or 9 digits", "(160.1234567) can0 185#");

@@ -145,6 +145,11 @@ TEST(SocketCanPort, AnyOtherErrorIsTold) {
   STRCMP_EQUAL("cannot open can0: Cannot allocate memory", openingMessage("can0").c_str());
 }
 
+TEST(SocketCanPort, BothSocketsOrNone) {
+  calls.opensThatWork = 1;
+  STRCMP_EQUAL("cannot open can0: Too many open files", openingMessage("can0").c_str());
+}
+
 TEST(SocketCanPort, ANameThatNoInterfaceCanHaveIsTold) {
   STRCMP_EQUAL("no CAN interface '': a name has 1 to 15 characters", openingMessage("").c_str());
   STRCMP_EQUAL("no CAN interface 'a123456789012345': a name has 1 to 15 characters",
@@ -277,6 +282,22 @@ TEST(SocketCanPort, ARemovedInterfaceIsOpenedAgainWhenItComesBack) {
   LONGS_EQUAL(0x222, port->receive().value().id);
   CHECK_TRUE(port->send(kFrame));
   LONGS_EQUAL(2, calls.openSockets());
+}
+
+TEST(SocketCanPort, APortThatOnlyReceivesOpensAReturnedInterfaceToo) {
+  open();
+  interfaceIsRemoved();
+  CHECK_FALSE(port->receive().has_value());
+  LONGS_EQUAL(0, calls.openSockets());
+  calls.indexResult = 0;
+  calls.frames = {dataFrame(0x222)};
+  LONGS_EQUAL(0x222, port->receive().value().id);
+}
+
+TEST(SocketCanPort, AnInterruptedReadOfTheStateIsRepeated) {
+  open();
+  calls.errors = {{.result = -EINTR}, errorFrame(CAN_ERR_CRTL, CAN_ERR_CRTL_TX_PASSIVE)};
+  CHECK_TRUE(port->status().state == CanState::kPassive);
 }
 
 TEST(SocketCanPort, AReceivedFrameHasItsDataAndZeroBeyond) {

@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# demo.sh PROGRAM FOLDER: builds the tables of the default finger, touches a simulated one, and shows truth beside
+# estimate. What it makes stays in FOLDER.
+set -euo pipefail
+program=$1 folder=$2
+mkdir -p "$folder"
+cd "$folder"
+
+step() { printf '\n\033[1m%s\033[0m\n' "$*"; }
+
+step "1. The lookup tables, from the elastic model of the finger"
+"$program" tables -o finger.tables
+"$program" tables verify finger.tables
+
+step "2. A simulated finger, touched: 16 gauges with noise, a 12-bit converter, the firmware's own code"
+"$program" run --can loopback --tables finger.tables --truth --picture touch.png --picture touch.svg >candump.log
+
+step "3. What it sent, as candump -L prints it, and what that says (CONTACT and FORCE of one moment)"
+grep -m1 -A1 ' 181#' <(sed -n '2000,$p' candump.log) | tee moment.log
+"$program" decode <moment.log 2>/dev/null | cut -d, -f1-13
+
+if [ -e /sys/class/net/vcan0 ]; then
+  step "4. The same on vcan0, in real time, for 3 s"
+  "$program" run --can vcan0 --tables finger.tables --duration 3 --truth
+else
+  step "4. This machine has no vcan0, so the bus above was a loopback. Where the kernel has CAN:"
+  echo "     sudo ip link add dev vcan0 type vcan && sudo ip link set vcan0 up"
+  echo "     $program run --can vcan0 & candump vcan0 | $program decode"
+fi
+
+step "In $folder:"
+echo "  touch.png, touch.svg   the strains with the fit, and the track of the contact (look at one)"
+echo "  candump.log            every frame it sent; finger.tables: the flash image of the tables"
+echo "Next: $program --help"

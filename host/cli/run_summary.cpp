@@ -1,0 +1,77 @@
+#include "host/cli/run_summary.hpp"
+
+#include <fmt/format.h>
+
+namespace strainfinger::cli {
+namespace {
+
+void printText(std::FILE* stream, double duration_s, const simulation::RunCounts& counts,
+               const simulation::TouchErrors& errors) {
+  const auto& finger = counts.finger;
+  fmt::print(stream, "run: {:.3f} s: {} sample sets, {} lost to a late machine; {} fits\n", duration_s,
+             finger.sampleSets, counts.overruns, finger.fits);
+  fmt::print(stream, "run: {} frames: {} CONTACT with their FORCE, {} HEARTBEAT; {} put off, {} FORCE lost\n",
+             counts.frames, finger.touchesSent, counts.heartbeats, finger.touchesBusy, finger.forcesLost);
+  if (errors.arc_m.count() > 0)
+    fmt::print(stream,
+               "run: off the truth (RMS, worst of {}): {:.4f}, {:.4f} mm of arc; normal {:.3f}, {:.3f} N/m; "
+               "tangential {:.3f}, {:.3f} N/m\n",
+               errors.arc_m.count(), errors.arc_m.rms() * 1e3, errors.arc_m.worst() * 1e3,
+               errors.normal_n_per_m.rms(), errors.normal_n_per_m.worst(), errors.tangential_n_per_m.rms(),
+               errors.tangential_n_per_m.worst());
+  fmt::print(stream,
+             "run: not counted there: {} flagged uncertain, {} of several touches, {} of none, {} missed\n",
+             errors.uncertain, errors.several, errors.phantom, errors.missed);
+}
+
+}  // namespace
+
+void printSummary(std::FILE* stream, TableFormat format, double duration_s,
+                  const simulation::RunCounts& counts, const simulation::TouchErrors& errors) {
+  if (format == TableFormat::kCsv) return printText(stream, duration_s, counts, errors);
+  const auto& finger = counts.finger;
+  const auto number = [](auto count) { return static_cast<std::int64_t>(count); };
+  TableWriter table(stream, format,
+                    {"duration_s",
+                     "sample_sets",
+                     "overruns",
+                     "fits",
+                     "frames",
+                     "touches",
+                     "heartbeats",
+                     "touches_busy",
+                     "forces_lost",
+                     "compared",
+                     "arc_rms_m",
+                     "arc_worst_m",
+                     "normal_rms_n_per_m",
+                     "normal_worst_n_per_m",
+                     "tangential_rms_n_per_m",
+                     "tangential_worst_n_per_m",
+                     "uncertain",
+                     "several",
+                     "phantom",
+                     "missed"});
+  table.row({duration_s,
+             number(finger.sampleSets),
+             number(counts.overruns),
+             number(finger.fits),
+             number(counts.frames),
+             number(finger.touchesSent),
+             number(counts.heartbeats),
+             number(finger.touchesBusy),
+             number(finger.forcesLost),
+             number(errors.arc_m.count()),
+             errors.arc_m.rms(),
+             errors.arc_m.worst(),
+             errors.normal_n_per_m.rms(),
+             errors.normal_n_per_m.worst(),
+             errors.tangential_n_per_m.rms(),
+             errors.tangential_n_per_m.worst(),
+             number(errors.uncertain),
+             number(errors.several),
+             number(errors.phantom),
+             number(errors.missed)});
+}
+
+}  // namespace strainfinger::cli

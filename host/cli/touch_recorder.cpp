@@ -1,0 +1,81 @@
+#include "host/cli/touch_recorder.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "common/fixed_real.hpp"
+
+namespace strainfinger::cli {
+namespace {
+
+using simulation::Touch;
+
+constexpr double kDegPerRad = 180 / std::numbers::pi;
+constexpr int kProfileSteps = 720;
+
+plot::ContactPoint truthPoint(const std::vector<Touch>& truth) {
+  if (truth.size() != 1) return {};
+  const Touch& touch = truth.front();
+  return {touch.angle_rad * kDegPerRad, touch.normal_n_per_m, touch.tangential_n_per_m};
+}
+
+Touch touchAt(const plot::ContactPoint& point) {
+  return {point.angle_deg / kDegPerRad, point.normal_n_per_m, point.tangential_n_per_m};
+}
+
+}  // namespace
+
+void TouchRecorder::add(const simulation::Moment& moment, const firmware::Readings& readings) {
+  addToTrack(moment);
+  const auto& compared = moment.compared;
+  if (!compared || compared->truth.size() != 1 || compared->time_s != moment.time_s) return;
+  const Touch& touch = compared->truth.front();
+  const double load_n_per_m = std::hypot(touch.normal_n_per_m, touch.tangential_n_per_m);
+  if (load_n_per_m <= hardest_n_per_m_) return;
+  hardest_n_per_m_ = load_n_per_m;
+  hardest_ = *compared;
+  readings_ = readings;
+}
+
+/// The first report of a period, if there is one, takes the place of the period's plain truth.
+void TouchRecorder::addToTrack(const simulation::Moment& moment) {
+  if (track_.empty() || moment.time_s >= periodEnd_s_) {
+    periodEnd_s_ = moment.time_s + kTrackPeriod_s;
+    track_.push_back({moment.time_s, truthPoint(moment.truth), {}});
+  }
+  const auto& compared = moment.compared;
+  if (!compared || !compared->report.flags.has(FingerFlag::kContact)) return;
+  if (!std::isnan(track_.back().estimate.angle_deg)) return;
+  track_.back() = {compared->time_s, truthPoint(compared->truth), pointOf(compared->report),
+                   compared->report.sigmaAngle_deg};
+}
+
+plot::ContactPoint TouchRecorder::pointOf(const can::TouchReport& report) const {
+  const double length_m = config_.finger.length_m;
+  return {report.angle_deg, report.normal_n / length_m, report.tangential_n / length_m};
+}
+
+plot::TouchRecord TouchRecorder::record(const simulation::GaugeStrains& strains) const {
+  plot::TouchRecord record{.moment_s = hardest_.time_s,
+                           .truthThen = truthPoint(hardest_.truth),
+                           .estimateThen = pointOf(hardest_.report),
+                           .profile = {},
+                           .readings = {},
+                           .track = track_,
+                           .outerRadius_m = config_.finger.outer_radius_m};
+  const Touch fitted[] = {touchAt(record.estimateThen)};
+  for (int step = 0; step <= kProfileSteps; ++step) {
+    const double angle_rad = 2 * std::numbers::pi * step / kProfileSteps;
+    record.profile.push_back(
+        {angle_rad * kDegPerRad, strains.at(angle_rad, hardest_.truth), strains.at(angle_rad, fitted)});
+  }
+  for (int gauge = 0; gauge < strains.count(); ++gauge) {
+    const double angle_rad = strains.gaugeAngle_rad(gauge);
+    const auto read = StrainQ32::fromRaw(readings_.strain_q32[static_cast<std::size_t>(gauge)]);
+    record.readings.push_back(
+        {angle_rad * kDegPerRad, toReal(read), strains.at(angle_rad, fitted), config_.gauges.noise_strain});
+  }
+  return record;
+}
+
+}  // namespace strainfinger::cli

@@ -1,0 +1,38 @@
+#pragma once
+// What of a run is needed for its picture.
+
+#include <vector>
+
+#include "common/table_image.hpp"
+#include "host/plot/touch_picture.hpp"
+#include "host/simulation/simulated_finger.hpp"
+
+namespace strainfinger::cli {
+
+/// Keeps one point of the track every kTrackPeriod_s, and the readings of the hardest touch. Memory: 4 kB
+/// per second of the run.
+class TouchRecorder {
+ public:
+  static constexpr double kTrackPeriod_s = 0.025;  ///< 10 s make an SVG of 250 kB
+
+  explicit TouchRecorder(const config::FingerConfig& config) : config_(config) {}
+
+  /// `readings`: the firmware's of that moment.
+  void add(const simulation::Moment& moment, const firmware::Readings& readings);
+
+  /// What there is to draw; `strains` of the finger that was recorded.
+  plot::TouchRecord record(const simulation::GaugeStrains& strains) const;
+
+ private:
+  void addToTrack(const simulation::Moment& moment);
+  plot::ContactPoint pointOf(const can::TouchReport& report) const;
+
+  config::FingerConfig config_;
+  std::vector<plot::TrackPoint> track_;
+  double periodEnd_s_ = 0;
+  simulation::ComparedTouch hardest_;
+  double hardest_n_per_m_ = 0;
+  firmware::Readings readings_;  ///< of the hardest touch
+};
+
+}  // namespace strainfinger::cli

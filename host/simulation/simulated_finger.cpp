@@ -1,0 +1,19 @@
+#include "host/simulation/simulated_finger.hpp"
+
+#include <fmt/format.h>
+
+#include "host/base/failure.hpp"
+
+namespace strainfinger::simulation {
+
+void requireUntouchedStart(const Scenario& scenario) {
+  constexpr double kPeriod_s = SimulatedGauges::kSamplePeriod_us * 1e-6;
+  for (double time_s = 0; time_s < kUntouched_s; time_s += kPeriod_s)
+    if (!scenario.at(time_s).empty())
+      throw Failure(ExitCode::kUsage,
+                    fmt::format("the scenario touches the finger at {:.3f} s, while it takes the zero of its "
+                                "gauges: let the first touch start_s be {} or later",
+                                time_s, kUntouched_s));
+}
+
+}  // namespace strainfinger::simulation

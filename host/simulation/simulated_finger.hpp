@@ -1,0 +1,126 @@
+#pragma once
+// The firmware, run against simulated gauges.
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "common/table_image.hpp"
+#include "firmware/app/finger.hpp"
+#include "host/can/tapped_port.hpp"
+#include "host/can/touch_receiver.hpp"
+#include "host/config/finger_config.hpp"
+#include "host/simulation/simulated_clock.hpp"
+#include "host/simulation/simulated_gauges.hpp"
+#include "host/system/no_watchdog.hpp"
+
+namespace strainfinger::simulation {
+
+/// The firmware takes the first sample sets for its zero; with this much time untouched there are enough of
+/// them even when a machine is late.
+inline constexpr double kUntouched_s = 0.1;
+static_assert(firmware::ZeroAverage::kSamples * SimulatedGauges::kSamplePeriod_us * 1e-6 < kUntouched_s);
+
+/// Throws Failure(kUsage) when the scenario touches the finger before kUntouched_s: every answer would be
+/// wrong.
+void requireUntouchedStart(const Scenario& scenario);
+
+/// What the finger reported, and what was true when its gauges were read.
+struct ComparedTouch {
+  double time_s = 0;
+  std::vector<Touch> truth;
+  can::TouchReport report;
+};
+
+/// One sample set gone through the firmware.
+struct Moment {
+  double time_s = 0;
+  std::vector<Touch> truth;
+  std::optional<ComparedTouch> compared;  ///< a report that was complete on the bus with this set
+};
+
+struct RunCounts {
+  firmware::FingerCounters finger;
+  std::uint32_t overruns = 0;    ///< sample sets lost because the machine was late
+  std::uint64_t frames = 0;      ///< all that went to the bus
+  std::uint64_t heartbeats = 0;  ///< of these
+};
+
+/// A finger on `port`, which must outlive it like `tables`. Its gauges' zeros are off by `kZeroSpread` of
+/// full scale, so that they need the zero which the firmware takes; their gains are nominal.
+template <hal::CanPort Port>
+class SimulatedFinger {
+ public:
+  static constexpr double kZeroSpread = 0.01;
+
+  /// Throws Failure(kUsage) where SimulatedGauges and requireUntouchedStart() do.
+  SimulatedFinger(const config::FingerConfig& config, Scenario scenario, const TableImage& tables,
+                  firmware::FitMode mode, std::uint64_t seed, Port& port)
+      : gauges_(config, checked(std::move(scenario)), clock_,
+                {.seed = seed, .zeroSpread_strain = kZeroSpread * config.gauges.full_scale_strain}),
+        port_(port),
+        receiver_(static_cast<std::uint8_t>(config.can.node)),
+        finger_(tables, settingsOf(config, mode), gauges_, port_, clock_, watchdog_) {}
+  SimulatedFinger(const SimulatedFinger&) = delete;
+  SimulatedFinger& operator=(const SimulatedFinger&) = delete;
+
+  /// Lets so many sample periods pass and the firmware work until nothing is left to do; visit(const Moment&)
+  /// after each sample set. Of more than two periods the gauges keep the newest two sets.
+  template <typename Visit>
+  void pass(std::uint64_t periods, Visit visit) {
+    clock_.advance_us(periods * SimulatedGauges::kSamplePeriod_us);
+    for (bool sampled = true; sampled;) {
+      sampled = finger_.step();
+      Moment moment{gauges_.sampleTime_s(), gauges_.truth(), std::nullopt};
+      listen(moment);
+      if (sampled) visit(std::as_const(moment));
+    }
+  }
+
+  double elapsed_s() const { return static_cast<double>(clock_.elapsed_us()) * 1e-6; }
+  std::uint64_t elapsed_us() const { return clock_.elapsed_us(); }
+  RunCounts counts() const { return {finger_.counters(), gauges_.overruns(), frames_, heartbeats_}; }
+  const GaugeStrains& strains() const { return gauges_.strains(); }
+  /// The last sample set as the firmware's stages see it.
+  const firmware::Readings& readings() const { return finger_.readings(); }
+
+ private:
+  static Scenario checked(Scenario scenario) {
+    requireUntouchedStart(scenario);
+    return scenario;
+  }
+
+  static firmware::FingerSettings settingsOf(const config::FingerConfig& config, firmware::FitMode mode) {
+    return {.node = static_cast<std::uint8_t>(config.can.node),
+            .contactRate_hz = static_cast<std::uint16_t>(config.can.contact_rate_hz),
+            .mode = mode,
+            .standingFlags = {FingerFlag::kSimulated}};
+  }
+
+  /// As a receiver on the bus would. A CONTACT is compared with the truth of its own set, whenever its FORCE
+  /// follows.
+  void listen(Moment& moment) {
+    for (const CanFrame& frame : port_.fetchSent()) {
+      ++frames_;
+      if (decode<HeartbeatFrame>(frame)) ++heartbeats_;
+      if (decode<ContactFrame>(frame)) reported_ = {moment.time_s, moment.truth, {}};
+      const auto report = receiver_.take(frame);
+      if (!report) continue;
+      moment.compared = reported_;
+      moment.compared->report = *report;
+    }
+  }
+
+  SimulatedClock clock_;
+  SimulatedGauges gauges_;
+  can::TappedPort<Port> port_;
+  system::NoWatchdog watchdog_;
+  can::TouchReceiver receiver_;
+  firmware::Finger<SimulatedGauges, can::TappedPort<Port>, SimulatedClock, system::NoWatchdog> finger_;
+  ComparedTouch reported_;
+  std::uint64_t frames_ = 0;
+  std::uint64_t heartbeats_ = 0;
+};
+
+}  // namespace strainfinger::simulation

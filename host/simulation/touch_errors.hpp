@@ -1,0 +1,52 @@
+#pragma once
+// How far reports are from the truth.
+
+#include <cstdint>
+
+#include "host/config/finger_config.hpp"
+#include "host/simulation/simulated_finger.hpp"
+
+namespace strainfinger::simulation {
+
+/// One report against one true touch. Sigmas are those reported, NaN where not known.
+struct TouchError {
+  double arc_m = 0;  ///< of the surface, the short way around, towards +theta
+  double normal_n_per_m = 0;
+  double tangential_n_per_m = 0;
+  double sigmaArc_m = 0;
+  double sigmaNormal_n_per_m = 0;
+  double sigmaTangential_n_per_m = 0;
+};
+TouchError errorOf(const can::TouchReport& report, const Touch& truth, const config::Finger& finger);
+
+/// Half a pitch of the gauges as an arc of the surface: an answer that is off by more is on the wrong gauge.
+double halfPitchArc_m(const config::FingerConfig& config);
+
+/// Root mean square and largest magnitude of what was added.
+class Deviation {
+ public:
+  void add(double value);
+  double rms() const;  ///< NaN without any, as worst()
+  double worst() const;
+  std::uint64_t count() const { return count_; }
+
+ private:
+  std::uint64_t count_ = 0;
+  double squares_ = 0;
+  double worst_ = 0;
+};
+
+/// Statistics over a run's reports.
+struct TouchErrors {
+  Deviation arc_m;
+  Deviation normal_n_per_m;
+  Deviation tangential_n_per_m;
+  std::uint64_t uncertain = 0;  ///< reports flagged so: they don't count above
+  std::uint64_t several = 0;    ///< reports while several touches were in force: there is no one truth
+  std::uint64_t phantom = 0;    ///< reports of a contact while nothing touched
+  std::uint64_t missed = 0;     ///< reports of no contact while something touched
+
+  void add(const ComparedTouch& compared, const config::Finger& finger);
+};
+
+}  // namespace strainfinger::simulation

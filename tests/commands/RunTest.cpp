@@ -1,0 +1,180 @@
+#include <CppUTest/TestHarness.h>
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/commands/program.hpp"
+
+using namespace strainfinger;
+
+TEST_GROUP(RunCommand) {
+  static constexpr const char* kEarly =
+      "schema = 1\n[[touch]]\nstart_s = 0.05\nend_s = 1\nangle_deg = 0\nnormal_n_per_m = 20\n";
+  static constexpr const char* kNoTouch = "schema = 1\n";
+
+  /// The third words of candump's lines whose identifier is this: 181#DATA.
+  static std::vector<std::string> framesOf(const std::string& id, const std::string& log) {
+    std::vector<std::string> frames;
+    std::istringstream words(log);
+    for (std::string word; words >> word;)
+      if (word.starts_with(id + "#")) frames.push_back(word);
+    return frames;
+  }
+  static void checkRefused(const Run& run, int status, const char* message) {
+    STRCMP_CONTAINS(message, run.err.c_str());
+    LONGS_EQUAL(status, run.status);
+    STRCMP_EQUAL("", run.out.c_str());
+  }
+  /// With the input as the file of --scenario.
+  static Run withScenario(const std::string& arguments, const char* scenario) {
+    return runProgram("run --scenario /dev/stdin " + arguments, scenario);
+  }
+};
+
+TEST(RunCommand, SendsContactAndForceInPairs) {
+  const Run run = runProgram("run --can loopback --duration 2");
+  LONGS_EQUAL(0, run.status);
+  const auto contacts = framesOf("181", run.out), forces = framesOf("281", run.out);
+  LONGS_EQUAL(contacts.size(), forces.size());
+  CHECK_TRUE(contacts.size() > 100);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const std::string sequence = contacts[i].substr(18);
+    LONGS_EQUAL(i % 256, std::stoul(sequence, nullptr, 16));
+    STRCMP_EQUAL(sequence.c_str(), forces[i].substr(18).c_str());
+  }
+}
+
+TEST(RunCommand, DecodeReadsWhatItSends) {
+  const Run run = runShell(R"("$STRAINFINGER" run --duration 2 | "$STRAINFINGER" decode)");
+  LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS("(log, absolute time)", run.err.c_str());
+  STRCMP_CONTAINS(", 0 others skipped", run.err.c_str());
+  STRCMP_CONTAINS(" CONTACT and FORCE received, 0 lost, 0 repeated, 0 restarts", run.err.c_str());
+  STRCMP_CONTAINS(",loopback,1,CONTACT,", run.out.c_str());
+}
+
+TEST(RunCommand, PrintsLogLinesAsCandumpDoes) {
+  const Run run = runProgram("run --duration 0.101");
+  STRCMP_EQUAL("(0000000000.001000) loopback 701#", run.out.substr(0, 33).c_str());
+  STRCMP_CONTAINS("\n(0000000000.101000) loopback 701#12", run.out.c_str());
+  LONGS_EQUAL(2, std::count(run.out.begin(), run.out.end(), '\n'));
+}
+
+TEST(RunCommand, TheSeedDecidesTheOutput) {
+  const Run one = runProgram("run --duration 1"), same = runProgram("run --duration 1 --seed 1"),
+            other = runProgram("run --duration 1 --seed 2");
+  STRCMP_EQUAL(one.out.c_str(), same.out.c_str());
+  CHECK_FALSE(one.out == other.out);
+}
+
+TEST(RunCommand, SaysHowItWent) {
+  const Run run = runProgram("run --duration 1");
+  STRCMP_CONTAINS("run: 1.000 s: 1000 sample sets, 0 lost to a late machine; ", run.err.c_str());
+  STRCMP_CONTAINS(" 10 HEARTBEAT; 0 put off, 0 FORCE lost\n", run.err.c_str());
+  STRCMP_CONTAINS("mm of arc; normal ", run.err.c_str());
+}
+
+TEST(RunCommand, SaysItAsAnObjectToo) {
+  const Run run = runProgram("run --duration 1 --json");
+  STRCMP_CONTAINS("{\"duration_s\":1.0,\"sample_sets\":1000,\"overruns\":0,", run.err.c_str());
+  LONGS_EQUAL(1, std::count(run.err.begin(), run.err.end(), '\n'));
+}
+
+TEST(RunCommand, WithoutADurationTheScenarioRunsOnce) {
+  STRCMP_CONTAINS("run: 10.000 s: 10000 sample sets", runProgram("run").err.c_str());
+}
+
+TEST(RunCommand, AScenarioWithoutAnEndNeedsADuration) {
+  checkRefused(withScenario("", kNoTouch), 2, "give --duration S");
+  LONGS_EQUAL(0, withScenario("--duration 0.1", kNoTouch).status);
+}
+
+TEST(RunCommand, ATouchDuringTheZeroIsRefused) {
+  checkRefused(
+      withScenario("", kEarly), 2,
+      "the scenario touches the finger at 0.050 s, while it takes the zero of its gauges: let the first "
+      "touch start_s be 0.1 or later");
+}
+
+TEST(RunCommand, TheTruthStandsBesideTheEstimateAndNotInTheOutput) {
+  const Run run = runProgram("run --duration 1 --truth"), plain = runProgram("run --duration 1");
+  STRCMP_CONTAINS("  0.250 |      -        -        - | nothing\n", run.err.c_str());
+  STRCMP_CONTAINS(" |  40.00    20.00", run.err.c_str());
+  STRCMP_EQUAL(plain.out.c_str(), run.out.c_str());
+}
+
+TEST(RunCommand, DrawsPictures) {
+  const Run run = runShell(
+      "d=$(mktemp -d); \"$STRAINFINGER\" run --duration 1 --picture $d/a.png --picture $d/a.svg >/dev/null; "
+      "head -c 4 $d/a.png | tail -c 3; grep -c '</svg>' $d/a.svg; rm -r $d");
+  STRCMP_EQUAL("PNG1\n", run.out.c_str());
+}
+
+TEST(RunCommand, TheNodeIsTheConfigs) {
+  const Run run = runProgram("run --duration 1 -c /dev/stdin", "schema = 1\n[can]\nnode = 9\n");
+  LONGS_EQUAL(0, framesOf("181", run.out).size());
+  CHECK_FALSE(framesOf("189", run.out).empty());
+}
+
+TEST(RunCommand, RunsOnTablesFromAFile) {
+  const Run run = runShell(
+      "t=$(mktemp); \"$STRAINFINGER\" tables -o $t 2>/dev/null; cmp <(\"$STRAINFINGER\" run --duration 1 "
+      "2>/dev/null) <(\"$STRAINFINGER\" run --duration 1 --tables $t 2>/dev/null) && echo same; rm $t");
+  STRCMP_EQUAL("same\n", run.out.c_str());
+}
+
+TEST(RunCommand, RefusesTablesOfAnotherFinger) {
+  const Run run = runShell(
+      "t=$(mktemp); echo -e 'schema = 1\\n[gauges]\\ncount = 24' | \"$STRAINFINGER\" tables -c /dev/stdin -o "
+      "$t; "
+      "\"$STRAINFINGER\" run --tables $t; status=$?; rm $t; exit $status");
+  checkRefused(run, 5, "gauges.count is 24, the config has 16");
+}
+
+TEST(RunCommand, RefusesDamagedTables) {
+  const Run run = runShell(
+      "t=$(mktemp); \"$STRAINFINGER\" tables -o $t; printf X | dd of=$t bs=1 seek=500 conv=notrunc "
+      "2>/dev/null; "
+      "\"$STRAINFINGER\" run --tables $t; status=$?; rm $t; exit $status");
+  checkRefused(run, 6, "CRC-32 does not match");
+}
+
+TEST(RunCommand, ThreePointModeSendsOtherFrames) {
+  const Run refined = runProgram("run --duration 1"),
+            three = runProgram("run --duration 1 --mode three-point");
+  LONGS_EQUAL(0, three.status);
+  CHECK_FALSE(refined.out == three.out);
+}
+
+TEST(RunCommand, AMissingInterfaceIsSaidWithItsRemedy) {
+  const Run run = runProgram("run --can nocan7 --duration 1");
+  checkRefused(run, 3, "nocan7");
+  STRCMP_CONTAINS("`", run.err.c_str());
+}
+
+TEST(RunCommand, RefusesWhatIsOutsideTheDomain) {
+  checkRefused(runProgram("run --duration 0"), 2, "--duration");
+  checkRefused(runProgram("run --duration nan"), 2, "--duration");
+  checkRefused(runProgram("run --seed -1"), 2, "--seed");
+  checkRefused(runProgram("run --mode best"), 2, "--mode");
+  checkRefused(runProgram("run --scenario /nowhere.toml"), 2, "/nowhere.toml");
+}
+
+TEST(RunCommand, InterruptedItSumsUpAndSaysSo) {
+  for (const std::string signal : {"INT", "TERM"}) {
+    const Run run =
+        runShell("set -m; \"$STRAINFINGER\" run --duration 1000000 >/dev/null & sleep 0.2; kill -" + signal +
+                 " $!; wait $!");
+    LONGS_EQUAL(130, run.status);
+    STRCMP_CONTAINS(" CONTACT with their FORCE", run.err.c_str());
+    STRCMP_CONTAINS("strainfinger: run: interrupted after ", run.err.c_str());
+  }
+}
+
+TEST(RunCommand, AFullDiskIsAFailure) {
+  const Run run = runProgram("run --duration 2 > /dev/full");
+  LONGS_EQUAL(1, run.status);
+  STRCMP_CONTAINS("cannot write the output", run.err.c_str());
+}

@@ -1,0 +1,96 @@
+#include "common/fixed_real.hpp"
+#include "firmware/core/detect.hpp"
+#include "firmware/core/estimate.hpp"
+#include "firmware/core/locate.hpp"
+#include "tests/firmware/core/global_search.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::firmware;
+
+namespace {
+
+/// Two contacts whose strains the noise hides the difference of.
+struct Twins {
+  Press one, other;
+  double apart;  ///< norm of the difference of their strains, in standard deviations of a reading
+};
+
+}  // namespace
+
+TEST_GROUP(Ambiguity) {
+  const ModelRing ring;
+  const GlobalSearch search{ring};
+
+  /// The contact a distance from `press` or more that comes closest to its strains.
+  Twins twinOf(const Press& press, double distance_pitch) {
+    const auto strains = ring.strains(press);
+    Twins twins{press, press, 1e300};
+    for (int step = 0; step < 16 * 16; ++step) {
+      const double position = step / 16.0;
+      if (std::abs(ring.between(press.position_pitch, position)) < distance_pitch) continue;
+      const auto answer = search.at(position, strains);
+      const double apart = std::sqrt(answer.unexplained) / ring.noise_strain();
+      if (std::abs(answer.press.tangential) > answer.press.normal || apart >= twins.apart) continue;
+      twins = {press, answer.press, apart};
+    }
+    return twins;
+  }
+
+  Contact contactOf(const std::vector<double>& strains) {
+    const auto raw = ring.raw(strains);
+    return estimate(ring.constants(),
+                    locate(ring.tables(), FitMode::kRefined, raw, gateEnergy(ring.constants(), raw)));
+  }
+  /// Strains halfway between the twins: neither explains them better.
+  std::vector<double> between(const Twins& twins) {
+    auto strains = ring.strains(twins.one);
+    const auto others = ring.strains(twins.other);
+    for (std::size_t i = 0; i < strains.size(); ++i) strains[i] = (strains[i] + others[i]) / 2;
+    return strains;
+  }
+
+  /// 1 or 2: which of the twins an angle is nearer to.
+  int nearestOf(const Twins& twins, TurnQ32 angle) {
+    const auto distance = [&](const Press& press) {
+      return std::abs(ring.between(press.position_pitch, toReal(angle) * ring.gauges()));
+    };
+    return distance(twins.one) < distance(twins.other) ? 1 : 2;
+  }
+  void checkCovers(const Contact& contact, const Press& press) {
+    const double position = toReal(contact.angle) * ring.gauges();
+    const double sigma = toReal(contact.sigmaAngle) * ring.gauges();
+    CHECK(std::abs(ring.between(position, press.position_pitch)) < 3.3 * sigma);
+    CHECK(std::abs(press.normal - toReal(contact.normal)) < 3.3 * toReal(contact.sigmaNormal));
+    CHECK(std::abs(press.tangential - toReal(contact.tangential)) < 3.3 * toReal(contact.sigmaTangential));
+  }
+};
+
+TEST(Ambiguity, OfTwoContactsThatNoiseHidesBothAreReportedAndCovered) {
+  // 0.8 N/m, just above the gate: stronger contacts have next to no twins.
+  Presses presses(16, 0.8, 21);
+  int pairs = 0;
+  for (int i = 0; i < 250; ++i) {
+    const Twins twins = twinOf(presses.next(), 0.3);
+    if (twins.apart > 3) continue;  // 9 variances; answers are told apart from 12 on
+    ++pairs;
+    for (const auto& strains : {between(twins), ring.strains(twins.one), ring.strains(twins.other)}) {
+      const Contact contact = contactOf(strains);
+      CHECK_TRUE(contact.ambiguous && contact.uncertain);
+      checkCovers(contact, twins.one);
+      checkCovers(contact, twins.other);
+      CHECK(nearestOf(twins, contact.angle) != nearestOf(twins, contact.alternative));
+    }
+  }
+  CHECK(pairs > 20);
+}
+
+TEST(Ambiguity, ContactsWithoutATwinAreNotAmbiguous) {
+  Presses presses(16, 3, 22);
+  for (int i = 0; i < 60; ++i) {
+    const Press press = presses.next();
+    if (twinOf(press, 0.1).apart < 5) continue;
+    CHECK_FALSE(contactOf(ring.strains(press)).ambiguous);
+  }
+}

@@ -1,0 +1,79 @@
+#include "host/cli/touch_recorder.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::cli;
+
+TEST_GROUP(TouchRecorder) {
+  config::FingerConfig config;
+  simulation::GaugeStrains strains{config};
+  firmware::Readings readings;
+  TouchRecorder recorder{config};
+  static constexpr double kRad = std::numbers::pi / 180;
+
+  /// A moment with a report that is 0.1 deg ahead of the truth.
+  void reported(double time_s, double angle_deg, double normal_n_per_m) {
+    simulation::Moment moment{time_s, {{angle_deg * kRad, normal_n_per_m, 0}}, std::nullopt};
+    moment.compared = {time_s, moment.truth, {}};
+    moment.compared->report.angle_deg = angle_deg + 0.1;
+    moment.compared->report.normal_n = normal_n_per_m * config.finger.length_m;
+    moment.compared->report.tangential_n = 0;
+    moment.compared->report.flags = {FingerFlag::kContact};
+    recorder.add(moment, readings);
+  }
+  void silent(double time_s) { recorder.add({time_s, {}, std::nullopt}, readings); }
+};
+
+TEST(TouchRecorder, KeepsOnePointAPeriod) {
+  for (int sample = 1; sample <= 1000; ++sample) silent(sample * 1e-3);
+  LONGS_EQUAL(std::lround(1 / TouchRecorder::kTrackPeriod_s), recorder.record(strains).track.size());
+}
+
+TEST(TouchRecorder, TheFirstReportOfAPeriodTakesThePointsPlace) {
+  silent(1);
+  reported(1.002, 40, 20);
+  reported(1.004, 50, 20);
+  const auto track = recorder.record(strains).track;
+  LONGS_EQUAL(1, track.size());
+  DOUBLES_EQUAL(1.002, track[0].time_s, 1e-12);
+  DOUBLES_EQUAL(40, track[0].truth.angle_deg, 1e-9);
+  DOUBLES_EQUAL(40.1, track[0].estimate.angle_deg, 1e-9);
+  DOUBLES_EQUAL(20, track[0].estimate.normal_n_per_m, 1e-9);
+}
+
+TEST(TouchRecorder, WithoutTouchOrReportThePointIsUnknown) {
+  silent(1);
+  const auto track = recorder.record(strains).track;
+  CHECK_TRUE(std::isnan(track[0].truth.angle_deg));
+  CHECK_TRUE(std::isnan(track[0].estimate.normal_n_per_m));
+}
+
+TEST(TouchRecorder, TheProfileIsThatOfTheHardestTouch) {
+  reported(1, 40, 20);
+  readings.strain_q32[3] = 1 << 22;
+  reported(2, 90, 30);
+  readings.strain_q32[3] = 0;
+  reported(3, 200, 10);
+  const auto record = recorder.record(strains);
+  DOUBLES_EQUAL(2, record.moment_s, 0);
+  DOUBLES_EQUAL(90.1, record.estimateThen.angle_deg, 1e-9);
+  LONGS_EQUAL(16, record.readings.size());
+  DOUBLES_EQUAL(std::ldexp(1.0, -10), record.readings[3].strain, 1e-12);
+  DOUBLES_EQUAL(67.5, record.readings[3].angle_deg, 1e-9);
+}
+
+TEST(TouchRecorder, TruthAndFitAreTheModelAllTheWayAround) {
+  reported(2, 90, 30);
+  const auto profile = recorder.record(strains).profile;
+  DOUBLES_EQUAL(0, profile.front().angle_deg, 0);
+  DOUBLES_EQUAL(360, profile.back().angle_deg, 0);
+  const simulation::Touch truth[] = {{90 * kRad, 30, 0}}, fitted[] = {{90.1 * kRad, 30, 0}};
+  for (const auto& point : profile) {
+    DOUBLES_EQUAL(strains.at(point.angle_deg * kRad, truth), point.true_strain, 1e-12);
+    DOUBLES_EQUAL(strains.at(point.angle_deg * kRad, fitted), point.fitted_strain, 1e-12);
+  }
+}

@@ -1,0 +1,174 @@
+// The bars of the default finger: contacts from the elastic model, located by the firmware's code, against
+// the Cramer-Rao bound of the whole ring computed here. Load directions within +-45 degrees.
+#include <Eigen/Dense>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "common/fixed_real.hpp"
+#include "firmware/core/detect.hpp"
+#include "firmware/core/estimate.hpp"
+#include "firmware/core/locate.hpp"
+#include "host/model/impulse_response.hpp"
+#include "host/tables/table_builder.hpp"
+
+// last: its macros redefine new
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using firmware::FitMode;
+
+namespace {
+
+constexpr int kContacts = 100'000;
+constexpr double kPeakPerLoad = 460.603e-6;  ///< strain per N/m at the gauge under a normal load
+
+struct Statistics {
+  int gross = 0;  ///< more than half a pitch off
+  int unseen = 0;
+  double arc_um = 0;          ///< RMS
+  Eigen::Vector3d overBound;  ///< RMS of error / Cramer-Rao bound: angle, normal, tangential
+  Eigen::Vector3d overSigma;  ///< RMS of error / reported sigma
+};
+
+struct Truth {
+  double angle_rad;
+  double normal;
+  double tangential;
+};
+
+class Trial {
+ public:
+  Trial(double relativeNoise, double load) : noise_(relativeNoise * kPeakPerLoad * load), load_(load) {
+    config::FingerConfig config;
+    if (noise_ > 0) config.gauges.noise_strain = noise_;
+    image_ = std::make_unique<TableImage>(tables::buildTableImage(config));
+  }
+
+  Statistics run(FitMode mode, std::uint64_t seed) {
+    std::printf("seed %llu ", static_cast<unsigned long long>(seed));
+    random_.seed(seed);
+    Statistics result;
+    Eigen::Vector3d bound = Eigen::Vector3d::Zero(), sigma = bound;
+    for (int i = 0; i < kContacts; ++i) {
+      const Truth truth = next();
+      const auto contact = contactOf(truth, mode);
+      if (!contact) {
+        ++result.unseen;
+        continue;
+      }
+      const Eigen::Vector3d error = errorOf(*contact, truth);
+      result.gross += std::abs(error[0]) > std::numbers::pi / 16 ? 1 : 0;
+      result.arc_um += std::pow(error[0] * 12.7e3, 2) / kContacts;
+      if (noise_ > 0) bound += error.cwiseAbs2().cwiseQuotient(variances(truth)) / kContacts;
+      sigma += error.cwiseQuotient(sigmasOf(*contact)).cwiseAbs2() / kContacts;
+    }
+    result.arc_um = std::sqrt(result.arc_um);
+    result.overBound = bound.cwiseSqrt();
+    result.overSigma = sigma.cwiseSqrt();
+    std::printf("arc %.2f um, over bound %.3f %.3f %.3f, over sigma %.3f %.3f %.3f ", result.arc_um,
+                result.overBound[0], result.overBound[1], result.overBound[2], result.overSigma[0],
+                result.overSigma[1], result.overSigma[2]);
+    return result;
+  }
+
+ private:
+  Truth next() {
+    const double direction = (uniform_(random_) - 0.5) * std::numbers::pi / 2;
+    return {uniform_(random_) * 2 * std::numbers::pi, load_ * std::cos(direction),
+            load_ * std::sin(direction)};
+  }
+  model::ImpulseResponse::Value at(int gauge, const Truth& truth) const {
+    return response_.at(gauge * std::numbers::pi / 8 - truth.angle_rad);
+  }
+  std::optional<Contact> contactOf(const Truth& truth, FitMode mode) {
+    std::vector<std::int32_t> strains;
+    for (int gauge = 0; gauge < 16; ++gauge) {
+      const auto value = at(gauge, truth);
+      const double strain = truth.normal * value.normal + truth.tangential * value.tangential;
+      strains.push_back(fromReal<StrainQ32>(strain + noise_ * normal_(random_)).raw());
+    }
+    const std::uint32_t energy = firmware::gateEnergy(image_->constants, strains);
+    if (energy < image_->constants.gate_on) return std::nullopt;
+    return firmware::estimate(image_->constants, firmware::locate(*image_, mode, strains, energy));
+  }
+  static Eigen::Vector3d errorOf(const Contact& contact, const Truth& truth) {
+    const double angle = toReal(contact.angle) * 2 * std::numbers::pi;
+    return {std::remainder(angle - truth.angle_rad, 2 * std::numbers::pi),
+            toReal(contact.normal) - truth.normal, toReal(contact.tangential) - truth.tangential};
+  }
+  static Eigen::Vector3d sigmasOf(const Contact& contact) {
+    return {toReal(contact.sigmaAngle) * 2 * std::numbers::pi, toReal(contact.sigmaNormal),
+            toReal(contact.sigmaTangential)};
+  }
+  Eigen::Vector3d variances(const Truth& truth) const {
+    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+    for (int gauge = 0; gauge < 16; ++gauge) {
+      const auto value = at(gauge, truth);
+      const Eigen::Vector3d row(
+          -(truth.normal * value.normalSlope + truth.tangential * value.tangentialSlope), value.normal,
+          value.tangential);
+      information += row * row.transpose();
+    }
+    return information.inverse().diagonal() * noise_ * noise_;
+  }
+
+  model::ImpulseResponse response_{{8.9e-3, 12.7e-3, 8.3e4, 0.5}, 9.4e-3, StrainComponent::kRadial};
+  std::unique_ptr<TableImage> image_;
+  double noise_;
+  double load_;
+  std::mt19937_64 random_;
+  std::uniform_real_distribution<double> uniform_{0, 1};
+  std::normal_distribution<double> normal_;
+};
+
+}  // namespace
+
+TEST_GROUP(LocateAccuracy){
+    static void checkNoGrossError(const Statistics& result){LONGS_EQUAL(0, result.gross);
+LONGS_EQUAL(0, result.unseen);
+}
+static void checkBelow(const Eigen::Vector3d& limits, const Eigen::Vector3d& values) {
+  for (int i = 0; i < 3; ++i) CHECK(values[i] <= limits[i]);
+}
+}
+;
+
+// The bar is 20 um; what is reached is held.
+TEST(LocateAccuracy, RefinedWithoutNoiseIsWithinAMicrometre) {
+  const Statistics result = Trial(0, 30).run(FitMode::kRefined, 101);
+  checkNoGrossError(result);
+  CHECK(result.arc_um <= 1);
+}
+
+TEST(LocateAccuracy, ThreePointWithoutNoiseIsWithinAMicrometreOrSo) {
+  const Statistics result = Trial(0, 30).run(FitMode::kThreePoint, 102);
+  checkNoGrossError(result);
+  CHECK(result.arc_um <= 1.2);
+}
+
+TEST(LocateAccuracy, LightAndHeavyTouchesWithoutNoiseAreAsGood) {
+  for (const double load : {2.0, 6.0, 60.0}) {
+    const Statistics result = Trial(0, load).run(FitMode::kRefined, 103);
+    checkNoGrossError(result);
+    CHECK(result.arc_um <= 1);
+  }
+}
+
+TEST(LocateAccuracy, RefinedAtAThousandthOfNoiseReachesTheBound) {
+  const Statistics result = Trial(1e-3, 30).run(FitMode::kRefined, 104);
+  checkNoGrossError(result);
+  checkBelow({1.03, 1.03, 1.03}, result.overBound);
+  checkBelow({1.1, 1.1, 1.1}, result.overSigma);
+}
+
+TEST(LocateAccuracy, ThreePointAtAThousandthOfNoiseIsWithinHalfAgainOfTheBound) {
+  const Statistics result = Trial(1e-3, 30).run(FitMode::kThreePoint, 105);
+  checkNoGrossError(result);
+  checkBelow({1.5, 1.5, 1.5}, result.overBound);
+  checkBelow({1.1, 1.1, 1.1}, result.overSigma);
+}

@@ -1,0 +1,73 @@
+#include <string>
+
+#include "tests/commands/program.hpp"
+
+// last: its macros redefine new
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+
+TEST_GROUP(TablesCommand){
+    /// Runs in a folder of its own that holds finger.tables, and thin.toml, another finger.
+    static Run inFolder(const std::string& command){
+        return runShell("folder=$(mktemp -d) && trap 'rm -rf \"$folder\"' EXIT && cd \"$folder\" && "
+                        "printf 'schema = 1\\n[finger]\\ncore_radius_m = 9.2e-3\\n[gauges]\\nradius_m = "
+                        "9.7e-3\\n' >thin.toml && "
+                        "\"$STRAINFINGER\" tables -o finger.tables 2>/dev/null && " +
+                        command);
+}
+static void checkEnds(int status, const char* message, const std::string& command) {
+  const Run run = inFolder(command);
+  LONGS_EQUAL_TEXT(status, run.status, (command + "\n" + run.err).c_str());
+  STRCMP_CONTAINS(message, run.err.c_str());
+}
+}
+;
+
+TEST(TablesCommand, AFreshImageVerifies) {
+  checkEnds(0, "whole", "\"$STRAINFINGER\" tables verify finger.tables");
+}
+
+TEST(TablesCommand, InfoNamesTheFormatTheChecksumAndTheFinger) {
+  const Run run = inFolder("\"$STRAINFINGER\" tables info finger.tables");
+  LONGS_EQUAL(0, run.status);
+  for (const char* key :
+       {"key,value\nformat,1\n", "\ncrc32,", "\nfinger.outer_radius_m,0.0127", "\ngauges.count,16\n"})
+    STRCMP_CONTAINS(key, run.out.c_str());
+}
+
+TEST(TablesCommand, ATruncatedImageFailsVerification) {
+  checkEnds(6, "bytes where an image has",
+            "head -c 1000 finger.tables >cut && \"$STRAINFINGER\" tables verify cut");
+}
+
+TEST(TablesCommand, AFlippedBitFailsVerification) {
+  checkEnds(6, "CRC-32",
+            "printf '\\377' | dd of=finger.tables bs=1 seek=5000 conv=notrunc 2>/dev/null && "
+            "\"$STRAINFINGER\" tables verify finger.tables");
+}
+
+TEST(TablesCommand, AnotherFingersImageIsAMismatchThatNamesTheDifference) {
+  checkEnds(5, "finger.core_radius_m", "\"$STRAINFINGER\" tables verify finger.tables -c thin.toml");
+}
+
+TEST(TablesCommand, WhatIsNoImageFailsVerification) {
+  checkEnds(6, "not a table image", "\"$STRAINFINGER\" tables verify thin.toml");
+}
+
+TEST(TablesCommand, AMissingFileIsAFailureThatNamesIt) {
+  checkEnds(1, "gone.tables", "\"$STRAINFINGER\" tables verify gone.tables");
+}
+
+TEST(TablesCommand, AMissingFolderIsAFailureAndLeavesNothing) {
+  checkEnds(1, "nowhere/finger.tables", "\"$STRAINFINGER\" tables -o nowhere/finger.tables");
+}
+
+TEST(TablesCommand, ABadConfigLeavesTheOldImage) {
+  checkEnds(2, "bad.toml:3:",
+            "cp finger.tables before && printf 'schema = 1\\n[gauges]\\ncount = 15\\n' >bad.toml && "
+            "{ \"$STRAINFINGER\" tables -c bad.toml -o finger.tables; status=$?; cmp before finger.tables && "
+            "exit $status; }");
+}
+
+TEST(TablesCommand, WithoutAnythingToDoSaysHow) { checkEnds(2, "-o FILE", "\"$STRAINFINGER\" tables"); }

@@ -17,7 +17,8 @@ constexpr PitchQ20 kFarFromMiddle = kOnePitch * 53 / 100;
 constexpr std::uint32_t kAmbiguous = 12;    ///< answers closer than this are not told apart
 constexpr std::uint32_t kRivalMargin = 32;  ///< a peak of a scan so far behind may still win once refined ..
 constexpr std::uint32_t kUnexplained = 32;  ///< noise alone leaves less in a window ..
-constexpr std::uint32_t kWeak = 1024;  ///< a ring with less energy than this can look right in a wrong window
+constexpr std::uint32_t kAlias = 4096;      ///< a ring with less can look right two or three gauges away
+constexpr std::uint32_t kWeak = 1024;       ///< .. and with less than this, in any
 constexpr std::uint32_t kAmbiguousWeak = 24;  ///< kAmbiguous there, where the energy is far from quadratic
 constexpr std::uint32_t kFaint = 64;          ///< an answer that explains less than this may be noise
 // .. and in parts of the energy, as powers of two:
@@ -42,7 +43,8 @@ void solveWindow(const Problem& problem, const Scan& scan, Contest& contest) {
 bool doubtful(const Problem& problem, const Answer& answer) {
   const std::int32_t window = energyOf(answer.fit.signal);
   const std::int32_t noise = problem.noise(kUnexplained);
-  return !answer.admissible() || isWeak(problem) || std::abs(answer.fit.offset) > kFarFromMiddle ||
+  return !answer.admissible() || problem.ringEnergy < problem.noise(kAlias) ||
+         std::abs(answer.fit.offset) > kFarFromMiddle ||
          window - answer.energy > noise + (window >> kRoundingShift) ||
          problem.ringEnergy - window > noise + (window >> kOutsideShift);
 }

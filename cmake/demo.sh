@@ -8,18 +8,25 @@ cd "$folder"
 
 step() { printf '\n\033[1m%s\033[0m\n' "$*"; }
 
+cat <<'TEXT'
+
+A finger: a rigid core, a layer of rubber, and in the rubber a ring of strain gauges. From the gauges alone its firmware says
+where it is touched (angle), how hard (normal load) and which way it is rubbed (tangential load, N per metre of finger).
+TEXT
+
 step "1. The lookup tables, from the elastic model of the finger"
 "$program" tables -o finger.tables
 "$program" tables verify finger.tables
 
 step "2. A simulated finger, touched: 16 gauges with noise, a 12-bit converter, the firmware's own code"
+echo "Press and rub, slide around, tap, hold something that slips; what is reported, with its own sigma, beside the truth:"
 "$program" run --can loopback --tables finger.tables --truth --picture touch.png --picture touch.svg >candump.log
 
 step "3. What it sent, as candump -L prints it, and what that says (CONTACT and FORCE of one moment)"
 grep -m1 -A1 ' 181#' <(sed -n '2000,$p' candump.log) | tee moment.log
 "$program" decode <moment.log 2>/dev/null | cut -d, -f1-13
 
-if [ -e /sys/class/net/vcan0 ]; then
+if [ "$(cat /sys/class/net/vcan0/operstate 2>/dev/null || echo none)" = unknown ]; then   # there, and up
   step "4. The same on vcan0, in real time, for 3 s"
   "$program" run --can vcan0 --tables finger.tables --duration 3 --truth
 else
@@ -31,4 +38,7 @@ fi
 step "In $folder:"
 echo "  touch.png, touch.svg   the strains with the fit, and the track of the contact (look at one)"
 echo "  candump.log            every frame it sent; finger.tables: the flash image of the tables"
-echo "Next: $program --help"
+step "Next"
+echo "  $program run --seed 7 --truth >/dev/null                  other noise, another ring of gauges"
+echo "  $program run --scenario mine.toml --truth >/dev/null      your own touches: host/simulation/scenarios/touches.toml says how"
+echo "  $program --help                                           the other commands"

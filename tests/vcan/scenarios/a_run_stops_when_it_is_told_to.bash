@@ -1,0 +1,14 @@
+# Without --duration it runs until a signal; then it sums up.
+record
+strainfinger run --can vcan0 2>"$TMPDIR/summary" &
+finger=$!
+sleep 1
+kill -TERM $finger
+status=0
+wait $finger || status=$?
+stop_recording
+cat "$TMPDIR/summary"
+expect "exit status" 130 $status
+grep -q "run: interrupted after " "$TMPDIR/summary"
+heartbeats=$(recorded_frames | grep -c '^701#')
+[ "$heartbeats" -ge 5 ] || fail "$heartbeats heartbeats in a second"

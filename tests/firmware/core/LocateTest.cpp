@@ -135,6 +135,20 @@ TEST(Locate, ForcesFromOneToSixtyNewtonsPerMetreAreFound) {
       }
 }
 
+TEST(Locate, WeakContactsAreNeverCertainInTheWrongPlace) {
+  // Contacts between two gauges look a lot like others two and three gauges away, up to 5 N/m.
+  const ModelRing ring;
+  for (const double load : {1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0}) {
+    Presses presses(16, load, 19);
+    for (int i = 0; i < 5000; ++i) {
+      const Press press = presses.next();
+      const Contact contact = contactOf(ring, FitMode::kRefined, ring.raw(press));
+      const double error = ring.between(press.position_pitch, position(ring, contact));
+      CHECK(std::abs(error) < 0.5 || contact.quality <= kUncertain);
+    }
+  }
+}
+
 TEST(Locate, ChoosesTheBranchOfAGlobalSearch) {
   // Noise of 1 % of peak, where branches are hard to tell: a certain answer is the search's own.
   for (const RingKind& kind : {RingKind{16, kRadial}, RingKind{24, kRadial}, RingKind{20, kShear}}) {

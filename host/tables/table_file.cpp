@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
@@ -17,6 +18,8 @@ namespace strainfinger::tables {
 namespace {
 
 std::string readBytes(const std::string& path) {
+  if (std::filesystem::is_directory(path))
+    throw Failure(ExitCode::kFailure, fmt::format("{}: is a folder, not a table image", path));
   std::ifstream file(path, std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(file), {}};
   if (!file && !file.eof())

@@ -1,0 +1,107 @@
+#include "common/table_image.hpp"
+
+#include <array>
+#include <initializer_list>
+#include <memory>
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+
+TEST_GROUP(TableImage) {
+  std::unique_ptr<TableImage> image_ = std::make_unique<TableImage>();
+
+  /// The least an image needs to be taken, whatever its rows hold.
+  void setup() override {
+    image_->magic = kTableMagic;
+    image_->format = kTableFormat;
+    image_->image_bytes = sizeof(TableImage);
+    image_->constants.gauge_count = 16;
+    image_->constants.mirror_sign = image_->constants.anchor_sign = 1;
+    image_->constants.scan_step = kMaxScanStep;
+    sign();
+  }
+  void sign() { image_->crc32 = crc32(checkedBytes(*image_)); }
+  void flip(std::size_t byte, std::size_t bit) {
+    auto* bytes = reinterpret_cast<std::byte*>(image_.get());
+    bytes[byte] ^= std::byte(1 << bit);
+  }
+  void checkFault(TableFault expected) {
+    LONGS_EQUAL(static_cast<int>(expected), static_cast<int>(checkTableImage(*image_)));
+  }
+  /// Sets a constant to values it may and may not have, under a right checksum.
+  template <typename Constant>
+  void checkDomain(Constant & constant, std::initializer_list<int> good, std::initializer_list<int> bad) {
+    const auto set = [&](int value, TableFault expected) {
+      constant = static_cast<Constant>(value);
+      sign();
+      checkFault(expected);
+    };
+    for (const int value : bad) set(value, TableFault::kConstants);
+    for (const int value : good) set(value, TableFault::kNone);
+  }
+};
+
+TEST(TableImage, AWholeImageIsTaken) { checkFault(TableFault::kNone); }
+
+TEST(TableImage, TheChecksumIsOfEverythingBehindTheHeader) {
+  LONGS_EQUAL(16, kTableHeaderBytes);
+  LONGS_EQUAL(sizeof(TableImage) - 16, checkedBytes(*image_).size());
+  POINTERS_EQUAL(&image_->parameters, checkedBytes(*image_).data());
+}
+
+TEST(TableImage, WhatIsWrongFirstIsNamed) {
+  image_->refined[0].reserved = 1;
+  checkFault(TableFault::kChecksum);
+  image_->image_bytes -= 1;
+  checkFault(TableFault::kLength);
+  image_->format += 1;
+  checkFault(TableFault::kFormat);
+  image_->magic += 1;
+  checkFault(TableFault::kMagic);
+}
+
+TEST(TableImage, AReservedBitIsAnotherFormat) {
+  image_->reserved = 0x8000;
+  checkFault(TableFault::kFormat);
+}
+
+TEST(TableImage, AFlippedBitBehindTheHeaderIsFound) {
+  for (std::size_t i = kTableHeaderBytes; i < sizeof(TableImage); i += 5) {
+    flip(i, i % 8);
+    checkFault(TableFault::kChecksum);
+    flip(i, i % 8);
+  }
+}
+
+// All of them. What follows a flipped byte need not be gone through: a step of the division maps different
+// remainders to different ones, whatever the byte.
+TEST(TableImage, NoFlippedBitLeavesTheChecksumAsItWas) {
+  std::uint32_t before = 0;
+  for (const std::byte byte : checkedBytes(*image_)) {
+    const std::uint32_t after = crc32(std::array{byte}, before);
+    for (int bit = 0; bit < 8; ++bit) CHECK(crc32(std::array{byte ^ std::byte(1 << bit)}, before) != after);
+    before = after;
+  }
+}
+
+TEST(TableImage, ConstantsThatLoopsAndShiftsRelyOnStayInTheirDomain) {
+  TableConstants& constants = image_->constants;
+  checkDomain(constants.gauge_count, {12, 14, 32, 16}, {0, 10, 13, 33, 34, 255});
+  checkDomain(constants.gate_shift, {0, 15}, {16, 32, 255});
+  checkDomain(constants.mirror_sign, {1, -1}, {0, 2, -128});
+  checkDomain(constants.anchor_sign, {1, -1}, {0, 2, -128});
+  checkDomain(constants.anchor_rule, {0, 1}, {2, 255});
+  checkDomain(constants.scan_step, {4, 8}, {0, 3, 9, 255});
+  checkDomain(image_->parameters.component, {0, 1, 2}, {3, 255});
+}
+
+TEST(TableImage, FaultsKeepTheirNumbers) {
+  LONGS_EQUAL(0, static_cast<int>(TableFault::kNone));
+  LONGS_EQUAL(1, static_cast<int>(TableFault::kTooShort));
+  LONGS_EQUAL(2, static_cast<int>(TableFault::kMagic));
+  LONGS_EQUAL(3, static_cast<int>(TableFault::kFormat));
+  LONGS_EQUAL(4, static_cast<int>(TableFault::kLength));
+  LONGS_EQUAL(5, static_cast<int>(TableFault::kChecksum));
+  LONGS_EQUAL(6, static_cast<int>(TableFault::kConstants));
+}

@@ -1,0 +1,44 @@
+#pragma once
+// The elastic model of a config, for oracles that work from its values alone.
+
+#include <Eigen/Dense>
+#include <array>
+#include <numbers>
+
+#include "common/table_image.hpp"
+#include "host/config/finger_config.hpp"
+#include "host/model/impulse_response.hpp"
+
+namespace strainfinger::tables {
+
+inline model::ImpulseResponse responseOf(const config::FingerConfig& config) {
+  return {config.finger.annulus(), config.gauges.radius_m, config.gauges.component,
+          config.gauges.arc_length_m, config.contact.width_m};
+}
+
+using OracleMatrix = Eigen::Matrix<double, kWindowGauges, 2>;
+
+/// The responses of a window's gauges (rows; those not in `mask` are zero) to a normal and a tangential load
+/// of 1 N/m at an offset from the middle one.
+inline OracleMatrix oracleResponse(const model::ImpulseResponse& response, int gauges, double offset_pitch,
+                                   const std::array<bool, kWindowGauges>& mask) {
+  OracleMatrix matrix = OracleMatrix::Zero();
+  for (int k = 0; k < kWindowGauges; ++k) {
+    if (!mask[static_cast<std::size_t>(k)]) continue;
+    const auto value = response.at((k - 3 - offset_pitch) * 2 * std::numbers::pi / gauges);
+    matrix.row(k) << value.normal, value.tangential;
+  }
+  return matrix;
+}
+
+/// Derivative of a function of the offset, by central differences of fourth order: an error of 1e-10 by
+/// rounding, and much the same by the step, for functions of the size of 1 with features a pitch wide.
+template <typename Function>
+auto derivative(const Function& f, double offset_pitch) {
+  constexpr double h = 3e-4;
+  const auto near = (f(offset_pitch + h) - f(offset_pitch - h)).eval();
+  const auto far = (f(offset_pitch + 2 * h) - f(offset_pitch - 2 * h)).eval();
+  return ((8 * near - far) / (12 * h)).eval();
+}
+
+}  // namespace strainfinger::tables

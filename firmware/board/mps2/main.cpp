@@ -37,7 +37,7 @@ void doHarm(Harm harm) {
       assert(false);
       return;
     case Harm::kStackOverflow:
-      asm volatile("sub sp, %0\n push {r0-r7}" ::"r"(8192));
+      asm volatile("sub sp, %0\n push {r0-r7}" ::"r"(2048));
       return;
     case Harm::kHang:
       hang();

@@ -66,7 +66,7 @@ class Finger {
 
   FingerState state() const { return state_; }
   const FingerCounters& counters() const { return counters_; }
-  const Observation& lastObservation() const { return observation_; }
+  const Observation& lastObservation() const { return pipeline_.observation(); }
   const Readings& readings() const { return pipeline_.readings(); }  ///< of the last observation
 
  private:
@@ -103,10 +103,14 @@ class Finger {
   }
 
   void observe(std::uint32_t now_us) {
-    observation_ = pipeline_.process(codes());
-    if (observation_.fit) ++counters_.fits;
+    if (pipeline_.process(codes()).fit) ++counters_.fits;
+    report(now_us);
+  }
+
+  /// Not inlined, so that its frames aren't on the stack while the locator, which needs it most, runs.
+  [[gnu::noinline]] void report(std::uint32_t now_us) {
     if (forceOwed_) return;
-    const auto frames = reporter_.frames(pipeline_.constants(), observation_, now_us);
+    const auto frames = reporter_.frames(pipeline_.constants(), pipeline_.observation(), now_us);
     if (!frames) return;
     if (!can_.send(encode(frames->contact, settings_.node))) {
       ++counters_.touchesBusy;
@@ -160,7 +164,6 @@ class Finger {
   std::uint8_t tableCrc_;
   FingerState state_ = FingerState::kBoot;
   hal::SampleSet codes_{};
-  Observation observation_{};
   ForceFrame force_{};
   bool forceOwed_ = false;
   FingerCounters counters_{};

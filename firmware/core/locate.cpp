@@ -49,29 +49,36 @@ bool doubtful(const Problem& problem, const Answer& answer) {
          problem.ringEnergy - window > noise + (window >> kOutsideShift);
 }
 
-/// Of the windows at `offsets` from the anchor, solves the one whose scan explains most.
+/// Of the windows at `offsets` from the anchor, solves the one whose scan explains most. Scans that one
+/// twice, so as to have one scan on the stack and not two.
 template <std::size_t N>
 void solveBestOf(const Problem& problem, int anchor, const std::array<int, N>& offsets, Contest& contest) {
-  Scan best;
+  int best = anchor;
+  std::int32_t most = -1;
   for (const int offset : offsets) {
-    const Scan scan = scanWindow(problem, wrapped(anchor + offset, problem.gauges()));
-    if (best.step == 0 || scan.best() > best.best()) best = scan;
+    const int gauge = wrapped(anchor + offset, problem.gauges());
+    const std::int32_t energy = scanWindow(problem, gauge).best();
+    if (energy <= most) continue;
+    most = energy;
+    best = gauge;
   }
-  solveWindow(problem, best, contest);
+  solveWindow(problem, scanWindow(problem, best), contest);
 }
 
 /// Where the model's strongest response has no single peak over the contact, or noise may hide it, every
 /// window is looked at.
 void solveEverywhere(const Problem& problem, Contest& contest) {
-  std::array<std::int32_t, kMaxGauges> energies{};
+  constexpr int kCoarse = 11;  // energies, below 2^27, in 16 bits: half the stack
+  std::array<std::uint16_t, kMaxGauges> energies{};
   std::int32_t largest = 0;
   for (int gauge = 0; gauge < problem.gauges(); ++gauge) {
-    energies[static_cast<std::size_t>(gauge)] = scanWindow(problem, gauge).best();
-    largest = std::max(largest, energies[static_cast<std::size_t>(gauge)]);
+    const std::int32_t energy = scanWindow(problem, gauge).best();
+    energies[static_cast<std::size_t>(gauge)] = saturate<std::uint16_t>(energy >> kCoarse);
+    largest = std::max(largest, energy);
   }
   const std::int32_t limit = largest - (largest >> kRivalShift) - problem.noise(kRivalMargin);
   for (int gauge = 0; gauge < problem.gauges(); ++gauge) {
-    if (energies[static_cast<std::size_t>(gauge)] >= limit)
+    if (energies[static_cast<std::size_t>(gauge)] >= limit >> kCoarse)
       solveWindow(problem, scanWindow(problem, gauge), contest);
   }
 }
@@ -115,7 +122,7 @@ Fit reportOf(const Problem& problem, const Contest& contest) {
   fit.load = row.load;
   fit.shift = static_cast<std::int8_t>(problem.shift);
   fit.centre = static_cast<std::uint8_t>(best.fit.centre);
-  fit.unexplained = std::max(window - best.energy, 0);
+  fit.unexplained = std::max<std::int32_t>(window - best.energy, 0);
   fit.expected = problem.noise(kUnexplained / 2) + (window >> kRoundingShift);
   return fit;
 }
@@ -124,9 +131,11 @@ Fit reportOf(const Problem& problem, const Contest& contest) {
 
 Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t> strains_q32,
            std::uint32_t energy) {
-  const Problem problem = problemOf(tables, mode, strains_q32, energy);
-  const Contest contest = contestOf(problem);
-  if (mode == FitMode::kRefined || !doubtful(problem, contest.best)) return reportOf(problem, contest);
+  {
+    const Problem problem = problemOf(tables, mode, strains_q32, energy);
+    const Contest contest = contestOf(problem);
+    if (mode == FitMode::kRefined || !doubtful(problem, contest.best)) return reportOf(problem, contest);
+  }  // its stack is needed again
   // Three readings that leave much unexplained are overruled by their neighbours.
   const Problem refined = problemOf(tables, FitMode::kRefined, strains_q32, energy);
   return reportOf(refined, contestOf(refined));

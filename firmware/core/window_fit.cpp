@@ -31,7 +31,9 @@ std::int64_t shifted(std::int64_t value, int left) {
 /// A quotient * 2^14 is a length in pitches * 2^20, so many bits further left.
 int quotientShift(const FitRow& row) { return kPitchBits - kQuotientBits - row.gradient_exponent; }
 
-int nearestRow(PitchQ20 offset) { return std::min((offset + kRowSpacing / 2) >> kRowBits, kFitRows - 1); }
+int nearestRow(PitchQ20 offset) {
+  return std::min<int>((offset + kRowSpacing / 2) >> kRowBits, kFitRows - 1);
+}
 
 const FitRow& rowOf(const FitTables& tables, const WindowFit& fit) {
   return (*tables[fit.sense])[static_cast<std::size_t>(fit.row)];

@@ -1,0 +1,110 @@
+#include <cassert>
+
+#include "firmware/app/run.hpp"
+#include "firmware/app/slcan_port.hpp"
+#include "firmware/board/cortex_m/crash.hpp"
+#include "firmware/board/cortex_m/linked_tables.hpp"
+#include "firmware/board/cortex_m/startup.hpp"
+#include "firmware/board/cortex_m/system_control.hpp"
+#include "firmware/board/mps2/console.hpp"
+#include "firmware/board/mps2/semihosting.hpp"
+#include "firmware/board/mps2/uart.hpp"
+#include "firmware/board/mps2/watchdog.hpp"
+#include "firmware/board/mps2/world.hpp"
+
+namespace strainfinger::mps2 {
+namespace {
+
+using Can = firmware::SlcanPort<Uart>;
+using TheWorld = World<Uart, Can>;
+
+constexpr std::array<unsigned, 4> kLineInterrupts{kUart1Interrupt, kUart1Interrupt + 1, kUart2Interrupt,
+                                                  kUart2Interrupt + 1};
+
+constexpr firmware::FingerSettings kSettings{
+    .standingFlags = {FingerFlag::kUncalibrated, FingerFlag::kSimulated}};
+
+[[noreturn]] void hang() {
+  for (;;) asm volatile("");
+}
+
+void doHarm(Harm harm) {
+  switch (harm) {
+    case Harm::kHardFault:
+      *reinterpret_cast<std::uint32_t volatile*>(0xF0000000) = 0;
+      return;
+    case Harm::kAssertion:
+      assert(false);
+      return;
+    case Harm::kStackOverflow:
+      asm volatile("sub sp, %0\n push {r0-r7}" ::"r"(2048));
+      return;
+    case Harm::kHang:
+      hang();
+  }
+}
+
+void act(const WorldRecord& record, Can& can) {
+  switch (record.kind) {
+    case RecordKind::kHarm:
+      return doHarm(static_cast<Harm>(record.payload[0]));
+    case RecordKind::kBus:
+      return can.setBus({.state = static_cast<hal::CanState>(record.payload[0]),
+                         .txErrors = record.payload[1],
+                         .rxErrors = record.payload[2]});
+    case RecordKind::kEnd:
+      endEmulator(record.payload[0]);
+    default:
+      return;
+  }
+}
+
+[[gnu::noinline]] void greet(const firmware::LastRun& last) {
+  Console console;
+  console << "strainfinger on mps2: restarts " << last.restarts << ", crash "
+          << static_cast<std::uint32_t>(last.crash) << " at 0x";
+  console.hex(last.crash_address);
+  console << "\n";
+}
+
+}  // namespace
+
+[[noreturn]] void run() {
+  board::maskInterrupts();
+  for (const unsigned interrupt : kLineInterrupts) board::enableInterrupt(interrupt);
+  static Uart bus(kUart1), world_line(kUart2);
+  const firmware::LastRun last = board::takeLastRun();
+  greet(last);
+  static Can can(bus, last.restarts != 0);  // the host has not closed it
+  world_line.put(kReady);
+  static TheWorld world(world_line, can);
+  static Watchdog watchdog(world, firmware::resetCause(last));
+  const auto wait = [] {
+    bus.clearInterrupts();
+    world_line.clearInterrupts();
+    for (const unsigned interrupt : kLineInterrupts) board::forgetInterrupt(interrupt);
+    can.poll();
+    if (!world.poll([](const WorldRecord& record) { act(record, can); })) {
+      watchdog.rest();
+      board::sleep();
+    }
+    watchdog.run();
+    if (watchdog.starved()) board::crash(Crash::kStarved, 0);
+  };
+  watchdog.run();
+  firmware::runFinger(board::kLinkedTables, kSettings, last, world, can, world, watchdog, wait);
+}
+
+}  // namespace strainfinger::mps2
+
+namespace strainfinger::board {
+
+[[gnu::section(".vectors"), gnu::used]] constinit const auto kVectors = [] {
+  auto table = vectorTable<16>(stack_top, faultHandler);
+  table.nonMaskable = watchdogHandler;
+  return table;
+}();
+
+void runBoard() { mps2::run(); }
+
+}  // namespace strainfinger::board

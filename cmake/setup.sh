@@ -9,7 +9,7 @@ packages=(
   gnuplot-nox                                             # pictures
   libcpputest-dev libboost-dev python3-canmatrix          # tests: framework, high precision, DBC oracle
   can-utils iproute2                                      # candump, ip link
-  qemu-system-x86 busybox-static cpio                     # tests: a real vcan where this kernel has none
+  qemu-system-x86 busybox-static python3                  # tests: a real vcan where this kernel has none
 )
 
 missing=()

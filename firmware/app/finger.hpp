@@ -61,7 +61,7 @@ class Finger {
 
   FingerState state() const { return state_; }
   const FingerCounters& counters() const { return counters_; }
-  const Observation& lastObservation() const { return observation_; }
+  const Observation& lastObservation() const { return pipeline_.observation(); }
 
  private:
   static constexpr std::uint32_t kHeartbeatPeriod_us = std::uint32_t{kHeartbeatPeriod_ms} * 1000;
@@ -95,11 +95,11 @@ class Finger {
   }
 
   void observe(std::uint32_t now_us) {
-    observation_ = pipeline_.process(codes());
-    if (observation_.fit) ++counters_.fits;
+    const Observation& observation = pipeline_.process(codes());
+    if (observation.fit) ++counters_.fits;
     if (forceOwed_) sendForce(now_us);
     if (forceOwed_) return;
-    const auto frames = reporter_.frames(pipeline_.constants(), observation_, now_us);
+    const auto frames = reporter_.frames(pipeline_.constants(), observation, now_us);
     if (!frames) return;
     if (!can_.send(encode(frames->contact, settings_.node))) {
       ++counters_.touchesBusy;
@@ -153,7 +153,6 @@ class Finger {
   std::uint8_t tableCrc_;
   FingerState state_ = FingerState::kBoot;
   hal::SampleSet codes_{};
-  Observation observation_{};
   ForceFrame force_{};
   bool forceOwed_ = false;
   FingerCounters counters_{};

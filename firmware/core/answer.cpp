@@ -29,7 +29,7 @@ Answer solve(const Problem& problem, const Scan& scan, int start) {
   fit.side = scan.side(start);
   fit.signal = fit.side > 0 ? scan.signal : mirrored(scan.signal, problem.mirrorSign());
   fit.offset = scan.row(start) * kRowSpacing;
-  fit.sense = scan.pullsBack[static_cast<std::size_t>(start)] ? kAgainstOffset : kWithOffset;
+  fit.sense = scan.pullsBack(start) ? kAgainstOffset : kWithOffset;
   const FitTables tables = problem.fitTables();
   answer.settled = refine(tables, problem.mirrorSign(), fit);
   answer.amplitudes = amplitudesOf(tables, fit);

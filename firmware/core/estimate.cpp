@@ -94,7 +94,7 @@ TurnQ32 angleOf(const TableConstants& constants, PitchQ20 position) {
 
 std::uint8_t qualityOf(const Fit& fit) {
   const std::int64_t percent =
-      100 * std::int64_t{fit.expected} / std::max({fit.expected, fit.unexplained, 1});
+      100 * std::int64_t{fit.expected} / std::max<std::int32_t>({fit.expected, fit.unexplained, 1});
   const bool doubt = fit.ambiguous || !fit.settled;
   return static_cast<std::uint8_t>(std::min<std::int64_t>(percent, doubt ? kUncertainQuality : 100));
 }

@@ -106,7 +106,7 @@ Fit reportOf(const Problem& problem, const Contest& contest) {
   fit.load = row.load;
   fit.shift = static_cast<std::int8_t>(problem.shift);
   fit.centre = static_cast<std::uint8_t>(best.fit.centre);
-  fit.unexplained = std::max(window - best.energy, 0);
+  fit.unexplained = std::max<std::int32_t>(window - best.energy, 0);
   fit.expected = problem.noise(kUnexplained / 2) + (window >> kRoundingShift);
   return fit;
 }
@@ -115,9 +115,11 @@ Fit reportOf(const Problem& problem, const Contest& contest) {
 
 Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t> strains_q32,
            std::uint32_t energy) {
-  const Problem problem = problemOf(tables, mode, strains_q32, energy);
-  const Contest contest = contestOf(problem);
-  if (mode == FitMode::kRefined || !doubtful(problem, contest.best)) return reportOf(problem, contest);
+  {
+    const Problem problem = problemOf(tables, mode, strains_q32, energy);
+    const Contest contest = contestOf(problem);
+    if (mode == FitMode::kRefined || !doubtful(problem, contest.best)) return reportOf(problem, contest);
+  }  // its stack is needed again
   // Three readings that leave much unexplained are overruled by their neighbours.
   const Problem refined = problemOf(tables, FitMode::kRefined, strains_q32, energy);
   return reportOf(refined, contestOf(refined));

@@ -21,7 +21,10 @@ class Pipeline {
       : tables_(&tables), calibration_(nominalCalibration(tables.constants)), mode_(mode) {}
 
   /// Costs conditioning and the gate when nothing touches; else a fit (see locate()).
-  Observation process(Codes codes);
+  const Observation& process(Codes codes);
+
+  /// What the last sample set showed.
+  const Observation& observation() const { return observation_; }
 
   const TableConstants& constants() const { return tables_->constants; }
   Calibration& calibration() { return calibration_; }
@@ -30,6 +33,7 @@ class Pipeline {
   const TableImage* tables_;
   Calibration calibration_;
   Readings readings_;
+  Observation observation_;
   ContactGate gate_;
   FitMode mode_;
 };

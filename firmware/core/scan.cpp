@@ -20,8 +20,8 @@ Scan scanWindow(const Problem& problem, int centre) {
     scan.energy[ahead] = energyOf(even1 + odd1, even2 + odd2);
     scan.energy[behind] = energyOf(even1 - odd1, even2 - odd2);
     // The second projection has the sign of the tangential load, as its own side sees it.
-    scan.pullsBack[ahead] = even2 + odd2 < 0;
-    scan.pullsBack[behind] = (even2 - odd2) * constants.mirror_sign < 0;
+    if (even2 + odd2 < 0) scan.backward |= 1u << ahead;
+    if ((even2 - odd2) * constants.mirror_sign < 0) scan.backward |= 1u << behind;
   }
   return scan;
 }

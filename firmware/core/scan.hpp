@@ -22,7 +22,7 @@ struct Scan {
   int step = 0;     ///< rows between offsets
   int perSide = 0;  ///< offsets on either side of the middle
   std::array<std::int32_t, 2 * kMaxScanRows> energy{};
-  std::array<bool, 2 * kMaxScanRows> pullsBack{};  ///< the tangential load points towards the middle
+  std::uint32_t backward = 0;  ///< bit i: at offset i the tangential load points towards the middle
 
   int size() const { return 2 * perSide; }
   int side(int index) const { return index < perSide ? -1 : 1; }
@@ -30,6 +30,7 @@ struct Scan {
     return step / 2 + step * (index < perSide ? perSide - 1 - index : index - perSide);
   }
   std::int32_t at(int index) const { return energy[static_cast<std::size_t>(index)]; }
+  bool pullsBack(int index) const { return (backward >> index & 1) != 0; }
   std::int32_t best() const { return *std::max_element(energy.begin(), energy.begin() + size()); }
   bool isPeak(int index) const {
     return (index == 0 || at(index - 1) <= at(index)) && (index + 1 == size() || at(index + 1) < at(index));

@@ -31,7 +31,9 @@ PitchQ20 stepLength(std::int32_t quotient_q14, int gradientExponent) {
   return static_cast<PitchQ20>(std::clamp<std::int64_t>(length, -kLongestStep, kLongestStep));
 }
 
-int nearestRow(PitchQ20 offset) { return std::min((offset + kRowSpacing / 2) >> kRowBits, kFitRows - 1); }
+int nearestRow(PitchQ20 offset) {
+  return std::min<int>((offset + kRowSpacing / 2) >> kRowBits, kFitRows - 1);
+}
 
 const FitRow& rowOf(const FitTables& tables, const WindowFit& fit) {
   return (*tables[fit.sense])[static_cast<std::size_t>(fit.row)];

@@ -11,8 +11,8 @@
 
 namespace strainfinger::model {
 
-/// What responds: stresses [Pa], displacements [m], tensor strains. e_rtheta is kTrt / (2 mu).
-enum Row : int { kTrr, kTrt, kTtt, kUr, kUt, kErr, kEtt, kRowCount };
+/// What responds: stresses [Pa], displacements [m], tensor strains.
+enum Row : int { kTrr, kTrt, kTtt, kUr, kUt, kErr, kEtt, kErt, kRowCount };
 
 /// Which traction acts: the columns of a HarmonicResponse.
 enum Traction : int { kNormal, kTangential };
@@ -23,6 +23,9 @@ enum Traction : int { kNormal, kTangential };
 /// theta (paper, eq. 3).
 template <typename Scalar>
 using HarmonicResponse = Eigen::Matrix<Scalar, kRowCount, 2>;
+
+/// Whether a normal load at theta = 0 makes this even in theta, and a tangential one odd; else the reverse.
+constexpr bool isEvenInNormalLoad(Row row) { return row != kTrt && row != kUt && row != kErt; }
 
 /// (x / y)^n for 0 < x <= y, n >= 0. For built-in types the rounding of the quotient, which the power would
 /// amplify n times, is taken back by its residual.
@@ -55,9 +58,9 @@ class HarmonicModel {
   struct Terms;
   Terms terms(int n) const;
   HarmonicResponse<Scalar> zeroth() const;
-  void addStresses(const Terms& t, HarmonicResponse<Scalar>& response) const;
+  void addTractions(const Terms& t, HarmonicResponse<Scalar>& response) const;
   void addDisplacements(const Terms& t, HarmonicResponse<Scalar>& response) const;
-  void addStrains(const Terms& t, HarmonicResponse<Scalar>& response) const;
+  void addStrainsAndHoopStress(const Terms& t, HarmonicResponse<Scalar>& response) const;
   bool isNearCore(const Terms& t) const { return (t.n + 1) * core_ < 1; }
   Scalar linearExcess(int m) const;
   Scalar meanQuadraticExcess(int m) const;
@@ -117,15 +120,16 @@ HarmonicResponse<Scalar> HarmonicModel<Scalar>::operator()(int n) const {
   if (n == 0) return zeroth();
   const Terms t = terms(n);
   HarmonicResponse<Scalar> response;
-  addStresses(t, response);
+  addTractions(t, response);
   addDisplacements(t, response);
-  addStrains(t, response);
+  addStrainsAndHoopStress(t, response);
   const Scalar common = t.w / (2 * t.delta);
-  for (int row = 0; row < kRowCount; ++row) {
+  for (int row = 0; row < kErt; ++row) {
     const Scalar sum = common * response(row, 0), difference = common * response(row, 1);
     response(row, kNormal) = sum + difference;
     response(row, kTangential) = sum - difference;
   }
+  response.row(kErt) = response.row(kTrt) / (2 * annulus_.shear_modulus_pa);
   return response;
 }
 
@@ -136,11 +140,12 @@ HarmonicResponse<Scalar> HarmonicModel<Scalar>::zeroth() const {
   const Scalar outward = annulus_.outer_radius_m / radius_;
   HarmonicResponse<Scalar> response = HarmonicResponse<Scalar>::Zero();
   response(kTrr, kNormal) = (2 + b_ * kappaOne_) / scale;
-  response(kTtt, kNormal) = (2 - b_ * kappaOne_) / scale;
+  response(kTtt, kNormal) = (core_ * kappaOne_ + 4 * annulus_.poisson_ratio) / scale;
   response(kErr, kNormal) = (1 + b_) * kappaOne_ / (twoMu * scale);
   response(kEtt, kNormal) = core_ * kappaOne_ / (twoMu * scale);
   response(kUr, kNormal) = radius_ * response(kEtt, kNormal);
   response(kTrt, kTangential) = outward * outward;
+  response(kErt, kTangential) = response(kTrt, kTangential) / twoMu;
   response(kUt, kTangential) = radius_ * core_ / (twoMu * a_);
   return response;
 }
@@ -165,7 +170,7 @@ typename HarmonicModel<Scalar>::Terms HarmonicModel<Scalar>::terms(int n) const 
 // The three functions below fill a row with its response to (p + q) / 2 and (p - q) / 2, times
 // delta / gamma^n: the product A_n B_n L of the paper, multiplied out.
 template <typename Scalar>
-void HarmonicModel<Scalar>::addStresses(const Terms& t, HarmonicResponse<Scalar>& response) const {
+void HarmonicModel<Scalar>::addTractions(const Terms& t, HarmonicResponse<Scalar>& response) const {
   const int n = t.n;
   const Scalar near = 1 + kappa_ * b_ * t.B;
   const Scalar thin = (n + 1) * t.A * rubber_;
@@ -176,8 +181,6 @@ void HarmonicModel<Scalar>::addStresses(const Terms& t, HarmonicResponse<Scalar>
   response(kTrr, 1) = depth + core * (1 + bend) + t.load * near;
   response(kTrt, 0) = thin * ((n - 1) * core_ + near) + t.gain * (kappa_ * b_ + t.B * (1 - bend));
   response(kTrt, 1) = depth + core * (1 - bend) - t.load * near;
-  response(kTtt, 0) = 4 * (t.gain * t.B - thin) - response(kTrr, 0);
-  response(kTtt, 1) = 4 * (t.load + core) - response(kTrr, 1);
 }
 
 template <typename Scalar>
@@ -201,7 +204,8 @@ void HarmonicModel<Scalar>::addDisplacements(const Terms& t, HarmonicResponse<Sc
 }
 
 template <typename Scalar>
-void HarmonicModel<Scalar>::addStrains(const Terms& t, HarmonicResponse<Scalar>& response) const {
+void HarmonicModel<Scalar>::addStrainsAndHoopStress(const Terms& t,
+                                                    HarmonicResponse<Scalar>& response) const {
   const int n = t.n;
   const Scalar scale = 1 / (2 * annulus_.shear_modulus_pa);
   const Scalar thin = (n + 1) * t.A * rubber_;
@@ -210,12 +214,15 @@ void HarmonicModel<Scalar>::addStrains(const Terms& t, HarmonicResponse<Scalar>&
   const Scalar hoopSum = -(thin * stretch + t.gain * shrink);
   const Scalar hoopDifference = t.A * stretch + kappa_ * (a_ * kappa_ * t.fall - (n - 1) * t.cross) -
                                 (n - 1) * rubber_ * (n + 1) * core_ * t.B;
-  const Scalar dilationSum = 2 * kappaOne_ * (t.gain * t.B - thin);
-  const Scalar dilationDifference = 2 * kappaOne_ * (t.load + (n - 1) * rubber_ * t.B);
+  const Scalar meanSum = t.gain * t.B - thin;
+  const Scalar meanDifference = t.load + (n - 1) * rubber_ * t.B;
+  const Scalar dilation = 2 * kappaOne_, lateral = 4 * annulus_.poisson_ratio;
   response(kEtt, 0) = scale * hoopSum;
   response(kEtt, 1) = scale * hoopDifference;
-  response(kErr, 0) = scale * (dilationSum - hoopSum);
-  response(kErr, 1) = scale * (dilationDifference - hoopDifference);
+  response(kErr, 0) = scale * (dilation * meanSum - hoopSum);
+  response(kErr, 1) = scale * (dilation * meanDifference - hoopDifference);
+  response(kTtt, 0) = lateral * meanSum + hoopSum;
+  response(kTtt, 1) = lateral * meanDifference + hoopDifference;
 }
 
 // m x - (1 - (1 - x)^m) at x = 1 - beta^2, m >= 1: of second order at the core.

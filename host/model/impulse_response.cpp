@@ -10,27 +10,23 @@ namespace {
 
 Row rowOf(StrainComponent component) {
   if (component == StrainComponent::kRadial) return kErr;
-  return component == StrainComponent::kHoop ? kEtt : kTrt;
+  return component == StrainComponent::kHoop ? kEtt : kErt;
 }
 
 }  // namespace
 
-// A pressing load has p = -P / (pi r_b) cos n theta, a tangential one q = Q / (pi r_b) cos n theta, half of
-// that at n = 0. By the pairing of HarmonicResponse p^c gives cosines of e_rr and -sines of tau_rt, q^c gives
-// sines of e_rr and cosines of tau_rt.
+// A pressing load of 1 N/m has the coefficients p_n^c = -1 / (pi r_b), a tangential one q_n^c = 1 / (pi r_b),
+// half of that at n = 0. By the pairing of HarmonicResponse p^c gives cosines of e_rr and minus sines of
+// e_rt, q^c gives sines of e_rr and cosines of e_rt.
 ImpulseResponse::ImpulseResponse(const Annulus<double>& annulus, double radius_m, StrainComponent component,
                                  double gaugeArc_m, double contactWidth_m, double tolerance)
-    : normalIsEven_(component != StrainComponent::kShear) {
+    : normalIsEven_(isEvenInNormalLoad(rowOf(component))) {
   const std::array rows{rowOf(component)};
   const Windows windows{contactWidth_m / annulus.outer_radius_m, gaugeArc_m / radius_m};
   Eigen::MatrixXd table = truncatedSeries(annulus, radius_m, rows, windows, tolerance);
   table /= std::numbers::pi * annulus.outer_radius_m;
   table.row(0) /= 2;
-  if (normalIsEven_) {
-    table.col(kNormal) *= -1;
-  } else {
-    table /= 2 * annulus.shear_modulus_pa;
-  }
+  if (normalIsEven_) table.col(kNormal) *= -1;
   even_ = table.col(normalIsEven_ ? kNormal : kTangential);
   odd_ = table.col(normalIsEven_ ? kTangential : kNormal);
 }

@@ -20,6 +20,8 @@ void require(bool holds, const std::string& message) {
 
 bool isWindow(double angle_rad) { return angle_rad >= 0 && angle_rad <= 2 * std::numbers::pi; }
 
+}  // namespace
+
 void requireDomain(const Annulus<double>& annulus, double radius_m, const Windows& windows,
                    double tolerance) {
   require(radius_m >= annulus.core_radius_m && radius_m <= annulus.outer_radius_m,
@@ -30,11 +32,14 @@ void requireDomain(const Annulus<double>& annulus, double radius_m, const Window
   require(tolerance > 0 && tolerance < 1, "the tolerance must be above 0 and below 1");
 }
 
+namespace {
+
 Failure notConvergent(const Annulus<double>& annulus, double radius_m) {
   return {
       ExitCode::kUsage,
       fmt::format("radius {} m is too close to the surface at {} m: the response to a line load is a delta "
-                  "function there and its series needs more than {} harmonics; choose a smaller radius",
+                  "function there and its series needs more than {} harmonics; choose a smaller radius or, "
+                  "at the surface itself, a load of some width",
                   radius_m, annulus.outer_radius_m, kMaxHarmonics)};
 }
 
@@ -98,6 +103,38 @@ Eigen::MatrixXd truncatedSeries(const Annulus<double>& annulus, double radius_m,
     if (series.done()) return series.table();
   }
   throw notConvergent(annulus, radius_m);
+}
+
+// By the pairing of HarmonicResponse p^c gives cosines of the rows that are even in a normal load and minus
+// sines of the others; q^c gives sines and cosines.
+Eigen::MatrixXd sumSeries(const Eigen::MatrixXd& table, std::span<const Row> rows,
+                          const Annulus<double>& annulus, const SurfaceLoad& load,
+                          std::span<const double> angles_rad) {
+  const LineCoefficients line(annulus, load);
+  Eigen::MatrixXd cosines(table.rows(), rows.size()), sines(table.rows(), rows.size());
+  for (Eigen::Index i = 0; i < cosines.cols(); ++i) {
+    const auto normal = line.normal * table.col(2 * i + kNormal);
+    const auto tangential = line.tangential * table.col(2 * i + kTangential);
+    if (isEvenInNormalLoad(rows[static_cast<std::size_t>(i)])) {
+      cosines.col(i) = normal;
+      sines.col(i) = tangential;
+    } else {
+      cosines.col(i) = tangential;
+      sines.col(i) = -normal;
+    }
+  }
+  cosines.row(0) /= 2;
+  Eigen::MatrixXd result(angles_rad.size(), rows.size());
+  Eigen::RowVectorXd c(table.rows()), s(table.rows());
+  for (Eigen::Index k = 0; k < result.rows(); ++k) {
+    visitMultiples(angles_rad[static_cast<std::size_t>(k)] - load.centre_rad,
+                   static_cast<int>(table.rows()) - 1, [&](int n, double cosine, double sine) {
+                     c[n] = cosine;
+                     s[n] = sine;
+                   });
+    result.row(k) = c * cosines + s * sines;
+  }
+  return result;
 }
 
 }  // namespace strainfinger::model

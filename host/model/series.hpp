@@ -6,6 +6,7 @@
 #include <span>
 
 #include "host/model/harmonic.hpp"
+#include "host/model/surface_load.hpp"
 
 namespace strainfinger::model {
 
@@ -21,15 +22,18 @@ struct Windows {
   double factor(int n) const;
 };
 
+/// Throws Failure(kUsage), naming what is wrong, unless core_radius_m <= radius_m <= outer_radius_m, the
+/// windows are within 0..2 pi and 0 < tolerance < 1.
+void requireDomain(const Annulus<double>& annulus, double radius_m, const Windows& windows, double tolerance);
+
 /// Windowed responses of harmonics 0..N: row n, column 2 i + load for the i-th of `rows`.
 ///
 /// N is the first n from which on what is left out is below `tolerance` times the root mean square, and so
 /// below `tolerance` times the peak, of every series kept. What is left out is bounded by a geometric series
 /// from the last harmonic, windows ignored: beyond the peak of the spectrum a harmonic is gamma^n times a
 /// polynomial in n of degree two at most, so it is at most gamma (1 + 1/n)^2 times the one before.
-/// Domain: core_radius_m <= radius_m <= outer_radius_m, windows 0..2 pi, 0 < tolerance < 1. Throws
-/// Failure(kUsage) outside it and if it takes more than kMaxHarmonics: at r_b, where nothing converges, and
-/// too close below it.
+/// Throws what requireDomain() throws, and Failure(kUsage) if it takes more than kMaxHarmonics: at r_b, where
+/// nothing converges, and too close below it.
 Eigen::MatrixXd truncatedSeries(const Annulus<double>& annulus, double radius_m, std::span<const Row> rows,
                                 const Windows& windows, double tolerance);
 
@@ -52,5 +56,11 @@ void visitMultiples(double angle_rad, int last, Visit visit) {
     c = next;
   }
 }
+
+/// Sums a table of responses (row n, column 2 i + load, as truncatedSeries() makes them) under a load: one
+/// row an angle, one column each of `rows`. The load's width is in the table already.
+Eigen::MatrixXd sumSeries(const Eigen::MatrixXd& table, std::span<const Row> rows,
+                          const Annulus<double>& annulus, const SurfaceLoad& load,
+                          std::span<const double> angles_rad);
 
 }  // namespace strainfinger::model

@@ -1,0 +1,16 @@
+#include "firmware/board/cortex_m/startup.hpp"
+
+#include <algorithm>
+
+// From sections.ld.
+extern std::uint32_t data_loaded_at[], data_begin[], data_end[], bss_begin[], bss_end[];
+
+namespace strainfinger::board {
+
+extern "C" [[noreturn]] void resetHandler() {
+  std::copy_n(data_loaded_at, data_end - data_begin, data_begin);
+  std::fill(bss_begin, bss_end, 0);
+  runBoard();
+}
+
+}  // namespace strainfinger::board

@@ -1,5 +1,6 @@
 #pragma once
-// 170 MHz from the crystal, or from the internal oscillator when the crystal doesn't start: RM0440 chapters 5 to 7.
+// 170 MHz from the crystal, or from the internal oscillator when the crystal doesn't start: RM0440 chapters 5
+// to 7.
 
 #include <optional>
 
@@ -8,11 +9,11 @@
 
 namespace strainfinger::stm32g431 {
 
-inline constexpr std::uint32_t kCore_hz = 170'000'000;      ///< processor, both peripheral buses, timers
-inline constexpr std::uint32_t kCrystal_hz = 24'000'000;    ///< X3 of the Nucleo board
-inline constexpr std::uint32_t kInternal_hz = 16'000'000;   ///< HSI16
-inline constexpr std::uint32_t kCrystal_ppm = 100;          ///< off by at most; the usual crystal is within 50
-inline constexpr std::uint32_t kInternal_ppm = 10'000;      ///< 0 .. 85 degC, DS12589
+inline constexpr std::uint32_t kCore_hz = 170'000'000;     ///< processor, both peripheral buses, timers
+inline constexpr std::uint32_t kCrystal_hz = 24'000'000;   ///< X3 of the Nucleo board
+inline constexpr std::uint32_t kInternal_hz = 16'000'000;  ///< HSI16
+inline constexpr std::uint32_t kCrystal_ppm = 100;         ///< off by at most; the usual crystal is within 50
+inline constexpr std::uint32_t kInternal_ppm = 10'000;     ///< 0 .. 85 degC, DS12589
 
 enum class ClockSource : std::uint8_t { kCrystal, kInternal };
 
@@ -48,8 +49,8 @@ class ClockTree {
  public:
   explicit ClockTree(Bus bus) : bus_(bus) {}
 
-  /// To be called once, after reset, when the internal oscillator runs. None: the PLL doesn't lock or the supply
-  /// doesn't settle; the processor then still runs at 16 MHz.
+  /// To be called once, after reset, when the internal oscillator runs. None: the PLL doesn't lock or the
+  /// supply doesn't settle; the processor then still runs at 16 MHz.
   [[nodiscard]] std::optional<ClockSource> start() noexcept {
     modify(bus_, Rcc::Apb1Enr1::pwr(1));
     modify(bus_, Pwr::Cr1::voltageRange(1));
@@ -74,8 +75,9 @@ class ClockTree {
     using PllCfgr = Rcc::PllCfgr;
     modify(bus_, Rcc::Cr::pllOn(0));
     if (!waitFor(bus_, Rcc::Cr::pllReady, 0, kClockPolls)) return false;
-    write(bus_, PllCfgr::source(source) | PllCfgr::divideIn(plan.divideIn - 1) | PllCfgr::multiply(plan.multiply) |
-                    PllCfgr::divideOut(plan.divideOut / 2 - 1) | PllCfgr::outputOn(1));
+    write(bus_, PllCfgr::source(source) | PllCfgr::divideIn(plan.divideIn - 1) |
+                    PllCfgr::multiply(plan.multiply) | PllCfgr::divideOut(plan.divideOut / 2 - 1) |
+                    PllCfgr::outputOn(1));
     modify(bus_, Rcc::Cr::pllOn(1));
     return waitFor(bus_, Rcc::Cr::pllReady, 1, kClockPolls);
   }
@@ -84,10 +86,11 @@ class ClockTree {
   bool switchToPll() noexcept {
     modify(bus_, Rcc::Cfgr::ahbPrescaler(kHalf));
     modify(bus_, Pwr::Cr5::normalMode(0));
-    modify(bus_, Flash::Acr::latency(kWaitStates) | Flash::Acr::prefetch(1) | Flash::Acr::instructionCache(1) |
-                     Flash::Acr::dataCache(1));
+    modify(bus_, Flash::Acr::latency(kWaitStates) | Flash::Acr::prefetch(1) |
+                     Flash::Acr::instructionCache(1) | Flash::Acr::dataCache(1));
     if (!waitFor(bus_, Flash::Acr::latency, kWaitStates, kClockPolls)) return false;
-    modify(bus_, Rcc::Cfgr::systemClock(Rcc::kPll) | Rcc::Cfgr::apb1Prescaler(0) | Rcc::Cfgr::apb2Prescaler(0));
+    modify(bus_,
+           Rcc::Cfgr::systemClock(Rcc::kPll) | Rcc::Cfgr::apb1Prescaler(0) | Rcc::Cfgr::apb2Prescaler(0));
     if (!waitFor(bus_, Rcc::Cfgr::systemClockStatus, Rcc::kPll, kClockPolls)) return false;
     waitCycles<Rcc::Cfgr>(bus_, kCore_hz / 1'000'000);
     modify(bus_, Rcc::Cfgr::ahbPrescaler(0));

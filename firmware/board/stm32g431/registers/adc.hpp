@@ -1,5 +1,6 @@
 #pragma once
-// Converters and what carries their results to memory: ADC (RM0440 chapter 21), DMA (chapter 12), DMAMUX (chapter 13).
+// Converters and what carries their results to memory: ADC (RM0440 chapter 21), DMA (chapter 12), DMAMUX
+// (chapter 13).
 
 #include "firmware/board/stm32g431/registers/register.hpp"
 
@@ -19,9 +20,9 @@ struct Adc {
     static constexpr Field<Cr, 31> calibrate{};      ///< falls back to 0 when done
   };
   struct Cfgr : Register<kBase + 0x0C> {
-    static constexpr Field<Cfgr, 5, 5> trigger{};         ///< EXTSEL; 9: TIM1's TRGO (table of section 21.4.18)
-    static constexpr Field<Cfgr, 10, 2> triggerEdge{};    ///< EXTEN; 1: rising
-    static constexpr Field<Cfgr, 12> overwrite{};         ///< OVRMOD; 0: keeps the old result, stops DMA
+    static constexpr Field<Cfgr, 5, 5> trigger{};       ///< EXTSEL; 9: TIM1's TRGO (table of section 21.4.18)
+    static constexpr Field<Cfgr, 10, 2> triggerEdge{};  ///< EXTEN; 1: rising
+    static constexpr Field<Cfgr, 12> overwrite{};       ///< OVRMOD; 0: keeps the old result, stops DMA
     static constexpr Field<Cfgr, 31> injectedQueueOff{};  ///< JQDIS
   };
   struct Cfgr2 : Register<kBase + 0x10> {
@@ -43,11 +44,11 @@ struct Adc12 {
   static constexpr std::uint32_t base = 0x5000'0300;
 
   struct Ccr : Register<base + 0x08> {
-    static constexpr Field<Ccr, 0, 5> dual{};         ///< 6: regular simultaneous
-    static constexpr Field<Ccr, 13> dmaCircular{};    ///< DMACFG
-    static constexpr Field<Ccr, 14, 2> dmaMode{};     ///< MDMA; 2: both results in one word
-    static constexpr Field<Ccr, 16, 2> clockMode{};   ///< 0: from the kernel clock, through the prescaler
-    static constexpr Field<Ccr, 18, 4> prescaler{};   ///< PRESC; 4: 8
+    static constexpr Field<Ccr, 0, 5> dual{};        ///< 6: regular simultaneous
+    static constexpr Field<Ccr, 13> dmaCircular{};   ///< DMACFG
+    static constexpr Field<Ccr, 14, 2> dmaMode{};    ///< MDMA; 2: both results in one word
+    static constexpr Field<Ccr, 16, 2> clockMode{};  ///< 0: from the kernel clock, through the prescaler
+    static constexpr Field<Ccr, 18, 4> prescaler{};  ///< PRESC; 4: 8
   };
   struct Cdr : Register<base + 0x0C> {};  ///< ADC1's result below, ADC2's above
 };

@@ -47,7 +47,8 @@ struct Fdcan {
   struct Rxgfc : Register<base + 0x80> {
     static constexpr Field<Rxgfc, 0> rejectExtendedRemote{};
     static constexpr Field<Rxgfc, 1> rejectStandardRemote{};
-    static constexpr Field<Rxgfc, 2, 2> otherExtended{};   ///< frames no filter takes. 0: to FIFO 0; 2: rejected
+    static constexpr Field<Rxgfc, 2, 2>
+        otherExtended{};  ///< frames no filter takes. 0: to FIFO 0; 2: rejected
     static constexpr Field<Rxgfc, 4, 2> otherStandard{};   ///< the same
     static constexpr Field<Rxgfc, 9> overwrite{};          ///< F0OM; 0: a full FIFO keeps what it has
     static constexpr Field<Rxgfc, 16, 5> standardCount{};  ///< filters in use

@@ -1,5 +1,6 @@
 #pragma once
-// Flash memory of category 2 devices: RM0440 chapter 5. One bank of 64 pages of 2 KiB, 64-bit words with 8 bits of ECC.
+// Flash memory of category 2 devices: RM0440 chapter 5. One bank of 64 pages of 2 KiB, 64-bit words with 8
+// bits of ECC.
 
 #include "firmware/board/stm32g431/registers/register.hpp"
 

@@ -13,7 +13,8 @@ struct Pin {
   bool operator==(const Pin&) const = default;
 };
 
-/// RM0440 section 9.4. One register of a port holds the same field for each pin, so it is an address and a shift.
+/// RM0440 section 9.4. One register of a port holds the same field for each pin, so it is an address and a
+/// shift.
 struct Gpio {
   static constexpr std::uint32_t base = 0x4800'0000;
   static constexpr std::uint32_t portStride = 0x400;
@@ -30,8 +31,8 @@ struct Gpio {
 void setPinField(const RegisterBus auto& bus, Pin pin, std::uint32_t offset, unsigned width,
                  std::uint32_t value) noexcept {
   const unsigned pinsPerRegister = 32 / width;
-  const std::uint32_t address = Gpio::base + static_cast<std::uint32_t>(pin.port) * Gpio::portStride + offset +
-                                4 * (pin.number / pinsPerRegister);
+  const std::uint32_t address = Gpio::base + static_cast<std::uint32_t>(pin.port) * Gpio::portStride +
+                                offset + 4 * (pin.number / pinsPerRegister);
   const unsigned shift = width * (pin.number % pinsPerRegister);
   const std::uint32_t mask = ((1U << width) - 1) << shift;
   bus.write(address, (bus.read(address) & ~mask) | (value << shift));
@@ -43,7 +44,8 @@ void makeAnalog(const RegisterBus auto& bus, Pin pin) noexcept {
   setPinField(bus, pin, Gpio::mode, 2, Gpio::kAnalog);
 }
 
-/// Gives the pin to a peripheral; the function comes before the mode, so that no other function shows meanwhile.
+/// Gives the pin to a peripheral; the function comes before the mode, so that no other function shows
+/// meanwhile.
 void makeAlternate(const RegisterBus auto& bus, Pin pin, std::uint32_t function, Gpio::Pull pull) noexcept {
   setPinField(bus, pin, Gpio::alternate, 4, function);
   setPinField(bus, pin, Gpio::speed, 2, 2);

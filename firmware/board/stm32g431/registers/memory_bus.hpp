@@ -12,9 +12,7 @@ struct MemoryBus {
   static void write(std::uint32_t address, std::uint32_t value) noexcept {
     *reinterpret_cast<volatile std::uint32_t*>(address) = value;
   }
-  static std::uint32_t addressOf(void* memory) noexcept {
-    return reinterpret_cast<std::uintptr_t>(memory);
-  }
+  static std::uint32_t addressOf(void* memory) noexcept { return reinterpret_cast<std::uintptr_t>(memory); }
 };
 
 static_assert(RegisterBus<MemoryBus>);

@@ -15,11 +15,13 @@ struct Timer {
     static constexpr Field<Cr2, 4, 3> triggerOutput{};  ///< MMS; 2: TRGO at each update
   };
   struct Smcr : Register<kBase + 0x08> {
-    static constexpr Field<Smcr, 0, 3> slaveMode{};     ///< SMS; 7: counts the edges of the trigger input
-    static constexpr Field<Smcr, 4, 3> triggerInput{};  ///< TS; 0: ITR0, which is TIM1's TRGO for TIM2 and TIM3
+    static constexpr Field<Smcr, 0, 3> slaveMode{};  ///< SMS; 7: counts the edges of the trigger input
+    static constexpr Field<Smcr, 4, 3>
+        triggerInput{};  ///< TS; 0: ITR0, which is TIM1's TRGO for TIM2 and TIM3
   };
   struct Egr : Register<kBase + 0x14> {
-    static constexpr Field<Egr, 0> update{};  ///< loads the prescaler, restarts the count, gives an update event
+    static constexpr Field<Egr, 0>
+        update{};  ///< loads the prescaler, restarts the count, gives an update event
   };
   struct Cnt : Register<kBase + 0x24> {
     static constexpr Field<Cnt, 0, 16> count16{};

@@ -31,14 +31,15 @@ inline constexpr TimingLimits kNominalLimits{512, 256, 128, 128};  ///< NBTP, RM
 inline constexpr TimingLimits kDataLimits{32, 32, 16, 16};         ///< DBTP, RM0440 section 44.4.3
 
 /// How far the true bit rate is from the wanted one.
-constexpr std::uint32_t rateError_ppm(const BitTiming& timing, std::uint32_t clock_hz, std::uint32_t bitRate) {
+constexpr std::uint32_t rateError_ppm(const BitTiming& timing, std::uint32_t clock_hz,
+                                      std::uint32_t bitRate) {
   const std::uint64_t wanted = std::uint64_t{bitRate} * timing.prescaler * timing.quanta();
   const std::uint64_t difference = wanted > clock_hz ? wanted - clock_hz : clock_hz - wanted;
   return static_cast<std::uint32_t>(1'000'000 * difference / wanted);
 }
 
-/// How far each node's clock may be off so that nodes still understand each other: the smaller of the two bounds of
-/// ISO 11898-1 (resynchronisation over 10 bits; 13 bits to the end of an error flag).
+/// How far each node's clock may be off so that nodes still understand each other: the smaller of the two
+/// bounds of ISO 11898-1 (resynchronisation over 10 bits; 13 bits to the end of an error flag).
 constexpr std::uint32_t clockTolerance_ppm(const BitTiming& timing) {
   const std::uint64_t quanta = timing.quanta();
   const std::uint64_t phase = std::min(timing.segment1, timing.segment2);
@@ -50,8 +51,9 @@ constexpr std::uint32_t clockTolerance_ppm(const BitTiming& timing) {
 inline constexpr std::uint32_t kSmallestSamplePoint_permille = 800;
 inline constexpr std::uint32_t kLargestSamplePoint_permille = 875;
 
-/// The timing nearest to the bit rate, of those the one with the most quanta, sampled as soon after 80 % as it can be:
-/// that leaves most room for clocks that differ. None: no timing of this rate has its sample point in 80 .. 87.5 %.
+/// The timing nearest to the bit rate, of those the one with the most quanta, sampled as soon after 80 % as
+/// it can be: that leaves most room for clocks that differ. None: no timing of this rate has its sample point
+/// in 80 .. 87.5 %.
 constexpr std::optional<BitTiming> bitTiming(std::uint32_t clock_hz, std::uint32_t bitRate,
                                              const TimingLimits& limits = kNominalLimits) {
   std::optional<BitTiming> best;
@@ -60,18 +62,20 @@ constexpr std::optional<BitTiming> bitTiming(std::uint32_t clock_hz, std::uint32
     const std::uint32_t quanta = (clock_hz + perQuantum / 2) / perQuantum;
     const std::uint32_t segment2 = quanta / 5;
     if (segment2 < 1 || segment2 > limits.segment2 || quanta - 1 - segment2 > limits.segment1) continue;
-    const BitTiming timing{static_cast<std::uint16_t>(prescaler), static_cast<std::uint16_t>(quanta - 1 - segment2),
+    const BitTiming timing{static_cast<std::uint16_t>(prescaler),
+                           static_cast<std::uint16_t>(quanta - 1 - segment2),
                            static_cast<std::uint16_t>(segment2),
                            static_cast<std::uint16_t>(std::min<std::uint32_t>(segment2, limits.jump))};
     if (timing.samplePoint_permille() > kLargestSamplePoint_permille) continue;
-    if (!best || rateError_ppm(timing, clock_hz, bitRate) < rateError_ppm(*best, clock_hz, bitRate)) best = timing;
+    if (!best || rateError_ppm(timing, clock_hz, bitRate) < rateError_ppm(*best, clock_hz, bitRate))
+      best = timing;
   }
   return best;
 }
 
 /// Whether nodes with this timing, each from a clock that may be off by `clock_ppm`, understand each other.
-constexpr bool isInTolerance(const std::optional<BitTiming>& timing, std::uint32_t clock_hz, std::uint32_t bitRate,
-                             std::uint32_t clock_ppm) {
+constexpr bool isInTolerance(const std::optional<BitTiming>& timing, std::uint32_t clock_hz,
+                             std::uint32_t bitRate, std::uint32_t clock_ppm) {
   return timing && timing->samplePoint_permille() >= kSmallestSamplePoint_permille &&
          timing->samplePoint_permille() <= kLargestSamplePoint_permille &&
          rateError_ppm(*timing, clock_hz, bitRate) + clock_ppm <= clockTolerance_ppm(*timing);

@@ -18,7 +18,8 @@ consteval std::array<CanRate, sizeof...(kBitRates)> canRates() {
   return {CanRate{kBitRates, checkedBitTiming<kCrystal_hz, kBitRates, kCrystal_ppm>()}...};
 }
 
-inline constexpr auto kCanRates = canRates<10'000, 20'000, 50'000, 125'000, 250'000, 500'000, 800'000, 1'000'000>();
+inline constexpr auto kCanRates =
+    canRates<10'000, 20'000, 50'000, 125'000, 250'000, 500'000, 800'000, 1'000'000>();
 
 /// CAN FD's data phase at 2 Mbit/s, for FdcanSettings::dataTiming.
 inline constexpr BitTiming kFdDataTiming =

@@ -26,11 +26,12 @@ struct FdcanSettings {
 
 /// Contract: hal/can_port.hpp. A frame that a newer one replaced counts as dropped.
 ///
-/// Of each identifier at most one frame is in the controller; between identifiers the lowest goes first. poll() is to
-/// be called at least every three shortest frame times that listensTo lets through (send and receive call it too).
+/// Of each identifier at most one frame is in the controller; between identifiers the lowest goes first.
+/// poll() is to be called at least every three shortest frame times that listensTo lets through (send and
+/// receive call it too).
 ///
-/// Bus-off: what waits is dropped, and the controller goes back on the bus (129 * 11 recessive bits) at once; if that
-/// ends in bus-off again before a frame got through, after 10, 100, then every 1000 ms.
+/// Bus-off: what waits is dropped, and the controller goes back on the bus (129 * 11 recessive bits) at once;
+/// if that ends in bus-off again before a frame got through, after 10, 100, then every 1000 ms.
 template <RegisterBus Bus, hal::Clock Clock>
 class FdcanPort {
  public:
@@ -123,8 +124,9 @@ class FdcanPort {
                                                   .value);
     }
     using Rxgfc = Fdcan::Rxgfc;
-    write(bus_, Rxgfc::rejectExtendedRemote(1) | Rxgfc::rejectStandardRemote(1) | Rxgfc::otherExtended(kReject) |
-                    Rxgfc::otherStandard(ids.empty() ? kToFifo0 : kReject) | Rxgfc::standardCount(filters));
+    write(bus_, Rxgfc::rejectExtendedRemote(1) | Rxgfc::rejectStandardRemote(1) |
+                    Rxgfc::otherExtended(kReject) | Rxgfc::otherStandard(ids.empty() ? kToFifo0 : kReject) |
+                    Rxgfc::standardCount(filters));
   }
 
   bool goOnBus() noexcept {
@@ -192,7 +194,8 @@ class FdcanPort {
   void take(std::uint32_t element) noexcept {
     const std::uint32_t head = bus_.read(element);
     const std::uint32_t control = bus_.read(element + 4);
-    if ((head & (Element0::extended.mask | Element0::remote.mask)) != 0 || Element1::fd.in(control) != 0) return;
+    if ((head & (Element0::extended.mask | Element0::remote.mask)) != 0 || Element1::fd.in(control) != 0)
+      return;
     CanFrame frame{.id = static_cast<std::uint16_t>(Element0::standardId.in(head))};
     const std::uint32_t length = Element1::length.in(control);
     frame.length = static_cast<std::uint8_t>(length < 8 ? length : 8);  // 9 .. 15 mean 8 in a classic frame

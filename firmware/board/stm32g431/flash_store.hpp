@@ -9,14 +9,15 @@
 
 namespace strainfinger::stm32g431 {
 
-/// Double ECC errors met so far. The flash raises NMI while it is being read, so they come from the NMI's handler.
+/// Double ECC errors met so far. The flash raises NMI while it is being read, so they come from the NMI's
+/// handler.
 struct EccFaults {
   volatile std::uint32_t count = 0;
   volatile std::uint32_t lastOffset = 0;  ///< from kFlashBegin
 };
 
-/// To be called by the NMI's handler. True: it was a double ECC error; it is noted, the flag is cleared, and the
-/// handler can return. The read then goes on with bytes that mean nothing.
+/// To be called by the NMI's handler. True: it was a double ECC error; it is noted, the flag is cleared, and
+/// the handler can return. The read then goes on with bytes that mean nothing.
 inline bool takeEccFault(const RegisterBus auto& bus, EccFaults& faults) noexcept {
   const std::uint32_t status = bus.read(Flash::EccR::address);
   if (Flash::EccR::detected.in(status) == 0) return false;
@@ -26,8 +27,9 @@ inline bool takeEccFault(const RegisterBus auto& bus, EccFaults& faults) noexcep
   return true;
 }
 
-/// Contract: hal/non_volatile.hpp. The processor stands still while the memory is written (0.1 ms for each 8 bytes)
-/// or erased (25 ms a page): there is one bank, and the code is in it. Samples of that time are lost and counted.
+/// Contract: hal/non_volatile.hpp. The processor stands still while the memory is written (0.1 ms for each 8
+/// bytes) or erased (25 ms a page): there is one bank, and the code is in it. Samples of that time are lost
+/// and counted.
 template <RegisterBus Bus>
 class FlashStore {
  public:
@@ -67,12 +69,14 @@ class FlashStore {
     const bool done = finish(kErasePolls);
     modify(bus_, Flash::Cr::pageErase(0));
     lock();
-    return done && isErased(page * pageSize(), pageSize()) ? hal::StoreResult::kOk : hal::StoreResult::kFailed;
+    return done && isErased(page * pageSize(), pageSize()) ? hal::StoreResult::kOk
+                                                           : hal::StoreResult::kFailed;
   }
 
  private:
   static constexpr std::size_t kUnit_bytes = 8;
-  /// A poll takes 6 cycles of 170 MHz at least. Erasing a page takes 24.5 ms at most, programming 0.09 (DS12589).
+  /// A poll takes 6 cycles of 170 MHz at least. Erasing a page takes 24.5 ms at most, programming 0.09
+  /// (DS12589).
   static constexpr std::uint32_t kErasePolls = 1'000'000;
   static constexpr std::uint32_t kProgramPolls = 10'000;
 
@@ -138,7 +142,8 @@ class FlashStore {
   }
 
   bool finish(std::uint32_t polls) noexcept {
-    return waitFor(bus_, Flash::Sr::busy, 0, polls) && (bus_.read(Flash::Sr::address) & Flash::Sr::errors) == 0;
+    return waitFor(bus_, Flash::Sr::busy, 0, polls) &&
+           (bus_.read(Flash::Sr::address) & Flash::Sr::errors) == 0;
   }
 
   [[no_unique_address]] Bus bus_;

@@ -4,8 +4,8 @@
 //   TIM1 --trigger--> ADC1 + ADC2 --pair by pair--> DMA --> two sets in memory, filled in turn
 //     \--trigger--> TIM3 counts
 //
-// No interrupt: what DMA has filled is seen from its flags and its count, and TIM3 tells how many sets there were while
-// nobody looked, even while the processor stood still for an erasing flash page.
+// No interrupt: what DMA has filled is seen from its flags and its count, and TIM3 tells how many sets there
+// were while nobody looked, even while the processor stood still for an erasing flash page.
 
 #include <array>
 #include <cstdint>
@@ -19,8 +19,8 @@
 
 namespace strainfinger::stm32g431 {
 
-/// Contract: hal/gauge_adc.hpp. Holds one complete set while the next is converted. read() must come at least every
-/// 65,535 sets for overruns() to be right. 12-bit conversions: the upper rail is code 0xFFF0.
+/// Contract: hal/gauge_adc.hpp. Holds one complete set while the next is converted. read() must come at least
+/// every 65,535 sets for overruns() to be right. 12-bit conversions: the upper rail is code 0xFFF0.
 template <RegisterBus Bus>
 class GaugeConverter {
  public:
@@ -68,14 +68,16 @@ class GaugeConverter {
 
   static constexpr std::uint32_t kRegulator_cycles = kCore_hz / 1'000'000 * 20;  ///< 20 us, DS12589
   static constexpr std::uint32_t kAfterCalibration_cycles = 4 * (kCore_hz / kAdc_hz);
-  static constexpr std::uint32_t kCalibrationPolls = 10'000;  ///< takes 116 of the converter's cycles, 928 of ours
-  static constexpr std::uint32_t kReadyPolls = 10'000;        ///< takes about 1 us
+  static constexpr std::uint32_t kCalibrationPolls =
+      10'000;                                           ///< takes 116 of the converter's cycles, 928 of ours
+  static constexpr std::uint32_t kReadyPolls = 10'000;  ///< takes about 1 us
   static constexpr std::uint32_t kTim1Trgo = 9;
   static constexpr std::uint32_t kSlave = 0;
 
   void enableClocks() noexcept {
     modify(bus_, Rcc::Ahb1Enr::dma1(1) | Rcc::Ahb1Enr::dmamux(1));
-    modify(bus_, Rcc::Ahb2Enr::adc12(1) | Rcc::Ahb2Enr::gpioA(1) | Rcc::Ahb2Enr::gpioB(1) | Rcc::Ahb2Enr::gpioC(1));
+    modify(bus_,
+           Rcc::Ahb2Enr::adc12(1) | Rcc::Ahb2Enr::gpioA(1) | Rcc::Ahb2Enr::gpioB(1) | Rcc::Ahb2Enr::gpioC(1));
     modify(bus_, Rcc::Apb1Enr1::tim3(1));
     modify(bus_, Rcc::Apb2Enr::tim1(1));
     waitCycles<Rcc::Ahb2Enr>(bus_, 2);  // RM0440 section 7.2.17
@@ -117,13 +119,15 @@ class GaugeConverter {
   }
 
   template <typename Converter>
-  void configure(const SamplingPlan& plan, const std::array<Input, kPairs>& inputs, std::uint32_t trigger) noexcept {
+  void configure(const SamplingPlan& plan, const std::array<Input, kPairs>& inputs,
+                 std::uint32_t trigger) noexcept {
     using Cfgr = typename Converter::Cfgr;
     using Cfgr2 = typename Converter::Cfgr2;
     write(bus_, Cfgr::trigger(trigger) | Cfgr::triggerEdge(trigger != kSlave) | Cfgr::injectedQueueOff(1));
     write(bus_, Cfgr2::oversample(1) | Cfgr2::ratio(plan.oversamplingLog2 - 1) |
                     Cfgr2::shift(plan.oversamplingLog2 - 4));  // 12 + log2 bits become 16
-    const std::uint32_t time = static_cast<std::uint32_t>(plan.sampleTime) * 0x0924'9249;  // for every channel
+    const std::uint32_t time =
+        static_cast<std::uint32_t>(plan.sampleTime) * 0x0924'9249;  // for every channel
     bus_.write(Converter::Smpr1::address, time);
     bus_.write(Converter::Smpr2::address, time & 0x07FF'FFFF);
     bus_.write(Converter::Sqr1::address, (kPairs - 1) | sequence(inputs, 0, 4, 6));
@@ -134,8 +138,8 @@ class GaugeConverter {
   static constexpr std::uint32_t sequence(const std::array<Input, kPairs>& inputs, std::uint32_t first,
                                           std::uint32_t count, unsigned shift) {
     std::uint32_t bits = 0;
-    for (std::uint32_t i = 0; i < count; ++i) bits |= static_cast<std::uint32_t>(inputs[first + i].channel)
-                                                      << (shift + 6 * i);
+    for (std::uint32_t i = 0; i < count; ++i)
+      bits |= static_cast<std::uint32_t>(inputs[first + i].channel) << (shift + 6 * i);
     return bits;
   }
 
@@ -149,8 +153,8 @@ class GaugeConverter {
                     Ccr::priority(3) | Ccr::enable(1));
   }
 
-  /// TIM3 before TIM1, so that it counts from the first trigger on. The update that loads TIM1's prescaler is that
-  /// trigger: the converters don't idle after their calibration.
+  /// TIM3 before TIM1, so that it counts from the first trigger on. The update that loads TIM1's prescaler is
+  /// that trigger: the converters don't idle after their calibration.
   void startTimers(const SamplingPlan& plan) noexcept {
     write(bus_, Tim3::Smcr::slaveMode(7) | Tim3::Smcr::triggerInput(0));
     bus_.write(Tim3::Arr::address, 0xFFFF);
@@ -165,8 +169,8 @@ class GaugeConverter {
   /// Half of the memory that DMA is writing: 0, 1, 0, 1 .. set by set.
   std::uint32_t halfInWork() const noexcept { return (kWords - get(bus_, Dma1::Cndtr1::left)) / kPairs & 1; }
 
-  /// Sets converted since start, modulo 2^16: as many as there were triggers, less the one in work. That one is in
-  /// work shows in the half.
+  /// Sets converted since start, modulo 2^16: as many as there were triggers, less the one in work. That one
+  /// is in work shows in the half.
   std::uint16_t completed() const noexcept {
     std::uint32_t triggers = 0;
     std::uint32_t half = halfInWork();

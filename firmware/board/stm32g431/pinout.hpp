@@ -14,8 +14,9 @@ struct Input {
   std::uint8_t channel;
 };
 
-/// Gauges 2k and 2k + 1 are sampled at the same instant: 2k by ADC1, 2k + 1 by ADC2. The pins that the Nucleo board
-/// uses itself are left alone: PA2, PA3 (serial line to the debugger), PA5 (LED), PA13, PA14 (debugger), PC13 (button).
+/// Gauges 2k and 2k + 1 are sampled at the same instant: 2k by ADC1, 2k + 1 by ADC2. The pins that the Nucleo
+/// board uses itself are left alone: PA2, PA3 (serial line to the debugger), PA5 (LED), PA13, PA14
+/// (debugger), PC13 (button).
 inline constexpr std::array<Input, kPairs> kEvenGauges{{{{Port::kA, 0}, 1},
                                                         {{Port::kA, 1}, 2},
                                                         {{Port::kB, 0}, 15},
@@ -33,7 +34,8 @@ inline constexpr std::array<Input, kPairs> kOddGauges{{{{Port::kA, 4}, 17},
                                                        {{Port::kC, 3}, 9},
                                                        {{Port::kC, 4}, 5}}};
 
-/// Not PB8, the other choice: it decides at reset whether the bootloader starts, and an idle bus holds it high.
+/// Not PB8, the other choice: it decides at reset whether the bootloader starts, and an idle bus holds it
+/// high.
 inline constexpr Pin kCanRx{Port::kA, 11};
 inline constexpr Pin kCanTx{Port::kA, 12};
 inline constexpr std::uint32_t kCanFunction = 9;  ///< alternate function of both

@@ -12,8 +12,8 @@ namespace strainfinger::stm32g431 {
 inline constexpr std::uint32_t kPairs = 8;
 inline constexpr std::uint32_t kGauges = 2 * kPairs;
 
-/// The converters' clock. The datasheet's limit for two converters at once is 26 to 52 MHz, by its revision, range and
-/// supply: this is within all of them.
+/// The converters' clock. The datasheet's limit for two converters at once is 26 to 52 MHz, by its revision,
+/// range and supply: this is within all of them.
 inline constexpr std::uint32_t kAdc_hz = kCore_hz / 8;
 static_assert(kAdc_hz <= 26'000'000);
 
@@ -29,14 +29,15 @@ struct SamplingPlan {
 
   /// From the trigger until the last gauge is converted, latency of the trigger (3 cycles) included.
   constexpr std::uint32_t busy_ns() const {
-    const std::uint32_t half = kSampleHalfCycles[static_cast<std::size_t>(sampleTime)] + kConversionHalfCycles;
+    const std::uint32_t half =
+        kSampleHalfCycles[static_cast<std::size_t>(sampleTime)] + kConversionHalfCycles;
     const std::uint64_t halfCycles = (std::uint64_t{kPairs} << oversamplingLog2) * half + 6;
     return static_cast<std::uint32_t>(halfCycles * 500'000'000 / kAdc_hz + 1);
   }
   constexpr std::uint32_t period_us() const { return 1'000'000 / rate_hz; }
 
-  /// Fits its period with 2 % to spare, and never leaves the converters idle for 1 ms: the next result would be off
-  /// (errata ES0431, "wrong ADC result if conversion done late").
+  /// Fits its period with 2 % to spare, and never leaves the converters idle for 1 ms: the next result would
+  /// be off (errata ES0431, "wrong ADC result if conversion done late").
   constexpr bool isPossible() const {
     const std::uint64_t period_ns = std::uint64_t{1000} * period_us();
     return 1'000'000 % rate_hz == 0 && oversamplingLog2 >= 4 && oversamplingLog2 <= 8 &&

@@ -7,16 +7,18 @@
 
 namespace strainfinger::stm32g431 {
 
-/// Why the board started, and clears the flags for the next time. Power-on and brown-out set the same flag: it was a
-/// brown-out if RAM kept what was in it.
+/// Why the board started, and clears the flags for the next time. Power-on and brown-out set the same flag:
+/// it was a brown-out if RAM kept what was in it.
 [[nodiscard]] hal::ResetCause takeResetCause(const RegisterBus auto& bus, bool ramSurvived) noexcept {
   using Csr = Rcc::Csr;
   const std::uint32_t flags = bus.read(Csr::address);
   modify(bus, Csr::remove(1));
   modify(bus, Csr::remove(0));
-  if (((Csr::independentWatchdog.mask | Csr::windowWatchdog.mask) & flags) != 0) return hal::ResetCause::kWatchdog;
+  if (((Csr::independentWatchdog.mask | Csr::windowWatchdog.mask) & flags) != 0)
+    return hal::ResetCause::kWatchdog;
   if (((Csr::software.mask | Csr::optionBytes.mask) & flags) != 0) return hal::ResetCause::kSoftware;
-  if (Csr::brownOut.in(flags) != 0) return ramSurvived ? hal::ResetCause::kBrownOut : hal::ResetCause::kPowerOn;
+  if (Csr::brownOut.in(flags) != 0)
+    return ramSurvived ? hal::ResetCause::kBrownOut : hal::ResetCause::kPowerOn;
   if (Csr::lowPower.in(flags) != 0) return hal::ResetCause::kUnknown;
   return Csr::pin.in(flags) != 0 ? hal::ResetCause::kPin : hal::ResetCause::kUnknown;
 }
@@ -25,8 +27,8 @@ namespace strainfinger::stm32g431 {
 template <RegisterBus Bus>
 class IndependentWatchdog {
  public:
-  /// Five times what the finger calls a silent converter, 20 times the erasing of a flash page. Its oscillator is
-  /// 32 kHz +-8 % (DS12589).
+  /// Five times what the finger calls a silent converter, 20 times the erasing of a flash page. Its
+  /// oscillator is 32 kHz +-8 % (DS12589).
   static constexpr std::uint32_t kPeriod_ms = 500;
 
   IndependentWatchdog(Bus bus, hal::ResetCause cause) : bus_(bus), cause_(cause) {}

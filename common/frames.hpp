@@ -14,9 +14,10 @@ namespace strainfinger {
 /// Goes up when a frame changes its meaning; receivers of another version must not read the frames.
 inline constexpr std::uint8_t kProtocolVersion = 1;
 
-/// In contact CONTACT and FORCE are sent this often at least; HEARTBEAT always.
+/// In contact CONTACT and FORCE are sent this often at least; HEARTBEAT and INFO always.
 inline constexpr std::uint16_t kContactPeriod_ms = 50;
 inline constexpr std::uint16_t kHeartbeatPeriod_ms = 100;
+inline constexpr std::uint16_t kInfoPeriod_ms = 1000;
 
 /// What a reader must know before using the numbers of CONTACT and FORCE. Bit numbers; never reuse one.
 enum class FingerFlag : std::uint8_t {
@@ -71,6 +72,44 @@ inline constexpr std::array kFingerFaultNames{
     ValueName{5, "watchdog_reset", "The last reset was the watchdog's"},
 };
 
+/// Why the finger started. Never reuse a number.
+enum class ResetCause : std::uint8_t {
+  kUnknown = 0,
+  kPowerOn = 1,
+  kPin = 2,
+  kSoftware = 3,
+  kWatchdog = 4,
+  kBrownOut = 5
+};
+
+inline constexpr std::array kResetCauseNames{
+    ValueName{0, "unknown", "The board cannot tell"},
+    ValueName{1, "power_on", "Power came on"},
+    ValueName{2, "pin", "The reset pin"},
+    ValueName{3, "software", "The firmware itself, after a crash or on request"},
+    ValueName{4, "watchdog", "The firmware hung, or no samples went through it"},
+    ValueName{5, "brown_out", "The supply voltage was too low"},
+};
+
+/// What the firmware died of. Never reuse a number.
+enum class Crash : std::uint8_t {
+  kNone = 0,
+  kHardFault = 1,
+  kAssertion = 2,
+  kStackOverflow = 3,
+  kHang = 4,
+  kStarved = 5,
+};
+
+inline constexpr std::array kCrashNames{
+    ValueName{0, "none", "The last run did not crash"},
+    ValueName{1, "hard_fault", "The processor could not go on"},
+    ValueName{2, "assertion", "The firmware found itself in a state that cannot be"},
+    ValueName{3, "stack_overflow", "The firmware ran out of stack"},
+    ValueName{4, "hang", "The firmware did not come back in time"},
+    ValueName{5, "starved", "The converter gave no samples for too long"},
+};
+
 /// Where the finger is touched.
 struct ContactFrame {
   std::uint16_t angle_cdeg = kNotKnown<std::uint16_t>;
@@ -104,6 +143,17 @@ struct HeartbeatFrame {
   std::uint8_t rx_errors = kNotKnown<std::uint8_t>;
   std::uint8_t table_crc = 0;  ///< low byte of the CRC-32 of the tables
   bool operator==(const HeartbeatFrame&) const = default;
+};
+
+/// What the finger is and how its last run ended.
+struct InfoFrame {
+  ResetCause reset_cause = ResetCause::kUnknown;
+  Crash crash = Crash::kNone;
+  std::uint8_t restarts = 0;
+  std::uint8_t version_major = 0;
+  std::uint8_t version_minor = 0;
+  std::uint32_t crash_address = 0;
+  bool operator==(const InfoFrame&) const = default;
 };
 
 template <>
@@ -241,7 +291,43 @@ inline constexpr FrameLayout kLayout<HeartbeatFrame>{
 };
 static_assert(WireFrame<HeartbeatFrame>);
 
+template <>
+inline constexpr FrameLayout kLayout<InfoFrame>{
+    FrameSpec{.name = "INFO",
+              .function = FunctionCode::kInfo,
+              .length = 8,
+              .period_ms = kInfoPeriod_ms,
+              .onChange = false,
+              .comment = "What the finger is and how its last run ended: at start, then once a second"},
+    Field{&InfoFrame::reset_cause,
+          {.lsb = 0, .width = 4},
+          {.name = "reset_cause",
+           .comment = "Why the finger started",
+           .kind = FieldKind::kChoice,
+           .names = kResetCauseNames}},
+    Field{&InfoFrame::crash,
+          {.lsb = 4, .width = 4},
+          {.name = "crash",
+           .comment = "What the run before this one died of",
+           .kind = FieldKind::kChoice,
+           .names = kCrashNames}},
+    Field{&InfoFrame::restarts,
+          {.lsb = 8, .width = 8},
+          {.name = "restarts", .openEnded = true, .comment = "Crashes since power came on"}},
+    Field{&InfoFrame::version_major,
+          {.lsb = 16, .width = 8},
+          {.name = "version_major", .comment = "Version of the firmware, before the point"}},
+    Field{&InfoFrame::version_minor,
+          {.lsb = 24, .width = 8},
+          {.name = "version_minor", .comment = "Version of the firmware, behind the point"}},
+    Field{
+        &InfoFrame::crash_address,
+        {.lsb = 32, .width = 32},
+        {.name = "crash_address", .comment = "Address of the instruction that crashed; 0: none is to blame"}},
+};
+static_assert(WireFrame<InfoFrame>);
+
 /// Every frame a finger sends.
-using FingerFrames = std::tuple<ContactFrame, ForceFrame, HeartbeatFrame>;
+using FingerFrames = std::tuple<ContactFrame, ForceFrame, InfoFrame, HeartbeatFrame>;
 
 }  // namespace strainfinger

@@ -4,17 +4,11 @@
 #include <concepts>
 #include <cstdint>
 
+#include "common/frames.hpp"
+
 namespace strainfinger::hal {
 
-/// Why the board started. The numbers go on the bus: never reuse one.
-enum class ResetCause : std::uint8_t {
-  kUnknown = 0,
-  kPowerOn = 1,
-  kPin = 2,
-  kSoftware = 3,
-  kWatchdog = 4,
-  kBrownOut = 5
-};
+using strainfinger::ResetCause;
 
 /// Contract of a watchdog: once started it resets the board unless `feed()` is called within its period;
 /// `resetCause()` says why the board started last and does not change while it runs.

@@ -95,11 +95,15 @@ class Finger {
   }
 
   void observe(std::uint32_t now_us) {
-    const Observation& observation = pipeline_.process(codes());
-    if (observation.fit) ++counters_.fits;
+    if (pipeline_.process(codes()).fit) ++counters_.fits;
+    report(now_us);
+  }
+
+  /// Not inlined, so that its frames aren't on the stack while the locator, which needs it most, runs.
+  [[gnu::noinline]] void report(std::uint32_t now_us) {
     if (forceOwed_) sendForce(now_us);
     if (forceOwed_) return;
-    const auto frames = reporter_.frames(pipeline_.constants(), observation, now_us);
+    const auto frames = reporter_.frames(pipeline_.constants(), pipeline_.observation(), now_us);
     if (!frames) return;
     if (!can_.send(encode(frames->contact, settings_.node))) {
       ++counters_.touchesBusy;

@@ -2,18 +2,44 @@
 // A board's main(): the same on every board.
 
 #include "common/table_image.hpp"
+#include "firmware/app/announce.hpp"
 #include "firmware/app/finger.hpp"
 
 namespace strainfinger::firmware {
 
-/// Refuses tables that are not whole; else runs the finger on them, for ever. `wait` is called when there is
-/// nothing to do: it may sleep until the next interrupt.
-template <typename Adc, typename Can, typename Clock, typename Watchdog, typename Wait>
-[[noreturn]] void runFinger(const TableImage& tables, const FingerSettings& settings, Adc& adc, Can& can,
-                            const Clock& clock, Watchdog& watchdog, Wait wait) {
+/// The version of this build, from the project's CMakeLists.txt.
+inline constexpr Version kFirmwareVersion{STRAINFINGER_VERSION_MAJOR, STRAINFINGER_VERSION_MINOR};
+
+/// Says that there are no tables, for ever. Not inlined: what it needs would be on the stack of every other
+/// run.
+template <hal::GaugeAdc Adc, hal::CanPort Can, hal::Clock Clock, hal::Watchdog Watchdog, typename Wait>
+[[noreturn, gnu::noinline]] void runWithoutTables(std::uint8_t node, Announcement<InfoFrame>& info, Adc& adc,
+                                                  Can& can, const Clock& clock, Watchdog& watchdog,
+                                                  Wait wait) {
+  Announcement<HeartbeatFrame> heartbeat(withoutTables(), node, clock.now_us());
+  hal::SampleSet unused{};
+  for (;;) {
+    if (adc.read(unused)) watchdog.feed();
+    heartbeat.step(can, clock.now_us());
+    info.step(can, clock.now_us());
+    wait();
+  }
+}
+
+/// Runs the finger on these tables, for ever. Tables that are not whole are refused: the finger then says so
+/// in its heartbeats and does nothing else. `wait` is called when there is nothing to do: it may sleep until
+/// the next interrupt.
+template <hal::GaugeAdc Adc, hal::CanPort Can, hal::Clock Clock, hal::Watchdog Watchdog, typename Wait>
+[[noreturn]] void runFinger(const TableImage& tables, const FingerSettings& settings, const LastRun& last,
+                            Adc& adc, Can& can, const Clock& clock, Watchdog& watchdog, Wait wait) {
+  static Announcement<InfoFrame> info(infoFrame(watchdog.resetCause(), last, kFirmwareVersion), settings.node,
+                                      clock.now_us());
+  if (checkTableImage(tables) != TableFault::kNone)
+    runWithoutTables(settings.node, info, adc, can, clock, watchdog, wait);
   static Finger finger(tables, settings, adc, can, clock, watchdog);
   for (;;) {
     if (!finger.step()) wait();
+    info.step(can, clock.now_us());
   }
 }
 

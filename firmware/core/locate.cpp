@@ -44,28 +44,35 @@ bool doubtful(const Problem& problem, const Answer& answer) {
          problem.ringEnergy - window > noise + (window >> kOutsideShift);
 }
 
-/// Of the windows at `offsets` from the anchor, solves the one whose scan explains most.
+/// Of the windows at `offsets` from the anchor, solves the one whose scan explains most. Scans that one
+/// twice, so as to have one scan on the stack and not two.
 template <std::size_t N>
 void solveBestOf(const Problem& problem, int anchor, const std::array<int, N>& offsets, Contest& contest) {
-  Scan best;
+  int best = anchor;
+  std::int32_t most = -1;
   for (const int offset : offsets) {
-    const Scan scan = scanWindow(problem, wrapped(anchor + offset, problem.gauges()));
-    if (best.step == 0 || scan.best() > best.best()) best = scan;
+    const int gauge = wrapped(anchor + offset, problem.gauges());
+    const std::int32_t energy = scanWindow(problem, gauge).best();
+    if (energy <= most) continue;
+    most = energy;
+    best = gauge;
   }
-  solveWindow(problem, best, contest);
+  solveWindow(problem, scanWindow(problem, best), contest);
 }
 
 /// Where the model's strongest response has no single peak over the contact, every window is looked at.
 void solveEverywhere(const Problem& problem, Contest& contest) {
-  std::array<std::int32_t, kMaxGauges> energies{};
+  constexpr int kCoarse = 11;  // energies, below 2^27, in 16 bits: half the stack
+  std::array<std::uint16_t, kMaxGauges> energies{};
   std::int32_t largest = 0;
   for (int gauge = 0; gauge < problem.gauges(); ++gauge) {
-    energies[static_cast<std::size_t>(gauge)] = scanWindow(problem, gauge).best();
-    largest = std::max(largest, energies[static_cast<std::size_t>(gauge)]);
+    const std::int32_t energy = scanWindow(problem, gauge).best();
+    energies[static_cast<std::size_t>(gauge)] = saturate<std::uint16_t>(energy >> kCoarse);
+    largest = std::max(largest, energy);
   }
   const std::int32_t limit = largest - (largest >> kRivalShift) - problem.noise(kRivalMargin);
   for (int gauge = 0; gauge < problem.gauges(); ++gauge) {
-    if (energies[static_cast<std::size_t>(gauge)] >= limit)
+    if (energies[static_cast<std::size_t>(gauge)] >= limit >> kCoarse)
       solveWindow(problem, scanWindow(problem, gauge), contest);
   }
 }

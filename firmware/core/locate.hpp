@@ -37,7 +37,7 @@ struct Fit {
 
 /// Fits one line contact to the strains of a ring that is touched; one strain a gauge, each within
 /// +-2^(15 + gate_shift). `energy`: their gateEnergy().
-/// Bounded time: scans one window, five if that one leaves doubts; at most six steps for each of four starts.
+/// Bounded time: scans one window, six if that one leaves doubts; at most six steps for each of four starts.
 Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t> strains_q32,
            std::uint32_t energy);
 

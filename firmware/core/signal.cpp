@@ -9,9 +9,6 @@ std::int32_t scaled(std::int32_t strain, int shift) {
   return saturate<std::int16_t>((std::int64_t{strain} + half) >> shift);
 }
 
-constexpr std::size_t kOdd = 1 + kWindowReach;  ///< where the differences begin
-constexpr std::size_t kEnd = 1 + 2 * kWindowReach;
-
 }  // namespace
 
 Signal windowSignal(std::span<const std::int32_t> strains_q32, int centre, int shift) {
@@ -35,18 +32,6 @@ Signal mirrored(const Signal& signal, int mirrorSign) {
   const std::size_t end = mirrorSign > 0 ? kEnd : kOdd;
   for (std::size_t k = begin; k < end; ++k) result[k] = saturate<std::int16_t>(-std::int32_t{signal[k]});
   return result;
-}
-
-std::int32_t evenPart(const FoldedWeights& weights, const Signal& signal) {
-  std::int32_t sum = 0;
-  for (std::size_t k = 0; k < kOdd; ++k) sum += std::int32_t{weights[k]} * signal[k];
-  return sum;
-}
-
-std::int32_t oddPart(const FoldedWeights& weights, const Signal& signal) {
-  std::int32_t sum = 0;
-  for (std::size_t k = kOdd; k < kEnd; ++k) sum += std::int32_t{weights[k]} * signal[k];
-  return sum;
 }
 
 std::int32_t energyOf(const Signal& signal) {

@@ -14,6 +14,8 @@ namespace strainfinger::firmware {
 /// Domain: the window's norm before folding is below 2^14.5, so sums and differences fit 16 bits and a
 /// product with weights of norm <= 1 (2^15) stays below 2^29.5, with every partial sum.
 using Signal = std::array<std::int16_t, 8>;
+inline constexpr std::size_t kOdd = 1 + kWindowReach;  ///< where the differences begin
+inline constexpr std::size_t kEnd = 1 + 2 * kWindowReach;
 
 /// Gauge numbers go round the ring; `gauge` is at most one turn off.
 constexpr int wrapped(int gauge, int gauges) {
@@ -29,8 +31,16 @@ Signal windowSignal(std::span<const std::int32_t> strains_q32, int centre, int s
 Signal mirrored(const Signal& signal, int mirrorSign);
 
 /// The part of weights . signal that mirroring leaves, and the part it negates (for mirrorSign = 1).
-std::int32_t evenPart(const FoldedWeights& weights, const Signal& signal);
-std::int32_t oddPart(const FoldedWeights& weights, const Signal& signal);
+inline std::int32_t evenPart(const FoldedWeights& weights, const Signal& signal) {
+  std::int32_t sum = 0;
+  for (std::size_t k = 0; k < kOdd; ++k) sum += std::int32_t{weights[k]} * signal[k];
+  return sum;
+}
+inline std::int32_t oddPart(const FoldedWeights& weights, const Signal& signal) {
+  std::int32_t sum = 0;
+  for (std::size_t k = kOdd; k < kEnd; ++k) sum += std::int32_t{weights[k]} * signal[k];
+  return sum;
+}
 
 /// weights . signal [* 2^15]
 inline std::int32_t project(const FoldedWeights& weights, const Signal& signal) {

@@ -1,45 +1,110 @@
+#include <cassert>
+
 #include "firmware/app/run.hpp"
+#include "firmware/app/slcan_port.hpp"
+#include "firmware/board/cortex_m/crash.hpp"
 #include "firmware/board/cortex_m/linked_tables.hpp"
 #include "firmware/board/cortex_m/startup.hpp"
+#include "firmware/board/cortex_m/system_control.hpp"
+#include "firmware/board/mps2/console.hpp"
+#include "firmware/board/mps2/semihosting.hpp"
+#include "firmware/board/mps2/uart.hpp"
+#include "firmware/board/mps2/watchdog.hpp"
+#include "firmware/board/mps2/world.hpp"
 
-namespace strainfinger::board {
+namespace strainfinger::mps2 {
 namespace {
 
-struct NoAdc {
-  bool read(hal::SampleSet& set) noexcept {
-    set[0] = 1;
-    return true;
+using Can = firmware::SlcanPort<Uart>;
+using TheWorld = World<Uart, Can>;
+
+constexpr std::array<unsigned, 4> kLineInterrupts{kUart1Interrupt, kUart1Interrupt + 1, kUart2Interrupt,
+                                                  kUart2Interrupt + 1};
+
+constexpr firmware::FingerSettings kSettings{
+    .standingFlags = {FingerFlag::kUncalibrated, FingerFlag::kSimulated}};
+
+[[noreturn]] void hang() {
+  for (;;) asm volatile("");
+}
+
+void doHarm(Harm harm) {
+  switch (harm) {
+    case Harm::kHardFault:
+      *reinterpret_cast<std::uint32_t volatile*>(0xF0000000) = 0;
+      return;
+    case Harm::kAssertion:
+      assert(false);
+      return;
+    case Harm::kStackOverflow:
+      asm volatile("sub sp, %0\n push {r0-r7}" ::"r"(8192));
+      return;
+    case Harm::kHang:
+      hang();
   }
-  std::uint32_t overruns() const noexcept { return 0; }
-};
-struct NoCan {
-  bool send(const CanFrame&) noexcept { return true; }
-  std::optional<CanFrame> receive() noexcept { return std::nullopt; }
-  hal::CanStatus status() const noexcept { return {}; }
-};
-struct NoClock {
-  std::uint32_t now_us() const noexcept { return 0; }
-};
-struct NoWatchdog {
-  void feed() noexcept {}
-  hal::ResetCause resetCause() const noexcept { return {}; }
-};
-NoAdc adc;
-NoCan can;
-NoClock clock_;
-NoWatchdog dog;
+}
+
+void act(const WorldRecord& record, Can& can) {
+  switch (record.kind) {
+    case RecordKind::kHarm:
+      return doHarm(static_cast<Harm>(record.payload[0]));
+    case RecordKind::kBus:
+      return can.setBus({.state = static_cast<hal::CanState>(record.payload[0]),
+                         .txErrors = record.payload[1],
+                         .rxErrors = record.payload[2]});
+    case RecordKind::kEnd:
+      endEmulator(record.payload[0]);
+    default:
+      return;
+  }
+}
+
+[[gnu::noinline]] void greet(const firmware::LastRun& last) {
+  Console console;
+  console << "strainfinger on mps2: restarts " << last.restarts << ", crash "
+          << static_cast<std::uint32_t>(last.crash) << " at 0x";
+  console.hex(last.crash_address);
+  console << "\n";
+}
 
 }  // namespace
 
-extern "C" void spin() {
-  for (;;) {
-  }
+[[noreturn]] void run() {
+  board::maskInterrupts();
+  for (const unsigned interrupt : kLineInterrupts) board::enableInterrupt(interrupt);
+  static Uart bus(kUart1), world_line(kUart2);
+  static Can can(bus);
+  static TheWorld world(world_line, can);
+  const firmware::LastRun last = board::takeLastRun();
+  greet(last);
+  static Watchdog watchdog(world, firmware::resetCause(last));
+  const auto wait = [] {
+    bus.clearInterrupts();
+    world_line.clearInterrupts();
+    for (const unsigned interrupt : kLineInterrupts) board::forgetInterrupt(interrupt);
+    can.poll();
+    if (world.poll([](const WorldRecord& record) { act(record, can); })) {
+      if (watchdog.starved()) hang();  // until the watchdog ends it, as on a board
+      return;
+    }
+    watchdog.rest();
+    board::sleep();
+    watchdog.run();
+  };
+  watchdog.run();
+  firmware::runFinger(board::kLinkedTables, kSettings, last, world, can, world, watchdog, wait);
 }
 
-[[gnu::section(".vectors"), gnu::used]] constinit const auto kVectors = vectorTable<16>(stack_top, spin);
+}  // namespace strainfinger::mps2
 
-void runBoard() {
-  firmware::runFinger(kLinkedTables, {}, adc, can, clock_, dog, [] {});
-}
+namespace strainfinger::board {
+
+[[gnu::section(".vectors"), gnu::used]] constinit const auto kVectors = [] {
+  auto table = vectorTable<16>(stack_top, faultHandler);
+  table.nonMaskable = watchdogHandler;
+  return table;
+}();
+
+void runBoard() { mps2::run(); }
 
 }  // namespace strainfinger::board

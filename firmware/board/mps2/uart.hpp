@@ -6,6 +6,11 @@
 
 namespace strainfinger::mps2 {
 
+/// Base addresses and interrupts (application notes AN385 and AN386): UART0 is for people, UART1 the CAN bus,
+/// UART2 the world. Each has a receive interrupt and, following it, a send interrupt.
+inline constexpr std::uintptr_t kUart0 = 0x40004000, kUart1 = 0x40005000, kUart2 = 0x40006000;
+inline constexpr unsigned kUart1Interrupt = 2, kUart2Interrupt = 4;
+
 struct UartRegisters {
   std::uint32_t volatile data;
   std::uint32_t volatile state;

@@ -14,14 +14,20 @@
 
 namespace strainfinger::stm32g431 {
 
+/// How frames of an identifier share the three TX buffers.
+struct SendRule {
+  /// A frame replaces one of the same identifier that still waits; otherwise it is refused meanwhile.
+  bool newestWins = false;
+  /// All such identifiers together have one buffer, so that they never stand in the way of the others.
+  bool background = false;
+};
+
 struct FdcanSettings {
   BitTiming timing;
   /// With it, CAN FD frames of others pass unhurt (and unread); without it they are taken for errors.
   std::optional<BitTiming> dataTiming{};
   /// Identifiers to receive, at most 2 * MessageRam::standardFilters; none: all.
   std::span<const std::uint16_t> listensTo{};
-  /// Whether a frame replaces one of the same identifier that still waits; otherwise it is refused meanwhile.
-  bool (*newestWins)(std::uint16_t id) = [](std::uint16_t) { return false; };
 };
 
 /// Contract: hal/can_port.hpp. A frame that a newer one replaced counts as dropped.
@@ -32,14 +38,13 @@ struct FdcanSettings {
 ///
 /// Bus-off: what waits is dropped, and the controller goes back on the bus (129 * 11 recessive bits) at once;
 /// if that ends in bus-off again before a frame got through, after 10, 100, then every 1000 ms.
-template <RegisterBus Bus, hal::Clock Clock>
+template <RegisterBus Bus, hal::Clock Clock, SendRule (*kRuleOf)(std::uint16_t id)>
 class FdcanPort {
  public:
   FdcanPort(Bus bus, const Clock& clock) : bus_(bus), clock_(clock) {}
 
   /// RM0440 section 44.3.2, software initialization. False: the controller doesn't answer.
   [[nodiscard]] bool start(const FdcanSettings& settings) noexcept {
-    newestWins_ = settings.newestWins;
     modify(bus_, Rcc::Apb1Enr1::fdcan(1));
     modify(bus_, Cccr::init(1));
     if (!waitFor(bus_, Cccr::init, 1, kSyncPolls)) return false;
@@ -143,12 +148,19 @@ class FdcanPort {
     return Fdcan::Psr::warning.in(status) != 0 ? hal::CanState::kWarning : hal::CanState::kActive;
   }
 
-  /// False: a frame of this identifier waits and is to be waited for.
+  /// False: the frame has to wait for one of the same identifier, or for another in the background.
   bool makeRoomFor(std::uint16_t id) noexcept {
-    std::uint8_t buffer = 0;
-    while (buffer < kBuffers && waiting_[buffer] != id) ++buffer;
-    if (buffer == kBuffers) return true;
-    if (!newestWins_(id)) return false;
+    const SendRule rule = kRuleOf(id);
+    for (std::uint8_t buffer = 0; buffer < kBuffers; ++buffer) {
+      const std::uint16_t other = waiting_[buffer];
+      if (other == id) return rule.newestWins && cancel(buffer);
+      if (other != kNobody && rule.background && kRuleOf(other).background) return false;
+    }
+    return true;
+  }
+
+  /// False: it is on the wire and can't be taken back.
+  bool cancel(std::uint8_t buffer) noexcept {
     bus_.write(Fdcan::Txbcr::address, 1U << buffer);
     for (std::uint32_t polls = kCancelPolls; polls > 0 && waiting_[buffer] != kNobody; --polls) retire();
     return waiting_[buffer] == kNobody;
@@ -156,12 +168,11 @@ class FdcanPort {
 
   void load(std::uint32_t buffer, const CanFrame& frame) noexcept {
     const std::uint32_t element = MessageRam::tx(buffer);
-    const CanFrame sent = asReceived(frame);
     bus_.write(element, Element0::standardId(frame.id).value);
     bus_.write(element + 4, Element1::length(frame.length).value);
     for (std::uint32_t i = 0; i < 8; i += 4)
-      bus_.write(element + 8 + i, sent.data[i] | sent.data[i + 1] << 8 | sent.data[i + 2] << 16 |
-                                      static_cast<std::uint32_t>(sent.data[i + 3]) << 24);
+      bus_.write(element + 8 + i, frame.data[i] | frame.data[i + 1] << 8 | frame.data[i + 2] << 16 |
+                                      static_cast<std::uint32_t>(frame.data[i + 3]) << 24);
     waiting_[buffer] = frame.id;
     bus_.write(Fdcan::Txbar::address, 1U << buffer);
   }
@@ -230,7 +241,6 @@ class FdcanPort {
 
   [[no_unique_address]] Bus bus_;
   const Clock& clock_;
-  bool (*newestWins_)(std::uint16_t id) = nullptr;
   std::array<std::uint16_t, kBuffers> waiting_{kNobody, kNobody, kNobody};  ///< identifiers in the TX buffers
   std::array<CanFrame, 8> ring_{};
   std::size_t oldest_ = 0;

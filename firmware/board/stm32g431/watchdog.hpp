@@ -3,6 +3,7 @@
 
 #include "firmware/board/stm32g431/registers/clocks.hpp"
 #include "firmware/board/stm32g431/registers/system.hpp"
+#include "hal/clock.hpp"
 #include "hal/watchdog.hpp"
 
 namespace strainfinger::stm32g431 {
@@ -24,14 +25,18 @@ namespace strainfinger::stm32g431 {
 }
 
 /// Contract: hal/watchdog.hpp. Once started it can't be stopped.
-template <RegisterBus Bus>
+template <RegisterBus Bus, hal::Clock Clock>
 class IndependentWatchdog {
  public:
   /// Five times what the finger calls a silent converter, 20 times the erasing of a flash page. Its
   /// oscillator is 32 kHz +-8 % (DS12589).
   static constexpr std::uint32_t kPeriod_ms = 500;
 
-  IndependentWatchdog(Bus bus, hal::ResetCause cause) : bus_(bus), cause_(cause) {}
+  /// It resets without a word: a firmware that isn't fed for so long had better say so and restart by itself.
+  static constexpr std::uint32_t kStarved_ms = 400;
+
+  IndependentWatchdog(Bus bus, const Clock& clock, hal::ResetCause cause)
+      : bus_(bus), clock_(clock), cause_(cause), fedAt_us_(clock.now_us()) {}
 
   /// RM0440 section 42.3.2. False: the settings didn't take; it then runs with 512 ms, the reset value.
   [[nodiscard]] bool start() noexcept {
@@ -45,20 +50,27 @@ class IndependentWatchdog {
     return taken;
   }
 
-  void feed() noexcept { write(Iwdg::kFeed); }
+  void feed() noexcept {
+    write(Iwdg::kFeed);
+    fedAt_us_ = clock_.now_us();
+  }
+  bool isStarved() const noexcept { return clock_.now_us() - fedAt_us_ >= kStarved_ms * 1000; }
   hal::ResetCause resetCause() const noexcept { return cause_; }
 
  private:
   static constexpr std::uint32_t kDivideBy16 = 2;
   static constexpr std::uint32_t kTicksPerMs = 32 / 16;
   static_assert(kPeriod_ms * kTicksPerMs <= 4096);
+  static_assert(kStarved_ms * 100 < kPeriod_ms * 92);
   /// An update takes 6 cycles of 32 kHz, 190 us; a poll at least 6 of 170 MHz: 0.7 ms.
   static constexpr std::uint32_t kUpdatePolls = 20'000;
 
   void write(Iwdg::Key key) noexcept { bus_.write(Iwdg::Kr::address, key); }
 
   [[no_unique_address]] Bus bus_;
+  const Clock& clock_;
   hal::ResetCause cause_;
+  std::uint32_t fedAt_us_;
 };
 
 }  // namespace strainfinger::stm32g431

@@ -12,7 +12,12 @@ using namespace strainfinger::stm32g431;
 
 namespace {
 
-using Port = FdcanPort<doubles::FakeBus, doubles::FakeClock>;
+/// Even identifiers: the newest wins. From 0x400 on: in the background.
+constexpr SendRule rule(std::uint16_t id) { return {.newestWins = id % 2 == 0, .background = id >= 0x400}; }
+constexpr SendRule noRule(std::uint16_t) { return {}; }
+
+using Port = FdcanPort<doubles::FakeBus, doubles::FakeClock, noRule>;
+using RuledPort = FdcanPort<doubles::FakeBus, doubles::FakeClock, rule>;
 static_assert(hal::CanPort<Port>);
 
 constexpr BitTiming kTiming = *canTiming(ClockSource::kCrystal, 1'000'000);
@@ -53,8 +58,6 @@ class FdcanBench {
   Port port_{doubles::FakeBus(controller_.registers), clock_};
 };
 
-bool isEven(std::uint16_t id) { return id % 2 == 0; }
-
 }  // namespace
 
 CAN_PORT_CONTRACT(Fdcan, FdcanBench)
@@ -62,7 +65,7 @@ CAN_PORT_CONTRACT(Fdcan, FdcanBench)
 TEST_GROUP(FdcanPort) {
   doubles::FakeFdcan controller;
   doubles::FakeClock clock{0xFFFF'0000};  // wraps soon
-  Port port{doubles::FakeBus(controller.registers), clock};
+  RuledPort port{doubles::FakeBus(controller.registers), clock};
 
   void start(FdcanSettings settings = {.timing = kTiming}) { CHECK_TRUE(port.start(settings)); }
 
@@ -203,7 +206,7 @@ TEST(FdcanPort, HoldsOneFrameOfAnIdentifier) {
 }
 
 TEST(FdcanPort, TheNewestFrameReplacesOneThatWaits) {
-  start({.timing = kTiming, .newestWins = isEven});
+  start({.timing = kTiming});
   controller.busy = true;
   for (std::uint8_t i = 0; i < 10; ++i) CHECK_TRUE(port.send(frame(4, i)));
   LONGS_EQUAL(9, port.status().dropped);
@@ -213,7 +216,7 @@ TEST(FdcanPort, TheNewestFrameReplacesOneThatWaits) {
 }
 
 TEST(FdcanPort, AFrameOnTheWireIsNotReplaced) {
-  start({.timing = kTiming, .newestWins = isEven});
+  start({.timing = kTiming});
   controller.busy = true;
   port.send(frame(4, 1));
   controller.beginTransmission();
@@ -226,7 +229,7 @@ TEST(FdcanPort, AFrameOnTheWireIsNotReplaced) {
 }
 
 TEST(FdcanPort, AFrameCancelledOnTheWireThatFailsCountsAsDropped) {
-  start({.timing = kTiming, .newestWins = isEven});
+  start({.timing = kTiming});
   controller.busy = true;
   port.send(frame(4, 1));
   controller.beginTransmission();
@@ -248,8 +251,20 @@ TEST(FdcanPort, TheLowestIdentifierGoesFirst) {
   hears({frame(0x185), frame(0x285), frame(0x705)});
 }
 
+TEST(FdcanPort, FramesInTheBackgroundShareOneBuffer) {
+  start({.timing = kTiming});
+  controller.busy = true;
+  CHECK_TRUE(port.send(frame(0x401)));
+  CHECK_FALSE(port.send(frame(0x500)));
+  CHECK_TRUE(port.send(frame(0x185)));
+  CHECK_TRUE(port.send(frame(0x285)));
+  controller.free();
+  CHECK_TRUE(port.send(frame(0x500)));
+  hears({frame(0x185), frame(0x285), frame(0x401), frame(0x500)});
+}
+
 TEST(FdcanPort, AFloodDelaysButNeverPilesUp) {
-  start({.timing = kTiming, .newestWins = isEven});
+  start({.timing = kTiming});
   controller.busy = true;
   for (int i = 0; i < 60'000; ++i) port.send(frame(4, static_cast<std::uint8_t>(i)));
   LONGS_EQUAL(59'999, port.status().dropped);
@@ -275,7 +290,7 @@ TEST(FdcanPort, TellsAReceiveCounterBeyond127As128) {
 }
 
 TEST(FdcanPort, AloneOnTheBusItStaysPassiveAndKeepsTheNewest) {
-  start({.timing = kTiming, .newestWins = isEven});
+  start({.timing = kTiming});
   controller.busy = true;
   controller.registers.setField(Fdcan::Psr::passive, 1);
   for (std::uint8_t i = 0; i < 100; ++i) port.send(frame(4, i));

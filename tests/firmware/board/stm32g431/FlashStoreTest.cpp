@@ -46,6 +46,8 @@ TEST_GROUP(FlashStore) {
   void isTidy() {
     CHECK_TRUE(flash.isLocked());
     LONGS_EQUAL(0, flash.violations);
+    LONGS_EQUAL(0, flash.registers.field(Flash::Cr::program));
+    LONGS_EQUAL(0, flash.registers.field(Flash::Cr::pageErase));
     LONGS_EQUAL(1, flash.registers.field(Flash::Acr::dataCache));
   }
 };

@@ -4,6 +4,7 @@
 #include "firmware/board/stm32g431/registers/gpio.hpp"
 #include "firmware/board/stm32g431/unique_id.hpp"
 #include "firmware/board/stm32g431/watchdog.hpp"
+#include "tests/doubles/fake_clock.hpp"
 #include "tests/firmware/board/stm32g431/fake_registers.hpp"
 #include "tests/hal/clock_contract.hpp"
 #include "tests/hal/watchdog_contract.hpp"
@@ -14,7 +15,7 @@ using hal::ResetCause;
 
 namespace {
 
-using Watchdog = IndependentWatchdog<doubles::FakeBus>;
+using Watchdog = IndependentWatchdog<doubles::FakeBus, doubles::FakeClock>;
 static_assert(hal::Watchdog<Watchdog>);
 static_assert(hal::Clock<MicrosecondClock<doubles::FakeBus>>);
 
@@ -56,7 +57,8 @@ struct FakeWatchdog {
 
 struct WatchdogBench {
   FakeWatchdog fake;
-  Watchdog dog{doubles::FakeBus(fake.registers), ResetCause::kPin};
+  doubles::FakeClock clock{0xFFFF'FFFF};
+  Watchdog dog{doubles::FakeBus(fake.registers), clock, ResetCause::kPin};
   Watchdog& watchdog() { return dog; }
 };
 
@@ -120,6 +122,15 @@ TEST(IndependentWatchdog, SaysWhenItsSettingsDidNotTake) {
 TEST(IndependentWatchdog, FeedsWithTheKey) {
   bench.dog.feed();
   CHECK_TRUE((bench.fake.registers.writes.back() == doubles::FakeRegisters::Access{0x4000'3000, 0xAAAA}));
+}
+
+TEST(IndependentWatchdog, SaysThatItStarvesBeforeItResets) {
+  bench.clock.advance(399'999);
+  CHECK_FALSE(bench.dog.isStarved());
+  bench.clock.advance(1);
+  CHECK_TRUE(bench.dog.isStarved());
+  bench.dog.feed();
+  CHECK_FALSE(bench.dog.isStarved());
 }
 
 TEST(IndependentWatchdog, StandsStillWhileADebuggerHoldsTheProcessor) {

@@ -93,6 +93,8 @@ class GaugeConverter {
   /// RM0440 sections 21.4.6 and 21.7.3.
   void powerUp() noexcept {
     using Ccr = Adc12::Ccr;
+    write(bus_, Adc1::Cr::deepPowerDown(0));
+    write(bus_, Adc2::Cr::deepPowerDown(0));
     write(bus_, regulated<Adc1>());
     write(bus_, regulated<Adc2>());
     waitCycles<Adc1::Isr>(bus_, kRegulator_cycles);
@@ -102,7 +104,7 @@ class GaugeConverter {
   /// Control bits are set by writing 1 and ignore 0: this writes them all with 0 and keeps the regulator on.
   template <typename Converter>
   static constexpr auto regulated() {
-    return Converter::Cr::regulatorOn(1) | Converter::Cr::deepPowerDown(0);
+    return Converter::Cr::regulatorOn(1);
   }
 
   template <typename Converter>

@@ -114,6 +114,7 @@ class FakeConverters {
   std::uint32_t control(std::size_t which, std::uint32_t before, std::uint32_t written) {
     using Cr = typename Adc::Cr;
     Converter& converter = converters_[which];
+    if (Cr::regulatorOn.in(written) != 0 && Cr::deepPowerDown.in(before) != 0) ++violations;
     if (Cr::regulatorOn.in(written) != 0 && Cr::regulatorOn.in(before) == 0)
       converter.poweredAt = registers.accesses;
     if (Cr::calibrate.in(written) != 0) {

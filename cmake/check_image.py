@@ -7,8 +7,9 @@ Fails when a budget is exceeded, and when the image contains a heap, floating po
 routines), recursion, calls through pointers, or a stack frame of unknown size: each is named, with where it is.
 
 The call graph is that of the linked image (its disassembly), so it has what the linker and the libraries added.
-Frame sizes are the compiler's (-fcallgraph-info=su beside each object); of library functions, which have none, what
-their instructions push.
+Frame sizes are the larger of what the compiler says (-fcallgraph-info=su beside each object) and what a function's
+instructions push: the compiler leaves out arguments that it stores beside those of its caller, and library functions
+have only their instructions.
 """
 import argparse
 import re
@@ -60,7 +61,7 @@ def disassembled(elf):
 
 
 def pushed(function):
-    """Bytes that instructions take from the stack: the frame of a function the compiler told nothing about."""
+    """Bytes that instructions take from the stack, all of them together, whether or not on one path."""
     size = 0
     for mnemonic, operands in function.instructions:
         if mnemonic.startswith("push") or (mnemonic.startswith("stmdb") and operands.startswith("sp!")):
@@ -147,7 +148,7 @@ def main():
     by_name = {function.name: address for address, function in functions.items()}
     frames, unbounded = compiler_frames([name for part in options.objects for name in part.split(";") if name])
     for function in functions.values():
-        function.frame = frames.get(function.name, pushed(function))
+        function.frame = max(frames.get(function.name, 0), pushed(function))
         for mnemonic, operands in function.instructions:
             if FLOAT_INSTRUCTION.match(mnemonic):
                 complain(f"floating point: {mnemonic} {operands} in {function.name}")

@@ -19,13 +19,16 @@ concept SerialLine = requires(T line, std::uint8_t byte) {
 };
 // clang-format on
 
-/// hal::CanPort over SLCAN. The port is down until the host opens it. Everything is done by whoever calls:
+/// hal::CanPort over SLCAN. The port is down until the host opens it, unless it was open
+/// before a restart that the host knows nothing of. Everything is done by whoever calls:
 /// the line is moved on by every call, and by poll() when there is nothing else to do. Nothing is read from
 /// the line while a frame or an answer waits, so that nothing is lost either way.
 template <SerialLine Line>
 class SlcanPort {
  public:
-  explicit constexpr SlcanPort(Line& line) : line_(line) {}
+  explicit constexpr SlcanPort(Line& line, bool open = false) : line_(line), open_(open) {
+    if (open) queue("\r");  // ends the line that the restart cut off
+  }
 
   bool send(const CanFrame& frame) noexcept {
     poll();
@@ -102,7 +105,7 @@ class SlcanPort {
   std::array<std::uint8_t, kCapacity> waiting_{};
   std::size_t first_ = 0;
   std::size_t used_ = 0;
-  bool open_ = false;
+  bool open_;
 };
 
 }  // namespace strainfinger::firmware

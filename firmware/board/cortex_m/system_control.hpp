@@ -13,6 +13,19 @@ namespace strainfinger::board {
   for (;;) asm volatile("dsb");
 }
 
+/// Makes the 16 KiB below `address`, which is a multiple of that, a place where every access is a fault; all else
+/// stays as it is (memory protection unit, Armv7-M ARM, B3.5; region 0).
+inline void forbidBelow(std::uint32_t address) {
+  constexpr std::uint32_t kSize = 1u << 14, kNoAccess = 0, kSizeField = 13u << 1, kEnableRegion = 1;
+  constexpr std::uint32_t kEnable = 1, kDefaultMap = 1u << 2;
+  auto* const unit = reinterpret_cast<std::uint32_t volatile*>(0xE000ED94);  // CTRL, RNR, RBAR, RASR
+  unit[1] = 0;
+  unit[2] = address - kSize;
+  unit[3] = kNoAccess | kSizeField | kEnableRegion;
+  unit[0] = kEnable | kDefaultMap;
+  asm volatile("dsb\n isb" ::: "memory");
+}
+
 /// From here on interrupts end sleep() but run no handler.
 inline void maskInterrupts() { asm volatile("cpsid i" ::: "memory"); }
 

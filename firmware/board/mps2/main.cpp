@@ -37,7 +37,7 @@ void doHarm(Harm harm) {
       assert(false);
       return;
     case Harm::kStackOverflow:
-      asm volatile("sub sp, %0\n push {r0-r7}" ::"r"(8192));
+      asm volatile("sub sp, %0\n push {r0-r7}" ::"r"(2048));
       return;
     case Harm::kHang:
       hang();
@@ -73,23 +73,23 @@ void act(const WorldRecord& record, Can& can) {
   board::maskInterrupts();
   for (const unsigned interrupt : kLineInterrupts) board::enableInterrupt(interrupt);
   static Uart bus(kUart1), world_line(kUart2);
-  static Can can(bus);
-  static TheWorld world(world_line, can);
   const firmware::LastRun last = board::takeLastRun();
   greet(last);
+  static Can can(bus, last.restarts != 0);  // the host has not closed it
+  world_line.put(kReady);
+  static TheWorld world(world_line, can);
   static Watchdog watchdog(world, firmware::resetCause(last));
   const auto wait = [] {
     bus.clearInterrupts();
     world_line.clearInterrupts();
     for (const unsigned interrupt : kLineInterrupts) board::forgetInterrupt(interrupt);
     can.poll();
-    if (world.poll([](const WorldRecord& record) { act(record, can); })) {
-      if (watchdog.starved()) hang();  // until the watchdog ends it, as on a board
-      return;
+    if (!world.poll([](const WorldRecord& record) { act(record, can); })) {
+      watchdog.rest();
+      board::sleep();
     }
-    watchdog.rest();
-    board::sleep();
     watchdog.run();
+    if (watchdog.starved()) board::crash(Crash::kStarved, 0);
   };
   watchdog.run();
   firmware::runFinger(board::kLinkedTables, kSettings, last, world, can, world, watchdog, wait);

@@ -8,6 +8,9 @@
 //                 bus:     state (hal::CanState), transmit errors, receive errors
 //                 end:     exit status of the emulator
 //
+// The board says kReady once it listens. A restart loses what was on its way, so after a record that makes it
+// restart the host waits for the next one.
+//
 // Samples and silence are a conversion period each: time on an emulated board is their number, so that a run
 // is the same every time, however fast machine and emulator are.
 
@@ -22,6 +25,8 @@ namespace strainfinger::mps2 {
 
 /// A record's period of time.
 inline constexpr std::uint32_t kRecordPeriod_us = 1000;
+
+inline constexpr std::uint8_t kReady = 'R';
 
 enum class RecordKind : std::uint8_t {
   kSamples = 'S',  ///< a period passes, a sample set is there

@@ -1,0 +1,56 @@
+#pragma once
+// How the gauges are sampled, and the proof that it fits the time there is.
+
+#include <array>
+#include <cstdint>
+
+#include "firmware/board/stm32g431/clock_tree.hpp"
+
+namespace strainfinger::stm32g431 {
+
+/// Two converters, so many conversions each to a sample set.
+inline constexpr std::uint32_t kPairs = 8;
+inline constexpr std::uint32_t kGauges = 2 * kPairs;
+
+/// The converters' clock. The datasheet's limit for two converters at once is 26 to 52 MHz, by its revision,
+/// range and supply: this is within all of them.
+inline constexpr std::uint32_t kAdc_hz = kCore_hz / 8;
+static_assert(kAdc_hz <= 26'000'000);
+
+/// Time for a channel's voltage to settle, in the numbers of SMPR (RM0440 section 21.4.12).
+enum class SampleTime : std::uint8_t { k2_5 = 0, k6_5 = 1, k12_5 = 2, k24_5 = 3, k47_5 = 4, k92_5 = 5 };
+inline constexpr std::array<std::uint32_t, 6> kSampleHalfCycles{5, 13, 25, 49, 95, 185};
+inline constexpr std::uint32_t kConversionHalfCycles = 25;  ///< 12 bits
+
+struct SamplingPlan {
+  std::uint32_t rate_hz;
+  std::uint32_t oversamplingLog2;  ///< each code is the sum of 2^this conversions, 4 .. 8, scaled to 16 bits
+  SampleTime sampleTime;
+
+  /// From the trigger until the last gauge is converted, latency of the trigger (3 cycles) included.
+  constexpr std::uint32_t busy_ns() const {
+    const std::uint32_t half =
+        kSampleHalfCycles[static_cast<std::size_t>(sampleTime)] + kConversionHalfCycles;
+    const std::uint64_t halfCycles = (std::uint64_t{kPairs} << oversamplingLog2) * half + 6;
+    return static_cast<std::uint32_t>(halfCycles * 500'000'000 / kAdc_hz + 1);
+  }
+  constexpr std::uint32_t period_us() const { return 1'000'000 / rate_hz; }
+
+  /// Fits its period with 2 % to spare, and never leaves the converters idle for 1 ms: the next result would
+  /// be off (errata ES0431, "wrong ADC result if conversion done late").
+  constexpr bool isPossible() const {
+    const std::uint64_t period_ns = std::uint64_t{1000} * period_us();
+    return 1'000'000 % rate_hz == 0 && oversamplingLog2 >= 4 && oversamplingLog2 <= 8 &&
+           std::uint64_t{busy_ns()} * 100 <= period_ns * 98 && period_ns - busy_ns() < 1'000'000;
+  }
+};
+
+/// 446 us of 1000. 32 conversions a code, 1.2 us for the voltage to settle.
+inline constexpr SamplingPlan kDefaultSampling{1000, 5, SampleTime::k24_5};
+static_assert(kDefaultSampling.isPossible() && kDefaultSampling.busy_ns() == 445'883);
+
+/// 90 us of 100. 16 conversions a code, 0.12 us to settle: for gauges behind an amplifier at the pin.
+inline constexpr SamplingPlan kFastSampling{10'000, 4, SampleTime::k2_5};
+static_assert(kFastSampling.isPossible() && kFastSampling.busy_ns() == 90'495);
+
+}  // namespace strainfinger::stm32g431

@@ -1,0 +1,220 @@
+#include "firmware/board/stm32g431/gauge_converter.hpp"
+
+#include "tests/firmware/board/stm32g431/fake_converters.hpp"
+#include "tests/hal/gauge_adc_contract.hpp"
+
+using namespace strainfinger;
+using namespace strainfinger::stm32g431;
+
+namespace {
+
+using Converter = GaugeConverter<doubles::FakeBus>;
+static_assert(hal::GaugeAdc<Converter>);
+
+class ConverterBench {
+ public:
+  static constexpr int kGauges = stm32g431::kGauges;
+  static constexpr int kCapacity = 1;
+
+  ConverterBench() { CHECK_TRUE(adc_.start(kDefaultSampling)); }
+  Converter& adc() { return adc_; }
+  hal::SampleSet convert() {
+    ++set_;
+    hal::SampleSet codes{};
+    for (std::size_t gauge = 0; gauge < stm32g431::kGauges; ++gauge) {
+      const Input& input = (gauge % 2 == 0 ? kEvenGauges : kOddGauges)[gauge / 2];
+      const auto code = static_cast<std::uint16_t>((100 * set_ + gauge) & 0xFFF);
+      converters_.voltages[gauge % 2].at(input.channel) = code;
+      codes[gauge] = static_cast<std::uint16_t>(code << 4);
+    }
+    converters_.finishSet();
+    return codes;
+  }
+
+ private:
+  doubles::FakeConverters converters_;
+  Converter adc_{doubles::FakeBus(converters_.registers)};
+  std::uint32_t set_ = 0;
+};
+
+}  // namespace
+
+GAUGE_ADC_CONTRACT(Stm32g431, ConverterBench)
+
+TEST_GROUP(GaugeConverter) {
+  doubles::FakeConverters converters;
+  Converter adc{doubles::FakeBus(converters.registers)};
+  hal::SampleSet set{};
+
+  void start(const SamplingPlan& plan = kDefaultSampling) { CHECK_TRUE(adc.start(plan)); }
+  template <typename FieldType>
+  void is(std::uint32_t expected, FieldType field) {
+    LONGS_EQUAL(expected, converters.registers.field(field));
+  }
+  void finishSets(int count) {
+    for (; count > 0; --count) converters.finishSet();
+  }
+};
+
+TEST(GaugeConverter, KeepsTheDelaysAndOrdersOfTheManual) {
+  start();
+  LONGS_EQUAL(0, converters.violations);
+  CHECK_TRUE(converters.isRunning());
+}
+
+TEST(GaugeConverter, CalibratesBothConvertersBeforeTheyAreEnabled) {
+  start();
+  const auto& registers = converters.registers;
+  const auto calibrated1 = registers.firstWrite<Adc1::Cr>(Adc1::Cr::calibrate.mask, Adc1::Cr::calibrate.mask);
+  const auto calibrated2 = registers.firstWrite<Adc2::Cr>(Adc2::Cr::calibrate.mask, Adc2::Cr::calibrate.mask);
+  const auto enabled1 = registers.firstWrite<Adc1::Cr>(Adc1::Cr::enable.mask, Adc1::Cr::enable.mask);
+  const auto enabled2 = registers.firstWrite<Adc2::Cr>(Adc2::Cr::enable.mask, Adc2::Cr::enable.mask);
+  CHECK_TRUE(calibrated1 < enabled1 && calibrated2 < enabled2 && enabled2 < registers.writes.size());
+}
+
+TEST(GaugeConverter, GivesUpWhenAConverterDoesNotCalibrate) {
+  converters.calibrates = false;
+  CHECK_FALSE(adc.start(kDefaultSampling));
+  CHECK_FALSE(converters.isRunning());
+}
+
+TEST(GaugeConverter, GivesUpWhenAConverterDoesNotGetReady) {
+  converters.getsReady = false;
+  CHECK_FALSE(adc.start(kDefaultSampling));
+  CHECK_FALSE(converters.isRunning());
+  CHECK_FALSE(adc.read(set));
+}
+
+TEST(GaugeConverter, BothConvertersShareTriggerAndSettings) {
+  start();
+  is(6, Adc12::Ccr::dual);
+  is(9, Adc1::Cfgr::trigger);
+  is(1, Adc1::Cfgr::triggerEdge);
+  is(0, Adc2::Cfgr::triggerEdge);  // the slave follows
+  LONGS_EQUAL(converters.registers.word<Adc1::Cfgr2>(), converters.registers.word<Adc2::Cfgr2>());
+  LONGS_EQUAL(converters.registers.word<Adc1::Smpr1>(), converters.registers.word<Adc2::Smpr1>());
+}
+
+TEST(GaugeConverter, SamplesEveryChannelEquallyLong) {
+  start();
+  LONGS_EQUAL(0x1B6D'B6DB, converters.registers.word<Adc1::Smpr1>());  // 3 in each of ten fields
+  LONGS_EQUAL(0x036D'B6DB, converters.registers.word<Adc1::Smpr2>());  // and nine
+}
+
+TEST(GaugeConverter, RunsTheConvertersAtAnEighthOfTheClock) {
+  start();
+  is(0, Adc12::Ccr::clockMode);
+  is(4, Adc12::Ccr::prescaler);
+}
+
+TEST(GaugeConverter, TheTimerGivesTheRate) {
+  start();
+  LONGS_EQUAL(169, converters.registers.word<Tim1::Psc>());
+  LONGS_EQUAL(999, converters.registers.word<Tim1::Arr>());
+  is(2, Tim1::Cr2::triggerOutput);
+  is(7, Tim3::Smcr::slaveMode);
+}
+
+TEST(GaugeConverter, TheFastPlanSamplesTenTimesAsOften) {
+  start(kFastSampling);
+  LONGS_EQUAL(99, converters.registers.word<Tim1::Arr>());
+  is(3, Adc1::Cfgr2::ratio);  // 16 conversions
+  is(0, Adc1::Cfgr2::shift);
+}
+
+TEST(GaugeConverter, DmaFillsTwoSetsInTurn) {
+  start();
+  LONGS_EQUAL(0x5000'030C, converters.registers.word<Dma1::Cpar1>());
+  LONGS_EQUAL(doubles::FakeRegisters::kMemoryAddress, converters.registers.word<Dma1::Cmar1>());
+  LONGS_EQUAL(0x3AA1, converters.registers.word<Dma1::Ccr1>());
+  is(16, Dma1::Cndtr1::left);
+  is(5, Dmamux::C0cr::request);
+}
+
+TEST(GaugeConverter, PinsAreAnalogAndUnpulled) {
+  start();
+  LONGS_EQUAL(0x5555'F75F, converters.registers.at(0x4800'0000));  // PA0, 1, 4, 6, 7
+  LONGS_EQUAL(0xF755'557F, converters.registers.at(0x4800'0400));  // PB0, 1, 2, 12, 14, 15
+  LONGS_EQUAL(0x5555'57FF, converters.registers.at(0x4800'0800));  // PC0 .. 4
+  LONGS_EQUAL(0x5555'5400, converters.registers.at(0x4800'080C));
+}
+
+TEST(GaugeConverter, RailsAreTheEndsOfTheCode) {
+  for (const SamplingPlan& plan :
+       {kDefaultSampling, kFastSampling, SamplingPlan{1000, 7, SampleTime::k2_5}}) {
+    doubles::FakeConverters fresh;
+    Converter converter{doubles::FakeBus(fresh.registers)};
+    CHECK_TRUE(converter.start(plan));
+    fresh.voltages[0].fill(0xFFF);
+    fresh.finishSet();
+    CHECK_TRUE(converter.read(set));
+    LONGS_EQUAL(0xFFF0, set[0]);
+    LONGS_EQUAL(0, set[1]);
+  }
+}
+
+TEST(GaugeConverter, ASetInWorkIsNotHandedOut) {
+  start();
+  converters.convert(7);
+  CHECK_FALSE(adc.read(set));
+  converters.convert(1);
+  CHECK_TRUE(adc.read(set));
+}
+
+TEST(GaugeConverter, CountsExactlyWhatALongStandstillLost) {
+  start();
+  finishSets(1);
+  CHECK_TRUE(adc.read(set));
+  finishSets(25);  // as while a flash page is erased
+  CHECK_TRUE(adc.read(set));
+  LONGS_EQUAL(24, adc.overruns());
+  CHECK_FALSE(adc.read(set));
+}
+
+TEST(GaugeConverter, CountsOnWhenTheCountersWrap) {
+  start();
+  for (int i = 0; i < 70'000; ++i) {
+    converters.finishSet();
+    CHECK_TRUE(adc.read(set));
+  }
+  LONGS_EQUAL(0, adc.overruns());
+}
+
+TEST(GaugeConverter, AStuckConverterGivesNothingThoughTheTimerRuns) {
+  start();
+  finishSets(3);
+  adc.read(set);
+  for (int i = 0; i < 10; ++i) {
+    converters.trigger();
+    CHECK_FALSE(adc.read(set));
+  }
+}
+
+TEST(GaugeConverter, ASetThatIsCompletedWhileReadingIsTakenInstead) {
+  start();
+  finishSets(1);
+  int reads = 0;
+  converters.registers.onRead<Tim3::Cnt>([&](std::uint32_t count) {
+    if (++reads == 2) converters.voltages[0].fill(0x123), converters.convert(8);
+    return count;
+  });
+  CHECK_TRUE(adc.read(set));
+  LONGS_EQUAL(0x1230, set[0]);
+  LONGS_EQUAL(1, adc.overruns());
+  CHECK_FALSE(adc.read(set));
+}
+
+TEST(GaugeConverter, SamplingPlansThatDoNotFitAreNotPossible) {
+  CHECK_FALSE((SamplingPlan{10'000, 5, SampleTime::k2_5}.isPossible()));  // 181 us of 100
+  CHECK_FALSE((SamplingPlan{10'000, 4, SampleTime::k6_5}.isPossible()));  // 115 us
+  CHECK_FALSE((SamplingPlan{500, 4, SampleTime::k2_5}.isPossible()));     // idle for 1.9 ms
+  CHECK_FALSE((SamplingPlan{3'000, 4, SampleTime::k2_5}.isPossible()));   // 333.3 us
+  CHECK_FALSE((SamplingPlan{1'000, 3, SampleTime::k24_5}.isPossible()));  // 15 bits
+  CHECK_FALSE((SamplingPlan{1'000, 8, SampleTime::k2_5}.isPossible()));   // 1446 us of 1000
+  CHECK_TRUE((SamplingPlan{1'000, 7, SampleTime::k2_5}.isPossible()));    // 723 us
+}
+
+// By hand: 8 conversions of 16 * (2.5 + 12.5) cycles and 3 of latency are 1923 cycles of 21.25 MHz.
+TEST(GaugeConverter, TenKilohertzTakeNinetyMicroseconds) {
+  DOUBLES_EQUAL(1923 / 21.25, kFastSampling.busy_ns() / 1000.0, 0.001);
+}

@@ -1,0 +1,190 @@
+#include <CppUTest/TestHarness.h>
+
+#include "firmware/board/stm32g431/microsecond_clock.hpp"
+#include "firmware/board/stm32g431/registers/gpio.hpp"
+#include "firmware/board/stm32g431/unique_id.hpp"
+#include "firmware/board/stm32g431/watchdog.hpp"
+#include "tests/doubles/fake_clock.hpp"
+#include "tests/firmware/board/stm32g431/fake_registers.hpp"
+#include "tests/hal/clock_contract.hpp"
+#include "tests/hal/watchdog_contract.hpp"
+
+using namespace strainfinger;
+using namespace strainfinger::stm32g431;
+using hal::ResetCause;
+
+namespace {
+
+using Watchdog = IndependentWatchdog<doubles::FakeBus, doubles::FakeClock>;
+static_assert(hal::Watchdog<Watchdog>);
+static_assert(hal::Clock<MicrosecondClock<doubles::FakeBus>>);
+
+/// IWDG: settings are taken only between the unlocking key and the next one, and some reads later.
+struct FakeWatchdog {
+  doubles::FakeRegisters registers;
+  bool started = false;
+  bool updates = true;
+  int feeds = 0;
+
+  FakeWatchdog() {
+    registers.add<Dbgmcu::Apb1Fzr1>();
+    registers.add<Iwdg::Kr>();
+    registers.add<Iwdg::Pr>();
+    registers.add<Iwdg::Rlr>(0xFFF);
+    registers.add<Iwdg::Sr>();
+    registers.onWrite<Iwdg::Kr>([this](std::uint32_t, std::uint32_t key) {
+      started |= key == Iwdg::kStart;
+      feeds += key == Iwdg::kFeed;
+      return key;
+    });
+    registers.onWrite<Iwdg::Pr>(
+        [this](std::uint32_t before, std::uint32_t value) { return set(before, value); });
+    registers.onWrite<Iwdg::Rlr>(
+        [this](std::uint32_t before, std::uint32_t value) { return set(before, value); });
+    registers.onRead<Iwdg::Sr>(
+        [this](std::uint32_t status) { return updates && readsLeft-- < 0 ? 0U : status; });
+  }
+
+  std::uint32_t set(std::uint32_t before, std::uint32_t value) {
+    if (registers.word<Iwdg::Kr>() != Iwdg::kUnlock) return before;
+    registers.word<Iwdg::Sr>() = 3;
+    readsLeft = 100;
+    return value;
+  }
+
+  int readsLeft = 0;
+};
+
+struct WatchdogBench {
+  FakeWatchdog fake;
+  doubles::FakeClock clock{0xFFFF'FFFF};
+  Watchdog dog{doubles::FakeBus(fake.registers), clock, ResetCause::kPin};
+  Watchdog& watchdog() { return dog; }
+};
+
+class ClockBench {
+ public:
+  ClockBench() {
+    registers_.add<Rcc::Apb1Enr1>();
+    registers_.add<Tim2::Psc>();
+    registers_.add<Tim2::Arr>();
+    registers_.add<Tim2::Egr>();
+    registers_.add<Tim2::Cr1>();
+    registers_.add<Tim2::Cnt>(0xFFFF'FF00);
+    clock_.start();
+  }
+  MicrosecondClock<doubles::FakeBus>& clock() { return clock_; }
+  /// TIM2 counts what its prescaler lets through of 170 MHz.
+  void pass(std::uint32_t time_us) {
+    const bool enabled = registers_.field(Tim2::Cr1::enable) != 0;
+    if (enabled) registers_.word<Tim2::Cnt>() += 170 * time_us / (registers_.word<Tim2::Psc>() + 1);
+  }
+
+ private:
+  doubles::FakeRegisters registers_;
+  MicrosecondClock<doubles::FakeBus> clock_{doubles::FakeBus(registers_)};
+};
+
+}  // namespace
+
+WATCHDOG_CONTRACT(Independent, WatchdogBench)
+CLOCK_CONTRACT(Microsecond, ClockBench)
+
+TEST_GROUP(IndependentWatchdog) {
+  WatchdogBench bench;
+  doubles::FakeRegisters csr;
+
+  ResetCause causeOf(std::uint32_t flags, bool ramSurvived = false) {
+    csr.add<Rcc::Csr>(flags);
+    return takeResetCause(doubles::FakeBus(csr), ramSurvived);
+  }
+};
+
+TEST(IndependentWatchdog, StartsWithHalfASecond) {
+  CHECK_TRUE(bench.dog.start());
+  CHECK_TRUE(bench.fake.started);
+  const double tick_ms = (4 << bench.fake.registers.word<Iwdg::Pr>()) / 32.0;
+  DOUBLES_EQUAL(500, (bench.fake.registers.word<Iwdg::Rlr>() + 1) * tick_ms, 1e-9);
+  CHECK_TRUE(bench.fake.feeds > 0);
+}
+
+TEST(IndependentWatchdog, RunsOnlyWhenStarted) {
+  bench.dog.feed();
+  CHECK_FALSE(bench.fake.started);
+}
+
+TEST(IndependentWatchdog, SaysWhenItsSettingsDidNotTake) {
+  bench.fake.updates = false;
+  CHECK_FALSE(bench.dog.start());
+  CHECK_TRUE(bench.fake.started);
+}
+
+TEST(IndependentWatchdog, FeedsWithTheKey) {
+  bench.dog.feed();
+  CHECK_TRUE((bench.fake.registers.writes.back() == doubles::FakeRegisters::Access{0x4000'3000, 0xAAAA}));
+}
+
+TEST(IndependentWatchdog, SaysThatItStarvesBeforeItResets) {
+  bench.clock.advance(399'999);
+  CHECK_FALSE(bench.dog.isStarved());
+  bench.clock.advance(1);
+  CHECK_TRUE(bench.dog.isStarved());
+  bench.dog.feed();
+  CHECK_FALSE(bench.dog.isStarved());
+}
+
+TEST(IndependentWatchdog, StandsStillWhileADebuggerHoldsTheProcessor) {
+  CHECK_TRUE(bench.dog.start());
+  LONGS_EQUAL(1U << 12, bench.fake.registers.at(0xE004'2008));
+}
+
+// Every reset sets the pin's flag (bit 26) too.
+TEST(IndependentWatchdog, TellsTheResetsApart) {
+  CHECK_TRUE(causeOf(0x2400'0000) == ResetCause::kWatchdog);
+  CHECK_TRUE(causeOf(0x4400'0000) == ResetCause::kWatchdog);
+  CHECK_TRUE(causeOf(0x1400'0000) == ResetCause::kSoftware);
+  CHECK_TRUE(causeOf(0x0600'0000) == ResetCause::kSoftware);
+  CHECK_TRUE(causeOf(0x0C00'0000) == ResetCause::kPowerOn);
+  CHECK_TRUE(causeOf(0x0C00'0000, true) == ResetCause::kBrownOut);
+  CHECK_TRUE(causeOf(0x0400'0000) == ResetCause::kPin);
+  CHECK_TRUE(causeOf(0x8400'0000) == ResetCause::kUnknown);
+  CHECK_TRUE(causeOf(0) == ResetCause::kUnknown);
+}
+
+TEST(IndependentWatchdog, TheFlagsAreCleared) {
+  causeOf(0x2400'0000);
+  LONGS_EQUAL(1, csr.writes.front().value >> 23 & 1);
+  LONGS_EQUAL(0, csr.writes.back().value >> 23 & 1);
+}
+
+TEST_GROUP(UniqueId){};
+
+TEST(UniqueId, IsThreeWords) {
+  doubles::FakeRegisters registers;
+  registers.addRange(0x1FFF'7590, 12);
+  registers.at(0x1FFF'7590) = 1;
+  registers.at(0x1FFF'7594) = 2;
+  registers.at(0x1FFF'7598) = 3;
+  CHECK_TRUE((uniqueId(doubles::FakeBus(registers)) == UniqueId{1, 2, 3}));
+}
+
+TEST_GROUP(Pins) {
+  doubles::FakeRegisters registers;
+  void setup() override { registers.addRange(0x4800'0000, 0x28); }
+};
+
+TEST(Pins, AnAlternateFunctionIsSetBeforeTheMode) {
+  makeAlternate(doubles::FakeBus(registers), {Port::kA, 11}, 9, Gpio::kUp);
+  LONGS_EQUAL(0x0080'0000, registers.at(0x4800'0000));
+  LONGS_EQUAL(0x0080'0000, registers.at(0x4800'0008));
+  LONGS_EQUAL(0x0040'0000, registers.at(0x4800'000C));
+  LONGS_EQUAL(0x0000'9000, registers.at(0x4800'0024));
+  LONGS_EQUAL(0x4800'0024, registers.writes.front().address);
+  LONGS_EQUAL(0x4800'0000, registers.writes.back().address);
+}
+
+TEST(Pins, OtherPinsAreLeftAlone) {
+  registers.at(0x4800'0000) = 0xABFF'FFFF;
+  makeAnalog(doubles::FakeBus(registers), {Port::kA, 0});
+  LONGS_EQUAL(0xABFF'FFFF, registers.at(0x4800'0000));
+}

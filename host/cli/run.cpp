@@ -75,6 +75,8 @@ simulation::Scenario scenarioOf(const RunOptions& options) {
                                       : simulation::readScenarioFile(options.scenarioPath);
 }
 
+constexpr double kForEver_s = 1e12;
+
 double durationOf(const RunOptions& options, const simulation::Scenario& scenario) {
   if (options.duration_s) {
     // CLI11's ranges let NaN through.
@@ -83,7 +85,7 @@ double durationOf(const RunOptions& options, const simulation::Scenario& scenari
     throw Failure(ExitCode::kUsage, fmt::format("--duration: {} s is not from {} to {}", *options.duration_s,
                                                 RunOptions::kShortest_s, RunOptions::kLongest_s));
   }
-  if (!options.isLoopback()) return RunOptions::kLongest_s;
+  if (!options.isLoopback()) return kForEver_s;
   if (scenario.duration_s() > 0) return scenario.duration_s();
   throw Failure(ExitCode::kUsage, "run: the scenario has no touch and so no end: give --duration S");
 }
@@ -125,6 +127,7 @@ void runOn(Port& port, const RunOptions& options, Wait wait, Afterwards afterwar
   const auto end_us = static_cast<std::uint64_t>(std::llround(durationOf(options, scenario) * 1e6));
   simulation::SimulatedFinger finger(config, scenario, *tables, options.firmware.mode(), options.seed, port);
   Watchers watchers(options, config);
+  for (const std::string& path : options.pictures) plot::requirePicturePath(path);
   const system::StopSignal stop;
   while (finger.elapsed_us() < end_us && !stop.asked()) {
     finger.pass(wait(), [&](const simulation::Moment& moment) { watchers.watch(moment, finger.readings()); });

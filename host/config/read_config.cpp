@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "host/base/read_file.hpp"
 #include "host/config/keys.hpp"
 #include "host/config/toml_text.hpp"
 
@@ -68,7 +69,9 @@ const toml::source_region& placeOf(const Relation& relation, const toml::table& 
 
 }  // namespace
 
-FingerConfig readConfigFile(const std::string& path) { return readConfig(readText(path), path); }
+FingerConfig readConfigFile(const std::string& path) {
+  return readConfig(readFile(path, ExitCode::kUsage), path);
+}
 
 FingerConfig readConfig(std::string_view text, const std::string& name) {
   const toml::table root = parseToml(text, name);

@@ -3,11 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <memory>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -72,16 +67,6 @@ std::size_t distance(std::string_view word, std::string_view candidate) {
 }
 
 }  // namespace
-
-std::string readText(const std::string& path) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
-  std::string text;
-  std::array<char, 4096> block;
-  for (std::size_t count = 1; file && count > 0; text.append(block.data(), count))
-    count = std::fread(block.data(), 1, block.size(), file.get());
-  if (file && std::ferror(file.get()) == 0) return text;
-  throw Failure(ExitCode::kUsage, fmt::format("{}: cannot read the file: {}", path, std::strerror(errno)));
-}
 
 toml::table parseToml(std::string_view text, const std::string& name) {
   try {

@@ -1,5 +1,5 @@
 #pragma once
-// What all our TOML files share: reading them, values by type, and errors that point into the text.
+// What all our TOML files share: values by type, and errors that point into the text.
 // Every function throws Failure(kUsage) with file:line:column, what is wrong and what would be right.
 
 #include <toml++/toml.h>
@@ -12,9 +12,6 @@
 #include "host/config/domain.hpp"
 
 namespace strainfinger::config {
-
-/// The whole file. The failure names the file and the system's reason.
-std::string readText(const std::string& path);
 
 /// Parses; `name` stands for the file in messages, here and in all that follows from the result.
 toml::table parseToml(std::string_view text, const std::string& name);

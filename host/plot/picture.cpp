@@ -66,6 +66,8 @@ std::string completeScript(const Picture& picture, const std::string& stem, cons
       terminal(picture, ending), stem, ending, stem, picture.script);
 }
 
+void requirePicturePath(const std::string& path) { terminal({}, fs::path(path).extension().string()); }
+
 void draw(const Picture& picture, const std::string& path) {
   const fs::path file(path), folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   const std::string stem = file.stem().string();

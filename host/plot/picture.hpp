@@ -29,6 +29,9 @@ struct Picture {
 /// installed, or with what gnuplot complains about.
 void draw(const Picture& picture, const std::string& path);
 
+/// Throws Failure(kUsage) for a path that draw() would refuse: for who draws only after a long time.
+void requirePicturePath(const std::string& path);
+
 /// The script as draw() writes it, for a picture called `stem` + `ending`.
 std::string completeScript(const Picture& picture, const std::string& stem, const std::string& ending);
 

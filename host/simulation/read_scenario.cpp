@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "host/base/read_file.hpp"
 #include "host/config/toml_text.hpp"
 
 namespace strainfinger::simulation {
@@ -113,7 +114,9 @@ std::vector<TouchCourse> readTouches(const toml::table& root) {
 
 }  // namespace
 
-Scenario readScenarioFile(const std::string& path) { return readScenario(config::readText(path), path); }
+Scenario readScenarioFile(const std::string& path) {
+  return readScenario(readFile(path, ExitCode::kUsage), path);
+}
 
 Scenario readScenario(std::string_view text, const std::string& name) {
   const toml::table root = config::parseToml(text, name);

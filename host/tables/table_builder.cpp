@@ -23,7 +23,7 @@ double frictionCone(const config::Contact& contact) {
 }
 
 /// Sum of `count` squared unit normal variates that one sample in a billion (z = 6.0) or in a thousand
-/// (z = 3.09) exceeds: Wilson & Hilferty (1931), good to 1 % here.
+/// (z = 3.09) exceeds: Wilson & Hilferty (1931), good to 4 % here.
 double chiSquareQuantile(int count, double z) {
   const double spread = 2.0 / (9.0 * count);
   return count * std::pow(1 - spread + z * std::sqrt(spread), 3);

@@ -3,50 +3,33 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <memory>
 
-#include "host/base/failure.hpp"
+#include "host/base/read_file.hpp"
 #include "host/config/keys.hpp"
 #include "host/tables/table_builder.hpp"
 
 namespace strainfinger::tables {
 namespace {
 
-std::string readBytes(const std::string& path) {
-  if (std::filesystem::is_directory(path))
-    throw Failure(ExitCode::kFailure, fmt::format("{}: is a folder, not a table image", path));
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (!file && !file.eof())
-    throw Failure(ExitCode::kFailure, fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
-  return bytes;
-}
-
-[[noreturn]] void refuse(const std::string& path, TableFault fault, std::size_t bytes) {
-  const auto damaged = [&](const std::string& what) {
-    return Failure(ExitCode::kVerificationFailed,
-                   fmt::format("{}: {}; make it anew with: strainfinger tables -o {}", path, what, path));
-  };
+std::string wordsFor(TableFault fault, const TableImage& image, std::size_t bytes) {
   switch (fault) {
+    case TableFault::kTooShort:
+      return fmt::format("{} bytes, too short for a table image", bytes);
     case TableFault::kMagic:
-      throw damaged("not a table image");
+      return "not a table image";
     case TableFault::kFormat:
-      throw Failure(
-          ExitCode::kMismatch,
-          fmt::format("{}: table image of another format than {}, which this program and its firmware read; "
-                      "make it anew with: strainfinger tables -o {}",
-                      path, kTableFormat, path));
+      return fmt::format("a table image of format {}, this program and its firmware read format {}",
+                         image.format, kTableFormat);
+    case TableFault::kLength:
+      return fmt::format("{} bytes, and {} by its header, where an image has {}", bytes, image.image_bytes,
+                         sizeof(TableImage));
     case TableFault::kChecksum:
-      throw damaged("damaged, its CRC-32 does not match");
-    case TableFault::kConstants:
-      throw damaged("its constants are none that the firmware can work with");
+      return "damaged, its CRC-32 does not match";
     default:
-      throw damaged(fmt::format("{} bytes where an image has {}", bytes, sizeof(TableImage)));
+      return "its constants are none that the firmware can work with";
   }
 }
 
@@ -65,12 +48,14 @@ std::string textOf(const Cell& value) {
 }  // namespace
 
 std::unique_ptr<TableImage> readTableFile(const std::string& path) {
-  const std::string bytes = readBytes(path);
+  const std::string bytes = readFile(path, ExitCode::kFailure);
   auto image = std::make_unique<TableImage>();
   std::memcpy(image.get(), bytes.data(), std::min(bytes.size(), sizeof(TableImage)));
   const TableFault fault = faultOf(*image, bytes.size());
-  if (fault != TableFault::kNone) refuse(path, fault, bytes.size());
-  return image;
+  if (fault == TableFault::kNone) return image;
+  throw Failure(fault == TableFault::kFormat ? ExitCode::kMismatch : ExitCode::kVerificationFailed,
+                fmt::format("{}: {}; make it anew with: strainfinger tables -o {}", path,
+                            wordsFor(fault, *image, bytes.size()), path));
 }
 
 std::vector<Parameter> parametersOf(const TableParameters& p) {

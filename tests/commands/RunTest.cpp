@@ -159,6 +159,7 @@ TEST(RunCommand, RefusesWhatIsOutsideTheDomain) {
   checkRefused(runProgram("run --duration nan"), 2, "--duration");
   checkRefused(runProgram("run --seed -1"), 2, "--seed");
   checkRefused(runProgram("run --mode best"), 2, "--mode");
+  checkRefused(runProgram("run --picture touch.bmp"), 2, "pictures are .svg or .png");
   checkRefused(runProgram("run --scenario /nowhere.toml"), 2, "/nowhere.toml");
 }
 

@@ -1,1 +1,427 @@
+#include "firmware/app/finger.hpp"
+
+#include "firmware/core/estimate.hpp"
+#include "host/simulation/converter.hpp"
+#include "tests/doubles/fake_can_port.hpp"
+#include "tests/doubles/fake_clock.hpp"
+#include "tests/doubles/fake_gauge_adc.hpp"
+#include "tests/doubles/spy_watchdog.hpp"
+#include "tests/firmware/core/model_ring.hpp"
+
 #include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::firmware;
+using namespace strainfinger::doubles;
+
+namespace {
+
+constexpr std::uint8_t kNode = 5;
+constexpr std::uint32_t kSample_us = 1000;
+
+/// Takes a frame or not, as the test's odds are, and notes when.
+class MoodyCanPort {
+ public:
+  struct Sent {
+    CanFrame frame;
+    std::uint32_t at_us;
+  };
+  MoodyCanPort(const FakeClock& clock, std::uint32_t seed) : clock_(clock), random_(seed) {}
+
+  double refuses = 0;  ///< part of the frames
+  std::vector<Sent> sent;
+
+  bool send(const CanFrame& frame) noexcept {
+    if (std::uniform_real_distribution<>(0, 1)(random_) < refuses) return false;
+    sent.push_back({frame, clock_.now_us()});
+    return true;
+  }
+  std::optional<CanFrame> receive() noexcept { return std::nullopt; }
+  hal::CanStatus status() const noexcept { return {.state = hal::CanState::kActive}; }
+
+ private:
+  const FakeClock& clock_;
+  std::mt19937 random_;
+};
+static_assert(hal::CanPort<MoodyCanPort>);
+
+}  // namespace
+
+TEST_GROUP(Finger) {
+  using Fingers = Finger<FakeGaugeAdc, FakeCanPort, FakeClock, SpyWatchdog>;
+  const ModelRing ring;
+  const simulation::Converter converter{config::Gauges{}};
+  FakeGaugeAdc adc;
+  FakeCanPort can;
+  FakeClock clock{1'000'000};
+  SpyWatchdog watchdog;
+  std::unique_ptr<Fingers> finger;
+
+  void setup() override { start(); }
+  void start(const FingerSettings& settings = {.node = kNode}) {
+    finger = std::make_unique<Fingers>(ring.tables(), settings, adc, can, clock, watchdog);
+  }
+
+  hal::SampleSet codesOf(const Press& press) {
+    hal::SampleSet set{};
+    const auto strains = ring.strains(press);
+    std::transform(strains.begin(), strains.end(), set.begin(),
+                   [&](double strain) { return converter.codeOf(strain); });
+    return set;
+  }
+  static constexpr Press kUntouched{0, 0, 0};
+  static constexpr Press kTouch{3.2, 20, 4};
+
+  /// A sample set a millisecond.
+  void run(int samples, const Press& press = kUntouched) {
+    const hal::SampleSet set = codesOf(press);
+    for (int i = 0; i < samples; ++i) {
+      clock.advance(kSample_us);
+      adc.convert(set);
+      finger->step();
+    }
+  }
+  /// Turns of the loop without a sample set.
+  void runSilent(int milliseconds) {
+    for (int i = 0; i < milliseconds; ++i) {
+      clock.advance(1000);
+      finger->step();
+    }
+  }
+  void runZeroed() {
+    run(ZeroAverage::kSamples);
+    can.sent.clear();
+  }
+
+  template <typename Frame>
+  std::vector<Frame> sent() {
+    std::vector<Frame> frames;
+    for (const CanFrame& frame : can.sent)
+      if (const auto values = decode<Frame>(frame)) frames.push_back(*values);
+    return frames;
+  }
+  HeartbeatFrame lastHeartbeat() { return sent<HeartbeatFrame>().back(); }
+};
+
+TEST(Finger, SaysThatItBoots) {
+  finger->step();
+  LONGS_EQUAL(1, can.sent.size());
+  LONGS_EQUAL(0x705, can.sent[0].id);
+  CHECK(lastHeartbeat().state == FingerState::kBoot);
+  LONGS_EQUAL(kProtocolVersion, lastHeartbeat().protocol);
+  LONGS_EQUAL(ring.tables().crc32 & 0xFF, lastHeartbeat().table_crc);
+}
+
+TEST(Finger, TakesItsZeroFrom64Sets) {
+  CHECK(finger->state() == FingerState::kBoot);
+  run(1);
+  CHECK(finger->state() == FingerState::kZeroing);
+  run(62);
+  CHECK(finger->state() == FingerState::kZeroing);
+  run(1);
+  CHECK(finger->state() == FingerState::kRun);
+}
+
+TEST(Finger, AZeroAwayFromMidScaleIsNoTouch) {
+  run(64, kTouch);
+  can.sent.clear();
+  run(300, kTouch);
+  LONGS_EQUAL(0, finger->counters().fits);
+  LONGS_EQUAL(0, sent<ContactFrame>().size());
+}
+
+TEST(Finger, SendsNothingButHeartbeatsUntouched) {
+  runZeroed();
+  run(1000);
+  LONGS_EQUAL(10, can.sent.size());
+  LONGS_EQUAL(10, sent<HeartbeatFrame>().size());
+  LONGS_EQUAL(0, finger->counters().fits);
+}
+
+TEST(Finger, BeatsTenTimesASecondInEveryState) {
+  runSilent(1000);
+  LONGS_EQUAL(10, sent<HeartbeatFrame>().size());  // the first one at once
+  CHECK(lastHeartbeat().state == FingerState::kBoot);
+  can.sent.clear();
+  for (int i = 0; i < 40; ++i) {
+    run(1);
+    runSilent(24);
+  }
+  LONGS_EQUAL(10, sent<HeartbeatFrame>().size());
+  CHECK(lastHeartbeat().state == FingerState::kZeroing);
+  run(100);
+  can.sent.clear();
+  run(1000, kTouch);
+  LONGS_EQUAL(10, sent<HeartbeatFrame>().size());
+  CHECK(lastHeartbeat().state == FingerState::kRun);
+}
+
+TEST(Finger, ATouchIsAContactAndItsForce) {
+  runZeroed();
+  run(1, kTouch);
+  const auto contacts = sent<ContactFrame>();
+  const auto forces = sent<ForceFrame>();
+  LONGS_EQUAL(1, contacts.size());
+  LONGS_EQUAL(1, forces.size());
+  LONGS_EQUAL(0x185, can.sent[0].id);
+  LONGS_EQUAL(0x285, can.sent[1].id);
+  DOUBLES_EQUAL(72, contacts[0].angle_cdeg / 100.0, 0.05);
+  DOUBLES_EQUAL(400, forces[0].normal_mN, 2);
+  DOUBLES_EQUAL(80, forces[0].tangential_mN, 2);
+  LONGS_EQUAL(contacts[0].sequence, forces[0].sequence);
+}
+
+TEST(Finger, TheEndOfATouchIsSaidOnce) {
+  runZeroed();
+  run(10, kTouch);
+  can.sent.clear();
+  run(500);
+  LONGS_EQUAL(1, sent<ContactFrame>().size());
+  LONGS_EQUAL(1, sent<ForceFrame>().size());
+  CHECK_FALSE(sent<ContactFrame>()[0].flags.has(FingerFlag::kContact));
+  LONGS_EQUAL(kNotKnown<std::uint16_t>, sent<ContactFrame>()[0].angle_cdeg);
+}
+
+TEST(Finger, StandingFlagsAreInEveryFrame) {
+  start({.node = kNode, .standingFlags = {FingerFlag::kSimulated, FingerFlag::kUncalibrated}});
+  runZeroed();
+  run(10, kTouch);
+  run(10);
+  for (const ContactFrame& contact : sent<ContactFrame>())
+    CHECK(contact.flags.has(FingerFlag::kSimulated) && contact.flags.has(FingerFlag::kUncalibrated));
+}
+
+TEST(Finger, BothModesFindTheTouch) {
+  for (const FitMode mode : {FitMode::kRefined, FitMode::kThreePoint}) {
+    start({.node = kNode, .mode = mode});
+    runZeroed();
+    run(1, kTouch);
+    DOUBLES_EQUAL(72, sent<ContactFrame>()[0].angle_cdeg / 100.0, 0.1);
+  }
+}
+
+TEST(Finger, ASilentConverterIsAFault) {
+  runZeroed();
+  runSilent(99);
+  CHECK_FALSE(lastHeartbeat().faults.has(FingerFault::kConverter));
+  runSilent(100);
+  CHECK_TRUE(lastHeartbeat().faults.has(FingerFault::kConverter));
+  run(101);
+  CHECK_FALSE(lastHeartbeat().faults.has(FingerFault::kConverter));
+}
+
+TEST(Finger, AConverterThatNeverSpokeIsAFault) {
+  runSilent(201);
+  CHECK_TRUE(lastHeartbeat().faults.has(FingerFault::kConverter));
+}
+
+TEST(Finger, ASilentConverterStaysAFaultWhenTheClockWraps) {
+  runZeroed();
+  for (int i = 0; i < 90 * 60 * 10; ++i) {  // an hour and a half
+    clock.advance(100'000);
+    finger->step();
+    if (i > 1) CHECK_TRUE(lastHeartbeat().faults.has(FingerFault::kConverter));
+    can.sent.clear();
+  }
+}
+
+TEST(Finger, OnlySampleSetsFeedTheWatchdog) {
+  runSilent(500);
+  LONGS_EQUAL(0, watchdog.feeds());
+  run(100);
+  LONGS_EQUAL(100, watchdog.feeds());
+  run(50, kTouch);
+  runSilent(500);
+  LONGS_EQUAL(150, watchdog.feeds());
+}
+
+TEST(Finger, ABusThatTakesNothingDoesNotStarveTheWatchdog) {
+  can.busy = true;
+  run(100);
+  run(100, kTouch);
+  LONGS_EQUAL(200, watchdog.feeds());
+}
+
+TEST(Finger, SaysThatTheWatchdogResetIt) {
+  watchdog = SpyWatchdog(hal::ResetCause::kWatchdog);
+  start();
+  finger->step();
+  CHECK(lastHeartbeat().faults == FingerFaults{FingerFault::kWatchdogReset});
+}
+
+TEST(Finger, PassesOnWhatThePortKnows) {
+  finger->step();
+  LONGS_EQUAL(kNotKnown<std::uint8_t>, lastHeartbeat().tx_errors);
+  LONGS_EQUAL(kNotKnown<std::uint8_t>, lastHeartbeat().rx_errors);
+  can.bus.txErrors = 96;
+  can.bus.rxErrors = 3;
+  can.bus.dropped = 1;
+  runSilent(100);
+  LONGS_EQUAL(96, lastHeartbeat().tx_errors);
+  LONGS_EQUAL(3, lastHeartbeat().rx_errors);
+  CHECK_TRUE(lastHeartbeat().faults.has(FingerFault::kCan));
+}
+
+TEST(Finger, CountsWhatItDid) {
+  run(64);
+  run(10);
+  run(100, kTouch);
+  LONGS_EQUAL(174, finger->counters().sampleSets);
+  LONGS_EQUAL(100, finger->counters().fits);
+  LONGS_EQUAL(sent<ForceFrame>().size(), finger->counters().touchesSent);
+  LONGS_EQUAL(0, finger->counters().touchesBusy);
+  LONGS_EQUAL(0, finger->counters().forcesLost);
+}
+
+TEST(Finger, ABusyPortGetsTheNewestTouch) {
+  runZeroed();
+  can.busy = true;
+  for (int i = 0; i < 50; ++i) run(1, {3 + i / 50.0, 20, 0});
+  LONGS_EQUAL(50, finger->counters().touchesBusy);
+  can.busy = false;
+  run(1, {5, 20, 0});
+  LONGS_EQUAL(1, sent<ContactFrame>().size());
+  DOUBLES_EQUAL(112.5, sent<ContactFrame>()[0].angle_cdeg / 100.0, 0.1);
+  LONGS_EQUAL(0, sent<ContactFrame>()[0].sequence);
+}
+
+TEST(Finger, AHeartbeatThatIsRefusedIsTriedAgain) {
+  can.busy = true;
+  runSilent(250);
+  can.busy = false;
+  runSilent(1);
+  LONGS_EQUAL(1, sent<HeartbeatFrame>().size());
+  runSilent(99);
+  LONGS_EQUAL(1, sent<HeartbeatFrame>().size());
+  runSilent(1);
+  LONGS_EQUAL(2, sent<HeartbeatFrame>().size());
+}
+
+TEST(Finger, CountsItsUptimeAcrossTheClocksWrap) {
+  clock.advance(0u - clock.now_us() - 1'500'000);
+  start();
+  runSilent(3100);
+  LONGS_EQUAL(3, lastHeartbeat().uptime_s);
+}
+
+TEST(Finger, UptimeStopsShortOfNotKnown) {
+  for (int i = 0; i < 70'000; ++i) {
+    clock.advance(1'000'000);
+    can.sent.clear();
+    finger->step();
+    LONGS_EQUAL(std::min(i + 1, 65'534), lastHeartbeat().uptime_s);
+  }
+}
+
+TEST_GROUP(FingerOnAMoodyBus) {
+  using Fingers = Finger<FakeGaugeAdc, MoodyCanPort, FakeClock, SpyWatchdog>;
+  const ModelRing ring;
+  const simulation::Converter converter{config::Gauges{}};
+  FakeGaugeAdc adc;
+  FakeClock clock;
+  SpyWatchdog watchdog;
+  MoodyCanPort can{clock, 51};
+  Fingers finger{ring.tables(), {.node = kNode}, adc, can, clock, watchdog};
+
+  void step(const Press& press) {
+    hal::SampleSet set{};
+    const auto strains = ring.strains(press);
+    std::transform(strains.begin(), strains.end(), set.begin(),
+                   [&](double strain) { return converter.codeOf(strain); });
+    clock.advance(kSample_us);
+    adc.convert(set);
+    finger.step();
+  }
+
+  /// A CONTACT that just went out has the values of the last sample set.
+  void checkFresh(std::size_t sentBefore) {
+    for (std::size_t i = sentBefore; i < can.sent.size(); ++i) {
+      const auto contact = decode<ContactFrame>(can.sent[i].frame);
+      if (!contact || !contact->flags.has(FingerFlag::kContact)) continue;
+      const Contact now = estimate(ring.constants(), *finger.lastObservation().fit);
+      LONGS_EQUAL(touchFrames(ring.constants(), now, {}, 0).contact.angle_cdeg, contact->angle_cdeg);
+    }
+  }
+
+  /// Every CONTACT has its FORCE before the next one, within 50 ms, or is counted; returns how many.
+  std::uint32_t checkPairs() {
+    std::uint32_t contacts = 0, pairs = 0;
+    std::uint32_t contactAt_us = 0;
+    std::optional<ContactFrame> open;
+    for (const auto& [frame, at_us] : can.sent) {
+      if (const auto contact = decode<ContactFrame>(frame)) {
+        LONGS_EQUAL(contacts % 256, contact->sequence);
+        ++contacts;
+        open = contact;
+        contactAt_us = at_us;
+      } else if (const auto force = decode<ForceFrame>(frame)) {
+        CHECK_TRUE(open.has_value());
+        LONGS_EQUAL(open->sequence, force->sequence);
+        CHECK(open->flags == force->flags);
+        CHECK(at_us - contactAt_us < 50'000);
+        open.reset();
+        ++pairs;
+      }
+    }
+    const std::uint32_t owed = contacts - pairs - finger.counters().forcesLost;
+    CHECK(owed <= 1);
+    LONGS_EQUAL(pairs, finger.counters().touchesSent);
+    return contacts;
+  }
+
+  /// Touches that come, move and go, on a bus that refuses so much.
+  void runFor(int samples, double refuses) {
+    can.refuses = refuses;
+    for (int i = 0; i < samples; ++i) {
+      const std::size_t before = can.sent.size();
+      const bool touched = i % 400 < 300;
+      step({i / 100.0, touched ? 20.0 : 0.0, touched ? 5.0 : 0.0});
+      checkFresh(before);
+    }
+  }
+  void zeroed() {
+    std::printf("seed 51 ");
+    for (int i = 0; i < ZeroAverage::kSamples; ++i) step({0, 0, 0});
+  }
+};
+
+TEST(FingerOnAMoodyBus, EveryContactHasItsForceOrIsCounted) {
+  zeroed();
+  for (const double refuses : {0.0, 0.1, 0.5, 0.9, 0.99, 0.3}) runFor(3000, refuses);
+  CHECK(checkPairs() > 1000);
+  CHECK(finger.counters().forcesLost > 0);
+  CHECK(finger.counters().touchesBusy > 0);
+}
+
+TEST(FingerOnAMoodyBus, AnOldForceIsDroppedEvenWhenThePortIsFree) {
+  zeroed();
+  while (checkPairs() == finger.counters().touchesSent) runFor(1, 0.5);  // until a FORCE is owed
+  clock.advance(10'000'000);                                             // the converter pauses
+  runFor(50, 0);
+  checkPairs();
+  LONGS_EQUAL(1, finger.counters().forcesLost);
+}
+
+TEST(FingerOnAMoodyBus, AnOwedForceDoesNotWaitForTheNextSampleSet) {
+  zeroed();
+  while (checkPairs() == finger.counters().touchesSent) runFor(1, 0.5);
+  const std::uint32_t pairs = finger.counters().touchesSent;
+  can.refuses = 0;
+  clock.advance(100);
+  CHECK_FALSE(finger.step());
+  LONGS_EQUAL(pairs + 1, finger.counters().touchesSent);
+}
+
+TEST(FingerOnAMoodyBus, LostForcesAreAFaultOfTheBus) {
+  zeroed();
+  while (finger.counters().forcesLost == 0) runFor(1, 0.97);
+  can.sent.clear();
+  for (int i = 0; i < 200; ++i) {
+    can.refuses = 0;
+    step({0, 0, 0});
+  }
+  bool said = false;
+  for (const auto& [frame, at_us] : can.sent)
+    if (const auto beat = decode<HeartbeatFrame>(frame)) said = beat->faults.has(FingerFault::kCan);
+  CHECK_TRUE(said);
+}

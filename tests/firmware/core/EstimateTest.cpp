@@ -1,1 +1,239 @@
+#include "firmware/core/estimate.hpp"
+
+#include <Eigen/Dense>
+#include <limits>
+
+#include "common/fixed_real.hpp"
+#include "firmware/core/detect.hpp"
+#include "tests/firmware/core/model_ring.hpp"
+
 #include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::firmware;
+
+namespace {
+constexpr double kBoundError = 0.04;
+constexpr std::int32_t kMax = std::numeric_limits<std::int32_t>::max();
+}  // namespace
+
+TEST_GROUP(Estimate) {
+  const ModelRing ring;
+  TableConstants constants = ring.constants();
+  Fit fit;
+
+  void setup() override {
+    fit.settled = true;
+    fit.expected = 100;
+    fit.information = 1 << 26;
+    fit.shift = 14;
+  }
+
+  Contact found() { return estimate(constants, fit); }
+  std::uint8_t qualityOf(std::int32_t unexplained, std::int32_t expected) {
+    fit.unexplained = unexplained;
+    fit.expected = expected;
+    return found().quality;
+  }
+  /// Load of an amplitude by the definition, in LineLoadQ12 steps.
+  double load(std::int32_t amplitude) {
+    return std::ldexp(static_cast<double>(amplitude) * constants.load_scale,
+                      constants.load_exponent + fit.shift);
+  }
+  static double turnsBetween(double a, double b) { return a - b - std::round(a - b); }
+
+  /// Cramer-Rao bound of readings at offsets (pitches from the contact) used: position, normal, tangential.
+  static Eigen::Vector3d boundOf(const ModelRing& model, const Press& press,
+                                 const std::vector<double>& offsets) {
+    Eigen::MatrixXd jacobian(static_cast<int>(offsets.size()), 3);
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+      const auto v = model.response(offsets[i]);
+      const double slope = press.normal * v.normalSlope + press.tangential * v.tangentialSlope;
+      jacobian.row(static_cast<int>(i)) << -slope * model.pitch_rad(), v.normal, v.tangential;
+    }
+    const Eigen::Matrix3d information = jacobian.transpose() * jacobian;
+    const Eigen::Matrix3d covariance = information.inverse();
+    return covariance.diagonal().cwiseSqrt() * model.noise_strain();
+  }
+  static Contact contactOf(const ModelRing& model, FitMode mode, const Press& press, Fit& fitted) {
+    const auto strains = model.raw(press);
+    fitted = locate(model.tables(), mode, strains, gateEnergy(model.constants(), strains));
+    return estimate(model.constants(), fitted);
+  }
+  /// The row a fit's answer comes from: the one near its offset with the same amplitudes' coefficients.
+  static const FitRow& rowOf(const ModelRing& model, const Fit& fitted) {
+    const double offset = model.between(fitted.centre, std::ldexp(fitted.best.position, -kPitchBits));
+    const auto nearest = static_cast<int>(std::lround(std::abs(offset) * kRowsPerPitch));
+    for (const FitTable* table : {&model.tables().refined, &model.tables().three_point[kWithOffset],
+                                  &model.tables().three_point[kAgainstOffset]})
+      for (const int row : {nearest, nearest - 1, nearest + 1}) {
+        if (row < 0 || row >= kFitRows) continue;
+        const FitRow& entry = (*table)[static_cast<std::size_t>(row)];
+        if (entry.load == fitted.load) return entry;
+      }
+    FAIL("no such row");
+    return model.tables().refined[0];
+  }
+  /// The gauges that row looks at, as pitches from the contact.
+  static std::vector<double> usedBy(const ModelRing& model, const Fit& fitted, const Press& press) {
+    const double offset = model.between(fitted.centre, std::ldexp(fitted.best.position, -kPitchBits));
+    const auto used = gaugesOf(rowOf(model, fitted));
+    std::vector<double> offsets;
+    for (int k = -3; k <= 3; ++k) {
+      const int seen = offset < 0 ? -k : k;
+      if (used[static_cast<std::size_t>(seen + 3)])
+        offsets.push_back(model.between(press.position_pitch, fitted.centre) + k);
+    }
+    return offsets;
+  }
+  static void checkAgainstBound(const ModelRing& model, FitMode mode, const Press& press, double tolerance) {
+    Fit fitted;
+    const Contact contact = contactOf(model, mode, press, fitted);
+    const Eigen::Vector3d bound = boundOf(model, press, usedBy(model, fitted, press));
+    DOUBLES_EQUAL(1, toReal(contact.sigmaAngle) * model.gauges() / bound[0], tolerance);
+    DOUBLES_EQUAL(1, toReal(contact.sigmaNormal) / bound[1], tolerance);
+    DOUBLES_EQUAL(1, toReal(contact.sigmaTangential) / bound[2], tolerance);
+  }
+};
+
+TEST(Estimate, AnglesAreExactToTwoSteps) {
+  // The pitch is rounded to 2^-36 of a revolution: 2 steps of 2^-32 at the 32nd gauge.
+  std::printf("seed 31 ");
+  std::mt19937 random(31);
+  for (int gauges = 12; gauges <= 32; gauges += 2) {
+    constants.gauge_count = static_cast<std::uint8_t>(gauges);
+    constants.pitch_turn_q35 = static_cast<std::uint32_t>(std::llround(std::ldexp(1.0, 35) / gauges));
+    for (int i = 0; i < 1000; ++i) {
+      constants.first_angle_q32 = static_cast<std::uint32_t>(random());
+      fit.best.position =
+          static_cast<std::int32_t>(random() % (static_cast<std::uint32_t>(gauges) << kPitchBits));
+      if (i == 0) fit.best.position = gauges * kOnePitch - 1;
+      const double turns =
+          std::ldexp(constants.first_angle_q32, -32) + std::ldexp(fit.best.position, -kPitchBits) / gauges;
+      DOUBLES_EQUAL(0, std::ldexp(turnsBetween(toReal(found().angle), turns), 32), 2.5);
+    }
+  }
+}
+
+TEST(Estimate, AnglesCountFromTheFirstGauge) {
+  config::FingerConfig config;
+  config.gauges.first_angle_deg = 350;
+  const ModelRing turned(config);
+  Fit fitted;
+  const Contact contact = contactOf(turned, FitMode::kRefined, {1, 20, 5}, fitted);
+  DOUBLES_EQUAL(12.5, toReal(contact.angle) * 360, 0.02);
+}
+
+TEST(Estimate, LoadsAreExactToOneStep) {
+  std::printf("seed 32 ");
+  std::mt19937 random(32);
+  for (int i = 0; i < 20'000; ++i) {
+    fit.shift = static_cast<std::int8_t>(static_cast<int>(random() % 20) - 2);
+    fit.best.normal = static_cast<std::int32_t>(random());
+    fit.best.tangential = -fit.best.normal / 3;
+    DOUBLES_EQUAL(load(fit.best.normal), found().normal.raw(), 0.5001);
+    DOUBLES_EQUAL(load(fit.best.tangential), found().tangential.raw(), 0.5001);
+  }
+}
+
+TEST(Estimate, HugeLoadsSaturateWithTheirSign) {
+  constants.load_exponent = -30 - fit.shift;
+  fit.best.normal = kMax;
+  fit.best.tangential = -kMax;
+  CHECK(found().normal == LineLoadQ12::max());
+  CHECK(found().tangential == LineLoadQ12::min());
+}
+
+TEST(Estimate, TinyLoadsAreNone) {
+  constants.load_exponent = -120;
+  fit.best.normal = kMax;
+  LONGS_EQUAL(0, found().normal.raw());
+}
+
+TEST(Estimate, QualityIsTheExpectedPartOfTheUnexplained) {
+  LONGS_EQUAL(100, qualityOf(0, 100));
+  LONGS_EQUAL(100, qualityOf(100, 100));
+  LONGS_EQUAL(99, qualityOf(101, 100));
+  LONGS_EQUAL(50, qualityOf(200, 100));
+  LONGS_EQUAL(0, qualityOf(kMax, 100));
+  LONGS_EQUAL(100, qualityOf(kMax, kMax));
+}
+
+TEST(Estimate, QualityOf20AndLessIsUncertain) {
+  LONGS_EQUAL(21, qualityOf(476, 100));
+  CHECK_FALSE(found().uncertain);
+  LONGS_EQUAL(20, qualityOf(477, 100));
+  CHECK_TRUE(found().uncertain);
+}
+
+TEST(Estimate, AmbiguousAndUnsettledFitsAreUncertainHoweverWellTheyFit) {
+  fit.ambiguous = true;
+  LONGS_EQUAL(20, qualityOf(0, 100));
+  CHECK_TRUE(found().uncertain && found().ambiguous);
+  fit.ambiguous = fit.settled = false;
+  LONGS_EQUAL(20, qualityOf(0, 100));
+  LONGS_EQUAL(10, qualityOf(1000, 100));
+}
+
+TEST(Estimate, AmbiguousErrorsAreAThirdOfTheDistanceAtLeast) {
+  fit.ambiguous = true;
+  fit.best = {kOnePitch / 10, 3'000'000, 0};
+  fit.alternative = {16 * kOnePitch - kOnePitch / 5, 1'500'000,
+                     -600'000};  // 0.3 pitches away, round the wrap
+  const Contact contact = found();
+  DOUBLES_EQUAL(0.1, toReal(contact.sigmaAngle) * 16, 1e-5);
+  DOUBLES_EQUAL(load(500'000), contact.sigmaNormal.raw(), 1);
+  DOUBLES_EQUAL(load(200'000), contact.sigmaTangential.raw(), 1);
+  DOUBLES_EQUAL(15.8 / 16, toReal(contact.alternative), 1e-6);
+}
+
+TEST(Estimate, AmbiguityDoesNotMakeErrorsSmaller) {
+  const TurnQ32 alone = found().sigmaAngle;
+  fit.ambiguous = true;
+  fit.alternative = fit.best;
+  CHECK(found().sigmaAngle == alone);
+}
+
+TEST(Estimate, NothingKnownOfTheOffsetIsAPitch) {
+  fit.information = 0;
+  DOUBLES_EQUAL(1.0 / 16, toReal(found().sigmaAngle), 1e-6);
+}
+
+TEST(Estimate, TheErrorOfTheAngleIsAtMostHalfARevolution) {
+  fit.information = 1;
+  fit.informationExponent = -30;
+  UNSIGNED_LONGS_EQUAL(0x8000'0000u, found().sigmaAngle.raw());
+}
+
+TEST(Estimate, AnyFitGivesSomeEstimate) {
+  // For the sanitizers: the ends of every format, together.
+  for (const std::int32_t big : {kMax, -kMax, 0, 1})
+    for (const int exponent : {-6, 0, 6})
+      for (const int shift : {-2, 0, 18}) {
+        fit.best = {16 * kOnePitch - 1, big, -big};
+        fit.alternative = {0, -big, big};
+        fit.normalSlope = fit.tangentialSlope = big;
+        fit.information = std::abs(big) / 8;
+        fit.informationExponent = static_cast<std::int8_t>(exponent);
+        fit.load.fill(static_cast<std::int16_t>(big < 0 ? -32768 : 32767));
+        fit.shift = static_cast<std::int8_t>(shift);
+        fit.ambiguous = shift == 0;
+        const Contact contact = found();
+        CHECK(contact.sigmaNormal.raw() >= 0 && contact.sigmaTangential.raw() >= 0);
+      }
+}
+
+TEST(Estimate, ErrorsAreTheCramerRaoBoundOfTheGaugesUsed) {
+  struct Kind {
+    int gauges;
+    StrainComponent component;
+  };
+  for (const Kind& kind : {Kind{12, StrainComponent::kRadial}, Kind{16, StrainComponent::kRadial},
+                           Kind{32, StrainComponent::kHoop}, Kind{20, StrainComponent::kShear}}) {
+    const ModelRing model(ModelRing::configOf(kind.gauges, kind.component));
+    for (int step = 0; step < 128; ++step)
+      for (const double tangential : {-1.0, -0.6, -0.2, 0.0, 0.2, 0.6, 1.0})
+        for (const FitMode mode : {FitMode::kRefined, FitMode::kThreePoint})
+          checkAgainstBound(model, mode, {1 + (step + 0.5) / 32, 20, 20 * tangential}, kBoundError);
+  }
+}

@@ -1,1 +1,348 @@
+#include "firmware/core/report.hpp"
+
+#include "common/fixed_real.hpp"
+#include "firmware/core/detect.hpp"
+#include "firmware/core/estimate.hpp"
+#include "tests/firmware/core/model_ring.hpp"
+
 #include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::firmware;
+
+TEST_GROUP(TouchFrames) {
+  TableConstants constants{};
+  Contact contact;
+  FingerFlags flags{FingerFlag::kContact};
+  std::mt19937 random{41};
+
+  void setup() override {
+    std::printf("seed 41 ");
+    constants.force_per_load_q16 = 20 << 16;  // 20 mm: 20 mN for 1 N/m
+  }
+  TouchFrames frames() { return touchFrames(constants, contact, flags, 7); }
+  LineLoadQ12 anyLoad(std::int32_t limit) {
+    return LineLoadQ12::fromRaw(std::uniform_int_distribution<std::int32_t>(-limit, limit)(random));
+  }
+  /// Rounded to nearest, halves up, as the frames' integers are.
+  static double rounded(double value) { return std::floor(value + 0.5); }
+  static double atLeastOne(double value) { return std::max(rounded(value), 1.0); }  // an error is never 0
+};
+
+TEST(TouchFrames, AnglesAreRoundedToHundredthsOfADegree) {
+  for (int i = 0; i < 10'000; ++i) {
+    contact.angle = TurnQ32::fromRaw(static_cast<std::uint32_t>(random()));
+    const double expected = std::fmod(rounded(toReal(contact.angle) * 36'000), 36'000);
+    DOUBLES_EQUAL(expected, frames().contact.angle_cdeg, 0);
+  }
+}
+
+TEST(TouchFrames, JustBelowAFullTurnIsZero) {
+  contact.angle = TurnQ32::max();
+  LONGS_EQUAL(0, frames().contact.angle_cdeg);
+  contact.angle = fromReal<TurnQ32>(359.994 / 360);
+  LONGS_EQUAL(35999, frames().contact.angle_cdeg);
+}
+
+TEST(TouchFrames, ForcesAreRoundedToMillinewtons) {
+  for (int i = 0; i < 10'000; ++i) {
+    contact.normal = anyLoad(1600 << 12);
+    contact.tangential = anyLoad(1600 << 12);
+    DOUBLES_EQUAL(rounded(toReal(contact.normal) * 20), frames().force.normal_mN, 0);
+    DOUBLES_EQUAL(rounded(toReal(contact.tangential) * 20), frames().force.tangential_mN, 0);
+  }
+}
+
+TEST(TouchFrames, ForcesSaturateShortOfNotKnown) {
+  contact.normal = LineLoadQ12::max();
+  contact.tangential = LineLoadQ12::min();
+  LONGS_EQUAL(32767, frames().force.normal_mN);
+  LONGS_EQUAL(-32767, frames().force.tangential_mN);
+}
+
+TEST(TouchFrames, SigmasOfForcesAreHalfMillinewtons) {
+  for (int i = 0; i < 10'000; ++i) {
+    contact.sigmaNormal = LineLoadQ12::fromRaw(static_cast<std::int32_t>(random() % (6 << 12)));
+    contact.sigmaTangential = LineLoadQ12::fromRaw(static_cast<std::int32_t>(random() % (6 << 12)));
+    DOUBLES_EQUAL(atLeastOne(toReal(contact.sigmaNormal) * 40), frames().force.sigma_normal_half_mN, 0);
+    DOUBLES_EQUAL(atLeastOne(toReal(contact.sigmaTangential) * 40), frames().force.sigma_tangential_half_mN,
+                  0);
+  }
+}
+
+TEST(TouchFrames, SigmasSaturateShortOfNotKnown) {
+  contact.sigmaNormal = contact.sigmaTangential = LineLoadQ12::max();
+  contact.sigmaAngle = TurnQ32::fromRaw(0x8000'0000u);
+  LONGS_EQUAL(254, frames().force.sigma_normal_half_mN);
+  LONGS_EQUAL(254, frames().force.sigma_tangential_half_mN);
+  LONGS_EQUAL(18'000, frames().contact.sigma_angle_cdeg);
+}
+
+TEST(TouchFrames, OnlyAmbiguousContactsHaveAnAlternative) {
+  contact.alternative = fromReal<TurnQ32>(0.25);
+  LONGS_EQUAL(kNotKnown<std::int8_t>, frames().contact.alternative_deg);
+  contact.ambiguous = true;
+  LONGS_EQUAL(90, frames().contact.alternative_deg);
+}
+
+TEST(TouchFrames, AlternativesAreRelativeTheShorterWayRoundAndSaturate) {
+  contact.ambiguous = true;
+  contact.angle = fromReal<TurnQ32>(0.99);
+  for (int degrees = -179; degrees <= 179; ++degrees)
+    for (const double beside : {-0.4, 0.0, 0.4}) {
+      const double turns = 0.99 + (degrees + beside) / 360;
+      contact.alternative = fromReal<TurnQ32>(turns - std::floor(turns));
+      LONGS_EQUAL(std::clamp(degrees, -127, 127), frames().contact.alternative_deg);
+    }
+}
+
+TEST(TouchFrames, SaturatedGaugesLeaveTheErrorsUnknown) {
+  contact.sigmaNormal = contact.sigmaTangential = fromReal<LineLoadQ12>(1);
+  flags.set(FingerFlag::kSaturated);
+  LONGS_EQUAL(kNotKnown<std::uint16_t>, frames().contact.sigma_angle_cdeg);
+  LONGS_EQUAL(kNotKnown<std::uint8_t>, frames().force.sigma_normal_half_mN);
+  LONGS_EQUAL(kNotKnown<std::uint8_t>, frames().force.sigma_tangential_half_mN);
+}
+
+TEST(TouchFrames, BothFramesHaveTheSameFlagsAndSequence) {
+  contact.quality = 83;
+  const TouchFrames both = frames();
+  CHECK(both.contact.flags == flags && both.force.flags == flags);
+  LONGS_EQUAL(7, both.contact.sequence);
+  LONGS_EQUAL(7, both.force.sequence);
+  LONGS_EQUAL(83, both.contact.quality_percent);
+}
+
+TEST_GROUP(TouchReporter) {
+  static constexpr std::uint32_t kPeriod_us = 2000;
+  static constexpr std::uint32_t kFloor_us = 50'000;
+  const ModelRing ring;
+  TouchReporter reporter{kPeriod_us, {FingerFlag::kSimulated}};
+  std::uint32_t now_us = 10'000;
+  Observation touch;
+  const Observation nothing;
+
+  void setup() override { touch.fit = fitOf({3.2, 20, 4}); }
+
+  Fit fitOf(const Press& press) {
+    const auto strains = ring.raw(press);
+    return locate(ring.tables(), FitMode::kRefined, strains, gateEnergy(ring.constants(), strains));
+  }
+  std::optional<TouchFrames> frames(const Observation& observation) {
+    return reporter.frames(ring.constants(), observation, now_us);
+  }
+  /// Sends what there is to say, if anything.
+  std::optional<TouchFrames> say(const Observation& observation) {
+    const auto result = frames(observation);
+    if (result) reporter.sent(*result, now_us);
+    return result;
+  }
+  /// A touch like `touch`, so many of its own standard errors further round.
+  Observation moved(double sigmas) {
+    const double sigma = toReal(estimate(ring.constants(), *touch.fit).sigmaAngle) * ring.gauges();
+    Observation result = touch;
+    result.fit->best.position += static_cast<PitchQ20>(std::ldexp(sigmas * sigma, kPitchBits));
+    return result;
+  }
+  void later(std::uint32_t by_us) { now_us += by_us; }
+};
+
+TEST(TouchReporter, SaysNothingUntouched) {
+  for (int i = 0; i < 1000; ++i, later(1000)) CHECK_FALSE(frames(nothing).has_value());
+}
+
+TEST(TouchReporter, SaysATouchAtOnce) {
+  const auto said = say(touch);
+  CHECK_TRUE(said.has_value());
+  CHECK(said->contact.flags == (FingerFlags{FingerFlag::kContact, FingerFlag::kSimulated}));
+  LONGS_EQUAL(400, said->force.normal_mN);
+  LONGS_EQUAL(80, said->force.tangential_mN);
+  LONGS_EQUAL(7200, said->contact.angle_cdeg);
+  LONGS_EQUAL(0, said->contact.sequence);
+}
+
+TEST(TouchReporter, SaysAnUnchangedTouchTwentyTimesASecond) {
+  say(touch);
+  int said = 0;
+  for (int i = 0; i < 1000; ++i) {
+    later(1000);
+    if (say(touch)) ++said;
+  }
+  LONGS_EQUAL(20, said);
+}
+
+TEST(TouchReporter, SaysNothingBeforeTheFloorAndSomethingAtIt) {
+  say(touch);
+  later(kFloor_us - 1);
+  CHECK_FALSE(say(touch).has_value());
+  later(1);
+  CHECK_TRUE(say(touch).has_value());
+}
+
+TEST(TouchReporter, SaysNothingThatNoiseMayHaveDone) {
+  say(touch);
+  later(kPeriod_us);
+  CHECK_FALSE(say(moved(0.7)).has_value());
+  CHECK_FALSE(say(moved(-0.7)).has_value());
+}
+
+TEST(TouchReporter, SaysWhatMovedByMoreThanItsError) {
+  say(touch);
+  later(kPeriod_us);
+  CHECK_TRUE(say(moved(2)).has_value());
+  later(kPeriod_us);
+  CHECK_TRUE(say(moved(-2)).has_value());
+}
+
+TEST(TouchReporter, SaysForcesThatChanged) {
+  for (const Press& press : {Press{3.2, 21, 4}, Press{3.2, 20, 5}}) {
+    say(touch);
+    later(kPeriod_us);
+    Observation other;
+    other.fit = fitOf(press);
+    CHECK_TRUE(say(other).has_value());
+    later(kPeriod_us);
+  }
+}
+
+TEST(TouchReporter, MovesAcrossZeroAreSmall) {
+  touch.fit = fitOf({0.0005, 20, 0});
+  const auto before = say(touch);
+  later(kPeriod_us);
+  touch.fit = fitOf({15.9995, 20, 0});
+  CHECK(before->contact.angle_cdeg < 100);
+  CHECK_FALSE(say(touch).has_value());
+}
+
+TEST(TouchReporter, SaysAChangeOfQualityOfTenPercent) {
+  touch.fit->expected = 1000;
+  touch.fit->unexplained = 1000;
+  say(touch);
+  later(kPeriod_us);
+  touch.fit->unexplained = 1090;  // 91 %
+  CHECK_FALSE(say(touch).has_value());
+  touch.fit->unexplained = 1111;  // 90 %
+  CHECK_TRUE(say(touch).has_value());
+}
+
+TEST(TouchReporter, SaysAChangeOfFlags) {
+  say(touch);
+  later(kPeriod_us);
+  touch.fit->ambiguous = true;
+  touch.fit->alternative = touch.fit->best;
+  const auto said = say(touch);
+  CHECK_TRUE(said.has_value());
+  CHECK_TRUE(said->contact.flags.has(FingerFlag::kUncertain));
+}
+
+TEST(TouchReporter, KeepsToTheContactRate) {
+  int said = 0;
+  for (int i = 0; i < 1000; ++i, later(500)) {
+    touch.fit = fitOf({i / 100.0, 20, 0});
+    if (say(touch)) ++said;
+  }
+  LONGS_EQUAL(250, said);  // 500 Hz over half a second
+}
+
+TEST(TouchReporter, KeepsToTheContactRateWhenATouchComesAndGoes) {
+  int said = 0;
+  for (int i = 0; i < 1000; ++i, later(500))
+    if (say(i % 2 == 0 ? touch : nothing)) ++said;
+  CHECK(said <= 250);
+}
+
+TEST(TouchReporter, SaysOnceThatTheTouchEnded) {
+  say(touch);
+  later(kPeriod_us);
+  const auto released = say(nothing);
+  CHECK_TRUE(released.has_value());
+  CHECK(released->contact.flags == FingerFlags{FingerFlag::kSimulated});
+  LONGS_EQUAL(1, released->contact.sequence);
+  LONGS_EQUAL(1, released->force.sequence);
+  for (int i = 0; i < 200; ++i, later(1000)) CHECK_FALSE(say(nothing).has_value());
+}
+
+TEST(TouchReporter, TheEndOfATouchHasNoOldValues) {
+  say(touch);
+  later(kPeriod_us);
+  const auto released = say(nothing);
+  ContactFrame contact;
+  ForceFrame force;
+  contact.flags = force.flags = {FingerFlag::kSimulated};
+  contact.sequence = force.sequence = 1;
+  CHECK(released->contact == contact);
+  CHECK(released->force == force);
+}
+
+TEST(TouchReporter, AReleaseThatIsNotSentIsOfferedAgain) {
+  say(touch);
+  later(kPeriod_us);
+  CHECK_TRUE(frames(nothing).has_value());
+  later(1000);
+  CHECK_TRUE(say(nothing).has_value());
+}
+
+TEST(TouchReporter, ATouchThatIsNotSentIsReplacedByTheNext) {
+  say(touch);
+  later(kPeriod_us);
+  const auto first = frames(moved(10));
+  later(1000);
+  const auto second = frames(moved(20));
+  CHECK_TRUE(first.has_value() && second.has_value());
+  CHECK(second->contact.angle_cdeg > first->contact.angle_cdeg);
+  LONGS_EQUAL(first->contact.sequence, second->contact.sequence);
+}
+
+TEST(TouchReporter, SequenceNumbersGoUpByOneAndWrap) {
+  for (int i = 0; i < 600; ++i, later(kFloor_us)) {
+    const auto said = say(touch);
+    LONGS_EQUAL(i % 256, said->contact.sequence);
+    LONGS_EQUAL(i % 256, said->force.sequence);
+  }
+}
+
+TEST(TouchReporter, ASaturatedGaugeOfTheWindowMakesTheTouchUncertain) {
+  for (int gauge = 0; gauge < 16; ++gauge) {
+    touch.saturated = 1u << gauge;  // the window is 0 .. 6
+    TouchReporter fresh(kPeriod_us, {});
+    const auto said = fresh.frames(ring.constants(), touch, now_us);
+    CHECK_EQUAL(gauge <= 6, said->contact.flags.has(FingerFlag::kSaturated));
+    CHECK_EQUAL(gauge <= 6, said->contact.flags.has(FingerFlag::kUncertain));
+    CHECK_EQUAL(gauge <= 6, said->contact.sigma_angle_cdeg == kNotKnown<std::uint16_t>);
+  }
+}
+
+TEST(TouchReporter, TheWindowGoesRoundTheRing) {
+  touch.fit = fitOf({0, 20, 0});
+  for (const int gauge : {13, 15, 0, 3}) {
+    touch.saturated = 1u << gauge;
+    TouchReporter fresh(kPeriod_us, {});
+    CHECK_TRUE(fresh.frames(ring.constants(), touch, now_us)->contact.flags.has(FingerFlag::kSaturated));
+  }
+}
+
+TEST(TouchReporter, UnknownErrorsHideNoMove) {
+  touch.saturated = 1u << 3;
+  say(touch);
+  later(kPeriod_us);
+  Observation other = moved(0);
+  other.fit->best.position += kOnePitch / 1000;  // 0.02 degrees
+  CHECK_TRUE(say(other).has_value());
+}
+
+TEST(TouchReporter, TheClocksWrapChangesNothing) {
+  now_us = 0u - 25'000;
+  say(touch);
+  int said = 0;
+  for (int i = 0; i < 100; ++i) {
+    later(1000);
+    if (say(touch)) ++said;
+  }
+  LONGS_EQUAL(2, said);  // every 50 ms
+  now_us = 0u - 1000;
+  say(moved(10));
+  later(kPeriod_us - 1);
+  CHECK_FALSE(say(moved(20)).has_value());
+  later(1);
+  CHECK_TRUE(say(moved(20)).has_value());
+}

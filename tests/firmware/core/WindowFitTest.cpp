@@ -23,19 +23,6 @@ constexpr int kDirections = 9;
 constexpr int kPureNormal = 4;
 double directionOf(int step) { return (step - kPureNormal) * std::numbers::pi / 4 / 4; }  // +-45 degrees
 
-/// Which readings a row of a table looks at, from its weights: those of a gauge it leaves out are zero.
-Vector7 gaugesOf(const FitRow& row) {
-  Vector7 used;
-  for (int offset = -3; offset <= 3; ++offset) {
-    const auto distance = static_cast<std::size_t>(std::abs(offset));
-    const auto weight = [&](const FoldedWeights& w) {
-      return offset == 0 ? w[0] : offset > 0 ? w[distance] + w[distance + 3] : w[distance] - w[distance + 3];
-    };
-    used[offset + 3] = std::abs(weight(row.basis[0])) > 2 || std::abs(weight(row.basis[1])) > 2 ? 1 : 0;
-  }
-  return used;
-}
-
 }  // namespace
 
 TEST_GROUP(WindowFit) {
@@ -44,6 +31,13 @@ TEST_GROUP(WindowFit) {
   const FitTable& refined = ring.tables().refined;
   const FitTables allSeven{&refined, &refined};
   const FitTables threePoint{&ring.tables().three_point[0], &ring.tables().three_point[1]};
+
+  static Vector7 usedBy(const FitRow& row) {
+    const auto used = gaugesOf(row);
+    Vector7 result;
+    for (std::size_t k = 0; k < used.size(); ++k) result[static_cast<int>(k)] = used[k] ? 1 : 0;
+    return result;
+  }
 
   /// Variable projection at an offset by the textbook, from the model and least squares alone.
   struct Projection {
@@ -161,7 +155,7 @@ TEST(WindowFit, ProjectionHasTheEnergyThatLeastSquaresExplains) {
   forEachTable([&](const FitTable& table) {
     forEachRowAndContact(table, [&](int row, const FitRow& entry, const Case& c) {
       const FitStep step = fitStep(entry, c.signal);
-      const double expected = project(c.readings, gaugesOf(entry), row / 64.0).energy / 4;
+      const double expected = project(c.readings, usedBy(entry), row / 64.0).energy / 4;
       // Weights are rounded to 2^-16: 1.5e-5 a weight and reading.
       DOUBLES_EQUAL(expected, energyOf(step.projection[0], step.projection[1]), 1e-4 * kSignalEnergy);
     });
@@ -171,7 +165,7 @@ TEST(WindowFit, ProjectionHasTheEnergyThatLeastSquaresExplains) {
 TEST(WindowFit, StepIsThatOfTheTextbook) {
   forEachTable([&](const FitTable& table) {
     forEachRowAndContact(table, [&](int row, const FitRow& entry, const Case& c) {
-      const Projection expected = project(c.readings, gaugesOf(entry), row / 64.0);
+      const Projection expected = project(c.readings, usedBy(entry), row / 64.0);
       const double length = std::clamp(expected.step_pitch, -0.125, 0.125);
       DOUBLES_EQUAL(0, ring.arc_um(pitches(fitStep(entry, c.signal).length) - length), kStepError_um);
     });
@@ -181,7 +175,7 @@ TEST(WindowFit, StepIsThatOfTheTextbook) {
 TEST(WindowFit, InformationIsTheSquareOfTheGradient) {
   forEachTable([&](const FitTable& table) {
     forEachRowAndContact(table, [&](int row, const FitRow& entry, const Case& c) {
-      const double expected = project(c.readings, gaugesOf(entry), row / 64.0).information;
+      const double expected = project(c.readings, usedBy(entry), row / 64.0).information;
       const double information =
           std::ldexp(fitStep(entry, c.signal).information, 2 + 2 * entry.gradient_exponent);
       DOUBLES_EQUAL(1, information / expected, kInformationError);
@@ -192,7 +186,7 @@ TEST(WindowFit, InformationIsTheSquareOfTheGradient) {
 TEST(WindowFit, EnergyBesideTheRowIsThatOfTheParabola) {
   forEachTable([&](const FitTable& table) {
     forEachRowAndContact(table, [&](int row, const FitRow& entry, const Case& c) {
-      const Projection row0 = project(c.readings, gaugesOf(entry), row / 64.0);
+      const Projection row0 = project(c.readings, usedBy(entry), row / 64.0);
       const auto parabola = [&](double x) {
         return (row0.energy + (2 * row0.step_pitch - x) * x * row0.information) / 4;
       };

@@ -1,104 +1,209 @@
 #include "host/tables/table_file.hpp"
 
-#include <unistd.h>
+#include <fmt/format.h>
 
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
+#include <cstddef>
 #include <fstream>
+#include <memory>
 #include <string>
 
 #include "host/base/failure.hpp"
+#include "host/config/keys.hpp"
 #include "host/tables/table_builder.hpp"
+#include "tests/host/plot/TemporaryFolder.hpp"
 
-// last: its macros redefine new
 #include <CppUTest/TestHarness.h>
 
 using namespace strainfinger;
 using namespace strainfinger::tables;
 
 TEST_GROUP(TableFile) {
-  const std::string path =
-      (std::filesystem::temp_directory_path() / ("strainfinger-table-file-" + std::to_string(getpid())))
-          .string();
-  const TableImage image = buildTableImage({});
-  const std::string bytes = imageBytes(image);
+  const plot::TemporaryFolder folder_;
+  const std::string path_ = folder_.file("finger.bin");
+  const std::unique_ptr<TableImage> image_ = std::make_unique<TableImage>(buildTableImage({}));
+  const std::string bytes_ = imageBytes(*image_);
 
-  void teardown() override { std::filesystem::remove(path); }
+  void write(const std::string& bytes) { std::ofstream(path_, std::ios::binary) << bytes; }
 
-  void write(const std::string& content) { std::ofstream(path, std::ios::binary) << content; }
-  ExitCode statusOf(const std::string& content) {
-    write(content);
+  /// "status: message" of reading a file; "whole" if it is.
+  static std::string verdictOn(const std::string& path) {
     try {
       readTableFile(path);
+      return "whole";
     } catch (const Failure& failure) {
-      STRCMP_CONTAINS(path.c_str(), failure.what());
-      return failure.code();
+      return fmt::format("{}: {}", static_cast<int>(failure.code()), failure.what());
     }
-    return ExitCode::kOk;
   }
-  void checkStatus(ExitCode expected, const std::string& content) {
-    LONGS_EQUAL(static_cast<int>(expected), static_cast<int>(statusOf(content)));
+  void checkVerdict(const std::string& bytes, const std::string& expected) {
+    write(bytes);
+    const std::string verdict = verdictOn(path_);
+    STRCMP_EQUAL(expected.c_str(), verdict.substr(0, expected.size()).c_str());
+  }
+  std::string damaged(const std::string& what) { return fmt::format("6: {}: {}", path_, what); }
+
+  /// Every bit of some bytes flipped alone.
+  void checkFlips(std::size_t begin, std::size_t end, const std::string& expected, std::size_t step = 1) {
+    for (std::size_t bit = 8 * begin; bit < 8 * end; bit += step) {
+      std::string flipped = bytes_;
+      flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << bit % 8));
+      checkVerdict(flipped, expected);
+    }
   }
 };
 
-TEST(TableFile, WhatWasWrittenIsReadBack) {
-  write(bytes);
-  const auto read = readTableFile(path);
-  MEMCMP_EQUAL(&image, read.get(), sizeof(image));
+TEST(TableFile, AWholeImageReadsBackAsItWas) {
+  write(bytes_);
+  const auto read = readTableFile(path_);
+  MEMCMP_EQUAL(image_.get(), read.get(), sizeof(TableImage));
 }
 
-// Every bit before the rows, every 13th of theirs: a CRC-32 finds any single one, wherever it is.
-TEST(TableFile, FlippedBitsAreNoticed) {
-  TableImage flipped = image;
-  auto* const data = reinterpret_cast<unsigned char*>(&flipped);
-  constexpr std::size_t kRows = 8 * offsetof(TableImage, refined);
-  for (std::size_t bit = 0; bit < 8 * sizeof(image); bit += bit < kRows ? 1 : 13) {
-    data[bit / 8] = static_cast<unsigned char>(data[bit / 8] ^ (1u << (bit % 8)));
-    CHECK(checkTableImage(flipped) != TableFault::kNone);
-    data[bit / 8] = static_cast<unsigned char>(data[bit / 8] ^ (1u << (bit % 8)));
+TEST(TableFile, FlippedBitsOfTheHeaderAreNamedByTheirField) {
+  checkFlips(0, 4, damaged("not a table image; make it anew with: strainfinger tables -o "));
+  checkFlips(4, 8, fmt::format("5: {}: a table image of format ", path_));
+  checkFlips(8, 12, damaged("11784 bytes, and "));
+  checkFlips(12, 16, damaged("damaged, its CRC-32 does not match"));
+}
+
+TEST(TableFile, EveryFlippedBitOfParametersAndConstantsIsFound) {
+  checkFlips(kTableHeaderBytes, offsetof(TableImage, refined), damaged("damaged, its CRC-32"));
+}
+
+// Every 61st bit here; TableImageTest and Crc32Test have them all.
+TEST(TableFile, FlippedBitsOfTheRowsAreFound) {
+  checkFlips(offsetof(TableImage, refined), sizeof(TableImage), damaged("damaged, its CRC-32"), 61);
+}
+
+TEST(TableFile, AFileCutAnywhereIsRefused) {
+  for (std::size_t length = 0; length < kTableHeaderBytes; ++length)
+    checkVerdict(bytes_.substr(0, length),
+                 damaged(fmt::format("{} bytes, too short for a table image", length)));
+  for (std::size_t length = kTableHeaderBytes; length < bytes_.size();
+       length += length < 200 || length > bytes_.size() - 100 ? 1u : 23u)
+    checkVerdict(bytes_.substr(0, length),
+                 damaged(fmt::format("{} bytes, and 11784 by its header, where an image has 11784", length)));
+}
+
+TEST(TableFile, ALongerFileIsRefused) {
+  checkVerdict(bytes_ + '\0', damaged("11785 bytes, and 11784 by its header"));
+  checkVerdict(bytes_ + bytes_, damaged("23568 bytes, and 11784 by its header"));
+}
+
+TEST(TableFile, SomethingElseIsNoTableImage) {
+  checkVerdict("schema = 1\n[finger]\n", damaged("not a table image"));
+  checkVerdict(std::string(sizeof(TableImage), '\0'), damaged("not a table image"));
+}
+
+TEST(TableFile, AnotherFormatIsAMismatchWhateverFollows) {
+  std::string other = bytes_.substr(0, 100);
+  other[4] = 2;
+  checkVerdict(other,
+               fmt::format("5: {}: a table image of format 2, this program and its firmware read format 1; "
+                           "make it anew",
+                           path_));
+}
+
+TEST(TableFile, ConstantsOutOfTheirDomainAreRefusedUnderARightChecksum) {
+  image_->constants.scan_step = 0;
+  image_->crc32 = crc32(checkedBytes(*image_));
+  checkVerdict(imageBytes(*image_), damaged("its constants are none that the firmware can work with"));
+}
+
+TEST(TableFile, WhatCannotBeReadIsNamedWithTheReason) {
+  STRCMP_EQUAL("1: /nowhere/finger.bin: cannot read the file: No such file or directory",
+               verdictOn("/nowhere/finger.bin").c_str());
+  STRCMP_EQUAL("1: /: cannot read the file: Is a directory", verdictOn("/").c_str());
+}
+
+TEST(TableFile, ParametersAreNamedAndWrittenAsInTheConfig) {
+  const auto parameters = parametersOf(image_->parameters);
+  LONGS_EQUAL(15, parameters.size());
+  for (const Parameter& parameter : parameters) {
+    bool known = false;
+    for (const config::Key& key : config::keys()) known = known || key.dotted() == parameter.key;
+    CHECK_TEXT(known, parameter.key.c_str());
   }
-  CHECK(checkTableImage(flipped) == TableFault::kNone);
+  CHECK(parameters[5].value == Cell(std::int64_t{16}));
+  CHECK(parameters[7].value == Cell(std::string("radial")));
 }
 
-TEST(TableFile, AFlippedBitOfTheRowsFailsVerification) {
-  std::string flipped = bytes;
-  flipped[5000] = static_cast<char>(flipped[5000] ^ 1);
-  checkStatus(ExitCode::kVerificationFailed, flipped);
+namespace {
+
+/// A change of each key that tables depend on, and what is said of it.
+struct Change {
+  void (*apply)(config::FingerConfig&);
+  const char* words;
+};
+
+const Change kChanges[] = {
+    {[](config::FingerConfig& c) { c.finger.core_radius_m = 8.8e-3; },
+     "finger.core_radius_m is 0.0089, the config has 0.0088"},
+    {[](config::FingerConfig& c) { c.finger.outer_radius_m = 0.013; },
+     "finger.outer_radius_m is 0.0127, the config has 0.013"},
+    {[](config::FingerConfig& c) { c.finger.length_m = 0.03; },
+     "finger.length_m is 0.02, the config has 0.03"},
+    {[](config::FingerConfig& c) { c.finger.shear_modulus_pa = 9e4; },
+     "finger.shear_modulus_pa is 83000, the config has 90000"},
+    {[](config::FingerConfig& c) { c.finger.poisson_ratio = 0.49; },
+     "finger.poisson_ratio is 0.5, the config has 0.49"},
+    {[](config::FingerConfig& c) { c.gauges.count = 18; }, "gauges.count is 16, the config has 18"},
+    {[](config::FingerConfig& c) { c.gauges.radius_m = 9.3e-3; },
+     "gauges.radius_m is 0.0094, the config has 0.0093"},
+    {[](config::FingerConfig& c) { c.gauges.component = StrainComponent::kShear; },
+     "gauges.component is radial, the config has shear"},
+    {[](config::FingerConfig& c) { c.gauges.first_angle_deg = 5; },
+     "gauges.first_angle_deg is 0, the config has 5"},
+    {[](config::FingerConfig& c) { c.gauges.arc_length_m = 1e-3; },
+     "gauges.arc_length_m is 0, the config has 0.001"},
+    {[](config::FingerConfig& c) { c.gauges.noise_strain = 7e-6; },
+     "gauges.noise_strain is 6e-06, the config has 7e-06"},
+    {[](config::FingerConfig& c) { c.gauges.full_scale_strain = 0.04; },
+     "gauges.full_scale_strain is 0.03, the config has 0.04"},
+    {[](config::FingerConfig& c) { c.gauges.adc_bits = 14; }, "gauges.adc_bits is 12, the config has 14"},
+    {[](config::FingerConfig& c) { c.contact.friction_coefficient = 0.5; },
+     "contact.friction_coefficient is 1, the config has 0.5"},
+    {[](config::FingerConfig& c) { c.contact.width_m = 1e-3; }, "contact.width_m is 0, the config has 0.001"},
+};
+
+std::string mismatch(const TableImage& image, const config::FingerConfig& config) {
+  try {
+    requireTablesOf(image, config, "f.bin");
+    return "belongs";
+  } catch (const Failure& failure) {
+    return fmt::format("{}: {}", static_cast<int>(failure.code()), failure.what());
+  }
 }
 
-TEST(TableFile, TruncatedAnywhereFailsVerification) {
-  for (std::size_t length = 0; length < bytes.size(); length += 97)
-    checkStatus(ExitCode::kVerificationFailed, bytes.substr(0, length));
-  checkStatus(ExitCode::kVerificationFailed, bytes.substr(0, bytes.size() - 1));
-}
-
-TEST(TableFile, BytesBehindTheImageFailVerification) {
-  checkStatus(ExitCode::kVerificationFailed, bytes + '\0');
-}
-
-TEST(TableFile, AnotherFormatIsAMismatch) {
-  std::string other = bytes;
-  other[4] = static_cast<char>(kTableFormat + 1);
-  checkStatus(ExitCode::kMismatch, other);
-}
-
-TEST(TableFile, AFolderIsAFailure) {
-  CHECK_THROWS(Failure, readTableFile(std::filesystem::temp_directory_path().string()));
-}
-
-TEST(TableFile, AnImageOfTheConfigIsItsOwn) { requireTablesOf(image, {}, path); }
+}  // namespace
 
 TEST(TableFile, EveryParameterThatDiffersIsNamed) {
-  config::FingerConfig other;
-  other.finger.poisson_ratio = 0.49;
-  other.gauges.adc_bits = 14;
-  try {
-    requireTablesOf(image, other, path);
-    FAIL("not refused");
-  } catch (const Failure& failure) {
-    LONGS_EQUAL(static_cast<int>(ExitCode::kMismatch), static_cast<int>(failure.code()));
-    STRCMP_CONTAINS("finger.poisson_ratio", failure.what());
-    STRCMP_CONTAINS("gauges.adc_bits", failure.what());
+  LONGS_EQUAL(parametersOf(image_->parameters).size(), std::size(kChanges));
+  for (const Change& change : kChanges) {
+    config::FingerConfig other;
+    change.apply(other);
+    STRCMP_EQUAL(fmt::format("5: f.bin: made for another finger than the config's:\n  {}\nmake it anew with: "
+                             "strainfinger tables -c CONFIG -o f.bin",
+                             change.words)
+                     .c_str(),
+                 mismatch(*image_, other).c_str());
   }
+}
+
+TEST(TableFile, AllDifferencesAreNamedAtOnce) {
+  config::FingerConfig other;
+  for (const Change& change : kChanges) change.apply(other);
+  for (const Change& change : kChanges) STRCMP_CONTAINS(change.words, mismatch(*image_, other).c_str());
+}
+
+TEST(TableFile, KeysThatTablesDontDependOnMayDiffer) {
+  config::FingerConfig other;
+  other.can = {5, 500000, 100};
+  STRCMP_EQUAL("belongs", mismatch(*image_, other).c_str());
+}
+
+TEST(TableFile, TheHeaderSaysWhatItIsOf) {
+  const std::string header = imageHeader(*image_);
+  STRCMP_CONTAINS("//   gauges.radius_m = 0.0094\n", header.c_str());
+  STRCMP_CONTAINS("//   gauges.component = radial\n", header.c_str());
+  STRCMP_CONTAINS(fmt::format("// CRC-32 0x{:08X}\n", image_->crc32).c_str(), header.c_str());
+  STRCMP_CONTAINS("kDefaultTableBytes[11784] = {\n    83, 70, 84, 66, 1, 0,", header.c_str());
 }

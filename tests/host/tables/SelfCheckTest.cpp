@@ -1,0 +1,159 @@
+#include "host/tables/self_check.hpp"
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "host/base/failure.hpp"
+#include "host/tables/table_builder.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::tables;
+using config::FingerConfig;
+
+TEST_GROUP(SelfCheck) {
+  FingerConfig config_;
+
+  SelfCheck check() { return selfCheck(buildTableImage(config_)); }
+  /// The message of a refusal; "accepted" if none.
+  std::string refusal() {
+    try {
+      buildCheckedTables(config_);
+    } catch (const Failure& failure) {
+      LONGS_EQUAL(static_cast<int>(ExitCode::kUsage), static_cast<int>(failure.code()));
+      return failure.what();
+    }
+    return "accepted";
+  }
+  void checkRefusal(const char* part) { STRCMP_CONTAINS(part, refusal().c_str()); }
+
+  /// What requireLocatable() says of a result for the default finger's tables.
+  static std::string verdictOn(const SelfCheck& result) {
+    try {
+      requireLocatable(buildTableImage({}), result);
+      return "accepted";
+    } catch (const Failure& failure) {
+      return failure.what();
+    }
+  }
+  static SelfCheck goodResult() {
+    SelfCheck result;
+    result.contacts = 1000;
+    result.halfScale_n_per_m = 30;
+    result.detected_n_per_m = 1;
+    return result;
+  }
+};
+
+TEST(SelfCheck, TheDefaultFingerIsLocatedAllOverTheConeInBothModes) {
+  const SelfCheck result = check();
+  LONGS_EQUAL(49 * 17 * 3 * 2, result.contacts);
+  CHECK_FALSE(result.misplaced.has_value());
+  CHECK(result.uncertain < result.contacts / 100);
+  STRCMP_EQUAL("accepted", refusal().c_str());
+}
+
+// Oracle: 0.03 / 2 over the 460.603 microstrain that 1 N/m gives at most.
+TEST(SelfCheck, HalfOfFullScaleIsALoadOfTheFinger) {
+  DOUBLES_EQUAL(0.015 / 460.603e-6, check().halfScale_n_per_m, 1e-4);
+}
+
+// The weakest contact of the cone leaves a norm of about 0.14 of its peak (midway between two gauges); the
+// gate opens at sqrt(807) steps of 2^-19.
+TEST(SelfCheck, DetectionStartsWhereTheWeakestContactOpensTheGate) {
+  const double gate = std::sqrt(807) * std::ldexp(1, 13 - 32);
+  const double start = check().detected_n_per_m;
+  CHECK(start > gate / (0.2 * 460.6e-6) && start < gate / (0.1 * 460.6e-6));
+  config_.gauges.noise_strain *= 10;
+  DOUBLES_EQUAL(10 * start, check().detected_n_per_m, 0.3 * start);
+}
+
+TEST(SelfCheck, AFingerWithoutFrictionIsLocated) {
+  config_.contact.friction_coefficient = 0;
+  const SelfCheck result = check();
+  CHECK_FALSE(result.misplaced.has_value());
+  CHECK(result.uncertain < result.contacts / 100);
+}
+
+TEST(SelfCheck, RingsOfAllCountsAndComponentsAtTheDefaultDepthAreLocated) {
+  for (const int count : {12, 18, 32}) {
+    config_.gauges.count = count;
+    STRCMP_EQUAL("accepted", refusal().c_str());
+  }
+  config_.gauges.count = 16;
+  for (const StrainComponent component : {StrainComponent::kHoop, StrainComponent::kShear}) {
+    config_.gauges.component = component;
+    STRCMP_EQUAL("accepted", refusal().c_str());
+  }
+}
+
+TEST(SelfCheck, GaugesTooShallowForTheirSpacingAreRefusedWithWhatToChange) {
+  config_.gauges.radius_m = 12e-3;
+  const std::string message = refusal();
+  STRCMP_CONTAINS("contacts cannot be located with these gauges: ", message.c_str());
+  STRCMP_CONTAINS(" deg from a gauge, with ", message.c_str());
+  STRCMP_CONTAINS(" times that sideways, are found ", message.c_str());
+  STRCMP_CONTAINS(
+      "the gauges lie 0.0007 m below the surface (gauges.radius_m = 0.012), where they are 0.00499 m apart "
+      "(gauges.count = 16): too shallow for their spacing; use more gauges, or deeper ones",
+      message.c_str());
+}
+
+TEST(SelfCheck, ShallowShearGaugesAreToldOfRadialOnes) {
+  config_.gauges.radius_m = 12e-3;
+  config_.gauges.component = StrainComponent::kShear;
+  checkRefusal("or gauges.component = \"radial\"");
+}
+
+TEST(SelfCheck, WhereTheQuickSearchMisplacesEveryWindowIsLookedAt) {
+  config_.gauges.radius_m = 11e-3;
+  CHECK(check().misplaced.has_value());
+  const CheckedTables checked = buildCheckedTables(config_);
+  CHECK(checked.image.constants.anchor_rule == AnchorRule::kExhaustive);
+  CHECK_FALSE(checked.check.misplaced.has_value());
+  LONGS_EQUAL(static_cast<int>(TableFault::kNone), static_cast<int>(checkTableImage(checked.image)));
+}
+
+TEST(SelfCheck, NoiseThatDrownsAContactAtHalfOfFullScaleIsRefused) {
+  config_.gauges.noise_strain = 5e-4;
+  checkRefusal("a contact drowns in noise up to 60.5 N/m, beyond half of full scale (32.6 N/m)");
+  checkRefusal("gauges.noise_strain = 0.0005 is too large for gauges.full_scale_strain = 0.03");
+}
+
+// As if the model were wrong: rows that belong to a finger with deeper gauges, half a pitch of twist.
+TEST(SelfCheck, TablesOfAnotherFingerAreFoundOut) {
+  TableImage image = buildTableImage({});
+  config_.gauges.radius_m = 11e-3;
+  const TableImage other = buildTableImage(config_);
+  image.refined = other.refined;
+  image.three_point = other.three_point;
+  const SelfCheck result = selfCheck(image);
+  CHECK(result.misplaced.has_value() || result.uncertain > result.contacts / 2);
+}
+
+TEST(SelfCheck, AMisplacedContactIsToldWithPlaceLoadDirectionAndMode) {
+  SelfCheck result = goodResult();
+  result.misplaced = Misplaced{firmware::FitMode::kThreePoint, 7.5, -0.25, 0.125, 2};
+  STRCMP_CONTAINS(
+      "7.5 N/m pressing at 2.81 deg from a gauge, with -0.25 times that sideways, are found 45 deg away "
+      "(three-point fit), and nothing in the readings tells",
+      verdictOn(result).c_str());
+}
+
+TEST(SelfCheck, AFingerThatIsMostlyUncertainIsRefused) {
+  SelfCheck result = goodResult();
+  result.uncertain = 500;
+  STRCMP_EQUAL("accepted", verdictOn(result).c_str());
+  result.uncertain = 501;
+  STRCMP_CONTAINS("501 of 1000 contacts have no certain answer", verdictOn(result).c_str());
+}
+
+TEST(SelfCheck, DetectionThatCannotBeToldIsRefused) {
+  SelfCheck result = goodResult();
+  result.detected_n_per_m = std::nan("");
+  STRCMP_CONTAINS("drowns in noise", verdictOn(result).c_str());
+  result.detected_n_per_m = result.halfScale_n_per_m;
+  STRCMP_EQUAL("accepted", verdictOn(result).c_str());
+}

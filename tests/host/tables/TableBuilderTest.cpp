@@ -1,0 +1,258 @@
+#include "host/tables/table_builder.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/fixed_real.hpp"
+#include "host/base/failure.hpp"
+#include "host/config/keys.hpp"
+#include "tests/host/tables/DefaultResponse.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::tables;
+using config::FingerConfig;
+
+namespace {
+
+long double power2(int exponent) { return std::ldexp(1.0L, exponent); }
+
+/// Chance that the squares of an even number of unit normal variates add up to more than x: the closed form
+/// e^(-x/2) sum (x/2)^j / j!, j < count / 2.
+long double exceeds(int count, long double x) {
+  long double term = std::exp(-x / 2), sum = 0;
+  for (int j = 1; j <= count / 2; ++j) {
+    sum += term;
+    term *= x / 2 / j;
+  }
+  return sum;
+}
+
+long double quantile(int count, long double chance) {
+  long double low = 0, high = 1000;
+  for (int i = 0; i < 100; ++i) (exceeds(count, (low + high) / 2) > chance ? low : high) = (low + high) / 2;
+  return low;
+}
+
+}  // namespace
+
+TEST_GROUP(TableBuilder) {
+  FingerConfig config_;
+
+  TableConstants constants() { return buildTableImage(config_).constants; }
+
+  /// The message of a refusal; "accepted" if none.
+  std::string refusal() {
+    try {
+      buildTableImage(config_);
+    } catch (const Failure& failure) {
+      LONGS_EQUAL(static_cast<int>(ExitCode::kUsage), static_cast<int>(failure.code()));
+      return failure.what();
+    }
+    return "accepted";
+  }
+  void checkRefusal(const char* part) { STRCMP_CONTAINS(part, refusal().c_str()); }
+  void checkTaken() {
+    LONGS_EQUAL(static_cast<int>(TableFault::kNone),
+                static_cast<int>(checkTableImage(buildTableImage(config_))));
+  }
+  void checkClose(long double expected, long double actual, double relative) {
+    DOUBLES_EQUAL(1, static_cast<double>(actual / expected), relative);
+  }
+  long double noiseInGate(const TableConstants& c) {
+    return static_cast<long double>(config_.gauges.noise_strain) * power2(32 - c.gate_shift);
+  }
+};
+
+TEST(TableBuilder, SameConfigGivesTheSameBytes) {
+  const TableImage first = buildTableImage({}), second = buildTableImage({});
+  MEMCMP_EQUAL(&first, &second, sizeof(TableImage));
+}
+
+TEST(TableBuilder, ParametersAreTheConfigs) {
+  config_.finger = {0.01, 0.02, 0.03, 1e5, 0.4};
+  config_.gauges = {20, 0.0125, StrainComponent::kHoop, 70, 1e-4, 5e-6, 0.04, 14};
+  config_.contact = {0.7, 1e-3};
+  const TableParameters p = buildTableImage(config_).parameters;
+  const std::vector<std::pair<double, double>> pairs{
+      {0.01, p.core_radius_m},       {0.02, p.outer_radius_m},    {0.03, p.length_m},
+      {1e5, p.shear_modulus_pa},     {0.4, p.poisson_ratio},      {20, p.gauge_count},
+      {0.0125, p.gauge_radius_m},    {70, p.first_angle_deg},     {1e-4, p.arc_length_m},
+      {5e-6, p.noise_strain},        {0.04, p.full_scale_strain}, {14, p.adc_bits},
+      {0.7, p.friction_coefficient}, {1e-3, p.contact_width_m},   {0, p.reserved}};
+  for (const auto& [expected, actual] : pairs) DOUBLES_EQUAL(expected, actual, 0);
+  CHECK(p.component == StrainComponent::kHoop);
+}
+
+TEST(TableBuilder, TheNoiseVarianceKeepsItsTwentyFourBits) {
+  for (const double noise : {2.4e-10, 1e-9, 6e-6, 1e-4, 5e-3}) {
+    config_.gauges.noise_strain = noise;
+    const TableConstants c = constants();
+    const long double sigma = static_cast<long double>(noise) * power2(32);
+    checkClose(sigma * sigma, c.noise_variance * power2(c.noise_variance_exponent), 0x1p-24);
+    CHECK(c.noise_variance >= 1u << 23 && c.noise_variance <= 1u << 24);
+  }
+}
+
+// The gate's own rounding counts as half a squared step. Wilson and Hilferty's quantile is within 4 %, worst
+// for the smallest ring and the rarer event.
+TEST(TableBuilder, TheGateOpensOnceInABillionSamplesOfNoiseAndClosesOnceInAThousand) {
+  for (int count = kMinGauges; count <= kMaxGauges; count += 2) {
+    config_.gauges.count = count;
+    const TableConstants c = constants();
+    const long double variance = noiseInGate(c) * noiseInGate(c) + 0.5L;
+    checkClose(quantile(count, 1e-9L) * variance, c.gate_on, 0.04);
+    checkClose(quantile(count, 1e-3L) * variance, c.gate_off, 0.04);
+  }
+}
+
+// Readings a step below zero: rounded down they are -1 each for the gate.
+TEST(TableBuilder, ARingAtRestIsNoContactHoweverSmallTheNoise) {
+  for (int count = kMinGauges; count <= kMaxGauges; count += 2) {
+    config_.gauges.count = count;
+    config_.gauges.noise_strain = 2.4e-10;
+    CHECK(constants().gate_off > static_cast<unsigned>(count) * 49 / 100);
+    CHECK(constants().gate_on > static_cast<unsigned>(count));
+  }
+}
+
+TEST(TableBuilder, TheGateHoldsTwoFullScalesInSixteenBits) {
+  for (const double fullScale : {2e-4, 0.001, 0.0312, 0.03125, 0.0313, 0.1}) {
+    config_.gauges.full_scale_strain = fullScale;
+    config_.gauges.noise_strain = 1e-8;
+    config_.finger.shear_modulus_pa = 1e5;
+    const TableConstants c = constants();
+    CHECK(2 * fullScale * 0x1p32 <= static_cast<double>(power2(15 + c.gate_shift)));
+    CHECK(c.gate_shift == 0 || 2 * fullScale * 0x1p32 > static_cast<double>(power2(14 + c.gate_shift)));
+  }
+}
+
+// Oracle: the strain under 1 N/m right over a gauge from a 60-digit solution, 460.6030 microstrain.
+TEST(TableBuilder, TheLoadScaleTurnsAmplitudesIntoLoads) {
+  const TableConstants c = constants();
+  const long double strainOfOneUnit = power2(-32 - (c.amplitude_exponent - 1));
+  const long double load = strainOfOneUnit / 460.6030e-6L * power2(12);
+  checkClose(load, c.load_scale * power2(c.load_exponent), 2e-7);
+  CHECK(c.load_scale >= 1 << 30);
+}
+
+TEST(TableBuilder, APitchTimesTheCountIsARevolution) {
+  for (int count = kMinGauges; count <= kMaxGauges; count += 2) {
+    config_.gauges.count = count;
+    DOUBLES_EQUAL(0x1p35, static_cast<double>(constants().pitch_turn_q35) * count, count / 2.0);
+    LONGS_EQUAL(count, constants().gauge_count);
+  }
+}
+
+TEST(TableBuilder, TheFirstAngleIsAFractionOfARevolution) {
+  for (const double degrees : {0.0, 22.5, 90.0, 180.0, 359.0, 359.9999999999}) {
+    config_.gauges.first_angle_deg = degrees;
+    const double difference = constants().first_angle_q32 - degrees / 360 * 0x1p32;
+    CHECK(std::abs(difference) <= 1 || std::abs(difference + 0x1p32) <= 1);
+  }
+}
+
+TEST(TableBuilder, TheRailIsTheConvertersLastCode) {
+  const std::vector<std::pair<int, int>> rails{{8, 0xFF00}, {10, 0xFFC0}, {12, 0xFFF0}, {16, 0xFFFF}};
+  for (const auto& [bits, rail] : rails) {
+    config_.gauges.adc_bits = bits;
+    LONGS_EQUAL(rail, constants().adc_rail);
+  }
+}
+
+// A code's whole span, 2^16 steps, is two full scales.
+TEST(TableBuilder, TheReadingGainTurnsCodesIntoStrains) {
+  for (const double fullScale : {2e-4, 0.03, 0.1}) {
+    config_.gauges.full_scale_strain = fullScale;
+    config_.gauges.noise_strain = 1e-9;
+    const long double perCode = power2(15) * constants().reading_gain * power2(-32);
+    checkClose(2 * fullScale * power2(32) / 65536, perCode, 0.5 / (fullScale * 0x1p34));
+  }
+}
+
+TEST(TableBuilder, TheForceScaleIsTheLengthOfTheContact) {
+  for (const double length : {1e-4, 0.02, 1.0}) {
+    config_.finger.length_m = length;
+    DOUBLES_EQUAL(length * 65536000, constants().force_per_load_q16, 0.5);
+  }
+}
+
+TEST(TableBuilder, TheConeHasRoomForNoise) {
+  const std::vector<std::pair<double, int>> cones{{0, 26}, {0.05, 26}, {0.5, 160}, {1, 320}, {10, 3200}};
+  for (const auto& [friction, cone] : cones) {
+    config_.contact.friction_coefficient = friction;
+    LONGS_EQUAL(cone, constants().friction_cone_q8);
+  }
+}
+
+TEST(TableBuilder, SignsFollowTheComponent) {
+  const std::vector<std::pair<StrainComponent, std::pair<int, int>>> signs{
+      {StrainComponent::kRadial, {1, 1}},
+      {StrainComponent::kHoop, {1, -1}},
+      {StrainComponent::kShear, {-1, -1}}};
+  for (const auto& [component, expected] : signs) {
+    config_.gauges.component = component;
+    LONGS_EQUAL(expected.first, constants().mirror_sign);
+    if (component != StrainComponent::kShear) LONGS_EQUAL(expected.second, constants().anchor_sign);
+  }
+}
+
+TEST(TableBuilder, CoarseRingsAndShearAreSearchedEverywhere) {
+  CHECK(constants().anchor_rule == AnchorRule::kSecondDifference);
+  config_.gauges.count = 14;
+  CHECK(constants().anchor_rule == AnchorRule::kExhaustive);
+  LONGS_EQUAL(kMinScanStep, constants().scan_step);
+  config_.gauges = {};
+  config_.gauges.component = StrainComponent::kShear;
+  CHECK(constants().anchor_rule == AnchorRule::kExhaustive);
+}
+
+TEST(TableBuilder, SearchingEverywhereKeepsTheImageWhole) {
+  TableImage image = buildTableImage({});
+  searchEverywhere(image);
+  CHECK(image.constants.anchor_rule == AnchorRule::kExhaustive);
+  LONGS_EQUAL(static_cast<int>(TableFault::kNone), static_cast<int>(checkTableImage(image)));
+}
+
+TEST(TableBuilder, NoiseBelowTheStepOfStrainIsRefused) {
+  config_.gauges.noise_strain = 2e-10;
+  checkRefusal(
+      "gauges.noise_strain = 2e-10 is below the firmware's step of strain; it must be at least 2.33e-10");
+}
+
+TEST(TableBuilder, LoadsThatTheFormatCannotHoldAreRefused) {
+  config_.finger.shear_modulus_pa = 1e9;
+  checkRefusal("gauges.full_scale_strain = 0.03 is a load of 7.85e+05 N/m on this finger");
+  config_.finger.shear_modulus_pa = 100;
+  checkRefusal("from 0.25 to 5.24e+05 N/m: change it, or finger.shear_modulus_pa");
+}
+
+TEST(TableBuilder, LoadsUpToBothEndsOfTheFormatAreTaken) {
+  for (const double modulus : {400.0, 6.6e8}) {
+    config_.finger.shear_modulus_pa = modulus;
+    checkTaken();
+  }
+}
+
+TEST(TableBuilder, GaugesTooNearTheSurfaceAreRefused) {
+  config_.gauges.radius_m = 0.0127 * (1 - 1e-6);
+  checkRefusal("too close to the surface");
+}
+
+TEST(TableBuilder, EveryRingComponentAndPlaceGivesAWholeImage) {
+  for (const StrainComponent component :
+       {StrainComponent::kRadial, StrainComponent::kHoop, StrainComponent::kShear}) {
+    for (const int count : {12, 18, 32}) {
+      for (const double radius : {9e-3, 10e-3, 11e-3}) {
+        config_.gauges.component = component;
+        config_.gauges.count = count;
+        config_.gauges.radius_m = radius;
+        checkTaken();
+      }
+    }
+  }
+}

@@ -136,6 +136,7 @@ def arguments():
     parser.add_argument("--objects", nargs="+", default=[], help="object files; lists with ; are split")
     for budget in ("flash", "ram", "stack"):
         parser.add_argument("--" + budget, type=int)
+    parser.add_argument("--report", help="file to write the figures to, too")
     parser.add_argument("--interrupt", action="append", default=[])
     parser.add_argument("--entry", default="resetHandler")
     return parser.parse_args()
@@ -189,6 +190,8 @@ def main():
     figures = ", ".join(f"{what} {size}" + (f" of {getattr(options, what)}" if getattr(options, what) else "")
                         for what, size in used.items())
     print(f"{name}: {figures} bytes", flush=True)
+    if options.report:
+        Path(options.report).write_text(figures + "\n")
     for fault in faults:
         print(f"{name}: {fault}", file=sys.stderr)
     return 1 if faults else 0

@@ -152,7 +152,7 @@ struct InfoFrame {
   std::uint8_t restarts = 0;
   std::uint8_t version_major = 0;
   std::uint8_t version_minor = 0;
-  std::uint32_t crash_address = 0;
+  std::uint32_t crash_address = 0;  ///< lowest 24 bits
   bool operator==(const InfoFrame&) const = default;
 };
 
@@ -322,12 +322,12 @@ inline constexpr FrameLayout kLayout<InfoFrame>{
           {.name = "version_minor", .comment = "Version of the firmware, behind the point"}},
     Field{
         &InfoFrame::crash_address,
-        {.lsb = 32, .width = 32},
-        {.name = "crash_address", .comment = "Address of the instruction that crashed; 0: none is to blame"}},
+        {.lsb = 32, .width = 24},
+        {.name = "crash_address", .comment = "Lowest 24 bits of the address of the instruction that crashed; 0: none"}},
 };
 static_assert(WireFrame<InfoFrame>);
 
 /// Every frame a finger sends.
-using FingerFrames = std::tuple<ContactFrame, ForceFrame, InfoFrame, HeartbeatFrame>;
+using FingerFrames = std::tuple<ContactFrame, ForceFrame, HeartbeatFrame, InfoFrame>;
 
 }  // namespace strainfinger

@@ -39,7 +39,7 @@ constexpr InfoFrame infoFrame(ResetCause cause, const LastRun& last, Version ver
           .restarts = last.restarts,
           .version_major = version.major,
           .version_minor = version.minor,
-          .crash_address = last.crash_address};
+          .crash_address = last.crash_address & 0xFFFFFF};
 }
 
 /// The heartbeat of a finger that has no tables to work with.

@@ -39,6 +39,10 @@ FRAMES = {
         ("state", 0, 15, None, "1"), ("protocol", 0, 15, None, "1"), (FAULTS, 0, 63, None, "1"),
         ("uptime", 0, 65534, 65535, "1"), ("temperature", -127, 127, -128, "1"), ("tx_errors", 0, 254, 255, "1"),
         ("rx_errors", 0, 254, 255, "1"), ("table_crc", 0, 255, None, "1")]),
+    "INFO": (0x480, [
+        ("reset_cause", 0, 15, None, "1"), ("crash", 0, 15, None, "1"), ("restarts", 0, 255, None, "1"),
+        ("version_major", 0, 255, None, "1"), ("version_minor", 0, 255, None, "1"),
+        ("crash_address", 0, 0xFFFFFF, None, "1")]),
 }
 
 
@@ -110,7 +114,7 @@ class Canmatrix(unittest.TestCase):
             frame = self.frame(name)
             self.assertEqual((name, 8, ["FINGER_5"]), (frame.name, frame.size, frame.transmitters))
             self.assertFalse(frame.arbitration_id.extended)
-        self.assertEqual([50, 50, 100], [self.frame(name).cycle_time for name in FRAMES])
+        self.assertEqual([50, 50, 100, 1000], [self.frame(name).cycle_time for name in FRAMES])
 
     def test_signals_have_unit_range_and_comment(self):
         for name, (_, fields) in FRAMES.items():
@@ -170,7 +174,7 @@ class Canmatrix(unittest.TestCase):
             printed = dict(zip(header, row))
             decoded = self.frame(name).decode(bytes.fromhex(sent.split("#")[1]))
             for field, value in zip(FRAMES[name][1], values):
-                if not isinstance(field[0], str) or field[0] == "state" or value == field[3]:
+                if not isinstance(field[0], str) or field[0] in ("state", "reset_cause", "crash") or value == field[3]:
                     continue
                 column, = (key for key in printed if key == field[0] or key in (
                     f"{field[0]}_{unit}" for unit in ("deg", "n", "s", "percent", "degc")))

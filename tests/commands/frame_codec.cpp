@@ -55,7 +55,8 @@ std::string decodeLine(const std::string& frameText) {
   if (!frame) return "bad line";
   if (const auto contact = decodeAs<ContactFrame>(*frame)) return *contact;
   if (const auto force = decodeAs<ForceFrame>(*frame)) return *force;
-  return decodeAs<HeartbeatFrame>(*frame).value_or("none");
+  if (const auto heartbeat = decodeAs<HeartbeatFrame>(*frame)) return *heartbeat;
+  return decodeAs<InfoFrame>(*frame).value_or("none");
 }
 
 std::string answer(const std::string& line) {
@@ -65,6 +66,7 @@ std::string answer(const std::string& line) {
   if (verb == "decode") return decodeLine(what);
   if (what == "CONTACT") return encodeLine<ContactFrame>(words);
   if (what == "FORCE") return encodeLine<ForceFrame>(words);
+  if (what == "INFO") return encodeLine<InfoFrame>(words);
   return what == "HEARTBEAT" ? encodeLine<HeartbeatFrame>(words) : "bad line";
 }
 

@@ -8,6 +8,7 @@
 #include "firmware/board/cortex_m/system_control.hpp"
 #include "firmware/board/mps2/console.hpp"
 #include "firmware/board/mps2/semihosting.hpp"
+#include "firmware/board/mps2/settings.hpp"
 #include "firmware/board/mps2/uart.hpp"
 #include "firmware/board/mps2/watchdog.hpp"
 #include "firmware/board/mps2/world.hpp"
@@ -20,9 +21,6 @@ using TheWorld = World<Uart, Can>;
 
 constexpr std::array<unsigned, 4> kLineInterrupts{kUart1Interrupt, kUart1Interrupt + 1, kUart2Interrupt,
                                                   kUart2Interrupt + 1};
-
-constexpr firmware::FingerSettings kSettings{
-    .standingFlags = {FingerFlag::kUncalibrated, FingerFlag::kSimulated}};
 
 [[noreturn]] void hang() {
   for (;;) asm volatile("");

@@ -26,8 +26,8 @@ std::string readDocument() {
 
 std::string place(const FieldBits& bits) {
   const int byte = bits.lsb / 8;
-  if (bits.width == 16) return fmt::format("{}-{}", byte, byte + 1);
   if (bits.width == 8) return fmt::format("{}", byte);
+  if (bits.width % 8 == 0) return fmt::format("{}-{}", byte, byte + bits.width / 8 - 1);
   return fmt::format("{}, bits {}-{}", byte, bits.lsb % 8, bits.lsb % 8 + bits.width - 1);
 }
 
@@ -74,8 +74,8 @@ constexpr int kBitsUnstuffed = 47 + 8 * kBytes;
 constexpr int kBitsWorst = kBitsUnstuffed + (34 + 8 * kBytes - 1) / 4;
 
 std::string loadRow(double contactRate_hz, int fingers) {
-  const double heartbeatRate_hz = 1000.0 / kHeartbeatPeriod_ms;
-  const double frames = fingers * (2 * contactRate_hz + heartbeatRate_hz);
+  const double aliveRate_hz = 1000.0 / kHeartbeatPeriod_ms + 1000.0 / kInfoPeriod_ms;
+  const double frames = fingers * (2 * contactRate_hz + aliveRate_hz);
   return fmt::format("| {} | {} | {} | {:.1f} % | {:.1f} % |\n", fingers, contactRate_hz, frames,
                      frames * kBitsUnstuffed / 1e6 * 100, frames * kBitsWorst / 1e6 * 100);
 }
@@ -97,6 +97,7 @@ TEST(BusDocument, HasTheTableOfEachFrame) {
 TEST(BusDocument, ExplainsTheFlags) {
   checkHas(tableOf(kFingerFlagNames));
   checkHas(tableOf(kFingerFaultNames));
+  checkHas(fmt::format("| value{}", tableOf(kCrashNames).substr(5)));
 }
 
 TEST(BusDocument, ItsExamplesAreWhatIsSent) {
@@ -112,6 +113,12 @@ TEST(BusDocument, ItsExamplesAreWhatIsSent) {
                                .tx_errors = 0,
                                .rx_errors = 0,
                                .table_crc = 0xA7}));
+  checkHas(line(InfoFrame{.reset_cause = ResetCause::kWatchdog,
+                          .crash = Crash::kHang,
+                          .restarts = 3,
+                          .version_major = 0,
+                          .version_minor = 1,
+                          .crash_address = 0x2AB6}));
 }
 
 TEST(BusDocument, ItsBusLoadsAreComputed) {

@@ -1,0 +1,47 @@
+#!/usr/bin/env python3
+"""compare_replays.py BLOCKS REFERENCE CANDIDATE: the firmware's logic on two machines or of two compilers, bit for bit.
+
+Each is a program for this machine, or an .elf for an emulated board (replay_host.cpp, target/replay_target.cpp). Where
+a block's hash differs, the first sample set in it that does is found and named.
+"""
+import subprocess
+import sys
+
+import emulator
+
+SAMPLES_PER_BLOCK = 4096
+
+
+def lines_of(image, *arguments):
+    arguments = [str(argument) for argument in arguments]
+    if image.endswith(".elf"):
+        return emulator.output_of(image, arguments).splitlines()
+    return subprocess.run([image, *arguments], check=True, capture_output=True, text=True).stdout.splitlines()
+
+
+def first_difference(ours, theirs):
+    """The first pair of lines that differ, or None."""
+    if len(ours) != len(theirs):
+        sys.exit(f"{len(ours)} lines and {len(theirs)} lines: one of them ended early")
+    return next((pair for pair in zip(ours, theirs) if pair[0] != pair[1]), None)
+
+
+def main():
+    blocks, reference, candidate = int(sys.argv[1]), sys.argv[2], sys.argv[3]
+    emulator.require(*(name for name in (reference, candidate) if name.endswith(".elf")))
+    ours, theirs = lines_of(reference, 0, blocks), lines_of(candidate, 0, blocks)
+    if len(ours) != blocks:
+        sys.exit(f"{reference}: {len(ours)} lines for {blocks} blocks")
+    different = first_difference(ours, theirs)
+    if not different:
+        print(f"{blocks * SAMPLES_PER_BLOCK} sample sets, {blocks} blocks, no difference")
+        return 0
+    block = different[0].split()[1]
+    sample = first_difference(lines_of(reference, block, 1, "detail"), lines_of(candidate, block, 1, "detail"))
+    count = sum(a != b for a, b in zip(ours, theirs))
+    print(f"{count} of {blocks} blocks differ. First difference: block {block}, sample set {sample[0].split()[0]}")
+    return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

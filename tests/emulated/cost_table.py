@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+"""cost_table.py [--check README] M4.elf M0PLUS.elf: what a sample set costs, in instructions, counted exactly.
+
+Prints the table of firmware/README.md. --check: fails unless README has it, within 3 %, and unless the bars hold.
+"""
+import collections
+import re
+import statistics
+import sys
+from pathlib import Path
+
+import emulator
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "cmake"))
+import check_image  # noqa: E402
+
+COUNTING = ["-icount", "shift=10,sleep=off"]
+MEGAHERTZ = 170
+CYCLES_PER_INSTRUCTION = 1.4  # assumed, no measurement: multiplies and most loads take 1 to 2, branches 2 to 4
+ROWS = {
+    "condition": "condition: codes to strains",
+    "gate": "gate: is it touched?",
+    "locate": "locate, all seven gauges",
+    "locate_three_point": "locate, three points",
+    "report": "report: quantities, errors, two frames",
+    "update_idle": "**update, idle**: converter to nothing to say",
+    "update_sent": "**update, contact**: converter to both frames in the port",
+}
+
+
+def counted(elf):
+    counts = collections.defaultdict(list)
+    for line in emulator.output_of(elf, options=COUNTING).splitlines():
+        what, number = line.split(",")
+        counts[what].append(int(number))
+    return counts
+
+
+def spread(numbers):
+    return [min(numbers), int(statistics.median(numbers)), max(numbers)]
+
+
+def table(m4, m0plus):
+    yield "| instructions: least, median, most | Cortex-M4 | Cortex-M0+ | M4 at 170 MHz, estimated |"
+    yield "|--|--|--|--|"
+    for key, name in ROWS.items():
+        cells = [" ".join(f"{n:,}" for n in spread(counts[key])) for counts in (m4, m0plus)]
+        times = [n * CYCLES_PER_INSTRUCTION / MEGAHERTZ for n in spread(m4[key])[1:]]
+        yield f"| {name} | {cells[0]} | {cells[1]} | {times[0]:.0f} us, at most {times[1]:.0f} us |"
+
+
+def numbers_in(line):
+    return [float(text.replace(",", "")) for text in re.findall(r"\d[\d,]*", line.split("|", 2)[2])]
+
+
+def faults(lines, readme, images):
+    for line in lines[2:]:
+        known = next((row for row in readme.splitlines() if row.startswith(line.split(" | ")[0] + " ")), None)
+        if not known:
+            yield f"README has no row for: {line}"
+        elif any(abs(a - b) > max(0.03 * b, 1) for a, b in zip(numbers_in(known), numbers_in(line))):
+            yield f"README says: {known}\n   it is now: {line}"
+    for elf, counts in images.items():
+        idle, contact = max(counts["update_idle"]), min(counts["update_sent"])
+        if idle * 5 > contact:
+            yield f"{elf}: an idle update takes {idle}, more than a fifth of a contact's {contact}"
+        if counted(elf) != counts:
+            yield f"{elf}: a second run counts differently"
+        yield from stack_faults(elf, counts["stack_bytes"][0])
+
+
+def stack_faults(elf, measured):
+    """The call graph's bound, tried on a run: an image whose bound is too small or far too large is miscounted."""
+    report = Path(elf).with_suffix(".txt").read_text()
+    bound = int(re.search(r"stack (\d+)", report)[1])
+    if not bound * 0.9 <= measured <= bound:
+        yield f"{elf}: {measured} bytes of stack were used, the call graph says at most {bound}"
+
+
+def main():
+    check = sys.argv[1] == "--check"
+    images = sys.argv[3:] if check else sys.argv[1:]
+    emulator.require(*images)
+    counts = {elf: counted(elf) for elf in images}
+    lines = list(table(*counts.values()))
+    print("\n".join(lines))
+    for elf, figures in counts.items():
+        print(f"{Path(elf).stem}: {figures['stack_bytes'][0]} bytes of stack used")
+    found = list(faults(lines, Path(sys.argv[2]).read_text(), counts)) if check else []
+    print("\n".join(found), file=sys.stderr)
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

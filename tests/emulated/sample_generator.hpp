@@ -1,0 +1,119 @@
+#pragma once
+// Sample sets of every kind, from integers only: the same ones on every machine and processor.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "hal/gauge_adc.hpp"
+#include "impulse_table.hpp"
+
+namespace strainfinger::emulated {
+
+inline constexpr int kGauges = 16;  ///< of the default finger
+
+/// Random numbers addressed by (sample, draw): lowbias32 (Chris Wellons, "Prospecting for hash functions",
+/// 2018), twice.
+class Draws {
+ public:
+  explicit constexpr Draws(std::uint32_t sample) : key_(mixed(sample + 0x5F3759DF)) {}
+
+  constexpr std::uint32_t next() { return mixed(key_ ^ mixed(++count_)); }
+  /// 0 .. below - 1
+  constexpr std::uint32_t below(std::uint32_t limit) {
+    return static_cast<std::uint32_t>((std::uint64_t{next()} * limit) >> 32);
+  }
+
+ private:
+  static constexpr std::uint32_t mixed(std::uint32_t x) {
+    x = (x ^ x >> 16) * 0x7FEB352D;
+    x = (x ^ x >> 15) * 0x846CA68B;
+    return x ^ x >> 16;
+  }
+  std::uint32_t key_;
+  std::uint32_t count_ = 0;
+};
+
+/// A contact: where [turns * 2^32] and how hard [codes at the response's peak].
+struct GeneratedContact {
+  std::uint32_t angle;
+  std::int32_t normal;
+  std::int32_t tangential;
+};
+
+/// Any angle; loads that are as often small as large, to beyond the converter's range; tangential load within
+/// 1.25 times the normal one either way.
+constexpr GeneratedContact drawContact(Draws& draws) {
+  const std::uint32_t angle = draws.next();
+  const auto normal = static_cast<std::int32_t>(((1u << 16) + draws.below(1u << 16)) >> draws.below(13));
+  const auto percent = static_cast<std::int32_t>(draws.below(251)) - 125;
+  return {angle, normal, normal * percent / 100};
+}
+
+constexpr std::int32_t interpolated(const std::int16_t* table, std::uint32_t turn) {
+  constexpr int kBits = 22;  // of 1024 points
+  const std::uint32_t point = turn >> kBits, next = (point + 1) % 1024;
+  const auto part = static_cast<std::int32_t>(turn >> 8 & 0x3FFF);
+  return table[point] + ((table[next] - table[point]) * part >> 14);
+}
+
+using Deflections = std::array<std::int32_t, kGauges>;  ///< codes from mid-scale
+
+constexpr void press(Deflections& codes, const GeneratedContact& contact) {
+  for (std::uint32_t gauge = 0; gauge < kGauges; ++gauge) {
+    const std::uint32_t away = (gauge << 28) - contact.angle;
+    const std::int64_t normal = std::int64_t{contact.normal} * interpolated(kNormalResponse, away);
+    const std::int64_t tangential =
+        std::int64_t{contact.tangential} * interpolated(kTangentialResponse, away);
+    codes[gauge] += static_cast<std::int32_t>((normal + tangential) >> 14);
+  }
+}
+
+/// Of about normal distribution, standard deviation 74 >> down codes.
+constexpr void addNoise(Deflections& codes, Draws& draws, int down) {
+  for (std::int32_t& code : codes) {
+    const std::uint32_t bytes = draws.next();
+    const auto sum =
+        static_cast<std::int32_t>((bytes & 255) + (bytes >> 8 & 255) + (bytes >> 16 & 255) + (bytes >> 24));
+    code += (sum - 510) / 2 >> down;
+  }
+}
+
+/// As a converter of 12 bits gives them, or one of 16.
+constexpr hal::SampleSet converted(const Deflections& codes, bool fine) {
+  hal::SampleSet set{};
+  for (std::size_t gauge = 0; gauge < kGauges; ++gauge) {
+    const std::int32_t code = std::clamp<std::int32_t>(codes[gauge] + 0x8000, 0, 0xFFFF);
+    set[gauge] = static_cast<std::uint16_t>(fine ? code : code & 0xFFF0);
+  }
+  return set;
+}
+
+/// Codes that no finger gives: anything, or nothing but ends of ranges.
+constexpr hal::SampleSet strange(Draws& draws) {
+  constexpr std::array<std::uint16_t, 8> kEnds{0, 1, 0x0010, 0x7FFF, 0x8000, 0x8001, 0xFFF0, 0xFFFF};
+  const std::uint32_t kind = draws.below(4);
+  hal::SampleSet set{};
+  for (std::size_t gauge = 0; gauge < kGauges; ++gauge) {
+    const auto any = static_cast<std::uint16_t>(draws.next());
+    const std::uint16_t end = kEnds[draws.below(8)];
+    set[gauge] = kind == 0 ? any : end;
+    if (kind == 1) set[gauge] = gauge == 0 ? end : set[0];
+    if (kind == 2 && gauge % 4 != 0) set[gauge] = 0x8000;
+  }
+  return set;
+}
+
+/// Sample set number `sample`: of 32, 24 show one contact, 3 two, 3 none but noise, 2 are strange.
+constexpr hal::SampleSet generatedSamples(std::uint32_t sample) {
+  Draws draws(sample);
+  const std::uint32_t kind = draws.below(32);
+  if (kind >= 30) return strange(draws);
+  Deflections codes{};
+  if (kind < 27) press(codes, drawContact(draws));
+  if (kind >= 24 && kind < 27) press(codes, drawContact(draws));
+  addNoise(codes, draws, static_cast<int>(draws.below(8)));
+  return converted(codes, draws.below(2) == 0);
+}
+
+}  // namespace strainfinger::emulated

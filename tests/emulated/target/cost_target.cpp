@@ -1,0 +1,164 @@
+// What a sample set costs, in instructions, stage by stage. Run with `-icount shift=10,sleep=off`: an
+// instruction then takes 1024 ns of the emulator's time, and timer 0 counts 40 ns. Writes CSV to UART0: what
+// was measured, instructions.
+#include <algorithm>
+
+#include "firmware/app/finger.hpp"
+#include "firmware/board/cortex_m/linked_tables.hpp"
+#include "firmware/board/cortex_m/startup.hpp"
+#include "firmware/board/mps2/console.hpp"
+#include "firmware/board/mps2/semihosting.hpp"
+#include "tests/emulated/replay.hpp"
+#include "tests/emulated/target/test_image.hpp"
+
+extern "C" std::uint32_t stack_bottom[];
+
+namespace strainfinger::board {
+namespace {
+
+using namespace emulated;
+
+constexpr std::uint32_t kSamples = 2000;
+constexpr std::uint32_t kPaint = 0x57ACC57A;
+
+/// CMSDK APB timer (Cortex-M System Design Kit TRM, DDI 0479D, 4.1), counting down from its largest value.
+class InstructionCounter {
+ public:
+  InstructionCounter() {
+    registers()[kReload] = ~0u;
+    registers()[kValue] = ~0u;
+    registers()[kControl] = 1;
+    const std::uint32_t begin = now();
+    overhead_ = now() - begin;
+  }
+
+  /// Instructions that `work` takes.
+  template <typename Work>
+  [[gnu::always_inline]] std::uint32_t of(Work work) const {
+    const std::uint32_t begin = now();
+    work();
+    const std::uint32_t ticks = now() - begin - overhead_;
+    return (ticks * 40 + 512) / 1024;
+  }
+
+ private:
+  enum Register : std::uint8_t { kControl, kValue, kReload };
+  static std::uint32_t volatile* registers() { return reinterpret_cast<std::uint32_t volatile*>(0x40000000); }
+  static std::uint32_t now() {
+    asm volatile("" ::: "memory");
+    const std::uint32_t value = ~registers()[kValue];
+    asm volatile("" ::: "memory");
+    return value;
+  }
+  std::uint32_t overhead_;
+};
+
+struct Adc {
+  hal::SampleSet next{};
+  bool read(hal::SampleSet& set) noexcept {
+    set = next;
+    return true;
+  }
+  std::uint32_t overruns() const noexcept { return 0; }
+};
+struct Can {
+  std::uint32_t sent = 0;
+  bool send(const CanFrame&) noexcept {
+    ++sent;
+    return true;
+  }
+  std::optional<CanFrame> receive() noexcept { return std::nullopt; }
+  hal::CanStatus status() const noexcept { return {.state = hal::CanState::kActive}; }
+};
+struct Clock {
+  std::uint32_t time_us = 0;
+  std::uint32_t now_us() const noexcept { return time_us; }
+};
+struct Watchdog {
+  void feed() noexcept {}
+  hal::ResetCause resetCause() const noexcept { return hal::ResetCause::kPowerOn; }
+};
+
+mps2::Console* console;
+void tell(const char* what, std::uint32_t instructions) { *console << what << "," << instructions << "\n"; }
+
+/// A contact of 1/64 to all of the converter's range, or none; noise of about the default finger's.
+hal::SampleSet samplesOf(std::uint32_t sample, bool touched) {
+  Draws draws(sample);
+  Deflections codes{};
+  if (touched) {
+    const std::uint32_t angle = draws.next();
+    const auto normal = static_cast<std::int32_t>(((1u << 14) + draws.below(1u << 14)) >> draws.below(7));
+    press(codes, {angle, normal, normal * (static_cast<std::int32_t>(draws.below(201)) - 100) / 100});
+  }
+  addNoise(codes, draws, 3);
+  return converted(codes, false);
+}
+
+/// The stages one by one, as Pipeline::process() and TouchReporter::frames() run them.
+void stages(const InstructionCounter& counter, const hal::SampleSet& set) {
+  const TableConstants& constants = kLinkedTables.constants;
+  static const firmware::Calibration calibration = firmware::nominalCalibration(constants);
+  firmware::Readings readings;
+  firmware::ContactGate gate;
+  std::uint32_t energy = 0;
+  tell("condition",
+       counter.of([&] { condition(constants, calibration, firmware::Codes(set).first(kGauges), readings); }));
+  const auto strains = readings.strains(kGauges);
+  tell("gate", counter.of([&] {
+    energy = firmware::gateEnergy(constants, strains);
+    gate.update(constants, energy);
+  }));
+  if (!gate.touched()) return;
+  firmware::Fit fit;
+  CanFrame contactFrame, forceFrame;
+  tell("locate",
+       counter.of([&] { fit = locate(kLinkedTables, firmware::FitMode::kRefined, strains, energy); }));
+  firmware::Fit three;
+  tell("locate_three_point",
+       counter.of([&] { three = locate(kLinkedTables, firmware::FitMode::kThreePoint, strains, energy); }));
+  tell("report", counter.of([&] {
+    const auto frames = firmware::touchFrames(constants, estimate(constants, fit), {FingerFlag::kContact}, 1);
+    contactFrame = encode(frames.contact, kFirstNode);
+    forceFrame = encode(frames.force, kFirstNode);
+  }));
+}
+
+/// Sample sets through the whole finger, from converter to port. Of every 64, 32 are touched.
+[[gnu::noinline]] void updates(const InstructionCounter& counter) {
+  static Adc adc;
+  static Can can;
+  static Clock clock;
+  static Watchdog watchdog;
+  static firmware::Finger finger(kLinkedTables, {.contactRate_hz = 1000}, adc, can, clock, watchdog);
+  for (std::uint32_t sample = 0; sample < kSamples + firmware::ZeroAverage::kSamples; ++sample) {
+    const bool zeroing = sample < firmware::ZeroAverage::kSamples;
+    const bool touched = !zeroing && sample % 64 < 32;
+    adc.next = samplesOf(sample, touched);
+    const bool beats = clock.time_us % 100'000 == 0;
+    clock.time_us += 1000;
+    const std::uint32_t before = can.sent;
+    const std::uint32_t instructions = counter.of([&] { finger.step(); });
+    const std::uint32_t sent = can.sent - before;
+    if (zeroing || beats) continue;
+    if (touched && sent == 2) tell("update_sent", instructions);
+    if (!touched && sent == 0) tell("update_idle", instructions);
+  }
+}
+
+}  // namespace
+
+void runBoard() {
+  std::fill(stack_bottom, static_cast<std::uint32_t*>(__builtin_frame_address(0)) - 64, kPaint);
+  mps2::Console line;
+  console = &line;
+  const InstructionCounter counter;
+  for (std::uint32_t sample = 0; sample < kSamples; ++sample) stages(counter, samplesOf(sample, true));
+  updates(counter);
+  const auto* const touched = std::find_if(stack_bottom, const_cast<std::uint32_t*>(stack_top),
+                                           [](std::uint32_t word) { return word != kPaint; });
+  tell("stack_bytes", 4 * static_cast<std::uint32_t>(stack_top - touched));
+  mps2::endEmulator(0);
+}
+
+}  // namespace strainfinger::board

@@ -1,0 +1,123 @@
+#include "firmware/board/mps2/world.hpp"
+
+#include <deque>
+#include <vector>
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::mps2;
+
+namespace {
+
+struct FakeLine {
+  std::deque<std::uint8_t> bytes;
+  bool put(std::uint8_t) noexcept { return true; }
+  std::optional<std::uint8_t> get() noexcept {
+    if (bytes.empty()) return std::nullopt;
+    const std::uint8_t byte = bytes.front();
+    bytes.pop_front();
+    return byte;
+  }
+};
+
+struct FakeBus {
+  bool sentAll = true;
+  bool idle() const { return sentAll; }
+};
+
+}  // namespace
+
+static_assert(hal::GaugeAdc<World<FakeLine, FakeBus>>);
+static_assert(hal::Clock<World<FakeLine, FakeBus>>);
+
+TEST_GROUP(World) {
+  FakeLine line;
+  FakeBus bus;
+  World<FakeLine, FakeBus> world{line, bus};
+  hal::SampleSet set{};
+  std::vector<WorldRecord> acted;
+
+  bool poll() {
+    return world.poll([this](const WorldRecord& record) { acted.push_back(record); });
+  }
+  void tell(const WorldRecord& record) {
+    line.bytes.push_back(static_cast<std::uint8_t>(record.kind));
+    line.bytes.push_back(record.size);
+    line.bytes.insert(line.bytes.end(), record.payload.begin(), record.payload.begin() + record.size);
+  }
+  void tellSamples(std::uint16_t first, std::uint16_t second) {
+    const std::array codes{first, second};
+    tell(samplesRecord(codes));
+  }
+};
+
+TEST(World, NothingToldIsNothing) {
+  CHECK_FALSE(poll());
+  CHECK_FALSE(world.read(set));
+  LONGS_EQUAL(0, world.now_us());
+}
+
+TEST(World, SamplesAreHandedOutOnceAndTakeAPeriod) {
+  tellSamples(0x1234, 0xFEDC);
+  CHECK_TRUE(poll());
+  LONGS_EQUAL(kRecordPeriod_us, world.now_us());
+  CHECK_TRUE(world.read(set));
+  LONGS_EQUAL(0x1234, set[0]);
+  LONGS_EQUAL(0xFEDC, set[1]);
+  CHECK_FALSE(world.read(set));
+}
+
+TEST(World, ThePageShowsTheBytes) {
+  tellSamples(0x1234, 0xFEDC);
+  const std::deque<std::uint8_t> expected{'S', 4, 0x34, 0x12, 0xDC, 0xFE};
+  CHECK_TRUE(line.bytes == expected);
+}
+
+TEST(World, TheNextRecordWaitsForTheLast) {
+  tellSamples(1, 2);
+  tellSamples(3, 4);
+  poll();
+  CHECK_TRUE(poll());
+  LONGS_EQUAL(kRecordPeriod_us, world.now_us());
+  world.read(set);
+  bus.sentAll = false;
+  CHECK_FALSE(poll());
+  bus.sentAll = true;
+  CHECK_TRUE(poll());
+  world.read(set);
+  LONGS_EQUAL(3, set[0]);
+}
+
+TEST(World, SilenceTakesAPeriodWithoutSamples) {
+  tell({RecordKind::kSilence});
+  CHECK_TRUE(poll());
+  CHECK_FALSE(world.read(set));
+  LONGS_EQUAL(kRecordPeriod_us, world.now_us());
+}
+
+TEST(World, OtherRecordsTakeNoTime) {
+  WorldRecord harm{RecordKind::kHarm};
+  harm.add(static_cast<std::uint8_t>(Harm::kHang));
+  tell(harm);
+  CHECK_TRUE(poll());
+  LONGS_EQUAL(0, world.now_us());
+  LONGS_EQUAL(1, acted.size());
+  CHECK_TRUE(acted[0].kind == RecordKind::kHarm && acted[0].payload[0] == 4);
+}
+
+TEST(World, ARecordThatClaimsTooMuchIsCut) {
+  line.bytes.assign(300, 0xFF);
+  CHECK_TRUE(poll());
+  LONGS_EQUAL(1, acted.size());
+  LONGS_EQUAL(64, acted[0].size);
+}
+
+TEST(World, AFullRingOfGaugesFits) {
+  std::array<std::uint16_t, kMaxGauges> codes{};
+  codes.back() = 0xABCD;
+  tell(samplesRecord(codes));
+  CHECK_TRUE(poll());
+  CHECK_TRUE(world.read(set));
+  LONGS_EQUAL(0xABCD, set.back());
+}

@@ -24,6 +24,9 @@ PitchQ20 distance(const Answer& a, const Answer& b, int gauges) {
   return std::min(ahead, gauges * kOnePitch - ahead);
 }
 
+/// Beyond the last row: what the fit looks for belongs to another window.
+bool walkedOut(const WindowFit& fit) { return fit.offset >= kFitRows * kRowSpacing; }
+
 }  // namespace
 
 Answer solve(const Problem& problem, const Scan& scan, int start) {
@@ -35,17 +38,23 @@ Answer solve(const Problem& problem, const Scan& scan, int start) {
   fit.offset = scan.row(start) * kRowSpacing;
   fit.sense = scan.pullsBack(start) ? kAgainstOffset : kWithOffset;
   const FitTables tables = problem.fitTables();
-  answer.settled = refine(tables, problem.mirrorSign(), fit);
+  const bool settled = refine(tables, problem.mirrorSign(), fit);
   answer.amplitudes = amplitudesOf(tables, fit);
-  answer.withinCone = withinCone(problem.tables.constants, answer.amplitudes);
-  answer.found = true;
   answer.energy = fit.energy;
   if (problem.mode == FitMode::kThreePoint)
     answer.energy = explainedEnergy(problem.tables.refined[static_cast<std::size_t>(fit.row)], fit.signal,
                                     fit.offset - fit.row * kRowSpacing);
   const std::int32_t window = energyOf(fit.signal);
-  answer.standing = answer.energy + std::min(problem.ringEnergy - window, window >> kTailShift);
+  const bool pressed = withinCone(problem.tables.constants, answer.amplitudes);
+  answer.standing = {.energy = answer.energy + std::min(problem.ringEnergy - window, window >> kTailShift),
+                     .found = true,
+                     .admissible = settled && pressed,
+                     .isRival = pressed && (settled || !walkedOut(fit))};
   return answer;
+}
+
+Placement Answer::placement(int gauges) const {
+  return {roundTheRing(fit.position(), gauges), amplitudes.normal, fit.side * amplitudes.tangential};
 }
 
 PitchQ20 roundTheRing(PitchQ20 position, int gauges) {
@@ -55,15 +64,14 @@ PitchQ20 roundTheRing(PitchQ20 position, int gauges) {
 }
 
 void Contest::enter(const Answer& answer, int gauges) {
-  if (best.found && distance(answer, best, gauges) < kSameAnswer) {
-    if (answer.betterThan(best)) best = answer;
-    return;
-  }
-  if (answer.betterThan(best)) {
-    second = best;
+  const bool wins = answer.standing.betterThan(best.standing);
+  if (best.standing.found && distance(answer, best, gauges) < kSameAnswer) {
+    if (wins) best = answer;
+  } else if (wins) {
+    if (best.standing.found) setSecond(best, gauges);
     best = answer;
-  } else if (answer.betterThan(second)) {
-    second = answer;
+  } else if (answer.standing.betterThan(second)) {
+    setSecond(answer, gauges);
   }
 }
 

@@ -7,26 +7,36 @@
 
 namespace strainfinger::firmware {
 
+/// A line contact at `position` [pitches * 2^20 from gauge 0, within the ring] with the amplitudes of its
+/// loads (tangential + towards +theta).
+struct Placement {
+  PitchQ20 position = 0;
+  std::int32_t normal = 0;
+  std::int32_t tangential = 0;
+};
+
+/// What decides between two answers.
+struct Standing {
+  std::int32_t energy = -1;  ///< explained, and what a contact there may have left outside the window
+  bool found = false;
+  bool admissible = false;  ///< settled, presses, and no harder sideways than friction allows
+  bool isRival = false;     ///< to be reckoned with, if only as the next best
+
+  bool betterThan(const Standing& other) const {
+    if (!other.found) return true;
+    if (admissible != other.admissible) return admissible;
+    return energy > other.energy;
+  }
+};
+
 /// A refined fit and how it stands against others.
 struct Answer {
   WindowFit fit;
   Amplitudes amplitudes{};
-  std::int32_t energy = -1;    ///< that all seven gauges say it explains
-  std::int32_t standing = -1;  ///< the energy, and what a contact there may have left outside the window
-  bool settled = false;
-  bool withinCone = false;  ///< presses, and no harder sideways than friction allows
-  bool found = false;
+  std::int32_t energy = -1;  ///< that all seven gauges say it explains
+  Standing standing;
 
-  bool betterThan(const Answer& other) const {
-    if (!other.found) return true;
-    if (admissible() != other.admissible()) return admissible();
-    return standing > other.standing;
-  }
-  bool admissible() const { return settled && withinCone; }
-  /// Beyond the last row: what the fit looks for belongs to another window.
-  bool walkedOut() const { return !settled && fit.offset >= kFitRows * kRowSpacing; }
-  /// An answer to reckon with, if only as the next best.
-  bool isRival() const { return found && withinCone && !walkedOut(); }
+  Placement placement(int gauges) const;
 };
 
 /// Refines the fit that starts at one offset of a scan. In three-point mode the three readings give the
@@ -36,12 +46,20 @@ Answer solve(const Problem& problem, const Scan& scan, int start);
 /// Positions go round the ring; `position` is at most one turn off.
 PitchQ20 roundTheRing(PitchQ20 position, int gauges);
 
-/// The two best answers that are not the same one.
+/// The best answer, and the next best that is not the same one: of that only what is reported, for the
+/// stack's sake.
 struct Contest {
   Answer best;
-  Answer second;
+  Standing second;
+  Placement secondPlacement;
 
   void enter(const Answer& answer, int gauges);
+
+ private:
+  void setSecond(const Answer& answer, int gauges) {
+    second = answer.standing;
+    secondPlacement = answer.placement(gauges);
+  }
 };
 
 }  // namespace strainfinger::firmware

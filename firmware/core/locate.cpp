@@ -43,7 +43,7 @@ void solveWindow(const Problem& problem, const Scan& scan, Contest& contest) {
 bool doubtful(const Problem& problem, const Answer& answer) {
   const std::int32_t window = energyOf(answer.fit.signal);
   const std::int32_t noise = problem.noise(kUnexplained);
-  return !answer.admissible() || problem.ringEnergy < problem.noise(kAlias) ||
+  return !answer.standing.admissible || problem.ringEnergy < problem.noise(kAlias) ||
          std::abs(answer.fit.offset) > kFarFromMiddle ||
          window - answer.energy > noise + (window >> kRoundingShift) ||
          problem.ringEnergy - window > noise + (window >> kOutsideShift);
@@ -92,16 +92,11 @@ Contest contestOf(const Problem& problem) {
   }
   const int anchor = bendAnchor(problem);
   solveWindow(problem, scanWindow(problem, anchor), contest);
-  const WindowFit first = contest.best.fit;
+  const WindowFit& first = contest.best.fit;
   if (std::abs(first.offset) > kFarFromMiddle)
     solveWindow(problem, scanWindow(problem, wrapped(first.centre + first.side, problem.gauges())), contest);
   if (doubtful(problem, contest.best)) solveBestOf(problem, anchor, std::array{-3, -2, 2, 3}, contest);
   return contest;
-}
-
-Placement placementOf(const Answer& answer, int gauges) {
-  return {roundTheRing(answer.fit.position(), gauges), answer.amplitudes.normal,
-          answer.fit.side * answer.amplitudes.tangential};
 }
 
 Fit reportOf(const Problem& problem, const Contest& contest) {
@@ -109,12 +104,12 @@ Fit reportOf(const Problem& problem, const Contest& contest) {
   const FitRow& row = (*problem.fitTables()[best.fit.sense])[static_cast<std::size_t>(best.fit.row)];
   const std::int32_t window = energyOf(best.fit.signal);
   Fit fit;
-  fit.best = placementOf(best, problem.gauges());
-  fit.alternative = contest.second.found ? placementOf(contest.second, problem.gauges()) : fit.best;
+  fit.best = best.placement(problem.gauges());
+  fit.alternative = contest.second.found ? contest.secondPlacement : fit.best;
   const std::int32_t margin =
       problem.noise(isWeak(problem) ? kAmbiguousWeak : kAmbiguous) + (window >> kAmbiguousShift);
-  fit.ambiguous = contest.second.isRival() && contest.second.standing > best.standing - margin;
-  fit.settled = best.admissible() && best.energy > problem.noise(kFaint);
+  fit.ambiguous = contest.second.isRival && contest.second.energy > best.standing.energy - margin;
+  fit.settled = best.standing.admissible && best.energy > problem.noise(kFaint);
   fit.normalSlope = best.amplitudes.normalSlope;
   fit.tangentialSlope = best.amplitudes.tangentialSlope;
   fit.information = best.fit.information;

@@ -6,17 +6,9 @@
 
 #include "common/quantities.hpp"
 #include "common/table_image.hpp"
-#include "firmware/core/problem.hpp"
+#include "firmware/core/answer.hpp"
 
 namespace strainfinger::firmware {
-
-/// A line contact at `position` [pitches * 2^20 from gauge 0, within the ring] with the amplitudes of its
-/// loads (tangential + towards +theta).
-struct Placement {
-  PitchQ20 position = 0;
-  std::int32_t normal = 0;
-  std::int32_t tangential = 0;
-};
 
 /// What locate() found, in its own units; estimate.hpp turns it into quantities and errors.
 struct Fit {

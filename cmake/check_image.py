@@ -53,7 +53,7 @@ def disassembled(elf):
     for function in functions.values():
         for mnemonic, operands in function.instructions:
             target = re.search(r"\b([0-9a-f]+) <([^>+]+)>", operands)
-            if mnemonic.startswith("b") and target and target[2] != function.name:
+            if mnemonic.startswith("b") and target and (target[2] != function.name or mnemonic in ("bl", "blx")):
                 function.calls.add(int(target[1], 16))
             if mnemonic.startswith("blx") and not target:
                 function.indirect = True

@@ -320,10 +320,10 @@ inline constexpr FrameLayout kLayout<InfoFrame>{
     Field{&InfoFrame::version_minor,
           {.lsb = 24, .width = 8},
           {.name = "version_minor", .comment = "Version of the firmware, behind the point"}},
-    Field{
-        &InfoFrame::crash_address,
-        {.lsb = 32, .width = 24},
-        {.name = "crash_address", .comment = "Lowest 24 bits of the address of the instruction that crashed; 0: none"}},
+    Field{&InfoFrame::crash_address,
+          {.lsb = 32, .width = 24},
+          {.name = "crash_address",
+           .comment = "Lowest 24 bits of the address of the instruction that crashed; 0: none"}},
 };
 static_assert(WireFrame<InfoFrame>);
 

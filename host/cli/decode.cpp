@@ -18,7 +18,8 @@ namespace {
 
 constexpr const char* kHelp =
     "What the frames in a candump text (stdin, any form) say.\n"
-    "CSV: time_s,interface,node,frame, then a column for each field of CONTACT, FORCE, HEARTBEAT and INFO, empty "
+    "CSV: time_s,interface,node,frame, then a column for each field of CONTACT, FORCE, HEARTBEAT and INFO, "
+    "empty "
     "where "
     "the frame has no such field or the value is not known; flags are names joined by '+'.\n"
     "--json: one object a frame with its own fields, null where not known.\n"

@@ -1,7 +1,7 @@
 // touch_world SCENARIO SECONDS TABLES RECORDS EXPECTED: a finger that a scenario touches.
-// Writes to RECORDS what an emulated board must be told of it (firmware/board/mps2/world_record.hpp), and to EXPECTED
-// what it must then say: a line for each CONTACT and FORCE, the frame as candump -L has it and what really touched
-// the finger then: 181#.., time_s, angle_deg, normal_n, tangential_n.
+// Writes to RECORDS what an emulated board must be told of it (firmware/board/mps2/world_record.hpp), and to
+// EXPECTED what it must then say: a line for each CONTACT and FORCE, the frame as candump -L has it and what
+// really touched the finger then: 181#.., time_s, angle_deg, normal_n, tangential_n.
 #include <fmt/os.h>
 
 #include <cstdlib>
@@ -40,7 +40,9 @@ struct Port {
     return true;
   }
   std::optional<CanFrame> receive() noexcept { return std::nullopt; }
-  hal::CanStatus status() const noexcept { return {.state = hal::CanState::kActive, .txErrors = 0, .rxErrors = 0}; }
+  hal::CanStatus status() const noexcept {
+    return {.state = hal::CanState::kActive, .txErrors = 0, .rxErrors = 0};
+  }
 };
 
 struct Watchdog {

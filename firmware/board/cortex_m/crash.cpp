@@ -45,7 +45,8 @@ constexpr std::uint32_t kCallBytes = 4;  ///< of a BL
 
 // What the C library calls when an assertion fails, and when it gives up.
 extern "C" [[noreturn]] void __assert_func(const char*, int, const char*, const char*) {
-  strainfinger::board::crash(strainfinger::Crash::kAssertion,
-                             (reinterpret_cast<std::uint32_t>(__builtin_return_address(0)) & ~1u) - kCallBytes);
+  strainfinger::board::crash(
+      strainfinger::Crash::kAssertion,
+      (reinterpret_cast<std::uint32_t>(__builtin_return_address(0)) & ~1u) - kCallBytes);
 }
 extern "C" [[noreturn]] void abort() { __assert_func(nullptr, 0, nullptr, nullptr); }

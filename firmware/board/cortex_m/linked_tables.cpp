@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "default_tables.hpp"
+#include <default_tables.hpp>  // made by the build
 
 namespace strainfinger::board {
 

@@ -13,8 +13,8 @@ namespace strainfinger::board {
   for (;;) asm volatile("dsb");
 }
 
-/// Makes the 16 KiB below `address`, which is a multiple of that, a place where every access is a fault; all else
-/// stays as it is (memory protection unit, Armv7-M ARM, B3.5; region 0).
+/// Makes the 16 KiB below `address`, which is a multiple of that, a place where every access is a fault; all
+/// else stays as it is (memory protection unit, Armv7-M ARM, B3.5; region 0).
 inline void forbidBelow(std::uint32_t address) {
   constexpr std::uint32_t kSize = 1u << 14, kNoAccess = 0, kSizeField = 13u << 1, kEnableRegion = 1;
   constexpr std::uint32_t kEnable = 1, kDefaultMap = 1u << 2;

@@ -33,6 +33,7 @@ class Watchdog {
   /// The firmware runs; from here on it must rest() within kHang_ticks.
   void run() {
     registers().load = kHang_ticks;
+    registers().clearInterrupt = 1;  // the counter went on while it rested
     registers().control = kEnabled;
   }
   /// The firmware waits for the host, which may take its time.

@@ -50,7 +50,8 @@ TEST(FramePrinter, TheTableHasAColumnForEachFieldOfAnyFrame) {
 
 TEST(FramePrinter, PrintsContactAsARow) {
   print(TableFormat::kCsv, contact_);
-  STRCMP_EQUAL("0.001500,can0,5,CONTACT,35.73,,-90,contact+simulated,97,163,,,,,,,,,,,,,,,,,,\n", rows().c_str());
+  STRCMP_EQUAL("0.001500,can0,5,CONTACT,35.73,,-90,contact+simulated,97,163,,,,,,,,,,,,,,,,,,\n",
+               rows().c_str());
 }
 
 TEST(FramePrinter, PrintsForceAsARow) {
@@ -67,8 +68,10 @@ TEST(FramePrinter, PrintsHeartbeatAsARow) {
 }
 
 TEST(FramePrinter, PrintsInfoAsARow) {
-  print(TableFormat::kCsv,
-        InfoFrame{.reset_cause = ResetCause::kSoftware, .crash = Crash::kAssertion, .restarts = 2, .crash_address = 4096});
+  print(TableFormat::kCsv, InfoFrame{.reset_cause = ResetCause::kSoftware,
+                                     .crash = Crash::kAssertion,
+                                     .restarts = 2,
+                                     .crash_address = 4096});
   STRCMP_EQUAL("0.001500,can0,5,INFO,,,,,,,,,,,,,,,,,,,software,assertion,2,0,0,4096\n", rows().c_str());
 }
 

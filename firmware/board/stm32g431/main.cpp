@@ -27,6 +27,7 @@ constexpr firmware::FingerSettings kSettings{.node = STRAINFINGER_NODE,
                                              .standingFlags = {FingerFlag::kUncalibrated}};
 static_assert(kSettings.node >= kFirstNode && kSettings.node <= kLastNode);
 static_assert(canTiming(ClockSource::kCrystal, STRAINFINGER_BITRATE), "not a bit rate of can_rates.hpp");
+static_assert(samplingAt(STRAINFINGER_SAMPLE_RATE), "not a rate of sampling.hpp");
 constexpr auto kListensTo = identifiersFor(kSettings.node);
 
 constexpr MemoryBus kBus;
@@ -77,7 +78,7 @@ const TableImage& tables() {
 /// If a converter doesn't answer, the finger says that samples are missing, and the watchdog starves.
 [[gnu::noinline]] Adc& startAdc() {
   static Adc adc(kBus);
-  static_cast<void>(adc.start(kDefaultSampling));
+  static_cast<void>(adc.start(*samplingAt(STRAINFINGER_SAMPLE_RATE)));
   return adc;
 }
 

@@ -59,6 +59,7 @@ class Board:
         self.process = subprocess.Popen(command(elf, [f"node={node}"], options),
                                         stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.heard = bytearray()
+        self.bus = self.world = None
         if bus:
             self.bus = self.connected(self.bus_path)
             threading.Thread(target=self.listen, daemon=True).start()
@@ -72,6 +73,9 @@ class Board:
     def __exit__(self, *_):
         self.process.kill()
         self.process.wait()
+        for line in (self.bus, self.world):
+            if line:
+                line.close()
         self.folder.cleanup()
 
     def connected(self, path, timeout_s=30):

@@ -2,7 +2,10 @@
 // The finger: the stages run against a board's converter, CAN port, clock and watchdog.
 
 #include <cstdint>
+#include <optional>
+#include <utility>
 
+#include "common/commands.hpp"
 #include "common/frames.hpp"
 #include "firmware/core/pipeline.hpp"
 #include "firmware/core/report.hpp"
@@ -15,7 +18,7 @@ namespace strainfinger::firmware {
 
 struct FingerSettings {
   std::uint8_t node = 1;               ///< 1 .. 63
-  std::uint16_t contactRate_hz = 500;  ///< 20 .. 1000
+  std::uint16_t contactRate_hz = 500;  ///< kSlowestContactRate_hz .. kFastestContactRate_hz
   FitMode mode = FitMode::kRefined;
   FingerFlags standingFlags{};  ///< simulated, uncalibrated
 };
@@ -38,7 +41,7 @@ class Finger {
          Watchdog& watchdog)
       : settings_(settings),
         pipeline_(tables, settings.mode),
-        reporter_(1'000'000u / settings.contactRate_hz, settings.standingFlags),
+        reporter_(periodOf(settings.contactRate_hz), settings.standingFlags),
         adc_(adc),
         can_(can),
         clock_(clock),
@@ -48,8 +51,9 @@ class Finger {
         sampledAt_us_(steppedAt_us_),
         heartbeatAt_us_(steppedAt_us_ - kHeartbeatPeriod_us) {}
 
-  /// One turn of the main loop: takes at most one sample set, sends what is due. Never blocks. The watchdog
-  /// is fed only by sample sets that went all the way through. True: there was a sample set.
+  /// One turn of the main loop: takes at most one sample set and one request, sends what is due. Never
+  /// blocks. The watchdog is fed only by sample sets that went all the way through. True: there was a sample
+  /// set.
   bool step() {
     const std::uint32_t now_us = clock_.now_us();
     countUptime(now_us);
@@ -61,6 +65,7 @@ class Finger {
       sampledAt_us_ = now_us - kSilentConverter_us;  // no younger when the clock has gone round
     }
     beat(now_us);
+    serve(now_us);
     return sampled;
   }
 
@@ -72,6 +77,7 @@ class Finger {
  private:
   static constexpr std::uint32_t kHeartbeatPeriod_us = std::uint32_t{kHeartbeatPeriod_ms} * 1000;
   static constexpr std::uint32_t kSilentConverter_us = 100'000;
+  static constexpr std::uint32_t kAnswerWithin_us = std::uint32_t{kAnswerWithin_ms} * 1000;
   static constexpr std::uint32_t kLongestUptime_s = kNotKnown<std::uint16_t> - 1;
 
   Codes codes() const { return Codes(codes_).first(pipeline_.constants().gauge_count); }
@@ -153,6 +159,51 @@ class Finger {
     return frame;
   }
 
+  static constexpr std::uint32_t periodOf(std::uint32_t rate_hz) { return 1'000'000u / rate_hz; }
+
+  /// Answers the request that has arrived, at once or when its work is done; while an answer waits for the
+  /// port, the next request does. Not inlined: see report().
+  [[gnu::noinline]] void serve(std::uint32_t now_us) {
+    if (now_us - requestedAt_us_ >= kAnswerWithin_us) {
+      response_.reset();
+      tareStatus_.reset();
+    }
+    if (!response_) response_ = nextResponse(now_us);
+    if (response_ && can_.send(encode(*response_, settings_.node))) response_.reset();
+  }
+
+  std::optional<ResponseFrame> nextResponse(std::uint32_t now_us) {
+    if (tareStatus_ && state_ == FingerState::kRun)
+      return responseTo(Command::kTare, *std::exchange(tareStatus_, std::nullopt));
+    const auto frame = can_.receive();
+    if (!frame) return std::nullopt;
+    const auto request = readSingleFrame<RequestFrame>(*frame, settings_.node);
+    if (!request) return std::nullopt;
+    requestedAt_us_ = now_us;
+    const auto status = obey(*request, now_us);
+    if (!status) return std::nullopt;
+    return responseTo(request->command, *status);
+  }
+
+  /// Nothing: it will be answered when it is done.
+  std::optional<CommandStatus> obey(const RequestFrame& request, std::uint32_t now_us) {
+    const CommandStatus fault = checkRequest(request);
+    if (fault != CommandStatus::kDone) return fault;
+    if (request.command == Command::kTare) return tare(request.argument != 0, now_us);
+    reporter_.setShortestPeriod(periodOf(request.argument));
+    return CommandStatus::kDone;
+  }
+
+  std::optional<CommandStatus> tare(bool evenWhileTouched, std::uint32_t now_us) {
+    if (state_ != FingerState::kRun || isConverterSilent(now_us)) return CommandStatus::kBusy;
+    const bool touched = pipeline_.observation().fit.has_value();
+    if (touched && !evenWhileTouched) return CommandStatus::kTouched;
+    tareStatus_ = touched ? CommandStatus::kDoneTouched : CommandStatus::kDone;
+    zero_ = {};
+    state_ = FingerState::kZeroing;
+    return std::nullopt;
+  }
+
   FingerSettings settings_;
   Pipeline pipeline_;
   TouchReporter reporter_;
@@ -166,6 +217,8 @@ class Finger {
   hal::SampleSet codes_{};
   ForceFrame force_{};
   bool forceOwed_ = false;
+  std::optional<CommandStatus> tareStatus_;  ///< to answer when the zero is taken
+  std::optional<ResponseFrame> response_;    ///< that the port hasn't taken yet
   FingerCounters counters_{};
   std::uint32_t uptime_s_ = 0;
   std::uint32_t sinceSecond_us_ = 0;
@@ -173,6 +226,7 @@ class Finger {
   std::uint32_t sampledAt_us_;
   std::uint32_t heartbeatAt_us_;
   std::uint32_t contactAt_us_ = 0;
+  std::uint32_t requestedAt_us_ = 0;
 };
 
 }  // namespace strainfinger::firmware

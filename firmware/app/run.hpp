@@ -20,6 +20,7 @@ template <hal::GaugeAdc Adc, hal::CanPort Can, hal::Clock Clock, hal::Watchdog W
   hal::SampleSet unused{};
   for (;;) {
     if (adc.read(unused)) watchdog.feed();
+    static_cast<void>(can.receive());  // a port may stand still while a frame waits
     heartbeat.step(can, clock.now_us());
     info.step(can, clock.now_us());
     wait();

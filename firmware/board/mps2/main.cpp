@@ -94,7 +94,7 @@ void act(const WorldRecord& record, Can& can) {
     world_line.clearInterrupts();
     for (const unsigned interrupt : kLineInterrupts) board::forgetInterrupt(interrupt);
     can.poll();
-    if (!world.poll([](const WorldRecord& record) { act(record, can); })) {
+    if (!world.poll([](const WorldRecord& record) { act(record, can); }) && !can.hasArrived()) {
       watchdog.rest();
       board::sleep();
     }

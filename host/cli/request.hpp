@@ -1,0 +1,27 @@
+#pragma once
+// What subcommands that ask something of a finger share.
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "host/can/ask.hpp"
+#include "host/cli/command.hpp"
+
+namespace strainfinger::cli {
+
+struct RequestOptions {
+  explicit RequestOptions(CLI::App& command);
+  CommonOptions common;
+  std::string interface;
+  int node = 0;  ///< 0: the config's
+};
+
+/// Sends the request and prints what became of it: a row interface,node,command,status. Throws Failure with
+/// what to do about it when it was refused (kFailure), nobody answered (kNoNode), the interface is none or
+/// takes nothing (kNoInterface), or the finger speaks another protocol (kMismatch).
+void request(const RequestOptions& options, const RequestFrame& request);
+
+/// What request() says of a reply, without the printing; `where`: "can0 node 1".
+void requireDone(const can::Reply& reply, Command command, const std::string& where);
+
+}  // namespace strainfinger::cli

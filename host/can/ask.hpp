@@ -15,8 +15,8 @@ inline constexpr std::chrono::milliseconds kAskFor{2 * kAnswerWithin_ms};
 
 struct Reply {
   bool sent = false;  ///< false: the interface did not take the request in all that time
-  std::optional<ResponseFrame> response;
-  std::optional<HeartbeatFrame> heartbeat;  ///< the last of that finger while nothing had come yet
+  std::optional<ResponseFrame> response{};
+  std::optional<HeartbeatFrame> heartbeat{};  ///< the last of that finger while nothing had come yet
 };
 
 /// Sends the request to node 1 .. 63 and waits for its response, at most so long. Fingers tell callers apart

@@ -194,7 +194,8 @@ TEST(FingerRequests, WhatCannotBeDoneChangesNothing) {
 
 TEST(FingerRequests, OthersFramesAreNotItsBusiness) {
   can.sent.clear();
-  for (const std::uint16_t id : {0x600, 0x604, 0x606, 0x585, 0x705, 0x205}) deliver({1, 1}, id);
+  for (const int id : {0x600, 0x604, 0x606, 0x585, 0x705, 0x205})
+    deliver({1, 1}, static_cast<std::uint16_t>(id));
   deliver({0x10, 1});     // the first of a longer message
   deliver({2, 1});        // cut short
   deliver({2, 0x81, 0});  // a response

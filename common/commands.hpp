@@ -23,11 +23,13 @@ inline constexpr std::uint16_t kSlowestContactRate_hz = 1000 / kContactPeriod_ms
 inline constexpr std::uint16_t kFastestContactRate_hz = 1000;
 
 /// Never reuse a number; 1 .. 127.
-enum class Command : std::uint8_t { kTare = 1, kContactRate = 2 };
+enum class Command : std::uint8_t { kTare = 1, kContactRate = 2, kKeep = 3, kNode = 4 };
 
 inline constexpr std::array kCommandNames{
     ValueName{1, "tare", "Take the zero of the gauges now; argument 1: even while touched"},
     ValueName{2, "contact_rate", "Send at most so many CONTACT a second, until the next start"},
+    ValueName{3, "keep", "Keep the contact rate for the next starts"},
+    ValueName{4, "node", "Be this node from the next start on"},
 };
 
 /// What a command's argument may be. One that is absent is 0.
@@ -39,6 +41,8 @@ struct ArgumentSpec {
 inline constexpr std::array kArguments{
     ArgumentSpec{Command::kTare, 0, 1, 0, 1},
     ArgumentSpec{Command::kContactRate, 2, 2, kSlowestContactRate_hz, kFastestContactRate_hz},
+    ArgumentSpec{Command::kKeep, 0, 0, 0, 0},
+    ArgumentSpec{Command::kNode, 1, 1, kFirstNode, kLastNode},
 };
 
 /// What became of a request. Never reuse a number.
@@ -49,6 +53,7 @@ enum class CommandStatus : std::uint8_t {
   kBadArgument = 3,
   kTouched = 4,
   kDoneTouched = 5,
+  kNotKept = 6,
 };
 
 inline constexpr std::array kCommandStatusNames{
@@ -58,6 +63,7 @@ inline constexpr std::array kCommandStatusNames{
     ValueName{3, "bad_argument", "The argument is absent, too long or outside its range"},
     ValueName{4, "touched", "Refused: something touches the finger and would become its zero"},
     ValueName{5, "done_touched", "Done as forced: what touched the finger is now part of its zero"},
+    ValueName{6, "not_kept", "The board has no memory for it, or its memory failed"},
 };
 
 /// To a finger.
@@ -141,6 +147,10 @@ constexpr RequestFrame tareRequest(bool evenWhileTouched) {
 }
 constexpr RequestFrame contactRateRequest(std::uint16_t rate_hz) {
   return {.length = 3, .command = Command::kContactRate, .argument = rate_hz};
+}
+constexpr RequestFrame keepRequest() { return {.length = 1, .command = Command::kKeep}; }
+constexpr RequestFrame nodeRequest(std::uint8_t node) {
+  return {.length = 2, .command = Command::kNode, .argument = node};
 }
 constexpr ResponseFrame responseTo(Command command, CommandStatus status) {
   return {.command = command, .status = status};

@@ -7,6 +7,7 @@
 
 #include "common/commands.hpp"
 #include "common/frames.hpp"
+#include "firmware/app/stored_settings.hpp"
 #include "firmware/core/pipeline.hpp"
 #include "firmware/core/report.hpp"
 #include "hal/can_port.hpp"
@@ -20,7 +21,8 @@ struct FingerSettings {
   std::uint8_t node = 1;               ///< 1 .. 63
   std::uint16_t contactRate_hz = 500;  ///< kSlowestContactRate_hz .. kFastestContactRate_hz
   FitMode mode = FitMode::kRefined;
-  FingerFlags standingFlags{};  ///< simulated, uncalibrated
+  FingerFlags standingFlags{};    ///< simulated, uncalibrated
+  FingerFaults standingFaults{};  ///< configuration
 };
 
 /// Counts of what could not be returned. They only grow.
@@ -34,18 +36,21 @@ struct FingerCounters {
 };
 
 /// Runs one finger. `tables` must have passed checkTableImage(); everything is held by reference.
-template <hal::GaugeAdc Adc, hal::CanPort Can, hal::Clock Clock, hal::Watchdog Watchdog>
+template <hal::GaugeAdc Adc, hal::CanPort Can, hal::Clock Clock, hal::Watchdog Watchdog,
+          hal::NonVolatile Store = hal::NoStore>
 class Finger {
  public:
   Finger(const TableImage& tables, const FingerSettings& settings, Adc& adc, Can& can, const Clock& clock,
-         Watchdog& watchdog)
+         Watchdog& watchdog, Store& store = hal::noStore)
       : settings_(settings),
+        kept_{settings.node, settings.contactRate_hz},
         pipeline_(tables, settings.mode),
         reporter_(periodOf(settings.contactRate_hz), settings.standingFlags),
         adc_(adc),
         can_(can),
         clock_(clock),
         watchdog_(watchdog),
+        store_(store),
         tableCrc_(static_cast<std::uint8_t>(tables.crc32)),
         steppedAt_us_(clock.now_us()),
         sampledAt_us_(steppedAt_us_),
@@ -149,6 +154,7 @@ class Finger {
     const hal::CanStatus status = can_.status();
     HeartbeatFrame frame;
     frame.state = state_;
+    frame.faults = settings_.standingFaults;
     frame.faults.set(FingerFault::kConverter, isConverterSilent(now_us));
     frame.faults.set(FingerFault::kCan, status.dropped != 0 || counters_.forcesLost != 0);
     frame.faults.set(FingerFault::kWatchdogReset, watchdog_.resetCause() == hal::ResetCause::kWatchdog);
@@ -189,8 +195,24 @@ class Finger {
   std::optional<CommandStatus> obey(const RequestFrame& request, std::uint32_t now_us) {
     const CommandStatus fault = checkRequest(request);
     if (fault != CommandStatus::kDone) return fault;
-    if (request.command == Command::kTare) return tare(request.argument != 0, now_us);
-    reporter_.setShortestPeriod(periodOf(request.argument));
+    switch (request.command) {
+      case Command::kTare:
+        return tare(request.argument != 0, now_us);
+      case Command::kContactRate:
+        settings_.contactRate_hz = request.argument;
+        reporter_.setShortestPeriod(periodOf(request.argument));
+        return CommandStatus::kDone;
+      case Command::kKeep:
+        return keep({kept_.node, settings_.contactRate_hz});
+      case Command::kNode:
+        return keep({static_cast<std::uint8_t>(request.argument), kept_.contactRate_hz});
+    }
+    return CommandStatus::kUnknownCommand;
+  }
+
+  CommandStatus keep(const StoredSettings& settings) {
+    if (SettingsStore(store_).save(settings) != hal::StoreResult::kOk) return CommandStatus::kNotKept;
+    kept_ = settings;
     return CommandStatus::kDone;
   }
 
@@ -205,6 +227,7 @@ class Finger {
   }
 
   FingerSettings settings_;
+  StoredSettings kept_;  ///< for the next start
   Pipeline pipeline_;
   TouchReporter reporter_;
   ZeroAverage zero_;
@@ -212,6 +235,7 @@ class Finger {
   Can& can_;
   const Clock& clock_;
   Watchdog& watchdog_;
+  Store& store_;
   std::uint8_t tableCrc_;
   FingerState state_ = FingerState::kBoot;
   hal::SampleSet codes_{};

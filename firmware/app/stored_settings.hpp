@@ -9,8 +9,8 @@
 #include <optional>
 #include <span>
 
+#include "common/commands.hpp"
 #include "common/crc32.hpp"
-#include "common/frame_layout.hpp"
 #include "hal/non_volatile.hpp"
 
 namespace strainfinger::firmware {
@@ -27,6 +27,17 @@ struct SettingsFound {
   std::optional<StoredSettings> settings;
   bool damaged = false;
 };
+
+/// `settings` as a board starts with them: what the store has takes the place of the image's.
+template <typename Settings>
+constexpr Settings startedWith(Settings settings, const SettingsFound& found) {
+  if (found.settings) {
+    settings.node = found.settings->node;
+    settings.contactRate_hz = found.settings->contactRate_hz;
+  }
+  settings.standingFaults.set(FingerFault::kConfiguration, found.damaged && !found.settings);
+  return settings;
+}
 
 /// Settings in a hal::NonVolatile of at least two pages. Both calls take bounded time; save() stops the board
 /// for as long as its memory takes to erase a page.
@@ -47,7 +58,7 @@ class SettingsStore {
     const auto before = newest(damaged);
     if (before && settingsOf(*before) == settings) return hal::StoreResult::kOk;
     const std::uint32_t sequence = before ? (*before)[kSequence] + 1 : 0;
-    const std::size_t page = sequence % kPages;
+    const std::size_t page = sequence % kPages;  // never that of `before`
     if (const auto erased = store_.erase(page); erased != hal::StoreResult::kOk) return erased;
     const Record record = recordOf(settings, sequence);
     return store_.write(page * store_.pageSize(), std::as_bytes(std::span(record)));
@@ -79,10 +90,17 @@ class SettingsStore {
     Record record{};
     const auto result = store_.read(page * store_.pageSize(), std::as_writable_bytes(std::span(record)));
     const bool whole = result == hal::StoreResult::kOk && record[kMagicWord] == kMagic &&
-                       record[kCheck] == checkOf(record) && record[kSequence] % kPages == page;
+                       record[kCheck] == checkOf(record) && record[kSequence] % kPages == page &&
+                       isPossible(settingsOf(record));
     if (whole) return record;
     damaged |= result != hal::StoreResult::kOk || !isErased(record);
     return std::nullopt;
+  }
+
+  static bool isPossible(const StoredSettings& settings) {
+    return settings.node >= kFirstNode && settings.node <= kLastNode &&
+           settings.contactRate_hz >= kSlowestContactRate_hz &&
+           settings.contactRate_hz <= kFastestContactRate_hz;
   }
 
   static bool isErased(const Record& record) {

@@ -29,6 +29,8 @@ const char* remedyFor(CommandStatus status) {
       return "let go of it; if nothing touches it, its old zero is off: --force takes the new one anyway";
     case CommandStatus::kBusy:
       return "try again in a second; `candump` its HEARTBEAT into `strainfinger decode` to see what it does";
+    case CommandStatus::kNotKept:
+      return "it goes on as before; an emulated or simulated finger has no memory to keep it in";
     default:
       return "use the strainfinger of its firmware";
   }
@@ -78,15 +80,17 @@ void requireDone(const can::Reply& reply, Command command, const std::string& wh
                                                   meaningOf(status), statusName(status), remedyFor(status)));
 }
 
-void request(const RequestOptions& options, const RequestFrame& request) {
+void request(const RequestOptions& options, const std::vector<RequestFrame>& requests) {
   const config::Can can = options.common.config().can;
   const auto node = static_cast<std::uint8_t>(options.node != 0 ? options.node : can.node);
   can::SocketCanPort port(options.interface, can.bitrate);
-  const can::Reply reply = can::ask(port, node, request);
-  requireDone(reply, request.command, fmt::format("{} node {}", options.interface, node));
-  TableWriter(stdout, options.common.format(), {"interface", "node", "command", "status"})
-      .row({options.interface, std::int64_t{node}, commandName(request.command),
-            statusName(reply.response->status)});
+  TableWriter table(stdout, options.common.format(), {"interface", "node", "command", "status"});
+  for (const RequestFrame& request : requests) {
+    const can::Reply reply = can::ask(port, node, request);
+    requireDone(reply, request.command, fmt::format("{} node {}", options.interface, node));
+    table.row({options.interface, std::int64_t{node}, commandName(request.command),
+               statusName(reply.response->status)});
+  }
 }
 
 }  // namespace strainfinger::cli

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "host/can/ask.hpp"
 #include "host/cli/command.hpp"
@@ -16,10 +17,11 @@ struct RequestOptions {
   int node = 0;  ///< 0: the config's
 };
 
-/// Sends the request and prints what became of it: a row interface,node,command,status. Throws Failure with
-/// what to do about it when it was refused (kFailure), nobody answered (kNoNode), the interface is none or
-/// takes nothing (kNoInterface), or the finger speaks another protocol (kMismatch).
-void request(const RequestOptions& options, const RequestFrame& request);
+/// Sends the requests one after the other and prints what became of each: a row
+/// interface,node,command,status. Stops at the first that fails and throws Failure with what to do about it
+/// when it was refused (kFailure), nobody answered (kNoNode), the interface is none or takes nothing
+/// (kNoInterface), or the finger speaks another protocol (kMismatch).
+void request(const RequestOptions& options, const std::vector<RequestFrame>& requests);
 
 /// What request() says of a reply, without the printing; `where`: "can0 node 1".
 void requireDone(const can::Reply& reply, Command command, const std::string& where);

@@ -19,7 +19,7 @@ struct TareOptions {
   bool force = false;
 };
 
-void runTare(const TareOptions& options) { request(options.request, tareRequest(options.force)); }
+void runTare(const TareOptions& options) { request(options.request, {tareRequest(options.force)}); }
 
 }  // namespace
 

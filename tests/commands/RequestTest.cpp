@@ -25,6 +25,9 @@ TEST(RequestCommands, NeedAnInterface) {
 TEST(RequestCommands, AMissingInterfaceIsSaidWithItsRemedy) {
   checkRefused("tare --can nocan7", 3, "nocan7");
   checkRefused("config --can nocan7 --contact-rate-hz 100", 3, "nocan7");
+  checkRefused("config --can nocan7 --keep", 3, "nocan7");
+  checkRefused("config --can nocan7 --set-node 2", 3, "nocan7");
+  checkRefused("config --can nocan7 --set-node 64", 2, "--set-node");
 }
 
 TEST(RequestCommands, NodesAreThoseOfFingers) {
@@ -38,7 +41,7 @@ TEST(RequestCommands, RatesAreThoseAFingerTakes) {
 }
 
 TEST(RequestCommands, ThereIsSomethingToConfigure) {
-  checkRefused("config --can nocan7", 2, "--contact-rate-hz");
+  checkRefused("config --can nocan7", 2, "give --contact-rate-hz, --keep or --set-node");
 }
 
 TEST(RequestCommands, TheConfigFileIsRead) {

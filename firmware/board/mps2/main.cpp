@@ -102,7 +102,7 @@ void act(const WorldRecord& record, Can& can) {
     if (watchdog.starved()) board::crash(Crash::kStarved, 0);
   };
   watchdog.run();
-  firmware::runFinger(board::kLinkedTables, settings, last, world, can, world, watchdog, wait);
+  firmware::runFinger(board::kLinkedTables, settings, last, world, can, world, watchdog, hal::noStore, wait);
 }
 
 }  // namespace strainfinger::mps2

@@ -7,6 +7,7 @@
 #include "tests/doubles/fake_can_port.hpp"
 #include "tests/doubles/fake_clock.hpp"
 #include "tests/doubles/fake_gauge_adc.hpp"
+#include "tests/doubles/fake_non_volatile.hpp"
 #include "tests/doubles/spy_watchdog.hpp"
 #include "tests/firmware/core/model_ring.hpp"
 
@@ -26,8 +27,9 @@ TEST_GROUP(FingerRequests) {
   FakeCanPort can;
   FakeClock clock{1'000'000};
   SpyWatchdog watchdog;
-  Finger<FakeGaugeAdc, FakeCanPort, FakeClock, SpyWatchdog> finger{ring.tables(), {.node = kNode}, adc,
-                                                                   can,           clock,           watchdog};
+  FakeNonVolatile store;
+  Finger<FakeGaugeAdc, FakeCanPort, FakeClock, SpyWatchdog, FakeNonVolatile> finger{
+      ring.tables(), {.node = kNode}, adc, can, clock, watchdog, store};
 
   void setup() override {
     run(ZeroAverage::kSamples);
@@ -187,9 +189,31 @@ TEST(FingerRequests, WhatCannotBeDoneChangesNothing) {
   checkAnswered({.length = 2, .command = Command::kContactRate, .argument = 100},
                 CommandStatus::kBadArgument);
   checkAnswered({.length = 2, .command = Command::kTare, .argument = 2}, CommandStatus::kBadArgument);
-  checkAnswered({.length = 1, .command = static_cast<Command>(3)}, CommandStatus::kUnknownCommand);
+  checkAnswered({.length = 1, .command = static_cast<Command>(9)}, CommandStatus::kUnknownCommand);
   CHECK_TRUE(finger.state() == FingerState::kRun);
   LONGS_EQUAL(500, contactsOf(1000));
+}
+
+TEST(FingerRequests, KeepsItsRateAndItsNextNode) {
+  checkAnswered(contactRateRequest(100), CommandStatus::kDone);
+  CHECK_FALSE(SettingsStore(store).load().settings.has_value());
+  checkAnswered(keepRequest(), CommandStatus::kDone);
+  CHECK_TRUE(*SettingsStore(store).load().settings == (StoredSettings{kNode, 100}));
+  checkAnswered(contactRateRequest(1000), CommandStatus::kDone);  // not kept
+  checkAnswered(nodeRequest(63), CommandStatus::kDone);           // still answered as node 5
+  CHECK_TRUE(*SettingsStore(store).load().settings == (StoredSettings{63, 100}));
+  checkAnswered(keepRequest(), CommandStatus::kDone);
+  CHECK_TRUE(*SettingsStore(store).load().settings == (StoredSettings{63, 1000}));
+}
+
+TEST(FingerRequests, WhatCannotBeKeptIsSaidAndTheOldStays) {
+  checkAnswered(nodeRequest(7), CommandStatus::kDone);
+  store.cutPowerAfter(0);
+  checkAnswered(nodeRequest(8), CommandStatus::kNotKept);
+  store.restorePower();
+  LONGS_EQUAL(7, SettingsStore(store).load().settings->node);
+  checkAnswered(nodeRequest(0), CommandStatus::kBadArgument);
+  checkAnswered(nodeRequest(64), CommandStatus::kBadArgument);
 }
 
 TEST(FingerRequests, OthersFramesAreNotItsBusiness) {

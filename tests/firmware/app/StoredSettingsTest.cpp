@@ -4,6 +4,7 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "firmware/app/finger.hpp"
 #include "tests/doubles/fake_non_volatile.hpp"
 
 using namespace strainfinger;
@@ -38,7 +39,8 @@ TEST(StoredSettings, GivesBackWhatWasSavedLast) {
 
 TEST(StoredSettings, KeepsEveryNodeAndRate) {
   for (int node = kFirstNode; node <= kLastNode; ++node) {
-    const StoredSettings settings{static_cast<std::uint8_t>(node), static_cast<std::uint16_t>(node * 15)};
+    const StoredSettings settings{static_cast<std::uint8_t>(node),
+                                  static_cast<std::uint16_t>(20 + node * 15)};
     save(settings);
     checkHolds(settings);
   }
@@ -89,6 +91,31 @@ TEST(StoredSettings, AnyFlippedBitMakesARecordDamage) {
     CHECK_TRUE(memory.write(0, flipped) == hal::StoreResult::kOk);
     checkNothing(true);
   }
+}
+
+TEST(StoredSettings, ARecordOfAnImpossibleNodeOrRateIsDamage) {
+  for (const StoredSettings& settings :
+       {StoredSettings{0, 500}, StoredSettings{64, 500}, StoredSettings{1, 19}, StoredSettings{1, 1001}}) {
+    memory = doubles::FakeNonVolatile();
+    save(settings);
+    checkNothing(true);
+  }
+}
+
+TEST(StoredSettings, TakeThePlaceOfTheImagesAtTheNextStart) {
+  const FingerSettings image{.node = 3, .contactRate_hz = 500, .standingFlags = {FingerFlag::kSimulated}};
+  save(first);
+  const FingerSettings started = startedWith(image, store.load());
+  LONGS_EQUAL(first.node, started.node);
+  LONGS_EQUAL(first.contactRate_hz, started.contactRate_hz);
+  CHECK_TRUE(started.standingFlags.has(FingerFlag::kSimulated));
+  CHECK_FALSE(started.standingFaults.has(FingerFault::kConfiguration));
+}
+
+TEST(StoredSettings, DamagedOnesLeaveTheImagesAndAreAFault) {
+  const FingerSettings started = startedWith(FingerSettings{.node = 3}, {.settings = {}, .damaged = true});
+  LONGS_EQUAL(3, started.node);
+  CHECK_TRUE(started.standingFaults.has(FingerFault::kConfiguration));
 }
 
 TEST(StoredSettings, AWriteThatFailsIsTold) {

@@ -42,13 +42,7 @@ class Machine:
         environment = {**os.environ, "IN_VCAN_JOB": str(job), "IN_VCAN_SERIAL": " ".join(b.bus_path for b in boards)}
         self.process = subprocess.Popen([in_vcan, "bash", str(Path(__file__).with_name("in_machine.bash"))],
                                         env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        for board in boards:
-            while not os.path.exists(board.world_path):
-                self.check_alive()
-                time.sleep(0.02)
-            board.world = board.connected(board.world_path)
-            board.wait_ready()
-        self.run(JOIN.format(fingers=len(boards)))
+        self.boards = boards
 
     def __enter__(self):
         return self
@@ -56,6 +50,16 @@ class Machine:
     def __exit__(self, *_):
         if self.process.poll() is None:
             self.end()
+
+    def join(self):
+        """The boards' fingers to the bus. They start once the machine has."""
+        for board in self.boards:
+            while not os.path.exists(board.world_path):
+                self.check_alive()
+                time.sleep(0.02)
+            board.world = board.connected(board.world_path)
+            board.wait_ready()
+        self.run(JOIN.format(fingers=len(self.boards)))
 
     def run(self, script):
         """What it says; an exception when it fails."""

@@ -12,7 +12,7 @@ import unittest
 from pathlib import Path
 
 import emulator
-from touches import TouchedFinger, check_truth, decoded, touch_frames
+from touches import TouchedFinger, check_arrived, check_truth, decoded, touch_frames
 
 STEEP = "[finger]\nouter_radius_m = 0.0117\nshear_modulus_pa = 120e3\n"  # thinner and stiffer rubber
 TWELVE = "[gauges]\ncount = 12\n"
@@ -75,7 +75,7 @@ class Tables(unittest.TestCase):
         image = Image(self.folder, config)
         finger = TouchedFinger(TOUCH_WORLD, image.config, image.tables, 1)
         frames = image.says(finger.records)
-        self.assertEqual([line.frame for line in finger.expected], touch_frames(frames))
+        check_arrived(self, frames, finger.expected)
         rows, _ = decoded(STRAINFINGER, "".join(f"(1.000000) can0 {frame}\n" for frame in frames))
         check_truth(self, rows, finger.expected)
         beat = self.heartbeat(frames)

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "host/base/failure.hpp"
 #include "host/base/table_writer.hpp"
 #include "host/can/frame_catalogue.hpp"
@@ -84,11 +86,14 @@ void request(const RequestOptions& options, const std::vector<RequestFrame>& req
   const config::Can can = options.common.config().can;
   const auto node = static_cast<std::uint8_t>(options.node != 0 ? options.node : can.node);
   can::SocketCanPort port(options.interface, can.bitrate);
-  TableWriter table(stdout, options.common.format(), {"interface", "node", "command", "status"});
+  std::optional<TableWriter> table;  // nothing is printed before there is a row
   for (const RequestFrame& request : requests) {
     const can::Reply reply = can::ask(port, node, request);
     requireDone(reply, request.command, fmt::format("{} node {}", options.interface, node));
-    table.row({options.interface, std::int64_t{node}, commandName(request.command),
+    if (!table)
+      table.emplace(stdout, options.common.format(),
+                    std::vector<std::string>{"interface", "node", "command", "status"});
+    table->row({options.interface, std::int64_t{node}, commandName(request.command),
                statusName(reply.response->status)});
   }
 }

@@ -98,6 +98,11 @@ TEST(Commands, EveryCommandAndArgumentIsCheckedAgainstItsOwn) {
         if (command == 2)
           expected = length == 3 && argument >= 20 && argument <= 1000 ? CommandStatus::kDone
                                                                        : CommandStatus::kBadArgument;
+        if (command == 3)
+          expected = length == 1 && argument == 0 ? CommandStatus::kDone : CommandStatus::kBadArgument;
+        if (command == 4)
+          expected = length == 2 && argument >= 1 && argument <= 63 ? CommandStatus::kDone
+                                                                    : CommandStatus::kBadArgument;
         if (check(static_cast<std::uint8_t>(command), static_cast<std::uint8_t>(length),
                   static_cast<std::uint16_t>(argument)) != expected)
           FAIL("checked against another's");

@@ -94,7 +94,7 @@ void request(const RequestOptions& options, const std::vector<RequestFrame>& req
       table.emplace(stdout, options.common.format(),
                     std::vector<std::string>{"interface", "node", "command", "status"});
     table->row({options.interface, std::int64_t{node}, commandName(request.command),
-               statusName(reply.response->status)});
+                statusName(reply.response->status)});
   }
 }
 

@@ -43,6 +43,14 @@ def output_of(elf, arguments=(), options=(), timeout_s=300):
     return done.stdout
 
 
+def record(kind, payload=b""):
+    return kind + bytes([len(payload)]) + payload
+
+
+def samples_record(codes):
+    return record(b"S", struct.pack(f"<{len(codes)}H", *codes))
+
+
 class Board:
     """A finger on an emulated board. Its world is told over a socket, and its CAN bus (SLCAN) is one: this object
     listens to it, or, without `bus`, who connects to `bus_path`. firmware/board/mps2/world_record.hpp has the records."""
@@ -105,10 +113,10 @@ class Board:
             raise RuntimeError(f"the board said {said}")
 
     def record(self, kind, payload=b""):
-        self.world.sendall(kind + bytes([len(payload)]) + payload)
+        self.world.sendall(record(kind, payload))
 
     def samples(self, codes):
-        self.record(b"S", struct.pack(f"<{len(codes)}H", *codes))
+        self.world.sendall(samples_record(codes))
 
     def end(self):
         """Its bus lines, once it has ended by itself."""

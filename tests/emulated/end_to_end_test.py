@@ -83,8 +83,25 @@ class Bus:
         return link, self.machine.recorded(0 if state == BUS_OFF else 500)
 
 
+class Told:
+    """What a finger is told from Linux, and what it then does: the way of the frames, backwards."""
+    NODE, TOUCHED_MS, RATE_HZ = 2, 600, 100
+
+    def __init__(self, machine, board, finger):
+        untouched = [emulator.samples_record([0x8000] * 16)]
+        play([(board, 100 * untouched)])
+        program = f"{STRAINFINGER} {{}} --can vcan0 --node {self.NODE}"
+        machine.run(f"({program.format('tare')} &>$TMPDIR/tare; touch $TMPDIR/tared) &")
+        play([(board, 1500 * untouched)])  # a zero takes 64; the rest is for the program to start
+        self.tare = machine.run("for _ in $(seq 100); do [ ! -e $TMPDIR/tared ] || break; sleep 0.05; done; cat $TMPDIR/tare")
+        self.rate = machine.run(f"{program.format('config')} --contact-rate-hz {self.RATE_HZ} 2>&1")
+        machine.record()
+        play([(board, finger.records[300:300 + self.TOUCHED_MS])])
+        self.frames = [line.split()[2] for line in machine.recorded(2 * self.TOUCHED_MS * self.RATE_HZ // 1000 - 4).splitlines()]
+
+
 def setUpModule():
-    global one, three, bus, consoles
+    global one, three, told, bus, consoles
     with contextlib.ExitStack() as stack:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
         (folder / "job").mkdir()
@@ -97,6 +114,7 @@ def setUpModule():
             if one.frames_per_s >= SLOWEST_SHARE * FRAMES_PER_S:
                 break
         three = slide_at_once(machine, boards, fingers)
+        told = Told(machine, boards[Told.NODE - 1], fingers[Told.NODE - 1])
         bus = Bus(machine, boards[0], fingers[0])
         consoles = [board.console() for board in boards]
         machine.end()
@@ -153,6 +171,20 @@ class ThreeFingers(unittest.TestCase):
     def test_each_tells_that_it_is_alive(self):
         for node in NODES:
             self.assertAlmostEqual(sum(frame.startswith(f"70{node}#12") for frame in three.frames), SLIDE_S * 10, delta=2)
+
+
+class Commands(unittest.TestCase):
+    ANSWER = "interface,node,command,status\nvcan0,2,{},done\n"
+
+    def test_a_tare_from_linux_is_done_and_answered(self):
+        self.assertEqual(told.tare, self.ANSWER.format("tare"))
+
+    def test_a_contact_rate_from_linux_is_done_and_answered(self):
+        self.assertEqual(told.rate, self.ANSWER.format("contact_rate"))
+
+    def test_the_finger_keeps_to_its_new_rate(self):
+        contacts = sum(frame.startswith("182#") for frame in told.frames)
+        self.assertAlmostEqual(contacts, told.TOUCHED_MS * told.RATE_HZ / 1000, delta=2)
 
 
 class BusStates(unittest.TestCase):

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdlib>
 #include <utility>
 
@@ -10,11 +11,12 @@
 namespace strainfinger::firmware {
 namespace {
 
-constexpr int kMaxSteps = 6;
+constexpr int kMaxSteps = 8;
+constexpr PitchQ20 kLongestStep = kOnePitch / 8;
 constexpr std::uint32_t kAmbiguous = 12;    ///< answers closer than this many variances are not told apart
 constexpr std::uint32_t kFaint = 64;        ///< an answer that explains less may be noise
 constexpr int kAmbiguousShift = 17;         ///< rounding makes two fits differ by this part of their energy
-constexpr int kTailShift = 5;  ///< a contact leaves about this part of its energy outside its window
+constexpr int kTailShift = 3;  ///< a contact leaves up to this part of its energy outside its window
 constexpr std::size_t kPeaks = 3;
 constexpr PitchQ20 kSame = kOnePitch / 12;  ///< fits closer than this ran into one maximum
 
@@ -159,6 +161,15 @@ Placement scaledTo(int shift, const Placement& place, int from) {
   return verdict;
 }
 
+/// One reading of the middle five may be missing, and one gauge in eight of the ring: with more, another
+/// contact can look like the one that is there.
+bool tooFew(const Problem& problem, const View& view, GaugeSet leftOut) {
+  int middle = 0;
+  for (int step = -2; step <= 2; ++step)
+    if (contains(leftOut, gaugeAt(problem, view, step))) ++middle;
+  return middle > 1 || std::popcount(leftOut) > problem.gauges() / 8;
+}
+
 /// The errors of a fit to filled-in readings are those of the readings that are real.
 [[gnu::noinline]] void widen(const TableImage& tables, GaugeSet leftOut,
                              std::span<const std::int32_t> strains_q32, std::uint32_t energy, Fit& fit) {
@@ -171,7 +182,7 @@ Placement scaledTo(int shift, const Placement& place, int from) {
     fit.covariance_q12[1] = -fit.covariance_q12[1];
     fit.covariance_q12[2] = -fit.covariance_q12[2];
   }
-  if (!local.share.determined) fit.settled = false;
+  if (!local.share.determined || tooFew(problem, view, leftOut)) fit.settled = false;
 }
 
 }  // namespace
@@ -181,11 +192,15 @@ Candidate followed(const Problem& problem, const RingSignal& signal, View view) 
   for (int count = 0; count < kMaxSteps; ++count) {
     const LocalFit fit = localFit(problem, signal, view);
     if (!fit.share.determined) return candidate;
-    const PitchQ20 step = fit.share.beyondRow(fit.tangent);
+    const PitchQ20 longest = kLongestStep >> std::max(count - 2, 0);  // no walking to and fro
+    const PitchQ20 whole = fit.share.beyondRow(fit.tangent);
+    const PitchQ20 step = std::clamp(whole, -longest, longest);
     candidate.place = placed(problem, view, step, fit.share.coefficients);
     candidate.explained = fit.share.explained + tailOf(problem, signal, view);
-    candidate.admissible = withinCone(problem, candidate.place);
-    if (std::abs(step) <= kRowSpacing * 5 / 8) break;
+    if (std::abs(whole) <= kRowSpacing * 5 / 8) {
+      candidate.admissible = withinCone(problem, candidate.place);
+      break;
+    }
     view = viewOf(problem, candidate.place.position);
   }
   return candidate;

@@ -215,6 +215,17 @@ PitchQ20 Share::beyondRow(const Tangent& tangent) const {
   return static_cast<PitchQ20>(std::clamp(length, -kLongest, kLongest));
 }
 
+std::int32_t LocalFit::leverage_q15(int step) const {
+  std::int32_t sum = 0;
+  for (const std::int16_t each : tangent.at[indexOf(step)]) sum += each * each >> 15;
+  return sum;
+}
+
+std::int32_t LocalFit::predicted(const Problem& problem, const View& view, int step) const {
+  const std::int32_t reading = (predictedAt(tangent, share.coefficients, indexOf(step)) + 8) >> 4;
+  return view.side < 0 ? reading * problem.mirrorSign() : reading;
+}
+
 std::int32_t LocalFit::predicted_q32(const Problem& problem, const View& view, int step) const {
   std::int64_t reading = predictedAt(tangent, share.coefficients, indexOf(step));
   if (view.side < 0) reading *= problem.mirrorSign();

@@ -61,7 +61,10 @@ struct Share {
 struct LocalFit {
   Tangent tangent;
   Share share;
-  /// What the gauge at `step` of the view should read [strain * 2^32].
+  /// How much of its own reading the fit takes at `step` of the view.
+  std::int32_t leverage_q15(int step) const;
+  /// What the gauge there should read [signal], and as a strain.
+  std::int32_t predicted(const Problem& problem, const View& view, int step) const;
   std::int32_t predicted_q32(const Problem& problem, const View& view, int step) const;
 };
 LocalFit localFit(const Problem& problem, const RingSignal& signal, const View& view);

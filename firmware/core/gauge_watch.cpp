@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint32_t kNoise = 64;  ///< variances of a reading that noise alone doesn't leave
 constexpr int kGainShift = 8;         ///< gains that are 6 % off leave this part of the energy
 constexpr int kOutsideShift = 3;      ///< a contact leaves less than this part of its energy outside its window
-constexpr int kAllButShift = 5;
+constexpr int kOneOutsideShift = 5;   ///< .. and this in one gauge
 
 constexpr std::uint32_t kTold = 12;  ///< two culprits closer than this are not told apart
 
@@ -24,13 +24,23 @@ constexpr int kLooksPerPitch = 16;
 
 std::int32_t energyOf(std::int32_t reading) { return (reading * reading) >> 2; }
 
-std::int32_t windowEnergy(const Problem& problem, int centre) {
-  std::int32_t energy = 0;
-  for (int step = -kWindowReach; step <= kWindowReach; ++step) {
+/// Energies of a ring about a window, and the largest of each.
+struct Split {
+  std::int32_t window = 0, outside = 0;
+  std::int32_t largestInside = 0, largestOutside = 0;
+};
+
+Split splitAt(const Problem& problem, int centre) {
+  Split split;
+  for (int step = -problem.gauges() / 2; step < problem.gauges() / 2; ++step) {
     const auto gauge = static_cast<std::size_t>(wrapped(centre + step, problem.gauges()));
-    energy += energyOf(scaledStrain(problem.strains[gauge], problem.shift));
+    const std::int32_t energy = energyOf(scaledStrain(problem.strains[gauge], problem.shift));
+    const bool inside = std::abs(step) <= kWindowReach;
+    (inside ? split.window : split.outside) += energy;
+    std::int32_t& largest = inside ? split.largestInside : split.largestOutside;
+    largest = std::max(largest, energy);
   }
-  return energy;
+  return split;
 }
 
 std::int32_t tolerated(const Problem& problem) {
@@ -79,32 +89,24 @@ void lookThere(const Problem& problem, const RingSignal& signal, int look, Suspe
     const int gauge = gaugeAt(problem, view, step);
     if (contains(signal.leftOut, gauge)) continue;
     const std::int32_t reading = signal.at[static_cast<std::size_t>(gauge)];
-    std::int32_t inside = fit.share.unexplained, beyond = outside;
+    std::int32_t inside = fit.share.unexplained, beyond = outside, trusted = window;
     if (std::abs(step) <= kWindowReach) {
       const std::int32_t residual = reading - fit.predicted(problem, view, step);
       inside -= relief(residual, fit.leverage_q15(step));
+      trusted -= energyOf(reading);
     } else {
       beyond -= energyOf(reading);
     }
-    const std::int32_t unexplained = std::max(inside, 0) + std::max(beyond - (window >> kOutsideShift), 0);
+    const std::int32_t unexplained = std::max(inside, 0) + std::max(beyond - (trusted >> kOutsideShift), 0);
     enter(suspects, {gauge, look, unexplained});
   }
 }
 
 /// Whether a contact of this window, with one gauge left out, can explain the ring at all.
 bool mayExplain(const Problem& problem, int centre) {
-  std::int32_t window = 0, outside = 0, largest = 0;
-  for (int step = -problem.gauges() / 2; step < problem.gauges() / 2; ++step) {
-    const auto gauge = static_cast<std::size_t>(wrapped(centre + step, problem.gauges()));
-    const std::int32_t energy = energyOf(scaledStrain(problem.strains[gauge], problem.shift));
-    if (std::abs(step) <= kWindowReach) {
-      window += energy;
-    } else {
-      outside += energy;
-      largest = std::max(largest, energy);
-    }
-  }
-  return outside - largest - (window >> kOutsideShift) <= tolerated(problem);
+  const Split split = splitAt(problem, centre);
+  const std::int32_t trusted = split.window - split.largestInside;
+  return split.outside - split.largestOutside - (trusted >> kOutsideShift) <= tolerated(problem);
 }
 
 /// What one contact leaves unexplained of the ring without the suspect.
@@ -139,9 +141,10 @@ int loneGauge(const Problem& problem, const RingSignal& signal) {
 bool isMisfit(const TableImage& tables, std::span<const std::int32_t> strains_q32, std::uint32_t energy,
               const Fit& fit) {
   const Problem problem = problemOf(tables, FitMode::kRefined, strains_q32, energy);
-  const std::int32_t window = windowEnergy(problem, fit.centre);
-  const std::int32_t outside = std::max(problem.ringEnergy - window - (window >> kOutsideShift), 0);
-  return fit.unexplained + outside > tolerated(problem);
+  const Split split = splitAt(problem, fit.centre);
+  const std::int32_t outside = std::max(split.outside - (split.window >> kOutsideShift), 0);
+  return fit.unexplained + outside > tolerated(problem) ||
+         split.largestOutside > problem.noise(kNoise) + (split.window >> kOneOutsideShift);
 }
 
 Misfit examine(const TableImage& tables, GaugeSet leftOut, std::span<const std::int32_t> strains_q32,

@@ -23,6 +23,7 @@ struct Outcome {
   int trials = 0;
   int named = 0;   ///< in time
   int wrong = 0;   ///< another gauge was named
+  int several = 0;  ///< taken for several contacts
 };
 
 }  // namespace
@@ -52,7 +53,7 @@ TEST_GROUP(GaugeFault) {
 
   /// One touch of a finger whose gauge 5 fails; what is out of use after kInTime sample sets of it. Stuck: at
   /// what it read under another touch just before.
-  GaugeSet touch(Kind kind, const Press& before, const Press& press, Presses& random) {
+  Observation touch(Kind kind, const Press& before, const Press& press, Presses& random) {
     Pipeline pipeline(ring.tables(), FitMode::kRefined);
     const std::vector<double> untouched(16, 0.0);
     const Set frozen = convert(ring.strains(before), random);
@@ -64,7 +65,7 @@ TEST_GROUP(GaugeFault) {
     if (kind != Kind::kStuck)
       for (int i = 0; i < kIdle; ++i) step(untouched);
     for (int i = 0; i < kInTime; ++i) step(ring.strains(press));
-    return pipeline.observation().outOfUse;
+    return pipeline.observation();
   }
 
   /// A gauge's reading over what the others read together.
@@ -91,12 +92,14 @@ TEST_GROUP(GaugeFault) {
       const auto strains = ring.strains(press);
       if (share(strains[5] - held, strains) < least) continue;
       ++outcome.trials;
-      const GaugeSet out = touch(kind, before, press, random);
+      const Observation seen = touch(kind, before, press, random);
+      const GaugeSet out = seen.outOfUse;
+      if (seen.several) ++outcome.several;
       if (out == 1u << 5) ++outcome.named;
       if ((out & ~(1u << 5)) != 0) ++outcome.wrong;
     }
-    std::printf("%s: %d of %d named within %d samples, %d wrong\n", kKindNames[static_cast<std::size_t>(kind)],
-                outcome.named, outcome.trials, kInTime, outcome.wrong);
+    std::printf("%s: %d of %d named within %d samples, %d wrong, %d several\n", kKindNames[static_cast<std::size_t>(kind)],
+                outcome.named, outcome.trials, kInTime, outcome.wrong, outcome.several);
     return outcome;
   }
 };
@@ -127,4 +130,5 @@ TEST(GaugeFault, HealthyGaugesAreNeverNamed) {
   const Outcome outcome = run(Kind::kNone, 0, 10'000, 404);
   LONGS_EQUAL(0, outcome.wrong);
   LONGS_EQUAL(0, outcome.named);
+  LONGS_EQUAL(0, outcome.several);
 }

@@ -42,7 +42,7 @@ std::int32_t tailOf(const Problem& problem, const RingSignal& signal, const View
     const std::int32_t reading = signal.at[static_cast<std::size_t>(gaugeAt(problem, view, step))];
     window += (reading * reading) >> 2;
   }
-  return std::clamp(problem.ringEnergy - window, 0, window >> kTailShift);
+  return std::clamp<std::int32_t>(problem.ringEnergy - window, 0, window >> kTailShift);
 }
 
 /// Amplitudes as locate() has them, at the view's row.

@@ -66,6 +66,8 @@ const Observation& Pipeline::process(Codes codes) {
   const GaugeSet known = watch_.outOfUse() | readings_.saturated;
   known != 0 ? lookWithout(known) : look();
   watch_.accuse(culprits(codes));
+  tracker_.take(*tables_, strains(), observation_.fit, observation_.leftOut, calibration_);
+  observation_.staleZero = tracker_.stale();
   observation_.outOfUse = watch_.outOfUse();
   observation_.several = watch_.several();
   return observation_;

@@ -7,6 +7,7 @@
 #include "firmware/core/detect.hpp"
 #include "firmware/core/gauge_watch.hpp"
 #include "firmware/core/locate.hpp"
+#include "firmware/core/zero_tracker.hpp"
 
 namespace strainfinger::firmware {
 
@@ -17,6 +18,7 @@ struct Observation {
   GaugeSet outOfUse = 0;        ///< known not to work
   GaugeSet leftOut = 0;         ///< of this fit: these, and what this sample set speaks against
   bool several = false;         ///< the strains are not those of one contact
+  bool staleZero = false;       ///< the finger has not been seen untouched for too long
 };
 
 class Pipeline {
@@ -32,6 +34,12 @@ class Pipeline {
 
   const TableConstants& constants() const { return tables_->constants; }
   Calibration& calibration() { return calibration_; }
+  /// A new zero: what was learnt of the old one is forgotten.
+  void takeZero(const ZeroAverage& zero) {
+    zero.writeTo(calibration_);
+    tracker_.restart();
+  }
+  const ZeroTracker& zeroTracker() const { return tracker_; }
   /// Of the last sample set; gauges that are left out have what the others say they should read.
   const Readings& readings() const { return readings_; }
 
@@ -50,6 +58,7 @@ class Pipeline {
   Observation observation_;
   ContactGate gate_;
   GaugeWatch watch_;
+  ZeroTracker tracker_;
   std::uint32_t energy_ = 0;  ///< of the readings as the fit has them
   FitMode mode_;
 };

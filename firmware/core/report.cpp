@@ -98,6 +98,7 @@ std::optional<TouchFrames> TouchReporter::frames(const TableConstants& constants
   flags.set(FingerFlag::kSaturated, (saturated & gaugesUsed(constants, observation)) != 0);
   flags.set(FingerFlag::kDegraded, ((observation.outOfUse | observation.leftOut) & ~saturated) != 0);
   flags.set(FingerFlag::kSeveralContacts, observation.several);
+  flags.set(FingerFlag::kStaleZero, observation.staleZero);
   if (!observation.fit) {
     if (!any_ || !last_.contact.flags.has(FingerFlag::kContact)) return std::nullopt;
     TouchFrames released;

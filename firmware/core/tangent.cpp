@@ -116,28 +116,6 @@ constexpr int kMatrixBits = 24;
 /// Product of two numbers * 2^24.
 std::int64_t times(std::int64_t a, std::int64_t b) { return (a * b) >> kMatrixBits; }
 
-/// Inverse [* 2^12] of a symmetric matrix [* 2^24]; false where it has next to none.
-bool invert(const Symmetric& m, Symmetric& inverse) {
-  const std::int64_t a = m[0], b = m[1], c = m[2], d = m[3], e = m[4], f = m[5];
-  const std::array<std::int64_t, 6> adjoint{times(d, f) - times(e, e), times(c, e) - times(b, f),
-                                            times(b, e) - times(c, d), times(a, f) - times(c, c),
-                                            times(b, c) - times(a, e), times(a, d) - times(b, b)};
-  const std::int64_t determinant = times(a, adjoint[0]) + times(b, adjoint[1]) + times(c, adjoint[2]);
-  if (!determined(static_cast<std::int32_t>(determinant), kMatrixBits)) return false;
-  std::transform(adjoint.begin(), adjoint.end(), inverse.begin(), [&](std::int64_t value) {
-    return static_cast<std::int32_t>(value * (1 << 12) / determinant);
-  });
-  return true;
-}
-
-Three product_q12(const Symmetric& m, const Three& v) {
-  const auto row = [&](std::size_t a, std::size_t b, std::size_t c) {
-    return saturate<std::int32_t>(
-        (std::int64_t{m[a]} * v[0] + std::int64_t{m[b]} * v[1] + std::int64_t{m[c]} * v[2]) >> 12);
-  };
-  return {row(0, 1, 2), row(1, 3, 4), row(2, 4, 5)};
-}
-
 /// What the gauge at an index should read [signal * 2^4], as its view sees it.
 std::int32_t predictedAt(const Tangent& tangent, const Three& coefficients, std::size_t index) {
   std::int64_t reading = 0;
@@ -186,6 +164,27 @@ const FitRow& rowOf(const Problem& problem, const View& view) {
 }
 
 }  // namespace
+
+bool invert(const Symmetric& m, Symmetric& inverse) {
+  const std::int64_t a = m[0], b = m[1], c = m[2], d = m[3], e = m[4], f = m[5];
+  const std::array<std::int64_t, 6> adjoint{times(d, f) - times(e, e), times(c, e) - times(b, f),
+                                            times(b, e) - times(c, d), times(a, f) - times(c, c),
+                                            times(b, c) - times(a, e), times(a, d) - times(b, b)};
+  const std::int64_t determinant = times(a, adjoint[0]) + times(b, adjoint[1]) + times(c, adjoint[2]);
+  if (!determined(static_cast<std::int32_t>(determinant), kMatrixBits)) return false;
+  std::transform(adjoint.begin(), adjoint.end(), inverse.begin(), [&](std::int64_t value) {
+    return static_cast<std::int32_t>(value * (1 << 12) / determinant);
+  });
+  return true;
+}
+
+Three product_q12(const Symmetric& m, const Three& v) {
+  const auto row = [&](std::size_t a, std::size_t b, std::size_t c) {
+    return saturate<std::int32_t>(
+        (std::int64_t{m[a]} * v[0] + std::int64_t{m[b]} * v[1] + std::int64_t{m[c]} * v[2]) >> 12);
+  };
+  return {row(0, 1, 2), row(1, 3, 4), row(2, 4, 5)};
+}
 
 RingSignal ringSignal(const Problem& problem, GaugeSet leftOut) {
   RingSignal signal;

@@ -37,6 +37,13 @@ using Three = std::array<std::int32_t, 3>;
 /// Symmetric 3 x 3: 11, 12, 13, 22, 23, 33.
 using Symmetric = std::array<std::int32_t, 6>;
 
+/// Inverse [* 2^12] of a symmetric matrix [* 2^24] with elements up to 1; false where its determinant is next
+/// to nothing.
+bool invert(const Symmetric& matrix_q24, Symmetric& inverse_q12);
+
+/// matrix * vector, with a matrix * 2^12.
+Three product_q12(const Symmetric& matrix_q12, const Three& vector);
+
 /// Unit vectors at right angles in the space of a window's readings [* 2^15]: two that a contact reaches by
 /// changing its loads, one by moving. A fit takes from the readings what lies along them, so
 /// sum of squares over the three = leverage of a gauge.

@@ -86,8 +86,8 @@ std::int32_t reducedSigma(Deviations deviations, const std::array<std::int32_t, 
   for (std::int64_t& each : deviations) each >>= down;
   const auto& [d1, d2, d3] = deviations;
   const auto& [c11, c12, c13, c22, c23, c33] = covariance_q12;
-  const std::int64_t variance = d1 * d1 * c11 + d2 * d2 * c22 + d3 * d3 * c33 +
-                                2 * (d1 * d2 * c12 + d1 * d3 * c13 + d2 * d3 * c23);
+  const std::int64_t variance =
+      d1 * d1 * c11 + d2 * d2 * c22 + d3 * d3 * c33 + 2 * (d1 * d2 * c12 + d1 * d3 * c13 + d2 * d3 * c23);
   return root({static_cast<std::uint64_t>(std::max<std::int64_t>(variance, 0)), 2 * down - 12});
 }
 
@@ -134,9 +134,8 @@ Contact estimate(const TableConstants& constants, const Fit& fit) {
   if (fit.reduced) {
     normal = reducedSigma(deviationsOf(constants, fit, {fit.load[0], fit.load[1]}, fit.normalSlope, offset),
                           fit.covariance_q12);
-    tangential =
-        reducedSigma(deviationsOf(constants, fit, {0, fit.load[2]}, fit.tangentialSlope, offset),
-                     fit.covariance_q12);
+    tangential = reducedSigma(deviationsOf(constants, fit, {0, fit.load[2]}, fit.tangentialSlope, offset),
+                              fit.covariance_q12);
     offset = reducedSigma({0, 0, offset}, fit.covariance_q12);
   }
   if (fit.ambiguous) {

@@ -9,15 +9,15 @@ namespace {
 
 constexpr std::uint32_t kNoise = 64;  ///< variances of a reading that noise alone doesn't leave
 constexpr int kGainShift = 8;         ///< gains that are 6 % off leave this part of the energy
-constexpr int kOutsideShift = 3;      ///< a contact leaves less than this part of its energy outside its window
-constexpr int kOneOutsideShift = 5;   ///< .. and this in one gauge
+constexpr int kOutsideShift = 3;  ///< a contact leaves less than this part of its energy outside its window
+constexpr int kOneOutsideShift = 5;  ///< .. and this in one gauge
 
 constexpr std::uint32_t kTold = 12;  ///< two culprits closer than this are not told apart
 
 constexpr std::uint8_t kAccusation = 16;
 constexpr std::uint8_t kConviction = 28;
 
-constexpr std::uint8_t kExamineAtOnce = 4;   ///< so many misfits in a row ..
+constexpr std::uint8_t kExamineAtOnce = 4;  ///< so many misfits in a row ..
 constexpr std::uint8_t kExamineEvery = 64;  ///< .. and then one in so many
 
 constexpr int kLooksPerPitch = 16;
@@ -128,9 +128,8 @@ std::int32_t unexplainedWithout(const Problem& problem, GaugeSet leftOut, const 
 /// A contact always moves two gauges: one alone is a fault.
 int loneGauge(const Problem& problem, const RingSignal& signal) {
   const auto& at = signal.at;
-  const auto largest = std::max_element(at.begin(), at.begin() + problem.gauges(), [](int a, int b) {
-    return std::abs(a) < std::abs(b);
-  });
+  const auto largest = std::max_element(at.begin(), at.begin() + problem.gauges(),
+                                        [](int a, int b) { return std::abs(a) < std::abs(b); });
   const std::int32_t others = problem.ringEnergy - energyOf(*largest);
   const bool alone = others <= problem.noise(kNoise / 2) + (problem.ringEnergy >> (kGainShift - 1));
   return alone ? static_cast<int>(largest - at.begin()) : -1;

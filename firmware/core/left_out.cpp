@@ -13,9 +13,9 @@ namespace {
 
 constexpr int kMaxSteps = 8;
 constexpr PitchQ20 kLongestStep = kOnePitch / 8;
-constexpr std::uint32_t kAmbiguous = 12;    ///< answers closer than this many variances are not told apart
-constexpr std::uint32_t kFaint = 64;        ///< an answer that explains less may be noise
-constexpr int kAmbiguousShift = 17;         ///< rounding makes two fits differ by this part of their energy
+constexpr std::uint32_t kAmbiguous = 12;  ///< answers closer than this many variances are not told apart
+constexpr std::uint32_t kFaint = 64;      ///< an answer that explains less may be noise
+constexpr int kAmbiguousShift = 17;       ///< rounding makes two fits differ by this part of their energy
 constexpr int kTailShift = 3;  ///< a contact leaves up to this part of its energy outside its window
 constexpr std::size_t kPeaks = 3;
 constexpr PitchQ20 kSame = kOnePitch / 12;  ///< fits closer than this ran into one maximum
@@ -152,8 +152,7 @@ Placement scaledTo(int shift, const Placement& place, int from) {
   const Rivals rivals = searchRemaining(problem, signal);
   const std::int32_t margin = problem.noise(kAmbiguous) + (rivals.best.explained >> kAmbiguousShift);
   Verdict verdict;
-  verdict.ambiguous =
-      rivals.second.admissible && rivals.second.explained > rivals.best.explained - margin;
+  verdict.ambiguous = rivals.second.admissible && rivals.second.explained > rivals.best.explained - margin;
   verdict.alternative = rivals.second.place;
   verdict.shift = problem.shift;
   verdict.determined = rivals.best.explained > problem.noise(kFaint) &&

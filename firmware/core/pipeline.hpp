@@ -13,12 +13,12 @@ namespace strainfinger::firmware {
 
 /// What one sample set shows.
 struct Observation {
-  std::optional<Fit> fit;       ///< nothing when nothing touches the finger
-  GaugeSet saturated = 0;       ///< at a rail
-  GaugeSet outOfUse = 0;        ///< known not to work
-  GaugeSet leftOut = 0;         ///< of this fit: these, and what this sample set speaks against
-  bool several = false;         ///< the strains are not those of one contact
-  bool staleZero = false;       ///< the finger has not been seen untouched for too long
+  std::optional<Fit> fit;  ///< nothing when nothing touches the finger
+  GaugeSet saturated = 0;  ///< at a rail
+  GaugeSet outOfUse = 0;   ///< known not to work
+  GaugeSet leftOut = 0;    ///< of this fit: these, and what this sample set speaks against
+  bool several = false;    ///< the strains are not those of one contact
+  bool staleZero = false;  ///< the finger has not been seen untouched for too long
 };
 
 class Pipeline {
@@ -44,9 +44,7 @@ class Pipeline {
   const Readings& readings() const { return readings_; }
 
  private:
-  std::span<std::int32_t> strains() {
-    return std::span(readings_.strain_q32).first(constants().gauge_count);
-  }
+  std::span<std::int32_t> strains() { return std::span(readings_.strain_q32).first(constants().gauge_count); }
   void look();
   void lookWithout(GaugeSet gauges);
   GaugeSet culprits(Codes codes);

@@ -33,8 +33,7 @@ WindowReadings readingsOf(const Problem& problem, const RingSignal& signal, cons
   const int sign = view.side > 0 ? 1 : problem.mirrorSign();
   for (int step = -kWindowReach; step <= kWindowReach; ++step) {
     const int gauge = gaugeAt(problem, view, step);
-    readings.at[indexOf(step)] =
-        saturate<std::int16_t>(sign * signal.at[static_cast<std::size_t>(gauge)]);
+    readings.at[indexOf(step)] = saturate<std::int16_t>(sign * signal.at[static_cast<std::size_t>(gauge)]);
     if (contains(signal.leftOut, gauge)) readings.leftOut |= 1u << indexOf(step);
   }
   return readings;

@@ -56,10 +56,10 @@ struct Tangent {
 /// What the readings that are not left out say: coefficients along the tangent [signal * 2^4].
 struct Share {
   Three coefficients{};
-  Symmetric covariance_q12{};  ///< of the coefficients, in variances of a reading; identity with all gauges
+  Symmetric covariance_q12{};    ///< of the coefficients, in variances of a reading; identity with all gauges
   std::int32_t explained = 0;    ///< energy (a quarter of the squared signal) of the window's readings left
   std::int32_t unexplained = 0;  ///< the rest of it, from the residuals: exact where it is small
-  bool determined = false;     ///< enough gauges are left to tell where and how hard
+  bool determined = false;       ///< enough gauges are left to tell where and how hard
 
   PitchQ20 beyondRow(const Tangent& tangent) const;
 };

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "firmware/core/detect.hpp"
+#include "firmware/core/integer_root.hpp"
 
 namespace strainfinger::firmware {
 namespace {
@@ -14,8 +15,6 @@ constexpr int kSumShift = 6;
 constexpr int kAverageShift = 2;
 static_assert(ZeroTracker::kInterval / ZeroTracker::kEvery == 1 << (kSumShift + kAverageShift));
 
-/// Untouched zeros go half of the way: a touch that grows slowly has time to be seen.
-constexpr int kUntouchedShift = 1;
 /// A touch that changes by this part of itself, as a power of two, has moved.
 constexpr int kMovedShift = 6;
 
@@ -35,7 +34,8 @@ std::int32_t sine_q14(std::uint32_t turn_q32) {
 /// Drift that all gauges share: alike, or one side more than the other. Three patterns round the ring
 /// [* 2^14].
 Three patternsAt(const TableConstants& constants, int gauge) {
-  const auto turn = static_cast<std::uint32_t>((std::uint64_t{constants.pitch_turn_q35} * static_cast<unsigned>(gauge)) >> 3);
+  const auto turn = static_cast<std::uint32_t>(
+      (std::uint64_t{constants.pitch_turn_q35} * static_cast<unsigned>(gauge)) >> 3);
   return {1 << 14, sine_q14(turn + (1u << 30)), sine_q14(turn)};
 }
 
@@ -82,7 +82,8 @@ Three sharedDrift(const Ways& ways, std::span<const std::int32_t> changes_q32, c
   Symmetric inverse{};
   std::size_t k = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t way = 0; way < 3; ++way) right[i] -= std::int64_t{patternAlong[i][way]} * changeAlong[way];
+    for (std::size_t way = 0; way < 3; ++way)
+      right[i] -= std::int64_t{patternAlong[i][way]} * changeAlong[way];
     sums[i] = static_cast<std::int32_t>((right[i] >> 14) / count);
     for (std::size_t j = i; j < 3; ++j, ++k) {
       for (std::size_t way = 0; way < 3; ++way)
@@ -120,6 +121,15 @@ std::int64_t takeOutContact(const Ways& ways, std::span<std::int32_t> changes_q3
   return square;
 }
 
+/// Standard deviation of a reading [strain * 2^32].
+std::int32_t noiseOf(const TableConstants& constants) {
+  const int exponent = constants.noise_variance_exponent;
+  const int odd = exponent & 1;
+  const auto root = static_cast<std::int32_t>(integerRoot(constants.noise_variance << odd));
+  const int up = (exponent - odd) / 2;
+  return up >= 0 ? root << up : root >> -up;
+}
+
 /// Squared length of the readings of a window.
 std::int64_t squareOf(std::span<const std::int32_t> strains_q32, GaugeSet window) {
   std::int64_t sum = 0;
@@ -132,7 +142,7 @@ std::int64_t squareOf(std::span<const std::int32_t> strains_q32, GaugeSet window
 
 void ZeroTracker::begin(bool touched) {
   sum_.fill(0);
-  sets_ = 0;
+  sets_ = doubts_ = 0;
   leftOut_ = 0;
   if (touched != touched_) resting_ = false;
   touched_ = touched;
@@ -146,16 +156,17 @@ bool ZeroTracker::add(std::span<const std::int32_t> strains_q32) {
 
 void ZeroTracker::move(std::size_t gauge, std::int32_t by_q32, Calibration& calibration) {
   const std::int64_t codes = (std::int64_t{by_q32} << 32) / std::max(calibration.gain[gauge], 1);
-  calibration.zero_q15[gauge] = static_cast<std::int32_t>(
-      std::clamp<std::int64_t>(calibration.zero_q15[gauge] + codes, 0, std::numeric_limits<std::int32_t>::max()));
+  calibration.zero_q15[gauge] = static_cast<std::int32_t>(std::clamp<std::int64_t>(
+      calibration.zero_q15[gauge] + codes, 0, std::numeric_limits<std::int32_t>::max()));
   lastChange_q32_ = std::max(lastChange_q32_, std::abs(by_q32));
 }
 
 void ZeroTracker::followUntouched(const TableConstants& constants, GaugeSet leftOut,
                                   Calibration& calibration) {
   lastChange_q32_ = 0;
+  const std::int32_t limit = noiseOf(constants);
   for (std::size_t i = 0; i < constants.gauge_count; ++i)
-    if (!contains(leftOut, static_cast<int>(i))) move(i, sum_[i] >> kUntouchedShift, calibration);
+    if (!contains(leftOut, static_cast<int>(i))) move(i, std::clamp(sum_[i], -limit, limit), calibration);
   age_sets_ = 0;
 }
 
@@ -167,7 +178,8 @@ void ZeroTracker::followTouched(const TableImage& tables, PitchQ20 position, Gau
     resting_ = true;
     return;
   }
-  const Problem problem = problemOf(tables, FitMode::kRefined, averages, gateEnergy(tables.constants, averages));
+  const Problem problem =
+      problemOf(tables, FitMode::kRefined, averages, gateEnergy(tables.constants, averages));
   const View view = viewOf(problem, position);
   const GaugeSet window = windowOf(problem, view);
   const Ways ways{problem, view, localFit(problem, ringSignal(problem, leftOut), view).tangent};
@@ -186,7 +198,14 @@ void ZeroTracker::followTouched(const TableImage& tables, PitchQ20 position, Gau
 void ZeroTracker::take(const TableImage& tables, std::span<const std::int32_t> strains_q32,
                        const std::optional<Fit>& fit, GaugeSet leftOut, Calibration& calibration) {
   if (age_sets_ != std::numeric_limits<std::uint32_t>::max()) ++age_sets_;
-  if (fit.has_value() != touched_) begin(fit.has_value());
+  const bool touched =
+      fit.has_value() && gateEnergy(tables.constants, strains_q32) >= tables.constants.gate_on;
+  if (touched == touched_) {
+    doubts_ = 0;
+  } else {
+    if (++doubts_ >= kConvinced) begin(touched);
+    return;
+  }
   leftOut_ |= leftOut;
   if (!add(strains_q32)) return;
   for (std::int32_t& sum : sum_) sum >>= kAverageShift;

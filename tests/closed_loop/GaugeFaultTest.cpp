@@ -21,8 +21,8 @@ constexpr int kIdle = 20;
 
 struct Outcome {
   int trials = 0;
-  int named = 0;   ///< in time
-  int wrong = 0;   ///< another gauge was named
+  int named = 0;    ///< in time
+  int wrong = 0;    ///< another gauge was named
   int several = 0;  ///< taken for several contacts
 };
 
@@ -98,8 +98,9 @@ TEST_GROUP(GaugeFault) {
       if (out == 1u << 5) ++outcome.named;
       if ((out & ~(1u << 5)) != 0) ++outcome.wrong;
     }
-    std::printf("%s: %d of %d named within %d samples, %d wrong, %d several\n", kKindNames[static_cast<std::size_t>(kind)],
-                outcome.named, outcome.trials, kInTime, outcome.wrong, outcome.several);
+    std::printf("%s: %d of %d named within %d samples, %d wrong, %d several\n",
+                kKindNames[static_cast<std::size_t>(kind)], outcome.named, outcome.trials, kInTime,
+                outcome.wrong, outcome.several);
     return outcome;
   }
 };

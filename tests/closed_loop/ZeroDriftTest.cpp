@@ -39,9 +39,9 @@ TEST_GROUP(ZeroDrift) {
 
   void drift(const Drift& drift) {
     for (int gauge = 0; gauge < 16; ++gauge)
-      rates.push_back((drift.common + drift.gradient * std::cos(gauge * ring.pitch_rad()) +
-                       random.noise(drift.spread)) /
-                      kTenMinutes_s);
+      rates.push_back(
+          (drift.common + drift.gradient * std::cos(gauge * ring.pitch_rad()) + random.noise(drift.spread)) /
+          kTenMinutes_s);
   }
 
   void step(const std::vector<double>& strains) {

@@ -109,7 +109,7 @@ class Finger {
   void zero() {
     state_ = FingerState::kZeroing;
     if (!zero_.add(codes())) return;
-    zero_.writeTo(pipeline_.calibration());
+    pipeline_.takeZero(zero_);
     state_ = FingerState::kRun;
   }
 

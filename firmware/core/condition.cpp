@@ -15,12 +15,15 @@ Calibration nominalCalibration(const TableConstants& constants) {
   return calibration;
 }
 
+std::int32_t strainOf(const Calibration& calibration, std::uint16_t code, std::size_t gauge) {
+  return mulHigh((std::int32_t{code} << kCodeBits) - calibration.zero_q15[gauge], calibration.gain[gauge]);
+}
+
 void condition(const TableConstants& constants, const Calibration& calibration, Codes codes,
                Readings& readings) {
   readings.saturated = 0;
   for (std::size_t i = 0; i < codes.size(); ++i) {
-    const std::int32_t difference = (std::int32_t{codes[i]} << kCodeBits) - calibration.zero_q15[i];
-    readings.strain_q32[i] = mulHigh(difference, calibration.gain[i]);
+    readings.strain_q32[i] = strainOf(calibration, codes[i], i);
     if (codes[i] == 0 || codes[i] >= constants.adc_rail) readings.saturated |= 1u << i;
   }
 }

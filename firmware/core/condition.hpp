@@ -22,6 +22,9 @@ struct Calibration {
 /// Every gauge at nominal gain, the zero at mid-scale.
 Calibration nominalCalibration(const TableConstants& constants);
 
+/// strain * 2^32 of one gauge's code; see condition().
+std::int32_t strainOf(const Calibration& calibration, std::uint16_t code, std::size_t gauge);
+
 struct Readings {
   std::array<std::int32_t, kMaxGauges> strain_q32{};
   std::uint32_t saturated = 0;  ///< bit i: gauge i was at a rail of its converter, its strain is a bound

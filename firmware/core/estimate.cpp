@@ -4,6 +4,8 @@
 #include <bit>
 #include <limits>
 
+#include "firmware/core/integer_root.hpp"
+
 namespace strainfinger::firmware {
 namespace {
 
@@ -14,15 +16,6 @@ struct Scaled {
   std::uint64_t mantissa = 0;
   int exponent = 0;
 };
-
-std::uint32_t integerRoot(std::uint32_t value) {
-  std::uint32_t root = 0;
-  for (std::uint32_t bit = 1u << 15; bit != 0; bit >>= 1) {
-    const std::uint32_t trial = root | bit;
-    if (trial * trial <= value) root = trial;
-  }
-  return root;
-}
 
 /// sqrt(value) rounded down to 16 significant bits, saturating at 2^31 - 1.
 std::int32_t root(Scaled value) {
@@ -72,6 +65,32 @@ std::int32_t amplitudeSigma(const TableConstants& constants, const Fit& fit, std
   return root({plain(own) + static_cast<std::uint64_t>(carried * carried), 0});
 }
 
+/// Standard errors of an amplitude along the three directions in which a contact moves the readings, were
+/// these told by all gauges: by its loads' coefficients, and carried over from the offset.
+using Deviations = std::array<std::int64_t, 3>;
+
+Deviations deviationsOf(const TableConstants& constants, const Fit& fit, std::array<std::int16_t, 2> gains,
+                        std::int32_t slope, std::int32_t offset_sigma) {
+  Scaled noise = noiseEnergy(constants, fit);
+  noise.exponent += 16;
+  const std::int64_t deviation = root(noise);
+  return {(gains[0] * deviation) >> 8, (gains[1] * deviation) >> 8,
+          (std::int64_t{slope} * offset_sigma) >> kRowBits};
+}
+
+/// The root of d C d, with C what the remaining gauges tell of the three (Fit::covariance_q12).
+std::int32_t reducedSigma(Deviations deviations, const std::array<std::int32_t, 6>& covariance_q12) {
+  std::int64_t largest = 0;
+  for (const std::int64_t each : deviations) largest = std::max(largest, std::abs(each));
+  const int down = std::max(64 - std::countl_zero(static_cast<std::uint64_t>(largest)) - 19, 0);
+  for (std::int64_t& each : deviations) each >>= down;
+  const auto& [d1, d2, d3] = deviations;
+  const auto& [c11, c12, c13, c22, c23, c33] = covariance_q12;
+  const std::int64_t variance =
+      d1 * d1 * c11 + d2 * d2 * c22 + d3 * d3 * c33 + 2 * (d1 * d2 * c12 + d1 * d3 * c13 + d2 * d3 * c23);
+  return root({static_cast<std::uint64_t>(std::max<std::int64_t>(variance, 0)), 2 * down - 12});
+}
+
 std::uint32_t squareOf(std::int16_t value) { return static_cast<std::uint32_t>(std::int32_t{value} * value); }
 
 LineLoadQ12 loadOf(const TableConstants& constants, const Fit& fit, std::int32_t amplitude) {
@@ -112,6 +131,13 @@ Contact estimate(const TableConstants& constants, const Fit& fit) {
   std::int32_t normal = amplitudeSigma(constants, fit, normalGain, fit.normalSlope, offset);
   std::int32_t tangential =
       amplitudeSigma(constants, fit, squareOf(fit.load[2]), fit.tangentialSlope, offset);
+  if (fit.reduced) {
+    normal = reducedSigma(deviationsOf(constants, fit, {fit.load[0], fit.load[1]}, fit.normalSlope, offset),
+                          fit.covariance_q12);
+    tangential = reducedSigma(deviationsOf(constants, fit, {0, fit.load[2]}, fit.tangentialSlope, offset),
+                              fit.covariance_q12);
+    offset = reducedSigma({0, 0, offset}, fit.covariance_q12);
+  }
   if (fit.ambiguous) {
     const PitchQ20 ring = constants.gauge_count * kOnePitch;
     const PitchQ20 apart = std::abs(fit.best.position - fit.alternative.position);

@@ -117,6 +117,7 @@ Fit reportOf(const Problem& problem, const Contest& contest) {
   fit.load = row.load;
   fit.shift = static_cast<std::int8_t>(problem.shift);
   fit.centre = static_cast<std::uint8_t>(best.fit.centre);
+  fit.side = static_cast<std::int8_t>(best.fit.side);
   fit.unexplained = std::max<std::int32_t>(window - best.energy, 0);
   fit.expected = problem.noise(kUnexplained / 2) + (window >> kRoundingShift);
   return fit;

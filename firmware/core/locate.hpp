@@ -25,6 +25,11 @@ struct Fit {
   std::uint8_t centre = 0;             ///< the window's middle gauge
   std::int32_t unexplained = 0;        ///< energy the fit leaves in its window
   std::int32_t expected = 0;           ///< what noise and rounding may leave there
+  std::int8_t side = 1;                ///< that offset and slopes count towards
+  bool reduced = false;                ///< gauges were left out (left_out.hpp)
+  /// Then: covariance of what the readings say along the two loads and the offset (tangent.hpp), in variances
+  /// of a reading * 2^12.
+  std::array<std::int32_t, 6> covariance_q12{};
 };
 
 /// Fits one line contact to the strains of a ring that is touched; one strain a gauge, each within

@@ -1,14 +1,75 @@
 #include "firmware/core/pipeline.hpp"
 
+#include <cstdlib>
+
 namespace strainfinger::firmware {
+namespace {
+
+void clear(GaugeSet gauges, std::span<std::int32_t> strains_q32) {
+  for (std::size_t i = 0; gauges != 0; ++i, gauges >>= 1)
+    if ((gauges & 1) != 0) strains_q32[i] = 0;
+}
+
+}  // namespace
+
+void Pipeline::look() {
+  energy_ = gateEnergy(constants(), strains());
+  observation_.fit.reset();
+  if (!gate_.update(constants(), energy_)) return;
+  if (observation_.leftOut == 0) {
+    observation_.fit = locate(*tables_, mode_, strains(), energy_);
+  } else {
+    observation_.fit = locateWithout(*tables_, observation_.leftOut, strains(), energy_);
+    energy_ = gateEnergy(constants(), strains());  // what was filled in is in the fit
+  }
+}
+
+void Pipeline::lookWithout(GaugeSet gauges) {
+  observation_.leftOut |= gauges;
+  clear(observation_.leftOut, strains());
+  look();
+}
+
+/// Gauges at a rail where the others say that they should be well within their range.
+GaugeSet Pipeline::implausiblySaturated(Codes codes) const {
+  GaugeSet gauges = 0;
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    if ((readings_.saturated >> i & 1) == 0) continue;
+    const std::int64_t measured = strainOf(calibration_, codes[i], i), predicted = readings_.strain_q32[i];
+    const bool beyond = measured < 0 ? predicted < measured * 3 / 4 : predicted > measured * 3 / 4;
+    if (!beyond) gauges |= 1u << i;
+  }
+  return gauges;
+}
+
+GaugeSet Pipeline::culprits(Codes codes) {
+  GaugeSet gauges = 0;
+  if (observation_.saturated != 0) gauges = implausiblySaturated(codes);
+  const bool misfit = observation_.fit && isMisfit(*tables_, strains(), energy_, *observation_.fit);
+  if (!misfit) {
+    watch_.allIsWell();
+  } else if (watch_.wantsToExamine()) {
+    clear(observation_.leftOut, strains());
+    const Misfit found =
+        examine(*tables_, observation_.leftOut, strains(), gateEnergy(constants(), strains()));
+    watch_.found(found);
+    if (found.culprit != 0) lookWithout(found.culprit);
+    gauges |= found.culprit;
+  }
+  return gauges;
+}
 
 const Observation& Pipeline::process(Codes codes) {
   condition(constants(), calibration_, codes, readings_);
-  const auto strains = readings_.strains(constants().gauge_count);
-  const std::uint32_t energy = gateEnergy(constants(), strains);
   observation_.saturated = readings_.saturated;
-  observation_.fit.reset();
-  if (gate_.update(constants(), energy)) observation_.fit = locate(*tables_, mode_, strains, energy);
+  observation_.leftOut = 0;
+  const GaugeSet known = watch_.outOfUse() | readings_.saturated;
+  known != 0 ? lookWithout(known) : look();
+  watch_.accuse(culprits(codes));
+  tracker_.take(*tables_, strains(), observation_.fit, observation_.leftOut, calibration_);
+  observation_.staleZero = tracker_.stale();
+  observation_.outOfUse = watch_.outOfUse();
+  observation_.several = watch_.several();
   return observation_;
 }
 

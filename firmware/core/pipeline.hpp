@@ -5,14 +5,20 @@
 
 #include "firmware/core/condition.hpp"
 #include "firmware/core/detect.hpp"
+#include "firmware/core/gauge_watch.hpp"
 #include "firmware/core/locate.hpp"
+#include "firmware/core/zero_tracker.hpp"
 
 namespace strainfinger::firmware {
 
 /// What one sample set shows.
 struct Observation {
-  std::optional<Fit> fit;       ///< nothing when nothing touches the finger
-  std::uint32_t saturated = 0;  ///< bit i: gauge i at a rail
+  std::optional<Fit> fit;  ///< nothing when nothing touches the finger
+  GaugeSet saturated = 0;  ///< at a rail
+  GaugeSet outOfUse = 0;   ///< known not to work
+  GaugeSet leftOut = 0;    ///< of this fit: these, and what this sample set speaks against
+  bool several = false;    ///< the strains are not those of one contact
+  bool staleZero = false;  ///< the finger has not been seen untouched for too long
 };
 
 class Pipeline {
@@ -28,14 +34,30 @@ class Pipeline {
 
   const TableConstants& constants() const { return tables_->constants; }
   Calibration& calibration() { return calibration_; }
-  const Readings& readings() const { return readings_; }  ///< of the last sample set
+  /// A new zero: what was learnt of the old one is forgotten.
+  void takeZero(const ZeroAverage& zero) {
+    zero.writeTo(calibration_);
+    tracker_.restart();
+  }
+  const ZeroTracker& zeroTracker() const { return tracker_; }
+  /// Of the last sample set; gauges that are left out have what the others say they should read.
+  const Readings& readings() const { return readings_; }
 
  private:
+  std::span<std::int32_t> strains() { return std::span(readings_.strain_q32).first(constants().gauge_count); }
+  void look();
+  void lookWithout(GaugeSet gauges);
+  GaugeSet culprits(Codes codes);
+  GaugeSet implausiblySaturated(Codes codes) const;
+
   const TableImage* tables_;
   Calibration calibration_;
   Readings readings_;
   Observation observation_;
   ContactGate gate_;
+  GaugeWatch watch_;
+  ZeroTracker tracker_;
+  std::uint32_t energy_ = 0;  ///< of the readings as the fit has them
   FitMode mode_;
 };
 

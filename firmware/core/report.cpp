@@ -46,10 +46,8 @@ std::int32_t angleBetween_cdeg(std::uint16_t a, std::uint16_t b) {
   return apart > 18000 ? 36000 - apart : apart;
 }
 
-/// Moved by more than its own error, in units of the value; an unknown error counts as none.
-bool moved(std::int32_t by, std::int32_t sigma, bool sigmaKnown) {
-  return by > 0 && (!sigmaKnown || by > sigma);
-}
+/// Moved by more than its own error, in units of the value.
+bool moved(std::int32_t by, std::int32_t sigma) { return by > 0 && by > sigma; }
 
 /// Bit i: gauge i takes part in the fit; every gauge of the ring when there is none.
 std::uint32_t gaugesUsed(const TableConstants& constants, const Observation& observation) {
@@ -70,12 +68,10 @@ TouchFrames touchFrames(const TableConstants& constants, const Contact& contact,
   frames.contact.quality_percent = contact.quality;
   frames.force.normal_mN = known<std::int16_t>(force(constants, contact.normal, 0));
   frames.force.tangential_mN = known<std::int16_t>(force(constants, contact.tangential, 0));
-  if (!flags.has(FingerFlag::kSaturated)) {
-    frames.contact.sigma_angle_cdeg = knownError<std::uint16_t>(centidegrees(contact.sigmaAngle));
-    frames.force.sigma_normal_half_mN = knownError<std::uint8_t>(force(constants, contact.sigmaNormal, 1));
-    frames.force.sigma_tangential_half_mN =
-        knownError<std::uint8_t>(force(constants, contact.sigmaTangential, 1));
-  }
+  frames.contact.sigma_angle_cdeg = knownError<std::uint16_t>(centidegrees(contact.sigmaAngle));
+  frames.force.sigma_normal_half_mN = knownError<std::uint8_t>(force(constants, contact.sigmaNormal, 1));
+  frames.force.sigma_tangential_half_mN =
+      knownError<std::uint8_t>(force(constants, contact.sigmaTangential, 1));
   frames.contact.flags = frames.force.flags = flags;
   frames.contact.sequence = frames.force.sequence = sequence;
   return frames;
@@ -86,12 +82,10 @@ bool TouchReporter::worthSaying(const TouchFrames& frames, std::uint32_t now_us)
   const auto& [lastContact, lastForce] = last_;
   if (!any_ || contact.flags != lastContact.flags) return true;
   if (now_us - sentAt_us_ >= std::uint32_t{kContactPeriod_ms} * 1000) return true;
-  const bool known = !contact.flags.has(FingerFlag::kSaturated);
-  return moved(angleBetween_cdeg(contact.angle_cdeg, lastContact.angle_cdeg), contact.sigma_angle_cdeg,
-               known) ||
-         moved(magnitude(force.normal_mN - lastForce.normal_mN), force.sigma_normal_half_mN / 2, known) ||
-         moved(magnitude(force.tangential_mN - lastForce.tangential_mN), force.sigma_tangential_half_mN / 2,
-               known) ||
+  return moved(angleBetween_cdeg(contact.angle_cdeg, lastContact.angle_cdeg), contact.sigma_angle_cdeg) ||
+         moved(magnitude(force.normal_mN - lastForce.normal_mN), force.sigma_normal_half_mN / 2) ||
+         moved(magnitude(force.tangential_mN - lastForce.tangential_mN),
+               force.sigma_tangential_half_mN / 2) ||
          magnitude(contact.quality_percent - lastContact.quality_percent) >= kQualityStep;
 }
 
@@ -100,8 +94,11 @@ std::optional<TouchFrames> TouchReporter::frames(const TableConstants& constants
   if (!due(now_us)) return std::nullopt;
   const auto next = static_cast<std::uint8_t>(last_.contact.sequence + (any_ ? 1 : 0));
   FingerFlags flags = standing_;
-  const bool saturated = (observation.saturated & gaugesUsed(constants, observation)) != 0;
-  flags.set(FingerFlag::kSaturated, saturated);
+  const GaugeSet saturated = observation.saturated & ~observation.outOfUse;
+  flags.set(FingerFlag::kSaturated, (saturated & gaugesUsed(constants, observation)) != 0);
+  flags.set(FingerFlag::kDegraded, ((observation.outOfUse | observation.leftOut) & ~saturated) != 0);
+  flags.set(FingerFlag::kSeveralContacts, observation.several);
+  flags.set(FingerFlag::kStaleZero, observation.staleZero);
   if (!observation.fit) {
     if (!any_ || !last_.contact.flags.has(FingerFlag::kContact)) return std::nullopt;
     TouchFrames released;
@@ -111,7 +108,7 @@ std::optional<TouchFrames> TouchReporter::frames(const TableConstants& constants
   }
   const Contact contact = estimate(constants, *observation.fit);
   flags.set(FingerFlag::kContact);
-  flags.set(FingerFlag::kUncertain, contact.uncertain || saturated);
+  flags.set(FingerFlag::kUncertain, contact.uncertain);
   const TouchFrames frames = touchFrames(constants, contact, flags, next);
   if (!worthSaying(frames, now_us)) return std::nullopt;
   return frames;

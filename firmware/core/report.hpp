@@ -17,8 +17,7 @@ struct TouchFrames {
   ForceFrame force;
 };
 
-/// The frames' integers: rounded to nearest, saturating at the ends of their fields. Errors that are not
-/// known, because a gauge of the fit is saturated, are sent as such.
+/// The frames' integers: rounded to nearest, saturating at the ends of their fields.
 TouchFrames touchFrames(const TableConstants& constants, const Contact& contact, FingerFlags flags,
                         std::uint8_t sequence);
 

@@ -1,23 +1,20 @@
 #include "firmware/core/signal.hpp"
 
 namespace strainfinger::firmware {
-namespace {
 
-std::int32_t scaled(std::int32_t strain, int shift) {
-  if (shift <= 0) return saturate<std::int16_t>(std::int64_t{strain} * (std::int64_t{1} << -shift));
+std::int16_t scaledStrain(std::int32_t strain_q32, int shift) {
+  if (shift <= 0) return saturate<std::int16_t>(std::int64_t{strain_q32} * (std::int64_t{1} << -shift));
   const std::int32_t half = 1 << (shift - 1);
-  return saturate<std::int16_t>((std::int64_t{strain} + half) >> shift);
+  return saturate<std::int16_t>((std::int64_t{strain_q32} + half) >> shift);
 }
-
-}  // namespace
 
 Signal windowSignal(std::span<const std::int32_t> strains_q32, int centre, int shift) {
   const int gauges = static_cast<int>(strains_q32.size());
   const auto at = [&](int offset) {
-    return scaled(strains_q32[static_cast<std::size_t>(wrapped(centre + offset, gauges))], shift);
+    return scaledStrain(strains_q32[static_cast<std::size_t>(wrapped(centre + offset, gauges))], shift);
   };
   Signal signal{};
-  signal[0] = static_cast<std::int16_t>(at(0));
+  signal[0] = at(0);
   for (int distance = 1; distance <= kWindowReach; ++distance) {
     const auto k = static_cast<std::size_t>(distance);
     signal[k] = saturate<std::int16_t>(at(distance) + at(-distance));

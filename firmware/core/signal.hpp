@@ -23,6 +23,9 @@ constexpr int wrapped(int gauge, int gauges) {
   return gauge >= gauges ? gauge - gauges : gauge;
 }
 
+/// A strain divided by 2^shift, rounded, saturating.
+std::int16_t scaledStrain(std::int32_t strain_q32, int shift);
+
 /// The window around gauge `centre`, strains divided by 2^shift and rounded; saturates where the norm is
 /// larger than the domain allows.
 Signal windowSignal(std::span<const std::int32_t> strains_q32, int centre, int shift);

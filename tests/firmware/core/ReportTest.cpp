@@ -96,14 +96,6 @@ TEST(TouchFrames, AlternativesAreRelativeTheShorterWayRoundAndSaturate) {
     }
 }
 
-TEST(TouchFrames, SaturatedGaugesLeaveTheErrorsUnknown) {
-  contact.sigmaNormal = contact.sigmaTangential = fromReal<LineLoadQ12>(1);
-  flags.set(FingerFlag::kSaturated);
-  LONGS_EQUAL(kNotKnown<std::uint16_t>, frames().contact.sigma_angle_cdeg);
-  LONGS_EQUAL(kNotKnown<std::uint8_t>, frames().force.sigma_normal_half_mN);
-  LONGS_EQUAL(kNotKnown<std::uint8_t>, frames().force.sigma_tangential_half_mN);
-}
-
 TEST(TouchFrames, BothFramesHaveTheSameFlagsAndSequence) {
   contact.quality = 83;
   const TouchFrames both = frames();
@@ -301,15 +293,26 @@ TEST(TouchReporter, SequenceNumbersGoUpByOneAndWrap) {
   }
 }
 
-TEST(TouchReporter, ASaturatedGaugeOfTheWindowMakesTheTouchUncertain) {
+TEST(TouchReporter, ASaturatedGaugeOfTheWindowIsSaid) {
   for (int gauge = 0; gauge < 16; ++gauge) {
     touch.saturated = 1u << gauge;  // the window is 0 .. 6
     TouchReporter fresh(kPeriod_us, {});
     const auto said = fresh.frames(ring.constants(), touch, now_us);
     CHECK_EQUAL(gauge <= 6, said->contact.flags.has(FingerFlag::kSaturated));
-    CHECK_EQUAL(gauge <= 6, said->contact.flags.has(FingerFlag::kUncertain));
-    CHECK_EQUAL(gauge <= 6, said->contact.sigma_angle_cdeg == kNotKnown<std::uint16_t>);
+    CHECK_FALSE(said->contact.flags.has(FingerFlag::kDegraded));
   }
+}
+
+TEST(TouchReporter, AGaugeOutOfUseDegradesAndSaturatesNothing) {
+  touch.saturated = touch.outOfUse = touch.leftOut = 1u << 3;
+  const auto said = say(touch);
+  CHECK_FALSE(said->contact.flags.has(FingerFlag::kSaturated));
+  CHECK_TRUE(said->contact.flags.has(FingerFlag::kDegraded));
+}
+
+TEST(TouchReporter, StrainsThatAreNotOneContactsAreSaid) {
+  touch.several = true;
+  CHECK_TRUE(say(touch)->contact.flags.has(FingerFlag::kSeveralContacts));
 }
 
 TEST(TouchReporter, TheWindowGoesRoundTheRing) {
@@ -319,15 +322,6 @@ TEST(TouchReporter, TheWindowGoesRoundTheRing) {
     TouchReporter fresh(kPeriod_us, {});
     CHECK_TRUE(fresh.frames(ring.constants(), touch, now_us)->contact.flags.has(FingerFlag::kSaturated));
   }
-}
-
-TEST(TouchReporter, UnknownErrorsHideNoMove) {
-  touch.saturated = 1u << 3;
-  say(touch);
-  later(kPeriod_us);
-  Observation other = moved(0);
-  other.fit->best.position += kOnePitch / 1000;  // 0.02 degrees
-  CHECK_TRUE(say(other).has_value());
 }
 
 TEST(TouchReporter, TheClocksWrapChangesNothing) {

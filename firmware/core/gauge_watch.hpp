@@ -1,0 +1,55 @@
+#pragma once
+// Which gauges are not to be trusted.
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "firmware/core/left_out.hpp"
+
+namespace strainfinger::firmware {
+
+/// A sample set that one contact does not explain.
+struct Misfit {
+  GaugeSet culprit = 0;  ///< the one gauge without which one contact explains the others
+  bool several = false;  ///< there is none: more than one contact, or more than one gauge
+};
+
+/// One contact leaves more unexplained than noise, rounding and gains that are a few percent off do. Cost:
+/// seven products.
+bool isMisfit(const TableImage& tables, std::span<const std::int32_t> strains_q32, std::uint32_t energy,
+              const Fit& fit);
+
+/// Leave-one-out prediction, gauge by gauge: with leverage h and residual r of a reading, leaving it out
+/// takes r^2 / (1 - h) off what is unexplained. Tried at sixteen places a pitch of the windows that may hold
+/// the contact, then exactly for the four gauges that do best. A culprit must explain all but what noise and
+/// gains may leave, and by more than 12 variances better than any other.
+/// Cost: some thirty located contacts.
+Misfit examine(const TableImage& tables, GaugeSet leftOut, std::span<const std::int32_t> strains_q32,
+               std::uint32_t energy);
+
+/// Gauges that were culprits in two of four sample sets are out of use until the finger starts again.
+class GaugeWatch {
+ public:
+  GaugeSet outOfUse() const { return outOfUse_; }
+  bool several() const { return several_; }
+
+  /// Once a sample set: whom it speaks against.
+  void accuse(GaugeSet culprits);
+
+  /// Misfits that last are looked into at once and then now and again.
+  bool wantsToExamine();
+  void found(const Misfit& misfit) { several_ = misfit.several; }
+  void allIsWell() {
+    several_ = false;
+    misfits_ = 0;
+  }
+
+ private:
+  std::array<std::uint8_t, kMaxGauges> score_{};
+  GaugeSet outOfUse_ = 0;
+  std::uint8_t misfits_ = 0;
+  bool several_ = false;
+};
+
+}  // namespace strainfinger::firmware

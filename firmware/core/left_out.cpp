@@ -1,0 +1,235 @@
+#include "firmware/core/left_out.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdlib>
+#include <utility>
+
+#include "firmware/core/detect.hpp"
+
+namespace strainfinger::firmware {
+namespace {
+
+constexpr int kMaxSteps = 8;
+constexpr PitchQ20 kLongestStep = kOnePitch / 8;
+constexpr std::uint32_t kAmbiguous = 12;  ///< answers closer than this many variances are not told apart
+constexpr std::uint32_t kFaint = 64;      ///< an answer that explains less may be noise
+constexpr int kAmbiguousShift = 17;       ///< rounding makes two fits differ by this part of their energy
+constexpr int kTailShift = 3;  ///< a contact leaves up to this part of its energy outside its window
+constexpr std::size_t kPeaks = 3;
+constexpr PitchQ20 kSame = kOnePitch / 12;  ///< fits closer than this ran into one maximum
+
+/// The search looks at eight offsets a pitch: 1/16, 3/16 .. from each gauge.
+constexpr int kLooksPerPitch = 8;
+constexpr int kLookRows = kRowsPerPitch / kLooksPerPitch;
+
+View lookAt(const Problem& problem, int look) {
+  const int looks = kLooksPerPitch * problem.gauges();
+  const PitchQ20 position = (2 * wrapped(look, looks) + 1) * (kLookRows / 2) * kRowSpacing;
+  return viewOf(problem, position);
+}
+
+PitchQ20 positionOf(const Problem& problem, const View& view, PitchQ20 beyondRow) {
+  const PitchQ20 offset = view.row * kRowSpacing + beyondRow;
+  return roundTheRing(view.centre * kOnePitch + view.side * offset, problem.gauges());
+}
+
+/// Energy outside the window that a contact there may well have left.
+std::int32_t tailOf(const Problem& problem, const RingSignal& signal, const View& view) {
+  std::int32_t window = 0;
+  for (int step = -kWindowReach; step <= kWindowReach; ++step) {
+    const std::int32_t reading = signal.at[static_cast<std::size_t>(gaugeAt(problem, view, step))];
+    window += (reading * reading) >> 2;
+  }
+  return std::clamp<std::int32_t>(problem.ringEnergy - window, 0, window >> kTailShift);
+}
+
+/// Amplitudes as locate() has them, at the view's row.
+Placement placed(const Problem& problem, const View& view, PitchQ20 beyondRow, const Three& coefficients) {
+  constexpr int kDown = 5;  // from coefficients * 2^4 to projections * 2^15, then as scaledBy() in window_fit
+  const auto& load = problem.tables.refined[static_cast<std::size_t>(view.row)].load;
+  const std::int64_t normal =
+      std::int64_t{load[0]} * coefficients[0] + std::int64_t{load[1]} * coefficients[1];
+  const std::int64_t tangential = std::int64_t{load[2]} * coefficients[1];
+  return {positionOf(problem, view, beyondRow), saturate<std::int32_t>(normal >> kDown),
+          saturate<std::int32_t>(view.side * (tangential >> kDown))};
+}
+
+bool withinCone(const Problem& problem, const Placement& place) {
+  if (place.normal <= 0) return false;
+  return std::abs(std::int64_t{place.tangential}) * 256 <=
+         std::int64_t{place.normal} * problem.tables.constants.friction_cone_q8;
+}
+
+PitchQ20 distance(PitchQ20 a, PitchQ20 b, int gauges) {
+  const PitchQ20 ahead = roundTheRing(a - b, gauges);
+  return std::min(ahead, gauges * kOnePitch - ahead);
+}
+
+void enter(Rivals& rivals, const Candidate& candidate, int gauges) {
+  const bool same = distance(candidate.place.position, rivals.best.place.position, gauges) < kSame;
+  if (candidate.betterThan(rivals.best)) {
+    if (!same) rivals.second = rivals.best;
+    rivals.best = candidate;
+  } else if (!same && candidate.betterThan(rivals.second)) {
+    rivals.second = candidate;
+  }
+}
+
+/// The looks whose energy is a peak of the ring's, the highest.
+struct Peaks {
+  Peaks() {
+    look.fill(-1);
+    energy.fill(-1);
+  }
+  std::array<int, kPeaks> look;
+  std::array<std::int32_t, kPeaks> energy;
+
+  void enter(int newLook, std::int32_t newEnergy) {
+    for (std::size_t i = 0; i < look.size(); ++i) {
+      if (newEnergy <= energy[i]) continue;
+      std::swap(newEnergy, energy[i]);
+      std::swap(newLook, look[i]);
+    }
+  }
+};
+
+Peaks peaksOf(const Problem& problem, const RingSignal& signal) {
+  const int looks = kLooksPerPitch * problem.gauges();
+  Peaks peaks;
+  std::int32_t before = explainedAt(problem, signal, lookAt(problem, -1));
+  std::int32_t here = explainedAt(problem, signal, lookAt(problem, 0));
+  for (int look = 0; look < looks; ++look) {
+    const std::int32_t after = explainedAt(problem, signal, lookAt(problem, look + 1));
+    if (before <= here && after < here) peaks.enter(look, here);
+    before = here;
+    here = after;
+  }
+  return peaks;
+}
+
+/// Writes what the readings left out should be; those outside the window of the fit should be 0.
+[[gnu::noinline]] bool fillIn(const Problem& problem, const RingSignal& signal, PitchQ20 position,
+                              std::span<std::int32_t> strains_q32) {
+  const View view = viewOf(problem, position);
+  const LocalFit fit = localFit(problem, signal, view);
+  if (!fit.share.determined) return false;
+  for (int step = -kWindowReach; step <= kWindowReach; ++step) {
+    const int gauge = gaugeAt(problem, view, step);
+    if (contains(signal.leftOut, gauge))
+      strains_q32[static_cast<std::size_t>(gauge)] = fit.predicted_q32(problem, view, step);
+  }
+  return true;
+}
+
+void clear(GaugeSet gauges, std::span<std::int32_t> strains_q32) {
+  for (std::size_t i = 0; i < strains_q32.size(); ++i)
+    if (contains(gauges, static_cast<int>(i))) strains_q32[i] = 0;
+}
+
+/// What the search says of a fit, beside its place.
+struct Verdict {
+  bool determined = false;
+  bool ambiguous = false;
+  Placement alternative;
+  int shift = 0;  ///< of its amplitudes
+};
+
+Placement scaledTo(int shift, const Placement& place, int from) {
+  const auto scaled = [&](std::int32_t amplitude) {
+    return saturate<std::int32_t>(from >= shift ? std::int64_t{amplitude} * (1 << (from - shift))
+                                                : std::int64_t{amplitude} >> (shift - from));
+  };
+  return {place.position, scaled(place.normal), scaled(place.tangential)};
+}
+
+[[gnu::noinline]] Verdict prepare(const TableImage& tables, GaugeSet leftOut,
+                                  std::span<std::int32_t> strains_q32, std::uint32_t energy) {
+  clear(leftOut, strains_q32);
+  const Problem problem = problemOf(tables, FitMode::kRefined, strains_q32, energy);
+  const RingSignal signal = ringSignal(problem, leftOut);
+  const Rivals rivals = searchRemaining(problem, signal);
+  const std::int32_t margin = problem.noise(kAmbiguous) + (rivals.best.explained >> kAmbiguousShift);
+  Verdict verdict;
+  verdict.ambiguous = rivals.second.admissible && rivals.second.explained > rivals.best.explained - margin;
+  verdict.alternative = rivals.second.place;
+  verdict.shift = problem.shift;
+  verdict.determined = rivals.best.explained > problem.noise(kFaint) &&
+                       fillIn(problem, signal, rivals.best.place.position, strains_q32);
+  return verdict;
+}
+
+/// One reading of the middle five may be missing, and one gauge in eight of the ring: with more, another
+/// contact can look like the one that is there.
+bool tooFew(const Problem& problem, const View& view, GaugeSet leftOut) {
+  int middle = 0;
+  for (int step = -2; step <= 2; ++step)
+    if (contains(leftOut, gaugeAt(problem, view, step))) ++middle;
+  return middle > 1 || std::popcount(leftOut) > problem.gauges() / 8;
+}
+
+/// The errors of a fit to filled-in readings are those of the readings that are real.
+[[gnu::noinline]] void widen(const TableImage& tables, GaugeSet leftOut,
+                             std::span<const std::int32_t> strains_q32, std::uint32_t energy, Fit& fit) {
+  const Problem problem = problemOf(tables, FitMode::kRefined, strains_q32, energy);
+  const View view = viewOf(problem, fit.best.position);
+  const LocalFit local = localFit(problem, ringSignal(problem, leftOut), view);
+  fit.reduced = true;
+  fit.covariance_q12 = local.share.covariance_q12;
+  if (view.side != fit.side) {  // at the middle gauge both are right, but signs must agree
+    fit.covariance_q12[1] = -fit.covariance_q12[1];
+    fit.covariance_q12[2] = -fit.covariance_q12[2];
+  }
+  if (!local.share.determined || tooFew(problem, view, leftOut)) fit.settled = false;
+}
+
+}  // namespace
+
+Candidate followed(const Problem& problem, const RingSignal& signal, View view) {
+  Candidate candidate;
+  for (int count = 0; count < kMaxSteps; ++count) {
+    const LocalFit fit = localFit(problem, signal, view);
+    if (!fit.share.determined) return candidate;
+    const PitchQ20 longest = kLongestStep >> std::max(count - 2, 0);  // no walking to and fro
+    const PitchQ20 whole = fit.share.beyondRow(fit.tangent);
+    const PitchQ20 step = std::clamp(whole, -longest, longest);
+    candidate.place = placed(problem, view, step, fit.share.coefficients);
+    candidate.explained = fit.share.explained + tailOf(problem, signal, view);
+    if (std::abs(whole) <= kRowSpacing * 5 / 8) {
+      candidate.admissible = withinCone(problem, candidate.place);
+      break;
+    }
+    view = viewOf(problem, candidate.place.position);
+  }
+  return candidate;
+}
+
+Rivals searchRemaining(const Problem& problem, const RingSignal& signal) {
+  Rivals rivals;
+  const auto follow = [&](const View& view) {
+    enter(rivals, followed(problem, signal, view), problem.gauges());
+  };
+  for (const int look : peaksOf(problem, signal).look)
+    if (look >= 0) follow(lookAt(problem, look));
+  const PitchQ20 first = rivals.best.place.position;
+  for (const int eighths : {-4, -3, -2, -1, 1, 2, 3, 4})
+    follow(viewOf(problem, roundTheRing(first + eighths * kOnePitch / 8, problem.gauges())));
+  return rivals;
+}
+
+Fit locateWithout(const TableImage& tables, GaugeSet leftOut, std::span<std::int32_t> strains_q32,
+                  std::uint32_t energy) {
+  const Verdict verdict = prepare(tables, leftOut, strains_q32, energy);
+  const std::uint32_t filled = gateEnergy(tables.constants, strains_q32);
+  Fit fit = locate(tables, FitMode::kRefined, strains_q32, filled);
+  widen(tables, leftOut, strains_q32, filled, fit);
+  if (!verdict.determined) fit.settled = false;
+  if (verdict.ambiguous) {
+    fit.ambiguous = true;
+    fit.alternative = scaledTo(fit.shift, verdict.alternative, verdict.shift);
+  }
+  return fit;
+}
+
+}  // namespace strainfinger::firmware

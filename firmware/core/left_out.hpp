@@ -1,0 +1,40 @@
+#pragma once
+// Fits without some of the gauges: saturated ones, broken ones.
+
+#include <cstdint>
+#include <span>
+
+#include "firmware/core/locate.hpp"
+#include "firmware/core/tangent.hpp"
+
+namespace strainfinger::firmware {
+
+/// A contact that the remaining gauges may show.
+struct Candidate {
+  Placement place;
+  std::int32_t explained = -1;  ///< energy of the remaining readings; -1: none
+  bool admissible = false;      ///< presses, within the friction cone
+
+  bool betterThan(const Candidate& other) const {
+    return admissible != other.admissible ? admissible : explained > other.explained;
+  }
+};
+
+/// Follows the remaining readings from a view to the nearest best fit; at most six steps.
+Candidate followed(const Problem& problem, const RingSignal& signal, View view);
+
+/// The two best contacts of the whole ring, for the remaining gauges. Cost: 128 projections with 16 gauges
+/// and three fits, about five times a located contact; only rings with a gauge out of use pay it.
+struct Rivals {
+  Candidate best;
+  Candidate second;
+};
+Rivals searchRemaining(const Problem& problem, const RingSignal& signal);
+
+/// Fits one contact to the readings that are not in `leftOut`, which are replaced in `strains_q32` by what
+/// the others say they should be: a fit to all of them is then the fit to the others. Its errors are those of
+/// the others; where these cannot tell, the fit is not settled. `energy`: gateEnergy() of the others.
+Fit locateWithout(const TableImage& tables, GaugeSet leftOut, std::span<std::int32_t> strains_q32,
+                  std::uint32_t energy);
+
+}  // namespace strainfinger::firmware

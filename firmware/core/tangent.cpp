@@ -1,0 +1,253 @@
+#include "firmware/core/tangent.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstdlib>
+#include <limits>
+
+#include "firmware/core/integer_root.hpp"
+
+namespace strainfinger::firmware {
+namespace {
+
+/// Fewer than this part of the information left is none, as a power of two.
+constexpr int kDeterminedShift = 12;
+
+using WindowSignal = std::array<std::int16_t, kWindowGauges>;
+
+int weight(const FoldedWeights& folded, int step) {
+  if (step == 0) return folded[0];
+  const auto distance = static_cast<std::size_t>(std::abs(step));
+  return folded[distance] + (step > 0 ? 1 : -1) * folded[distance + kWindowReach];
+}
+
+std::size_t indexOf(int step) { return static_cast<std::size_t>(step + kWindowReach); }
+
+struct WindowReadings {
+  WindowSignal at{};
+  unsigned leftOut = 0;  ///< bit per index
+};
+
+WindowReadings readingsOf(const Problem& problem, const RingSignal& signal, const View& view) {
+  WindowReadings readings;
+  const int sign = view.side > 0 ? 1 : problem.mirrorSign();
+  for (int step = -kWindowReach; step <= kWindowReach; ++step) {
+    const int gauge = gaugeAt(problem, view, step);
+    readings.at[indexOf(step)] = saturate<std::int16_t>(sign * signal.at[static_cast<std::size_t>(gauge)]);
+    if (contains(signal.leftOut, gauge)) readings.leftOut |= 1u << indexOf(step);
+  }
+  return readings;
+}
+
+/// Two loads, or their coefficients, and what is left of a 2 x 2 identity without some readings [* 2^15].
+struct Pair {
+  std::int32_t first = 0, second = 0;
+  std::int32_t left11 = 1 << 15, left12 = 0, left22 = 1 << 15;
+
+  std::int32_t determinant_q15() const {
+    return static_cast<std::int32_t>((std::int64_t{left11} * left22 - std::int64_t{left12} * left12) >> 15);
+  }
+};
+
+Pair projected(const FitRow& row, const WindowReadings& readings) {
+  Pair pair;
+  for (int step = -kWindowReach; step <= kWindowReach; ++step) {
+    const std::int32_t u1 = weight(row.basis[0], step), u2 = weight(row.basis[1], step);
+    if ((readings.leftOut >> indexOf(step) & 1) != 0) {
+      pair.left11 -= u1 * u1 >> 15;
+      pair.left12 -= u1 * u2 >> 15;
+      pair.left22 -= u2 * u2 >> 15;
+    } else {
+      pair.first += u1 * readings.at[indexOf(step)];
+      pair.second += u2 * readings.at[indexOf(step)];
+    }
+  }
+  return pair;
+}
+
+bool determined(std::int32_t determinant, int bits) { return determinant > 1 << (bits - kDeterminedShift); }
+
+/// The loads' coefficients of the readings left [signal * 2^6].
+std::array<std::int32_t, 2> solved(const Pair& pair) {
+  const std::int64_t determinant = std::max(pair.determinant_q15(), 1);
+  const auto coefficient = [&](std::int64_t numerator) {
+    return saturate<std::int32_t>((numerator >> 9) / determinant);
+  };
+  return {coefficient(std::int64_t{pair.left22} * pair.first - std::int64_t{pair.left12} * pair.second),
+          coefficient(std::int64_t{pair.left11} * pair.second - std::int64_t{pair.left12} * pair.first)};
+}
+
+/// Adds the direction of a move: W u, whose columns are scaled by powers of two of their own.
+void addMove(const FitRow& row, const std::array<std::int32_t, 2>& loads, Tangent& tangent) {
+  std::array<std::int64_t, kWindowGauges> move{};
+  std::int64_t energy = 0;
+  for (int step = -kWindowReach; step <= kWindowReach; ++step) {
+    std::int64_t& component = move[indexOf(step)];
+    for (std::size_t i = 0; i < 2; ++i)
+      component += std::int64_t{weight(row.gradient[i], step)} * (loads[i] >> row.lag[i]);
+    component >>= 15;
+    energy += component * component;
+  }
+  const int excess = 64 - std::countl_zero(static_cast<std::uint64_t>(energy)) - 30;
+  const int halved = (excess + 1) >> 1;  // brings the length into [2^14, 2^15)
+  const auto top = halved >= 0 ? energy >> (2 * halved) : energy << (-2 * halved);
+  const auto length = static_cast<std::int32_t>(integerRoot(static_cast<std::uint32_t>(top)));
+  if (energy == 0 || length == 0) return;
+  for (std::size_t i = 0; i < kWindowGauges; ++i) {
+    const std::int64_t scaled = halved >= 0 ? move[i] >> halved : move[i] * (1 << -halved);
+    tangent.at[i][2] = saturate<std::int16_t>(static_cast<std::int32_t>(scaled) * (1 << 15) / length);
+  }
+  const int up = halved + row.gradient_exponent;
+  tangent.steepness = up >= 0 ? std::int64_t{length} << up : std::int64_t{length} >> -up;
+}
+
+Tangent tangentOf(const FitRow& row, const std::array<std::int32_t, 2>& loads) {
+  Tangent tangent;
+  for (int step = -kWindowReach; step <= kWindowReach; ++step)
+    for (std::size_t i = 0; i < 2; ++i)
+      tangent.at[indexOf(step)][i] = saturate<std::int16_t>(weight(row.basis[i], step));
+  addMove(row, loads, tangent);
+  return tangent;
+}
+
+constexpr int kMatrixBits = 24;
+
+/// Product of two numbers * 2^24.
+std::int64_t times(std::int64_t a, std::int64_t b) { return (a * b) >> kMatrixBits; }
+
+/// What the gauge at an index should read [signal * 2^4], as its view sees it.
+std::int32_t predictedAt(const Tangent& tangent, const Three& coefficients, std::size_t index) {
+  std::int64_t reading = 0;
+  for (std::size_t k = 0; k < 3; ++k) reading += std::int64_t{tangent.at[index][k]} * coefficients[k];
+  return saturate<std::int32_t>((reading + (1 << 14)) >> 15);
+}
+
+void addEnergies(const Tangent& tangent, const WindowReadings& readings, Share& share) {
+  std::int64_t window = 0, unexplained = 0;
+  for (std::size_t i = 0; i < kWindowGauges; ++i) {
+    if ((readings.leftOut >> i & 1) != 0) continue;
+    const std::int64_t reading = readings.at[i];
+    const std::int64_t residual = reading * 16 - predictedAt(tangent, share.coefficients, i);
+    window += reading * reading;
+    unexplained += residual * residual;
+  }
+  share.unexplained = saturate<std::int32_t>(unexplained >> 10);
+  share.explained = saturate<std::int32_t>((window >> 2) - share.unexplained);
+}
+
+Share shareOf(const Tangent& tangent, const WindowReadings& readings) {
+  constexpr std::int32_t kOne = 1 << kMatrixBits;
+  Symmetric left{kOne, 0, 0, kOne, 0, kOne};
+  Three sums{};
+  for (std::size_t i = 0; i < kWindowGauges; ++i) {
+    const auto& [u1, u2, move] = tangent.at[i];
+    if ((readings.leftOut >> i & 1) != 0) {
+      constexpr int kDown = 30 - kMatrixBits;
+      const std::array products{u1 * u1, u1 * u2, u1 * move, u2 * u2, u2 * move, move * move};
+      for (std::size_t k = 0; k < left.size(); ++k) left[k] -= products[k] >> kDown;
+    } else {
+      for (std::size_t k = 0; k < 3; ++k) sums[k] += tangent.at[i][k] * readings.at[i];
+    }
+  }
+  for (std::int32_t& sum : sums) sum >>= 11;
+  Share share;
+  share.determined = invert(left, share.covariance_q12);
+  if (!share.determined) return share;
+  share.coefficients = product_q12(share.covariance_q12, sums);
+  addEnergies(tangent, readings, share);
+  return share;
+}
+
+const FitRow& rowOf(const Problem& problem, const View& view) {
+  return problem.tables.refined[static_cast<std::size_t>(view.row)];
+}
+
+}  // namespace
+
+bool invert(const Symmetric& m, Symmetric& inverse) {
+  const std::int64_t a = m[0], b = m[1], c = m[2], d = m[3], e = m[4], f = m[5];
+  const std::array<std::int64_t, 6> adjoint{times(d, f) - times(e, e), times(c, e) - times(b, f),
+                                            times(b, e) - times(c, d), times(a, f) - times(c, c),
+                                            times(b, c) - times(a, e), times(a, d) - times(b, b)};
+  const std::int64_t determinant = times(a, adjoint[0]) + times(b, adjoint[1]) + times(c, adjoint[2]);
+  if (!determined(static_cast<std::int32_t>(determinant), kMatrixBits)) return false;
+  std::transform(adjoint.begin(), adjoint.end(), inverse.begin(), [&](std::int64_t value) {
+    return static_cast<std::int32_t>(value * (1 << 12) / determinant);
+  });
+  return true;
+}
+
+Three product_q12(const Symmetric& m, const Three& v) {
+  const auto row = [&](std::size_t a, std::size_t b, std::size_t c) {
+    return saturate<std::int32_t>(
+        (std::int64_t{m[a]} * v[0] + std::int64_t{m[b]} * v[1] + std::int64_t{m[c]} * v[2]) >> 12);
+  };
+  return {row(0, 1, 2), row(1, 3, 4), row(2, 4, 5)};
+}
+
+RingSignal ringSignal(const Problem& problem, GaugeSet leftOut) {
+  RingSignal signal;
+  signal.leftOut = leftOut;
+  for (int gauge = 0; gauge < problem.gauges(); ++gauge) {
+    const auto i = static_cast<std::size_t>(gauge);
+    if (!contains(leftOut, gauge)) signal.at[i] = scaledStrain(problem.strains[i], problem.shift);
+  }
+  return signal;
+}
+
+int gaugeAt(const Problem& problem, const View& view, int step) {
+  return wrapped(view.centre + view.side * step, problem.gauges());
+}
+
+View viewOf(const Problem& problem, PitchQ20 position) {
+  const int nearest = (position + kOnePitch / 2) >> kPitchBits;
+  const PitchQ20 offset = position - nearest * kOnePitch;
+  const PitchQ20 distance = std::abs(offset);
+  return {wrapped(nearest, problem.gauges()), offset < 0 ? -1 : 1, (distance + kRowSpacing / 2) >> kRowBits};
+}
+
+PitchQ20 Share::beyondRow(const Tangent& tangent) const {
+  if (tangent.steepness == 0) return 0;
+  constexpr std::int64_t kLongest = kOnePitch / 8;
+  const std::int64_t length = std::int64_t{coefficients[2]} * (1 << (kPitchBits + 2)) / tangent.steepness;
+  return static_cast<PitchQ20>(std::clamp(length, -kLongest, kLongest));
+}
+
+std::int32_t LocalFit::leverage_q15(int step) const {
+  std::int32_t sum = 0;
+  for (const std::int16_t each : tangent.at[indexOf(step)]) sum += each * each >> 15;
+  return sum;
+}
+
+std::int32_t LocalFit::predicted(const Problem& problem, const View& view, int step) const {
+  const std::int32_t reading = (predictedAt(tangent, share.coefficients, indexOf(step)) + 8) >> 4;
+  return view.side < 0 ? reading * problem.mirrorSign() : reading;
+}
+
+std::int32_t LocalFit::predicted_q32(const Problem& problem, const View& view, int step) const {
+  std::int64_t reading = predictedAt(tangent, share.coefficients, indexOf(step));
+  if (view.side < 0) reading *= problem.mirrorSign();
+  const int up = problem.shift - 4;
+  return saturate<std::int32_t>(up >= 0 ? reading * (std::int64_t{1} << up) : reading >> -up);
+}
+
+LocalFit localFit(const Problem& problem, const RingSignal& signal, const View& view) {
+  const FitRow& row = rowOf(problem, view);
+  const WindowReadings readings = readingsOf(problem, signal, view);
+  LocalFit fit;
+  fit.tangent = tangentOf(row, solved(projected(row, readings)));
+  fit.share = shareOf(fit.tangent, readings);
+  return fit;
+}
+
+std::int32_t explainedAt(const Problem& problem, const RingSignal& signal, const View& view) {
+  const Pair pair = projected(rowOf(problem, view), readingsOf(problem, signal, view));
+  const std::int32_t determinant = pair.determinant_q15();
+  if (!determined(determinant, 15)) return -1;
+  const std::int64_t u1 = pair.first >> 15, u2 = pair.second >> 15;
+  const std::int64_t energy =
+      (u1 * u1 * pair.left22 - 2 * u1 * u2 * pair.left12 + u2 * u2 * pair.left11) >> 17;
+  return saturate<std::int32_t>(energy * (1 << 15) / determinant);
+}
+
+}  // namespace strainfinger::firmware

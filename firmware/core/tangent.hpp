@@ -1,0 +1,82 @@
+#pragma once
+// What a contact can do to the readings of a window, to first order: how much each gauge weighs in the fit,
+// and what the others say that it should read.
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "firmware/core/problem.hpp"
+
+namespace strainfinger::firmware {
+
+/// Bit i: gauge i.
+using GaugeSet = std::uint32_t;
+constexpr bool contains(GaugeSet set, int gauge) { return (set >> gauge & 1) != 0; }
+
+/// The ring's strains / 2^shift of the problem, rounded; gauges that are left out read 0.
+struct RingSignal {
+  std::array<std::int16_t, kMaxGauges> at{};
+  GaugeSet leftOut = 0;
+};
+RingSignal ringSignal(const Problem& problem, GaugeSet leftOut);
+
+/// A window as seen from a contact: offset in rows from the middle gauge towards `side`.
+struct View {
+  int centre = 0;
+  int side = 1;
+  int row = 0;
+};
+
+/// The gauge at `step` (-kWindowReach .. kWindowReach) of a view.
+int gaugeAt(const Problem& problem, const View& view, int step);
+View viewOf(const Problem& problem, PitchQ20 position);
+
+/// Three numbers a reading, or three combinations of the window's readings.
+using Three = std::array<std::int32_t, 3>;
+/// Symmetric 3 x 3: 11, 12, 13, 22, 23, 33.
+using Symmetric = std::array<std::int32_t, 6>;
+
+/// Inverse [* 2^12] of a symmetric matrix [* 2^24] with elements up to 1; false where its determinant is next
+/// to nothing.
+bool invert(const Symmetric& matrix_q24, Symmetric& inverse_q12);
+
+/// matrix * vector, with a matrix * 2^12.
+Three product_q12(const Symmetric& matrix_q12, const Three& vector);
+
+/// Unit vectors at right angles in the space of a window's readings [* 2^15]: two that a contact reaches by
+/// changing its loads, one by moving. A fit takes from the readings what lies along them, so
+/// sum of squares over the three = leverage of a gauge.
+struct Tangent {
+  std::array<std::array<std::int16_t, 3>, kWindowGauges> at{};
+  /// Length of the change that a move of one pitch makes [signal * 2^6]; 0: moving changes nothing.
+  std::int64_t steepness = 0;
+};
+
+/// What the readings that are not left out say: coefficients along the tangent [signal * 2^4].
+struct Share {
+  Three coefficients{};
+  Symmetric covariance_q12{};    ///< of the coefficients, in variances of a reading; identity with all gauges
+  std::int32_t explained = 0;    ///< energy (a quarter of the squared signal) of the window's readings left
+  std::int32_t unexplained = 0;  ///< the rest of it, from the residuals: exact where it is small
+  bool determined = false;       ///< enough gauges are left to tell where and how hard
+
+  PitchQ20 beyondRow(const Tangent& tangent) const;
+};
+
+/// The fit at a view, linear about its row.
+struct LocalFit {
+  Tangent tangent;
+  Share share;
+  /// How much of its own reading the fit takes at `step` of the view.
+  std::int32_t leverage_q15(int step) const;
+  /// What the gauge there should read [signal], and as a strain.
+  std::int32_t predicted(const Problem& problem, const View& view, int step) const;
+  std::int32_t predicted_q32(const Problem& problem, const View& view, int step) const;
+};
+LocalFit localFit(const Problem& problem, const RingSignal& signal, const View& view);
+
+/// Energy that a contact at a view explains of the readings left, at its best loads; -1: not determined.
+std::int32_t explainedAt(const Problem& problem, const RingSignal& signal, const View& view);
+
+}  // namespace strainfinger::firmware

@@ -1,0 +1,135 @@
+// Gauges that fail: how soon the firmware names them, from the converter's codes on.
+#include <memory>
+
+#include "firmware/core/pipeline.hpp"
+#include "host/simulation/converter.hpp"
+#include "tests/firmware/core/model_ring.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::firmware;
+
+namespace {
+
+enum class Kind { kNone, kDead, kOpen, kShort, kStuck };
+constexpr std::array kKindNames{"healthy", "dead", "open", "short", "stuck"};
+
+/// Naming after so many sample sets of a touch is in time.
+constexpr int kInTime = 2;
+constexpr int kIdle = 20;
+
+struct Outcome {
+  int trials = 0;
+  int named = 0;    ///< in time
+  int wrong = 0;    ///< another gauge was named
+  int several = 0;  ///< taken for several contacts
+};
+
+}  // namespace
+
+TEST_GROUP(GaugeFault) {
+  const config::FingerConfig config;
+  const ModelRing ring{config};
+  const simulation::Converter converter{config.gauges};
+  const double analogNoise = simulation::analogNoise_strain(config.gauges);
+
+  using Set = std::array<std::uint16_t, kMaxGauges>;
+
+  Set convert(const std::vector<double>& strains, Presses& random) {
+    Set codes{};
+    for (std::size_t i = 0; i < strains.size(); ++i)
+      codes[i] = converter.codeOf(strains[i] + random.noise(analogNoise));
+    return codes;
+  }
+
+  /// What gauge `gauge` makes of its codes; it fails before the touch.
+  static void fail(Kind kind, std::size_t gauge, const Set& frozen, const Set& untouched, Set& codes) {
+    if (kind == Kind::kDead) codes[gauge] = untouched[gauge];
+    if (kind == Kind::kOpen) codes[gauge] = 0xFFF0;
+    if (kind == Kind::kShort) codes[gauge] = 0;
+    if (kind == Kind::kStuck) codes[gauge] = frozen[gauge];
+  }
+
+  /// One touch of a finger whose gauge 5 fails; what is out of use after kInTime sample sets of it. Stuck: at
+  /// what it read under another touch just before.
+  Observation touch(Kind kind, const Press& before, const Press& press, Presses& random) {
+    Pipeline pipeline(ring.tables(), FitMode::kRefined);
+    const std::vector<double> untouched(16, 0.0);
+    const Set frozen = convert(ring.strains(before), random);
+    const auto step = [&](const std::vector<double>& strains) {
+      Set codes = convert(strains, random);
+      fail(kind, 5, frozen, convert(untouched, random), codes);
+      pipeline.process(Codes(codes).first(16));
+    };
+    if (kind != Kind::kStuck)
+      for (int i = 0; i < kIdle; ++i) step(untouched);
+    for (int i = 0; i < kInTime; ++i) step(ring.strains(press));
+    return pipeline.observation();
+  }
+
+  /// A gauge's reading over what the others read together.
+  static double share(double reading, const std::vector<double>& strains) {
+    double others = 0;
+    for (std::size_t i = 0; i < strains.size(); ++i) others += i == 5 ? 0 : strains[i] * strains[i];
+    return std::abs(reading) / std::sqrt(others);
+  }
+
+  /// Touches of 10 to 50 N/m anywhere, for which the gauge's reading is off by at least `least` of what the
+  /// others read together.
+  Outcome run(Kind kind, double least, int count, std::uint64_t seed) {
+    Presses random(16, 1, seed);
+    std::mt19937_64 loads(seed);
+    std::uniform_real_distribution<double> uniform(std::log(10), std::log(50));
+    Outcome outcome;
+    while (outcome.trials < count) {
+      Press before = random.next(), press = random.next();
+      for (Press* each : {&before, &press}) {
+        const double load = std::exp(uniform(loads));
+        each->normal *= load, each->tangential *= load;
+      }
+      const double held = kind == Kind::kStuck ? ring.strains(before)[5] : 0;
+      const auto strains = ring.strains(press);
+      if (share(strains[5] - held, strains) < least) continue;
+      ++outcome.trials;
+      const Observation seen = touch(kind, before, press, random);
+      const GaugeSet out = seen.outOfUse;
+      if (seen.several) ++outcome.several;
+      if (out == 1u << 5) ++outcome.named;
+      if ((out & ~(1u << 5)) != 0) ++outcome.wrong;
+    }
+    std::printf("%s: %d of %d named within %d samples, %d wrong, %d several\n",
+                kKindNames[static_cast<std::size_t>(kind)], outcome.named, outcome.trials, kInTime,
+                outcome.wrong, outcome.several);
+    return outcome;
+  }
+};
+
+TEST(GaugeFault, AnOpenOrShortedGaugeIsNamedAtOnce) {
+  for (const Kind kind : {Kind::kOpen, Kind::kShort}) {
+    const Outcome outcome = run(kind, 0, 1000, 401);
+    CHECK(outcome.named >= 0.99 * outcome.trials);
+    LONGS_EQUAL(0, outcome.wrong);
+  }
+}
+
+// A gauge that reads nothing where it should read a third of what the others do, or still reads what an
+// earlier touch left it at.
+TEST(GaugeFault, ADeadGaugeIsNamedByTheFirstTouchThatItShouldFeel) {
+  const Outcome outcome = run(Kind::kDead, 1.0 / 3, 1000, 402);
+  CHECK(outcome.named >= 0.95 * outcome.trials);
+  CHECK(outcome.wrong <= 0.002 * outcome.trials);
+}
+
+TEST(GaugeFault, AStuckGaugeIsNamedByTheFirstTouchThatItShouldFeel) {
+  const Outcome outcome = run(Kind::kStuck, 1.0 / 3, 1000, 403);
+  CHECK(outcome.named >= 0.95 * outcome.trials);
+  CHECK(outcome.wrong <= 0.002 * outcome.trials);
+}
+
+TEST(GaugeFault, HealthyGaugesAreNeverNamed) {
+  const Outcome outcome = run(Kind::kNone, 0, 10'000, 404);
+  LONGS_EQUAL(0, outcome.wrong);
+  LONGS_EQUAL(0, outcome.named);
+  LONGS_EQUAL(0, outcome.several);
+}

@@ -1,7 +1,6 @@
 #include "host/bench/training.hpp"
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -12,7 +11,6 @@ namespace strainfinger::bench {
 namespace {
 
 constexpr int kBatch = 64;
-constexpr int kLessons = 1 << 16;         ///< contacts, at most; gone through again and again
 constexpr double kTrainingNoise = 0.003;  ///< between the levels that are scored
 
 /// One layer with what Adam remembers of it. The bias is the last column.
@@ -112,11 +110,11 @@ class Pupil {
 
 Perceptron trainedPerceptron(const BenchFinger& finger, const Training& training) {
   constexpr double kRate = 4e-3;
-  const Lessons lessons = drawLessons(finger, training.seed, std::min(kLessons, training.steps * kBatch));
+  const Lessons lessons = drawLessons(finger, training.seed, training.contacts);
   Pupil pupil(training.seed);
   for (int step = 0; step < training.steps; ++step) {
     const double rate = kRate / 2 * (1 + std::cos(std::numbers::pi * step / training.steps));
-    const Eigen::Index from = Eigen::Index{step} * kBatch % kLessons;
+    const Eigen::Index from = Eigen::Index{step} * kBatch % training.contacts;
     pupil.study(lessons.question.middleCols(from, kBatch), lessons.answer.middleCols(from, kBatch), step + 1,
                 static_cast<float>(rate));
   }

@@ -6,10 +6,12 @@
 
 namespace strainfinger::bench {
 
-/// Bounded by `steps`, not by a clock: the same weights every time.
+/// `contacts` is a multiple of the batch, 64. Bounded by `steps`, not by a clock: the same weights every
+/// time.
 struct Training {
   int steps = 150'000;
   std::uint64_t seed = 20;
+  int contacts = 1 << 16;  ///< gone through again and again
 };
 
 /// Adam (Kingma & Ba 2015) on the mean square of offset, normal and tangential load, batches of 64 contacts

@@ -29,7 +29,9 @@ Ring<Real> strainsOf(const BenchFinger& finger, const Place<double>& place) {
   return strains;
 }
 
-Knowledge knowledgeFor(const BenchFinger& finger) { return makeKnowledge(finger, {.steps = 1}); }
+Knowledge knowledgeFor(const BenchFinger& finger) {
+  return makeKnowledge(finger, {.steps = 1, .contacts = 64});
+}
 
 }  // namespace
 

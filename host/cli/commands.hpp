@@ -12,5 +12,6 @@ void addLocate(CLI::App& app);
 void addRun(CLI::App& app);
 void addDecode(CLI::App& app);
 void addDbc(CLI::App& app);
+void addFigures(CLI::App& app);
 
 }  // namespace strainfinger::cli

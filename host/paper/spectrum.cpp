@@ -3,6 +3,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "host/model/series.hpp"
 
@@ -40,6 +41,7 @@ Spectra halfPlaneSpectra(const model::Annulus<double>& annulus, double radius_m)
 CutOff cutOff(std::span<const double> spectrum) {
   CutOff result{};
   for (const double value : spectrum) result.maximum = std::max(result.maximum, std::abs(value));
+  if (result.maximum == 0) return {0, -1, std::numeric_limits<double>::quiet_NaN()};
   const double level = kCutOffLevel * result.maximum;
   std::size_t last = spectrum.size() - 1;
   while (last > 0 && std::abs(spectrum[last]) < level) --last;

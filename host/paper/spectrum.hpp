@@ -37,6 +37,7 @@ struct CutOff {
 
 inline constexpr double kCutOffLevel = 0.1;
 
+/// A response that is 0 throughout (an incompressible rubber's e_rr at the core) has none: -1 and NaN.
 /// Domain: a spectrum whose last magnitude is below a tenth.
 CutOff cutOff(std::span<const double> spectrum);
 

@@ -128,3 +128,8 @@ TEST(CutOff, InterpolatesMagnitudesByAStraightLine) {
 }
 
 TEST(CutOff, CountsTheConstantTerm) { LONGS_EQUAL(0, cutOff(std::vector{10.0, 0.9, 0.1}).last); }
+
+TEST(CutOff, NothingHasNone) {
+  LONGS_EQUAL(-1, cutOff(std::vector{0.0, 0.0}).last);
+  CHECK_TRUE(std::isnan(cutOff(std::vector{0.0, 0.0}).interpolated));
+}

@@ -14,5 +14,6 @@ void addDecode(CLI::App& app);
 void addDbc(CLI::App& app);
 void addTare(CLI::App& app);
 void addConfig(CLI::App& app);
+void addFigures(CLI::App& app);
 
 }  // namespace strainfinger::cli

@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
   strainfinger::cli::addDbc(app);
   strainfinger::cli::addTare(app);
   strainfinger::cli::addConfig(app);
+  strainfinger::cli::addFigures(app);
   try {
     app.parse(argc, argv);
     if (std::fflush(stdout) != 0) return complain(ExitCode::kFailure, "cannot write the output");

@@ -8,6 +8,8 @@ namespace strainfinger::cli {
 void addResponse(CLI::App& app);
 void addStrain(CLI::App& app);
 void addContact(CLI::App& app);
+void addSvd(CLI::App& app);
+void addField(CLI::App& app);
 void addTables(CLI::App& app);
 void addLocate(CLI::App& app);
 void addRun(CLI::App& app);

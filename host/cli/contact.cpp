@@ -11,6 +11,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/contact_options.hpp"
 #include "host/cli/model_options.hpp"
+#include "host/contact/paper_method.hpp"
 #include "host/contact/surface_motion.hpp"
 
 namespace strainfinger::cli {
@@ -42,22 +43,30 @@ struct ContactCommand {
         ->type_name("N")
         ->check(CLI::Range(1, 1'000'000))
         ->excludes(&list);
+    command.add_option("--method", method, "spectral, or paper: windowed Fourier series, pseudo-inverse")
+        ->check(CLI::IsMember({"spectral", "paper"}));
+    command.add_option("--harmonics", paper.harmonics, "Of --method paper: last harmonic n_c (300)")
+        ->check(CLI::Range(2, 5000));
+    command
+        .add_option("--cutoff", paper.cutoff,
+                    "Of --method paper: singular values from there on, relative (0.1)")
+        ->check(realFrom(0, 1));
   }
   CommonOptions common;
   ContactOptions contact;
   bool summary = false;
   std::vector<double> at_deg;
   int points = 400;
+  std::string method = "spectral";
+  contact::PaperOptions paper;
 };
 
 /// In the middle of `points` equal parts of twice the contact.
-std::vector<double> anglesOf(const ContactCommand& options, const contact::Contact& contact,
-                             double radius_m) {
+std::vector<double> anglesOf(const ContactCommand& options, double offset_rad, double width_rad) {
   std::vector<double> angles_rad;
   for (const double angle_deg : options.at_deg) angles_rad.push_back(angle_deg * kDegree);
-  const double width_rad = contact.width_m / radius_m;
   for (int i = 0; i < options.points && options.at_deg.empty(); ++i)
-    angles_rad.push_back(contact.offset_rad + width_rad * (2 * (i + 0.5) / options.points - 1));
+    angles_rad.push_back(offset_rad + width_rad * (2 * (i + 0.5) / options.points - 1));
   return angles_rad;
 }
 
@@ -73,19 +82,53 @@ void printTractions(const ContactCommand& options, const contact::SurfaceKernel&
                     const contact::Contact& contact) {
   const contact::SurfaceMotion motion(kernel, contact.tractions);
   TableWriter table(stdout, options.common.format(), {"angle_deg", "pressure_pa", "shear_pa", "slope"});
-  for (const double angle_rad : anglesOf(options, contact, kernel.annulus().outer_radius_m)) {
+  const double width_rad = contact.width_m / kernel.annulus().outer_radius_m;
+  for (const double angle_rad : anglesOf(options, contact.offset_rad, width_rad)) {
     const contact::Traction traction = contact::tractionAt(contact.tractions, angle_rad);
     table.row({angle_rad / kDegree, traction.pressure_pa, traction.shear_pa, motion.at(angle_rad).urSlope_m});
   }
 }
 
+void printPaper(const ContactCommand& options, const model::Annulus<double>& annulus, double width_m,
+                const contact::PaperContact& found) {
+  if (options.summary) {
+    contact::Contact summary;
+    summary.normal_n_per_m = found.normal_n_per_m;
+    summary.width_m = width_m;
+    summary.depth_m = found.depth_m;
+    summary.residual_m = found.residual_m;
+    return printSummary(options, summary);
+  }
+  TableWriter table(stdout, options.common.format(), {"angle_deg", "pressure_pa", "shear_pa", "slope"});
+  for (const double angle_rad : anglesOf(options, 0, width_m / annulus.outer_radius_m)) {
+    const contact::Traction traction = contact::tractionAt(found.tractions, angle_rad);
+    table.row({angle_rad / kDegree, traction.pressure_pa, traction.shear_pa,
+               contact::surfaceAt(annulus, found.tractions, angle_rad).urSlope_m});
+  }
+}
+
+void runPaper(const ContactCommand& options, const model::Annulus<double>& annulus,
+              const contact::ContactRequest& request) {
+  if (request.regime != contact::Regime::kFrictionless || request.centre_rad ||
+      request.size.kind != contact::ContactSize::Kind::kWidth)
+    throw Failure(
+        ExitCode::kUsage,
+        "--method paper knows frictionless contacts of given width, centred on the indenter's normal");
+  const auto found = contact::solveByPaper(annulus, request.indenter, request.size.value, options.paper);
+  fmt::print(stderr,
+             "contact: residual {:.2g} m; {} singular values kept\n"
+             "contact: warning: --method paper is inaccurate by its nature; --method spectral is not\n",
+             found.residual_m, found.kept);
+  printPaper(options, annulus, request.size.value, found);
+}
+
 void runContact(const ContactCommand& options) {
   const config::FingerConfig config = options.common.config();
+  const contact::ContactRequest request = options.contact.request(config);
+  if (options.method == "paper") return runPaper(options, config.finger.annulus(), request);
   const contact::SurfaceKernel kernel(config.finger.annulus());
-  const contact::Contact contact = contact::solveContact(kernel, options.contact.request(config));
-  fmt::print(stderr, "contact: residual {:.2g} m, recomputed from the tractions; {} terms a patch\n",
-             contact.residual_m, contact.terms);
-  for (const std::string& warning : contact.warnings) fmt::print(stderr, "contact: warning: {}\n", warning);
+  const contact::Contact contact = contact::solveContact(kernel, request);
+  tellOf(contact);
   if (options.summary)
     printSummary(options, contact);
   else

@@ -59,6 +59,12 @@ Indenter parseIndenter(const std::string& text) {
   return readShape(text);
 }
 
+void tellOf(const contact::Contact& contact) {
+  fmt::print(stderr, "contact: residual {:.2g} m, recomputed from the tractions; {} terms a patch\n",
+             contact.residual_m, contact.terms);
+  for (const std::string& warning : contact.warnings) fmt::print(stderr, "contact: warning: {}\n", warning);
+}
+
 ContactOptions::ContactOptions(CLI::App& command) {
   command
       .add_option(

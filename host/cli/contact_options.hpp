@@ -30,6 +30,9 @@ struct ContactOptions {
   CLI::Option* hasCentre;
 };
 
+/// Residual and warnings, on stderr.
+void tellOf(const contact::Contact& contact);
+
 /// flat, cylinder:RADIUS_M, wedge:HALF_ANGLE_DEG, or the path of a measured shape: CSV of x_m,height_m.
 contact::Indenter parseIndenter(const std::string& text);
 

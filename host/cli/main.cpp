@@ -25,6 +25,8 @@ int main(int argc, char** argv) {
   strainfinger::cli::addResponse(app);
   strainfinger::cli::addStrain(app);
   strainfinger::cli::addContact(app);
+  strainfinger::cli::addSvd(app);
+  strainfinger::cli::addField(app);
   strainfinger::cli::addTables(app);
   strainfinger::cli::addLocate(app);
   strainfinger::cli::addRun(app);

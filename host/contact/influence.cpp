@@ -89,8 +89,9 @@ MatrixXd reflected(const SurfaceKernel& kernel, const KernelMix& mix, const Refe
                    const Patch& from, const VectorXd& points, const Patch& at) {
   const VectorXd &even = mix.reflected, &odd = kernel.reflection().coupling;
   const Multiples here(at, points, even.size()), there(from, source.rule().nodes, even.size());
-  const MatrixXd weighted = source.rule().weights.asDiagonal() * source.basis();
-  const MatrixXd cosines = there.cosines.transpose() * weighted, sines = there.sines.transpose() * weighted;
+  const MatrixXd weighted = source.rule().weights.asDiagonal() * source.basis() / std::numbers::pi;
+  MatrixXd cosines = there.cosines.transpose() * weighted, sines = there.sines.transpose() * weighted;
+  cosines.row(0) /= 2;  // Fourier coefficients of the basis
   MatrixXd result = MatrixXd::Zero(points.size(), source.terms());
   if (mix.even != 0)
     result +=

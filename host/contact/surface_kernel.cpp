@@ -38,9 +38,9 @@ SurfaceKernel::SurfaceKernel(const model::Annulus<double>& annulus)
   const int count = lastReflected(annulus.core_radius_m / annulus.outer_radius_m) + 1;
   reflection_ = {Eigen::VectorXd(count), Eigen::VectorXd(count), Eigen::VectorXd(count)};
   for (int n = 0; n < count; ++n) {
-    const HarmonicResponse<double> response = harmonic(n) / (n == 0 ? 2 * pi : pi);
-    const double along = n < 2 ? 0 : scale_ * (kappa_ / (n + 1) + 1.0 / (n - 1));
-    const double across = n < 2 ? 0 : scale_ * (1.0 / (n - 1) - kappa_ / (n + 1));
+    const HarmonicResponse<double> response = harmonic(n);
+    const double along = n < 2 ? 0 : pi * scale_ * (kappa_ / (n + 1) + 1.0 / (n - 1));
+    const double across = n < 2 ? 0 : pi * scale_ * (1.0 / (n - 1) - kappa_ / (n + 1));
     reflection_.normal[n] = response(kUr, kNormal) - along;
     reflection_.coupling[n] = response(kUr, kTangential) - across;
     reflection_.sheared[n] = response(kUt, kTangential) - along;

@@ -21,9 +21,9 @@ struct KernelValue {
   double slope = 0;
 };
 
-/// What the core reflects of each harmonic, n = 0 and 1 whole: the factors of cos n psi (evenInNormal: u_r of
-/// a normal, sheared: u_t of a tangential traction) and of sin n psi (coupling: u_r of a tangential, u_t of a
-/// normal one), for unit line tractions [m/Pa].
+/// What the core reflects of each harmonic, n = 0 and 1 whole, per unit Fourier coefficient [m/Pa]: u_r of a
+/// normal and u_t of a tangential traction along themselves (cosines of cosines), and u_r of a tangential,
+/// u_t of a normal one (sines of cosines).
 struct Reflection {
   Eigen::VectorXd normal;
   Eigen::VectorXd coupling;

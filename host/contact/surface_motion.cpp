@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/contact/fourier_tractions.hpp"
 #include "host/model/series.hpp"
 
 namespace strainfinger::contact {
@@ -13,16 +14,6 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 
 constexpr int kDensity = 14;  // of the rule: enough for polynomials of degree 40 besides the edges
-
-Eigen::MatrixX4d fourierCoefficients(const Tractions& tractions, int harmonics) {
-  Eigen::MatrixX4d coefficients = Eigen::MatrixX4d::Zero(harmonics + 1, 4);
-  for (const LineTraction& line : lineTractions(tractions, harmonics))
-    model::visitMultiples(line.angle_rad, harmonics, [&](int n, double c, double s) {
-      coefficients.row(n) += Eigen::RowVector4d(line.pressure_pa_rad * c, line.pressure_pa_rad * s,
-                                                line.shear_pa_rad * c, line.shear_pa_rad * s);
-    });
-  return coefficients;
-}
 
 /// int cot((theta - phi)/2)/2 dphi over the patch, principal value.
 double integralOfPole(const Patch& patch, double angle_rad) {
@@ -43,8 +34,7 @@ SurfaceMotion::SurfaceMotion(const SurfaceKernel& kernel, const Tractions& tract
     : kernel_(kernel),
       tractions_(tractions),
       rule_(kDensity),
-      coefficients_(fourierCoefficients(tractions, static_cast<int>(kernel.reflection().normal.size()) - 1)) {
-}
+      coefficients_(fourierTractions(tractions, static_cast<int>(kernel.reflection().normal.size()) - 1)) {}
 
 SurfacePoint SurfaceMotion::at(double angle_rad) const {
   SurfacePoint point;

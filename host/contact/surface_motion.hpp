@@ -38,7 +38,7 @@ class SurfaceMotion {
   const SurfaceKernel& kernel_;
   Tractions tractions_;
   TanhSinhRule rule_;
-  Eigen::MatrixX4d coefficients_;  // row n: pressure cos, pressure sin, shear cos, shear sin [Pa rad]
+  Eigen::MatrixX4d coefficients_;  // as FourierTractions
 };
 
 }  // namespace strainfinger::contact

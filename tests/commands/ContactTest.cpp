@@ -84,6 +84,18 @@ TEST(ContactCommand, TakesCylindersAndWedges) {
   DOUBLES_EQUAL(82.79063, summary("contact --indenter wedge:80 --width-m 2e-3")[0], 1e-4);
 }
 
+TEST(ContactCommand, ThePapersMethodIsThereAndSaysWhatItIs) {
+  const Run run = runProgram(flat("--width-m 2e-3 --method paper --summary"));
+  STRCMP_CONTAINS("--method paper is inaccurate", run.err.c_str());
+  DOUBLES_EQUAL(0.81 * 21.4939181, tableOf(run.out)[0][0], 0.02);
+  const auto rows =
+      tableOf(runProgram(flat("--width-m 2e-3 --method paper --cutoff 0.01 --at-deg 0,30")).out);
+  DOUBLES_EQUAL(13686, rows[0][1], 0.01 * 13686);
+  CHECK_TRUE(rows[1][1] != 0);  // it leaks
+  refuses(flat("--load-n-per-m 1 --method paper"), "--method paper");
+  refuses(flat("--width-m 1e-3 --friction 1 --method paper"), "--method paper");
+}
+
 TEST(ContactCommand, WarnsWhenNothingFits) {
   const Run run = runProgram(flat("--width-m 2e-3 --friction 0.5 --centre-deg 0 --summary"));
   LONGS_EQUAL(0, run.status);

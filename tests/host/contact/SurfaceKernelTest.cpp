@@ -40,9 +40,10 @@ TEST_GROUP(SurfaceKernel) {
     Sums sums{even, odd, even};
     const Reflection& reflection = kernel.reflection();
     for (int n = 0; n < reflection.normal.size(); ++n) {
-      sums.normal += reflection.normal[n] * std::cos(n * angle_rad);
-      sums.coupling += reflection.coupling[n] * std::sin(n * angle_rad);
-      sums.sheared += reflection.sheared[n] * std::cos(n * angle_rad);
+      const double line = 1 / std::numbers::pi * (n == 0 ? 0.5 : 1);
+      sums.normal += line * reflection.normal[n] * std::cos(n * angle_rad);
+      sums.coupling += line * reflection.coupling[n] * std::sin(n * angle_rad);
+      sums.sheared += line * reflection.sheared[n] * std::cos(n * angle_rad);
     }
     return sums;
   }

@@ -7,6 +7,9 @@ namespace strainfinger::cli {
 
 void addResponse(CLI::App& app);
 void addStrain(CLI::App& app);
+void addContact(CLI::App& app);
+void addSvd(CLI::App& app);
+void addField(CLI::App& app);
 void addTables(CLI::App& app);
 void addLocate(CLI::App& app);
 void addRun(CLI::App& app);

@@ -24,6 +24,9 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   strainfinger::cli::addResponse(app);
   strainfinger::cli::addStrain(app);
+  strainfinger::cli::addContact(app);
+  strainfinger::cli::addSvd(app);
+  strainfinger::cli::addField(app);
   strainfinger::cli::addTables(app);
   strainfinger::cli::addLocate(app);
   strainfinger::cli::addRun(app);

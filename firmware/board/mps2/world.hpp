@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "firmware/app/slcan_port.hpp"
+#include "firmware/board/mps2/timer.hpp"
 #include "firmware/board/mps2/world_record.hpp"
 #include "hal/clock.hpp"
 #include "hal/gauge_adc.hpp"
@@ -14,7 +15,7 @@ namespace strainfinger::mps2 {
 /// hal::GaugeAdc and hal::Clock of an emulated board. The next record is taken only when the sample set
 /// before it was handed out and everything sent is on its way: what the firmware does with a record never
 /// depends on how fast the line is. Time is the number of records, or a timer's when there is one.
-template <firmware::SerialLine Line, typename Can, hal::Clock Timer>
+template <firmware::SerialLine Line, typename Can, hal::Clock Timer = mps2::Timer>
 class World {
  public:
   constexpr World(Line& line, Can& can, const Timer* timer = nullptr)

@@ -55,7 +55,7 @@ class Board:
     """A finger on an emulated board. Its world is told over a socket, and its CAN bus (SLCAN) is one: this object
     listens to it, or, without `bus`, who connects to `bus_path`. firmware/board/mps2/world_record.hpp has the records."""
 
-    def __init__(self, elf, bus=True, node=1):
+    def __init__(self, elf, bus=True, node=1, arguments=()):
         self.folder = tempfile.TemporaryDirectory()
         self.bus_path = self.folder.name + "/bus"
         self.console_path = self.folder.name + "/console"
@@ -64,7 +64,7 @@ class Board:
         for name, path in (("bus", self.bus_path), ("world", world_path)):
             lines += ["-chardev", f"socket,id={name},path={path},server=on,wait=on", "-serial", f"chardev:{name}"]
         options = ["-serial", f"file:{self.console_path}", *lines]
-        self.process = subprocess.Popen(command(elf, [f"node={node}"], options),
+        self.process = subprocess.Popen(command(elf, [*arguments, f"node={node}"], options),
                                         stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.heard = bytearray()
         self.bus = self.world = None

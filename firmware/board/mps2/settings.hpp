@@ -28,4 +28,10 @@ inline std::optional<std::uint8_t> nodeOf(std::string_view commandLine) {
   return isNode ? std::optional(node) : std::nullopt;
 }
 
+/// "time=timer" on the command line: time is the board's, for people who try it by hand; else it is the
+/// number of records, so that a run is the same every time.
+constexpr bool isTimed(std::string_view commandLine) {
+  return commandLine.find("time=timer") != std::string_view::npos;
+}
+
 }  // namespace strainfinger::mps2

@@ -171,9 +171,10 @@ class FdcanPort {
     const std::uint32_t element = MessageRam::tx(buffer);
     bus_.write(element, Element0::standardId(frame.id).value);
     bus_.write(element + 4, Element1::length(frame.length).value);
-    for (std::uint32_t i = 0; i < 8; i += 4)
-      bus_.write(element + 8 + i, frame.data[i] | frame.data[i + 1] << 8 | frame.data[i + 2] << 16 |
-                                      static_cast<std::uint32_t>(frame.data[i + 3]) << 24);
+    for (std::uint32_t i = 0; i < 8; i += 4) {
+      const auto byte = [&](std::uint32_t at) { return std::uint32_t{frame.data[i + at]} << 8 * at; };
+      bus_.write(element + 8 + i, byte(0) | byte(1) | byte(2) | byte(3));
+    }
     waiting_[buffer] = frame.id;
     bus_.write(Fdcan::Txbar::address, 1U << buffer);
   }

@@ -5,10 +5,13 @@
 using namespace strainfinger;
 using namespace strainfinger::mps2;
 
-TEST_GROUP(Mps2Settings){static int node(std::string_view commandLine){return nodeOf(commandLine).value_or(0);
-}
-}
-;
+namespace {
+
+int node(std::string_view commandLine) { return nodeOf(commandLine).value_or(0); }
+
+}  // namespace
+
+TEST_GROUP(Mps2Settings){};
 
 TEST(Mps2Settings, TheNodeIsOnTheCommandLine) {
   LONGS_EQUAL(2, node("image node=2"));
@@ -24,6 +27,11 @@ TEST(Mps2Settings, WhatIsNoNodeIsRefused) {
   for (const char* words : {"node=", "node=0", "node=64", "node=256", "node=257", "node=-1", "node=x",
                             "node=2x", "node=2 node=3"})
     CHECK_FALSE(nodeOf(words));
+}
+
+TEST(Mps2Settings, TimeIsTheTimersWhenAskedFor) {
+  CHECK_TRUE(isTimed("image time=timer node=2"));
+  CHECK_FALSE(isTimed("image node=2"));
 }
 
 TEST(Mps2Settings, AnEmulatedFingerSaysWhatItIs) {

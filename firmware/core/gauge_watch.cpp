@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
+#include <utility>
 
 namespace strainfinger::firmware {
 namespace {
@@ -58,12 +59,19 @@ using Suspects = std::array<Suspect, 4>;  ///< of different gauges, the best fir
 
 bool lessUnexplained(const Suspect& a, const Suspect& b) { return a.unexplained < b.unexplained; }
 
+/// Into order; a few, and no stack for a sort of many.
+void sort(Suspects& suspects) {
+  for (std::size_t end = suspects.size() - 1; end > 0; --end)
+    for (std::size_t i = 0; i < end; ++i)
+      if (lessUnexplained(suspects[i + 1], suspects[i])) std::swap(suspects[i], suspects[i + 1]);
+}
+
 void enter(Suspects& suspects, const Suspect& suspect) {
-  const auto known = std::find_if(suspects.begin(), suspects.end() - 1,
-                                  [&](const Suspect& each) { return each.gauge == suspect.gauge; });
-  if (!lessUnexplained(suspect, *known)) return;
-  *known = suspect;
-  std::sort(suspects.begin(), suspects.end(), lessUnexplained);
+  std::size_t known = 0;
+  while (known + 1 < suspects.size() && suspects[known].gauge != suspect.gauge) ++known;
+  if (!lessUnexplained(suspect, suspects[known])) return;
+  suspects[known] = suspect;
+  sort(suspects);
 }
 
 View lookAt(const Problem& problem, int look) {
@@ -73,7 +81,7 @@ View lookAt(const Problem& problem, int look) {
 
 /// What leaving a gauge out takes off the unexplained energy: r^2 / (1 - h).
 std::int32_t relief(std::int32_t residual, std::int32_t leverage_q15) {
-  const std::int32_t left = std::max((1 << 15) - leverage_q15, 1 << 9);
+  const std::int32_t left = std::max<std::int32_t>((1 << 15) - leverage_q15, 1 << 9);
   return saturate<std::int32_t>((std::int64_t{residual} * residual << 13) / left);
 }
 
@@ -83,12 +91,12 @@ void lookThere(const Problem& problem, const RingSignal& signal, int look, Suspe
   if (!fit.share.determined) return;
   std::int32_t window = 0;
   for (int step = -kWindowReach; step <= kWindowReach; ++step)
-    window += energyOf(signal.at[static_cast<std::size_t>(gaugeAt(problem, view, step))]);
-  const std::int32_t outside = std::max(problem.ringEnergy - window, 0);
+    window += energyOf(signal.at(gaugeAt(problem, view, step)));
+  const std::int32_t outside = std::max<std::int32_t>(problem.ringEnergy - window, 0);
   for (int step = -problem.gauges() / 2; step < problem.gauges() / 2; ++step) {
     const int gauge = gaugeAt(problem, view, step);
     if (contains(signal.leftOut, gauge)) continue;
-    const std::int32_t reading = signal.at[static_cast<std::size_t>(gauge)];
+    const std::int32_t reading = signal.at(gauge);
     std::int32_t inside = fit.share.unexplained, beyond = outside, trusted = window;
     if (std::abs(step) <= kWindowReach) {
       const std::int32_t residual = reading - fit.predicted(problem, view, step);
@@ -97,7 +105,8 @@ void lookThere(const Problem& problem, const RingSignal& signal, int look, Suspe
     } else {
       beyond -= energyOf(reading);
     }
-    const std::int32_t unexplained = std::max(inside, 0) + std::max(beyond - (trusted >> kOutsideShift), 0);
+    const std::int32_t unexplained =
+        std::max<std::int32_t>(inside, 0) + std::max<std::int32_t>(beyond - (trusted >> kOutsideShift), 0);
     enter(suspects, {gauge, look, unexplained});
   }
 }
@@ -109,30 +118,61 @@ bool mayExplain(const Problem& problem, int centre) {
   return split.outside - split.largestOutside - (trusted >> kOutsideShift) <= tolerated(problem);
 }
 
+/// What was observed, not yet as a problem: functions that make one of it don't share their stack.
+struct Observed {
+  const TableImage& tables;
+  GaugeSet leftOut;
+  std::span<const std::int32_t> strains_q32;
+  std::uint32_t energy;
+
+  Problem problem() const { return problemOf(tables, FitMode::kRefined, strains_q32, energy); }
+};
+
 /// What one contact leaves unexplained of the ring without the suspect.
-std::int32_t unexplainedWithout(const Problem& problem, GaugeSet leftOut, const Suspect& suspect) {
-  const auto reading = scaledStrain(problem.strains[static_cast<std::size_t>(suspect.gauge)], problem.shift);
-  const Problem others{problem.tables, problem.strains, problem.mode, problem.shift,
-                       std::max(problem.ringEnergy - energyOf(reading), 1)};
-  const RingSignal signal = ringSignal(others, leftOut | 1u << suspect.gauge);
+[[gnu::noinline]] std::int32_t unexplainedWithout(const Observed& observed, const Suspect& suspect) {
+  Problem others = observed.problem();
+  const auto reading = scaledStrain(others.strains[static_cast<std::size_t>(suspect.gauge)], others.shift);
+  others.ringEnergy = std::max<std::int32_t>(others.ringEnergy - energyOf(reading), 1);
+  const RingSignal signal{others, observed.leftOut | 1u << suspect.gauge};
   std::int32_t most = 0;
-  for (const int look : {suspect.look - 2, suspect.look, suspect.look + 2}) {
-    const int looks = kLooksPerPitch * problem.gauges();
-    const Candidate candidate = followed(others, signal, lookAt(problem, wrapped(look, looks)));
+  for (int look = suspect.look - 2; look <= suspect.look + 2; look += 2) {
+    const int looks = kLooksPerPitch * others.gauges();
+    const Candidate candidate = followed(others, signal, lookAt(others, wrapped(look, looks)));
     if (candidate.admissible) most = std::max(most, candidate.explained);
   }
-  if (most == 0) most = std::max(searchRemaining(others, signal).best.explained, 0);
-  return std::max(others.ringEnergy - most, 0);
+  if (most == 0) most = std::max<std::int32_t>(searchRemaining(others, signal).best.explained, 0);
+  return std::max<std::int32_t>(others.ringEnergy - most, 0);
 }
 
 /// A contact always moves two gauges: one alone is a fault.
-int loneGauge(const Problem& problem, const RingSignal& signal) {
-  const auto& at = signal.at;
-  const auto largest = std::max_element(at.begin(), at.begin() + problem.gauges(),
-                                        [](int a, int b) { return std::abs(a) < std::abs(b); });
-  const std::int32_t others = problem.ringEnergy - energyOf(*largest);
+[[gnu::noinline]] int loneGauge(const Observed& observed) {
+  const Problem problem = observed.problem();
+  const RingSignal signal{problem, observed.leftOut};
+  int largest = 0;
+  for (int gauge = 1; gauge < problem.gauges(); ++gauge)
+    if (std::abs(signal.at(gauge)) > std::abs(signal.at(largest))) largest = gauge;
+  const std::int32_t others = problem.ringEnergy - energyOf(signal.at(largest));
   const bool alone = others <= problem.noise(kNoise / 2) + (problem.ringEnergy >> (kGainShift - 1));
-  return alone ? static_cast<int>(largest - at.begin()) : -1;
+  return alone ? largest : -1;
+}
+
+[[gnu::noinline]] void lookEverywhere(const Observed& observed, Suspects& suspects) {
+  const Problem problem = observed.problem();
+  const RingSignal signal{problem, observed.leftOut};
+  for (int centre = 0; centre < problem.gauges(); ++centre) {
+    if (!mayExplain(problem, centre)) continue;
+    for (int look = -kLooksPerPitch / 2; look < kLooksPerPitch / 2; ++look)
+      lookThere(problem, signal, kLooksPerPitch * centre + look, suspects);
+  }
+}
+
+[[gnu::noinline]] Misfit verdictOn(const Observed& observed, const Suspects& suspects) {
+  const Suspect& best = suspects[0];
+  const Problem problem = observed.problem();
+  const std::int32_t clear = best.unexplained + best.unexplained / 4 + problem.noise(kTold);
+  if (best.unexplained <= tolerated(problem) / 2 && suspects[1].unexplained > clear)
+    return {.culprit = 1u << best.gauge};
+  return {.several = true};
 }
 
 }  // namespace
@@ -141,30 +181,21 @@ bool isMisfit(const TableImage& tables, std::span<const std::int32_t> strains_q3
               const Fit& fit) {
   const Problem problem = problemOf(tables, FitMode::kRefined, strains_q32, energy);
   const Split split = splitAt(problem, fit.centre);
-  const std::int32_t outside = std::max(split.outside - (split.window >> kOutsideShift), 0);
+  const std::int32_t outside = std::max<std::int32_t>(split.outside - (split.window >> kOutsideShift), 0);
   return fit.unexplained + outside > tolerated(problem) ||
          split.largestOutside > problem.noise(kNoise) + (split.window >> kOneOutsideShift);
 }
 
 Misfit examine(const TableImage& tables, GaugeSet leftOut, std::span<const std::int32_t> strains_q32,
                std::uint32_t energy) {
-  const Problem problem = problemOf(tables, FitMode::kRefined, strains_q32, energy);
-  const RingSignal signal = ringSignal(problem, leftOut);
-  if (const int lone = loneGauge(problem, signal); lone >= 0) return {.culprit = 1u << lone};
+  const Observed observed{tables, leftOut, strains_q32, energy};
+  if (const int lone = loneGauge(observed); lone >= 0) return {.culprit = 1u << lone};
   Suspects suspects;
-  for (int centre = 0; centre < problem.gauges(); ++centre) {
-    if (!mayExplain(problem, centre)) continue;
-    for (int look = -kLooksPerPitch / 2; look < kLooksPerPitch / 2; ++look)
-      lookThere(problem, signal, kLooksPerPitch * centre + look, suspects);
-  }
+  lookEverywhere(observed, suspects);
   for (Suspect& suspect : suspects)
-    if (suspect.gauge >= 0) suspect.unexplained = unexplainedWithout(problem, leftOut, suspect);
-  std::sort(suspects.begin(), suspects.end(), lessUnexplained);
-  const Suspect& best = suspects[0];
-  const bool told = best.unexplained <= tolerated(problem) / 2 &&
-                    suspects[1].unexplained > best.unexplained + best.unexplained / 4 + problem.noise(kTold);
-  if (told) return {.culprit = 1u << best.gauge};
-  return {.several = true};
+    if (suspect.gauge >= 0) suspect.unexplained = unexplainedWithout(observed, suspect);
+  sort(suspects);
+  return verdictOn(observed, suspects);
 }
 
 void GaugeWatch::accuse(GaugeSet culprits) {

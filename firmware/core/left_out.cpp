@@ -36,17 +36,18 @@ PitchQ20 positionOf(const Problem& problem, const View& view, PitchQ20 beyondRow
 }
 
 /// Energy outside the window that a contact there may well have left.
-std::int32_t tailOf(const Problem& problem, const RingSignal& signal, const View& view) {
+[[gnu::noinline]] std::int32_t tailOf(const Problem& problem, const RingSignal& signal, const View& view) {
   std::int32_t window = 0;
   for (int step = -kWindowReach; step <= kWindowReach; ++step) {
-    const std::int32_t reading = signal.at[static_cast<std::size_t>(gaugeAt(problem, view, step))];
+    const std::int32_t reading = signal.at(gaugeAt(problem, view, step));
     window += (reading * reading) >> 2;
   }
   return std::clamp<std::int32_t>(problem.ringEnergy - window, 0, window >> kTailShift);
 }
 
 /// Amplitudes as locate() has them, at the view's row.
-Placement placed(const Problem& problem, const View& view, PitchQ20 beyondRow, const Three& coefficients) {
+[[gnu::noinline]] Placement placed(const Problem& problem, const View& view, PitchQ20 beyondRow,
+                                   const Three& coefficients) {
   constexpr int kDown = 5;  // from coefficients * 2^4 to projections * 2^15, then as scaledBy() in window_fit
   const auto& load = problem.tables.refined[static_cast<std::size_t>(view.row)].load;
   const std::int64_t normal =
@@ -67,7 +68,7 @@ PitchQ20 distance(PitchQ20 a, PitchQ20 b, int gauges) {
   return std::min(ahead, gauges * kOnePitch - ahead);
 }
 
-void enter(Rivals& rivals, const Candidate& candidate, int gauges) {
+[[gnu::noinline]] void enter(Rivals& rivals, const Candidate& candidate, int gauges) {
   const bool same = distance(candidate.place.position, rivals.best.place.position, gauges) < kSame;
   if (candidate.betterThan(rivals.best)) {
     if (!same) rivals.second = rivals.best;
@@ -95,7 +96,7 @@ struct Peaks {
   }
 };
 
-Peaks peaksOf(const Problem& problem, const RingSignal& signal) {
+[[gnu::noinline]] Peaks peaksOf(const Problem& problem, const RingSignal& signal) {
   const int looks = kLooksPerPitch * problem.gauges();
   Peaks peaks;
   std::int32_t before = explainedAt(problem, signal, lookAt(problem, -1));
@@ -132,8 +133,7 @@ void clear(GaugeSet gauges, std::span<std::int32_t> strains_q32) {
 struct Verdict {
   bool determined = false;
   bool ambiguous = false;
-  Placement alternative;
-  int shift = 0;  ///< of its amplitudes
+  Placement alternative;  ///< with the amplitudes of a fit to the readings filled in
 };
 
 Placement scaledTo(int shift, const Placement& place, int from) {
@@ -144,19 +144,21 @@ Placement scaledTo(int shift, const Placement& place, int from) {
   return {place.position, scaled(place.normal), scaled(place.tangential)};
 }
 
+/// Fills in; the verdict goes with what gateEnergy() then is.
 [[gnu::noinline]] Verdict prepare(const TableImage& tables, GaugeSet leftOut,
-                                  std::span<std::int32_t> strains_q32, std::uint32_t energy) {
+                                  std::span<std::int32_t> strains_q32, std::uint32_t& energy) {
   clear(leftOut, strains_q32);
   const Problem problem = problemOf(tables, FitMode::kRefined, strains_q32, energy);
-  const RingSignal signal = ringSignal(problem, leftOut);
+  const RingSignal signal{problem, leftOut};
   const Rivals rivals = searchRemaining(problem, signal);
   const std::int32_t margin = problem.noise(kAmbiguous) + (rivals.best.explained >> kAmbiguousShift);
   Verdict verdict;
   verdict.ambiguous = rivals.second.admissible && rivals.second.explained > rivals.best.explained - margin;
-  verdict.alternative = rivals.second.place;
-  verdict.shift = problem.shift;
   verdict.determined = rivals.best.explained > problem.noise(kFaint) &&
                        fillIn(problem, signal, rivals.best.place.position, strains_q32);
+  energy = gateEnergy(tables.constants, strains_q32);
+  const int shift = problemOf(tables, FitMode::kRefined, strains_q32, energy).shift;
+  verdict.alternative = scaledTo(shift, rivals.second.place, problem.shift);
   return verdict;
 }
 
@@ -174,7 +176,7 @@ bool tooFew(const Problem& problem, const View& view, GaugeSet leftOut) {
                              std::span<const std::int32_t> strains_q32, std::uint32_t energy, Fit& fit) {
   const Problem problem = problemOf(tables, FitMode::kRefined, strains_q32, energy);
   const View view = viewOf(problem, fit.best.position);
-  const LocalFit local = localFit(problem, ringSignal(problem, leftOut), view);
+  const LocalFit local = localFit(problem, RingSignal{problem, leftOut}, view);
   fit.reduced = true;
   fit.covariance_q12 = local.share.covariance_q12;
   if (view.side != fit.side) {  // at the middle gauge both are right, but signs must agree
@@ -191,7 +193,7 @@ Candidate followed(const Problem& problem, const RingSignal& signal, View view) 
   for (int count = 0; count < kMaxSteps; ++count) {
     const LocalFit fit = localFit(problem, signal, view);
     if (!fit.share.determined) return candidate;
-    const PitchQ20 longest = kLongestStep >> std::max(count - 2, 0);  // no walking to and fro
+    const PitchQ20 longest = kLongestStep >> std::max<std::int32_t>(count - 2, 0);  // no walking to and fro
     const PitchQ20 whole = fit.share.beyondRow(fit.tangent);
     const PitchQ20 step = std::clamp(whole, -longest, longest);
     candidate.place = placed(problem, view, step, fit.share.coefficients);
@@ -221,13 +223,12 @@ Rivals searchRemaining(const Problem& problem, const RingSignal& signal) {
 Fit locateWithout(const TableImage& tables, GaugeSet leftOut, std::span<std::int32_t> strains_q32,
                   std::uint32_t energy) {
   const Verdict verdict = prepare(tables, leftOut, strains_q32, energy);
-  const std::uint32_t filled = gateEnergy(tables.constants, strains_q32);
-  Fit fit = locate(tables, FitMode::kRefined, strains_q32, filled);
-  widen(tables, leftOut, strains_q32, filled, fit);
+  Fit fit = locate(tables, FitMode::kRefined, strains_q32, energy);
+  widen(tables, leftOut, strains_q32, energy, fit);
   if (!verdict.determined) fit.settled = false;
   if (verdict.ambiguous) {
     fit.ambiguous = true;
-    fit.alternative = scaledTo(fit.shift, verdict.alternative, verdict.shift);
+    fit.alternative = verdict.alternative;
   }
   return fit;
 }

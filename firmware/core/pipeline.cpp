@@ -10,16 +10,24 @@ void clear(GaugeSet gauges, std::span<std::int32_t> strains_q32) {
     if ((gauges & 1) != 0) strains_q32[i] = 0;
 }
 
+/// Made where it will stay, and nowhere else: a fit more on the stack is too much.
+template <typename Make>
+struct Made {
+  Make make;
+  operator Fit() const { return make(); }
+};
+
 }  // namespace
 
-void Pipeline::look() {
+[[gnu::noinline]] void Pipeline::look() {
   energy_ = gateEnergy(constants(), strains());
   observation_.fit.reset();
   if (!gate_.update(constants(), energy_)) return;
   if (observation_.leftOut == 0) {
-    observation_.fit = locate(*tables_, mode_, strains(), energy_);
+    observation_.fit.emplace(Made{[&] { return locate(*tables_, mode_, strains(), energy_); }});
   } else {
-    observation_.fit = locateWithout(*tables_, observation_.leftOut, strains(), energy_);
+    observation_.fit.emplace(
+        Made{[&] { return locateWithout(*tables_, observation_.leftOut, strains(), energy_); }});
     energy_ = gateEnergy(constants(), strains());  // what was filled in is in the fit
   }
 }
@@ -42,7 +50,7 @@ GaugeSet Pipeline::implausiblySaturated(Codes codes) const {
   return gauges;
 }
 
-GaugeSet Pipeline::culprits(Codes codes) {
+[[gnu::noinline]] GaugeSet Pipeline::culprits(Codes codes) {
   GaugeSet gauges = 0;
   if (observation_.saturated != 0) gauges = implausiblySaturated(codes);
   const bool misfit = observation_.fit && isMisfit(*tables_, strains(), energy_, *observation_.fit);
@@ -53,10 +61,18 @@ GaugeSet Pipeline::culprits(Codes codes) {
     const Misfit found =
         examine(*tables_, observation_.leftOut, strains(), gateEnergy(constants(), strains()));
     watch_.found(found);
-    if (found.culprit != 0) lookWithout(found.culprit);
     gauges |= found.culprit;
   }
   return gauges;
+}
+
+/// What the sample set teaches. Not inlined, nor are the other stages: none needs the others' stack.
+[[gnu::noinline]] void Pipeline::conclude(GaugeSet accused) {
+  watch_.accuse(accused);
+  tracker_.take(*tables_, strains(), observation_.fit, observation_.leftOut, calibration_);
+  observation_.staleZero = tracker_.stale();
+  observation_.outOfUse = watch_.outOfUse();
+  observation_.several = watch_.several();
 }
 
 const Observation& Pipeline::process(Codes codes) {
@@ -65,11 +81,9 @@ const Observation& Pipeline::process(Codes codes) {
   observation_.leftOut = 0;
   const GaugeSet known = watch_.outOfUse() | readings_.saturated;
   known != 0 ? lookWithout(known) : look();
-  watch_.accuse(culprits(codes));
-  tracker_.take(*tables_, strains(), observation_.fit, observation_.leftOut, calibration_);
-  observation_.staleZero = tracker_.stale();
-  observation_.outOfUse = watch_.outOfUse();
-  observation_.several = watch_.several();
+  const GaugeSet accused = culprits(codes);
+  if ((accused & ~observation_.leftOut) != 0) lookWithout(accused);
+  conclude(accused);
   return observation_;
 }
 

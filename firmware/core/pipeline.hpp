@@ -48,6 +48,7 @@ class Pipeline {
   void look();
   void lookWithout(GaugeSet gauges);
   GaugeSet culprits(Codes codes);
+  void conclude(GaugeSet accused);
   GaugeSet implausiblySaturated(Codes codes) const;
 
   const TableImage* tables_;

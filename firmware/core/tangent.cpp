@@ -33,7 +33,7 @@ WindowReadings readingsOf(const Problem& problem, const RingSignal& signal, cons
   const int sign = view.side > 0 ? 1 : problem.mirrorSign();
   for (int step = -kWindowReach; step <= kWindowReach; ++step) {
     const int gauge = gaugeAt(problem, view, step);
-    readings.at[indexOf(step)] = saturate<std::int16_t>(sign * signal.at[static_cast<std::size_t>(gauge)]);
+    readings.at[indexOf(step)] = saturate<std::int16_t>(sign * signal.at(gauge));
     if (contains(signal.leftOut, gauge)) readings.leftOut |= 1u << indexOf(step);
   }
   return readings;
@@ -49,7 +49,7 @@ struct Pair {
   }
 };
 
-Pair projected(const FitRow& row, const WindowReadings& readings) {
+[[gnu::noinline]] Pair projected(const FitRow& row, const WindowReadings& readings) {
   Pair pair;
   for (int step = -kWindowReach; step <= kWindowReach; ++step) {
     const std::int32_t u1 = weight(row.basis[0], step), u2 = weight(row.basis[1], step);
@@ -69,7 +69,7 @@ bool determined(std::int32_t determinant, int bits) { return determinant > 1 << 
 
 /// The loads' coefficients of the readings left [signal * 2^6].
 std::array<std::int32_t, 2> solved(const Pair& pair) {
-  const std::int64_t determinant = std::max(pair.determinant_q15(), 1);
+  const std::int64_t determinant = std::max<std::int32_t>(pair.determinant_q15(), 1);
   const auto coefficient = [&](std::int64_t numerator) {
     return saturate<std::int32_t>((numerator >> 9) / determinant);
   };
@@ -78,14 +78,16 @@ std::array<std::int32_t, 2> solved(const Pair& pair) {
 }
 
 /// Adds the direction of a move: W u, whose columns are scaled by powers of two of their own.
-void addMove(const FitRow& row, const std::array<std::int32_t, 2>& loads, Tangent& tangent) {
-  std::array<std::int64_t, kWindowGauges> move{};
+[[gnu::noinline]] void addMove(const FitRow& row, const std::array<std::int32_t, 2>& loads,
+                               Tangent& tangent) {
+  std::array<std::int32_t, kWindowGauges> move{};
   std::int64_t energy = 0;
   for (int step = -kWindowReach; step <= kWindowReach; ++step) {
-    std::int64_t& component = move[indexOf(step)];
+    std::int64_t component = 0;
     for (std::size_t i = 0; i < 2; ++i)
       component += std::int64_t{weight(row.gradient[i], step)} * (loads[i] >> row.lag[i]);
     component >>= 15;
+    move[indexOf(step)] = saturate<std::int32_t>(component);
     energy += component * component;
   }
   const int excess = 64 - std::countl_zero(static_cast<std::uint64_t>(energy)) - 30;
@@ -94,20 +96,17 @@ void addMove(const FitRow& row, const std::array<std::int32_t, 2>& loads, Tangen
   const auto length = static_cast<std::int32_t>(integerRoot(static_cast<std::uint32_t>(top)));
   if (energy == 0 || length == 0) return;
   for (std::size_t i = 0; i < kWindowGauges; ++i) {
-    const std::int64_t scaled = halved >= 0 ? move[i] >> halved : move[i] * (1 << -halved);
+    const std::int64_t scaled = halved >= 0 ? move[i] >> halved : std::int64_t{move[i]} * (1 << -halved);
     tangent.at[i][2] = saturate<std::int16_t>(static_cast<std::int32_t>(scaled) * (1 << 15) / length);
   }
   const int up = halved + row.gradient_exponent;
   tangent.steepness = up >= 0 ? std::int64_t{length} << up : std::int64_t{length} >> -up;
 }
 
-Tangent tangentOf(const FitRow& row, const std::array<std::int32_t, 2>& loads) {
-  Tangent tangent;
+[[gnu::noinline]] void addLoads(const FitRow& row, Tangent& tangent) {
   for (int step = -kWindowReach; step <= kWindowReach; ++step)
     for (std::size_t i = 0; i < 2; ++i)
       tangent.at[indexOf(step)][i] = saturate<std::int16_t>(weight(row.basis[i], step));
-  addMove(row, loads, tangent);
-  return tangent;
 }
 
 constexpr int kMatrixBits = 24;
@@ -122,7 +121,7 @@ std::int32_t predictedAt(const Tangent& tangent, const Three& coefficients, std:
   return saturate<std::int32_t>((reading + (1 << 14)) >> 15);
 }
 
-void addEnergies(const Tangent& tangent, const WindowReadings& readings, Share& share) {
+[[gnu::noinline]] void addEnergies(const Tangent& tangent, const WindowReadings& readings, Share& share) {
   std::int64_t window = 0, unexplained = 0;
   for (std::size_t i = 0; i < kWindowGauges; ++i) {
     if ((readings.leftOut >> i & 1) != 0) continue;
@@ -135,27 +134,36 @@ void addEnergies(const Tangent& tangent, const WindowReadings& readings, Share& 
   share.explained = saturate<std::int32_t>((window >> 2) - share.unexplained);
 }
 
-Share shareOf(const Tangent& tangent, const WindowReadings& readings) {
+/// Sums over the readings left, and what they leave of an identity [* 2^24].
+struct Normal {
+  Symmetric left;
+  Three sums{};  ///< [signal * 2^4]
+};
+
+[[gnu::noinline]] Normal normalOf(const Tangent& tangent, const WindowReadings& readings) {
   constexpr std::int32_t kOne = 1 << kMatrixBits;
-  Symmetric left{kOne, 0, 0, kOne, 0, kOne};
-  Three sums{};
+  Normal normal{{kOne, 0, 0, kOne, 0, kOne}};
   for (std::size_t i = 0; i < kWindowGauges; ++i) {
-    const auto& [u1, u2, move] = tangent.at[i];
-    if ((readings.leftOut >> i & 1) != 0) {
-      constexpr int kDown = 30 - kMatrixBits;
-      const std::array products{u1 * u1, u1 * u2, u1 * move, u2 * u2, u2 * move, move * move};
-      for (std::size_t k = 0; k < left.size(); ++k) left[k] -= products[k] >> kDown;
-    } else {
-      for (std::size_t k = 0; k < 3; ++k) sums[k] += tangent.at[i][k] * readings.at[i];
+    const auto& e = tangent.at[i];
+    std::size_t element = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if ((readings.leftOut >> i & 1) == 0) {
+        normal.sums[k] += e[k] * readings.at[i];
+      } else {
+        for (std::size_t j = k; j < 3; ++j) normal.left[element++] -= e[k] * e[j] >> (30 - kMatrixBits);
+      }
     }
   }
-  for (std::int32_t& sum : sums) sum >>= 11;
-  Share share;
-  share.determined = invert(left, share.covariance_q12);
-  if (!share.determined) return share;
-  share.coefficients = product_q12(share.covariance_q12, sums);
+  for (std::int32_t& sum : normal.sums) sum >>= 11;
+  return normal;
+}
+
+[[gnu::noinline]] void fillShare(const Tangent& tangent, const WindowReadings& readings, Share& share) {
+  const Normal normal = normalOf(tangent, readings);
+  share.determined = invert(normal.left, share.covariance_q12);
+  if (!share.determined) return;
+  share.coefficients = product_q12(share.covariance_q12, normal.sums);
   addEnergies(tangent, readings, share);
-  return share;
 }
 
 const FitRow& rowOf(const Problem& problem, const View& view) {
@@ -164,16 +172,25 @@ const FitRow& rowOf(const Problem& problem, const View& view) {
 
 }  // namespace
 
-bool invert(const Symmetric& m, Symmetric& inverse) {
+namespace {
+
+/// The adjoint of a matrix, in its format, and the determinant.
+[[gnu::noinline]] std::int32_t adjoin(const Symmetric& m, Symmetric& adjoint) {
   const std::int64_t a = m[0], b = m[1], c = m[2], d = m[3], e = m[4], f = m[5];
-  const std::array<std::int64_t, 6> adjoint{times(d, f) - times(e, e), times(c, e) - times(b, f),
-                                            times(b, e) - times(c, d), times(a, f) - times(c, c),
-                                            times(b, c) - times(a, e), times(a, d) - times(b, b)};
-  const std::int64_t determinant = times(a, adjoint[0]) + times(b, adjoint[1]) + times(c, adjoint[2]);
-  if (!determined(static_cast<std::int32_t>(determinant), kMatrixBits)) return false;
-  std::transform(adjoint.begin(), adjoint.end(), inverse.begin(), [&](std::int64_t value) {
-    return static_cast<std::int32_t>(value * (1 << 12) / determinant);
-  });
+  const auto narrow = [](std::int64_t value) { return static_cast<std::int32_t>(value); };
+  adjoint = {narrow(times(d, f) - times(e, e)), narrow(times(c, e) - times(b, f)),
+             narrow(times(b, e) - times(c, d)), narrow(times(a, f) - times(c, c)),
+             narrow(times(b, c) - times(a, e)), narrow(times(a, d) - times(b, b))};
+  return narrow(times(a, adjoint[0]) + times(b, adjoint[1]) + times(c, adjoint[2]));
+}
+
+}  // namespace
+
+bool invert(const Symmetric& matrix_q24, Symmetric& inverse_q12) {
+  const std::int32_t determinant = adjoin(matrix_q24, inverse_q12);
+  if (!determined(determinant, kMatrixBits)) return false;
+  for (std::int32_t& element : inverse_q12)
+    element = static_cast<std::int32_t>(std::int64_t{element} * (1 << 12) / determinant);
   return true;
 }
 
@@ -183,16 +200,6 @@ Three product_q12(const Symmetric& m, const Three& v) {
         (std::int64_t{m[a]} * v[0] + std::int64_t{m[b]} * v[1] + std::int64_t{m[c]} * v[2]) >> 12);
   };
   return {row(0, 1, 2), row(1, 3, 4), row(2, 4, 5)};
-}
-
-RingSignal ringSignal(const Problem& problem, GaugeSet leftOut) {
-  RingSignal signal;
-  signal.leftOut = leftOut;
-  for (int gauge = 0; gauge < problem.gauges(); ++gauge) {
-    const auto i = static_cast<std::size_t>(gauge);
-    if (!contains(leftOut, gauge)) signal.at[i] = scaledStrain(problem.strains[i], problem.shift);
-  }
-  return signal;
 }
 
 int gaugeAt(const Problem& problem, const View& view, int step) {
@@ -235,8 +242,9 @@ LocalFit localFit(const Problem& problem, const RingSignal& signal, const View& 
   const FitRow& row = rowOf(problem, view);
   const WindowReadings readings = readingsOf(problem, signal, view);
   LocalFit fit;
-  fit.tangent = tangentOf(row, solved(projected(row, readings)));
-  fit.share = shareOf(fit.tangent, readings);
+  addLoads(row, fit.tangent);
+  addMove(row, solved(projected(row, readings)), fit.tangent);
+  fillShare(fit.tangent, readings, fit.share);
   return fit;
 }
 

@@ -14,12 +14,17 @@ namespace strainfinger::firmware {
 using GaugeSet = std::uint32_t;
 constexpr bool contains(GaugeSet set, int gauge) { return (set >> gauge & 1) != 0; }
 
-/// The ring's strains / 2^shift of the problem, rounded; gauges that are left out read 0.
+/// The ring's strains / 2^shift of the problem, rounded; gauges that are left out read 0. Scaled as they are
+/// asked for: no copy on the stack.
 struct RingSignal {
-  std::array<std::int16_t, kMaxGauges> at{};
-  GaugeSet leftOut = 0;
+  const Problem& problem;
+  GaugeSet leftOut;
+
+  std::int16_t at(int gauge) const {
+    if (contains(leftOut, gauge)) return 0;
+    return scaledStrain(problem.strains[static_cast<std::size_t>(gauge)], problem.shift);
+  }
 };
-RingSignal ringSignal(const Problem& problem, GaugeSet leftOut);
 
 /// A window as seen from a contact: offset in rows from the middle gauge towards `side`.
 struct View {

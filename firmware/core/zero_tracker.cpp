@@ -155,7 +155,8 @@ bool ZeroTracker::add(std::span<const std::int32_t> strains_q32) {
 }
 
 void ZeroTracker::move(std::size_t gauge, std::int32_t by_q32, Calibration& calibration) {
-  const std::int64_t codes = (std::int64_t{by_q32} << 32) / std::max(calibration.gain[gauge], 1);
+  const std::int64_t codes =
+      (std::int64_t{by_q32} << 32) / std::max<std::int32_t>(calibration.gain[gauge], 1);
   calibration.zero_q15[gauge] = static_cast<std::int32_t>(std::clamp<std::int64_t>(
       calibration.zero_q15[gauge] + codes, 0, std::numeric_limits<std::int32_t>::max()));
   lastChange_q32_ = std::max(lastChange_q32_, std::abs(by_q32));
@@ -182,7 +183,7 @@ void ZeroTracker::followTouched(const TableImage& tables, PitchQ20 position, Gau
       problemOf(tables, FitMode::kRefined, averages, gateEnergy(tables.constants, averages));
   const View view = viewOf(problem, position);
   const GaugeSet window = windowOf(problem, view);
-  const Ways ways{problem, view, localFit(problem, ringSignal(problem, leftOut), view).tangent};
+  const Ways ways{problem, view, localFit(problem, RingSignal{problem, leftOut}, view).tangent};
   const std::int64_t square = squareOf(averages, window);
   for (std::size_t i = 0; i < averages.size(); ++i)
     averages[i] = contains(leftOut, static_cast<int>(i)) ? 0 : averages[i] - rest_[i];

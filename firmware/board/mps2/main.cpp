@@ -65,6 +65,17 @@ void act(const WorldRecord& record, Can& can) {
   console << "\n";
 }
 
+/// Ends the emulator when its command line asks for a node that cannot be.
+[[gnu::noinline]] firmware::FingerSettings readSettings() {
+  std::array<char, 64> text;
+  const auto node = nodeOf({text.data(), commandLine(text)});
+  if (!node) {
+    Console() << "node= must be 1 to 63\n";
+    endEmulator(2);
+  }
+  return settingsOf(*node);
+}
+
 }  // namespace
 
 [[noreturn]] void run() {
@@ -73,6 +84,7 @@ void act(const WorldRecord& record, Can& can) {
   static Uart bus(kUart1), world_line(kUart2);
   const firmware::LastRun last = board::takeLastRun();
   greet(last);
+  static const firmware::FingerSettings settings = readSettings();
   static Can can(bus, last.restarts != 0);  // the host has not closed it
   world_line.put(kReady);
   static TheWorld world(world_line, can);
@@ -82,7 +94,7 @@ void act(const WorldRecord& record, Can& can) {
     world_line.clearInterrupts();
     for (const unsigned interrupt : kLineInterrupts) board::forgetInterrupt(interrupt);
     can.poll();
-    if (!world.poll([](const WorldRecord& record) { act(record, can); })) {
+    if (!world.poll([](const WorldRecord& record) { act(record, can); }) && !can.hasArrived()) {
       watchdog.rest();
       board::sleep();
     }
@@ -90,7 +102,7 @@ void act(const WorldRecord& record, Can& can) {
     if (watchdog.starved()) board::crash(Crash::kStarved, 0);
   };
   watchdog.run();
-  firmware::runFinger(board::kLinkedTables, kSettings, last, world, can, world, watchdog, wait);
+  firmware::runFinger(board::kLinkedTables, settings, last, world, can, world, watchdog, hal::noStore, wait);
 }
 
 }  // namespace strainfinger::mps2

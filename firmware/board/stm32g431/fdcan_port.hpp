@@ -1,6 +1,7 @@
 #pragma once
 // hal::CanPort on FDCAN1: RM0440 chapter 44. Nothing here waits for the bus, and no interrupt is used.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -123,7 +124,7 @@ class FdcanPort {
   void setFilters(std::span<const std::uint16_t> ids) noexcept {
     std::uint32_t filters = 0;
     for (std::size_t i = 0; i < ids.size() && filters < MessageRam::standardFilters; i += 2, ++filters) {
-      const std::uint16_t second = i + 1 < ids.size() ? ids[i + 1] : ids[i];
+      const std::uint16_t second = ids[std::min(i + 1, ids.size() - 1)];
       bus_.write(MessageRam::filter(filters), (StandardFilter::type(1) | StandardFilter::action(1) |
                                                StandardFilter::id1(ids[i]) | StandardFilter::id2(second))
                                                   .value);

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "host/base/failure.hpp"
+#include "host/contact/contact_regions.hpp"
 #include "host/contact/edge_search.hpp"
 #include "host/contact/surface_motion.hpp"
 
@@ -42,6 +43,8 @@ double hertzHalf_rad(const model::Annulus<double>& annulus, const Indenter& inde
 }
 
 std::vector<Patch> firstGuess(const SurfaceKernel& kernel, const ContactRequest& request) {
+  if (request.indenter.isMeasured() && !request.centre_rad)
+    return findRegions(kernel, request.indenter, request.size);
   const model::Annulus<double>& annulus = kernel.annulus();
   const double half_rad = request.size.kind == ContactSize::Kind::kWidth
                               ? request.size.value / (2 * annulus.outer_radius_m)
@@ -102,22 +105,43 @@ bool pulls(const Tractions& tractions) {
   return least < -1e-9 * most;
 }
 
+/// Whether a measured shape is inside the rubber somewhere between or beside its contact regions.
+bool penetrates(const SurfaceKernel& kernel, const Indenter& indenter, const Contact& contact) {
+  constexpr int kPlaces = 400;
+  const SurfaceMotion motion(kernel, contact.tractions);
+  const double radius_m = kernel.annulus().outer_radius_m, width_rad = contact.width_m / radius_m;
+  for (int i = 0; i < kPlaces; ++i) {
+    const double angle_rad = contact.offset_rad + 1.5 * width_rad * (2 * (i + 0.5) / kPlaces - 1);
+    const double x_m = radius_m * angle_rad;
+    const bool isKnown = x_m >= indenter.firstPosition_m() && x_m <= indenter.lastPosition_m();
+    if (!isKnown || tractionAt(contact.tractions, angle_rad).pressure_pa != 0) continue;
+    const double gap_m =
+        x_m * angle_rad / 2 + indenter.height(x_m) - contact.approach_m - motion.at(angle_rad).ur_m;
+    if (gap_m < -1e-12 - contact.residual_m) return true;
+  }
+  return false;
+}
+
 void addWarnings(const SurfaceKernel& kernel, const ContactRequest& request, Contact& contact) {
   std::vector<std::string>& warnings = contact.warnings;
   const bool sticks = request.regime == Regime::kStick;
+  const double depth_m = std::max(std::abs(contact.depth_m), std::abs(contact.approach_m));
   if (sticks && kernel.annulus().poisson_ratio != 0.5)
     warnings.emplace_back(
         "stick below nu = 1/2: the tractions oscillate at the edges, which the series don't; the load is off "
         "by "
         "0.5 to 2 %");
-  if (request.centre_rad && contact.residual_m > 1e-6 * contact.depth_m)
+  if (request.centre_rad && contact.residual_m > 1e-6 * depth_m)
     warnings.emplace_back(
         "no contact with its centre held there fits this indenter: the tractions are those of an indenter "
         "that "
         "is turned by what the residual tells");
-  else if (!sticks && contact.residual_m > 1e-6 * contact.depth_m)
+  else if (!sticks && contact.residual_m > 1e-6 * depth_m)
     warnings.push_back(fmt::format("inaccurate: {} terms a patch leave {:.2g} of the depth unresolved",
-                                   contact.terms, contact.residual_m / contact.depth_m));
+                                   contact.terms, contact.residual_m / depth_m));
+  if (request.indenter.isMeasured() && penetrates(kernel, request.indenter, contact))
+    warnings.emplace_back(
+        "the indenter is inside the rubber somewhere: a narrow region of contact was missed");
   if (pulls(contact.tractions))
     warnings.emplace_back("the tractions pull somewhere: no contact is like this");
 }

@@ -84,6 +84,26 @@ TEST(ContactCommand, TakesCylindersAndWedges) {
   DOUBLES_EQUAL(82.79063, summary("contact --indenter wedge:80 --width-m 2e-3")[0], 1e-4);
 }
 
+// The shape comes through a pipe that a shell makes a file of.
+TEST(ContactCommand, TakesMeasuredShapes) {
+  const std::string shape = "x_m,height_m\n-3e-3,9e-4\n-1e-3,1e-4\n0,0\n1e-3,1e-4\n3e-3,9e-4\n";
+  const Run run = runProgram("contact --indenter /dev/stdin --load-n-per-m 20 --summary", shape);
+  LONGS_EQUAL(0, run.status);
+  DOUBLES_EQUAL(summary("contact --indenter cylinder:5e-3 --load-n-per-m 20")[2], tableOf(run.out)[0][2],
+                1e-12);
+}
+
+TEST(ContactCommand, SaysWhereAShapeIsWrong) {
+  const auto fails = [](const std::string& shape, const char* named) {
+    const Run run = runProgram("contact --indenter /dev/stdin --load-n-per-m 20", shape);
+    CHECK_TRUE(run.status != 0);
+    STRCMP_CONTAINS(named, run.err.c_str());
+  };
+  fails("0,0\n1e-3,x\n", "/dev/stdin:2:");
+  fails("0,0\n1e-3,0\n", "four points");
+  fails("0,0\n1e-3,0\n1e-3,0\n2e-3,0\n", "must rise");
+}
+
 TEST(ContactCommand, ThePapersMethodIsThereAndSaysWhatItIs) {
   const Run run = runProgram(flat("--width-m 2e-3 --method paper --summary"));
   STRCMP_CONTAINS("--method paper is inaccurate", run.err.c_str());

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "host/base/failure.hpp"
 #include "host/contact/surface_motion.hpp"
@@ -69,9 +70,93 @@ void isUnilateral(const ContactRequest& request, const model::Annulus<double>& f
     }
 }
 
+/// Measured every 10 um over +-4 mm.
+template <typename Height>
+Indenter measured(Height height) {
+  std::vector<double> x, y;
+  for (int i = -400; i <= 400; ++i) {
+    x.push_back(i * 10e-6);
+    y.push_back(height(x.back()));
+  }
+  return Indenter::measured(x, y);
+}
+
+/// Waves 1 mm long and 50 um high: several regions of contact.
+Indenter waves() {
+  return measured([](double x) { return 25e-6 * (1 - std::cos(2 * std::numbers::pi * x / 1e-3)); });
+}
+
 }  // namespace
 
 TEST_GROUP(Contact){};
+
+TEST(Contact, AMeasuredPlaneAndAMeasuredParabolaAreWhatTheyAre) {
+  for (const bool isFlat : {true, false})
+    for (const ContactRequest& size : {ofWidth(2e-3), ofLoad(20), ofLoad(1e-3)}) {
+      ContactRequest known = size, request = size;
+      known.indenter = isFlat ? Indenter::flat() : Indenter::cylinder(5e-3);
+      request.indenter = measured([&](double x) { return isFlat ? 0 : x * x / 10e-3; });
+      const Contact contact = solve(request);
+      equalRelative(solve(known).normal_n_per_m, contact.normal_n_per_m, 1e-10);
+      equalRelative(solve(known).width_m, contact.width_m, 1e-10);
+      DOUBLES_EQUAL(0, contact.offset_rad, 1e-9);
+      LONGS_EQUAL(0, contact.warnings.size());
+    }
+}
+
+// Turned by a slope s a flat indenter touches r_b theta = -s r_b off.
+TEST(Contact, ATiltedPlaneTouchesBesideItsOrigin) {
+  ContactRequest request = ofLoad(20);
+  request.indenter = measured([](double x) { return 0.05 * x; });
+  const Contact contact = solve(request);
+  equalRelative(1.932184257e-3, contact.width_m, 1e-9);
+  DOUBLES_EQUAL(-0.05, contact.offset_rad, 1e-9);
+}
+
+TEST(Contact, WavesTouchInRegionsAsManyAsTheLoadMakes) {
+  const auto regions = [](double load_n_per_m) {
+    ContactRequest request = ofLoad(load_n_per_m);
+    request.indenter = waves();
+    const Contact contact = solve(request);
+    LONGS_EQUAL(0, contact.warnings.size());  // nothing pulls, nothing penetrates
+    equalRelative(load_n_per_m, contact.normal_n_per_m, 1e-11);
+    return contact.tractions.size();
+  };
+  LONGS_EQUAL(1, regions(1e-3));
+  LONGS_EQUAL(1, regions(1));
+  LONGS_EQUAL(3, regions(20));
+}
+
+TEST(Contact, RegionsOfASlidingContactFitTheirIndenter) {
+  ContactRequest request = ofLoad(20);
+  request.indenter = waves();
+  request.regime = Regime::kSliding;
+  request.friction = 0.5;
+  const Contact contact = solve(request);
+  LONGS_EQUAL(3, contact.tractions.size());
+  CHECK_TRUE(contact.residual_m < 1e-10);  // a spline's third derivatives jump
+  equalRelative(10, contact.tangential_n_per_m, 1e-11);
+}
+
+TEST(Contact, RegionsHaveTheWidthAskedFor) {
+  ContactRequest request = ofWidth(2.1e-3);
+  request.indenter = waves();
+  const Contact contact = solve(request);
+  LONGS_EQUAL(3, contact.tractions.size());
+  equalRelative(2.1e-3, contact.width_m, 1e-11);
+}
+
+TEST(Contact, AWidthThatIsJumpedOverFails) {
+  ContactRequest request = ofWidth(1.5e-3);
+  request.indenter = waves();
+  CHECK_THROWS(Failure, solve(request));
+}
+
+TEST(Contact, AShapeThatEndsWithinTheContactFails) {
+  ContactRequest request = ofLoad(300);
+  request.indenter = Indenter::measured({-1e-3, -0.5e-3, 0.5e-3, 1e-3}, {0, 0, 0, 0});
+  CHECK_THROWS(Failure, solve(request));
+}
 
 TEST(Contact, FlatContactsHaveTheKnownLoadsAndPeaks) {
   for (const KnownFlat& known : kKnownFlats) {

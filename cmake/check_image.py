@@ -39,6 +39,17 @@ class Function:
         self.frame = 0
 
 
+def leaves_through_a_pointer(mnemonic, operands):
+    """Not a return: those are to lr, or to what was pushed."""
+    if mnemonic.startswith("blx"):
+        return True
+    if mnemonic.startswith("bx"):
+        return not operands.startswith("lr")
+    if mnemonic.startswith("mov"):
+        return re.match(r"pc, (?!lr)", operands) is not None
+    return mnemonic.startswith("ldr") and re.match(r"pc, (?!\[sp)", operands) is not None
+
+
 def disassembled(elf):
     """Functions by address. A call is any branch to another function's address."""
     functions, current = {}, None
@@ -55,7 +66,7 @@ def disassembled(elf):
             target = re.search(r"\b([0-9a-f]+) <([^>+]+)>", operands)
             if mnemonic.startswith("b") and target and (target[2] != function.name or mnemonic in ("bl", "blx")):
                 function.calls.add(int(target[1], 16))
-            if mnemonic.startswith("blx") and not target:
+            if not target and leaves_through_a_pointer(mnemonic, operands):
                 function.indirect = True
     return functions
 

@@ -26,7 +26,7 @@ class Guide(unittest.TestCase):
         self.crc = int(re.search(r"CRC-32 ([0-9A-F]{8})", printed("tables", "verify", TABLES))[1], 16)
 
     def test_the_images_size(self):
-        self.assertIn(f"    {SIZES.read_text().strip()}\n", GUIDE)
+        self.assertIn(f"    {SIZES.stem}: {SIZES.read_text().strip()} bytes\n", GUIDE)
 
     def test_the_default_tables(self):
         self.assertEqual({f"{self.crc:08X}"}, set(re.findall(r"CRC-32 ([0-9A-F]{8})", GUIDE)))

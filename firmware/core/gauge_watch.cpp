@@ -198,7 +198,24 @@ Misfit examine(const TableImage& tables, GaugeSet leftOut, std::span<const std::
   return verdictOn(observed, suspects);
 }
 
-void GaugeWatch::accuse(GaugeSet culprits) {
+GaugeSet JumpWatch::take(std::span<const std::int32_t> strains_q32) {
+  const std::int32_t reading = strains_q32[gauge_];
+  if (looks_ == 0) {
+    jumps_ = 0;
+  } else if (std::abs(std::int64_t{reading} - before_q32_) > jump_q32_ && ++jumps_ == kJumps) {
+    looks_ = 0;
+    return 1u << gauge_;
+  }
+  before_q32_ = reading;
+  if (++looks_ > kLooks) {
+    looks_ = 0;
+    gauge_ = gauge_ + 1u < strains_q32.size() ? static_cast<std::uint8_t>(gauge_ + 1) : std::uint8_t{0};
+  }
+  return 0;
+}
+
+void GaugeWatch::count(GaugeSet culprits) {
+  anyScore_ = false;
   for (std::size_t i = 0; i < score_.size(); ++i) {
     std::uint8_t& score = score_[i];
     if (!contains(culprits, static_cast<int>(i))) {
@@ -207,6 +224,7 @@ void GaugeWatch::accuse(GaugeSet culprits) {
       outOfUse_ |= 1u << i;
       score = 0;
     }
+    anyScore_ |= score != 0;
   }
 }
 

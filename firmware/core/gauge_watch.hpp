@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "firmware/core/detect.hpp"
 #include "firmware/core/left_out.hpp"
 
 namespace strainfinger::firmware {
@@ -28,14 +29,41 @@ bool isMisfit(const TableImage& tables, std::span<const std::int32_t> strains_q3
 Misfit examine(const TableImage& tables, GaugeSet leftOut, std::span<const std::int32_t> strains_q32,
                std::uint32_t energy);
 
-/// Gauges that were culprits in two of four sample sets are out of use until the finger starts again.
+/// Looks for noisy gauges while nothing touches, one gauge after another: two readings in eight that jump by
+/// more than nine standard deviations are no noise that was planned for. Cost: some twenty instructions.
+class JumpWatch {
+ public:
+  explicit JumpWatch(const TableConstants& constants) : jump_q32_(std::int64_t{9} * noiseOf(constants)) {}
+
+  /// One untouched sample set. The gauge that is noisy, if one is.
+  GaugeSet take(std::span<const std::int32_t> strains_q32);
+  /// The next set is no neighbour of the last one.
+  void interrupt() { looks_ = 0; }
+
+ private:
+  static constexpr std::uint8_t kLooks = 8;
+  static constexpr std::uint8_t kJumps = 2;
+
+  std::int64_t jump_q32_;
+  std::int32_t before_q32_ = 0;
+  std::uint8_t gauge_ = 0;
+  std::uint8_t looks_ = 0;
+  std::uint8_t jumps_ = 0;
+};
+
+/// Gauges that were culprits in two of four sample sets, or in more than one of seventeen for longer, are out
+/// of use until there is a new zero.
 class GaugeWatch {
  public:
   GaugeSet outOfUse() const { return outOfUse_; }
   bool several() const { return several_; }
 
   /// Once a sample set: whom it speaks against.
-  void accuse(GaugeSet culprits);
+  void accuse(GaugeSet culprits) {
+    if (culprits != 0 || anyScore_) count(culprits);
+  }
+  /// Beyond doubt.
+  void convict(GaugeSet culprits) { outOfUse_ |= culprits; }
 
   /// Misfits that last are looked into at once and then now and again.
   bool wantsToExamine();
@@ -46,10 +74,13 @@ class GaugeWatch {
   }
 
  private:
+  void count(GaugeSet culprits);
+
   std::array<std::uint8_t, kMaxGauges> score_{};
   GaugeSet outOfUse_ = 0;
   std::uint8_t misfits_ = 0;
   bool several_ = false;
+  bool anyScore_ = false;
 };
 
 }  // namespace strainfinger::firmware

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdlib>
 #include <utility>
 
@@ -162,13 +161,12 @@ Placement scaledTo(int shift, const Placement& place, int from) {
   return verdict;
 }
 
-/// One reading of the middle five may be missing, and one gauge in eight of the ring: with more, another
-/// contact can look like the one that is there.
+/// One reading of the middle five may be missing, for the same reason (tooManyOut()).
 bool tooFew(const Problem& problem, const View& view, GaugeSet leftOut) {
   int middle = 0;
   for (int step = -2; step <= 2; ++step)
     if (contains(leftOut, gaugeAt(problem, view, step))) ++middle;
-  return middle > 1 || std::popcount(leftOut) > problem.gauges() / 8;
+  return middle > 1 || tooManyOut(leftOut, problem.gauges());
 }
 
 /// The errors of a fit to filled-in readings are those of the readings that are real.

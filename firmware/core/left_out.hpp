@@ -1,6 +1,7 @@
 #pragma once
 // Fits without some of the gauges: saturated ones, broken ones.
 
+#include <bit>
 #include <cstdint>
 #include <span>
 
@@ -30,6 +31,9 @@ struct Rivals {
   Candidate second;
 };
 Rivals searchRemaining(const Problem& problem, const RingSignal& signal);
+
+/// With more gauges out than one in eight of the ring, another contact can look like the one that is there.
+constexpr bool tooManyOut(GaugeSet leftOut, int gauges) { return std::popcount(leftOut) > gauges / 8; }
 
 /// Fits one contact to the readings that are not in `leftOut`, which are replaced in `strains_q32` by what
 /// the others say they should be: a fit to all of them is then the fit to the others. Its errors are those of

@@ -69,6 +69,11 @@ GaugeSet Pipeline::implausiblySaturated(Codes codes) const {
 /// What the sample set teaches. Not inlined, nor are the other stages: none needs the others' stack.
 [[gnu::noinline]] void Pipeline::conclude(GaugeSet accused) {
   watch_.accuse(accused);
+  if (observation_.fit) {
+    jumps_.interrupt();
+  } else {
+    watch_.convict(jumps_.take(strains()));
+  }
   tracker_.take(*tables_, strains(), observation_.fit, observation_.leftOut, calibration_);
   observation_.staleZero = tracker_.stale();
   observation_.outOfUse = watch_.outOfUse();

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "firmware/core/detect.hpp"
-#include "firmware/core/integer_root.hpp"
 
 namespace strainfinger::firmware {
 namespace {
@@ -121,15 +120,6 @@ std::int64_t takeOutContact(const Ways& ways, std::span<std::int32_t> changes_q3
   return square;
 }
 
-/// Standard deviation of a reading [strain * 2^32].
-std::int32_t noiseOf(const TableConstants& constants) {
-  const int exponent = constants.noise_variance_exponent;
-  const int odd = exponent & 1;
-  const auto root = static_cast<std::int32_t>(integerRoot(constants.noise_variance << odd));
-  const int up = (exponent - odd) / 2;
-  return up >= 0 ? root << up : root >> -up;
-}
-
 /// Squared length of the readings of a window.
 std::int64_t squareOf(std::span<const std::int32_t> strains_q32, GaugeSet window) {
   std::int64_t sum = 0;
@@ -159,7 +149,7 @@ void ZeroTracker::move(std::size_t gauge, std::int32_t by_q32, Calibration& cali
       (std::int64_t{by_q32} << 32) / std::max<std::int32_t>(calibration.gain[gauge], 1);
   calibration.zero_q15[gauge] = static_cast<std::int32_t>(std::clamp<std::int64_t>(
       calibration.zero_q15[gauge] + codes, 0, std::numeric_limits<std::int32_t>::max()));
-  lastChange_q32_ = std::max(lastChange_q32_, std::abs(by_q32));
+  lastChange_q32_ = std::max(lastChange_q32_.value_or(0), std::abs(by_q32));
 }
 
 void ZeroTracker::followUntouched(const TableConstants& constants, GaugeSet leftOut,

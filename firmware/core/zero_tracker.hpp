@@ -41,8 +41,9 @@ class ZeroTracker {
   /// Sample sets since all zeros were last seen untouched; saturating.
   std::uint32_t age_sets() const { return age_sets_; }
   bool stale() const { return age_sets_ > kStaleSets; }
-  /// The most that a zero followed in the last interval that taught anything [strain * 2^32].
-  std::int32_t lastChange_q32() const { return lastChange_q32_; }
+  /// The most that a zero followed in the last interval that taught anything [strain * 2^32]; nothing before
+  /// there was one.
+  std::optional<std::int32_t> lastChange_q32() const { return lastChange_q32_; }
 
  private:
   using Averages = std::array<std::int32_t, kMaxGauges>;
@@ -56,7 +57,7 @@ class ZeroTracker {
   Averages sum_{};
   Averages rest_{};  ///< averages when the touch had come to rest
   std::uint32_t age_sets_ = 0;
-  std::int32_t lastChange_q32_ = 0;
+  std::optional<std::int32_t> lastChange_q32_;
   std::uint16_t sets_ = 0;
   std::uint16_t doubts_ = 0;  ///< sets in a row that say otherwise than touched_
   GaugeSet leftOut_ = 0;      ///< in any set of the interval

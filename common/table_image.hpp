@@ -77,7 +77,7 @@ struct TableConstants {
   std::int16_t load_exponent;
   std::uint16_t friction_cone_q8;  ///< largest |tangential| / normal a fit may have [* 2^8]
   std::uint16_t adc_rail;          ///< left-justified code at which the converter clips; 0 is the other
-  std::uint16_t reserved16;        ///< 0
+  std::uint16_t tail_q16;  ///< most energy a contact leaves outside its window, over that inside [* 2^16]
   std::int8_t noise_variance_exponent;
   std::int8_t amplitude_exponent;  ///< FitRow::load counts 2^amplitude_exponent
   std::int8_t mirror_sign;         ///< reading seen from the other side: +1 radial, hoop; -1 shear

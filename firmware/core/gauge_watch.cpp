@@ -10,8 +10,10 @@ namespace {
 
 constexpr std::uint32_t kNoise = 64;  ///< variances of a reading that noise alone doesn't leave
 constexpr int kGainShift = 8;         ///< gains that are 6 % off leave this part of the energy
-constexpr int kOutsideShift = 3;  ///< a contact leaves less than this part of its energy outside its window
-constexpr int kOneOutsideShift = 5;  ///< .. and this in one gauge
+constexpr int kMayShift = 3;  ///< not worth a look: so much more than a contact leaves outside its window
+constexpr int kNeighbourShift =
+    3;                        ///< a contact over a gauge leaves more than this part of it in its neighbours
+constexpr int kOwnShift = 4;  ///< a contact leaves more than this part of itself in other gauges than one
 
 constexpr std::uint32_t kTold = 12;  ///< two culprits closer than this are not told apart
 
@@ -53,6 +55,7 @@ struct Suspect {
   int gauge = -1;
   int look = 0;
   std::int32_t unexplained = std::numeric_limits<std::int32_t>::max();
+  enum class Kind { kFault, kMisshapen, kContact } kind = Kind::kFault;  ///< a contact's: wide; another one
 };
 
 using Suspects = std::array<Suspect, 4>;  ///< of different gauges, the best first
@@ -79,10 +82,15 @@ View lookAt(const Problem& problem, int look) {
   return viewOf(problem, roundTheRing((2 * look + 1) * (kRows / 2) * kRowSpacing, problem.gauges()));
 }
 
-/// What leaving a gauge out takes off the unexplained energy: r^2 / (1 - h).
-std::int32_t relief(std::int32_t residual, std::int32_t leverage_q15) {
+/// A reading with residual r and leverage h, left out.
+struct LeftOut {
+  std::int32_t relief;   ///< what that takes off the unexplained energy: r^2 / (1 - h)
+  std::int32_t reading;  ///< what the others say that it should be: itself - r / (1 - h)
+};
+LeftOut leftOut(std::int32_t reading, std::int32_t residual, std::int32_t leverage_q15) {
   const std::int32_t left = std::max<std::int32_t>((1 << 15) - leverage_q15, 1 << 9);
-  return saturate<std::int32_t>((std::int64_t{residual} * residual << 13) / left);
+  return {saturate<std::int32_t>((std::int64_t{residual} * residual << 13) / left),
+          saturate<std::int16_t>(reading - (std::int64_t{residual} << 15) / left)};
 }
 
 void lookThere(const Problem& problem, const RingSignal& signal, int look, Suspects& suspects) {
@@ -99,15 +107,17 @@ void lookThere(const Problem& problem, const RingSignal& signal, int look, Suspe
     const std::int32_t reading = signal.at(gauge);
     std::int32_t inside = fit.share.unexplained, beyond = outside, trusted = window;
     if (std::abs(step) <= kWindowReach) {
-      const std::int32_t residual = reading - fit.predicted(problem, view, step);
-      inside -= relief(residual, fit.leverage_q15(step));
+      const LeftOut without =
+          leftOut(reading, reading - fit.predicted(problem, view, step), fit.leverage_q15(step));
+      inside -= without.relief;
       trusted -= energyOf(reading);
+      trusted += oneBeside(trusted, energyOf(without.reading));
     } else {
       beyond -= energyOf(reading);
     }
     const std::int32_t unexplained =
-        std::max<std::int32_t>(inside, 0) + std::max<std::int32_t>(beyond - (trusted >> kOutsideShift), 0);
-    enter(suspects, {gauge, look, unexplained});
+        std::max<std::int32_t>(inside, 0) + std::max<std::int32_t>(beyond - problem.tail(trusted), 0);
+    enter(suspects, {.gauge = gauge, .look = look, .unexplained = unexplained});
   }
 }
 
@@ -115,7 +125,7 @@ void lookThere(const Problem& problem, const RingSignal& signal, int look, Suspe
 bool mayExplain(const Problem& problem, int centre) {
   const Split split = splitAt(problem, centre);
   const std::int32_t trusted = split.window - split.largestInside;
-  return split.outside - split.largestOutside - (trusted >> kOutsideShift) <= tolerated(problem);
+  return split.outside - split.largestOutside - (trusted >> kMayShift) <= tolerated(problem);
 }
 
 /// What was observed, not yet as a problem: functions that make one of it don't share their stack.
@@ -128,20 +138,47 @@ struct Observed {
   Problem problem() const { return problemOf(tables, FitMode::kRefined, strains_q32, energy); }
 };
 
-/// What one contact leaves unexplained of the ring without the suspect.
-[[gnu::noinline]] std::int32_t unexplainedWithout(const Observed& observed, const Suspect& suspect) {
+/// How a suspect's reading compares with the contact that the others show: inside the window it is far off
+/// what that one predicts; outside, it leaves its neighbours alone, as another contact would not.
+[[gnu::noinline]] Suspect::Kind kindOf(const Problem& others, const RingSignal& signal, PitchQ20 position,
+                                       int gauge, std::int32_t reading) {
+  const View view = viewOf(others, position);
+  const LocalFit fit = localFit(others, signal, view);
+  std::int32_t outside = others.ringEnergy;
+  for (int step = -kWindowReach; step <= kWindowReach; ++step) {
+    const int each = gaugeAt(others, view, step);
+    outside -= energyOf(signal.at(each));
+    if (each != gauge) continue;
+    const std::int32_t predicted = fit.predicted(others, view, step);
+    const bool farOff = 2 * std::abs(reading - predicted) > std::abs(predicted);
+    return farOff ? Suspect::Kind::kFault : Suspect::Kind::kMisshapen;
+  }
+  const bool alone = outside <= (energyOf(reading) >> kNeighbourShift) + others.noise(kNoise / 2);
+  return alone ? Suspect::Kind::kFault : Suspect::Kind::kContact;
+}
+
+/// The best contact for the ring without the suspect.
+[[gnu::noinline]] Candidate bestWithout(const Problem& others, const RingSignal& signal, int look) {
+  Candidate best;
+  const int looks = kLooksPerPitch * others.gauges();
+  for (int near = look - 2; near <= look + 2; near += 2) {
+    const Candidate candidate = followed(others, signal, lookAt(others, wrapped(near, looks)));
+    if (candidate.admissible && candidate.explained > best.explained) best = candidate;
+  }
+  return best.admissible ? best : searchRemaining(others, signal).best;
+}
+
+/// Looks at a suspect closely: what one contact leaves unexplained of the ring without it, and whether it is
+/// far off what that contact says.
+[[gnu::noinline]] void examine(const Observed& observed, Suspect& suspect) {
   Problem others = observed.problem();
   const auto reading = scaledStrain(others.strains[static_cast<std::size_t>(suspect.gauge)], others.shift);
   others.ringEnergy = std::max<std::int32_t>(others.ringEnergy - energyOf(reading), 1);
   const RingSignal signal{others, observed.leftOut | 1u << suspect.gauge};
-  std::int32_t most = 0;
-  for (int look = suspect.look - 2; look <= suspect.look + 2; look += 2) {
-    const int looks = kLooksPerPitch * others.gauges();
-    const Candidate candidate = followed(others, signal, lookAt(others, wrapped(look, looks)));
-    if (candidate.admissible) most = std::max(most, candidate.explained);
-  }
-  if (most == 0) most = std::max<std::int32_t>(searchRemaining(others, signal).best.explained, 0);
-  return std::max<std::int32_t>(others.ringEnergy - most, 0);
+  const Candidate best = bestWithout(others, signal, suspect.look);
+  suspect.unexplained =
+      std::max<std::int32_t>(others.ringEnergy - std::max<std::int32_t>(best.explained, 0), 0);
+  suspect.kind = kindOf(others, signal, best.place.position, suspect.gauge, reading);
 }
 
 /// A contact always moves two gauges: one alone is a fault.
@@ -166,13 +203,22 @@ struct Observed {
   }
 }
 
-[[gnu::noinline]] Misfit verdictOn(const Observed& observed, const Suspects& suspects) {
+/// What one contact leaves unexplained of the ring with all its gauges.
+[[gnu::noinline]] std::int32_t unexplainedWithAll(const Observed& observed) {
+  const Problem problem = observed.problem();
+  const RingSignal signal{problem, observed.leftOut};
+  return problem.ringEnergy - std::max<std::int32_t>(searchRemaining(problem, signal).best.explained, 0);
+}
+
+/// `all`: unexplainedWithAll().
+[[gnu::noinline]] Misfit verdictOn(const Observed& observed, const Suspects& suspects, std::int32_t all) {
   const Suspect& best = suspects[0];
   const Problem problem = observed.problem();
+  if (best.unexplained > (all >> kOwnShift) + problem.noise(kNoise / 2)) return {.several = true};
   const std::int32_t clear = best.unexplained + best.unexplained / 4 + problem.noise(kTold);
-  if (best.unexplained <= tolerated(problem) / 2 && suspects[1].unexplained > clear)
-    return {.culprit = 1u << best.gauge};
-  return {.several = true};
+  if (best.unexplained > tolerated(problem) / 2 || suspects[1].unexplained <= clear) return {.several = true};
+  if (best.kind == Suspect::Kind::kContact) return {.several = true};
+  return {.culprit = best.kind == Suspect::Kind::kFault ? 1u << best.gauge : 0};
 }
 
 }  // namespace
@@ -181,9 +227,8 @@ bool isMisfit(const TableImage& tables, std::span<const std::int32_t> strains_q3
               const Fit& fit) {
   const Problem problem = problemOf(tables, FitMode::kRefined, strains_q32, energy);
   const Split split = splitAt(problem, fit.centre);
-  const std::int32_t outside = std::max<std::int32_t>(split.outside - (split.window >> kOutsideShift), 0);
-  return fit.unexplained + outside > tolerated(problem) ||
-         split.largestOutside > problem.noise(kNoise) + (split.window >> kOneOutsideShift);
+  const std::int32_t outside = std::max<std::int32_t>(split.outside - problem.tail(split.window), 0);
+  return fit.unexplained + outside > tolerated(problem);
 }
 
 Misfit examine(const TableImage& tables, GaugeSet leftOut, std::span<const std::int32_t> strains_q32,
@@ -193,30 +238,34 @@ Misfit examine(const TableImage& tables, GaugeSet leftOut, std::span<const std::
   Suspects suspects;
   lookEverywhere(observed, suspects);
   for (Suspect& suspect : suspects)
-    if (suspect.gauge >= 0) suspect.unexplained = unexplainedWithout(observed, suspect);
+    if (suspect.gauge >= 0) examine(observed, suspect);
   sort(suspects);
-  return verdictOn(observed, suspects);
+  return verdictOn(observed, suspects, unexplainedWithAll(observed));
 }
 
-GaugeSet JumpWatch::take(std::span<const std::int32_t> strains_q32) {
+GaugeSet JumpWatch::take(const TableConstants& constants, std::span<const std::int32_t> strains_q32,
+                         std::uint32_t energy) {
   const std::int32_t reading = strains_q32[gauge_];
-  if (looks_ == 0) {
-    jumps_ = 0;
-  } else if (std::abs(std::int64_t{reading} - before_q32_) > jump_q32_ && ++jumps_ == kJumps) {
-    looks_ = 0;
-    return 1u << gauge_;
-  }
+  const std::int64_t coarse = reading >> constants.gate_shift;
+  const bool quiet = energy - coarse * coarse < constants.gate_off;
+  const bool jumped = std::abs(std::int64_t{reading} - before_q32_) > jump_q32_;
+  if (looks_ != 0 && jumped && quiet && quietBefore_) ++jumps_;
+  quietBefore_ = quiet;
   before_q32_ = reading;
-  if (++looks_ > kLooks) {
-    looks_ = 0;
+  const GaugeSet noisy = jumps_ >= kJumps ? 1u << gauge_ : 0;
+  if (noisy != 0 || looks_ == kLooks) {
+    looks_ = jumps_ = 0;
     gauge_ = gauge_ + 1u < strains_q32.size() ? static_cast<std::uint8_t>(gauge_ + 1) : std::uint8_t{0};
+  } else {
+    ++looks_;
   }
-  return 0;
+  return noisy;
 }
 
 void GaugeWatch::count(GaugeSet culprits) {
   anyScore_ = false;
   for (std::size_t i = 0; i < score_.size(); ++i) {
+    if (contains(outOfUse_, static_cast<int>(i))) continue;
     std::uint8_t& score = score_[i];
     if (!contains(culprits, static_cast<int>(i))) {
       if (score > 0) --score;
@@ -225,6 +274,16 @@ void GaugeWatch::count(GaugeSet culprits) {
       score = 0;
     }
     anyScore_ |= score != 0;
+  }
+}
+
+void GaugeWatch::reconsider(GaugeSet right, GaugeSet wrong) {
+  for (std::size_t i = 0; i < score_.size(); ++i) {
+    const GaugeSet gauge = 1u << i;
+    if ((wrong & gauge) != 0) score_[i] = 0;
+    if ((right & gauge & ~beyondDoubt_) == 0 || ++score_[i] < kConvincing) continue;
+    outOfUse_ &= ~gauge;
+    score_[i] = 0;
   }
 }
 

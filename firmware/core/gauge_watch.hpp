@@ -29,16 +29,16 @@ bool isMisfit(const TableImage& tables, std::span<const std::int32_t> strains_q3
 Misfit examine(const TableImage& tables, GaugeSet leftOut, std::span<const std::int32_t> strains_q32,
                std::uint32_t energy);
 
-/// Looks for noisy gauges while nothing touches, one gauge after another: two readings in eight that jump by
-/// more than nine standard deviations are no noise that was planned for. Cost: some twenty instructions.
+/// Looks for noisy gauges, one gauge after another: two readings in eight that jump by more than nine
+/// standard deviations, while the rest of the ring is as quiet as untouched, are no noise that was planned
+/// for. Cost: some thirty instructions.
 class JumpWatch {
  public:
   explicit JumpWatch(const TableConstants& constants) : jump_q32_(std::int64_t{9} * noiseOf(constants)) {}
 
-  /// One untouched sample set. The gauge that is noisy, if one is.
-  GaugeSet take(std::span<const std::int32_t> strains_q32);
-  /// The next set is no neighbour of the last one.
-  void interrupt() { looks_ = 0; }
+  /// One sample set; `energy`: gateEnergy() of the strains. The gauge that is noisy, if one is.
+  GaugeSet take(const TableConstants& constants, std::span<const std::int32_t> strains_q32,
+                std::uint32_t energy);
 
  private:
   static constexpr std::uint8_t kLooks = 8;
@@ -49,10 +49,11 @@ class JumpWatch {
   std::uint8_t gauge_ = 0;
   std::uint8_t looks_ = 0;
   std::uint8_t jumps_ = 0;
+  bool quietBefore_ = false;
 };
 
 /// Gauges that were culprits in two of four sample sets, or in more than one of seventeen for longer, are out
-/// of use until there is a new zero.
+/// of use until they read for a while what the others predict, or there is a new zero.
 class GaugeWatch {
  public:
   GaugeSet outOfUse() const { return outOfUse_; }
@@ -62,8 +63,15 @@ class GaugeWatch {
   void accuse(GaugeSet culprits) {
     if (culprits != 0 || anyScore_) count(culprits);
   }
-  /// Beyond doubt.
-  void convict(GaugeSet culprits) { outOfUse_ |= culprits; }
+  /// Beyond doubt, and without another try.
+  void convict(GaugeSet culprits) {
+    outOfUse_ |= culprits;
+    beyondDoubt_ |= culprits;
+  }
+  /// What a sample set says of gauges out of use: those that read what the others predict of them, and those
+  /// that don't. The first come back after kConvincing sets without one of the second kind: two contacts, or
+  /// a very wide one, may have looked like a gauge that fails.
+  void reconsider(GaugeSet right, GaugeSet wrong);
 
   /// Misfits that last are looked into at once and then now and again.
   bool wantsToExamine();
@@ -73,11 +81,14 @@ class GaugeWatch {
     misfits_ = 0;
   }
 
+  static constexpr std::uint8_t kConvincing = 64;
+
  private:
   void count(GaugeSet culprits);
 
   std::array<std::uint8_t, kMaxGauges> score_{};
   GaugeSet outOfUse_ = 0;
+  GaugeSet beyondDoubt_ = 0;
   std::uint8_t misfits_ = 0;
   bool several_ = false;
   bool anyScore_ = false;

@@ -15,7 +15,6 @@ constexpr PitchQ20 kLongestStep = kOnePitch / 8;
 constexpr std::uint32_t kAmbiguous = 12;  ///< answers closer than this many variances are not told apart
 constexpr std::uint32_t kFaint = 64;      ///< an answer that explains less may be noise
 constexpr int kAmbiguousShift = 17;       ///< rounding makes two fits differ by this part of their energy
-constexpr int kTailShift = 3;  ///< a contact leaves up to this part of its energy outside its window
 constexpr std::size_t kPeaks = 3;
 constexpr PitchQ20 kSame = kOnePitch / 12;  ///< fits closer than this ran into one maximum
 
@@ -35,13 +34,20 @@ PitchQ20 positionOf(const Problem& problem, const View& view, PitchQ20 beyondRow
 }
 
 /// Energy outside the window that a contact there may well have left.
-[[gnu::noinline]] std::int32_t tailOf(const Problem& problem, const RingSignal& signal, const View& view) {
-  std::int32_t window = 0;
+[[gnu::noinline]] std::int32_t tailOf(const Problem& problem, const RingSignal& signal, const View& view,
+                                      const LocalFit& fit) {
+  std::int32_t window = 0, missing = 0;
   for (int step = -kWindowReach; step <= kWindowReach; ++step) {
-    const std::int32_t reading = signal.at(gaugeAt(problem, view, step));
+    const int gauge = gaugeAt(problem, view, step);
+    const std::int32_t reading = signal.at(gauge);
     window += (reading * reading) >> 2;
+    if (contains(signal.leftOut, gauge)) {
+      const std::int32_t predicted = saturate<std::int16_t>(fit.predicted(problem, view, step));
+      missing += (predicted * predicted) >> 2;
+    }
   }
-  return std::clamp<std::int32_t>(problem.ringEnergy - window, 0, window >> kTailShift);
+  return std::clamp<std::int32_t>(problem.ringEnergy - window, 0,
+                                  problem.tail(window + oneBeside(window, missing)));
 }
 
 /// Amplitudes as locate() has them, at the view's row.
@@ -195,7 +201,7 @@ Candidate followed(const Problem& problem, const RingSignal& signal, View view) 
     const PitchQ20 whole = fit.share.beyondRow(fit.tangent);
     const PitchQ20 step = std::clamp(whole, -longest, longest);
     candidate.place = placed(problem, view, step, fit.share.coefficients);
-    candidate.explained = fit.share.explained + tailOf(problem, signal, view);
+    candidate.explained = fit.share.explained + tailOf(problem, signal, view, fit);
     if (std::abs(whole) <= kRowSpacing * 5 / 8) {
       candidate.admissible = withinCone(problem, candidate.place);
       break;

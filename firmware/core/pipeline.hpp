@@ -56,6 +56,7 @@ class Pipeline {
   GaugeSet culprits(Codes codes);
   void conclude(GaugeSet accused);
   GaugeSet implausiblySaturated(Codes codes) const;
+  void reconsider(Codes codes);
 
   const TableImage* tables_;
   Calibration calibration_;

@@ -28,6 +28,11 @@ struct Problem {
   int mirrorSign() const { return tables.constants.mirror_sign; }
   int gauges() const { return tables.constants.gauge_count; }
 
+  /// The most that a contact with so much energy in its window leaves outside.
+  std::int32_t tail(std::int32_t window) const {
+    return static_cast<std::int32_t>((std::int64_t{window} * tables.constants.tail_q16) >> 16);
+  }
+
   /// So many variances of a reading as an energy; at least 1. Differences of explained energies are
   /// differences of log-likelihood, in units of half a variance.
   std::int32_t noise(std::uint32_t variances) const;

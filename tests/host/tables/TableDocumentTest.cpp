@@ -101,7 +101,7 @@ Rows constantRows(const TableConstants& c) {
   rows.add("load_exponent", c.load_exponent);
   rows.add("friction_cone_q8", c.friction_cone_q8);
   rows.add("adc_rail", c.adc_rail);
-  rows.add("reserved16", c.reserved16);
+  rows.add("tail_q16", c.tail_q16);
   rows.add("noise_variance_exponent", c.noise_variance_exponent);
   rows.add("amplitude_exponent", c.amplitude_exponent);
   rows.add("mirror_sign", c.mirror_sign);

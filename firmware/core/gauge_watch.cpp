@@ -52,10 +52,11 @@ std::int32_t tolerated(const Problem& problem) {
 
 /// The gauge that can be left out with most effect, and what is then unexplained; wherever the contact is.
 struct Suspect {
-  int gauge = -1;
-  int look = 0;
+  enum class Kind : std::uint8_t { kFault, kMisshapen, kContact };  ///< a contact's: wide; another one
   std::int32_t unexplained = std::numeric_limits<std::int32_t>::max();
-  enum class Kind { kFault, kMisshapen, kContact } kind = Kind::kFault;  ///< a contact's: wide; another one
+  std::int16_t look = 0;
+  std::int8_t gauge = -1;
+  Kind kind = Kind::kFault;
 };
 
 using Suspects = std::array<Suspect, 4>;  ///< of different gauges, the best first
@@ -117,7 +118,7 @@ void lookThere(const Problem& problem, const RingSignal& signal, int look, Suspe
     }
     const std::int32_t unexplained =
         std::max<std::int32_t>(inside, 0) + std::max<std::int32_t>(beyond - problem.tail(trusted), 0);
-    enter(suspects, {.gauge = gauge, .look = look, .unexplained = unexplained});
+    enter(suspects, {unexplained, static_cast<std::int16_t>(look), static_cast<std::int8_t>(gauge)});
   }
 }
 
@@ -157,15 +158,20 @@ struct Observed {
   return alone ? Suspect::Kind::kFault : Suspect::Kind::kContact;
 }
 
-/// The best contact for the ring without the suspect.
-[[gnu::noinline]] Candidate bestWithout(const Problem& others, const RingSignal& signal, int look) {
+/// The best contact about a look.
+[[gnu::noinline]] Candidate bestNear(const Problem& others, const RingSignal& signal, int look) {
   Candidate best;
   const int looks = kLooksPerPitch * others.gauges();
   for (int near = look - 2; near <= look + 2; near += 2) {
     const Candidate candidate = followed(others, signal, lookAt(others, wrapped(near, looks)));
     if (candidate.admissible && candidate.explained > best.explained) best = candidate;
   }
-  return best.admissible ? best : searchRemaining(others, signal).best;
+  return best;
+}
+
+/// The best contact anywhere. Not inlined: its rivals are not on the stack of what comes after.
+[[gnu::noinline]] Candidate bestAnywhere(const Problem& others, const RingSignal& signal) {
+  return searchRemaining(others, signal).best;
 }
 
 /// Looks at a suspect closely: what one contact leaves unexplained of the ring without it, and whether it is
@@ -175,7 +181,8 @@ struct Observed {
   const auto reading = scaledStrain(others.strains[static_cast<std::size_t>(suspect.gauge)], others.shift);
   others.ringEnergy = std::max<std::int32_t>(others.ringEnergy - energyOf(reading), 1);
   const RingSignal signal{others, observed.leftOut | 1u << suspect.gauge};
-  const Candidate best = bestWithout(others, signal, suspect.look);
+  Candidate best = bestNear(others, signal, suspect.look);
+  if (!best.admissible) best = bestAnywhere(others, signal);
   suspect.unexplained =
       std::max<std::int32_t>(others.ringEnergy - std::max<std::int32_t>(best.explained, 0), 0);
   suspect.kind = kindOf(others, signal, best.place.position, suspect.gauge, reading);

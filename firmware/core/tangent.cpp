@@ -134,35 +134,31 @@ std::int32_t predictedAt(const Tangent& tangent, const Three& coefficients, std:
   share.explained = saturate<std::int32_t>((window >> 2) - share.unexplained);
 }
 
-/// Sums over the readings left, and what they leave of an identity [* 2^24].
-struct Normal {
-  Symmetric left;
-  Three sums{};  ///< [signal * 2^4]
-};
-
-[[gnu::noinline]] Normal normalOf(const Tangent& tangent, const WindowReadings& readings) {
+/// Sums over the readings left [signal * 2^4], and what they leave of an identity [* 2^24].
+[[gnu::noinline]] Three sumsOf(const Tangent& tangent, const WindowReadings& readings, Symmetric& left) {
   constexpr std::int32_t kOne = 1 << kMatrixBits;
-  Normal normal{{kOne, 0, 0, kOne, 0, kOne}};
+  left = {kOne, 0, 0, kOne, 0, kOne};
+  Three sums{};
   for (std::size_t i = 0; i < kWindowGauges; ++i) {
     const auto& e = tangent.at[i];
     std::size_t element = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       if ((readings.leftOut >> i & 1) == 0) {
-        normal.sums[k] += e[k] * readings.at[i];
+        sums[k] += e[k] * readings.at[i];
       } else {
-        for (std::size_t j = k; j < 3; ++j) normal.left[element++] -= e[k] * e[j] >> (30 - kMatrixBits);
+        for (std::size_t j = k; j < 3; ++j) left[element++] -= e[k] * e[j] >> (30 - kMatrixBits);
       }
     }
   }
-  for (std::int32_t& sum : normal.sums) sum >>= 11;
-  return normal;
+  for (std::int32_t& sum : sums) sum >>= 11;
+  return sums;
 }
 
 [[gnu::noinline]] void fillShare(const Tangent& tangent, const WindowReadings& readings, Share& share) {
-  const Normal normal = normalOf(tangent, readings);
-  share.determined = invert(normal.left, share.covariance_q12);
+  const Three sums = sumsOf(tangent, readings, share.covariance_q12);
+  share.determined = invert(share.covariance_q12, share.covariance_q12);
   if (!share.determined) return;
-  share.coefficients = product_q12(share.covariance_q12, normal.sums);
+  share.coefficients = product_q12(share.covariance_q12, sums);
   addEnergies(tangent, readings, share);
 }
 

@@ -42,8 +42,8 @@ using Three = std::array<std::int32_t, 3>;
 /// Symmetric 3 x 3: 11, 12, 13, 22, 23, 33.
 using Symmetric = std::array<std::int32_t, 6>;
 
-/// Inverse [* 2^12] of a symmetric matrix [* 2^24] with elements up to 1; false where its determinant is next
-/// to nothing.
+/// Inverse [* 2^12] of a symmetric matrix [* 2^24] with elements up to 1, in its place if need be; false
+/// where its determinant is next to nothing.
 bool invert(const Symmetric& matrix_q24, Symmetric& inverse_q12);
 
 /// matrix * vector, with a matrix * 2^12.

@@ -9,6 +9,9 @@ namespace {
 /// Fits closer than this ran into the same maximum.
 constexpr PitchQ20 kSameAnswer = kOnePitch / 12;
 
+/// Fits farther from their middle gauge than this belong to another window.
+constexpr PitchQ20 kFarFromMiddle = kOnePitch * 53 / 100;
+
 /// A contact leaves about this part of its energy outside its window, as a power of two: up to 2 % with 16
 /// gauges and fewer, a few percent with more, which are not in doubt.
 constexpr int kTailShift = 6;
@@ -16,7 +19,7 @@ constexpr int kTailShift = 6;
 bool withinCone(const TableConstants& constants, const Amplitudes& amplitudes) {
   if (amplitudes.normal <= 0) return false;
   const std::int64_t limit = std::int64_t{amplitudes.normal} * constants.friction_cone_q8;
-  return std::int64_t{std::abs(amplitudes.tangential)} * 256 <= limit;
+  return std::abs(amplitudes.tangential) <= limit >> 8;
 }
 
 PitchQ20 distance(const Answer& a, const Answer& b, int gauges) {
@@ -25,32 +28,41 @@ PitchQ20 distance(const Answer& a, const Answer& b, int gauges) {
 }
 
 /// Beyond the last row: what the fit looks for belongs to another window.
-bool walkedOut(const WindowFit& fit) { return fit.offset >= kFitRows * kRowSpacing; }
+bool walkedOut(const WindowFit& fit) { return fit.offset() >= kFitRows * kRowSpacing; }
+
+/// The window in which the contact is nearer to the middle.
+void changeWindow(const Problem& problem, WindowFit& fit) {
+  const int centre = wrapped(fit.centre + fit.side, problem.gauges());
+  const int row = nearestRow(kOnePitch - fit.offset());
+  start(problem, windowSignal(problem.strains, centre, problem.up), centre, -fit.side * row, fit);
+}
 
 }  // namespace
 
-Answer solve(const Problem& problem, const Scan& scan, int start) {
-  Answer answer;
+void start(const Problem& problem, const Signal& signal, int centre, int row, WindowFit& fit) {
+  fit.signal = row >= 0 ? signal : mirrored(signal, problem.mirrorSign());
+  fit.centre = centre;
+  fit.side = row >= 0 ? 1 : -1;
+  fit.row = std::abs(row);
+  takeStep(problem.tables.rows, fit);
+}
+
+void finish(const Problem& problem, Answer& answer) {
   WindowFit& fit = answer.fit;
-  fit.centre = scan.centre;
-  fit.side = scan.side(start);
-  fit.signal = fit.side > 0 ? scan.signal : mirrored(scan.signal, problem.mirrorSign());
-  fit.offset = scan.row(start) * kRowSpacing;
-  fit.sense = scan.pullsBack(start) ? kAgainstOffset : kWithOffset;
-  const FitTables tables = problem.fitTables();
-  const bool settled = refine(tables, problem.mirrorSign(), fit);
-  answer.amplitudes = amplitudesOf(tables, fit);
-  answer.energy = fit.energy;
-  if (problem.mode == FitMode::kThreePoint)
-    answer.energy = explainedEnergy(problem.tables.refined[static_cast<std::size_t>(fit.row)], fit.signal,
-                                    fit.offset - fit.row * kRowSpacing);
-  const std::int32_t window = energyOf(fit.signal);
+  bool settled = refine(problem.tables.rows, problem.mirrorSign(), fit);
+  if (fit.offset() > kFarFromMiddle) {
+    changeWindow(problem, fit);
+    settled = refine(problem.tables.rows, problem.mirrorSign(), fit);
+  }
+  answer.amplitudes = amplitudesOf(problem.tables.rows[static_cast<std::size_t>(fit.row)], fit.step);
+  answer.energy = fit.step.energy();
+  answer.windowEnergy = energyOf(fit.signal);
   const bool pressed = withinCone(problem.tables.constants, answer.amplitudes);
-  answer.standing = {.energy = answer.energy + std::min(problem.ringEnergy - window, window >> kTailShift),
+  const std::int32_t outside = std::min(problem.ringEnergy - answer.windowEnergy, answer.windowEnergy >> kTailShift);
+  answer.standing = {.energy = answer.energy + outside,
                      .found = true,
                      .admissible = settled && pressed,
                      .isRival = pressed && (settled || !walkedOut(fit))};
-  return answer;
 }
 
 Placement Answer::placement(int gauges) const {

@@ -33,15 +33,19 @@ struct Standing {
 struct Answer {
   WindowFit fit;
   Amplitudes amplitudes{};
-  std::int32_t energy = -1;  ///< that all seven gauges say it explains
+  std::int32_t energy = -1;        ///< that the seven gauges say it explains ..
+  std::int32_t windowEnergy = -1;  ///< .. of so much
   Standing standing;
 
   Placement placement(int gauges) const;
 };
 
-/// Refines the fit that starts at one offset of a scan. In three-point mode the three readings give the
-/// answer, and all seven its standing.
-Answer solve(const Problem& problem, const Scan& scan, int start);
+/// A fit at a row of a window (negative: on its - side), its first step taken.
+void start(const Problem& problem, const Signal& signal, int centre, int row, WindowFit& fit);
+
+/// Refines the answer's fit, whose first step is taken, in the neighbour's window if it belongs there, and
+/// judges it.
+void finish(const Problem& problem, Answer& answer);
 
 /// Positions go round the ring; `position` is at most one turn off.
 PitchQ20 roundTheRing(PitchQ20 position, int gauges);

@@ -8,7 +8,8 @@
 
 namespace strainfinger::firmware {
 
-/// Energy of a ring's strains as the gate sees it: sum of (strain >> gate_shift)^2, saturating at 2^32 - 1.
+/// Energy of a ring's strains: the sum of their squares / 4^gate_shift, rounded down, saturating at 2^32 - 1.
+/// An even number of strains, each within +-2^29 (kMostGateShift), so that the sum stays below 2^63.
 std::uint32_t gateEnergy(const TableConstants& constants, std::span<const std::int32_t> strains_q32);
 
 /// A contact begins where noise alone would raise the energy once in 10^9 samples, and ends where it would

@@ -8,6 +8,7 @@ namespace strainfinger::firmware {
 namespace {
 
 constexpr std::uint8_t kUncertainQuality = 20;
+constexpr int kRoundingShift = 12;  ///< 1/4096 of the energy is lost in rounding
 
 /// A positive real number: mantissa * 2^exponent. Cheap to multiply, and its root costs one integer root.
 struct Scaled {
@@ -46,8 +47,8 @@ std::uint64_t plain(Scaled value) {
 }
 
 /// Variance of a reading, as an energy of the fit (a quarter of a squared scaled strain).
-Scaled noiseEnergy(const TableConstants& constants, const Fit& fit) {
-  return {constants.noise_variance, constants.noise_variance_exponent - 2 * fit.shift - 2};
+Scaled noiseOf(const TableConstants& constants, const Fit& fit) {
+  return {constants.noise_variance, constants.noise_variance_exponent - 2 * (16 - fit.up) - 2};
 }
 
 /// Standard error of the offset [pitches * 2^20]: noise over the information in its gradient.
@@ -56,16 +57,16 @@ std::int32_t offsetSigma(const TableConstants& constants, const Fit& fit) {
   const int up = std::countl_zero(static_cast<std::uint32_t>(fit.information)) - 16;
   const auto information =
       static_cast<std::uint32_t>(up >= 0 ? fit.information << up : fit.information >> -up);
-  Scaled variance = noiseEnergy(constants, fit);
+  Scaled variance = noiseOf(constants, fit);
   variance.mantissa = (variance.mantissa << 7) / information;
-  variance.exponent += up - 2 * fit.informationExponent - 7 + 2 * kPitchBits;
+  variance.exponent += up - 2 * (fit.row->gradient_exponent + 1) - 7 + 2 * kPitchBits;
   return root(variance);
 }
 
 /// Standard error of an amplitude: its own at a known offset, and what the offset's error adds.
 std::int32_t amplitudeSigma(const TableConstants& constants, const Fit& fit, std::uint32_t gainSquared,
                             std::int32_t slope, std::int32_t offset_sigma) {
-  Scaled own = noiseEnergy(constants, fit);
+  Scaled own = noiseOf(constants, fit);
   own.mantissa *= gainSquared;
   const std::int64_t carried = std::clamp<std::int64_t>((std::int64_t{slope} * offset_sigma) >> kRowBits,
                                                         -(std::int64_t{1} << 30), std::int64_t{1} << 30);
@@ -75,7 +76,7 @@ std::int32_t amplitudeSigma(const TableConstants& constants, const Fit& fit, std
 std::uint32_t squareOf(std::int16_t value) { return static_cast<std::uint32_t>(std::int32_t{value} * value); }
 
 LineLoadQ12 loadOf(const TableConstants& constants, const Fit& fit, std::int32_t amplitude) {
-  const int up = constants.load_exponent + fit.shift;
+  const int up = constants.load_exponent + 16 - fit.up;
   const std::int64_t product = std::int64_t{amplitude} * constants.load_scale;
   if (up >= 0) return LineLoadQ12::max();
   if (up <= -63) return LineLoadQ12::fromRaw(0);
@@ -92,9 +93,10 @@ TurnQ32 angleOf(const TableConstants& constants, PitchQ20 position) {
   return TurnQ32::fromRaw(constants.first_angle_q32 + turnsOf(constants, position));
 }
 
-std::uint8_t qualityOf(const Fit& fit) {
-  const std::int64_t percent =
-      100 * std::int64_t{fit.expected} / std::max<std::int32_t>({fit.expected, fit.unexplained, 1});
+/// 100 % where noise and rounding explain what is left.
+std::uint8_t qualityOf(const TableConstants& constants, const Fit& fit) {
+  const std::int32_t expected = noiseEnergy(constants, fit.up) / 2 + (fit.windowEnergy >> kRoundingShift);
+  const std::int64_t percent = 100 * std::int64_t{expected} / std::max<std::int32_t>({expected, fit.unexplained, 1});
   const bool doubt = fit.ambiguous || !fit.settled;
   return static_cast<std::uint8_t>(std::min<std::int64_t>(percent, doubt ? kUncertainQuality : 100));
 }
@@ -108,10 +110,11 @@ std::int32_t covering(std::int32_t sigma, std::int64_t difference) {
 
 Contact estimate(const TableConstants& constants, const Fit& fit) {
   std::int32_t offset = std::min(offsetSigma(constants, fit), constants.gauge_count * kOnePitch / 2);
-  const std::uint32_t normalGain = squareOf(fit.load[0]) + squareOf(fit.load[1]);
-  std::int32_t normal = amplitudeSigma(constants, fit, normalGain, fit.normalSlope, offset);
-  std::int32_t tangential =
-      amplitudeSigma(constants, fit, squareOf(fit.load[2]), fit.tangentialSlope, offset);
+  const AmplitudeSlopes slopes = amplitudeSlopes(*fit.row, fit.projection);
+  const auto& load = fit.row->load;
+  const std::uint32_t normalGain = squareOf(load[0]) + squareOf(load[1]);
+  std::int32_t normal = amplitudeSigma(constants, fit, normalGain, slopes.normal, offset);
+  std::int32_t tangential = amplitudeSigma(constants, fit, squareOf(load[2]), slopes.tangential, offset);
   if (fit.ambiguous) {
     const PitchQ20 ring = constants.gauge_count * kOnePitch;
     const PitchQ20 apart = std::abs(fit.best.position - fit.alternative.position);
@@ -127,7 +130,7 @@ Contact estimate(const TableConstants& constants, const Fit& fit) {
   contact.tangential = loadOf(constants, fit, fit.best.tangential);
   contact.sigmaTangential = loadOf(constants, fit, tangential);
   contact.alternative = angleOf(constants, fit.alternative.position);
-  contact.quality = qualityOf(fit);
+  contact.quality = qualityOf(constants, fit);
   contact.ambiguous = fit.ambiguous;
   contact.uncertain = contact.quality <= kUncertainQuality;
   return contact;

@@ -10,130 +10,173 @@
 namespace strainfinger::firmware {
 namespace {
 
-/// Fits farther from their middle gauge than this belong to another window.
-constexpr PitchQ20 kFarFromMiddle = kOnePitch * 53 / 100;
+/// A ring of less energy than 1024 variances can look right in any window, one of less than 4096 two or three
+/// gauges away.
+constexpr int kWeakShift = 5;
+constexpr int kAliasShift = 7;
 
-// In variances of a reading (Problem::noise()):
-constexpr std::uint32_t kAmbiguous = 12;    ///< answers closer than this are not told apart
-constexpr std::uint32_t kRivalMargin = 32;  ///< a peak of a scan so far behind may still win once refined ..
-constexpr std::uint32_t kUnexplained = 32;  ///< noise alone leaves less in a window ..
-constexpr std::uint32_t kAlias = 4096;      ///< a ring with less can look right two or three gauges away
-constexpr std::uint32_t kWeak = 1024;       ///< .. and with less than this, in any
-constexpr std::uint32_t kAmbiguousWeak = 24;  ///< kAmbiguous there, where the energy is far from quadratic
-constexpr std::uint32_t kFaint = 64;          ///< an answer that explains less than this may be noise
-// .. and in parts of the energy, as powers of two:
-constexpr int kRivalShift = 4;       ///< .. as may one within 1/16
-constexpr int kRoundingShift = 12;   ///< .. beside 1/4096, lost in rounding
+// Parts of the energy, as powers of two:
+constexpr int kRivalShift = 4;       ///< a peak within 1/16 (and kNoiseUnit variances) may still win once refined
+constexpr int kRoundingShift = 12;   ///< 1/4096 is lost in rounding
 constexpr int kAmbiguousShift = 14;  ///< rounding makes two fits differ by less than this
+constexpr int kUnrefinedShift = 5;   ///< .. and a first step by less than this
 constexpr int kOutsideShift = 3;     ///< a contact leaves less than 1/8 of its energy outside its window
 
-bool isWeak(const Problem& problem) { return problem.ringEnergy < problem.noise(kWeak); }
+bool isWeak(const Problem& problem) { return problem.ringEnergy >> kWeakShift < problem.noise; }
 
-/// Refines every peak of a scan that may yet turn out the best.
-void solveWindow(const Problem& problem, const Scan& scan, Contest& contest) {
-  const std::int32_t best = scan.best();
-  const std::int32_t limit = best - (best >> kRivalShift) - problem.noise(kRivalMargin);
-  for (int start = 0; start < scan.size(); ++start) {
-    if (scan.isPeak(start) && scan.at(start) > limit)
-      contest.enter(solve(problem, scan, start), problem.gauges());
-  }
+/// How much less a peak of a scan may explain than the best and still win once it is refined.
+std::int32_t rivalLimit(const Problem& problem, std::int32_t best) {
+  return best - (best >> kRivalShift) - problem.noise;
+}
+
+/// The best of a scan's other peaks, if it may yet win.
+Peak rivalOf(const Problem& problem, const Scan& scan) {
+  const Peak& best = scan.best();
+  Peak rival{rivalLimit(problem, best.energy), 0};
+  const auto consider = [&](const Peak& peak, bool rises) {
+    if (rises && peak.row != best.row && peak.energy > rival.energy) rival = peak;
+  };
+  consider(scan.middle, scan.middleRises());
+  consider(scan.minus, scan.minusRises);
+  consider(scan.plus, scan.plusRises);
+  return rival;
 }
 
 /// Another window may hold a better answer.
 bool doubtful(const Problem& problem, const Answer& answer) {
-  const std::int32_t window = energyOf(answer.fit.signal);
-  const std::int32_t noise = problem.noise(kUnexplained);
-  return !answer.standing.admissible || problem.ringEnergy < problem.noise(kAlias) ||
-         std::abs(answer.fit.offset) > kFarFromMiddle ||
-         window - answer.energy > noise + (window >> kRoundingShift) ||
-         problem.ringEnergy - window > noise + (window >> kOutsideShift);
+  const std::int32_t window = answer.windowEnergy;
+  return !answer.standing.admissible || problem.ringEnergy >> kAliasShift < problem.noise ||
+         window - answer.energy > problem.noise + (window >> kRoundingShift) ||
+         problem.ringEnergy - window > problem.noise + (window >> kOutsideShift);
 }
 
-/// Of the windows at `offsets` from the anchor, solves the one whose scan explains most. Scans that one
-/// twice, so as to have one scan on the stack and not two.
-template <std::size_t N>
-void solveBestOf(const Problem& problem, int anchor, const std::array<int, N>& offsets, Contest& contest) {
-  int best = anchor;
-  std::int32_t most = -1;
-  for (const int offset : offsets) {
-    const int gauge = wrapped(anchor + offset, problem.gauges());
-    const std::int32_t energy = scanWindow(problem, gauge).best();
-    if (energy <= most) continue;
-    most = energy;
-    best = gauge;
+/// What explains two answers equally well, within noise and rounding.
+std::int32_t marginOf(const Problem& problem, std::int32_t window) {
+  const std::int32_t twelveVariances = problem.noise * 3 / 8;
+  return (isWeak(problem) ? 2 * twelveVariances : twelveVariances) + (window >> kAmbiguousShift);
+}
+
+/// A place to start a fit from.
+struct Start {
+  std::int32_t energy = -1;
+  std::uint8_t centre = 0;
+  std::int8_t row = 0;
+};
+
+/// The best few of any number of starts, the best first.
+class Shortlist {
+ public:
+  void add(const Peak& peak, int centre) {
+    if (peak.energy <= starts_.back().energy) return;
+    auto at = starts_.end() - 1;
+    for (; at != starts_.begin() && peak.energy > (at - 1)->energy; --at) *at = *(at - 1);
+    *at = {peak.energy, static_cast<std::uint8_t>(centre), static_cast<std::int8_t>(peak.row)};
   }
-  solveWindow(problem, scanWindow(problem, best), contest);
+  void add(const Scan& scan) {
+    if (scan.middleRises()) add(scan.middle, scan.centre);
+    if (scan.minusRises) add(scan.minus, scan.centre);
+    if (scan.plusRises) add(scan.plus, scan.centre);
+  }
+  const auto& starts() const { return starts_; }
+
+ private:
+  std::array<Start, 6> starts_{};
+};
+
+void enterFrom(const Problem& problem, const Start& from, Contest& contest) {
+  Answer answer;
+  start(problem, windowSignal(problem.strains, from.centre, problem.up), from.centre, from.row, answer.fit);
+  finish(problem, answer);
+  contest.enter(answer, problem.gauges());
 }
 
 /// Where the model's strongest response has no single peak over the contact, or noise may hide it, every
 /// window is looked at.
-void solveEverywhere(const Problem& problem, Contest& contest) {
-  constexpr int kCoarse = 11;  // energies, below 2^27, in 16 bits: half the stack
-  std::array<std::uint16_t, kMaxGauges> energies{};
-  std::int32_t largest = 0;
+[[gnu::noinline]] void searchEverywhere(const Problem& problem, Contest& contest) {
+  Shortlist list;
   for (int gauge = 0; gauge < problem.gauges(); ++gauge) {
-    const std::int32_t energy = scanWindow(problem, gauge).best();
-    energies[static_cast<std::size_t>(gauge)] = saturate<std::uint16_t>(energy >> kCoarse);
-    largest = std::max(largest, energy);
+    list.add(scanWindow(problem, gauge));
   }
-  const std::int32_t limit = largest - (largest >> kRivalShift) - problem.noise(kRivalMargin);
-  for (int gauge = 0; gauge < problem.gauges(); ++gauge) {
-    if (energies[static_cast<std::size_t>(gauge)] >= limit >> kCoarse)
-      solveWindow(problem, scanWindow(problem, gauge), contest);
-  }
+  const std::int32_t limit = rivalLimit(problem, list.starts()[0].energy);
+  for (const Start& start : list.starts())
+    if (start.energy > limit) enterFrom(problem, start, contest);
 }
 
-/// The answers of one mode.
-Contest contestOf(const Problem& problem) {
-  Contest contest;
-  if (problem.tables.constants.anchor_rule == AnchorRule::kExhaustive || isWeak(problem)) {
-    solveEverywhere(problem, contest);
-    return contest;
+/// Contacts midway between two gauges may bend the strains most one, two or three gauges away: looks there,
+/// on either side of the windows two gauges off.
+[[gnu::noinline]] void searchBeside(const Problem& problem, int anchor, Contest& contest) {
+  constexpr int kFirst = 20, kStep = 8;
+  Shortlist list;
+  for (const int away : {-2, 2}) {
+    const int centre = wrapped(anchor + away, problem.gauges());
+    const Signal signal = windowSignal(problem.strains, centre, problem.up);
+    const Scan scan = scanned(problem.tables.rows, signal, centre, kFirst, kStep);
+    list.add(scan.best(), centre);
   }
-  const int anchor = bendAnchor(problem);
-  solveWindow(problem, scanWindow(problem, anchor), contest);
-  const WindowFit& first = contest.best.fit;
-  if (std::abs(first.offset) > kFarFromMiddle)
-    solveWindow(problem, scanWindow(problem, wrapped(first.centre + first.side, problem.gauges())), contest);
-  if (doubtful(problem, contest.best)) solveBestOf(problem, anchor, std::array{-3, -2, 2, 3}, contest);
-  return contest;
+  enterFrom(problem, list.starts()[0], contest);
 }
 
-Fit reportOf(const Problem& problem, const Contest& contest) {
-  const Answer& best = contest.best;
-  const FitRow& row = (*problem.fitTables()[best.fit.sense])[static_cast<std::size_t>(best.fit.row)];
-  const std::int32_t window = energyOf(best.fit.signal);
-  Fit fit;
+void report(const Problem& problem, const Answer& best, Fit& fit) {
   fit.best = best.placement(problem.gauges());
-  fit.alternative = contest.second.found ? contest.secondPlacement : fit.best;
-  const std::int32_t margin =
-      problem.noise(isWeak(problem) ? kAmbiguousWeak : kAmbiguous) + (window >> kAmbiguousShift);
-  fit.ambiguous = contest.second.isRival && contest.second.energy > best.standing.energy - margin;
-  fit.settled = best.standing.admissible && best.energy > problem.noise(kFaint);
-  fit.normalSlope = best.amplitudes.normalSlope;
-  fit.tangentialSlope = best.amplitudes.tangentialSlope;
-  fit.information = best.fit.information;
-  fit.informationExponent = row.gradient_exponent;
-  fit.load = row.load;
-  fit.shift = static_cast<std::int8_t>(problem.shift);
+  fit.alternative = fit.best;
+  fit.row = &problem.tables.rows[static_cast<std::size_t>(best.fit.row)];
+  fit.projection = best.fit.step.projection;
+  fit.information = best.fit.step.information;
+  fit.unexplained = std::max<std::int32_t>(best.windowEnergy - best.energy, 0);
+  fit.windowEnergy = best.windowEnergy;
+  fit.up = static_cast<std::int8_t>(problem.up);
   fit.centre = static_cast<std::uint8_t>(best.fit.centre);
-  fit.unexplained = std::max<std::int32_t>(window - best.energy, 0);
-  fit.expected = problem.noise(kUnexplained / 2) + (window >> kRoundingShift);
-  return fit;
+  fit.settled = best.standing.admissible && best.energy >> 1 > problem.noise;  // 64 variances
+}
+
+void report(const Problem& problem, const Contest& contest, Fit& fit) {
+  report(problem, contest.best, fit);
+  if (contest.second.found) fit.alternative = contest.secondPlacement;
+  fit.ambiguous = contest.second.isRival && contest.second.energy > contest.best.standing.energy -
+                                                                       marginOf(problem, contest.best.windowEnergy);
 }
 
 }  // namespace
 
 Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t> strains_q32,
            std::uint32_t energy) {
-  {
-    const Problem problem = problemOf(tables, mode, strains_q32, energy);
-    const Contest contest = contestOf(problem);
-    if (mode == FitMode::kRefined || !doubtful(problem, contest.best)) return reportOf(problem, contest);
-  }  // its stack is needed again
-  // Three readings that leave much unexplained are overruled by their neighbours.
-  const Problem refined = problemOf(tables, FitMode::kRefined, strains_q32, energy);
-  return reportOf(refined, contestOf(refined));
+  (void)mode;
+  Fit fit;
+  const Problem problem = problemOf(tables, strains_q32, energy);
+  if (tables.constants.anchor_rule == AnchorRule::kExhaustive || isWeak(problem)) {
+    Contest contest;
+    searchEverywhere(problem, contest);
+    report(problem, contest, fit);
+    return fit;
+  }
+  const Scan scan = scanWindow(problem, bendAnchor(problem));
+  Answer answer;
+  start(problem, scan.signal, scan.centre, scan.best().row, answer.fit);
+  WindowFit rival;
+  std::int32_t rivalEnergy = -1;
+  const Peak other = rivalOf(problem, scan);
+  if (other.row != 0) {
+    start(problem, scan.signal, scan.centre, other.row, rival);
+    if (rival.step.energy() > answer.fit.step.energy()) std::swap(rival, answer.fit);
+    rivalEnergy = rival.step.energy();
+  }
+  finish(problem, answer);
+  const bool close = rivalEnergy > answer.energy - (answer.energy >> kUnrefinedShift) -
+                                       marginOf(problem, answer.windowEnergy);
+  if (!close && !doubtful(problem, answer)) {
+    report(problem, answer, fit);
+    return fit;
+  }
+  Contest contest;
+  contest.enter(answer, problem.gauges());
+  if (rivalEnergy >= 0) {
+    answer.fit = rival;
+    finish(problem, answer);
+    contest.enter(answer, problem.gauges());
+  }
+  if (doubtful(problem, contest.best)) searchBeside(problem, scan.centre, contest);
+  report(problem, contest, fit);
+  return fit;
 }
 
 }  // namespace strainfinger::firmware

@@ -15,26 +15,26 @@ enum class FitMode : std::uint8_t {
   kRefined,     ///< all seven of the window
 };
 
-/// Energies here are sums of squares of strains / 2^shift, divided by 4 (see signal.hpp).
+/// The noise of a ring is given as the energy of so many variances of a reading.
+inline constexpr std::uint32_t kNoiseUnit = 32;
+
+/// Energies here are sums of squares of strains / 2^(16 - up), divided by 4 (see signal.hpp). Differences of
+/// explained energies are differences of log-likelihood, in units of half a variance.
 struct Problem {
   const TableImage& tables;
   std::span<const std::int32_t> strains;  ///< [* 2^32], one a gauge
-  FitMode mode;
-  int shift;                ///< brings the ring's norm just below 2^14.5
-  std::int32_t ringEnergy;  ///< of all gauges
+  int up;                                 ///< brings the ring's norm just below 2^(16 + 14.5)
+  std::int32_t ringEnergy;                ///< of all gauges
+  std::int32_t noise;                     ///< kNoiseUnit variances of a reading, 1 .. 2^27
 
-  /// The tables of the mode, by FitSense.
-  FitTables fitTables() const;
   int mirrorSign() const { return tables.constants.mirror_sign; }
   int gauges() const { return tables.constants.gauge_count; }
-
-  /// So many variances of a reading as an energy; at least 1. Differences of explained energies are
-  /// differences of log-likelihood, in units of half a variance.
-  std::int32_t noise(std::uint32_t variances) const;
 };
 
+/// kNoiseUnit variances of a reading divided by 2^(16 - up), as an energy; from 1 to 2^27.
+std::int32_t noiseEnergy(const TableConstants& constants, int up);
+
 /// `energy`: gateEnergy() of the strains.
-Problem problemOf(const TableImage& tables, FitMode mode, std::span<const std::int32_t> strains_q32,
-                  std::uint32_t energy);
+Problem problemOf(const TableImage& tables, std::span<const std::int32_t> strains_q32, std::uint32_t energy);
 
 }  // namespace strainfinger::firmware

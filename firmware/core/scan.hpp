@@ -1,8 +1,8 @@
 #pragma once
 // Where a fit should start.
 
-#include <algorithm>
 #include <array>
+#include <cstdint>
 
 #include "firmware/core/problem.hpp"
 #include "firmware/core/signal.hpp"
@@ -11,35 +11,76 @@ namespace strainfinger::firmware {
 
 /// A scan reaches so many rows: a little beyond half a pitch, where the next window takes over.
 inline constexpr int kScanReach = 36;
-/// Offsets on either side of the finest scan.
-inline constexpr int kMaxScanRows = (kScanReach - kMinScanStep / 2) / kMinScanStep + 1;
+
+/// The offset of a part of a window that explains most.
+struct Peak {
+  std::int32_t energy = -1;
+  std::int32_t row = 0;  ///< negative: on the - side
+};
 
 /// Energies that the seven gauges explain with the contact at each of a row of offsets, from one side of a
-/// window to the other.
+/// window to the other, boiled down to three peaks: the two offsets beside the middle gauge, and what lies
+/// beyond them on the - and + sides.
 struct Scan {
-  Signal signal{};
+  Signal signal;
   int centre = 0;
-  int step = 0;     ///< rows between offsets
-  int perSide = 0;  ///< offsets on either side of the middle
-  std::array<std::int32_t, 2 * kMaxScanRows> energy{};
-  std::uint32_t backward = 0;  ///< bit i: at offset i the tangential load points towards the middle
+  Peak middle, minus, plus;
+  bool minusRises = false, plusRises = false;  ///< that peak is no mere foot of the middle's
 
-  int size() const { return 2 * perSide; }
-  int side(int index) const { return index < perSide ? -1 : 1; }
-  int row(int index) const {
-    return step / 2 + step * (index < perSide ? perSide - 1 - index : index - perSide);
-  }
-  std::int32_t at(int index) const { return energy[static_cast<std::size_t>(index)]; }
-  bool pullsBack(int index) const { return (backward >> index & 1) != 0; }
-  std::int32_t best() const { return *std::max_element(energy.begin(), energy.begin() + size()); }
-  bool isPeak(int index) const {
-    return (index == 0 || at(index - 1) <= at(index)) && (index + 1 == size() || at(index + 1) < at(index));
+  /// The middle's is no mere foot of an outer one.
+  bool middleRises() const { return middle.energy > (middle.row < 0 ? minus : plus).energy; }
+  const Peak& best() const {
+    const Peak& outer = plus.energy >= minus.energy ? plus : minus;
+    return middle.energy >= outer.energy ? middle : outer;
   }
 };
 
-/// Scans the window around gauge `centre`. Mirrored offsets share their products, so that a scan costs half
-/// of what its energies would one by one.
-Scan scanWindow(const Problem& problem, int centre);
+/// Energy of two projections, rounded to 1.5e-4 of the window's: enough to find where a peak is.
+inline std::int32_t roughEnergy(std::int32_t projection1, std::int32_t projection2) {
+  const Pair halves = upperHalves(projection1, projection2);
+  return dot(halves, halves);
+}
+
+/// Energies of a contact at a row's offset on either side.
+struct SideEnergies {
+  std::int32_t minus, plus;
+};
+
+/// Mirrored offsets share their products, so that a scan costs half of what its energies would one by one.
+template <typename Energy>
+SideEnergies sideEnergies(const FitRow& row, const Signal& signal, Energy energy) {
+  constexpr std::int32_t kHalf = 0x8000;
+  const std::int32_t even1 = evenPart(row.basis[0], signal, kHalf), odd1 = oddPart(row.basis[0], signal);
+  const std::int32_t even2 = evenPart(row.basis[1], signal), odd2 = oddPart(row.basis[1], signal, kHalf);
+  return {energy(even1 - odd1, odd2 - even2), energy(even1 + odd1, even2 + odd2)};
+}
+
+inline void raise(Peak& peak, std::int32_t energy, int row) {
+  if (energy > peak.energy) peak = {energy, row};
+}
+
+/// Scans a window at rows `first`, `first` + step .. up to kScanReach.
+inline Scan scanned(const FitTable& rows, const Signal& signal, int centre, int first, int step) {
+  // Beside the middle gauge a weak tangential load has two peaks, no matter how close: exactly, then.
+  const SideEnergies inner = sideEnergies(rows[static_cast<std::size_t>(first)], signal, [](auto a, auto b) { return energyOf(a, b); });
+  Scan scan{.signal = signal, .centre = centre, .middle = {inner.plus, first}, .minus = {}, .plus = {}};
+  raise(scan.middle, inner.minus, -first);
+  const int second = first + step;
+  for (int row = second; row <= kScanReach; row += step) {
+    const SideEnergies energy = sideEnergies(rows[static_cast<std::size_t>(row)], signal, roughEnergy);
+    raise(scan.minus, energy.minus, -row);
+    raise(scan.plus, energy.plus, row);
+  }
+  scan.minusRises = scan.minus.row != -second || scan.minus.energy > inner.minus;
+  scan.plusRises = scan.plus.row != second || scan.plus.energy > inner.plus;
+  return scan;
+}
+
+/// The window around gauge `centre`, at every step of the constants.
+inline Scan scanWindow(const Problem& problem, int centre) {
+  const int step = problem.tables.constants.scan_step;
+  return scanned(problem.tables.rows, windowSignal(problem.strains, centre, problem.up), centre, step / 2, step);
+}
 
 /// The gauge nearest to the contact, or nearly: where the strains bend most. Within half a pitch in 94 % of
 /// contacts, within 0.6 in 99 %; the others lie midway between two gauges, two or three pitches away.

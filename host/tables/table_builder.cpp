@@ -156,9 +156,7 @@ TableImage buildTableImage(const config::FingerConfig& config) {
   image.constants = tableConstants(config, response.at(0).normal < 0);
   const int exponent = amplitudeExponent(fits);
   fillLoads(image.constants, peak, exponent);
-  image.refined = fitTable(fits.refined, exponent);
-  for (const FitSense sense : {kWithOffset, kAgainstOffset})
-    image.three_point[sense] = fitTable(fits.threePoint[sense], exponent);
+  image.rows = fitTable(fits, exponent);
   image.crc32 = crc32(checkedBytes(image));
   if (!hasOnePeak(config.gauges)) searchEverywhere(image);
   return image;

@@ -31,7 +31,7 @@ inline constexpr int kWindowReach = kWindowGauges / 2;
 inline constexpr int kRowsPerPitch = 64;
 inline constexpr int kFitRows = 44;
 
-/// Rows between the starts of a scan: fewer cost more, more would step over a maximum.
+/// Rows between the starts of a scan, either of the two: fewer cost more, more would step over a maximum.
 inline constexpr int kMinScanStep = 4;
 inline constexpr int kMaxScanStep = 8;
 
@@ -179,8 +179,8 @@ constexpr bool usable(const TableParameters& parameters, const TableConstants& c
   return parameters.component <= StrainComponent::kShear && constants.gauge_count >= kMinGauges &&
          constants.gauge_count <= kMaxGauges && constants.gauge_count % 2 == 0 && constants.gate_shift <= kMostGateShift &&
          isSign(constants.mirror_sign) && isSign(constants.anchor_sign) &&
-         constants.anchor_rule <= AnchorRule::kExhaustive && constants.scan_step >= kMinScanStep &&
-         constants.scan_step <= kMaxScanStep;
+         constants.anchor_rule <= AnchorRule::kExhaustive && (constants.scan_step == kMinScanStep ||
+         constants.scan_step == kMaxScanStep);
 }
 
 /// Looks at everything that can be wrong with an image of the right size. Cost: one pass over its bytes.

@@ -10,17 +10,17 @@ namespace strainfinger::firmware {
 /// A line contact at `position` [pitches * 2^20 from gauge 0, within the ring] with the amplitudes of its
 /// loads (tangential + towards +theta).
 struct Placement {
-  PitchQ20 position = 0;
-  std::int32_t normal = 0;
-  std::int32_t tangential = 0;
+  PitchQ20 position;
+  std::int32_t normal;
+  std::int32_t tangential;
 };
 
 /// What decides between two answers.
 struct Standing {
-  std::int32_t energy = -1;  ///< explained, and what a contact there may have left outside the window
-  bool found = false;
-  bool admissible = false;  ///< settled, presses, and no harder sideways than friction allows
-  bool isRival = false;     ///< to be reckoned with, if only as the next best
+  std::int32_t energy;  ///< explained, and what a contact there may have left outside the window
+  bool found;
+  bool admissible;  ///< settled, presses, and no harder sideways than friction allows
+  bool isRival;     ///< to be reckoned with, if only as the next best
 
   bool betterThan(const Standing& other) const {
     if (!other.found) return true;
@@ -32,9 +32,9 @@ struct Standing {
 /// A refined fit and how it stands against others.
 struct Answer {
   WindowFit fit;
-  Amplitudes amplitudes{};
-  std::int32_t energy = -1;        ///< that the seven gauges say it explains ..
-  std::int32_t windowEnergy = -1;  ///< .. of so much
+  Amplitudes amplitudes;
+  std::int32_t energy;  ///< that the seven gauges say it explains ..
+  std::int32_t windowEnergy;  ///< .. of so much
   Standing standing;
 
   Placement placement(int gauges) const;
@@ -56,6 +56,8 @@ struct Contest {
   Answer best;
   Standing second;
   Placement secondPlacement;
+
+  Contest() { best.standing.found = second.found = false; }
 
   void enter(const Answer& answer, int gauges);
 

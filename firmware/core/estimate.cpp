@@ -4,6 +4,8 @@
 #include <bit>
 #include <limits>
 
+#include "firmware/core/triple_fit.hpp"
+
 namespace strainfinger::firmware {
 namespace {
 
@@ -75,6 +77,59 @@ std::int32_t amplitudeSigma(const TableConstants& constants, const Fit& fit, std
 
 std::uint32_t squareOf(std::int16_t value) { return static_cast<std::uint32_t>(std::int32_t{value} * value); }
 
+/// Standard errors of an answer's offset [pitches * 2^20] and amplitudes.
+struct Errors {
+  std::int32_t offset, normal, tangential;
+};
+
+Errors refinedErrors(const TableConstants& constants, const Fit& fit) {
+  const AmplitudeSlopes slopes = amplitudeSlopes(*fit.row, fit.projection);
+  const auto& load = fit.row->load;
+  const std::int32_t offset = offsetSigma(constants, fit);
+  return {offset,
+          amplitudeSigma(constants, fit, squareOf(load[0]) + squareOf(load[1]), slopes.normal, offset),
+          amplitudeSigma(constants, fit, squareOf(load[2]), slopes.tangential, offset)};
+}
+
+/// value with 32 significant bits.
+Scaled normalised(std::uint64_t value) {
+  const int up = std::countl_zero(value | 1);
+  return {value << up >> 32, 32 - up};
+}
+
+/// Standard error of a sum of three readings, each times weight * 2^weightExponent / volume.
+std::int32_t weightedSigma(const TableConstants& constants, const Fit& fit, const Vector3& weights,
+                           int weightExponent, std::int32_t volume) {
+  std::uint64_t square = 0;
+  for (const std::int32_t weight : weights)
+    square += static_cast<std::uint64_t>(std::int64_t{weight} * weight);
+  const Scaled above = normalised(square);
+  const Scaled below = normalised(static_cast<std::uint64_t>(std::int64_t{volume} * volume));
+  const Scaled noise = noiseOf(constants, fit);
+  // A reading's variance is four times its energy.
+  return root({noise.mantissa * above.mantissa / below.mantissa,
+               noise.exponent + 2 + above.exponent - below.exponent + 2 * weightExponent});
+}
+
+Errors tripleErrors(const TableConstants& constants, const Fit& fit) {
+  constexpr int kLowered = 20;
+  const TripleSystem system = tripleChoice(*fit.row, fit.projection).system;
+  const AmplitudeSlopes slopes = amplitudeSlopes(*fit.row, fit.projection);
+  const auto& load = fit.row->load;
+  // An amplitude changes with the projections, and per row spacing of offset.
+  const auto sigma = [&](std::int32_t load1, std::int32_t load2, std::int32_t slope) {
+    Vector3 weights;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      const std::int64_t own = std::int64_t{load1} * system.forProjection1[i] + std::int64_t{load2} * system.forProjection2[i];
+      const std::int64_t carried = std::int64_t{slope} * system.forOffset[i] * kRowsPerPitch;
+      weights[i] = saturate<std::int32_t>((own * (1 << 14) + (carried >> (fit.row->gradient_exponent + 3)) * 8) >> kLowered);
+    }
+    return weightedSigma(constants, fit, weights, kLowered, system.volume);
+  };
+  return {weightedSigma(constants, fit, system.forOffset, kPitchBits - fit.row->gradient_exponent, system.volume),
+          sigma(load[0], load[1], slopes.normal), sigma(0, load[2], slopes.tangential)};
+}
+
 LineLoadQ12 loadOf(const TableConstants& constants, const Fit& fit, std::int32_t amplitude) {
   const int up = constants.load_exponent + 16 - fit.up;
   const std::int64_t product = std::int64_t{amplitude} * constants.load_scale;
@@ -109,12 +164,9 @@ std::int32_t covering(std::int32_t sigma, std::int64_t difference) {
 }  // namespace
 
 Contact estimate(const TableConstants& constants, const Fit& fit) {
-  std::int32_t offset = std::min(offsetSigma(constants, fit), constants.gauge_count * kOnePitch / 2);
-  const AmplitudeSlopes slopes = amplitudeSlopes(*fit.row, fit.projection);
-  const auto& load = fit.row->load;
-  const std::uint32_t normalGain = squareOf(load[0]) + squareOf(load[1]);
-  std::int32_t normal = amplitudeSigma(constants, fit, normalGain, slopes.normal, offset);
-  std::int32_t tangential = amplitudeSigma(constants, fit, squareOf(load[2]), slopes.tangential, offset);
+  auto [offset, normal, tangential] =
+      fit.readings == FitMode::kRefined ? refinedErrors(constants, fit) : tripleErrors(constants, fit);
+  offset = std::min(offset, constants.gauge_count * kOnePitch / 2);
   if (fit.ambiguous) {
     const PitchQ20 ring = constants.gauge_count * kOnePitch;
     const PitchQ20 apart = std::abs(fit.best.position - fit.alternative.position);

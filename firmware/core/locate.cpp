@@ -6,6 +6,7 @@
 
 #include "firmware/core/answer.hpp"
 #include "firmware/core/scan.hpp"
+#include "firmware/core/triple_fit.hpp"
 
 namespace strainfinger::firmware {
 namespace {
@@ -58,14 +59,15 @@ std::int32_t marginOf(const Problem& problem, std::int32_t window) {
 
 /// A place to start a fit from.
 struct Start {
-  std::int32_t energy = -1;
-  std::uint8_t centre = 0;
-  std::int8_t row = 0;
+  std::int32_t energy;
+  std::uint8_t centre;
+  std::int8_t row;
 };
 
 /// The best few of any number of starts, the best first.
 class Shortlist {
  public:
+  Shortlist() { starts_.fill({-1, 0, 0}); }
   void add(const Peak& peak, int centre) {
     if (peak.energy <= starts_.back().energy) return;
     auto at = starts_.end() - 1;
@@ -80,7 +82,7 @@ class Shortlist {
   const auto& starts() const { return starts_; }
 
  private:
-  std::array<Start, 6> starts_{};
+  std::array<Start, 6> starts_;
 };
 
 void enterFrom(const Problem& problem, const Start& from, Contest& contest) {
@@ -105,49 +107,61 @@ void enterFrom(const Problem& problem, const Start& from, Contest& contest) {
 /// Contacts midway between two gauges may bend the strains most one, two or three gauges away: looks there,
 /// on either side of the windows two gauges off.
 [[gnu::noinline]] void searchBeside(const Problem& problem, int anchor, Contest& contest) {
-  constexpr int kFirst = 20, kStep = 8;
   Shortlist list;
   for (const int away : {-2, 2}) {
     const int centre = wrapped(anchor + away, problem.gauges());
     const Signal signal = windowSignal(problem.strains, centre, problem.up);
-    const Scan scan = scanned(problem.tables.rows, signal, centre, kFirst, kStep);
+    const Scan scan = scanned<20, kMaxScanStep>(problem.tables.rows, signal, centre);
     list.add(scan.best(), centre);
   }
   enterFrom(problem, list.starts()[0], contest);
 }
 
-void report(const Problem& problem, const Answer& best, Fit& fit) {
-  fit.best = best.placement(problem.gauges());
-  fit.alternative = fit.best;
-  fit.row = &problem.tables.rows[static_cast<std::size_t>(best.fit.row)];
-  fit.projection = best.fit.step.projection;
-  fit.information = best.fit.step.information;
-  fit.unexplained = std::max<std::int32_t>(best.windowEnergy - best.energy, 0);
-  fit.windowEnergy = best.windowEnergy;
-  fit.up = static_cast<std::int8_t>(problem.up);
-  fit.centre = static_cast<std::uint8_t>(best.fit.centre);
-  fit.settled = best.standing.admissible && best.energy >> 1 > problem.noise;  // 64 variances
+Fit reportOf(const Problem& problem, const Answer& best, FitMode readings) {
+  const Placement placement = best.placement(problem.gauges());
+  return {.best = placement,
+          .alternative = placement,
+          .row = &problem.tables.rows[static_cast<std::size_t>(best.fit.row)],
+          .projection = best.fit.step.projection,
+          .information = best.fit.step.information,
+          .unexplained = std::max<std::int32_t>(best.windowEnergy - best.energy, 0),
+          .windowEnergy = best.windowEnergy,
+          .up = static_cast<std::int8_t>(problem.up),
+          .centre = static_cast<std::uint8_t>(best.fit.centre),
+          .readings = readings,
+          .ambiguous = false,
+          .settled = best.standing.admissible && best.energy >> 1 > problem.noise};  // 64 variances
 }
 
-void report(const Problem& problem, const Contest& contest, Fit& fit) {
-  report(problem, contest.best, fit);
-  if (contest.second.found) fit.alternative = contest.secondPlacement;
+Fit reportOf(const Problem& problem, const Contest& contest, FitMode readings) {
+  Fit fit = reportOf(problem, contest.best, readings);
+  if (!contest.second.found) return fit;
+  fit.alternative = contest.secondPlacement;
   fit.ambiguous = contest.second.isRival && contest.second.energy > contest.best.standing.energy -
                                                                        marginOf(problem, contest.best.windowEnergy);
+  return fit;
+}
+
+/// Leaves the answer to three readings if the mode says so and they lead where all seven do.
+FitMode settleReadings(const Problem& problem, FitMode mode, Answer& answer) {
+  if (mode == FitMode::kRefined || !answer.standing.admissible) return FitMode::kRefined;
+  WindowFit fit = answer.fit;
+  if (!solveTriple(problem.tables.rows, problem.mirrorSign(), fit)) return FitMode::kRefined;
+  answer.fit = fit;
+  answer.amplitudes = amplitudesOf(problem.tables.rows[static_cast<std::size_t>(fit.row)], fit.step);
+  return FitMode::kThreePoint;
 }
 
 }  // namespace
 
 Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t> strains_q32,
            std::uint32_t energy) {
-  (void)mode;
-  Fit fit;
   const Problem problem = problemOf(tables, strains_q32, energy);
   if (tables.constants.anchor_rule == AnchorRule::kExhaustive || isWeak(problem)) {
     Contest contest;
     searchEverywhere(problem, contest);
-    report(problem, contest, fit);
-    return fit;
+    const FitMode readings = settleReadings(problem, mode, contest.best);
+    return reportOf(problem, contest, readings);
   }
   const Scan scan = scanWindow(problem, bendAnchor(problem));
   Answer answer;
@@ -164,8 +178,8 @@ Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t>
   const bool close = rivalEnergy > answer.energy - (answer.energy >> kUnrefinedShift) -
                                        marginOf(problem, answer.windowEnergy);
   if (!close && !doubtful(problem, answer)) {
-    report(problem, answer, fit);
-    return fit;
+    const FitMode readings = settleReadings(problem, mode, answer);
+    return reportOf(problem, answer, readings);
   }
   Contest contest;
   contest.enter(answer, problem.gauges());
@@ -175,8 +189,8 @@ Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t>
     contest.enter(answer, problem.gauges());
   }
   if (doubtful(problem, contest.best)) searchBeside(problem, scan.centre, contest);
-  report(problem, contest, fit);
-  return fit;
+  const FitMode readings = settleReadings(problem, mode, contest.best);
+  return reportOf(problem, contest, readings);
 }
 
 }  // namespace strainfinger::firmware

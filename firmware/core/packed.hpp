@@ -12,7 +12,7 @@
 namespace strainfinger::firmware {
 
 struct Pair {
-  std::uint32_t bits = 0;
+  std::uint32_t bits;
 
   constexpr bool operator==(const Pair&) const = default;
 };
@@ -39,6 +39,14 @@ inline Pair pairAt(const std::int16_t* numbers) {
   Pair pair;
   __builtin_memcpy(&pair.bits, __builtin_assume_aligned(numbers, 4), sizeof pair.bits);
   return pair;
+}
+
+/// The same pointer, about which the compiler knows nothing: loads of two words reach 255 words from it, while
+/// from the start of a table whose rows the compiler can number it would take them one by one.
+template <typename T>
+const T* unknown(const T* pointer) {
+  asm("" : "+r"(pointer));
+  return pointer;
 }
 
 /// Both numbers negated, modulo 2^16.

@@ -14,8 +14,8 @@ inline constexpr int kScanReach = 36;
 
 /// The offset of a part of a window that explains most.
 struct Peak {
-  std::int32_t energy = -1;
-  std::int32_t row = 0;  ///< negative: on the - side
+  std::int32_t energy;
+  std::int32_t row;  ///< negative: on the - side
 };
 
 /// Energies that the seven gauges explain with the contact at each of a row of offsets, from one side of a
@@ -23,9 +23,9 @@ struct Peak {
 /// beyond them on the - and + sides.
 struct Scan {
   Signal signal;
-  int centre = 0;
+  int centre;
   Peak middle, minus, plus;
-  bool minusRises = false, plusRises = false;  ///< that peak is no mere foot of the middle's
+  bool minusRises, plusRises;  ///< that peak is no mere foot of the middle's
 
   /// The middle's is no mere foot of an outer one.
   bool middleRises() const { return middle.energy > (middle.row < 0 ? minus : plus).energy; }
@@ -59,27 +59,33 @@ inline void raise(Peak& peak, std::int32_t energy, int row) {
   if (energy > peak.energy) peak = {energy, row};
 }
 
-/// Scans a window at rows `first`, `first` + step .. up to kScanReach.
-inline Scan scanned(const FitTable& rows, const Signal& signal, int centre, int first, int step) {
+/// Scans a window at rows First, First + Step .. up to kScanReach.
+template <int First, int Step>
+Scan scanned(const FitTable& rows, const Signal& signal, int centre) {
+  constexpr int kSecond = First + Step;
   // Beside the middle gauge a weak tangential load has two peaks, no matter how close: exactly, then.
-  const SideEnergies inner = sideEnergies(rows[static_cast<std::size_t>(first)], signal, [](auto a, auto b) { return energyOf(a, b); });
-  Scan scan{.signal = signal, .centre = centre, .middle = {inner.plus, first}, .minus = {}, .plus = {}};
-  raise(scan.middle, inner.minus, -first);
-  const int second = first + step;
-  for (int row = second; row <= kScanReach; row += step) {
-    const SideEnergies energy = sideEnergies(rows[static_cast<std::size_t>(row)], signal, roughEnergy);
-    raise(scan.minus, energy.minus, -row);
-    raise(scan.plus, energy.plus, row);
+  const FitRow* at = unknown(&rows[First]);
+  const SideEnergies inner = sideEnergies(*at, signal, [](auto u1, auto u2) { return energyOf(u1, u2); });
+  Peak middle{inner.plus, First}, minus{-1, 0}, plus{-1, 0};
+  raise(middle, inner.minus, -First);
+#pragma GCC unroll 8
+  for (int row = kSecond; row <= kScanReach; row += Step) {
+    at = unknown(at + Step);
+    const SideEnergies energy = sideEnergies(*at, signal, roughEnergy);
+    raise(minus, energy.minus, -row);
+    raise(plus, energy.plus, row);
   }
-  scan.minusRises = scan.minus.row != -second || scan.minus.energy > inner.minus;
-  scan.plusRises = scan.plus.row != second || scan.plus.energy > inner.plus;
-  return scan;
+  return {signal, centre, middle, minus, plus, minus.row != -kSecond || minus.energy > inner.minus,
+          plus.row != kSecond || plus.energy > inner.plus};
 }
 
 /// The window around gauge `centre`, at every step of the constants.
 inline Scan scanWindow(const Problem& problem, int centre) {
-  const int step = problem.tables.constants.scan_step;
-  return scanned(problem.tables.rows, windowSignal(problem.strains, centre, problem.up), centre, step / 2, step);
+  const FitTable& rows = problem.tables.rows;
+  const Signal signal = windowSignal(problem.strains, centre, problem.up);
+  if (problem.tables.constants.scan_step == kMinScanStep)
+    return scanned<kMinScanStep / 2, kMinScanStep>(rows, signal, centre);
+  return scanned<kMaxScanStep / 2, kMaxScanStep>(rows, signal, centre);
 }
 
 /// The gauge nearest to the contact, or nearly: where the strains bend most. Within half a pitch in 94 % of

@@ -26,11 +26,11 @@ using Projections = std::array<std::int32_t, 2>;
 
 /// From a row of the table towards the offset where the window's readings fit best.
 struct FitStep {
-  Projections projection{};      ///< onto the row's basis [scaled strain * 2^15]
-  std::int32_t slope = 0;        ///< of the energy, in units of the row's gradient
-  std::int32_t information = 0;  ///< energy of the gradient / 4^(gradient_exponent + 1)
-  std::int32_t quotient = 0;     ///< slope / information [* 2^14], at most 16 bits
-  PitchQ20 length = 0;           ///< at most an eighth of a pitch either way
+  Projections projection;  ///< onto the row's basis [scaled strain * 2^15]
+  std::int32_t slope;      ///< of the energy, in units of the row's gradient
+  std::int32_t information;  ///< energy of the gradient / 4^(gradient_exponent + 1)
+  std::int32_t quotient;     ///< slope / information [* 2^14], at most 16 bits
+  PitchQ20 length;           ///< at most an eighth of a pitch either way
 
   /// Energy explained once a step of full length is taken.
   std::int32_t energy() const {
@@ -77,10 +77,10 @@ inline FitStep fitStep(const FitRow& row, const Signal& signal) {
 
 /// A contact as one window sees it.
 struct WindowFit {
-  Signal signal{};  ///< as seen from `side`
-  int centre = 0;   ///< the window's middle gauge
-  int side = 1;     ///< +1: the offset counts towards +theta
-  int row = 0;      ///< that the step was taken from
+  Signal signal;  ///< as seen from `side`
+  int centre;  ///< the window's middle gauge
+  int side;  ///< +1: the offset counts towards +theta
+  int row;  ///< that the step was taken from
   FitStep step;
 
   /// From the middle gauge; may come out slightly negative.

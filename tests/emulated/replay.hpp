@@ -39,6 +39,7 @@ inline void add(Hash& hash, const TableImage& tables, const firmware::Fit& fit, 
   for (const std::int32_t projection : fit.projection) hash.add(projection);
   hash.add(static_cast<std::int32_t>(fit.row - tables.rows.data()) * 256 + fit.up);
   hash.add(fit.information);
+  hash.add(static_cast<std::int32_t>(fit.readings));
   hash.add(fit.unexplained);
   hash.add(fit.windowEnergy);
   const TableConstants& constants = tables.constants;

@@ -47,13 +47,15 @@ void start(const Problem& problem, const Signal& signal, int centre, int row, Wi
   takeStep(problem.tables.rows, fit);
 }
 
+void finishNearMiddle(const Problem& problem, Answer& answer) {
+  refine(problem.tables.rows, problem.mirrorSign(), answer.fit);
+  if (answer.fit.offset() > kFarFromMiddle) changeWindow(problem, answer.fit);
+  finish(problem, answer);
+}
+
 void finish(const Problem& problem, Answer& answer) {
   WindowFit& fit = answer.fit;
-  bool settled = refine(problem.tables.rows, problem.mirrorSign(), fit);
-  if (fit.offset() > kFarFromMiddle) {
-    changeWindow(problem, fit);
-    settled = refine(problem.tables.rows, problem.mirrorSign(), fit);
-  }
+  const bool settled = refine(problem.tables.rows, problem.mirrorSign(), fit);
   answer.amplitudes = amplitudesOf(problem.tables.rows[static_cast<std::size_t>(fit.row)], fit.step);
   answer.energy = fit.step.energy();
   answer.windowEnergy = energyOf(fit.signal);

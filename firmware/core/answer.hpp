@@ -43,9 +43,10 @@ struct Answer {
 /// A fit at a row of a window (negative: on its - side), its first step taken.
 void start(const Problem& problem, const Signal& signal, int centre, int row, WindowFit& fit);
 
-/// Refines the answer's fit, whose first step is taken, in the neighbour's window if it belongs there, and
-/// judges it.
+/// Refines the answer's fit, whose first step is taken, and judges it; finishNearMiddle() in the window where
+/// it is nearest to the middle.
 void finish(const Problem& problem, Answer& answer);
+void finishNearMiddle(const Problem& problem, Answer& answer);
 
 /// Positions go round the ring; `position` is at most one turn off.
 PitchQ20 roundTheRing(PitchQ20 position, int gauges);

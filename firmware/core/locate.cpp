@@ -23,6 +23,7 @@ constexpr int kAmbiguousShift = 14;  ///< rounding makes two fits differ by less
 constexpr int kUnrefinedShift = 5;   ///< .. and a first step by less than this
 constexpr int kOutsideShift = 3;     ///< a contact leaves less than 1/8 of its energy outside its window
 
+bool mayBeAlias(const Problem& problem) { return problem.ringEnergy >> kAliasShift < problem.noise; }
 bool isWeak(const Problem& problem) { return problem.ringEnergy >> kWeakShift < problem.noise; }
 
 /// How much less a peak of a scan may explain than the best and still win once it is refined.
@@ -46,7 +47,7 @@ Peak rivalOf(const Problem& problem, const Scan& scan) {
 /// Another window may hold a better answer.
 bool doubtful(const Problem& problem, const Answer& answer) {
   const std::int32_t window = answer.windowEnergy;
-  return !answer.standing.admissible || problem.ringEnergy >> kAliasShift < problem.noise ||
+  return !answer.standing.admissible || mayBeAlias(problem) ||
          window - answer.energy > problem.noise + (window >> kRoundingShift) ||
          problem.ringEnergy - window > problem.noise + (window >> kOutsideShift);
 }
@@ -85,11 +86,16 @@ class Shortlist {
   std::array<Start, 6> starts_;
 };
 
-void enterFrom(const Problem& problem, const Start& from, Contest& contest) {
-  Answer answer;
-  start(problem, windowSignal(problem.strains, from.centre, problem.up), from.centre, from.row, answer.fit);
-  finish(problem, answer);
-  contest.enter(answer, problem.gauges());
+/// Refines every start of the list that may win.
+[[gnu::noinline]] void enterBest(const Problem& problem, const Shortlist& list, Contest& contest) {
+  const std::int32_t limit = rivalLimit(problem, list.starts()[0].energy);
+  for (const Start& from : list.starts()) {
+    if (from.energy <= limit) return;
+    Answer answer;
+    start(problem, windowSignal(problem.strains, from.centre, problem.up), from.centre, from.row, answer.fit);
+    finish(problem, answer);
+    contest.enter(answer, problem.gauges());
+  }
 }
 
 /// Where the model's strongest response has no single peak over the contact, or noise may hide it, every
@@ -99,22 +105,20 @@ void enterFrom(const Problem& problem, const Start& from, Contest& contest) {
   for (int gauge = 0; gauge < problem.gauges(); ++gauge) {
     list.add(scanWindow(problem, gauge));
   }
-  const std::int32_t limit = rivalLimit(problem, list.starts()[0].energy);
-  for (const Start& start : list.starts())
-    if (start.energy > limit) enterFrom(problem, start, contest);
+  enterBest(problem, list, contest);
 }
 
 /// Contacts midway between two gauges may bend the strains most one, two or three gauges away: looks there,
-/// on either side of the windows two gauges off.
+/// on either side of the windows two gauges off, and three where noise may tip the balance.
 [[gnu::noinline]] void searchBeside(const Problem& problem, int anchor, Contest& contest) {
+  constexpr std::array kAway{-2, 2, -3, 3};
   Shortlist list;
-  for (const int away : {-2, 2}) {
-    const int centre = wrapped(anchor + away, problem.gauges());
+  for (std::size_t i = 0; i < (mayBeAlias(problem) ? kAway.size() : 2); ++i) {
+    const int centre = wrapped(anchor + kAway[i], problem.gauges());
     const Signal signal = windowSignal(problem.strains, centre, problem.up);
-    const Scan scan = scanned<20, kMaxScanStep>(problem.tables.rows, signal, centre);
-    list.add(scan.best(), centre);
+    list.add(scanned<20, kMaxScanStep>(problem.tables.rows, signal, centre).best(), centre);
   }
-  enterFrom(problem, list.starts()[0], contest);
+  enterBest(problem, list, contest);
 }
 
 Fit reportOf(const Problem& problem, const Answer& best, FitMode readings) {
@@ -174,7 +178,7 @@ Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t>
     if (rival.step.energy() > answer.fit.step.energy()) std::swap(rival, answer.fit);
     rivalEnergy = rival.step.energy();
   }
-  finish(problem, answer);
+  finishNearMiddle(problem, answer);
   const bool close = rivalEnergy > answer.energy - (answer.energy >> kUnrefinedShift) -
                                        marginOf(problem, answer.windowEnergy);
   if (!close && !doubtful(problem, answer)) {
@@ -185,7 +189,7 @@ Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t>
   contest.enter(answer, problem.gauges());
   if (rivalEnergy >= 0) {
     answer.fit = rival;
-    finish(problem, answer);
+    finishNearMiddle(problem, answer);
     contest.enter(answer, problem.gauges());
   }
   if (doubtful(problem, contest.best)) searchBeside(problem, scan.centre, contest);

@@ -24,8 +24,8 @@ std::int32_t unfolded(const FoldedWeights& weights, int k) {
 
 /// Twice the reading of a gauge: folded signals are sums, not means.
 std::int32_t twiceReading(const Signal& signal, int k) {
-  const std::array sums{low(signal.even[0]), high(signal.even[0]), low(signal.even[1]), high(signal.even[1])};
-  const std::array differences{0, low(signal.odd[0]), high(signal.odd[0]), low(signal.odd[1])};
+  const std::array<std::int32_t, 4> sums{low(signal.even[0]), high(signal.even[0]), low(signal.even[1]), high(signal.even[1])};
+  const std::array<std::int32_t, 4> differences{0, low(signal.odd[0]), high(signal.odd[0]), low(signal.odd[1])};
   if (k == 0) return 2 * sums[0];
   const auto distance = static_cast<std::size_t>(std::abs(k));
   return sums[distance] + (k > 0 ? differences[distance] : -differences[distance]);

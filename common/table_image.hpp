@@ -2,6 +2,7 @@
 // The flash image of the lookup tables: what the host tools build from the elastic model and the firmware
 // reads in place. Byte by byte, with an example: TABLES.md.
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -95,12 +96,12 @@ struct TableConstants {
 struct alignas(8) FoldedWeights : std::array<std::int16_t, 8> {};
 
 /// Three gauges of a window, by their distance from its middle gauge.
-using Triple = std::array<std::int8_t, 3>;
+using GaugeTriple = std::array<std::int8_t, 3>;
 inline constexpr int kTriples = 35;
 
 /// All triples of a window, in ascending order: {-3, -2, -1}, {-3, -2, 0} .. {1, 2, 3}.
-inline constexpr std::array<Triple, kTriples> kTripleList = [] {
-  std::array<Triple, kTriples> list{};
+inline constexpr std::array<GaugeTriple, kTriples> kTripleList = [] {
+  std::array<GaugeTriple, kTriples> list{};
   std::size_t next = 0;
   for (int a = -kWindowReach; a <= kWindowReach; ++a)
     for (int b = a + 1; b <= kWindowReach; ++b)
@@ -183,13 +184,22 @@ constexpr bool usable(const TableParameters& parameters, const TableConstants& c
          constants.scan_step == kMaxScanStep);
 }
 
+/// What the firmware shifts by and looks up for each row.
+constexpr bool usable(const FitTable& rows) {
+  return std::all_of(rows.begin(), rows.end(), [](const FitRow& row) {
+    return row.gradient_exponent >= kLeastGradientExponent && row.gradient_exponent <= kMostGradientExponent &&
+           row.triple[0] < kTriples && row.triple[1] < kTriples;
+  });
+}
+
 /// Looks at everything that can be wrong with an image of the right size. Cost: one pass over its bytes.
 inline TableFault checkTableImage(const TableImage& image) {
   if (image.magic != kTableMagic) return TableFault::kMagic;
   if (image.format != kTableFormat || image.reserved != 0) return TableFault::kFormat;
   if (image.image_bytes != sizeof(TableImage)) return TableFault::kLength;
   if (image.crc32 != crc32(checkedBytes(image))) return TableFault::kChecksum;
-  return usable(image.parameters, image.constants) ? TableFault::kNone : TableFault::kConstants;
+  const bool works = usable(image.parameters, image.constants) && usable(image.rows);
+  return works ? TableFault::kNone : TableFault::kConstants;
 }
 
 }  // namespace strainfinger

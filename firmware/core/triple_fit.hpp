@@ -26,7 +26,7 @@ struct TripleSystem {
 
 /// The system of a row's best triple at given projections, whose second has the sign of the tangential load.
 struct TripleChoice {
-  Triple gauges;
+  GaugeTriple gauges;
   Vector3 basis1, basis2;
   TripleSystem system;
 };

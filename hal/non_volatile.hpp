@@ -37,4 +37,15 @@ concept NonVolatile = requires(T store, const T constStore, std::size_t position
 };
 // clang-format on
 
+/// For boards without such memory: every access is out of range.
+struct NoStore {
+  std::size_t size() const noexcept { return 0; }
+  std::size_t pageSize() const noexcept { return 0; }
+  StoreResult read(std::size_t, std::span<std::byte>) const noexcept { return StoreResult::kOutOfRange; }
+  StoreResult write(std::size_t, std::span<const std::byte>) noexcept { return StoreResult::kOutOfRange; }
+  StoreResult erase(std::size_t) noexcept { return StoreResult::kOutOfRange; }
+};
+static_assert(NonVolatile<NoStore>);
+inline NoStore noStore;
+
 }  // namespace strainfinger::hal

@@ -2,8 +2,12 @@
 // The finger: the stages run against a board's converter, CAN port, clock and watchdog.
 
 #include <cstdint>
+#include <optional>
+#include <utility>
 
+#include "common/commands.hpp"
 #include "common/frames.hpp"
+#include "firmware/app/stored_settings.hpp"
 #include "firmware/core/pipeline.hpp"
 #include "firmware/core/report.hpp"
 #include "hal/can_port.hpp"
@@ -15,9 +19,10 @@ namespace strainfinger::firmware {
 
 struct FingerSettings {
   std::uint8_t node = 1;               ///< 1 .. 63
-  std::uint16_t contactRate_hz = 500;  ///< 20 .. 1000
+  std::uint16_t contactRate_hz = 500;  ///< kSlowestContactRate_hz .. kFastestContactRate_hz
   FitMode mode = FitMode::kRefined;
-  FingerFlags standingFlags{};  ///< simulated, uncalibrated
+  FingerFlags standingFlags{};    ///< simulated, uncalibrated
+  FingerFaults standingFaults{};  ///< configuration
 };
 
 /// Counts of what could not be returned. They only grow.
@@ -31,25 +36,29 @@ struct FingerCounters {
 };
 
 /// Runs one finger. `tables` must have passed checkTableImage(); everything is held by reference.
-template <hal::GaugeAdc Adc, hal::CanPort Can, hal::Clock Clock, hal::Watchdog Watchdog>
+template <hal::GaugeAdc Adc, hal::CanPort Can, hal::Clock Clock, hal::Watchdog Watchdog,
+          hal::NonVolatile Store = hal::NoStore>
 class Finger {
  public:
   Finger(const TableImage& tables, const FingerSettings& settings, Adc& adc, Can& can, const Clock& clock,
-         Watchdog& watchdog)
+         Watchdog& watchdog, Store& store = hal::noStore)
       : settings_(settings),
+        kept_{settings.node, settings.contactRate_hz},
         pipeline_(tables, settings.mode),
-        reporter_(1'000'000u / settings.contactRate_hz, settings.standingFlags),
+        reporter_(periodOf(settings.contactRate_hz), settings.standingFlags),
         adc_(adc),
         can_(can),
         clock_(clock),
         watchdog_(watchdog),
+        store_(store),
         tableCrc_(static_cast<std::uint8_t>(tables.crc32)),
         steppedAt_us_(clock.now_us()),
         sampledAt_us_(steppedAt_us_),
         heartbeatAt_us_(steppedAt_us_ - kHeartbeatPeriod_us) {}
 
-  /// One turn of the main loop: takes at most one sample set, sends what is due. Never blocks. The watchdog
-  /// is fed only by sample sets that went all the way through. True: there was a sample set.
+  /// One turn of the main loop: takes at most one sample set and one request, sends what is due. Never
+  /// blocks. The watchdog is fed only by sample sets that went all the way through. True: there was a sample
+  /// set.
   bool step() {
     const std::uint32_t now_us = clock_.now_us();
     countUptime(now_us);
@@ -61,6 +70,7 @@ class Finger {
       sampledAt_us_ = now_us - kSilentConverter_us;  // no younger when the clock has gone round
     }
     beat(now_us);
+    serve(now_us);
     return sampled;
   }
 
@@ -72,6 +82,7 @@ class Finger {
  private:
   static constexpr std::uint32_t kHeartbeatPeriod_us = std::uint32_t{kHeartbeatPeriod_ms} * 1000;
   static constexpr std::uint32_t kSilentConverter_us = 100'000;
+  static constexpr std::uint32_t kAnswerWithin_us = std::uint32_t{kAnswerWithin_ms} * 1000;
   static constexpr std::uint32_t kLongestUptime_s = kNotKnown<std::uint16_t> - 1;
 
   Codes codes() const { return Codes(codes_).first(pipeline_.constants().gauge_count); }
@@ -143,6 +154,7 @@ class Finger {
     const hal::CanStatus status = can_.status();
     HeartbeatFrame frame;
     frame.state = state_;
+    frame.faults = settings_.standingFaults;
     frame.faults.set(FingerFault::kConverter, isConverterSilent(now_us));
     frame.faults.set(FingerFault::kCan, status.dropped != 0 || counters_.forcesLost != 0);
     frame.faults.set(FingerFault::kWatchdogReset, watchdog_.resetCause() == hal::ResetCause::kWatchdog);
@@ -153,7 +165,69 @@ class Finger {
     return frame;
   }
 
+  static constexpr std::uint32_t periodOf(std::uint32_t rate_hz) { return 1'000'000u / rate_hz; }
+
+  /// Answers the request that has arrived, at once or when its work is done; while an answer waits for the
+  /// port, the next request does. Not inlined: see report().
+  [[gnu::noinline]] void serve(std::uint32_t now_us) {
+    if (now_us - requestedAt_us_ >= kAnswerWithin_us) {
+      response_.reset();
+      tareStatus_.reset();
+    }
+    if (!response_) response_ = nextResponse(now_us);
+    if (response_ && can_.send(encode(*response_, settings_.node))) response_.reset();
+  }
+
+  std::optional<ResponseFrame> nextResponse(std::uint32_t now_us) {
+    if (tareStatus_ && state_ == FingerState::kRun)
+      return responseTo(Command::kTare, *std::exchange(tareStatus_, std::nullopt));
+    const auto frame = can_.receive();
+    if (!frame) return std::nullopt;
+    const auto request = readSingleFrame<RequestFrame>(*frame, settings_.node);
+    if (!request) return std::nullopt;
+    requestedAt_us_ = now_us;
+    const auto status = obey(*request, now_us);
+    if (!status) return std::nullopt;
+    return responseTo(request->command, *status);
+  }
+
+  /// Nothing: it will be answered when it is done.
+  std::optional<CommandStatus> obey(const RequestFrame& request, std::uint32_t now_us) {
+    const CommandStatus fault = checkRequest(request);
+    if (fault != CommandStatus::kDone) return fault;
+    switch (request.command) {
+      case Command::kTare:
+        return tare(request.argument != 0, now_us);
+      case Command::kContactRate:
+        settings_.contactRate_hz = request.argument;
+        reporter_.setShortestPeriod(periodOf(request.argument));
+        return CommandStatus::kDone;
+      case Command::kKeep:
+        return keep({kept_.node, settings_.contactRate_hz});
+      case Command::kNode:
+        return keep({static_cast<std::uint8_t>(request.argument), kept_.contactRate_hz});
+    }
+    return CommandStatus::kUnknownCommand;
+  }
+
+  CommandStatus keep(const StoredSettings& settings) {
+    if (SettingsStore(store_).save(settings) != hal::StoreResult::kOk) return CommandStatus::kNotKept;
+    kept_ = settings;
+    return CommandStatus::kDone;
+  }
+
+  std::optional<CommandStatus> tare(bool evenWhileTouched, std::uint32_t now_us) {
+    if (state_ != FingerState::kRun || isConverterSilent(now_us)) return CommandStatus::kBusy;
+    const bool touched = pipeline_.observation().fit.has_value();
+    if (touched && !evenWhileTouched) return CommandStatus::kTouched;
+    tareStatus_ = touched ? CommandStatus::kDoneTouched : CommandStatus::kDone;
+    zero_ = {};
+    state_ = FingerState::kZeroing;
+    return std::nullopt;
+  }
+
   FingerSettings settings_;
+  StoredSettings kept_;  ///< for the next start
   Pipeline pipeline_;
   TouchReporter reporter_;
   ZeroAverage zero_;
@@ -161,11 +235,14 @@ class Finger {
   Can& can_;
   const Clock& clock_;
   Watchdog& watchdog_;
+  Store& store_;
   std::uint8_t tableCrc_;
   FingerState state_ = FingerState::kBoot;
   hal::SampleSet codes_{};
   ForceFrame force_{};
   bool forceOwed_ = false;
+  std::optional<CommandStatus> tareStatus_;  ///< to answer when the zero is taken
+  std::optional<ResponseFrame> response_;    ///< that the port hasn't taken yet
   FingerCounters counters_{};
   std::uint32_t uptime_s_ = 0;
   std::uint32_t sinceSecond_us_ = 0;
@@ -173,6 +250,7 @@ class Finger {
   std::uint32_t sampledAt_us_;
   std::uint32_t heartbeatAt_us_;
   std::uint32_t contactAt_us_ = 0;
+  std::uint32_t requestedAt_us_ = 0;
 };
 
 }  // namespace strainfinger::firmware

@@ -20,6 +20,7 @@ template <hal::GaugeAdc Adc, hal::CanPort Can, hal::Clock Clock, hal::Watchdog W
   hal::SampleSet unused{};
   for (;;) {
     if (adc.read(unused)) watchdog.feed();
+    static_cast<void>(can.receive());  // a port may stand still while a frame waits
     heartbeat.step(can, clock.now_us());
     info.step(can, clock.now_us());
     wait();
@@ -29,14 +30,16 @@ template <hal::GaugeAdc Adc, hal::CanPort Can, hal::Clock Clock, hal::Watchdog W
 /// Runs the finger on these tables, for ever. Tables that are not whole are refused: the finger then says so
 /// in its heartbeats and does nothing else. `wait` is called when there is nothing to do: it may sleep until
 /// the next interrupt.
-template <hal::GaugeAdc Adc, hal::CanPort Can, hal::Clock Clock, hal::Watchdog Watchdog, typename Wait>
+template <hal::GaugeAdc Adc, hal::CanPort Can, hal::Clock Clock, hal::Watchdog Watchdog,
+          hal::NonVolatile Store, typename Wait>
 [[noreturn]] void runFinger(const TableImage& tables, const FingerSettings& settings, const LastRun& last,
-                            Adc& adc, Can& can, const Clock& clock, Watchdog& watchdog, Wait wait) {
+                            Adc& adc, Can& can, const Clock& clock, Watchdog& watchdog, Store& store,
+                            Wait wait) {
   static Announcement<InfoFrame> info(infoFrame(watchdog.resetCause(), last, kFirmwareVersion), settings.node,
                                       clock.now_us());
   if (checkTableImage(tables) != TableFault::kNone)
     runWithoutTables(settings.node, info, adc, can, clock, watchdog, wait);
-  static Finger finger(tables, settings, adc, can, clock, watchdog);
+  static Finger finger(tables, settings, adc, can, clock, watchdog, store);
   for (;;) {
     if (!finger.step()) wait();
     info.step(can, clock.now_us());

@@ -67,6 +67,9 @@ class SlcanPort {
     flush();
   }
 
+  /// A frame waits for receive().
+  bool hasArrived() const noexcept { return arrived_.has_value(); }
+
   /// Everything taken has gone out.
   bool idle() const noexcept { return used_ == 0; }
 

@@ -36,6 +36,7 @@ class TouchReporter {
   std::optional<TouchFrames> frames(const TableConstants& constants, const Observation& observation,
                                     std::uint32_t now_us);
   void sent(const TouchFrames& frames, std::uint32_t now_us);
+  void setShortestPeriod(std::uint32_t period_us) { shortestPeriod_us_ = period_us; }
 
  private:
   bool due(std::uint32_t now_us) const { return !any_ || now_us - sentAt_us_ >= shortestPeriod_us_; }

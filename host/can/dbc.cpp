@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <string_view>
 #include <vector>
 
 #include "common/frames.hpp"
@@ -77,14 +78,15 @@ class DbcWriter {
   DbcWriter(std::uint8_t node, double contactRate_hz)
       : node_(fmt::format("FINGER_{}", node)),
         delay_ms_(static_cast<int>(std::clamp(std::round(1000 / contactRate_hz), 0.0, 65535.0))) {
-    for (const FrameEntry& entry : frameCatalogue()) messages_.push_back(message(entry, node));
+    for (const auto catalogue : {frameCatalogue(), commandCatalogue()})
+      for (const FrameEntry& entry : catalogue) messages_.push_back(message(entry, node));
   }
 
   std::string text() {
-    line("VERSION \"protocol {}\"\n\nNS_ :\n\nBS_:\n\nBU_: {} HOST\n", kProtocolVersion, node_);
+    line("VERSION \"protocol {}\"\n\nNS_ :\n\nBS_:\n\nBU_: {} {}\n", kProtocolVersion, node_, kHost);
     for (const Message& each : messages_) writeMessage(each);
     line("CM_ BU_ {} \"Tactile finger: where it is touched, and how hard\";", node_);
-    line("CM_ BU_ HOST \"Whoever listens\";");
+    line("CM_ BU_ {} \"Whoever listens, and asks\";", kHost);
     for (const Message& each : messages_) writeComments(each);
     writeAttributes();
     for (const Message& each : messages_) writeValues(each);
@@ -92,11 +94,15 @@ class DbcWriter {
   }
 
  private:
+  static constexpr std::string_view kHost = "HOST";
+
   void writeMessage(const Message& message) {
-    line("BO_ {} {}: {} {}", message.id, message.spec.name, message.spec.length, node_);
+    const bool asked = message.spec.function == FunctionCode::kRequest;
+    const std::string_view from = asked ? kHost : node_, to = asked ? node_ : kHost;
+    line("BO_ {} {}: {} {}", message.id, message.spec.name, message.spec.length, from);
     for (const Signal& signal : message.signals)
-      line(" SG_ {} : {}|{}@1{} ({},0) [{}|{}] \"{}\" HOST", signal.name, signal.bits.lsb, signal.bits.width,
-           signal.bits.isSigned ? '-' : '+', signal.factor, signal.min, signal.max, signal.unit);
+      line(" SG_ {} : {}|{}@1{} ({},0) [{}|{}] \"{}\" {}", signal.name, signal.bits.lsb, signal.bits.width,
+           signal.bits.isSigned ? '-' : '+', signal.factor, signal.min, signal.max, signal.unit, to);
     line("");
   }
 
@@ -114,7 +120,7 @@ class DbcWriter {
     for (const char* name : {"GenMsgCycleTime", "GenMsgDelayTime"}) line("BA_DEF_DEF_ \"{}\" 0;", name);
     line("BA_ \"BusType\" \"CAN\";");
     for (const Message& each : messages_) {
-      line("BA_ \"GenMsgCycleTime\" BO_ {} {};", each.id, each.spec.period_ms);
+      if (each.spec.period_ms != 0) line("BA_ \"GenMsgCycleTime\" BO_ {} {};", each.id, each.spec.period_ms);
       if (each.spec.onChange) line("BA_ \"GenMsgDelayTime\" BO_ {} {};", each.id, delay_ms_);
     }
   }

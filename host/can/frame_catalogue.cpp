@@ -6,6 +6,7 @@
 #include <tuple>
 #include <type_traits>
 
+#include "common/commands.hpp"
 #include "common/frames.hpp"
 
 namespace strainfinger::can {
@@ -20,15 +21,22 @@ constexpr auto catalogueOf(std::type_identity<std::tuple<Frames...>>) {
 }
 
 constexpr auto kCatalogue = catalogueOf(std::type_identity<FingerFrames>{});
+constexpr auto kCommandCatalogue = catalogueOf(std::type_identity<CommandFrames>{});
 
 }  // namespace
 
 std::span<const FrameEntry> frameCatalogue() { return kCatalogue; }
+std::span<const FrameEntry> commandCatalogue() { return kCommandCatalogue; }
 
 const FrameEntry* findFrame(const CanFrame& frame) {
   for (const FrameEntry& entry : frameCatalogue())
     if (nodeOf(frame.id, entry.spec.function) && frame.length == entry.spec.length) return &entry;
   return nullptr;
+}
+
+const ValueName* findName(std::span<const ValueName> names, std::int64_t value) {
+  const auto found = std::ranges::find(names, value, &ValueName::value);
+  return found != names.end() ? &*found : nullptr;
 }
 
 std::optional<double> toPhysical(const FieldSpec& field, std::int64_t raw) {

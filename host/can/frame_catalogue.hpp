@@ -15,11 +15,17 @@ struct FrameEntry {
   std::span<const FieldSpec> fields;  ///< in the order of their bits
 };
 
-/// Every frame a finger sends.
+/// Every frame a finger sends by itself.
 std::span<const FrameEntry> frameCatalogue();
 
-/// Which of them the frame is, by identifier and length; null if none.
+/// Requests to a finger, and its responses.
+std::span<const FrameEntry> commandCatalogue();
+
+/// Which of frameCatalogue() the frame is, by identifier and length; null if none.
 const FrameEntry* findFrame(const CanFrame& frame);
+
+/// The name of a value, or of a bit; null if it has none.
+const ValueName* findName(std::span<const ValueName> names, std::int64_t value);
 
 /// The raw value in the field's unit; nothing where it is not a valid one (not known, or reserved).
 std::optional<double> toPhysical(const FieldSpec& field, std::int64_t raw);

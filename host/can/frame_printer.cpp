@@ -11,14 +11,8 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-const ValueName* findName(const FieldMeaning& meaning, std::int64_t value) {
-  for (const ValueName& name : meaning.names)
-    if (name.value == value) return &name;
-  return nullptr;
-}
-
 std::string nameOrNumber(const FieldMeaning& meaning, std::int64_t value) {
-  const ValueName* name = findName(meaning, value);
+  const ValueName* name = findName(meaning.names, value);
   return name != nullptr ? name->name : fmt::format("{}", value);
 }
 

@@ -12,5 +12,7 @@ void addLocate(CLI::App& app);
 void addRun(CLI::App& app);
 void addDecode(CLI::App& app);
 void addDbc(CLI::App& app);
+void addTare(CLI::App& app);
+void addConfig(CLI::App& app);
 
 }  // namespace strainfinger::cli

@@ -29,6 +29,8 @@ int main(int argc, char** argv) {
   strainfinger::cli::addRun(app);
   strainfinger::cli::addDecode(app);
   strainfinger::cli::addDbc(app);
+  strainfinger::cli::addTare(app);
+  strainfinger::cli::addConfig(app);
   try {
     app.parse(argc, argv);
     if (std::fflush(stdout) != 0) return complain(ExitCode::kFailure, "cannot write the output");

@@ -32,7 +32,7 @@ constexpr const char* kHelp =
     "--can loopback: needs no kernel support, runs as fast as it can and prints what `candump -L` would; the "
     "same seed gives the same output.\n"
     "--can IFACE: a SocketCAN interface (vcan0, can0), in real time, a sample set every millisecond; prints "
-    "nothing on stdout.\n"
+    "nothing on stdout. It obeys `tare` and `config`.\n"
     "At the end stderr has a summary with the errors against the truth (--json: as one object). Ctrl-C ends "
     "a run as its duration would, with exit status 130.";
 

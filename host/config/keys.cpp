@@ -5,6 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "common/commands.hpp"
+
 namespace strainfinger::config {
 namespace {
 
@@ -55,7 +57,8 @@ std::vector<Key> makeKeys() {
       {"can", "bitrate", slot<&F::can, &Can::bitrate>(),
        Domain::oneOf({10'000, 20'000, 50'000, 125'000, 250'000, 500'000, 800'000, 1'000'000}),
        "bits per second (CiA 301, table of bit rates)"},
-      {"can", "contact_rate_hz", slot<&F::can, &Can::contact_rate_hz>(), Domain::between(20, 1000),
+      {"can", "contact_rate_hz", slot<&F::can, &Can::contact_rate_hz>(),
+       Domain::between(kSlowestContactRate_hz, kFastestContactRate_hz),
        "contacts are reported at most this often"},
   };
 }

@@ -43,7 +43,14 @@ FRAMES = {
         ("reset_cause", 0, 15, None, "1"), ("crash", 0, 15, None, "1"), ("restarts", 0, 255, None, "1"),
         ("version_major", 0, 255, None, "1"), ("version_minor", 0, 255, None, "1"),
         ("crash_address", 0, 0xFFFFFF, None, "1")]),
+    "REQUEST": (0x600, [
+        ("length", 0, 7, None, "1"), ("command", 0, 127, None, "1"), ("answer", 0, 1, None, "1"),
+        ("argument", 0, 0xFFFF, None, "1")]),
+    "RESPONSE": (0x580, [
+        ("length", 0, 7, None, "1"), ("command", 0, 127, None, "1"), ("answer", 0, 1, None, "1"),
+        ("status", 0, 255, None, "1")]),
 }
+COMMANDS = ("REQUEST", "RESPONSE")  # not what `decode` prints
 
 
 def codec(lines):
@@ -112,9 +119,10 @@ class Canmatrix(unittest.TestCase):
     def test_frames_are_of_the_finger(self):
         for name in FRAMES:
             frame = self.frame(name)
-            self.assertEqual((name, 8, ["FINGER_5"]), (frame.name, frame.size, frame.transmitters))
+            sender = "HOST" if name == "REQUEST" else "FINGER_5"
+            self.assertEqual((name, 8, [sender]), (frame.name, frame.size, frame.transmitters))
             self.assertFalse(frame.arbitration_id.extended)
-        self.assertEqual([50, 50, 100, 1000], [self.frame(name).cycle_time for name in FRAMES])
+        self.assertEqual([50, 50, 100, 1000, 0, 0], [self.frame(name).cycle_time for name in FRAMES])
 
     def test_signals_have_unit_range_and_comment(self):
         for name, (_, fields) in FRAMES.items():
@@ -123,7 +131,7 @@ class Canmatrix(unittest.TestCase):
             self.assertEqual(set(signals(name, [0] * len(fields))), {signal.name for signal in frame.signals})
             for signal in frame.signals:
                 self.assertTrue(signal.comment, signal.name)
-                self.assertEqual(["HOST"], signal.receivers)
+                self.assertEqual(["FINGER_5" if name == "REQUEST" else "HOST"], signal.receivers)
                 self.assertTrue(signal.is_little_endian)
             for field in (each for each in fields if isinstance(each[0], str)):
                 signal, step = frame.signal_by_name(field[0]), Decimal(field[4])
@@ -165,7 +173,7 @@ class Canmatrix(unittest.TestCase):
             self.assertEqual(expected, codec(lines))
 
     def test_decode_prints_what_canmatrix_reads(self):
-        for name in FRAMES:
+        for name in (each for each in FRAMES if each not in COMMANDS):
             values = next(some_values(name, self.rng))
             sent, = codec([f"encode {name} {NODE} " + " ".join(map(str, values))])
             run = subprocess.run([STRAINFINGER, "decode"], input=f"(0000000001.000000) can0 {sent}\n",

@@ -11,6 +11,7 @@
 #include <string>
 #include <variant>
 
+#include "common/commands.hpp"
 #include "common/frames.hpp"
 #include "host/can/candump_text.hpp"
 
@@ -56,7 +57,9 @@ std::string decodeLine(const std::string& frameText) {
   if (const auto contact = decodeAs<ContactFrame>(*frame)) return *contact;
   if (const auto force = decodeAs<ForceFrame>(*frame)) return *force;
   if (const auto heartbeat = decodeAs<HeartbeatFrame>(*frame)) return *heartbeat;
-  return decodeAs<InfoFrame>(*frame).value_or("none");
+  if (const auto info = decodeAs<InfoFrame>(*frame)) return *info;
+  if (const auto request = decodeAs<RequestFrame>(*frame)) return *request;
+  return decodeAs<ResponseFrame>(*frame).value_or("none");
 }
 
 std::string answer(const std::string& line) {
@@ -67,6 +70,8 @@ std::string answer(const std::string& line) {
   if (what == "CONTACT") return encodeLine<ContactFrame>(words);
   if (what == "FORCE") return encodeLine<ForceFrame>(words);
   if (what == "INFO") return encodeLine<InfoFrame>(words);
+  if (what == "REQUEST") return encodeLine<RequestFrame>(words);
+  if (what == "RESPONSE") return encodeLine<ResponseFrame>(words);
   return what == "HEARTBEAT" ? encodeLine<HeartbeatFrame>(words) : "bad line";
 }
 

@@ -2,6 +2,7 @@
 """crash_test.py FINGER.elf [unittest arguments]: faults on an emulated board. Each must end in a safe restart, a
 recorded cause, and frames that name it."""
 import sys
+import time
 import unittest
 
 import emulator
@@ -75,6 +76,10 @@ class Crash(unittest.TestCase):
         self.check_told(STARVED, WATCHDOG, 1, False)
         before = [line for line in self.board.heard.decode("latin1").split("\r") if line.startswith(HEARTBEAT)]
         self.assertTrue(any(int(line[7:9], 16) & 4 for line in before), "the fault bit of the converter")
+
+    def test_a_board_left_alone_does_not_restart(self):
+        time.sleep(6.5)  # two periods of its watchdog, which the emulator counts while it is off
+        self.check_told(0, 1, 0, False)
 
     def test_every_restart_is_counted(self):
         for kind in (ASSERTION, HARD_FAULT, STACK_OVERFLOW, ASSERTION):

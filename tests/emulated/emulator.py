@@ -43,11 +43,19 @@ def output_of(elf, arguments=(), options=(), timeout_s=300):
     return done.stdout
 
 
-class Board:
-    """A finger on an emulated board. Its world is told over a socket, as is its CAN bus (SLCAN): to `bus_socket`'s
-    other end, or to this object when there is none. firmware/board/mps2/world_record.hpp has the records."""
+def record(kind, payload=b""):
+    return kind + bytes([len(payload)]) + payload
 
-    def __init__(self, elf, bus=True):
+
+def samples_record(codes):
+    return record(b"S", struct.pack(f"<{len(codes)}H", *codes))
+
+
+class Board:
+    """A finger on an emulated board. Its world is told over a socket, and its CAN bus (SLCAN) is one: this object
+    listens to it, or, without `bus`, who connects to `bus_path`. firmware/board/mps2/world_record.hpp has the records."""
+
+    def __init__(self, elf, bus=True, node=1, arguments=()):
         self.folder = tempfile.TemporaryDirectory()
         self.bus_path = self.folder.name + "/bus"
         self.console_path = self.folder.name + "/console"
@@ -55,9 +63,11 @@ class Board:
         lines = []
         for name, path in (("bus", self.bus_path), ("world", world_path)):
             lines += ["-chardev", f"socket,id={name},path={path},server=on,wait=on", "-serial", f"chardev:{name}"]
-        self.process = subprocess.Popen(command(elf, options=["-serial", f"file:{self.console_path}", *lines]),
+        options = ["-serial", f"file:{self.console_path}", *lines]
+        self.process = subprocess.Popen(command(elf, [*arguments, f"node={node}"], options),
                                         stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.heard = bytearray()
+        self.bus = self.world = None
         if bus:
             self.bus = self.connected(self.bus_path)
             threading.Thread(target=self.listen, daemon=True).start()
@@ -71,6 +81,9 @@ class Board:
     def __exit__(self, *_):
         self.process.kill()
         self.process.wait()
+        for line in (self.bus, self.world):
+            if line:
+                line.close()
         self.folder.cleanup()
 
     def connected(self, path, timeout_s=30):
@@ -100,10 +113,10 @@ class Board:
             raise RuntimeError(f"the board said {said}")
 
     def record(self, kind, payload=b""):
-        self.world.sendall(kind + bytes([len(payload)]) + payload)
+        self.world.sendall(record(kind, payload))
 
     def samples(self, codes):
-        self.record(b"S", struct.pack(f"<{len(codes)}H", *codes))
+        self.world.sendall(samples_record(codes))
 
     def end(self):
         """Its bus lines, once it has ended by itself."""

@@ -1,15 +1,14 @@
 #!/usr/bin/env python3
-"""end_to_end_test.py FINGER.elf TABLES.bin STRAINFINGER TOUCH_WORLD IN_VCAN: an emulated finger on a Linux CAN bus.
+"""end_to_end_test.py FINGER.elf TABLES.bin STRAINFINGER TOUCH_WORLD IN_VCAN: emulated fingers on a Linux CAN bus.
 
-    simulated touches -> emulated Cortex-M4 -> SLCAN -> slcand in a small machine -> slcan0 -> candump -> decode
+    simulated touches -> emulated Cortex-M4 -> SLCAN -> slcand in a small machine -> slcan1 -> cangw -> vcan0 -> candump -> decode
 
-Every CONTACT and FORCE must arrive, in order, as the same logic says on this machine, a thousand a second; and what
-decode makes of them must be what really touched the finger.
+Every CONTACT and FORCE must arrive, in order, as the same logic says on this machine, a thousand a second, from one
+finger and from three at once; what decode makes of them must be what really touched the finger; and what happens to the
+bus must be seen on both sides. One machine serves all of it: it is booted and everything done first, then looked at.
 """
-import csv
-import io
+import contextlib
 import os
-import subprocess
 import sys
 import tempfile
 import time
@@ -17,108 +16,224 @@ import unittest
 from pathlib import Path
 
 import emulator
+from machine import Machine
+from touches import SLIDE_S, TouchedFinger, check_arrived, check_truth, decoded, touch_frames
 
-HERE = Path(__file__).parent
-SECONDS = 2.8
-RECORD_BYTES = 2 + 2 * 16
+NODES = (1, 2, 3)
 PERIOD_S = 0.001
 FRAMES = 2000
-# Against the truth, where decode reports no doubt: four reported standard deviations, one contact in 16,000, beside what
-# frames are rounded to; and the finger moves on by 0.3 degrees while a sample set is fitted.
-SIGMAS = 4.5
+FRAMES_PER_S = 1000
+SLOWEST_SHARE = 0.95  # of that rate, over a slide: the first and last frames wait for their turn
+TRIES = 3  # for the rate, should the machine be busy with something else,
+BUSY_PER_CORE = 2  # which it is for certain at this load average; this test makes one of less than 2
+ACTIVE, PASSIVE, BUS_OFF = 0, 2, 3  # hal::CanState
+LINK = "ip -d link show slcan1"
+UNTIL = "for _ in $(seq 100); do ! {link} | grep -q {state} || break; sleep 0.05; done; {link}"
 
 
-class EndToEnd(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        folder = Path(cls.folder.name)
-        cls.job = folder / "job"
-        cls.job.mkdir()
-        records, expected = folder / "records", folder / "expected"
-        subprocess.run([TOUCH_WORLD, HERE / "slide.toml", str(SECONDS), TABLES, records, expected], check=True)
-        cls.expected = [line.split(",") for line in expected.read_text().splitlines()]
-        cls.took_s = cls.run_finger(records.read_bytes())
-        log = (cls.job / "recording").read_text()
-        cls.heard = [line.split()[2] for line in log.splitlines()]
-        decoded = subprocess.run([STRAINFINGER, "decode"], input=log, capture_output=True, text=True, check=True)
-        cls.said = decoded.stderr
-        cls.rows = [row for row in csv.DictReader(io.StringIO(decoded.stdout)) if row["frame"] in ("CONTACT", "FORCE")]
+def play(tracks):
+    """[(board, records)], together, a record a millisecond."""
+    begin = time.monotonic()
+    for number in range(max(len(records) for _, records in tracks)):
+        for board, records in tracks:
+            board.world.sendall(records[number])
+        time.sleep(max(0, begin + (number + 1) * PERIOD_S - time.monotonic()))
 
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
 
-    @classmethod
-    def run_finger(cls, records):
-        """Plays the records, one a millisecond; how long that took."""
-        with emulator.Board(ELF, bus=False) as board:
-            environment = {**os.environ, "IN_VCAN_JOB": str(cls.job), "IN_VCAN_SERIAL": board.bus_path}
-            machine = subprocess.Popen([IN_VCAN, "bash", str(HERE / "in_machine.bash")], env=environment,
-                                       stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-            try:
-                board.world = board.connected(board.world_path)
-                board.wait_ready()
-                cls.wait_for(cls.job / "ready", machine)
-                begin = time.monotonic()
-                for number in range(len(records) // RECORD_BYTES):
-                    board.world.sendall(records[number * RECORD_BYTES:(number + 1) * RECORD_BYTES])
-                    time.sleep(max(0, begin + number * PERIOD_S - time.monotonic()))
-                took_s = time.monotonic() - begin
-                (cls.job / "done").touch()
-                said = machine.communicate(timeout=60)[0]
-            finally:
-                machine.kill()
-            if machine.returncode != 0:
-                raise RuntimeError(f"in_vcan: {machine.returncode}: {said}")
-        return took_s
+class Recording:
+    """A candump log, and what should be in it by node."""
 
-    @staticmethod
-    def wait_for(path, machine):
-        while not path.exists():
-            if machine.poll() is not None:
-                said = machine.communicate()[0]
-                print(said, file=sys.stderr)
-                sys.exit(machine.returncode if machine.returncode == emulator.SKIPPED else 1)
-            time.sleep(0.05)
+    def __init__(self, log, expected):
+        self.log, self.expected = log, expected
+        lines = [line.split() for line in log.splitlines()]
+        self.frames = [frame for _, _, frame in lines]
+        touches = [float(stamp.strip("()")) for stamp, _, frame in lines if touch_frames([frame])]
+        self.frames_per_s = (len(touches) - 1) / (touches[-1] - touches[0])
 
+    def of(self, node):
+        return [frame for frame in self.frames if int(frame[:3], 16) & 63 == node]
+
+    def check_arrived(self, test):
+        for node, expected in self.expected.items():
+            check_arrived(test, self.of(node), expected)
+            test.assertGreaterEqual(len(expected), FRAMES)
+
+
+class Bus:
+    """What happened to the bus of finger 1 alone, and what both sides said of it."""
+
+    def __init__(self, machine, board, finger):
+        self.machine, self.board, self.records = machine, board, finger.records[300:900]
+        machine.run("candump -D -e slcan1,0:0,#FFFFFFFF >$TMPDIR/errors & echo $! >$TMPDIR/recorder_of_errors; sleep 0.2")
+        self.passive_link, self.passive_log = self.happen(PASSIVE, 130, 5, "ERROR-PASSIVE")
+        self.active_link, _ = self.happen(ACTIVE, 0, 0, "ERROR-ACTIVE")
+        self.off_link, self.off_log = self.happen(BUS_OFF, 255, 0, "BUS-OFF")
+        self.board.record(b"B", bytes([ACTIVE, 0, 0]))
+        self.still_off_link = machine.run(f"sleep 0.3; {LINK}")
+        machine.run("ip link set slcan1 down; ip link set slcan1 up")
+        self.back_link, self.back_log = self.happen(ACTIVE, 0, 0, "ERROR-ACTIVE")
+        self.errors = machine.run("kill $(cat $TMPDIR/recorder_of_errors); cat $TMPDIR/errors")
+
+    def happen(self, state, tx_errors, rx_errors, link_state):
+        """(what ip says, what candump heard of the touches after it)"""
+        self.machine.record()
+        self.board.record(b"B", bytes([state, tx_errors, rx_errors]))
+        link = self.machine.run(UNTIL.format(link=LINK, state=link_state))
+        play([(self.board, self.records)])
+        return link, self.machine.recorded(0 if state == BUS_OFF else 500)
+
+
+class Told:
+    """What a finger is told from Linux, and what it then does: the way of the frames, backwards."""
+    NODE, TOUCHED_MS, RATE_HZ = 2, 600, 100
+
+    def __init__(self, machine, board, finger):
+        untouched = [emulator.samples_record([0x8000] * 16)]
+        play([(board, 100 * untouched)])
+        program = f"{STRAINFINGER} {{}} --can vcan0 --node {self.NODE}"
+        machine.run(f"({program.format('tare')} &>$TMPDIR/tare; touch $TMPDIR/tared) &")
+        play([(board, 1500 * untouched)])  # a zero takes 64; the rest is for the program to start
+        self.tare = machine.run("for _ in $(seq 100); do [ ! -e $TMPDIR/tared ] || break; sleep 0.05; done; cat $TMPDIR/tare")
+        self.rate = machine.run(f"{program.format('config')} --contact-rate-hz {self.RATE_HZ} 2>&1")
+        machine.record()
+        play([(board, finger.records[300:300 + self.TOUCHED_MS])])
+        self.frames = [line.split()[2] for line in machine.recorded(2 * self.TOUCHED_MS * self.RATE_HZ // 1000 - 4).splitlines()]
+
+
+def setUpModule():
+    global one, three, told, bus, consoles
+    with contextlib.ExitStack() as stack:
+        folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
+        (folder / "job").mkdir()
+        fingers = [touched_finger(folder, node, TRIES + 1 if node == 1 else 1) for node in NODES]
+        boards = [stack.enter_context(emulator.Board(ELF, bus=False, node=node)) for node in NODES]
+        machine = stack.enter_context(Machine(IN_VCAN, folder / "job", boards))
+        machine.join()
+        for _ in range(TRIES):
+            one = slide_at_once(machine, boards[:1], fingers[:1])
+            if one.frames_per_s >= SLOWEST_SHARE * FRAMES_PER_S:
+                break
+        three = slide_at_once(machine, boards, fingers)
+        told = Told(machine, boards[Told.NODE - 1], fingers[Told.NODE - 1])
+        bus = Bus(machine, boards[0], fingers[0])
+        consoles = [board.console() for board in boards]
+        machine.end()
+
+
+def touched_finger(folder, node, slides):
+    config = folder / f"finger{node}.toml"
+    config.write_text(f"schema = 1\n[can]\nnode = {node}\n")
+    return TouchedFinger(TOUCH_WORLD, config, TABLES, slides)
+
+
+def slide_at_once(machine, boards, fingers):
+    slides = [finger.next_slide() for finger in fingers]
+    machine.record()
+    play([(board, records) for board, (records, _) in zip(boards, slides)])
+    expected = {node: lines for node, (_, lines) in zip(NODES, slides)}
+    return Recording(machine.recorded(sum(map(len, expected.values()))), expected)
+
+
+class OneFinger(unittest.TestCase):
     def test_every_frame_arrives_once_in_order_as_computed_here(self):
-        touches = [frame for frame in self.heard if frame[:4] in ("181#", "281#")]
-        self.assertEqual([line[0] for line in self.expected], touches)
-        self.assertGreaterEqual(len(touches), FRAMES)
-        print(f"{len(touches)} frames, {len(touches) / self.took_s:.0f} a second", file=sys.stderr)
+        one.check_arrived(self)
+
+    def test_a_thousand_frames_a_second(self):
+        times = [line.time_s for line in one.expected[1]]
+        self.assertLess(min(b - a for a, b in zip(times, times[FRAMES - 1:])), FRAMES / FRAMES_PER_S, "as told")
+        print(f"{one.frames_per_s:.0f} frames a second", file=sys.stderr)
+        if one.frames_per_s < SLOWEST_SHARE * FRAMES_PER_S and os.getloadavg()[0] > BUSY_PER_CORE * os.cpu_count():
+            self.skipTest(f"the machine is busy with something else: load {os.getloadavg()[0]:.1f}")
+        self.assertGreaterEqual(one.frames_per_s, SLOWEST_SHARE * FRAMES_PER_S, "as heard")
 
     def test_decode_misses_nothing(self):
-        self.assertIn(f"{len(self.expected)} CONTACT and FORCE received, 0 lost", self.said)
+        _, said = decoded(STRAINFINGER, one.log)
+        self.assertIn(f"{len(one.expected[1])} CONTACT and FORCE received, 0 lost", said)
+
+    def test_decode_tells_the_truth(self):
+        rows, _ = decoded(STRAINFINGER, one.log)
+        check_truth(self, rows, one.expected[1])
 
     def test_the_finger_tells_that_it_is_alive(self):
-        self.assertEqual(sum(frame.startswith("701#12") for frame in self.heard) // 10, int(SECONDS * 10) // 10)
-        self.assertIn("481#0100000100000000", self.heard)
+        self.assertAlmostEqual(sum(frame.startswith("701#12") for frame in one.frames), SLIDE_S * 10, delta=2)
+        self.assertIn("481#0100000100000000", one.frames)
 
-    def errors(self, frame, column, truth_column, wrap=None):
-        """(error, sigma) of each row that is sure of itself."""
-        for row, (_, _, *truth) in zip(self.rows, self.expected):
-            if row["frame"] != frame or "uncertain" in row["flags"] or not row[column] or not truth[truth_column]:
-                continue
-            error = float(row[column]) - float(truth[truth_column])
-            if wrap:
-                error = (error + wrap / 2) % wrap - wrap / 2
-            yield abs(error), float(row["sigma_" + column])
 
-    def check(self, found, rounding):
-        found = list(found)
-        self.assertGreater(len(found), 0.9 * len(self.expected) / 2)
-        worst = max(error - SIGMAS * sigma for error, sigma in found)
-        self.assertLessEqual(worst, rounding)
-        return max(error for error, _ in found)
+class ThreeFingers(unittest.TestCase):
+    def test_every_frame_of_each_arrives_once_in_order_as_computed_here(self):
+        three.check_arrived(self)
+        print(f"{three.frames_per_s:.0f} frames a second", file=sys.stderr)
 
-    def test_the_angle_is_the_truth(self):
-        worst_deg = self.check(self.errors("CONTACT", "angle_deg", 0, 360), 0.05)
-        self.assertLess(worst_deg, 3)
+    def test_they_differ(self):
+        data = lambda node: [frame[4:] for frame in touch_frames(three.of(node))]
+        self.assertNotEqual(data(2), data(3))
 
-    def test_the_forces_are_the_truth(self):
-        self.check(self.errors("FORCE", "normal_n", 1), 0.002)
-        self.check(self.errors("FORCE", "tangential_n", 2), 0.002)
+    def test_each_tells_that_it_is_alive(self):
+        for node in NODES:
+            self.assertAlmostEqual(sum(frame.startswith(f"70{node}#12") for frame in three.frames), SLIDE_S * 10, delta=2)
+
+
+class Commands(unittest.TestCase):
+    ANSWER = "interface,node,command,status\nvcan0,2,{},done\n"
+
+    def test_a_tare_from_linux_is_done_and_answered(self):
+        self.assertEqual(told.tare, self.ANSWER.format("tare"))
+
+    def test_a_contact_rate_from_linux_is_done_and_answered(self):
+        self.assertEqual(told.rate, self.ANSWER.format("contact_rate"))
+
+    def test_the_finger_keeps_to_its_new_rate(self):
+        contacts = sum(frame.startswith("182#") for frame in told.frames)
+        self.assertAlmostEqual(contacts, told.TOUCHED_MS * told.RATE_HZ / 1000, delta=2)
+
+
+class BusStates(unittest.TestCase):
+    def heartbeats(self, log):
+        frames = [line.split()[2] for line in log.splitlines()]
+        return [bytes.fromhex(frame[4:]) for frame in frames if frame.startswith("701#")]
+
+    def check_flowing(self, log):
+        _, said = decoded(STRAINFINGER, log)
+        self.assertRegex(said, r"\b[56]\d\d CONTACT and FORCE received, 0 lost")
+
+    def test_error_passive_shows_on_linux(self):
+        self.assertIn("can state ERROR-PASSIVE", bus.passive_link)
+        controller, transmit_passive = 0x20000204, "00 20"  # linux/can/error.h; then the counters
+        self.assertIn(f"{controller:X}   [8]  {transmit_passive} 00 00 00 00 82 05   ERRORFRAME", bus.errors)
+
+    def test_an_error_passive_finger_goes_on(self):
+        self.check_flowing(bus.passive_log)
+
+    def test_its_heartbeat_has_the_counters(self):
+        self.assertEqual([(beat[5], beat[6]) for beat in self.heartbeats(bus.passive_log)][-1], (130, 5))
+
+    def test_recovery_from_error_passive_shows_on_linux(self):
+        self.assertIn("can state ERROR-ACTIVE", bus.active_link)
+
+    def test_bus_off_shows_on_linux(self):
+        self.assertIn("can state BUS-OFF", bus.off_link)
+        self.assertIn("NO-CARRIER", bus.off_link)
+        self.assertRegex(bus.errors, r"20000040   \[8\]  .*ERRORFRAME\s+bus-off")
+
+    def test_nothing_is_sent_in_bus_off(self):
+        self.assertEqual(bus.off_log, "")
+
+    def test_linux_comes_back_when_it_is_told_to(self):
+        self.assertIn("NO-CARRIER", bus.still_off_link)
+        self.assertIn("can state ERROR-ACTIVE", bus.back_link)
+        self.assertNotIn("NO-CARRIER", bus.back_link)
+
+    def test_frames_flow_again(self):
+        self.check_flowing(bus.back_log)
+
+    def test_the_finger_has_gone_on_all_the_time(self):
+        first, last = self.heartbeats(bus.passive_log)[0], self.heartbeats(bus.back_log)[-1]
+        uptime_s = lambda beat: int.from_bytes(beat[2:4], "little")
+        self.assertAlmostEqual(uptime_s(last) - uptime_s(first), 4 * 0.6, delta=1)
+        self.assertEqual((last[0] & 15, last[1], last[5], last[6]), (2, 0, 0, 0), "run, no faults, no errors")
+
+    def test_no_finger_has_restarted(self):
+        self.assertEqual([console.count("strainfinger on mps2") for console in consoles], [1, 1, 1])
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-// touch_world SCENARIO SECONDS TABLES RECORDS EXPECTED: a finger that a scenario touches.
+// touch_world CONFIG SCENARIO SECONDS TABLES RECORDS EXPECTED: a finger that a scenario touches.
 // Writes to RECORDS what an emulated board must be told of it (firmware/board/mps2/world_record.hpp), and to
 // EXPECTED what it must then say: a line for each CONTACT and FORCE, the frame as candump -L has it and what
 // really touched the finger then: 181#.., time_s, angle_deg, normal_n, tangential_n.
@@ -13,6 +13,7 @@
 #include "firmware/board/mps2/settings.hpp"
 #include "firmware/board/mps2/world.hpp"
 #include "host/can/candump_text.hpp"
+#include "host/config/read_config.hpp"
 #include "host/simulation/read_scenario.hpp"
 #include "host/simulation/simulated_gauges.hpp"
 #include "host/tables/table_file.hpp"
@@ -73,19 +74,21 @@ bool isTouch(const CanFrame& frame) { return decode<ContactFrame>(frame) || deco
 }  // namespace
 
 int main(int count, char** arguments) {
-  if (count != 6) return 2;
-  const config::FingerConfig config;
-  const auto tables = tables::readTableFile(arguments[3]);
+  if (count != 7) return 2;
+  const auto config = config::readConfigFile(arguments[1]);
+  const auto node = static_cast<std::uint8_t>(config.can.node);
+  const auto tables = tables::readTableFile(arguments[4]);
   simulation::SimulatedClock time;
-  simulation::SimulatedGauges gauges(config, simulation::readScenarioFile(arguments[1]), time);
+  simulation::SimulatedGauges gauges(config, simulation::readScenarioFile(arguments[2]), time,
+                                     {.seed = node});
   Line line;
   Port port;
   Watchdog watchdog;
   mps2::World world(line, port);
-  firmware::Finger finger(*tables, mps2::kSettings, world, port, world, watchdog);
-  auto records = fmt::output_file(arguments[4]);
-  auto expected = fmt::output_file(arguments[5]);
-  for (double end_s = std::atof(arguments[2]); static_cast<double>(time.elapsed_us()) * 1e-6 < end_s;) {
+  firmware::Finger finger(*tables, mps2::settingsOf(node), world, port, world, watchdog);
+  auto records = fmt::output_file(arguments[5]);
+  auto expected = fmt::output_file(arguments[6]);
+  for (double end_s = std::atof(arguments[3]); static_cast<double>(time.elapsed_us()) * 1e-6 < end_s;) {
     time.advance_us(mps2::kRecordPeriod_us);
     hal::SampleSet set{};
     if (!gauges.read(set)) return 1;

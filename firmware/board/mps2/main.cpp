@@ -9,6 +9,7 @@
 #include "firmware/board/mps2/console.hpp"
 #include "firmware/board/mps2/semihosting.hpp"
 #include "firmware/board/mps2/settings.hpp"
+#include "firmware/board/mps2/timer.hpp"
 #include "firmware/board/mps2/uart.hpp"
 #include "firmware/board/mps2/watchdog.hpp"
 #include "firmware/board/mps2/world.hpp"
@@ -17,10 +18,10 @@ namespace strainfinger::mps2 {
 namespace {
 
 using Can = firmware::SlcanPort<Uart>;
-using TheWorld = World<Uart, Can>;
+using TheWorld = World<Uart, Can, Timer>;
 
-constexpr std::array<unsigned, 4> kLineInterrupts{kUart1Interrupt, kUart1Interrupt + 1, kUart2Interrupt,
-                                                  kUart2Interrupt + 1};
+constexpr std::array<unsigned, 5> kWakingInterrupts{kUart1Interrupt, kUart1Interrupt + 1, kUart2Interrupt,
+                                                    kUart2Interrupt + 1, kTimer1Interrupt};
 
 [[noreturn]] void hang() {
   for (;;) asm volatile("");
@@ -65,24 +66,46 @@ void act(const WorldRecord& record, Can& can) {
   console << "\n";
 }
 
+Timer timer;
+
+/// Ends the emulator when its command line asks for a node that cannot be. Starts the timer if it asks for
+/// one.
+[[gnu::noinline]] firmware::FingerSettings readSettings(const Timer*& chosen) {
+  std::array<char, 64> text;
+  const std::string_view words(text.data(), commandLine(text));
+  if (isTimed(words)) {
+    timer.start();
+    chosen = &timer;
+  }
+  const auto node = nodeOf(words);
+  if (!node) {
+    Console() << "node= must be 1 to 63\n";
+    endEmulator(2);
+  }
+  return settingsOf(*node);
+}
+
 }  // namespace
 
 [[noreturn]] void run() {
   board::maskInterrupts();
-  for (const unsigned interrupt : kLineInterrupts) board::enableInterrupt(interrupt);
+  for (const unsigned interrupt : kWakingInterrupts) board::enableInterrupt(interrupt);
   static Uart bus(kUart1), world_line(kUart2);
   const firmware::LastRun last = board::takeLastRun();
   greet(last);
+  const Timer* chosenTimer = nullptr;
+  static const firmware::FingerSettings settings = readSettings(chosenTimer);
   static Can can(bus, last.restarts != 0);  // the host has not closed it
   world_line.put(kReady);
-  static TheWorld world(world_line, can);
+  static TheWorld world(world_line, can, chosenTimer);
   static Watchdog watchdog(world, firmware::resetCause(last));
   const auto wait = [] {
     bus.clearInterrupts();
     world_line.clearInterrupts();
-    for (const unsigned interrupt : kLineInterrupts) board::forgetInterrupt(interrupt);
+    Timer::clearInterrupt();
+    for (const unsigned interrupt : kWakingInterrupts) board::forgetInterrupt(interrupt);
     can.poll();
-    if (!world.poll([](const WorldRecord& record) { act(record, can); })) {
+    if (!world.poll([](const WorldRecord& record) { act(record, can); }) && !can.hasArrived()) {
       watchdog.rest();
       board::sleep();
     }
@@ -90,7 +113,7 @@ void act(const WorldRecord& record, Can& can) {
     if (watchdog.starved()) board::crash(Crash::kStarved, 0);
   };
   watchdog.run();
-  firmware::runFinger(board::kLinkedTables, kSettings, last, world, can, world, watchdog, wait);
+  firmware::runFinger(board::kLinkedTables, settings, last, world, can, world, watchdog, hal::noStore, wait);
 }
 
 }  // namespace strainfinger::mps2

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "firmware/app/slcan_port.hpp"
+#include "firmware/board/mps2/timer.hpp"
 #include "firmware/board/mps2/world_record.hpp"
 #include "hal/clock.hpp"
 #include "hal/gauge_adc.hpp"
@@ -13,11 +14,12 @@ namespace strainfinger::mps2 {
 
 /// hal::GaugeAdc and hal::Clock of an emulated board. The next record is taken only when the sample set
 /// before it was handed out and everything sent is on its way: what the firmware does with a record never
-/// depends on how fast the line is.
-template <firmware::SerialLine Line, typename Can>
+/// depends on how fast the line is. Time is the number of records, or a timer's when there is one.
+template <firmware::SerialLine Line, typename Can, hal::Clock Timer = mps2::Timer>
 class World {
  public:
-  constexpr World(Line& line, Can& can) : line_(line), can_(can) {}
+  constexpr World(Line& line, Can& can, const Timer* timer = nullptr)
+      : line_(line), can_(can), timer_(timer) {}
 
   bool read(hal::SampleSet& set) noexcept {
     if (!waiting_) return false;
@@ -27,7 +29,7 @@ class World {
     return true;
   }
   std::uint32_t overruns() const noexcept { return 0; }
-  std::uint32_t now_us() const noexcept { return now_us_; }
+  std::uint32_t now_us() const noexcept { return timer_ != nullptr ? timer_->now_us() : now_us_; }
 
   /// The next record, if it is there and nothing is left to do with the last. `act` gets those that are
   /// neither samples nor silence. True: something happened.
@@ -56,6 +58,7 @@ class World {
 
   Line& line_;
   Can& can_;
+  const Timer* timer_;
   RecordReader reader_;
   std::uint32_t now_us_ = 0;
   bool waiting_ = false;

@@ -1,6 +1,7 @@
 #pragma once
 // hal::CanPort on FDCAN1: RM0440 chapter 44. Nothing here waits for the bus, and no interrupt is used.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -123,7 +124,7 @@ class FdcanPort {
   void setFilters(std::span<const std::uint16_t> ids) noexcept {
     std::uint32_t filters = 0;
     for (std::size_t i = 0; i < ids.size() && filters < MessageRam::standardFilters; i += 2, ++filters) {
-      const std::uint16_t second = i + 1 < ids.size() ? ids[i + 1] : ids[i];
+      const std::uint16_t second = ids[std::min(i + 1, ids.size() - 1)];
       bus_.write(MessageRam::filter(filters), (StandardFilter::type(1) | StandardFilter::action(1) |
                                                StandardFilter::id1(ids[i]) | StandardFilter::id2(second))
                                                   .value);
@@ -170,9 +171,10 @@ class FdcanPort {
     const std::uint32_t element = MessageRam::tx(buffer);
     bus_.write(element, Element0::standardId(frame.id).value);
     bus_.write(element + 4, Element1::length(frame.length).value);
-    for (std::uint32_t i = 0; i < 8; i += 4)
-      bus_.write(element + 8 + i, frame.data[i] | frame.data[i + 1] << 8 | frame.data[i + 2] << 16 |
-                                      static_cast<std::uint32_t>(frame.data[i + 3]) << 24);
+    for (std::uint32_t i = 0; i < 8; i += 4) {
+      const auto byte = [&](std::uint32_t at) { return std::uint32_t{frame.data[i + at]} << 8 * at; };
+      bus_.write(element + 8 + i, byte(0) | byte(1) | byte(2) | byte(3));
+    }
     waiting_[buffer] = frame.id;
     bus_.write(Fdcan::Txbar::address, 1U << buffer);
   }

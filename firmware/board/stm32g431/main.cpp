@@ -21,13 +21,15 @@ namespace {
 using Clock = MicrosecondClock<MemoryBus>;
 using Can = FdcanPort<MemoryBus, Clock, sendRule>;
 using Adc = GaugeConverter<MemoryBus>;
+using Store = FlashStore<MemoryBus>;
 using Watchdog = IndependentWatchdog<MemoryBus, Clock>;
 
+/// Of the image; settings that were kept take their place.
 constexpr firmware::FingerSettings kSettings{.node = STRAINFINGER_NODE,
                                              .standingFlags = {FingerFlag::kUncalibrated}};
 static_assert(kSettings.node >= kFirstNode && kSettings.node <= kLastNode);
 static_assert(canTiming(ClockSource::kCrystal, STRAINFINGER_BITRATE), "not a bit rate of can_rates.hpp");
-constexpr auto kListensTo = identifiersFor(kSettings.node);
+static_assert(samplingAt(STRAINFINGER_SAMPLE_RATE), "not a rate of sampling.hpp");
 
 constexpr MemoryBus kBus;
 EccFaults eccFaults;
@@ -65,19 +67,24 @@ const TableImage& tables() {
 }
 
 /// If the controller doesn't answer there is nobody to tell: the port stays down.
-[[gnu::noinline]] Can& startCan(const Clock& clock, ClockSource source) {
+[[gnu::noinline]] Can& startCan(const Clock& clock, ClockSource source, std::uint8_t node) {
   modify(kBus, Rcc::Ahb2Enr::gpioA(1));
   makeAlternate(kBus, kCanRx, kCanFunction, Gpio::kUp);  // an unconnected bus is a silent one
   makeAlternate(kBus, kCanTx, kCanFunction, Gpio::kNone);
   static Can can(kBus, clock);
-  static_cast<void>(can.start({.timing = *canTiming(source, STRAINFINGER_BITRATE), .listensTo = kListensTo}));
+  const auto listensTo = identifiersFor(node);
+  static_cast<void>(can.start({.timing = *canTiming(source, STRAINFINGER_BITRATE), .listensTo = listensTo}));
   return can;
+}
+
+[[gnu::noinline]] firmware::FingerSettings keptSettings(Store& store) {
+  return firmware::startedWith(kSettings, firmware::SettingsStore(store).load());
 }
 
 /// If a converter doesn't answer, the finger says that samples are missing, and the watchdog starves.
 [[gnu::noinline]] Adc& startAdc() {
   static Adc adc(kBus);
-  static_cast<void>(adc.start(kDefaultSampling));
+  static_cast<void>(adc.start(*samplingAt(STRAINFINGER_SAMPLE_RATE)));
   return adc;
 }
 
@@ -86,8 +93,10 @@ const TableImage& tables() {
   const firmware::LastRun last = board::takeLastRun();
   const ClockSource source = startClocks(clock);
   Watchdog& watchdog = startWatchdog(clock, last);
-  Can& can = startCan(clock, source);
-  firmware::runFinger(tables(), kSettings, last, startAdc(), can, clock, watchdog, [&] {
+  static Store store(kBus, eccFaults, kConfigurationPages.first, kConfigurationPages.count);
+  const firmware::FingerSettings settings = keptSettings(store);
+  Can& can = startCan(clock, source, settings.node);
+  firmware::runFinger(tables(), settings, last, startAdc(), can, clock, watchdog, store, [&] {
     can.poll();
     if (watchdog.isStarved()) board::crash(Crash::kStarved, 0);
   });

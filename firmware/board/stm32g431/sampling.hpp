@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "firmware/board/stm32g431/clock_tree.hpp"
 
@@ -52,5 +53,12 @@ static_assert(kDefaultSampling.isPossible() && kDefaultSampling.busy_ns() == 445
 /// 90 us of 100. 16 conversions a code, 0.12 us to settle: for gauges behind an amplifier at the pin.
 inline constexpr SamplingPlan kFastSampling{10'000, 4, SampleTime::k2_5};
 static_assert(kFastSampling.isPossible() && kFastSampling.busy_ns() == 90'495);
+
+/// None: neither of the two. Every other rate is a plan of its own, to be weighed: noise against settling.
+constexpr std::optional<SamplingPlan> samplingAt(std::uint32_t rate_hz) {
+  for (const SamplingPlan& plan : {kDefaultSampling, kFastSampling})
+    if (plan.rate_hz == rate_hz) return plan;
+  return std::nullopt;
+}
 
 }  // namespace strainfinger::stm32g431

@@ -16,10 +16,9 @@ constexpr SendRule sendRule(std::uint16_t id) {
   return {.newestWins = touch || is(FunctionCode::kHeartbeat), .background = !touch};
 }
 
-/// Requests to all and to this node, and its own heartbeat: whoever sends that has the same node number.
-constexpr std::array<std::uint16_t, 3> identifiersFor(std::uint8_t node) {
-  return {canId(FunctionCode::kRequest, 0), canId(FunctionCode::kRequest, node),
-          canId(FunctionCode::kHeartbeat, node)};
+/// All that the finger reads: requests to this node.
+constexpr std::array<std::uint16_t, 1> identifiersFor(std::uint8_t node) {
+  return {canId(FunctionCode::kRequest, node)};
 }
 
 }  // namespace strainfinger::stm32g431

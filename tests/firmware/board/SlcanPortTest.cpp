@@ -113,11 +113,14 @@ TEST(SlcanPort, AFrameOfTheHostIsAcknowledged) {
 }
 
 TEST(SlcanPort, NothingIsReadWhileAFrameWaits) {
+  CHECK_FALSE(port.hasArrived());
   answerTo("O\rt1000\rt1010\r");
+  CHECK_TRUE(port.hasArrived());
   CHECK_TRUE(line.hasUnread());
   CHECK_TRUE(port.receive()->id == 0x100);
   CHECK_TRUE(port.receive()->id == 0x101);
   CHECK_FALSE(port.receive().has_value());
+  CHECK_FALSE(port.hasArrived());
 }
 
 TEST(SlcanPort, AHostThatDoesNotReadIsWaitedForAndNothingTakenIsLost) {

@@ -5,6 +5,9 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "firmware/board/mps2/timer.hpp"
+#include "tests/doubles/fake_clock.hpp"
+
 using namespace strainfinger;
 using namespace strainfinger::mps2;
 
@@ -28,13 +31,14 @@ struct FakeBus {
 
 }  // namespace
 
-static_assert(hal::GaugeAdc<World<FakeLine, FakeBus>>);
-static_assert(hal::Clock<World<FakeLine, FakeBus>>);
+using FakeWorld = World<FakeLine, FakeBus, doubles::FakeClock>;
+static_assert(hal::GaugeAdc<FakeWorld>);
+static_assert(hal::Clock<FakeWorld>);
 
 TEST_GROUP(World) {
   FakeLine line;
   FakeBus bus;
-  World<FakeLine, FakeBus> world{line, bus};
+  FakeWorld world{line, bus};
   hal::SampleSet set{};
   std::vector<WorldRecord> acted;
 
@@ -94,6 +98,27 @@ TEST(World, SilenceTakesAPeriodWithoutSamples) {
   CHECK_TRUE(poll());
   CHECK_FALSE(world.read(set));
   LONGS_EQUAL(kRecordPeriod_us, world.now_us());
+}
+
+TEST(World, WithATimerTimeIsTheTimers) {
+  doubles::FakeClock timer{5};
+  FakeWorld timed{line, bus, &timer};
+  tell({RecordKind::kSilence});
+  CHECK_TRUE(timed.poll([](const WorldRecord&) {}));
+  LONGS_EQUAL(5, timed.now_us());
+  timer.advance(7);
+  LONGS_EQUAL(12, timed.now_us());
+}
+
+TEST(World, ATimersMicrosecondsLoseNothingAndWrap) {
+  MicrosecondCount count;
+  std::uint32_t ticks = 0xFFFF'FFFF;
+  std::uint64_t passed = 0;
+  for (const std::uint32_t step : {1u, 24u, 25u, 26u, 3'000'000'000u, 4'000'000'000u, 4'294'967'200u, 49u}) {
+    ticks -= step;
+    passed += step;
+    UNSIGNED_LONGS_EQUAL(passed / kTimer_MHz, count.at(ticks));
+  }
 }
 
 TEST(World, OtherRecordsTakeNoTime) {

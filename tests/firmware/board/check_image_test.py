@@ -46,6 +46,17 @@ class CheckImage(unittest.TestCase):
         deep = "void use(int* p) { asm volatile(\"\" :: \"r\"(p)); } extern \"C\" void resetHandler() { int a[100]; use(a); }"
         self.refused("over the budget of 300", deep, "--stack", "300")
 
+    def test_data_with_values_count_in_both_memories(self):
+        source = "int volatile x[100] = {1}; extern \"C\" void resetHandler() { x[0] = x[1]; }"
+        self.refused("over the budget of 399", source, "--flash", "399")
+        self.refused("ram: 400 bytes, 1 over the budget of 399", source, "--ram", "399")
+        self.refused("ram: 400 bytes", source.replace(" = {1}", ""), "--ram", "399")
+
+    def test_every_fault_is_named(self):
+        source = "int volatile x[100]; float volatile y; extern \"C\" void resetHandler() { y = y + x[0]; }"
+        for what in ("flash: ", "ram: ", "floating point: __aeabi_fadd"):
+            self.refused(what, source, "--flash", "4", "--ram", "4")
+
     def test_stack_adds_up_along_calls_and_with_an_interrupt_on_top(self):
         source = """template <int N> [[gnu::noinline]] void frame() { int a[N]; asm volatile("" :: "r"(a) : "memory"); }
             [[gnu::noinline]] void outer() { int a[50]; asm volatile("" :: "r"(a) : "memory"); frame<25>(); asm volatile(""); }
@@ -81,6 +92,12 @@ class CheckImage(unittest.TestCase):
     def test_recursion_is_found(self):
         self.refused("recursion: ", """int volatile x; int down(int n) { int a[4] = {n}; asm volatile("" :: "r"(a) : "memory");
             return n == 0 ? 0 : down(n - 1) + a[0]; } extern "C" void resetHandler() { x = down(x); }""")
+
+    def test_recursion_of_two_is_found(self):
+        self.refused("recursion: ", """int volatile x; int odd(int n);
+            [[gnu::noinline]] int even(int n) { return n == 0 ? 1 : odd(n - 1) + x; }
+            [[gnu::noinline]] int odd(int n) { return n == 0 ? 0 : even(n - 1) + x; }
+            extern "C" void resetHandler() { x = even(x); }""")
 
     def test_a_frame_of_no_fixed_size_is_found(self):
         self.refused("stack frame of no fixed size: resetHandler", """int volatile n; extern "C" void resetHandler() {

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string>
 
+#include "common/commands.hpp"
 #include "common/frames.hpp"
 #include "host/can/candump_text.hpp"
 #include "host/can/frame_catalogue.hpp"
@@ -88,16 +89,33 @@ TEST_GROUP(BusDocument) {
 };
 
 TEST(BusDocument, HasTheTableOfEachFrame) {
-  for (const FrameEntry& entry : frameCatalogue()) {
-    checkHas(fmt::format("## {}: 0x{:03X} + node\n", entry.spec.name, static_cast<int>(entry.spec.function)));
-    checkHas(tableOf(entry));
-  }
+  for (const auto catalogue : {frameCatalogue(), commandCatalogue()})
+    for (const FrameEntry& entry : catalogue) {
+      checkHas(
+          fmt::format("## {}: 0x{:03X} + node\n", entry.spec.name, static_cast<int>(entry.spec.function)));
+      checkHas(tableOf(entry));
+    }
 }
 
 TEST(BusDocument, ExplainsTheFlags) {
   checkHas(tableOf(kFingerFlagNames));
   checkHas(tableOf(kFingerFaultNames));
   checkHas(fmt::format("| value{}", tableOf(kCrashNames).substr(5)));
+}
+
+TEST(BusDocument, ExplainsTheCommands) {
+  std::string table = "| value | command | argument | meaning |\n|--|--|--|--|\n";
+  for (const ArgumentSpec& spec : kArguments) {
+    const ValueName* name = findName(kCommandNames, static_cast<int>(spec.command));
+    table += fmt::format(
+        "| {} | {} | {}..{}, {} bytes | {} |\n", name->value, name->name, spec.least, spec.most,
+        spec.leastBytes == spec.mostBytes ? fmt::format("{}", spec.mostBytes)
+                                          : fmt::format("{} or {}", spec.leastBytes, spec.mostBytes),
+        name->comment);
+  }
+  checkHas(table);
+  checkHas(fmt::format("| value{}", tableOf(kCommandStatusNames).substr(5)));
+  checkHas(fmt::format("within {} ms", kAnswerWithin_ms));
 }
 
 TEST(BusDocument, ItsExamplesAreWhatIsSent) {
@@ -119,6 +137,10 @@ TEST(BusDocument, ItsExamplesAreWhatIsSent) {
                           .version_major = 0,
                           .version_minor = 1,
                           .crash_address = 0x2AB6}));
+  checkHas(line(contactRateRequest(200)));
+  checkHas(line(responseTo(Command::kContactRate, CommandStatus::kDone)));
+  checkHas(line(tareRequest(true)));
+  checkHas(line(responseTo(Command::kTare, CommandStatus::kTouched)));
 }
 
 TEST(BusDocument, ItsBusLoadsAreComputed) {

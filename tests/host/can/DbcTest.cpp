@@ -39,6 +39,14 @@ TEST(Dbc, NamesValues) {
   checkHas("\nVAL_ 645 normal -32768 \"not_known\" ;\n");
 }
 
+TEST(Dbc, ARequestGoesTheOtherWay) {
+  checkHas("\nBO_ 1541 REQUEST: 8 HOST\n");
+  checkHas("\n SG_ argument : 16|16@1+ (1,0) [0|65535] \"\" FINGER_5\n");
+  checkHas("\nBO_ 1413 RESPONSE: 8 FINGER_5\n");
+  checkHas("\n SG_ status : 16|8@1+ (1,0) [0|255] \"\" HOST\n");
+  CHECK_TRUE(can::dbcText(5, 500).find("GenMsgCycleTime\" BO_ 1541") == std::string::npos);
+}
+
 TEST(Dbc, SaysHowOftenFramesCome) {
   checkHas("\nBA_ \"GenMsgCycleTime\" BO_ 389 50;\n");
   checkHas("\nBA_ \"GenMsgDelayTime\" BO_ 389 2;\n");

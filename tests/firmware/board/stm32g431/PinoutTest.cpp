@@ -85,8 +85,8 @@ TEST(SendRules, OnlyTouchesHaveBuffersOfTheirOwn) {
   }
 }
 
-TEST(SendRules, ListensToRequestsAndToItsOwnHeartbeat) {
-  CHECK_TRUE((identifiersFor(5) == std::array<std::uint16_t, 3>{0x600, 0x605, 0x705}));
+TEST(SendRules, ListensToItsOwnRequestsOnly) {
+  CHECK_TRUE((identifiersFor(5) == std::array<std::uint16_t, 1>{0x605}));
 }
 
 TEST_GROUP(FlashLayout){};

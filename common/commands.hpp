@@ -1,0 +1,187 @@
+#pragma once
+// What a finger can be told over CAN, and what it answers. BUS.md shows the bytes.
+//
+// Both are ISO-TP single frames (ISO 15765-2): byte 0 counts the bytes that follow and matter, 1 .. 7. Its
+// upper four bits are 0, so that longer ISO-TP messages can come beside them. We send all eight bytes, the
+// unused ones 0; what is read may be as short as it counts, or padded with anything.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <tuple>
+
+#include "common/frame_layout.hpp"
+#include "common/frames.hpp"
+
+namespace strainfinger {
+
+/// A finger answers within this time or not at all: an older answer could be taken for another request's.
+inline constexpr std::uint16_t kAnswerWithin_ms = 500;
+
+/// At the slowest a finger in contact sends what it would anyway.
+inline constexpr std::uint16_t kSlowestContactRate_hz = 1000 / kContactPeriod_ms;
+inline constexpr std::uint16_t kFastestContactRate_hz = 1000;
+
+/// Never reuse a number; 1 .. 127.
+enum class Command : std::uint8_t { kTare = 1, kContactRate = 2, kKeep = 3, kNode = 4 };
+
+inline constexpr std::array kCommandNames{
+    ValueName{1, "tare", "Take the zero of the gauges now; argument 1: even while touched"},
+    ValueName{2, "contact_rate", "Send at most so many CONTACT a second, until the next start"},
+    ValueName{3, "keep", "Keep the contact rate for the next starts"},
+    ValueName{4, "node", "Be this node from the next start on"},
+};
+
+/// What a command's argument may be. One that is absent is 0.
+struct ArgumentSpec {
+  Command command;
+  std::uint8_t leastBytes, mostBytes;
+  std::uint16_t least, most;
+};
+inline constexpr std::array kArguments{
+    ArgumentSpec{Command::kTare, 0, 1, 0, 1},
+    ArgumentSpec{Command::kContactRate, 2, 2, kSlowestContactRate_hz, kFastestContactRate_hz},
+    ArgumentSpec{Command::kKeep, 0, 0, 0, 0},
+    ArgumentSpec{Command::kNode, 1, 1, kFirstNode, kLastNode},
+};
+
+/// What became of a request. Never reuse a number.
+enum class CommandStatus : std::uint8_t {
+  kDone = 0,
+  kBusy = 1,
+  kUnknownCommand = 2,
+  kBadArgument = 3,
+  kTouched = 4,
+  kDoneTouched = 5,
+  kNotKept = 6,
+};
+
+inline constexpr std::array kCommandStatusNames{
+    ValueName{0, "done", "Done"},
+    ValueName{1, "busy", "Not now: the zero is being taken already, or there are no samples"},
+    ValueName{2, "unknown_command", "This firmware has no such command"},
+    ValueName{3, "bad_argument", "The argument is absent, too long or outside its range"},
+    ValueName{4, "touched", "Refused: something touches the finger and would become its zero"},
+    ValueName{5, "done_touched", "Done as forced: what touched the finger is now part of its zero"},
+    ValueName{6, "not_kept", "The board has no memory for it, or its memory failed"},
+};
+
+/// To a finger.
+struct RequestFrame {
+  static constexpr std::uint8_t kFewestBytes = 1;
+  std::uint8_t length = kFewestBytes;
+  Command command{};
+  bool answer = false;
+  std::uint16_t argument = 0;
+  bool operator==(const RequestFrame&) const = default;
+};
+
+/// From a finger.
+struct ResponseFrame {
+  static constexpr std::uint8_t kFewestBytes = 2;
+  std::uint8_t length = kFewestBytes;
+  Command command{};
+  bool answer = true;
+  CommandStatus status = CommandStatus::kDone;
+  bool operator==(const ResponseFrame&) const = default;
+};
+
+/// The first two bytes of both.
+inline constexpr FieldBits kLengthBits{.lsb = 0, .width = 8, .limit = 7};
+inline constexpr FieldMeaning kLengthMeaning{.name = "length",
+                                             .comment = "ISO-TP single frame: bytes that follow and matter"};
+inline constexpr FieldBits kCommandBits{.lsb = 8, .width = 7};
+inline constexpr FieldBits kAnswerBits{.lsb = 15, .width = 1};
+inline constexpr FieldMeaning kAnswerMeaning{.name = "answer",
+                                             .comment = "0 in a request, 1 in its response"};
+
+template <>
+inline constexpr FrameLayout kLayout<RequestFrame>{
+    FrameSpec{.name = "REQUEST",
+              .function = FunctionCode::kRequest,
+              .length = 8,
+              .period_ms = 0,
+              .onChange = false,
+              .comment = "Something the finger is to do; it answers each with a RESPONSE"},
+    Field{&RequestFrame::length, kLengthBits, kLengthMeaning},
+    Field{&RequestFrame::command,
+          kCommandBits,
+          {.name = "command", .comment = "What to do", .kind = FieldKind::kChoice, .names = kCommandNames}},
+    Field{&RequestFrame::answer, kAnswerBits, kAnswerMeaning},
+    Field{&RequestFrame::argument,
+          {.lsb = 16, .width = 16},
+          {.name = "argument", .comment = "Of the command; what length leaves out is 0"}},
+};
+static_assert(WireFrame<RequestFrame>);
+
+template <>
+inline constexpr FrameLayout kLayout<ResponseFrame>{
+    FrameSpec{.name = "RESPONSE",
+              .function = FunctionCode::kResponse,
+              .length = 8,
+              .period_ms = 0,
+              .onChange = false,
+              .comment = "What became of a request: when it is done"},
+    Field{&ResponseFrame::length, kLengthBits, kLengthMeaning},
+    Field{&ResponseFrame::command,
+          kCommandBits,
+          {.name = "command",
+           .comment = "That of the request",
+           .kind = FieldKind::kChoice,
+           .names = kCommandNames}},
+    Field{&ResponseFrame::answer, kAnswerBits, kAnswerMeaning},
+    Field{&ResponseFrame::status,
+          {.lsb = 16, .width = 8},
+          {.name = "status",
+           .comment = "What became of it",
+           .kind = FieldKind::kChoice,
+           .names = kCommandStatusNames}},
+};
+static_assert(WireFrame<ResponseFrame>);
+
+/// What is said when a command is given; FingerFrames is what a finger says by itself.
+using CommandFrames = std::tuple<RequestFrame, ResponseFrame>;
+
+constexpr RequestFrame tareRequest(bool evenWhileTouched) {
+  return {.length = 2, .command = Command::kTare, .argument = evenWhileTouched};
+}
+constexpr RequestFrame contactRateRequest(std::uint16_t rate_hz) {
+  return {.length = 3, .command = Command::kContactRate, .argument = rate_hz};
+}
+constexpr RequestFrame keepRequest() { return {.length = 1, .command = Command::kKeep}; }
+constexpr RequestFrame nodeRequest(std::uint8_t node) {
+  return {.length = 2, .command = Command::kNode, .argument = node};
+}
+constexpr ResponseFrame responseTo(Command command, CommandStatus status) {
+  return {.command = command, .status = status};
+}
+
+/// A request to (response of) this node; nothing if the frame is none: another identifier, not a whole
+/// ISO-TP single frame, or the other direction.
+template <typename Frame>
+constexpr std::optional<Frame> readSingleFrame(CanFrame frame, std::uint8_t node) {
+  const std::uint8_t length = frame.data[0];
+  if (frame.id != canId(kLayout<Frame>.spec.function, node) || length < Frame::kFewestBytes ||
+      frame.length <= length || frame.length > frame.data.size())
+    return std::nullopt;
+  frame.length = length + 1;
+  CanFrame whole = asReceived(frame);
+  whole.length = kLayout<Frame>.spec.length;
+  const auto values = decode<Frame>(whole);
+  if (!values || values->answer != Frame{}.answer) return std::nullopt;
+  return values;
+}
+
+/// What is wrong with a request before anything is done about it; kDone: nothing.
+constexpr CommandStatus checkRequest(const RequestFrame& request) {
+  const int bytes = request.length - RequestFrame::kFewestBytes;
+  for (const ArgumentSpec& spec : kArguments) {
+    if (spec.command != request.command) continue;
+    const bool fits = bytes >= spec.leastBytes && bytes <= spec.mostBytes;
+    const bool inRange = request.argument >= spec.least && request.argument <= spec.most;
+    return fits && inRange ? CommandStatus::kDone : CommandStatus::kBadArgument;
+  }
+  return CommandStatus::kUnknownCommand;
+}
+
+}  // namespace strainfinger

@@ -1,0 +1,27 @@
+#pragma once
+// A request to a finger, and what comes of it.
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+#include "common/commands.hpp"
+#include "host/can/socketcan_port.hpp"
+
+namespace strainfinger::can {
+
+/// Twice the time a finger has to answer; ten heartbeats.
+inline constexpr std::chrono::milliseconds kAskFor{2 * kAnswerWithin_ms};
+
+struct Reply {
+  bool sent = false;  ///< false: the interface did not take the request in all that time
+  std::optional<ResponseFrame> response{};
+  std::optional<HeartbeatFrame> heartbeat{};  ///< the last of that finger while nothing had come yet
+};
+
+/// Sends the request to node 1 .. 63 and waits for its response, at most so long. Fingers tell callers apart
+/// by nothing: one at a time asks a node. Frames of others meanwhile are read and gone.
+Reply ask(SocketCanPort& port, std::uint8_t node, const RequestFrame& request,
+          std::chrono::milliseconds longest = kAskFor);
+
+}  // namespace strainfinger::can

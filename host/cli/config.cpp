@@ -1,0 +1,49 @@
+#include <optional>
+#include <vector>
+
+#include "host/base/failure.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/request.hpp"
+
+namespace strainfinger::cli {
+namespace {
+
+constexpr const char* kHelp =
+    "Changes settings of a finger on the bus: the contact rate until its next start, or for ever with "
+    "--keep; its "
+    "node number from its next start on.\n"
+    "Prints interface,node,command,status. Exit status: 1 refused, 3 no interface, 4 no such node.";
+
+struct ConfigOptions {
+  explicit ConfigOptions(CLI::App& command) : request(command) {
+    command.add_option("--contact-rate-hz", contactRate_hz, "Send at most so many CONTACT a second")
+        ->type_name("HZ")
+        ->check(CLI::Range(int{kSlowestContactRate_hz}, int{kFastestContactRate_hz}));
+    command.add_flag("--keep", keep, "Keep the contact rate for the next starts");
+    command.add_option("--set-node", node, "Be this node from the next start on")
+        ->type_name("NODE")
+        ->check(CLI::Range(int{kFirstNode}, int{kLastNode}));
+  }
+  RequestOptions request;
+  std::optional<int> contactRate_hz;
+  bool keep = false;
+  std::optional<int> node;
+};
+
+void runConfig(const ConfigOptions& options) {
+  std::vector<RequestFrame> requests;
+  if (options.contactRate_hz)
+    requests.push_back(contactRateRequest(static_cast<std::uint16_t>(*options.contactRate_hz)));
+  if (options.keep) requests.push_back(keepRequest());
+  if (options.node) requests.push_back(nodeRequest(static_cast<std::uint8_t>(*options.node)));
+  if (requests.empty())
+    throw Failure(ExitCode::kUsage,
+                  "config: nothing to change: give --contact-rate-hz, --keep or --set-node");
+  request(options.request, requests);
+}
+
+}  // namespace
+
+void addConfig(CLI::App& app) { addCommand<ConfigOptions>(app, "config", kHelp, runConfig); }
+
+}  // namespace strainfinger::cli

@@ -1,0 +1,101 @@
+#include "host/cli/request.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "host/base/failure.hpp"
+#include "host/base/table_writer.hpp"
+#include "host/can/frame_catalogue.hpp"
+#include "host/can/socketcan_port.hpp"
+
+namespace strainfinger::cli {
+namespace {
+
+std::string nameOf(std::span<const ValueName> names, int value) {
+  const ValueName* name = can::findName(names, value);
+  return name != nullptr ? name->name : fmt::format("{}", value);
+}
+
+std::string commandName(Command command) { return nameOf(kCommandNames, static_cast<int>(command)); }
+std::string statusName(CommandStatus status) { return nameOf(kCommandStatusNames, static_cast<int>(status)); }
+
+std::string meaningOf(CommandStatus status) {
+  const ValueName* name = can::findName(kCommandStatusNames, static_cast<int>(status));
+  return name != nullptr ? name->comment : "A status that this program does not know";
+}
+
+const char* remedyFor(CommandStatus status) {
+  switch (status) {
+    case CommandStatus::kTouched:
+      return "let go of it; if nothing touches it, its old zero is off: --force takes the new one anyway";
+    case CommandStatus::kBusy:
+      return "try again in a second; `candump` its HEARTBEAT into `strainfinger decode` to see what it does";
+    case CommandStatus::kNotKept:
+      return "it goes on as before; an emulated or simulated finger has no memory to keep it in";
+    default:
+      return "use the strainfinger of its firmware";
+  }
+}
+
+Failure silence(const can::Reply& reply, const std::string& where) {
+  const auto waited_ms = can::kAskFor.count();
+  if (!reply.sent)
+    return Failure(
+        ExitCode::kNoInterface,
+        fmt::format("{}: the interface took no frame in {} ms: it is down, bus-off or its queue is "
+                    "full; `ip -details -statistics link` shows which",
+                    where, waited_ms));
+  if (!reply.heartbeat)
+    return Failure(ExitCode::kNoNode,
+                   fmt::format("{}: no answer within {} ms and no HEARTBEAT: is it on the bus, with this bit "
+                               "rate and this --node? `candump any,700:7C0` shows the fingers that are",
+                               where, waited_ms));
+  const HeartbeatFrame& heartbeat = *reply.heartbeat;
+  if (heartbeat.protocol != kProtocolVersion)
+    return Failure(ExitCode::kMismatch, fmt::format("{}: speaks protocol {}, this program {}: use the "
+                                                    "strainfinger of its firmware",
+                                                    where, heartbeat.protocol, kProtocolVersion));
+  return Failure(ExitCode::kNoNode,
+                 fmt::format("{}: no answer within {} ms, though it is alive: state {}; in state fault it "
+                             "obeys nothing, else its firmware may be older than this command",
+                             where, waited_ms, nameOf(kFingerStateNames, static_cast<int>(heartbeat.state))));
+}
+
+}  // namespace
+
+RequestOptions::RequestOptions(CLI::App& command) : common(command) {
+  command.add_option("--can", interface, "SocketCAN interface: can0, vcan0, slcan0")
+      ->type_name("IFACE")
+      ->required();
+  command.add_option("-n,--node", node, "Node number in place of the config's")
+      ->check(CLI::Range(int{kFirstNode}, int{kLastNode}));
+}
+
+void requireDone(const can::Reply& reply, Command command, const std::string& where) {
+  if (!reply.response) throw silence(reply, where);
+  const CommandStatus status = reply.response->status;
+  if (status == CommandStatus::kDoneTouched)
+    fmt::print(stderr, "strainfinger: {}: {}: {}\n", where, commandName(command), meaningOf(status));
+  else if (status != CommandStatus::kDone)
+    throw Failure(ExitCode::kFailure, fmt::format("{}: {}: {} ({}): {}", where, commandName(command),
+                                                  meaningOf(status), statusName(status), remedyFor(status)));
+}
+
+void request(const RequestOptions& options, const std::vector<RequestFrame>& requests) {
+  const config::Can can = options.common.config().can;
+  const auto node = static_cast<std::uint8_t>(options.node != 0 ? options.node : can.node);
+  can::SocketCanPort port(options.interface, can.bitrate);
+  std::optional<TableWriter> table;  // nothing is printed before there is a row
+  for (const RequestFrame& request : requests) {
+    const can::Reply reply = can::ask(port, node, request);
+    requireDone(reply, request.command, fmt::format("{} node {}", options.interface, node));
+    if (!table)
+      table.emplace(stdout, options.common.format(),
+                    std::vector<std::string>{"interface", "node", "command", "status"});
+    table->row({options.interface, std::int64_t{node}, commandName(request.command),
+                statusName(reply.response->status)});
+  }
+}
+
+}  // namespace strainfinger::cli

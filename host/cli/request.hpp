@@ -1,0 +1,29 @@
+#pragma once
+// What subcommands that ask something of a finger share.
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "host/can/ask.hpp"
+#include "host/cli/command.hpp"
+
+namespace strainfinger::cli {
+
+struct RequestOptions {
+  explicit RequestOptions(CLI::App& command);
+  CommonOptions common;
+  std::string interface;
+  int node = 0;  ///< 0: the config's
+};
+
+/// Sends the requests one after the other and prints what became of each: a row
+/// interface,node,command,status. Stops at the first that fails and throws Failure with what to do about it
+/// when it was refused (kFailure), nobody answered (kNoNode), the interface is none or takes nothing
+/// (kNoInterface), or the finger speaks another protocol (kMismatch).
+void request(const RequestOptions& options, const std::vector<RequestFrame>& requests);
+
+/// What request() says of a reply, without the printing; `where`: "can0 node 1".
+void requireDone(const can::Reply& reply, Command command, const std::string& where);
+
+}  // namespace strainfinger::cli

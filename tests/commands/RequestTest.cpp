@@ -1,0 +1,49 @@
+// `tare` and `config` as far as they go without a bus; with one: tests/vcan/scenarios.
+#include <CppUTest/TestHarness.h>
+
+#include <string>
+
+#include "tests/commands/program.hpp"
+
+using namespace strainfinger;
+
+TEST_GROUP(RequestCommands){
+    static void checkRefused(const std::string& arguments, int status,
+                             const char* message){const Run run = runProgram(arguments);
+LONGS_EQUAL(status, run.status);
+STRCMP_CONTAINS(message, run.err.c_str());
+STRCMP_EQUAL("", run.out.c_str());
+}
+}
+;
+
+TEST(RequestCommands, NeedAnInterface) {
+  checkRefused("tare", 2, "--can");
+  checkRefused("config --contact-rate-hz 100", 2, "--can");
+}
+
+TEST(RequestCommands, AMissingInterfaceIsSaidWithItsRemedy) {
+  checkRefused("tare --can nocan7", 3, "nocan7");
+  checkRefused("config --can nocan7 --contact-rate-hz 100", 3, "nocan7");
+  checkRefused("config --can nocan7 --keep", 3, "nocan7");
+  checkRefused("config --can nocan7 --set-node 2", 3, "nocan7");
+  checkRefused("config --can nocan7 --set-node 64", 2, "--set-node");
+}
+
+TEST(RequestCommands, NodesAreThoseOfFingers) {
+  for (const char* node : {"0", "64", "x", "-1"})
+    checkRefused(std::string("tare --can nocan7 --node ").append(node), 2, "--node");
+}
+
+TEST(RequestCommands, RatesAreThoseAFingerTakes) {
+  for (const char* rate : {"19", "1001", "100.5", "nan", "x", "-100"})
+    checkRefused(std::string("config --can nocan7 --contact-rate-hz ").append(rate), 2, "--contact-rate-hz");
+}
+
+TEST(RequestCommands, ThereIsSomethingToConfigure) {
+  checkRefused("config --can nocan7", 2, "give --contact-rate-hz, --keep or --set-node");
+}
+
+TEST(RequestCommands, TheConfigFileIsRead) {
+  checkRefused("tare --can nocan7 -c /nowhere.toml", 2, "/nowhere.toml");
+}

@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+"""commands_test.py FINGER.elf: an emulated finger is told to take its zero and to change its contact rate, over its
+CAN line (SLCAN), and does what it answers. common/BUS.md has the bytes."""
+import sys
+import time
+import unittest
+
+import emulator
+
+MIDDLE = [0x8000] * 16
+BUMP = (0, 500, 2000, 5000, 2000, 500, 0)  # codes of a touch's strains around it: no real one, but seen
+CONTACT, RESPONSE = "t1818", "t5818"
+TARE, FORCED_TARE, TARE_OF_ANOTHER = "t60120101", "t6013020101", "t60220101"
+ZERO_SETS = 64
+DONE, BAD_ARGUMENT, TOUCHED, DONE_TOUCHED = 0, 3, 4, 5  # CommandStatus, common/commands.hpp
+
+TARE_COMMAND, RATE_COMMAND = 1, 2
+
+
+def response(command, status):
+    return bytes((2, 0x80 | command, status, 0, 0, 0, 0, 0))
+
+
+def touched_at(gauge):
+    codes = list(MIDDLE)
+    for offset, bump in enumerate(BUMP):
+        codes[(gauge + offset - 3) % 16] += bump
+    return codes
+
+
+class Commands(unittest.TestCase):
+    def setUp(self):
+        self.board = self.enterContext(emulator.Board(ELF))
+        self.board.wait_ready()
+        self.board.bus.sendall(b"O\r")
+        self.run_for(ZERO_SETS + 1, MIDDLE)
+
+    def lines(self):
+        return self.board.heard.decode("latin1").split("\r")[:-1]
+
+    def wait_until(self, holds, what):
+        end = time.monotonic() + 30
+        while not holds():
+            self.assertLess(time.monotonic(), end, what)
+            time.sleep(0.002)
+
+    def run_for(self, periods, *sets):
+        """Sample sets in turn; returns the CAN lines they led to. The bus state that the board passes on in between
+        shows that it is done with them."""
+        before = len(self.lines())
+        states = self.board.heard.count(b"sa")
+        for period in range(periods):
+            self.board.samples(sets[period % len(sets)])
+        self.board.record(b"B", bytes(3))
+        self.wait_until(lambda: self.board.heard.count(b"sa") > states, "the board takes no samples")
+        return self.lines()[before:]
+
+    def ask(self, request):
+        """Sends a line; its acknowledgement is the finger's turn to look at it."""
+        acknowledged = self.board.heard.count(b"z\r")
+        self.board.bus.sendall(request.encode() + b"\r")
+        self.wait_until(lambda: self.board.heard.count(b"z\r") > acknowledged, f"{request} was not taken")
+
+    def responses(self):
+        return [bytes.fromhex(line[5:]) for line in self.lines() if line.startswith(RESPONSE)]
+
+    def answer(self, request):
+        known = len(self.responses())
+        self.ask(request)
+        self.wait_until(lambda: len(self.responses()) > known, f"no answer to {request}")
+        return self.responses()[-1]
+
+    def contacts(self, periods, *sets):
+        return [line for line in self.run_for(periods, *sets) if line.startswith(CONTACT)]
+
+    def check_tare(self, request, codes, status):
+        """It is answered when its sample sets are in, give or take the one on its way."""
+        self.ask(request)
+        self.run_for(ZERO_SETS - 1, codes)
+        self.assertEqual([], self.responses())
+        self.run_for(2, codes)
+        self.assertEqual([response(TARE_COMMAND, status)], self.responses())
+
+    def test_a_rate_holds_at_once(self):
+        moving = touched_at(3), touched_at(9), touched_at(14)  # news at every rate
+        self.assertAlmostEqual(500, len(self.contacts(1000, *moving)), delta=1)
+        for rate_hz in (100, 1000, 20):
+            request = f"t60140302{rate_hz & 255:02X}{rate_hz >> 8:02X}"
+            self.assertEqual(response(RATE_COMMAND, DONE), self.answer(request))
+            self.assertAlmostEqual(rate_hz, len(self.contacts(1000, *moving)), delta=1)
+
+    def test_a_rate_it_cannot_have_is_refused(self):
+        self.assertEqual(response(RATE_COMMAND, BAD_ARGUMENT), self.answer("t60140302E903"))
+
+    def test_a_tare_untouched(self):
+        self.check_tare(TARE, MIDDLE, DONE)
+        self.assertEqual([], self.contacts(100, MIDDLE))
+
+    def test_a_tare_is_refused_while_touched(self):
+        self.run_for(1, touched_at(3))
+        self.assertEqual(response(TARE_COMMAND, TOUCHED), self.answer(TARE))
+        self.assertEqual(1, len(self.contacts(50, touched_at(3))), "it goes on saying that it is touched")
+
+    def test_a_forced_tare_makes_what_is_there_the_zero(self):
+        drifted = touched_at(3)
+        self.run_for(1, drifted)
+        self.check_tare(FORCED_TARE, drifted, DONE_TOUCHED)
+        self.run_for(1, drifted)  # says that the touch is over
+        self.assertEqual([], self.contacts(100, drifted))
+        self.assertTrue(self.contacts(1, MIDDLE))
+
+    def test_another_fingers_tare_is_not_its_business(self):
+        self.ask(TARE_OF_ANOTHER)
+        self.assertTrue(self.contacts(100, touched_at(3)))
+        self.assertEqual([], self.responses())
+
+
+if __name__ == "__main__":
+    ELF = sys.argv.pop(1)
+    emulator.require(ELF)
+    unittest.main(verbosity=2)

@@ -1,0 +1,269 @@
+// What a finger does when it is told to; FingerTest.cpp has what it does by itself.
+#include <algorithm>
+#include <initializer_list>
+
+#include "firmware/app/finger.hpp"
+#include "host/simulation/converter.hpp"
+#include "tests/doubles/fake_can_port.hpp"
+#include "tests/doubles/fake_clock.hpp"
+#include "tests/doubles/fake_gauge_adc.hpp"
+#include "tests/doubles/fake_non_volatile.hpp"
+#include "tests/doubles/spy_watchdog.hpp"
+#include "tests/firmware/core/model_ring.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::firmware;
+using namespace strainfinger::doubles;
+
+TEST_GROUP(FingerRequests) {
+  static constexpr std::uint8_t kNode = 5;
+  static constexpr Press kUntouched{0, 0, 0};
+  static constexpr Press kTouch{3.2, 20, 4};
+  const ModelRing ring;
+  const simulation::Converter converter{config::Gauges{}};
+  FakeGaugeAdc adc;
+  FakeCanPort can;
+  FakeClock clock{1'000'000};
+  SpyWatchdog watchdog;
+  FakeNonVolatile store;
+  Finger<FakeGaugeAdc, FakeCanPort, FakeClock, SpyWatchdog, FakeNonVolatile> finger{
+      ring.tables(), {.node = kNode}, adc, can, clock, watchdog, store};
+
+  void setup() override {
+    run(ZeroAverage::kSamples);
+    CHECK_TRUE(finger.state() == FingerState::kRun);
+  }
+
+  /// A sample set a millisecond.
+  void run(int samples, const Press& press = kUntouched) {
+    hal::SampleSet set{};
+    const auto strains = ring.strains(press);
+    std::transform(strains.begin(), strains.end(), set.begin(),
+                   [&](double strain) { return converter.codeOf(strain); });
+    for (int i = 0; i < samples; ++i) {
+      clock.advance(1000);
+      adc.convert(set);
+      finger.step();
+    }
+  }
+  /// A touch that is news with every set.
+  void runMoving(int samples) {
+    for (int i = 0; i < samples; ++i) run(1, {2 + i % 50 / 10.0, 20, 0});
+  }
+  void deliver(std::initializer_list<std::uint8_t> bytes, std::uint16_t id = 0x605) {
+    CanFrame frame{.id = id, .length = static_cast<std::uint8_t>(bytes.size())};
+    std::copy(bytes.begin(), bytes.end(), frame.data.begin());
+    can.deliver(frame);
+  }
+  void step() {
+    clock.advance(1);
+    finger.step();
+  }
+  void ask(const RequestFrame& request) {
+    can.deliver(encode(request, kNode));
+    step();
+  }
+
+  std::vector<ResponseFrame> responses() {
+    std::vector<ResponseFrame> found;
+    for (const CanFrame& frame : can.sent)
+      if (const auto response = readSingleFrame<ResponseFrame>(frame, kNode)) found.push_back(*response);
+    can.sent.clear();
+    return found;
+  }
+  void checkAnswer(Command command, CommandStatus status) {
+    const auto found = responses();
+    LONGS_EQUAL(1, found.size());
+    CHECK_TRUE(found[0] == responseTo(command, status));
+  }
+  void checkAnswered(const RequestFrame& request, CommandStatus status) {
+    responses();
+    ask(request);
+    checkAnswer(request.command, status);
+  }
+  template <typename Frame>
+  std::vector<Frame> sent() {
+    std::vector<Frame> frames;
+    for (const CanFrame& frame : can.sent)
+      if (const auto values = decode<Frame>(frame)) frames.push_back(*values);
+    return frames;
+  }
+  std::size_t contactsOf(int samples) {
+    can.sent.clear();
+    runMoving(samples);
+    return sent<ContactFrame>().size();
+  }
+};
+
+TEST(FingerRequests, ATareIsAnsweredWhenItsSetsAreIn) {
+  ask(tareRequest(false));
+  CHECK_TRUE(finger.state() == FingerState::kZeroing);
+  run(63);
+  CHECK_TRUE(finger.state() == FingerState::kZeroing);
+  LONGS_EQUAL(0, responses().size());
+  run(1);
+  CHECK_TRUE(finger.state() == FingerState::kRun);
+  checkAnswer(Command::kTare, CommandStatus::kDone);
+  run(1000);
+  LONGS_EQUAL(0, responses().size());
+}
+
+TEST(FingerRequests, AForcedTareMakesTheTouchTheZero) {
+  run(10, kTouch);
+  ask(tareRequest(true));
+  run(64, kTouch);
+  checkAnswer(Command::kTare, CommandStatus::kDoneTouched);
+  run(1, kTouch);
+  LONGS_EQUAL(1, sent<ContactFrame>().size());  // the end of the touch
+  CHECK_FALSE(sent<ContactFrame>()[0].flags.has(FingerFlag::kContact));
+  run(200, kTouch);
+  LONGS_EQUAL(1, sent<ContactFrame>().size());
+  run(1);
+  CHECK_TRUE(sent<ContactFrame>().back().flags.has(FingerFlag::kContact));
+}
+
+TEST(FingerRequests, ATareIsRefusedWhileTouched) {
+  run(10, kTouch);
+  checkAnswered(tareRequest(false), CommandStatus::kTouched);
+  CHECK_TRUE(finger.state() == FingerState::kRun);
+  const std::uint32_t fits = finger.counters().fits;
+  run(100, kTouch);
+  LONGS_EQUAL(fits + 100, finger.counters().fits);
+}
+
+TEST(FingerRequests, AForcedTareUntouchedIsAnOrdinaryOne) {
+  ask(tareRequest(true));
+  run(64);
+  checkAnswer(Command::kTare, CommandStatus::kDone);
+}
+
+TEST(FingerRequests, ASecondTareWhileTheZeroIsTakenIsRefused) {
+  ask(tareRequest(false));
+  run(10);
+  checkAnswered(tareRequest(false), CommandStatus::kBusy);
+  run(54);
+  checkAnswer(Command::kTare, CommandStatus::kDone);
+}
+
+TEST(FingerRequests, ATareWithoutSamplesIsRefused) {
+  clock.advance(100'000);
+  checkAnswered(tareRequest(false), CommandStatus::kBusy);
+  CHECK_TRUE(finger.state() == FingerState::kRun);
+}
+
+TEST(FingerRequests, ATareWhoseSamplesComeLateIsDoneButNotAnswered) {
+  ask(tareRequest(false));
+  run(30);
+  clock.advance(500'000);
+  finger.step();
+  run(34);
+  CHECK_TRUE(finger.state() == FingerState::kRun);
+  LONGS_EQUAL(0, responses().size());
+}
+
+TEST(FingerRequests, AHeartbeatTellsOfTheZero) {
+  ask(tareRequest(false));
+  can.sent.clear();
+  for (int i = 0; i < 50; ++i) {
+    clock.advance(1000);
+    run(1);
+  }
+  CHECK_TRUE(sent<HeartbeatFrame>().back().state == FingerState::kZeroing);
+}
+
+TEST(FingerRequests, TheContactRateHoldsFromTheNextContactOn) {
+  LONGS_EQUAL(500, contactsOf(1000));
+  checkAnswered(contactRateRequest(1000), CommandStatus::kDone);
+  LONGS_EQUAL(1000, contactsOf(1000));
+  checkAnswered(contactRateRequest(100), CommandStatus::kDone);
+  LONGS_EQUAL(100, contactsOf(1000));
+  checkAnswered(contactRateRequest(20), CommandStatus::kDone);
+  LONGS_EQUAL(20, contactsOf(1000));
+}
+
+TEST(FingerRequests, WhatCannotBeDoneChangesNothing) {
+  checkAnswered(contactRateRequest(19), CommandStatus::kBadArgument);
+  checkAnswered(contactRateRequest(1001), CommandStatus::kBadArgument);
+  checkAnswered({.length = 2, .command = Command::kContactRate, .argument = 100},
+                CommandStatus::kBadArgument);
+  checkAnswered({.length = 2, .command = Command::kTare, .argument = 2}, CommandStatus::kBadArgument);
+  checkAnswered({.length = 1, .command = static_cast<Command>(9)}, CommandStatus::kUnknownCommand);
+  CHECK_TRUE(finger.state() == FingerState::kRun);
+  LONGS_EQUAL(500, contactsOf(1000));
+}
+
+TEST(FingerRequests, KeepsItsRateAndItsNextNode) {
+  checkAnswered(contactRateRequest(100), CommandStatus::kDone);
+  CHECK_FALSE(SettingsStore(store).load().settings.has_value());
+  checkAnswered(keepRequest(), CommandStatus::kDone);
+  CHECK_TRUE(*SettingsStore(store).load().settings == (StoredSettings{kNode, 100}));
+  checkAnswered(contactRateRequest(1000), CommandStatus::kDone);  // not kept
+  checkAnswered(nodeRequest(63), CommandStatus::kDone);           // still answered as node 5
+  CHECK_TRUE(*SettingsStore(store).load().settings == (StoredSettings{63, 100}));
+  checkAnswered(keepRequest(), CommandStatus::kDone);
+  CHECK_TRUE(*SettingsStore(store).load().settings == (StoredSettings{63, 1000}));
+}
+
+TEST(FingerRequests, WhatCannotBeKeptIsSaidAndTheOldStays) {
+  checkAnswered(nodeRequest(7), CommandStatus::kDone);
+  store.cutPowerAfter(0);
+  checkAnswered(nodeRequest(8), CommandStatus::kNotKept);
+  store.restorePower();
+  LONGS_EQUAL(7, SettingsStore(store).load().settings->node);
+  checkAnswered(nodeRequest(0), CommandStatus::kBadArgument);
+  checkAnswered(nodeRequest(64), CommandStatus::kBadArgument);
+}
+
+TEST(FingerRequests, OthersFramesAreNotItsBusiness) {
+  can.sent.clear();
+  for (const int id : {0x600, 0x604, 0x606, 0x585, 0x705, 0x205})
+    deliver({1, 1}, static_cast<std::uint16_t>(id));
+  deliver({0x10, 1});     // the first of a longer message
+  deliver({2, 1});        // cut short
+  deliver({2, 0x81, 0});  // a response
+  for (int i = 0; i < 20; ++i) step();
+  LONGS_EQUAL(0, can.sent.size());
+  CHECK_FALSE(can.receive().has_value());
+  CHECK_TRUE(finger.state() == FingerState::kRun);
+}
+
+TEST(FingerRequests, OneRequestATurnInOrder) {
+  can.sent.clear();
+  for (const int rate_hz : {10, 20, 30})
+    can.deliver(encode(contactRateRequest(static_cast<std::uint16_t>(rate_hz)), kNode));
+  step();
+  LONGS_EQUAL(1, can.sent.size());
+  step();
+  step();
+  const auto found = responses();
+  LONGS_EQUAL(3, found.size());
+  CHECK_TRUE(found[0].status == CommandStatus::kBadArgument);
+  CHECK_TRUE(found[2].status == CommandStatus::kDone);
+}
+
+TEST(FingerRequests, ABusyPortGetsTheAnswerLaterAndTheNextRequestWaits) {
+  can.busy = true;
+  ask(contactRateRequest(100));
+  can.deliver(encode(contactRateRequest(19), kNode));
+  for (int i = 0; i < 5; ++i) step();
+  can.busy = false;
+  can.sent.clear();
+  step();
+  checkAnswer(Command::kContactRate, CommandStatus::kDone);
+  step();
+  checkAnswer(Command::kContactRate, CommandStatus::kBadArgument);
+}
+
+TEST(FingerRequests, AnOldAnswerIsNeverSent) {
+  can.busy = true;
+  ask(contactRateRequest(100));
+  clock.advance(499'998);
+  step();
+  clock.advance(1);
+  can.busy = false;
+  finger.step();
+  LONGS_EQUAL(0, responses().size());
+  LONGS_EQUAL(100, contactsOf(1000));
+}

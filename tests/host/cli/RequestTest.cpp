@@ -1,0 +1,54 @@
+#include "host/cli/request.hpp"
+
+#include "host/base/failure.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::cli;
+
+TEST_GROUP(Request) {
+  static constexpr const char* kWhere = "can0 node 5";
+  static can::Reply answered(CommandStatus status) {
+    return {.sent = true, .response = responseTo(Command::kTare, status)};
+  }
+  static can::Reply alive(const HeartbeatFrame& heartbeat) { return {.sent = true, .heartbeat = heartbeat}; }
+
+  static void checkFails(const can::Reply& reply, ExitCode code, const char* message) {
+    try {
+      requireDone(reply, Command::kTare, kWhere);
+    } catch (const Failure& failure) {
+      LONGS_EQUAL(static_cast<int>(code), static_cast<int>(failure.code()));
+      STRCMP_CONTAINS(kWhere, failure.what());
+      STRCMP_CONTAINS(message, failure.what());
+      return;
+    }
+    FAIL("no failure");
+  }
+};
+
+TEST(Request, WhatIsDoneIsDone) {
+  requireDone(answered(CommandStatus::kDone), Command::kTare, kWhere);
+  requireDone(answered(CommandStatus::kDoneTouched), Command::kTare, kWhere);
+}
+
+TEST(Request, ARefusalNamesItsReasonAndTheRemedy) {
+  checkFails(answered(CommandStatus::kTouched), ExitCode::kFailure,
+             "tare: Refused: something touches the finger and would become its zero (touched): let go of it");
+  checkFails(answered(CommandStatus::kTouched), ExitCode::kFailure, "--force");
+  checkFails(answered(CommandStatus::kBusy), ExitCode::kFailure, "(busy): try again");
+  checkFails(answered(CommandStatus::kUnknownCommand), ExitCode::kFailure, "firmware");
+  checkFails(answered(CommandStatus::kBadArgument), ExitCode::kFailure, "(bad_argument)");
+  checkFails(answered(static_cast<CommandStatus>(99)), ExitCode::kFailure, "(99)");
+}
+
+TEST(Request, NobodyThereIsToldFromAFingerThatDoesNotAnswer) {
+  checkFails({.sent = true}, ExitCode::kNoNode, "no answer within 1000 ms and no HEARTBEAT");
+  checkFails(alive({.state = FingerState::kFault}), ExitCode::kNoNode, "alive: state fault");
+}
+
+TEST(Request, AnotherProtocolIsAMismatch) {
+  checkFails(alive({.protocol = 2}), ExitCode::kMismatch, "speaks protocol 2, this program 1");
+}
+
+TEST(Request, AnInterfaceThatTakesNothingIsNamed) { checkFails({}, ExitCode::kNoInterface, "took no frame"); }

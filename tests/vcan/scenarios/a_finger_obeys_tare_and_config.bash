@@ -1,0 +1,58 @@
+# `tare` and `config` to a running finger that is touched all the time. What reached the bus is candump's word.
+cat >"$TMPDIR/stroke.toml" <<END
+schema = 1
+[[touch]]
+start_s = 0.2
+end_s = 36
+angle_deg = [0, 3600]
+normal_n_per_m = 20
+END
+record
+strainfinger run --can vcan0 --scenario "$TMPDIR/stroke.toml" 2>"$TMPDIR/summary" &
+finger=$!
+until grep -q ' 181#' "$recording"; do
+  kill -0 $finger || fail "$(cat "$TMPDIR/summary")"
+  sleep 0.1
+done
+sleep 1
+
+# Refused while touched, with the reason and what to do.
+status=0
+strainfinger tare --can vcan0 >"$TMPDIR/out" 2>"$TMPDIR/message" || status=$?
+expect "exit status while touched" 1 $status
+expect "stdout while touched" "" "$(cat "$TMPDIR/out")"
+grep -q "vcan0 node 1: tare: Refused: .*(touched): .*--force" "$TMPDIR/message" || fail "$(cat "$TMPDIR/message")"
+
+expect "rate" "interface,node,command,status
+vcan0,1,contact_rate,done" "$(strainfinger config --can vcan0 --contact-rate-hz 30)"
+sleep 2
+expect "tare" '{"interface":"vcan0","node":1,"command":"tare","status":"done_touched"}' \
+  "$(strainfinger tare --can vcan0 --force --json 2>"$TMPDIR/message")"
+grep -q "what touched the finger is now part of its zero" "$TMPDIR/message" || fail "$(cat "$TMPDIR/message")"
+
+# Nobody there.
+status=0
+strainfinger tare --can vcan0 --node 2 2>"$TMPDIR/message" || status=$?
+expect "exit status of nobody" 4 $status
+grep -q "vcan0 node 2: no answer within 1000 ms and no HEARTBEAT" "$TMPDIR/message" || fail "$(cat "$TMPDIR/message")"
+kill -TERM $finger
+wait $finger || true
+stop_recording
+
+expect "what was asked" "601#0201000000000000 601#03021E0000000000 601#0201010000000000 602#0201000000000000" \
+  "$(recorded_frames | grep '^60' | xargs)"
+expect "what was answered" "581#0281040000000000 581#0282000000000000 581#0281050000000000" \
+  "$(recorded_frames | grep '^58' | xargs)"
+
+# contacts_a_second FROM TO: CONTACT frames between the first frames that begin so
+contacts_a_second() {
+  awk -v from="^$1" -v to="^$2" '{ time = substr($1, 2) + 0 }
+    !begin && $3 ~ from { begin = time; next }
+    begin && $3 ~ to { printf "%d\n", count / (time - begin); exit }
+    begin && $3 ~ /^181#/ { ++count }' "$recording"
+}
+before=$(contacts_a_second 181# 581#028104)
+after=$(contacts_a_second 581#028200 601#020101)
+echo "$before, then $after CONTACT a second"
+[ "$before" -gt 35 ] || fail "only $before CONTACT a second at up to 500: is this machine that slow?"
+[ "$after" -ge 5 ] && [ "$after" -le 32 ] || fail "$after CONTACT a second at up to 30"

@@ -119,14 +119,14 @@ enum FitSense : std::uint8_t { kWithOffset = 0, kAgainstOffset = 1 };
 /// B = [normal response, tangential response] over the window (7 x 2), B = U R (QR), ' = d/d(offset in
 /// pitches), W = (1 - U U^T) B' R^-1.
 struct FitRow {
-  std::array<FoldedWeights, 2> basis;            ///< columns of U [* 2^15]
-  std::array<FoldedWeights, 2> gradient;         ///< columns of W, each of length 1 [* 2^15]; 0: W_i is 0
-  std::array<std::int16_t, 2> gradient_length;   ///< |W_i| [* 2^(15 - gradient_exponent)], the longer >= 2^14
-  std::int16_t gradient_cosine;                  ///< W_1 . W_2 / (|W_1| |W_2|) [* 2^15]
+  std::array<FoldedWeights, 2> basis;           ///< columns of U [* 2^15]
+  std::array<FoldedWeights, 2> gradient;        ///< columns of W, each of length 1 [* 2^15]; 0: W_i is 0
+  std::array<std::int16_t, 2> gradient_length;  ///< |W_i| [* 2^(15 - gradient_exponent)], the longer >= 2^14
+  std::int16_t gradient_cosine;                 ///< W_1 . W_2 / (|W_1| |W_2|) [* 2^15]
   std::int8_t gradient_exponent;
-  std::int8_t reserved;                          ///< 0
-  std::array<std::int16_t, 3> load;              ///< R^-1: 11, 12, 22 [* 2^amplitude_exponent]
-  std::array<std::uint8_t, 2> triple;            ///< by FitSense: number in kTripleList of the best conditioned
+  std::int8_t reserved;                    ///< 0
+  std::array<std::int16_t, 3> load;        ///< R^-1: 11, 12, 22 [* 2^amplitude_exponent]
+  std::array<std::uint8_t, 2> triple;      ///< by FitSense: number in kTripleList of the best conditioned
   std::array<std::int16_t, 4> load_slope;  ///< d(R^-1 U^T)/d(offset) U, per row spacing, row-major, as `load`
 };
 
@@ -178,17 +178,18 @@ constexpr bool isSign(int value) { return value == 1 || value == -1; }
 /// What the firmware's loops and shifts rely on, and names that have a meaning.
 constexpr bool usable(const TableParameters& parameters, const TableConstants& constants) {
   return parameters.component <= StrainComponent::kShear && constants.gauge_count >= kMinGauges &&
-         constants.gauge_count <= kMaxGauges && constants.gauge_count % 2 == 0 && constants.gate_shift <= kMostGateShift &&
-         isSign(constants.mirror_sign) && isSign(constants.anchor_sign) &&
-         constants.anchor_rule <= AnchorRule::kExhaustive && (constants.scan_step == kMinScanStep ||
-         constants.scan_step == kMaxScanStep);
+         constants.gauge_count <= kMaxGauges && constants.gauge_count % 2 == 0 &&
+         constants.gate_shift <= kMostGateShift && isSign(constants.mirror_sign) &&
+         isSign(constants.anchor_sign) && constants.anchor_rule <= AnchorRule::kExhaustive &&
+         (constants.scan_step == kMinScanStep || constants.scan_step == kMaxScanStep);
 }
 
 /// What the firmware shifts by and looks up for each row.
 constexpr bool usable(const FitTable& rows) {
   return std::all_of(rows.begin(), rows.end(), [](const FitRow& row) {
-    return row.gradient_exponent >= kLeastGradientExponent && row.gradient_exponent <= kMostGradientExponent &&
-           row.triple[0] < kTriples && row.triple[1] < kTriples;
+    return row.gradient_exponent >= kLeastGradientExponent &&
+           row.gradient_exponent <= kMostGradientExponent && row.triple[0] < kTriples &&
+           row.triple[1] < kTriples;
   });
 }
 

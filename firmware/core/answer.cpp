@@ -18,53 +18,65 @@ constexpr int kTailShift = 6;
 
 bool withinCone(const TableConstants& constants, const Amplitudes& amplitudes) {
   if (amplitudes.normal <= 0) return false;
-  const std::int64_t limit = std::int64_t{amplitudes.normal} * constants.friction_cone_q8;
-  return std::abs(amplitudes.tangential) <= limit >> 8;
-}
-
-PitchQ20 distance(const Answer& a, const Answer& b, int gauges) {
-  const PitchQ20 ahead = roundTheRing(a.fit.position() - b.fit.position(), gauges);
-  return std::min(ahead, gauges * kOnePitch - ahead);
+  const std::int32_t limit = mulHigh(amplitudes.normal, constants.friction_cone_q8 << 15);
+  return std::abs(amplitudes.tangential) >> 9 <= limit;
 }
 
 /// Beyond the last row: what the fit looks for belongs to another window.
 bool walkedOut(const WindowFit& fit) { return fit.offset() >= kFitRows * kRowSpacing; }
 
 /// The window in which the contact is nearer to the middle.
-void changeWindow(const Problem& problem, WindowFit& fit) {
+WindowFit inNextWindow(const Problem& problem, const WindowFit& fit) {
   const int centre = wrapped(fit.centre + fit.side, problem.gauges());
   const int row = nearestRow(kOnePitch - fit.offset());
-  start(problem, windowSignal(problem.strains, centre, problem.up), centre, -fit.side * row, fit);
+  return fitAt(problem, windowSignal(problem.strains, centre, problem.up), centre, -fit.side * row);
+}
+
+/// What the table says of a fit that was refined.
+void judge(const Problem& problem, bool settled, Answer& answer) {
+  const WindowFit& fit = answer.fit;
+  answer.amplitudes = amplitudesOf(problem.tables.rows[static_cast<std::size_t>(fit.row)], fit.step);
+  answer.energy = fit.step.energy();
+  answer.windowEnergy = energyOf(fit.signal);
+  answer.settled = settled;
+  answer.pressed = withinCone(problem.tables.constants, answer.amplitudes);
+}
+
+bool refined(const Problem& problem, WindowFit& fit) {
+  return refine(problem.tables.rows, problem.mirrorSign(), fit);
 }
 
 }  // namespace
 
-void start(const Problem& problem, const Signal& signal, int centre, int row, WindowFit& fit) {
-  fit.signal = row >= 0 ? signal : mirrored(signal, problem.mirrorSign());
-  fit.centre = centre;
-  fit.side = row >= 0 ? 1 : -1;
-  fit.row = std::abs(row);
-  takeStep(problem.tables.rows, fit);
+WindowFit fitAt(const Problem& problem, const Signal& signal, int centre, int row) {
+  if (row >= 0) return {signal, centre, 1, row, {}};
+  return {mirrored(signal, problem.mirrorSign()), centre, -1, -row, {}};
 }
 
-void finishNearMiddle(const Problem& problem, Answer& answer) {
-  refine(problem.tables.rows, problem.mirrorSign(), answer.fit);
-  if (answer.fit.offset() > kFarFromMiddle) changeWindow(problem, answer.fit);
-  finish(problem, answer);
+void solve(const Problem& problem, Answer& answer) { judge(problem, refined(problem, answer.fit), answer); }
+
+void solveNearMiddle(const Problem& problem, Answer& answer) {
+  bool settled = refined(problem, answer.fit);
+  if (answer.fit.offset() > kFarFromMiddle) {
+    answer.fit = inNextWindow(problem, answer.fit);
+    settled = refined(problem, answer.fit);
+  }
+  judge(problem, settled, answer);
 }
 
-void finish(const Problem& problem, Answer& answer) {
-  WindowFit& fit = answer.fit;
-  const bool settled = refine(problem.tables.rows, problem.mirrorSign(), fit);
-  answer.amplitudes = amplitudesOf(problem.tables.rows[static_cast<std::size_t>(fit.row)], fit.step);
-  answer.energy = fit.step.energy();
-  answer.windowEnergy = energyOf(fit.signal);
-  const bool pressed = withinCone(problem.tables.constants, answer.amplitudes);
-  const std::int32_t outside = std::min(problem.ringEnergy - answer.windowEnergy, answer.windowEnergy >> kTailShift);
-  answer.standing = {.energy = answer.energy + outside,
-                     .found = true,
-                     .admissible = settled && pressed,
-                     .isRival = pressed && (settled || !walkedOut(fit))};
+bool isNear(const Problem& problem, const WindowFit& one, const WindowFit& other) {
+  const PitchQ20 ring = problem.gauges() * kOnePitch;
+  const PitchQ20 apart = std::abs(one.position() - other.position());
+  return std::min(apart, std::abs(ring - apart)) < kSameAnswer;
+}
+
+Standing standingOf(const Problem& problem, const Answer& answer) {
+  const std::int32_t outside =
+      std::min(problem.ringEnergy - answer.windowEnergy, answer.windowEnergy >> kTailShift);
+  return {.energy = answer.energy + outside,
+          .found = true,
+          .admissible = answer.admissible(),
+          .isRival = answer.pressed && (answer.settled || !walkedOut(answer.fit))};
 }
 
 Placement Answer::placement(int gauges) const {
@@ -77,15 +89,17 @@ PitchQ20 roundTheRing(PitchQ20 position, int gauges) {
   return position >= ring ? position - ring : position;
 }
 
-void Contest::enter(const Answer& answer, int gauges) {
-  const bool wins = answer.standing.betterThan(best.standing);
-  if (best.standing.found && distance(answer, best, gauges) < kSameAnswer) {
-    if (wins) best = answer;
-  } else if (wins) {
-    if (best.standing.found) setSecond(best, gauges);
+void Contest::enter(const Problem& problem, const Answer& answer) {
+  const int gauges = problem.gauges();
+  const Standing standing = standingOf(problem, answer);
+  const bool wins = standing.betterThan(first);
+  const bool sameAgain = first.found && isNear(problem, answer.fit, best.fit);
+  if (wins) {
+    if (first.found && !sameAgain) setSecond(first, best, gauges);
     best = answer;
-  } else if (answer.standing.betterThan(second)) {
-    setSecond(answer, gauges);
+    first = standing;
+  } else if (!sameAgain && standing.betterThan(second)) {
+    setSecond(standing, answer, gauges);
   }
 }
 

@@ -15,12 +15,36 @@ struct Placement {
   std::int32_t tangential;
 };
 
+/// A refined fit.
+struct Answer {
+  WindowFit fit;
+  Amplitudes amplitudes;
+  std::int32_t energy;        ///< that the seven gauges say it explains ..
+  std::int32_t windowEnergy;  ///< .. of so much
+  bool settled;               ///< the steps came to an end within the table
+  bool pressed;               ///< presses, and no harder sideways than friction allows
+
+  bool admissible() const { return settled && pressed; }
+  Placement placement(int gauges) const;
+};
+
+/// A fit at a row of a window (negative: on its - side), before its first step.
+WindowFit fitAt(const Problem& problem, const Signal& signal, int centre, int row);
+
+/// Refines the answer's fit from its row and judges it; solveNearMiddle() in the window where it is nearest
+/// to the middle.
+void solve(const Problem& problem, Answer& answer);
+void solveNearMiddle(const Problem& problem, Answer& answer);
+
+/// They ran, or are about to run, into the same maximum.
+bool isNear(const Problem& problem, const WindowFit& one, const WindowFit& other);
+
 /// What decides between two answers.
 struct Standing {
   std::int32_t energy;  ///< explained, and what a contact there may have left outside the window
   bool found;
-  bool admissible;  ///< settled, presses, and no harder sideways than friction allows
-  bool isRival;     ///< to be reckoned with, if only as the next best
+  bool admissible;
+  bool isRival;  ///< to be reckoned with, if only as the next best
 
   bool betterThan(const Standing& other) const {
     if (!other.found) return true;
@@ -28,25 +52,7 @@ struct Standing {
     return energy > other.energy;
   }
 };
-
-/// A refined fit and how it stands against others.
-struct Answer {
-  WindowFit fit;
-  Amplitudes amplitudes;
-  std::int32_t energy;  ///< that the seven gauges say it explains ..
-  std::int32_t windowEnergy;  ///< .. of so much
-  Standing standing;
-
-  Placement placement(int gauges) const;
-};
-
-/// A fit at a row of a window (negative: on its - side), its first step taken.
-void start(const Problem& problem, const Signal& signal, int centre, int row, WindowFit& fit);
-
-/// Refines the answer's fit, whose first step is taken, and judges it; finishNearMiddle() in the window where
-/// it is nearest to the middle.
-void finish(const Problem& problem, Answer& answer);
-void finishNearMiddle(const Problem& problem, Answer& answer);
+Standing standingOf(const Problem& problem, const Answer& answer);
 
 /// Positions go round the ring; `position` is at most one turn off.
 PitchQ20 roundTheRing(PitchQ20 position, int gauges);
@@ -55,16 +61,14 @@ PitchQ20 roundTheRing(PitchQ20 position, int gauges);
 /// stack's sake.
 struct Contest {
   Answer best;
-  Standing second;
+  Standing first{}, second{};
   Placement secondPlacement;
 
-  Contest() { best.standing.found = second.found = false; }
-
-  void enter(const Answer& answer, int gauges);
+  void enter(const Problem& problem, const Answer& answer);
 
  private:
-  void setSecond(const Answer& answer, int gauges) {
-    second = answer.standing;
+  void setSecond(const Standing& standing, const Answer& answer, int gauges) {
+    second = standing;
     secondPlacement = answer.placement(gauges);
   }
 };

@@ -120,14 +120,17 @@ Errors tripleErrors(const TableConstants& constants, const Fit& fit) {
   const auto sigma = [&](std::int32_t load1, std::int32_t load2, std::int32_t slope) {
     Vector3 weights;
     for (std::size_t i = 0; i < weights.size(); ++i) {
-      const std::int64_t own = std::int64_t{load1} * system.forProjection1[i] + std::int64_t{load2} * system.forProjection2[i];
+      const std::int64_t own =
+          std::int64_t{load1} * system.forProjection1[i] + std::int64_t{load2} * system.forProjection2[i];
       const std::int64_t carried = std::int64_t{slope} * system.forOffset[i] * kRowsPerPitch;
-      weights[i] = saturate<std::int32_t>((own * (1 << 14) + (carried >> (fit.row->gradient_exponent + 3)) * 8) >> kLowered);
+      weights[i] = saturate<std::int32_t>(
+          (own * (1 << 14) + (carried >> (fit.row->gradient_exponent + 3)) * 8) >> kLowered);
     }
     return weightedSigma(constants, fit, weights, kLowered, system.volume);
   };
-  return {weightedSigma(constants, fit, system.forOffset, kPitchBits - fit.row->gradient_exponent, system.volume),
-          sigma(load[0], load[1], slopes.normal), sigma(0, load[2], slopes.tangential)};
+  return {
+      weightedSigma(constants, fit, system.forOffset, kPitchBits - fit.row->gradient_exponent, system.volume),
+      sigma(load[0], load[1], slopes.normal), sigma(0, load[2], slopes.tangential)};
 }
 
 LineLoadQ12 loadOf(const TableConstants& constants, const Fit& fit, std::int32_t amplitude) {
@@ -151,7 +154,8 @@ TurnQ32 angleOf(const TableConstants& constants, PitchQ20 position) {
 /// 100 % where noise and rounding explain what is left.
 std::uint8_t qualityOf(const TableConstants& constants, const Fit& fit) {
   const std::int32_t expected = noiseEnergy(constants, fit.up) / 2 + (fit.windowEnergy >> kRoundingShift);
-  const std::int64_t percent = 100 * std::int64_t{expected} / std::max<std::int32_t>({expected, fit.unexplained, 1});
+  const std::int64_t percent =
+      100 * std::int64_t{expected} / std::max<std::int32_t>({expected, fit.unexplained, 1});
   const bool doubt = fit.ambiguous || !fit.settled;
   return static_cast<std::uint8_t>(std::min<std::int64_t>(percent, doubt ? kUncertainQuality : 100));
 }

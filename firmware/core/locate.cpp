@@ -17,10 +17,11 @@ constexpr int kWeakShift = 5;
 constexpr int kAliasShift = 7;
 
 // Parts of the energy, as powers of two:
-constexpr int kRivalShift = 4;       ///< a peak within 1/16 (and kNoiseUnit variances) may still win once refined
+constexpr int kRivalShift = 4;  ///< a peak within 1/16 (and kNoiseUnit variances) may still win once refined
 constexpr int kRoundingShift = 12;   ///< 1/4096 is lost in rounding
 constexpr int kAmbiguousShift = 14;  ///< rounding makes two fits differ by less than this
-constexpr int kUnrefinedShift = 5;   ///< .. and a first step by less than this
+constexpr int kOneStepShift = 5;     ///< .. after a single step by less than this ..
+constexpr int kTwoStepsShift = 8;    ///< .. and after a second by less than this
 constexpr int kOutsideShift = 3;     ///< a contact leaves less than 1/8 of its energy outside its window
 
 bool mayBeAlias(const Problem& problem) { return problem.ringEnergy >> kAliasShift < problem.noise; }
@@ -47,7 +48,7 @@ Peak rivalOf(const Problem& problem, const Scan& scan) {
 /// Another window may hold a better answer.
 bool doubtful(const Problem& problem, const Answer& answer) {
   const std::int32_t window = answer.windowEnergy;
-  return !answer.standing.admissible || mayBeAlias(problem) ||
+  return !answer.admissible() || mayBeAlias(problem) ||
          window - answer.energy > problem.noise + (window >> kRoundingShift) ||
          problem.ringEnergy - window > problem.noise + (window >> kOutsideShift);
 }
@@ -75,10 +76,10 @@ class Shortlist {
     for (; at != starts_.begin() && peak.energy > (at - 1)->energy; --at) *at = *(at - 1);
     *at = {peak.energy, static_cast<std::uint8_t>(centre), static_cast<std::int8_t>(peak.row)};
   }
-  void add(const Scan& scan) {
-    if (scan.middleRises()) add(scan.middle, scan.centre);
-    if (scan.minusRises) add(scan.minus, scan.centre);
-    if (scan.plusRises) add(scan.plus, scan.centre);
+  void add(const Scan& scan, int centre) {
+    if (scan.middleRises()) add(scan.middle, centre);
+    if (scan.minusRises) add(scan.minus, centre);
+    if (scan.plusRises) add(scan.plus, centre);
   }
   const auto& starts() const { return starts_; }
 
@@ -92,19 +93,26 @@ class Shortlist {
   for (const Start& from : list.starts()) {
     if (from.energy <= limit) return;
     Answer answer;
-    start(problem, windowSignal(problem.strains, from.centre, problem.up), from.centre, from.row, answer.fit);
-    finish(problem, answer);
-    contest.enter(answer, problem.gauges());
+    answer.fit =
+        fitAt(problem, windowSignal(problem.strains, from.centre, problem.up), from.centre, from.row);
+    solve(problem, answer);
+    contest.enter(problem, answer);
   }
+}
+
+/// At every step of the constants.
+Scan scannedThroughout(const TableImage& tables, const Signal& signal) {
+  if (tables.constants.scan_step == kMinScanStep)
+    return scanned<kMinScanStep / 2, kMinScanStep>(tables.rows, signal);
+  return scanned<kMaxScanStep / 2, kMaxScanStep>(tables.rows, signal);
 }
 
 /// Where the model's strongest response has no single peak over the contact, or noise may hide it, every
 /// window is looked at.
 [[gnu::noinline]] void searchEverywhere(const Problem& problem, Contest& contest) {
   Shortlist list;
-  for (int gauge = 0; gauge < problem.gauges(); ++gauge) {
-    list.add(scanWindow(problem, gauge));
-  }
+  for (int gauge = 0; gauge < problem.gauges(); ++gauge)
+    list.add(scannedThroughout(problem.tables, windowSignal(problem.strains, gauge, problem.up)), gauge);
   enterBest(problem, list, contest);
 }
 
@@ -116,7 +124,7 @@ class Shortlist {
   for (std::size_t i = 0; i < (mayBeAlias(problem) ? kAway.size() : 2); ++i) {
     const int centre = wrapped(anchor + kAway[i], problem.gauges());
     const Signal signal = windowSignal(problem.strains, centre, problem.up);
-    list.add(scanned<20, kMaxScanStep>(problem.tables.rows, signal, centre).best(), centre);
+    list.add(scanned<20, kMaxScanStep>(problem.tables.rows, signal).best(), centre);
   }
   enterBest(problem, list, contest);
 }
@@ -134,21 +142,21 @@ Fit reportOf(const Problem& problem, const Answer& best, FitMode readings) {
           .centre = static_cast<std::uint8_t>(best.fit.centre),
           .readings = readings,
           .ambiguous = false,
-          .settled = best.standing.admissible && best.energy >> 1 > problem.noise};  // 64 variances
+          .settled = best.admissible() && best.energy >> 1 > problem.noise};  // 64 variances
 }
 
 Fit reportOf(const Problem& problem, const Contest& contest, FitMode readings) {
   Fit fit = reportOf(problem, contest.best, readings);
   if (!contest.second.found) return fit;
   fit.alternative = contest.secondPlacement;
-  fit.ambiguous = contest.second.isRival && contest.second.energy > contest.best.standing.energy -
-                                                                       marginOf(problem, contest.best.windowEnergy);
+  fit.ambiguous = contest.second.isRival &&
+                  contest.second.energy > contest.first.energy - marginOf(problem, contest.best.windowEnergy);
   return fit;
 }
 
 /// Leaves the answer to three readings if the mode says so and they lead where all seven do.
 FitMode settleReadings(const Problem& problem, FitMode mode, Answer& answer) {
-  if (mode == FitMode::kRefined || !answer.standing.admissible) return FitMode::kRefined;
+  if (mode == FitMode::kRefined || !answer.admissible()) return FitMode::kRefined;
   WindowFit fit = answer.fit;
   if (!solveTriple(problem.tables.rows, problem.mirrorSign(), fit)) return FitMode::kRefined;
   answer.fit = fit;
@@ -156,45 +164,81 @@ FitMode settleReadings(const Problem& problem, FitMode mode, Answer& answer) {
   return FitMode::kThreePoint;
 }
 
+[[gnu::noinline]] Fit locateAnywhere(const Problem& problem, FitMode mode) {
+  Contest contest;
+  searchEverywhere(problem, contest);
+  const FitMode readings = settleReadings(problem, mode, contest.best);
+  return reportOf(problem, contest, readings);
+}
+
+/// Looks beside the anchor's window if its best answer is in doubt.
+[[gnu::noinline]] Fit decide(const Problem& problem, FitMode mode, int anchor, Contest& contest) {
+  if (doubtful(problem, contest.best)) searchBeside(problem, anchor, contest);
+  const FitMode readings = settleReadings(problem, mode, contest.best);
+  return reportOf(problem, contest, readings);
+}
+
+[[gnu::noinline]] Fit decide(const Problem& problem, FitMode mode, int anchor, const Answer& answer) {
+  Contest contest;
+  contest.enter(problem, answer);
+  return decide(problem, mode, anchor, contest);
+}
+
+/// Whether a fit that took few steps may yet be another answer, as good: it explains what the answer does but
+/// for noise and 1/2^shift.
+bool mayBeAsGood(const Problem& problem, const WindowFit& fit, const Answer& answer, int shift) {
+  const std::int32_t most = answer.energy - (answer.energy >> shift) - marginOf(problem, answer.windowEnergy);
+  return fit.step.energy() > most && !isNear(problem, fit, answer.fit);
+}
+
+/// After a first step from either of two peaks of a scan: follows the one that then explains more, and the
+/// other as far as it may be as good.
+[[gnu::noinline]] Fit locateRivalled(const Problem& problem, FitMode mode, const Signal& signal, int anchor,
+                                     int row, int rivalRow) {
+  Answer answer;
+  answer.fit = fitAt(problem, signal, anchor, row);
+  WindowFit rival = fitAt(problem, signal, anchor, rivalRow);
+  takeStep(problem.tables.rows, answer.fit);
+  takeStep(problem.tables.rows, rival);
+  if (rival.step.energy() > answer.fit.step.energy()) std::swap(rival, answer.fit);
+  follow(answer.fit, problem.mirrorSign());
+  solveNearMiddle(problem, answer);
+  if (mayBeAsGood(problem, rival, answer, kOneStepShift)) {
+    follow(rival, problem.mirrorSign());
+    takeStep(problem.tables.rows, rival);
+    if (mayBeAsGood(problem, rival, answer, kTwoStepsShift)) {
+      Contest contest;
+      contest.enter(problem, answer);
+      answer.fit = rival;
+      solveNearMiddle(problem, answer);
+      contest.enter(problem, answer);
+      return decide(problem, mode, anchor, contest);
+    }
+  }
+  if (doubtful(problem, answer)) return decide(problem, mode, anchor, answer);
+  const FitMode readings = settleReadings(problem, mode, answer);
+  return reportOf(problem, answer, readings);
+}
+
 }  // namespace
 
 Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t> strains_q32,
            std::uint32_t energy) {
   const Problem problem = problemOf(tables, strains_q32, energy);
-  if (tables.constants.anchor_rule == AnchorRule::kExhaustive || isWeak(problem)) {
-    Contest contest;
-    searchEverywhere(problem, contest);
-    const FitMode readings = settleReadings(problem, mode, contest.best);
-    return reportOf(problem, contest, readings);
-  }
-  const Scan scan = scanWindow(problem, bendAnchor(problem));
+  if (tables.constants.anchor_rule == AnchorRule::kExhaustive || isWeak(problem))
+    return locateAnywhere(problem, mode);
+  const int anchor = bendAnchor(problem);
+  const Signal signal = windowSignal(strains_q32, anchor, problem.up);
+  const Scan scan = scanned<kMaxScanStep / 2, kMaxScanStep>(tables.rows, signal);
+  const Peak best = scan.best();
+  const Peak rival = rivalOf(problem, scan);
+  if (rival.row != 0) return locateRivalled(problem, mode, signal, anchor, best.row, rival.row);
   Answer answer;
-  start(problem, scan.signal, scan.centre, scan.best().row, answer.fit);
-  WindowFit rival;
-  std::int32_t rivalEnergy = -1;
-  const Peak other = rivalOf(problem, scan);
-  if (other.row != 0) {
-    start(problem, scan.signal, scan.centre, other.row, rival);
-    if (rival.step.energy() > answer.fit.step.energy()) std::swap(rival, answer.fit);
-    rivalEnergy = rival.step.energy();
-  }
-  finishNearMiddle(problem, answer);
-  const bool close = rivalEnergy > answer.energy - (answer.energy >> kUnrefinedShift) -
-                                       marginOf(problem, answer.windowEnergy);
-  if (!close && !doubtful(problem, answer)) {
-    const FitMode readings = settleReadings(problem, mode, answer);
-    return reportOf(problem, answer, readings);
-  }
-  Contest contest;
-  contest.enter(answer, problem.gauges());
-  if (rivalEnergy >= 0) {
-    answer.fit = rival;
-    finishNearMiddle(problem, answer);
-    contest.enter(answer, problem.gauges());
-  }
-  if (doubtful(problem, contest.best)) searchBeside(problem, scan.centre, contest);
-  const FitMode readings = settleReadings(problem, mode, contest.best);
-  return reportOf(problem, contest, readings);
+  answer.fit = fitAt(problem, signal, anchor, best.row);
+  solveNearMiddle(problem, answer);
+  if (doubtful(problem, answer)) return decide(problem, mode, anchor, answer);
+  const FitMode readings = settleReadings(problem, mode, answer);
+  return reportOf(problem, answer, readings);
 }
 
 }  // namespace strainfinger::firmware

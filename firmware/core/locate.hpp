@@ -13,16 +13,16 @@ namespace strainfinger::firmware {
 /// What locate() found, in its own units; estimate.hpp turns it into quantities and errors.
 struct Fit {
   Placement best{};
-  Placement alternative{};      ///< the next best answer; meaningful when ambiguous
-  const FitRow* row = nullptr;  ///< that the answer was found from ..
-  Projections projection{};     ///< .. with these: what the answer's errors depend on
-  std::int32_t information = 0;   ///< see FitStep
-  std::int32_t unexplained = 0;   ///< energy the fit leaves in its window ..
-  std::int32_t windowEnergy = 0;  ///< .. of so much
-  std::int8_t up = 0;             ///< readings were divided by 2^(16 - up)
-  std::uint8_t centre = 0;        ///< the window's middle gauge
+  Placement alternative{};               ///< the next best answer; meaningful when ambiguous
+  const FitRow* row = nullptr;           ///< that the answer was found from ..
+  Projections projection{};              ///< .. with these: what the answer's errors depend on
+  std::int32_t information = 0;          ///< see FitStep
+  std::int32_t unexplained = 0;          ///< energy the fit leaves in its window ..
+  std::int32_t windowEnergy = 0;         ///< .. of so much
+  std::int8_t up = 0;                    ///< readings were divided by 2^(16 - up)
+  std::uint8_t centre = 0;               ///< the window's middle gauge
   FitMode readings = FitMode::kRefined;  ///< that the answer rests on: seven, or the row's three
-  bool ambiguous = false;         ///< another answer explains the readings as well, within noise
+  bool ambiguous = false;                ///< another answer explains the readings as well, within noise
   bool settled = false;  ///< the fit converged, presses, stays within the friction cone, and is no mere noise
 };
 

@@ -1,6 +1,14 @@
 #pragma once
-// Two 16-bit numbers in a word, and the products the locator is made of: single instructions where the core
-// has Arm's DSP extension (Cortex-M4), plain C++ with the same results elsewhere.
+// Pairs of 16-bit numbers, and the products the locator is made of: single instructions on pairs in a word
+// where the core has Arm's DSP extension (Cortex-M4), plain C++ with the same results elsewhere.
+//
+// upperHalves(a, b)         the upper halves of two numbers: what is left when divided by 2^16 and rounded
+// down lowOnly(a)                a pair of which only the low number, of 16 bits, will be looked at
+// pairAt(numbers)           two numbers next to each other, the first at a multiple of 4 bytes
+// a + b, a - b              number by number; the caller keeps them within 16 bits
+// dot(a, b)                 a.low * b.low + a.high * b.high, which the caller keeps below 2^31
+// scaledByLow(a, b)         a * b.low / 2^16, rounded down; scaledByHigh(): b.high
+// dot(a, b, sum), addScaledByLow(sum, a, b), addScaledByHigh(sum, a, b)    the same, added to a sum
 
 #include <cstdint>
 #include <type_traits>
@@ -11,76 +19,98 @@
 
 namespace strainfinger::firmware {
 
+#if defined(__ARM_FEATURE_DSP)
+
 struct Pair {
   std::uint32_t bits;
 
-  constexpr bool operator==(const Pair&) const = default;
+  bool operator==(const Pair&) const = default;
 };
 
-constexpr std::int32_t low(Pair pair) { return static_cast<std::int16_t>(pair.bits & 0xFFFF); }
-constexpr std::int32_t high(Pair pair) { return static_cast<std::int32_t>(pair.bits) >> 16; }
+inline std::int32_t low(Pair pair) { return static_cast<std::int16_t>(pair.bits & 0xFFFF); }
+inline std::int32_t high(Pair pair) { return static_cast<std::int32_t>(pair.bits) >> 16; }
 
-/// Of two numbers' upper halves: what is left of them when divided by 2^16 and rounded down.
 inline Pair upperHalves(std::int32_t low, std::int32_t high) {
-#if defined(__ARM_FEATURE_DSP)
   Pair pair;  // no intrinsic has it, and the compiler doesn't see it
   asm("pkhtb %0, %1, %2, asr #16" : "=r"(pair.bits) : "r"(high), "r"(low));
   return pair;
-#else
-  return {static_cast<std::uint32_t>(low) >> 16 | (static_cast<std::uint32_t>(high) & 0xFFFF0000u)};
-#endif
 }
-
-/// A pair of which only the low number, of 16 bits, will be looked at.
-constexpr Pair lowOnly(std::int32_t number) { return {static_cast<std::uint32_t>(number)}; }
-
-/// Two 16-bit numbers next to each other, the first at a multiple of 4 bytes.
+inline Pair lowOnly(std::int32_t number) { return {static_cast<std::uint32_t>(number)}; }
 inline Pair pairAt(const std::int16_t* numbers) {
   Pair pair;
   __builtin_memcpy(&pair.bits, __builtin_assume_aligned(numbers, 4), sizeof pair.bits);
   return pair;
 }
 
-/// The same pointer, about which the compiler knows nothing: loads of two words reach 255 words from it, while
-/// from the start of a table whose rows the compiler can number it would take them one by one.
+inline Pair operator+(Pair a, Pair b) {
+  return {
+      static_cast<std::uint32_t>(__sadd16(static_cast<int16x2_t>(a.bits), static_cast<int16x2_t>(b.bits)))};
+}
+inline Pair operator-(Pair a, Pair b) {
+  return {
+      static_cast<std::uint32_t>(__ssub16(static_cast<int16x2_t>(a.bits), static_cast<int16x2_t>(b.bits)))};
+}
+inline std::int32_t dot(Pair a, Pair b) {
+  return __smuad(static_cast<int16x2_t>(a.bits), static_cast<int16x2_t>(b.bits));
+}
+inline std::int32_t dot(Pair a, Pair b, std::int32_t sum) {
+  return __smlad(static_cast<int16x2_t>(a.bits), static_cast<int16x2_t>(b.bits), sum);
+}
+inline std::int32_t scaledByLow(std::int32_t a, Pair b) {
+  return __smlawb(a, static_cast<std::int32_t>(b.bits), 0);
+}
+inline std::int32_t scaledByHigh(std::int32_t a, Pair b) {
+  return __smlawt(a, static_cast<std::int32_t>(b.bits), 0);
+}
+inline std::int32_t addScaledByLow(std::int32_t sum, std::int32_t a, Pair b) {
+  return __smlawb(a, static_cast<std::int32_t>(b.bits), sum);
+}
+inline std::int32_t addScaledByHigh(std::int32_t sum, std::int32_t a, Pair b) {
+  return __smlawt(a, static_cast<std::int32_t>(b.bits), sum);
+}
+
+#else
+
+/// Cores without packed arithmetic keep the numbers apart.
+struct Pair {
+  std::int32_t lower;
+  std::int32_t upper;
+
+  bool operator==(const Pair&) const = default;
+};
+
+inline std::int32_t low(Pair pair) { return pair.lower; }
+inline std::int32_t high(Pair pair) { return pair.upper; }
+
+inline Pair upperHalves(std::int32_t low, std::int32_t high) { return {low >> 16, high >> 16}; }
+inline Pair lowOnly(std::int32_t number) { return {number, 0}; }
+inline Pair pairAt(const std::int16_t* numbers) { return {numbers[0], numbers[1]}; }
+
+inline Pair operator+(Pair a, Pair b) { return {a.lower + b.lower, a.upper + b.upper}; }
+inline Pair operator-(Pair a, Pair b) { return {a.lower - b.lower, a.upper - b.upper}; }
+inline std::int32_t dot(Pair a, Pair b) { return a.lower * b.lower + a.upper * b.upper; }
+inline std::int32_t dot(Pair a, Pair b, std::int32_t sum) { return sum + dot(a, b); }
+
+inline std::int32_t scaledBy(std::int32_t a, std::int32_t b) {
+  return (a >> 16) * b + (((a & 0xFFFF) * b) >> 16);
+}
+inline std::int32_t scaledByLow(std::int32_t a, Pair b) { return scaledBy(a, b.lower); }
+inline std::int32_t scaledByHigh(std::int32_t a, Pair b) { return scaledBy(a, b.upper); }
+inline std::int32_t addScaledByLow(std::int32_t sum, std::int32_t a, Pair b) {
+  return sum + scaledByLow(a, b);
+}
+inline std::int32_t addScaledByHigh(std::int32_t sum, std::int32_t a, Pair b) {
+  return sum + scaledByHigh(a, b);
+}
+
+#endif
+
+/// The same pointer, about which the compiler knows nothing: loads of two words reach 255 words from it,
+/// while from the start of a table whose rows the compiler can number it would take them one by one.
 template <typename T>
 const T* unknown(const T* pointer) {
   asm("" : "+r"(pointer));
   return pointer;
-}
-
-/// Both numbers negated, modulo 2^16.
-inline Pair negated(Pair pair) {
-#if defined(__ARM_FEATURE_DSP)
-  return {static_cast<std::uint32_t>(__ssub16(0, static_cast<int16x2_t>(pair.bits)))};
-#else
-  return {((0x10000 - pair.bits) & 0xFFFF) | (0u - (pair.bits & 0xFFFF0000u))};
-#endif
-}
-
-/// sum + a.low * b.low + a.high * b.high, which the caller keeps below 2^31.
-inline std::int32_t dot(Pair a, Pair b, std::int32_t sum = 0) {
-#if defined(__ARM_FEATURE_DSP)
-  return __smlad(static_cast<int16x2_t>(a.bits), static_cast<int16x2_t>(b.bits), sum);
-#else
-  return sum + low(a) * low(b) + high(a) * high(b);
-#endif
-}
-
-/// sum + (a * b.low) / 2^16, the product rounded down.
-inline std::int32_t addScaledByLow(std::int32_t sum, std::int32_t a, Pair b) {
-#if defined(__ARM_FEATURE_DSP)
-  return __smlawb(a, static_cast<std::int32_t>(b.bits), sum);
-#else
-  return sum + (a >> 16) * low(b) + (((a & 0xFFFF) * low(b)) >> 16);
-#endif
-}
-inline std::int32_t addScaledByHigh(std::int32_t sum, std::int32_t a, Pair b) {
-#if defined(__ARM_FEATURE_DSP)
-  return __smlawt(a, static_cast<std::int32_t>(b.bits), sum);
-#else
-  return sum + (a >> 16) * high(b) + (((a & 0xFFFF) * high(b)) >> 16);
-#endif
 }
 
 /// The product of a pair's two numbers.

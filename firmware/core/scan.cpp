@@ -20,12 +20,18 @@ int sharpestBend(std::span<const std::int32_t> strains) {
     }
   };
   std::int32_t even = *gauge, intoEven = even - *last;
-  for (; gauge + 1 != last; gauge += 2) {
+  const auto lookAtTwo = [&] {
     const std::int32_t odd = gauge[1], intoOdd = odd - even;
     look(gauge, intoOdd - intoEven);
     even = gauge[2];
     intoEven = even - odd;
     look(gauge + 1, intoEven - intoOdd);
+    gauge += 2;
+  };
+  if (strains.size() % 4 == 0) lookAtTwo();
+  while (gauge + 1 != last) {
+    lookAtTwo();
+    lookAtTwo();
   }
   const std::int32_t intoLast = *last - even;
   look(gauge, intoLast - intoEven);

@@ -22,8 +22,6 @@ struct Peak {
 /// window to the other, boiled down to three peaks: the two offsets beside the middle gauge, and what lies
 /// beyond them on the - and + sides.
 struct Scan {
-  Signal signal;
-  int centre;
   Peak middle, minus, plus;
   bool minusRises, plusRises;  ///< that peak is no mere foot of the middle's
 
@@ -35,24 +33,28 @@ struct Scan {
   }
 };
 
-/// Energy of two projections, rounded to 1.5e-4 of the window's: enough to find where a peak is.
-inline std::int32_t roughEnergy(std::int32_t projection1, std::int32_t projection2) {
-  const Pair halves = upperHalves(projection1, projection2);
-  return dot(halves, halves);
-}
-
 /// Energies of a contact at a row's offset on either side.
 struct SideEnergies {
   std::int32_t minus, plus;
 };
 
-/// Mirrored offsets share their products, so that a scan costs half of what its energies would one by one.
-template <typename Energy>
-SideEnergies sideEnergies(const FitRow& row, const Signal& signal, Energy energy) {
-  constexpr std::int32_t kHalf = 0x8000;
-  const std::int32_t even1 = evenPart(row.basis[0], signal, kHalf), odd1 = oddPart(row.basis[0], signal);
-  const std::int32_t even2 = evenPart(row.basis[1], signal), odd2 = oddPart(row.basis[1], signal, kHalf);
-  return {energy(even1 - odd1, odd2 - even2), energy(even1 + odd1, even2 + odd2)};
+/// The parts of a signal's two projections that mirroring leaves, and those it negates: mirrored offsets
+/// share their products, so that a scan costs half of what its energies would one by one.
+struct SideParts {
+  std::int32_t even1, even2, odd1, odd2;
+};
+inline SideParts sideParts(const FitRow& row, const Signal& signal) {
+  return {evenPart(row.basis[0], signal), evenPart(row.basis[1], signal), oddPart(row.basis[0], signal),
+          oddPart(row.basis[1], signal)};
+}
+inline SideEnergies exactEnergies(const SideParts& p) {
+  return {energyOf(p.even1 - p.odd1, p.odd2 - p.even2), energyOf(p.even1 + p.odd1, p.even2 + p.odd2)};
+}
+/// Rounded to 1.5e-4 of the window's energy: enough to find where a peak is.
+inline SideEnergies roughEnergies(const SideParts& p) {
+  const Pair even = upperHalves(p.even1, p.even2), odd = upperHalves(p.odd1, p.odd2);
+  const Pair minus = even - odd, plus = even + odd;
+  return {dot(minus, minus), dot(plus, plus)};
 }
 
 inline void raise(Peak& peak, std::int32_t energy, int row) {
@@ -61,31 +63,25 @@ inline void raise(Peak& peak, std::int32_t energy, int row) {
 
 /// Scans a window at rows First, First + Step .. up to kScanReach.
 template <int First, int Step>
-Scan scanned(const FitTable& rows, const Signal& signal, int centre) {
+[[gnu::always_inline]] inline Scan scanned(const FitTable& rows, const Signal& signal) {
   constexpr int kSecond = First + Step;
   // Beside the middle gauge a weak tangential load has two peaks, no matter how close: exactly, then.
   const FitRow* at = unknown(&rows[First]);
-  const SideEnergies inner = sideEnergies(*at, signal, [](auto u1, auto u2) { return energyOf(u1, u2); });
-  Peak middle{inner.plus, First}, minus{-1, 0}, plus{-1, 0};
+  const SideEnergies inner = exactEnergies(sideParts(*at, signal));
+  Peak middle{inner.plus, First};
   raise(middle, inner.minus, -First);
+  at = unknown(at + Step);
+  const SideEnergies outer = roughEnergies(sideParts(*at, signal));
+  Peak minus{outer.minus, -kSecond}, plus{outer.plus, kSecond};
 #pragma GCC unroll 8
-  for (int row = kSecond; row <= kScanReach; row += Step) {
+  for (int row = kSecond + Step; row <= kScanReach; row += Step) {
     at = unknown(at + Step);
-    const SideEnergies energy = sideEnergies(*at, signal, roughEnergy);
+    const SideEnergies energy = roughEnergies(sideParts(*at, signal));
     raise(minus, energy.minus, -row);
     raise(plus, energy.plus, row);
   }
-  return {signal, centre, middle, minus, plus, minus.row != -kSecond || minus.energy > inner.minus,
+  return {middle, minus, plus, minus.row != -kSecond || minus.energy > inner.minus,
           plus.row != kSecond || plus.energy > inner.plus};
-}
-
-/// The window around gauge `centre`, at every step of the constants.
-inline Scan scanWindow(const Problem& problem, int centre) {
-  const FitTable& rows = problem.tables.rows;
-  const Signal signal = windowSignal(problem.strains, centre, problem.up);
-  if (problem.tables.constants.scan_step == kMinScanStep)
-    return scanned<kMinScanStep / 2, kMinScanStep>(rows, signal, centre);
-  return scanned<kMaxScanStep / 2, kMaxScanStep>(rows, signal, centre);
 }
 
 /// The gauge nearest to the contact, or nearly: where the strains bend most. Within half a pitch in 94 % of

@@ -1,5 +1,6 @@
 #pragma once
-// The readings of one window, scaled to 16 bits and folded: what the rows of the fit table are multiplied with.
+// The readings of one window, scaled to 16 bits and folded: what the rows of the fit table are multiplied
+// with.
 
 #include <array>
 #include <cstdint>
@@ -18,7 +19,7 @@ struct Signal {
   std::array<Pair, 2> even;
   std::array<Pair, 2> odd;
 
-  constexpr bool operator==(const Signal&) const = default;
+  bool operator==(const Signal&) const = default;
 };
 
 /// Gauge numbers go round the ring; `gauge` is at most one turn off.
@@ -58,21 +59,23 @@ inline Signal windowSignal(std::span<const std::int32_t> strains_q32, int centre
 
 /// The same readings with the ring's sense of rotation reversed; mirrorSign as in TableConstants.
 inline Signal mirrored(const Signal& signal, int mirrorSign) {
-  if (mirrorSign > 0) return {signal.even, {negated(signal.odd[0]), negated(signal.odd[1])}};
-  return {{negated(signal.even[0]), negated(signal.even[1])}, signal.odd};
+  constexpr Pair kZero{};
+  if (mirrorSign > 0) return {signal.even, {kZero - signal.odd[0], kZero - signal.odd[1]}};
+  return {{kZero - signal.even[0], kZero - signal.even[1]}, signal.odd};
 }
 
 /// The part of weights . signal that mirroring leaves, and the part it negates (for mirrorSign = 1).
-inline std::int32_t evenPart(const FoldedWeights& weights, const Signal& signal, std::int32_t sum = 0) {
-  return dot(pairAt(&weights[2]), signal.even[1], dot(pairAt(&weights[0]), signal.even[0], sum));
+inline std::int32_t evenPart(const FoldedWeights& weights, const Signal& signal) {
+  return dot(pairAt(&weights[2]), signal.even[1], dot(pairAt(&weights[0]), signal.even[0]));
 }
-inline std::int32_t oddPart(const FoldedWeights& weights, const Signal& signal, std::int32_t sum = 0) {
-  return dot(pairAt(&weights[6]), signal.odd[1], dot(pairAt(&weights[4]), signal.odd[0], sum));
+inline std::int32_t oddPart(const FoldedWeights& weights, const Signal& signal) {
+  return dot(pairAt(&weights[6]), signal.odd[1], dot(pairAt(&weights[4]), signal.odd[0]));
 }
 
 /// weights . signal [* 2^15]
 inline std::int32_t project(const FoldedWeights& weights, const Signal& signal) {
-  return oddPart(weights, signal, evenPart(weights, signal));
+  const std::int32_t even = evenPart(weights, signal);
+  return dot(pairAt(&weights[6]), signal.odd[1], dot(pairAt(&weights[4]), signal.odd[0], even));
 }
 
 /// Energies are sums of squares of scaled strains, divided by 4: below 2^27.
@@ -80,7 +83,8 @@ inline std::int32_t energyOf(std::int32_t projection1, std::int32_t projection2)
   return mulHigh(projection1, projection1) + mulHigh(projection2, projection2);
 }
 
-/// The whole window's. Sum and difference of a pair each carry its energy twice over, together: 2 (a^2 + b^2).
+/// The whole window's. Sum and difference of a pair each carry its energy twice over, together: 2 (a^2 +
+/// b^2).
 inline std::int32_t energyOf(const Signal& signal) {
   const std::int32_t middle = low(signal.even[0]), first = high(signal.even[0]);
   const auto square = [](Pair pair) { return static_cast<std::uint32_t>(dot(pair, pair)); };

@@ -24,8 +24,10 @@ std::int32_t unfolded(const FoldedWeights& weights, int k) {
 
 /// Twice the reading of a gauge: folded signals are sums, not means.
 std::int32_t twiceReading(const Signal& signal, int k) {
-  const std::array<std::int32_t, 4> sums{low(signal.even[0]), high(signal.even[0]), low(signal.even[1]), high(signal.even[1])};
-  const std::array<std::int32_t, 4> differences{0, low(signal.odd[0]), high(signal.odd[0]), low(signal.odd[1])};
+  const std::array<std::int32_t, 4> sums{low(signal.even[0]), high(signal.even[0]), low(signal.even[1]),
+                                         high(signal.even[1])};
+  const std::array<std::int32_t, 4> differences{0, low(signal.odd[0]), high(signal.odd[0]),
+                                                low(signal.odd[1])};
   if (k == 0) return 2 * sums[0];
   const auto distance = static_cast<std::size_t>(std::abs(k));
   return sums[distance] + (k > 0 ? differences[distance] : -differences[distance]);
@@ -33,7 +35,7 @@ std::int32_t twiceReading(const Signal& signal, int k) {
 
 /// A row's weight [* 2^15] times a projection, doubled: as twiceReading().
 std::int32_t twice(std::int32_t weight, std::int32_t projection) {
-  return addScaledByLow(0, projection, lowOnly(weight)) >> 13;
+  return scaledByLow(projection, lowOnly(weight)) >> 13;
 }
 
 /// numerator / volume * 2^29, for a correction: of 15 digits.

@@ -17,11 +17,11 @@ inline std::int32_t inner(const Vector3& a, const Vector3& b) {
 /// Near a row's offset three gauges read basis1 * u1 + basis2 * u2 + gradient * (offset - row's): solved by
 /// Cramer's rule with the cross products of the three vectors, all taken from the row of all seven gauges.
 struct TripleSystem {
-  Vector3 forOffset;      ///< basis1 x basis2 [* 2^15]
-  Vector3 forProjection1; ///< basis2 x gradient [as gradient]
-  Vector3 forProjection2; ///< gradient x basis1
-  std::int32_t volume;    ///< basis1 x basis2 . gradient [* 2^15]; gradient: scaled strains a pitch
-                          ///< / 2^gradient_exponent, below 2^14.5
+  Vector3 forOffset;       ///< basis1 x basis2 [* 2^15]
+  Vector3 forProjection1;  ///< basis2 x gradient [as gradient]
+  Vector3 forProjection2;  ///< gradient x basis1
+  std::int32_t volume;     ///< basis1 x basis2 . gradient [* 2^15]; gradient: scaled strains a pitch
+                           ///< / 2^gradient_exponent, below 2^14.5
 };
 
 /// The system of a row's best triple at given projections, whose second has the sign of the tangential load.

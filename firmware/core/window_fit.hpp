@@ -26,8 +26,8 @@ using Projections = std::array<std::int32_t, 2>;
 
 /// From a row of the table towards the offset where the window's readings fit best.
 struct FitStep {
-  Projections projection;  ///< onto the row's basis [scaled strain * 2^15]
-  std::int32_t slope;      ///< of the energy, in units of the row's gradient
+  Projections projection;    ///< onto the row's basis [scaled strain * 2^15]
+  std::int32_t slope;        ///< of the energy, in units of the row's gradient
   std::int32_t information;  ///< energy of the gradient / 4^(gradient_exponent + 1)
   std::int32_t quotient;     ///< slope / information [* 2^14], at most 16 bits
   PitchQ20 length;           ///< at most an eighth of a pitch either way
@@ -57,7 +57,7 @@ inline Projections projectionsOn(const FitRow& row, const Signal& signal) {
 /// Projections times the lengths of the row's gradients [* 2^(-2 - gradient_exponent)]: norm below 2^12.5.
 inline Pair weightedBy(const FitRow& row, const Projections& projection) {
   const Pair lengths = pairAt(row.gradient_length.data());
-  return upperHalves(addScaledByLow(0, projection[0], lengths), addScaledByHigh(0, projection[1], lengths));
+  return upperHalves(scaledByLow(projection[0], lengths), scaledByHigh(projection[1], lengths));
 }
 
 inline FitStep fitStep(const FitRow& row, const Signal& signal) {
@@ -66,7 +66,7 @@ inline FitStep fitStep(const FitRow& row, const Signal& signal) {
   const std::int32_t gradient1 = project(row.gradient[0], signal);
   const std::int32_t gradient2 = project(row.gradient[1], signal);
   const Pair weighted = weightedBy(row, step.projection);
-  step.slope = addScaledByHigh(addScaledByLow(0, gradient1, weighted), gradient2, weighted);
+  step.slope = addScaledByHigh(scaledByLow(gradient1, weighted), gradient2, weighted);
   step.information = informationOf(weighted, lowOnly(row.gradient_cosine));
   step.quotient = quotientQ14(step.slope, step.information);
   // A quotient is a length in pitches * 2^20, 5 - gradient_exponent bits further left.
@@ -78,9 +78,9 @@ inline FitStep fitStep(const FitRow& row, const Signal& signal) {
 /// A contact as one window sees it.
 struct WindowFit {
   Signal signal;  ///< as seen from `side`
-  int centre;  ///< the window's middle gauge
-  int side;  ///< +1: the offset counts towards +theta
-  int row;  ///< that the step was taken from
+  int centre;     ///< the window's middle gauge
+  int side;       ///< +1: the offset counts towards +theta
+  int row;        ///< that the step was taken from
   FitStep step;
 
   /// From the middle gauge; may come out slightly negative.
@@ -108,18 +108,10 @@ inline void takeStep(const FitTable& rows, WindowFit& fit) {
   fit.step = fitStep(rows[static_cast<std::size_t>(fit.row)], fit.signal);
 }
 
-/// Steps until the next one would no longer matter, within 5/8 of a row spacing of its row: two steps are
-/// typical, the first of which is taken already. False: not there after eight steps, or walked beyond the
-/// last row; the fit is then no answer.
-inline bool refine(const FitTable& rows, int mirrorSign, WindowFit& fit) {
-  constexpr int kMaxSteps = 8;
-  for (int count = 1; count < kMaxSteps; ++count) {
-    if (fit.converged()) return true;
-    follow(fit, mirrorSign);
-    takeStep(rows, fit);
-  }
-  return fit.converged();
-}
+/// Steps from the fit's row until the next one would no longer matter, within 5/8 of a row spacing of its
+/// row: two or three are typical. False: not there after eight steps, or walked beyond the last row; the fit
+/// is then no answer.
+bool refine(const FitTable& rows, int mirrorSign, WindowFit& fit);
 
 /// Amplitudes of the two loads at the fit's offset, and how they change per row spacing of it. In strains at
 /// the response's peak, scaled as the signal, * 2^(amplitude_exponent - 1). `tangential` is + towards the
@@ -134,24 +126,24 @@ struct AmplitudeSlopes {
 };
 
 /// A row's coefficient times a projection, * 2^-16.
-inline std::int32_t scaledBy(std::int16_t coefficient, std::int32_t projection) {
-  return addScaledByLow(0, projection, lowOnly(coefficient));
+inline std::int32_t times(std::int16_t coefficient, std::int32_t projection) {
+  return scaledByLow(projection, lowOnly(coefficient));
 }
 
 inline AmplitudeSlopes amplitudeSlopes(const FitRow& row, const Projections& projection) {
-  return {scaledBy(row.load_slope[0], projection[0]) + scaledBy(row.load_slope[1], projection[1]),
-          scaledBy(row.load_slope[2], projection[0]) + scaledBy(row.load_slope[3], projection[1])};
+  return {times(row.load_slope[0], projection[0]) + times(row.load_slope[1], projection[1]),
+          times(row.load_slope[2], projection[0]) + times(row.load_slope[3], projection[1])};
 }
 
 inline Amplitudes amplitudesOf(const FitRow& row, const FitStep& step) {
   const auto [u1, u2] = step.projection;
   const AmplitudeSlopes slopes = amplitudeSlopes(row, step.projection);
-  const Pair beyondRow = lowOnly(clipped<16>(step.length));
+  const Pair beyondRow = lowOnly(clipped<kRowBits + 1>(step.length));
   const auto moved = [&](std::int32_t atRow, std::int32_t slope) {
-    return atRow + addScaledByLow(0, slope, beyondRow) * (1 << (16 - kRowBits));
+    return atRow + scaledByLow(slope, beyondRow) * (1 << (16 - kRowBits));
   };
-  return {moved(scaledBy(row.load[0], u1) + scaledBy(row.load[1], u2), slopes.normal),
-          moved(scaledBy(row.load[2], u2), slopes.tangential)};
+  return {moved(times(row.load[0], u1) + times(row.load[1], u2), slopes.normal),
+          moved(times(row.load[2], u2), slopes.tangential)};
 }
 
 }  // namespace strainfinger::firmware

@@ -42,8 +42,8 @@ void fillGradient(FitRow& row, const WindowFit& fit) {
     row.gradient[i] = folded(unit[i]);
   }
   row.gradient_cosine = q16(unit[0].dot(unit[1]), 15);
-  row.gradient_exponent = static_cast<std::int8_t>(
-      std::clamp(exponent, kLeastGradientExponent, kMostGradientExponent));
+  row.gradient_exponent =
+      static_cast<std::int8_t>(std::clamp(exponent, kLeastGradientExponent, kMostGradientExponent));
 }
 
 FitRow fitRow(const WindowFit& fit, const std::array<std::uint8_t, 2>& triples, int amplitudeExponent) {
@@ -110,8 +110,9 @@ int amplitudeExponent(const WindowFits& fits) {
 
 FitTable fitTable(const WindowFits& fits, int amplitudeExponent) {
   FitTable table;
-  std::transform(fits.rows.begin(), fits.rows.end(), fits.triples.begin(), table.begin(),
-                 [&](const WindowFit& fit, const auto& triples) { return fitRow(fit, triples, amplitudeExponent); });
+  std::transform(
+      fits.rows.begin(), fits.rows.end(), fits.triples.begin(), table.begin(),
+      [&](const WindowFit& fit, const auto& triples) { return fitRow(fit, triples, amplitudeExponent); });
   return table;
 }
 

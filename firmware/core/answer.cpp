@@ -1,7 +1,6 @@
 #include "firmware/core/answer.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace strainfinger::firmware {
 namespace {
@@ -19,55 +18,39 @@ constexpr int kTailShift = 6;
 bool withinCone(const TableConstants& constants, const Amplitudes& amplitudes) {
   if (amplitudes.normal <= 0) return false;
   const std::int32_t limit = mulHigh(amplitudes.normal, constants.friction_cone_q8 << 15);
-  return std::abs(amplitudes.tangential) >> 9 <= limit;
+  return absolute(amplitudes.tangential) >> 9 <= limit;
 }
 
 /// Beyond the last row: what the fit looks for belongs to another window.
 bool walkedOut(const WindowFit& fit) { return fit.offset() >= kFitRows * kRowSpacing; }
 
-/// The window in which the contact is nearer to the middle.
-WindowFit inNextWindow(const Problem& problem, const WindowFit& fit) {
+/// Into the window in which the contact is nearer to the middle.
+void changeWindow(const Problem& problem, WindowFit& fit) {
   const int centre = wrapped(fit.centre + fit.side, problem.gauges());
   const int row = nearestRow(kOnePitch - fit.offset());
-  return fitAt(problem, windowSignal(problem.strains, centre, problem.up), centre, -fit.side * row);
-}
-
-/// What the table says of a fit that was refined.
-void judge(const Problem& problem, bool settled, Answer& answer) {
-  const WindowFit& fit = answer.fit;
-  answer.amplitudes = amplitudesOf(problem.tables.rows[static_cast<std::size_t>(fit.row)], fit.step);
-  answer.energy = fit.step.energy();
-  answer.windowEnergy = energyOf(fit.signal);
-  answer.settled = settled;
-  answer.pressed = withinCone(problem.tables.constants, answer.amplitudes);
-}
-
-bool refined(const Problem& problem, WindowFit& fit) {
-  return refine(problem.tables.rows, problem.mirrorSign(), fit);
+  fit.start(windowSignal(problem.strains, centre, problem.up), centre, -fit.side * row, problem.mirrorSign());
 }
 
 }  // namespace
 
-WindowFit fitAt(const Problem& problem, const Signal& signal, int centre, int row) {
-  if (row >= 0) return {signal, centre, 1, row, {}};
-  return {mirrored(signal, problem.mirrorSign()), centre, -1, -row, {}};
-}
-
-void solve(const Problem& problem, Answer& answer) { judge(problem, refined(problem, answer.fit), answer); }
-
-void solveNearMiddle(const Problem& problem, Answer& answer) {
-  bool settled = refined(problem, answer.fit);
-  if (answer.fit.offset() > kFarFromMiddle) {
-    answer.fit = inNextWindow(problem, answer.fit);
-    settled = refined(problem, answer.fit);
+void solve(const Problem& problem, InWindow window, Answer& answer) {
+  const FitTable& rows = problem.tables.rows;
+  WindowFit& fit = answer.fit;
+  answer.settled = refine(rows, problem.mirrorSign(), fit);
+  if (window == InWindow::kNearest && fit.offset() > kFarFromMiddle) {
+    changeWindow(problem, fit);
+    answer.settled = refine(rows, problem.mirrorSign(), fit);
   }
-  judge(problem, settled, answer);
+  answer.energy = fit.step.energy();
+  answer.windowEnergy = energyOf(fit.signal);
+  answer.amplitudes = amplitudesOf(rows[static_cast<std::size_t>(fit.row)], fit.step);
+  answer.pressed = withinCone(problem.tables.constants, answer.amplitudes);
 }
 
 bool isNear(const Problem& problem, const WindowFit& one, const WindowFit& other) {
   const PitchQ20 ring = problem.gauges() * kOnePitch;
-  const PitchQ20 apart = std::abs(one.position() - other.position());
-  return std::min(apart, std::abs(ring - apart)) < kSameAnswer;
+  const PitchQ20 apart = absolute(one.position() - other.position());
+  return std::min(apart, absolute(ring - apart)) < kSameAnswer;
 }
 
 Standing standingOf(const Problem& problem, const Answer& answer) {
@@ -79,27 +62,16 @@ Standing standingOf(const Problem& problem, const Answer& answer) {
           .isRival = answer.pressed && (answer.settled || !walkedOut(answer.fit))};
 }
 
-Placement Answer::placement(int gauges) const {
-  return {roundTheRing(fit.position(), gauges), amplitudes.normal, fit.side * amplitudes.tangential};
-}
-
-PitchQ20 roundTheRing(PitchQ20 position, int gauges) {
-  const PitchQ20 ring = gauges * kOnePitch;
-  if (position < 0) return position + ring;
-  return position >= ring ? position - ring : position;
-}
-
 void Contest::enter(const Problem& problem, const Answer& answer) {
-  const int gauges = problem.gauges();
   const Standing standing = standingOf(problem, answer);
   const bool wins = standing.betterThan(first);
   const bool sameAgain = first.found && isNear(problem, answer.fit, best.fit);
   if (wins) {
-    if (first.found && !sameAgain) setSecond(first, best, gauges);
+    if (first.found && !sameAgain) setSecond(first, best, problem.gauges());
     best = answer;
     first = standing;
   } else if (!sameAgain && standing.betterThan(second)) {
-    setSecond(standing, answer, gauges);
+    setSecond(standing, answer, problem.gauges());
   }
 }
 

@@ -15,6 +15,13 @@ struct Placement {
   std::int32_t tangential;
 };
 
+/// Positions go round the ring; `position` is at most one turn off.
+inline PitchQ20 roundTheRing(PitchQ20 position, int gauges) {
+  const PitchQ20 ring = gauges * kOnePitch;
+  if (position < 0) return position + ring;
+  return position >= ring ? position - ring : position;
+}
+
 /// A refined fit.
 struct Answer {
   WindowFit fit;
@@ -25,16 +32,16 @@ struct Answer {
   bool pressed;               ///< presses, and no harder sideways than friction allows
 
   bool admissible() const { return settled && pressed; }
-  Placement placement(int gauges) const;
+  Placement placement(int gauges) const {
+    return {roundTheRing(fit.position(), gauges), amplitudes.normal, fit.side * amplitudes.tangential};
+  }
 };
 
-/// A fit at a row of a window (negative: on its - side), before its first step.
-WindowFit fitAt(const Problem& problem, const Signal& signal, int centre, int row);
+/// Which window a fit ends in.
+enum class InWindow : std::uint8_t { kOwn, kNearest };
 
-/// Refines the answer's fit from its row and judges it; solveNearMiddle() in the window where it is nearest
-/// to the middle.
-void solve(const Problem& problem, Answer& answer);
-void solveNearMiddle(const Problem& problem, Answer& answer);
+/// Refines the answer's fit from its row and judges it.
+void solve(const Problem& problem, InWindow window, Answer& answer);
 
 /// They ran, or are about to run, into the same maximum.
 bool isNear(const Problem& problem, const WindowFit& one, const WindowFit& other);
@@ -53,9 +60,6 @@ struct Standing {
   }
 };
 Standing standingOf(const Problem& problem, const Answer& answer);
-
-/// Positions go round the ring; `position` is at most one turn off.
-PitchQ20 roundTheRing(PitchQ20 position, int gauges);
 
 /// The best answer, and the next best that is not the same one: of that only what is reported, for the
 /// stack's sake.

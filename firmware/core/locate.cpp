@@ -32,16 +32,15 @@ std::int32_t rivalLimit(const Problem& problem, std::int32_t best) {
   return best - (best >> kRivalShift) - problem.noise;
 }
 
-/// The best of a scan's other peaks, if it may yet win.
-Peak rivalOf(const Problem& problem, const Scan& scan) {
-  const Peak& best = scan.best();
+/// The best of a scan's other peaks, if it may yet win; else row 0.
+template <int First, int Step>
+Peak rivalOf(const Problem& problem, const Scan<First, Step>& scan) {
+  const Peak best = scan.best();
   Peak rival{rivalLimit(problem, best.energy), 0};
-  const auto consider = [&](const Peak& peak, bool rises) {
-    if (rises && peak.row != best.row && peak.energy > rival.energy) rival = peak;
-  };
-  consider(scan.middle, scan.middleRises());
-  consider(scan.minus, scan.minusRises);
-  consider(scan.plus, scan.plusRises);
+  if (!scan.hasOthersAbove(rival.energy)) return rival;
+  scan.forEachSummit([&](const Peak& peak) {
+    if (peak.row != best.row && peak.energy > rival.energy) rival = peak;
+  });
   return rival;
 }
 
@@ -76,10 +75,9 @@ class Shortlist {
     for (; at != starts_.begin() && peak.energy > (at - 1)->energy; --at) *at = *(at - 1);
     *at = {peak.energy, static_cast<std::uint8_t>(centre), static_cast<std::int8_t>(peak.row)};
   }
-  void add(const Scan& scan, int centre) {
-    if (scan.middleRises()) add(scan.middle, centre);
-    if (scan.minusRises) add(scan.minus, centre);
-    if (scan.plusRises) add(scan.plus, centre);
+  template <int First, int Step>
+  void add(const Scan<First, Step>& scan, int centre) {
+    scan.forEachSummit([&](const Peak& peak) { add(peak, centre); });
   }
   const auto& starts() const { return starts_; }
 
@@ -93,26 +91,24 @@ class Shortlist {
   for (const Start& from : list.starts()) {
     if (from.energy <= limit) return;
     Answer answer;
-    answer.fit =
-        fitAt(problem, windowSignal(problem.strains, from.centre, problem.up), from.centre, from.row);
-    solve(problem, answer);
+    answer.fit.start(windowSignal(problem.strains, from.centre, problem.up), from.centre, from.row,
+                     problem.mirrorSign());
+    solve(problem, InWindow::kOwn, answer);
     contest.enter(problem, answer);
   }
-}
-
-/// At every step of the constants.
-Scan scannedThroughout(const TableImage& tables, const Signal& signal) {
-  if (tables.constants.scan_step == kMinScanStep)
-    return scanned<kMinScanStep / 2, kMinScanStep>(tables.rows, signal);
-  return scanned<kMaxScanStep / 2, kMaxScanStep>(tables.rows, signal);
 }
 
 /// Where the model's strongest response has no single peak over the contact, or noise may hide it, every
 /// window is looked at.
 [[gnu::noinline]] void searchEverywhere(const Problem& problem, Contest& contest) {
   Shortlist list;
-  for (int gauge = 0; gauge < problem.gauges(); ++gauge)
-    list.add(scannedThroughout(problem.tables, windowSignal(problem.strains, gauge, problem.up)), gauge);
+  const FitTable& rows = problem.tables.rows;
+  const bool finely = problem.tables.constants.scan_step == kMinScanStep;
+  for (int gauge = 0; gauge < problem.gauges(); ++gauge) {
+    const Signal signal = windowSignal(problem.strains, gauge, problem.up);
+    if (finely) list.add(scanned<kMinScanStep / 2, kMinScanStep>(rows, signal), gauge);
+    if (!finely) list.add(scanned<kMaxScanStep / 2, kMaxScanStep>(rows, signal), gauge);
+  }
   enterBest(problem, list, contest);
 }
 
@@ -196,13 +192,14 @@ bool mayBeAsGood(const Problem& problem, const WindowFit& fit, const Answer& ans
 [[gnu::noinline]] Fit locateRivalled(const Problem& problem, FitMode mode, const Signal& signal, int anchor,
                                      int row, int rivalRow) {
   Answer answer;
-  answer.fit = fitAt(problem, signal, anchor, row);
-  WindowFit rival = fitAt(problem, signal, anchor, rivalRow);
+  WindowFit rival;
+  answer.fit.start(signal, anchor, row, problem.mirrorSign());
+  rival.start(signal, anchor, rivalRow, problem.mirrorSign());
   takeStep(problem.tables.rows, answer.fit);
   takeStep(problem.tables.rows, rival);
   if (rival.step.energy() > answer.fit.step.energy()) std::swap(rival, answer.fit);
   follow(answer.fit, problem.mirrorSign());
-  solveNearMiddle(problem, answer);
+  solve(problem, InWindow::kNearest, answer);
   if (mayBeAsGood(problem, rival, answer, kOneStepShift)) {
     follow(rival, problem.mirrorSign());
     takeStep(problem.tables.rows, rival);
@@ -210,7 +207,7 @@ bool mayBeAsGood(const Problem& problem, const WindowFit& fit, const Answer& ans
       Contest contest;
       contest.enter(problem, answer);
       answer.fit = rival;
-      solveNearMiddle(problem, answer);
+      solve(problem, InWindow::kNearest, answer);
       contest.enter(problem, answer);
       return decide(problem, mode, anchor, contest);
     }
@@ -229,13 +226,13 @@ Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t>
     return locateAnywhere(problem, mode);
   const int anchor = bendAnchor(problem);
   const Signal signal = windowSignal(strains_q32, anchor, problem.up);
-  const Scan scan = scanned<kMaxScanStep / 2, kMaxScanStep>(tables.rows, signal);
+  const auto scan = scanned<kMaxScanStep / 2, kMaxScanStep>(tables.rows, signal);
   const Peak best = scan.best();
   const Peak rival = rivalOf(problem, scan);
   if (rival.row != 0) return locateRivalled(problem, mode, signal, anchor, best.row, rival.row);
   Answer answer;
-  answer.fit = fitAt(problem, signal, anchor, best.row);
-  solveNearMiddle(problem, answer);
+  answer.fit.start(signal, anchor, best.row, problem.mirrorSign());
+  solve(problem, InWindow::kNearest, answer);
   if (doubtful(problem, answer)) return decide(problem, mode, anchor, answer);
   const FitMode readings = settleReadings(problem, mode, answer);
   return reportOf(problem, answer, readings);

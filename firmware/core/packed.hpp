@@ -116,6 +116,9 @@ const T* unknown(const T* pointer) {
 /// The product of a pair's two numbers.
 inline std::int32_t productOf(Pair pair) { return low(pair) * high(pair); }
 
+/// |value|; value is not the least of all.
+constexpr std::int32_t absolute(std::int32_t value) { return value < 0 ? -value : value; }
+
 /// value^2, exactly. Cores without long products make it of three short ones.
 constexpr std::uint64_t squareOf(std::int32_t value) {
 #if defined(__ARM_ARCH_6M__)

@@ -33,14 +33,14 @@ constexpr std::int32_t raised(std::int32_t value, int up) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(value) << up);
 }
 
-/// A window's readings, each divided by 2^(16 - up) and rounded after folding; at(k): strain of the gauge at
-/// distance k from the middle, within +-2^29.
-template <typename At>
-Signal foldedSignal(At at, int up) {
+/// A window's readings, from its - side to its + side and each within +-2^29, divided by 2^(16 - up) and
+/// rounded after folding.
+inline Signal foldedSignal(const std::int32_t* window, int up) {
+  const std::int32_t* const middle = window + kWindowReach;
   const std::int32_t half = 0x8000 >> up;
-  const std::int32_t plus1 = at(1) + half, plus2 = at(2) + half, plus3 = at(3) + half;
-  const std::int32_t minus1 = at(-1), minus2 = at(-2), minus3 = at(-3);
-  return {{upperHalves(raised(at(0) + half, up), raised(plus1 + minus1, up)),
+  const std::int32_t plus1 = middle[1] + half, plus2 = middle[2] + half, plus3 = middle[3] + half;
+  const std::int32_t minus1 = middle[-1], minus2 = middle[-2], minus3 = middle[-3];
+  return {{upperHalves(raised(*middle + half, up), raised(plus1 + minus1, up)),
            upperHalves(raised(plus2 + minus2, up), raised(plus3 + minus3, up))},
           {upperHalves(raised(plus1 - minus1, up), raised(plus2 - minus2, up)),
            upperHalves(raised(plus3 - minus3, up), 0)}};
@@ -49,12 +49,13 @@ Signal foldedSignal(At at, int up) {
 /// The window around gauge `centre`.
 inline Signal windowSignal(std::span<const std::int32_t> strains_q32, int centre, int up) {
   const int gauges = static_cast<int>(strains_q32.size());
-  const std::int32_t* const middle = strains_q32.data() + centre;
-  if (centre >= kWindowReach && centre + kWindowReach < gauges)
-    return foldedSignal([middle](int distance) { return middle[distance]; }, up);
-  return foldedSignal(
-      [&](int distance) { return strains_q32[static_cast<std::size_t>(wrapped(centre + distance, gauges))]; },
-      up);
+  const int first = centre - kWindowReach;
+  if (first >= 0 && first + kWindowGauges <= gauges)
+    return foldedSignal(&strains_q32[static_cast<std::size_t>(first)], up);
+  std::array<std::int32_t, kWindowGauges> window;
+  for (int k = 0; k < kWindowGauges; ++k)
+    window[static_cast<std::size_t>(k)] = strains_q32[static_cast<std::size_t>(wrapped(first + k, gauges))];
+  return foldedSignal(window.data(), up);
 }
 
 /// The same readings with the ring's sense of rotation reversed; mirrorSign as in TableConstants.

@@ -1,7 +1,5 @@
 #include "firmware/core/triple_fit.hpp"
 
-#include <cstdlib>
-
 namespace strainfinger::firmware {
 namespace {
 
@@ -17,7 +15,7 @@ Vector3 cross(const Vector3& a, const Vector3& b) {
 /// What folding halved: the weight of one gauge, at signed distance k from the middle.
 std::int32_t unfolded(const FoldedWeights& weights, int k) {
   if (k == 0) return weights[0];
-  const auto distance = static_cast<std::size_t>(std::abs(k));
+  const auto distance = static_cast<std::size_t>(absolute(k));
   const std::int32_t difference = weights[distance + kWindowReach];
   return weights[distance] + (k > 0 ? difference : -difference);
 }
@@ -29,7 +27,7 @@ std::int32_t twiceReading(const Signal& signal, int k) {
   const std::array<std::int32_t, 4> differences{0, low(signal.odd[0]), high(signal.odd[0]),
                                                 low(signal.odd[1])};
   if (k == 0) return 2 * sums[0];
-  const auto distance = static_cast<std::size_t>(std::abs(k));
+  const auto distance = static_cast<std::size_t>(absolute(k));
   return sums[distance] + (k > 0 ? differences[distance] : -differences[distance]);
 }
 
@@ -47,7 +45,7 @@ bool step(const FitRow& row, WindowFit& fit) {
   const Projections u = projectionsOn(row, fit.signal);
   const TripleChoice choice = tripleChoice(row, u);
   const TripleSystem& system = choice.system;
-  if (std::abs(system.volume) < 1 << 16) return false;
+  if (absolute(system.volume) < 1 << 16) return false;
   Vector3 left;
   for (std::size_t i = 0; i < left.size(); ++i)
     left[i] = twiceReading(fit.signal, choice.gauges[i]) - twice(choice.basis1[i], u[0]) -
@@ -87,8 +85,8 @@ bool solveTriple(const FitTable& rows, int mirrorSign, WindowFit& fit) {
   for (int count = 0; count < kMaxSteps; ++count) {
     follow(fit, mirrorSign);
     if (!step(rows[static_cast<std::size_t>(fit.row)], fit)) return false;
-    if (std::abs(fit.position() - before) > kFarthest) return false;
-    if (std::abs(fit.step.length) <= kRowSpacing) return true;
+    if (absolute(fit.position() - before) > kFarthest) return false;
+    if (absolute(fit.step.length) <= kRowSpacing) return true;
   }
   return fit.converged();
 }

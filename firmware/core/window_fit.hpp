@@ -83,6 +83,14 @@ struct WindowFit {
   int row;        ///< that the step was taken from
   FitStep step;
 
+  /// At a row (negative: on the - side), before the first step.
+  void start(const Signal& window, int middle, int atRow, int mirrorSign) {
+    signal = atRow >= 0 ? window : mirrored(window, mirrorSign);
+    centre = middle;
+    side = atRow >= 0 ? 1 : -1;
+    row = absolute(atRow);
+  }
+
   /// From the middle gauge; may come out slightly negative.
   PitchQ20 offset() const { return row * kRowSpacing + step.length; }
   PitchQ20 position() const { return centre * kOnePitch + side * offset(); }

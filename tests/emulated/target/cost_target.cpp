@@ -95,13 +95,15 @@ hal::SampleSet samplesOf(std::uint32_t sample, bool touched) {
   return converted(codes, false);
 }
 
-/// A firm contact: noise is 0.1 % of its peak, load directions are within +-45 degrees.
+/// A firm contact: the noise is that of the default finger's tables, 6e-6 or 6.55 codes, and 0.1 % of the
+/// contact's peak; load directions are within +-45 degrees.
 hal::SampleSet firmSamplesOf(std::uint32_t sample) {
   Draws draws(sample);
-  Deflections codes{};
-  constexpr std::int32_t kNormal = 9216;
+  Deflections codes{}, noise{};
+  constexpr std::int32_t kNormal = 6550;
   press(codes, {draws.next(), kNormal, kNormal * (static_cast<std::int32_t>(draws.below(201)) - 100) / 100});
-  addNoise(codes, draws, 3);
+  addNoise(noise, draws, 0);  // 74 codes
+  for (std::size_t gauge = 0; gauge < kGauges; ++gauge) codes[gauge] += noise[gauge] * 91 / 1024;
   return converted(codes, true);
 }
 
@@ -170,10 +172,10 @@ void runBoard() {
   mps2::Console line;
   console = &line;
   const InstructionCounter counter;
-  for (std::uint32_t sample = 0; sample < kSamples; ++sample) {
+  for (std::uint32_t sample = 0; sample < kSamples; ++sample)
     stages(counter, firmSamplesOf(sample), "locate", "locate_three_point");
+  for (std::uint32_t sample = 0; sample < kSamples; ++sample)
     stages(counter, samplesOf(sample, true), "locate_any", "locate_three_point_any");
-  }
   updates(counter);
   const auto* const touched = std::find_if(stack_bottom, const_cast<std::uint32_t*>(stack_top),
                                            [](std::uint32_t word) { return word != kPaint; });

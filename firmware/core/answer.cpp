@@ -25,7 +25,7 @@ bool withinCone(const TableConstants& constants, const Amplitudes& amplitudes) {
 bool walkedOut(const WindowFit& fit) { return fit.offset() >= kFitRows * kRowSpacing; }
 
 /// Into the window in which the contact is nearer to the middle.
-void changeWindow(const Problem& problem, WindowFit& fit) {
+[[gnu::noinline]] void changeWindow(const Problem& problem, WindowFit& fit) {
   const int centre = wrapped(fit.centre + fit.side, problem.gauges());
   const int row = nearestRow(kOnePitch - fit.offset());
   fit.start(windowSignal(problem.strains, centre, problem.up), centre, -fit.side * row, problem.mirrorSign());
@@ -36,10 +36,10 @@ void changeWindow(const Problem& problem, WindowFit& fit) {
 void solve(const Problem& problem, InWindow window, Answer& answer) {
   const FitTable& rows = problem.tables.rows;
   WindowFit& fit = answer.fit;
-  answer.settled = refine(rows, problem.mirrorSign(), fit);
-  if (window == InWindow::kNearest && fit.offset() > kFarFromMiddle) {
-    changeWindow(problem, fit);
+  for (bool mayMove = window == InWindow::kNearest;; mayMove = false) {
     answer.settled = refine(rows, problem.mirrorSign(), fit);
+    if (!mayMove || fit.offset() <= kFarFromMiddle) break;
+    changeWindow(problem, fit);
   }
   answer.energy = fit.step.energy();
   answer.windowEnergy = energyOf(fit.signal);

@@ -20,8 +20,8 @@ constexpr int kAliasShift = 7;
 constexpr int kRivalShift = 4;  ///< a peak within 1/16 (and kNoiseUnit variances) may still win once refined
 constexpr int kRoundingShift = 12;   ///< 1/4096 is lost in rounding
 constexpr int kAmbiguousShift = 14;  ///< rounding makes two fits differ by less than this
-constexpr int kOneStepShift = 5;     ///< .. after a single step by less than this ..
-constexpr int kTwoStepsShift = 8;    ///< .. and after a second by less than this
+constexpr int kOneStepShift = 6;     ///< .. after a single step by less than this ..
+constexpr int kTwoStepsShift = 12;    ///< .. and after a second by less than this
 constexpr int kOutsideShift = 3;     ///< a contact leaves less than 1/8 of its energy outside its window
 
 bool mayBeAlias(const Problem& problem) { return problem.ringEnergy >> kAliasShift < problem.noise; }
@@ -32,20 +32,8 @@ std::int32_t rivalLimit(const Problem& problem, std::int32_t best) {
   return best - (best >> kRivalShift) - problem.noise;
 }
 
-/// The best of a scan's other peaks, if it may yet win; else row 0.
-template <int First, int Step>
-Peak rivalOf(const Problem& problem, const Scan<First, Step>& scan) {
-  const Peak best = scan.best();
-  Peak rival{rivalLimit(problem, best.energy), 0};
-  if (!scan.hasOthersAbove(rival.energy)) return rival;
-  scan.forEachSummit([&](const Peak& peak) {
-    if (peak.row != best.row && peak.energy > rival.energy) rival = peak;
-  });
-  return rival;
-}
-
 /// Another window may hold a better answer.
-bool doubtful(const Problem& problem, const Answer& answer) {
+inline bool doubtful(const Problem& problem, const Answer& answer) {
   const std::int32_t window = answer.windowEnergy;
   return !answer.admissible() || mayBeAlias(problem) ||
          window - answer.energy > problem.noise + (window >> kRoundingShift) ||
@@ -75,9 +63,10 @@ class Shortlist {
     for (; at != starts_.begin() && peak.energy > (at - 1)->energy; --at) *at = *(at - 1);
     *at = {peak.energy, static_cast<std::uint8_t>(centre), static_cast<std::int8_t>(peak.row)};
   }
-  template <int First, int Step>
-  void add(const Scan<First, Step>& scan, int centre) {
-    scan.forEachSummit([&](const Peak& peak) { add(peak, centre); });
+  void add(const Scan& scan, int centre) {
+    add(scan.middle, centre);
+    add(scan.minus, centre);
+    add(scan.plus, centre);
   }
   const auto& starts() const { return starts_; }
 
@@ -120,19 +109,19 @@ class Shortlist {
   for (std::size_t i = 0; i < (mayBeAlias(problem) ? kAway.size() : 2); ++i) {
     const int centre = wrapped(anchor + kAway[i], problem.gauges());
     const Signal signal = windowSignal(problem.strains, centre, problem.up);
-    list.add(scanned<20, kMaxScanStep>(problem.tables.rows, signal).best(), centre);
+    list.add(bestTwo(scanned<20, kMaxScanStep>(problem.tables.rows, signal)).first, centre);
   }
   enterBest(problem, list, contest);
 }
 
-Fit reportOf(const Problem& problem, const Answer& best, FitMode readings) {
+inline Fit reportOf(const Problem& problem, const Answer& best, FitMode readings) {
   const Placement placement = best.placement(problem.gauges());
   return {.best = placement,
           .alternative = placement,
           .row = &problem.tables.rows[static_cast<std::size_t>(best.fit.row)],
           .projection = best.fit.step.projection,
           .information = best.fit.step.information,
-          .unexplained = std::max<std::int32_t>(best.windowEnergy - best.energy, 0),
+          .unexplained = best.windowEnergy - best.energy,
           .windowEnergy = best.windowEnergy,
           .up = static_cast<std::int8_t>(problem.up),
           .centre = static_cast<std::uint8_t>(best.fit.centre),
@@ -151,13 +140,20 @@ Fit reportOf(const Problem& problem, const Contest& contest, FitMode readings) {
 }
 
 /// Leaves the answer to three readings if the mode says so and they lead where all seven do.
-FitMode settleReadings(const Problem& problem, FitMode mode, Answer& answer) {
+[[gnu::noinline]] FitMode settleReadings(const Problem& problem, FitMode mode, Answer& answer) {
   if (mode == FitMode::kRefined || !answer.admissible()) return FitMode::kRefined;
   WindowFit fit = answer.fit;
   if (!solveTriple(problem.tables.rows, problem.mirrorSign(), fit)) return FitMode::kRefined;
   answer.fit = fit;
   answer.amplitudes = amplitudesOf(problem.tables.rows[static_cast<std::size_t>(fit.row)], fit.step);
   return FitMode::kThreePoint;
+}
+
+/// An answer that nothing speaks against.
+inline Fit settled(const Problem& problem, FitMode mode, Answer& answer) {
+  const FitMode readings =
+      mode == FitMode::kRefined ? FitMode::kRefined : settleReadings(problem, mode, answer);
+  return reportOf(problem, answer, readings);
 }
 
 [[gnu::noinline]] Fit locateAnywhere(const Problem& problem, FitMode mode) {
@@ -190,14 +186,15 @@ bool mayBeAsGood(const Problem& problem, const WindowFit& fit, const Answer& ans
 /// After a first step from either of two peaks of a scan: follows the one that then explains more, and the
 /// other as far as it may be as good.
 [[gnu::noinline]] Fit locateRivalled(const Problem& problem, FitMode mode, const Signal& signal, int anchor,
-                                     int row, int rivalRow) {
+                                     int firstRow, int secondRow) {
+  std::array<WindowFit, 2> fits;
+  fits[0].start(signal, anchor, firstRow, problem.mirrorSign());
+  fits[1].start(signal, anchor, secondRow, problem.mirrorSign());
+  for (WindowFit& fit : fits) takeStep(problem.tables.rows, fit);
+  const bool secondWins = fits[1].step.energy() > fits[0].step.energy();
+  WindowFit& rival = fits[secondWins ? 0 : 1];
   Answer answer;
-  WindowFit rival;
-  answer.fit.start(signal, anchor, row, problem.mirrorSign());
-  rival.start(signal, anchor, rivalRow, problem.mirrorSign());
-  takeStep(problem.tables.rows, answer.fit);
-  takeStep(problem.tables.rows, rival);
-  if (rival.step.energy() > answer.fit.step.energy()) std::swap(rival, answer.fit);
+  answer.fit = fits[secondWins ? 1 : 0];
   follow(answer.fit, problem.mirrorSign());
   solve(problem, InWindow::kNearest, answer);
   if (mayBeAsGood(problem, rival, answer, kOneStepShift)) {
@@ -213,8 +210,7 @@ bool mayBeAsGood(const Problem& problem, const WindowFit& fit, const Answer& ans
     }
   }
   if (doubtful(problem, answer)) return decide(problem, mode, anchor, answer);
-  const FitMode readings = settleReadings(problem, mode, answer);
-  return reportOf(problem, answer, readings);
+  return settled(problem, mode, answer);
 }
 
 }  // namespace
@@ -226,16 +222,14 @@ Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t>
     return locateAnywhere(problem, mode);
   const int anchor = bendAnchor(problem);
   const Signal signal = windowSignal(strains_q32, anchor, problem.up);
-  const auto scan = scanned<kMaxScanStep / 2, kMaxScanStep>(tables.rows, signal);
-  const Peak best = scan.best();
-  const Peak rival = rivalOf(problem, scan);
-  if (rival.row != 0) return locateRivalled(problem, mode, signal, anchor, best.row, rival.row);
+  const BestTwo peaks = bestTwo(scanned<kMaxScanStep / 2, kMaxScanStep>(tables.rows, signal));
+  if (peaks.second.energy > rivalLimit(problem, peaks.first.energy))
+    return locateRivalled(problem, mode, signal, anchor, peaks.first.row, peaks.second.row);
   Answer answer;
-  answer.fit.start(signal, anchor, best.row, problem.mirrorSign());
+  answer.fit.start(signal, anchor, peaks.first.row, problem.mirrorSign());
   solve(problem, InWindow::kNearest, answer);
   if (doubtful(problem, answer)) return decide(problem, mode, anchor, answer);
-  const FitMode readings = settleReadings(problem, mode, answer);
-  return reportOf(problem, answer, readings);
+  return settled(problem, mode, answer);
 }
 
 }  // namespace strainfinger::firmware

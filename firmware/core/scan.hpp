@@ -18,42 +18,36 @@ struct Peak {
   std::int32_t row;  ///< negative: on the - side
 };
 
+/// Energies that the seven gauges explain with the contact at each of a row of offsets, from one side of a
+/// window to the other, boiled down to three peaks: the two offsets beside the middle gauge, and what lies
+/// beyond them on the - and + sides. An energy below 0: no peak, a mere foot of a neighbour.
+struct Scan {
+  Peak middle, minus, plus;
+};
+
+/// The two best of a scan; the second's energy is below 0 if there is one only.
+struct BestTwo {
+  Peak first, second;
+
+  void consider(const Peak& peak) {
+    if (peak.energy > first.energy) {
+      second = first;
+      first = peak;
+    } else if (peak.energy > second.energy) {
+      second = peak;
+    }
+  }
+};
+inline BestTwo bestTwo(const Scan& scan) {
+  BestTwo best{scan.middle, {-1, 0}};
+  best.consider(scan.minus);
+  best.consider(scan.plus);
+  return best;
+}
+
 /// Energies of a contact at a row's offset on either side.
 struct SideEnergies {
   std::int32_t minus, plus;
-};
-
-/// Energies that the seven gauges explain with the contact at rows First, First + Step .. up to kScanReach,
-/// on either side of a window, boiled down to three peaks: the two rows beside the middle gauge, and what
-/// lies beyond them on the - and + sides.
-template <int First, int Step>
-struct Scan {
-  SideEnergies inner;
-  Peak minus, plus;
-
-  Peak middle() const {
-    return inner.minus > inner.plus ? Peak{inner.minus, -First} : Peak{inner.plus, First};
-  }
-  Peak best() const {
-    Peak best = middle();
-    if (minus.energy > best.energy) best = minus;
-    if (plus.energy > best.energy) best = plus;
-    return best;
-  }
-  /// Whether more than the best explain so much, feet included.
-  bool hasOthersAbove(std::int32_t limit) const {
-    const int above =
-        (std::max(inner.minus, inner.plus) > limit) + (minus.energy > limit) + (plus.energy > limit);
-    return above > 1;
-  }
-  /// Calls visit(peak) for each that is no mere foot of a neighbour.
-  template <typename Visit>
-  void forEachSummit(Visit visit) const {
-    const Peak beside = middle();
-    if (beside.energy > (beside.row < 0 ? minus : plus).energy) visit(beside);
-    if (minus.row != -(First + Step) || minus.energy > inner.minus) visit(minus);
-    if (plus.row != First + Step || plus.energy > inner.plus) visit(plus);
-  }
 };
 
 /// The parts of a signal's two projections that mirroring leaves, and those it negates: mirrored offsets
@@ -79,8 +73,9 @@ inline void raise(Peak& peak, std::int32_t energy, int row) {
   if (energy > peak.energy) peak = {energy, row};
 }
 
+/// Scans a window at rows First, First + Step .. up to kScanReach.
 template <int First, int Step>
-[[gnu::always_inline]] inline Scan<First, Step> scanned(const FitTable& rows, const Signal& signal) {
+[[gnu::always_inline]] inline Scan scanned(const FitTable& rows, const Signal& signal) {
   constexpr int kSecond = First + Step;
   // Beside the middle gauge a weak tangential load has two peaks, no matter how close: exactly, then.
   const FitRow* at = unknown(&rows[First]);
@@ -95,7 +90,11 @@ template <int First, int Step>
     raise(minus, energy.minus, -row);
     raise(plus, energy.plus, row);
   }
-  return {inner, minus, plus};
+  Peak middle = inner.minus > inner.plus ? Peak{inner.minus, -First} : Peak{inner.plus, First};
+  if (minus.row == -kSecond && minus.energy <= inner.minus) minus.energy = -1;
+  if (plus.row == kSecond && plus.energy <= inner.plus) plus.energy = -1;
+  if (middle.energy <= (middle.row < 0 ? minus : plus).energy) middle.energy = -1;
+  return {middle, minus, plus};
 }
 
 /// The gauge nearest to the contact, or nearly: where the strains bend most. Within half a pitch in 94 % of

@@ -117,9 +117,16 @@ inline void takeStep(const FitTable& rows, WindowFit& fit) {
 }
 
 /// Steps from the fit's row until the next one would no longer matter, within 5/8 of a row spacing of its
-/// row: two or three are typical. False: not there after eight steps, or walked beyond the last row; the fit
-/// is then no answer.
-bool refine(const FitTable& rows, int mirrorSign, WindowFit& fit);
+/// row: two are typical. False: not there after eight steps, or walked beyond the last row; the fit is then
+/// no answer.
+inline bool refine(const FitTable& rows, int mirrorSign, WindowFit& fit) {
+  constexpr int kMaxSteps = 8;
+  for (int left = kMaxSteps;; --left) {
+    takeStep(rows, fit);
+    if (fit.converged() || left == 1) return fit.converged();
+    follow(fit, mirrorSign);
+  }
+}
 
 /// Amplitudes of the two loads at the fit's offset, and how they change per row spacing of it. In strains at
 /// the response's peak, scaled as the signal, * 2^(amplitude_exponent - 1). `tangential` is + towards the

@@ -47,9 +47,9 @@ void solve(const Problem& problem, InWindow window, Answer& answer) {
   answer.pressed = withinCone(problem.tables.constants, answer.amplitudes);
 }
 
-bool isNear(const Problem& problem, const WindowFit& one, const WindowFit& other) {
+bool isNear(const Problem& problem, PitchQ20 one, PitchQ20 other) {
   const PitchQ20 ring = problem.gauges() * kOnePitch;
-  const PitchQ20 apart = absolute(one.position() - other.position());
+  const PitchQ20 apart = absolute(one - other);
   return std::min(apart, absolute(ring - apart)) < kSameAnswer;
 }
 
@@ -65,7 +65,7 @@ Standing standingOf(const Problem& problem, const Answer& answer) {
 void Contest::enter(const Problem& problem, const Answer& answer) {
   const Standing standing = standingOf(problem, answer);
   const bool wins = standing.betterThan(first);
-  const bool sameAgain = first.found && isNear(problem, answer.fit, best.fit);
+  const bool sameAgain = first.found && isNear(problem, answer.fit.position(), best.fit.position());
   if (wins) {
     if (first.found && !sameAgain) setSecond(first, best, problem.gauges());
     best = answer;

@@ -43,8 +43,8 @@ enum class InWindow : std::uint8_t { kOwn, kNearest };
 /// Refines the answer's fit from its row and judges it.
 void solve(const Problem& problem, InWindow window, Answer& answer);
 
-/// They ran, or are about to run, into the same maximum.
-bool isNear(const Problem& problem, const WindowFit& one, const WindowFit& other);
+/// Positions of fits that ran, or are about to run, into the same maximum.
+bool isNear(const Problem& problem, PitchQ20 one, PitchQ20 other);
 
 /// What decides between two answers.
 struct Standing {

@@ -17,11 +17,11 @@ constexpr int kWeakShift = 5;
 constexpr int kAliasShift = 7;
 
 // Parts of the energy, as powers of two:
-constexpr int kRivalShift = 4;  ///< a peak within 1/16 (and kNoiseUnit variances) may still win once refined
+constexpr int kRivalShift = 5;  ///< a peak within 1/32 (and kNoiseUnit variances) may still win once refined
 constexpr int kRoundingShift = 12;   ///< 1/4096 is lost in rounding
 constexpr int kAmbiguousShift = 14;  ///< rounding makes two fits differ by less than this
 constexpr int kOneStepShift = 6;     ///< .. after a single step by less than this ..
-constexpr int kTwoStepsShift = 12;    ///< .. and after a second by less than this
+constexpr int kTwoStepsShift = 12;   ///< .. and after a second by less than this
 constexpr int kOutsideShift = 3;     ///< a contact leaves less than 1/8 of its energy outside its window
 
 bool mayBeAlias(const Problem& problem) { return problem.ringEnergy >> kAliasShift < problem.noise; }
@@ -176,34 +176,43 @@ inline Fit settled(const Problem& problem, FitMode mode, Answer& answer) {
   return decide(problem, mode, anchor, contest);
 }
 
-/// Whether a fit that took few steps may yet be another answer, as good: it explains what the answer does but
-/// for noise and 1/2^shift.
-bool mayBeAsGood(const Problem& problem, const WindowFit& fit, const Answer& answer, int shift) {
+/// Where a single step from a row of a window leads.
+struct Lead {
+  PitchQ20 offset;      ///< from the window's middle gauge, negative on its - side
+  std::int32_t energy;  ///< explained there
+
+  int row() const { return offset < 0 ? -nearestRow(-offset) : nearestRow(offset); }
+};
+[[gnu::noinline]] Lead leadFrom(const Problem& problem, const Signal& signal, int row) {
+  WindowFit fit;
+  fit.start(signal, 0, row, problem.mirrorSign());
+  takeStep(problem.tables.rows, fit);
+  return {fit.position(), fit.step.energy()};
+}
+
+/// Whether what a lead leads to may be another answer, as good: it explains what the answer does but for
+/// noise and 1/2^shift.
+bool mayBeAsGood(const Problem& problem, int anchor, const Lead& lead, const Answer& answer, int shift) {
   const std::int32_t most = answer.energy - (answer.energy >> shift) - marginOf(problem, answer.windowEnergy);
-  return fit.step.energy() > most && !isNear(problem, fit, answer.fit);
+  return lead.energy > most && !isNear(problem, anchor * kOnePitch + lead.offset, answer.fit.position());
 }
 
 /// After a first step from either of two peaks of a scan: follows the one that then explains more, and the
 /// other as far as it may be as good.
 [[gnu::noinline]] Fit locateRivalled(const Problem& problem, FitMode mode, const Signal& signal, int anchor,
-                                     int firstRow, int secondRow) {
-  std::array<WindowFit, 2> fits;
-  fits[0].start(signal, anchor, firstRow, problem.mirrorSign());
-  fits[1].start(signal, anchor, secondRow, problem.mirrorSign());
-  for (WindowFit& fit : fits) takeStep(problem.tables.rows, fit);
-  const bool secondWins = fits[1].step.energy() > fits[0].step.energy();
-  WindowFit& rival = fits[secondWins ? 0 : 1];
+                                     const BestTwo& peaks) {
+  Lead lead = leadFrom(problem, signal, peaks.first.row);
+  Lead rival = leadFrom(problem, signal, peaks.second.row);
+  if (rival.energy > lead.energy) std::swap(lead, rival);
   Answer answer;
-  answer.fit = fits[secondWins ? 1 : 0];
-  follow(answer.fit, problem.mirrorSign());
+  answer.fit.start(signal, anchor, lead.row(), problem.mirrorSign());
   solve(problem, InWindow::kNearest, answer);
-  if (mayBeAsGood(problem, rival, answer, kOneStepShift)) {
-    follow(rival, problem.mirrorSign());
-    takeStep(problem.tables.rows, rival);
-    if (mayBeAsGood(problem, rival, answer, kTwoStepsShift)) {
+  if (mayBeAsGood(problem, anchor, rival, answer, kOneStepShift)) {
+    rival = leadFrom(problem, signal, rival.row());
+    if (mayBeAsGood(problem, anchor, rival, answer, kTwoStepsShift)) {
       Contest contest;
       contest.enter(problem, answer);
-      answer.fit = rival;
+      answer.fit.start(signal, anchor, rival.row(), problem.mirrorSign());
       solve(problem, InWindow::kNearest, answer);
       contest.enter(problem, answer);
       return decide(problem, mode, anchor, contest);
@@ -224,7 +233,7 @@ Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t>
   const Signal signal = windowSignal(strains_q32, anchor, problem.up);
   const BestTwo peaks = bestTwo(scanned<kMaxScanStep / 2, kMaxScanStep>(tables.rows, signal));
   if (peaks.second.energy > rivalLimit(problem, peaks.first.energy))
-    return locateRivalled(problem, mode, signal, anchor, peaks.first.row, peaks.second.row);
+    return locateRivalled(problem, mode, signal, anchor, peaks);
   Answer answer;
   answer.fit.start(signal, anchor, peaks.first.row, problem.mirrorSign());
   solve(problem, InWindow::kNearest, answer);

@@ -93,7 +93,7 @@ template <int First, int Step>
   Peak middle = inner.minus > inner.plus ? Peak{inner.minus, -First} : Peak{inner.plus, First};
   if (minus.row == -kSecond && minus.energy <= inner.minus) minus.energy = -1;
   if (plus.row == kSecond && plus.energy <= inner.plus) plus.energy = -1;
-  if (middle.energy <= (middle.row < 0 ? minus : plus).energy) middle.energy = -1;
+  if (middle.energy <= (middle.row < 0 ? minus.energy : plus.energy)) middle.energy = -1;
   return {middle, minus, plus};
 }
 

@@ -49,12 +49,15 @@ inline Signal foldedSignal(const std::int32_t* window, int up) {
 /// The window around gauge `centre`.
 inline Signal windowSignal(std::span<const std::int32_t> strains_q32, int centre, int up) {
   const int gauges = static_cast<int>(strains_q32.size());
-  const int first = centre - kWindowReach;
-  if (first >= 0 && first + kWindowGauges <= gauges)
-    return foldedSignal(&strains_q32[static_cast<std::size_t>(first)], up);
+  const int first = wrapped(centre - kWindowReach, gauges);
+  const std::int32_t* at = &strains_q32[static_cast<std::size_t>(first)];
+  if (first + kWindowGauges <= gauges) return foldedSignal(at, up);
   std::array<std::int32_t, kWindowGauges> window;
-  for (int k = 0; k < kWindowGauges; ++k)
-    window[static_cast<std::size_t>(k)] = strains_q32[static_cast<std::size_t>(wrapped(first + k, gauges))];
+#pragma GCC unroll 7
+  for (std::int32_t& reading : window) {
+    reading = *at;
+    if (++at == strains_q32.data() + gauges) at = strains_q32.data();
+  }
   return foldedSignal(window.data(), up);
 }
 

@@ -120,15 +120,14 @@ inline std::int32_t productOf(Pair pair) { return low(pair) * high(pair); }
 constexpr std::int32_t absolute(std::int32_t value) { return value < 0 ? -value : value; }
 
 /// value^2, exactly. Cores without long products make it of three short ones.
-constexpr std::uint64_t squareOf(std::int32_t value) {
+constexpr std::int64_t squareOf(std::int32_t value) {
 #if defined(__ARM_ARCH_6M__)
   const std::int32_t upper = value >> 16;
   const std::uint32_t lower = static_cast<std::uint32_t>(value) & 0xFFFF;
   const std::int64_t cross = upper * static_cast<std::int32_t>(lower);
-  return (std::uint64_t{static_cast<std::uint32_t>(upper * upper)} << 32) +
-         static_cast<std::uint64_t>(cross * (1 << 17)) + lower * lower;
+  return (std::int64_t{upper * upper} << 32) + cross * (1 << 17) + lower * lower;
 #else
-  return static_cast<std::uint64_t>(std::int64_t{value} * value);
+  return std::int64_t{value} * value;
 #endif
 }
 

@@ -191,7 +191,8 @@ TEST(Estimate, NothingKnownOfTheOffsetIsAPitch) {
 }
 
 TEST(Estimate, TheErrorOfTheAngleIsAtMostHalfARevolution) {
-  FitRow flat = *fit.row;
+  static FitRow flat;
+  flat = *fit.row;
   flat.gradient_exponent = kLeastGradientExponent;
   fit.row = &flat;
   fit.information = 1;
@@ -201,7 +202,8 @@ TEST(Estimate, TheErrorOfTheAngleIsAtMostHalfARevolution) {
 
 TEST(Estimate, AnyFitGivesSomeEstimate) {
   // For the sanitizers: the ends of every format, together.
-  FitRow row = *fit.row;
+  static FitRow row;
+  row = *fit.row;
   fit.row = &row;
   for (const std::int32_t big : {1 << 29, -(1 << 29), 0, 1})
     for (const int exponent : {kLeastGradientExponent, 0, kMostGradientExponent})

@@ -80,11 +80,7 @@ TEST_GROUP(WindowFit) {
   /// A fit as locate() starts it: at a row, negative on the - side.
   WindowFit startOf(const Case& c, int row) {
     WindowFit fit;
-    fit.centre = 0;
-    fit.side = row < 0 ? -1 : 1;
-    fit.signal = row < 0 ? mirrored(c.signal, 1) : c.signal;
-    fit.row = std::abs(row);
-    takeStep(rows, fit);
+    fit.start(c.signal, 0, row, 1);
     return fit;
   }
   static double pitches(PitchQ20 position) { return std::ldexp(position, -kPitchBits); }

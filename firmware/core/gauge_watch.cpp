@@ -37,7 +37,7 @@ Split splitAt(const Problem& problem, int centre) {
   Split split;
   for (int step = -problem.gauges() / 2; step < problem.gauges() / 2; ++step) {
     const auto gauge = static_cast<std::size_t>(wrapped(centre + step, problem.gauges()));
-    const std::int32_t energy = energyOf(scaledStrain(problem.strains[gauge], problem.shift));
+    const std::int32_t energy = energyOf(scaledStrain(problem.strains[gauge], problem.up));
     const bool inside = std::abs(step) <= kWindowReach;
     (inside ? split.window : split.outside) += energy;
     std::int32_t& largest = inside ? split.largestInside : split.largestOutside;
@@ -47,7 +47,7 @@ Split splitAt(const Problem& problem, int centre) {
 }
 
 std::int32_t tolerated(const Problem& problem) {
-  return problem.noise(kNoise) + (problem.ringEnergy >> kGainShift);
+  return problem.variances(kNoise) + (problem.ringEnergy >> kGainShift);
 }
 
 /// The gauge that can be left out with most effect, and what is then unexplained; wherever the contact is.
@@ -136,7 +136,7 @@ struct Observed {
   std::span<const std::int32_t> strains_q32;
   std::uint32_t energy;
 
-  Problem problem() const { return problemOf(tables, FitMode::kRefined, strains_q32, energy); }
+  Problem problem() const { return problemOf(tables, strains_q32, energy); }
 };
 
 /// How a suspect's reading compares with the contact that the others show: inside the window it is far off
@@ -154,7 +154,7 @@ struct Observed {
     const bool farOff = 2 * std::abs(reading - predicted) > std::abs(predicted);
     return farOff ? Suspect::Kind::kFault : Suspect::Kind::kMisshapen;
   }
-  const bool alone = outside <= (energyOf(reading) >> kNeighbourShift) + others.noise(kNoise / 2);
+  const bool alone = outside <= (energyOf(reading) >> kNeighbourShift) + others.variances(kNoise / 2);
   return alone ? Suspect::Kind::kFault : Suspect::Kind::kContact;
 }
 
@@ -178,7 +178,7 @@ struct Observed {
 /// far off what that contact says.
 [[gnu::noinline]] void examine(const Observed& observed, Suspect& suspect) {
   Problem others = observed.problem();
-  const auto reading = scaledStrain(others.strains[static_cast<std::size_t>(suspect.gauge)], others.shift);
+  const auto reading = scaledStrain(others.strains[static_cast<std::size_t>(suspect.gauge)], others.up);
   others.ringEnergy = std::max<std::int32_t>(others.ringEnergy - energyOf(reading), 1);
   const RingSignal signal{others, observed.leftOut | 1u << suspect.gauge};
   Candidate best = bestNear(others, signal, suspect.look);
@@ -196,7 +196,7 @@ struct Observed {
   for (int gauge = 1; gauge < problem.gauges(); ++gauge)
     if (std::abs(signal.at(gauge)) > std::abs(signal.at(largest))) largest = gauge;
   const std::int32_t others = problem.ringEnergy - energyOf(signal.at(largest));
-  const bool alone = others <= problem.noise(kNoise / 2) + (problem.ringEnergy >> (kGainShift - 1));
+  const bool alone = others <= problem.variances(kNoise / 2) + (problem.ringEnergy >> (kGainShift - 1));
   return alone ? largest : -1;
 }
 
@@ -221,8 +221,8 @@ struct Observed {
 [[gnu::noinline]] Misfit verdictOn(const Observed& observed, const Suspects& suspects, std::int32_t all) {
   const Suspect& best = suspects[0];
   const Problem problem = observed.problem();
-  if (best.unexplained > (all >> kOwnShift) + problem.noise(kNoise / 2)) return {.several = true};
-  const std::int32_t clear = best.unexplained + best.unexplained / 4 + problem.noise(kTold);
+  if (best.unexplained > (all >> kOwnShift) + problem.variances(kNoise / 2)) return {.several = true};
+  const std::int32_t clear = best.unexplained + best.unexplained / 4 + problem.variances(kTold);
   if (best.unexplained > tolerated(problem) / 2 || suspects[1].unexplained <= clear) return {.several = true};
   if (best.kind == Suspect::Kind::kContact) return {.several = true};
   return {.culprit = best.kind == Suspect::Kind::kFault ? 1u << best.gauge : 0};
@@ -232,7 +232,7 @@ struct Observed {
 
 bool isMisfit(const TableImage& tables, std::span<const std::int32_t> strains_q32, std::uint32_t energy,
               const Fit& fit) {
-  const Problem problem = problemOf(tables, FitMode::kRefined, strains_q32, energy);
+  const Problem problem = problemOf(tables, strains_q32, energy);
   const Split split = splitAt(problem, fit.centre);
   const std::int32_t outside = std::max<std::int32_t>(split.outside - problem.tail(split.window), 0);
   return fit.unexplained + outside > tolerated(problem);

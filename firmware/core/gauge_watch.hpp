@@ -34,7 +34,8 @@ Misfit examine(const TableImage& tables, GaugeSet leftOut, std::span<const std::
 /// for. Cost: some thirty instructions.
 class JumpWatch {
  public:
-  explicit JumpWatch(const TableConstants& constants) : jump_q32_(std::int64_t{9} * noiseOf(constants)) {}
+  explicit JumpWatch(const TableConstants& constants)
+      : jump_q32_(std::int64_t{9} * readingNoise_q32(constants)) {}
 
   /// One sample set; `energy`: gateEnergy() of the strains. The gauge that is noisy, if one is.
   GaugeSet take(const TableConstants& constants, std::span<const std::int32_t> strains_q32,

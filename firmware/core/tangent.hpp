@@ -14,15 +14,18 @@ namespace strainfinger::firmware {
 using GaugeSet = std::uint32_t;
 constexpr bool contains(GaugeSet set, int gauge) { return (set >> gauge & 1) != 0; }
 
-/// The ring's strains / 2^shift of the problem, rounded; gauges that are left out read 0. Scaled as they are
-/// asked for: no copy on the stack.
+/// A strain divided by 2^(16 - up), rounded, saturating.
+std::int16_t scaledStrain(std::int32_t strain_q32, int up);
+
+/// The ring's strains as the problem scales them, rounded; gauges that are left out read 0. Scaled as they
+/// are asked for: no copy on the stack.
 struct RingSignal {
   const Problem& problem;
   GaugeSet leftOut;
 
   std::int16_t at(int gauge) const {
     if (contains(leftOut, gauge)) return 0;
-    return scaledStrain(problem.strains[static_cast<std::size_t>(gauge)], problem.shift);
+    return scaledStrain(problem.strains[static_cast<std::size_t>(gauge)], problem.up);
   }
 };
 

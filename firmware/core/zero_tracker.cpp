@@ -155,7 +155,7 @@ void ZeroTracker::move(std::size_t gauge, std::int32_t by_q32, Calibration& cali
 void ZeroTracker::followUntouched(const TableConstants& constants, GaugeSet leftOut,
                                   Calibration& calibration) {
   lastChange_q32_ = 0;
-  const std::int32_t limit = noiseOf(constants);
+  const std::int32_t limit = readingNoise_q32(constants);
   for (std::size_t i = 0; i < constants.gauge_count; ++i)
     if (!contains(leftOut, static_cast<int>(i))) move(i, std::clamp(sum_[i], -limit, limit), calibration);
   age_sets_ = 0;
@@ -169,8 +169,7 @@ void ZeroTracker::followTouched(const TableImage& tables, PitchQ20 position, Gau
     resting_ = true;
     return;
   }
-  const Problem problem =
-      problemOf(tables, FitMode::kRefined, averages, gateEnergy(tables.constants, averages));
+  const Problem problem = problemOf(tables, averages, gateEnergy(tables.constants, averages));
   const View view = viewOf(problem, position);
   const GaugeSet window = windowOf(problem, view);
   const Ways ways{problem, view, localFit(problem, RingSignal{problem, leftOut}, view).tangent};

@@ -166,9 +166,7 @@ TableImage buildTableImage(const config::FingerConfig& config) {
   fillLoads(image.constants, peak, exponent);
   image.constants.tail_q16 =
       tail_q16(tailEnergy(response, config.gauges.count, frictionCone(config.contact)));
-  image.refined = fitTable(fits.refined, exponent);
-  for (const FitSense sense : {kWithOffset, kAgainstOffset})
-    image.three_point[sense] = fitTable(fits.threePoint[sense], exponent);
+  image.rows = fitTable(fits, exponent);
   image.crc32 = crc32(checkedBytes(image));
   if (!hasOnePeak(config.gauges)) searchEverywhere(image);
   return image;

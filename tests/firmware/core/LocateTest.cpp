@@ -236,7 +236,7 @@ TEST(Locate, TheAngleDoesNotDependOnTheScale) {
       // Weak contacts are looked at from more windows, whose rows round differently.
       const double moved = std::ldexp(scaled.best.position - fit.best.position, -kPitchBits);
       DOUBLES_EQUAL(0, ring.arc_um(moved), 1);
-      LONGS_EQUAL(fit.shift + doubling, scaled.shift);
+      LONGS_EQUAL(fit.up - doubling, scaled.up);
     }
   }
 }

@@ -127,8 +127,7 @@ TEST(SelfCheck, TablesOfAnotherFingerAreFoundOut) {
   TableImage image = buildTableImage({});
   config_.gauges.radius_m = 11e-3;
   const TableImage other = buildTableImage(config_);
-  image.refined = other.refined;
-  image.three_point = other.three_point;
+  image.rows = other.rows;
   const SelfCheck result = selfCheck(image);
   CHECK(result.misplaced.has_value() || result.uncertain > result.contacts / 2);
 }

@@ -17,7 +17,9 @@ constexpr int kWeakShift = 5;
 constexpr int kAliasShift = 7;
 
 // Parts of the energy, as powers of two:
-constexpr int kRivalShift = 5;  ///< a peak within 1/32 (and kNoiseUnit variances) may still win once refined
+constexpr int kRivalShift =
+    5;  ///< a peak of one window within 1/32 (and kNoiseUnit variances) may yet win ..
+constexpr int kStarterShift = 4;     ///< .. and one of another window within 1/16
 constexpr int kRoundingShift = 12;   ///< 1/4096 is lost in rounding
 constexpr int kAmbiguousShift = 14;  ///< rounding makes two fits differ by less than this
 constexpr int kOneStepShift = 6;     ///< .. after a single step by less than this ..
@@ -28,8 +30,8 @@ bool mayBeAlias(const Problem& problem) { return problem.ringEnergy >> kAliasShi
 bool isWeak(const Problem& problem) { return problem.ringEnergy >> kWeakShift < problem.noise; }
 
 /// How much less a peak of a scan may explain than the best and still win once it is refined.
-std::int32_t rivalLimit(const Problem& problem, std::int32_t best) {
-  return best - (best >> kRivalShift) - problem.noise;
+std::int32_t rivalLimit(const Problem& problem, std::int32_t best, int shift) {
+  return best - (best >> shift) - problem.noise;
 }
 
 /// Another window may hold a better answer.
@@ -76,7 +78,7 @@ class Shortlist {
 
 /// Refines every start of the list that may win.
 [[gnu::noinline]] void enterBest(const Problem& problem, const Shortlist& list, Contest& contest) {
-  const std::int32_t limit = rivalLimit(problem, list.starts()[0].energy);
+  const std::int32_t limit = rivalLimit(problem, list.starts()[0].energy, kStarterShift);
   for (const Start& from : list.starts()) {
     if (from.energy <= limit) return;
     Answer answer;
@@ -232,7 +234,7 @@ Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t>
   const int anchor = bendAnchor(problem);
   const Signal signal = windowSignal(strains_q32, anchor, problem.up);
   const BestTwo peaks = bestTwo(scanned<kMaxScanStep / 2, kMaxScanStep>(tables.rows, signal));
-  if (peaks.second.energy > rivalLimit(problem, peaks.first.energy))
+  if (peaks.second.energy > rivalLimit(problem, peaks.first.energy, kRivalShift))
     return locateRivalled(problem, mode, signal, anchor, peaks);
   Answer answer;
   answer.fit.start(signal, anchor, peaks.first.row, problem.mirrorSign());

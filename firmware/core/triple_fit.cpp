@@ -4,7 +4,7 @@ namespace strainfinger::firmware {
 namespace {
 
 /// Three readings that lead farther than this from where all seven do are no better than the seven.
-constexpr PitchQ20 kFarthest = kOnePitch / 12;
+constexpr PitchQ20 kFarthest = kOnePitch / 16;
 
 /// Cross product, / 2^15.
 Vector3 cross(const Vector3& a, const Vector3& b) {

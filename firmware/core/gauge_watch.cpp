@@ -233,9 +233,8 @@ struct Observed {
 bool isMisfit(const TableImage& tables, std::span<const std::int32_t> strains_q32, std::uint32_t energy,
               const Fit& fit) {
   const Problem problem = problemOf(tables, strains_q32, energy);
-  const Split split = splitAt(problem, fit.centre);
-  const std::int32_t outside = std::max<std::int32_t>(split.outside - problem.tail(split.window), 0);
-  return fit.unexplained + outside > tolerated(problem);
+  const std::int32_t outside = problem.ringEnergy - fit.windowEnergy - problem.tail(fit.windowEnergy);
+  return fit.unexplained + std::max<std::int32_t>(outside, 0) > tolerated(problem);
 }
 
 Misfit examine(const TableImage& tables, GaugeSet leftOut, std::span<const std::int32_t> strains_q32,
@@ -253,18 +252,21 @@ Misfit examine(const TableImage& tables, GaugeSet leftOut, std::span<const std::
 GaugeSet JumpWatch::take(const TableConstants& constants, std::span<const std::int32_t> strains_q32,
                          std::uint32_t energy) {
   const std::int32_t reading = strains_q32[gauge_];
-  const std::int64_t coarse = reading >> constants.gate_shift;
-  const bool quiet = energy - coarse * coarse < constants.gate_off;
-  const bool jumped = std::abs(std::int64_t{reading} - before_q32_) > jump_q32_;
-  if (looks_ != 0 && jumped && quiet && quietBefore_) ++jumps_;
-  quietBefore_ = quiet;
+  const auto isQuietWithout = [&](std::int32_t own, std::uint32_t all) {
+    const std::int64_t coarse = own >> constants.gate_shift;
+    return all - coarse * coarse < constants.gate_off;
+  };
+  GaugeSet noisy = 0;
+  if (looks_ != 0 && absolute(reading - before_q32_) > jump_q32_ && isQuietWithout(reading, energy) &&
+      isQuietWithout(before_q32_, energyBefore_) && ++jumps_ == kJumps) {
+    noisy = 1u << gauge_;
+    looks_ = kLooks;
+  }
   before_q32_ = reading;
-  const GaugeSet noisy = jumps_ >= kJumps ? 1u << gauge_ : 0;
-  if (noisy != 0 || looks_ == kLooks) {
+  energyBefore_ = energy;
+  if (++looks_ > kLooks) {
     looks_ = jumps_ = 0;
     gauge_ = gauge_ + 1u < strains_q32.size() ? static_cast<std::uint8_t>(gauge_ + 1) : std::uint8_t{0};
-  } else {
-    ++looks_;
   }
   return noisy;
 }

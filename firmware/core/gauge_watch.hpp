@@ -16,8 +16,8 @@ struct Misfit {
   bool several = false;  ///< there is none: more than one contact, or more than one gauge
 };
 
-/// One contact leaves more unexplained than noise, rounding and gains that are a few percent off do. Cost:
-/// seven products.
+/// One contact leaves more unexplained than noise, rounding and gains that are a few percent off do.
+/// `energy`: gateEnergy() of the strains that were fitted. Cost: three products.
 bool isMisfit(const TableImage& tables, std::span<const std::int32_t> strains_q32, std::uint32_t energy,
               const Fit& fit);
 
@@ -35,7 +35,7 @@ Misfit examine(const TableImage& tables, GaugeSet leftOut, std::span<const std::
 class JumpWatch {
  public:
   explicit JumpWatch(const TableConstants& constants)
-      : jump_q32_(std::int64_t{9} * readingNoise_q32(constants)) {}
+      : jump_q32_(saturate<std::int32_t>(std::int64_t{9} * readingNoise_q32(constants))) {}
 
   /// One sample set; `energy`: gateEnergy() of the strains. The gauge that is noisy, if one is.
   GaugeSet take(const TableConstants& constants, std::span<const std::int32_t> strains_q32,
@@ -45,12 +45,12 @@ class JumpWatch {
   static constexpr std::uint8_t kLooks = 8;
   static constexpr std::uint8_t kJumps = 2;
 
-  std::int64_t jump_q32_;
+  std::int32_t jump_q32_;
   std::int32_t before_q32_ = 0;
+  std::uint32_t energyBefore_ = 0;
   std::uint8_t gauge_ = 0;
   std::uint8_t looks_ = 0;
   std::uint8_t jumps_ = 0;
-  bool quietBefore_ = false;
 };
 
 /// Gauges that were culprits in two of four sample sets, or in more than one of seventeen for longer, are out

@@ -89,7 +89,7 @@ GaugeSet Pipeline::implausiblySaturated(Codes codes) const {
 [[gnu::noinline]] void Pipeline::conclude(GaugeSet accused) {
   watch_.accuse(accused);
   watch_.convict(jumps_.take(constants(), strains(), energy_));
-  tracker_.take(*tables_, strains(), observation_.fit, observation_.leftOut, calibration_);
+  tracker_.take(*tables_, strains(), energy_, observation_.fit, observation_.leftOut, calibration_);
   observation_.staleZero = tracker_.stale();
   observation_.outOfUse = watch_.outOfUse();
   observation_.several = watch_.several();

@@ -186,10 +186,10 @@ void ZeroTracker::followTouched(const TableImage& tables, PitchQ20 position, Gau
 }
 
 void ZeroTracker::take(const TableImage& tables, std::span<const std::int32_t> strains_q32,
-                       const std::optional<Fit>& fit, GaugeSet leftOut, Calibration& calibration) {
+                       std::uint32_t energy, const std::optional<Fit>& fit, GaugeSet leftOut,
+                       Calibration& calibration) {
   if (age_sets_ != std::numeric_limits<std::uint32_t>::max()) ++age_sets_;
-  const bool touched =
-      fit.has_value() && gateEnergy(tables.constants, strains_q32) >= tables.constants.gate_on;
+  const bool touched = fit.has_value() && energy >= tables.constants.gate_on;
   if (touched == touched_) {
     doubts_ = 0;
   } else {

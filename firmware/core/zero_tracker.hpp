@@ -31,8 +31,9 @@ class ZeroTracker {
   static constexpr int kConvinced = 32;   ///< sets in a row that begin or end a touch: noise doesn't
   static constexpr std::uint32_t kStaleSets = 600'000;  ///< ten minutes
 
-  /// One sample set, as conditioned and fitted with this calibration; gauges in `leftOut` learn nothing.
-  void take(const TableImage& tables, std::span<const std::int32_t> strains_q32,
+  /// One sample set, as conditioned and fitted with this calibration, and its gateEnergy(); gauges in
+  /// `leftOut` learn nothing.
+  void take(const TableImage& tables, std::span<const std::int32_t> strains_q32, std::uint32_t energy,
             const std::optional<Fit>& fit, GaugeSet leftOut, Calibration& calibration);
 
   /// Forgets everything: the zeros are new.

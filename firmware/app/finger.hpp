@@ -71,7 +71,7 @@ class Finger {
       sampledAt_us_ = now_us - kSilentConverter_us;  // no younger when the clock has gone round
     }
     beat(now_us);
-    sayGauges(now_us);
+    if (areGaugesNews(now_us)) sayGauges(now_us);
     serve(now_us);
     return sampled;
   }
@@ -173,10 +173,14 @@ class Finger {
     return frame;
   }
 
-  /// Once in a while, and at once when a gauge has failed. Not inlined: see report().
+  /// Once in a while, and at once when a gauge has failed.
+  bool areGaugesNews(std::uint32_t now_us) const {
+    return now_us - gaugesAt_us_ >= kGaugesPeriod_us || pipeline_.observation().outOfUse != saidOutOfUse_;
+  }
+
+  /// Not inlined: see report().
   [[gnu::noinline]] void sayGauges(std::uint32_t now_us) {
     const GaugeSet outOfUse = pipeline_.observation().outOfUse;
-    if (now_us - gaugesAt_us_ < kGaugesPeriod_us && outOfUse == saidOutOfUse_) return;
     const GaugesFrame frame = gaugesFrame(outOfUse, pipeline_.zeroTracker(), setsPerSecond_);
     if (!can_.send(encode(frame, settings_.node))) return;
     gaugesAt_us_ = now_us;

@@ -249,26 +249,13 @@ Misfit examine(const TableImage& tables, GaugeSet leftOut, std::span<const std::
   return verdictOn(observed, suspects, unexplainedWithAll(observed));
 }
 
-GaugeSet JumpWatch::take(const TableConstants& constants, std::span<const std::int32_t> strains_q32,
-                         std::uint32_t energy) {
-  const std::int32_t reading = strains_q32[gauge_];
+bool JumpWatch::isOthersNoise(const TableConstants& constants, std::int32_t reading,
+                              std::uint32_t energy) const {
   const auto isQuietWithout = [&](std::int32_t own, std::uint32_t all) {
     const std::int64_t coarse = own >> constants.gate_shift;
     return all - coarse * coarse < constants.gate_off;
   };
-  GaugeSet noisy = 0;
-  if (looks_ != 0 && absolute(reading - before_q32_) > jump_q32_ && isQuietWithout(reading, energy) &&
-      isQuietWithout(before_q32_, energyBefore_) && ++jumps_ == kJumps) {
-    noisy = 1u << gauge_;
-    looks_ = kLooks;
-  }
-  before_q32_ = reading;
-  energyBefore_ = energy;
-  if (++looks_ > kLooks) {
-    looks_ = jumps_ = 0;
-    gauge_ = gauge_ + 1u < strains_q32.size() ? static_cast<std::uint8_t>(gauge_ + 1) : std::uint8_t{0};
-  }
-  return noisy;
+  return isQuietWithout(reading, energy) && isQuietWithout(before_q32_, energyBefore_);
 }
 
 void GaugeWatch::count(GaugeSet culprits) {

@@ -39,9 +39,27 @@ class JumpWatch {
 
   /// One sample set; `energy`: gateEnergy() of the strains. The gauge that is noisy, if one is.
   GaugeSet take(const TableConstants& constants, std::span<const std::int32_t> strains_q32,
-                std::uint32_t energy);
+                std::uint32_t energy) {
+    const std::int32_t reading = strains_q32[gauge_];
+    GaugeSet noisy = 0;
+    if (looks_ != 0 && absolute(reading - before_q32_) > jump_q32_ &&
+        isOthersNoise(constants, reading, energy) && ++jumps_ == kJumps) {
+      noisy = 1u << gauge_;
+      looks_ = kLooks;
+    }
+    before_q32_ = reading;
+    energyBefore_ = energy;
+    if (++looks_ > kLooks) {
+      looks_ = jumps_ = 0;
+      gauge_ = gauge_ + 1u < strains_q32.size() ? static_cast<std::uint8_t>(gauge_ + 1) : std::uint8_t{0};
+    }
+    return noisy;
+  }
 
  private:
+  /// The rest of the ring is as quiet as untouched, before and after.
+  bool isOthersNoise(const TableConstants& constants, std::int32_t reading, std::uint32_t energy) const;
+
   static constexpr std::uint8_t kLooks = 8;
   static constexpr std::uint8_t kJumps = 2;
 

@@ -24,6 +24,7 @@ struct Made {
 
 }  // namespace
 
+/// Not inlined, nor are the other stages that need much stack: none needs the others'.
 [[gnu::noinline]] void Pipeline::look() {
   energy_ = gateEnergy(constants(), strains());
   observation_.fit.reset();
@@ -85,10 +86,10 @@ GaugeSet Pipeline::implausiblySaturated(Codes codes) const {
   return gauges;
 }
 
-/// What the sample set teaches. Not inlined, nor are the other stages: none needs the others' stack.
-[[gnu::noinline]] void Pipeline::conclude(GaugeSet accused) {
+/// What the sample set teaches.
+[[gnu::always_inline]] inline void Pipeline::conclude(GaugeSet accused) {
   watch_.accuse(accused);
-  watch_.convict(jumps_.take(constants(), strains(), energy_));
+  if (const GaugeSet noisy = jumps_.take(constants(), strains(), energy_); noisy != 0) watch_.convict(noisy);
   tracker_.take(*tables_, strains(), energy_, observation_.fit, observation_.leftOut, calibration_);
   observation_.staleZero = tracker_.stale();
   observation_.outOfUse = watch_.outOfUse();
@@ -101,7 +102,12 @@ const Observation& Pipeline::process(Codes codes) {
   observation_.leftOut = 0;
   const GaugeSet known = watch_.outOfUse() | readings_.saturated;
   known != 0 ? lookWithout(known) : look();
-  const GaugeSet accused = culprits(codes);
+  GaugeSet accused = 0;
+  if (observation_.fit || observation_.saturated != 0) {
+    accused = culprits(codes);
+  } else {
+    watch_.allIsWell();
+  }
   if ((accused & ~observation_.leftOut) != 0) lookWithout(accused);
   conclude(accused);
   return observation_;

@@ -138,10 +138,12 @@ void ZeroTracker::begin(bool touched) {
   touched_ = touched;
 }
 
-bool ZeroTracker::add(std::span<const std::int32_t> strains_q32) {
-  if (sets_ % kEvery == 0)
-    for (std::size_t i = 0; i < strains_q32.size(); ++i) sum_[i] += strains_q32[i] >> kSumShift;
-  return ++sets_ >= kInterval;
+void ZeroTracker::add(std::span<const std::int32_t> strains_q32) {
+  for (std::size_t i = 0; i < strains_q32.size(); ++i) sum_[i] += strains_q32[i] >> kSumShift;
+}
+
+void ZeroTracker::doubt(bool touched) {
+  if (++doubts_ >= kConvinced) begin(touched);
 }
 
 void ZeroTracker::move(std::size_t gauge, std::int32_t by_q32, Calibration& calibration) {
@@ -185,19 +187,7 @@ void ZeroTracker::followTouched(const TableImage& tables, PitchQ20 position, Gau
     if (!contains(leftOut, static_cast<int>(i))) move(i, averages[i], calibration);
 }
 
-void ZeroTracker::take(const TableImage& tables, std::span<const std::int32_t> strains_q32,
-                       std::uint32_t energy, const std::optional<Fit>& fit, GaugeSet leftOut,
-                       Calibration& calibration) {
-  if (age_sets_ != std::numeric_limits<std::uint32_t>::max()) ++age_sets_;
-  const bool touched = fit.has_value() && energy >= tables.constants.gate_on;
-  if (touched == touched_) {
-    doubts_ = 0;
-  } else {
-    if (++doubts_ >= kConvinced) begin(touched);
-    return;
-  }
-  leftOut_ |= leftOut;
-  if (!add(strains_q32)) return;
+void ZeroTracker::finish(const TableImage& tables, const std::optional<Fit>& fit, Calibration& calibration) {
   for (std::int32_t& sum : sum_) sum >>= kAverageShift;
   if (touched_) {
     followTouched(tables, fit->best.position, leftOut_, calibration);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -34,7 +35,15 @@ class ZeroTracker {
   /// One sample set, as conditioned and fitted with this calibration, and its gateEnergy(); gauges in
   /// `leftOut` learn nothing.
   void take(const TableImage& tables, std::span<const std::int32_t> strains_q32, std::uint32_t energy,
-            const std::optional<Fit>& fit, GaugeSet leftOut, Calibration& calibration);
+            const std::optional<Fit>& fit, GaugeSet leftOut, Calibration& calibration) {
+    if (age_sets_ != std::numeric_limits<std::uint32_t>::max()) ++age_sets_;
+    const bool touched = fit.has_value() && energy >= tables.constants.gate_on;
+    if (touched != touched_) return doubt(touched);
+    doubts_ = 0;
+    leftOut_ |= leftOut;
+    if (sets_ % kEvery == 0) add(strains_q32);
+    if (++sets_ >= kInterval) finish(tables, fit, calibration);
+  }
 
   /// Forgets everything: the zeros are new.
   void restart() { *this = {}; }
@@ -50,7 +59,9 @@ class ZeroTracker {
   using Averages = std::array<std::int32_t, kMaxGauges>;
 
   void begin(bool touched);
-  bool add(std::span<const std::int32_t> strains_q32);  ///< true: the interval is full
+  void doubt(bool touched);
+  void add(std::span<const std::int32_t> strains_q32);
+  void finish(const TableImage& tables, const std::optional<Fit>& fit, Calibration& calibration);
   void followUntouched(const TableConstants& constants, GaugeSet leftOut, Calibration& calibration);
   void followTouched(const TableImage& tables, PitchQ20 position, GaugeSet leftOut, Calibration& calibration);
   void move(std::size_t gauge, std::int32_t by_q32, Calibration& calibration);

@@ -27,7 +27,6 @@ struct WindowFit {
   /// From the middle gauge; may come out slightly negative.
   PitchQ20 offset() const { return row * kRowSpacing + step.length; }
   PitchQ20 position() const { return centre * kOnePitch + side * offset(); }
-  bool converged() const { return step.length <= kConverged && step.length >= -kConverged; }
 };
 
 inline int nearestRow(PitchQ20 offset) {
@@ -35,8 +34,8 @@ inline int nearestRow(PitchQ20 offset) {
 }
 
 /// To the row nearest to where the last step leads; over the middle gauge if need be.
-inline void follow(WindowFit& fit, int mirrorSign) {
-  PitchQ20 offset = fit.offset();
+inline void follow(WindowFit& fit, Number length, int mirrorSign) {
+  PitchQ20 offset = fit.row * kRowSpacing + length;
   if (offset < 0) {
     offset = -offset;
     fit.side = -fit.side;
@@ -49,16 +48,20 @@ inline void takeStep(const FitTable& rows, WindowFit& fit) {
   fit.step = fitStep(rows[static_cast<std::size_t>(fit.row)], fit.signal);
 }
 
+constexpr bool isConverged(Number length) { return length <= kConverged && length >= -kConverged; }
+
 /// Steps from the fit's row until the next one would no longer matter, within 5/8 of a row spacing of its
 /// row: two are typical. False: not there after eight steps, or walked beyond the last row; the fit is then
 /// no answer.
 inline bool refine(const FitTable& rows, int mirrorSign, WindowFit& fit) {
   constexpr int kMaxSteps = 8;
-  for (int left = kMaxSteps;; --left) {
-    takeStep(rows, fit);
-    if (fit.converged() || left == 1) return fit.converged();
-    follow(fit, mirrorSign);
+  FitStep step = fitStep(rows[static_cast<std::size_t>(fit.row)], fit.signal);
+  for (int left = kMaxSteps - 1; left > 0 && !isConverged(step.length); --left) {
+    follow(fit, step.length, mirrorSign);
+    step = fitStep(rows[static_cast<std::size_t>(fit.row)], fit.signal);
   }
+  fit.step = step;
+  return isConverged(step.length);
 }
 
 }  // namespace strainfinger::firmware

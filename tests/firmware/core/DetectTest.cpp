@@ -28,7 +28,7 @@ TEST(Detect, EnergyIsTheSumOfTheSquaresDividedAndRoundedDown) {
   std::printf("seed 2 ");
   std::mt19937 random(2);
   for (int shift = 0; shift <= kMostGateShift; ++shift)
-    for (const std::size_t gauges : {12, 14, 16, 18, 32}) {
+    for (const std::size_t gauges : {12u, 14u, 16u, 18u, 32u}) {
       std::uniform_int_distribution<std::int32_t> strain(-(1 << (shift + 13)), 1 << (shift + 13));
       std::vector<std::int32_t> strains(gauges);
       std::uint64_t sum = 0;

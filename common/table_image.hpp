@@ -184,13 +184,22 @@ constexpr bool usable(const TableParameters& parameters, const TableConstants& c
          (constants.scan_step == kMinScanStep || constants.scan_step == kMaxScanStep);
 }
 
-/// What the firmware shifts by and looks up for each row.
-constexpr bool usable(const FitTable& rows) {
-  return std::all_of(rows.begin(), rows.end(), [](const FitRow& row) {
-    return row.gradient_exponent >= kLeastGradientExponent &&
-           row.gradient_exponent <= kMostGradientExponent && row.triple[0] < kTriples &&
-           row.triple[1] < kTriples;
-  });
+/// Products of readings with a column of weights fit their words if its length is 1, but for rounding.
+inline constexpr std::int64_t kMostWeightEnergy = (std::int64_t{1} << 30) + (1 << 18);
+
+/// Squared length [* 2^30] of weights before they were folded.
+constexpr std::int64_t unfoldedEnergy(const FoldedWeights& weights) {
+  std::int64_t pairs = 0;
+  for (std::size_t i = 1; i < weights.size(); ++i) pairs += std::int64_t{weights[i]} * weights[i];
+  return std::int64_t{weights[0]} * weights[0] + 2 * pairs;
+}
+
+/// What the firmware multiplies, shifts by and looks up.
+constexpr bool usable(const FitRow& row) {
+  const auto fits = [](const FoldedWeights& weights) { return unfoldedEnergy(weights) <= kMostWeightEnergy; };
+  return fits(row.basis[0]) && fits(row.basis[1]) && fits(row.gradient[0]) && fits(row.gradient[1]) &&
+         row.gradient_exponent >= kLeastGradientExponent && row.gradient_exponent <= kMostGradientExponent &&
+         row.triple[0] < kTriples && row.triple[1] < kTriples;
 }
 
 /// Looks at everything that can be wrong with an image of the right size. Cost: one pass over its bytes.
@@ -199,7 +208,9 @@ inline TableFault checkTableImage(const TableImage& image) {
   if (image.format != kTableFormat || image.reserved != 0) return TableFault::kFormat;
   if (image.image_bytes != sizeof(TableImage)) return TableFault::kLength;
   if (image.crc32 != crc32(checkedBytes(image))) return TableFault::kChecksum;
-  const bool works = usable(image.parameters, image.constants) && usable(image.rows);
+  const bool works =
+      usable(image.parameters, image.constants) &&
+      std::all_of(image.rows.begin(), image.rows.end(), [](const FitRow& row) { return usable(row); });
   return works ? TableFault::kNone : TableFault::kConstants;
 }
 

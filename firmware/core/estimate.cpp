@@ -130,6 +130,7 @@ Scaled normalised(std::uint64_t value) {
 /// Standard error of a sum of three readings, each times weight * 2^weightExponent / volume.
 std::int32_t weightedSigma(const TableConstants& constants, const Fit& fit, const Vector3& weights,
                            int weightExponent, std::int32_t volume) {
+  if (volume == 0) return std::numeric_limits<std::int32_t>::max();
   std::uint64_t square = 0;
   for (const std::int32_t weight : weights)
     square += static_cast<std::uint64_t>(std::int64_t{weight} * weight);

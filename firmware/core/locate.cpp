@@ -22,7 +22,7 @@ constexpr int kRivalShift =
 constexpr int kStarterShift = 4;     ///< .. and one of another window within 1/16
 constexpr int kRoundingShift = 12;   ///< 1/4096 is lost in rounding
 constexpr int kAmbiguousShift = 14;  ///< rounding makes two fits differ by less than this
-constexpr int kOneStepShift = 6;     ///< .. after a single step by less than this ..
+constexpr int kOneStepShift = 8;     ///< .. after a single step by less than this ..
 constexpr int kTwoStepsShift = 12;   ///< .. and after a second by less than this
 constexpr int kOutsideShift = 3;     ///< a contact leaves less than 1/8 of its energy outside its window
 

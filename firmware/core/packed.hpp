@@ -19,6 +19,13 @@
 
 namespace strainfinger::firmware {
 
+/// What the locator reckons with. The proof that nothing overflows puts intervals in its place
+/// (tests/firmware/ranges).
+using Number = std::int32_t;
+
+/// A number of a table.
+constexpr Number tabled(std::int16_t number) { return number; }
+
 #if defined(__ARM_FEATURE_DSP)
 
 struct Pair {
@@ -140,6 +147,12 @@ constexpr std::int32_t clipped(std::int32_t value) {
   constexpr std::int32_t kLimit = std::int32_t{1} << (Bits - 1);
   if (value >= kLimit) return kLimit - 1;
   return value < -kLimit ? -kLimit : value;
+}
+
+/// numerator / divisor rounded towards 0, of so many bits; 0 if the divisor is none.
+template <int Bits>
+constexpr Number clippedQuotient(Number numerator, Number divisor) {
+  return divisor <= 0 ? 0 : clipped<Bits>(numerator / divisor);
 }
 
 }  // namespace strainfinger::firmware

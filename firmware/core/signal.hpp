@@ -29,17 +29,15 @@ constexpr int wrapped(int gauge, int gauges) {
 }
 
 /// Left by `up`, which may not take it out of 32 bits.
-constexpr std::int32_t raised(std::int32_t value, int up) {
-  return static_cast<std::int32_t>(static_cast<std::uint32_t>(value) << up);
-}
+inline Number raised(Number value, int up) { return value * (1 << up); }
 
 /// A window's readings, from its - side to its + side and each within +-2^29, divided by 2^(16 - up) and
 /// rounded after folding.
-inline Signal foldedSignal(const std::int32_t* window, int up) {
-  const std::int32_t* const middle = window + kWindowReach;
-  const std::int32_t half = 0x8000 >> up;
-  const std::int32_t plus1 = middle[1] + half, plus2 = middle[2] + half, plus3 = middle[3] + half;
-  const std::int32_t minus1 = middle[-1], minus2 = middle[-2], minus3 = middle[-3];
+inline Signal foldedSignal(const Number* window, int up) {
+  const Number* const middle = window + kWindowReach;
+  const Number half = 0x8000 >> up;
+  const Number plus1 = middle[1] + half, plus2 = middle[2] + half, plus3 = middle[3] + half;
+  const Number minus1 = middle[-1], minus2 = middle[-2], minus3 = middle[-3];
   return {{upperHalves(raised(*middle + half, up), raised(plus1 + minus1, up)),
            upperHalves(raised(plus2 + minus2, up), raised(plus3 + minus3, up))},
           {upperHalves(raised(plus1 - minus1, up), raised(plus2 - minus2, up)),
@@ -47,14 +45,14 @@ inline Signal foldedSignal(const std::int32_t* window, int up) {
 }
 
 /// The window around gauge `centre`.
-inline Signal windowSignal(std::span<const std::int32_t> strains_q32, int centre, int up) {
+inline Signal windowSignal(std::span<const Number> strains_q32, int centre, int up) {
   const int gauges = static_cast<int>(strains_q32.size());
   const int first = wrapped(centre - kWindowReach, gauges);
-  const std::int32_t* at = &strains_q32[static_cast<std::size_t>(first)];
+  const Number* at = &strains_q32[static_cast<std::size_t>(first)];
   if (first + kWindowGauges <= gauges) return foldedSignal(at, up);
-  std::array<std::int32_t, kWindowGauges> window;
+  std::array<Number, kWindowGauges> window;
 #pragma GCC unroll 7
-  for (std::int32_t& reading : window) {
+  for (Number& reading : window) {
     reading = *at;
     if (++at == strains_q32.data() + gauges) at = strains_q32.data();
   }
@@ -69,32 +67,30 @@ inline Signal mirrored(const Signal& signal, int mirrorSign) {
 }
 
 /// The part of weights . signal that mirroring leaves, and the part it negates (for mirrorSign = 1).
-inline std::int32_t evenPart(const FoldedWeights& weights, const Signal& signal) {
+inline Number evenPart(const FoldedWeights& weights, const Signal& signal) {
   return dot(pairAt(&weights[2]), signal.even[1], dot(pairAt(&weights[0]), signal.even[0]));
 }
-inline std::int32_t oddPart(const FoldedWeights& weights, const Signal& signal) {
+inline Number oddPart(const FoldedWeights& weights, const Signal& signal) {
   return dot(pairAt(&weights[6]), signal.odd[1], dot(pairAt(&weights[4]), signal.odd[0]));
 }
 
 /// weights . signal [* 2^15]
-inline std::int32_t project(const FoldedWeights& weights, const Signal& signal) {
-  const std::int32_t even = evenPart(weights, signal);
+inline Number project(const FoldedWeights& weights, const Signal& signal) {
+  const Number even = evenPart(weights, signal);
   return dot(pairAt(&weights[6]), signal.odd[1], dot(pairAt(&weights[4]), signal.odd[0], even));
 }
 
 /// Energies are sums of squares of scaled strains, divided by 4: below 2^27.
-inline std::int32_t energyOf(std::int32_t projection1, std::int32_t projection2) {
+inline Number energyOf(Number projection1, Number projection2) {
   return mulHigh(projection1, projection1) + mulHigh(projection2, projection2);
 }
 
-/// The whole window's. Sum and difference of a pair each carry its energy twice over, together: 2 (a^2 +
-/// b^2).
-inline std::int32_t energyOf(const Signal& signal) {
-  const std::int32_t middle = low(signal.even[0]), first = high(signal.even[0]);
-  const auto square = [](Pair pair) { return static_cast<std::uint32_t>(dot(pair, pair)); };
-  const std::uint32_t pairs = static_cast<std::uint32_t>(first * first) + square(signal.even[1]) +
-                              square(signal.odd[0]) + square(signal.odd[1]);
-  return static_cast<std::int32_t>((pairs + 2 * static_cast<std::uint32_t>(middle * middle)) >> 3);
+/// The whole window's. Sum and difference of a pair together have twice its energy, the middle reading once.
+inline Number energyOf(const Signal& signal) {
+  const auto& [even, odd] = signal;
+  const Number middle = low(even[0]);
+  const Number twice = dot(odd[1], odd[1], dot(odd[0], odd[0], dot(even[1], even[1], dot(even[0], even[0]))));
+  return (twice + middle * middle) >> 3;
 }
 
 }  // namespace strainfinger::firmware

@@ -83,12 +83,12 @@ bool solveTriple(const FitTable& rows, int mirrorSign, WindowFit& fit) {
   constexpr int kMaxSteps = 3;
   const PitchQ20 before = fit.position();
   for (int count = 0; count < kMaxSteps; ++count) {
-    follow(fit, mirrorSign);
+    follow(fit, fit.step.length, mirrorSign);
     if (!step(rows[static_cast<std::size_t>(fit.row)], fit)) return false;
     if (absolute(fit.position() - before) > kFarthest) return false;
     if (absolute(fit.step.length) <= kRowSpacing) return true;
   }
-  return fit.converged();
+  return isConverged(fit.step.length);
 }
 
 }  // namespace strainfinger::firmware

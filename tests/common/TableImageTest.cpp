@@ -107,3 +107,10 @@ TEST(TableImage, FaultsKeepTheirNumbers) {
   LONGS_EQUAL(5, static_cast<int>(TableFault::kChecksum));
   LONGS_EQUAL(6, static_cast<int>(TableFault::kConstants));
 }
+
+TEST(TableImage, WeightsLongerThanOneAreRefused) {
+  image_->rows[7].gradient[1][0] = 32767;
+  checkDomain(image_->rows[7].gradient[1][6], {0, 300, -300}, {500, -500});
+  image_->rows[7].gradient[1] = {};
+  checkDomain(image_->rows[9].basis[0][2], {23170, -23170}, {23180, 32767, -32768});
+}

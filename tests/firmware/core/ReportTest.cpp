@@ -211,7 +211,9 @@ TEST(TouchReporter, SaysAChangeOfQualityOfTenPercent) {
   const double noise = constants.noise_variance * std::ldexp(1.0, constants.noise_variance_exponent);
   const double expected =
       16 * std::ldexp(noise, 2 * (touch.fit->up - 16) - 2) + touch.fit->windowEnergy / 4096.0;
-  const auto leave = [&](double parts) { touch.fit->unexplained = static_cast<std::int32_t>(parts * expected); };
+  const auto leave = [&](double parts) {
+    touch.fit->unexplained = static_cast<std::int32_t>(parts * expected);
+  };
   leave(1);
   say(touch);
   later(kPeriod_us);

@@ -44,7 +44,9 @@ TEST_GROUP(Signal) {
     return strains[static_cast<std::size_t>((index % gauges + gauges) % gauges)];
   }
   /// Scaled by the definition.
-  static double scaled(double value, int up) { return std::floor(std::ldexp(value, up - 16) + (up < 16 ? 0.5 : 0)); }
+  static double scaled(double value, int up) {
+    return std::floor(std::ldexp(value, up - 16) + (up < 16 ? 0.5 : 0));
+  }
   void checkWindow(const std::vector<std::int32_t>& strains, int centre, int up) {
     const auto signal = numbers(windowSignal(strains, centre, up));
     DOUBLES_EQUAL(scaled(strain(strains, centre), up), signal[0], 0);

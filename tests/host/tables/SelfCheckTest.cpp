@@ -108,7 +108,7 @@ TEST(SelfCheck, ShallowShearGaugesAreToldOfRadialOnes) {
 }
 
 TEST(SelfCheck, WhereTheQuickSearchMisplacesEveryWindowIsLookedAt) {
-  config_.gauges.radius_m = 11e-3;
+  config_.gauges.radius_m = 10e-3;
   CHECK(check().misplaced.has_value());
   const CheckedTables checked = buildCheckedTables(config_);
   CHECK(checked.image.constants.anchor_rule == AnchorRule::kExhaustive);

@@ -95,9 +95,9 @@ TEST(TableFile, SomethingElseIsNoTableImage) {
 
 TEST(TableFile, AnotherFormatIsAMismatchWhateverFollows) {
   std::string other = bytes_.substr(0, 100);
-  other[4] = 2;
+  other[4] = 1;
   checkVerdict(other,
-               fmt::format("5: {}: a table image of format 2, this program and its firmware read format 1; "
+               fmt::format("5: {}: a table image of format 1, this program and its firmware read format 2; "
                            "make it anew",
                            path_));
 }

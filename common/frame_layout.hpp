@@ -29,6 +29,7 @@ inline constexpr std::uint8_t kLastNode = 63;
 /// What a frame is; its identifier is this plus the node number. The numbers are those of CANopen's
 /// predefined connection set, so that drives on the same bus go on undisturbed. Never reuse one.
 enum class FunctionCode : std::uint16_t {
+  kGauges = 0x080,
   kContact = 0x180,
   kForce = 0x280,
   kRaw = 0x380,
@@ -48,7 +49,8 @@ struct ValueName {
 enum class FieldKind : std::uint8_t {
   kNumber,  ///< a quantity
   kChoice,  ///< one of `names`
-  kFlags,   ///< a bit each of `names`, whose values are bit numbers within the field
+  kFlags,   ///< a bit each of `names`, whose values are bit numbers within the field; bits without a name go
+            ///< by their number
 };
 
 /// What a field's raw values mean: for people, and for host code that talks to them.

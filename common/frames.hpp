@@ -14,10 +14,12 @@ namespace strainfinger {
 /// Goes up when a frame changes its meaning; receivers of another version must not read the frames.
 inline constexpr std::uint8_t kProtocolVersion = 1;
 
-/// In contact CONTACT and FORCE are sent this often at least; HEARTBEAT and INFO always.
+/// In contact CONTACT and FORCE are sent this often at least; HEARTBEAT, INFO and GAUGES
+/// always.
 inline constexpr std::uint16_t kContactPeriod_ms = 50;
 inline constexpr std::uint16_t kHeartbeatPeriod_ms = 100;
 inline constexpr std::uint16_t kInfoPeriod_ms = 1000;
+inline constexpr std::uint16_t kGaugesPeriod_ms = 1000;
 
 /// What a reader must know before using the numbers of CONTACT and FORCE. Bit numbers; never reuse one.
 enum class FingerFlag : std::uint8_t {
@@ -159,6 +161,14 @@ struct InfoFrame {
   std::uint32_t crash_address = 0;  ///< lowest 24 bits
   std::uint8_t board = 0;
   bool operator==(const InfoFrame&) const = default;
+};
+
+/// Which gauges work, and how far their zeros are to be trusted.
+struct GaugesFrame {
+  std::uint32_t out_of_use = 0;  ///< bit i: gauge i
+  std::uint16_t zero_age_s = kNotKnown<std::uint16_t>;
+  std::uint16_t zero_rate_nano_per_s = kNotKnown<std::uint16_t>;
+  bool operator==(const GaugesFrame&) const = default;
 };
 
 template <>
@@ -336,7 +346,36 @@ inline constexpr FrameLayout kLayout<InfoFrame>{
 };
 static_assert(WireFrame<InfoFrame>);
 
+template <>
+inline constexpr FrameLayout kLayout<GaugesFrame>{
+    FrameSpec{.name = "GAUGES",
+              .function = FunctionCode::kGauges,
+              .length = 8,
+              .period_ms = kGaugesPeriod_ms,
+              .onChange = false,
+              .comment = "Which gauges work: at once when one has failed, else once a second"},
+    Field{&GaugesFrame::out_of_use,
+          {.lsb = 0, .width = 32},
+          {.name = "out_of_use",
+           .comment = "Gauges found not to work, which the estimates do without: bit i is gauge i",
+           .kind = FieldKind::kFlags}},
+    Field{&GaugesFrame::zero_age_s,
+          {.lsb = 32, .width = 16, .unknowable = true},
+          {.name = "zero_age",
+           .unit = "s",
+           .openEnded = true,
+           .comment = "Time since all zeros were last seen untouched"}},
+    Field{&GaugesFrame::zero_rate_nano_per_s,
+          {.lsb = 48, .width = 16, .unknowable = true},
+          {.name = "zero_rate",
+           .stepsPerUnit = 1'000'000'000,
+           .unit = "per_s",
+           .openEnded = true,
+           .comment = "Strain a second by which the fastest zero last followed its gauge's drift"}},
+};
+static_assert(WireFrame<GaugesFrame>);
+
 /// Every frame a finger sends.
-using FingerFrames = std::tuple<ContactFrame, ForceFrame, HeartbeatFrame, InfoFrame>;
+using FingerFrames = std::tuple<ContactFrame, ForceFrame, HeartbeatFrame, InfoFrame, GaugesFrame>;
 
 }  // namespace strainfinger

@@ -2,6 +2,7 @@
 // The flash image of the lookup tables: what the host tools build from the elastic model and the firmware
 // reads in place. Byte by byte, with an example: TABLES.md.
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -19,7 +20,7 @@ namespace strainfinger {
 static_assert(std::endian::native == std::endian::little, "the image is little-endian and is read in place");
 
 inline constexpr std::uint32_t kTableMagic = 0x42544653;  ///< "SFTB" in the file's first four bytes
-inline constexpr std::uint16_t kTableFormat = 1;          ///< raised with every change of the layout
+inline constexpr std::uint16_t kTableFormat = 2;          ///< raised with every change of the layout
 
 /// Gauges that one fit looks at: the nearest one and three on either side. With 16 gauges they hold all but
 /// 0.4 / 0.3 / 0.9 % of what the whole ring knows of angle, normal and tangential load.
@@ -31,7 +32,7 @@ inline constexpr int kWindowReach = kWindowGauges / 2;
 inline constexpr int kRowsPerPitch = 64;
 inline constexpr int kFitRows = 44;
 
-/// Rows between the starts of a scan: fewer cost more, more would step over a maximum.
+/// Rows between the starts of a scan, either of the two: fewer cost more, more would step over a maximum.
 inline constexpr int kMinScanStep = 4;
 inline constexpr int kMaxScanStep = 8;
 
@@ -77,7 +78,7 @@ struct TableConstants {
   std::int16_t load_exponent;
   std::uint16_t friction_cone_q8;  ///< largest |tangential| / normal a fit may have [* 2^8]
   std::uint16_t adc_rail;          ///< left-justified code at which the converter clips; 0 is the other
-  std::uint16_t reserved16;        ///< 0
+  std::uint16_t tail_q16;  ///< most energy a contact leaves outside its window, over that inside [* 2^16]
   std::int8_t noise_variance_exponent;
   std::int8_t amplitude_exponent;  ///< FitRow::load counts 2^amplitude_exponent
   std::int8_t mirror_sign;         ///< reading seen from the other side: +1 radial, hoop; -1 shear
@@ -91,28 +92,45 @@ struct TableConstants {
 /// A signal over the window, folded about the middle gauge: middle, then sums of the pairs at distance
 /// 1, 2, 3, then differences (+ side minus - side) of the same pairs, then padding.
 /// Folding halves the table (offsets of the other sign are the mirrored signal) and lets a scan share its
-/// products.
-using FoldedWeights = std::array<std::int16_t, 8>;
+/// products. Aligned for loads of two words at once.
+struct alignas(8) FoldedWeights : std::array<std::int16_t, 8> {};
 
-/// The linear algebra of a fit with the contact at one offset, per unit amplitude of the response's peak.
-/// B = [normal response, tangential response] over the window (7 x 2), B = U R (QR), ' = d/d(offset in
-/// pitches).
-struct FitRow {
-  std::array<FoldedWeights, 2> basis;     ///< columns of U [* 2^15]
-  std::array<FoldedWeights, 2> gradient;  ///< W_i = (1 - U U^T) B' R^-1 e_i, each scaled to [1/2, 1) [* 2^15]
-  std::array<std::int16_t, 3> gram;       ///< W_1.W_1, 2 W_1.W_2, W_2.W_2 of the scaled W [* 2^14]
-  std::array<std::int8_t, 2> lag;    ///< W_i is scaled 2^lag less than the larger of the two; 31: W_i is 0
-  std::int8_t gradient_exponent;     ///< true W of the larger one = scaled * 2^gradient_exponent
-  std::int8_t reserved;              ///< 0
-  std::array<std::int16_t, 3> load;  ///< R^-1: 11, 12, 22 [* 2^-amplitude_exponent]
-  std::array<std::int16_t, 4> load_slope;  ///< d(R^-1 U^T)/d(offset) U, per row spacing, row-major, as `load`
-};
+/// Three gauges of a window, by their distance from its middle gauge.
+using GaugeTriple = std::array<std::int8_t, 3>;
+inline constexpr int kTriples = 35;
 
-using FitTable = std::array<FitRow, kFitRows>;
+/// All triples of a window, in ascending order: {-3, -2, -1}, {-3, -2, 0} .. {1, 2, 3}.
+inline constexpr std::array<GaugeTriple, kTriples> kTripleList = [] {
+  std::array<GaugeTriple, kTriples> list{};
+  std::size_t next = 0;
+  for (int a = -kWindowReach; a <= kWindowReach; ++a)
+    for (int b = a + 1; b <= kWindowReach; ++b)
+      for (int c = b + 1; c <= kWindowReach; ++c)
+        list[next++] = {static_cast<std::int8_t>(a), static_cast<std::int8_t>(b),
+                        static_cast<std::int8_t>(c)};
+  return list;
+}();
 
 /// Which way the tangential load pulls, seen from the window's middle gauge: three readings that see the
 /// offset well for one sense are nearly blind for the other, so each has its own triples.
 enum FitSense : std::uint8_t { kWithOffset = 0, kAgainstOffset = 1 };
+
+/// The linear algebra of a fit with the contact at one offset, per unit amplitude of the response's peak.
+/// B = [normal response, tangential response] over the window (7 x 2), B = U R (QR), ' = d/d(offset in
+/// pitches), W = (1 - U U^T) B' R^-1.
+struct FitRow {
+  std::array<FoldedWeights, 2> basis;           ///< columns of U [* 2^15]
+  std::array<FoldedWeights, 2> gradient;        ///< columns of W, each of length 1 [* 2^15]; 0: W_i is 0
+  std::array<std::int16_t, 2> gradient_length;  ///< |W_i| [* 2^(15 - gradient_exponent)], the longer >= 2^14
+  std::int16_t gradient_cosine;                 ///< W_1 . W_2 / (|W_1| |W_2|) [* 2^15]
+  std::int8_t gradient_exponent;
+  std::int8_t reserved;                    ///< 0
+  std::array<std::int16_t, 3> load;        ///< R^-1: 11, 12, 22 [* 2^amplitude_exponent]
+  std::array<std::uint8_t, 2> triple;      ///< by FitSense: number in kTripleList of the best conditioned
+  std::array<std::int16_t, 4> load_slope;  ///< d(R^-1 U^T)/d(offset) U, per row spacing, row-major, as `load`
+};
+
+using FitTable = std::array<FitRow, kFitRows>;
 
 struct TableImage {
   std::uint32_t magic;
@@ -122,13 +140,12 @@ struct TableImage {
   std::uint32_t crc32;        ///< of everything behind this field
   TableParameters parameters;
   TableConstants constants;
-  FitTable refined;                     ///< all seven gauges
-  std::array<FitTable, 2> three_point;  ///< by FitSense: three of them, for each row the best conditioned
+  FitTable rows;
 };
 
 static_assert(std::is_trivially_copyable_v<TableImage>);
 static_assert(sizeof(TableParameters) == 104 && sizeof(TableConstants) == 48 && sizeof(FitRow) == 88);
-static_assert(sizeof(TableImage) == 16 + 104 + 48 + 3 * 88 * kFitRows, "no padding anywhere");
+static_assert(sizeof(TableImage) == 16 + 104 + 48 + 88 * kFitRows, "no padding anywhere");
 
 /// Why an image was refused. The numbers go on the bus and into exit statuses: never reuse one.
 enum class TableFault : std::uint8_t {
@@ -149,15 +166,40 @@ inline std::span<const std::byte> checkedBytes(const TableImage& image) {
   return std::as_bytes(std::span(&image, 1)).subspan(kTableHeaderBytes);
 }
 
+/// Steps are scaled by shifts that these bound.
+inline constexpr int kLeastGradientExponent = -3;
+inline constexpr int kMostGradientExponent = 12;
+
+/// Strains stay below 2^(15 + this): sums of their squares, and four of them, fit their words.
+inline constexpr int kMostGateShift = 14;
+
 constexpr bool isSign(int value) { return value == 1 || value == -1; }
 
 /// What the firmware's loops and shifts rely on, and names that have a meaning.
 constexpr bool usable(const TableParameters& parameters, const TableConstants& constants) {
   return parameters.component <= StrainComponent::kShear && constants.gauge_count >= kMinGauges &&
-         constants.gauge_count <= kMaxGauges && constants.gauge_count % 2 == 0 && constants.gate_shift < 16 &&
-         isSign(constants.mirror_sign) && isSign(constants.anchor_sign) &&
-         constants.anchor_rule <= AnchorRule::kExhaustive && constants.scan_step >= kMinScanStep &&
-         constants.scan_step <= kMaxScanStep;
+         constants.gauge_count <= kMaxGauges && constants.gauge_count % 2 == 0 &&
+         constants.gate_shift <= kMostGateShift && isSign(constants.mirror_sign) &&
+         isSign(constants.anchor_sign) && constants.anchor_rule <= AnchorRule::kExhaustive &&
+         (constants.scan_step == kMinScanStep || constants.scan_step == kMaxScanStep);
+}
+
+/// Products of readings with a column of weights fit their words if its length is 1, but for rounding.
+inline constexpr std::int64_t kMostWeightEnergy = (std::int64_t{1} << 30) + (1 << 18);
+
+/// Squared length [* 2^30] of weights before they were folded.
+constexpr std::int64_t unfoldedEnergy(const FoldedWeights& weights) {
+  std::int64_t pairs = 0;
+  for (std::size_t i = 1; i < weights.size(); ++i) pairs += std::int64_t{weights[i]} * weights[i];
+  return std::int64_t{weights[0]} * weights[0] + 2 * pairs;
+}
+
+/// What the firmware multiplies, shifts by and looks up.
+constexpr bool usable(const FitRow& row) {
+  const auto fits = [](const FoldedWeights& weights) { return unfoldedEnergy(weights) <= kMostWeightEnergy; };
+  return fits(row.basis[0]) && fits(row.basis[1]) && fits(row.gradient[0]) && fits(row.gradient[1]) &&
+         row.gradient_exponent >= kLeastGradientExponent && row.gradient_exponent <= kMostGradientExponent &&
+         row.triple[0] < kTriples && row.triple[1] < kTriples;
 }
 
 /// Looks at everything that can be wrong with an image of the right size. Cost: one pass over its bytes.
@@ -166,7 +208,10 @@ inline TableFault checkTableImage(const TableImage& image) {
   if (image.format != kTableFormat || image.reserved != 0) return TableFault::kFormat;
   if (image.image_bytes != sizeof(TableImage)) return TableFault::kLength;
   if (image.crc32 != crc32(checkedBytes(image))) return TableFault::kChecksum;
-  return usable(image.parameters, image.constants) ? TableFault::kNone : TableFault::kConstants;
+  const bool works =
+      usable(image.parameters, image.constants) &&
+      std::all_of(image.rows.begin(), image.rows.end(), [](const FitRow& row) { return usable(row); });
+  return works ? TableFault::kNone : TableFault::kConstants;
 }
 
 }  // namespace strainfinger

@@ -55,7 +55,8 @@ class Finger {
         tableCrc_(static_cast<std::uint8_t>(tables.crc32)),
         steppedAt_us_(clock.now_us()),
         sampledAt_us_(steppedAt_us_),
-        heartbeatAt_us_(steppedAt_us_ - kHeartbeatPeriod_us) {}
+        heartbeatAt_us_(steppedAt_us_ - kHeartbeatPeriod_us),
+        gaugesAt_us_(steppedAt_us_) {}
 
   /// One turn of the main loop: takes at most one sample set and one request, sends what is due. Never
   /// blocks. The watchdog is fed only by sample sets that went all the way through. True: there was a sample
@@ -71,6 +72,7 @@ class Finger {
       sampledAt_us_ = now_us - kSilentConverter_us;  // no younger when the clock has gone round
     }
     beat(now_us);
+    if (areGaugesNews(now_us)) sayGauges(now_us);
     serve(now_us);
     return sampled;
   }
@@ -82,6 +84,7 @@ class Finger {
 
  private:
   static constexpr std::uint32_t kHeartbeatPeriod_us = std::uint32_t{kHeartbeatPeriod_ms} * 1000;
+  static constexpr std::uint32_t kGaugesPeriod_us = std::uint32_t{kGaugesPeriod_ms} * 1000;
   static constexpr std::uint32_t kSilentConverter_us = 100'000;
   static constexpr std::uint32_t kAnswerWithin_us = std::uint32_t{kAnswerWithin_ms} * 1000;
   static constexpr std::uint32_t kLongestUptime_s = kNotKnown<std::uint16_t> - 1;
@@ -91,7 +94,11 @@ class Finger {
   void countUptime(std::uint32_t now_us) {
     sinceSecond_us_ += now_us - steppedAt_us_;
     steppedAt_us_ = now_us;
-    for (; sinceSecond_us_ >= 1'000'000; sinceSecond_us_ -= 1'000'000) ++uptime_s_;
+    for (; sinceSecond_us_ >= 1'000'000; sinceSecond_us_ -= 1'000'000) {
+      ++uptime_s_;
+      setsPerSecond_ = counters_.sampleSets - setsAtSecond_;
+      setsAtSecond_ = counters_.sampleSets;
+    }
   }
 
   bool isConverterSilent(std::uint32_t now_us) const { return now_us - sampledAt_us_ >= kSilentConverter_us; }
@@ -156,6 +163,7 @@ class Finger {
     HeartbeatFrame frame;
     frame.state = state_;
     frame.faults = settings_.standingFaults;
+    frame.faults.set(FingerFault::kGauges, pipeline_.tooFewGauges());
     frame.faults.set(FingerFault::kConverter, isConverterSilent(now_us));
     frame.faults.set(FingerFault::kCan,
                      status.dropped != 0 || status.missed != 0 || counters_.forcesLost != 0);
@@ -166,6 +174,20 @@ class Finger {
     if (status.rxErrors) frame.rx_errors = *status.rxErrors;
     frame.table_crc = tableCrc_;
     return frame;
+  }
+
+  /// Once in a while, and at once when a gauge has failed.
+  bool areGaugesNews(std::uint32_t now_us) const {
+    return now_us - gaugesAt_us_ >= kGaugesPeriod_us || pipeline_.observation().outOfUse != saidOutOfUse_;
+  }
+
+  /// Not inlined: see report().
+  [[gnu::noinline]] void sayGauges(std::uint32_t now_us) {
+    const GaugeSet outOfUse = pipeline_.observation().outOfUse;
+    const GaugesFrame frame = gaugesFrame(outOfUse, pipeline_.zeroTracker(), setsPerSecond_);
+    if (!can_.send(encode(frame, settings_.node))) return;
+    gaugesAt_us_ = now_us;
+    saidOutOfUse_ = outOfUse;
   }
 
   static constexpr std::uint32_t periodOf(std::uint32_t rate_hz) { return 1'000'000u / rate_hz; }
@@ -252,6 +274,10 @@ class Finger {
   std::uint32_t steppedAt_us_;
   std::uint32_t sampledAt_us_;
   std::uint32_t heartbeatAt_us_;
+  std::uint32_t gaugesAt_us_;
+  std::uint32_t setsPerSecond_ = 0;  ///< sample sets of the last whole second
+  std::uint32_t setsAtSecond_ = 0;
+  GaugeSet saidOutOfUse_ = 0;
   std::uint32_t contactAt_us_ = 0;
   std::uint32_t requestedAt_us_ = 0;
 };

@@ -1,7 +1,6 @@
 #include "firmware/core/answer.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace strainfinger::firmware {
 namespace {
@@ -9,69 +8,70 @@ namespace {
 /// Fits closer than this ran into the same maximum.
 constexpr PitchQ20 kSameAnswer = kOnePitch / 12;
 
+/// Fits farther from their middle gauge than this belong to another window.
+constexpr PitchQ20 kFarFromMiddle = kOnePitch * 53 / 100;
+
 /// A contact leaves about this part of its energy outside its window, as a power of two: up to 2 % with 16
 /// gauges and fewer, a few percent with more, which are not in doubt.
 constexpr int kTailShift = 6;
 
 bool withinCone(const TableConstants& constants, const Amplitudes& amplitudes) {
   if (amplitudes.normal <= 0) return false;
-  const std::int64_t limit = std::int64_t{amplitudes.normal} * constants.friction_cone_q8;
-  return std::int64_t{std::abs(amplitudes.tangential)} * 256 <= limit;
-}
-
-PitchQ20 distance(const Answer& a, const Answer& b, int gauges) {
-  const PitchQ20 ahead = roundTheRing(a.fit.position() - b.fit.position(), gauges);
-  return std::min(ahead, gauges * kOnePitch - ahead);
+  const std::int32_t limit = mulHigh(amplitudes.normal, constants.friction_cone_q8 << 15);
+  return absolute(amplitudes.tangential) >> 9 <= limit;
 }
 
 /// Beyond the last row: what the fit looks for belongs to another window.
-bool walkedOut(const WindowFit& fit) { return fit.offset >= kFitRows * kRowSpacing; }
+bool walkedOut(const WindowFit& fit) { return fit.offset() >= kFitRows * kRowSpacing; }
+
+/// Into the window in which the contact is nearer to the middle.
+[[gnu::noinline]] void changeWindow(const Problem& problem, WindowFit& fit) {
+  const int centre = wrapped(fit.centre + fit.side, problem.gauges());
+  const int row = nearestRow(kOnePitch - fit.offset());
+  fit.start(windowSignal(problem.strains, centre, problem.up), centre, -fit.side * row, problem.mirrorSign());
+}
 
 }  // namespace
 
-Answer solve(const Problem& problem, const Scan& scan, int start) {
-  Answer answer;
+void solve(const Problem& problem, InWindow window, Answer& answer) {
+  const FitTable& rows = problem.tables.rows;
   WindowFit& fit = answer.fit;
-  fit.centre = scan.centre;
-  fit.side = scan.side(start);
-  fit.signal = fit.side > 0 ? scan.signal : mirrored(scan.signal, problem.mirrorSign());
-  fit.offset = scan.row(start) * kRowSpacing;
-  fit.sense = scan.pullsBack(start) ? kAgainstOffset : kWithOffset;
-  const FitTables tables = problem.fitTables();
-  const bool settled = refine(tables, problem.mirrorSign(), fit);
-  answer.amplitudes = amplitudesOf(tables, fit);
-  answer.energy = fit.energy;
-  if (problem.mode == FitMode::kThreePoint)
-    answer.energy = explainedEnergy(problem.tables.refined[static_cast<std::size_t>(fit.row)], fit.signal,
-                                    fit.offset - fit.row * kRowSpacing);
-  const std::int32_t window = energyOf(fit.signal);
-  const bool pressed = withinCone(problem.tables.constants, answer.amplitudes);
-  answer.standing = {.energy = answer.energy + std::min(problem.ringEnergy - window, window >> kTailShift),
-                     .found = true,
-                     .admissible = settled && pressed,
-                     .isRival = pressed && (settled || !walkedOut(fit))};
-  return answer;
+  for (bool mayMove = window == InWindow::kNearest;; mayMove = false) {
+    answer.settled = refine(rows, problem.mirrorSign(), fit);
+    if (!mayMove || fit.offset() <= kFarFromMiddle) break;
+    changeWindow(problem, fit);
+  }
+  answer.energy = fit.step.energy();
+  answer.windowEnergy = energyOf(fit.signal);
+  answer.amplitudes = amplitudesOf(rows[static_cast<std::size_t>(fit.row)], fit.step);
+  answer.pressed = withinCone(problem.tables.constants, answer.amplitudes);
 }
 
-Placement Answer::placement(int gauges) const {
-  return {roundTheRing(fit.position(), gauges), amplitudes.normal, fit.side * amplitudes.tangential};
+bool isNear(const Problem& problem, PitchQ20 one, PitchQ20 other) {
+  const PitchQ20 ring = problem.gauges() * kOnePitch;
+  const PitchQ20 apart = absolute(one - other);
+  return std::min(apart, absolute(ring - apart)) < kSameAnswer;
 }
 
-PitchQ20 roundTheRing(PitchQ20 position, int gauges) {
-  const PitchQ20 ring = gauges * kOnePitch;
-  if (position < 0) return position + ring;
-  return position >= ring ? position - ring : position;
+Standing standingOf(const Problem& problem, const Answer& answer) {
+  const std::int32_t outside =
+      std::min(problem.ringEnergy - answer.windowEnergy, answer.windowEnergy >> kTailShift);
+  return {.energy = answer.energy + outside,
+          .found = true,
+          .admissible = answer.admissible(),
+          .isRival = answer.pressed && (answer.settled || !walkedOut(answer.fit))};
 }
 
-void Contest::enter(const Answer& answer, int gauges) {
-  const bool wins = answer.standing.betterThan(best.standing);
-  if (best.standing.found && distance(answer, best, gauges) < kSameAnswer) {
-    if (wins) best = answer;
-  } else if (wins) {
-    if (best.standing.found) setSecond(best, gauges);
+void Contest::enter(const Problem& problem, const Answer& answer) {
+  const Standing standing = standingOf(problem, answer);
+  const bool wins = standing.betterThan(first);
+  const bool sameAgain = first.found && isNear(problem, answer.fit.position(), best.fit.position());
+  if (wins) {
+    if (first.found && !sameAgain) setSecond(first, best, problem.gauges());
     best = answer;
-  } else if (answer.standing.betterThan(second)) {
-    setSecond(answer, gauges);
+    first = standing;
+  } else if (!sameAgain && standing.betterThan(second)) {
+    setSecond(standing, answer, problem.gauges());
   }
 }
 

@@ -10,17 +10,48 @@ namespace strainfinger::firmware {
 /// A line contact at `position` [pitches * 2^20 from gauge 0, within the ring] with the amplitudes of its
 /// loads (tangential + towards +theta).
 struct Placement {
-  PitchQ20 position = 0;
-  std::int32_t normal = 0;
-  std::int32_t tangential = 0;
+  PitchQ20 position;
+  std::int32_t normal;
+  std::int32_t tangential;
 };
+
+/// Positions go round the ring; `position` is at most one turn off.
+inline PitchQ20 roundTheRing(PitchQ20 position, int gauges) {
+  const PitchQ20 ring = gauges * kOnePitch;
+  if (position < 0) return position + ring;
+  return position >= ring ? position - ring : position;
+}
+
+/// A refined fit.
+struct Answer {
+  WindowFit fit;
+  Amplitudes amplitudes;
+  std::int32_t energy;        ///< that the seven gauges say it explains ..
+  std::int32_t windowEnergy;  ///< .. of so much
+  bool settled;               ///< the steps came to an end within the table
+  bool pressed;               ///< presses, and no harder sideways than friction allows
+
+  bool admissible() const { return settled && pressed; }
+  Placement placement(int gauges) const {
+    return {roundTheRing(fit.position(), gauges), amplitudes.normal, fit.side * amplitudes.tangential};
+  }
+};
+
+/// Which window a fit ends in.
+enum class InWindow : std::uint8_t { kOwn, kNearest };
+
+/// Refines the answer's fit from its row and judges it.
+void solve(const Problem& problem, InWindow window, Answer& answer);
+
+/// Positions of fits that ran, or are about to run, into the same maximum.
+bool isNear(const Problem& problem, PitchQ20 one, PitchQ20 other);
 
 /// What decides between two answers.
 struct Standing {
-  std::int32_t energy = -1;  ///< explained, and what a contact there may have left outside the window
-  bool found = false;
-  bool admissible = false;  ///< settled, presses, and no harder sideways than friction allows
-  bool isRival = false;     ///< to be reckoned with, if only as the next best
+  std::int32_t energy;  ///< explained, and what a contact there may have left outside the window
+  bool found;
+  bool admissible;
+  bool isRival;  ///< to be reckoned with, if only as the next best
 
   bool betterThan(const Standing& other) const {
     if (!other.found) return true;
@@ -28,36 +59,20 @@ struct Standing {
     return energy > other.energy;
   }
 };
-
-/// A refined fit and how it stands against others.
-struct Answer {
-  WindowFit fit;
-  Amplitudes amplitudes{};
-  std::int32_t energy = -1;  ///< that all seven gauges say it explains
-  Standing standing;
-
-  Placement placement(int gauges) const;
-};
-
-/// Refines the fit that starts at one offset of a scan. In three-point mode the three readings give the
-/// answer, and all seven its standing.
-Answer solve(const Problem& problem, const Scan& scan, int start);
-
-/// Positions go round the ring; `position` is at most one turn off.
-PitchQ20 roundTheRing(PitchQ20 position, int gauges);
+Standing standingOf(const Problem& problem, const Answer& answer);
 
 /// The best answer, and the next best that is not the same one: of that only what is reported, for the
 /// stack's sake.
 struct Contest {
   Answer best;
-  Standing second;
+  Standing first{}, second{};
   Placement secondPlacement;
 
-  void enter(const Answer& answer, int gauges);
+  void enter(const Problem& problem, const Answer& answer);
 
  private:
-  void setSecond(const Answer& answer, int gauges) {
-    second = answer.standing;
+  void setSecond(const Standing& standing, const Answer& answer, int gauges) {
+    second = standing;
     secondPlacement = answer.placement(gauges);
   }
 };

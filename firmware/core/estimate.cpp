@@ -5,11 +5,13 @@
 #include <limits>
 
 #include "firmware/core/integer_root.hpp"
+#include "firmware/core/triple_fit.hpp"
 
 namespace strainfinger::firmware {
 namespace {
 
 constexpr std::uint8_t kUncertainQuality = 20;
+constexpr int kRoundingShift = 12;  ///< 1/4096 of the energy is lost in rounding
 
 /// A positive real number: mantissa * 2^exponent. Cheap to multiply, and its root costs one integer root.
 struct Scaled {
@@ -39,8 +41,8 @@ std::uint64_t plain(Scaled value) {
 }
 
 /// Variance of a reading, as an energy of the fit (a quarter of a squared scaled strain).
-Scaled noiseEnergy(const TableConstants& constants, const Fit& fit) {
-  return {constants.noise_variance, constants.noise_variance_exponent - 2 * fit.shift - 2};
+Scaled noiseOf(const TableConstants& constants, const Fit& fit) {
+  return {constants.noise_variance, constants.noise_variance_exponent - 2 * (16 - fit.up) - 2};
 }
 
 /// Standard error of the offset [pitches * 2^20]: noise over the information in its gradient.
@@ -49,20 +51,36 @@ std::int32_t offsetSigma(const TableConstants& constants, const Fit& fit) {
   const int up = std::countl_zero(static_cast<std::uint32_t>(fit.information)) - 16;
   const auto information =
       static_cast<std::uint32_t>(up >= 0 ? fit.information << up : fit.information >> -up);
-  Scaled variance = noiseEnergy(constants, fit);
+  Scaled variance = noiseOf(constants, fit);
   variance.mantissa = (variance.mantissa << 7) / information;
-  variance.exponent += up - 2 * fit.informationExponent - 7 + 2 * kPitchBits;
+  variance.exponent += up - 2 * (fit.row->gradient_exponent + 1) - 7 + 2 * kPitchBits;
   return root(variance);
 }
 
 /// Standard error of an amplitude: its own at a known offset, and what the offset's error adds.
 std::int32_t amplitudeSigma(const TableConstants& constants, const Fit& fit, std::uint32_t gainSquared,
                             std::int32_t slope, std::int32_t offset_sigma) {
-  Scaled own = noiseEnergy(constants, fit);
+  Scaled own = noiseOf(constants, fit);
   own.mantissa *= gainSquared;
   const std::int64_t carried = std::clamp<std::int64_t>((std::int64_t{slope} * offset_sigma) >> kRowBits,
                                                         -(std::int64_t{1} << 30), std::int64_t{1} << 30);
   return root({plain(own) + static_cast<std::uint64_t>(carried * carried), 0});
+}
+
+std::uint32_t squareOf(std::int16_t value) { return static_cast<std::uint32_t>(std::int32_t{value} * value); }
+
+/// Standard errors of an answer's offset [pitches * 2^20] and amplitudes.
+struct Errors {
+  std::int32_t offset, normal, tangential;
+};
+
+Errors refinedErrors(const TableConstants& constants, const Fit& fit) {
+  const AmplitudeSlopes slopes = amplitudeSlopes(*fit.row, fit.projection);
+  const auto& load = fit.row->load;
+  const std::int32_t offset = offsetSigma(constants, fit);
+  return {offset,
+          amplitudeSigma(constants, fit, squareOf(load[0]) + squareOf(load[1]), slopes.normal, offset),
+          amplitudeSigma(constants, fit, squareOf(load[2]), slopes.tangential, offset)};
 }
 
 /// Standard errors of an amplitude along the three directions in which a contact moves the readings, were
@@ -71,7 +89,7 @@ using Deviations = std::array<std::int64_t, 3>;
 
 Deviations deviationsOf(const TableConstants& constants, const Fit& fit, std::array<std::int16_t, 2> gains,
                         std::int32_t slope, std::int32_t offset_sigma) {
-  Scaled noise = noiseEnergy(constants, fit);
+  Scaled noise = noiseOf(constants, fit);
   noise.exponent += 16;
   const std::int64_t deviation = root(noise);
   return {(gains[0] * deviation) >> 8, (gains[1] * deviation) >> 8,
@@ -91,10 +109,68 @@ std::int32_t reducedSigma(Deviations deviations, const std::array<std::int32_t, 
   return root({static_cast<std::uint64_t>(std::max<std::int64_t>(variance, 0)), 2 * down - 12});
 }
 
-std::uint32_t squareOf(std::int16_t value) { return static_cast<std::uint32_t>(std::int32_t{value} * value); }
+Errors reducedErrors(const TableConstants& constants, const Fit& fit) {
+  const AmplitudeSlopes slopes = amplitudeSlopes(*fit.row, fit.projection);
+  const auto& load = fit.row->load;
+  const std::int32_t offset = std::min(offsetSigma(constants, fit), constants.gauge_count * kOnePitch / 2);
+  const auto sigma = [&](const Deviations& deviations) {
+    return reducedSigma(deviations, fit.covariance_q12);
+  };
+  return {sigma({0, 0, offset}),
+          sigma(deviationsOf(constants, fit, {load[0], load[1]}, slopes.normal, offset)),
+          sigma(deviationsOf(constants, fit, {0, load[2]}, slopes.tangential, offset))};
+}
+
+/// value with 32 significant bits.
+Scaled normalised(std::uint64_t value) {
+  const int up = std::countl_zero(value | 1);
+  return {value << up >> 32, 32 - up};
+}
+
+/// Standard error of a sum of three readings, each times weight * 2^weightExponent / volume.
+std::int32_t weightedSigma(const TableConstants& constants, const Fit& fit, const Vector3& weights,
+                           int weightExponent, std::int32_t volume) {
+  if (volume == 0) return std::numeric_limits<std::int32_t>::max();
+  std::uint64_t square = 0;
+  for (const std::int32_t weight : weights)
+    square += static_cast<std::uint64_t>(std::int64_t{weight} * weight);
+  const Scaled above = normalised(square);
+  const Scaled below = normalised(static_cast<std::uint64_t>(std::int64_t{volume} * volume));
+  const Scaled noise = noiseOf(constants, fit);
+  // A reading's variance is four times its energy.
+  return root({noise.mantissa * above.mantissa / below.mantissa,
+               noise.exponent + 2 + above.exponent - below.exponent + 2 * weightExponent});
+}
+
+Errors tripleErrors(const TableConstants& constants, const Fit& fit) {
+  constexpr int kLowered = 20;
+  const TripleSystem system = tripleChoice(*fit.row, fit.projection).system;
+  const AmplitudeSlopes slopes = amplitudeSlopes(*fit.row, fit.projection);
+  const auto& load = fit.row->load;
+  // An amplitude changes with the projections, and per row spacing of offset.
+  const auto sigma = [&](std::int32_t load1, std::int32_t load2, std::int32_t slope) {
+    Vector3 weights;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      const std::int64_t own =
+          std::int64_t{load1} * system.forProjection1[i] + std::int64_t{load2} * system.forProjection2[i];
+      const std::int64_t carried = std::int64_t{slope} * system.forOffset[i] * kRowsPerPitch;
+      weights[i] = saturate<std::int32_t>(
+          (own * (1 << 14) + (carried >> (fit.row->gradient_exponent + 3)) * 8) >> kLowered);
+    }
+    return weightedSigma(constants, fit, weights, kLowered, system.volume);
+  };
+  return {
+      weightedSigma(constants, fit, system.forOffset, kPitchBits - fit.row->gradient_exponent, system.volume),
+      sigma(load[0], load[1], slopes.normal), sigma(0, load[2], slopes.tangential)};
+}
+
+Errors errorsOf(const TableConstants& constants, const Fit& fit) {
+  if (fit.reduced) return reducedErrors(constants, fit);
+  return fit.readings == FitMode::kRefined ? refinedErrors(constants, fit) : tripleErrors(constants, fit);
+}
 
 LineLoadQ12 loadOf(const TableConstants& constants, const Fit& fit, std::int32_t amplitude) {
-  const int up = constants.load_exponent + fit.shift;
+  const int up = constants.load_exponent + 16 - fit.up;
   const std::int64_t product = std::int64_t{amplitude} * constants.load_scale;
   if (up >= 0) return LineLoadQ12::max();
   if (up <= -63) return LineLoadQ12::fromRaw(0);
@@ -111,9 +187,11 @@ TurnQ32 angleOf(const TableConstants& constants, PitchQ20 position) {
   return TurnQ32::fromRaw(constants.first_angle_q32 + turnsOf(constants, position));
 }
 
-std::uint8_t qualityOf(const Fit& fit) {
+/// 100 % where noise and rounding explain what is left.
+std::uint8_t qualityOf(const TableConstants& constants, const Fit& fit) {
+  const std::int32_t expected = noiseEnergy(constants, fit.up) / 2 + (fit.windowEnergy >> kRoundingShift);
   const std::int64_t percent =
-      100 * std::int64_t{fit.expected} / std::max<std::int32_t>({fit.expected, fit.unexplained, 1});
+      100 * std::int64_t{expected} / std::max<std::int32_t>({expected, fit.unexplained, 1});
   const bool doubt = fit.ambiguous || !fit.settled;
   return static_cast<std::uint8_t>(std::min<std::int64_t>(percent, doubt ? kUncertainQuality : 100));
 }
@@ -126,18 +204,8 @@ std::int32_t covering(std::int32_t sigma, std::int64_t difference) {
 }  // namespace
 
 Contact estimate(const TableConstants& constants, const Fit& fit) {
-  std::int32_t offset = std::min(offsetSigma(constants, fit), constants.gauge_count * kOnePitch / 2);
-  const std::uint32_t normalGain = squareOf(fit.load[0]) + squareOf(fit.load[1]);
-  std::int32_t normal = amplitudeSigma(constants, fit, normalGain, fit.normalSlope, offset);
-  std::int32_t tangential =
-      amplitudeSigma(constants, fit, squareOf(fit.load[2]), fit.tangentialSlope, offset);
-  if (fit.reduced) {
-    normal = reducedSigma(deviationsOf(constants, fit, {fit.load[0], fit.load[1]}, fit.normalSlope, offset),
-                          fit.covariance_q12);
-    tangential = reducedSigma(deviationsOf(constants, fit, {0, fit.load[2]}, fit.tangentialSlope, offset),
-                              fit.covariance_q12);
-    offset = reducedSigma({0, 0, offset}, fit.covariance_q12);
-  }
+  auto [offset, normal, tangential] = errorsOf(constants, fit);
+  offset = std::min(offset, constants.gauge_count * kOnePitch / 2);
   if (fit.ambiguous) {
     const PitchQ20 ring = constants.gauge_count * kOnePitch;
     const PitchQ20 apart = std::abs(fit.best.position - fit.alternative.position);
@@ -153,7 +221,7 @@ Contact estimate(const TableConstants& constants, const Fit& fit) {
   contact.tangential = loadOf(constants, fit, fit.best.tangential);
   contact.sigmaTangential = loadOf(constants, fit, tangential);
   contact.alternative = angleOf(constants, fit.alternative.position);
-  contact.quality = qualityOf(fit);
+  contact.quality = qualityOf(constants, fit);
   contact.ambiguous = fit.ambiguous;
   contact.uncertain = contact.quality <= kUncertainQuality;
   return contact;

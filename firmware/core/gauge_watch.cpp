@@ -10,8 +10,10 @@ namespace {
 
 constexpr std::uint32_t kNoise = 64;  ///< variances of a reading that noise alone doesn't leave
 constexpr int kGainShift = 8;         ///< gains that are 6 % off leave this part of the energy
-constexpr int kOutsideShift = 3;  ///< a contact leaves less than this part of its energy outside its window
-constexpr int kOneOutsideShift = 5;  ///< .. and this in one gauge
+constexpr int kMayShift = 3;  ///< not worth a look: so much more than a contact leaves outside its window
+constexpr int kNeighbourShift =
+    3;                        ///< a contact over a gauge leaves more than this part of it in its neighbours
+constexpr int kOwnShift = 4;  ///< a contact leaves more than this part of itself in other gauges than one
 
 constexpr std::uint32_t kTold = 12;  ///< two culprits closer than this are not told apart
 
@@ -35,7 +37,7 @@ Split splitAt(const Problem& problem, int centre) {
   Split split;
   for (int step = -problem.gauges() / 2; step < problem.gauges() / 2; ++step) {
     const auto gauge = static_cast<std::size_t>(wrapped(centre + step, problem.gauges()));
-    const std::int32_t energy = energyOf(scaledStrain(problem.strains[gauge], problem.shift));
+    const std::int32_t energy = energyOf(scaledStrain(problem.strains[gauge], problem.up));
     const bool inside = std::abs(step) <= kWindowReach;
     (inside ? split.window : split.outside) += energy;
     std::int32_t& largest = inside ? split.largestInside : split.largestOutside;
@@ -45,14 +47,16 @@ Split splitAt(const Problem& problem, int centre) {
 }
 
 std::int32_t tolerated(const Problem& problem) {
-  return problem.noise(kNoise) + (problem.ringEnergy >> kGainShift);
+  return problem.variances(kNoise) + (problem.ringEnergy >> kGainShift);
 }
 
 /// The gauge that can be left out with most effect, and what is then unexplained; wherever the contact is.
 struct Suspect {
-  int gauge = -1;
-  int look = 0;
+  enum class Kind : std::uint8_t { kFault, kMisshapen, kContact };  ///< a contact's: wide; another one
   std::int32_t unexplained = std::numeric_limits<std::int32_t>::max();
+  std::int16_t look = 0;
+  std::int8_t gauge = -1;
+  Kind kind = Kind::kFault;
 };
 
 using Suspects = std::array<Suspect, 4>;  ///< of different gauges, the best first
@@ -79,10 +83,15 @@ View lookAt(const Problem& problem, int look) {
   return viewOf(problem, roundTheRing((2 * look + 1) * (kRows / 2) * kRowSpacing, problem.gauges()));
 }
 
-/// What leaving a gauge out takes off the unexplained energy: r^2 / (1 - h).
-std::int32_t relief(std::int32_t residual, std::int32_t leverage_q15) {
+/// A reading with residual r and leverage h, left out.
+struct LeftOut {
+  std::int32_t relief;   ///< what that takes off the unexplained energy: r^2 / (1 - h)
+  std::int32_t reading;  ///< what the others say that it should be: itself - r / (1 - h)
+};
+LeftOut leftOut(std::int32_t reading, std::int32_t residual, std::int32_t leverage_q15) {
   const std::int32_t left = std::max<std::int32_t>((1 << 15) - leverage_q15, 1 << 9);
-  return saturate<std::int32_t>((std::int64_t{residual} * residual << 13) / left);
+  return {saturate<std::int32_t>((std::int64_t{residual} * residual << 13) / left),
+          saturate<std::int16_t>(reading - (std::int64_t{residual} << 15) / left)};
 }
 
 void lookThere(const Problem& problem, const RingSignal& signal, int look, Suspects& suspects) {
@@ -99,15 +108,17 @@ void lookThere(const Problem& problem, const RingSignal& signal, int look, Suspe
     const std::int32_t reading = signal.at(gauge);
     std::int32_t inside = fit.share.unexplained, beyond = outside, trusted = window;
     if (std::abs(step) <= kWindowReach) {
-      const std::int32_t residual = reading - fit.predicted(problem, view, step);
-      inside -= relief(residual, fit.leverage_q15(step));
+      const LeftOut without =
+          leftOut(reading, reading - fit.predicted(problem, view, step), fit.leverage_q15(step));
+      inside -= without.relief;
       trusted -= energyOf(reading);
+      trusted += oneBeside(trusted, energyOf(without.reading));
     } else {
       beyond -= energyOf(reading);
     }
     const std::int32_t unexplained =
-        std::max<std::int32_t>(inside, 0) + std::max<std::int32_t>(beyond - (trusted >> kOutsideShift), 0);
-    enter(suspects, {gauge, look, unexplained});
+        std::max<std::int32_t>(inside, 0) + std::max<std::int32_t>(beyond - problem.tail(trusted), 0);
+    enter(suspects, {unexplained, static_cast<std::int16_t>(look), static_cast<std::int8_t>(gauge)});
   }
 }
 
@@ -115,7 +126,7 @@ void lookThere(const Problem& problem, const RingSignal& signal, int look, Suspe
 bool mayExplain(const Problem& problem, int centre) {
   const Split split = splitAt(problem, centre);
   const std::int32_t trusted = split.window - split.largestInside;
-  return split.outside - split.largestOutside - (trusted >> kOutsideShift) <= tolerated(problem);
+  return split.outside - split.largestOutside - (trusted >> kMayShift) <= tolerated(problem);
 }
 
 /// What was observed, not yet as a problem: functions that make one of it don't share their stack.
@@ -125,23 +136,56 @@ struct Observed {
   std::span<const std::int32_t> strains_q32;
   std::uint32_t energy;
 
-  Problem problem() const { return problemOf(tables, FitMode::kRefined, strains_q32, energy); }
+  Problem problem() const { return problemOf(tables, strains_q32, energy); }
 };
 
-/// What one contact leaves unexplained of the ring without the suspect.
-[[gnu::noinline]] std::int32_t unexplainedWithout(const Observed& observed, const Suspect& suspect) {
+/// How a suspect's reading compares with the contact that the others show: inside the window it is far off
+/// what that one predicts; outside, it leaves its neighbours alone, as another contact would not.
+[[gnu::noinline]] Suspect::Kind kindOf(const Problem& others, const RingSignal& signal, PitchQ20 position,
+                                       int gauge, std::int32_t reading) {
+  const View view = viewOf(others, position);
+  const LocalFit fit = localFit(others, signal, view);
+  std::int32_t outside = others.ringEnergy;
+  for (int step = -kWindowReach; step <= kWindowReach; ++step) {
+    const int each = gaugeAt(others, view, step);
+    outside -= energyOf(signal.at(each));
+    if (each != gauge) continue;
+    const std::int32_t predicted = fit.predicted(others, view, step);
+    const bool farOff = 2 * std::abs(reading - predicted) > std::abs(predicted);
+    return farOff ? Suspect::Kind::kFault : Suspect::Kind::kMisshapen;
+  }
+  const bool alone = outside <= (energyOf(reading) >> kNeighbourShift) + others.variances(kNoise / 2);
+  return alone ? Suspect::Kind::kFault : Suspect::Kind::kContact;
+}
+
+/// The best contact about a look.
+[[gnu::noinline]] Candidate bestNear(const Problem& others, const RingSignal& signal, int look) {
+  Candidate best;
+  const int looks = kLooksPerPitch * others.gauges();
+  for (int near = look - 2; near <= look + 2; near += 2) {
+    const Candidate candidate = followed(others, signal, lookAt(others, wrapped(near, looks)));
+    if (candidate.admissible && candidate.explained > best.explained) best = candidate;
+  }
+  return best;
+}
+
+/// The best contact anywhere. Not inlined: its rivals are not on the stack of what comes after.
+[[gnu::noinline]] Candidate bestAnywhere(const Problem& others, const RingSignal& signal) {
+  return searchRemaining(others, signal).best;
+}
+
+/// Looks at a suspect closely: what one contact leaves unexplained of the ring without it, and whether it is
+/// far off what that contact says.
+[[gnu::noinline]] void examine(const Observed& observed, Suspect& suspect) {
   Problem others = observed.problem();
-  const auto reading = scaledStrain(others.strains[static_cast<std::size_t>(suspect.gauge)], others.shift);
+  const auto reading = scaledStrain(others.strains[static_cast<std::size_t>(suspect.gauge)], others.up);
   others.ringEnergy = std::max<std::int32_t>(others.ringEnergy - energyOf(reading), 1);
   const RingSignal signal{others, observed.leftOut | 1u << suspect.gauge};
-  std::int32_t most = 0;
-  for (int look = suspect.look - 2; look <= suspect.look + 2; look += 2) {
-    const int looks = kLooksPerPitch * others.gauges();
-    const Candidate candidate = followed(others, signal, lookAt(others, wrapped(look, looks)));
-    if (candidate.admissible) most = std::max(most, candidate.explained);
-  }
-  if (most == 0) most = std::max<std::int32_t>(searchRemaining(others, signal).best.explained, 0);
-  return std::max<std::int32_t>(others.ringEnergy - most, 0);
+  Candidate best = bestNear(others, signal, suspect.look);
+  if (!best.admissible) best = bestAnywhere(others, signal);
+  suspect.unexplained =
+      std::max<std::int32_t>(others.ringEnergy - std::max<std::int32_t>(best.explained, 0), 0);
+  suspect.kind = kindOf(others, signal, best.place.position, suspect.gauge, reading);
 }
 
 /// A contact always moves two gauges: one alone is a fault.
@@ -152,7 +196,7 @@ struct Observed {
   for (int gauge = 1; gauge < problem.gauges(); ++gauge)
     if (std::abs(signal.at(gauge)) > std::abs(signal.at(largest))) largest = gauge;
   const std::int32_t others = problem.ringEnergy - energyOf(signal.at(largest));
-  const bool alone = others <= problem.noise(kNoise / 2) + (problem.ringEnergy >> (kGainShift - 1));
+  const bool alone = others <= problem.variances(kNoise / 2) + (problem.ringEnergy >> (kGainShift - 1));
   return alone ? largest : -1;
 }
 
@@ -166,24 +210,31 @@ struct Observed {
   }
 }
 
-[[gnu::noinline]] Misfit verdictOn(const Observed& observed, const Suspects& suspects) {
+/// What one contact leaves unexplained of the ring with all its gauges.
+[[gnu::noinline]] std::int32_t unexplainedWithAll(const Observed& observed) {
+  const Problem problem = observed.problem();
+  const RingSignal signal{problem, observed.leftOut};
+  return problem.ringEnergy - std::max<std::int32_t>(searchRemaining(problem, signal).best.explained, 0);
+}
+
+/// `all`: unexplainedWithAll().
+[[gnu::noinline]] Misfit verdictOn(const Observed& observed, const Suspects& suspects, std::int32_t all) {
   const Suspect& best = suspects[0];
   const Problem problem = observed.problem();
-  const std::int32_t clear = best.unexplained + best.unexplained / 4 + problem.noise(kTold);
-  if (best.unexplained <= tolerated(problem) / 2 && suspects[1].unexplained > clear)
-    return {.culprit = 1u << best.gauge};
-  return {.several = true};
+  if (best.unexplained > (all >> kOwnShift) + problem.variances(kNoise / 2)) return {.several = true};
+  const std::int32_t clear = best.unexplained + best.unexplained / 4 + problem.variances(kTold);
+  if (best.unexplained > tolerated(problem) / 2 || suspects[1].unexplained <= clear) return {.several = true};
+  if (best.kind == Suspect::Kind::kContact) return {.several = true};
+  return {.culprit = best.kind == Suspect::Kind::kFault ? 1u << best.gauge : 0};
 }
 
 }  // namespace
 
 bool isMisfit(const TableImage& tables, std::span<const std::int32_t> strains_q32, std::uint32_t energy,
               const Fit& fit) {
-  const Problem problem = problemOf(tables, FitMode::kRefined, strains_q32, energy);
-  const Split split = splitAt(problem, fit.centre);
-  const std::int32_t outside = std::max<std::int32_t>(split.outside - (split.window >> kOutsideShift), 0);
-  return fit.unexplained + outside > tolerated(problem) ||
-         split.largestOutside > problem.noise(kNoise) + (split.window >> kOneOutsideShift);
+  const Problem problem = problemOf(tables, strains_q32, energy);
+  const std::int32_t outside = problem.ringEnergy - fit.windowEnergy - problem.tail(fit.windowEnergy);
+  return fit.unexplained + std::max<std::int32_t>(outside, 0) > tolerated(problem);
 }
 
 Misfit examine(const TableImage& tables, GaugeSet leftOut, std::span<const std::int32_t> strains_q32,
@@ -193,13 +244,24 @@ Misfit examine(const TableImage& tables, GaugeSet leftOut, std::span<const std::
   Suspects suspects;
   lookEverywhere(observed, suspects);
   for (Suspect& suspect : suspects)
-    if (suspect.gauge >= 0) suspect.unexplained = unexplainedWithout(observed, suspect);
+    if (suspect.gauge >= 0) examine(observed, suspect);
   sort(suspects);
-  return verdictOn(observed, suspects);
+  return verdictOn(observed, suspects, unexplainedWithAll(observed));
 }
 
-void GaugeWatch::accuse(GaugeSet culprits) {
+bool JumpWatch::isOthersNoise(const TableConstants& constants, std::int32_t reading,
+                              std::uint32_t energy) const {
+  const auto isQuietWithout = [&](std::int32_t own, std::uint32_t all) {
+    const std::int64_t coarse = own >> constants.gate_shift;
+    return all - coarse * coarse < constants.gate_off;
+  };
+  return isQuietWithout(reading, energy) && isQuietWithout(before_q32_, energyBefore_);
+}
+
+void GaugeWatch::count(GaugeSet culprits) {
+  anyScore_ = false;
   for (std::size_t i = 0; i < score_.size(); ++i) {
+    if (contains(outOfUse_, static_cast<int>(i))) continue;
     std::uint8_t& score = score_[i];
     if (!contains(culprits, static_cast<int>(i))) {
       if (score > 0) --score;
@@ -207,6 +269,17 @@ void GaugeWatch::accuse(GaugeSet culprits) {
       outOfUse_ |= 1u << i;
       score = 0;
     }
+    anyScore_ |= score != 0;
+  }
+}
+
+void GaugeWatch::reconsider(GaugeSet right, GaugeSet wrong) {
+  for (std::size_t i = 0; i < score_.size(); ++i) {
+    const GaugeSet gauge = 1u << i;
+    if ((wrong & gauge) != 0) score_[i] = 0;
+    if ((right & gauge & ~beyondDoubt_) == 0 || ++score_[i] < kConvincing) continue;
+    outOfUse_ &= ~gauge;
+    score_[i] = 0;
   }
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdlib>
 #include <utility>
 
@@ -16,7 +15,6 @@ constexpr PitchQ20 kLongestStep = kOnePitch / 8;
 constexpr std::uint32_t kAmbiguous = 12;  ///< answers closer than this many variances are not told apart
 constexpr std::uint32_t kFaint = 64;      ///< an answer that explains less may be noise
 constexpr int kAmbiguousShift = 17;       ///< rounding makes two fits differ by this part of their energy
-constexpr int kTailShift = 3;  ///< a contact leaves up to this part of its energy outside its window
 constexpr std::size_t kPeaks = 3;
 constexpr PitchQ20 kSame = kOnePitch / 12;  ///< fits closer than this ran into one maximum
 
@@ -36,20 +34,27 @@ PitchQ20 positionOf(const Problem& problem, const View& view, PitchQ20 beyondRow
 }
 
 /// Energy outside the window that a contact there may well have left.
-[[gnu::noinline]] std::int32_t tailOf(const Problem& problem, const RingSignal& signal, const View& view) {
-  std::int32_t window = 0;
+[[gnu::noinline]] std::int32_t tailOf(const Problem& problem, const RingSignal& signal, const View& view,
+                                      const LocalFit& fit) {
+  std::int32_t window = 0, missing = 0;
   for (int step = -kWindowReach; step <= kWindowReach; ++step) {
-    const std::int32_t reading = signal.at(gaugeAt(problem, view, step));
+    const int gauge = gaugeAt(problem, view, step);
+    const std::int32_t reading = signal.at(gauge);
     window += (reading * reading) >> 2;
+    if (contains(signal.leftOut, gauge)) {
+      const std::int32_t predicted = saturate<std::int16_t>(fit.predicted(problem, view, step));
+      missing += (predicted * predicted) >> 2;
+    }
   }
-  return std::clamp<std::int32_t>(problem.ringEnergy - window, 0, window >> kTailShift);
+  return std::clamp<std::int32_t>(problem.ringEnergy - window, 0,
+                                  problem.tail(window + oneBeside(window, missing)));
 }
 
 /// Amplitudes as locate() has them, at the view's row.
 [[gnu::noinline]] Placement placed(const Problem& problem, const View& view, PitchQ20 beyondRow,
                                    const Three& coefficients) {
   constexpr int kDown = 5;  // from coefficients * 2^4 to projections * 2^15, then as scaledBy() in window_fit
-  const auto& load = problem.tables.refined[static_cast<std::size_t>(view.row)].load;
+  const auto& load = problem.tables.rows[static_cast<std::size_t>(view.row)].load;
   const std::int64_t normal =
       std::int64_t{load[0]} * coefficients[0] + std::int64_t{load[1]} * coefficients[1];
   const std::int64_t tangential = std::int64_t{load[2]} * coefficients[1];
@@ -116,10 +121,12 @@ struct Peaks {
   const View view = viewOf(problem, position);
   const LocalFit fit = localFit(problem, signal, view);
   if (!fit.share.determined) return false;
+  const std::int32_t limit = (1 << (15 + problem.tables.constants.gate_shift)) - 1;
   for (int step = -kWindowReach; step <= kWindowReach; ++step) {
     const int gauge = gaugeAt(problem, view, step);
     if (contains(signal.leftOut, gauge))
-      strains_q32[static_cast<std::size_t>(gauge)] = fit.predicted_q32(problem, view, step);
+      strains_q32[static_cast<std::size_t>(gauge)] =
+          std::clamp(fit.predicted_q32(problem, view, step), -limit, limit);
   }
   return true;
 }
@@ -136,10 +143,11 @@ struct Verdict {
   Placement alternative;  ///< with the amplitudes of a fit to the readings filled in
 };
 
-Placement scaledTo(int shift, const Placement& place, int from) {
+/// From one problem's scale to another's.
+Placement rescaled(const Placement& place, int fromUp, int toUp) {
   const auto scaled = [&](std::int32_t amplitude) {
-    return saturate<std::int32_t>(from >= shift ? std::int64_t{amplitude} * (1 << (from - shift))
-                                                : std::int64_t{amplitude} >> (shift - from));
+    return saturate<std::int32_t>(toUp >= fromUp ? std::int64_t{amplitude} * (1 << (toUp - fromUp))
+                                                 : std::int64_t{amplitude} >> (fromUp - toUp));
   };
   return {place.position, scaled(place.normal), scaled(place.tangential)};
 }
@@ -148,41 +156,44 @@ Placement scaledTo(int shift, const Placement& place, int from) {
 [[gnu::noinline]] Verdict prepare(const TableImage& tables, GaugeSet leftOut,
                                   std::span<std::int32_t> strains_q32, std::uint32_t& energy) {
   clear(leftOut, strains_q32);
-  const Problem problem = problemOf(tables, FitMode::kRefined, strains_q32, energy);
+  const Problem problem = problemOf(tables, strains_q32, energy);
   const RingSignal signal{problem, leftOut};
   const Rivals rivals = searchRemaining(problem, signal);
-  const std::int32_t margin = problem.noise(kAmbiguous) + (rivals.best.explained >> kAmbiguousShift);
+  const std::int32_t margin = problem.variances(kAmbiguous) + (rivals.best.explained >> kAmbiguousShift);
   Verdict verdict;
   verdict.ambiguous = rivals.second.admissible && rivals.second.explained > rivals.best.explained - margin;
-  verdict.determined = rivals.best.explained > problem.noise(kFaint) &&
+  verdict.determined = rivals.best.explained > problem.variances(kFaint) &&
                        fillIn(problem, signal, rivals.best.place.position, strains_q32);
   energy = gateEnergy(tables.constants, strains_q32);
-  const int shift = problemOf(tables, FitMode::kRefined, strains_q32, energy).shift;
-  verdict.alternative = scaledTo(shift, rivals.second.place, problem.shift);
+  verdict.alternative = rescaled(rivals.second.place, problem.up, problemOf(tables, strains_q32, energy).up);
   return verdict;
 }
 
-/// One reading of the middle five may be missing, and one gauge in eight of the ring: with more, another
-/// contact can look like the one that is there.
+/// One reading of the middle five may be missing, for the same reason (tooManyOut()).
 bool tooFew(const Problem& problem, const View& view, GaugeSet leftOut) {
   int middle = 0;
   for (int step = -2; step <= 2; ++step)
     if (contains(leftOut, gaugeAt(problem, view, step))) ++middle;
-  return middle > 1 || std::popcount(leftOut) > problem.gauges() / 8;
+  return middle > 1 || tooManyOut(leftOut, problem.gauges());
+}
+
+/// The window and row of a fit.
+View viewOf(const Problem& problem, const Fit& fit) {
+  const PitchQ20 ring = problem.gauges() * kOnePitch;
+  PitchQ20 offset = fit.best.position - fit.centre * kOnePitch;
+  if (offset > ring / 2) offset -= ring;
+  if (offset < -ring / 2) offset += ring;
+  return {fit.centre, offset < 0 ? -1 : 1, static_cast<int>(fit.row - problem.tables.rows.data())};
 }
 
 /// The errors of a fit to filled-in readings are those of the readings that are real.
 [[gnu::noinline]] void widen(const TableImage& tables, GaugeSet leftOut,
                              std::span<const std::int32_t> strains_q32, std::uint32_t energy, Fit& fit) {
-  const Problem problem = problemOf(tables, FitMode::kRefined, strains_q32, energy);
-  const View view = viewOf(problem, fit.best.position);
+  const Problem problem = problemOf(tables, strains_q32, energy);
+  const View view = viewOf(problem, fit);
   const LocalFit local = localFit(problem, RingSignal{problem, leftOut}, view);
   fit.reduced = true;
   fit.covariance_q12 = local.share.covariance_q12;
-  if (view.side != fit.side) {  // at the middle gauge both are right, but signs must agree
-    fit.covariance_q12[1] = -fit.covariance_q12[1];
-    fit.covariance_q12[2] = -fit.covariance_q12[2];
-  }
   if (!local.share.determined || tooFew(problem, view, leftOut)) fit.settled = false;
 }
 
@@ -197,7 +208,7 @@ Candidate followed(const Problem& problem, const RingSignal& signal, View view) 
     const PitchQ20 whole = fit.share.beyondRow(fit.tangent);
     const PitchQ20 step = std::clamp(whole, -longest, longest);
     candidate.place = placed(problem, view, step, fit.share.coefficients);
-    candidate.explained = fit.share.explained + tailOf(problem, signal, view);
+    candidate.explained = fit.share.explained + tailOf(problem, signal, view, fit);
     if (std::abs(whole) <= kRowSpacing * 5 / 8) {
       candidate.admissible = withinCone(problem, candidate.place);
       break;

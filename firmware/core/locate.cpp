@@ -6,135 +6,241 @@
 
 #include "firmware/core/answer.hpp"
 #include "firmware/core/scan.hpp"
+#include "firmware/core/triple_fit.hpp"
 
 namespace strainfinger::firmware {
 namespace {
 
-/// Fits farther from their middle gauge than this belong to another window.
-constexpr PitchQ20 kFarFromMiddle = kOnePitch * 53 / 100;
+/// A ring of less energy than 1024 variances can look right in any window, one of less than 4096 two or three
+/// gauges away.
+constexpr int kWeakShift = 5;
+constexpr int kAliasShift = 7;
 
-// In variances of a reading (Problem::noise()):
-constexpr std::uint32_t kAmbiguous = 12;    ///< answers closer than this are not told apart
-constexpr std::uint32_t kRivalMargin = 32;  ///< a peak of a scan so far behind may still win once refined ..
-constexpr std::uint32_t kUnexplained = 32;  ///< noise alone leaves less in a window ..
-constexpr std::uint32_t kAlias = 4096;      ///< a ring with less can look right two or three gauges away
-constexpr std::uint32_t kWeak = 1024;       ///< .. and with less than this, in any
-constexpr std::uint32_t kAmbiguousWeak = 24;  ///< kAmbiguous there, where the energy is far from quadratic
-constexpr std::uint32_t kFaint = 64;          ///< an answer that explains less than this may be noise
-// .. and in parts of the energy, as powers of two:
-constexpr int kRivalShift = 4;       ///< .. as may one within 1/16
-constexpr int kRoundingShift = 12;   ///< .. beside 1/4096, lost in rounding
+// Parts of the energy, as powers of two:
+constexpr int kRivalShift =
+    5;  ///< a peak of one window within 1/32 (and kNoiseUnit variances) may yet win ..
+constexpr int kStarterShift = 4;     ///< .. and one of another window within 1/16
+constexpr int kRoundingShift = 12;   ///< 1/4096 is lost in rounding
 constexpr int kAmbiguousShift = 14;  ///< rounding makes two fits differ by less than this
+constexpr int kOneStepShift = 8;     ///< .. after a single step by less than this ..
+constexpr int kTwoStepsShift = 12;   ///< .. and after a second by less than this
 constexpr int kOutsideShift = 3;     ///< a contact leaves less than 1/8 of its energy outside its window
 
-bool isWeak(const Problem& problem) { return problem.ringEnergy < problem.noise(kWeak); }
+bool mayBeAlias(const Problem& problem) { return problem.ringEnergy >> kAliasShift < problem.noise; }
+bool isWeak(const Problem& problem) { return problem.ringEnergy >> kWeakShift < problem.noise; }
 
-/// Refines every peak of a scan that may yet turn out the best.
-void solveWindow(const Problem& problem, const Scan& scan, Contest& contest) {
-  const std::int32_t best = scan.best();
-  const std::int32_t limit = best - (best >> kRivalShift) - problem.noise(kRivalMargin);
-  for (int start = 0; start < scan.size(); ++start) {
-    if (scan.isPeak(start) && scan.at(start) > limit)
-      contest.enter(solve(problem, scan, start), problem.gauges());
-  }
+/// How much less a peak of a scan may explain than the best and still win once it is refined.
+std::int32_t rivalLimit(const Problem& problem, std::int32_t best, int shift) {
+  return best - (best >> shift) - problem.noise;
 }
 
 /// Another window may hold a better answer.
-bool doubtful(const Problem& problem, const Answer& answer) {
-  const std::int32_t window = energyOf(answer.fit.signal);
-  const std::int32_t noise = problem.noise(kUnexplained);
-  return !answer.standing.admissible || problem.ringEnergy < problem.noise(kAlias) ||
-         std::abs(answer.fit.offset) > kFarFromMiddle ||
-         window - answer.energy > noise + (window >> kRoundingShift) ||
-         problem.ringEnergy - window > noise + (window >> kOutsideShift);
+inline bool doubtful(const Problem& problem, const Answer& answer) {
+  const std::int32_t window = answer.windowEnergy;
+  return !answer.admissible() || mayBeAlias(problem) ||
+         window - answer.energy > problem.noise + (window >> kRoundingShift) ||
+         problem.ringEnergy - window > problem.noise + (window >> kOutsideShift);
 }
 
-/// Of the windows at `offsets` from the anchor, solves the one whose scan explains most. Scans that one
-/// twice, so as to have one scan on the stack and not two.
-template <std::size_t N>
-void solveBestOf(const Problem& problem, int anchor, const std::array<int, N>& offsets, Contest& contest) {
-  int best = anchor;
-  std::int32_t most = -1;
-  for (const int offset : offsets) {
-    const int gauge = wrapped(anchor + offset, problem.gauges());
-    const std::int32_t energy = scanWindow(problem, gauge).best();
-    if (energy <= most) continue;
-    most = energy;
-    best = gauge;
+/// What explains two answers equally well, within noise and rounding.
+std::int32_t marginOf(const Problem& problem, std::int32_t window) {
+  const std::int32_t twelveVariances = problem.noise * 3 / 8;
+  return (isWeak(problem) ? 2 * twelveVariances : twelveVariances) + (window >> kAmbiguousShift);
+}
+
+/// A place to start a fit from.
+struct Start {
+  std::int32_t energy;
+  std::uint8_t centre;
+  std::int8_t row;
+};
+
+/// The best few of any number of starts, the best first.
+class Shortlist {
+ public:
+  Shortlist() { starts_.fill({-1, 0, 0}); }
+  void add(const Peak& peak, int centre) {
+    if (peak.energy <= starts_.back().energy) return;
+    auto at = starts_.end() - 1;
+    for (; at != starts_.begin() && peak.energy > (at - 1)->energy; --at) *at = *(at - 1);
+    *at = {peak.energy, static_cast<std::uint8_t>(centre), static_cast<std::int8_t>(peak.row)};
   }
-  solveWindow(problem, scanWindow(problem, best), contest);
+  void add(const Scan& scan, int centre) {
+    add(scan.middle, centre);
+    add(scan.minus, centre);
+    add(scan.plus, centre);
+  }
+  const auto& starts() const { return starts_; }
+
+ private:
+  std::array<Start, 6> starts_;
+};
+
+/// Refines every start of the list that may win.
+[[gnu::noinline]] void enterBest(const Problem& problem, const Shortlist& list, Contest& contest) {
+  const std::int32_t limit = rivalLimit(problem, list.starts()[0].energy, kStarterShift);
+  for (const Start& from : list.starts()) {
+    if (from.energy <= limit) return;
+    Answer answer;
+    answer.fit.start(windowSignal(problem.strains, from.centre, problem.up), from.centre, from.row,
+                     problem.mirrorSign());
+    solve(problem, InWindow::kOwn, answer);
+    contest.enter(problem, answer);
+  }
 }
 
 /// Where the model's strongest response has no single peak over the contact, or noise may hide it, every
 /// window is looked at.
-void solveEverywhere(const Problem& problem, Contest& contest) {
-  constexpr int kCoarse = 11;  // energies, below 2^27, in 16 bits: half the stack
-  std::array<std::uint16_t, kMaxGauges> energies{};
-  std::int32_t largest = 0;
+[[gnu::noinline]] void searchEverywhere(const Problem& problem, Contest& contest) {
+  Shortlist list;
+  const FitTable& rows = problem.tables.rows;
+  const bool finely = problem.tables.constants.scan_step == kMinScanStep;
   for (int gauge = 0; gauge < problem.gauges(); ++gauge) {
-    const std::int32_t energy = scanWindow(problem, gauge).best();
-    energies[static_cast<std::size_t>(gauge)] = saturate<std::uint16_t>(energy >> kCoarse);
-    largest = std::max(largest, energy);
+    const Signal signal = windowSignal(problem.strains, gauge, problem.up);
+    if (finely) list.add(scanned<kMinScanStep / 2, kMinScanStep>(rows, signal), gauge);
+    if (!finely) list.add(scanned<kMaxScanStep / 2, kMaxScanStep>(rows, signal), gauge);
   }
-  const std::int32_t limit = largest - (largest >> kRivalShift) - problem.noise(kRivalMargin);
-  for (int gauge = 0; gauge < problem.gauges(); ++gauge) {
-    if (energies[static_cast<std::size_t>(gauge)] >= limit >> kCoarse)
-      solveWindow(problem, scanWindow(problem, gauge), contest);
-  }
+  enterBest(problem, list, contest);
 }
 
-/// The answers of one mode.
-Contest contestOf(const Problem& problem) {
-  Contest contest;
-  if (problem.tables.constants.anchor_rule == AnchorRule::kExhaustive || isWeak(problem)) {
-    solveEverywhere(problem, contest);
-    return contest;
+/// Contacts midway between two gauges may bend the strains most one, two or three gauges away: looks there,
+/// on either side of the windows two gauges off, and three where noise may tip the balance.
+[[gnu::noinline]] void searchBeside(const Problem& problem, int anchor, Contest& contest) {
+  constexpr std::array kAway{-2, 2, -3, 3};
+  Shortlist list;
+  for (std::size_t i = 0; i < (mayBeAlias(problem) ? kAway.size() : 2); ++i) {
+    const int centre = wrapped(anchor + kAway[i], problem.gauges());
+    const Signal signal = windowSignal(problem.strains, centre, problem.up);
+    list.add(bestTwo(scanned<20, kMaxScanStep>(problem.tables.rows, signal)).first, centre);
   }
-  const int anchor = bendAnchor(problem);
-  solveWindow(problem, scanWindow(problem, anchor), contest);
-  const WindowFit& first = contest.best.fit;
-  if (std::abs(first.offset) > kFarFromMiddle)
-    solveWindow(problem, scanWindow(problem, wrapped(first.centre + first.side, problem.gauges())), contest);
-  if (doubtful(problem, contest.best)) solveBestOf(problem, anchor, std::array{-3, -2, 2, 3}, contest);
-  return contest;
+  enterBest(problem, list, contest);
 }
 
-Fit reportOf(const Problem& problem, const Contest& contest) {
-  const Answer& best = contest.best;
-  const FitRow& row = (*problem.fitTables()[best.fit.sense])[static_cast<std::size_t>(best.fit.row)];
-  const std::int32_t window = energyOf(best.fit.signal);
-  Fit fit;
-  fit.best = best.placement(problem.gauges());
-  fit.alternative = contest.second.found ? contest.secondPlacement : fit.best;
-  const std::int32_t margin =
-      problem.noise(isWeak(problem) ? kAmbiguousWeak : kAmbiguous) + (window >> kAmbiguousShift);
-  fit.ambiguous = contest.second.isRival && contest.second.energy > best.standing.energy - margin;
-  fit.settled = best.standing.admissible && best.energy > problem.noise(kFaint);
-  fit.normalSlope = best.amplitudes.normalSlope;
-  fit.tangentialSlope = best.amplitudes.tangentialSlope;
-  fit.information = best.fit.information;
-  fit.informationExponent = row.gradient_exponent;
-  fit.load = row.load;
-  fit.shift = static_cast<std::int8_t>(problem.shift);
-  fit.centre = static_cast<std::uint8_t>(best.fit.centre);
-  fit.side = static_cast<std::int8_t>(best.fit.side);
-  fit.unexplained = std::max<std::int32_t>(window - best.energy, 0);
-  fit.expected = problem.noise(kUnexplained / 2) + (window >> kRoundingShift);
+inline Fit reportOf(const Problem& problem, const Answer& best, FitMode readings) {
+  const Placement placement = best.placement(problem.gauges());
+  return {.best = placement,
+          .alternative = placement,
+          .row = &problem.tables.rows[static_cast<std::size_t>(best.fit.row)],
+          .projection = best.fit.step.projection,
+          .information = best.fit.step.information,
+          .unexplained = best.windowEnergy - best.energy,
+          .windowEnergy = best.windowEnergy,
+          .up = static_cast<std::int8_t>(problem.up),
+          .centre = static_cast<std::uint8_t>(best.fit.centre),
+          .readings = readings,
+          .ambiguous = false,
+          .settled = best.admissible() && best.energy >> 1 > problem.noise};  // 64 variances
+}
+
+Fit reportOf(const Problem& problem, const Contest& contest, FitMode readings) {
+  Fit fit = reportOf(problem, contest.best, readings);
+  if (!contest.second.found) return fit;
+  fit.alternative = contest.secondPlacement;
+  fit.ambiguous = contest.second.isRival &&
+                  contest.second.energy > contest.first.energy - marginOf(problem, contest.best.windowEnergy);
   return fit;
+}
+
+/// Leaves the answer to three readings if the mode says so and they lead where all seven do.
+[[gnu::noinline]] FitMode settleReadings(const Problem& problem, FitMode mode, Answer& answer) {
+  if (mode == FitMode::kRefined || !answer.admissible()) return FitMode::kRefined;
+  WindowFit fit = answer.fit;
+  if (!solveTriple(problem.tables.rows, problem.mirrorSign(), fit)) return FitMode::kRefined;
+  answer.fit = fit;
+  answer.amplitudes = amplitudesOf(problem.tables.rows[static_cast<std::size_t>(fit.row)], fit.step);
+  return FitMode::kThreePoint;
+}
+
+/// An answer that nothing speaks against.
+inline Fit settled(const Problem& problem, FitMode mode, Answer& answer) {
+  const FitMode readings =
+      mode == FitMode::kRefined ? FitMode::kRefined : settleReadings(problem, mode, answer);
+  return reportOf(problem, answer, readings);
+}
+
+[[gnu::noinline]] Fit locateAnywhere(const Problem& problem, FitMode mode) {
+  Contest contest;
+  searchEverywhere(problem, contest);
+  const FitMode readings = settleReadings(problem, mode, contest.best);
+  return reportOf(problem, contest, readings);
+}
+
+/// Looks beside the anchor's window if its best answer is in doubt.
+[[gnu::noinline]] Fit decide(const Problem& problem, FitMode mode, int anchor, Contest& contest) {
+  if (doubtful(problem, contest.best)) searchBeside(problem, anchor, contest);
+  const FitMode readings = settleReadings(problem, mode, contest.best);
+  return reportOf(problem, contest, readings);
+}
+
+[[gnu::noinline]] Fit decide(const Problem& problem, FitMode mode, int anchor, const Answer& answer) {
+  Contest contest;
+  contest.enter(problem, answer);
+  return decide(problem, mode, anchor, contest);
+}
+
+/// Where a single step from a row of a window leads.
+struct Lead {
+  PitchQ20 offset;      ///< from the window's middle gauge, negative on its - side
+  std::int32_t energy;  ///< explained there
+
+  int row() const { return offset < 0 ? -nearestRow(-offset) : nearestRow(offset); }
+};
+[[gnu::noinline]] Lead leadFrom(const Problem& problem, const Signal& signal, int row) {
+  WindowFit fit;
+  fit.start(signal, 0, row, problem.mirrorSign());
+  takeStep(problem.tables.rows, fit);
+  return {fit.position(), fit.step.energy()};
+}
+
+/// Whether what a lead leads to may be another answer, as good: it explains what the answer does but for
+/// noise and 1/2^shift.
+bool mayBeAsGood(const Problem& problem, int anchor, const Lead& lead, const Answer& answer, int shift) {
+  const std::int32_t most = answer.energy - (answer.energy >> shift) - marginOf(problem, answer.windowEnergy);
+  return lead.energy > most && !isNear(problem, anchor * kOnePitch + lead.offset, answer.fit.position());
+}
+
+/// After a first step from either of two peaks of a scan: follows the one that then explains more, and the
+/// other as far as it may be as good.
+[[gnu::noinline]] Fit locateRivalled(const Problem& problem, FitMode mode, const Signal& signal, int anchor,
+                                     const BestTwo& peaks) {
+  Lead lead = leadFrom(problem, signal, peaks.first.row);
+  Lead rival = leadFrom(problem, signal, peaks.second.row);
+  if (rival.energy > lead.energy) std::swap(lead, rival);
+  Answer answer;
+  answer.fit.start(signal, anchor, lead.row(), problem.mirrorSign());
+  solve(problem, InWindow::kNearest, answer);
+  if (mayBeAsGood(problem, anchor, rival, answer, kOneStepShift)) {
+    rival = leadFrom(problem, signal, rival.row());
+    if (mayBeAsGood(problem, anchor, rival, answer, kTwoStepsShift)) {
+      Contest contest;
+      contest.enter(problem, answer);
+      answer.fit.start(signal, anchor, rival.row(), problem.mirrorSign());
+      solve(problem, InWindow::kNearest, answer);
+      contest.enter(problem, answer);
+      return decide(problem, mode, anchor, contest);
+    }
+  }
+  if (doubtful(problem, answer)) return decide(problem, mode, anchor, answer);
+  return settled(problem, mode, answer);
 }
 
 }  // namespace
 
 Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t> strains_q32,
            std::uint32_t energy) {
-  {
-    const Problem problem = problemOf(tables, mode, strains_q32, energy);
-    const Contest contest = contestOf(problem);
-    if (mode == FitMode::kRefined || !doubtful(problem, contest.best)) return reportOf(problem, contest);
-  }  // its stack is needed again
-  // Three readings that leave much unexplained are overruled by their neighbours.
-  const Problem refined = problemOf(tables, FitMode::kRefined, strains_q32, energy);
-  return reportOf(refined, contestOf(refined));
+  const Problem problem = problemOf(tables, strains_q32, energy);
+  if (tables.constants.anchor_rule == AnchorRule::kExhaustive || isWeak(problem))
+    return locateAnywhere(problem, mode);
+  const int anchor = bendAnchor(problem);
+  const Signal signal = windowSignal(strains_q32, anchor, problem.up);
+  const BestTwo peaks = bestTwo(scanned<kMaxScanStep / 2, kMaxScanStep>(tables.rows, signal));
+  if (peaks.second.energy > rivalLimit(problem, peaks.first.energy, kRivalShift))
+    return locateRivalled(problem, mode, signal, anchor, peaks);
+  Answer answer;
+  answer.fit.start(signal, anchor, peaks.first.row, problem.mirrorSign());
+  solve(problem, InWindow::kNearest, answer);
+  if (doubtful(problem, answer)) return decide(problem, mode, anchor, answer);
+  return settled(problem, mode, answer);
 }
 
 }  // namespace strainfinger::firmware

@@ -5,6 +5,11 @@
 namespace strainfinger::firmware {
 namespace {
 
+/// A gauge out of use is judged where it should have this part of the ring's energy, by whether it is off by
+/// more than this part of what it should read.
+constexpr int kMuch = 16;
+constexpr int kNear = 8;
+
 void clear(GaugeSet gauges, std::span<std::int32_t> strains_q32) {
   for (std::size_t i = 0; gauges != 0; ++i, gauges >>= 1)
     if ((gauges & 1) != 0) strains_q32[i] = 0;
@@ -19,6 +24,7 @@ struct Made {
 
 }  // namespace
 
+/// Not inlined, nor are the other stages that need much stack: none needs the others'.
 [[gnu::noinline]] void Pipeline::look() {
   energy_ = gateEnergy(constants(), strains());
   observation_.fit.reset();
@@ -50,12 +56,26 @@ GaugeSet Pipeline::implausiblySaturated(Codes codes) const {
   return gauges;
 }
 
+/// Gauges out of use against what the others predict, where that is much.
+[[gnu::noinline]] void Pipeline::reconsider(Codes codes) {
+  GaugeSet right = 0, wrong = 0;
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    if (!contains(watch_.outOfUse(), static_cast<int>(i))) continue;
+    const std::int64_t predicted = readings_.strain_q32[i], coarse = predicted >> constants().gate_shift;
+    if (kMuch * coarse * coarse < energy_) continue;
+    const std::int64_t off = std::abs(strainOf(calibration_, codes[i], i) - predicted);
+    (kNear * off < std::abs(predicted) ? right : wrong) |= 1u << i;
+  }
+  watch_.reconsider(right, wrong);
+}
+
 [[gnu::noinline]] GaugeSet Pipeline::culprits(Codes codes) {
   GaugeSet gauges = 0;
   if (observation_.saturated != 0) gauges = implausiblySaturated(codes);
   const bool misfit = observation_.fit && isMisfit(*tables_, strains(), energy_, *observation_.fit);
   if (!misfit) {
     watch_.allIsWell();
+    if (watch_.outOfUse() != 0 && observation_.fit && observation_.fit->settled) reconsider(codes);
   } else if (watch_.wantsToExamine()) {
     clear(observation_.leftOut, strains());
     const Misfit found =
@@ -66,10 +86,11 @@ GaugeSet Pipeline::implausiblySaturated(Codes codes) const {
   return gauges;
 }
 
-/// What the sample set teaches. Not inlined, nor are the other stages: none needs the others' stack.
-[[gnu::noinline]] void Pipeline::conclude(GaugeSet accused) {
+/// What the sample set teaches.
+[[gnu::always_inline]] inline void Pipeline::conclude(GaugeSet accused) {
   watch_.accuse(accused);
-  tracker_.take(*tables_, strains(), observation_.fit, observation_.leftOut, calibration_);
+  if (const GaugeSet noisy = jumps_.take(constants(), strains(), energy_); noisy != 0) watch_.convict(noisy);
+  tracker_.take(*tables_, strains(), energy_, observation_.fit, observation_.leftOut, calibration_);
   observation_.staleZero = tracker_.stale();
   observation_.outOfUse = watch_.outOfUse();
   observation_.several = watch_.several();
@@ -81,7 +102,12 @@ const Observation& Pipeline::process(Codes codes) {
   observation_.leftOut = 0;
   const GaugeSet known = watch_.outOfUse() | readings_.saturated;
   known != 0 ? lookWithout(known) : look();
-  const GaugeSet accused = culprits(codes);
+  GaugeSet accused = 0;
+  if (observation_.fit || observation_.saturated != 0) {
+    accused = culprits(codes);
+  } else {
+    watch_.allIsWell();
+  }
   if ((accused & ~observation_.leftOut) != 0) lookWithout(accused);
   conclude(accused);
   return observation_;

@@ -24,7 +24,10 @@ struct Observation {
 class Pipeline {
  public:
   Pipeline(const TableImage& tables, FitMode mode)
-      : tables_(&tables), calibration_(nominalCalibration(tables.constants)), mode_(mode) {}
+      : tables_(&tables),
+        calibration_(nominalCalibration(tables.constants)),
+        jumps_(tables.constants),
+        mode_(mode) {}
 
   /// Costs conditioning and the gate when nothing touches; else a fit (see locate()).
   const Observation& process(Codes codes);
@@ -34,11 +37,14 @@ class Pipeline {
 
   const TableConstants& constants() const { return tables_->constants; }
   Calibration& calibration() { return calibration_; }
-  /// A new zero: what was learnt of the old one is forgotten.
+  /// A new zero: what was learnt with the old one is forgotten, gauges out of use have another try.
   void takeZero(const ZeroAverage& zero) {
     zero.writeTo(calibration_);
     tracker_.restart();
+    watch_ = {};
   }
+  /// So few gauges work that nothing is said for sure.
+  bool tooFewGauges() const { return tooManyOut(watch_.outOfUse(), constants().gauge_count); }
   const ZeroTracker& zeroTracker() const { return tracker_; }
   /// Of the last sample set; gauges that are left out have what the others say they should read.
   const Readings& readings() const { return readings_; }
@@ -50,6 +56,7 @@ class Pipeline {
   GaugeSet culprits(Codes codes);
   void conclude(GaugeSet accused);
   GaugeSet implausiblySaturated(Codes codes) const;
+  void reconsider(Codes codes);
 
   const TableImage* tables_;
   Calibration calibration_;
@@ -57,6 +64,7 @@ class Pipeline {
   Observation observation_;
   ContactGate gate_;
   GaugeWatch watch_;
+  JumpWatch jumps_;
   ZeroTracker tracker_;
   std::uint32_t energy_ = 0;  ///< of the readings as the fit has them
   FitMode mode_;

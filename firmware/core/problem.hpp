@@ -1,6 +1,8 @@
 #pragma once
 // The readings of one contact as the locator works with them.
 
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <span>
 
@@ -15,26 +17,53 @@ enum class FitMode : std::uint8_t {
   kRefined,     ///< all seven of the window
 };
 
-/// Energies here are sums of squares of strains / 2^shift, divided by 4 (see signal.hpp).
+/// The noise of a ring is given as the energy of so many variances of a reading.
+inline constexpr std::uint32_t kNoiseUnit = 32;
+
+/// Energies here are sums of squares of strains / 2^(16 - up), divided by 4 (see signal.hpp). Differences of
+/// explained energies are differences of log-likelihood, in units of half a variance.
 struct Problem {
   const TableImage& tables;
   std::span<const std::int32_t> strains;  ///< [* 2^32], one a gauge
-  FitMode mode;
-  int shift;                ///< brings the ring's norm just below 2^14.5
-  std::int32_t ringEnergy;  ///< of all gauges
+  int up;                                 ///< brings the ring's norm just below 2^(16 + 14.5)
+  std::int32_t ringEnergy;                ///< of all gauges
+  std::int32_t noise;                     ///< kNoiseUnit variances of a reading, 1 .. 2^27
 
-  /// The tables of the mode, by FitSense.
-  FitTables fitTables() const;
+  /// So many variances of a reading as an energy, at least 1.
+  std::int32_t variances(std::int32_t count) const {
+    return static_cast<std::int32_t>(
+        std::clamp<std::int64_t>(std::int64_t{noise} * count / kNoiseUnit, 1, 1 << 27));
+  }
+  /// The most that a contact with so much energy in its window leaves outside.
+  std::int32_t tail(std::int32_t window) const {
+    return static_cast<std::int32_t>((std::int64_t{window} * tables.constants.tail_q16) >> 16);
+  }
+
   int mirrorSign() const { return tables.constants.mirror_sign; }
   int gauges() const { return tables.constants.gauge_count; }
-
-  /// So many variances of a reading as an energy; at least 1. Differences of explained energies are
-  /// differences of log-likelihood, in units of half a variance.
-  std::int32_t noise(std::uint32_t variances) const;
 };
 
+/// kNoiseUnit variances of a reading divided by 2^(16 - up), as an energy; from 1 to 2^27.
+inline std::int32_t noiseEnergy(const TableConstants& constants, int up) {
+  constexpr std::int32_t kMost = 1 << 27;
+  const std::uint32_t variances = constants.noise_variance * kNoiseUnit;  // 24 + 5 bits
+  const int down = 2 * (16 - up) + 2 - constants.noise_variance_exponent;
+  if (down < 2) return kMost;
+  if (down > 28) return 1;
+  return std::clamp<std::int32_t>(static_cast<std::int32_t>(variances >> down), 1, kMost);
+}
+
 /// `energy`: gateEnergy() of the strains.
-Problem problemOf(const TableImage& tables, FitMode mode, std::span<const std::int32_t> strains_q32,
-                  std::uint32_t energy);
+inline Problem problemOf(const TableImage& tables, std::span<const std::int32_t> strains_q32,
+                         std::uint32_t energy) {
+  // A little more than the energy, so that sums of two readings stay in 16 bits once they are rounded.
+  const std::uint32_t half = (energy >> 1) + (energy >> 12) + 1;
+  const int bits = 33 - std::countl_zero(half);
+  const int aboveGate = bits / 2 - 14;  // the gate's strains have a norm below 2^(bits / 2)
+  const int down = 2 * aboveGate + 2;
+  const auto ringEnergy = static_cast<std::int32_t>(down >= 0 ? energy >> down : energy << -down);
+  const int up = 16 - tables.constants.gate_shift - aboveGate;
+  return {tables, strains_q32, up, ringEnergy, noiseEnergy(tables.constants, up)};
+}
 
 }  // namespace strainfinger::firmware

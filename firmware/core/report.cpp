@@ -1,5 +1,7 @@
 #include "firmware/core/report.hpp"
 
+#include <algorithm>
+
 #include "firmware/core/estimate.hpp"
 
 namespace strainfinger::firmware {
@@ -75,6 +77,22 @@ TouchFrames touchFrames(const TableConstants& constants, const Contact& contact,
   frames.contact.flags = frames.force.flags = flags;
   frames.contact.sequence = frames.force.sequence = sequence;
   return frames;
+}
+
+GaugesFrame gaugesFrame(GaugeSet outOfUse, const ZeroTracker& tracker, std::uint32_t setsPerSecond) {
+  GaugesFrame frame;
+  frame.out_of_use = outOfUse;
+  if (setsPerSecond == 0) return frame;
+  frame.zero_age_s = known<std::uint16_t>(tracker.age_sets() / setsPerSecond);
+  if (!tracker.lastChange_q32()) return frame;
+  // 10^9 changes / 2^32 an interval, with 10^9 = 1953125 * 2^9; a change of 2^28 is beyond every gauge's
+  // range
+  const std::int64_t change =
+      std::min<std::int32_t>(*tracker.lastChange_q32(), 1 << 28) * std::int64_t{1953125};
+  constexpr int kDown = 32 - 9;
+  frame.zero_rate_nano_per_s =
+      known<std::uint16_t>((change >> kDown) * setsPerSecond / ZeroTracker::kInterval);
+  return frame;
 }
 
 bool TouchReporter::worthSaying(const TouchFrames& frames, std::uint32_t now_us) const {

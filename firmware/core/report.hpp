@@ -21,6 +21,9 @@ struct TouchFrames {
 TouchFrames touchFrames(const TableConstants& constants, const Contact& contact, FingerFlags flags,
                         std::uint8_t sequence);
 
+/// What a GAUGES frame says; age and rate are not known before there are sample sets by the second.
+GaugesFrame gaugesFrame(GaugeSet outOfUse, const ZeroTracker& tracker, std::uint32_t setsPerSecond);
+
 /// When to say something: at most at the contact rate; when angle, a force, its flags or its quality changed
 /// by more than noise does; at least every kContactPeriod_ms in contact; once when contact ends. Otherwise
 /// never.

@@ -2,44 +2,76 @@
 // Where a fit should start.
 
 #include <algorithm>
-#include <array>
+#include <cstdint>
 
 #include "firmware/core/problem.hpp"
-#include "firmware/core/signal.hpp"
+#include "firmware/core/side_energies.hpp"
 
 namespace strainfinger::firmware {
 
 /// A scan reaches so many rows: a little beyond half a pitch, where the next window takes over.
 inline constexpr int kScanReach = 36;
-/// Offsets on either side of the finest scan.
-inline constexpr int kMaxScanRows = (kScanReach - kMinScanStep / 2) / kMinScanStep + 1;
 
-/// Energies that the seven gauges explain with the contact at each of a row of offsets, from one side of a
-/// window to the other.
-struct Scan {
-  Signal signal{};
-  int centre = 0;
-  int step = 0;     ///< rows between offsets
-  int perSide = 0;  ///< offsets on either side of the middle
-  std::array<std::int32_t, 2 * kMaxScanRows> energy{};
-  std::uint32_t backward = 0;  ///< bit i: at offset i the tangential load points towards the middle
-
-  int size() const { return 2 * perSide; }
-  int side(int index) const { return index < perSide ? -1 : 1; }
-  int row(int index) const {
-    return step / 2 + step * (index < perSide ? perSide - 1 - index : index - perSide);
-  }
-  std::int32_t at(int index) const { return energy[static_cast<std::size_t>(index)]; }
-  bool pullsBack(int index) const { return (backward >> index & 1) != 0; }
-  std::int32_t best() const { return *std::max_element(energy.begin(), energy.begin() + size()); }
-  bool isPeak(int index) const {
-    return (index == 0 || at(index - 1) <= at(index)) && (index + 1 == size() || at(index + 1) < at(index));
-  }
+/// The offset of a part of a window that explains most.
+struct Peak {
+  std::int32_t energy;
+  std::int32_t row;  ///< negative: on the - side
 };
 
-/// Scans the window around gauge `centre`. Mirrored offsets share their products, so that a scan costs half
-/// of what its energies would one by one.
-Scan scanWindow(const Problem& problem, int centre);
+/// Energies that the seven gauges explain with the contact at each of a row of offsets, from one side of a
+/// window to the other, boiled down to three peaks: the two offsets beside the middle gauge, and what lies
+/// beyond them on the - and + sides. An energy below 0: no peak, a mere foot of a neighbour.
+struct Scan {
+  Peak middle, minus, plus;
+};
+
+/// The two best of a scan; the second's energy is below 0 if there is one only.
+struct BestTwo {
+  Peak first, second;
+
+  void consider(const Peak& peak) {
+    if (peak.energy > first.energy) {
+      second = first;
+      first = peak;
+    } else if (peak.energy > second.energy) {
+      second = peak;
+    }
+  }
+};
+inline BestTwo bestTwo(const Scan& scan) {
+  BestTwo best{scan.middle, {-1, 0}};
+  best.consider(scan.minus);
+  best.consider(scan.plus);
+  return best;
+}
+
+inline void raise(Peak& peak, std::int32_t energy, int row) {
+  if (energy > peak.energy) peak = {energy, row};
+}
+
+/// Scans a window at rows First, First + Step .. up to kScanReach.
+template <int First, int Step>
+[[gnu::always_inline]] inline Scan scanned(const FitTable& rows, const Signal& signal) {
+  constexpr int kSecond = First + Step;
+  // Beside the middle gauge a weak tangential load has two peaks, no matter how close: exactly, then.
+  const FitRow* at = unknown(&rows[First]);
+  const SideEnergies inner = exactEnergies(sideParts(*at, signal));
+  at = unknown(at + Step);
+  const SideEnergies outer = roughEnergies(sideParts(*at, signal));
+  Peak minus{outer.minus, -kSecond}, plus{outer.plus, kSecond};
+#pragma GCC unroll 8
+  for (int row = kSecond + Step; row <= kScanReach; row += Step) {
+    at = unknown(at + Step);
+    const SideEnergies energy = roughEnergies(sideParts(*at, signal));
+    raise(minus, energy.minus, -row);
+    raise(plus, energy.plus, row);
+  }
+  Peak middle = inner.minus > inner.plus ? Peak{inner.minus, -First} : Peak{inner.plus, First};
+  if (minus.row == -kSecond && minus.energy <= inner.minus) minus.energy = -1;
+  if (plus.row == kSecond && plus.energy <= inner.plus) plus.energy = -1;
+  if (middle.energy <= (middle.row < 0 ? minus.energy : plus.energy)) middle.energy = -1;
+  return {middle, minus, plus};
+}
 
 /// The gauge nearest to the contact, or nearly: where the strains bend most. Within half a pitch in 94 % of
 /// contacts, within 0.6 in 99 %; the others lie midway between two gauges, two or three pitches away.

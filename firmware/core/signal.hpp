@@ -1,21 +1,26 @@
 #pragma once
-// The readings of one window, scaled to 16 bits and folded: what the rows of a fit table are multiplied with.
+// The readings of one window, scaled to 16 bits and folded: what the rows of the fit table are multiplied
+// with.
 
 #include <array>
 #include <cstdint>
 #include <span>
 
 #include "common/table_image.hpp"
+#include "firmware/core/packed.hpp"
 
 namespace strainfinger::firmware {
 
-/// Middle reading; sums of the pairs at distance 1, 2, 3; their differences (+ side minus - side); padding.
+/// Middle reading and sums of the pairs at distance 1, 2, 3; their differences (+ side minus - side), a zero.
 /// Not halved: FoldedWeights are, so that weights . signal is the unfolded product.
 /// Domain: the window's norm before folding is below 2^14.5, so sums and differences fit 16 bits and a
 /// product with weights of norm <= 1 (2^15) stays below 2^29.5, with every partial sum.
-using Signal = std::array<std::int16_t, 8>;
-inline constexpr std::size_t kOdd = 1 + kWindowReach;  ///< where the differences begin
-inline constexpr std::size_t kEnd = 1 + 2 * kWindowReach;
+struct Signal {
+  std::array<Pair, 2> even;
+  std::array<Pair, 2> odd;
+
+  bool operator==(const Signal&) const = default;
+};
 
 /// Gauge numbers go round the ring; `gauge` is at most one turn off.
 constexpr int wrapped(int gauge, int gauges) {
@@ -23,38 +28,69 @@ constexpr int wrapped(int gauge, int gauges) {
   return gauge >= gauges ? gauge - gauges : gauge;
 }
 
-/// A strain divided by 2^shift, rounded, saturating.
-std::int16_t scaledStrain(std::int32_t strain_q32, int shift);
+/// Left by `up`, which may not take it out of 32 bits.
+inline Number raised(Number value, int up) { return value * (1 << up); }
 
-/// The window around gauge `centre`, strains divided by 2^shift and rounded; saturates where the norm is
-/// larger than the domain allows.
-Signal windowSignal(std::span<const std::int32_t> strains_q32, int centre, int shift);
+/// A window's readings, from its - side to its + side and each within +-2^29, divided by 2^(16 - up) and
+/// rounded after folding.
+inline Signal foldedSignal(const Number* window, int up) {
+  const Number* const middle = window + kWindowReach;
+  const Number half = 0x8000 >> up;
+  const Number plus1 = middle[1] + half, plus2 = middle[2] + half, plus3 = middle[3] + half;
+  const Number minus1 = middle[-1], minus2 = middle[-2], minus3 = middle[-3];
+  return {{upperHalves(raised(*middle + half, up), raised(plus1 + minus1, up)),
+           upperHalves(raised(plus2 + minus2, up), raised(plus3 + minus3, up))},
+          {upperHalves(raised(plus1 - minus1, up), raised(plus2 - minus2, up)),
+           upperHalves(raised(plus3 - minus3, up), 0)}};
+}
+
+/// The window around gauge `centre`.
+inline Signal windowSignal(std::span<const Number> strains_q32, int centre, int up) {
+  const int gauges = static_cast<int>(strains_q32.size());
+  const int first = wrapped(centre - kWindowReach, gauges);
+  const Number* at = &strains_q32[static_cast<std::size_t>(first)];
+  if (first + kWindowGauges <= gauges) return foldedSignal(at, up);
+  std::array<Number, kWindowGauges> window;
+#pragma GCC unroll 7
+  for (Number& reading : window) {
+    reading = *at;
+    if (++at == strains_q32.data() + gauges) at = strains_q32.data();
+  }
+  return foldedSignal(window.data(), up);
+}
 
 /// The same readings with the ring's sense of rotation reversed; mirrorSign as in TableConstants.
-Signal mirrored(const Signal& signal, int mirrorSign);
+inline Signal mirrored(const Signal& signal, int mirrorSign) {
+  constexpr Pair kZero{};
+  if (mirrorSign > 0) return {signal.even, {kZero - signal.odd[0], kZero - signal.odd[1]}};
+  return {{kZero - signal.even[0], kZero - signal.even[1]}, signal.odd};
+}
 
 /// The part of weights . signal that mirroring leaves, and the part it negates (for mirrorSign = 1).
-inline std::int32_t evenPart(const FoldedWeights& weights, const Signal& signal) {
-  std::int32_t sum = 0;
-  for (std::size_t k = 0; k < kOdd; ++k) sum += std::int32_t{weights[k]} * signal[k];
-  return sum;
+inline Number evenPart(const FoldedWeights& weights, const Signal& signal) {
+  return dot(pairAt(&weights[2]), signal.even[1], dot(pairAt(&weights[0]), signal.even[0]));
 }
-inline std::int32_t oddPart(const FoldedWeights& weights, const Signal& signal) {
-  std::int32_t sum = 0;
-  for (std::size_t k = kOdd; k < kEnd; ++k) sum += std::int32_t{weights[k]} * signal[k];
-  return sum;
+inline Number oddPart(const FoldedWeights& weights, const Signal& signal) {
+  return dot(pairAt(&weights[6]), signal.odd[1], dot(pairAt(&weights[4]), signal.odd[0]));
 }
 
 /// weights . signal [* 2^15]
-inline std::int32_t project(const FoldedWeights& weights, const Signal& signal) {
-  return evenPart(weights, signal) + oddPart(weights, signal);
+inline Number project(const FoldedWeights& weights, const Signal& signal) {
+  const Number even = evenPart(weights, signal);
+  return dot(pairAt(&weights[6]), signal.odd[1], dot(pairAt(&weights[4]), signal.odd[0], even));
 }
 
-/// Energies are sums of squares of scaled strains, divided by 4, which is what the high products of
-/// projections are: below 2^27.
-inline std::int32_t energyOf(std::int32_t projection1, std::int32_t projection2) {
+/// Energies are sums of squares of scaled strains, divided by 4: below 2^27.
+inline Number energyOf(Number projection1, Number projection2) {
   return mulHigh(projection1, projection1) + mulHigh(projection2, projection2);
 }
-std::int32_t energyOf(const Signal& signal);
+
+/// The whole window's. Sum and difference of a pair together have twice its energy, the middle reading once.
+inline Number energyOf(const Signal& signal) {
+  const auto& [even, odd] = signal;
+  const Number middle = low(even[0]);
+  const Number twice = dot(odd[1], odd[1], dot(odd[0], odd[0], dot(even[1], even[1], dot(even[0], even[0]))));
+  return (twice + middle * middle) >> 3;
+}
 
 }  // namespace strainfinger::firmware

@@ -40,7 +40,7 @@ WindowReadings readingsOf(const Problem& problem, const RingSignal& signal, cons
 }
 
 /// Two loads, or their coefficients, and what is left of a 2 x 2 identity without some readings [* 2^15].
-struct Pair {
+struct LoadPair {
   std::int32_t first = 0, second = 0;
   std::int32_t left11 = 1 << 15, left12 = 0, left22 = 1 << 15;
 
@@ -49,8 +49,8 @@ struct Pair {
   }
 };
 
-[[gnu::noinline]] Pair projected(const FitRow& row, const WindowReadings& readings) {
-  Pair pair;
+[[gnu::noinline]] LoadPair projected(const FitRow& row, const WindowReadings& readings) {
+  LoadPair pair;
   for (int step = -kWindowReach; step <= kWindowReach; ++step) {
     const std::int32_t u1 = weight(row.basis[0], step), u2 = weight(row.basis[1], step);
     if ((readings.leftOut >> indexOf(step) & 1) != 0) {
@@ -68,7 +68,7 @@ struct Pair {
 bool determined(std::int32_t determinant, int bits) { return determinant > 1 << (bits - kDeterminedShift); }
 
 /// The loads' coefficients of the readings left [signal * 2^6].
-std::array<std::int32_t, 2> solved(const Pair& pair) {
+std::array<std::int32_t, 2> solved(const LoadPair& pair) {
   const std::int64_t determinant = std::max<std::int32_t>(pair.determinant_q15(), 1);
   const auto coefficient = [&](std::int64_t numerator) {
     return saturate<std::int32_t>((numerator >> 9) / determinant);
@@ -77,7 +77,7 @@ std::array<std::int32_t, 2> solved(const Pair& pair) {
           coefficient(std::int64_t{pair.left11} * pair.second - std::int64_t{pair.left12} * pair.first)};
 }
 
-/// Adds the direction of a move: W u, whose columns are scaled by powers of two of their own.
+/// Adds the direction of a move: W u.
 [[gnu::noinline]] void addMove(const FitRow& row, const std::array<std::int32_t, 2>& loads,
                                Tangent& tangent) {
   std::array<std::int32_t, kWindowGauges> move{};
@@ -85,7 +85,8 @@ std::array<std::int32_t, 2> solved(const Pair& pair) {
   for (int step = -kWindowReach; step <= kWindowReach; ++step) {
     std::int64_t component = 0;
     for (std::size_t i = 0; i < 2; ++i)
-      component += std::int64_t{weight(row.gradient[i], step)} * (loads[i] >> row.lag[i]);
+      component += std::int64_t{weight(row.gradient[i], step)} *
+                   ((std::int64_t{loads[i]} * row.gradient_length[i]) >> 15);
     component >>= 15;
     move[indexOf(step)] = saturate<std::int32_t>(component);
     energy += component * component;
@@ -134,40 +135,36 @@ std::int32_t predictedAt(const Tangent& tangent, const Three& coefficients, std:
   share.explained = saturate<std::int32_t>((window >> 2) - share.unexplained);
 }
 
-/// Sums over the readings left, and what they leave of an identity [* 2^24].
-struct Normal {
-  Symmetric left;
-  Three sums{};  ///< [signal * 2^4]
-};
-
-[[gnu::noinline]] Normal normalOf(const Tangent& tangent, const WindowReadings& readings) {
+/// Sums over the readings left [signal * 2^4], and what they leave of an identity [* 2^24].
+[[gnu::noinline]] Three sumsOf(const Tangent& tangent, const WindowReadings& readings, Symmetric& left) {
   constexpr std::int32_t kOne = 1 << kMatrixBits;
-  Normal normal{{kOne, 0, 0, kOne, 0, kOne}};
+  left = {kOne, 0, 0, kOne, 0, kOne};
+  Three sums{};
   for (std::size_t i = 0; i < kWindowGauges; ++i) {
     const auto& e = tangent.at[i];
     std::size_t element = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       if ((readings.leftOut >> i & 1) == 0) {
-        normal.sums[k] += e[k] * readings.at[i];
+        sums[k] += e[k] * readings.at[i];
       } else {
-        for (std::size_t j = k; j < 3; ++j) normal.left[element++] -= e[k] * e[j] >> (30 - kMatrixBits);
+        for (std::size_t j = k; j < 3; ++j) left[element++] -= e[k] * e[j] >> (30 - kMatrixBits);
       }
     }
   }
-  for (std::int32_t& sum : normal.sums) sum >>= 11;
-  return normal;
+  for (std::int32_t& sum : sums) sum >>= 11;
+  return sums;
 }
 
 [[gnu::noinline]] void fillShare(const Tangent& tangent, const WindowReadings& readings, Share& share) {
-  const Normal normal = normalOf(tangent, readings);
-  share.determined = invert(normal.left, share.covariance_q12);
+  const Three sums = sumsOf(tangent, readings, share.covariance_q12);
+  share.determined = invert(share.covariance_q12, share.covariance_q12);
   if (!share.determined) return;
-  share.coefficients = product_q12(share.covariance_q12, normal.sums);
+  share.coefficients = product_q12(share.covariance_q12, sums);
   addEnergies(tangent, readings, share);
 }
 
 const FitRow& rowOf(const Problem& problem, const View& view) {
-  return problem.tables.refined[static_cast<std::size_t>(view.row)];
+  return problem.tables.rows[static_cast<std::size_t>(view.row)];
 }
 
 }  // namespace
@@ -185,6 +182,10 @@ namespace {
 }
 
 }  // namespace
+
+std::int16_t scaledStrain(std::int32_t strain_q32, int up) {
+  return saturate<std::int16_t>((std::int64_t{strain_q32} * (std::int64_t{1} << up) + (1 << 15)) >> 16);
+}
 
 bool invert(const Symmetric& matrix_q24, Symmetric& inverse_q12) {
   const std::int32_t determinant = adjoin(matrix_q24, inverse_q12);
@@ -234,7 +235,7 @@ std::int32_t LocalFit::predicted(const Problem& problem, const View& view, int s
 std::int32_t LocalFit::predicted_q32(const Problem& problem, const View& view, int step) const {
   std::int64_t reading = predictedAt(tangent, share.coefficients, indexOf(step));
   if (view.side < 0) reading *= problem.mirrorSign();
-  const int up = problem.shift - 4;
+  const int up = 12 - problem.up;
   return saturate<std::int32_t>(up >= 0 ? reading * (std::int64_t{1} << up) : reading >> -up);
 }
 
@@ -249,7 +250,7 @@ LocalFit localFit(const Problem& problem, const RingSignal& signal, const View& 
 }
 
 std::int32_t explainedAt(const Problem& problem, const RingSignal& signal, const View& view) {
-  const Pair pair = projected(rowOf(problem, view), readingsOf(problem, signal, view));
+  const LoadPair pair = projected(rowOf(problem, view), readingsOf(problem, signal, view));
   const std::int32_t determinant = pair.determinant_q15();
   if (!determined(determinant, 15)) return -1;
   const std::int64_t u1 = pair.first >> 15, u2 = pair.second >> 15;

@@ -14,15 +14,18 @@ namespace strainfinger::firmware {
 using GaugeSet = std::uint32_t;
 constexpr bool contains(GaugeSet set, int gauge) { return (set >> gauge & 1) != 0; }
 
-/// The ring's strains / 2^shift of the problem, rounded; gauges that are left out read 0. Scaled as they are
-/// asked for: no copy on the stack.
+/// A strain divided by 2^(16 - up), rounded, saturating.
+std::int16_t scaledStrain(std::int32_t strain_q32, int up);
+
+/// The ring's strains as the problem scales them, rounded; gauges that are left out read 0. Scaled as they
+/// are asked for: no copy on the stack.
 struct RingSignal {
   const Problem& problem;
   GaugeSet leftOut;
 
   std::int16_t at(int gauge) const {
     if (contains(leftOut, gauge)) return 0;
-    return scaledStrain(problem.strains[static_cast<std::size_t>(gauge)], problem.shift);
+    return scaledStrain(problem.strains[static_cast<std::size_t>(gauge)], problem.up);
   }
 };
 
@@ -42,8 +45,8 @@ using Three = std::array<std::int32_t, 3>;
 /// Symmetric 3 x 3: 11, 12, 13, 22, 23, 33.
 using Symmetric = std::array<std::int32_t, 6>;
 
-/// Inverse [* 2^12] of a symmetric matrix [* 2^24] with elements up to 1; false where its determinant is next
-/// to nothing.
+/// Inverse [* 2^12] of a symmetric matrix [* 2^24] with elements up to 1, in its place if need be; false
+/// where its determinant is next to nothing.
 bool invert(const Symmetric& matrix_q24, Symmetric& inverse_q12);
 
 /// matrix * vector, with a matrix * 2^12.

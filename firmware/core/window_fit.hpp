@@ -1,66 +1,67 @@
 #pragma once
 // The fit within one window: Gauss-Newton steps of a variable projection from tabled rows.
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
 
-#include "common/table_image.hpp"
-#include "firmware/core/signal.hpp"
+#include "firmware/core/fit_step.hpp"
 
 namespace strainfinger::firmware {
 
-/// Offset from a window's middle gauge, in pitches * 2^20.
-using PitchQ20 = std::int32_t;
-inline constexpr int kPitchBits = 20;
-inline constexpr PitchQ20 kOnePitch = 1 << kPitchBits;
-inline constexpr int kRowBits = 14;
-inline constexpr PitchQ20 kRowSpacing = 1 << kRowBits;
-static_assert(kOnePitch / kRowSpacing == kRowsPerPitch);
-
-/// A step: from a row of the table towards the offset where the window's readings fit best.
-struct FitStep {
-  std::array<std::int32_t, 2> projection;  ///< onto the row's basis [scaled strain * 2^15]
-  std::int32_t information;                ///< energy of the gradient / 4^gradient_exponent
-  std::int32_t energy;                     ///< explained, once the step is taken
-  PitchQ20 length;                         ///< at most an eighth of a pitch either way
-};
-FitStep fitStep(const FitRow& row, const Signal& signal);
-
-/// Energy explained with the contact `beyondRow` from the row's offset, at most an eighth of a pitch.
-std::int32_t explainedEnergy(const FitRow& row, const Signal& signal, PitchQ20 beyondRow);
-
-/// The tables a fit works with, by FitSense.
-using FitTables = std::array<const FitTable*, 2>;
-
 /// A contact as one window sees it.
 struct WindowFit {
-  Signal signal{};      ///< as seen from `side`
-  int centre = 0;       ///< the window's middle gauge
-  int side = 1;         ///< +1: the offset counts towards +theta
-  PitchQ20 offset = 0;  ///< from the middle gauge; may come out slightly negative
-  FitSense sense = kWithOffset;
-  int row = 0;  ///< the row the last step was taken from
-  std::int32_t energy = 0;
-  std::int32_t information = 0;
-  std::array<std::int32_t, 2> projection{};
+  Signal signal;  ///< as seen from `side`
+  int centre;     ///< the window's middle gauge
+  int side;       ///< +1: the offset counts towards +theta
+  int row;        ///< that the step was taken from
+  FitStep step;
 
-  PitchQ20 position() const { return centre * kOnePitch + side * offset; }
+  /// At a row (negative: on the - side), before the first step.
+  void start(const Signal& window, int middle, int atRow, int mirrorSign) {
+    signal = atRow >= 0 ? window : mirrored(window, mirrorSign);
+    centre = middle;
+    side = atRow >= 0 ? 1 : -1;
+    row = absolute(atRow);
+  }
+
+  /// From the middle gauge; may come out slightly negative.
+  PitchQ20 offset() const { return row * kRowSpacing + step.length; }
+  PitchQ20 position() const { return centre * kOnePitch + side * offset(); }
 };
 
-/// Steps until the next one would no longer matter, within 5/8 of a row spacing of its row: two steps are
-/// typical. Changes sides where the fit walks across the middle gauge. False: not there after eight steps, or
-/// walked beyond the last row; the fit is then no answer.
-bool refine(const FitTables& tables, int mirrorSign, WindowFit& fit);
+inline int nearestRow(PitchQ20 offset) {
+  return std::min<int>((offset + kRowSpacing / 2) >> kRowBits, kFitRows - 1);
+}
 
-/// Amplitudes of the two loads at the fit's offset, and how they change per row spacing of it. In strains at
-/// the response's peak, scaled as the signal, * 2^(amplitude_exponent - 1). `tangential` is + towards the
-/// fit's side.
-struct Amplitudes {
-  std::int32_t normal;
-  std::int32_t tangential;
-  std::int32_t normalSlope;
-  std::int32_t tangentialSlope;
-};
-Amplitudes amplitudesOf(const FitTables& tables, const WindowFit& fit);
+/// To the row nearest to where the last step leads; over the middle gauge if need be.
+inline void follow(WindowFit& fit, Number length, int mirrorSign) {
+  PitchQ20 offset = fit.row * kRowSpacing + length;
+  if (offset < 0) {
+    offset = -offset;
+    fit.side = -fit.side;
+    fit.signal = mirrored(fit.signal, mirrorSign);
+  }
+  fit.row = nearestRow(offset);
+}
+
+inline void takeStep(const FitTable& rows, WindowFit& fit) {
+  fit.step = fitStep(rows[static_cast<std::size_t>(fit.row)], fit.signal);
+}
+
+constexpr bool isConverged(Number length) { return length <= kConverged && length >= -kConverged; }
+
+/// Steps from the fit's row until the next one would no longer matter, within 5/8 of a row spacing of its
+/// row: two are typical. False: not there after eight steps, or walked beyond the last row; the fit is then
+/// no answer.
+inline bool refine(const FitTable& rows, int mirrorSign, WindowFit& fit) {
+  constexpr int kMaxSteps = 8;
+  FitStep step = fitStep(rows[static_cast<std::size_t>(fit.row)], fit.signal);
+  for (int left = kMaxSteps - 1; left > 0 && !isConverged(step.length); --left) {
+    follow(fit, step.length, mirrorSign);
+    step = fitStep(rows[static_cast<std::size_t>(fit.row)], fit.signal);
+  }
+  fit.step = step;
+  return isConverged(step.length);
+}
 
 }  // namespace strainfinger::firmware

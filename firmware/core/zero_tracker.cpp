@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "firmware/core/detect.hpp"
-#include "firmware/core/integer_root.hpp"
 
 namespace strainfinger::firmware {
 namespace {
@@ -121,15 +120,6 @@ std::int64_t takeOutContact(const Ways& ways, std::span<std::int32_t> changes_q3
   return square;
 }
 
-/// Standard deviation of a reading [strain * 2^32].
-std::int32_t noiseOf(const TableConstants& constants) {
-  const int exponent = constants.noise_variance_exponent;
-  const int odd = exponent & 1;
-  const auto root = static_cast<std::int32_t>(integerRoot(constants.noise_variance << odd));
-  const int up = (exponent - odd) / 2;
-  return up >= 0 ? root << up : root >> -up;
-}
-
 /// Squared length of the readings of a window.
 std::int64_t squareOf(std::span<const std::int32_t> strains_q32, GaugeSet window) {
   std::int64_t sum = 0;
@@ -148,10 +138,12 @@ void ZeroTracker::begin(bool touched) {
   touched_ = touched;
 }
 
-bool ZeroTracker::add(std::span<const std::int32_t> strains_q32) {
-  if (sets_ % kEvery == 0)
-    for (std::size_t i = 0; i < strains_q32.size(); ++i) sum_[i] += strains_q32[i] >> kSumShift;
-  return ++sets_ >= kInterval;
+void ZeroTracker::add(std::span<const std::int32_t> strains_q32) {
+  for (std::size_t i = 0; i < strains_q32.size(); ++i) sum_[i] += strains_q32[i] >> kSumShift;
+}
+
+void ZeroTracker::doubt(bool touched) {
+  if (++doubts_ >= kConvinced) begin(touched);
 }
 
 void ZeroTracker::move(std::size_t gauge, std::int32_t by_q32, Calibration& calibration) {
@@ -159,13 +151,13 @@ void ZeroTracker::move(std::size_t gauge, std::int32_t by_q32, Calibration& cali
       (std::int64_t{by_q32} << 32) / std::max<std::int32_t>(calibration.gain[gauge], 1);
   calibration.zero_q15[gauge] = static_cast<std::int32_t>(std::clamp<std::int64_t>(
       calibration.zero_q15[gauge] + codes, 0, std::numeric_limits<std::int32_t>::max()));
-  lastChange_q32_ = std::max(lastChange_q32_, std::abs(by_q32));
+  lastChange_q32_ = std::max(lastChange_q32_.value_or(0), std::abs(by_q32));
 }
 
 void ZeroTracker::followUntouched(const TableConstants& constants, GaugeSet leftOut,
                                   Calibration& calibration) {
   lastChange_q32_ = 0;
-  const std::int32_t limit = noiseOf(constants);
+  const std::int32_t limit = readingNoise_q32(constants);
   for (std::size_t i = 0; i < constants.gauge_count; ++i)
     if (!contains(leftOut, static_cast<int>(i))) move(i, std::clamp(sum_[i], -limit, limit), calibration);
   age_sets_ = 0;
@@ -179,8 +171,7 @@ void ZeroTracker::followTouched(const TableImage& tables, PitchQ20 position, Gau
     resting_ = true;
     return;
   }
-  const Problem problem =
-      problemOf(tables, FitMode::kRefined, averages, gateEnergy(tables.constants, averages));
+  const Problem problem = problemOf(tables, averages, gateEnergy(tables.constants, averages));
   const View view = viewOf(problem, position);
   const GaugeSet window = windowOf(problem, view);
   const Ways ways{problem, view, localFit(problem, RingSignal{problem, leftOut}, view).tangent};
@@ -196,19 +187,7 @@ void ZeroTracker::followTouched(const TableImage& tables, PitchQ20 position, Gau
     if (!contains(leftOut, static_cast<int>(i))) move(i, averages[i], calibration);
 }
 
-void ZeroTracker::take(const TableImage& tables, std::span<const std::int32_t> strains_q32,
-                       const std::optional<Fit>& fit, GaugeSet leftOut, Calibration& calibration) {
-  if (age_sets_ != std::numeric_limits<std::uint32_t>::max()) ++age_sets_;
-  const bool touched =
-      fit.has_value() && gateEnergy(tables.constants, strains_q32) >= tables.constants.gate_on;
-  if (touched == touched_) {
-    doubts_ = 0;
-  } else {
-    if (++doubts_ >= kConvinced) begin(touched);
-    return;
-  }
-  leftOut_ |= leftOut;
-  if (!add(strains_q32)) return;
+void ZeroTracker::finish(const TableImage& tables, const std::optional<Fit>& fit, Calibration& calibration) {
   for (std::int32_t& sum : sum_) sum >>= kAverageShift;
   if (touched_) {
     followTouched(tables, fit->best.position, leftOut_, calibration);

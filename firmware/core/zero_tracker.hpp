@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -31,9 +32,18 @@ class ZeroTracker {
   static constexpr int kConvinced = 32;   ///< sets in a row that begin or end a touch: noise doesn't
   static constexpr std::uint32_t kStaleSets = 600'000;  ///< ten minutes
 
-  /// One sample set, as conditioned and fitted with this calibration; gauges in `leftOut` learn nothing.
-  void take(const TableImage& tables, std::span<const std::int32_t> strains_q32,
-            const std::optional<Fit>& fit, GaugeSet leftOut, Calibration& calibration);
+  /// One sample set, as conditioned and fitted with this calibration, and its gateEnergy(); gauges in
+  /// `leftOut` learn nothing.
+  void take(const TableImage& tables, std::span<const std::int32_t> strains_q32, std::uint32_t energy,
+            const std::optional<Fit>& fit, GaugeSet leftOut, Calibration& calibration) {
+    if (age_sets_ != std::numeric_limits<std::uint32_t>::max()) ++age_sets_;
+    const bool touched = fit.has_value() && energy >= tables.constants.gate_on;
+    if (touched != touched_) return doubt(touched);
+    doubts_ = 0;
+    leftOut_ |= leftOut;
+    if (sets_ % kEvery == 0) add(strains_q32);
+    if (++sets_ >= kInterval) finish(tables, fit, calibration);
+  }
 
   /// Forgets everything: the zeros are new.
   void restart() { *this = {}; }
@@ -41,14 +51,17 @@ class ZeroTracker {
   /// Sample sets since all zeros were last seen untouched; saturating.
   std::uint32_t age_sets() const { return age_sets_; }
   bool stale() const { return age_sets_ > kStaleSets; }
-  /// The most that a zero followed in the last interval that taught anything [strain * 2^32].
-  std::int32_t lastChange_q32() const { return lastChange_q32_; }
+  /// The most that a zero followed in the last interval that taught anything [strain * 2^32]; nothing before
+  /// there was one.
+  std::optional<std::int32_t> lastChange_q32() const { return lastChange_q32_; }
 
  private:
   using Averages = std::array<std::int32_t, kMaxGauges>;
 
   void begin(bool touched);
-  bool add(std::span<const std::int32_t> strains_q32);  ///< true: the interval is full
+  void doubt(bool touched);
+  void add(std::span<const std::int32_t> strains_q32);
+  void finish(const TableImage& tables, const std::optional<Fit>& fit, Calibration& calibration);
   void followUntouched(const TableConstants& constants, GaugeSet leftOut, Calibration& calibration);
   void followTouched(const TableImage& tables, PitchQ20 position, GaugeSet leftOut, Calibration& calibration);
   void move(std::size_t gauge, std::int32_t by_q32, Calibration& calibration);
@@ -56,7 +69,7 @@ class ZeroTracker {
   Averages sum_{};
   Averages rest_{};  ///< averages when the touch had come to rest
   std::uint32_t age_sets_ = 0;
-  std::int32_t lastChange_q32_ = 0;
+  std::optional<std::int32_t> lastChange_q32_;
   std::uint16_t sets_ = 0;
   std::uint16_t doubts_ = 0;  ///< sets in a row that say otherwise than touched_
   GaugeSet leftOut_ = 0;      ///< in any set of the interval

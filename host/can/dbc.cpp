@@ -19,7 +19,7 @@ struct NamedValue {
   std::string name;
 };
 
-/// A field, or one bit of a flags field.
+/// A field, or one named bit of a flags field.
 struct Signal {
   std::string name;
   FieldBits bits;
@@ -64,7 +64,7 @@ Signal flagSignal(const FieldSpec& field, const ValueName& flag) {
 Message message(const FrameEntry& entry, std::uint8_t node) {
   Message result{entry.spec, canId(entry.spec.function, node), {}};
   for (const FieldSpec& field : entry.fields) {
-    if (field.meaning.kind != FieldKind::kFlags)
+    if (field.meaning.kind != FieldKind::kFlags || field.meaning.names.empty())
       result.signals.push_back(fieldSignal(field));
     else
       for (const ValueName& flag : field.meaning.names) result.signals.push_back(flagSignal(field, flag));

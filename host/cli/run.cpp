@@ -49,6 +49,11 @@ struct RunOptions {
         .add_option("--duration", duration_s,
                     "Seconds; without it the loopback runs the scenario once, an interface until Ctrl-C")
         ->type_name("S");
+    command
+        .add_option("--fault", faults,
+                    "A gauge fails, at a second or from the start: dead, open, short, stuck or noisy, as in "
+                    "stuck:5@2.5; may be given several times")
+        ->type_name("KIND:GAUGE[@S]");
     command.add_flag("--truth", truth, "Truth beside estimate on stderr, four lines a second");
     command
         .add_option("--picture", pictures,
@@ -68,11 +73,18 @@ struct RunOptions {
   std::optional<double> duration_s;
   bool truth = false;
   std::vector<std::string> pictures;
+  std::vector<std::string> faults;
 };
 
 simulation::Scenario scenarioOf(const RunOptions& options) {
   return options.scenarioPath.empty() ? simulation::builtInScenario()
                                       : simulation::readScenarioFile(options.scenarioPath);
+}
+
+std::vector<simulation::GaugeFault> faultsOf(const RunOptions& options) {
+  std::vector<simulation::GaugeFault> faults;
+  for (const std::string& text : options.faults) faults.push_back(simulation::readGaugeFault(text));
+  return faults;
 }
 
 constexpr double kForEver_s = 1e12;
@@ -125,7 +137,8 @@ void runOn(Port& port, const RunOptions& options, Wait wait, Afterwards afterwar
   const auto tables = options.firmware.tablesOf(config);
   const simulation::Scenario scenario = scenarioOf(options);
   const auto end_us = static_cast<std::uint64_t>(std::llround(durationOf(options, scenario) * 1e6));
-  simulation::SimulatedFinger finger(config, scenario, *tables, options.firmware.mode(), options.seed, port);
+  simulation::SimulatedFinger finger(config, scenario, *tables, options.firmware.mode(), options.seed, port,
+                                     faultsOf(options));
   Watchers watchers(options, config);
   for (const std::string& path : options.pictures) plot::requirePicturePath(path);
   const system::StopSignal stop;

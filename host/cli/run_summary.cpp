@@ -5,6 +5,14 @@
 namespace strainfinger::cli {
 namespace {
 
+/// Bits by number: 5, 5+7; nothing for none.
+std::string gaugesOf(firmware::GaugeSet gauges) {
+  std::string text;
+  for (int gauge = 0; gauge < kMaxGauges; ++gauge)
+    if (firmware::contains(gauges, gauge)) text += fmt::format("{}{}", text.empty() ? "" : "+", gauge);
+  return text;
+}
+
 void printText(std::FILE* stream, double duration_s, const simulation::RunCounts& counts,
                const simulation::TouchErrors& errors) {
   const auto& finger = counts.finger;
@@ -22,6 +30,8 @@ void printText(std::FILE* stream, double duration_s, const simulation::RunCounts
   fmt::print(stream,
              "run: not counted there: {} flagged uncertain, {} of several touches, {} of none, {} missed\n",
              errors.uncertain, errors.several, errors.phantom, errors.missed);
+  if (counts.outOfUse != 0)
+    fmt::print(stream, "run: gauges out of use at the end: {}\n", gaugesOf(counts.outOfUse));
 }
 
 }  // namespace
@@ -51,7 +61,8 @@ void printSummary(std::FILE* stream, TableFormat format, double duration_s,
                      "uncertain",
                      "several",
                      "phantom",
-                     "missed"});
+                     "missed",
+                     "gauges_out_of_use"});
   table.row({duration_s,
              number(finger.sampleSets),
              number(counts.overruns),
@@ -71,7 +82,8 @@ void printSummary(std::FILE* stream, TableFormat format, double duration_s,
              number(errors.uncertain),
              number(errors.several),
              number(errors.phantom),
-             number(errors.missed)});
+             number(errors.missed),
+             gaugesOf(counts.outOfUse)});
 }
 
 }  // namespace strainfinger::cli

@@ -45,6 +45,7 @@ struct RunCounts {
   std::uint32_t overruns = 0;    ///< sample sets lost because the machine was late
   std::uint64_t frames = 0;      ///< all that went to the bus
   std::uint64_t heartbeats = 0;  ///< of these
+  firmware::GaugeSet outOfUse = 0;
 };
 
 /// A finger on `port`, which must outlive it like `tables`. Its gauges' zeros are off by `kZeroSpread` of
@@ -56,9 +57,11 @@ class SimulatedFinger {
 
   /// Throws Failure(kUsage) where SimulatedGauges and requireUntouchedStart() do.
   SimulatedFinger(const config::FingerConfig& config, Scenario scenario, const TableImage& tables,
-                  firmware::FitMode mode, std::uint64_t seed, Port& port)
+                  firmware::FitMode mode, std::uint64_t seed, Port& port, std::vector<GaugeFault> faults = {})
       : gauges_(config, checked(std::move(scenario)), clock_,
-                {.seed = seed, .zeroSpread_strain = kZeroSpread * config.gauges.full_scale_strain}),
+                {.seed = seed,
+                 .zeroSpread_strain = kZeroSpread * config.gauges.full_scale_strain,
+                 .faults = std::move(faults)}),
         port_(port),
         receiver_(static_cast<std::uint8_t>(config.can.node)),
         finger_(tables, settingsOf(config, mode), gauges_, port_, clock_, watchdog_) {}
@@ -80,7 +83,9 @@ class SimulatedFinger {
 
   double elapsed_s() const { return static_cast<double>(clock_.elapsed_us()) * 1e-6; }
   std::uint64_t elapsed_us() const { return clock_.elapsed_us(); }
-  RunCounts counts() const { return {finger_.counters(), gauges_.overruns(), frames_, heartbeats_}; }
+  RunCounts counts() const {
+    return {finger_.counters(), gauges_.overruns(), frames_, heartbeats_, finger_.lastObservation().outOfUse};
+  }
   const GaugeStrains& strains() const { return gauges_.strains(); }
   /// The last sample set as the firmware's stages see it.
   const firmware::Readings& readings() const { return finger_.readings(); }

@@ -2,10 +2,12 @@
 // A ring of gauges and its converter, touched by a scenario: the backend of hal::GaugeAdc for this machine.
 
 #include <cstdint>
+#include <vector>
 
 #include "hal/gauge_adc.hpp"
 #include "host/config/finger_config.hpp"
 #include "host/simulation/converter.hpp"
+#include "host/simulation/gauge_fault.hpp"
 #include "host/simulation/gauge_strains.hpp"
 #include "host/simulation/noise.hpp"
 #include "host/simulation/scenario.hpp"
@@ -18,6 +20,7 @@ struct RingOptions {
   std::uint64_t seed = 1;
   double zeroSpread_strain = 0;
   double gainSpread = 0;  ///< relative
+  std::vector<GaugeFault> faults = {};
 };
 
 /// Converts a sample set every kSamplePeriod_us of the clock, the first one a period after the clock's start.
@@ -28,7 +31,8 @@ class SimulatedGauges {
   static constexpr std::uint64_t kSamplePeriod_us = 1000;
   static constexpr std::uint64_t kBuffers = 2;  ///< sets that wait to be read, as in a double-buffered DMA
 
-  /// Throws Failure(kUsage) when noise_strain is less than the quantisation of the converter alone.
+  /// Throws Failure(kUsage) when noise_strain is less than the quantisation of the converter alone, and when
+  /// a fault is of a gauge that the ring doesn't have.
   SimulatedGauges(const config::FingerConfig& config, Scenario scenario, const SimulatedClock& clock,
                   const RingOptions& options = {});
 
@@ -45,6 +49,9 @@ class SimulatedGauges {
   std::uint64_t waiting() const noexcept;
   std::uint64_t missed() const noexcept;  ///< sets waiting that have no buffer any more
   hal::SampleSet convert() const;
+  std::uint16_t codeOf(std::uint64_t sample, std::uint32_t gauge, double strain, double noisier) const;
+  std::uint16_t failed(const GaugeFault& fault, double strain) const;
+  double timeOf_s(std::uint64_t sample) const;
 
   Scenario scenario_;
   const SimulatedClock& clock_;
@@ -52,6 +59,7 @@ class SimulatedGauges {
   Converter converter_;
   Noise noise_;
   double noise_strain_;
+  std::vector<GaugeFault> faults_;
   Strains zero_strain_{};
   Strains gain_{};
   std::uint64_t sample_ = 0;    ///< the last one read or dropped

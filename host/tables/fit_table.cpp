@@ -25,52 +25,48 @@ FoldedWeights folded(const WindowVector& weights) {
   return result;
 }
 
-/// The power of two that brings a length into [1/2, 1).
-int lengthExponent(const WindowVector& vector) {
-  int exponent = 0;
-  std::frexp(vector.norm(), &exponent);
-  return exponent;
-}
-
 /// A column of the gradient so much shorter than the other is rounding noise of a zero (or adds nothing).
-constexpr int kLargestLag = 31;
+constexpr double kNoLength = 0x1p-16;
 
 void fillGradient(FitRow& row, const WindowFit& fit) {
-  const std::array exponent{lengthExponent(fit.gradient.col(0)), lengthExponent(fit.gradient.col(1))};
-  const int larger = std::max(exponent[0], exponent[1]);
-  std::array<WindowVector, 2> scaled{WindowVector::Zero(), WindowVector::Zero()};
+  const std::array length{fit.gradient.col(0).norm(), fit.gradient.col(1).norm()};
+  const double longer = std::max(length[0], length[1]);
+  int exponent = 0;
+  std::frexp(longer, &exponent);
+  std::array<WindowVector, 2> unit{WindowVector::Zero(), WindowVector::Zero()};
   for (std::size_t i = 0; i < 2; ++i) {
-    const int lag = std::min(larger - exponent[i], kLargestLag);
-    if (lag < kLargestLag)
-      scaled[i] = fit.gradient.col(static_cast<Eigen::Index>(i)) * std::ldexp(1.0, -exponent[i]);
-    row.gradient[i] = folded(scaled[i]);
-    row.lag[i] = static_cast<std::int8_t>(lag);
+    if (length[i] > longer * kNoLength) {
+      unit[i] = fit.gradient.col(static_cast<Eigen::Index>(i)) / length[i];
+      row.gradient_length[i] = q16(length[i], 15 - exponent);
+    }
+    row.gradient[i] = folded(unit[i]);
   }
-  row.gradient_exponent = static_cast<std::int8_t>(larger);
-  row.gram = {q16(scaled[0].dot(scaled[0]), 14), q16(2 * scaled[0].dot(scaled[1]), 14),
-              q16(scaled[1].dot(scaled[1]), 14)};
+  row.gradient_cosine = q16(unit[0].dot(unit[1]), 15);
+  row.gradient_exponent =
+      static_cast<std::int8_t>(std::clamp(exponent, kLeastGradientExponent, kMostGradientExponent));
 }
 
-FitRow fitRow(const WindowFit& fit, int amplitudeExponent) {
+FitRow fitRow(const WindowFit& fit, const std::array<std::uint8_t, 2>& triples, int amplitudeExponent) {
   FitRow row{};
   row.basis = {folded(fit.basis.col(0)), folded(fit.basis.col(1))};
   fillGradient(row, fit);
   const auto amplitude = [&](double value) { return q16(value, amplitudeExponent); };
   row.load = {amplitude(fit.amplitude(0, 0)), amplitude(fit.amplitude(0, 1)), amplitude(fit.amplitude(1, 1))};
+  row.triple = triples;
   const Eigen::Matrix2d slope = fit.amplitude_slope / kRowsPerPitch;
   row.load_slope = {amplitude(slope(0, 0)), amplitude(slope(0, 1)), amplitude(slope(1, 0)),
                     amplitude(slope(1, 1))};
   return row;
 }
 
-WindowFit tripleFit(const WindowResponse& response, DirectionRange directions) {
-  const GaugeMask triple = bestTriple(response, directions);
-  if (triple == GaugeMask{})
+std::uint8_t tripleFor(const WindowResponse& response, DirectionRange directions) {
+  const auto triple = bestTriple(response, directions);
+  if (!triple)
     throw Failure(ExitCode::kUsage,
                   "no three neighbouring gauges can tell where a contact is, so these gauges cannot be used: "
                   "the response is too narrow or too wide for their spacing; change gauges.count or "
                   "gauges.radius_m");
-  return windowFit(response, triple);
+  return *triple;
 }
 
 }  // namespace
@@ -95,30 +91,28 @@ WindowFits windowFits(const WindowResponses& responses, double peak, double cone
   WindowFits fits;
   for (std::size_t row = 0; row < kFitRows; ++row) {
     const WindowResponse response{responses[row].value / peak, responses[row].slope / peak};
-    fits.refined[row] = windowFit(response, kAllGauges);
-    fits.threePoint[kWithOffset][row] = tripleFit(response, {-overlap, cone});
-    fits.threePoint[kAgainstOffset][row] = tripleFit(response, {-cone, overlap});
+    fits.rows[row] = windowFit(response, kAllGauges);
+    fits.triples[row] = {tripleFor(response, {-overlap, cone}), tripleFor(response, {-cone, overlap})};
   }
   return fits;
 }
 
 int amplitudeExponent(const WindowFits& fits) {
   double largest = 0;
-  for (const auto* table : {&fits.refined, &fits.threePoint[0], &fits.threePoint[1]}) {
-    for (const WindowFit& fit : *table) {
-      largest = std::max({largest, fit.amplitude.cwiseAbs().maxCoeff(),
-                          fit.amplitude_slope.cwiseAbs().maxCoeff() / kRowsPerPitch});
-    }
+  for (const WindowFit& fit : fits.rows) {
+    largest = std::max({largest, fit.amplitude.cwiseAbs().maxCoeff(),
+                        fit.amplitude_slope.cwiseAbs().maxCoeff() / kRowsPerPitch});
   }
   int exponent = 0;
   std::frexp(largest, &exponent);
   return 15 - exponent;
 }
 
-FitTable fitTable(const std::array<WindowFit, kFitRows>& fits, int amplitudeExponent) {
+FitTable fitTable(const WindowFits& fits, int amplitudeExponent) {
   FitTable table;
-  std::transform(fits.begin(), fits.end(), table.begin(),
-                 [&](const WindowFit& fit) { return fitRow(fit, amplitudeExponent); });
+  std::transform(
+      fits.rows.begin(), fits.rows.end(), fits.triples.begin(), table.begin(),
+      [&](const WindowFit& fit, const auto& triples) { return fitRow(fit, triples, amplitudeExponent); });
   return table;
 }
 

@@ -9,6 +9,7 @@
 #include "host/base/failure.hpp"
 #include "host/model/impulse_response.hpp"
 #include "host/tables/fit_table.hpp"
+#include "host/tables/tail_energy.hpp"
 
 namespace strainfinger::tables {
 namespace {
@@ -71,6 +72,13 @@ void fillLoads(TableConstants& constants, double peak, int amplitudeExponent) {
   constants.load_scale = saturate<std::int32_t>(std::llround(load.mantissa));
   constants.load_exponent = static_cast<std::int16_t>(load.exponent);
   constants.amplitude_exponent = static_cast<std::int8_t>(amplitudeExponent);
+}
+
+/// Where fits don't see the exact place, and gains are off by a few percent.
+constexpr double kTailMargin = 1.25;
+
+std::uint16_t tail_q16(double tail) {
+  return saturate<std::uint16_t>(std::llround(std::ldexp(kTailMargin * tail, 16)));
 }
 
 /// Rings of 16 and more see a single peak over the contact, about a pitch wide. Coarser rings, and shear,
@@ -156,9 +164,9 @@ TableImage buildTableImage(const config::FingerConfig& config) {
   image.constants = tableConstants(config, response.at(0).normal < 0);
   const int exponent = amplitudeExponent(fits);
   fillLoads(image.constants, peak, exponent);
-  image.refined = fitTable(fits.refined, exponent);
-  for (const FitSense sense : {kWithOffset, kAgainstOffset})
-    image.three_point[sense] = fitTable(fits.threePoint[sense], exponent);
+  image.constants.tail_q16 =
+      tail_q16(tailEnergy(response, config.gauges.count, frictionCone(config.contact)));
+  image.rows = fitTable(fits, exponent);
   image.crc32 = crc32(checkedBytes(image));
   if (!hasOnePeak(config.gauges)) searchEverywhere(image);
   return image;

@@ -1,7 +1,6 @@
 #include "host/tables/window_fit.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -82,22 +81,25 @@ WindowFit windowFit(const WindowResponse& response, const GaugeMask& mask) {
   return fit;
 }
 
-GaugeMask bestTriple(const WindowResponse& response, DirectionRange directions) {
+GaugeMask gaugesOfTriple(std::size_t triple) {
+  GaugeMask mask{};
+  for (const int gauge : kTripleList[triple]) mask[static_cast<std::size_t>(gauge + kWindowReach)] = true;
+  return mask;
+}
+
+std::optional<std::uint8_t> bestTriple(const WindowResponse& response, DirectionRange directions) {
   const auto reference = variancesOver(windowFit(response, kAllGauges), directions);
-  GaugeMask best{};
+  std::optional<std::uint8_t> best;
   double least = std::numeric_limits<double>::infinity();
-  for (unsigned bits = 0; bits < (1u << kWindowGauges); ++bits) {
-    if (std::popcount(bits) != 3) continue;
-    GaugeMask mask{};
-    for (std::size_t k = 0; k < mask.size(); ++k) mask[k] = ((bits >> k) & 1) != 0;
-    const WindowFit fit = windowFit(response, mask);
+  for (std::size_t triple = 0; triple < kTriples; ++triple) {
+    const WindowFit fit = windowFit(response, gaugesOfTriple(triple));
     if (!seesOffset(fit, directions)) continue;
     const auto own = variancesOver(fit, directions);
     double worst = 0;
     for (std::size_t i = 0; i < own.size(); ++i)
       worst = std::max(worst, own[i].cwiseQuotient(reference[i]).maxCoeff());
     if (worst >= least) continue;
-    best = mask;
+    best = static_cast<std::uint8_t>(triple);
     least = worst;
   }
   return best;

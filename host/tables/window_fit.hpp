@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 
 #include "common/table_image.hpp"
 #include "host/model/impulse_response.hpp"
@@ -34,6 +35,9 @@ struct WindowFit {
 };
 WindowFit windowFit(const WindowResponse& response, const GaugeMask& mask);
 
+/// The gauges of kTripleList[triple].
+GaugeMask gaugesOfTriple(std::size_t triple);
+
 /// Load directions, as tangential / normal load.
 struct DirectionRange {
   double least;
@@ -43,7 +47,7 @@ struct DirectionRange {
 /// Of all triples, the one whose standard errors of offset and loads, each over the whole window's, are least
 /// in the worst case over `directions`. Three gauges see the offset through one number, which vanishes for
 /// one load direction: it must lie outside. (For the three nearest gauges it is 0 when the contact is over
-/// the middle one.) An empty mask if there is none.
-GaugeMask bestTriple(const WindowResponse& response, DirectionRange directions);
+/// the middle one.) Its number in kTripleList; none if there is none.
+std::optional<std::uint8_t> bestTriple(const WindowResponse& response, DirectionRange directions);
 
 }  // namespace strainfinger::tables

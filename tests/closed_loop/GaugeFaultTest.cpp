@@ -1,6 +1,8 @@
 // Gauges that fail: how soon the firmware names them, from the converter's codes on.
 #include <memory>
 
+#include "common/fixed_real.hpp"
+#include "firmware/core/estimate.hpp"
 #include "firmware/core/pipeline.hpp"
 #include "host/simulation/converter.hpp"
 #include "tests/firmware/core/model_ring.hpp"
@@ -68,6 +70,32 @@ TEST_GROUP(GaugeFault) {
     return pipeline.observation();
   }
 
+  Observation seen(Pipeline & pipeline, const std::vector<double>& strains, Presses& random, int sets = 1) {
+    for (int i = 0; i < sets; ++i) pipeline.process(Codes(convert(strains, random)).first(16));
+    return pipeline.observation();
+  }
+
+  /// Two contacts of 10 to 40 N/m so many pitches apart.
+  std::vector<double> twoContacts(double apart, Presses& random, std::mt19937_64& loads) {
+    std::uniform_real_distribution<double> uniform(std::log(10), std::log(40));
+    Press one = random.next(), other = random.next();
+    other.position_pitch = one.position_pitch + apart;
+    std::vector<double> sum(16);
+    for (Press* each : {&one, &other}) {
+      const double load = std::exp(uniform(loads));
+      each->normal *= load, each->tangential *= load;
+      const auto strains = ring.strains(*each);
+      for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += strains[i];
+    }
+    return sum;
+  }
+
+  /// A contact that goes once round the ring.
+  Observation rollRound(Pipeline & pipeline, Presses & random) {
+    for (int i = 0; i < 4000; ++i) seen(pipeline, ring.strains({i * 16 / 4000.0, 20, 3}), random);
+    return pipeline.observation();
+  }
+
   /// A gauge's reading over what the others read together.
   static double share(double reading, const std::vector<double>& strains) {
     double others = 0;
@@ -132,4 +160,74 @@ TEST(GaugeFault, HealthyGaugesAreNeverNamed) {
   LONGS_EQUAL(0, outcome.wrong);
   LONGS_EQUAL(0, outcome.named);
   LONGS_EQUAL(0, outcome.several);
+}
+
+// Midway between two gauges a contact has a twentieth of the energy that it has over one: such a one stays
+// hidden behind what the first one leaves outside its window.
+TEST(GaugeFault, TwoContactsTwoPitchesApartAreNoticed) {
+  Presses random(16, 1, 405);
+  std::mt19937_64 loads(405);
+  int several = 0, blamed = 0;
+  for (int trial = 0; trial < 1000; ++trial) {
+    Pipeline pipeline(ring.tables(), FitMode::kRefined);
+    const Observation found = seen(pipeline, twoContacts(2 + trial * 6 / 1000.0, random, loads), random, 4);
+    several += found.several;
+    blamed += found.outOfUse != 0;
+  }
+  std::printf("two contacts: %d of 1000 noticed, a gauge blamed in %d\n", several, blamed);
+  CHECK(several >= 880);
+  CHECK(blamed <= 50);
+}
+
+TEST(GaugeFault, AGaugeWronglyBlamedComesBack) {
+  Presses random(16, 1, 406);
+  std::mt19937_64 loads(406);
+  int blamed = 0;
+  while (blamed < 8) {
+    Pipeline pipeline(ring.tables(), FitMode::kRefined);
+    if (seen(pipeline, twoContacts(1, random, loads), random, 4).outOfUse == 0) continue;
+    ++blamed;
+    LONGS_EQUAL(0, rollRound(pipeline, random).outOfUse);
+  }
+}
+
+TEST(GaugeFault, ADeadGaugeDoesNotComeBack) {
+  Presses random(16, 1, 407);
+  Pipeline pipeline(ring.tables(), FitMode::kRefined);
+  for (int i = 0; i < 8000; ++i) {
+    auto strains = ring.strains({i * 16 / 4000.0, 20, 3});
+    strains[5] = 0;
+    const Observation found = seen(pipeline, strains, random);
+    if (i > 4000) LONGS_EQUAL(1u << 5, found.outOfUse);
+  }
+}
+
+TEST(GaugeFault, ANoisyGaugeIsNamedWhileNothingTouches) {
+  Presses random(16, 1, 408);
+  for (int trial = 0; trial < 50; ++trial) {
+    Pipeline pipeline(ring.tables(), FitMode::kRefined);
+    std::vector<double> strains(16);
+    for (int i = 0; i < 500; ++i) {
+      strains[5] = random.noise(10 * config.gauges.noise_strain);
+      seen(pipeline, strains, random);
+    }
+    LONGS_EQUAL(1u << 5, pipeline.observation().outOfUse);
+  }
+}
+
+TEST(GaugeFault, BeyondItsRangeTheFingerGoesOnWithTheOtherGauges) {
+  Presses random(16, 130, 409);  // twice full scale
+  int saturated = 0;
+  for (int trial = 0; trial < 500; ++trial) {
+    const Press press = random.next();
+    Pipeline pipeline(ring.tables(), FitMode::kRefined);
+    const Observation found = seen(pipeline, ring.strains(press), random, 2);
+    LONGS_EQUAL(found.saturated, found.saturated & found.leftOut);
+    saturated += found.saturated != 0;
+    const Contact contact = estimate(ring.constants(), *found.fit);
+    if (contact.uncertain) continue;
+    DOUBLES_EQUAL(0, ring.arc_um(ring.between(press.position_pitch, toReal(contact.angle) * 16)), 100);  // um
+    DOUBLES_EQUAL(press.normal, toReal(contact.normal), 0.01 * press.normal);
+  }
+  CHECK(saturated > 200);
 }

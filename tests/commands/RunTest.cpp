@@ -154,6 +154,17 @@ TEST(RunCommand, AMissingInterfaceIsSaidWithItsRemedy) {
   STRCMP_CONTAINS("`", run.err.c_str());
 }
 
+TEST(RunCommand, NamesAGaugeThatFails) {
+  const Run run = runProgram("run --duration 3 --fault open:2@1.5");
+  STRCMP_CONTAINS("run: gauges out of use at the end: 2\n", run.err.c_str());
+  STRCMP_CONTAINS("loopback 081#04000000", run.out.c_str());
+}
+
+TEST(RunCommand, RefusesAFaultThatIsNone) {
+  checkRefused(runProgram("run --fault dull:2"), 2, "--fault dull:2: must be KIND:GAUGE");
+  checkRefused(runProgram("run --fault dead:16"), 2, "there is no gauge 16; they are 0 to 15");
+}
+
 TEST(RunCommand, RefusesWhatIsOutsideTheDomain) {
   checkRefused(runProgram("run --duration 0"), 2, "--duration");
   checkRefused(runProgram("run --duration nan"), 2, "--duration");

@@ -43,6 +43,9 @@ FRAMES = {
         ("reset_cause", 0, 15, None, "1"), ("crash", 0, 15, None, "1"), ("restarts", 0, 255, None, "1"),
         ("version_major", 0, 255, None, "1"), ("version_minor", 0, 255, None, "1"),
         ("crash_address", 0, 0xFFFFFF, None, "1"), ("board", 0, 255, None, "1")]),
+    "GAUGES": (0x080, [
+        ("out_of_use", 0, 0xFFFFFFFF, None, "1"), ("zero_age", 0, 65534, 65535, "1"),
+        ("zero_rate", 0, 65534, 65535, "1e-9")]),
     "REQUEST": (0x600, [
         ("length", 0, 7, None, "1"), ("command", 0, 127, None, "1"), ("answer", 0, 1, None, "1"),
         ("argument", 0, 0xFFFF, None, "1")]),

@@ -58,6 +58,7 @@ std::string decodeLine(const std::string& frameText) {
   if (const auto force = decodeAs<ForceFrame>(*frame)) return *force;
   if (const auto heartbeat = decodeAs<HeartbeatFrame>(*frame)) return *heartbeat;
   if (const auto info = decodeAs<InfoFrame>(*frame)) return *info;
+  if (const auto gauges = decodeAs<GaugesFrame>(*frame)) return *gauges;
   if (const auto request = decodeAs<RequestFrame>(*frame)) return *request;
   return decodeAs<ResponseFrame>(*frame).value_or("none");
 }
@@ -70,6 +71,7 @@ std::string answer(const std::string& line) {
   if (what == "CONTACT") return encodeLine<ContactFrame>(words);
   if (what == "FORCE") return encodeLine<ForceFrame>(words);
   if (what == "INFO") return encodeLine<InfoFrame>(words);
+  if (what == "GAUGES") return encodeLine<GaugesFrame>(words);
   if (what == "REQUEST") return encodeLine<RequestFrame>(words);
   if (what == "RESPONSE") return encodeLine<ResponseFrame>(words);
   return what == "HEARTBEAT" ? encodeLine<HeartbeatFrame>(words) : "bad line";

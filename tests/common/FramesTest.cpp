@@ -139,6 +139,14 @@ TEST(Frames, NoValueBeyondTheValidOnesIsSent) {
   LONGS_EQUAL(15, decode<HeartbeatFrame>(encode(HeartbeatFrame{.protocol = 16}, 1))->protocol);
 }
 
+TEST(Frames, GaugesHasTheseBytes) {
+  const CanFrame frame = encode(GaugesFrame{1u << 5 | 1u << 31, 600, 510}, 5);
+  LONGS_EQUAL(0x085, frame.id);
+  CHECK(frame.data == (Bytes{0x20, 0, 0, 0x80,  // gauges 5 and 31
+                             0x58, 0x02,        // 600 s
+                             0xFE, 0x01}));     // 510e-9 a second
+}
+
 TEST(Frames, FramesAreNotTakenForOneAnother) {
   CHECK_FALSE(decode<ForceFrame>(encode(contact_, 1)).has_value());
   CHECK_FALSE(decode<HeartbeatFrame>(encode(force_, 1)).has_value());
@@ -154,6 +162,7 @@ TEST(Frames, ShortAndEmptyFramesAreRefused) {
 }
 
 TEST(Frames, FunctionsAreThoseOfCanopensPredefinedSet) {
+  LONGS_EQUAL(0x080, static_cast<int>(FunctionCode::kGauges));
   LONGS_EQUAL(0x180, static_cast<int>(FunctionCode::kContact));
   LONGS_EQUAL(0x280, static_cast<int>(FunctionCode::kForce));
   LONGS_EQUAL(0x380, static_cast<int>(FunctionCode::kRaw));

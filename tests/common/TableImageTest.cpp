@@ -51,7 +51,7 @@ TEST(TableImage, TheChecksumIsOfEverythingBehindTheHeader) {
 }
 
 TEST(TableImage, WhatIsWrongFirstIsNamed) {
-  image_->refined[0].reserved = 1;
+  image_->rows[0].reserved = 1;
   checkFault(TableFault::kChecksum);
   image_->image_bytes -= 1;
   checkFault(TableFault::kLength);
@@ -88,11 +88,13 @@ TEST(TableImage, NoFlippedBitLeavesTheChecksumAsItWas) {
 TEST(TableImage, ConstantsThatLoopsAndShiftsRelyOnStayInTheirDomain) {
   TableConstants& constants = image_->constants;
   checkDomain(constants.gauge_count, {12, 14, 32, 16}, {0, 10, 13, 33, 34, 255});
-  checkDomain(constants.gate_shift, {0, 15}, {16, 32, 255});
+  checkDomain(constants.gate_shift, {0, 14}, {15, 32, 255});
   checkDomain(constants.mirror_sign, {1, -1}, {0, 2, -128});
   checkDomain(constants.anchor_sign, {1, -1}, {0, 2, -128});
   checkDomain(constants.anchor_rule, {0, 1}, {2, 255});
-  checkDomain(constants.scan_step, {4, 8}, {0, 3, 9, 255});
+  checkDomain(constants.scan_step, {4, 8}, {0, 3, 5, 9, 255});
+  checkDomain(image_->rows[43].gradient_exponent, {-3, 12}, {-4, 13, -128, 127});
+  checkDomain(image_->rows[43].triple[1], {0, 34}, {35, 255});
   checkDomain(image_->parameters.component, {0, 1, 2}, {3, 255});
 }
 
@@ -104,4 +106,11 @@ TEST(TableImage, FaultsKeepTheirNumbers) {
   LONGS_EQUAL(4, static_cast<int>(TableFault::kLength));
   LONGS_EQUAL(5, static_cast<int>(TableFault::kChecksum));
   LONGS_EQUAL(6, static_cast<int>(TableFault::kConstants));
+}
+
+TEST(TableImage, WeightsLongerThanOneAreRefused) {
+  image_->rows[7].gradient[1][0] = 32767;
+  checkDomain(image_->rows[7].gradient[1][6], {0, 300, -300}, {500, -500});
+  image_->rows[7].gradient[1] = {};
+  checkDomain(image_->rows[9].basis[0][2], {23170, -23170}, {23180, 32767, -32768});
 }

@@ -13,7 +13,7 @@ using namespace strainfinger;
 
 namespace {
 
-constexpr int kPoints = 1024;      ///< round the ring
+constexpr int kPoints = 4096;      ///< round the ring: straight lines between them are 3e-5 of the peak off
 constexpr double kPeak = 1 << 14;  ///< of the normal response
 
 std::vector<double> response(const simulation::GaugeStrains& ring, const simulation::Touch& touch) {

@@ -32,17 +32,17 @@ inline void add(Hash& hash, const firmware::Placement& placement) {
 }
 
 /// Every number of a fit, and what becomes of it on the bus.
-inline void add(Hash& hash, const TableConstants& constants, const firmware::Fit& fit, std::uint32_t sample) {
+inline void add(Hash& hash, const TableImage& tables, const firmware::Fit& fit, std::uint32_t sample) {
   add(hash, fit.best);
   add(hash, fit.alternative);
   hash.add(std::int32_t{fit.ambiguous} + 2 * std::int32_t{fit.settled} + 256 * fit.centre);
-  hash.add(fit.normalSlope);
-  hash.add(fit.tangentialSlope);
+  for (const std::int32_t projection : fit.projection) hash.add(projection);
+  hash.add(static_cast<std::int32_t>(fit.row - tables.rows.data()) * 256 + fit.up);
   hash.add(fit.information);
-  hash.add(std::int32_t{fit.informationExponent} * 256 + fit.shift);
-  for (const std::int16_t load : fit.load) hash.add(std::int32_t{load});
+  hash.add(static_cast<std::int32_t>(fit.readings));
   hash.add(fit.unexplained);
-  hash.add(fit.expected);
+  hash.add(fit.windowEnergy);
+  const TableConstants& constants = tables.constants;
   const auto frames = firmware::touchFrames(constants, firmware::estimate(constants, fit),
                                             {FingerFlag::kContact}, static_cast<std::uint8_t>(sample));
   hash.add(encode(frames.contact, kFirstNode));
@@ -74,7 +74,7 @@ std::uint32_t replayBlock(const TableImage& tables, std::uint32_t first, std::ui
     const auto codes = firmware::Codes(set).first(kGauges);
     const auto look = [&](const firmware::Observation& observation) {
       hash.add(observation.saturated);
-      if (observation.fit) add(hash, tables.constants, *observation.fit, sample);
+      if (observation.fit) add(hash, tables, *observation.fit, sample);
     };
     look(refined.process(codes));
     add(hash, tables.constants, reporter, refined.observation(), sample);

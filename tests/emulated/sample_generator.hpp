@@ -51,9 +51,9 @@ constexpr GeneratedContact drawContact(Draws& draws) {
 }
 
 constexpr std::int32_t interpolated(const std::int16_t* table, std::uint32_t turn) {
-  constexpr int kBits = 22;  // of 1024 points
-  const std::uint32_t point = turn >> kBits, next = (point + 1) % 1024;
-  const auto part = static_cast<std::int32_t>(turn >> 8 & 0x3FFF);
+  constexpr int kBits = 20;  // of 4096 points
+  const std::uint32_t point = turn >> kBits, next = (point + 1) % 4096;
+  const auto part = static_cast<std::int32_t>(turn >> 6 & 0x3FFF);
   return table[point] + ((table[next] - table[point]) * part >> 14);
 }
 

@@ -64,8 +64,32 @@ hal::SampleSet samplesOf(std::uint32_t sample, bool touched) {
   return converted(codes, false);
 }
 
+/// A firm contact: the noise is that of the default finger's tables, 6e-6 or 6.55 codes, and 0.1 % of the
+/// contact's peak; load directions are within +-45 degrees.
+hal::SampleSet firmSamplesOf(std::uint32_t sample) {
+  Draws draws(sample);
+  Deflections codes{}, noise{};
+  constexpr std::int32_t kNormal = 6550;
+  press(codes, {draws.next(), kNormal, kNormal * (static_cast<std::int32_t>(draws.below(201)) - 100) / 100});
+  addNoise(noise, draws, 0);  // 74 codes
+  for (std::size_t gauge = 0; gauge < kGauges; ++gauge) codes[gauge] += noise[gauge] * 91 / 1024;
+  return converted(codes, true);
+}
+
+/// Where it is and how hard it presses, in both modes.
+firmware::Fit located(const InstructionCounter& counter, std::span<const std::int32_t> strains,
+                      std::uint32_t energy, const char* refined, const char* threePoint) {
+  firmware::Fit fit, three;
+  tell(refined,
+       counter.of([&] { fit = locate(kLinkedTables, firmware::FitMode::kRefined, strains, energy); }));
+  tell(threePoint,
+       counter.of([&] { three = locate(kLinkedTables, firmware::FitMode::kThreePoint, strains, energy); }));
+  return fit;
+}
+
 /// The stages one by one, as Pipeline::process() and TouchReporter::frames() run them.
-void stages(const InstructionCounter& counter, const hal::SampleSet& set) {
+void stages(const InstructionCounter& counter, const hal::SampleSet& set, const char* refined,
+            const char* threePoint) {
   const TableConstants& constants = kLinkedTables.constants;
   static const firmware::Calibration calibration = firmware::nominalCalibration(constants);
   firmware::Readings readings;
@@ -79,13 +103,8 @@ void stages(const InstructionCounter& counter, const hal::SampleSet& set) {
     gate.update(constants, energy);
   }));
   if (!gate.touched()) return;
-  firmware::Fit fit;
+  const firmware::Fit fit = located(counter, strains, energy, refined, threePoint);
   CanFrame contactFrame, forceFrame;
-  tell("locate",
-       counter.of([&] { fit = locate(kLinkedTables, firmware::FitMode::kRefined, strains, energy); }));
-  firmware::Fit three;
-  tell("locate_three_point",
-       counter.of([&] { three = locate(kLinkedTables, firmware::FitMode::kThreePoint, strains, energy); }));
   tell("report", counter.of([&] {
     const auto frames = firmware::touchFrames(constants, estimate(constants, fit), {FingerFlag::kContact}, 1);
     contactFrame = encode(frames.contact, kFirstNode);
@@ -122,7 +141,10 @@ void runBoard() {
   mps2::Console line;
   console = &line;
   const InstructionCounter counter;
-  for (std::uint32_t sample = 0; sample < kSamples; ++sample) stages(counter, samplesOf(sample, true));
+  for (std::uint32_t sample = 0; sample < kSamples; ++sample)
+    stages(counter, firmSamplesOf(sample), "locate", "locate_three_point");
+  for (std::uint32_t sample = 0; sample < kSamples; ++sample)
+    stages(counter, samplesOf(sample, true), "locate_any", "locate_three_point_any");
   updates(counter);
   const auto* const touched = std::find_if(stack_bottom, const_cast<std::uint32_t*>(stack_top),
                                            [](std::uint32_t word) { return word != kPaint; });

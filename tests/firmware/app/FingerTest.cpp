@@ -73,8 +73,8 @@ TEST_GROUP(Finger) {
   static constexpr Press kTouch{3.2, 20, 4};
 
   /// A sample set a millisecond.
-  void run(int samples, const Press& press = kUntouched) {
-    const hal::SampleSet set = codesOf(press);
+  void run(int samples, const Press& press = kUntouched) { runSets(samples, codesOf(press)); }
+  void runSets(int samples, const hal::SampleSet& set) {
     for (int i = 0; i < samples; ++i) {
       clock.advance(kSample_us);
       adc.convert(set);
@@ -133,9 +133,62 @@ TEST(Finger, AZeroAwayFromMidScaleIsNoTouch) {
 TEST(Finger, SendsNothingButHeartbeatsUntouched) {
   runZeroed();
   run(1000);
-  LONGS_EQUAL(10, can.sent.size());
+  LONGS_EQUAL(11, can.sent.size());
   LONGS_EQUAL(10, sent<HeartbeatFrame>().size());
+  LONGS_EQUAL(1, sent<GaugesFrame>().size());
   LONGS_EQUAL(0, finger->counters().fits);
+}
+
+TEST(Finger, NamesAGaugeThatHasFailedAtOnceAndThenOnceASecond) {
+  runZeroed();
+  hal::SampleSet set = codesOf(kTouch);
+  set[3] = 0xFFF0;
+  runSets(3, set);
+  LONGS_EQUAL(1u << 3, sent<GaugesFrame>().at(0).out_of_use);
+  CHECK(sent<ContactFrame>().back().flags.has(FingerFlag::kDegraded));
+  runSets(2997, set);
+  LONGS_EQUAL(3, sent<GaugesFrame>().size());
+  CHECK_FALSE(lastHeartbeat().faults.has(FingerFault::kGauges));
+}
+
+TEST(Finger, TooFewGaugesAreAFault) {
+  runZeroed();
+  hal::SampleSet set = codesOf(kTouch);
+  set[3] = set[7] = set[11] = 0;
+  runSets(200, set);
+  LONGS_EQUAL(1u << 3 | 1u << 7 | 1u << 11, sent<GaugesFrame>().back().out_of_use);
+  CHECK(lastHeartbeat().faults.has(FingerFault::kGauges));
+  CHECK(sent<ContactFrame>().back().flags.has(FingerFlag::kUncertain));
+}
+
+TEST(Finger, SaysHowOldItsZeroIs) {
+  runZeroed();
+  run(3000);
+  LONGS_EQUAL(2, sent<GaugesFrame>().back().zero_age_s);
+  LONGS_EQUAL(kNotKnown<std::uint16_t>, sent<GaugesFrame>().back().zero_rate_nano_per_s);
+  run(2000);
+  LONGS_EQUAL(0, sent<GaugesFrame>().back().zero_age_s);  // followed 4.096 s after it was taken
+  run(10'000, kTouch);
+  LONGS_EQUAL(10, sent<GaugesFrame>().back().zero_age_s);
+}
+
+TEST(Finger, SaysHowFastItsZeroMoves) {
+  runZeroed();
+  hal::SampleSet set = codesOf(kUntouched);
+  set[2] = static_cast<std::uint16_t>(set[2] + 16);
+  runSets(5000, set);
+  // A code is more than the zero may move in 4.096 s: the noise of a reading.
+  DOUBLES_EQUAL(ring.noise_strain() / 4.096 * 1e9, sent<GaugesFrame>().back().zero_rate_nano_per_s, 15);
+}
+
+TEST(Finger, ANewZeroGivesGaugesAnotherTry) {
+  runZeroed();
+  hal::SampleSet set = codesOf(kTouch);
+  set[3] = 0xFFF0;
+  runSets(3, set);
+  can.deliver(encode(tareRequest(true), kNode));
+  run(ZeroAverage::kSamples + 2);
+  LONGS_EQUAL(0, sent<GaugesFrame>().back().out_of_use);
 }
 
 TEST(Finger, BeatsTenTimesASecondInEveryState) {

@@ -14,6 +14,8 @@ using namespace strainfinger::firmware;
 
 namespace {
 constexpr double kBoundError = 0.04;
+constexpr std::int8_t kUp = 2;
+constexpr std::int32_t kWindow = 1 << 26;
 constexpr std::int32_t kMax = std::numeric_limits<std::int32_t>::max();
 }  // namespace
 
@@ -24,21 +26,24 @@ TEST_GROUP(Estimate) {
 
   void setup() override {
     fit.settled = true;
-    fit.expected = 100;
+    fit.row = &ring.tables().rows[20];
     fit.information = 1 << 26;
-    fit.shift = 14;
+    fit.up = kUp;
+    fit.windowEnergy = kWindow;
   }
 
   Contact found() { return estimate(constants, fit); }
-  std::uint8_t qualityOf(std::int32_t unexplained, std::int32_t expected) {
-    fit.unexplained = unexplained;
-    fit.expected = expected;
+  /// `parts`: what is left unexplained, over what noise and rounding explain.
+  std::uint8_t qualityOf(double parts) {
+    const double noise = constants.noise_variance * std::ldexp(1, constants.noise_variance_exponent);
+    const double expected = 16 * std::ldexp(noise, 2 * (kUp - 16) - 2) + kWindow / 4096.0;
+    fit.unexplained = static_cast<std::int32_t>(std::min<double>(std::round(parts * expected), kMax));
     return found().quality;
   }
   /// Load of an amplitude by the definition, in LineLoadQ12 steps.
   double load(std::int32_t amplitude) {
     return std::ldexp(static_cast<double>(amplitude) * constants.load_scale,
-                      constants.load_exponent + fit.shift);
+                      constants.load_exponent + 16 - fit.up);
   }
   static double turnsBetween(double a, double b) { return a - b - std::round(a - b); }
 
@@ -60,30 +65,17 @@ TEST_GROUP(Estimate) {
     fitted = locate(model.tables(), mode, strains, gateEnergy(model.constants(), strains));
     return estimate(model.constants(), fitted);
   }
-  /// The row a fit's answer comes from: the one near its offset with the same amplitudes' coefficients.
-  static const FitRow& rowOf(const ModelRing& model, const Fit& fitted) {
-    const double offset = model.between(fitted.centre, std::ldexp(fitted.best.position, -kPitchBits));
-    const auto nearest = static_cast<int>(std::lround(std::abs(offset) * kRowsPerPitch));
-    for (const FitTable* table : {&model.tables().refined, &model.tables().three_point[kWithOffset],
-                                  &model.tables().three_point[kAgainstOffset]})
-      for (const int row : {nearest, nearest - 1, nearest + 1}) {
-        if (row < 0 || row >= kFitRows) continue;
-        const FitRow& entry = (*table)[static_cast<std::size_t>(row)];
-        if (entry.load == fitted.load) return entry;
-      }
-    FAIL("no such row");
-    return model.tables().refined[0];
-  }
-  /// The gauges that row looks at, as pitches from the contact.
+  /// The gauges a fit rests on, as pitches from the contact.
   static std::vector<double> usedBy(const ModelRing& model, const Fit& fitted, const Press& press) {
     const double offset = model.between(fitted.centre, std::ldexp(fitted.best.position, -kPitchBits));
-    const auto used = gaugesOf(rowOf(model, fitted));
-    std::vector<double> offsets;
-    for (int k = -3; k <= 3; ++k) {
-      const int seen = offset < 0 ? -k : k;
-      if (used[static_cast<std::size_t>(seen + 3)])
-        offsets.push_back(model.between(press.position_pitch, fitted.centre) + k);
+    const double middle = model.between(press.position_pitch, fitted.centre);
+    std::vector<int> gauges{-3, -2, -1, 0, 1, 2, 3};
+    if (fitted.readings == FitMode::kThreePoint) {
+      const auto& triple = kTripleList[fitted.row->triple[fitted.projection[1] < 0 ? 1 : 0]];
+      gauges.assign(triple.begin(), triple.end());
     }
+    std::vector<double> offsets;
+    for (const int gauge : gauges) offsets.push_back(middle + (offset < 0 ? -gauge : gauge));
     return offsets;
   }
   static void checkAgainstBound(const ModelRing& model, FitMode mode, const Press& press, double tolerance) {
@@ -128,7 +120,7 @@ TEST(Estimate, LoadsAreExactToOneStep) {
   std::printf("seed 32 ");
   std::mt19937 random(32);
   for (int i = 0; i < 20'000; ++i) {
-    fit.shift = static_cast<std::int8_t>(static_cast<int>(random() % 20) - 2);
+    fit.up = static_cast<std::int8_t>(static_cast<int>(random() % 20) - 2);
     fit.best.normal = static_cast<std::int32_t>(random());
     fit.best.tangential = -fit.best.normal / 3;
     DOUBLES_EQUAL(load(fit.best.normal), found().normal.raw(), 0.5001);
@@ -137,7 +129,7 @@ TEST(Estimate, LoadsAreExactToOneStep) {
 }
 
 TEST(Estimate, HugeLoadsSaturateWithTheirSign) {
-  constants.load_exponent = -30 - fit.shift;
+  constants.load_exponent = -30 - (16 - fit.up);
   fit.best.normal = kMax;
   fit.best.tangential = -kMax;
   CHECK(found().normal == LineLoadQ12::max());
@@ -151,28 +143,27 @@ TEST(Estimate, TinyLoadsAreNone) {
 }
 
 TEST(Estimate, QualityIsTheExpectedPartOfTheUnexplained) {
-  LONGS_EQUAL(100, qualityOf(0, 100));
-  LONGS_EQUAL(100, qualityOf(100, 100));
-  LONGS_EQUAL(99, qualityOf(101, 100));
-  LONGS_EQUAL(50, qualityOf(200, 100));
-  LONGS_EQUAL(0, qualityOf(kMax, 100));
-  LONGS_EQUAL(100, qualityOf(kMax, kMax));
+  LONGS_EQUAL(100, qualityOf(0));
+  LONGS_EQUAL(100, qualityOf(1));
+  LONGS_EQUAL(98, qualityOf(1.01));
+  LONGS_EQUAL(50, qualityOf(1.99));
+  LONGS_EQUAL(0, qualityOf(1e9));
 }
 
 TEST(Estimate, QualityOf20AndLessIsUncertain) {
-  LONGS_EQUAL(21, qualityOf(476, 100));
+  LONGS_EQUAL(21, qualityOf(4.7));
   CHECK_FALSE(found().uncertain);
-  LONGS_EQUAL(20, qualityOf(477, 100));
+  LONGS_EQUAL(20, qualityOf(4.8));
   CHECK_TRUE(found().uncertain);
 }
 
 TEST(Estimate, AmbiguousAndUnsettledFitsAreUncertainHoweverWellTheyFit) {
   fit.ambiguous = true;
-  LONGS_EQUAL(20, qualityOf(0, 100));
+  LONGS_EQUAL(20, qualityOf(0));
   CHECK_TRUE(found().uncertain && found().ambiguous);
   fit.ambiguous = fit.settled = false;
-  LONGS_EQUAL(20, qualityOf(0, 100));
-  LONGS_EQUAL(10, qualityOf(1000, 100));
+  LONGS_EQUAL(20, qualityOf(0));
+  LONGS_EQUAL(9, qualityOf(10.1));
 }
 
 TEST(Estimate, AmbiguousErrorsAreAThirdOfTheDistanceAtLeast) {
@@ -200,27 +191,37 @@ TEST(Estimate, NothingKnownOfTheOffsetIsAPitch) {
 }
 
 TEST(Estimate, TheErrorOfTheAngleIsAtMostHalfARevolution) {
+  static FitRow flat;
+  flat = *fit.row;
+  flat.gradient_exponent = kLeastGradientExponent;
+  fit.row = &flat;
   fit.information = 1;
-  fit.informationExponent = -30;
+  fit.up = 30;
   UNSIGNED_LONGS_EQUAL(0x8000'0000u, found().sigmaAngle.raw());
 }
 
 TEST(Estimate, AnyFitGivesSomeEstimate) {
   // For the sanitizers: the ends of every format, together.
-  for (const std::int32_t big : {kMax, -kMax, 0, 1})
-    for (const int exponent : {-6, 0, 6})
-      for (const int shift : {-2, 0, 18}) {
-        fit.best = {16 * kOnePitch - 1, big, -big};
-        fit.alternative = {0, -big, big};
-        fit.normalSlope = fit.tangentialSlope = big;
-        fit.information = std::abs(big) / 8;
-        fit.informationExponent = static_cast<std::int8_t>(exponent);
-        fit.load.fill(static_cast<std::int16_t>(big < 0 ? -32768 : 32767));
-        fit.shift = static_cast<std::int8_t>(shift);
-        fit.ambiguous = shift == 0;
-        const Contact contact = found();
-        CHECK(contact.sigmaNormal.raw() >= 0 && contact.sigmaTangential.raw() >= 0);
-      }
+  static FitRow row;
+  row = *fit.row;
+  fit.row = &row;
+  for (const std::int32_t big : {1 << 29, -(1 << 29), 0, 1})
+    for (const int exponent : {kLeastGradientExponent, 0, kMostGradientExponent})
+      for (const int up : {-2, 0, 18})
+        for (const FitMode mode : {FitMode::kRefined, FitMode::kThreePoint}) {
+          fit.best = {16 * kOnePitch - 1, big, -big};
+          fit.alternative = {0, -big, big};
+          fit.projection = {big, -big};
+          fit.information = std::abs(big) / 8;
+          row.gradient_exponent = static_cast<std::int8_t>(exponent);
+          row.load.fill(static_cast<std::int16_t>(big < 0 ? -32768 : 32767));
+          row.load_slope.fill(static_cast<std::int16_t>(big < 0 ? 32767 : -32768));
+          fit.up = static_cast<std::int8_t>(up);
+          fit.readings = mode;
+          fit.ambiguous = up == 0;
+          const Contact contact = found();
+          CHECK(contact.sigmaNormal.raw() >= 0 && contact.sigmaTangential.raw() >= 0);
+        }
 }
 
 TEST(Estimate, ErrorsAreTheCramerRaoBoundOfTheGaugesUsed) {

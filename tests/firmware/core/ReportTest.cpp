@@ -207,13 +207,19 @@ TEST(TouchReporter, MovesAcrossZeroAreSmall) {
 }
 
 TEST(TouchReporter, SaysAChangeOfQualityOfTenPercent) {
-  touch.fit->expected = 1000;
-  touch.fit->unexplained = 1000;
+  const auto& constants = ring.constants();
+  const double noise = constants.noise_variance * std::ldexp(1.0, constants.noise_variance_exponent);
+  const double expected =
+      16 * std::ldexp(noise, 2 * (touch.fit->up - 16) - 2) + touch.fit->windowEnergy / 4096.0;
+  const auto leave = [&](double parts) {
+    touch.fit->unexplained = static_cast<std::int32_t>(parts * expected);
+  };
+  leave(1);
   say(touch);
   later(kPeriod_us);
-  touch.fit->unexplained = 1090;  // 91 %
+  leave(1.09);  // 91 %
   CHECK_FALSE(say(touch).has_value());
-  touch.fit->unexplained = 1111;  // 90 %
+  leave(1.12);  // 89 %
   CHECK_TRUE(say(touch).has_value());
 }
 

@@ -43,22 +43,6 @@ class Presses {
   std::normal_distribution<> normal_;
 };
 
-/// Which readings of the window a row of a table looks at, the one farthest on the - side first: the weights
-/// of the others are zero.
-inline std::array<bool, kWindowGauges> gaugesOf(const FitRow& row) {
-  std::array<bool, kWindowGauges> used{};
-  for (int offset = -kWindowReach; offset <= kWindowReach; ++offset) {
-    const auto distance = static_cast<std::size_t>(std::abs(offset));
-    const auto weight = [&](const FoldedWeights& folded) {
-      if (offset == 0) return int{folded[0]};
-      return folded[distance] + (offset > 0 ? 1 : -1) * folded[distance + kWindowReach];
-    };
-    used[static_cast<std::size_t>(offset + kWindowReach)] =
-        std::abs(weight(row.basis[0])) > 2 || std::abs(weight(row.basis[1])) > 2;
-  }
-  return used;
-}
-
 class ModelRing {
  public:
   explicit ModelRing(const config::FingerConfig& config = {})

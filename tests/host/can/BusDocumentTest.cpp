@@ -75,7 +75,8 @@ constexpr int kBitsUnstuffed = 47 + 8 * kBytes;
 constexpr int kBitsWorst = kBitsUnstuffed + (34 + 8 * kBytes - 1) / 4;
 
 std::string loadRow(double contactRate_hz, int fingers) {
-  const double aliveRate_hz = 1000.0 / kHeartbeatPeriod_ms + 1000.0 / kInfoPeriod_ms;
+  const double aliveRate_hz =
+      1000.0 / kHeartbeatPeriod_ms + 1000.0 / kInfoPeriod_ms + 1000.0 / kGaugesPeriod_ms;
   const double frames = fingers * (2 * contactRate_hz + aliveRate_hz);
   return fmt::format("| {} | {} | {} | {:.1f} % | {:.1f} % |\n", fingers, contactRate_hz, frames,
                      frames * kBitsUnstuffed / 1e6 * 100, frames * kBitsWorst / 1e6 * 100);
@@ -138,6 +139,7 @@ TEST(BusDocument, ItsExamplesAreWhatIsSent) {
                           .version_minor = 1,
                           .crash_address = 0x2AB6,
                           .board = 0x5C}));
+  checkHas(line(GaugesFrame{.out_of_use = 1u << 5, .zero_age_s = 61, .zero_rate_nano_per_s = 510}));
   checkHas(line(contactRateRequest(200)));
   checkHas(line(responseTo(Command::kContactRate, CommandStatus::kDone)));
   checkHas(line(tareRequest(true)));

@@ -32,6 +32,11 @@ TEST(Dbc, HasASignalForEachFlag) {
   checkHas("\n SG_ watchdog_reset : 13|1@1+ (1,0) [0|1] \"\" HOST\n");
 }
 
+TEST(Dbc, BitsWithoutANameAreOneSignal) {
+  checkHas("\nBO_ 133 GAUGES: 8 FINGER_5\n");
+  checkHas("\n SG_ out_of_use : 0|32@1+ (1,0) [0|4294967295] \"\" HOST\n");
+}
+
 TEST(Dbc, NamesValues) {
   checkHas("\nVAL_ 1797 state 0 \"boot\" 1 \"zeroing\" 2 \"run\" 3 \"fault\" ;\n");
   checkHas("\nVAL_ 389 simulated 0 \"no\" 1 \"yes\" ;\n");

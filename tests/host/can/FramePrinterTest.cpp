@@ -45,19 +45,19 @@ TEST(FramePrinter, TheTableHasAColumnForEachFieldOfAnyFrame) {
       "normal_n,tangential_n,sigma_normal_n,sigma_tangential_n,state,protocol,faults,uptime_s,temperature_"
       "degc,"
       "tx_errors,rx_errors,table_crc,reset_cause,crash,restarts,version_major,version_minor,crash_address,"
-      "board\n",
+      "board,out_of_use,zero_age_s,zero_rate_per_s\n",
       printed().c_str());
 }
 
 TEST(FramePrinter, PrintsContactAsARow) {
   print(TableFormat::kCsv, contact_);
-  STRCMP_EQUAL("0.001500,can0,5,CONTACT,35.73,,-90,contact+simulated,97,163,,,,,,,,,,,,,,,,,,,\n",
+  STRCMP_EQUAL("0.001500,can0,5,CONTACT,35.73,,-90,contact+simulated,97,163,,,,,,,,,,,,,,,,,,,,,,\n",
                rows().c_str());
 }
 
 TEST(FramePrinter, PrintsForceAsARow) {
   print(TableFormat::kCsv, ForceFrame{.normal_mN = 290, .tangential_mN = -226, .sigma_normal_half_mN = 7});
-  STRCMP_EQUAL("0.001500,can0,5,FORCE,,,,,,0,0.29,-0.226,0.0035,,,,,,,,,,,,,,,,\n", rows().c_str());
+  STRCMP_EQUAL("0.001500,can0,5,FORCE,,,,,,0,0.29,-0.226,0.0035,,,,,,,,,,,,,,,,,,,\n", rows().c_str());
 }
 
 TEST(FramePrinter, PrintsHeartbeatAsARow) {
@@ -65,7 +65,7 @@ TEST(FramePrinter, PrintsHeartbeatAsARow) {
                                           .faults = {FingerFault::kTables, FingerFault::kCan},
                                           .uptime_s = 12,
                                           .table_crc = 167});
-  STRCMP_EQUAL("0.001500,can0,5,HEARTBEAT,,,,,,,,,,,fault,1,tables+can,12,,,,167,,,,,,,\n", rows().c_str());
+  STRCMP_EQUAL("0.001500,can0,5,HEARTBEAT,,,,,,,,,,,fault,1,tables+can,12,,,,167,,,,,,,,,,\n", rows().c_str());
 }
 
 TEST(FramePrinter, PrintsInfoAsARow) {
@@ -74,7 +74,12 @@ TEST(FramePrinter, PrintsInfoAsARow) {
                                      .restarts = 2,
                                      .crash_address = 4096,
                                      .board = 77});
-  STRCMP_EQUAL("0.001500,can0,5,INFO,,,,,,,,,,,,,,,,,,,software,assertion,2,0,0,4096,77\n", rows().c_str());
+  STRCMP_EQUAL("0.001500,can0,5,INFO,,,,,,,,,,,,,,,,,,,software,assertion,2,0,0,4096,77,,,\n", rows().c_str());
+}
+
+TEST(FramePrinter, PrintsGaugesByTheirNumbers) {
+  print(TableFormat::kJson, GaugesFrame{.out_of_use = 1u << 5 | 1u << 31, .zero_age_s = 12});
+  STRCMP_CONTAINS("\"out_of_use\":\"5+31\",\"zero_age_s\":12,\"zero_rate_per_s\":null", printed().c_str());
 }
 
 TEST(FramePrinter, PrintsAnObjectWithTheFramesOwnFields) {

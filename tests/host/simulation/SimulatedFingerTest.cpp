@@ -109,11 +109,12 @@ TEST(SimulatedFinger, EverySampleSetIsVisitedOnceWithItsTruth) {
   LONGS_EQUAL(1, bench.moments[200].truth.size());
 }
 
-TEST(SimulatedFinger, UntouchedItSendsNothingButHeartbeats) {
+TEST(SimulatedFinger, UntouchedItSaysHowItAndItsGaugesAreAndNothingElse) {
   Bench bench(config, Scenario({}));
   bench.run(5);
-  LONGS_EQUAL(50, bench.frames.size());
-  for (const TimedFrame& each : bench.frames) LONGS_EQUAL(0x701, each.frame.id);
+  LONGS_EQUAL(55, bench.frames.size());
+  LONGS_EQUAL(50, bench.timesOf(0x701).size());
+  LONGS_EQUAL(5, bench.timesOf(0x081).size());
   LONGS_EQUAL(50, bench.counts().heartbeats);
   LONGS_EQUAL(0, bench.counts().finger.fits);
 }

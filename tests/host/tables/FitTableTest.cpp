@@ -24,8 +24,10 @@ struct Oracle {
   OracleMatrix basis, gradient;
   Eigen::Matrix2d amplitude, amplitudeSlope;
 
-  Oracle(const model::ImpulseResponse& model, double peak, double offset, const GaugeMask& mask) {
-    const auto values = [&](double at) -> OracleMatrix { return oracleResponse(model, 16, at, mask) / peak; };
+  Oracle(const model::ImpulseResponse& model, double peak, double offset) {
+    const auto values = [&](double at) -> OracleMatrix {
+      return oracleResponse(model, 16, at, kAllGauges) / peak;
+    };
     const Eigen::HouseholderQR<OracleMatrix> qr(values(offset));
     basis = qr.householderQ() * OracleMatrix::Identity();
     Eigen::Matrix2d r = qr.matrixQR().topRows<2>().triangularView<Eigen::Upper>();
@@ -63,25 +65,21 @@ TEST_GROUP(FitTable) {
   }
 
   void checkGradient(const Oracle& oracle, const FitRow& row) {
-    std::vector<Eigen::VectorXd> scaled;
+    const double unit = std::ldexp(1.0, row.gradient_exponent - 15);
+    std::vector<Eigen::VectorXd> direction;
     for (std::size_t i = 0; i < 2; ++i) {
       const Eigen::VectorXd column = oracle.gradient.col(static_cast<Eigen::Index>(i));
-      const double unit = std::ldexp(1.0, row.gradient_exponent - row.lag[i]);
-      scaled.push_back(row.lag[i] == 31 ? Eigen::VectorXd::Zero(7).eval() : (column / unit).eval());
-      checkWeights(scaled[i], row.gradient[i]);
-      if (row.lag[i] == 31)
-        DOUBLES_EQUAL(0, column.norm(), 1e-7);
-      else
-        CHECK(scaled[i].norm() > 0.5 - 1e-7 && scaled[i].norm() < 1 + 1e-7);
+      checkNumber(column.norm() / unit, row.gradient_length[i]);
+      const bool isZero = row.gradient_length[i] == 0;
+      direction.push_back(isZero ? Eigen::VectorXd::Zero(7).eval() : column.normalized());
+      checkWeights(direction[i], row.gradient[i]);
     }
-    LONGS_EQUAL(0, std::min(row.lag[0], row.lag[1]));
-    checkNumber(scaled[0].dot(scaled[0]) * 16384, row.gram[0]);
-    checkNumber(2 * scaled[0].dot(scaled[1]) * 16384, row.gram[1]);
-    checkNumber(scaled[1].dot(scaled[1]) * 16384, row.gram[2]);
+    CHECK(std::max(row.gradient_length[0], row.gradient_length[1]) >= 1 << 14);
+    checkNumber(direction[0].dot(direction[1]) * 32768, row.gradient_cosine);
   }
 
-  void checkRow(const FitRow& row, std::size_t j, const GaugeMask& mask) {
-    const Oracle oracle(model_, peak_, static_cast<double>(j) / 64, mask);
+  void checkRow(const FitRow& row, std::size_t j) {
+    const Oracle oracle(model_, peak_, static_cast<double>(j) / 64);
     const double scale = std::ldexp(1.0, image_->constants.amplitude_exponent);
     for (int i = 0; i < 2; ++i) checkWeights(oracle.basis.col(i), row.basis[static_cast<std::size_t>(i)]);
     checkGradient(oracle, row);
@@ -95,36 +93,35 @@ TEST_GROUP(FitTable) {
 
   void checkTriples(FitSense sense, DirectionRange directions) {
     for (std::size_t j = 0; j < kFitRows; ++j)
-      checkRow(image_->three_point[sense][j], j, bestTriple(responses_[j], directions));
+      LONGS_EQUAL(bestTriple(responses_[j], directions).value(), image_->rows[j].triple[sense]);
   }
 
   /// Every 16-bit number of the image's rows.
   std::vector<int> allNumbers() {
     std::vector<int> numbers;
-    for (const FitTable* table : {&image_->refined, &image_->three_point[0], &image_->three_point[1]}) {
-      for (const FitRow& row : *table) {
-        for (const auto& weights : {row.basis[0], row.basis[1], row.gradient[0], row.gradient[1]})
-          numbers.insert(numbers.end(), weights.begin(), weights.end());
-        numbers.insert(numbers.end(), row.gram.begin(), row.gram.end());
-        numbers.insert(numbers.end(), row.load.begin(), row.load.end());
-        numbers.insert(numbers.end(), row.load_slope.begin(), row.load_slope.end());
-      }
+    for (const FitRow& row : image_->rows) {
+      for (const auto& weights : {row.basis[0], row.basis[1], row.gradient[0], row.gradient[1]})
+        numbers.insert(numbers.end(), weights.begin(), weights.end());
+      numbers.insert(numbers.end(), row.gradient_length.begin(), row.gradient_length.end());
+      numbers.push_back(row.gradient_cosine);
+      numbers.insert(numbers.end(), row.load.begin(), row.load.end());
+      numbers.insert(numbers.end(), row.load_slope.begin(), row.load_slope.end());
     }
     return numbers;
   }
 
-  static std::array<WindowFit, kFitRows> fitsOf(const WindowFit& fit) {
-    std::array<WindowFit, kFitRows> fits;
-    fits.fill(fit);
+  static WindowFits fitsOf(const WindowFit& fit) {
+    WindowFits fits{};
+    fits.rows.fill(fit);
     return fits;
   }
 };
 
-TEST(FitTable, EveryNumberOfTheRefinedRowsIsTheOraclesRounded) {
-  for (std::size_t j = 0; j < kFitRows; ++j) checkRow(image_->refined[j], j, kAllGauges);
+TEST(FitTable, EveryNumberOfTheRowsIsTheOraclesRounded) {
+  for (std::size_t j = 0; j < kFitRows; ++j) checkRow(image_->rows[j], j);
 }
 
-TEST(FitTable, EveryNumberOfTheThreePointRowsIsTheOraclesRounded) {
+TEST(FitTable, EveryRowNamesItsBestTriples) {
   checkTriples(kWithOffset, {-1.25 / 8, 1.25});
   checkTriples(kAgainstOffset, {-1.25, 1.25 / 8});
 }
@@ -135,11 +132,10 @@ TEST(FitTable, NothingSaturatesInTheDefaultTables) {
 
 TEST(FitTable, TheAmplitudesUseTheirSixteenBits) {
   int largest = 0;
-  for (const FitTable* table : {&image_->refined, &image_->three_point[0], &image_->three_point[1]})
-    for (const FitRow& row : *table)
-      for (const int number : {row.load[0], row.load[1], row.load[2], row.load_slope[0], row.load_slope[1],
-                               row.load_slope[2], row.load_slope[3]})
-        largest = std::max(largest, std::abs(number));
+  for (const FitRow& row : image_->rows)
+    for (const int number : {row.load[0], row.load[1], row.load[2], row.load_slope[0], row.load_slope[1],
+                             row.load_slope[2], row.load_slope[3]})
+      largest = std::max(largest, std::abs(number));
   CHECK(largest >= 16384);
 }
 
@@ -160,8 +156,8 @@ TEST(FitTable, AGradientThatIsRoundingNoiseIsZero) {
   WindowFit fit = windowFit(responses_[5], kAllGauges);
   fit.gradient.col(1) *= 1e-15;
   const FitRow row = fitTable(fitsOf(fit), 12)[0];
-  LONGS_EQUAL(31, row.lag[1]);
-  LONGS_EQUAL(0, row.gram[2]);
+  LONGS_EQUAL(0, row.gradient_length[1]);
+  LONGS_EQUAL(0, row.gradient_cosine);
   for (const std::int16_t weight : row.gradient[1]) LONGS_EQUAL(0, weight);
 }
 

@@ -35,6 +35,8 @@ template <typename Number, std::size_t Count>
 struct TypeName<std::array<Number, Count>> {
   static std::string text() { return fmt::format("{}[{}]", TypeName<Number>::text(), Count); }
 };
+template <std::size_t Count>
+struct TypeName<std::array<FoldedWeights, Count>> : TypeName<std::array<std::int16_t, 8 * Count>> {};
 template <typename Number, std::size_t Inner, std::size_t Count>
 struct TypeName<std::array<std::array<Number, Inner>, Count>> : TypeName<std::array<Number, Inner * Count>> {
 };
@@ -101,7 +103,7 @@ Rows constantRows(const TableConstants& c) {
   rows.add("load_exponent", c.load_exponent);
   rows.add("friction_cone_q8", c.friction_cone_q8);
   rows.add("adc_rail", c.adc_rail);
-  rows.add("reserved16", c.reserved16);
+  rows.add("tail_q16", c.tail_q16);
   rows.add("noise_variance_exponent", c.noise_variance_exponent);
   rows.add("amplitude_exponent", c.amplitude_exponent);
   rows.add("mirror_sign", c.mirror_sign);
@@ -117,11 +119,12 @@ Rows fitRows(const FitRow& row) {
   Rows rows(0);
   rows.add("basis", row.basis);
   rows.add("gradient", row.gradient);
-  rows.add("gram", row.gram);
-  rows.add("lag", row.lag);
+  rows.add("gradient_length", row.gradient_length);
+  rows.add("gradient_cosine", row.gradient_cosine);
   rows.add("gradient_exponent", row.gradient_exponent);
   rows.add("reserved", row.reserved);
   rows.add("load", row.load);
+  rows.add("triple", row.triple);
   rows.add("load_slope", row.load_slope);
   return rows;
 }
@@ -169,21 +172,21 @@ TEST(TableDocument, HasEveryFieldAtItsOffset) {
   checkTable("## Header", headerRows(image_));
   checkTable("## Parameters", parameterRows(image_.parameters));
   checkTable("## Constants", constantRows(image_.constants));
-  checkTable("## Rows", fitRows(image_.refined[0]));
+  checkTable("## Rows", fitRows(image_.rows[0]));
 }
 
 TEST(TableDocument, ItsFieldsLeaveNoGaps) {
   LONGS_EQUAL(kTableHeaderBytes, headerRows(image_).end());
   LONGS_EQUAL(offsetof(TableImage, constants), parameterRows(image_.parameters).end());
-  LONGS_EQUAL(offsetof(TableImage, refined), constantRows(image_.constants).end());
-  LONGS_EQUAL(sizeof(FitRow), fitRows(image_.refined[0]).end());
+  LONGS_EQUAL(offsetof(TableImage, rows), constantRows(image_.constants).end());
+  LONGS_EQUAL(sizeof(FitRow), fitRows(image_.rows[0]).end());
 }
 
 TEST(TableDocument, OffsetsThatDependOnAlignmentAreThoseOfTheCompiler) {
   LONGS_EQUAL(112, offsetof(TableImage, parameters) + offsetof(TableParameters, gauge_count));
   LONGS_EQUAL(152, offsetof(TableImage, constants) + offsetof(TableConstants, load_exponent));
   LONGS_EQUAL(160, offsetof(TableImage, constants) + offsetof(TableConstants, noise_variance_exponent));
-  LONGS_EQUAL(74, offsetof(FitRow, load));
+  LONGS_EQUAL(72, offsetof(FitRow, load));
   LONGS_EQUAL(80, offsetof(FitRow, load_slope));
 }
 
@@ -191,9 +194,7 @@ TEST(TableDocument, HasThePartsAtTheirOffsets) {
   checkPart(0, kTableHeaderBytes);
   checkPart(offsetof(TableImage, parameters), sizeof(TableParameters));
   checkPart(offsetof(TableImage, constants), sizeof(TableConstants));
-  checkPart(offsetof(TableImage, refined), sizeof(FitTable));
-  checkPart(offsetof(TableImage, three_point), sizeof(FitTable));
-  checkPart(offsetof(TableImage, three_point) + sizeof(FitTable), sizeof(FitTable));
+  checkPart(offsetof(TableImage, rows), sizeof(FitTable));
   checkHas(fmt::format("{} of {} bytes", kFitRows, sizeof(FitRow)));
 }
 

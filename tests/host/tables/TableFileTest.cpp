@@ -60,17 +60,17 @@ TEST(TableFile, AWholeImageReadsBackAsItWas) {
 TEST(TableFile, FlippedBitsOfTheHeaderAreNamedByTheirField) {
   checkFlips(0, 4, damaged("not a table image; make it anew with: strainfinger tables -o "));
   checkFlips(4, 8, fmt::format("5: {}: a table image of format ", path_));
-  checkFlips(8, 12, damaged("11784 bytes, and "));
+  checkFlips(8, 12, damaged("4040 bytes, and "));
   checkFlips(12, 16, damaged("damaged, its CRC-32 does not match"));
 }
 
 TEST(TableFile, EveryFlippedBitOfParametersAndConstantsIsFound) {
-  checkFlips(kTableHeaderBytes, offsetof(TableImage, refined), damaged("damaged, its CRC-32"));
+  checkFlips(kTableHeaderBytes, offsetof(TableImage, rows), damaged("damaged, its CRC-32"));
 }
 
 // Every 61st bit here; TableImageTest and Crc32Test have them all.
 TEST(TableFile, FlippedBitsOfTheRowsAreFound) {
-  checkFlips(offsetof(TableImage, refined), sizeof(TableImage), damaged("damaged, its CRC-32"), 61);
+  checkFlips(offsetof(TableImage, rows), sizeof(TableImage), damaged("damaged, its CRC-32"), 61);
 }
 
 TEST(TableFile, AFileCutAnywhereIsRefused) {
@@ -80,12 +80,12 @@ TEST(TableFile, AFileCutAnywhereIsRefused) {
   for (std::size_t length = kTableHeaderBytes; length < bytes_.size();
        length += length < 200 || length > bytes_.size() - 100 ? 1u : 23u)
     checkVerdict(bytes_.substr(0, length),
-                 damaged(fmt::format("{} bytes, and 11784 by its header, where an image has 11784", length)));
+                 damaged(fmt::format("{} bytes, and 4040 by its header, where an image has 4040", length)));
 }
 
 TEST(TableFile, ALongerFileIsRefused) {
-  checkVerdict(bytes_ + '\0', damaged("11785 bytes, and 11784 by its header"));
-  checkVerdict(bytes_ + bytes_, damaged("23568 bytes, and 11784 by its header"));
+  checkVerdict(bytes_ + '\0', damaged("4041 bytes, and 4040 by its header"));
+  checkVerdict(bytes_ + bytes_, damaged("8080 bytes, and 4040 by its header"));
 }
 
 TEST(TableFile, SomethingElseIsNoTableImage) {
@@ -95,9 +95,9 @@ TEST(TableFile, SomethingElseIsNoTableImage) {
 
 TEST(TableFile, AnotherFormatIsAMismatchWhateverFollows) {
   std::string other = bytes_.substr(0, 100);
-  other[4] = 2;
+  other[4] = 1;
   checkVerdict(other,
-               fmt::format("5: {}: a table image of format 2, this program and its firmware read format 1; "
+               fmt::format("5: {}: a table image of format 1, this program and its firmware read format 2; "
                            "make it anew",
                            path_));
 }
@@ -205,5 +205,5 @@ TEST(TableFile, TheHeaderSaysWhatItIsOf) {
   STRCMP_CONTAINS("//   gauges.radius_m = 0.0094\n", header.c_str());
   STRCMP_CONTAINS("//   gauges.component = radial\n", header.c_str());
   STRCMP_CONTAINS(fmt::format("// CRC-32 0x{:08X}\n", image_->crc32).c_str(), header.c_str());
-  STRCMP_CONTAINS("kDefaultTableBytes[11784] = {\n    83, 70, 84, 66, 1, 0,", header.c_str());
+  STRCMP_CONTAINS("kDefaultTableBytes[4040] = {\n    83, 70, 84, 66, 2, 0,", header.c_str());
 }

@@ -1,0 +1,67 @@
+#include "host/simulation/gauge_fault.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "host/base/failure.hpp"
+
+namespace strainfinger::simulation {
+namespace {
+
+struct KindName {
+  GaugeFault::Kind kind;
+  std::string_view name;
+};
+constexpr std::array kKindNames{
+    KindName{GaugeFault::Kind::kDead, "dead"}, KindName{GaugeFault::Kind::kOpen, "open"},
+    KindName{GaugeFault::Kind::kShort, "short"}, KindName{GaugeFault::Kind::kStuck, "stuck"},
+    KindName{GaugeFault::Kind::kNoisy, "noisy"}};
+
+std::optional<GaugeFault::Kind> kindOf(std::string_view name) {
+  for (const KindName& each : kKindNames)
+    if (each.name == name) return each.kind;
+  return std::nullopt;
+}
+
+/// All of the text as a number.
+template <typename Number>
+bool read(std::string_view text, Number& number) {
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, number);
+  return result.ec == std::errc{} && result.ptr == end;
+}
+
+constexpr double kLatest_s = 1e6;
+
+}  // namespace
+
+GaugeFault readGaugeFault(const std::string& text) {
+  const std::string_view all = text;
+  const auto colon = all.find(':'), at = all.find('@');
+  const auto kind = kindOf(all.substr(0, colon));
+  GaugeFault fault;
+  const bool whole = kind && colon != all.npos && read(all.substr(colon + 1, at - colon - 1), fault.gauge) &&
+                     (at == all.npos || read(all.substr(at + 1), fault.start_s)) && fault.start_s >= 0 &&
+                     fault.start_s <= kLatest_s;
+  if (!whole)
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("--fault {}: must be KIND:GAUGE or KIND:GAUGE@SECOND, KIND one of dead, open, "
+                              "short, stuck, noisy; for example stuck:5@2.5",
+                              text));
+  fault.kind = *kind;
+  return fault;
+}
+
+void requireGauges(const std::vector<GaugeFault>& faults, int count) {
+  for (const GaugeFault& fault : faults)
+    if (fault.gauge >= static_cast<std::uint32_t>(count))
+      throw Failure(ExitCode::kUsage,
+                    fmt::format("--fault: there is no gauge {}; they are 0 to {}", fault.gauge, count - 1));
+}
+
+}  // namespace strainfinger::simulation

@@ -36,8 +36,8 @@ TEST_GROUP(Estimate) {
   /// `parts`: what is left unexplained, over what noise and rounding explain.
   std::uint8_t qualityOf(double parts) {
     const double noise = constants.noise_variance * std::ldexp(1, constants.noise_variance_exponent);
-    const double expected = 16 * std::ldexp(noise, 2 * (kUp - 16) - 2) + kWindow / 4096.0;
-    fit.unexplained = static_cast<std::int32_t>(std::min<double>(std::floor(parts * expected), kMax));
+    const double expected = std::floor(16 * std::ldexp(noise, 2 * (kUp - 16) - 2)) + kWindow / 4096.0;
+    fit.unexplained = static_cast<std::int32_t>(std::min<double>(std::round(parts * expected), kMax));
     return found().quality;
   }
   /// Load of an amplitude by the definition, in LineLoadQ12 steps.

@@ -145,7 +145,7 @@ TEST(Estimate, TinyLoadsAreNone) {
 TEST(Estimate, QualityIsTheExpectedPartOfTheUnexplained) {
   LONGS_EQUAL(100, qualityOf(0));
   LONGS_EQUAL(100, qualityOf(1));
-  LONGS_EQUAL(98, qualityOf(1.01));
+  LONGS_EQUAL(99, qualityOf(1.01));
   LONGS_EQUAL(50, qualityOf(1.99));
   LONGS_EQUAL(0, qualityOf(1e9));
 }

@@ -10,6 +10,11 @@ namespace strainfinger::firmware {
 /// The version of this build, from the project's CMakeLists.txt.
 inline constexpr Version kFirmwareVersion{STRAINFINGER_VERSION_MAJOR, STRAINFINGER_VERSION_MINOR};
 
+/// Not inlined: what the check needs would be on the stack for ever.
+[[gnu::noinline]] inline bool areWhole(const TableImage& tables) {
+  return checkTableImage(tables) == TableFault::kNone;
+}
+
 /// Says that there are no tables, for ever. Not inlined: what it needs would be on the stack of every other
 /// run.
 template <hal::GaugeAdc Adc, hal::CanPort Can, hal::Clock Clock, hal::Watchdog Watchdog, typename Wait>
@@ -38,8 +43,7 @@ template <hal::GaugeAdc Adc, hal::CanPort Can, hal::Clock Clock, hal::Watchdog W
   static Announcement<InfoFrame> info(
       infoFrame(watchdog.resetCause(), last, kFirmwareVersion, settings.board), settings.node,
       clock.now_us());
-  if (checkTableImage(tables) != TableFault::kNone)
-    runWithoutTables(settings.node, info, adc, can, clock, watchdog, wait);
+  if (!areWhole(tables)) runWithoutTables(settings.node, info, adc, can, clock, watchdog, wait);
   static Finger finger(tables, settings, adc, can, clock, watchdog, store);
   for (;;) {
     if (!finger.step()) wait();

@@ -29,7 +29,7 @@ struct FitStep {
   Number slope;            ///< of the energy, in units of the row's gradient
   Number information;      ///< energy of the gradient / 4^(gradient_exponent + 1)
   Number quotient;         ///< slope / information [* 2^14], at most 16 bits
-  Number length;           ///< at most an eighth of a pitch either way
+  Number length;           ///< at most an eighth of a pitch either way, and 2^-gradient_exponent
 
   /// Energy explained once a step of full length is taken.
   Number energy() const {

@@ -17,10 +17,9 @@ constexpr int kWeakShift = 5;
 constexpr int kAliasShift = 7;
 
 // Parts of the energy, as powers of two:
-constexpr int kRivalShift =
-    5;  ///< a peak of one window within 1/32 (and kNoiseUnit variances) may yet win ..
-constexpr int kStarterShift = 4;     ///< .. and one of another window within 1/16
-constexpr int kRoundingShift = 12;   ///< 1/4096 is lost in rounding
+constexpr int kRivalShift = 5;      ///< within 1/32 (and kNoiseUnit variances) a window's second peak may win
+constexpr int kStarterShift = 4;    ///< within 1/16 (and as many) a peak of another window may
+constexpr int kRoundingShift = 12;  ///< 1/4096 is lost in rounding
 constexpr int kAmbiguousShift = 14;  ///< rounding makes two fits differ by less than this
 constexpr int kOneStepShift = 8;     ///< .. after a single step by less than this ..
 constexpr int kTwoStepsShift = 12;   ///< .. and after a second by less than this
@@ -76,22 +75,27 @@ class Shortlist {
   std::array<Start, 6> starts_;
 };
 
+/// Refines a fit from a row of a window and enters it, in a frame of its own.
+[[gnu::noinline]] void enterFit(const Problem& problem, InWindow window, int centre, int row,
+                                Contest& contest) {
+  Answer answer;
+  answer.fit.start(windowSignal(problem.strains, centre, problem.up), centre, row, problem.mirrorSign());
+  solve(problem, window, answer);
+  contest.enter(problem, answer);
+}
+
 /// Refines every start of the list that may win.
 [[gnu::noinline]] void enterBest(const Problem& problem, const Shortlist& list, Contest& contest) {
   const std::int32_t limit = rivalLimit(problem, list.starts()[0].energy, kStarterShift);
   for (const Start& from : list.starts()) {
     if (from.energy <= limit) return;
-    Answer answer;
-    answer.fit.start(windowSignal(problem.strains, from.centre, problem.up), from.centre, from.row,
-                     problem.mirrorSign());
-    solve(problem, InWindow::kOwn, answer);
-    contest.enter(problem, answer);
+    enterFit(problem, InWindow::kOwn, from.centre, from.row, contest);
   }
 }
 
 /// Where the model's strongest response has no single peak over the contact, or noise may hide it, every
 /// window is looked at.
-[[gnu::noinline]] void searchEverywhere(const Problem& problem, Contest& contest) {
+[[gnu::noinline]] Shortlist startsAnywhere(const Problem& problem) {
   Shortlist list;
   const FitTable& rows = problem.tables.rows;
   const bool finely = problem.tables.constants.scan_step == kMinScanStep;
@@ -100,12 +104,12 @@ class Shortlist {
     if (finely) list.add(scanned<kMinScanStep / 2, kMinScanStep>(rows, signal), gauge);
     if (!finely) list.add(scanned<kMaxScanStep / 2, kMaxScanStep>(rows, signal), gauge);
   }
-  enterBest(problem, list, contest);
+  return list;
 }
 
 /// Contacts midway between two gauges may bend the strains most one, two or three gauges away: looks there,
 /// on either side of the windows two gauges off, and three where noise may tip the balance.
-[[gnu::noinline]] void searchBeside(const Problem& problem, int anchor, Contest& contest) {
+[[gnu::noinline]] Shortlist startsBeside(const Problem& problem, int anchor) {
   constexpr std::array kAway{-2, 2, -3, 3};
   Shortlist list;
   for (std::size_t i = 0; i < (mayBeAlias(problem) ? kAway.size() : 2); ++i) {
@@ -113,13 +117,21 @@ class Shortlist {
     const Signal signal = windowSignal(problem.strains, centre, problem.up);
     list.add(bestTwo(scanned<20, kMaxScanStep>(problem.tables.rows, signal)).first, centre);
   }
-  enterBest(problem, list, contest);
+  return list;
 }
 
-inline Fit reportOf(const Problem& problem, const Answer& best, FitMode readings) {
+/// The runner-up explains the readings as well, within noise.
+bool isAmbiguous(const Problem& problem, const Contest& contest) {
+  return contest.second.isRival &&
+         contest.second.energy > contest.first.energy - marginOf(problem, contest.best.windowEnergy);
+}
+
+inline Fit reportOf(const Problem& problem, const Contest& contest, FitMode readings) {
+  const Answer& best = contest.best;
   const Placement placement = best.placement(problem.gauges());
+  const bool alone = !contest.second.found;
   return {.best = placement,
-          .alternative = placement,
+          .alternative = alone ? placement : contest.secondPlacement,
           .row = &problem.tables.rows[static_cast<std::size_t>(best.fit.row)],
           .projection = best.fit.step.projection,
           .information = best.fit.step.information,
@@ -128,54 +140,18 @@ inline Fit reportOf(const Problem& problem, const Answer& best, FitMode readings
           .up = static_cast<std::int8_t>(problem.up),
           .centre = static_cast<std::uint8_t>(best.fit.centre),
           .readings = readings,
-          .ambiguous = false,
+          .ambiguous = !alone && isAmbiguous(problem, contest),
           .settled = best.admissible() && best.energy >> 1 > problem.noise};  // 64 variances
 }
 
-Fit reportOf(const Problem& problem, const Contest& contest, FitMode readings) {
-  Fit fit = reportOf(problem, contest.best, readings);
-  if (!contest.second.found) return fit;
-  fit.alternative = contest.secondPlacement;
-  fit.ambiguous = contest.second.isRival &&
-                  contest.second.energy > contest.first.energy - marginOf(problem, contest.best.windowEnergy);
-  return fit;
-}
-
-/// Leaves the answer to three readings if the mode says so and they lead where all seven do.
-[[gnu::noinline]] FitMode settleReadings(const Problem& problem, FitMode mode, Answer& answer) {
-  if (mode == FitMode::kRefined || !answer.admissible()) return FitMode::kRefined;
+/// Leaves the answer to three readings if they lead where all seven do.
+[[gnu::noinline]] FitMode settledByThree(const Problem& problem, Answer& answer) {
+  if (!answer.admissible()) return FitMode::kRefined;
   WindowFit fit = answer.fit;
   if (!solveTriple(problem.tables.rows, problem.mirrorSign(), fit)) return FitMode::kRefined;
   answer.fit = fit;
   answer.amplitudes = amplitudesOf(problem.tables.rows[static_cast<std::size_t>(fit.row)], fit.step);
   return FitMode::kThreePoint;
-}
-
-/// An answer that nothing speaks against.
-inline Fit settled(const Problem& problem, FitMode mode, Answer& answer) {
-  const FitMode readings =
-      mode == FitMode::kRefined ? FitMode::kRefined : settleReadings(problem, mode, answer);
-  return reportOf(problem, answer, readings);
-}
-
-[[gnu::noinline]] Fit locateAnywhere(const Problem& problem, FitMode mode) {
-  Contest contest;
-  searchEverywhere(problem, contest);
-  const FitMode readings = settleReadings(problem, mode, contest.best);
-  return reportOf(problem, contest, readings);
-}
-
-/// Looks beside the anchor's window if its best answer is in doubt.
-[[gnu::noinline]] Fit decide(const Problem& problem, FitMode mode, int anchor, Contest& contest) {
-  if (doubtful(problem, contest.best)) searchBeside(problem, anchor, contest);
-  const FitMode readings = settleReadings(problem, mode, contest.best);
-  return reportOf(problem, contest, readings);
-}
-
-[[gnu::noinline]] Fit decide(const Problem& problem, FitMode mode, int anchor, const Answer& answer) {
-  Contest contest;
-  contest.enter(problem, answer);
-  return decide(problem, mode, anchor, contest);
 }
 
 /// Where a single step from a row of a window leads.
@@ -201,27 +177,35 @@ bool mayBeAsGood(const Problem& problem, int anchor, const Lead& lead, const Ans
 
 /// After a first step from either of two peaks of a scan: follows the one that then explains more, and the
 /// other as far as it may be as good.
-[[gnu::noinline]] Fit locateRivalled(const Problem& problem, FitMode mode, const Signal& signal, int anchor,
-                                     const BestTwo& peaks) {
+[[gnu::noinline]] void followEither(const Problem& problem, const Signal& signal, int anchor,
+                                    const BestTwo& peaks, Contest& contest) {
   Lead lead = leadFrom(problem, signal, peaks.first.row);
   Lead rival = leadFrom(problem, signal, peaks.second.row);
   if (rival.energy > lead.energy) std::swap(lead, rival);
-  Answer answer;
-  answer.fit.start(signal, anchor, lead.row(), problem.mirrorSign());
-  solve(problem, InWindow::kNearest, answer);
-  if (mayBeAsGood(problem, anchor, rival, answer, kOneStepShift)) {
-    rival = leadFrom(problem, signal, rival.row());
-    if (mayBeAsGood(problem, anchor, rival, answer, kTwoStepsShift)) {
-      Contest contest;
-      contest.enter(problem, answer);
-      answer.fit.start(signal, anchor, rival.row(), problem.mirrorSign());
-      solve(problem, InWindow::kNearest, answer);
-      contest.enter(problem, answer);
-      return decide(problem, mode, anchor, contest);
-    }
+  contest.best.fit.start(signal, anchor, lead.row(), problem.mirrorSign());
+  solve(problem, InWindow::kNearest, contest.best);
+  if (!mayBeAsGood(problem, anchor, rival, contest.best, kOneStepShift)) return;
+  rival = leadFrom(problem, signal, rival.row());
+  if (!mayBeAsGood(problem, anchor, rival, contest.best, kTwoStepsShift)) return;
+  contest.first = standingOf(problem, contest.best);
+  enterFit(problem, InWindow::kNearest, anchor, rival.row(), contest);
+}
+
+/// In the window of the sharpest bend, and beside it if its answer is in doubt.
+inline void searchAtBend(const Problem& problem, Contest& contest) {
+  const FitTable& rows = problem.tables.rows;
+  const int anchor = bendAnchor(problem);
+  const Signal signal = windowSignal(problem.strains, anchor, problem.up);
+  const BestTwo peaks = bestTwo(scanned<kMaxScanStep / 2, kMaxScanStep>(rows, signal));
+  if (peaks.second.energy > rivalLimit(problem, peaks.first.energy, kRivalShift)) {
+    followEither(problem, signal, anchor, peaks, contest);
+  } else {
+    contest.best.fit.start(signal, anchor, peaks.first.row, problem.mirrorSign());
+    solve(problem, InWindow::kNearest, contest.best);
   }
-  if (doubtful(problem, answer)) return decide(problem, mode, anchor, answer);
-  return settled(problem, mode, answer);
+  if (!doubtful(problem, contest.best)) return;
+  contest.first = contest.first.found ? contest.first : standingOf(problem, contest.best);
+  enterBest(problem, startsBeside(problem, anchor), contest);
 }
 
 }  // namespace
@@ -229,18 +213,15 @@ bool mayBeAsGood(const Problem& problem, int anchor, const Lead& lead, const Ans
 Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t> strains_q32,
            std::uint32_t energy) {
   const Problem problem = problemOf(tables, strains_q32, energy);
-  if (tables.constants.anchor_rule == AnchorRule::kExhaustive || isWeak(problem))
-    return locateAnywhere(problem, mode);
-  const int anchor = bendAnchor(problem);
-  const Signal signal = windowSignal(strains_q32, anchor, problem.up);
-  const BestTwo peaks = bestTwo(scanned<kMaxScanStep / 2, kMaxScanStep>(tables.rows, signal));
-  if (peaks.second.energy > rivalLimit(problem, peaks.first.energy, kRivalShift))
-    return locateRivalled(problem, mode, signal, anchor, peaks);
-  Answer answer;
-  answer.fit.start(signal, anchor, peaks.first.row, problem.mirrorSign());
-  solve(problem, InWindow::kNearest, answer);
-  if (doubtful(problem, answer)) return decide(problem, mode, anchor, answer);
-  return settled(problem, mode, answer);
+  Contest contest;
+  if (tables.constants.anchor_rule == AnchorRule::kExhaustive || isWeak(problem)) {
+    enterBest(problem, startsAnywhere(problem), contest);
+  } else {
+    searchAtBend(problem, contest);
+  }
+  const FitMode readings =
+      mode == FitMode::kRefined ? FitMode::kRefined : settledByThree(problem, contest.best);
+  return reportOf(problem, contest, readings);
 }
 
 }  // namespace strainfinger::firmware

@@ -96,6 +96,12 @@ GaugeSet Pipeline::implausiblySaturated(Codes codes) const {
   observation_.several = watch_.several();
 }
 
+void Pipeline::takeZero(const ZeroAverage& zero) {
+  zero.writeTo(calibration_);
+  tracker_.restart();
+  watch_ = {};
+}
+
 const Observation& Pipeline::process(Codes codes) {
   condition(constants(), calibration_, codes, readings_);
   observation_.saturated = readings_.saturated;

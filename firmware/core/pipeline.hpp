@@ -38,11 +38,7 @@ class Pipeline {
   const TableConstants& constants() const { return tables_->constants; }
   Calibration& calibration() { return calibration_; }
   /// A new zero: what was learnt with the old one is forgotten, gauges out of use have another try.
-  void takeZero(const ZeroAverage& zero) {
-    zero.writeTo(calibration_);
-    tracker_.restart();
-    watch_ = {};
-  }
+  void takeZero(const ZeroAverage& zero);
   /// So few gauges work that nothing is said for sure.
   bool tooFewGauges() const { return tooManyOut(watch_.outOfUse(), constants().gauge_count); }
   const ZeroTracker& zeroTracker() const { return tracker_; }

@@ -36,9 +36,9 @@ std::int32_t twice(std::int32_t weight, std::int32_t projection) {
   return scaledByLow(projection, lowOnly(weight)) >> 13;
 }
 
-/// numerator / volume * 2^29, for a correction: of 15 digits.
+/// numerator / volume * 2^29, for a correction: of 15 digits, saturating at 2^30.
 std::int32_t correction(std::int32_t numerator, std::int32_t volume) {
-  return numerator / (volume >> 15) * (1 << 14);
+  return clipped<17>(numerator / (volume >> 15)) * (1 << 14);
 }
 
 bool step(const FitRow& row, WindowFit& fit) {

@@ -46,7 +46,12 @@ class ZeroTracker {
   }
 
   /// Forgets everything: the zeros are new.
-  void restart() { *this = {}; }
+  void restart() {
+    begin(false);
+    resting_ = false;
+    age_sets_ = 0;
+    lastChange_q32_.reset();
+  }
 
   /// Sample sets since all zeros were last seen untouched; saturating.
   std::uint32_t age_sets() const { return age_sets_; }

@@ -125,7 +125,7 @@ class Canmatrix(unittest.TestCase):
             sender = "HOST" if name == "REQUEST" else "FINGER_5"
             self.assertEqual((name, 8, [sender]), (frame.name, frame.size, frame.transmitters))
             self.assertFalse(frame.arbitration_id.extended)
-        self.assertEqual([50, 50, 100, 1000, 0, 0], [self.frame(name).cycle_time for name in FRAMES])
+        self.assertEqual([50, 50, 100, 1000, 1000, 0, 0], [self.frame(name).cycle_time for name in FRAMES])
 
     def test_signals_have_unit_range_and_comment(self):
         for name, (_, fields) in FRAMES.items():
@@ -187,8 +187,12 @@ class Canmatrix(unittest.TestCase):
             for field, value in zip(FRAMES[name][1], values):
                 if not isinstance(field[0], str) or field[0] in ("state", "reset_cause", "crash") or value == field[3]:
                     continue
+                if field[0] == "out_of_use":
+                    bits = "+".join(str(bit) for bit in range(32) if value >> bit & 1)
+                    self.assertEqual(bits, printed[field[0]])
+                    continue
                 column, = (key for key in printed if key == field[0] or key in (
-                    f"{field[0]}_{unit}" for unit in ("deg", "n", "s", "percent", "degc")))
+                    f"{field[0]}_{unit}" for unit in ("deg", "n", "s", "percent", "degc", "per_s")))
                 self.assertEqual(decoded[field[0]].phys_value, Decimal(printed[column]), f"{sent} {column}")
 
     def test_reads_what_a_running_finger_sends(self):

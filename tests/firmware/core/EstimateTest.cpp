@@ -36,7 +36,7 @@ TEST_GROUP(Estimate) {
   /// `parts`: what is left unexplained, over what noise and rounding explain.
   std::uint8_t qualityOf(double parts) {
     const double noise = constants.noise_variance * std::ldexp(1, constants.noise_variance_exponent);
-    const double expected = 16 * std::ldexp(noise, 2 * (kUp - 16) - 2) + kWindow / 4096.0;
+    const double expected = std::floor(16 * std::ldexp(noise, 2 * (kUp - 16) - 2)) + kWindow / 4096.0;
     fit.unexplained = static_cast<std::int32_t>(std::min<double>(std::round(parts * expected), kMax));
     return found().quality;
   }
@@ -145,7 +145,7 @@ TEST(Estimate, TinyLoadsAreNone) {
 TEST(Estimate, QualityIsTheExpectedPartOfTheUnexplained) {
   LONGS_EQUAL(100, qualityOf(0));
   LONGS_EQUAL(100, qualityOf(1));
-  LONGS_EQUAL(98, qualityOf(1.01));
+  LONGS_EQUAL(99, qualityOf(1.01));
   LONGS_EQUAL(50, qualityOf(1.99));
   LONGS_EQUAL(0, qualityOf(1e9));
 }

@@ -18,8 +18,8 @@ using Matrix72 = Eigen::Matrix<double, 7, 2>;
 
 constexpr double kSignalNorm = 16'384;  // within 3 dB of what the firmware scales to
 constexpr double kSignalEnergy = kSignalNorm * kSignalNorm / 4;
-constexpr double kStepError_um = 3;
-constexpr double kInformationError = 2e-3;
+constexpr double kStepError_um = 10;        // of up to 624 um, over a gauge, where a step is least determined
+constexpr double kInformationError = 0.01;  // over a gauge, where 16 of its 26 bits are left
 constexpr int kDirections = 9;
 double directionOf(int step) { return (step - 4) * std::numbers::pi / 4 / 4; }  // +-45 degrees
 

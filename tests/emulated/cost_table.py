@@ -65,8 +65,8 @@ def faults(lines, readme, images):
             yield f"README says: {known}\n   it is now: {line}"
     for elf, counts in images.items():
         idle, contact = max(counts["update_idle"]), min(counts["update_sent"])
-        if idle * 5 > contact:
-            yield f"{elf}: an idle update takes {idle}, more than a fifth of a contact's {contact}"
+        if idle * 3 > contact:
+            yield f"{elf}: an idle update takes {idle}, more than a third of a contact's {contact}"
         if counted(elf) != counts:
             yield f"{elf}: a second run counts differently"
         yield from stack_faults(elf, counts["stack_bytes"][0])

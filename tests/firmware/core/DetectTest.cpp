@@ -41,7 +41,7 @@ TEST(Detect, EnergyIsTheSumOfTheSquaresDividedAndRoundedDown) {
 }
 
 TEST(Detect, FullScaleOfAllGaugesSaturatesTheEnergy) {
-  for (const std::int32_t end : {-(1 << 29), 1 << 29})
+  for (const std::int32_t end : {1 - (1 << 29), (1 << 29) - 1})
     UNSIGNED_LONGS_EQUAL(std::numeric_limits<std::uint32_t>::max(),
                          energyOf(std::vector<std::int32_t>(32, end), kMostGateShift));
 }

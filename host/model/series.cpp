@@ -12,8 +12,6 @@
 namespace strainfinger::model {
 namespace {
 
-double sinc(double x) { return x == 0 ? 1 : std::sin(x) / x; }
-
 void require(bool holds, const std::string& message) {
   if (!holds) throw Failure(ExitCode::kUsage, message);
 }
@@ -89,8 +87,6 @@ class GrowingSeries {
 
 }  // namespace
 
-double Windows::factor(int n) const { return sinc(n * load_rad / 2) * sinc(n * gauge_rad / 2); }
-
 Eigen::MatrixXd truncatedSeries(const Annulus<double>& annulus, double radius_m, std::span<const Row> rows,
                                 const Windows& windows, double tolerance) {
   requireDomain(annulus, radius_m, windows, tolerance);
@@ -107,14 +103,15 @@ Eigen::MatrixXd truncatedSeries(const Annulus<double>& annulus, double radius_m,
 
 // By the pairing of HarmonicResponse p^c gives cosines of the rows that are even in a normal load and minus
 // sines of the others; q^c gives sines and cosines.
-Eigen::MatrixXd sumSeries(const Eigen::MatrixXd& table, std::span<const Row> rows,
-                          const Annulus<double>& annulus, const SurfaceLoad& load,
-                          std::span<const double> angles_rad) {
+template <typename Scalar>
+Eigen::MatrixX<Scalar> sumSeries(const Eigen::MatrixX<Scalar>& table, std::span<const Row> rows,
+                                 const Annulus<double>& annulus, const SurfaceLoad& load,
+                                 std::span<const double> angles_rad) {
   const LineCoefficients line(annulus, load);
-  Eigen::MatrixXd cosines(table.rows(), rows.size()), sines(table.rows(), rows.size());
+  Eigen::MatrixX<Scalar> cosines(table.rows(), rows.size()), sines(table.rows(), rows.size());
   for (Eigen::Index i = 0; i < cosines.cols(); ++i) {
-    const auto normal = line.normal * table.col(2 * i + kNormal);
-    const auto tangential = line.tangential * table.col(2 * i + kTangential);
+    const auto normal = Scalar(line.normal) * table.col(2 * i + kNormal);
+    const auto tangential = Scalar(line.tangential) * table.col(2 * i + kTangential);
     if (isEvenInNormalLoad(rows[static_cast<std::size_t>(i)])) {
       cosines.col(i) = normal;
       sines.col(i) = tangential;
@@ -124,17 +121,24 @@ Eigen::MatrixXd sumSeries(const Eigen::MatrixXd& table, std::span<const Row> row
     }
   }
   cosines.row(0) /= 2;
-  Eigen::MatrixXd result(angles_rad.size(), rows.size());
-  Eigen::RowVectorXd c(table.rows()), s(table.rows());
+  Eigen::MatrixX<Scalar> result(angles_rad.size(), rows.size());
+  Eigen::RowVectorX<Scalar> c(table.rows()), s(table.rows());
   for (Eigen::Index k = 0; k < result.rows(); ++k) {
-    visitMultiples(angles_rad[static_cast<std::size_t>(k)] - load.centre_rad,
-                   static_cast<int>(table.rows()) - 1, [&](int n, double cosine, double sine) {
-                     c[n] = cosine;
-                     s[n] = sine;
-                   });
+    const Scalar angle = Scalar(angles_rad[static_cast<std::size_t>(k)]) - Scalar(load.centre_rad);
+    visitMultiples(angle, static_cast<int>(table.rows()) - 1, [&](int n, Scalar cosine, Scalar sine) {
+      c[n] = cosine;
+      s[n] = sine;
+    });
     result.row(k) = c * cosines + s * sines;
   }
   return result;
 }
+
+template Eigen::MatrixX<double> sumSeries(const Eigen::MatrixX<double>&, std::span<const Row>,
+                                          const Annulus<double>&, const SurfaceLoad&,
+                                          std::span<const double>);
+template Eigen::MatrixX<long double> sumSeries(const Eigen::MatrixX<long double>&, std::span<const Row>,
+                                               const Annulus<double>&, const SurfaceLoad&,
+                                               std::span<const double>);
 
 }  // namespace strainfinger::model

@@ -6,22 +6,17 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/plot/style.hpp"
+
 namespace strainfinger::plot {
 namespace {
 
 constexpr double kMicro = 1e6;
 constexpr double kMilli = 1e3;
 
-// Okabe & Ito's colours, told apart by the colour-blind too. One meaning each, the same in all panels;
-// `fitted` is a light `estimate`.
-constexpr const char* kStyle = R"(
-truth = '#000000'; estimate = '#0072B2'; reading = '#D55E00'; tangential = '#E69F00'
-fitted = '#8CC5E3'; faint = '#777777'
-set encoding utf8
-set border 3 linecolor '#555555'
-set tics nomirror out scale 0.6 textcolor '#333333'
-set grid xtics ytics linecolor '#E6E6E6' linetype 1
-set key at graph 1,1.01 bottom right horizontal samplen 2 textcolor '#333333'
+// One meaning a colour, the same in all panels; `fitted` is a light `estimate`.
+constexpr const char* kColours = R"(
+truth = black; estimate = blue; reading = vermilion; tangential = orange; fitted = lightBlue
 set multiplot
 )";
 
@@ -179,6 +174,7 @@ std::string trackText(const TouchRecord& record) {
 
 Picture touchPicture(const TouchRecord& record) {
   std::string script = kStyle;
+  script += kColours;
   script.append(profileText(record)).append(kProfilePanels);
   script.append(trackText(record)).append(kTrackPanels);
   return {1500, 720, std::move(script), {profileData(record), readingData(record), trackData(record)}};

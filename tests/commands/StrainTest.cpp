@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tests/commands/program.hpp"
+#include "tests/commands/tables.hpp"
 
 // last: its macros redefine new
 #include <CppUTest/TestHarness.h>
@@ -14,19 +15,6 @@ using namespace strainfinger;
 namespace {
 
 using Table = std::vector<std::vector<double>>;
-
-/// The rows after the header.
-Table tableOf(const std::string& text) {
-  std::istringstream stream(text);
-  Table rows;
-  std::string line;
-  for (std::getline(stream, line); std::getline(stream, line);) {
-    std::istringstream fields(line);
-    rows.emplace_back();
-    for (std::string field; std::getline(fields, field, ',');) rows.back().push_back(std::stod(field));
-  }
-  return rows;
-}
 
 std::string press(const std::string& more) {
   return "strain --normal-n-per-m 1 --tangential-n-per-m 0 --contact-deg 45 " + more;

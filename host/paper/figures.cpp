@@ -1,0 +1,23 @@
+#include <array>
+
+#include "host/paper/figure.hpp"
+#include "host/paper/figure_makers.hpp"
+
+namespace strainfinger::paper {
+
+const char* nameOf(Verdict verdict) {
+  constexpr std::array kNames{"borne out", "in part", "not borne out"};
+  return kNames[static_cast<std::size_t>(verdict)];
+}
+
+std::span<const Figure> figures() {
+  static constexpr std::array kFigures{
+      Figure{2, "Displacements under a knife edge at 45 degrees", knifeEdgePicture, knifeEdgeClaims},
+      Figure{3, "Frequency responses of the strains", frequencyPicture, frequencyClaims},
+      Figure{4, "Impulse responses of the normal strain", impulsePicture, impulseClaims},
+      Figure{5, "Cut-off frequencies against alpha", cutOffPicture, cutOffClaims},
+  };
+  return kFigures;
+}
+
+}  // namespace strainfinger::paper

@@ -1,0 +1,110 @@
+#include "host/contact/paper_method.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "host/base/failure.hpp"
+#include "tests/host/contact/fingers.hpp"
+
+// last: its macros redefine new
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::contact;
+using namespace strainfinger::testing;
+
+namespace {
+
+// Flat, frictionless, 2 mm, n_c = 300, 604 points, against the spectral answer: computed for this project in
+// numpy. Errors per peak pressure; the load's in per cent, all around.
+struct KnownPaper {
+  WindowCut window;
+  double cutoff, inside, centre, load, outside;
+};
+
+constexpr std::array kKnown{KnownPaper{WindowCut::kHalf, 0.1, 0.41, 0.16, -19, 0.0035},
+                            KnownPaper{WindowCut::kHalf, 0.01, 0.24, 0.008, -9.25, 0.022},
+                            KnownPaper{WindowCut::kHalf, 1e-3, 0.15, 0.05, -6.5, 0.11},
+                            KnownPaper{WindowCut::kHalf, 1e-4, 0.11, 0.027, -6.6, 0.31},
+                            KnownPaper{WindowCut::kHalf, 1e-6, 0.10, 0.04, -6.9, 1.4},
+                            KnownPaper{WindowCut::kHalf, 1e-8, 0.21, 0.21, -23.4, 100}};
+
+/// The same with the window as far as it goes: errors inside, and of the load.
+constexpr std::array kKnownFull{KnownPaper{WindowCut::kFull, 0.1, 0.41, 0, -19.2, 0},
+                                KnownPaper{WindowCut::kFull, 0.01, 0.27, 0, -9.75, 0},
+                                KnownPaper{WindowCut::kFull, 1e-3, 0.18, 0, -5.4, 0},
+                                KnownPaper{WindowCut::kFull, 1e-4, 0.10, 0, -2.5, 0}};
+
+PaperContact solve(WindowCut window, double cutoff) {
+  PaperOptions options;
+  options.window = window;
+  options.cutoff = cutoff;
+  return solveByPaper(kDefaultFinger, Indenter::flat(), 2e-3, options);
+}
+
+}  // namespace
+
+TEST_GROUP(PaperMethod) {
+  const SurfaceKernel kernel{kDefaultFinger};
+  const Contact exact = solveContact(kernel, {});
+  const double peak_pa = tractionAt(exact.tractions, 0).pressure_pa;
+
+  /// Worst error inside or outside the contact, per peak.
+  double worst(const PaperContact& contact, bool inside) const {
+    const double half_rad = 1e-3 / kSurface_m;
+    double worst = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const double angle_rad =
+          inside ? half_rad * i / 2000 : half_rad + (std::numbers::pi - half_rad) * i / 2000;
+      const double wanted = inside ? tractionAt(exact.tractions, angle_rad).pressure_pa : 0;
+      worst = std::max(worst, std::abs(tractionAt(contact.tractions, angle_rad).pressure_pa - wanted));
+    }
+    return worst / peak_pa;
+  }
+};
+
+TEST(PaperMethod, MissesTheContactByWhatIsKnown) {
+  for (const KnownPaper& known : kKnown) {
+    const PaperContact contact = solve(known.window, known.cutoff);
+    DOUBLES_EQUAL(known.inside, worst(contact, true), 0.006);
+    DOUBLES_EQUAL(known.centre, std::abs(tractionAt(contact.tractions, 0).pressure_pa / peak_pa - 1), 0.005);
+    DOUBLES_EQUAL(known.load, 100 * (contact.normal_n_per_m / exact.normal_n_per_m - 1), 0.06);
+    DOUBLES_EQUAL(known.outside, worst(contact, false), 0.06 * known.outside);
+  }
+}
+
+TEST(PaperMethod, MissesByOtherAmountsWithTheWholeWindow) {
+  for (const KnownPaper& known : kKnownFull) {
+    const PaperContact contact = solve(known.window, known.cutoff);
+    DOUBLES_EQUAL(known.inside, worst(contact, true), 0.006);
+    DOUBLES_EQUAL(known.load, 100 * (contact.normal_n_per_m / exact.normal_n_per_m - 1), 0.06);
+  }
+}
+
+TEST(PaperMethod, KeepsWhatIsAboveTheCutOff) {
+  LONGS_EQUAL(7, solve(WindowCut::kHalf, 0.1).kept);
+  LONGS_EQUAL(10, solve(WindowCut::kHalf, 0.01).kept);
+}
+
+TEST(PaperMethod, ResidualFallsAndPressureLeaksWithTheCutOff) {
+  const PaperContact high = solve(WindowCut::kHalf, 0.1), low = solve(WindowCut::kHalf, 1e-6);
+  CHECK_TRUE(low.residual_m < 0.1 * high.residual_m);
+  CHECK_TRUE(worst(low, false) > 100 * worst(high, false));
+  DOUBLES_EQUAL(exact.depth_m, low.depth_m, 0.15 * exact.depth_m);
+}
+
+// A cylinder's slope is a flat indenter's times 1 + r_b / R, and all is linear.
+TEST(PaperMethod, ScalesWithTheIndentersSlope) {
+  const double flat = solve(WindowCut::kHalf, 0.1).normal_n_per_m;
+  const double cylinder =
+      solveByPaper(kDefaultFinger, Indenter::cylinder(kSurface_m), 2e-3, {}).normal_n_per_m;
+  DOUBLES_EQUAL(2 * flat, cylinder, 1e-10);
+}
+
+TEST(PaperMethod, RefusesWhatIsOutsideItsDomain) {
+  for (const double cutoff : {-0.1, 1.0, std::nan("")})
+    CHECK_THROWS(Failure, solve(WindowCut::kHalf, cutoff));
+  CHECK_THROWS(Failure, solveByPaper(kDefaultFinger, Indenter::flat(), 0, {}));
+}

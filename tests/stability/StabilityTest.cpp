@@ -1,0 +1,61 @@
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <string>
+
+#include "tests/stability/report.hpp"
+#include "tests/stability/survey.hpp"
+
+// last: its macros redefine new
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::stability;
+
+TEST_GROUP(Stability) {
+  const HarmonicRegion good{{0.1, 0.5}, {1, 1}, {0.5, 0.5}, Place::kCore, {}};
+  const FieldRegion field{0.7, 0.5, 1e-6, 0.5, {}};
+};
+
+// The whole survey is the stability preset's; these few samples of every region are for every day.
+TEST(Stability, HarmonicsAreWithinTheBarEverywhere) {
+  const unsigned seed = std::random_device{}();
+  std::printf("seed %u ", seed);
+  const auto regions = surveyHarmonics(2, seed);
+  LONGS_EQUAL(630, regions.size());
+  CHECK_TRUE_TEXT(holds(regions), harmonicTable(regions).c_str());
+}
+
+TEST(Stability, FieldsAreWithinTheBarFromNarrowLoadsToAQuarterTurn) {
+  const auto regions = surveyFields(150);
+  CHECK_TRUE(regions.size() > 100);
+  CHECK_TRUE_TEXT(holds(regions), fieldTable(regions).c_str());
+}
+
+TEST(Stability, AnErrorAboveTheBarIsSeen) {
+  auto regions = std::vector{good, good};
+  CHECK_TRUE(holds(regions));
+  regions[1].worst.error[model::kUt] = 1.1e-13;
+  CHECK_FALSE(holds(regions));
+  regions[1].worst.error[model::kUt] = double{NAN};
+  CHECK_FALSE(holds(regions));
+}
+
+TEST(Stability, WhatIsNotFiniteIsSeen) {
+  auto regions = std::vector{field};
+  regions[0].worst.notFinite = 1;
+  CHECK_FALSE(holds(regions));
+}
+
+TEST(Stability, NothingSurveyedIsNotGood) { CHECK_FALSE(holds(std::vector<FieldRegion>{})); }
+
+TEST(Stability, TheSummaryShowsTheWorstOfARegion) {
+  auto worse = good;
+  worse.worst.error[model::kTrr] = 3e-15;
+  STRCMP_CONTAINS("| 0.1 to 0.5 | 3.0e-15 |", summary({good, worse, good}, {field}).c_str());
+}
+
+TEST(Stability, TablesHaveARowARegion) {
+  STRCMP_CONTAINS("\n0.1,0.5,1,1,0.5,0.5,core,0,0,0,0,0,0,0,0,0,0,0\n", harmonicTable({good}).c_str());
+  STRCMP_CONTAINS("\n0.7,0.5,1e-06,0.5,0,0,0,0,0,0,0,0,0,0\n", fieldTable({field}).c_str());
+}

@@ -1,0 +1,177 @@
+#include "tests/stability/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "host/plot/style.hpp"
+
+namespace strainfinger::stability {
+namespace {
+
+constexpr const char* kRowNames = "trr,trt,ttt,ur,ut,err,ett,ert";
+
+std::string nameOf(const Range& range) {
+  return range.from == range.to ? fmt::format("{:g}", range.from)
+                                : fmt::format("{:g} to {:g}", range.from, range.to);
+}
+
+std::string nameOfPoissonRatio(const Range& range) {
+  return range.from == range.to ? "1/2" : range.from >= 0.49 ? "just below 1/2" : nameOf(range);
+}
+
+/// A table with named rows and columns in the order in which they came; cells keep the largest value.
+class LargestTable {
+ public:
+  void take(const std::string& row, const std::string& column, double value) {
+    double& cell = cells_[{indexOf(rows_, row), indexOf(columns_, column)}];
+    cell = std::max(cell, value);
+  }
+
+  std::string markdown(const std::string& corner) const {
+    std::string text = fmt::format("| {} | {} |\n|--|", corner, fmt::join(columns_, " | "));
+    for (std::size_t i = 0; i < columns_.size(); ++i) text += "--|";
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      text += fmt::format("\n| {} |", rows_[i]);
+      for (std::size_t k = 0; k < columns_.size(); ++k) {
+        const auto cell = cells_.find({i, k});
+        text += cell == cells_.end() ? " |" : fmt::format(" {:.1e} |", cell->second);
+      }
+    }
+    return text + "\n";
+  }
+
+  plot::DataFile data(const std::string& name) const {
+    plot::DataFile file{name, {"column", "row", "log10_error"}, {}};
+    for (const auto& [place, value] : cells_)
+      file.rows.push_back({static_cast<double>(place.second), static_cast<double>(place.first),
+                           std::log10(std::max(value, 1e-17))});
+    return file;
+  }
+
+  /// For gnuplot: the names of both axes' tics.
+  std::string tics() const {
+    const auto list = [](const std::vector<std::string>& names) {
+      std::string text;
+      for (std::size_t i = 0; i < names.size(); ++i)
+        text += fmt::format("{}'{}' {}", i == 0 ? "" : ", ", names[i], i);
+      return text;
+    };
+    return fmt::format("set xtics ({}) rotate by -30; set ytics ({})\n", list(columns_), list(rows_));
+  }
+
+ private:
+  static std::size_t indexOf(std::vector<std::string>& names, const std::string& name) {
+    const auto found = std::ranges::find(names, name);
+    if (found == names.end()) names.push_back(name);
+    return static_cast<std::size_t>(found - names.begin());
+  }
+  std::vector<std::string> rows_, columns_;
+  std::map<std::pair<std::size_t, std::size_t>, double> cells_;
+};
+
+LargestTable byHarmonic(const std::vector<HarmonicRegion>& regions) {
+  LargestTable table;
+  for (const auto& region : regions)
+    table.take(nameOf(region.alpha), nameOf(region.n), region.worst.largest());
+  return table;
+}
+
+LargestTable byPlace(const std::vector<HarmonicRegion>& regions) {
+  LargestTable table;
+  for (const auto& region : regions)
+    table.take(nameOfPoissonRatio(region.poissonRatio), kPlaceNames[static_cast<std::size_t>(region.place)],
+               region.worst.largest());
+  return table;
+}
+
+LargestTable byDepth(const std::vector<FieldRegion>& regions) {
+  LargestTable table;
+  for (const auto& region : regions)
+    table.take(fmt::format("{:g}", region.alpha), fmt::format("{:g}", region.depthOfRubber),
+               region.worst.largest());
+  return table;
+}
+
+LargestTable byWidth(const std::vector<FieldRegion>& regions) {
+  LargestTable table;
+  for (const auto& region : regions)
+    table.take(fmt::format("{:g}", region.alpha), fmt::format("{:.3g}", region.width_rad),
+               region.worst.largest());
+  return table;
+}
+
+std::string errors(const Worst& worst) {
+  std::string text = fmt::format("{},{}", worst.samples, worst.notFinite);
+  for (const double error : worst.error) text += fmt::format(",{:.3g}", error);
+  return text;
+}
+
+}  // namespace
+
+std::string harmonicTable(const std::vector<HarmonicRegion>& regions) {
+  std::string text = fmt::format(
+      "alpha_from,alpha_to,n_from,n_to,poisson_ratio_from,poisson_ratio_to,place,underflowing,samples,not_"
+      "finite,{}\n",
+      kRowNames);
+  for (const auto& [alpha, n, nu, place, worst] : regions)
+    text += fmt::format("{},{},{},{},{},{},{},{},{}\n", alpha.from, alpha.to, n.from, n.to, nu.from, nu.to,
+                        kPlaceNames[static_cast<std::size_t>(place)], worst.underflowing, errors(worst));
+  return text;
+}
+
+std::string fieldTable(const std::vector<FieldRegion>& regions) {
+  std::string text =
+      fmt::format("alpha,poisson_ratio,width_rad,depth_of_rubber,samples,not_finite,{}\n", kRowNames);
+  for (const FieldRegion& region : regions)
+    text += fmt::format("{},{},{},{},{}\n", region.alpha, region.poissonRatio, region.width_rad,
+                        region.depthOfRubber, errors(region.worst));
+  return text;
+}
+
+std::string summary(const std::vector<HarmonicRegion>& harmonics, const std::vector<FieldRegion>& fields) {
+  return fmt::format(
+      "Worst errors of the model in double precision against 100 digits.\n\nHarmonics, relative to the "
+      "larger of a row's "
+      "two coefficients:\n\n{}\n{}\nFields under line loads and loads of some width, relative to the peak of "
+      "the row (depth "
+      "0: the surface; 1: the core; blank: too many harmonics for 100 digits):\n\n{}\n{}",
+      byHarmonic(harmonics).markdown("alpha \\ harmonic"),
+      byPlace(harmonics).markdown("Poisson's ratio \\ place"),
+      byDepth(fields).markdown("alpha \\ depth / rubber"), byWidth(fields).markdown("alpha \\ width, rad"));
+}
+
+plot::Picture heatMaps(const std::vector<HarmonicRegion>& harmonics, const std::vector<FieldRegion>& fields) {
+  struct Panel {
+    const char *name, *title, *x, *y;
+    LargestTable table;
+  };
+  const std::array panels{Panel{"harmonics", "harmonics", "harmonic n", "α", byHarmonic(harmonics)},
+                          Panel{"places", "harmonics", "radius", "Poisson's ratio", byPlace(harmonics)},
+                          Panel{"depths", "fields", "depth / rubber", "α", byDepth(fields)},
+                          Panel{"widths", "fields", "width of the load (rad)", "α", byWidth(fields)}};
+  std::string script = plot::kStyle;
+  script += R"(set multiplot layout 2,2 margins 0.11,0.92,0.1,0.94 spacing 0.15,0.2
+unset grid; unset key; set tics scale 0
+set palette defined (-17 '#f7fbff', -16 '#9ecae1', -15 '#2171b5', -14 '#fdae6b', -13 '#d94801', -12 '#7f2704')
+set cbrange [-17:-12]; set cblabel 'log_{10} of the worst error'; set offsets 0.5,0.5,0.5,0.5
+)";
+  plot::Picture picture{1400, 1000, {}, {}};
+  for (const Panel& panel : panels) {
+    script += panel.table.tics();
+    script +=
+        fmt::format("set title '{}'; set xlabel '{}'; set ylabel \"{}\"\n", panel.title, panel.x, panel.y);
+    script += fmt::format(
+        "plot data('{0}') using 1:2:(0.48):(0.48):3 every ::1 with boxxyerror fillstyle solid noborder "
+        "palette, '' using 1:2:(sprintf('%.1f', $3)) every ::1 with labels font ',9'\n",
+        panel.name);
+    picture.data.push_back(panel.table.data(panel.name));
+  }
+  picture.script = script + "unset multiplot\n";
+  return picture;
+}
+
+}  // namespace strainfinger::stability

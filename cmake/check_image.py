@@ -39,6 +39,17 @@ class Function:
         self.frame = 0
 
 
+def leaves_through_a_pointer(mnemonic, operands, before):
+    """Not a return: those are to lr, or to what was pushed (on the M0+ popped just before)."""
+    if mnemonic.startswith("blx"):
+        return True
+    if mnemonic.startswith("bx"):
+        return operands != "lr" and before != ("pop", f"{{{operands}}}")
+    if mnemonic.startswith("mov"):
+        return re.match(r"pc, (?!lr)", operands) is not None
+    return mnemonic.startswith("ldr") and re.match(r"pc, (?!\[sp)", operands) is not None
+
+
 def disassembled(elf):
     """Functions by address. A call is any branch to another function's address."""
     functions, current = {}, None
@@ -51,12 +62,15 @@ def disassembled(elf):
         if current and step and not step[1].startswith("."):
             current.instructions.append((step[1], step[2]))
     for function in functions.values():
+        before = ("", "")
         for mnemonic, operands in function.instructions:
             target = re.search(r"\b([0-9a-f]+) <([^>+]+)>", operands)
             if mnemonic.startswith("b") and target and (target[2] != function.name or mnemonic in ("bl", "blx")):
                 function.calls.add(int(target[1], 16))
-            if mnemonic.startswith("blx") and not target:
+            if not target and leaves_through_a_pointer(mnemonic, operands, before):
                 function.indirect = True
+            if not (mnemonic.startswith("add") and operands.startswith("sp, #")):
+                before = (mnemonic, operands)
     return functions
 
 

@@ -60,6 +60,8 @@ enum class FingerFault : std::uint8_t {
   kCan = 3,
   kConfiguration = 4,
   kWatchdogReset = 5,
+  kSamples = 6,
+  kClock = 7,
 };
 using FingerFaults = BitSet<FingerFault>;
 
@@ -67,9 +69,11 @@ inline constexpr std::array kFingerFaultNames{
     ValueName{0, "tables", "The lookup tables are absent, damaged or of another finger"},
     ValueName{1, "gauges", "Too few gauges work"},
     ValueName{2, "converter", "The converter gives no new samples"},
-    ValueName{3, "can", "Frames were lost on their way to the bus"},
+    ValueName{3, "can", "Frames were lost on their way to the bus, or from it"},
     ValueName{4, "configuration", "The stored configuration cannot be used"},
     ValueName{5, "watchdog_reset", "The last reset was the watchdog's"},
+    ValueName{6, "samples", "Sample sets were lost since the start: the finger was not back in time"},
+    ValueName{7, "clock", "The clock is the inaccurate one of two: the bit rate may be off"},
 };
 
 /// Why the finger started. Never reuse a number.
@@ -153,6 +157,7 @@ struct InfoFrame {
   std::uint8_t version_major = 0;
   std::uint8_t version_minor = 0;
   std::uint32_t crash_address = 0;  ///< lowest 24 bits
+  std::uint8_t board = 0;
   bool operator==(const InfoFrame&) const = default;
 };
 
@@ -324,6 +329,10 @@ inline constexpr FrameLayout kLayout<InfoFrame>{
           {.lsb = 32, .width = 24},
           {.name = "crash_address",
            .comment = "Lowest 24 bits of the address of the instruction that crashed; 0: none"}},
+    Field{&InfoFrame::board,
+          {.lsb = 56, .width = 8},
+          {.name = "board",
+           .comment = "From the processor's unique number: tells boards apart; 0: it has none"}},
 };
 static_assert(WireFrame<InfoFrame>);
 

@@ -33,13 +33,14 @@ struct Version {
   std::uint8_t minor = 0;
 };
 
-constexpr InfoFrame infoFrame(ResetCause cause, const LastRun& last, Version version) {
+constexpr InfoFrame infoFrame(ResetCause cause, const LastRun& last, Version version, std::uint8_t board) {
   return {.reset_cause = cause,
           .crash = last.crash,
           .restarts = last.restarts,
           .version_major = version.major,
           .version_minor = version.minor,
-          .crash_address = last.crash_address & 0xFFFFFF};
+          .crash_address = last.crash_address & 0xFFFFFF,
+          .board = board};
 }
 
 /// The heartbeat of a finger that has no tables to work with.

@@ -22,7 +22,8 @@ struct FingerSettings {
   std::uint16_t contactRate_hz = 500;  ///< kSlowestContactRate_hz .. kFastestContactRate_hz
   FitMode mode = FitMode::kRefined;
   FingerFlags standingFlags{};    ///< simulated, uncalibrated
-  FingerFaults standingFaults{};  ///< configuration
+  FingerFaults standingFaults{};  ///< configuration, clock
+  std::uint8_t board = 0;         ///< tells boards apart; 0: not known
 };
 
 /// Counts of what could not be returned. They only grow.
@@ -156,8 +157,10 @@ class Finger {
     frame.state = state_;
     frame.faults = settings_.standingFaults;
     frame.faults.set(FingerFault::kConverter, isConverterSilent(now_us));
-    frame.faults.set(FingerFault::kCan, status.dropped != 0 || counters_.forcesLost != 0);
+    frame.faults.set(FingerFault::kCan,
+                     status.dropped != 0 || status.missed != 0 || counters_.forcesLost != 0);
     frame.faults.set(FingerFault::kWatchdogReset, watchdog_.resetCause() == hal::ResetCause::kWatchdog);
+    frame.faults.set(FingerFault::kSamples, adc_.overruns() != 0);
     frame.uptime_s = saturate<std::uint16_t>(uptime_s_ < kLongestUptime_s ? uptime_s_ : kLongestUptime_s);
     if (status.txErrors) frame.tx_errors = *status.txErrors;
     if (status.rxErrors) frame.rx_errors = *status.rxErrors;

@@ -35,8 +35,9 @@ template <hal::GaugeAdc Adc, hal::CanPort Can, hal::Clock Clock, hal::Watchdog W
 [[noreturn]] void runFinger(const TableImage& tables, const FingerSettings& settings, const LastRun& last,
                             Adc& adc, Can& can, const Clock& clock, Watchdog& watchdog, Store& store,
                             Wait wait) {
-  static Announcement<InfoFrame> info(infoFrame(watchdog.resetCause(), last, kFirmwareVersion), settings.node,
-                                      clock.now_us());
+  static Announcement<InfoFrame> info(
+      infoFrame(watchdog.resetCause(), last, kFirmwareVersion, settings.board), settings.node,
+      clock.now_us());
   if (checkTableImage(tables) != TableFault::kNone)
     runWithoutTables(settings.node, info, adc, can, clock, watchdog, wait);
   static Finger finger(tables, settings, adc, can, clock, watchdog, store);

@@ -22,9 +22,9 @@ TEST(Decode, PrintsARowAFrame) {
   const Run run = runProgram("decode", contact_ + force_ + heartbeat_);
   LONGS_EQUAL(0, run.status);
   STRCMP_EQUAL(
-      "1609779922.655421,can0,5,CONTACT,10,2.9,,contact+simulated,97,163,,,,,,,,,,,,,,,,,,\n"
-      "1609779922.655421,can0,5,FORCE,,,,contact+simulated,,163,0.29,-0.226,0.0035,0.0045,,,,,,,,,,,,,,\n"
-      "1609779922.655421,can0,5,HEARTBEAT,,,,,,,,,,,run,1,,3661,25,0,0,167,,,,,,\n",
+      "1609779922.655421,can0,5,CONTACT,10,2.9,,contact+simulated,97,163,,,,,,,,,,,,,,,,,,,\n"
+      "1609779922.655421,can0,5,FORCE,,,,contact+simulated,,163,0.29,-0.226,0.0035,0.0045,,,,,,,,,,,,,,,\n"
+      "1609779922.655421,can0,5,HEARTBEAT,,,,,,,,,,,run,1,,3661,25,0,0,167,,,,,,,\n",
       rows(run).c_str());
 }
 

@@ -165,9 +165,10 @@ TEST(RunCommand, RefusesWhatIsOutsideTheDomain) {
 
 TEST(RunCommand, InterruptedItSumsUpAndSaysSo) {
   for (const std::string signal : {"INT", "TERM"}) {
-    const Run run =
-        runShell("set -m; \"$STRAINFINGER\" run --duration 1000000 >/dev/null & sleep 0.2; kill -" + signal +
-                 " $!; wait $!");
+    const Run run = runShell(
+        "set -m; out=$(mktemp); \"$STRAINFINGER\" run --duration 1000000 >$out & "
+        "until [ -s $out ]; do sleep 0.02; done; kill -" +
+        signal + " $!; wait $!; status=$?; rm $out; exit $status");
     LONGS_EQUAL(130, run.status);
     STRCMP_CONTAINS(" CONTACT with their FORCE", run.err.c_str());
     STRCMP_CONTAINS("strainfinger: run: interrupted after ", run.err.c_str());

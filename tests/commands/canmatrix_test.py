@@ -22,7 +22,7 @@ logging.disable(logging.NOTSET)
 NODE = 5
 RANDOM_FRAMES = 2000
 FLAGS = ["contact", "saturated", "degraded", "uncertain", "several_contacts", "stale_zero", "uncalibrated", "simulated"]
-FAULTS = ["tables", "gauges", "converter", "can", "configuration", "watchdog_reset"]
+FAULTS = ["tables", "gauges", "converter", "can", "configuration", "watchdog_reset", "samples", "clock"]
 
 # The frames once more, by hand, from the bus's description and not from the code: the fields in their order, with
 # the raw values a sender may send as (lowest, highest, "not known"), and the step of the physical value.
@@ -42,7 +42,7 @@ FRAMES = {
     "INFO": (0x480, [
         ("reset_cause", 0, 15, None, "1"), ("crash", 0, 15, None, "1"), ("restarts", 0, 255, None, "1"),
         ("version_major", 0, 255, None, "1"), ("version_minor", 0, 255, None, "1"),
-        ("crash_address", 0, 0xFFFFFF, None, "1")]),
+        ("crash_address", 0, 0xFFFFFF, None, "1"), ("board", 0, 255, None, "1")]),
     "REQUEST": (0x600, [
         ("length", 0, 7, None, "1"), ("command", 0, 127, None, "1"), ("answer", 0, 1, None, "1"),
         ("argument", 0, 0xFFFF, None, "1")]),

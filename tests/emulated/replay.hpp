@@ -49,12 +49,25 @@ inline void add(Hash& hash, const TableConstants& constants, const firmware::Fit
   hash.add(encode(frames.force, kFirstNode));
 }
 
+/// What would be told of it, one sample set a millisecond, and when: every seventh time the port is busy.
+inline void add(Hash& hash, const TableConstants& constants, firmware::TouchReporter& reporter,
+                const firmware::Observation& observation, std::uint32_t sample) {
+  const std::uint32_t now_us = sample * 1000;
+  const auto frames = reporter.frames(constants, observation, now_us);
+  if (!frames || sample % 7 == 0) return;
+  reporter.sent(*frames, now_us);
+  hash.add(sample);
+  hash.add(encode(frames->contact, kFirstNode));
+  hash.add(encode(frames->force, kFirstNode));
+}
+
 /// One block from a fresh start, both modes of the locator (every fourth sample set in three-point mode too).
 /// `tell(sample, hash so far)` is called after each sample set.
 template <typename Tell>
 std::uint32_t replayBlock(const TableImage& tables, std::uint32_t first, std::uint32_t count, Tell tell) {
   firmware::Pipeline refined(tables, firmware::FitMode::kRefined);
   firmware::Pipeline threePoint(tables, firmware::FitMode::kThreePoint);
+  firmware::TouchReporter reporter(2000, {});
   Hash hash;
   for (std::uint32_t sample = first; sample < first + count; ++sample) {
     const hal::SampleSet set = generatedSamples(sample);
@@ -64,6 +77,7 @@ std::uint32_t replayBlock(const TableImage& tables, std::uint32_t first, std::ui
       if (observation.fit) add(hash, tables.constants, *observation.fit, sample);
     };
     look(refined.process(codes));
+    add(hash, tables.constants, reporter, refined.observation(), sample);
     if (sample % 4 == 0) look(threePoint.process(codes));
     tell(sample, hash.value());
   }

@@ -17,6 +17,11 @@ constexpr std::size_t kFramePc = 6;
 
 firmware::LastRun takeLastRun() { return record.take(); }
 
+firmware::LastRun noteHang() {
+  record.write(Crash::kHang, 0);
+  return record.take();
+}
+
 void crash(Crash cause, std::uint32_t address) {
   record.write(cause, address);
   resetSystem();

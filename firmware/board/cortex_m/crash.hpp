@@ -11,6 +11,9 @@ namespace strainfinger::board {
 /// How the run before this one ended. Once, at start.
 firmware::LastRun takeLastRun();
 
+/// Records that the run before this one hung, where its watchdog could not, and returns that.
+firmware::LastRun noteHang();
+
 /// Records and restarts.
 [[noreturn]] void crash(Crash cause, std::uint32_t address);
 

@@ -1,6 +1,7 @@
 #pragma once
 // The bit rates that finger.toml knows, as timings of this board's clocks.
 
+#include <algorithm>
 #include <array>
 
 #include "firmware/board/stm32g431/bit_timing.hpp"
@@ -21,17 +22,22 @@ consteval std::array<CanRate, sizeof...(kBitRates)> canRates() {
 inline constexpr auto kCanRates =
     canRates<10'000, 20'000, 50'000, 125'000, 250'000, 500'000, 800'000, 1'000'000>();
 
-/// CAN FD's data phase at 2 Mbit/s, for FdcanSettings::dataTiming.
-inline constexpr BitTiming kFdDataTiming =
-    checkedBitTiming<kCrystal_hz, 2'000'000, kCrystal_ppm, kDataLimits>();
+/// CAN FD's data phase at 2 Mbit/s, for FdcanSettings::dataTiming. None from the internal oscillator: the
+/// best of its timings allows 0.69 %.
+constexpr std::optional<BitTiming> fdDataTiming(ClockSource source) {
+  if (source == ClockSource::kInternal) return std::nullopt;
+  return checkedBitTiming<kCrystal_hz, 2'000'000, kCrystal_ppm, kDataLimits>();
+}
 
-/// None: not one of kCanRates. From the internal oscillator the timing is the best there is, but other nodes'
-/// tolerance is only kept near room temperature: README.md, "Known limits".
+/// None: not one of kCanRates; or, from the internal oscillator, one that is out of tolerance even at room
+/// temperature (800 kbit/s: it doesn't divide the clock). What is in tolerance there may not be in the heat:
+/// README.md, "Known limits".
 constexpr std::optional<BitTiming> canTiming(ClockSource source, std::uint32_t bitRate) {
-  for (const CanRate& rate : kCanRates)
-    if (rate.bitRate == bitRate)
-      return source == ClockSource::kCrystal ? rate.timing : bitTiming(kCore_hz, bitRate);
-  return std::nullopt;
+  const auto rate = std::ranges::find(kCanRates, bitRate, &CanRate::bitRate);
+  if (rate == kCanRates.end()) return std::nullopt;
+  if (source == ClockSource::kCrystal) return rate->timing;
+  const std::optional<BitTiming> timing = bitTiming(kCore_hz, bitRate);
+  return isInTolerance(timing, kCore_hz, bitRate, kInternalAt30degC_ppm) ? timing : std::nullopt;
 }
 
 }  // namespace strainfinger::stm32g431

@@ -14,6 +14,7 @@ inline constexpr std::uint32_t kCrystal_hz = 24'000'000;   ///< X3 of the Nucleo
 inline constexpr std::uint32_t kInternal_hz = 16'000'000;  ///< HSI16
 inline constexpr std::uint32_t kCrystal_ppm = 100;         ///< off by at most; the usual crystal is within 50
 inline constexpr std::uint32_t kInternal_ppm = 10'000;     ///< 0 .. 85 degC, DS12589
+inline constexpr std::uint32_t kInternalAt30degC_ppm = 7'500;  ///< the same table
 
 enum class ClockSource : std::uint8_t { kCrystal, kInternal };
 

@@ -9,10 +9,12 @@
 #include "firmware/board/stm32g431/fdcan_port.hpp"
 #include "firmware/board/stm32g431/flash_layout.hpp"
 #include "firmware/board/stm32g431/flash_store.hpp"
+#include "firmware/board/stm32g431/flashed_tables.hpp"
 #include "firmware/board/stm32g431/gauge_converter.hpp"
 #include "firmware/board/stm32g431/microsecond_clock.hpp"
 #include "firmware/board/stm32g431/registers/memory_bus.hpp"
 #include "firmware/board/stm32g431/send_rules.hpp"
+#include "firmware/board/stm32g431/unique_id.hpp"
 #include "firmware/board/stm32g431/watchdog.hpp"
 
 namespace strainfinger::stm32g431 {
@@ -29,10 +31,12 @@ constexpr firmware::FingerSettings kSettings{.node = STRAINFINGER_NODE,
                                              .standingFlags = {FingerFlag::kUncalibrated}};
 static_assert(kSettings.node >= kFirstNode && kSettings.node <= kLastNode);
 static_assert(canTiming(ClockSource::kCrystal, STRAINFINGER_BITRATE), "not a bit rate of can_rates.hpp");
+constexpr bool kCanFd = STRAINFINGER_CAN_FD;
 static_assert(samplingAt(STRAINFINGER_SAMPLE_RATE), "not a rate of sampling.hpp");
 
 constexpr MemoryBus kBus;
 EccFaults eccFaults;
+volatile bool tablesInUse = false;
 
 /// RAM keeps its contents over any reset but that of its supply.
 bool ramSurvived() {
@@ -43,14 +47,21 @@ bool ramSurvived() {
   return survived;
 }
 
-/// Those that were flashed for this finger if they are whole, else the image's.
-const TableImage& tables() {
-  const auto& flashed = *reinterpret_cast<const TableImage*>(kTablePages.address());
-  const bool whole = checkTableImage(flashed) == TableFault::kNone && eccFaults.count == 0;
-  return whole ? flashed : board::kLinkedTables;
+// Not inlined, these: what they need on the stack would be there for ever.
+
+/// Tables that are not whole are returned too: the finger refuses them, and says so.
+[[gnu::noinline]] const TableImage& tables() {
+  const TableImage& chosen =
+      tablesOf(*reinterpret_cast<const TableImage*>(kTablePages.address()), board::kLinkedTables);
+  tablesInUse = checkTableImage(chosen) == TableFault::kNone;
+  return chosen;
 }
 
-// Not inlined, these: what they need on the stack would be there for ever.
+/// A watchdog that resets leaves no record: what it ended hung, nobody knows where.
+[[gnu::noinline]] firmware::LastRun lastRun(ResetCause flagged) {
+  const firmware::LastRun recorded = board::takeLastRun();
+  return recorded.crash == Crash::kNone && flagged == ResetCause::kWatchdog ? board::noteHang() : recorded;
+}
 
 [[gnu::noinline]] ClockSource startClocks(Clock& clock) {
   const std::optional<ClockSource> source = ClockTree(kBus).start();
@@ -59,26 +70,32 @@ const TableImage& tables() {
   return *source;
 }
 
-[[gnu::noinline]] Watchdog& startWatchdog(const Clock& clock, const firmware::LastRun& last) {
-  const ResetCause flagged = takeResetCause(kBus, ramSurvived());
+[[gnu::noinline]] Watchdog& startWatchdog(const Clock& clock, const firmware::LastRun& last,
+                                          ResetCause flagged) {
   static Watchdog watchdog(kBus, clock, last.crash == Crash::kNone ? flagged : firmware::resetCause(last));
   static_cast<void>(watchdog.start());
   return watchdog;
 }
 
-/// If the controller doesn't answer there is nobody to tell: the port stays down.
+/// If the controller doesn't answer, or the clock that started is too far off for the bit rate, there is
+/// nobody to tell: the port stays down.
 [[gnu::noinline]] Can& startCan(const Clock& clock, ClockSource source, std::uint8_t node) {
   modify(kBus, Rcc::Ahb2Enr::gpioA(1));
   makeAlternate(kBus, kCanRx, kCanFunction, Gpio::kUp);  // an unconnected bus is a silent one
   makeAlternate(kBus, kCanTx, kCanFunction, Gpio::kNone);
   static Can can(kBus, clock);
   const auto listensTo = identifiersFor(node);
-  static_cast<void>(can.start({.timing = *canTiming(source, STRAINFINGER_BITRATE), .listensTo = listensTo}));
+  const std::optional<BitTiming> timing = canTiming(source, STRAINFINGER_BITRATE);
+  const std::optional<BitTiming> data = kCanFd ? fdDataTiming(source) : std::nullopt;
+  if (timing) static_cast<void>(can.start({.timing = *timing, .dataTiming = data, .listensTo = listensTo}));
   return can;
 }
 
-[[gnu::noinline]] firmware::FingerSettings keptSettings(Store& store) {
-  return firmware::startedWith(kSettings, firmware::SettingsStore(store).load());
+[[gnu::noinline]] firmware::FingerSettings settingsWith(Store& store, ClockSource source) {
+  firmware::FingerSettings settings = firmware::startedWith(kSettings, firmware::SettingsStore(store).load());
+  settings.standingFaults.set(FingerFault::kClock, source == ClockSource::kInternal);
+  settings.board = shortNumber(uniqueId(kBus));
+  return settings;
 }
 
 /// If a converter doesn't answer, the finger says that samples are missing, and the watchdog starves.
@@ -90,11 +107,12 @@ const TableImage& tables() {
 
 [[noreturn]] void run() {
   static Clock clock(kBus);
-  const firmware::LastRun last = board::takeLastRun();
+  const ResetCause flagged = takeResetCause(kBus, ramSurvived());
+  const firmware::LastRun last = lastRun(flagged);
   const ClockSource source = startClocks(clock);
-  Watchdog& watchdog = startWatchdog(clock, last);
+  Watchdog& watchdog = startWatchdog(clock, last, flagged);
   static Store store(kBus, eccFaults, kConfigurationPages.first, kConfigurationPages.count);
-  const firmware::FingerSettings settings = keptSettings(store);
+  const firmware::FingerSettings settings = settingsWith(store, source);
   Can& can = startCan(clock, source, settings.node);
   firmware::runFinger(tables(), settings, last, startAdc(), can, clock, watchdog, store, [&] {
     can.poll();
@@ -102,10 +120,11 @@ const TableImage& tables() {
   });
 }
 
-/// Raised by the flash for a double ECC error, which is the reader's to handle; otherwise by nothing that is
-/// known.
+/// Raised by the flash for a double ECC error; otherwise by nothing that is known.
 extern "C" void nonMaskableHandler() {
   if (!takeEccFault(kBus, eccFaults)) board::crash(Crash::kHardFault, 0);
+  if (!isHandled(eccFaults.lastOffset, tablesInUse))
+    board::crash(Crash::kHardFault, kFlashBegin + eccFaults.lastOffset);
 }
 
 }  // namespace

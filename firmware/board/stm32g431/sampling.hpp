@@ -46,19 +46,29 @@ struct SamplingPlan {
   }
 };
 
-/// 446 us of 1000. 32 conversions a code, 1.2 us for the voltage to settle.
-inline constexpr SamplingPlan kDefaultSampling{1000, 5, SampleTime::k24_5};
-static_assert(kDefaultSampling.isPossible() && kDefaultSampling.busy_ns() == 445'883);
-
-/// 90 us of 100. 16 conversions a code, 0.12 us to settle: for gauges behind an amplifier at the pin.
-inline constexpr SamplingPlan kFastSampling{10'000, 4, SampleTime::k2_5};
-static_assert(kFastSampling.isPossible() && kFastSampling.busy_ns() == 90'495);
-
-/// None: neither of the two. Every other rate is a plan of its own, to be weighed: noise against settling.
+/// The plan for a rate: the longest time to settle that fits; then the most conversions a code that take half
+/// of the period, so that a set is young when it is there, or the fewest that fit. None: nothing fits.
 constexpr std::optional<SamplingPlan> samplingAt(std::uint32_t rate_hz) {
-  for (const SamplingPlan& plan : {kDefaultSampling, kFastSampling})
-    if (plan.rate_hz == rate_hz) return plan;
+  if (rate_hz == 0 || 1'000'000 % rate_hz != 0) return std::nullopt;
+  for (const SampleTime time : {SampleTime::k24_5, SampleTime::k12_5, SampleTime::k6_5, SampleTime::k2_5}) {
+    std::optional<SamplingPlan> fitting;
+    for (std::uint32_t log2 = 8; log2 >= 4; --log2) {
+      const SamplingPlan plan{rate_hz, log2, time};
+      if (!plan.isPossible()) continue;
+      fitting = plan;
+      if (plan.busy_ns() <= plan.period_us() * 500) break;
+    }
+    if (fitting) return fitting;
+  }
   return std::nullopt;
 }
+
+/// 446 us of 1000. 32 conversions a code, 1.2 us for the voltage to settle.
+inline constexpr SamplingPlan kDefaultSampling = *samplingAt(1000);
+static_assert(kDefaultSampling.busy_ns() == 445'883 && kDefaultSampling.sampleTime == SampleTime::k24_5);
+
+/// 90 us of 100. 16 conversions a code, 0.12 us to settle: for gauges behind an amplifier at the pin.
+inline constexpr SamplingPlan kFastSampling = *samplingAt(10'000);
+static_assert(kFastSampling.busy_ns() == 90'495 && kFastSampling.sampleTime == SampleTime::k2_5);
 
 }  // namespace strainfinger::stm32g431

@@ -249,6 +249,13 @@ TEST(Finger, SaysThatTheWatchdogResetIt) {
   CHECK(lastHeartbeat().faults == FingerFaults{FingerFault::kWatchdogReset});
 }
 
+TEST(Finger, SaysThatSampleSetsWereLost) {
+  run(1);
+  for (int i = 0; i < 3; ++i) adc.convert({});
+  runSilent(100);
+  CHECK(lastHeartbeat().faults == FingerFaults{FingerFault::kSamples});
+}
+
 TEST(Finger, PassesOnWhatThePortKnows) {
   finger->step();
   LONGS_EQUAL(kNotKnown<std::uint8_t>, lastHeartbeat().tx_errors);

@@ -79,7 +79,7 @@ TEST(CrashRecord, SaysWhyTheBoardStarted) {
 
 TEST_GROUP(Announcement) {
   doubles::FakeCanPort can;
-  const InfoFrame info = infoFrame(ResetCause::kWatchdog, {Crash::kHang, 3, 0x08001234}, {1, 2});
+  const InfoFrame info = infoFrame(ResetCause::kWatchdog, {Crash::kHang, 3, 0x08001234}, {1, 2}, 77);
 };
 
 TEST(Announcement, GoesOutAtOnceAndThenEveryPeriod) {

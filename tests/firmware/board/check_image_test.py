@@ -103,6 +103,10 @@ class CheckImage(unittest.TestCase):
         self.refused("stack frame of no fixed size: resetHandler", """int volatile n; extern "C" void resetHandler() {
             void* p = __builtin_alloca(n); asm volatile("" :: "r"(p) : "memory"); }""")
 
+    def test_a_last_call_through_a_pointer_is_found(self):
+        self.refused("call through a pointer in resetHandler",
+                     "void (*volatile f)(); extern \"C\" void resetHandler() { f(); }")
+
     def test_a_call_through_a_pointer_is_found(self):
         self.refused("call through a pointer in resetHandler",
                      "void (*volatile f)(); extern \"C\" void resetHandler() { f(); f(); }")

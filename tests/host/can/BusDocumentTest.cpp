@@ -136,7 +136,8 @@ TEST(BusDocument, ItsExamplesAreWhatIsSent) {
                           .restarts = 3,
                           .version_major = 0,
                           .version_minor = 1,
-                          .crash_address = 0x2AB6}));
+                          .crash_address = 0x2AB6,
+                          .board = 0x5C}));
   checkHas(line(contactRateRequest(200)));
   checkHas(line(responseTo(Command::kContactRate, CommandStatus::kDone)));
   checkHas(line(tareRequest(true)));

@@ -59,7 +59,7 @@ TEST(BitTiming, ARateThatDoesNotDivideTheClockIsOff) {
 
 // By hand: 12 quanta = 1 + 9 + 2, sampled at 83.3 %. 5 Mbit/s would need 4.8 quanta: 5 are 4 % off.
 TEST(BitTiming, CanFdDataPhase) {
-  isTiming({1, 9, 2, 2}, kFdDataTiming);
+  isTiming({1, 9, 2, 2}, fdDataTiming(ClockSource::kCrystal));
   CHECK_TRUE(
       isInTolerance(bitTiming(kCrystal_hz, 2'000'000, kDataLimits), kCrystal_hz, 2'000'000, kCrystal_ppm));
   CHECK_FALSE(
@@ -102,4 +102,19 @@ TEST(BitTiming, TheInternalOscillatorIsNotGuaranteed) {
   const auto timing = canTiming(ClockSource::kInternal, 1'000'000);
   CHECK_FALSE(isInTolerance(timing, kCore_hz, 1'000'000, kInternal_ppm));
   CHECK_TRUE(isInTolerance(timing, kCore_hz, 1'000'000, 7500));  // at 30 degC
+}
+
+// By hand: at 1 Mbit/s 34 / (2 (13 * 170 - 34)) = 7,812 ppm are allowed; 800 kbit/s is 2,347 off besides.
+TEST(BitTiming, WhatTheInternalOscillatorCannotKeepIsRefused) {
+  CHECK_FALSE(canTiming(ClockSource::kInternal, 800'000).has_value());
+  for (const CanRate& rate : kCanRates)
+    CHECK_EQUAL(rate.bitRate != 800'000, canTiming(ClockSource::kInternal, rate.bitRate).has_value());
+}
+
+// By hand: 170 MHz / 2 Mbit/s = 85 = 5 * 17, 17 = 1 + 13 + 3; 3 / (2 (13 * 17 - 3)) = 6880 ppm are allowed.
+TEST(BitTiming, TheInternalOscillatorHasNoCanFdDataPhase) {
+  const auto timing = bitTiming(kCore_hz, 2'000'000, kDataLimits);
+  isTiming({5, 13, 3, 3}, timing);
+  CHECK_FALSE(isInTolerance(timing, kCore_hz, 2'000'000, kInternalAt30degC_ppm));
+  CHECK_FALSE(fdDataTiming(ClockSource::kInternal).has_value());
 }

@@ -101,7 +101,7 @@ TEST(FdcanPort, IsDownUntilStarted) {
 }
 
 TEST(FdcanPort, WritesProtectedRegistersOnlyWhileItMay) {
-  start({.timing = kTiming, .dataTiming = kFdDataTiming});
+  start({.timing = kTiming, .dataTiming = fdDataTiming(ClockSource::kCrystal)});
   LONGS_EQUAL(0, controller.violations);
   CHECK_TRUE(controller.isOnBus());
   LONGS_EQUAL(0, controller.registers.field(Fdcan::Cccr::configurable));
@@ -118,7 +118,7 @@ TEST(FdcanPort, WritesTheBitTiming) {
 }
 
 TEST(FdcanPort, LetsFdFramesPassWithADataTiming) {
-  start({.timing = kTiming, .dataTiming = kFdDataTiming});  // 12 quanta: 1 + 9 + 2
+  start({.timing = kTiming, .dataTiming = fdDataTiming(ClockSource::kCrystal)});  // 12 quanta: 1 + 9 + 2
   LONGS_EQUAL(1, controller.registers.field(Fdcan::Cccr::fd));
   LONGS_EQUAL(1, controller.registers.field(Fdcan::Cccr::bitRateSwitch));
   LONGS_EQUAL(8, controller.registers.field(Fdcan::Dbtp::segment1));

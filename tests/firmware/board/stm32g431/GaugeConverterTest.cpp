@@ -214,6 +214,21 @@ TEST(GaugeConverter, SamplingPlansThatDoNotFitAreNotPossible) {
   CHECK_TRUE((SamplingPlan{1'000, 7, SampleTime::k2_5}.isPossible()));    // 723 us
 }
 
+TEST(GaugeConverter, EveryRateThatDividesAMillionFrom250To10000HasAPlan) {
+  for (std::uint32_t rate_hz = 1; rate_hz <= 11'000; ++rate_hz) {
+    const auto plan = samplingAt(rate_hz);
+    CHECK_EQUAL(1'000'000 % rate_hz == 0 && rate_hz >= 250 && rate_hz <= 10'000, plan.has_value());
+    CHECK_TRUE(!plan || (plan->isPossible() && plan->rate_hz == rate_hz));
+  }
+}
+
+// By hand: 8 * 16 * (24.5 + 12.5) cycles are 223 us of 500, with 32 conversions 446 us.
+TEST(GaugeConverter, SetsAreYoungWhereThereIsTimeForIt) {
+  CHECK_TRUE(samplingAt(2'000)->sampleTime == SampleTime::k24_5);
+  LONGS_EQUAL(4, samplingAt(2'000)->oversamplingLog2);
+  LONGS_EQUAL(5, samplingAt(1'000)->oversamplingLog2);
+}
+
 // By hand: 8 conversions of 16 * (2.5 + 12.5) cycles and 3 of latency are 1923 cycles of 21.25 MHz.
 TEST(GaugeConverter, TenKilohertzTakeNinetyMicroseconds) {
   DOUBLES_EQUAL(1923 / 21.25, kFastSampling.busy_ns() / 1000.0, 0.001);

@@ -168,6 +168,11 @@ TEST(UniqueId, IsThreeWords) {
   CHECK_TRUE((uniqueId(doubles::FakeBus(registers)) == UniqueId{1, 2, 3}));
 }
 
+TEST(UniqueId, ItsShortNumberIsNeverThatOfNoNumber) {
+  for (std::uint32_t last = 0; last < 5000; ++last) CHECK_TRUE(shortNumber({last, 0, 0xFFFF'FFFF}) != 0);
+  CHECK_TRUE(shortNumber({1, 2, 3}) != shortNumber({1, 2, 4}));
+}
+
 TEST_GROUP(Pins) {
   doubles::FakeRegisters registers;
   void setup() override { registers.addRange(0x4800'0000, 0x28); }

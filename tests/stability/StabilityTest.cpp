@@ -74,6 +74,17 @@ TEST(Stability, TheSummaryShowsTheWorstOfARegion) {
   STRCMP_CONTAINS("| 0.1 to 0.5 | 3.0e-15 |", summary({{good, worse, good}, {field}, {contact}}).c_str());
 }
 
+TEST(Stability, TheSummaryHasACellForEveryPairOfBounds) {
+  std::vector<ContactRegion> contacts;
+  for (int i = 0; i < 9; ++i) {
+    contacts.push_back(contact);
+    contacts.back().width_rad = i + 1;
+    contacts.back().misfit = i * 1e-9;
+  }
+  STRCMP_CONTAINS("\n| 0.7 | 0.0e+00 | 1.0e-09 | 2.0e-09 | 3.0e-09 | 4.0e-09 |",
+                  summary({{good}, {field}, contacts}).c_str());
+}
+
 TEST(Stability, TablesHaveARowARegion) {
   STRCMP_CONTAINS("\n0.1,0.5,1,1,0.5,0.5,core,0,0,0,0,0,0,0,0,0,0,0\n", harmonicTable({good}).c_str());
   STRCMP_CONTAINS("\n0.7,0.5,1e-06,0.5,0,0,0,0,0,0,0,0,0,0\n", fieldTable({field}).c_str());

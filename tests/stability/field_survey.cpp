@@ -26,7 +26,7 @@ constexpr int kManyHarmonics = 10'000;
 
 /// Close to the load, to its edges, and far from it.
 std::vector<double> anglesFor(double width_rad, double depth, bool fewOnly) {
-  if (fewOnly) return {0, width_rad / 2 + 0.7 * depth, width_rad * 0.4995, 2};
+  if (fewOnly) return {0, width_rad * 0.4995, width_rad * 0.5005 + 0.7 * depth, 2};
   const double half = width_rad / 2;
   std::vector<double> angles_rad{0, 0.01, 0.1, -1, 2, std::numbers::pi};
   for (const double part : {0.3, -0.9, 0.999, 1.001, 1.1, -3.0})

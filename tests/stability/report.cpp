@@ -65,9 +65,9 @@ class LargestTable {
 
  private:
   static std::size_t indexOf(std::vector<std::string>& names, const std::string& name) {
-    const auto found = std::ranges::find(names, name);
-    if (found == names.end()) names.push_back(name);
-    return static_cast<std::size_t>(found - names.begin());
+    const auto index = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+    if (index == names.size()) names.push_back(name);
+    return index;
   }
   std::vector<std::string> rows_, columns_;
   std::map<std::pair<std::size_t, std::size_t>, double> cells_;

@@ -1,6 +1,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <random>
 #include <string>
 
@@ -35,9 +36,20 @@ TEST(Stability, FieldsAreWithinTheBarFromNarrowLoadsToAQuarterTurn) {
 }
 
 TEST(Stability, ContactsFitOrSayThatTheyDoNot) {
-  const auto regions = surveyContacts(std::array{0.1, 0.7, 0.97});
+  const auto regions = surveyContacts(std::array{0.1, 0.7, 0.9});
   LONGS_EQUAL(3 * 2 * 6 * 3, regions.size());
   CHECK_TRUE_TEXT(holds(regions), contactTable(regions).c_str());
+}
+
+// A quarter as wide as the finger on a layer of 0.13 mm: too much for the series.
+TEST(Stability, AStuckContactThatMissesSaysSo) {
+  const contact::SurfaceKernel kernel({0.99 * 12.7e-3, 12.7e-3, 8.3e4, 0.5});
+  contact::ContactRequest request;
+  request.regime = contact::Regime::kStick;
+  request.size.value = std::numbers::pi / 4 * 12.7e-3;
+  const contact::Contact wide = solveContact(kernel, request);
+  CHECK_TRUE(wide.residual_m > 1e-6 * wide.depth_m);
+  CHECK_FALSE(wide.warnings.empty());
 }
 
 TEST(Stability, AContactThatMissesSilentlyIsSeen) {

@@ -96,7 +96,6 @@ std::vector<MeasuredCase> fieldCases() {
 
 std::vector<Saving> fieldSavings() {
   static constexpr std::array kOneRow{kErr};
-  constexpr SurfaceLoad kNormalOnly{.normal_n_per_m = 1};
   constexpr double kFine = 1e-15, kCoarse = 1e-4, kCore_m = config::Finger{}.core_radius_m;
   const auto whole = part("all rows, tolerance 1e-15", [] { return ours(kFine); });
   return {{"harmonics beyond the tolerance: 1e-4 in place of 1e-15",
@@ -107,9 +106,7 @@ std::vector<Saving> fieldSavings() {
           {"harmonics beyond both: as many as the gauges need, in place of 2,500", whole,
            part("2,500 harmonics", [] { return fixedSeries<double>(2500); })},
           {"components not asked for: e_rr in place of all eight",
-           part("e_rr only", [] { return ours(kFine, kOneRow); }), whole},
-          {"the zero half of a parity: a normal load alone in place of both",
-           part("normal load only", [=] { return ours(kFine, kAllRows, kNormalOnly); }), whole}};
+           part("e_rr only", [] { return ours(kFine, kOneRow); }), whole}};
 }
 
 }  // namespace strainfinger::bench

@@ -89,7 +89,9 @@ std::string savingsCsv(const std::vector<Saving>& savings) {
 }
 
 std::string modelMarkdown(const std::vector<MeasuredCase>& cases, const std::vector<Saving>& savings) {
-  std::string text;
+  std::string text =
+      "# Run time against error of the model\n\nWritten by `bench_model`; what it measures: "
+      "[README.md](README.md).\n";
   for (std::size_t i = 0; i < kTasks.size(); ++i) {
     text += fmt::format(
         "\n**{}**: each method at its closest.\n\n| method | at | error / peak | time |\n|--|--|--|--|\n",

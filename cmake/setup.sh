@@ -7,6 +7,7 @@ packages=(
   cmake ninja-build g++ pkg-config clang-format           # build
   libeigen3-dev libboost-dev libfmt-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev   # host tools
   gnuplot-nox                                             # pictures
+  libbenchmark-dev                                        # benchmarks
   gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib   # firmware
   libcpputest-dev python3-canmatrix                       # tests: framework, DBC oracle
   can-utils iproute2                                      # candump, ip link

@@ -46,8 +46,11 @@ FineMatrix sumAsymptotes(const Annulus<double>& annulus, const SurfaceLoad& load
       const Row row = rows[static_cast<std::size_t>(i)];
       const Asymptote<Fine> factors = asymptote(refined(annulus), row);
       const bool isEven = isEvenInNormalLoad(row);
-      result(k, i) = (isEven ? 1 : -1) * line.normal * dotFinite(factors.normal, isEven ? even : odd) +
-                     line.tangential * dotFinite(factors.tangential, isEven ? odd : even);
+      result(k, i) = 0;  // a load that isn't there adds no infinite sum at an edge
+      if (load.normal_n_per_m != 0)
+        result(k, i) += (isEven ? 1 : -1) * line.normal * dotFinite(factors.normal, isEven ? even : odd);
+      if (load.tangential_n_per_m != 0)
+        result(k, i) += line.tangential * dotFinite(factors.tangential, isEven ? odd : even);
     }
   }
   return result;

@@ -16,6 +16,9 @@ struct Subject {
   model::Annulus<double> annulus;
   double gaugeRadius_m;
 
+  /// Width of the contact of figs. 6 to 10: the paper's 2 mm, on another finger the same angle.
+  double contactWidth_m() const { return 2e-3 / 12.7e-3 * annulus.outer_radius_m; }
+
   explicit Subject(const config::FingerConfig& config)
       : annulus(config.finger.annulus()), gaugeRadius_m(config.gauges.radius_m) {}
 };

@@ -81,6 +81,10 @@ plot::Picture impulsePicture(const Subject& subject) {
   return {1300, 560, plot::kStyle + numbers + kPanels, {std::move(data)}};
 }
 
-std::vector<Claim> impulseClaims() { return {halfPlaneAgrees()}; }
+std::vector<Claim> impulseClaims() {
+  std::vector<Claim> claims = locatingClaims();
+  claims.insert(claims.begin(), halfPlaneAgrees());
+  return claims;
+}
 
 }  // namespace strainfinger::paper

@@ -1,5 +1,7 @@
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <random>
 #include <string>
 
@@ -15,6 +17,7 @@ using namespace strainfinger::stability;
 TEST_GROUP(Stability) {
   const HarmonicRegion good{{0.1, 0.5}, {1, 1}, {0.5, 0.5}, Place::kCore, {}};
   const FieldRegion field{0.7, 0.5, 1e-6, 0.5, {}};
+  const ContactRegion contact{0.7, 0.5, 0.1, contact::Regime::kSliding, 1e-12, false};
 };
 
 // The whole survey is the stability preset's; these few samples of every region are for every day.
@@ -30,6 +33,34 @@ TEST(Stability, FieldsAreWithinTheBarFromNarrowLoadsToAQuarterTurn) {
   const auto regions = surveyFields(150);
   CHECK_TRUE(regions.size() > 100);
   CHECK_TRUE_TEXT(holds(regions), fieldTable(regions).c_str());
+}
+
+TEST(Stability, ContactsFitOrSayThatTheyDoNot) {
+  const auto regions = surveyContacts(std::array{0.1, 0.7, 0.9});
+  LONGS_EQUAL(3 * 2 * 6 * 3, regions.size());
+  CHECK_TRUE_TEXT(holds(regions), contactTable(regions).c_str());
+}
+
+// A quarter as wide as the finger on a layer of 0.13 mm: too much for the series.
+TEST(Stability, AStuckContactThatMissesSaysSo) {
+  const contact::SurfaceKernel kernel({0.99 * 12.7e-3, 12.7e-3, 8.3e4, 0.5});
+  contact::ContactRequest request;
+  request.regime = contact::Regime::kStick;
+  request.size.value = std::numbers::pi / 4 * 12.7e-3;
+  const contact::Contact wide = solveContact(kernel, request);
+  CHECK_TRUE(wide.residual_m > 1e-6 * wide.depth_m);
+  CHECK_FALSE(wide.warnings.empty());
+}
+
+TEST(Stability, AContactThatMissesSilentlyIsSeen) {
+  auto regions = std::vector{contact, contact};
+  CHECK_TRUE(holds(regions));
+  regions[1].misfit = 1.1e-6;
+  CHECK_FALSE(holds(regions));
+  regions[1].isWarnedOf = true;
+  CHECK_TRUE(holds(regions));
+  regions[1].misfit = double{NAN};
+  CHECK_FALSE(holds(regions));
 }
 
 TEST(Stability, AnErrorAboveTheBarIsSeen) {
@@ -52,10 +83,22 @@ TEST(Stability, NothingSurveyedIsNotGood) { CHECK_FALSE(holds(std::vector<FieldR
 TEST(Stability, TheSummaryShowsTheWorstOfARegion) {
   auto worse = good;
   worse.worst.error[model::kTrr] = 3e-15;
-  STRCMP_CONTAINS("| 0.1 to 0.5 | 3.0e-15 |", summary({good, worse, good}, {field}).c_str());
+  STRCMP_CONTAINS("| 0.1 to 0.5 | 3.0e-15 |", summary({{good, worse, good}, {field}, {contact}}).c_str());
+}
+
+TEST(Stability, TheSummaryHasACellForEveryPairOfBounds) {
+  std::vector<ContactRegion> contacts;
+  for (int i = 0; i < 9; ++i) {
+    contacts.push_back(contact);
+    contacts.back().width_rad = i + 1;
+    contacts.back().misfit = i * 1e-9;
+  }
+  STRCMP_CONTAINS("\n| 0.7 | 0.0e+00 | 1.0e-09 | 2.0e-09 | 3.0e-09 | 4.0e-09 |",
+                  summary({{good}, {field}, contacts}).c_str());
 }
 
 TEST(Stability, TablesHaveARowARegion) {
   STRCMP_CONTAINS("\n0.1,0.5,1,1,0.5,0.5,core,0,0,0,0,0,0,0,0,0,0,0\n", harmonicTable({good}).c_str());
   STRCMP_CONTAINS("\n0.7,0.5,1e-06,0.5,0,0,0,0,0,0,0,0,0,0\n", fieldTable({field}).c_str());
+  STRCMP_CONTAINS("\n0.7,0.5,0.1,sliding,1e-12,0\n", contactTable({contact}).c_str());
 }

@@ -28,7 +28,7 @@ class LargestTable {
  public:
   void take(const std::string& row, const std::string& column, double value) {
     double& cell = cells_[{indexOf(rows_, row), indexOf(columns_, column)}];
-    cell = std::max(cell, value);
+    if (!std::isnan(cell) && !(value <= cell)) cell = value;  // what is no number is the largest
   }
 
   std::string markdown(const std::string& corner) const {
@@ -65,9 +65,9 @@ class LargestTable {
 
  private:
   static std::size_t indexOf(std::vector<std::string>& names, const std::string& name) {
-    const auto found = std::ranges::find(names, name);
-    if (found == names.end()) names.push_back(name);
-    return static_cast<std::size_t>(found - names.begin());
+    const auto index = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+    if (index == names.size()) names.push_back(name);
+    return index;
   }
   std::vector<std::string> rows_, columns_;
   std::map<std::pair<std::size_t, std::size_t>, double> cells_;
@@ -104,6 +104,14 @@ LargestTable byWidth(const std::vector<FieldRegion>& regions) {
   return table;
 }
 
+LargestTable byContact(const std::vector<ContactRegion>& regions, bool isWarnedOf) {
+  LargestTable table;
+  for (const auto& region : regions)
+    if (region.isWarnedOf == isWarnedOf)
+      table.take(fmt::format("{:g}", region.alpha), fmt::format("{:.3g}", region.width_rad), region.misfit);
+  return table;
+}
+
 std::string errors(const Worst& worst) {
   std::string text = fmt::format("{},{}", worst.samples, worst.notFinite);
   for (const double error : worst.error) text += fmt::format(",{:.3g}", error);
@@ -132,34 +140,62 @@ std::string fieldTable(const std::vector<FieldRegion>& regions) {
   return text;
 }
 
-std::string summary(const std::vector<HarmonicRegion>& harmonics, const std::vector<FieldRegion>& fields) {
-  return fmt::format(
-      "Worst errors of the model in double precision against 100 digits.\n\nHarmonics, relative to the "
-      "larger of a row's "
-      "two coefficients:\n\n{}\n{}\nFields under line loads and loads of some width, relative to the peak of "
-      "the row (depth "
-      "0: the surface; 1: the core; blank: too many harmonics for 100 digits):\n\n{}\n{}",
-      byHarmonic(harmonics).markdown("alpha \\ harmonic"),
-      byPlace(harmonics).markdown("Poisson's ratio \\ place"),
-      byDepth(fields).markdown("alpha \\ depth / rubber"), byWidth(fields).markdown("alpha \\ width, rad"));
+std::string contactTable(const std::vector<ContactRegion>& regions) {
+  constexpr std::array kRegimes{"frictionless", "sliding", "stick"};
+  std::string text = "alpha,poisson_ratio,width_rad,regime,residual_per_depth,warned_of\n";
+  for (const ContactRegion& region : regions)
+    text += fmt::format("{},{},{},{},{:.3g},{}\n", region.alpha, region.poissonRatio, region.width_rad,
+                        kRegimes[static_cast<std::size_t>(region.regime)], region.misfit,
+                        region.isWarnedOf ? 1 : 0);
+  return text;
 }
 
-plot::Picture heatMaps(const std::vector<HarmonicRegion>& harmonics, const std::vector<FieldRegion>& fields) {
+bool holds(const std::vector<ContactRegion>& regions) {
+  for (const ContactRegion& region : regions)
+    if (!(region.misfit <= kContactBar) && (std::isnan(region.misfit) || !region.isWarnedOf)) return false;
+  return !regions.empty();
+}
+
+std::string summary(const Surveys& surveys) {
+  return fmt::format(
+      "Harmonics, relative to the larger of a row's two coefficients:\n\n{}\n{}\n"
+      "Fields under line loads (width 0) and uniform loads of some width, relative to the peak of the row "
+      "(depth 0: the "
+      "surface, where a line load has no field and is refused; 1: the core; blank: too many harmonics for "
+      "100 "
+      "digits):\n\n{}\n{}\n"
+      "Contacts of a flat indenter, all regimes, residual over depth: answers without a warning, then those "
+      "that warn "
+      "(stick below nu = 1/2, layers far thinner than the contact is wide; blank: none):\n\n{}\n{}",
+      byHarmonic(surveys.harmonics).markdown("alpha \\ harmonic"),
+      byPlace(surveys.harmonics).markdown("Poisson's ratio \\ place"),
+      byDepth(surveys.fields).markdown("alpha \\ depth / rubber"),
+      byWidth(surveys.fields).markdown("alpha \\ width, rad"),
+      byContact(surveys.contacts, false).markdown("alpha \\ width, rad"),
+      byContact(surveys.contacts, true).markdown("warned of: alpha \\ width, rad"));
+}
+
+plot::Picture heatMaps(const Surveys& surveys) {
   struct Panel {
     const char *name, *title, *x, *y;
     LargestTable table;
   };
-  const std::array panels{Panel{"harmonics", "harmonics", "harmonic n", "α", byHarmonic(harmonics)},
-                          Panel{"places", "harmonics", "radius", "Poisson's ratio", byPlace(harmonics)},
-                          Panel{"depths", "fields", "depth / rubber", "α", byDepth(fields)},
-                          Panel{"widths", "fields", "width of the load (rad)", "α", byWidth(fields)}};
+  const std::array panels{
+      Panel{"harmonics", "harmonics", "harmonic n", "α", byHarmonic(surveys.harmonics)},
+      Panel{"places", "harmonics", "radius", "Poisson's ratio", byPlace(surveys.harmonics)},
+      Panel{"contacts", "contacts that warn of nothing", "width (rad)", "α",
+            byContact(surveys.contacts, false)},
+      Panel{"depths", "fields", "depth / rubber", "α", byDepth(surveys.fields)},
+      Panel{"widths", "fields", "width of the load (rad)", "α", byWidth(surveys.fields)},
+      Panel{"warned", "contacts that warn", "width (rad)", "α", byContact(surveys.contacts, true)}};
   std::string script = plot::kStyle;
-  script += R"(set multiplot layout 2,2 margins 0.11,0.92,0.1,0.94 spacing 0.15,0.2
+  script +=
+      R"(set multiplot layout 2,3 margins 0.08,0.99,0.1,0.92 spacing 0.08,0.22 title 'log_{10} of the worst error'
 unset grid; unset key; set tics scale 0
-set palette defined (-17 '#f7fbff', -16 '#9ecae1', -15 '#2171b5', -14 '#fdae6b', -13 '#d94801', -12 '#7f2704')
-set cbrange [-17:-12]; set cblabel 'log_{10} of the worst error'; set offsets 0.5,0.5,0.5,0.5
+set palette defined (-17 '#f7fbff', -16 '#9ecae1', -15 '#2171b5', -14 '#fdd0a2', -12 '#fdae6b', -8 '#d94801', 0 '#7f2704')
+set cbrange [-17:0]; unset colorbox; set offsets 0.5,0.5,0.5,0.5
 )";
-  plot::Picture picture{1400, 1000, {}, {}};
+  plot::Picture picture{1700, 1000, {}, {}};
   for (const Panel& panel : panels) {
     script += panel.table.tics();
     script +=

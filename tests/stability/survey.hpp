@@ -2,9 +2,11 @@
 // The model in double precision against the same templates in 100 digits, all over its domain.
 
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "host/contact/contact.hpp"
 #include "host/model/harmonic.hpp"
 
 namespace strainfinger::stability {
@@ -56,7 +58,24 @@ struct FieldRegion {
 
 /// Errors of computeField() relative to the largest value of a row among the angles looked at, of which some
 /// are close to the load and to its edges. Depths that take more harmonics than `mostHarmonics` are left out.
-/// Costs 5 us a harmonic, angle and region: 10 s for up to 1000 harmonics.
+/// Costs 5 us a harmonic, angle and region, on all cores: 10 s for up to 1000 harmonics, minutes for 100,000.
 std::vector<FieldRegion> surveyFields(int mostHarmonics);
+
+/// A flat indenter's contact of given width. There is no solver in 100 digits; but an answer's residual is
+/// computed anew from its tractions.
+struct ContactRegion {
+  double alpha, poissonRatio, width_rad;
+  contact::Regime regime;
+  double misfit = 0;        ///< residual over depth; NaN if anything in the answer is not finite
+  bool isWarnedOf = false;  ///< by Contact::warnings
+};
+
+/// Every regime (sliding with a friction of 0.5), Poisson's ratios 0.3 and 0.5, widths from 1e-6 rad to a
+/// quarter turn, for every alpha up to 0.99; of the thinner ones widths up to 0.01 rad.
+/// Costs 0.1 s an alpha below 0.9, 10 s at 0.99.
+std::vector<ContactRegion> surveyContacts(std::span<const double> alphas);
+
+/// Those of the whole survey.
+inline constexpr std::array kContactAlphas{0.01, 0.1, 0.5, 0.7, 0.85, 0.93, 0.97, 0.99, 0.999};
 
 }  // namespace strainfinger::stability

@@ -1,6 +1,8 @@
 #include "host/shape/resolved_pressure.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -17,7 +19,7 @@ using Eigen::VectorXd;
 /// gauges 0.02 r_b deep still has 20 a half width.
 constexpr int kNodes = 40;
 
-constexpr double kStrong = 3;  ///< sigmas
+constexpr double kResolved = 3;  ///< sigmas
 
 /// Norm over its arc of the semi-ellipse that carries a load: p0 sqrt(4 a / 3), p0 = 2 P / (pi a).
 double normOfEllipse(double load_n_per_m, double half_m) {
@@ -28,27 +30,25 @@ bool isOdd(const VectorXd& atNodes) { return atNodes.dot(atNodes.reverse()) < 0;
 
 }  // namespace
 
-ResolvedPressure::ResolvedPressure(const TouchModel& model, const Touch& touch, double noise)
-    : model_(model),
-      touch_(touch),
-      noise_(noise),
-      half_rad_(halfWidth_rad(Profile::kEllipse, touch.moment_rad2)) {
+ResolvedPressure::ResolvedPressure(const TouchModel& model, const Touch& touch, double half_rad, double noise)
+    : model_(model), touch_(touch), noise_(noise), half_rad_(half_rad) {
   const double half_m = half_rad_ * model.outerRadius_m();
-  const double least = noise / normOfEllipse(touch.normal_n_per_m, half_m);
+  const double visible = noise / normOfEllipse(touch.normal_n_per_m, half_m);
   const contact::QuadratureRule rule = contact::gaussRule({0, 0}, kNodes);
   const VectorXd angles_rad = touch.angle_rad + half_rad_ * rule.nodes.array();
   const VectorXd roots = (half_m * rule.weights).cwiseSqrt();
   MatrixXd map = model.normalLineStrains(angles_rad) * roots.asDiagonal();
-  const auto above = [&](const VectorXd& values) { return (values.array() > least).count(); };
-  directions_ = static_cast<int>(above(Eigen::JacobiSVD<MatrixXd>(map).singularValues()));
+  const auto above = [](const VectorXd& values, double least) { return (values.array() > least).count(); };
+  // Squares of the singular values: what is small among them is below any noise.
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> squares(map * map.transpose(), Eigen::EigenvaluesOnly);
+  directions_ = static_cast<int>(above(squares.eigenvalues(), visible * visible));
   const VectorXd shear = model.respond(Profile::kEllipse, touch).slopes.col(2).normalized();
   map -= shear * (shear.transpose() * map);
   const Eigen::JacobiSVD<MatrixXd> svd(map, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Index count = above(svd.singularValues());
+  const Index count = std::max<Index>(1, above(svd.singularValues(), kResolved * visible));
   values_ = svd.singularValues().head(count);
   readings_ = svd.matrixU().leftCols(count);
-  for (Index k = 0; k < count; ++k)
-    strongOdd_ += values_[k] > kStrong * least && isOdd(svd.matrixV().col(k).cwiseQuotient(roots));
+  for (Index k = 0; k < count; ++k) oddResolved_ += isOdd(svd.matrixV().col(k).cwiseQuotient(roots));
 }
 
 MatrixXd ResolvedPressure::directionsAt(const VectorXd& offsets_rad) const {

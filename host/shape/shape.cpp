@@ -77,9 +77,7 @@ double ShapeEstimator::pressedHalf_rad(const Shape& shape) const {
 }
 
 ResolvedPressure ShapeEstimator::resolution(const Shape& shape) const {
-  Touch touch = shape.touch;
-  touch.moment_rad2 = momentOfWidth(2 * pressedHalf_rad(shape));
-  return {model_, touch, noise_};
+  return {model_, shape.touch, pressedHalf_rad(shape), noise_};
 }
 
 PressureEstimate ShapeEstimator::pressure(const Shape& shape, const Eigen::VectorXd& strains,

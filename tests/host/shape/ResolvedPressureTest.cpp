@@ -37,8 +37,9 @@ int medianCount(const KnownCounts& known, double width_mm, double noise) {
   std::vector<int> counts;
   for (int i = 0; i <= 20; ++i) {
     const double phase_rad = 2 * std::numbers::pi / known.gauges * i / 20;
-    const Touch touch{phase_rad, 1, 0, momentOfWidth(width_mm * 1e-3 / kSurface_m)};
-    counts.push_back(ResolvedPressure(model, touch, noise * peakStrain(config)).directions());
+    const double half_rad = width_mm * 1e-3 / kSurface_m / 2;
+    const Touch touch{phase_rad, 1, 0, momentOfWidth(2 * half_rad)};
+    counts.push_back(ResolvedPressure(model, touch, half_rad, noise * peakStrain(config)).directions());
   }
   std::ranges::sort(counts);
   return counts[10];
@@ -51,8 +52,8 @@ TEST_GROUP(ResolvedPressure) {
   const TouchModel model{config.finger, config.gauges};
   const Touch touch{2, 10, 3, momentOfWidth(4e-3 / kSurface_m)};
   const double noise = 0.1 * peakStrain(config);
-  const ResolvedPressure resolved{model, touch, noise};
   const double half_rad = 2e-3 / kSurface_m;
+  const ResolvedPressure resolved{model, touch, half_rad, noise};
   const Eigen::VectorXd offsets = Eigen::VectorXd::LinSpaced(4001, -half_rad, half_rad);
   const double step_m = 4e-3 / 4000;
 };
@@ -112,9 +113,6 @@ TEST(ResolvedPressure, TheBandIsAsWideAsTheNoise) {
 // One odd direction is where the touch is. A second one takes a wide touch, and little noise.
 TEST(ResolvedPressure, AnOddPartIsHardToSee) {
   CHECK_FALSE(resolved.isOddResolved());
-  Touch wide = touch;
-  wide.moment_rad2 = momentOfWidth(6e-3 / kSurface_m);
-  CHECK_TRUE(ResolvedPressure(model, wide, noise / 30).isOddResolved());
-  wide.moment_rad2 = momentOfWidth(1e-3 / kSurface_m);
-  CHECK_FALSE(ResolvedPressure(model, wide, noise / 30).isOddResolved());
+  CHECK_TRUE(ResolvedPressure(model, touch, 3e-3 / kSurface_m, noise / 30).isOddResolved());
+  CHECK_FALSE(ResolvedPressure(model, touch, 0.5e-3 / kSurface_m, noise / 30).isOddResolved());
 }

@@ -101,7 +101,8 @@ TEST(Shape, NamesAClassTheReadingsSeparate) {
 
 TEST(Shape, TwoTouchesAreNoneThatFits) {
   const Eigen::VectorXd other = ellipseStrains(config, {angle_rad + 2, 10, 0, 0});
-  const auto shape = shapeOf(ellipse(2) + other, 1e-3);
+  STRCMP_EQUAL("round", nameOf(*shapeOf(ellipse(6), 1e-3)->profile));
+  const auto shape = shapeOf(ellipse(6) + other, 1e-3);
   CHECK_TRUE(shape->fitProbability < kUnlikely);
   CHECK_FALSE(shape->profile.has_value());
 }

@@ -45,7 +45,7 @@ TEST(TouchSearch, NoiseIsNoTouch) {
   const config::FingerConfig config = ringOf(0.7, 32);
   const TouchModel model(config.finger, config.gauges);
   const TouchSearch search(model, 1);
-  for (std::uint64_t i = 0; i < 300; ++i) CHECK_FALSE(search.search(noiseOf(32, i, 1e-5), 1e-5).has_value());
+  for (std::uint64_t i = 0; i < 200; ++i) CHECK_FALSE(search.search(noiseOf(32, i, 1e-5), 1e-5).has_value());
   CHECK_FALSE(search.search(Eigen::VectorXd::Zero(32), 1e-5).has_value());
 }
 

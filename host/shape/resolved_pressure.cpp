@@ -15,8 +15,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Gauss-Legendre nodes over the arc: enough for the 1 rad that the model allows, where the line response of
-/// gauges 0.02 r_b deep still has 20 a half width.
+/// Gauss-Legendre nodes over the arc: exact for harmonics up to 120 over the 1 rad that the model allows,
+/// more over less.
 constexpr int kNodes = 40;
 
 constexpr double kResolved = 3;  ///< sigmas

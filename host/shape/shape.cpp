@@ -43,14 +43,15 @@ void ShapeEstimator::addWidth(const TouchFit& fit, Shape& shape) const {
   shape.curvature_per_m = {curvature.value_per_m, std::sqrt(slopes.dot(fit.covariance * slopes))};
 }
 
-std::optional<Profile> ShapeEstimator::separatedProfile(const TouchFit& fit,
-                                                        const Eigen::VectorXd& strains) const {
+/// All profiles from the ellipse's place: the best one's probability, and its name if it is alone.
+void ShapeEstimator::addClass(const TouchFit& fit, const Eigen::VectorXd& strains, Shape& shape) const {
   std::vector<std::pair<double, Profile>> fits;
   for (const Profile profile : allProfiles())
     fits.emplace_back(refine(model_, profile, strains, noise_, fit.touch).chiSquared, profile);
   std::ranges::sort(fits);
-  if (fits[1].first < fits[0].first + kSure || probability(fits[0].first) < kUnlikely) return std::nullopt;
-  return fits[0].second;
+  shape.fitProbability = probability(fits[0].first);
+  const bool isAlone = fits[1].first >= fits[0].first + kSure;
+  if (isAlone && shape.fitProbability >= kUnlikely) shape.profile = fits[0].second;
 }
 
 std::optional<Shape> ShapeEstimator::estimate(const Eigen::VectorXd& strains) const {
@@ -62,9 +63,9 @@ std::optional<Shape> ShapeEstimator::estimate(const Eigen::VectorXd& strains) co
   shape.angle_rad = measured(fit, fit.touch.angle_rad, 0);
   shape.normal_n_per_m = measured(fit, fit.touch.normal_n_per_m, 1);
   shape.tangential_n_per_m = measured(fit, fit.touch.tangential_n_per_m, 2);
-  addWidth(fit, shape);
-  if (shape.width_m) shape.profile = separatedProfile(fit, strains);
   shape.fitProbability = probability(fit.chiSquared);
+  addWidth(fit, shape);
+  if (shape.width_m) addClass(fit, strains, shape);
   shape.rivalAngle_rad = found->rivalAngle_rad;
   const ResolvedPressure resolved = resolution(shape);
   shape.directions = resolved.directions();

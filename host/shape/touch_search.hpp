@@ -29,7 +29,7 @@ class TouchSearch {
   TouchSearch(const TouchModel& model, double friction);
 
   /// Nothing if readings are noise: no touch lowers chi squared by kTouched. Domain: a finite strain a gauge,
-  /// noise > 0. Costs 1 ms for 32 gauges.
+  /// noise > 0. Costs 0.2 ms for 32 gauges.
   std::optional<SearchResult> search(const Eigen::VectorXd& strains, double noise) const;
 
   /// Of noise alone 1 in 10,000 is that much like a touch somewhere (chi squared of four fitted numbers, at

@@ -92,11 +92,19 @@ TEST(ShapeCommand, MoreNoiseTellsLess) {
   DOUBLES_EQUAL(3 * sigma, std::stod(shapeOf("--noise-strain 1.8e-5", touch())[6]), 0.02 * sigma);
 }
 
-TEST(ShapeCommand, TwoTouchesAreWarnedOf) {
+TEST(ShapeCommand, WhatIsNoTouchOfThisFingerIsWarnedOf) {
   const auto shape =
       shapeOf("--noise-strain 1e-6",
               readings("--normal-n-per-m 20 --tangential-n-per-m 0 --contact-deg 100 --width-m 20e-3"));
   STRCMP_CONTAINS("misfit", shape[17].c_str());
+}
+
+// `strain` spreads its load evenly.
+TEST(ShapeCommand, NamesAClassThatFitsAlone) {
+  const auto shape = shapeOf("--noise-strain 1e-9", touch());
+  STRCMP_EQUAL("uniform", shape[13].c_str());
+  CHECK_TRUE(std::stod(shape[15]) > 0.1);
+  STRCMP_EQUAL("", shape[17].c_str());
 }
 
 TEST(ShapeCommand, PrintsTheResolvedPressureWithItsBand) {

@@ -74,7 +74,7 @@ TEST_GROUP(PaperMethod) {
   static double leaked(const PaperContact& contact) {
     const double half_rad = 1e-3 / kSurface_m;
     const auto square = [&](double from_rad, double to_rad) {
-      constexpr int kSteps = 4000;
+      constexpr int kSteps = 1000;
       double sum = 0;
       for (int i = 0; i < kSteps; ++i) {
         const double angle_rad = from_rad + (to_rad - from_rad) * (i + 0.5) / kSteps;

@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
   strainfinger::cli::addContact(app);
   strainfinger::cli::addSvd(app);
   strainfinger::cli::addField(app);
+  strainfinger::cli::addShape(app);
   strainfinger::cli::addTables(app);
   strainfinger::cli::addLocate(app);
   strainfinger::cli::addRun(app);

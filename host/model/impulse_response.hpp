@@ -32,10 +32,15 @@ class ImpulseResponse {
   /// Number of the last harmonic.
   int harmonics() const { return static_cast<int>(even_.size()) - 1; }
 
+  /// Whether the response to a normal load is the even one, as of e_rr and e_tt.
+  bool isEvenInNormal() const { return normalIsEven_; }
+  const Eigen::VectorXd& even() const { return even_; }  ///< factors of cos n angle, n = 0..harmonics()
+  const Eigen::VectorXd& odd() const { return odd_; }    ///< factors of sin n angle
+
  private:
   bool normalIsEven_;
-  Eigen::VectorXd even_;  // factors of cos n angle
-  Eigen::VectorXd odd_;   // factors of sin n angle
+  Eigen::VectorXd even_;
+  Eigen::VectorXd odd_;
 };
 
 }  // namespace strainfinger::model

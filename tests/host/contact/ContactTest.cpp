@@ -1,11 +1,13 @@
 #include "host/contact/contact.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <vector>
 
 #include "host/base/failure.hpp"
+#include "host/contact/fourier_tractions.hpp"
 #include "host/contact/surface_motion.hpp"
 #include "tests/host/contact/fingers.hpp"
 #include "tests/host/contact/known_contacts.hpp"
@@ -292,6 +294,44 @@ TEST(Contact, ThinLayersAndWideContactsConverge) {
       CHECK_TRUE(contact.residual_m < 1e-11 * contact.depth_m);
       CHECK_TRUE(contact.warnings.empty());
     }
+}
+
+// Other points of collocation, twice and more the terms, on the patch that was found: tractions, load, and
+// the tilt, which a contact off its place has: slope times the distance.
+TEST(Contact, MoreTermsFindTheSameContactInEveryRegime) {
+  const SurfaceKernel kernel(kDefaultFinger);
+  for (const ContactRequest& request : {ofWidth(2e-3), sliding(0.5), sticking(10)}) {
+    const Contact contact = solveContact(kernel, request);
+    const PatchSolution finer =
+        SpectralSolver(kernel, request.regime, request.friction, 40)
+            .solve({contact.tractions[0].patch}, request.indenter, request.tangential_n_per_m);
+    const double half_rad = contact.tractions[0].patch.half_rad, peak_pa = 13700;
+    equalRelative(kSurface_m * totalTraction(finer.tractions).pressure_pa, contact.normal_n_per_m, 1e-11);
+    DOUBLES_EQUAL(0, finer.tilt_m[0], 1e-9 * half_rad * kSurface_m);
+    for (const double x : {-0.999, -0.7, 0.0, 0.3, 0.99}) {
+      const double angle_rad = contact.offset_rad + x * half_rad;
+      const Traction known = tractionAt(finer.tractions, angle_rad),
+                     value = tractionAt(contact.tractions, angle_rad);
+      DOUBLES_EQUAL(known.pressure_pa, value.pressure_pa, 1e-9 * peak_pa);
+      DOUBLES_EQUAL(known.shear_pa, value.shear_pa, 1e-9 * peak_pa);
+    }
+    CHECK_TRUE(contact.residual_m < 1e-15);
+  }
+}
+
+// By Fourier series of the tractions in place of the double exponential rule: 3,000 harmonics leave 1e-9 m.
+TEST(Contact, TheResidualIsTheSurfacesDistanceFromTheIndenter) {
+  ContactRequest request = sliding(0.5);
+  request.centre_rad = 0;
+  const Contact contact = solve(request);
+  const FourierTractions series = fourierTractions(contact.tractions, 3'000);
+  double worst_m = 0;
+  for (double x = -0.99; x < 1; x += 0.06) {
+    const double angle_rad = x * 1e-3 / kSurface_m;
+    const double indenter_m = kSurface_m * angle_rad * angle_rad / 2 - contact.approach_m;
+    worst_m = std::max(worst_m, std::abs(surfaceAt(kDefaultFinger, series, angle_rad).ur_m - indenter_m));
+  }
+  CHECK_TRUE(contact.residual_m < 2 * worst_m && contact.residual_m > worst_m / 2);
 }
 
 TEST(Contact, AHeldCentreThatSlidesSaysThatNothingFits) {

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "host/base/failure.hpp"
+#include "host/contact/thin_svd.hpp"
 #include "host/model/harmonic.hpp"
 #include "host/model/series.hpp"
 
@@ -114,9 +114,9 @@ FourierTractions SlopeMap::tractions(bool isEvenSlope, const VectorXd& unknowns)
 std::vector<SingularPair> singularPairs(const SlopeMap& map) {
   std::vector<SingularPair> pairs;
   for (const bool isEven : {false, true}) {
-    const Eigen::BDCSVD<MatrixXd> svd(map.block(isEven), Eigen::ComputeThinU | Eigen::ComputeThinV);
-    for (Index i = 0; i < svd.singularValues().size(); ++i)
-      pairs.push_back({svd.singularValues()[i], isEven, svd.matrixV().col(i), svd.matrixU().col(i)});
+    const ThinSvd svd = thinSvd(map.block(isEven));
+    for (Index i = 0; i < svd.values.size(); ++i)
+      pairs.push_back({svd.values[i], isEven, svd.right.col(i), svd.left.col(i)});
   }
   std::ranges::stable_sort(pairs, std::greater(), &SingularPair::value);
   return pairs;

@@ -1,12 +1,12 @@
 #include "host/shape/resolved_pressure.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "host/contact/jacobi.hpp"
+#include "host/contact/thin_svd.hpp"
 
 namespace strainfinger::shape {
 namespace {
@@ -44,11 +44,11 @@ ResolvedPressure::ResolvedPressure(const TouchModel& model, const Touch& touch, 
   directions_ = static_cast<int>(above(squares.eigenvalues(), visible * visible));
   const VectorXd shear = model.respond(Profile::kEllipse, touch).slopes.col(2).normalized();
   map -= shear * (shear.transpose() * map);
-  const Eigen::JacobiSVD<MatrixXd> svd(map, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Index count = std::max<Index>(1, above(svd.singularValues(), kResolved * visible));
-  values_ = svd.singularValues().head(count);
-  readings_ = svd.matrixU().leftCols(count);
-  for (Index k = 0; k < count; ++k) oddResolved_ += isOdd(svd.matrixV().col(k).cwiseQuotient(roots));
+  const contact::ThinSvd svd = contact::thinSvd(map);
+  const Index count = std::max<Index>(1, above(svd.values, kResolved * visible));
+  values_ = svd.values.head(count);
+  readings_ = svd.left.leftCols(count);
+  for (Index k = 0; k < count; ++k) oddResolved_ += isOdd(svd.right.col(k).cwiseQuotient(roots));
 }
 
 MatrixXd ResolvedPressure::directionsAt(const VectorXd& offsets_rad) const {

@@ -1,6 +1,6 @@
 // Ways to the singular values of T C, and what the figures cost.
 
-#include <Eigen/SVD>
+#include <Eigen/Core>
 #include <algorithm>
 #include <limits>
 
@@ -8,6 +8,7 @@
 #include "host/bench/model/precise.hpp"
 #include "host/contact/jacobi.hpp"
 #include "host/contact/slope_map.hpp"
+#include "host/contact/thin_svd.hpp"
 #include "host/paper/figure.hpp"
 
 namespace strainfinger::bench {
@@ -41,8 +42,8 @@ Values ours(SlopeRows rows, bool withShear = true) {
 Values sortedValues(const std::vector<MatrixXd>& blocks) {
   Values values;
   for (const MatrixXd& block : blocks) {
-    const Eigen::BDCSVD<MatrixXd> svd(block, Eigen::ComputeThinU | Eigen::ComputeThinV);
-    values.insert(values.end(), svd.singularValues().begin(), svd.singularValues().end());
+    const ThinSvd svd = thinSvd(block);
+    values.insert(values.end(), svd.values.begin(), svd.values.end());
   }
   std::ranges::sort(values, std::greater());
   return values;

@@ -302,6 +302,12 @@ TEST(Finger, SaysThatTheWatchdogResetIt) {
   CHECK(lastHeartbeat().faults == FingerFaults{FingerFault::kWatchdogReset});
 }
 
+TEST(Finger, SaysThatFramesToItWereLost) {
+  can.bus.missed = 1;
+  runSilent(1);
+  CHECK(lastHeartbeat().faults == FingerFaults{FingerFault::kCan});
+}
+
 TEST(Finger, SaysThatSampleSetsWereLost) {
   run(1);
   for (int i = 0; i < 3; ++i) adc.convert({});

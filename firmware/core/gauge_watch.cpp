@@ -169,11 +169,6 @@ struct Observed {
   return best;
 }
 
-/// The best contact anywhere. Not inlined: its rivals are not on the stack of what comes after.
-[[gnu::noinline]] Candidate bestAnywhere(const Problem& others, const RingSignal& signal) {
-  return searchRemaining(others, signal).best;
-}
-
 /// Looks at a suspect closely: what one contact leaves unexplained of the ring without it, and whether it is
 /// far off what that contact says.
 [[gnu::noinline]] void examine(const Observed& observed, Suspect& suspect) {
@@ -182,7 +177,7 @@ struct Observed {
   others.ringEnergy = std::max<std::int32_t>(others.ringEnergy - energyOf(reading), 1);
   const RingSignal signal{others, observed.leftOut | 1u << suspect.gauge};
   Candidate best = bestNear(others, signal, suspect.look);
-  if (!best.admissible) best = bestAnywhere(others, signal);
+  if (!best.admissible) best = searchRemaining(others, signal).best;
   suspect.unexplained =
       std::max<std::int32_t>(others.ringEnergy - std::max<std::int32_t>(best.explained, 0), 0);
   suspect.kind = kindOf(others, signal, best.place.position, suspect.gauge, reading);

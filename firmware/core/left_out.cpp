@@ -16,6 +16,8 @@ constexpr std::uint32_t kAmbiguous = 12;  ///< answers closer than this many var
 constexpr std::uint32_t kFaint = 64;      ///< an answer that explains less may be noise
 constexpr int kAmbiguousShift = 17;       ///< rounding makes two fits differ by this part of their energy
 constexpr std::size_t kPeaks = 3;
+/// Where the search looks from the best peak's fit, in eighths of a pitch.
+constexpr std::array<std::int8_t, 8> kAway{-4, -3, -2, -1, 1, 2, 3, 4};
 constexpr PitchQ20 kSame = kOnePitch / 12;  ///< fits closer than this ran into one maximum
 
 /// The search looks at eight offsets a pitch: 1/16, 3/16 .. from each gauge.
@@ -153,20 +155,31 @@ Placement rescaled(const Placement& place, int fromUp, int toUp) {
 }
 
 /// Fills in; the verdict goes with what gateEnergy() then is.
-[[gnu::noinline]] Verdict prepare(const TableImage& tables, GaugeSet leftOut,
-                                  std::span<std::int32_t> strains_q32, std::uint32_t& energy) {
-  clear(leftOut, strains_q32);
+[[gnu::noinline]] Verdict judge(const TableImage& tables, GaugeSet leftOut, const Rivals& rivals,
+                                std::span<std::int32_t> strains_q32, std::uint32_t& energy) {
   const Problem problem = problemOf(tables, strains_q32, energy);
-  const RingSignal signal{problem, leftOut};
-  const Rivals rivals = searchRemaining(problem, signal);
   const std::int32_t margin = problem.variances(kAmbiguous) + (rivals.best.explained >> kAmbiguousShift);
   Verdict verdict;
   verdict.ambiguous = rivals.second.admissible && rivals.second.explained > rivals.best.explained - margin;
   verdict.determined = rivals.best.explained > problem.variances(kFaint) &&
-                       fillIn(problem, signal, rivals.best.place.position, strains_q32);
+                       fillIn(problem, RingSignal{problem, leftOut}, rivals.best.place.position, strains_q32);
   energy = gateEnergy(tables.constants, strains_q32);
   verdict.alternative = rescaled(rivals.second.place, problem.up, problemOf(tables, strains_q32, energy).up);
   return verdict;
+}
+
+/// Apart from the judgement, which needs no stack while this does.
+[[gnu::noinline]] Rivals rivalsWithout(const TableImage& tables, GaugeSet leftOut,
+                                       std::span<const std::int32_t> strains_q32, std::uint32_t energy) {
+  const Problem problem = problemOf(tables, strains_q32, energy);
+  return searchRemaining(problem, RingSignal{problem, leftOut});
+}
+
+[[gnu::noinline]] Verdict prepare(const TableImage& tables, GaugeSet leftOut,
+                                  std::span<std::int32_t> strains_q32, std::uint32_t& energy) {
+  clear(leftOut, strains_q32);
+  const Rivals rivals = rivalsWithout(tables, leftOut, strains_q32, energy);
+  return judge(tables, leftOut, rivals, strains_q32, energy);
 }
 
 /// One reading of the middle five may be missing, for the same reason (tooManyOut()).
@@ -219,15 +232,18 @@ Candidate followed(const Problem& problem, const RingSignal& signal, View view) 
 }
 
 Rivals searchRemaining(const Problem& problem, const RingSignal& signal) {
+  const Peaks peaks = peaksOf(problem, signal);
   Rivals rivals;
-  const auto follow = [&](const View& view) {
+  PitchQ20 first = 0;
+  for (std::size_t start = 0; start < kPeaks + kAway.size(); ++start) {  // one call, for the stack's sake
+    if (start == kPeaks) first = rivals.best.place.position;
+    if (start < kPeaks && peaks.look[start] < 0) continue;
+    const View view =
+        start < kPeaks
+            ? lookAt(problem, peaks.look[start])
+            : viewOf(problem, roundTheRing(first + kAway[start - kPeaks] * kOnePitch / 8, problem.gauges()));
     enter(rivals, followed(problem, signal, view), problem.gauges());
-  };
-  for (const int look : peaksOf(problem, signal).look)
-    if (look >= 0) follow(lookAt(problem, look));
-  const PitchQ20 first = rivals.best.place.position;
-  for (const int eighths : {-4, -3, -2, -1, 1, 2, 3, 4})
-    follow(viewOf(problem, roundTheRing(first + eighths * kOnePitch / 8, problem.gauges())));
+  }
   return rivals;
 }
 

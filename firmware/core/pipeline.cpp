@@ -21,6 +21,8 @@ struct Made {
   Make make;
   operator Fit() const { return make(); }
 };
+template <typename Make>
+Made(Make) -> Made<Make>;
 
 }  // namespace
 

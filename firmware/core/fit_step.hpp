@@ -88,21 +88,23 @@ struct AmplitudeSlopes {
 inline Number times(std::int16_t coefficient, Number projection) {
   return scaledByLow(projection, lowOnly(tabled(coefficient)));
 }
+/// A row's pair of coefficients times both projections, * 2^-16.
+inline Number times(Pair coefficients, const Projections& projection) {
+  return addScaledByHigh(scaledByLow(projection[0], coefficients), projection[1], coefficients);
+}
 
 inline AmplitudeSlopes amplitudeSlopes(const FitRow& row, const Projections& projection) {
-  return {times(row.load_slope[0], projection[0]) + times(row.load_slope[1], projection[1]),
-          times(row.load_slope[2], projection[0]) + times(row.load_slope[3], projection[1])};
+  return {times(pairAt(&row.load_slope[0]), projection), times(pairAt(&row.load_slope[2]), projection)};
 }
 
 inline Amplitudes amplitudesOf(const FitRow& row, const FitStep& step) {
-  const auto [u1, u2] = step.projection;
   const AmplitudeSlopes slopes = amplitudeSlopes(row, step.projection);
   const Pair beyondRow = lowOnly(clipped<kRowBits + 1>(step.length));
   const auto moved = [&](Number atRow, Number slope) {
     return atRow + scaledByLow(slope, beyondRow) * (1 << (16 - kRowBits));
   };
-  return {moved(times(row.load[0], u1) + times(row.load[1], u2), slopes.normal),
-          moved(times(row.load[2], u2), slopes.tangential)};
+  return {moved(times(pairAt(&row.load[0]), step.projection), slopes.normal),
+          moved(times(row.load[2], step.projection[1]), slopes.tangential)};
 }
 
 }  // namespace strainfinger::firmware

@@ -194,9 +194,10 @@ bool mayBeAsGood(const Problem& problem, int anchor, const Lead& lead, const Ans
 /// In the window of the sharpest bend, and beside it if its answer is in doubt.
 inline void searchAtBend(const Problem& problem, Contest& contest) {
   const FitTable& rows = problem.tables.rows;
-  const int anchor = bendAnchor(problem);
+  const Anchor found = deepestAnchor(problem);
+  const int anchor = found.gauge;
   const Signal signal = windowSignal(problem.strains, anchor, problem.up);
-  const BestTwo peaks = bestTwo(scanned<kMaxScanStep / 2, kMaxScanStep>(rows, signal));
+  const BestTwo peaks = bestTwo(scanned<kMaxScanStep / 2, kMaxScanStep>(rows, signal, found.reach));
   if (peaks.second.energy > rivalLimit(problem, peaks.first.energy, kRivalShift)) {
     followEither(problem, signal, anchor, peaks, contest);
   } else {

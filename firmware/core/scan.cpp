@@ -39,7 +39,46 @@ int sharpestBend(std::span<const std::int32_t> strains) {
   return static_cast<int>(sharpest - strains.data());
 }
 
+/// Where sign * strain is least, the first of equals.
+template <int Sign>
+int deepest(std::span<const std::int32_t> strains) {
+  const std::int32_t* gauge = strains.data();
+  const std::int32_t* const end = gauge + strains.size();
+  const std::int32_t* found = gauge;
+  std::int32_t least = std::numeric_limits<std::int32_t>::max();
+  const auto look = [&](const std::int32_t* at, std::int32_t reading) {
+    if (Sign * reading < least) {
+      asm("");
+      least = Sign * reading;
+      found = at;
+    }
+  };
+  const auto lookAtTwo = [&] {
+    const std::int32_t even = gauge[0], odd = gauge[1];
+    look(gauge, even);
+    look(gauge + 1, odd);
+    gauge += 2;
+  };
+  if (strains.size() % 4 != 0) lookAtTwo();
+  while (gauge != end) {
+    lookAtTwo();
+    lookAtTwo();
+  }
+  return static_cast<int>(found - strains.data());
+}
+
 }  // namespace
+
+Anchor deepestAnchor(const Problem& problem) {
+  const int gauge = problem.tables.constants.anchor_sign > 0 ? deepest<1>(problem.strains) : deepest<-1>(problem.strains);
+  const std::int32_t reading = raised(problem.strains[static_cast<std::size_t>(gauge)], problem.up) >> 16;
+  const std::uint32_t own = static_cast<std::uint32_t>(reading * reading) * 4;
+  const std::uint32_t all = static_cast<std::uint32_t>(problem.ringEnergy) >> 11;
+  if (own >= all * 26214) return {gauge, 12};
+  if (own >= all * 20316) return {gauge, 20};
+  if (own >= all * 5243) return {gauge, 28};
+  return {bendAnchor(problem), kScanReach};
+}
 
 int bendAnchor(const Problem& problem) {
   return problem.tables.constants.anchor_sign > 0 ? sharpestBend<1>(problem.strains)

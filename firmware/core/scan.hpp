@@ -49,9 +49,10 @@ inline void raise(Peak& peak, std::int32_t energy, int row) {
   if (energy > peak.energy) peak = {energy, row};
 }
 
-/// Scans a window at rows First, First + Step .. up to kScanReach.
+/// Scans a window at rows First, First + Step .. up to `reach`, which is beyond the second of them.
 template <int First, int Step>
-[[gnu::always_inline]] inline Scan scanned(const FitTable& rows, const Signal& signal) {
+[[gnu::always_inline]] inline Scan scanned(const FitTable& rows, const Signal& signal,
+                                           int reach = kScanReach) {
   constexpr int kSecond = First + Step;
   // Beside the middle gauge a weak tangential load has two peaks, no matter how close: exactly, then.
   const FitRow* at = unknown(&rows[First]);
@@ -59,8 +60,7 @@ template <int First, int Step>
   at = unknown(at + Step);
   const SideEnergies outer = roughEnergies(sideParts(*at, signal));
   Peak minus{outer.minus, -kSecond}, plus{outer.plus, kSecond};
-#pragma GCC unroll 8
-  for (int row = kSecond + Step; row <= kScanReach; row += Step) {
+  for (int row = kSecond + Step; row <= reach; row += Step) {
     at = unknown(at + Step);
     const SideEnergies energy = roughEnergies(sideParts(*at, signal));
     raise(minus, energy.minus, -row);
@@ -72,6 +72,13 @@ template <int First, int Step>
   if (middle.energy <= (middle.row < 0 ? minus.energy : plus.energy)) middle.energy = -1;
   return {middle, minus, plus};
 }
+
+/// Where a contact is likely, and how far from there.
+struct Anchor {
+  int gauge;
+  int reach;  ///< rows from the gauge, on either side
+};
+Anchor deepestAnchor(const Problem& problem);
 
 /// The gauge nearest to the contact, or nearly: where the strains bend most. Within half a pitch in 94 % of
 /// contacts, within 0.6 in 99 %; the others lie midway between two gauges, two or three pitches away.

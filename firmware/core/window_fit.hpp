@@ -45,7 +45,7 @@ inline void follow(WindowFit& fit, Number length, int mirrorSign) {
 }
 
 inline void takeStep(const FitTable& rows, WindowFit& fit) {
-  fit.step = fitStep(rows[static_cast<std::size_t>(fit.row)], fit.signal);
+  fit.step = fitStep(*unknown(unknown(rows.data()) + fit.row), fit.signal);
 }
 
 constexpr bool isConverged(Number length) { return length <= kConverged && length >= -kConverged; }
@@ -55,10 +55,11 @@ constexpr bool isConverged(Number length) { return length <= kConverged && lengt
 /// no answer.
 inline bool refine(const FitTable& rows, int mirrorSign, WindowFit& fit) {
   constexpr int kMaxSteps = 8;
-  FitStep step = fitStep(rows[static_cast<std::size_t>(fit.row)], fit.signal);
+  const FitRow* const first = unknown(rows.data());
+  FitStep step = fitStep(*unknown(first + fit.row), fit.signal);
   for (int left = kMaxSteps - 1; left > 0 && !isConverged(step.length); --left) {
     follow(fit, step.length, mirrorSign);
-    step = fitStep(rows[static_cast<std::size_t>(fit.row)], fit.signal);
+    step = fitStep(*unknown(first + fit.row), fit.signal);
   }
   fit.step = step;
   return isConverged(step.length);

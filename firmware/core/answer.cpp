@@ -8,18 +8,9 @@ namespace {
 /// Fits closer than this ran into the same maximum.
 constexpr PitchQ20 kSameAnswer = kOnePitch / 12;
 
-/// Fits farther from their middle gauge than this belong to another window.
-constexpr PitchQ20 kFarFromMiddle = kOnePitch * 53 / 100;
-
 /// A contact leaves about this part of its energy outside its window, as a power of two: up to 2 % with 16
 /// gauges and fewer, a few percent with more, which are not in doubt.
 constexpr int kTailShift = 6;
-
-bool withinCone(const TableConstants& constants, const Amplitudes& amplitudes) {
-  if (amplitudes.normal <= 0) return false;
-  const std::int32_t limit = mulHigh(amplitudes.normal, constants.friction_cone_q8 << 15);
-  return absolute(amplitudes.tangential) >> 9 <= limit;
-}
 
 /// Beyond the last row: what the fit looks for belongs to another window.
 bool walkedOut(const WindowFit& fit) { return fit.offset() >= kFitRows * kRowSpacing; }
@@ -41,10 +32,7 @@ void solve(const Problem& problem, InWindow window, Answer& answer) {
     if (!mayMove || fit.offset() <= kFarFromMiddle) break;
     changeWindow(problem, fit);
   }
-  answer.energy = fit.step.energy();
-  answer.windowEnergy = energyOf(fit.signal);
-  answer.amplitudes = amplitudesOf(rows[static_cast<std::size_t>(fit.row)], fit.step);
-  answer.pressed = withinCone(problem.tables.constants, answer.amplitudes);
+  judge(problem, answer);
 }
 
 bool isNear(const Problem& problem, PitchQ20 one, PitchQ20 other) {

@@ -37,6 +37,24 @@ struct Answer {
   }
 };
 
+/// Fits farther from their middle gauge than this belong to another window.
+inline constexpr PitchQ20 kFarFromMiddle = kOnePitch * 53 / 100;
+
+inline bool withinCone(const TableConstants& constants, const Amplitudes& amplitudes) {
+  if (amplitudes.normal <= 0) return false;
+  const std::int32_t limit = mulHigh(amplitudes.normal, constants.friction_cone_q8 << 15);
+  return absolute(amplitudes.tangential) >> 9 <= limit;
+}
+
+/// What a fit's last step says.
+inline void judge(const Problem& problem, Answer& answer) {
+  const WindowFit& fit = answer.fit;
+  answer.energy = fit.step.energy();
+  answer.windowEnergy = energyOf(fit.signal);
+  answer.amplitudes = amplitudesOf(*unknown(unknown(problem.tables.rows.data()) + fit.row), fit.step);
+  answer.pressed = withinCone(problem.tables.constants, answer.amplitudes);
+}
+
 /// Which window a fit ends in.
 enum class InWindow : std::uint8_t { kOwn, kNearest };
 
@@ -64,7 +82,7 @@ Standing standingOf(const Problem& problem, const Answer& answer);
 /// The best answer, and the next best that is not the same one: of that only what is reported, for the
 /// stack's sake.
 struct Contest {
-  Answer best;
+  Answer& best;
   Standing first{}, second{};
   Placement secondPlacement;
 

@@ -115,7 +115,7 @@ class Shortlist {
   for (std::size_t i = 0; i < (mayBeAlias(problem) ? kAway.size() : 2); ++i) {
     const int centre = wrapped(anchor + kAway[i], problem.gauges());
     const Signal signal = windowSignal(problem.strains, centre, problem.up);
-    list.add(bestTwo(scanned<20, kMaxScanStep>(problem.tables.rows, signal)).first, centre);
+    list.add(bestTwo<20>(scannedSides<20>(problem.tables.rows, signal, kScanReach)).first, centre);
   }
   return list;
 }
@@ -126,22 +126,21 @@ bool isAmbiguous(const Problem& problem, const Contest& contest) {
          contest.second.energy > contest.first.energy - marginOf(problem, contest.best.windowEnergy);
 }
 
-inline Fit reportOf(const Problem& problem, const Contest& contest, FitMode readings) {
-  const Answer& best = contest.best;
+inline Fit reportOf(const Problem& problem, const Answer& best, FitMode readings) {
   const Placement placement = best.placement(problem.gauges());
-  const bool alone = !contest.second.found;
-  return {.best = placement,
-          .alternative = alone ? placement : contest.secondPlacement,
-          .row = &problem.tables.rows[static_cast<std::size_t>(best.fit.row)],
-          .projection = best.fit.step.projection,
-          .information = best.fit.step.information,
-          .unexplained = best.windowEnergy - best.energy,
-          .windowEnergy = best.windowEnergy,
-          .up = static_cast<std::int8_t>(problem.up),
-          .centre = static_cast<std::uint8_t>(best.fit.centre),
-          .readings = readings,
-          .ambiguous = !alone && isAmbiguous(problem, contest),
-          .settled = best.admissible() && best.energy >> 1 > problem.noise};  // 64 variances
+  Fit fit;
+  fit.best = fit.alternative = placement;
+  fit.row = unknown(problem.tables.rows.data()) + best.fit.row;
+  fit.projection = best.fit.step.projection;
+  fit.information = best.fit.step.information;
+  fit.unexplained = best.windowEnergy - best.energy;
+  fit.windowEnergy = best.windowEnergy;
+  fit.up = static_cast<std::int8_t>(problem.up);
+  fit.centre = static_cast<std::uint8_t>(best.fit.centre);
+  fit.readings = readings;
+  fit.ambiguous = fit.reduced = false;
+  fit.settled = best.admissible() && best.energy >> 1 > problem.noise;  // 64 variances
+  return fit;
 }
 
 /// Leaves the answer to three readings if they lead where all seven do.
@@ -175,38 +174,59 @@ bool mayBeAsGood(const Problem& problem, int anchor, const Lead& lead, const Ans
   return lead.energy > most && !isNear(problem, anchor * kOnePitch + lead.offset, answer.fit.position());
 }
 
-/// After a first step from either of two peaks of a scan: follows the one that then explains more, and the
-/// other as far as it may be as good.
-[[gnu::noinline]] void followEither(const Problem& problem, const Signal& signal, int anchor,
-                                    const BestTwo& peaks, Contest& contest) {
-  Lead lead = leadFrom(problem, signal, peaks.first.row);
-  Lead rival = leadFrom(problem, signal, peaks.second.row);
-  if (rival.energy > lead.energy) std::swap(lead, rival);
-  contest.best.fit.start(signal, anchor, lead.row(), problem.mirrorSign());
-  solve(problem, InWindow::kNearest, contest.best);
-  if (!mayBeAsGood(problem, anchor, rival, contest.best, kOneStepShift)) return;
-  rival = leadFrom(problem, signal, rival.row());
-  if (!mayBeAsGood(problem, anchor, rival, contest.best, kTwoStepsShift)) return;
-  contest.first = standingOf(problem, contest.best);
-  enterFit(problem, InWindow::kNearest, anchor, rival.row(), contest);
+/// Two peaks of a scan, of which either may be the better: a first step tells where to start, and where the
+/// other leads.
+[[gnu::noinline]] void chooseStart(const Problem& problem, const Signal& signal, const BestTwo& peaks,
+                                   int& row, Lead& rival) {
+  row = peaks.first.row;
+  rival = leadFrom(problem, signal, peaks.second.row);
+  if (rival.energy <= peaks.first.energy) return;  // which a step from there only adds to
+  const Lead first = leadFrom(problem, signal, row);
+  const bool swaps = rival.energy > first.energy;
+  row = (swaps ? rival : first).row();
+  if (swaps) rival = first;
 }
 
-/// In the window of the sharpest bend, and beside it if its answer is in doubt.
-inline void searchAtBend(const Problem& problem, Contest& contest) {
-  const FitTable& rows = problem.tables.rows;
-  const Anchor found = deepestAnchor(problem);
-  const int anchor = found.gauge;
-  const Signal signal = windowSignal(problem.strains, anchor, problem.up);
-  const BestTwo peaks = bestTwo(scanned<kMaxScanStep / 2, kMaxScanStep>(rows, signal, found.reach));
-  if (peaks.second.energy > rivalLimit(problem, peaks.first.energy, kRivalShift)) {
-    followEither(problem, signal, anchor, peaks, contest);
-  } else {
-    contest.best.fit.start(signal, anchor, peaks.first.row, problem.mirrorSign());
-    solve(problem, InWindow::kNearest, contest.best);
+/// A rival may be as good as the answer, once another step is taken.
+[[gnu::noinline]] bool staysAsGood(const Problem& problem, const Signal& signal, int anchor, Lead& rival,
+                                   const Answer& answer) {
+  if (!mayBeAsGood(problem, anchor, rival, answer, kOneStepShift)) return false;
+  rival = leadFrom(problem, signal, rival.row());
+  return mayBeAsGood(problem, anchor, rival, answer, kTwoStepsShift);
+}
+
+Fit concluded(const Problem& problem, FitMode mode, Contest& contest) {
+  const FitMode readings =
+      mode == FitMode::kRefined ? FitMode::kRefined : settledByThree(problem, contest.best);
+  Fit fit = reportOf(problem, contest.best, readings);
+  if (contest.second.found) {
+    fit.alternative = contest.secondPlacement;
+    fit.ambiguous = isAmbiguous(problem, contest);
   }
-  if (!doubtful(problem, contest.best)) return;
-  contest.first = contest.first.found ? contest.first : standingOf(problem, contest.best);
-  enterBest(problem, startsBeside(problem, anchor), contest);
+  return fit;
+}
+
+/// What a search at the anchor comes to that the first answer doesn't end.
+[[gnu::noinline]] Fit searchedOn(const Problem& problem, FitMode mode, int anchor, const int* rivalRow,
+                                 Answer& answer) {
+  Contest contest{answer, {}, {}, {}};
+  if (answer.fit.offset() > kFarFromMiddle) solve(problem, InWindow::kNearest, answer);
+  if (rivalRow != nullptr) {
+    contest.first = standingOf(problem, answer);
+    enterFit(problem, InWindow::kNearest, anchor, *rivalRow, contest);
+  }
+  if (doubtful(problem, answer)) {
+    contest.first = contest.first.found ? contest.first : standingOf(problem, answer);
+    enterBest(problem, startsBeside(problem, anchor), contest);
+  }
+  return concluded(problem, mode, contest);
+}
+
+[[gnu::noinline]] Fit searchedEverywhere(const Problem& problem, FitMode mode) {
+  Answer answer;
+  Contest contest{answer, {}, {}, {}};
+  enterBest(problem, startsAnywhere(problem), contest);
+  return concluded(problem, mode, contest);
 }
 
 }  // namespace
@@ -214,15 +234,25 @@ inline void searchAtBend(const Problem& problem, Contest& contest) {
 Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t> strains_q32,
            std::uint32_t energy) {
   const Problem problem = problemOf(tables, strains_q32, energy);
-  Contest contest;
-  if (tables.constants.anchor_rule == AnchorRule::kExhaustive || isWeak(problem)) {
-    enterBest(problem, startsAnywhere(problem), contest);
-  } else {
-    searchAtBend(problem, contest);
-  }
-  const FitMode readings =
-      mode == FitMode::kRefined ? FitMode::kRefined : settledByThree(problem, contest.best);
-  return reportOf(problem, contest, readings);
+  if (tables.constants.anchor_rule == AnchorRule::kExhaustive || isWeak(problem))
+    return searchedEverywhere(problem, mode);
+  const Anchor anchor = deepestAnchor(problem);
+  const Signal signal = windowSignal(problem.strains, anchor.gauge, problem.up);
+  const BestTwo peaks = bestTwo(scannedSides(tables.rows, signal, anchor.reach));
+  int row = peaks.first.row;
+  Lead rival;
+  bool contested = peaks.second.energy > rivalLimit(problem, peaks.first.energy, kRivalShift);
+  if (contested) chooseStart(problem, signal, peaks, row, rival);
+  Answer answer;
+  answer.fit.start(signal, anchor.gauge, row, problem.mirrorSign());
+  answer.settled = refine(tables.rows, problem.mirrorSign(), answer.fit);
+  judge(problem, answer);
+  contested = contested && staysAsGood(problem, signal, anchor.gauge, rival, answer);
+  const bool ends = mode == FitMode::kRefined && !contested && answer.fit.offset() <= kFarFromMiddle &&
+                    !doubtful(problem, answer);
+  if (ends) return reportOf(problem, answer, FitMode::kRefined);
+  const int rivalRow = contested ? rival.row() : 0;
+  return searchedOn(problem, mode, anchor.gauge, contested ? &rivalRow : nullptr, answer);
 }
 
 }  // namespace strainfinger::firmware

@@ -28,7 +28,7 @@ struct Fit {
   bool settled = false;  ///< the fit converged, presses, stays within the friction cone, and is no mere noise
   /// If reduced: covariance of what the readings say along the two loads and the offset (tangent.hpp), in
   /// variances of a reading * 2^12.
-  std::array<std::int32_t, 6> covariance_q12{};
+  std::array<std::int32_t, 6> covariance_q12;
 };
 
 /// Fits one line contact to the strains of a ring that is touched; one strain a gauge, each within

@@ -25,34 +25,13 @@ struct Scan {
   Peak middle, minus, plus;
 };
 
-/// The two best of a scan; the second's energy is below 0 if there is one only.
-struct BestTwo {
-  Peak first, second;
-
-  void consider(const Peak& peak) {
-    if (peak.energy > first.energy) {
-      second = first;
-      first = peak;
-    } else if (peak.energy > second.energy) {
-      second = peak;
-    }
-  }
-};
-inline BestTwo bestTwo(const Scan& scan) {
-  BestTwo best{scan.middle, {-1, 0}};
-  best.consider(scan.minus);
-  best.consider(scan.plus);
-  return best;
-}
-
 inline void raise(Peak& peak, std::int32_t energy, int row) {
   if (energy > peak.energy) peak = {energy, row};
 }
 
-/// Scans a window at rows First, First + Step .. up to `reach`, which is beyond the second of them.
+/// Scans a window at rows First, First + Step .. up to kScanReach.
 template <int First, int Step>
-[[gnu::always_inline]] inline Scan scanned(const FitTable& rows, const Signal& signal,
-                                           int reach = kScanReach) {
+Scan scanned(const FitTable& rows, const Signal& signal) {
   constexpr int kSecond = First + Step;
   // Beside the middle gauge a weak tangential load has two peaks, no matter how close: exactly, then.
   const FitRow* at = unknown(&rows[First]);
@@ -60,7 +39,7 @@ template <int First, int Step>
   at = unknown(at + Step);
   const SideEnergies outer = roughEnergies(sideParts(*at, signal));
   Peak minus{outer.minus, -kSecond}, plus{outer.plus, kSecond};
-  for (int row = kSecond + Step; row <= reach; row += Step) {
+  for (int row = kSecond + Step; row <= kScanReach; row += Step) {
     at = unknown(at + Step);
     const SideEnergies energy = roughEnergies(sideParts(*at, signal));
     raise(minus, energy.minus, -row);
@@ -71,6 +50,43 @@ template <int First, int Step>
   if (plus.row == kSecond && plus.energy <= inner.plus) plus.energy = -1;
   if (middle.energy <= (middle.row < 0 ? minus.energy : plus.energy)) middle.energy = -1;
   return {middle, minus, plus};
+}
+
+/// The best offset of each side of a window, and what the sides explain beside the middle gauge.
+struct Sides {
+  Peak minus, plus;
+  std::int32_t innerMinus, innerPlus;
+};
+
+/// Scans a window at rows First, First + kMaxScanStep .. up to `reach`.
+template <int First = kMaxScanStep / 2>
+[[gnu::always_inline]] inline Sides scannedSides(const FitTable& rows, const Signal& signal, int reach) {
+  const FitRow* at = unknown(&rows[First]);
+  // Beside the middle gauge a weak tangential load has two peaks, no matter how close: exactly, then.
+  const SideEnergies inner = exactEnergies(sideParts(*at, signal));
+  Sides sides{{inner.minus, -First}, {inner.plus, First}, inner.minus, inner.plus};
+  for (int row = First + kMaxScanStep; row <= reach; row += kMaxScanStep) {
+    at = unknown(at + kMaxScanStep);
+    const SideEnergies energy = roughEnergies(sideParts(*at, signal));
+    raise(sides.minus, energy.minus, -row);
+    raise(sides.plus, energy.plus, row);
+  }
+  return sides;
+}
+
+/// The two best of a scan; the second's energy is below 0 if there is one only: a side that rises towards the
+/// middle and on to the other side has no peak of its own.
+struct BestTwo {
+  Peak first, second;
+};
+template <int First = kMaxScanStep / 2>
+inline BestTwo bestTwo(const Sides& sides) {
+  if (sides.minus.energy > sides.plus.energy) {
+    const bool foot = sides.plus.row == First && sides.plus.energy <= sides.innerMinus;
+    return {sides.minus, {foot ? -1 : sides.plus.energy, sides.plus.row}};
+  }
+  const bool foot = sides.minus.row == -First && sides.minus.energy <= sides.innerPlus;
+  return {sides.plus, {foot ? -1 : sides.minus.energy, sides.minus.row}};
 }
 
 /// Where a contact is likely, and how far from there.

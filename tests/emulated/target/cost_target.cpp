@@ -1,6 +1,8 @@
 // What a sample set costs, in instructions, stage by stage (see instruction_counter.hpp for how to run it).
 // Writes CSV to UART0: what was measured, instructions.
 #include <algorithm>
+#include <cstddef>
+#include <new>
 
 #include "firmware/app/finger.hpp"
 #include "firmware/board/cortex_m/linked_tables.hpp"
@@ -76,15 +78,13 @@ hal::SampleSet firmSamplesOf(std::uint32_t sample) {
   return converted(codes, true);
 }
 
-/// Where it is and how hard it presses, in both modes.
-firmware::Fit located(const InstructionCounter& counter, std::span<const std::int32_t> strains,
-                      std::uint32_t energy, const char* refined, const char* threePoint) {
-  firmware::Fit fit, three;
-  tell(refined,
-       counter.of([&] { fit = locate(kLinkedTables, firmware::FitMode::kRefined, strains, energy); }));
-  tell(threePoint,
-       counter.of([&] { three = locate(kLinkedTables, firmware::FitMode::kThreePoint, strains, energy); }));
-  return fit;
+/// A fit, made where it stays, as in Pipeline::look().
+const firmware::Fit& located(const InstructionCounter& counter, firmware::FitMode mode,
+                             std::span<const std::int32_t> strains, std::uint32_t energy, const char* what) {
+  alignas(firmware::Fit) static std::byte place[sizeof(firmware::Fit)];
+  const firmware::Fit* fit = nullptr;
+  tell(what, counter.of([&] { fit = new (place) firmware::Fit(locate(kLinkedTables, mode, strains, energy)); }));
+  return *fit;
 }
 
 /// The stages one by one, as Pipeline::process() and TouchReporter::frames() run them.
@@ -103,7 +103,8 @@ void stages(const InstructionCounter& counter, const hal::SampleSet& set, const 
     gate.update(constants, energy);
   }));
   if (!gate.touched()) return;
-  const firmware::Fit fit = located(counter, strains, energy, refined, threePoint);
+  located(counter, firmware::FitMode::kThreePoint, strains, energy, threePoint);
+  const firmware::Fit& fit = located(counter, firmware::FitMode::kRefined, strains, energy, refined);
   CanFrame contactFrame, forceFrame;
   tell("report", counter.of([&] {
     const auto frames = firmware::touchFrames(constants, estimate(constants, fit), {FingerFlag::kContact}, 1);

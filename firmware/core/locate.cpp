@@ -169,9 +169,13 @@ struct Lead {
 
 /// Whether what a lead leads to may be another answer, as good: it explains what the answer does but for
 /// noise and 1/2^shift.
-bool mayBeAsGood(const Problem& problem, int anchor, const Lead& lead, const Answer& answer, int shift) {
+struct Told {
+  std::int32_t energy, windowEnergy;
+  PitchQ20 offset;
+};
+bool mayBeAsGood(const Problem& problem, const Lead& lead, const Told& answer, int shift) {
   const std::int32_t most = answer.energy - (answer.energy >> shift) - marginOf(problem, answer.windowEnergy);
-  return lead.energy > most && !isNear(problem, anchor * kOnePitch + lead.offset, answer.fit.position());
+  return lead.energy > most && !isNear(problem, lead.offset, answer.offset);
 }
 
 /// Two peaks of a scan, of which either may be the better: a first step tells where to start, and where the
@@ -188,11 +192,10 @@ bool mayBeAsGood(const Problem& problem, int anchor, const Lead& lead, const Ans
 }
 
 /// A rival may be as good as the answer, once another step is taken.
-[[gnu::noinline]] bool staysAsGood(const Problem& problem, const Signal& signal, int anchor, Lead& rival,
-                                   const Answer& answer) {
-  if (!mayBeAsGood(problem, anchor, rival, answer, kOneStepShift)) return false;
+[[gnu::noinline]] bool staysAsGood(const Problem& problem, const Signal& signal, const Told& told, Lead& rival) {
+  if (!mayBeAsGood(problem, rival, told, kOneStepShift)) return false;
   rival = leadFrom(problem, signal, rival.row());
-  return mayBeAsGood(problem, anchor, rival, answer, kTwoStepsShift);
+  return mayBeAsGood(problem, rival, told, kTwoStepsShift);
 }
 
 Fit concluded(const Problem& problem, FitMode mode, Contest& contest) {
@@ -247,7 +250,7 @@ Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t>
   answer.fit.start(signal, anchor.gauge, row, problem.mirrorSign());
   answer.settled = refine(tables.rows, problem.mirrorSign(), answer.fit);
   judge(problem, answer);
-  contested = contested && staysAsGood(problem, signal, anchor.gauge, rival, answer);
+  contested = contested && staysAsGood(problem, signal, {answer.energy, answer.windowEnergy, answer.fit.side * answer.fit.offset()}, rival);
   const bool ends = mode == FitMode::kRefined && !contested && answer.fit.offset() <= kFarFromMiddle &&
                     !doubtful(problem, answer);
   if (ends) return reportOf(problem, answer, FitMode::kRefined);

@@ -41,43 +41,39 @@ int sharpestBend(std::span<const std::int32_t> strains) {
 
 /// Where sign * strain is least, the first of equals.
 template <int Sign>
-int deepest(std::span<const std::int32_t> strains) {
-  const std::int32_t* gauge = strains.data();
-  const std::int32_t* const end = gauge + strains.size();
+int deepest(const std::int32_t* gauge, int gauges) {
+  const std::int32_t* const first = gauge;
+  const std::int32_t* const end = gauge + gauges;
   const std::int32_t* found = gauge;
   std::int32_t least = std::numeric_limits<std::int32_t>::max();
-  const auto look = [&](const std::int32_t* at, std::int32_t reading) {
-    if (Sign * reading < least) {
-      asm("");
-      least = Sign * reading;
-      found = at;
-    }
-  };
   const auto lookAtTwo = [&] {
-    const std::int32_t even = gauge[0], odd = gauge[1];
-    look(gauge, even);
-    look(gauge + 1, odd);
+    const std::int32_t even = Sign * gauge[0], odd = Sign * gauge[1];
+    if (even < least) {
+      asm("");  // a branch: most are not the least so far
+      least = even;
+      found = gauge;
+    }
+    if (odd < least) {
+      asm("");
+      least = odd;
+      found = gauge + 1;
+    }
     gauge += 2;
   };
-  if (strains.size() % 4 != 0) lookAtTwo();
+  for (int left = gauges % 8; left > 0; left -= 2) lookAtTwo();
   while (gauge != end) {
     lookAtTwo();
     lookAtTwo();
+    lookAtTwo();
+    lookAtTwo();
   }
-  return static_cast<int>(found - strains.data());
+  return static_cast<int>(found - first);
 }
 
 }  // namespace
 
-Anchor deepestAnchor(const Problem& problem) {
-  const int gauge = problem.tables.constants.anchor_sign > 0 ? deepest<1>(problem.strains) : deepest<-1>(problem.strains);
-  const std::int32_t reading = raised(problem.strains[static_cast<std::size_t>(gauge)], problem.up) >> 16;
-  const std::uint32_t own = static_cast<std::uint32_t>(reading * reading) * 4;
-  const std::uint32_t all = static_cast<std::uint32_t>(problem.ringEnergy) >> 11;
-  if (own >= all * 26214) return {gauge, 12};
-  if (own >= all * 20316) return {gauge, 20};
-  if (own >= all * 5243) return {gauge, 28};
-  return {bendAnchor(problem), kScanReach};
+int deepestGauge(const std::int32_t* strains, int gauges, int sign) {
+  return sign > 0 ? deepest<1>(strains, gauges) : deepest<-1>(strains, gauges);
 }
 
 int bendAnchor(const Problem& problem) {

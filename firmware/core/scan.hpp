@@ -94,7 +94,19 @@ struct Anchor {
   int gauge;
   int reach;  ///< rows from the gauge, on either side
 };
-Anchor deepestAnchor(const Problem& problem);
+int deepestGauge(const std::int32_t* strains, int gauges, int sign);
+int bendAnchor(const Problem& problem);
+
+inline Anchor deepestAnchor(const Problem& problem) {
+  const int gauge = deepestGauge(problem.strains.data(), problem.gauges(), problem.tables.constants.anchor_sign);
+  const std::int32_t reading = raised(problem.strains[static_cast<std::size_t>(gauge)], problem.up) >> 16;
+  const std::uint32_t own = static_cast<std::uint32_t>(reading * reading) * 4;
+  const std::uint32_t all = static_cast<std::uint32_t>(problem.ringEnergy) >> 11;
+  if (own >= all * 26214) return {gauge, 12};
+  if (own >= all * 20316) return {gauge, 20};
+  if (own >= all * 5243) return {gauge, 28};
+  return {bendAnchor(problem), kScanReach};
+}
 
 /// The gauge nearest to the contact, or nearly: where the strains bend most. Within half a pitch in 94 % of
 /// contacts, within 0.6 in 99 %; the others lie midway between two gauges, two or three pitches away.

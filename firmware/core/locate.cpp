@@ -17,11 +17,10 @@ constexpr int kWeakShift = 5;
 constexpr int kAliasShift = 7;
 
 // Parts of the energy, as powers of two:
-constexpr int kRivalShift = 5;      ///< within 1/32 (and kNoiseUnit variances) a window's second peak may win
 constexpr int kStarterShift = 4;    ///< within 1/16 (and as many) a peak of another window may
 constexpr int kRoundingShift = 12;  ///< 1/4096 is lost in rounding
 constexpr int kAmbiguousShift = 14;  ///< rounding makes two fits differ by less than this
-constexpr int kOneStepShift = 8;     ///< .. after a single step by less than this ..
+constexpr int kOneStepShift = 10;     ///< .. after a single step by less than this ..
 constexpr int kTwoStepsShift = 12;   ///< .. and after a second by less than this
 constexpr int kOutsideShift = 3;     ///< a contact leaves less than 1/8 of its energy outside its window
 
@@ -47,27 +46,20 @@ std::int32_t marginOf(const Problem& problem, std::int32_t window) {
   return (isWeak(problem) ? 2 * twelveVariances : twelveVariances) + (window >> kAmbiguousShift);
 }
 
-/// A place to start a fit from.
-struct Start {
-  std::int32_t energy;
-  std::uint8_t centre;
-  std::int8_t row;
-};
-
 /// The best few of any number of starts, the best first.
 class Shortlist {
  public:
   Shortlist() { starts_.fill({-1, 0, 0}); }
-  void add(const Peak& peak, int centre) {
-    if (peak.energy <= starts_.back().energy) return;
+  void add(const Start& start) {
+    if (start.energy <= starts_.back().energy) return;
     auto at = starts_.end() - 1;
-    for (; at != starts_.begin() && peak.energy > (at - 1)->energy; --at) *at = *(at - 1);
-    *at = {peak.energy, static_cast<std::uint8_t>(centre), static_cast<std::int8_t>(peak.row)};
+    for (; at != starts_.begin() && start.energy > (at - 1)->energy; --at) *at = *(at - 1);
+    *at = start;
   }
   void add(const Scan& scan, int centre) {
-    add(scan.middle, centre);
-    add(scan.minus, centre);
-    add(scan.plus, centre);
+    add(startAt(centre, scan.middle));
+    add(startAt(centre, scan.minus));
+    add(startAt(centre, scan.plus));
   }
   const auto& starts() const { return starts_; }
 
@@ -109,13 +101,17 @@ class Shortlist {
 
 /// Contacts midway between two gauges may bend the strains most one, two or three gauges away: looks there,
 /// on either side of the windows two gauges off, and three where noise may tip the balance.
-[[gnu::noinline]] Shortlist startsBeside(const Problem& problem, int anchor) {
-  constexpr std::array kAway{-2, 2, -3, 3};
+[[gnu::noinline]] Shortlist startsBeside(const Problem& problem, const Region& region) {
+  constexpr std::array<std::int8_t, 4> kAway{-2, 2, -3, 3};
   Shortlist list;
+  if (region.lookedBeside && !mayBeAlias(problem)) {
+    for (const Start& start : region.besides) list.add(start);
+    return list;
+  }
   for (std::size_t i = 0; i < (mayBeAlias(problem) ? kAway.size() : 2); ++i) {
-    const int centre = wrapped(anchor + kAway[i], problem.gauges());
+    const int centre = wrapped(region.anchor + kAway[i], problem.gauges());
     const Signal signal = windowSignal(problem.strains, centre, problem.up);
-    list.add(bestTwo<20>(scannedSides<20>(problem.tables.rows, signal, kScanReach)).first, centre);
+    list.add(startAt(centre, bestTwo<20>(scannedSides<20>(problem.tables.rows, signal, kScanReach)).first));
   }
   return list;
 }
@@ -210,17 +206,17 @@ Fit concluded(const Problem& problem, FitMode mode, Contest& contest) {
 }
 
 /// What a search at the anchor comes to that the first answer doesn't end.
-[[gnu::noinline]] Fit searchedOn(const Problem& problem, FitMode mode, int anchor, const int* rivalRow,
-                                 Answer& answer) {
+[[gnu::noinline]] Fit searchedOn(const Problem& problem, FitMode mode, const Region& region,
+                                 const int* rivalRow, Answer& answer) {
   Contest contest{answer, {}, {}, {}};
   if (answer.fit.offset() > kFarFromMiddle) solve(problem, InWindow::kNearest, answer);
   if (rivalRow != nullptr) {
     contest.first = standingOf(problem, answer);
-    enterFit(problem, InWindow::kNearest, anchor, *rivalRow, contest);
+    enterFit(problem, InWindow::kNearest, region.centre, *rivalRow, contest);
   }
   if (doubtful(problem, answer)) {
     contest.first = contest.first.found ? contest.first : standingOf(problem, answer);
-    enterBest(problem, startsBeside(problem, anchor), contest);
+    enterBest(problem, startsBeside(problem, region), contest);
   }
   return concluded(problem, mode, contest);
 }
@@ -239,15 +235,16 @@ Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t>
   const Problem problem = problemOf(tables, strains_q32, energy);
   if (tables.constants.anchor_rule == AnchorRule::kExhaustive || isWeak(problem))
     return searchedEverywhere(problem, mode);
-  const Anchor anchor = deepestAnchor(problem);
-  const Signal signal = windowSignal(problem.strains, anchor.gauge, problem.up);
-  const BestTwo peaks = bestTwo(scannedSides(tables.rows, signal, anchor.reach));
+  Region region;
+  look(problem, region);
+  const Signal& signal = region.signal;
+  const BestTwo& peaks = region.peaks;
   int row = peaks.first.row;
   Lead rival;
-  bool contested = peaks.second.energy > rivalLimit(problem, peaks.first.energy, kRivalShift);
+  bool contested = mayWin(problem, peaks);
   if (contested) chooseStart(problem, signal, peaks, row, rival);
   Answer answer;
-  answer.fit.start(signal, anchor.gauge, row, problem.mirrorSign());
+  answer.fit.start(signal, region.centre, row, problem.mirrorSign());
   answer.settled = refine(tables.rows, problem.mirrorSign(), answer.fit);
   judge(problem, answer);
   contested = contested && staysAsGood(problem, signal, {answer.energy, answer.windowEnergy, answer.fit.side * answer.fit.offset()}, rival);
@@ -255,7 +252,7 @@ Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t>
                     !doubtful(problem, answer);
   if (ends) return reportOf(problem, answer, FitMode::kRefined);
   const int rivalRow = contested ? rival.row() : 0;
-  return searchedOn(problem, mode, anchor.gauge, contested ? &rivalRow : nullptr, answer);
+  return searchedOn(problem, mode, region, contested ? &rivalRow : nullptr, answer);
 }
 
 }  // namespace strainfinger::firmware

@@ -5,6 +5,11 @@
 namespace strainfinger::firmware {
 namespace {
 
+/// A window that leaves more than this part of the ring's energy, as a power of two, is the wrong one; at its
+/// edge, where wrong ones look right, more than that.
+constexpr int kLeftShift = 3;
+constexpr int kLeftAtEdgeShift = 4;
+
 /// Where sign * (s[i-1] - 2 s[i] + s[i+1]) is largest, the first of equals. Strains within +-2^29.
 template <int Sign>
 int sharpestBend(std::span<const std::int32_t> strains) {
@@ -70,15 +75,51 @@ int deepest(const std::int32_t* gauge, int gauges) {
   return static_cast<int>(found - first);
 }
 
+int bendAnchor(const Problem& problem) {
+  return problem.tables.constants.anchor_sign > 0 ? sharpestBend<1>(problem.strains)
+                                                  : sharpestBend<-1>(problem.strains);
+}
+
+/// Contacts midway between two gauges may bend the strains most two gauges away.
+[[gnu::noinline]] void lookBeside(const Problem& problem, Region& region) {
+  region.lookedBeside = true;
+  Start* start = region.besides.data();
+  for (const int away : {-2, 2}) {
+    const int centre = wrapped(region.anchor + away, problem.gauges());
+    const Signal signal = windowSignal(problem.strains, centre, problem.up);
+    const BestTwo peaks = bestTwo<20>(scannedSides<20>(problem.tables.rows, signal, kScanReach));
+    const bool better = peaks.first.energy > region.peaks.first.energy;
+    *start++ = better ? startAt(region.centre, region.peaks.first) : startAt(centre, peaks.first);
+    if (!better) continue;
+    region.centre = centre;
+    region.signal = signal;
+    region.peaks = peaks;
+  }
+}
+
+/// The same contact from the next gauge's window.
+void changeWindow(const Problem& problem, Region& region) {
+  Peak& best = region.peaks.first;
+  const int side = best.row < 0 ? -1 : 1;
+  region.centre = wrapped(region.centre + side, problem.gauges());
+  region.signal = windowSignal(problem.strains, region.centre, problem.up);
+  best.row -= side * kRowsPerPitch;
+}
+
 }  // namespace
 
 int deepestGauge(const std::int32_t* strains, int gauges, int sign) {
   return sign > 0 ? deepest<1>(strains, gauges) : deepest<-1>(strains, gauges);
 }
 
-int bendAnchor(const Problem& problem) {
-  return problem.tables.constants.anchor_sign > 0 ? sharpestBend<1>(problem.strains)
-                                                  : sharpestBend<-1>(problem.strains);
+void lookAtBend(const Problem& problem, Region& region) {
+  region.anchor = region.centre = bendAnchor(problem);
+  scanWindow<kMaxScanStep / 2>(problem, kScanReach, region);
+  const Peak& best = region.peaks.first;
+  const bool atEdge = absolute(best.row) == kScanReach;
+  const std::int32_t left = problem.ringEnergy >> (atEdge ? kLeftAtEdgeShift : kLeftShift);
+  if (best.energy < problem.ringEnergy - left - problem.noise) lookBeside(problem, region);
+  if (absolute(best.row) == kScanReach && !mayWin(problem, region.peaks)) changeWindow(problem, region);
 }
 
 }  // namespace strainfinger::firmware

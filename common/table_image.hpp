@@ -20,7 +20,7 @@ namespace strainfinger {
 static_assert(std::endian::native == std::endian::little, "the image is little-endian and is read in place");
 
 inline constexpr std::uint32_t kTableMagic = 0x42544653;  ///< "SFTB" in the file's first four bytes
-inline constexpr std::uint16_t kTableFormat = 2;          ///< raised with every change of the layout
+inline constexpr std::uint16_t kTableFormat = 3;          ///< raised with every change of the layout
 
 /// Gauges that one fit looks at: the nearest one and three on either side. With 16 gauges they hold all but
 /// 0.4 / 0.3 / 0.9 % of what the whole ring knows of angle, normal and tangential load.
@@ -35,6 +35,25 @@ inline constexpr int kFitRows = 44;
 /// Rows between the starts of a scan, either of the two: fewer cost more, more would step over a maximum.
 inline constexpr int kMinScanStep = 4;
 inline constexpr int kMaxScanStep = 8;
+
+/// Rows at which a scan may start and end.
+inline constexpr int kFirstScanRow = 4;
+inline constexpr int kLastScanRow = 36;
+
+/// Where to look for a contact, from the share that the deepest reading has of the ring's energy: the more,
+/// the nearer is the contact to that gauge. Rows to scan on either side of it; none where the contact may be
+/// too far from it for that, but no nearer to any gauge than `first`.
+struct ScanSpan {
+  std::uint8_t packed;  ///< first row / 4, last row / 4 * 16
+
+  constexpr int first() const { return (packed & 15) * 4; }
+  constexpr int last() const { return (packed >> 4) * 4; }
+  static constexpr ScanSpan of(int first, int last) {
+    return {static_cast<std::uint8_t>(first / 4 | last / 4 << 4)};
+  }
+  bool operator==(const ScanSpan&) const = default;
+};
+inline constexpr int kShares = 16;  ///< shares are told apart by sixteenths
 
 /// What the image was made from, as in finger.toml. The firmware carries it and doesn't look at it.
 struct TableParameters {
@@ -87,6 +106,7 @@ struct TableConstants {
   std::uint8_t gate_shift;  ///< the gate's energy is the sum of (strain >> gate_shift)^2
   AnchorRule anchor_rule;
   std::uint8_t scan_step;  ///< rows between the starts of a scan: half a step, 3/2, 5/2 .. of it
+  std::array<ScanSpan, kShares> scan_span;  ///< by the deepest reading's share
 };
 
 /// A signal over the window, folded about the middle gauge: middle, then sums of the pairs at distance
@@ -144,8 +164,8 @@ struct TableImage {
 };
 
 static_assert(std::is_trivially_copyable_v<TableImage>);
-static_assert(sizeof(TableParameters) == 104 && sizeof(TableConstants) == 48 && sizeof(FitRow) == 88);
-static_assert(sizeof(TableImage) == 16 + 104 + 48 + 88 * kFitRows, "no padding anywhere");
+static_assert(sizeof(TableParameters) == 104 && sizeof(TableConstants) == 64 && sizeof(FitRow) == 88);
+static_assert(sizeof(TableImage) == 16 + 104 + 64 + 88 * kFitRows, "no padding anywhere");
 
 /// Why an image was refused. The numbers go on the bus and into exit statuses: never reuse one.
 enum class TableFault : std::uint8_t {
@@ -175,13 +195,23 @@ inline constexpr int kMostGateShift = 14;
 
 constexpr bool isSign(int value) { return value == 1 || value == -1; }
 
+/// Scans end within the table, and step as their rows do.
+constexpr bool usable(ScanSpan span) {
+  const auto isStart = [](int row) {
+    return row >= kFirstScanRow && row <= kLastScanRow && (row - kFirstScanRow) % kMaxScanStep == 0;
+  };
+  return isStart(span.first()) && (span.last() == 0 || (isStart(span.last()) && span.last() >= span.first()));
+}
+
 /// What the firmware's loops and shifts rely on, and names that have a meaning.
 constexpr bool usable(const TableParameters& parameters, const TableConstants& constants) {
   return parameters.component <= StrainComponent::kShear && constants.gauge_count >= kMinGauges &&
          constants.gauge_count <= kMaxGauges && constants.gauge_count % 2 == 0 &&
          constants.gate_shift <= kMostGateShift && isSign(constants.mirror_sign) &&
          isSign(constants.anchor_sign) && constants.anchor_rule <= AnchorRule::kExhaustive &&
-         (constants.scan_step == kMinScanStep || constants.scan_step == kMaxScanStep);
+         (constants.scan_step == kMinScanStep || constants.scan_step == kMaxScanStep) &&
+         std::all_of(constants.scan_span.begin(), constants.scan_span.end(),
+                     [](ScanSpan span) { return usable(span); });
 }
 
 /// Products of readings with a column of weights fit their words if its length is 1, but for rounding.

@@ -17,10 +17,10 @@ constexpr int kWeakShift = 5;
 constexpr int kAliasShift = 7;
 
 // Parts of the energy, as powers of two:
-constexpr int kStarterShift = 4;    ///< within 1/16 (and as many) a peak of another window may
-constexpr int kRoundingShift = 12;  ///< 1/4096 is lost in rounding
+constexpr int kStarterShift = 4;     ///< within 1/16 (and as many) a peak of another window may
+constexpr int kRoundingShift = 12;   ///< 1/4096 is lost in rounding
 constexpr int kAmbiguousShift = 14;  ///< rounding makes two fits differ by less than this
-constexpr int kOneStepShift = 10;     ///< .. after a single step by less than this ..
+constexpr int kOneStepShift = 10;    ///< .. after a single step by less than this ..
 constexpr int kTwoStepsShift = 12;   ///< .. and after a second by less than this
 constexpr int kOutsideShift = 3;     ///< a contact leaves less than 1/8 of its energy outside its window
 
@@ -111,7 +111,8 @@ class Shortlist {
   for (std::size_t i = 0; i < (mayBeAlias(problem) ? kAway.size() : 2); ++i) {
     const int centre = wrapped(region.anchor + kAway[i], problem.gauges());
     const Signal signal = windowSignal(problem.strains, centre, problem.up);
-    list.add(startAt(centre, bestTwo<20>(scannedSides<20>(problem.tables.rows, signal, kScanReach)).first));
+    list.add(
+        startAt(centre, bestTwo(scannedSides(problem.tables.rows, signal, kMidwayRow, kScanReach)).first));
   }
   return list;
 }
@@ -188,7 +189,8 @@ bool mayBeAsGood(const Problem& problem, const Lead& lead, const Told& answer, i
 }
 
 /// A rival may be as good as the answer, once another step is taken.
-[[gnu::noinline]] bool staysAsGood(const Problem& problem, const Signal& signal, const Told& told, Lead& rival) {
+[[gnu::noinline]] bool staysAsGood(const Problem& problem, const Signal& signal, const Told& told,
+                                   Lead& rival) {
   if (!mayBeAsGood(problem, rival, told, kOneStepShift)) return false;
   rival = leadFrom(problem, signal, rival.row());
   return mayBeAsGood(problem, rival, told, kTwoStepsShift);
@@ -247,7 +249,9 @@ Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t>
   answer.fit.start(signal, region.centre, row, problem.mirrorSign());
   answer.settled = refine(tables.rows, problem.mirrorSign(), answer.fit);
   judge(problem, answer);
-  contested = contested && staysAsGood(problem, signal, {answer.energy, answer.windowEnergy, answer.fit.side * answer.fit.offset()}, rival);
+  contested = contested &&
+              staysAsGood(problem, signal,
+                          {answer.energy, answer.windowEnergy, answer.fit.side * answer.fit.offset()}, rival);
   const bool ends = mode == FitMode::kRefined && !contested && answer.fit.offset() <= kFarFromMiddle &&
                     !doubtful(problem, answer);
   if (ends) return reportOf(problem, answer, FitMode::kRefined);

@@ -87,7 +87,7 @@ int bendAnchor(const Problem& problem) {
   for (const int away : {-2, 2}) {
     const int centre = wrapped(region.anchor + away, problem.gauges());
     const Signal signal = windowSignal(problem.strains, centre, problem.up);
-    const BestTwo peaks = bestTwo<20>(scannedSides<20>(problem.tables.rows, signal, kScanReach));
+    const BestTwo peaks = bestTwo(scannedSides(problem.tables.rows, signal, kMidwayRow, kScanReach));
     const bool better = peaks.first.energy > region.peaks.first.energy;
     *start++ = better ? startAt(region.centre, region.peaks.first) : startAt(centre, peaks.first);
     if (!better) continue;
@@ -112,9 +112,9 @@ int deepestGauge(const std::int32_t* strains, int gauges, int sign) {
   return sign > 0 ? deepest<1>(strains, gauges) : deepest<-1>(strains, gauges);
 }
 
-void lookAtBend(const Problem& problem, Region& region) {
+void lookAtBend(const Problem& problem, int first, Region& region) {
   region.anchor = region.centre = bendAnchor(problem);
-  scanWindow<kMaxScanStep / 2>(problem, kScanReach, region);
+  scanWindow(problem, first, kScanReach, region);
   const Peak& best = region.peaks.first;
   const bool atEdge = absolute(best.row) == kScanReach;
   const std::int32_t left = problem.ringEnergy >> (atEdge ? kLeftAtEdgeShift : kLeftShift);

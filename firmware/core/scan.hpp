@@ -1,6 +1,7 @@
 #pragma once
 // Where a fit should start.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -9,8 +10,10 @@
 
 namespace strainfinger::firmware {
 
-/// A scan reaches so many rows: a little beyond half a pitch, where the next window takes over.
-inline constexpr int kScanReach = 36;
+/// A scan reaches a little beyond half a pitch, where the next window takes over.
+inline constexpr int kScanReach = kLastScanRow;
+/// Contacts midway between two gauges are looked for from here on.
+inline constexpr int kMidwayRow = 20;
 
 /// The offset of a part of a window that explains most.
 struct Peak {
@@ -28,15 +31,15 @@ struct Sides {
   std::int32_t innerMinus, innerPlus;
 };
 
-/// Energies that the seven gauges explain with the contact at rows First, First + kMaxScanStep .. up to
-/// `reach`, on either side.
-template <int First>
-[[gnu::always_inline]] inline Sides scannedSides(const FitTable& rows, const Signal& signal, int reach) {
-  const FitRow* at = unknown(&rows[First]);
+/// Energies that the seven gauges explain with the contact at rows first, first + kMaxScanStep .. up to
+/// `last`, on either side.
+[[gnu::always_inline]] inline Sides scannedSides(const FitTable& rows, const Signal& signal, int first,
+                                                 int last) {
+  const FitRow* at = unknown(unknown(rows.data()) + first);
   // Beside the middle gauge a weak tangential load has two peaks, no matter how close: exactly, then.
   const SideEnergies inner = exactEnergies(sideParts(*at, signal));
-  Sides sides{{inner.minus, -First}, {inner.plus, First}, inner.minus, inner.plus};
-  for (int row = First + kMaxScanStep; row <= reach; row += kMaxScanStep) {
+  Sides sides{{inner.minus, -first}, {inner.plus, first}, inner.minus, inner.plus};
+  for (int row = first + kMaxScanStep; row <= last; row += kMaxScanStep) {
     at = unknown(at + kMaxScanStep);
     const SideEnergies energy = roughEnergies(sideParts(*at, signal));
     raise(sides.minus, energy.minus, -row);
@@ -45,17 +48,17 @@ template <int First>
   return sides;
 }
 
-/// The two best starts of a window: one a side, but for a side that rises towards the middle and on beyond it.
+/// The two best starts of a window: one a side, but for a side that rises towards the middle and on beyond
+/// it.
 struct BestTwo {
   Peak first, second;
 };
-template <int First>
 inline BestTwo bestTwo(const Sides& sides) {
   if (sides.minus.energy > sides.plus.energy) {
-    const bool foot = sides.plus.row == First && sides.plus.energy <= sides.innerMinus;
+    const bool foot = sides.plus.row == kFirstScanRow && sides.plus.energy <= sides.innerMinus;
     return {sides.minus, {foot ? -1 : sides.plus.energy, sides.plus.row}};
   }
-  const bool foot = sides.minus.row == -First && sides.minus.energy <= sides.innerPlus;
+  const bool foot = sides.minus.row == -kFirstScanRow && sides.minus.energy <= sides.innerPlus;
   return {sides.plus, {foot ? -1 : sides.minus.energy, sides.minus.row}};
 }
 
@@ -84,32 +87,35 @@ struct Region {
   bool lookedBeside = false;     ///< the windows two gauges from there were scanned ..
   std::array<Start, 2> besides;  ///< .. and explain less
 };
-template <int First>
-[[gnu::always_inline]] inline void scanWindow(const Problem& problem, int reach, Region& region) {
+[[gnu::always_inline]] inline void scanWindow(const Problem& problem, int first, int last, Region& region) {
   region.signal = windowSignal(problem.strains, region.centre, problem.up);
-  region.peaks = bestTwo<First>(scannedSides<First>(problem.tables.rows, region.signal, reach));
+  region.peaks = bestTwo(scannedSides(problem.tables.rows, region.signal, first, last));
 }
 
 /// The gauge with the largest reading of a pressing load's sign, the first of equals.
 int deepestGauge(const std::int32_t* strains_q32, int gauges, int sign);
 
-/// Finds a start where the strains bend most: within half a pitch in 94 % of contacts, within 0.6 in 99 %. The
-/// others lie midway between two gauges, two or three pitches away: what explains too little is looked for
-/// there, too.
-void lookAtBend(const Problem& problem, Region& region);
+/// Finds a start where the strains bend most: within half a pitch in 94 % of contacts, within 0.6 in 99 %.
+/// The others lie midway between two gauges, two or three pitches away: what explains too little is looked
+/// for there, too. Scans from row `first` on.
+void lookAtBend(const Problem& problem, int first, Region& region);
 
-/// Finds a start. The more of the ring's energy is in a single reading, the nearer is the contact to that gauge:
-/// most contacts are looked for there and nowhere else, at two to four of the five offsets of a scan.
+/// Share of the ring's energy that a single reading has, in sixteenths.
+inline std::size_t shareOf(const Problem& problem, int gauge) {
+  const std::int32_t reading = raised(problem.strains[static_cast<std::size_t>(gauge)], problem.up) >> 16;
+  const std::int32_t own = (reading * reading) >> 2, unit = (problem.ringEnergy >> 4) + 1;
+  return static_cast<std::size_t>(std::min(own / unit, kShares - 1));
+}
+
+/// Finds a start: most contacts are looked for around the deepest reading and nowhere else, at two or three
+/// of the five offsets of a scan (see ScanSpan).
 inline void look(const Problem& problem, Region& region) {
+  const TableConstants& constants = problem.tables.constants;
   region.anchor = region.centre =
-      deepestGauge(problem.strains.data(), problem.gauges(), problem.tables.constants.anchor_sign);
-  const std::int32_t reading =
-      raised(problem.strains[static_cast<std::size_t>(region.centre)], problem.up) >> 16;
-  const std::uint32_t own = static_cast<std::uint32_t>(reading * reading) * 4;
-  const std::uint32_t all = static_cast<std::uint32_t>(problem.ringEnergy) >> 11;
-  if (own < all * 5243) return lookAtBend(problem, region);
-  const int reach = own >= all * 26214 ? 12 : own >= all * 20316 ? 20 : 28;
-  scanWindow<kMaxScanStep / 2>(problem, reach, region);
+      deepestGauge(problem.strains.data(), problem.gauges(), constants.anchor_sign);
+  const ScanSpan span = constants.scan_span[shareOf(problem, region.centre)];
+  if (span.last() == 0) return lookAtBend(problem, span.first(), region);
+  scanWindow(problem, span.first(), span.last(), region);
 }
 
 /// Three peaks of a window that is scanned completely: the two offsets beside the middle gauge, and what lies

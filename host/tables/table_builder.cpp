@@ -9,6 +9,7 @@
 #include "host/base/failure.hpp"
 #include "host/model/impulse_response.hpp"
 #include "host/tables/fit_table.hpp"
+#include "host/tables/scan_spans.hpp"
 #include "host/tables/tail_energy.hpp"
 
 namespace strainfinger::tables {
@@ -166,6 +167,7 @@ TableImage buildTableImage(const config::FingerConfig& config) {
   fillLoads(image.constants, peak, exponent);
   image.constants.tail_q16 =
       tail_q16(tailEnergy(response, config.gauges.count, frictionCone(config.contact)));
+  image.constants.scan_span = scanSpans(response, config.gauges.count, frictionCone(config.contact));
   image.rows = fitTable(fits, exponent);
   image.crc32 = crc32(checkedBytes(image));
   if (!hasOnePeak(config.gauges)) searchEverywhere(image);

@@ -19,13 +19,44 @@ std::int32_t strainOf(const Calibration& calibration, std::uint16_t code, std::s
   return mulHigh((std::int32_t{code} << kCodeBits) - calibration.zero_q15[gauge], calibration.gain[gauge]);
 }
 
-void condition(const TableConstants& constants, const Calibration& calibration, Codes codes,
-               Readings& readings) {
-  readings.saturated = 0;
-  for (std::size_t i = 0; i < codes.size(); ++i) {
-    readings.strain_q32[i] = strainOf(calibration, codes[i], i);
-    if (codes[i] == 0 || codes[i] >= constants.adc_rail) readings.saturated |= 1u << i;
+void condition(const Calibration& calibration, Codes codes, Readings& readings) {
+  const std::uint16_t* code = codes.data();
+  const std::int32_t* zero = calibration.zero_q15.data();
+  const std::int32_t* gain = calibration.gain.data();
+  std::int32_t* strain = readings.strain_q32.data();
+  const auto conditionTwo = [&](std::ptrdiff_t i) {  // in this order: loads and stores of two words
+    const std::int32_t zero1 = zero[i], zero2 = zero[i + 1];
+    const std::int32_t gain1 = gain[i], gain2 = gain[i + 1];
+    const std::int32_t first = mulHigh((std::int32_t{code[i]} << kCodeBits) - zero1, gain1);
+    const std::int32_t second = mulHigh((std::int32_t{code[i + 1]} << kCodeBits) - zero2, gain2);
+    strain[i] = first;
+    strain[i + 1] = second;
+  };
+  const auto advance = [&](std::ptrdiff_t by) {
+    code += by;
+    zero += by;
+    gain += by;
+    strain += by;
+  };
+  std::size_t left = codes.size();
+  for (; left >= 8; left -= 8) {
+    conditionTwo(0);
+    conditionTwo(2);
+    conditionTwo(4);
+    conditionTwo(6);
+    advance(8);
   }
+  for (; left > 0; --left) {
+    *strain = mulHigh((std::int32_t{*code} << kCodeBits) - *zero, *gain);
+    advance(1);
+  }
+}
+
+std::uint32_t saturatedGauges(const TableConstants& constants, Codes codes) {
+  std::uint32_t saturated = 0;
+  for (std::size_t i = 0; i < codes.size(); ++i)
+    if (codes[i] == 0 || codes[i] >= constants.adc_rail) saturated |= 1u << i;
+  return saturated;
 }
 
 bool ZeroAverage::add(Codes codes) {

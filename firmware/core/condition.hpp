@@ -27,7 +27,6 @@ std::int32_t strainOf(const Calibration& calibration, std::uint16_t code, std::s
 
 struct Readings {
   std::array<std::int32_t, kMaxGauges> strain_q32{};
-  std::uint32_t saturated = 0;  ///< bit i: gauge i was at a rail of its converter, its strain is a bound
 
   std::span<const std::int32_t> strains(int gauges) const {
     return std::span(strain_q32).first(static_cast<std::size_t>(gauges));
@@ -37,8 +36,10 @@ struct Readings {
 /// strain = (code * 2^15 - zero) * gain / 2^32. Formats: 31-bit difference (both terms lie in [0, 2^31)),
 /// gain below 2^31, high product rounded down: at most 1 LSB (2.3e-10) low, no overflow for any code, zero
 /// and gain >= 0.
-void condition(const TableConstants& constants, const Calibration& calibration, Codes codes,
-               Readings& readings);
+void condition(const Calibration& calibration, Codes codes, Readings& readings);
+
+/// Bit i: gauge i is at a rail of its converter, its strain is a bound.
+std::uint32_t saturatedGauges(const TableConstants& constants, Codes codes);
 
 /// Averages sample sets into zeros. Nothing may touch the finger meanwhile.
 class ZeroAverage {

@@ -28,7 +28,6 @@ Made(Make) -> Made<Make>;
 
 /// Not inlined, nor are the other stages that need much stack: none needs the others'.
 [[gnu::noinline]] void Pipeline::look() {
-  energy_ = gateEnergy(constants(), strains());
   observation_.fit.reset();
   if (!gate_.update(constants(), energy_)) return;
   if (observation_.leftOut == 0) {
@@ -43,6 +42,7 @@ Made(Make) -> Made<Make>;
 void Pipeline::lookWithout(GaugeSet gauges) {
   observation_.leftOut |= gauges;
   clear(observation_.leftOut, strains());
+  energy_ = gateEnergy(constants(), strains());
   look();
 }
 
@@ -50,7 +50,7 @@ void Pipeline::lookWithout(GaugeSet gauges) {
 GaugeSet Pipeline::implausiblySaturated(Codes codes) const {
   GaugeSet gauges = 0;
   for (std::size_t i = 0; i < codes.size(); ++i) {
-    if ((readings_.saturated >> i & 1) == 0) continue;
+    if ((observation_.saturated >> i & 1) == 0) continue;
     const std::int64_t measured = strainOf(calibration_, codes[i], i), predicted = readings_.strain_q32[i];
     const bool beyond = measured < 0 ? predicted < measured * 3 / 4 : predicted > measured * 3 / 4;
     if (!beyond) gauges |= 1u << i;
@@ -105,10 +105,12 @@ void Pipeline::takeZero(const ZeroAverage& zero) {
 }
 
 const Observation& Pipeline::process(Codes codes) {
-  condition(constants(), calibration_, codes, readings_);
-  observation_.saturated = readings_.saturated;
+  condition(calibration_, codes, readings_);
+  energy_ = gateEnergy(constants(), strains());
+  // What is at a rail and yet no touch does no harm.
+  observation_.saturated = energy_ < constants().gate_off ? 0 : saturatedGauges(constants(), codes);
   observation_.leftOut = 0;
-  const GaugeSet known = watch_.outOfUse() | readings_.saturated;
+  const GaugeSet known = watch_.outOfUse() | observation_.saturated;
   known != 0 ? lookWithout(known) : look();
   GaugeSet accused = 0;
   if (observation_.fit || observation_.saturated != 0) {

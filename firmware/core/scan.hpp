@@ -104,7 +104,7 @@ void lookAtBend(const Problem& problem, int first, Region& region);
 inline std::size_t shareOf(const Problem& problem, int gauge) {
   const std::int32_t reading = raised(problem.strains[static_cast<std::size_t>(gauge)], problem.up) >> 16;
   const std::int32_t own = (reading * reading) >> 2, unit = (problem.ringEnergy >> 4) + 1;
-  return static_cast<std::size_t>(std::min(own / unit, kShares - 1));
+  return static_cast<std::size_t>(std::min<std::int32_t>(own / unit, kShares - 1));
 }
 
 /// Finds a start: most contacts are looked for around the deepest reading and nowhere else, at two or three

@@ -96,7 +96,7 @@ void stages(const InstructionCounter& counter, const hal::SampleSet& set, const 
   firmware::ContactGate gate;
   std::uint32_t energy = 0;
   tell("condition",
-       counter.of([&] { condition(constants, calibration, firmware::Codes(set).first(kGauges), readings); }));
+       counter.of([&] { condition(calibration, firmware::Codes(set).first(kGauges), readings); }));
   const auto strains = readings.strains(kGauges);
   tell("gate", counter.of([&] {
     energy = firmware::gateEnergy(constants, strains);

@@ -30,7 +30,7 @@ TEST_GROUP(Condition) {
     for (int first = 0; first < kAllCodes; first += kMaxGauges) {
       for (std::size_t i = 0; i < codes.size(); ++i)
         codes[i] = static_cast<std::uint16_t>(first + static_cast<int>(i));
-      condition(constants, calibration, codes, readings);
+      condition(calibration, codes, readings);
       for (std::size_t i = 0; i < codes.size(); ++i) visit(codes[i], readings.strain_q32[i]);
     }
   }
@@ -46,8 +46,7 @@ TEST_GROUP(Condition) {
   }
 
   std::uint32_t saturatedBy(std::vector<std::uint16_t> codes) {
-    condition(constants, calibration, codes, readings);
-    return readings.saturated;
+    return saturatedGauges(constants, codes);
   }
 };
 
@@ -175,7 +174,7 @@ TEST(ZeroAverage, MakesTheSameCodesNoStrain) {
     calibration.gain.fill(kMax);
     average.writeTo(calibration);
     Readings readings;
-    condition(constants, calibration, std::array{static_cast<std::uint16_t>(code)}, readings);
+    condition(calibration, std::array{static_cast<std::uint16_t>(code)}, readings);
     LONGS_EQUAL(0, readings.strain_q32[0]);
   }
 }

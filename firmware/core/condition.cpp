@@ -38,17 +38,17 @@ void condition(const Calibration& calibration, Codes codes, Readings& readings) 
     gain += by;
     strain += by;
   };
-  std::size_t left = codes.size();
-  for (; left >= 8; left -= 8) {
+  const std::uint16_t* const end = code + codes.size();
+  for (std::size_t left = codes.size() % 8; left > 0; --left) {
+    *strain = mulHigh((std::int32_t{*code} << kCodeBits) - *zero, *gain);
+    advance(1);
+  }
+  while (code != end) {
     conditionTwo(0);
     conditionTwo(2);
     conditionTwo(4);
     conditionTwo(6);
     advance(8);
-  }
-  for (; left > 0; --left) {
-    *strain = mulHigh((std::int32_t{*code} << kCodeBits) - *zero, *gain);
-    advance(1);
   }
 }
 

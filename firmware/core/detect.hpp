@@ -48,8 +48,12 @@ class ContactGate {
  public:
   bool touched() const { return touched_; }
   bool update(const TableConstants& constants, std::uint32_t energy) {
-    touched_ = energy >= (touched_ ? constants.gate_off : constants.gate_on);
+    touched_ = passes(constants, energy);
     return touched_;
+  }
+  /// What update() will say.
+  bool passes(const TableConstants& constants, std::uint32_t energy) const {
+    return energy >= (touched_ ? constants.gate_off : constants.gate_on);
   }
 
  private:

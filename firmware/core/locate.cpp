@@ -108,12 +108,8 @@ class Shortlist {
     for (const Start& start : region.besides) list.add(start);
     return list;
   }
-  for (std::size_t i = 0; i < (mayBeAlias(problem) ? kAway.size() : 2); ++i) {
-    const int centre = wrapped(region.anchor + kAway[i], problem.gauges());
-    const Signal signal = windowSignal(problem.strains, centre, problem.up);
-    list.add(
-        startAt(centre, bestTwo(scannedSides(problem.tables.rows, signal, kMidwayRow, kScanReach)).first));
-  }
+  for (std::size_t i = 0; i < (mayBeAlias(problem) ? kAway.size() : 2); ++i)
+    list.add(midwayStart(problem, wrapped(region.anchor + kAway[i], problem.gauges())));
   return list;
 }
 

@@ -108,7 +108,7 @@ const Observation& Pipeline::process(Codes codes) {
   condition(calibration_, codes, readings_);
   energy_ = gateEnergy(constants(), strains());
   // What is at a rail and yet no touch does no harm.
-  observation_.saturated = energy_ < constants().gate_off ? 0 : saturatedGauges(constants(), codes);
+  observation_.saturated = gate_.passes(constants(), energy_) ? saturatedGauges(constants(), codes) : 0;
   observation_.leftOut = 0;
   const GaugeSet known = watch_.outOfUse() | observation_.saturated;
   known != 0 ? lookWithout(known) : look();

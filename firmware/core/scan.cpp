@@ -5,9 +5,10 @@
 namespace strainfinger::firmware {
 namespace {
 
-/// A window that leaves more than this part of the ring's energy, as a power of two, is the wrong one; at its
-/// edge, where wrong ones look right, more than that.
+/// A scan that leaves more than this part of the ring's energy, as a power of two, is in the wrong window: contacts
+/// midway between two gauges may bend the strains most two gauges away, and are looked for there.
 constexpr int kLeftShift = 3;
+/// They often look right at that window's edge away from them, but for this part; they are then three gauges off.
 constexpr int kLeftAtEdgeShift = 4;
 
 /// Where sign * (s[i-1] - 2 s[i] + s[i+1]) is largest, the first of equals. Strains within +-2^29.
@@ -80,21 +81,15 @@ int bendAnchor(const Problem& problem) {
                                                   : sharpestBend<-1>(problem.strains);
 }
 
-/// Contacts midway between two gauges may bend the strains most two gauges away.
-[[gnu::noinline]] void lookBeside(const Problem& problem, Region& region) {
-  region.lookedBeside = true;
-  Start* start = region.besides.data();
-  for (const int away : {-2, 2}) {
-    const int centre = wrapped(region.anchor + away, problem.gauges());
-    const Signal signal = windowSignal(problem.strains, centre, problem.up);
-    const BestTwo peaks = bestTwo(scannedSides(problem.tables.rows, signal, kMidwayRow, kScanReach));
-    const bool better = peaks.first.energy > region.peaks.first.energy;
-    *start++ = better ? startAt(region.centre, region.peaks.first) : startAt(centre, peaks.first);
-    if (!better) continue;
-    region.centre = centre;
-    region.signal = signal;
-    region.peaks = peaks;
-  }
+/// Takes another start if it is better. Returns the one that is not taken.
+Start lookAlso(const Problem& problem, int centre, Region& region) {
+  const Start other = midwayStart(problem, wrapped(centre, problem.gauges()));
+  if (other.energy <= region.peaks.first.energy) return other;
+  const Start before = startAt(region.centre, region.peaks.first);
+  region.centre = other.centre;
+  region.signal = windowSignal(problem.strains, other.centre, problem.up);
+  region.peaks = {{other.energy, other.row}, {-1, 0}};
+  return before;
 }
 
 /// The same contact from the next gauge's window.
@@ -112,13 +107,28 @@ int deepestGauge(const std::int32_t* strains, int gauges, int sign) {
   return sign > 0 ? deepest<1>(strains, gauges) : deepest<-1>(strains, gauges);
 }
 
+Start midwayStart(const Problem& problem, int centre) {
+  const Signal signal = windowSignal(problem.strains, centre, problem.up);
+  const Sides sides = scannedSides(problem.tables.rows, signal, kMidwayRow, kScanReach);
+  return startAt(centre, sides.minus.energy > sides.plus.energy ? sides.minus : sides.plus);
+}
+
 void lookAtBend(const Problem& problem, int first, Region& region) {
   region.anchor = region.centre = bendAnchor(problem);
   scanWindow(problem, first, kScanReach, region);
   const Peak& best = region.peaks.first;
-  const bool atEdge = absolute(best.row) == kScanReach;
-  const std::int32_t left = problem.ringEnergy >> (atEdge ? kLeftAtEdgeShift : kLeftShift);
-  if (best.energy < problem.ringEnergy - left - problem.noise) lookBeside(problem, region);
+  const auto leaves = [&](int shift) {
+    return best.energy < problem.ringEnergy - (problem.ringEnergy >> shift) - problem.noise;
+  };
+  const auto also = [&](int away) {
+    return lookAlso(problem, region.anchor + away, region);
+  };
+  if (absolute(best.row) == kScanReach) {
+    if (leaves(kLeftAtEdgeShift)) also(best.row < 0 ? 3 : -3);
+  } else if (leaves(kLeftShift)) {
+    region.besides = {also(-2), also(2)};
+    region.lookedBeside = true;
+  }
   if (absolute(best.row) == kScanReach && !mayWin(problem, region.peaks)) changeWindow(problem, region);
 }
 

@@ -95,6 +95,9 @@ struct Region {
 /// The gauge with the largest reading of a pressing load's sign, the first of equals.
 int deepestGauge(const std::int32_t* strains_q32, int gauges, int sign);
 
+/// The best start between kMidwayRow and the edge of a window.
+Start midwayStart(const Problem& problem, int centre);
+
 /// Finds a start where the strains bend most: within half a pitch in 94 % of contacts, within 0.6 in 99 %.
 /// The others lie midway between two gauges, two or three pitches away: what explains too little is looked
 /// for there, too. Scans from row `first` on.

@@ -99,18 +99,24 @@ class Shortlist {
   return list;
 }
 
-/// Contacts midway between two gauges may bend the strains most one, two or three gauges away: looks there,
-/// on either side of the windows two gauges off, and three where noise may tip the balance.
-[[gnu::noinline]] Shortlist startsBeside(const Problem& problem, const Region& region) {
+/// Contacts midway between two gauges may bend the strains most one, two or three gauges away: enters what is
+/// there, on either side of the windows two gauges off, and three where noise may tip the balance.
+[[gnu::noinline]] void enterBeside(const Problem& problem, const Region& region, Contest& contest) {
   constexpr std::array<std::int8_t, 4> kAway{-2, 2, -3, 3};
-  Shortlist list;
+  std::array<Start, 4> starts;
+  std::size_t count = 2;
   if (region.lookedBeside && !mayBeAlias(problem)) {
-    for (const Start& start : region.besides) list.add(start);
-    return list;
+    std::copy(region.besides.begin(), region.besides.end(), starts.begin());
+  } else {
+    count = mayBeAlias(problem) ? 4 : 2;
+    for (std::size_t i = 0; i < count; ++i)
+      starts[i] = midwayStart(problem, wrapped(region.anchor + kAway[i], problem.gauges()));
   }
-  for (std::size_t i = 0; i < (mayBeAlias(problem) ? kAway.size() : 2); ++i)
-    list.add(midwayStart(problem, wrapped(region.anchor + kAway[i], problem.gauges())));
-  return list;
+  std::int32_t best = 0;
+  for (std::size_t i = 0; i < count; ++i) best = std::max(best, starts[i].energy);
+  for (std::size_t i = 0; i < count; ++i)
+    if (starts[i].energy > rivalLimit(problem, best, kStarterShift))
+      enterFit(problem, InWindow::kOwn, starts[i].centre, starts[i].row, contest);
 }
 
 /// The runner-up explains the readings as well, within noise.
@@ -214,7 +220,7 @@ Fit concluded(const Problem& problem, FitMode mode, Contest& contest) {
   }
   if (doubtful(problem, answer)) {
     contest.first = contest.first.found ? contest.first : standingOf(problem, answer);
-    enterBest(problem, startsBeside(problem, region), contest);
+    enterBeside(problem, region, contest);
   }
   return concluded(problem, mode, contest);
 }

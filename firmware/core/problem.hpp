@@ -50,7 +50,7 @@ inline std::int32_t noiseEnergy(const TableConstants& constants, int up) {
   const int down = 2 * (16 - up) + 2 - constants.noise_variance_exponent;
   if (down < 2) return kMost;
   if (down > 28) return 1;
-  return std::clamp<std::int32_t>(static_cast<std::int32_t>(variances >> down), 1, kMost);
+  return std::max<std::int32_t>(static_cast<std::int32_t>(variances >> down), 1);
 }
 
 /// `energy`: gateEnergy() of the strains.

@@ -5,11 +5,8 @@
 namespace strainfinger::firmware {
 namespace {
 
-/// A scan that leaves more than this part of the ring's energy, as a power of two, is in the wrong window: contacts
-/// midway between two gauges may bend the strains most two gauges away, and are looked for there.
+/// A scan that leaves more than this part of the ring's energy, as a power of two, is in the wrong window.
 constexpr int kLeftShift = 3;
-/// They often look right at that window's edge away from them, but for this part; they are then three gauges off.
-constexpr int kLeftAtEdgeShift = 4;
 
 /// Where sign * (s[i-1] - 2 s[i] + s[i+1]) is largest, the first of equals. Strains within +-2^29.
 template <int Sign>
@@ -34,8 +31,15 @@ int sharpestBend(std::span<const std::int32_t> strains) {
     look(gauge + 1, intoEven - intoOdd);
     gauge += 2;
   };
-  if (strains.size() % 4 == 0) lookAtTwo();
+  const std::size_t inner = strains.size() - 2;
+  if (inner % 4 != 0) lookAtTwo();
+  if (inner % 8 >= 4) {
+    lookAtTwo();
+    lookAtTwo();
+  }
   while (gauge + 1 != last) {
+    lookAtTwo();
+    lookAtTwo();
     lookAtTwo();
     lookAtTwo();
   }
@@ -117,17 +121,16 @@ void lookAtBend(const Problem& problem, int first, Region& region) {
   region.anchor = region.centre = bendAnchor(problem);
   scanWindow(problem, first, kScanReach, region);
   const Peak& best = region.peaks.first;
-  const auto leaves = [&](int shift) {
-    return best.energy < problem.ringEnergy - (problem.ringEnergy >> shift) - problem.noise;
-  };
-  const auto also = [&](int away) {
-    return lookAlso(problem, region.anchor + away, region);
-  };
-  if (absolute(best.row) == kScanReach) {
-    if (leaves(kLeftAtEdgeShift)) also(best.row < 0 ? 3 : -3);
-  } else if (leaves(kLeftShift)) {
-    region.besides = {also(-2), also(2)};
-    region.lookedBeside = true;
+  const auto also = [&](int away) { return lookAlso(problem, region.anchor + away, region); };
+  if (best.energy < problem.ringEnergy - (problem.ringEnergy >> kLeftShift) - problem.noise) {
+    // Midway between two gauges, two or three from here; where it looks like this edge, three on the other
+    // side.
+    if (absolute(best.row) == kScanReach) {
+      also(best.row < 0 ? 3 : -3);
+    } else {
+      region.besides = {also(-2), also(2)};
+      region.lookedBeside = true;
+    }
   }
   if (absolute(best.row) == kScanReach && !mayWin(problem, region.peaks)) changeWindow(problem, region);
 }

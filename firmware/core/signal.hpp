@@ -45,17 +45,17 @@ inline Signal foldedSignal(const Number* window, int up) {
 }
 
 /// The window around gauge `centre`.
-inline Signal windowSignal(std::span<const Number> strains_q32, int centre, int up) {
+[[gnu::always_inline]] inline Signal windowSignal(std::span<const Number> strains_q32, int centre, int up) {
   const int gauges = static_cast<int>(strains_q32.size());
   const int first = wrapped(centre - kWindowReach, gauges);
   const Number* at = &strains_q32[static_cast<std::size_t>(first)];
   if (first + kWindowGauges <= gauges) return foldedSignal(at, up);
+  const Number* const wrappedAt = at - gauges;
+  const int whole = gauges - first;  // readings until the ring is round
   std::array<Number, kWindowGauges> window;
 #pragma GCC unroll 7
-  for (Number& reading : window) {
-    reading = *at;
-    if (++at == strains_q32.data() + gauges) at = strains_q32.data();
-  }
+  for (int k = 0; k < kWindowGauges; ++k)
+    window[static_cast<std::size_t>(k)] = (k < whole ? at : wrappedAt)[k];
   return foldedSignal(window.data(), up);
 }
 

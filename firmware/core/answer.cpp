@@ -16,10 +16,10 @@ constexpr int kTailShift = 6;
 bool walkedOut(const WindowFit& fit) { return fit.offset() >= kFitRows * kRowSpacing; }
 
 /// Into the window in which the contact is nearer to the middle.
-[[gnu::noinline]] void changeWindow(const Problem& problem, WindowFit& fit) {
+void changeWindow(const Problem& problem, WindowFit& fit) {
   const int centre = wrapped(fit.centre + fit.side, problem.gauges());
   const int row = nearestRow(kOnePitch - fit.offset());
-  fit.start(windowSignal(problem.strains, centre, problem.up), centre, -fit.side * row, problem.mirrorSign());
+  fit.start(signalAround(problem, centre), centre, -fit.side * row, problem.mirrorSign());
 }
 
 }  // namespace

@@ -13,6 +13,8 @@ struct Placement {
   PitchQ20 position;
   std::int32_t normal;
   std::int32_t tangential;
+
+  bool operator==(const Placement&) const = default;
 };
 
 /// Positions go round the ring; `position` is at most one turn off.

@@ -57,7 +57,7 @@ inline Pair weightedBy(const FitRow& row, const Projections& projection) {
   return upperHalves(scaledByLow(projection[0], lengths), scaledByHigh(projection[1], lengths));
 }
 
-inline FitStep fitStep(const FitRow& row, const Signal& signal) {
+[[gnu::always_inline]] inline FitStep fitStep(const FitRow& row, const Signal& signal) {
   FitStep step;
   step.projection = projectionsOn(row, signal);
   const Number gradient1 = project(row.gradient[0], signal);

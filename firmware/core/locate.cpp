@@ -6,7 +6,6 @@
 
 #include "firmware/core/answer.hpp"
 #include "firmware/core/scan.hpp"
-#include "firmware/core/triple_fit.hpp"
 
 namespace strainfinger::firmware {
 namespace {
@@ -71,7 +70,7 @@ class Shortlist {
 [[gnu::noinline]] void enterFit(const Problem& problem, InWindow window, int centre, int row,
                                 Contest& contest) {
   Answer answer;
-  answer.fit.start(windowSignal(problem.strains, centre, problem.up), centre, row, problem.mirrorSign());
+  answer.fit.start(signalAround(problem, centre), centre, row, problem.mirrorSign());
   solve(problem, window, answer);
   contest.enter(problem, answer);
 }
@@ -92,7 +91,7 @@ class Shortlist {
   const FitTable& rows = problem.tables.rows;
   const bool finely = problem.tables.constants.scan_step == kMinScanStep;
   for (int gauge = 0; gauge < problem.gauges(); ++gauge) {
-    const Signal signal = windowSignal(problem.strains, gauge, problem.up);
+    const Signal signal = signalAround(problem, gauge);
     if (finely) list.add(scanned<kMinScanStep / 2, kMinScanStep>(rows, signal), gauge);
     if (!finely) list.add(scanned<kMaxScanStep / 2, kMaxScanStep>(rows, signal), gauge);
   }
@@ -101,7 +100,7 @@ class Shortlist {
 
 /// Contacts midway between two gauges may bend the strains most one, two or three gauges away: enters what is
 /// there, on either side of the windows two gauges off, and three where noise may tip the balance.
-[[gnu::noinline]] void enterBeside(const Problem& problem, const Region& region, Contest& contest) {
+inline void enterBeside(const Problem& problem, const Region& region, Contest& contest) {
   constexpr std::array<std::int8_t, 4> kAway{-2, 2, -3, 3};
   std::array<Start, 4> starts;
   std::size_t count = 2;
@@ -125,7 +124,7 @@ bool isAmbiguous(const Problem& problem, const Contest& contest) {
          contest.second.energy > contest.first.energy - marginOf(problem, contest.best.windowEnergy);
 }
 
-inline Fit reportOf(const Problem& problem, const Answer& best, FitMode readings) {
+inline Fit reportOf(const Problem& problem, const Answer& best) {
   const Placement placement = best.placement(problem.gauges());
   Fit fit;
   fit.best = fit.alternative = placement;
@@ -136,20 +135,10 @@ inline Fit reportOf(const Problem& problem, const Answer& best, FitMode readings
   fit.windowEnergy = best.windowEnergy;
   fit.up = static_cast<std::int8_t>(problem.up);
   fit.centre = static_cast<std::uint8_t>(best.fit.centre);
-  fit.readings = readings;
+  fit.readings = FitMode::kRefined;
   fit.ambiguous = fit.reduced = false;
   fit.settled = best.admissible() && best.energy >> 1 > problem.noise;  // 64 variances
   return fit;
-}
-
-/// Leaves the answer to three readings if they lead where all seven do.
-[[gnu::noinline]] FitMode settledByThree(const Problem& problem, Answer& answer) {
-  if (!answer.admissible()) return FitMode::kRefined;
-  WindowFit fit = answer.fit;
-  if (!solveTriple(problem.tables.rows, problem.mirrorSign(), fit)) return FitMode::kRefined;
-  answer.fit = fit;
-  answer.amplitudes = amplitudesOf(problem.tables.rows[static_cast<std::size_t>(fit.row)], fit.step);
-  return FitMode::kThreePoint;
 }
 
 /// Where a single step from a row of a window leads.
@@ -198,10 +187,8 @@ bool mayBeAsGood(const Problem& problem, const Lead& lead, const Told& answer, i
   return mayBeAsGood(problem, rival, told, kTwoStepsShift);
 }
 
-Fit concluded(const Problem& problem, FitMode mode, Contest& contest) {
-  const FitMode readings =
-      mode == FitMode::kRefined ? FitMode::kRefined : settledByThree(problem, contest.best);
-  Fit fit = reportOf(problem, contest.best, readings);
+Fit concluded(const Problem& problem, const Contest& contest) {
+  Fit fit = reportOf(problem, contest.best);
   if (contest.second.found) {
     fit.alternative = contest.secondPlacement;
     fit.ambiguous = isAmbiguous(problem, contest);
@@ -210,8 +197,8 @@ Fit concluded(const Problem& problem, FitMode mode, Contest& contest) {
 }
 
 /// What a search at the anchor comes to that the first answer doesn't end.
-[[gnu::noinline]] Fit searchedOn(const Problem& problem, FitMode mode, const Region& region,
-                                 const int* rivalRow, Answer& answer) {
+[[gnu::noinline]] Fit searchedOn(const Problem& problem, const Region& region, const int* rivalRow,
+                                 Answer& answer) {
   Contest contest{answer, {}, {}, {}};
   if (answer.fit.offset() > kFarFromMiddle) solve(problem, InWindow::kNearest, answer);
   if (rivalRow != nullptr) {
@@ -222,23 +209,22 @@ Fit concluded(const Problem& problem, FitMode mode, Contest& contest) {
     contest.first = contest.first.found ? contest.first : standingOf(problem, answer);
     enterBeside(problem, region, contest);
   }
-  return concluded(problem, mode, contest);
+  return concluded(problem, contest);
 }
 
-[[gnu::noinline]] Fit searchedEverywhere(const Problem& problem, FitMode mode) {
-  Answer answer;
+[[gnu::noinline]] Fit searchedEverywhere(const Problem& problem, Answer& answer) {
   Contest contest{answer, {}, {}, {}};
   enterBest(problem, startsAnywhere(problem), contest);
-  return concluded(problem, mode, contest);
+  return concluded(problem, contest);
 }
 
 }  // namespace
 
-Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t> strains_q32,
-           std::uint32_t energy) {
+Fit locateBySeven(const TableImage& tables, std::span<const std::int32_t> strains_q32, std::uint32_t energy) {
   const Problem problem = problemOf(tables, strains_q32, energy);
+  Answer answer;
   if (tables.constants.anchor_rule == AnchorRule::kExhaustive || isWeak(problem))
-    return searchedEverywhere(problem, mode);
+    return searchedEverywhere(problem, answer);
   Region region;
   look(problem, region);
   const Signal& signal = region.signal;
@@ -247,18 +233,16 @@ Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t>
   Lead rival;
   bool contested = mayWin(problem, peaks);
   if (contested) chooseStart(problem, signal, peaks, row, rival);
-  Answer answer;
   answer.fit.start(signal, region.centre, row, problem.mirrorSign());
   answer.settled = refine(tables.rows, problem.mirrorSign(), answer.fit);
   judge(problem, answer);
   contested = contested &&
               staysAsGood(problem, signal,
                           {answer.energy, answer.windowEnergy, answer.fit.side * answer.fit.offset()}, rival);
-  const bool ends = mode == FitMode::kRefined && !contested && answer.fit.offset() <= kFarFromMiddle &&
-                    !doubtful(problem, answer);
-  if (ends) return reportOf(problem, answer, FitMode::kRefined);
+  const bool ends = !contested && answer.fit.offset() <= kFarFromMiddle && !doubtful(problem, answer);
+  if (ends) return reportOf(problem, answer);
   const int rivalRow = contested ? rival.row() : 0;
-  return searchedOn(problem, mode, region, contested ? &rivalRow : nullptr, answer);
+  return searchedOn(problem, region, contested ? &rivalRow : nullptr, answer);
 }
 
 }  // namespace strainfinger::firmware

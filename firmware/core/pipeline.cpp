@@ -39,7 +39,7 @@ Made(Make) -> Made<Make>;
   }
 }
 
-void Pipeline::lookWithout(GaugeSet gauges) {
+[[gnu::always_inline]] inline void Pipeline::lookWithout(GaugeSet gauges) {
   observation_.leftOut |= gauges;
   clear(observation_.leftOut, strains());
   energy_ = gateEnergy(constants(), strains());

@@ -91,7 +91,7 @@ Start lookAlso(const Problem& problem, int centre, Region& region) {
   if (other.energy <= region.peaks.first.energy) return other;
   const Start before = startAt(region.centre, region.peaks.first);
   region.centre = other.centre;
-  region.signal = windowSignal(problem.strains, other.centre, problem.up);
+  region.signal = signalAround(problem, other.centre);
   region.peaks = {{other.energy, other.row}, {-1, 0}};
   return before;
 }
@@ -101,7 +101,7 @@ void changeWindow(const Problem& problem, Region& region) {
   Peak& best = region.peaks.first;
   const int side = best.row < 0 ? -1 : 1;
   region.centre = wrapped(region.centre + side, problem.gauges());
-  region.signal = windowSignal(problem.strains, region.centre, problem.up);
+  region.signal = signalAround(problem, region.centre);
   best.row -= side * kRowsPerPitch;
 }
 
@@ -111,8 +111,12 @@ int deepestGauge(const std::int32_t* strains, int gauges, int sign) {
   return sign > 0 ? deepest<1>(strains, gauges) : deepest<-1>(strains, gauges);
 }
 
+Signal signalAround(const Problem& problem, int centre) {
+  return windowSignal(problem.strains, centre, problem.up);
+}
+
 Start midwayStart(const Problem& problem, int centre) {
-  const Signal signal = windowSignal(problem.strains, centre, problem.up);
+  const Signal signal = signalAround(problem, centre);
   const Sides sides = scannedSides(problem.tables.rows, signal, kMidwayRow, kScanReach);
   return startAt(centre, sides.minus.energy > sides.plus.energy ? sides.minus : sides.plus);
 }

@@ -78,6 +78,9 @@ inline Start startAt(int centre, const Peak& peak) {
   return {peak.energy, static_cast<std::uint8_t>(centre), static_cast<std::int8_t>(peak.row)};
 }
 
+/// windowSignal(), in one place for what is not in a hurry.
+Signal signalAround(const Problem& problem, int centre);
+
 /// Where the fit of a contact starts.
 struct Region {
   int centre;  ///< gauge in the middle of the window

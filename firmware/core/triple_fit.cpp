@@ -1,5 +1,8 @@
 #include "firmware/core/triple_fit.hpp"
 
+#include "firmware/core/locate.hpp"
+#include "firmware/core/scan.hpp"
+
 namespace strainfinger::firmware {
 namespace {
 
@@ -12,23 +15,29 @@ Vector3 cross(const Vector3& a, const Vector3& b) {
           (a[0] * b[1] - a[1] * b[0]) >> 15};
 }
 
-/// What folding halved: the weight of one gauge, at signed distance k from the middle.
-std::int32_t unfolded(const FoldedWeights& weights, int k) {
-  if (k == 0) return weights[0];
-  const auto distance = static_cast<std::size_t>(absolute(k));
-  const std::int32_t difference = weights[distance + kWindowReach];
-  return weights[distance] + (k > 0 ? difference : -difference);
-}
+/// Where a gauge is in what was folded: at signed distance k from the middle, its part of a sum and of a
+/// difference.
+struct Unfolded {
+  explicit Unfolded(int k)
+      : even(static_cast<std::size_t>(absolute(k))),
+        odd(k == 0 ? 7 : even + kWindowReach),
+        sign(k < 0 ? -1 : 1) {}
 
-/// Twice the reading of a gauge: folded signals are sums, not means.
-std::int32_t twiceReading(const Signal& signal, int k) {
-  const std::array<std::int32_t, 4> sums{low(signal.even[0]), high(signal.even[0]), low(signal.even[1]),
-                                         high(signal.even[1])};
-  const std::array<std::int32_t, 4> differences{0, low(signal.odd[0]), high(signal.odd[0]),
-                                                low(signal.odd[1])};
-  if (k == 0) return 2 * sums[0];
-  const auto distance = static_cast<std::size_t>(absolute(k));
-  return sums[distance] + (k > 0 ? differences[distance] : -differences[distance]);
+  /// What folding halved: the gauge's weight in a column. The eighth number of a column is 0.
+  std::int32_t of(const FoldedWeights& weights) const { return weights[even] + sign * weights[odd]; }
+  /// Twice the gauge's reading, from numbers in the same order: sums are not means.
+  std::int32_t twice(const std::array<std::int32_t, 8>& readings) const {
+    return readings[even] + sign * readings[odd];
+  }
+
+  std::size_t even, odd;
+  std::int32_t sign;
+};
+
+std::array<std::int32_t, 8> numbersOf(const Signal& signal) {
+  const auto& [even, odd] = signal;
+  return {2 * low(even[0]), high(even[0]), low(even[1]), high(even[1]),
+          low(odd[0]),      high(odd[0]),  low(odd[1]),  0};
 }
 
 /// A row's weight [* 2^15] times a projection, doubled: as twiceReading().
@@ -41,20 +50,69 @@ std::int32_t correction(std::int32_t numerator, std::int32_t volume) {
   return clipped<17>(numerator / (volume >> 15)) * (1 << 14);
 }
 
-bool step(const FitRow& row, WindowFit& fit) {
-  const Projections u = projectionsOn(row, fit.signal);
+/// A step from a row onto which the signal is projected.
+bool takeTripleStep(const FitRow& row, WindowFit& fit) {
+  const Projections& u = fit.step.projection;
   const TripleChoice choice = tripleChoice(row, u);
   const TripleSystem& system = choice.system;
   if (absolute(system.volume) < 1 << 16) return false;
+  const std::array<std::int32_t, 8> numbers = numbersOf(fit.signal);
   Vector3 left;
   for (std::size_t i = 0; i < left.size(); ++i)
-    left[i] = twiceReading(fit.signal, choice.gauges[i]) - twice(choice.basis1[i], u[0]) -
+    left[i] = Unfolded(choice.gauges[i]).twice(numbers) - twice(choice.basis1[i], u[0]) -
               twice(choice.basis2[i], u[1]);
   const std::int32_t quotient = clipped<16>(inner(system.forOffset, left) / (system.volume >> 13));
   fit.step.projection = {u[0] + correction(inner(system.forProjection1, left), system.volume),
                          u[1] + correction(inner(system.forProjection2, left), system.volume)};
   fit.step.length = clipped<kPitchBits - 2>((quotient * 512) >> (row.gradient_exponent + 3));
   return true;
+}
+
+/// Newton steps of the three readings from a refined fit, until the next one would no longer matter: the
+/// fit's projections and length are then theirs. False: they lead away from it, or nowhere.
+bool solveTriple(const FitTable& rows, int mirrorSign, WindowFit& fit) {
+  constexpr int kMaxSteps = 3;
+  const PitchQ20 before = fit.side * fit.offset();
+  for (int left = kMaxSteps; left > 0; --left) {
+    if (!takeTripleStep(*unknown(unknown(rows.data()) + fit.row), fit)) return false;
+    if (absolute(fit.side * fit.offset() - before) > kFarthest) return false;
+    if (absolute(fit.step.length) <= kRowSpacing) return true;
+    follow(fit, fit.step.length, mirrorSign);
+    fit.step.projection = projectionsOn(rows[static_cast<std::size_t>(fit.row)], fit.signal);
+  }
+  return false;
+}
+
+/// The window fit that a fit of seven readings came from.
+WindowFit windowFitOf(const Problem& problem, const Fit& fit) {
+  WindowFit window;
+  const PitchQ20 ring = problem.gauges() * kOnePitch;
+  PitchQ20 offset = fit.best.position - fit.centre * kOnePitch;
+  if (offset > ring / 2) offset -= ring;
+  if (offset < -ring / 2) offset += ring;
+  const int row = static_cast<int>(fit.row - problem.tables.rows.data());
+  const Signal signal = signalAround(problem, fit.centre);
+  window.centre = fit.centre;
+  window.side = offset < 0 ? -1 : 1;
+  window.row = row;
+  window.signal = offset < 0 ? mirrored(signal, problem.mirrorSign()) : signal;
+  window.step.projection =
+      projectionsOn(*fit.row, window.signal);  // the fit may have crossed the middle gauge
+  window.step.length = absolute(offset) - row * kRowSpacing;
+  return window;
+}
+
+[[gnu::noinline]] void leaveToThree(const Problem& problem, Fit& fit) {
+  WindowFit window = windowFitOf(problem, fit);
+  if (!solveTriple(problem.tables.rows, problem.mirrorSign(), window)) return;
+  const bool alone = fit.alternative == fit.best;
+  fit.row = unknown(problem.tables.rows.data()) + window.row;
+  const Amplitudes amplitudes = amplitudesOf(*fit.row, window.step);
+  fit.best = {roundTheRing(window.position(), problem.gauges()), amplitudes.normal,
+              window.side * amplitudes.tangential};
+  if (alone) fit.alternative = fit.best;
+  fit.projection = window.step.projection;
+  fit.readings = FitMode::kThreePoint;
 }
 
 }  // namespace
@@ -65,11 +123,11 @@ TripleChoice tripleChoice(const FitRow& row, const Projections& projection) {
   choice.gauges = kTripleList[row.triple[projection[1] < 0 ? kAgainstOffset : kWithOffset]];
   Vector3 gradient;
   for (std::size_t i = 0; i < gradient.size(); ++i) {
-    const int k = choice.gauges[i];
-    choice.basis1[i] = unfolded(row.basis[0], k);
-    choice.basis2[i] = unfolded(row.basis[1], k);
+    const Unfolded gauge(choice.gauges[i]);
+    choice.basis1[i] = gauge.of(row.basis[0]);
+    choice.basis2[i] = gauge.of(row.basis[1]);
     gradient[i] =
-        (unfolded(row.gradient[0], k) * low(weighted) + unfolded(row.gradient[1], k) * high(weighted)) >> 13;
+        (gauge.of(row.gradient[0]) * low(weighted) + gauge.of(row.gradient[1]) * high(weighted)) >> 13;
   }
   choice.system = {.forOffset = cross(choice.basis1, choice.basis2),
                    .forProjection1 = cross(choice.basis2, gradient),
@@ -79,16 +137,10 @@ TripleChoice tripleChoice(const FitRow& row, const Projections& projection) {
   return choice;
 }
 
-bool solveTriple(const FitTable& rows, int mirrorSign, WindowFit& fit) {
-  constexpr int kMaxSteps = 3;
-  const PitchQ20 before = fit.position();
-  for (int count = 0; count < kMaxSteps; ++count) {
-    follow(fit, fit.step.length, mirrorSign);
-    if (!step(rows[static_cast<std::size_t>(fit.row)], fit)) return false;
-    if (absolute(fit.position() - before) > kFarthest) return false;
-    if (absolute(fit.step.length) <= kRowSpacing) return true;
-  }
-  return isConverged(fit.step.length);
+Fit locateByThree(const TableImage& tables, std::span<const std::int32_t> strains_q32, std::uint32_t energy) {
+  Fit fit = locateBySeven(tables, strains_q32, energy);
+  if (fit.settled) leaveToThree(problemOf(tables, strains_q32, energy), fit);
+  return fit;
 }
 
 }  // namespace strainfinger::firmware

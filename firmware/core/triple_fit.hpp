@@ -32,8 +32,4 @@ struct TripleChoice {
 };
 TripleChoice tripleChoice(const FitRow& row, const Projections& projection);
 
-/// Newton steps of the three readings from where the fit stands, until the next one would no longer matter:
-/// the fit's projections and length are then theirs. False: they lead away from it, or nowhere.
-bool solveTriple(const FitTable& rows, int mirrorSign, WindowFit& fit);
-
 }  // namespace strainfinger::firmware

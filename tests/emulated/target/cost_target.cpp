@@ -83,7 +83,8 @@ const firmware::Fit& located(const InstructionCounter& counter, firmware::FitMod
                              std::span<const std::int32_t> strains, std::uint32_t energy, const char* what) {
   alignas(firmware::Fit) static std::byte place[sizeof(firmware::Fit)];
   const firmware::Fit* fit = nullptr;
-  tell(what, counter.of([&] { fit = new (place) firmware::Fit(locate(kLinkedTables, mode, strains, energy)); }));
+  tell(what,
+       counter.of([&] { fit = new (place) firmware::Fit(locate(kLinkedTables, mode, strains, energy)); }));
   return *fit;
 }
 

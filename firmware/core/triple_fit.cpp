@@ -68,21 +68,6 @@ bool takeTripleStep(const FitRow& row, WindowFit& fit) {
   return true;
 }
 
-/// Newton steps of the three readings from a refined fit, until the next one would no longer matter: the
-/// fit's projections and length are then theirs. False: they lead away from it, or nowhere.
-bool solveTriple(const FitTable& rows, int mirrorSign, WindowFit& fit) {
-  constexpr int kMaxSteps = 3;
-  const PitchQ20 before = fit.side * fit.offset();
-  for (int left = kMaxSteps; left > 0; --left) {
-    if (!takeTripleStep(*unknown(unknown(rows.data()) + fit.row), fit)) return false;
-    if (absolute(fit.side * fit.offset() - before) > kFarthest) return false;
-    if (absolute(fit.step.length) <= kRowSpacing) return true;
-    follow(fit, fit.step.length, mirrorSign);
-    fit.step.projection = projectionsOn(rows[static_cast<std::size_t>(fit.row)], fit.signal);
-  }
-  return false;
-}
-
 /// The window fit that a fit of seven readings came from.
 WindowFit windowFitOf(const Problem& problem, const Fit& fit) {
   WindowFit window;
@@ -135,6 +120,20 @@ TripleChoice tripleChoice(const FitRow& row, const Projections& projection) {
                    .volume = 0};
   choice.system.volume = inner(choice.system.forOffset, gradient);
   return choice;
+}
+
+bool solveTriple(const FitTable& rows, int mirrorSign, WindowFit& fit) {
+  constexpr int kMaxSteps = 3;
+  const PitchQ20 before = fit.side * fit.offset();
+  for (int left = kMaxSteps; left > 0; --left) {
+    follow(fit, fit.step.length, mirrorSign);
+    const FitRow& row = *unknown(unknown(rows.data()) + fit.row);
+    fit.step.projection = projectionsOn(row, fit.signal);
+    if (!takeTripleStep(row, fit)) return false;
+    if (absolute(fit.side * fit.offset() - before) > kFarthest) return false;
+    if (absolute(fit.step.length) <= kRowSpacing) return true;
+  }
+  return false;
 }
 
 Fit locateByThree(const TableImage& tables, std::span<const std::int32_t> strains_q32, std::uint32_t energy) {

@@ -19,6 +19,7 @@ TEST_GROUP(TableImage) {
     image_->constants.gauge_count = 16;
     image_->constants.mirror_sign = image_->constants.anchor_sign = 1;
     image_->constants.scan_step = kMaxScanStep;
+    image_->constants.scan_span.fill(ScanSpan::of(kFirstScanRow, kLastScanRow));
     sign();
   }
   void sign() { image_->crc32 = crc32(checkedBytes(*image_)); }
@@ -93,6 +94,8 @@ TEST(TableImage, ConstantsThatLoopsAndShiftsRelyOnStayInTheirDomain) {
   checkDomain(constants.anchor_sign, {1, -1}, {0, 2, -128});
   checkDomain(constants.anchor_rule, {0, 1}, {2, 255});
   checkDomain(constants.scan_step, {4, 8}, {0, 3, 5, 9, 255});
+  checkDomain(constants.scan_span[15].packed, {0x01, 0x09, 0x11, 0x73, 0x91},
+              {0x00, 0x02, 0x10, 0x21, 0x37, 0xB1, 0xFF});
   checkDomain(image_->rows[43].gradient_exponent, {-3, 12}, {-4, 13, -128, 127});
   checkDomain(image_->rows[43].triple[1], {0, 34}, {35, 255});
   checkDomain(image_->parameters.component, {0, 1, 2}, {3, 255});

@@ -19,7 +19,7 @@ TWELVE = "[gauges]\ncount = 12\n"
 CRC_AT = 12
 # One bit each: header, parameters, constants, first and last rows (common/TABLES.md).
 FLIPS = {"magic": 0, "format": 4, "reserved": 6, "image_bytes": 9, "crc32": CRC_AT + 3, "core_radius_m": 16,
-         "gauge_count": 164, "scan_step": 167, "basis of the first row": 168, "a row in the middle": 6000, "the end": 11783}
+         "gauge_count": 164, "scan_span": 175, "basis of the first row": 184, "a row in the middle": 2000, "the end": 4055}
 ANOTHER_FORMAT, NOT_WHOLE = 5, 6  # exit statuses of `tables verify`
 RUN, FAULT = 2, 3  # FingerState
 TABLES_FAULT = 1  # bit of FingerFault

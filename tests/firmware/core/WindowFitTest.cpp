@@ -216,6 +216,7 @@ TEST(WindowFit, ThreeGaugesFindTheSameContact) {
 TEST(WindowFit, ThreeGaugesThatSayNothingAreNoAnswer) {
   WindowFit fit = startOf(contact(0.1, 0), 6);
   fit.signal = {};
+  fit.step = {};
   CHECK_FALSE(solveTriple(rows, 1, fit));
 }
 

@@ -31,6 +31,8 @@ struct TypeName {
                        8 * sizeof(Number));
   }
 };
+template <>
+struct TypeName<ScanSpan> : TypeName<std::uint8_t> {};
 template <typename Number, std::size_t Count>
 struct TypeName<std::array<Number, Count>> {
   static std::string text() { return fmt::format("{}[{}]", TypeName<Number>::text(), Count); }
@@ -112,6 +114,7 @@ Rows constantRows(const TableConstants& c) {
   rows.add("gate_shift", c.gate_shift);
   rows.add("anchor_rule", c.anchor_rule);
   rows.add("scan_step", c.scan_step);
+  rows.add("scan_span", c.scan_span);
   return rows;
 }
 

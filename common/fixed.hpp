@@ -40,7 +40,14 @@ constexpr To saturate(From value) {
 
 /// Upper half of the 64-bit product, rounded down: one instruction (SMMUL) on a Cortex-M4.
 constexpr std::int32_t mulHigh(std::int32_t a, std::int32_t b) {
+#if defined(__ARM_ARCH_6M__)
+  const std::int32_t aHigh = a >> 16, aLow = a & 0xFFFF, bHigh = b >> 16, bLow = b & 0xFFFF;
+  const std::uint32_t low = static_cast<std::uint32_t>(aLow) * static_cast<std::uint32_t>(bLow);
+  const std::int32_t middle = aHigh * bLow + static_cast<std::int32_t>(low >> 16);
+  return aHigh * bHigh + (middle >> 16) + ((aLow * bHigh + (middle & 0xFFFF)) >> 16);
+#else
   return static_cast<std::int32_t>((std::int64_t{a} * b) >> 32);
+#endif
 }
 
 }  // namespace strainfinger

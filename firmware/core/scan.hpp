@@ -110,7 +110,16 @@ void lookAtBend(const Problem& problem, int first, Region& region);
 inline std::size_t shareOf(const Problem& problem, int gauge) {
   const std::int32_t reading = raised(problem.strains[static_cast<std::size_t>(gauge)], problem.up) >> 16;
   const std::int32_t own = (reading * reading) >> 2, unit = (problem.ringEnergy >> 4) + 1;
+  static_assert(kShares == 16);
+#if defined(__ARM_ARCH_6M__)  // without a divider
+  std::int32_t share = own >= 8 * unit ? 8 : 0;
+  if (own >= (share + 4) * unit) share += 4;
+  if (own >= (share + 2) * unit) share += 2;
+  if (own >= (share + 1) * unit) share += 1;
+  return static_cast<std::size_t>(share);
+#else
   return static_cast<std::size_t>(std::min<std::int32_t>(own / unit, kShares - 1));
+#endif
 }
 
 /// Finds a start: most contacts are looked for around the deepest reading and nowhere else, at two or three

@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kOffsets = 64;
 constexpr int kDirections = 64;
+constexpr double kLeastCone = 1;  ///< without friction, noise is still taken for tangential loads
 constexpr double kShareMargin = 1.0 / 64;
 
 /// A step finds the maximum from a little farther than half a spacing of the scan's rows.
@@ -86,13 +87,14 @@ ScanSpan spanOf(const Distances& distances) {
 }  // namespace
 
 std::array<ScanSpan, kShares> scanSpans(const model::ImpulseResponse& response, int gaugeCount, double cone) {
+  const double widest = std::max(cone, kLeastCone);
   std::array<Distances, kShares> distances;
   const double sign = response.at(0).normal < 0 ? -1 : 1;
   for (int step = -kOffsets; step <= kOffsets; ++step) {
     const double offset_pitch = 0.5 * step / kOffsets;
     const Ring ring(response, gaugeCount, offset_pitch);
     for (int direction = -kDirections; direction <= kDirections; ++direction)
-      noteContact(ring, sign, cone * direction / kDirections, offset_pitch, distances);
+      noteContact(ring, sign, widest * direction / kDirections, offset_pitch, distances);
   }
   std::array<ScanSpan, kShares> spans{};
   std::transform(distances.begin(), distances.end(), spans.begin(), spanOf);

@@ -211,7 +211,8 @@ TEST(TableDocument, ItsExampleIsTheDefaultFinger) {
   const std::string bytes = tables::imageBytes(image_);
   checkHas(dumpLine(bytes, 0) + dumpLine(bytes, 16));
   const std::size_t constants = offsetof(TableImage, constants);
-  checkHas(dumpLine(bytes, constants) + dumpLine(bytes, constants + 16) + dumpLine(bytes, constants + 32));
+  checkHas(dumpLine(bytes, constants) + dumpLine(bytes, constants + 16) + dumpLine(bytes, constants + 32) +
+           dumpLine(bytes, constants + 48));
   checkHas(fmt::format("CRC-32 {:08X}\n", image_.crc32));
   checkHas(fmt::format("{} * 2^{}: (6e-6", image_.constants.noise_variance,
                        image_.constants.noise_variance_exponent));

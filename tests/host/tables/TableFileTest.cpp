@@ -97,7 +97,7 @@ TEST(TableFile, AnotherFormatIsAMismatchWhateverFollows) {
   std::string other = bytes_.substr(0, 100);
   other[4] = 1;
   checkVerdict(other,
-               fmt::format("5: {}: a table image of format 1, this program and its firmware read format 2; "
+               fmt::format("5: {}: a table image of format 1, this program and its firmware read format 3; "
                            "make it anew",
                            path_));
 }

@@ -193,6 +193,11 @@ inline constexpr int kMostGradientExponent = 12;
 /// Strains stay below 2^(15 + this): sums of their squares, and four of them, fit their words.
 inline constexpr int kMostGateShift = 14;
 
+/// Strains of any code and zero stay smaller than 2^(15 + gate_shift).
+constexpr bool usableGain(std::int32_t gain, int gateShift) {
+  return gain >= 0 && gain <= (std::int64_t{1} << (16 + gateShift)) - 2;
+}
+
 constexpr bool isSign(int value) { return value == 1 || value == -1; }
 
 /// Scans end within the table, and step as their rows do.
@@ -207,8 +212,9 @@ constexpr bool usable(ScanSpan span) {
 constexpr bool usable(const TableParameters& parameters, const TableConstants& constants) {
   return parameters.component <= StrainComponent::kShear && constants.gauge_count >= kMinGauges &&
          constants.gauge_count <= kMaxGauges && constants.gauge_count % 2 == 0 &&
-         constants.gate_shift <= kMostGateShift && isSign(constants.mirror_sign) &&
-         isSign(constants.anchor_sign) && constants.anchor_rule <= AnchorRule::kExhaustive &&
+         constants.gate_shift <= kMostGateShift && usableGain(constants.reading_gain, constants.gate_shift) &&
+         isSign(constants.mirror_sign) && isSign(constants.anchor_sign) &&
+         constants.anchor_rule <= AnchorRule::kExhaustive &&
          (constants.scan_step == kMinScanStep || constants.scan_step == kMaxScanStep) &&
          std::all_of(constants.scan_span.begin(), constants.scan_span.end(),
                      [](ScanSpan span) { return usable(span); });

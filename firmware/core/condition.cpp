@@ -4,10 +4,6 @@
 
 namespace strainfinger::firmware {
 
-namespace {
-constexpr int kCodeBits = 15;  ///< a code's fraction bits as a zero
-}
-
 Calibration nominalCalibration(const TableConstants& constants) {
   Calibration calibration;
   calibration.zero_q15.fill(0x8000 << kCodeBits);
@@ -16,7 +12,7 @@ Calibration nominalCalibration(const TableConstants& constants) {
 }
 
 std::int32_t strainOf(const Calibration& calibration, std::uint16_t code, std::size_t gauge) {
-  return mulHigh((std::int32_t{code} << kCodeBits) - calibration.zero_q15[gauge], calibration.gain[gauge]);
+  return conditioned(code, calibration.zero_q15[gauge], calibration.gain[gauge]);
 }
 
 void condition(const Calibration& calibration, Codes codes, Readings& readings) {
@@ -27,8 +23,8 @@ void condition(const Calibration& calibration, Codes codes, Readings& readings) 
   const auto conditionTwo = [&](std::ptrdiff_t i) {  // in this order: loads and stores of two words
     const std::int32_t zero1 = zero[i], zero2 = zero[i + 1];
     const std::int32_t gain1 = gain[i], gain2 = gain[i + 1];
-    const std::int32_t first = mulHigh((std::int32_t{code[i]} << kCodeBits) - zero1, gain1);
-    const std::int32_t second = mulHigh((std::int32_t{code[i + 1]} << kCodeBits) - zero2, gain2);
+    const std::int32_t first = conditioned(code[i], zero1, gain1);
+    const std::int32_t second = conditioned(code[i + 1], zero2, gain2);
     strain[i] = first;
     strain[i + 1] = second;
   };
@@ -40,7 +36,7 @@ void condition(const Calibration& calibration, Codes codes, Readings& readings) 
   };
   const std::uint16_t* const end = code + codes.size();
   for (std::size_t left = codes.size() % 8; left > 0; --left) {
-    *strain = mulHigh((std::int32_t{*code} << kCodeBits) - *zero, *gain);
+    *strain = conditioned(*code, *zero, *gain);
     advance(1);
   }
   while (code != end) {

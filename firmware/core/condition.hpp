@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <span>
 
+#include "common/fixed.hpp"
 #include "common/table_image.hpp"
+#include "firmware/core/packed.hpp"
 
 namespace strainfinger::firmware {
 
@@ -21,6 +23,13 @@ struct Calibration {
 
 /// Every gauge at nominal gain, the zero at mid-scale.
 Calibration nominalCalibration(const TableConstants& constants);
+
+inline constexpr int kCodeBits = 15;  ///< a code's fraction bits as a zero
+
+/// strain * 2^32 of a code. Any code, zero and gain that are not negative.
+inline Number conditioned(Number code, Number zero, Number gain) {
+  return mulHigh(code * (1 << kCodeBits) - zero, gain);
+}
 
 /// strain * 2^32 of one gauge's code; see condition().
 std::int32_t strainOf(const Calibration& calibration, std::uint16_t code, std::size_t gauge);

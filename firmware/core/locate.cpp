@@ -155,13 +155,15 @@ struct Lead {
   return {fit.position(), fit.step.energy()};
 }
 
-/// Whether what a lead leads to may be another answer, as good: it explains what the answer does but for
-/// noise and 1/2^shift.
-struct Told {
+/// Of an answer what a rival is compared with; `offset` as a lead's.
+struct ToBeat {
   std::int32_t energy, windowEnergy;
   PitchQ20 offset;
 };
-bool mayBeAsGood(const Problem& problem, const Lead& lead, const Told& answer, int shift) {
+
+/// Whether what a lead leads to may be another answer, as good: it explains what the answer does but for
+/// noise and 1/2^shift.
+bool mayBeAsGood(const Problem& problem, const Lead& lead, const ToBeat& answer, int shift) {
   const std::int32_t most = answer.energy - (answer.energy >> shift) - marginOf(problem, answer.windowEnergy);
   return lead.energy > most && !isNear(problem, lead.offset, answer.offset);
 }
@@ -179,15 +181,15 @@ bool mayBeAsGood(const Problem& problem, const Lead& lead, const Told& answer, i
   if (swaps) rival = first;
 }
 
-/// A rival may be as good as the answer, once another step is taken.
-[[gnu::noinline]] bool staysAsGood(const Problem& problem, const Signal& signal, const Told& told,
+/// A rival may still be as good as the answer once another step is taken.
+[[gnu::noinline]] bool staysAsGood(const Problem& problem, const Signal& signal, const ToBeat& answer,
                                    Lead& rival) {
-  if (!mayBeAsGood(problem, rival, told, kOneStepShift)) return false;
+  if (!mayBeAsGood(problem, rival, answer, kOneStepShift)) return false;
   rival = leadFrom(problem, signal, rival.row());
-  return mayBeAsGood(problem, rival, told, kTwoStepsShift);
+  return mayBeAsGood(problem, rival, answer, kTwoStepsShift);
 }
 
-Fit concluded(const Problem& problem, const Contest& contest) {
+Fit reportOf(const Problem& problem, const Contest& contest) {
   Fit fit = reportOf(problem, contest.best);
   if (contest.second.found) {
     fit.alternative = contest.secondPlacement;
@@ -209,13 +211,14 @@ Fit concluded(const Problem& problem, const Contest& contest) {
     contest.first = contest.first.found ? contest.first : standingOf(problem, answer);
     enterBeside(problem, region, contest);
   }
-  return concluded(problem, contest);
+  return reportOf(problem, contest);
 }
 
+/// `answer`: room for one.
 [[gnu::noinline]] Fit searchedEverywhere(const Problem& problem, Answer& answer) {
   Contest contest{answer, {}, {}, {}};
   enterBest(problem, startsAnywhere(problem), contest);
-  return concluded(problem, contest);
+  return reportOf(problem, contest);
 }
 
 }  // namespace
@@ -239,8 +242,8 @@ Fit locateBySeven(const TableImage& tables, std::span<const std::int32_t> strain
   contested = contested &&
               staysAsGood(problem, signal,
                           {answer.energy, answer.windowEnergy, answer.fit.side * answer.fit.offset()}, rival);
-  const bool ends = !contested && answer.fit.offset() <= kFarFromMiddle && !doubtful(problem, answer);
-  if (ends) return reportOf(problem, answer);
+  if (!contested && answer.fit.offset() <= kFarFromMiddle && !doubtful(problem, answer))
+    return reportOf(problem, answer);
   const int rivalRow = contested ? rival.row() : 0;
   return searchedOn(problem, region, contested ? &rivalRow : nullptr, answer);
 }

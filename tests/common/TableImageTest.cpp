@@ -2,6 +2,7 @@
 
 #include <array>
 #include <initializer_list>
+#include <limits>
 #include <memory>
 
 #include <CppUTest/TestHarness.h>
@@ -90,6 +91,9 @@ TEST(TableImage, ConstantsThatLoopsAndShiftsRelyOnStayInTheirDomain) {
   TableConstants& constants = image_->constants;
   checkDomain(constants.gauge_count, {12, 14, 32, 16}, {0, 10, 13, 33, 34, 255});
   checkDomain(constants.gate_shift, {0, 14}, {15, 32, 255});
+  constants.gate_shift = 13;
+  checkDomain(constants.reading_gain, {0, 1, (1 << 29) - 2},
+              {-1, (1 << 29) - 1, std::numeric_limits<int>::max()});
   checkDomain(constants.mirror_sign, {1, -1}, {0, 2, -128});
   checkDomain(constants.anchor_sign, {1, -1}, {0, 2, -128});
   checkDomain(constants.anchor_rule, {0, 1}, {2, 255});

@@ -64,12 +64,25 @@ def faults(lines, readme, images):
         elif any(abs(a - b) > max(0.03 * b, 1) for a, b in zip(numbers_in(known), numbers_in(line))):
             yield f"README says: {known}\n   it is now: {line}"
     for elf, counts in images.items():
-        idle, contact = max(counts["update_idle"]), min(counts["update_sent"])
-        if idle * 3 > contact:
-            yield f"{elf}: an idle update takes {idle}, more than a third of a contact's {contact}"
+        part = 5 if "m4" in elf else 3  # a Cortex-M0+ has no long products, of which an idle update consists
+        idle, contact = spread(counts["update_idle"]), spread(counts["update_sent"])
+        if idle[2] * part > contact[0] or idle[3] * part > contact[2]:
+            yield f"{elf}: idle updates take {idle}, more than 1/{part} of a contact's {contact}"
         if counted(elf) != counts:
             yield f"{elf}: a second run counts differently"
+        yield from locator_faults(elf, counts)
         yield from stack_faults(elf, counts["stack_bytes"][0])
+
+
+# Most that the stages may take: median, 95 %, worst of firm contacts. The locator's purpose is to stay below these.
+BARS = {"m4": {"condition": 128, "gate": 60, "locate": [700, 900, 2000]}, "m0plus": {"locate": [2300]}}
+
+
+def locator_faults(elf, counts):
+    for stage, bar in BARS["m4" if "m4" in elf else "m0plus"].items():
+        bars = bar if isinstance(bar, list) else [bar, bar, bar]
+        if any(found > most for found, most in zip(spread(counts[stage])[1:], bars)):
+            yield f"{elf}: {stage} takes {spread(counts[stage])[1:]}, more than {bars}"
 
 
 def stack_faults(elf, measured):

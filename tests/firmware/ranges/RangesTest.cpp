@@ -1,8 +1,12 @@
 // No intermediate result of the locator's arithmetic leaves its word, for any strains that conditioning gives
 // and any tables that checkTableImage() accepts: the firmware's own code, compiled with bounds for numbers.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
+#include "firmware/core/condition.hpp"
 #include "firmware/core/fit_step.hpp"
 #include "firmware/core/side_energies.hpp"
 
@@ -20,6 +24,17 @@ static Signal anySignal() {
   const Number any(-32767, 32767, 16);  // below kFoldedLength
   const auto pair = [&](unsigned part) { return Pair{any, any, kSignalLength, part}; };
   return {{pair(1), pair(2)}, {pair(4), pair(8)}};
+}
+/// Folds any window of a length [signal]. Of two readings the sum is longest where they are equal.
+static void fold(double length, int up) {
+  const double alone = std::min(std::ldexp(length, 16 - up), std::exp2(15 + kMostGateShift));
+  const auto any = [](double most) {
+    const auto limit = static_cast<std::int64_t>(most);
+    return Number(-limit, limit);
+  };
+  const Number half = any(alone / std::sqrt(2.0));
+  const std::array<Number, kWindowGauges> window{half, half, half, any(alone), half, half, half};
+  foldedSignal(window.data(), up);
 }
 /// Calls visit for a row of each scale that tables may have.
 template <typename Visit>
@@ -52,6 +67,31 @@ TEST(Ranges, EnergiesOverflowNothing) {
   exactEnergies(sideParts(provedRow, signal));
   roughEnergies(sideParts(provedRow, signal));
   checkNone();
+}
+
+TEST(Ranges, AnyCodeZeroAndGainGivesAStrainOfTheGate) {
+  constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+  conditioned(Number(0, 0xFFFF), Number(0, kMost), Number(0, kMost));
+  checkNone();
+  for (int gateShift = 0; gateShift <= kMostGateShift; ++gateShift) {  // see usableGain()
+    const std::int64_t gain = std::min(kMost, (std::int64_t{1} << (16 + gateShift)) - 2);
+    const Number strain = conditioned(Number(0, 0xFFFF), Number(0, kMost), Number(0, gain));
+    CHECK(strain.most() < std::int64_t{1} << (15 + gateShift));
+    CHECK(strain.least() > -(std::int64_t{1} << (15 + gateShift)));
+  }
+  // .. the sum of whose squares fits 63 bits, with the most gauges and the coarsest gate.
+  constexpr std::uint64_t kLargest = (std::uint64_t{1} << (15 + kMostGateShift)) - 1;
+  static_assert(kLargest * kLargest * kMaxGauges < std::uint64_t{1} << 63);
+  checkNone();
+  conditioned(Number(0, 0x10000), Number(0, kMost), Number(0, kMost));
+  CHECK(overflows > 0);
+}
+
+TEST(Ranges, FoldingOverflowsNothing) {
+  for (int up = 0; up <= 30; ++up) fold(kSignalLength - 1, up);  // 1: rounding, see ProblemTest
+  checkNone();
+  fold(kSignalLength + 1, 10);
+  CHECK(overflows > 0);
 }
 
 TEST(Ranges, ASignalTwiceAsLongWouldBeFound) {

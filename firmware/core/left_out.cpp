@@ -142,7 +142,7 @@ void clear(GaugeSet gauges, std::span<std::int32_t> strains_q32) {
 struct Verdict {
   bool determined = false;
   bool ambiguous = false;
-  Placement alternative;  ///< with the amplitudes of a fit to the readings filled in
+  Placement alternative{};  ///< with the amplitudes of a fit to the readings filled in
 };
 
 /// From one problem's scale to another's.

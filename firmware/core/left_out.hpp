@@ -12,7 +12,7 @@ namespace strainfinger::firmware {
 
 /// A contact that the remaining gauges may show.
 struct Candidate {
-  Placement place;
+  Placement place{};
   std::int32_t explained = -1;  ///< energy of the remaining readings; -1: none
   bool admissible = false;      ///< presses, within the friction cone
 

@@ -7,12 +7,12 @@
 #include "common/fixed_real.hpp"
 #include "firmware/core/estimate.hpp"
 #include "firmware/core/pipeline.hpp"
+#include "host/base/unknown.hpp"
 #include "host/tables/table_builder.hpp"
 
 namespace strainfinger::bench {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint32_t kPlaceChannel = kMaxGauges - 4;  ///< of the noise: behind the gauges'
 
 /// Uniform in -1/2 .. 1/2.

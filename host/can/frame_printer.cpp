@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <limits>
+
+#include "host/base/unknown.hpp"
 
 namespace strainfinger::can {
 namespace {
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 std::string nameOrNumber(const FieldMeaning& meaning, std::int64_t value) {
   const ValueName* name = findName(meaning.names, value);

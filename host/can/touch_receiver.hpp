@@ -2,15 +2,13 @@
 // What a finger says of a touch, put together again from its two frames.
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 
 #include "common/can_frame.hpp"
 #include "common/frames.hpp"
+#include "host/base/unknown.hpp"
 
 namespace strainfinger::can {
-
-inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// A CONTACT and its FORCE in physical units; kUnknown where the finger says so.
 struct TouchReport {

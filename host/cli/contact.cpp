@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "host/base/angles.hpp"
 #include "host/base/failure.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
@@ -17,7 +17,7 @@
 namespace strainfinger::cli {
 namespace {
 
-constexpr const char* kHelp =
+constexpr const char* kContactHelp =
     "What an indenter and the finger exert on each other: pressure (positive when pressing), shear (positive "
     "towards +theta) and the slope d u_r / d theta [m/rad] of the surface, against the angle from the "
     "indenter's normal.\n"
@@ -26,8 +26,6 @@ constexpr const char* kHelp =
     "a flat indenter's slope is r_b theta. How far the answer, recomputed from its tractions, is from that "
     "is "
     "the residual, told on stderr.";
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 struct ContactCommand {
   explicit ContactCommand(CLI::App& command) : common(command), contact(command) {
@@ -64,7 +62,7 @@ struct ContactCommand {
 /// In the middle of `points` equal parts of twice the contact.
 std::vector<double> anglesOf(const ContactCommand& options, double offset_rad, double width_rad) {
   std::vector<double> angles_rad;
-  for (const double angle_deg : options.at_deg) angles_rad.push_back(angle_deg * kDegree);
+  for (const double angle_deg : options.at_deg) angles_rad.push_back(angle_deg * kRadPerDeg);
   for (int i = 0; i < options.points && options.at_deg.empty(); ++i)
     angles_rad.push_back(offset_rad + width_rad * (2 * (i + 0.5) / options.points - 1));
   return angles_rad;
@@ -75,7 +73,7 @@ void printSummary(const ContactCommand& options, const contact::Contact& contact
       stdout, options.common.format(),
       {"normal_n_per_m", "tangential_n_per_m", "width_m", "depth_m", "offset_deg", "residual_m"});
   table.row({contact.normal_n_per_m, contact.tangential_n_per_m, contact.width_m, contact.depth_m,
-             contact.offset_rad / kDegree, contact.residual_m});
+             contact.offset_rad / kRadPerDeg, contact.residual_m});
 }
 
 void printTractions(const ContactCommand& options, const contact::SurfaceKernel& kernel,
@@ -85,7 +83,8 @@ void printTractions(const ContactCommand& options, const contact::SurfaceKernel&
   const double width_rad = contact.width_m / kernel.annulus().outer_radius_m;
   for (const double angle_rad : anglesOf(options, contact.offset_rad, width_rad)) {
     const contact::Traction traction = contact::tractionAt(contact.tractions, angle_rad);
-    table.row({angle_rad / kDegree, traction.pressure_pa, traction.shear_pa, motion.at(angle_rad).urSlope_m});
+    table.row(
+        {angle_rad / kRadPerDeg, traction.pressure_pa, traction.shear_pa, motion.at(angle_rad).urSlope_m});
   }
 }
 
@@ -102,7 +101,7 @@ void printPaper(const ContactCommand& options, const model::Annulus<double>& ann
   TableWriter table(stdout, options.common.format(), {"angle_deg", "pressure_pa", "shear_pa", "slope"});
   for (const double angle_rad : anglesOf(options, 0, width_m / annulus.outer_radius_m)) {
     const contact::Traction traction = contact::tractionAt(found.tractions, angle_rad);
-    table.row({angle_rad / kDegree, traction.pressure_pa, traction.shear_pa,
+    table.row({angle_rad / kRadPerDeg, traction.pressure_pa, traction.shear_pa,
                contact::surfaceAt(annulus, found.tractions, angle_rad).urSlope_m});
   }
 }
@@ -137,6 +136,6 @@ void runContact(const ContactCommand& options) {
 
 }  // namespace
 
-void addContact(CLI::App& app) { addCommand<ContactCommand>(app, "contact", kHelp, runContact); }
+void addContact(CLI::App& app) { addCommand<ContactCommand>(app, "contact", kContactHelp, runContact); }
 
 }  // namespace strainfinger::cli

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
 #include <sstream>
 
+#include "host/base/angles.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/number_rows.hpp"
 #include "host/base/read_file.hpp"
@@ -105,7 +105,7 @@ contact::ContactRequest ContactOptions::request(const config::FingerConfig& conf
   request.tangential_n_per_m = tangential_n_per_m;
   request.size = hasWidth->count() ? ContactSize{ContactSize::Kind::kWidth, width_m}
                                    : ContactSize{ContactSize::Kind::kLoad, load_n_per_m};
-  if (hasCentre->count()) request.centre_rad = centre_deg * std::numbers::pi / 180;
+  if (hasCentre->count()) request.centre_rad = centre_deg * kRadPerDeg;
   return request;
 }
 

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <iostream>
-#include <limits>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "host/base/angles.hpp"
 #include "host/base/number_rows.hpp"
+#include "host/base/unknown.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/model_options.hpp"
@@ -16,7 +16,7 @@
 namespace strainfinger::cli {
 namespace {
 
-constexpr const char* kHelp =
+constexpr const char* kShapeHelp =
     "What pressed on the finger, from rows of gauge strains on stdin: as much as they tell, and no more.\n"
     "stdin: CSV, one strain a gauge in a row, a row a touch; a header row, blank lines and # comments are "
     "passed over.\n"
@@ -32,10 +32,7 @@ constexpr const char* kHelp =
     "touches, a bad gauge, another noise), wide (wider than 1 rad, or narrower than a line).\n"
     "With --pressure: the resolved part of the pressure with its band of 95 %, and the ellipse fitted.";
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kTwoSided95 = 1.959963984540054;  // of a normal distribution, in sigmas
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
 struct ShapeOptions {
   explicit ShapeOptions(CLI::App& command) : common(command) {
     hasNoise = command
@@ -61,7 +58,7 @@ struct ShapeOptions {
 };
 
 double degrees(double angle_rad) {
-  const double angle_deg = std::remainder(angle_rad / kDegree, 360);
+  const double angle_deg = std::remainder(angle_rad / kRadPerDeg, 360);
   return angle_deg < 0 ? angle_deg + 360 : angle_deg;
 }
 
@@ -91,7 +88,7 @@ std::vector<Cell> cellsOf(const shape::Shape& shape) {
           shape.tangential_n_per_m.value,
           width.value,
           curvature.value,
-          shape.angle_rad.sigma / kDegree,
+          shape.angle_rad.sigma / kRadPerDeg,
           shape.normal_n_per_m.sigma,
           shape.tangential_n_per_m.sigma,
           width.sigma,
@@ -105,7 +102,7 @@ std::vector<Cell> cellsOf(const shape::Shape& shape) {
           warnings(shape)};
 }
 
-std::vector<Cell> noContact() {
+std::vector<Cell> noTouch() {
   std::vector<Cell> cells(18, kUnknown);
   cells[0] = std::int64_t{0};
   for (const std::size_t text : {13U, 14U, 17U}) cells[text] = std::string();
@@ -131,7 +128,7 @@ void printShapes(const ShapeOptions& options, const shape::ShapeEstimator& estim
                      "unresolved", "fit_probability", "rival_angle_deg", "warnings"});
   forEachRow(estimator.model().gauges(), [&](std::int64_t, const Eigen::VectorXd& strains) {
     const auto shape = estimator.estimate(strains);
-    table.row(shape ? cellsOf(*shape) : noContact());
+    table.row(shape ? cellsOf(*shape) : noTouch());
   });
 }
 
@@ -165,6 +162,6 @@ void runShape(const ShapeOptions& options) {
 
 }  // namespace
 
-void addShape(CLI::App& app) { addCommand<ShapeOptions>(app, "shape", kHelp, runShape); }
+void addShape(CLI::App& app) { addCommand<ShapeOptions>(app, "shape", kShapeHelp, runShape); }
 
 }  // namespace strainfinger::cli

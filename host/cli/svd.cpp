@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <numbers>
 #include <vector>
 
+#include "host/base/angles.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/model_options.hpp"
@@ -10,15 +10,13 @@
 namespace strainfinger::cli {
 namespace {
 
-constexpr const char* kHelp =
+constexpr const char* kSvdHelp =
     "Singular values of the paper's map T C, from Hanning-windowed Fourier coefficients of pressure and "
     "shear up "
     "to half the harmonics to the slope of the surface in the contact [m/(rad Pa)], largest first.\n"
     "With --basis K the first K pairs instead: u_r and its slope d u_r / d theta against the angle from the "
     "contact's centre, and the pressure (positive when pressing) and shear that make them, per unit of "
     "coefficients. Pairs are even or odd: an even shape has an odd slope and an even pressure.";
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 struct SvdOptions {
   explicit SvdOptions(CLI::App& command) : common(command) {
@@ -65,7 +63,7 @@ void printBasis(const SvdOptions& options, const config::Finger& finger, const c
       const double angle_rad = options.width_m / finger.outer_radius_m * (k / (options.points - 1.0) - 0.5);
       const contact::SurfacePoint point = contact::surfaceAt(finger.annulus(), tractions, angle_rad);
       const contact::Traction traction = contact::tractionAt(tractions, angle_rad);
-      table.row({static_cast<std::int64_t>(i + 1), angle_rad / kDegree, point.ur_m, point.urSlope_m,
+      table.row({static_cast<std::int64_t>(i + 1), angle_rad / kRadPerDeg, point.ur_m, point.urSlope_m,
                  traction.pressure_pa, traction.shear_pa});
     }
   }
@@ -89,6 +87,6 @@ void runSvd(const SvdOptions& options) {
 
 }  // namespace
 
-void addSvd(CLI::App& app) { addCommand<SvdOptions>(app, "svd", kHelp, runSvd); }
+void addSvd(CLI::App& app) { addCommand<SvdOptions>(app, "svd", kSvdHelp, runSvd); }
 
 }  // namespace strainfinger::cli

@@ -18,7 +18,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kCells = 256;
-constexpr int kMostSteps = 200;
+constexpr int kMostSweeps = 200;
 constexpr int kMostZooms = 12;
 constexpr int kMostBisections = 60;
 
@@ -62,7 +62,7 @@ class CellContact {
   std::vector<Index> touching(double load_n_per_m) const {
     std::vector<Index> active;
     for (Index i = 0; i < kCells; ++i) active.push_back(i);
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMostSweeps; ++step) {
       const VectorXd solution = solve(active, load_n_per_m);
       const std::vector<Index> next = nextActive(active, solution);
       if (next == active) break;

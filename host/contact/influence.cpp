@@ -52,8 +52,8 @@ MatrixXd onItself(const SurfaceKernel& kernel, const KernelMix& mix, const Refer
 /// The weighted basis at nodes that are dense at both edges, whichever of them is near.
 MatrixXd onAnother(const SurfaceKernel& kernel, const KernelMix& mix, const ReferencePatch& source,
                    const Patch& from, const VectorXd& points, const Patch& at) {
-  constexpr int kDensity = 14;
-  const TanhSinhRule rule(kDensity);
+  constexpr int kNearEdges = 14;
+  const TanhSinhRule rule(kNearEdges);
   const PatchPoints places{2 * rule.fromStart, 2 * rule.fromEnd};
   const Eigen::ArrayXd weights = 2 * rule.weights * places.fromRight.pow(source.exponents().right) *
                                  places.fromLeft.pow(source.exponents().left);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kPairs = 4, kPoints = 201, kShownHarmonics = 150, kLowHarmonic = 20;
 
-constexpr const char* kPanels = R"(
+constexpr const char* kBasisPanels = R"(
 set multiplot layout 4,3 margins 0.05,0.985,0.07,0.94 spacing 0.05,0.06
 set yrange [-1.15:1.15]
 do for [k = 1:4] {
@@ -128,16 +128,15 @@ double oddness(const plot::DataFile& data, std::size_t column, bool isEven) {
 /// 2 mu times the largest e_rr that the pressure makes at the gauges, over the largest pressure.
 double visibility(const Subject& subject, const Pair& pair) {
   constexpr std::array kRows{model::kErr};
-  constexpr double kReach_rad = 1, kTolerance = 1e-9;
+  constexpr double kSpan_rad = 1, kDigits = 1e-9;
   constexpr int kAngles = 501;
-  Eigen::MatrixXd table =
-      model::truncatedSeries(subject.annulus, subject.gaugeRadius_m, kRows, {}, kTolerance);
+  Eigen::MatrixXd table = model::truncatedSeries(subject.annulus, subject.gaugeRadius_m, kRows, {}, kDigits);
   const auto last = std::min(table.rows(), pair.tractions.rows()) - 1;
   double strain = 0, pressure = 0;
   for (int i = 0; i < kAngles; ++i) {
     double sum = 0;
     model::visitMultiples(
-        kReach_rad * i / (kAngles - 1.0), static_cast<int>(last), [&](int n, double c, double s) {
+        kSpan_rad * i / (kAngles - 1.0), static_cast<int>(last), [&](int n, double c, double s) {
           sum += table(n, model::kNormal) * pair.coefficients()[n] * (pair.isEvenSlope ? s : c);
         });
     strain = std::max(strain, std::abs(sum));
@@ -213,7 +212,7 @@ plot::Picture basisPicture(const Subject& subject) {
                               scales("shapes", functions, 1, 4) + scales("slopes", functions, 2, 4) +
                               scales("pressures", functions, 3, 4) +
                               scales("coefficients", coefficients, 1, 1);
-  return {1300, 1200, plot::kStyle + numbers + kPanels, {std::move(functions), std::move(coefficients)}};
+  return {1300, 1200, plot::kStyle + numbers + kBasisPanels, {std::move(functions), std::move(coefficients)}};
 }
 
 std::vector<Claim> basisClaims() {

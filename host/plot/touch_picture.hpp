@@ -1,14 +1,12 @@
 #pragma once
 // The picture of a touched finger: what the gauges saw at one moment, and where the contact went.
 
-#include <limits>
 #include <vector>
 
+#include "host/base/unknown.hpp"
 #include "host/plot/picture.hpp"
 
 namespace strainfinger::plot {
-
-inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// A contact as known or as estimated; kUnknown throughout where there is none.
 struct ContactPoint {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kOneSided95 = 1.6448536269514722;  // of a normal distribution, in sigmas
 constexpr int kFitted = 4;
-constexpr int kMoment = 3;
+constexpr int kMomentPlace = 3;
 
 Measured measured(const TouchFit& fit, double value, int member) {
   return {value, std::sqrt(fit.covariance(member, member))};
@@ -30,7 +30,7 @@ double ShapeEstimator::probability(double chiSquared) const {
 
 /// Width and curvature by the first derivatives of what they are made of.
 void ShapeEstimator::addWidth(const TouchFit& fit, Shape& shape) const {
-  const double moment = fit.touch.moment_rad2, sigma = std::sqrt(fit.covariance(kMoment, kMoment));
+  const double moment = fit.touch.moment_rad2, sigma = std::sqrt(fit.covariance(kMomentPlace, kMomentPlace));
   const double most = std::max(0.0, moment) + kOneSided95 * sigma, radius_m = model_.outerRadius_m();
   shape.widthLimit_m = radius_m * equivalentWidth_rad(std::min(most, TouchModel::kMostMoment_rad2));
   shape.isWidthAtLimit = fit.isAtLimit;

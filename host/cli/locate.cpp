@@ -10,8 +10,8 @@
 #include "firmware/core/detect.hpp"
 #include "firmware/core/estimate.hpp"
 #include "firmware/core/locate.hpp"
+#include "host/base/no_value.hpp"
 #include "host/base/number_rows.hpp"
-#include "host/base/unknown.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/firmware_options.hpp"
@@ -53,7 +53,7 @@ std::vector<Cell> cellsOf(const Contact& contact) {
 }
 
 std::vector<Cell> noContact() {
-  return {std::int64_t{0}, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
+  return {std::int64_t{0}, kNoValue, kNoValue, kNoValue, kNoValue, kNoValue, kNoValue, kNoValue};
 }
 
 void runLocate(const LocateOptions& options) {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "host/base/angles.hpp"
+#include "host/base/no_value.hpp"
 #include "host/base/number_rows.hpp"
-#include "host/base/unknown.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/model_options.hpp"
@@ -79,7 +79,7 @@ std::string warnings(const shape::Shape& shape) {
 }
 
 std::vector<Cell> cellsOf(const shape::Shape& shape) {
-  const shape::Measured unknown{kUnknown, kUnknown};
+  const shape::Measured unknown{kNoValue, kNoValue};
   const shape::Measured width = shape.width_m.value_or(unknown);
   const shape::Measured curvature = shape.curvature_per_m.value_or(unknown);
   return {std::int64_t{1},
@@ -98,12 +98,12 @@ std::vector<Cell> cellsOf(const shape::Shape& shape) {
           std::string(shape.profile ? nameOf(*shape.profile) : ""),
           unresolved(shape),
           shape.fitProbability,
-          shape.rivalAngle_rad ? degrees(*shape.rivalAngle_rad) : kUnknown,
+          shape.rivalAngle_rad ? degrees(*shape.rivalAngle_rad) : kNoValue,
           warnings(shape)};
 }
 
 std::vector<Cell> noTouch() {
-  std::vector<Cell> cells(18, kUnknown);
+  std::vector<Cell> cells(18, kNoValue);
   cells[0] = std::int64_t{0};
   for (const std::size_t text : {13U, 14U, 17U}) cells[text] = std::string();
   return cells;

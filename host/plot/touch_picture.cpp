@@ -109,7 +109,7 @@ std::vector<double> trackRow(const TrackPoint& point, double radius_m) {
 }
 
 std::vector<double> gapAt(double time_s) {
-  std::vector<double> row(9, kUnknown);
+  std::vector<double> row(9, kNoValue);
   row[0] = time_s;
   return row;
 }

@@ -36,7 +36,7 @@ void Deviation::add(double value) {
 
 double Deviation::rms() const { return std::sqrt(squares_ / static_cast<double>(count_)); }
 
-double Deviation::worst() const { return count_ > 0 ? worst_ : kUnknown; }
+double Deviation::worst() const { return count_ > 0 ? worst_ : kNoValue; }
 
 void TouchErrors::add(const ComparedTouch& compared, const config::Finger& finger) {
   const FingerFlags flags = compared.report.flags;

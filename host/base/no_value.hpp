@@ -5,6 +5,6 @@
 
 namespace strainfinger {
 
-inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace strainfinger

@@ -81,7 +81,8 @@ ContactOptions::ContactOptions(CLI::App& command) {
                          "config's");
   command
       .add_option("--regime", regime,
-                  "What happens sidewards; frictionless without it, sliding if --friction is given")
+                  "What happens sidewards; frictionless without it, sliding if --friction is given. Stick is "
+                  "ill-posed below nu = 1/2: a warning tells how open its load is, above 10 % it is refused")
       ->check(CLI::IsMember({"frictionless", "sliding", "stick"}));
   hasTangential = command.add_option("--tangential-n-per-m", tangential_n_per_m,
                                      "Load sidewards of what sticks [N/m], to +theta; 0 without it");

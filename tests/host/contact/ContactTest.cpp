@@ -4,13 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <vector>
 
 #include "host/base/failure.hpp"
-#include "host/contact/fourier_tractions.hpp"
 #include "host/contact/surface_motion.hpp"
 #include "tests/host/contact/fingers.hpp"
 #include "tests/host/contact/known_contacts.hpp"
+#include "tests/host/contact/requests.hpp"
 
 // last: its macros redefine new
 #include <CppUTest/TestHarness.h>
@@ -20,36 +19,6 @@ using namespace strainfinger::contact;
 using namespace strainfinger::testing;
 
 namespace {
-
-ContactRequest ofWidth(double width_m) {
-  ContactRequest request;
-  request.size = {ContactSize::Kind::kWidth, width_m};
-  return request;
-}
-
-ContactRequest ofLoad(double load_n_per_m) {
-  ContactRequest request;
-  request.size = {ContactSize::Kind::kLoad, load_n_per_m};
-  return request;
-}
-
-ContactRequest sliding(double friction) {
-  ContactRequest request = ofWidth(2e-3);
-  request.regime = Regime::kSliding;
-  request.friction = friction;
-  return request;
-}
-
-ContactRequest sticking(double tangential_n_per_m) {
-  ContactRequest request = ofWidth(2e-3);
-  request.regime = Regime::kStick;
-  request.tangential_n_per_m = tangential_n_per_m;
-  return request;
-}
-
-Contact solve(const ContactRequest& request, const model::Annulus<double>& finger = kDefaultFinger) {
-  return solveContact(SurfaceKernel(finger), request);
-}
 
 void equalRelative(double known, double value, double tolerance) {
   DOUBLES_EQUAL(known, value, tolerance * std::abs(known));
@@ -70,22 +39,6 @@ void isUnilateral(const ContactRequest& request, const model::Annulus<double>& f
       const double indenter_m = x_m * angle_rad / 2 + request.indenter.height(x_m) - contact.approach_m;
       CHECK_TRUE(motion.at(angle_rad).ur_m < indenter_m + 1e-12);
     }
-}
-
-/// Measured every 10 um over +-4 mm.
-template <typename Height>
-Indenter measured(Height height) {
-  std::vector<double> x, y;
-  for (int i = -400; i <= 400; ++i) {
-    x.push_back(i * 10e-6);
-    y.push_back(height(x.back()));
-  }
-  return Indenter::measured(x, y);
-}
-
-/// Waves 1 mm long and 50 um high: several regions of contact.
-Indenter waves() {
-  return measured([](double x) { return 25e-6 * (1 - std::cos(2 * std::numbers::pi * x / 1e-3)); });
 }
 
 }  // namespace
@@ -226,7 +179,7 @@ TEST(Contact, AWedgeCarriesTheKnownLoad) {
     request.indenter = Indenter::wedge(known.half_angle_deg);
     const Contact contact = solve(request);
     equalRelative(known.load_n_per_m, contact.normal_n_per_m, 1e-6);
-    CHECK_TRUE(contact.residual_m < 1e-11);
+    CHECK_TRUE(contact.residual_m < 1e-6 * contact.depth_m);
   }
 }
 
@@ -317,41 +270,6 @@ TEST(Contact, MoreTermsFindTheSameContactInEveryRegime) {
     }
     CHECK_TRUE(contact.residual_m < 1e-15);
   }
-}
-
-// By Fourier series of the tractions in place of the double exponential rule: 3,000 harmonics leave 1e-9 m.
-TEST(Contact, TheResidualIsTheSurfacesDistanceFromTheIndenter) {
-  ContactRequest request = sliding(0.5);
-  request.centre_rad = 0;
-  const Contact contact = solve(request);
-  const FourierTractions series = fourierTractions(contact.tractions, 3'000);
-  double worst_m = 0;
-  for (double x = -0.99; x < 1; x += 0.06) {
-    const double angle_rad = x * 1e-3 / kSurface_m;
-    const double indenter_m = kSurface_m * angle_rad * angle_rad / 2 - contact.approach_m;
-    worst_m = std::max(worst_m, std::abs(surfaceAt(kDefaultFinger, series, angle_rad).ur_m - indenter_m));
-  }
-  CHECK_TRUE(contact.residual_m < 2 * worst_m && contact.residual_m > worst_m / 2);
-}
-
-TEST(Contact, AHeldCentreThatSlidesSaysThatNothingFits) {
-  ContactRequest request = sliding(0.5);
-  request.centre_rad = 0;
-  const Contact contact = solve(request);
-  CHECK_TRUE(contact.residual_m > 1e-7);
-  LONGS_EQUAL(1, contact.warnings.size());
-  STRCMP_CONTAINS("no contact with its centre held there", contact.warnings[0].c_str());
-}
-
-TEST(Contact, StickOfACompressibleRubberWarns) {
-  const Contact contact = solve(sticking(0), fingerOf(0.7, 0.4));
-  STRCMP_CONTAINS("stick below nu = 1/2", contact.warnings.at(0).c_str());
-}
-
-TEST(Contact, WhatIsNotResolvedSaysSo) {
-  const Contact contact = solve(ofWidth(12e-3), fingerOf(0.99, 0.5));
-  CHECK_TRUE(contact.residual_m > 1e-6 * contact.depth_m);
-  STRCMP_CONTAINS("inaccurate", contact.warnings.at(0).c_str());
 }
 
 TEST(Contact, RefusesWhatIsOutsideItsDomain) {

@@ -38,8 +38,8 @@ bool isPassedOver(const std::string& line) {
 
 }  // namespace
 
-NumberRowReader::NumberRowReader(std::istream& stream, std::string name, std::size_t columns)
-    : stream_(stream), name_(std::move(name)), columns_(columns) {}
+NumberRowReader::NumberRowReader(std::istream& stream, std::string name, std::size_t columns, Limit limit)
+    : stream_(stream), name_(std::move(name)), columns_(columns), limit_(std::move(limit)) {}
 
 bool NumberRowReader::next(std::vector<double>& row) {
   for (std::string line; std::getline(stream_, line);) {
@@ -62,6 +62,8 @@ void NumberRowReader::parse(const std::string& line, std::vector<double>& row) c
     double value = 0;
     if (!parseNumber(field, value)) fail(begin + 1, fmt::format("\"{}\" is no number", field));
     if (!std::isfinite(value)) fail(begin + 1, fmt::format("{} is no finite number", field));
+    if (std::abs(value) > limit_.most)
+      fail(begin + 1, fmt::format("{} is beyond +-{}: {}", field, limit_.most, limit_.hint));
     if (row.size() == columns_) fail(begin + 1, fmt::format("more than {} columns", columns_));
     row.push_back(value);
     begin = end + 1;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -23,11 +24,15 @@ constexpr const char* kShapeHelp =
     "stdout: one row a touch; what isn't known is empty. width_m: of the semi-ellipse with the load's second "
     "moment, if no line load fits (3 sigma); width_limit_m: the width is below it with 95 %. "
     "curvature_per_m: "
-    "of a round indenter that makes this width under this load, 0: flat. directions: of the pressure, above "
+    "of a round indenter that makes this width under this load, 0: flat; curvature_low_per_m and "
+    "curvature_high_per_m: its band of 95 %, no upper end where empty. directions: of the pressure, above "
     "the noise. class: round, uniform, wedge or punch, if it fits better than the others by 9 in chi "
     "squared. "
     "unresolved: which of width, class and odd-part the strains don't tell. warnings: ambiguous (another "
-    "touch, at rival_angle_deg, fits about as well; the sigmas hold it), misfit (residuals are not noise: "
+    "touch, at rival_angle_deg, fits about as well: bands of 95 % hold it, and no class is named), sparse "
+    "(the "
+    "gauges' pitch is twice their depth and more: no width, and answers may be farther off than the sigmas "
+    "say), misfit (residuals are not noise: "
     "two "
     "touches, a bad gauge, another noise), wide (wider than 1 rad, or narrower than a line).\n"
     "With --pressure: the resolved part of the pressure with its band of 95 %, and the ellipse fitted.";
@@ -40,8 +45,10 @@ struct ShapeOptions {
                                "Standard deviation of a reading; the config's without it")
                    ->type_name("S")
                    ->check(realFrom(1e-12, 0.1));
-    command.add_flag("--pressure", pressure, "The pressure against the angle in place of the summary");
+    auto* const withPressure =
+        command.add_flag("--pressure", pressure, "The pressure against the angle in place of the summary");
     command.add_option("--points", points, "Angles that --pressure prints a touch (41)")
+        ->needs(withPressure)
         ->type_name("N")
         ->check(CLI::Range(2, 100'000));
   }
@@ -73,6 +80,7 @@ std::string unresolved(const shape::Shape& shape) {
 std::string warnings(const shape::Shape& shape) {
   std::vector<std::string> words;
   if (shape.rivalAngle_rad) words.emplace_back("ambiguous");
+  if (shape.isSparse) words.emplace_back("sparse");
   if (shape.fitProbability < shape::kUnlikely) words.emplace_back("misfit");
   if (shape.isWidthAtLimit) words.emplace_back("wide");
   return fmt::format("{}", fmt::join(words, " "));
@@ -82,6 +90,7 @@ std::vector<Cell> cellsOf(const shape::Shape& shape) {
   const shape::Measured unknown{kNoValue, kNoValue};
   const shape::Measured width = shape.width_m.value_or(unknown);
   const shape::Measured curvature = shape.curvature_per_m.value_or(unknown);
+  const shape::Band band = shape.curvatureBand_per_m.value_or(shape::Band{kNoValue, kNoValue});
   return {std::int64_t{1},
           degrees(shape.angle_rad.value),
           shape.normal_n_per_m.value,
@@ -99,11 +108,13 @@ std::vector<Cell> cellsOf(const shape::Shape& shape) {
           unresolved(shape),
           shape.fitProbability,
           shape.rivalAngle_rad ? degrees(*shape.rivalAngle_rad) : kNoValue,
-          warnings(shape)};
+          warnings(shape),
+          band.low,
+          std::isfinite(band.high) ? band.high : kNoValue};
 }
 
 std::vector<Cell> noTouch() {
-  std::vector<Cell> cells(18, kNoValue);
+  std::vector<Cell> cells(20, kNoValue);
   cells[0] = std::int64_t{0};
   for (const std::size_t text : {13U, 14U, 17U}) cells[text] = std::string();
   return cells;
@@ -112,7 +123,8 @@ std::vector<Cell> noTouch() {
 /// Calls print(sample, strains), samples from 1.
 template <typename Print>
 void forEachRow(int gauges, Print print) {
-  NumberRowReader rows(std::cin, "stdin", static_cast<std::size_t>(gauges));
+  NumberRowReader rows(std::cin, "stdin", static_cast<std::size_t>(gauges),
+                       {1, "a strain is an extension over a length, not in per cent or millionths"});
   std::int64_t sample = 0;
   for (std::vector<double> row; rows.next(row);) {
     const Eigen::VectorXd strains = Eigen::Map<Eigen::VectorXd>(row.data(), gauges);
@@ -122,10 +134,26 @@ void forEachRow(int gauges, Print print) {
 
 void printShapes(const ShapeOptions& options, const shape::ShapeEstimator& estimator) {
   TableWriter table(stdout, options.common.format(),
-                    {"contact", "angle_deg", "normal_n_per_m", "tangential_n_per_m", "width_m",
-                     "curvature_per_m", "sigma_angle_deg", "sigma_normal_n_per_m", "sigma_tangential_n_per_m",
-                     "sigma_width_m", "sigma_curvature_per_m", "width_limit_m", "directions", "class",
-                     "unresolved", "fit_probability", "rival_angle_deg", "warnings"});
+                    {"contact",
+                     "angle_deg",
+                     "normal_n_per_m",
+                     "tangential_n_per_m",
+                     "width_m",
+                     "curvature_per_m",
+                     "sigma_angle_deg",
+                     "sigma_normal_n_per_m",
+                     "sigma_tangential_n_per_m",
+                     "sigma_width_m",
+                     "sigma_curvature_per_m",
+                     "width_limit_m",
+                     "directions",
+                     "class",
+                     "unresolved",
+                     "fit_probability",
+                     "rival_angle_deg",
+                     "warnings",
+                     "curvature_low_per_m",
+                     "curvature_high_per_m"});
   forEachRow(estimator.model().gauges(), [&](std::int64_t, const Eigen::VectorXd& strains) {
     const auto shape = estimator.estimate(strains);
     table.row(shape ? cellsOf(*shape) : noTouch());

@@ -201,7 +201,8 @@ std::string summary(const Surveys& surveys) {
       "only:\n\n{}\n{}\n"
       "Contacts (flat, a cylinder of 5 mm, a wedge of 160 degrees; all regimes; nu = 0, 0.3, 0.499999, 1/2; "
       "of "
-      "alpha 0.99 and more beyond 0.01 rad flat and nu = 1/2 only), "
+      "alpha 0.99 and more flat and nu = 0.3 and 1/2 only, beyond 0.01 rad 1/2 only, at 0.999 without "
+      "friction), "
       "residual over depth, recomputed from the tractions: answers without a warning, then those that warn "
       "(stick below nu = 1/2, layers far thinner than the contact is wide; refused: no answer but an error; "
       "blank: none):\n\n{}\n{}\n{}\n{}",

@@ -79,8 +79,8 @@ inline constexpr std::array kContactPoissonRatios{0.0, 0.3, 0.499999, 0.5};
 
 /// Every regime (sliding with a friction of 0.5), widths from 1e-6 rad to a quarter turn, a flat indenter, a
 /// cylinder of 5 mm and a wedge of 160 degrees.
-/// On layers of alpha >= 0.98 contacts wider than 0.01 rad are of a flat indenter and nu = 1/2 only.
-/// On all cores; costs 5 s an alpha below 0.9, minutes at 0.999.
+/// On layers of alpha >= 0.98 indenters are flat and Poisson's ratios 0.3 and 1/2, of widths beyond 0.01 rad
+/// 1/2 only, at 0.999 without friction. On all cores; costs 5 s an alpha below 0.9, a minute at 0.999.
 std::vector<ContactRegion> surveyContacts(std::span<const double> alphas,
                                           std::span<const double> poissonRatios);
 

@@ -50,7 +50,7 @@ Phases closedForm(const testing::WideAnnulus& annulus, const Wide& width, const 
   return sum;
 }
 
-constexpr double kDigits = 25;
+constexpr double kDigits = 20;
 
 }  // namespace
 

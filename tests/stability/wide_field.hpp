@@ -12,7 +12,7 @@ namespace strainfinger::stability {
 using testing::Wide;
 
 /// Fields at one radius per N/m of a normal and of a tangential load, from the model's own templates:
-/// harmonics until 1e-25 and, at r_b, the closed form of what is left.
+/// harmonics until 1e-20 and, at r_b, the closed form of what is left.
 class WideField {
  public:
   /// Where to look: an angle from the centre of a load of some width.

@@ -8,6 +8,7 @@
 
 #include "host/bench/model/measured_case.hpp"
 #include "host/bench/model/precise.hpp"
+#include "host/bench/model/precise_contact.hpp"
 #include "host/contact/contact.hpp"
 #include "host/contact/paper_method.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 
 using namespace contact;
 
-constexpr double kWidth_m = 2e-3;
+constexpr double kWidth_m = 2e-3, kFriction = 0.5;
 const double kHalf_rad = kWidth_m / 2 / benchAnnulus().outer_radius_m;
 
 /// The kernel included: nothing is kept from one contact to the next.
@@ -52,12 +53,17 @@ void appendWholeCases(std::vector<MeasuredCase>& cases) {
   for (const auto& [indenterName, indenter] : indenters)
     for (const auto& [sizeName, size] : sizes)
       for (const auto& [regimeName, regime] : regimes) {
-        const ContactRequest request{indenter, regime, 0.5, 0, size, {}};
+        const ContactRequest request{indenter, regime, kFriction, 0, size, {}};
         cases.push_back({"a whole contact", fmt::format("{}, {}, {}", indenterName, sizeName, regimeName),
                          "terms", static_cast<double>(whole(request).terms),
                          std::numeric_limits<double>::quiet_NaN(),
                          [request] { return whole(request).normal_n_per_m; }});
       }
+}
+
+/// The flat, 2 mm.
+ContactRequest flatRequest(Regime regime) {
+  return {Indenter::flat(), regime, kFriction, 0, {ContactSize::Kind::kWidth, kWidth_m}, {}};
 }
 
 PaperContact byPaper(int harmonics, SlopeRows rows) {
@@ -68,30 +74,29 @@ PaperContact byPaper(int harmonics, SlopeRows rows) {
   return solveByPaper(benchAnnulus(), Indenter::flat(), kWidth_m, options);
 }
 
-/// Worst error of the pressure over the contact, per peak, against a series of 48 terms (it converges to
-/// rounding by 14).
-template <typename Pressure>
-double errorOf(const Pressure& pressure_pa) {
-  constexpr int kPlaces = 200;
-  static const Tractions known = spectral(48);
+/// Worst error of the pressure over the contact, per peak, against 50 digits.
+template <typename Made>
+double errorOf(const Made& tractions, double centre_rad, const PreciseContact& known) {
   double worst = 0;
-  for (int i = 0; i < kPlaces; ++i) {
-    const double angle_rad = kHalf_rad * i / kPlaces;
-    worst = std::max(worst, std::abs(pressure_pa(angle_rad) - tractionAt(known, angle_rad).pressure_pa));
+  for (Eigen::Index i = 0; i < known.angles_rad.size(); ++i) {
+    const double found_pa = tractionAt(tractions, centre_rad + known.angles_rad[i]).pressure_pa;
+    worst = std::max(worst, std::abs(found_pa - known.pressure_pa[i]));
   }
-  return worst / tractionAt(known, 0).pressure_pa;
+  return worst / known.pressure_pa.maxCoeff();
 }
 
-double errorOf(const Tractions& tractions) {
-  return errorOf([&](double angle_rad) { return tractionAt(tractions, angle_rad).pressure_pa; });
+/// Of a frictionless one.
+template <typename Made>
+double errorOf(const Made& tractions) {
+  static const PreciseContact known = preciseContact(kWidth_m, 0);
+  return errorOf(tractions, 0, known);
 }
 
 MeasuredCase paperCase(const char* method, int harmonics, SlopeRows rows) {
   const PaperContact found = byPaper(harmonics, rows);
-  const auto pressure = [&](double angle_rad) { return tractionAt(found.tractions, angle_rad).pressure_pa; };
-  return {"contact",         method,
-          "harmonics",       static_cast<double>(harmonics),
-          errorOf(pressure), [=] { return byPaper(harmonics, rows).normal_n_per_m; }};
+  return {"contact", method, "harmonics", static_cast<double>(harmonics), errorOf(found.tractions), [=] {
+            return byPaper(harmonics, rows).normal_n_per_m;
+          }};
 }
 
 }  // namespace
@@ -101,10 +106,16 @@ std::vector<MeasuredCase> contactCases() {
   for (const int terms : {4, 6, 8, 10, 12, 16, 24})
     cases.push_back({"contact", "spectral", "terms", static_cast<double>(terms), errorOf(spectral(terms)),
                      [terms] { return totalTraction(spectral(terms)).pressure_pa; }});
-  const ContactRequest flat;
+  const ContactRequest flat = flatRequest(Regime::kFrictionless);
   const Contact found = whole(flat);
   cases.push_back({"contact", "ours (edges, residual too)", "terms", static_cast<double>(found.terms),
                    errorOf(found.tractions), [flat] { return whole(flat).normal_n_per_m; }});
+  const ContactRequest slidingFlat = flatRequest(Regime::kSliding);
+  const Contact sliding = whole(slidingFlat);
+  cases.push_back(
+      {"contact", "ours, sliding", "terms", static_cast<double>(sliding.terms),
+       errorOf(sliding.tractions, sliding.tractions[0].patch.centre_rad, preciseContact(kWidth_m, kFriction)),
+       [slidingFlat] { return whole(slidingFlat).normal_n_per_m; }});
   appendWholeCases(cases);
   for (const int harmonics : {75, 150, 300, 600, 1200})
     cases.push_back(paperCase("paper's, Gauss rows", harmonics, SlopeRows::kGauss));

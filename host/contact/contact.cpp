@@ -9,7 +9,7 @@
 #include "host/base/failure.hpp"
 #include "host/contact/contact_check.hpp"
 #include "host/contact/contact_regions.hpp"
-#include "host/contact/edge_search.hpp"
+#include "host/contact/region_search.hpp"
 
 namespace strainfinger::contact {
 namespace {
@@ -70,7 +70,9 @@ EdgeResult searchEdges(const SurfaceKernel& kernel, const ContactRequest& reques
                        int& terms) {
   for (terms = termsFor(kernel, request, patches);; terms = std::min(2 * terms, kMostTerms)) {
     const SpectralSolver solver(kernel, request.regime, request.friction, terms);
-    EdgeResult result = EdgeSearch(kernel, solver, request).run(patches);
+    EdgeResult result = request.indenter.isMeasured() && !request.centre_rad
+                            ? settleRegions(kernel, solver, request, patches)
+                            : EdgeSearch(kernel, solver, request).run(patches);
     const bool isWorthMore = isSmooth(kernel, request.indenter) && terms < kMostTerms;
     if (!isWorthMore || result.solution.tail() < kConverged) return result;
     patches = result.patches;

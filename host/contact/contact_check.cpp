@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "host/base/failure.hpp"
+#include "host/contact/overlap.hpp"
 #include "host/contact/surface_motion.hpp"
 
 namespace strainfinger::contact {
@@ -40,21 +41,15 @@ bool pulls(const Tractions& tractions) {
   return least < -1e-9 * most;
 }
 
-/// Whether a measured shape is inside the rubber somewhere between or beside its contact regions.
-bool penetrates(const SurfaceKernel& kernel, const Indenter& indenter, const Contact& contact) {
-  constexpr int kPlaces = 400;
-  const SurfaceMotion motion(kernel, contact.tractions);
-  const double radius_m = kernel.annulus().outer_radius_m, width_rad = contact.width_m / radius_m;
-  for (int i = 0; i < kPlaces; ++i) {
-    const double angle_rad = contact.offset_rad + 1.5 * width_rad * (2 * (i + 0.5) / kPlaces - 1);
-    const double x_m = radius_m * angle_rad;
-    const bool isKnown = x_m >= indenter.firstPosition_m() && x_m <= indenter.lastPosition_m();
-    if (!isKnown || tractionAt(contact.tractions, angle_rad).pressure_pa != 0) continue;
-    const double gap_m =
-        x_m * angle_rad / 2 + indenter.height(x_m) - contact.approach_m - motion.at(angle_rad).ur_m;
-    if (gap_m < -1e-12 - contact.residual_m) return true;
-  }
-  return false;
+void warnOfOverlaps(const SurfaceKernel& kernel, const Indenter& indenter, Contact& contact) {
+  const double radius_m = kernel.annulus().outer_radius_m;
+  const std::vector<Overlap> overlaps =
+      findOverlaps(kernel, indenter, contact.tractions, contact.approach_m, 1e-12);
+  if (overlaps.empty()) return;
+  const Overlap& worst = *std::ranges::max_element(overlaps, {}, &Overlap::depth_m);
+  contact.warnings.push_back(
+      fmt::format("the indenter is inside the rubber by {:.2g} m at {:.6g} m and {} places in all",
+                  worst.depth_m, radius_m * worst.deepest_rad, overlaps.size()));
 }
 
 /// By how much of itself the load changes on the same patches if edges are resolved four times as finely.
@@ -101,9 +96,7 @@ void checkContact(const SurfaceKernel& kernel, const ContactRequest& request, Co
   else if (!isIllPosed(kernel, request) && contact.residual_m > 1e-6 * depth_m)
     warnings.push_back(fmt::format("inaccurate: {} terms a patch leave {:.2g} of the depth unresolved",
                                    contact.terms, contact.residual_m / depth_m));
-  if (request.indenter.isMeasured() && penetrates(kernel, request.indenter, contact))
-    warnings.emplace_back(
-        "the indenter is inside the rubber somewhere: a narrow region of contact was missed");
+  if (request.indenter.isMeasured()) warnOfOverlaps(kernel, request.indenter, contact);
   if (pulls(contact.tractions))
     warnings.emplace_back("the tractions pull somewhere: no contact is like this");
 }

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "host/base/failure.hpp"
@@ -20,7 +21,8 @@ using Eigen::VectorXd;
 constexpr int kCells = 256;
 constexpr int kMostSteps = 200;
 constexpr int kMostZooms = 12;
-constexpr int kMostBisections = 60;
+constexpr int kMostLoads = 60;
+constexpr double kWidthFits = 0.01;
 
 struct Range {
   double first_rad, last_rad;
@@ -49,11 +51,9 @@ class CellContact {
   CellContact(const SurfaceKernel& kernel, const Indenter& indenter, Range range)
       : range_(range), radius_m_(kernel.annulus().outer_radius_m), gap_m_(kCells), matrix_(kCells, kCells) {
     const VectorXd influence = cellInfluence(kernel, range.cell_rad());
-    for (Index i = 0; i < kCells; ++i) {
-      const double angle_rad = range.middle_rad(i);
-      gap_m_[i] = radius_m_ * angle_rad * angle_rad / 2 + indenter.height(radius_m_ * angle_rad);
+    for (Index i = 0; i < kCells; ++i)
       for (Index j = 0; j < kCells; ++j) matrix_(i, j) = influence[std::abs(i - j)];
-    }
+    fillGaps(indenter);
   }
 
   const Range& range() const { return range_; }
@@ -72,6 +72,27 @@ class CellContact {
   }
 
  private:
+  /// The gap in the middle of each cell, by a straight line between its ends, and as much less as the
+  /// measured points within come below that line: what is narrower than a cell stands out over all of it.
+  void fillGaps(const Indenter& indenter) {
+    VectorXd ends(kCells + 1), below = VectorXd::Zero(kCells);
+    const auto gap = [&](double angle_rad) {
+      return radius_m_ * angle_rad * angle_rad / 2 + indenter.height(radius_m_ * angle_rad);
+    };
+    for (Index i = 0; i <= kCells; ++i)
+      ends[i] = gap(range_.first_rad + static_cast<double>(i) * range_.cell_rad());
+    const auto lookAt = [&](double angle_rad) {
+      const double cells = (angle_rad - range_.first_rad) / range_.cell_rad();
+      const auto i = static_cast<Index>(cells);
+      if (!(cells >= 0 && i < kCells)) return;
+      const double t = cells - static_cast<double>(i);
+      below[i] = std::min(below[i], gap(angle_rad) - (1 - t) * ends[i] - t * ends[i + 1]);
+    };
+    for (Index i = 0; i < kCells; ++i) lookAt(range_.middle_rad(i));
+    for (const double position_m : indenter.positions_m()) lookAt(position_m / radius_m_);
+    gap_m_ = (ends.head(kCells) + ends.tail(kCells)) / 2 + below;
+  }
+
   /// Pressures of the active cells, then the approach.
   VectorXd solve(const std::vector<Index>& active, double load_n_per_m) const {
     const auto count = static_cast<Index>(active.size());
@@ -143,24 +164,59 @@ double extent_rad(const std::vector<Patch>& patches) {
   return patches.back().last_rad() - patches.front().first_rad();
 }
 
-/// Bisects the logarithm of the load.
-std::vector<Patch> regionsOfWidth(const SurfaceKernel& kernel, const Indenter& indenter, double width_rad) {
-  const double unit = kernel.annulus().shear_modulus_pa * kernel.annulus().outer_radius_m;
-  double low = 1e-15 * unit, high = 1e3 * unit;
-  std::vector<Patch> patches;
-  for (int step = 0; step < kMostBisections && high / low > 1 + 1e-6; ++step) {
-    const double load = std::sqrt(low * high);
-    patches = regionsUnder(kernel, indenter, load);
-    const double misfit = extent_rad(patches) / width_rad - 1;
-    if (std::abs(misfit) < 0.01) return patches;
-    (misfit < 0 ? low : high) = load;
+/// Loads that make a narrower and a wider contact than is asked for. Widths grow with loads, about as their
+/// roots: the next load is where a straight line of the logarithms has the width, or halfway at the least.
+class WidthSearch {
+ public:
+  explicit WidthSearch(double width_rad) : width_rad_(width_rad) {}
+
+  double nextLoad(double guess) const {
+    if (low_ > 0 && std::isfinite(high_)) {
+      const double t = lowMisfit_ / (lowMisfit_ - highMisfit_);
+      return low_ * std::pow(high_ / low_, std::clamp(t, kLeast, 1 - kLeast));
+    }
+    if (low_ > 0) return low_ * std::clamp(std::exp(-2.5 * lowMisfit_), 1.1, 1e4);
+    return std::isfinite(high_) ? high_ * std::clamp(std::exp(-2.5 * highMisfit_), 1e-4, 0.9) : guess;
   }
+
+  /// The logarithm of extent over width.
+  double add(double load, double extent_rad) {
+    const double misfit = std::log(extent_rad / width_rad_);
+    (misfit < 0 ? low_ : high_) = load;
+    (misfit < 0 ? lowMisfit_ : highMisfit_) = misfit;
+    return misfit;
+  }
+
+  bool isSqueezed() const { return high_ / low_ < 1 + 1e-6; }
+  double low() const { return low_; }
+
+ private:
+  static constexpr double kLeast = 0.15;  // of the way, so that both ends move
+  double width_rad_;
+  double low_ = 0, high_ = std::numeric_limits<double>::infinity();
+  double lowMisfit_ = 0, highMisfit_ = 0;
+};
+
+std::vector<Patch> regionsOfWidth(const SurfaceKernel& kernel, const Indenter& indenter, double width_rad) {
   const double radius_m = kernel.annulus().outer_radius_m;
+  const double length_m = indenter.lastPosition_m() - indenter.firstPosition_m();
+  if (radius_m * width_rad > length_m)
+    throw Failure(ExitCode::kFailure,
+                  fmt::format("the measured shape is only {:.6g} m long: measure more of it, or ask for less",
+                              length_m));
+  WidthSearch search(width_rad);
+  double load = kernel.annulus().shear_modulus_pa * radius_m * width_rad * width_rad;
+  std::vector<Patch> patches;
+  for (int step = 0; step < kMostLoads && !search.isSqueezed(); ++step) {
+    load = search.nextLoad(load);
+    patches = regionsUnder(kernel, indenter, load);
+    if (std::abs(search.add(load, extent_rad(patches))) < kWidthFits) return patches;
+  }
   throw Failure(
       ExitCode::kFailure,
       fmt::format("no load makes a contact {} m wide: at {:.6g} N/m its width jumps, to or from {:.4g} m; "
                   "give --load-n-per-m",
-                  radius_m * width_rad, low, radius_m * extent_rad(patches)));
+                  radius_m * width_rad, search.low(), radius_m * extent_rad(patches)));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@ namespace strainfinger::contact {
 struct EdgeResult {
   std::vector<Patch> patches;
   PatchSolution solution;
+  bool areSettled = true;  ///< false: two patches run into each other, or one vanishes
 };
 
 /// Moves patches until every tilt is 0, all lifts are the same and the size is what is asked for. Unknowns: a
@@ -33,6 +34,7 @@ class EdgeSearch {
   bool movesCentre(std::size_t patches) const;
   bool changesWidth(std::size_t patches) const;
   void requireWithin(const std::vector<Patch>& patches) const;
+  bool areApart(const std::vector<Patch>& patches) const;
 
   const SurfaceKernel& kernel_;
   const SpectralSolver& solver_;

@@ -66,13 +66,21 @@ int termsFor(const SurfaceKernel& kernel, const ContactRequest& request, const s
   return std::min(kMostTerms, 12 + static_cast<int>(8 * half_rad / layer));
 }
 
+EdgeResult settled(const SurfaceKernel& kernel, const SpectralSolver& solver, const ContactRequest& request,
+                   const std::vector<Patch>& patches) {
+  EdgeResult result = EdgeSearch(kernel, solver, request).run(patches);
+  if (result.outcome != EdgeResult::Outcome::kSettled)
+    throw Failure(ExitCode::kFailure, "no contact found: no edges fit this indenter at this load or width");
+  return result;
+}
+
 EdgeResult searchEdges(const SurfaceKernel& kernel, const ContactRequest& request, std::vector<Patch> patches,
                        int& terms) {
+  if (request.indenter.isMeasured() && !request.centre_rad && !isIllPosed(kernel, request))
+    return settleRegions(kernel, request, patches, terms);
   for (terms = termsFor(kernel, request, patches);; terms = std::min(2 * terms, kMostTerms)) {
     const SpectralSolver solver(kernel, request.regime, request.friction, terms);
-    EdgeResult result = request.indenter.isMeasured() && !request.centre_rad
-                            ? settleRegions(kernel, solver, request, patches)
-                            : EdgeSearch(kernel, solver, request).run(patches);
+    EdgeResult result = settled(kernel, solver, request, patches);
     const bool isWorthMore = isSmooth(kernel, request.indenter) && terms < kMostTerms;
     if (!isWorthMore || result.solution.tail() < kConverged) return result;
     patches = result.patches;

@@ -13,19 +13,18 @@
 namespace strainfinger::contact {
 namespace {
 
-/// Between the solver's points, close to the edges too.
-double residual(const SurfaceKernel& kernel, const Indenter& indenter, const Contact& contact, bool sticks) {
-  constexpr std::array kPlaces{-0.999, -0.93, -0.71, -0.31, 0.13, 0.53, 0.83, 0.97};
-  const SurfaceMotion motion(kernel, contact.tractions);
-  const double radius_m = kernel.annulus().outer_radius_m;
+constexpr std::array kPlaces{-0.999, -0.93, -0.71, -0.31,
+                             0.13,   0.53,  0.83,  0.97};  // between the solver's points
+
+/// The worst of some error of a surface point over the places of all patches.
+template <typename Error>
+double worstOver(const SurfaceKernel& kernel, const Tractions& tractions, const Error& error_m) {
+  const SurfaceMotion motion(kernel, tractions);
   double worst_m = 0;
-  for (const PatchTractions& part : contact.tractions)
+  for (const PatchTractions& part : tractions)
     for (const double place : kPlaces) {
       const double angle_rad = part.patch.centre_rad + place * part.patch.half_rad;
-      const SurfacePoint point = motion.at(angle_rad);
-      const double wanted_m = radius_m * angle_rad * angle_rad / 2 + indenter.height(radius_m * angle_rad);
-      worst_m = std::max(worst_m, std::abs(point.ur_m - wanted_m + contact.approach_m));
-      if (sticks) worst_m = std::max(worst_m, std::abs(point.ut_m - contact.shift_m));
+      worst_m = std::max(worst_m, error_m(angle_rad, motion.at(angle_rad)));
     }
   return worst_m;
 }
@@ -44,7 +43,7 @@ bool pulls(const Tractions& tractions) {
 void warnOfOverlaps(const SurfaceKernel& kernel, const Indenter& indenter, Contact& contact) {
   const double radius_m = kernel.annulus().outer_radius_m;
   const std::vector<Overlap> overlaps =
-      findOverlaps(kernel, indenter, contact.tractions, contact.approach_m, 1e-12);
+      findOverlaps(kernel, indenter, contact.tractions, contact.approach_m, 1e-12 + 2 * contact.residual_m);
   if (overlaps.empty()) return;
   const Overlap& worst = *std::ranges::max_element(overlaps, {}, &Overlap::depth_m);
   contact.warnings.push_back(
@@ -79,6 +78,15 @@ void doubtStick(const SurfaceKernel& kernel, const ContactRequest& request, Cont
 
 }  // namespace
 
+double residual(const SurfaceKernel& kernel, const Indenter& indenter, const Tractions& tractions,
+                double approach_m) {
+  const double radius_m = kernel.annulus().outer_radius_m;
+  return worstOver(kernel, tractions, [&](double angle_rad, const SurfacePoint& point) {
+    const double wanted_m = radius_m * angle_rad * angle_rad / 2 + indenter.height(radius_m * angle_rad);
+    return std::abs(point.ur_m - wanted_m + approach_m);
+  });
+}
+
 bool isIllPosed(const SurfaceKernel& kernel, const ContactRequest& request) {
   return kernel.annulus().poisson_ratio != 0.5 && request.regime == Regime::kStick;
 }
@@ -86,7 +94,12 @@ bool isIllPosed(const SurfaceKernel& kernel, const ContactRequest& request) {
 void checkContact(const SurfaceKernel& kernel, const ContactRequest& request, Contact& contact) {
   std::vector<std::string>& warnings = contact.warnings;
   const bool sticks = request.regime == Regime::kStick;
-  contact.residual_m = residual(kernel, request.indenter, contact, sticks);
+  contact.residual_m = residual(kernel, request.indenter, contact.tractions, contact.approach_m);
+  if (sticks)
+    contact.residual_m = std::max(
+        contact.residual_m, worstOver(kernel, contact.tractions, [&](double, const SurfacePoint& point) {
+          return std::abs(point.ut_m - contact.shift_m);
+        }));
   const double depth_m = std::max(std::abs(contact.depth_m), std::abs(contact.approach_m));
   if (isIllPosed(kernel, request)) doubtStick(kernel, request, contact);
   if (request.centre_rad && contact.residual_m > 1e-6 * depth_m)

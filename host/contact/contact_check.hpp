@@ -9,6 +9,11 @@ namespace strainfinger::contact {
 /// towards them, so that no number of terms converges.
 bool isIllPosed(const SurfaceKernel& kernel, const ContactRequest& request);
 
+/// How far u_r is from an indenter at worst, where it touches [m]: between the solver's points, close to the
+/// edges too.
+double residual(const SurfaceKernel& kernel, const Indenter& indenter, const Tractions& tractions,
+                double approach_m);
+
 /// Fills in the residual and the warnings of a contact that has everything else.
 /// Throws Failure(kFailure) if a compressible rubber sticks and the edges' resolution decides the load by
 /// more than a tenth.

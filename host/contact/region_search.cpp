@@ -7,12 +7,17 @@
 #include <numbers>
 
 #include "host/base/failure.hpp"
+#include "host/contact/contact_check.hpp"
 #include "host/contact/overlap.hpp"
 
 namespace strainfinger::contact {
 namespace {
 
-constexpr int kMostRounds = 24;
+constexpr int kTerms = 64;
+constexpr int kMostTerms = 160;
+constexpr double kConverged = 1e-7;  // of the last coefficients
+constexpr int kMostRounds = 10;
+constexpr int kMostLost = 2;
 constexpr std::size_t kMostRegions = 16;
 constexpr double kPenetration_m = 1e-12;
 constexpr double kPull = 1e-9;       // of the largest pressure
@@ -64,17 +69,35 @@ bool areSame(const std::vector<Patch>& some, const std::vector<Patch>& others) {
   return std::ranges::equal(some, others, {}, &Patch::half_rad, &Patch::half_rad);
 }
 
+/// What penetrates by more than it may and more than the surface is off within the regions.
+std::vector<Overlap> overlapsOf(const SurfaceKernel& kernel, const ContactRequest& request,
+                                const EdgeResult& found) {
+  const double approach_m = -found.solution.lift_m[0];
+  const double tolerance_m =
+      kPenetration_m + 2 * residual(kernel, request.indenter, found.solution.tractions, approach_m);
+  return findOverlaps(kernel, request.indenter, found.solution.tractions, approach_m, tolerance_m);
+}
+
 /// The regions that should be: the same ones if all is well.
-std::vector<Patch> improved(const SurfaceKernel& kernel, const Indenter& indenter, const EdgeResult& found) {
+std::vector<Patch> improved(const SurfaceKernel& kernel, const ContactRequest& request,
+                            const EdgeResult& found) {
   const Tractions& tractions = found.solution.tractions;
   const double largest_pa = largestPressure(tractions);
   std::vector<Patch> patches;
   for (const PatchTractions& part : tractions)
     if (part.smooth.integral() > 0) appendPushing(part, largest_pa, patches);
   if (!areSame(patches, found.patches)) return patches;
-  for (const Overlap& overlap :
-       findOverlaps(kernel, indenter, tractions, -found.solution.lift_m[0], kPenetration_m))
+  for (const Overlap& overlap : overlapsOf(kernel, request, found)) {
+    const bool isBeside = overlap.deepest_rad < found.patches.front().first_rad() ||
+                          overlap.deepest_rad > found.patches.back().last_rad();
+    if (isBeside && request.size.kind == ContactSize::Kind::kWidth)
+      throw Failure(
+          ExitCode::kFailure,
+          fmt::format("no load makes a contact {} m wide: the shape touches at {:.6g} m too then, and its "
+                      "width jumps; give --load-n-per-m",
+                      request.size.value, kernel.annulus().outer_radius_m * overlap.deepest_rad));
     patches.push_back({overlap.run.centre_rad, overlap.run.half_rad / 2});
+  }
   std::ranges::sort(patches, {}, &Patch::centre_rad);
   return patches;
 }
@@ -96,27 +119,60 @@ std::vector<Patch> reduced(std::vector<Patch> patches) {
   return patches;
 }
 
-}  // namespace
+[[noreturn]] void throwUnsettled(const std::vector<Patch>& patches, const ContactRequest& request,
+                                 double radius_m) {
+  const Patch& narrowest = *std::ranges::min_element(patches, {}, &Patch::half_rad);
+  throw Failure(
+      ExitCode::kFailure,
+      fmt::format(
+          "no contact found: regions of the measured shape don't settle, the narrowest about {:.6g} m, "
+          "{:.2g} m wide; if that is noise of the measurement, smooth the profile{}",
+          radius_m * narrowest.centre_rad, 2 * radius_m * narrowest.half_rad,
+          request.size.kind == ContactSize::Kind::kWidth
+              ? "; if not, its width may jump over the one asked for: give --load-n-per-m"
+              : ""));
+}
 
-EdgeResult settleRegions(const SurfaceKernel& kernel, const SpectralSolver& solver,
-                         const ContactRequest& request, std::vector<Patch> patches) {
+/// Rounds until the regions stay the same; if they don't, the outcome is not kSettled.
+EdgeResult settleOnce(const SurfaceKernel& kernel, const SpectralSolver& solver,
+                      const ContactRequest& request, std::vector<Patch> patches) {
+  using Outcome = EdgeResult::Outcome;
   const EdgeSearch search(kernel, solver, request);
-  EdgeResult found;
-  for (int round = 0; round < kMostRounds; ++round) {
+  EdgeResult found{patches, {}, Outcome::kLost};
+  for (int round = 0, lost = 0; round < kMostRounds && !patches.empty() && lost < kMostLost; ++round) {
+    if (patches.size() > 1 && solver.terms() > kTerms) break;
     requireFew(patches, kernel.annulus().outer_radius_m);
     found = search.run(patches);
-    if (!found.areSettled) {
+    if (found.outcome == Outcome::kSettled) {
+      patches = improved(kernel, request, found);
+      if (areSame(patches, found.patches)) return found;
+    } else if (found.outcome == Outcome::kCollide) {
       patches = reduced(found.patches);
-      continue;
+    } else {
+      if (patches.size() == 1) break;
+      patches.erase(
+          std::ranges::min_element(patches, {}, &Patch::half_rad));  // comes again if it has to touch
+      ++lost;
     }
-    patches = improved(kernel, request.indenter, found);
-    if (areSame(patches, found.patches)) return found;
   }
-  if (!found.areSettled)
-    throw Failure(
-        ExitCode::kFailure,
-        "no contact found: regions of the measured shape keep growing into each other: smooth the profile");
+  found.outcome = Outcome::kLost;
   return found;
+}
+
+}  // namespace
+
+EdgeResult settleRegions(const SurfaceKernel& kernel, const ContactRequest& request,
+                         const std::vector<Patch>& patches, int& terms) {
+  EdgeResult found;
+  for (const int more : {kTerms, kMostTerms}) {
+    terms = more;
+    const SpectralSolver solver(kernel, request.regime, request.friction, terms);
+    found = settleOnce(kernel, solver, request, patches);
+    const bool isSettled = found.outcome == EdgeResult::Outcome::kSettled;
+    if (isSettled && (found.patches.size() > 1 || terms == kMostTerms || found.solution.tail() < kConverged))
+      return found;
+  }
+  throwUnsettled(found.patches, request, kernel.annulus().outer_radius_m);
 }
 
 }  // namespace strainfinger::contact

@@ -13,22 +13,6 @@
 namespace strainfinger::contact {
 namespace {
 
-constexpr std::array kPlaces{-0.999, -0.93, -0.71, -0.31,
-                             0.13,   0.53,  0.83,  0.97};  // between the solver's points
-
-/// The worst of some error of a surface point over the places of all patches.
-template <typename Error>
-double worstOver(const SurfaceKernel& kernel, const Tractions& tractions, const Error& error_m) {
-  const SurfaceMotion motion(kernel, tractions);
-  double worst_m = 0;
-  for (const PatchTractions& part : tractions)
-    for (const double place : kPlaces) {
-      const double angle_rad = part.patch.centre_rad + place * part.patch.half_rad;
-      worst_m = std::max(worst_m, error_m(angle_rad, motion.at(angle_rad)));
-    }
-  return worst_m;
-}
-
 bool pulls(const Tractions& tractions) {
   const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(201, -1, 1);
   double least = 0, most = 0;
@@ -79,12 +63,20 @@ void doubtStick(const SurfaceKernel& kernel, const ContactRequest& request, Cont
 }  // namespace
 
 double residual(const SurfaceKernel& kernel, const Indenter& indenter, const Tractions& tractions,
-                double approach_m) {
+                double approach_m, std::optional<double> shift_m) {
+  constexpr std::array kPlaces{-0.999, -0.93, -0.71, -0.31, 0.13, 0.53, 0.83, 0.97};
+  const SurfaceMotion motion(kernel, tractions);
   const double radius_m = kernel.annulus().outer_radius_m;
-  return worstOver(kernel, tractions, [&](double angle_rad, const SurfacePoint& point) {
-    const double wanted_m = radius_m * angle_rad * angle_rad / 2 + indenter.height(radius_m * angle_rad);
-    return std::abs(point.ur_m - wanted_m + approach_m);
-  });
+  double worst_m = 0;
+  for (const PatchTractions& part : tractions)
+    for (const double place : kPlaces) {
+      const double angle_rad = part.patch.centre_rad + place * part.patch.half_rad;
+      const SurfacePoint point = motion.displacementAt(angle_rad);
+      const double wanted_m = radius_m * angle_rad * angle_rad / 2 + indenter.height(radius_m * angle_rad);
+      worst_m = std::max(worst_m, std::abs(point.ur_m - wanted_m + approach_m));
+      if (shift_m) worst_m = std::max(worst_m, std::abs(point.ut_m - *shift_m));
+    }
+  return worst_m;
 }
 
 bool isIllPosed(const SurfaceKernel& kernel, const ContactRequest& request) {
@@ -94,12 +86,8 @@ bool isIllPosed(const SurfaceKernel& kernel, const ContactRequest& request) {
 void checkContact(const SurfaceKernel& kernel, const ContactRequest& request, Contact& contact) {
   std::vector<std::string>& warnings = contact.warnings;
   const bool sticks = request.regime == Regime::kStick;
-  contact.residual_m = residual(kernel, request.indenter, contact.tractions, contact.approach_m);
-  if (sticks)
-    contact.residual_m = std::max(
-        contact.residual_m, worstOver(kernel, contact.tractions, [&](double, const SurfacePoint& point) {
-          return std::abs(point.ut_m - contact.shift_m);
-        }));
+  contact.residual_m = residual(kernel, request.indenter, contact.tractions, contact.approach_m,
+                                sticks ? std::optional(contact.shift_m) : std::nullopt);
   const double depth_m = std::max(std::abs(contact.depth_m), std::abs(contact.approach_m));
   if (isIllPosed(kernel, request)) doubtStick(kernel, request, contact);
   if (request.centre_rad && contact.residual_m > 1e-6 * depth_m)

@@ -55,8 +55,7 @@ MatrixXd onAnother(const SurfaceKernel& kernel, const KernelMix& mix, const Refe
   constexpr int kDensity = 14;
   const TanhSinhRule rule(kDensity);
   const PatchPoints places{2 * rule.fromStart, 2 * rule.fromEnd};
-  const Eigen::ArrayXd weights = 2 * rule.weights * places.fromRight.pow(source.exponents().right) *
-                                 places.fromLeft.pow(source.exponents().left);
+  const Eigen::ArrayXd weights = 2 * rule.weights * edgeWeight(source.exponents(), places);
   MatrixXd values(points.size(), weights.size());
   for (Index i = 0; i < points.size(); ++i)
     for (Index j = 0; j < weights.size(); ++j) {
@@ -64,8 +63,8 @@ MatrixXd onAnother(const SurfaceKernel& kernel, const KernelMix& mix, const Refe
       const double distance =
           std::remainder(at.centre_rad - from.centre_rad + at.half_rad * points[i] - from.half_rad * x,
                          2 * std::numbers::pi);
-      values(i, j) =
-          weights[j] * (mix.even * kernel.evenAt(distance).value + mix.odd * kernel.oddAt(distance).value);
+      const KernelPair pair = kernel.valuesAt(distance);
+      values(i, j) = weights[j] * (mix.even * pair.even + mix.odd * pair.odd);
     }
   return values * jacobiValues(source.exponents(), source.terms(), places.x().matrix());
 }

@@ -29,7 +29,7 @@ class Gaps {
     const double x_m = radius_m_ * angle_rad;
     const double above_m = x_m * angle_rad / 2 + indenter_.height(x_m) - approach_m_;
     return above_m > bulge_m_ ? std::numeric_limits<double>::infinity()
-                              : above_m - motion_.at(angle_rad).ur_m;
+                              : above_m - motion_.displacementAt(angle_rad).ur_m;
   }
 
   /// Places to look at beside and between the patches: from one edge to the next, rising.
@@ -68,7 +68,8 @@ class Gaps {
     constexpr int kPlaces = 64;
     double highest_m = 0;
     for (int i = 0; i < kPlaces; ++i)
-      highest_m = std::max(highest_m, motion_.at(std::numbers::pi * ((i + 0.5) / kPlaces - 0.5)).ur_m);
+      highest_m =
+          std::max(highest_m, motion_.displacementAt(std::numbers::pi * ((i + 0.5) / kPlaces - 0.5)).ur_m);
     return highest_m;
   }
 

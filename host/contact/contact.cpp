@@ -55,15 +55,17 @@ bool isSmooth(const SurfaceKernel& kernel, const Indenter& indenter) {
   return kernel.annulus().poisson_ratio == 0.5 && indenter.edgeSlope() == 0 && !indenter.isMeasured();
 }
 
-/// Enough for 1e-12 of what is smooth: the pressure follows the layer's depth. What is ill-posed gets no
-/// more.
+/// Enough for 1e-12 of what is smooth and 1e-6 of what is not: the pressure follows the layer's depth. What
+/// is ill-posed gets no more than that. Below a wedge that slides the pressure is the least smooth.
 int termsFor(const SurfaceKernel& kernel, const ContactRequest& request, const std::vector<Patch>& patches) {
-  if (!isSmooth(kernel, request.indenter) && !isIllPosed(kernel, request)) return 64;
+  const bool isOpen = isIllPosed(kernel, request), isMore = !isOpen && !isSmooth(kernel, request.indenter);
+  const bool isRough = request.indenter.edgeSlope() != 0 && request.regime == Regime::kSliding;
+  if (!isOpen && (isRough || request.indenter.isMeasured())) return 64;
   const model::Annulus<double>& annulus = kernel.annulus();
   const double layer = 1 - annulus.core_radius_m / annulus.outer_radius_m;
   double half_rad = 0;
   for (const Patch& patch : patches) half_rad = std::max(half_rad, patch.half_rad);
-  return std::min(kMostTerms, 12 + static_cast<int>(8 * half_rad / layer));
+  return std::min(kMostTerms, (isMore ? 24 : 12) + static_cast<int>(8 * half_rad / layer));
 }
 
 EdgeResult settled(const SurfaceKernel& kernel, const SpectralSolver& solver, const ContactRequest& request,

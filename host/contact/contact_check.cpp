@@ -97,7 +97,8 @@ void checkContact(const SurfaceKernel& kernel, const ContactRequest& request, Co
   else if (!isIllPosed(kernel, request) && contact.residual_m > 1e-6 * depth_m)
     warnings.push_back(fmt::format("inaccurate: {} terms a patch leave {:.2g} of the depth unresolved",
                                    contact.terms, contact.residual_m / depth_m));
-  if (request.indenter.isMeasured()) warnOfOverlaps(kernel, request.indenter, contact);
+  if (request.indenter.isMeasured() && (request.centre_rad || isIllPosed(kernel, request)))
+    warnOfOverlaps(kernel, request.indenter, contact);
   if (pulls(contact.tractions))
     warnings.emplace_back("the tractions pull somewhere: no contact is like this");
 }

@@ -20,7 +20,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index kCells = 256;  // of a grid that nothing has made finer
+constexpr Index kCells = 128;  // of a grid that nothing has made finer
 constexpr Index kMostCells = 900;
 constexpr int kMostSteps = 200;
 constexpr int kMostZooms = 12;

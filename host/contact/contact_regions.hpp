@@ -9,7 +9,7 @@
 namespace strainfinger::contact {
 
 /// The regions of a frictionless contact of the size asked for, in rising order, to a few parts in a hundred
-/// of the whole. By Signorini's conditions on 256 cells of uniform pressure and an active set, over the
+/// of the whole. By Signorini's conditions on 128 cells of uniform pressure and an active set, over the
 /// measured range first and then over what touched, until that fills the cells. A width is found by bisecting
 /// the load. A measured point that stands out makes all of its cell stand out; settleRegions() has it
 /// exactly. Throws Failure(kFailure) if no load makes a contact of that width: where another region comes to

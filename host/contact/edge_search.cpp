@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 
 constexpr int kMostSteps = 40;
 constexpr double kDifference = 1e-6;  // of a half width
-constexpr double kSmallStep = 1e-14;  // of a half width
+constexpr double kSmallStep = 2e-13;  // of a half width
 constexpr double kFits = 1e-9;        // misfit that an answer may have
 constexpr double kVanished = 1e-8;    // half width of a patch, of the whole contact's width
 constexpr double kSlow = 0.3;         // of the misfit is left: Broyden's updates don't do
@@ -129,7 +129,10 @@ EdgeResult EdgeSearch::run(const std::vector<Patch>& guess) const {
       static_cast<Index>(guess.size()) * (movesCentre(guess.size()) + changesWidth(guess.size()));
   State state = evaluate(VectorXd::Zero(count), guess);
   if (count == 0) return state.result;
-  MatrixXd jacobian = differences(state, guess);
+  // One unknown, the width, and the load given: the load of a parabola grows with its square, of a wedge
+  // less.
+  MatrixXd jacobian = count == 1 && changesWidth(guess.size()) ? MatrixXd(MatrixXd::Constant(1, 1, 2))
+                                                               : differences(state, guess);
   for (int step = 0; step < kMostSteps; ++step) {
     VectorXd move = -jacobian.partialPivLu().solve(state.misfits);
     move *= std::min(1.0, 0.5 / worstOf(move));

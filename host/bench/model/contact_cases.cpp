@@ -1,7 +1,10 @@
-// Ways to a contact: flat indenter, frictionless, 2 mm.
+// Ways to a contact: flat indenter, frictionless, 2 mm; and what every kind of contact costs.
+
+#include <fmt/format.h>
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "host/bench/model/measured_case.hpp"
 #include "host/bench/model/precise.hpp"
@@ -23,13 +26,38 @@ Tractions spectral(int terms) {
   return solver.solve({{0, kHalf_rad}}, Indenter::flat(), 0).tractions;
 }
 
-Contact whole(Regime regime) {
-  const SurfaceKernel kernel(benchAnnulus());
-  ContactRequest request;
-  request.regime = regime;
-  request.friction = 0.5;
-  request.size.value = kWidth_m;
-  return solveContact(kernel, request);
+/// Kernel, edges and residual.
+Contact whole(const ContactRequest& request) { return solveContact(SurfaceKernel(benchAnnulus()), request); }
+
+/// A cylinder as a profile measured every 10 um over +-4 mm.
+Indenter measuredCylinder(double radius_m) {
+  std::vector<double> position_m, height_m;
+  for (int i = -400; i <= 400; ++i) {
+    position_m.push_back(i * 10e-6);
+    height_m.push_back(position_m.back() * position_m.back() / (2 * radius_m));
+  }
+  return Indenter::measured(position_m, height_m);
+}
+
+/// Every indenter by width and by load, frictionless, sliding and sticking: times alone.
+void appendWholeCases(std::vector<MeasuredCase>& cases) {
+  const std::pair<const char*, Indenter> indenters[] = {{"flat", Indenter::flat()},
+                                                        {"cylinder 5 mm", Indenter::cylinder(5e-3)},
+                                                        {"wedge 80 deg", Indenter::wedge(80)},
+                                                        {"measured", measuredCylinder(5e-3)}};
+  const std::pair<const char*, ContactSize> sizes[] = {{"2 mm", {ContactSize::Kind::kWidth, kWidth_m}},
+                                                       {"20 N/m", {ContactSize::Kind::kLoad, 20}}};
+  const std::pair<const char*, Regime> regimes[] = {
+      {"frictionless", Regime::kFrictionless}, {"sliding", Regime::kSliding}, {"stick", Regime::kStick}};
+  for (const auto& [indenterName, indenter] : indenters)
+    for (const auto& [sizeName, size] : sizes)
+      for (const auto& [regimeName, regime] : regimes) {
+        const ContactRequest request{indenter, regime, 0.5, 0, size, {}};
+        cases.push_back({"a whole contact", fmt::format("{}, {}, {}", indenterName, sizeName, regimeName),
+                         "terms", static_cast<double>(whole(request).terms),
+                         std::numeric_limits<double>::quiet_NaN(),
+                         [request] { return whole(request).normal_n_per_m; }});
+      }
 }
 
 PaperContact byPaper(int harmonics, SlopeRows rows) {
@@ -73,14 +101,11 @@ std::vector<MeasuredCase> contactCases() {
   for (const int terms : {4, 6, 8, 10, 12, 16, 24})
     cases.push_back({"contact", "spectral", "terms", static_cast<double>(terms), errorOf(spectral(terms)),
                      [terms] { return totalTraction(spectral(terms)).pressure_pa; }});
-  const Contact found = whole(Regime::kFrictionless);
+  const ContactRequest flat;
+  const Contact found = whole(flat);
   cases.push_back({"contact", "ours (edges, residual too)", "terms", static_cast<double>(found.terms),
-                   errorOf(found.tractions), [] { return whole(Regime::kFrictionless).normal_n_per_m; }});
-  for (const Regime regime : {Regime::kSliding, Regime::kStick})
-    cases.push_back({"contact with friction", regime == Regime::kStick ? "ours, stick" : "ours, sliding",
-                     "terms", static_cast<double>(whole(regime).terms),
-                     std::numeric_limits<double>::quiet_NaN(),
-                     [regime] { return whole(regime).normal_n_per_m; }});
+                   errorOf(found.tractions), [flat] { return whole(flat).normal_n_per_m; }});
+  appendWholeCases(cases);
   for (const int harmonics : {75, 150, 300, 600, 1200})
     cases.push_back(paperCase("paper's, Gauss rows", harmonics, SlopeRows::kGauss));
   cases.push_back(paperCase("paper's, printed rows", 300, SlopeRows::kPrinted));

@@ -31,7 +31,7 @@ struct Saving {
 // converged solution.
 std::vector<MeasuredCase> tableCases();    // 1024 angles of e_rr per N/m, normal and tangential
 std::vector<MeasuredCase> fieldCases();    // eight rows at 360 angles at the gauges
-std::vector<MeasuredCase> contactCases();  // flat, frictionless, 2 mm
+std::vector<MeasuredCase> contactCases();  // flat, frictionless, 2 mm; every kind by its time alone
 std::vector<MeasuredCase> svdCases();      // 2 mm, n_c = 300, the first fourteen values
 std::vector<MeasuredCase> paperCases();    // the data of the figures, and the claims
 

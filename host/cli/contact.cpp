@@ -45,12 +45,27 @@ struct ContactCommand {
         ->excludes(&list);
     command.add_option("--method", method, "spectral, or paper: windowed Fourier series, pseudo-inverse")
         ->check(CLI::IsMember({"spectral", "paper"}));
-    command.add_option("--harmonics", paper.harmonics, "Of --method paper: last harmonic n_c (300)")
-        ->check(CLI::Range(2, 5000));
-    command
-        .add_option("--cutoff", paper.cutoff,
-                    "Of --method paper: singular values from there on, relative (0.1)")
-        ->check(realFrom(0, 1));
+    ofPaper = {
+        command.add_option("--harmonics", paper.harmonics, "Of --method paper: last harmonic n_c (300)")
+            ->check(CLI::Range(2, 5000)),
+        command
+            .add_option("--cutoff", paper.cutoff,
+                        "Of --method paper: singular values from there on, relative (0.1)")
+            ->check(realFrom(0, 1)),
+        command
+            .add_option("--rows", rows,
+                        "Of --method paper: printed, the paper's even points, or gauss: the continuum")
+            ->check(CLI::IsMember({"printed", "gauss"})),
+        command
+            .add_option("--window", window,
+                        "Of --method paper: last coefficient of the window, half of n_c as printed, or full")
+            ->check(CLI::IsMember({"half", "full"}))};
+  }
+  contact::PaperOptions paperOptions() const {
+    contact::PaperOptions options = paper;
+    options.rows = rows == "gauss" ? contact::SlopeRows::kGauss : contact::SlopeRows::kPrinted;
+    options.window = window == "full" ? contact::WindowCut::kFull : contact::WindowCut::kHalf;
+    return options;
   }
   CommonOptions common;
   ContactOptions contact;
@@ -59,6 +74,9 @@ struct ContactCommand {
   int points = 400;
   std::string method = "spectral";
   contact::PaperOptions paper;
+  std::string rows = "printed";
+  std::string window = "half";
+  std::vector<CLI::Option*> ofPaper;
 };
 
 /// In the middle of `points` equal parts of twice the contact.
@@ -107,6 +125,28 @@ void printPaper(const ContactCommand& options, const model::Annulus<double>& ann
   }
 }
 
+/// Against the spectral answer, centred as the paper's is.
+void tellErrors(const model::Annulus<double>& annulus, contact::ContactRequest request,
+                const contact::PaperContact& found) {
+  request.centre_rad = 0;
+  const contact::Contact exact = contact::solveContact(contact::SurfaceKernel(annulus), request);
+  const contact::PaperErrors errors = contact::errorsOf(found, exact);
+  fmt::print(
+      stderr,
+      "contact: against --method spectral, per its peak: pressure off by {:.2g} at worst, by {:.2g} at the "
+      "centre, load by {:+.3g} %; outside the contact {:.2g} at worst, {:.1g} of the pressure's square\n",
+      errors.inside, errors.centre, 100 * errors.load, errors.outside, errors.leakedShare);
+  if (exact.residual_m > 1e-6 * std::abs(exact.depth_m))
+    fmt::print(stderr,
+               "contact: warning: no contact of this indenter is centred on its normal, where --method paper "
+               "holds it; --method spectral moves it to where it fits\n");
+  if (!(found.depth_m > 0 && found.normal_n_per_m > 0))
+    fmt::print(stderr,
+               "contact: warning: depth {:.2g} m, load {:.2g} N/m: what pulls the surface out is no contact; "
+               "raise --cutoff, or take --method spectral\n",
+               found.depth_m, found.normal_n_per_m);
+}
+
 void runPaper(const ContactCommand& options, const model::Annulus<double>& annulus,
               const contact::ContactRequest& request) {
   if (request.regime != contact::Regime::kFrictionless || request.centre_rad ||
@@ -114,17 +154,22 @@ void runPaper(const ContactCommand& options, const model::Annulus<double>& annul
     throw Failure(
         ExitCode::kUsage,
         "--method paper knows frictionless contacts of given width, centred on the indenter's normal");
-  const auto found = contact::solveByPaper(annulus, request.indenter, request.size.value, options.paper);
+  const auto found =
+      contact::solveByPaper(annulus, request.indenter, request.size.value, options.paperOptions());
   fmt::print(stderr,
-             "contact: residual {:.2g} m; {} singular values kept\n"
+             "contact: residual {:.2g} m; {} singular values kept, {} of them with an even pressure\n"
              "contact: warning: --method paper is inaccurate by its nature; --method spectral is not\n",
-             found.residual_m, found.kept);
+             found.residual_m, found.kept, found.keptEven);
+  tellErrors(annulus, request, found);
   printPaper(options, annulus, request.size.value, found);
 }
 
 void runContact(const ContactCommand& options) {
   const config::FingerConfig config = options.common.config();
   const contact::ContactRequest request = options.contact.request(config);
+  for (const CLI::Option* option : options.ofPaper)
+    if (options.method != "paper" && option->count() > 0)
+      throw Failure(ExitCode::kUsage, option->get_name() + " goes with --method paper");
   if (options.method == "paper") return runPaper(options, config.finger.annulus(), request);
   const contact::SurfaceKernel kernel(config.finger.annulus());
   const contact::Contact contact = contact::solveContact(kernel, request);

@@ -24,18 +24,33 @@ double parameterOf(const std::string& text, const std::string& kind, double leas
                                               number, least, most));
 }
 
-Indenter readShape(const std::string& path) {
-  std::istringstream text(readFile(path, ExitCode::kUsage));
-  NumberRowReader reader(text, path, 2);
-  std::vector<double> position_m, height_m;
-  for (std::vector<double> row; reader.next(row);) {
-    position_m.push_back(row[0]);
-    height_m.push_back(row[1]);
-  }
+std::string textOf(const std::string& path) {
   try {
+    return readFile(path, ExitCode::kUsage);
+  } catch (const Failure& failure) {
+    throw Failure(
+        failure.code(),
+        fmt::format("--indenter: \"{}\" is neither flat, cylinder:RADIUS_M, wedge:HALF_ANGLE_DEG nor a file "
+                    "that can be read ({})",
+                    path, failure.what()));
+  }
+}
+
+/// All that is wrong with a shape is a wrong request: exit status 2.
+Indenter readShape(const std::string& path) {
+  std::istringstream text(textOf(path));
+  std::string where;
+  try {
+    NumberRowReader reader(text, path, 2);
+    std::vector<double> position_m, height_m;
+    for (std::vector<double> row; reader.next(row);) {
+      position_m.push_back(row[0]);
+      height_m.push_back(row[1]);
+    }
+    where = path + ": ";  // the reader's messages have the place themselves
     return Indenter::measured(position_m, height_m);
   } catch (const Failure& failure) {
-    throw Failure(failure.code(), fmt::format("{}: {}", path, failure.what()));
+    throw Failure(ExitCode::kUsage, where + failure.what());
   }
 }
 
@@ -98,6 +113,8 @@ contact::ContactRequest ContactOptions::request(const config::FingerConfig& conf
   require(hasWidth->count() + hasLoad->count() == 1,
           "give the contact's size: --width-m W or --load-n-per-m P");
   require(hasTangential->count() == 0 || regime == "stick", "--tangential-n-per-m goes with --regime stick");
+  require(hasFriction->count() == 0 || regime.empty() || regime == "sliding",
+          "--friction goes with --regime sliding");
   contact::ContactRequest request;
   request.indenter = parseIndenter(indenter);
   request.regime = regimeOf(regime.empty() && hasFriction->count() ? "sliding" : regime);

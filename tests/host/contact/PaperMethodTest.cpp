@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "host/base/failure.hpp"
 #include "tests/host/contact/fingers.hpp"
@@ -89,14 +90,17 @@ TEST_GROUP(PaperMethod) {
   /// Against numbers known to one digit, or two.
   static void leaksAsKnown(double known, double value) { DOUBLES_EQUAL(known, value, 0.25 * known); }
 
-  /// Largest shear within the contact, per peak of the exact pressure, of the pseudo-inverse's answer with
-  /// shear.
-  double shearOfLeastAnswer(double cutoff) const {
+  static SlopeMapRequest withShear() {
     SlopeMapRequest request;
     request.width_rad = 2e-3 / kSurface_m;
     request.rows = SlopeRows::kPrinted;
-    const SlopeMap map(kDefaultFinger, request);
-    const auto pairs = singularPairs(map);
+    return request;
+  }
+
+  /// Largest shear within the contact, per peak of the exact pressure, of the pseudo-inverse's answer with
+  /// shear.
+  double shearOfLeastAnswer(const SlopeMap& map, const std::vector<SingularPair>& pairs, double cutoff)
+      const {
     Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(map.block(false).cols());
     const Eigen::VectorXd slopes = kSurface_m * map.weights().cwiseProduct(map.angles_rad());
     for (const SingularPair& pair : pairs)
@@ -157,9 +161,11 @@ TEST(PaperMethod, MissesByOtherAmountsWithTheWholeWindow) {
 
 // Why they are left out: the least answer to the odd slope of a flat, frictionless indenter has shear.
 TEST(PaperMethod, WithTheShearsColumnsTheLeastAnswerHasShear) {
-  DOUBLES_EQUAL(0.026, shearOfLeastAnswer(0.1), 0.0005);
-  DOUBLES_EQUAL(0.08, shearOfLeastAnswer(0.01), 0.005);
-  DOUBLES_EQUAL(0.99, shearOfLeastAnswer(1e-3), 0.005);
+  const SlopeMap map(kDefaultFinger, withShear());
+  const auto pairs = singularPairs(map);
+  DOUBLES_EQUAL(0.026, shearOfLeastAnswer(map, pairs, 0.1), 0.0005);
+  DOUBLES_EQUAL(0.08, shearOfLeastAnswer(map, pairs, 0.01), 0.005);
+  DOUBLES_EQUAL(0.99, shearOfLeastAnswer(map, pairs, 1e-3), 0.005);
 }
 
 TEST(PaperMethod, KeepsWhatIsAboveTheCutOff) {

@@ -13,6 +13,8 @@
 namespace strainfinger::contact {
 namespace {
 
+constexpr double kMostResidual = 5e-7;  // of the depth: what goes without a warning
+
 bool pulls(const Tractions& tractions) {
   const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(201, -1, 1);
   double least = 0, most = 0;
@@ -90,11 +92,11 @@ void checkContact(const SurfaceKernel& kernel, const ContactRequest& request, Co
                                 sticks ? std::optional(contact.shift_m) : std::nullopt);
   const double depth_m = std::max(std::abs(contact.depth_m), std::abs(contact.approach_m));
   if (isIllPosed(kernel, request)) doubtStick(kernel, request, contact);
-  if (request.centre_rad && contact.residual_m > 1e-6 * depth_m)
+  if (request.centre_rad && contact.residual_m > kMostResidual * depth_m)
     warnings.emplace_back(
         "no contact with its centre held there fits this indenter: the tractions are those of an indenter "
         "that is turned by what the residual tells");
-  else if (!isIllPosed(kernel, request) && contact.residual_m > 1e-6 * depth_m)
+  else if (!isIllPosed(kernel, request) && contact.residual_m > kMostResidual * depth_m)
     warnings.push_back(fmt::format("inaccurate: {} terms a patch leave {:.2g} of the depth unresolved",
                                    contact.terms, contact.residual_m / depth_m));
   if (request.indenter.isMeasured() && (request.centre_rad || isIllPosed(kernel, request)))

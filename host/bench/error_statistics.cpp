@@ -7,12 +7,12 @@
 #include "common/fixed_real.hpp"
 #include "firmware/core/estimate.hpp"
 #include "firmware/core/pipeline.hpp"
+#include "host/base/no_value.hpp"
 #include "host/tables/table_builder.hpp"
 
 namespace strainfinger::bench {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint32_t kPlaceChannel = kMaxGauges - 4;  ///< of the noise: behind the gauges'
 
 /// Uniform in -1/2 .. 1/2.
@@ -29,7 +29,7 @@ double Spread::rms() const {
 }
 
 double Spread::most95() const {
-  if (magnitudes_.empty()) return kUnknown;
+  if (magnitudes_.empty()) return kNoValue;
   std::vector<double> sorted(magnitudes_);
   const auto at = sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) * 95 / 100);
   std::nth_element(sorted.begin(), at, sorted.end());
@@ -37,7 +37,7 @@ double Spread::most95() const {
 }
 
 double Spread::worst() const {
-  return magnitudes_.empty() ? kUnknown : *std::max_element(magnitudes_.begin(), magnitudes_.end());
+  return magnitudes_.empty() ? kNoValue : *std::max_element(magnitudes_.begin(), magnitudes_.end());
 }
 
 Trial::Trial(const config::FingerConfig& actual, const config::FingerConfig& told, std::uint64_t seed)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/base/angles.hpp"
 #include "host/base/table_writer.hpp"
 
 namespace strainfinger::bench {
@@ -33,7 +34,7 @@ class Sweeps {
       for (int k = 0; k <= kDirections; ++k) {
         const double offset = static_cast<double>(i) / kOffsets - 0.5;
         const double direction_deg = (static_cast<double>(k) / kDirections - 0.5) * 90;
-        const double direction_rad = direction_deg * std::numbers::pi / 180;
+        const double direction_rad = direction_deg * kRadPerDeg;
         ErrorCell cell{kMapSweep, offset, "pitch", direction_deg, load_n_per_m, true, {}};
         trial.touch({offset * pitch_rad, load_n_per_m * std::cos(direction_rad),
                      load_n_per_m * std::sin(direction_rad)},

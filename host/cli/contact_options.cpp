@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
 #include <sstream>
 
+#include "host/base/angles.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/number_rows.hpp"
 #include "host/base/read_file.hpp"
@@ -24,18 +24,33 @@ double parameterOf(const std::string& text, const std::string& kind, double leas
                                               number, least, most));
 }
 
-Indenter readShape(const std::string& path) {
-  std::istringstream text(readFile(path, ExitCode::kUsage));
-  NumberRowReader reader(text, path, 2);
-  std::vector<double> position_m, height_m;
-  for (std::vector<double> row; reader.next(row);) {
-    position_m.push_back(row[0]);
-    height_m.push_back(row[1]);
-  }
+std::string textOf(const std::string& path) {
   try {
+    return readFile(path, ExitCode::kUsage);
+  } catch (const Failure& failure) {
+    throw Failure(
+        failure.code(),
+        fmt::format("--indenter: \"{}\" is neither flat, cylinder:RADIUS_M, wedge:HALF_ANGLE_DEG nor a file "
+                    "that can be read ({})",
+                    path, failure.what()));
+  }
+}
+
+/// All that is wrong with a shape is a wrong request: exit status 2.
+Indenter readShape(const std::string& path) {
+  std::istringstream text(textOf(path));
+  std::string where;
+  try {
+    NumberRowReader reader(text, path, 2);
+    std::vector<double> position_m, height_m;
+    for (std::vector<double> row; reader.next(row);) {
+      position_m.push_back(row[0]);
+      height_m.push_back(row[1]);
+    }
+    where = path + ": ";  // the reader's messages have the place themselves
     return Indenter::measured(position_m, height_m);
   } catch (const Failure& failure) {
-    throw Failure(failure.code(), fmt::format("{}: {}", path, failure.what()));
+    throw Failure(ExitCode::kUsage, where + failure.what());
   }
 }
 
@@ -81,7 +96,8 @@ ContactOptions::ContactOptions(CLI::App& command) {
                          "config's");
   command
       .add_option("--regime", regime,
-                  "What happens sidewards; frictionless without it, sliding if --friction is given")
+                  "What happens sidewards; frictionless without it, sliding if --friction is given. Stick is "
+                  "ill-posed below nu = 1/2: a warning tells how open its load is, above 10 % it is refused")
       ->check(CLI::IsMember({"frictionless", "sliding", "stick"}));
   hasTangential = command.add_option("--tangential-n-per-m", tangential_n_per_m,
                                      "Load sidewards of what sticks [N/m], to +theta; 0 without it");
@@ -97,6 +113,8 @@ contact::ContactRequest ContactOptions::request(const config::FingerConfig& conf
   require(hasWidth->count() + hasLoad->count() == 1,
           "give the contact's size: --width-m W or --load-n-per-m P");
   require(hasTangential->count() == 0 || regime == "stick", "--tangential-n-per-m goes with --regime stick");
+  require(hasFriction->count() == 0 || regime.empty() || regime == "sliding",
+          "--friction goes with --regime sliding");
   contact::ContactRequest request;
   request.indenter = parseIndenter(indenter);
   request.regime = regimeOf(regime.empty() && hasFriction->count() ? "sliding" : regime);
@@ -105,7 +123,7 @@ contact::ContactRequest ContactOptions::request(const config::FingerConfig& conf
   request.tangential_n_per_m = tangential_n_per_m;
   request.size = hasWidth->count() ? ContactSize{ContactSize::Kind::kWidth, width_m}
                                    : ContactSize{ContactSize::Kind::kLoad, load_n_per_m};
-  if (hasCentre->count()) request.centre_rad = centre_deg * std::numbers::pi / 180;
+  if (hasCentre->count()) request.centre_rad = centre_deg * kRadPerDeg;
   return request;
 }
 

@@ -13,7 +13,7 @@ namespace strainfinger::cli {
 struct ContactOptions {
   explicit ContactOptions(CLI::App& command);
 
-  /// Throws Failure(kUsage) naming the option that is wrong, Failure(kFailure) for an unreadable shape.
+  /// Throws Failure(kUsage) naming the option or the place in the shape's file that is wrong.
   contact::ContactRequest request(const config::FingerConfig& config) const;
 
   std::string indenter;

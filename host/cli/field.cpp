@@ -1,7 +1,7 @@
 #include <array>
-#include <numbers>
 #include <vector>
 
+#include "host/base/angles.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/contact_options.hpp"
@@ -11,14 +11,12 @@
 namespace strainfinger::cli {
 namespace {
 
-constexpr const char* kHelp =
+constexpr const char* kFieldHelp =
     "Strains, displacements and stresses in the rubber under an indenter, on a polar grid: even radii from "
     "the "
     "core to the surface, even angles from the indenter's normal. The load of a line or of a uniform "
     "pressure is "
     "for `strain`.";
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 struct FieldOptions {
   explicit FieldOptions(CLI::App& command) : common(command), contact(command) {
@@ -52,7 +50,7 @@ void runField(const FieldOptions& options) {
   tellOf(contact);
   constexpr std::array kRows{kErr, kEtt, kErt, kUr, kUt, kTrr, kTrt, kTtt};
   const std::vector<double> angles_rad =
-      evenly(options.from_deg * kDegree, options.to_deg * kDegree, options.angles);
+      evenly(options.from_deg * kRadPerDeg, options.to_deg * kRadPerDeg, options.angles);
   TableWriter table(
       stdout, options.common.format(),
       {"radius_m", "angle_deg", "err", "ett", "ert", "ur_m", "ut_m", "trr_pa", "trt_pa", "ttt_pa"});
@@ -60,7 +58,7 @@ void runField(const FieldOptions& options) {
        evenly(config.finger.core_radius_m, config.finger.outer_radius_m, options.radii)) {
     const auto field = contact::computeContactField(kernel, contact.tractions, radius_m, angles_rad, kRows);
     for (std::size_t k = 0; k < angles_rad.size(); ++k) {
-      std::vector<Cell> cells{radius_m, angles_rad[k] / kDegree};
+      std::vector<Cell> cells{radius_m, angles_rad[k] / kRadPerDeg};
       for (const double value : field.row(static_cast<Eigen::Index>(k))) cells.emplace_back(value);
       table.row(cells);
     }
@@ -69,6 +67,6 @@ void runField(const FieldOptions& options) {
 
 }  // namespace
 
-void addField(CLI::App& app) { addCommand<FieldOptions>(app, "field", kHelp, runField); }
+void addField(CLI::App& app) { addCommand<FieldOptions>(app, "field", kFieldHelp, runField); }
 
 }  // namespace strainfinger::cli

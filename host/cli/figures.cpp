@@ -19,7 +19,7 @@
 namespace strainfinger::cli {
 namespace {
 
-constexpr const char* kHelp =
+constexpr const char* kFiguresHelp =
     "The figures of Nicolson & Fearing (1993), each as figure-N.svg and figure-N.png (needs gnuplot) with "
     "its data "
     "(figure-N-*.csv) and the script that draws them again (figure-N.gp).\n"
@@ -110,6 +110,6 @@ void runFigures(const FiguresOptions& options) {
 
 }  // namespace
 
-void addFigures(CLI::App& app) { addCommand<FiguresOptions>(app, "figures", kHelp, runFigures); }
+void addFigures(CLI::App& app) { addCommand<FiguresOptions>(app, "figures", kFiguresHelp, runFigures); }
 
 }  // namespace strainfinger::cli

@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "host/base/failure.hpp"
+#include "host/contact/contact_check.hpp"
 #include "host/contact/contact_regions.hpp"
-#include "host/contact/edge_search.hpp"
-#include "host/contact/surface_motion.hpp"
+#include "host/contact/region_search.hpp"
 
 namespace strainfinger::contact {
 namespace {
@@ -56,94 +55,38 @@ bool isSmooth(const SurfaceKernel& kernel, const Indenter& indenter) {
   return kernel.annulus().poisson_ratio == 0.5 && indenter.edgeSlope() == 0 && !indenter.isMeasured();
 }
 
-/// Enough for 1e-12 of what is smooth: the pressure follows the layer's depth.
-int termsFor(const SurfaceKernel& kernel, const Indenter& indenter, const std::vector<Patch>& patches) {
-  if (!isSmooth(kernel, indenter)) return 64;
+/// Enough for 1e-12 of what is smooth and 1e-6 of what is not: the pressure follows the layer's depth. What
+/// is ill-posed gets no more than that. Below a wedge that slides the pressure is the least smooth.
+int termsFor(const SurfaceKernel& kernel, const ContactRequest& request, const std::vector<Patch>& patches) {
+  const bool isOpen = isIllPosed(kernel, request), isMore = !isOpen && !isSmooth(kernel, request.indenter);
+  const bool isRough = request.indenter.edgeSlope() != 0 && request.regime == Regime::kSliding;
+  if (!isOpen && (isRough || request.indenter.isMeasured())) return 64;
   const model::Annulus<double>& annulus = kernel.annulus();
   const double layer = 1 - annulus.core_radius_m / annulus.outer_radius_m;
   double half_rad = 0;
   for (const Patch& patch : patches) half_rad = std::max(half_rad, patch.half_rad);
-  return std::min(kMostTerms, 12 + static_cast<int>(8 * half_rad / layer));
+  return std::min(kMostTerms, (isMore ? 24 : 12) + static_cast<int>(8 * half_rad / layer));
+}
+
+EdgeResult settled(const SurfaceKernel& kernel, const SpectralSolver& solver, const ContactRequest& request,
+                   const std::vector<Patch>& patches) {
+  EdgeResult result = EdgeSearch(kernel, solver, request).run(patches);
+  if (result.outcome != EdgeResult::Outcome::kSettled)
+    throw Failure(ExitCode::kFailure, "no contact found: no edges fit this indenter at this load or width");
+  return result;
 }
 
 EdgeResult searchEdges(const SurfaceKernel& kernel, const ContactRequest& request, std::vector<Patch> patches,
                        int& terms) {
-  for (terms = termsFor(kernel, request.indenter, patches);; terms = std::min(2 * terms, kMostTerms)) {
+  if (request.indenter.isMeasured() && !request.centre_rad && !isIllPosed(kernel, request))
+    return settleRegions(kernel, request, patches, terms);
+  for (terms = termsFor(kernel, request, patches);; terms = std::min(2 * terms, kMostTerms)) {
     const SpectralSolver solver(kernel, request.regime, request.friction, terms);
-    EdgeResult result = EdgeSearch(kernel, solver, request).run(patches);
+    EdgeResult result = settled(kernel, solver, request, patches);
     const bool isWorthMore = isSmooth(kernel, request.indenter) && terms < kMostTerms;
     if (!isWorthMore || result.solution.tail() < kConverged) return result;
     patches = result.patches;
   }
-}
-
-/// Between the solver's points, close to the edges too.
-double residual(const SurfaceKernel& kernel, const Indenter& indenter, const Contact& contact, bool sticks) {
-  constexpr std::array kPlaces{-0.999, -0.93, -0.71, -0.31, 0.13, 0.53, 0.83, 0.97};
-  const SurfaceMotion motion(kernel, contact.tractions);
-  const double radius_m = kernel.annulus().outer_radius_m;
-  double worst_m = 0;
-  for (const PatchTractions& part : contact.tractions)
-    for (const double place : kPlaces) {
-      const double angle_rad = part.patch.centre_rad + place * part.patch.half_rad;
-      const SurfacePoint point = motion.at(angle_rad);
-      const double wanted_m = radius_m * angle_rad * angle_rad / 2 + indenter.height(radius_m * angle_rad);
-      worst_m = std::max(worst_m, std::abs(point.ur_m - wanted_m + contact.approach_m));
-      if (sticks) worst_m = std::max(worst_m, std::abs(point.ut_m - contact.shift_m));
-    }
-  return worst_m;
-}
-
-bool pulls(const Tractions& tractions) {
-  const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(201, -1, 1);
-  double least = 0, most = 0;
-  for (const PatchTractions& part : tractions) {
-    const Eigen::ArrayXd pressures = part.pressure_pa({1 + x, 1 - x});
-    least = std::min(least, pressures.minCoeff());
-    most = std::max(most, pressures.maxCoeff());
-  }
-  return least < -1e-9 * most;
-}
-
-/// Whether a measured shape is inside the rubber somewhere between or beside its contact regions.
-bool penetrates(const SurfaceKernel& kernel, const Indenter& indenter, const Contact& contact) {
-  constexpr int kPlaces = 400;
-  const SurfaceMotion motion(kernel, contact.tractions);
-  const double radius_m = kernel.annulus().outer_radius_m, width_rad = contact.width_m / radius_m;
-  for (int i = 0; i < kPlaces; ++i) {
-    const double angle_rad = contact.offset_rad + 1.5 * width_rad * (2 * (i + 0.5) / kPlaces - 1);
-    const double x_m = radius_m * angle_rad;
-    const bool isKnown = x_m >= indenter.firstPosition_m() && x_m <= indenter.lastPosition_m();
-    if (!isKnown || tractionAt(contact.tractions, angle_rad).pressure_pa != 0) continue;
-    const double gap_m =
-        x_m * angle_rad / 2 + indenter.height(x_m) - contact.approach_m - motion.at(angle_rad).ur_m;
-    if (gap_m < -1e-12 - contact.residual_m) return true;
-  }
-  return false;
-}
-
-void addWarnings(const SurfaceKernel& kernel, const ContactRequest& request, Contact& contact) {
-  std::vector<std::string>& warnings = contact.warnings;
-  const bool sticks = request.regime == Regime::kStick;
-  const double depth_m = std::max(std::abs(contact.depth_m), std::abs(contact.approach_m));
-  if (sticks && kernel.annulus().poisson_ratio != 0.5)
-    warnings.emplace_back(
-        "stick below nu = 1/2: the tractions oscillate at the edges, which the series don't; the load is off "
-        "by "
-        "0.5 to 2 %");
-  if (request.centre_rad && contact.residual_m > 1e-6 * depth_m)
-    warnings.emplace_back(
-        "no contact with its centre held there fits this indenter: the tractions are those of an indenter "
-        "that "
-        "is turned by what the residual tells");
-  else if ((!sticks || kernel.annulus().poisson_ratio == 0.5) && contact.residual_m > 1e-6 * depth_m)
-    warnings.push_back(fmt::format("inaccurate: {} terms a patch leave {:.2g} of the depth unresolved",
-                                   contact.terms, contact.residual_m / depth_m));
-  if (request.indenter.isMeasured() && penetrates(kernel, request.indenter, contact))
-    warnings.emplace_back(
-        "the indenter is inside the rubber somewhere: a narrow region of contact was missed");
-  if (pulls(contact.tractions))
-    warnings.emplace_back("the tractions pull somewhere: no contact is like this");
 }
 
 }  // namespace
@@ -164,8 +107,7 @@ Contact solveContact(const SurfaceKernel& kernel, const ContactRequest& request)
   contact.depth_m = contact.approach_m - radius_m * contact.offset_rad * contact.offset_rad / 2 -
                     request.indenter.height(radius_m * contact.offset_rad);
   contact.shift_m = found.solution.shift_m;
-  contact.residual_m = residual(kernel, request.indenter, contact, request.regime == Regime::kStick);
-  addWarnings(kernel, request, contact);
+  checkContact(kernel, request, contact);
   return contact;
 }
 

@@ -15,10 +15,15 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kMostSteps = 60;
+constexpr int kMostSteps = 40;
 constexpr double kDifference = 1e-6;  // of a half width
-constexpr double kSmallStep = 1e-14;  // of a half width
+constexpr double kSmallStep = 2e-13;  // of a half width
 constexpr double kFits = 1e-9;        // misfit that an answer may have
+constexpr double kVanished = 1e-8;    // half width of a patch, of the whole contact's width
+constexpr double kSlow = 0.3;         // of the misfit is left: Broyden's updates don't do
+constexpr int kMostHalvings = 6;
+
+double worstOf(const VectorXd& values) { return values.cwiseAbs().maxCoeff(); }
 
 }  // namespace
 
@@ -88,14 +93,20 @@ void EdgeSearch::requireWithin(const std::vector<Patch>& patches) const {
                     "measure more of it, or press less",
                     radius_m * first_rad, radius_m * last_rad, request_.indenter.firstPosition_m(),
                     request_.indenter.lastPosition_m()));
-  for (std::size_t k = 1; k < patches.size(); ++k)
-    if (!(patches[k].first_rad() > patches[k - 1].last_rad()))
-      throw Failure(ExitCode::kFailure,
-                    "no contact found: two regions grow into each other at this load or width");
+}
+
+/// Whether patches are in order, and none has all but vanished.
+bool EdgeSearch::areApart(const std::vector<Patch>& patches) const {
+  const double width_rad = patches.back().last_rad() - patches.front().first_rad();
+  for (std::size_t k = 0; k < patches.size(); ++k)
+    if (patches[k].half_rad < kVanished * width_rad ||
+        (k > 0 && !(patches[k].first_rad() > patches[k - 1].last_rad())))
+      return false;
+  return true;
 }
 
 EdgeSearch::State EdgeSearch::evaluate(const VectorXd& unknowns, const std::vector<Patch>& guess) const {
-  State state{unknowns, {patchesOf(unknowns, guess), {}}, {}};
+  State state{unknowns, {patchesOf(unknowns, guess), {}, {}}, {}};
   requireWithin(state.result.patches);
   state.result.solution = solver_.solve(state.result.patches, request_.indenter, request_.tangential_n_per_m);
   state.misfits = misfits(state.result.patches, state.result.solution);
@@ -118,17 +129,31 @@ EdgeResult EdgeSearch::run(const std::vector<Patch>& guess) const {
       static_cast<Index>(guess.size()) * (movesCentre(guess.size()) + changesWidth(guess.size()));
   State state = evaluate(VectorXd::Zero(count), guess);
   if (count == 0) return state.result;
-  MatrixXd jacobian = differences(state, guess);
+  // One unknown, the width, and the load given: the load of a parabola grows with its square, of a wedge
+  // less.
+  MatrixXd jacobian = count == 1 && changesWidth(guess.size()) ? MatrixXd(MatrixXd::Constant(1, 1, 2))
+                                                               : differences(state, guess);
   for (int step = 0; step < kMostSteps; ++step) {
     VectorXd move = -jacobian.partialPivLu().solve(state.misfits);
-    move *= std::min(1.0, 0.5 / move.cwiseAbs().maxCoeff());
+    move *= std::min(1.0, 0.5 / worstOf(move));
+    for (int half = 0; half < kMostHalvings && !areApart(patchesOf(state.unknowns + move, guess)); ++half)
+      move /= 2;
+    if (!areApart(patchesOf(state.unknowns + move, guess))) {
+      state.result.outcome = EdgeResult::Outcome::kCollide;
+      return state.result;
+    }
     State next = evaluate(state.unknowns + move, guess);
-    jacobian += (next.misfits - state.misfits - jacobian * move) * move.transpose() / move.squaredNorm();
+    const double misfit = worstOf(state.misfits), left = worstOf(next.misfits);
+    if (count > 2 && left > kSlow * misfit && left > kFits)
+      jacobian = differences(next, guess);
+    else
+      jacobian += (next.misfits - state.misfits - jacobian * move) * move.transpose() / move.squaredNorm();
     state = std::move(next);
-    if (state.misfits.cwiseAbs().maxCoeff() < kSmallStep || move.cwiseAbs().maxCoeff() < kSmallStep) break;
+    if (left < kSmallStep || worstOf(move) < kSmallStep ||
+        (left < kFits && misfit < kFits && left > misfit / 2))
+      break;
   }
-  if (!(state.misfits.cwiseAbs().maxCoeff() < kFits))
-    throw Failure(ExitCode::kFailure, "no contact found: no edges fit this indenter at this load or width");
+  if (!(worstOf(state.misfits) < kFits)) state.result.outcome = EdgeResult::Outcome::kLost;
   return state.result;
 }
 

@@ -10,6 +10,8 @@ namespace strainfinger::contact {
 struct EdgeResult {
   std::vector<Patch> patches;
   PatchSolution solution;
+  /// kCollide: two patches run into each other, or one vanishes; kLost: no edges fit.
+  enum class Outcome { kSettled, kCollide, kLost } outcome = Outcome::kSettled;
 };
 
 /// Moves patches until every tilt is 0, all lifts are the same and the size is what is asked for. Unknowns: a
@@ -21,7 +23,8 @@ class EdgeSearch {
   EdgeSearch(const SurfaceKernel& kernel, const SpectralSolver& solver, const ContactRequest& request);
 
   /// Newton's method, its Jacobian by differences once and by Broyden's updates then; 1 solve for a symmetric
-  /// contact of given width, about 8 for one of given load. Throws Failure(kFailure) if it doesn't converge.
+  /// contact of given width, about 8 for one of given load. Throws Failure(kFailure)
+  /// if the contact grows beyond the indenter or half the surface.
   EdgeResult run(const std::vector<Patch>& guess) const;
 
  private:
@@ -33,6 +36,7 @@ class EdgeSearch {
   bool movesCentre(std::size_t patches) const;
   bool changesWidth(std::size_t patches) const;
   void requireWithin(const std::vector<Patch>& patches) const;
+  bool areApart(const std::vector<Patch>& patches) const;
 
   const SurfaceKernel& kernel_;
   const SpectralSolver& solver_;

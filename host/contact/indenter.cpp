@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "host/base/angles.hpp"
 #include "host/base/failure.hpp"
 
 namespace strainfinger::contact {
@@ -62,9 +62,7 @@ Indenter Indenter::flat() { return {0, 0}; }
 
 Indenter Indenter::cylinder(double radius_m) { return {1 / radius_m, 0}; }
 
-Indenter Indenter::wedge(double half_angle_deg) {
-  return {0, 1 / std::tan(half_angle_deg * std::numbers::pi / 180)};
-}
+Indenter Indenter::wedge(double half_angle_deg) { return {0, 1 / std::tan(half_angle_deg * kRadPerDeg)}; }
 
 Indenter Indenter::measured(std::vector<double> position_m, std::vector<double> height_m) {
   requireRising(position_m);

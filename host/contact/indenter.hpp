@@ -35,6 +35,8 @@ class Indenter {
   /// Where the profile is known: all of it, or from the first to the last measured point.
   double firstPosition_m() const;
   double lastPosition_m() const;
+  /// Of the measured points; none of the others.
+  std::vector<double> positions_m() const { return spline_ ? spline_->position_m : std::vector<double>{}; }
 
  private:
   struct Spline {

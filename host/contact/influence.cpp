@@ -52,11 +52,10 @@ MatrixXd onItself(const SurfaceKernel& kernel, const KernelMix& mix, const Refer
 /// The weighted basis at nodes that are dense at both edges, whichever of them is near.
 MatrixXd onAnother(const SurfaceKernel& kernel, const KernelMix& mix, const ReferencePatch& source,
                    const Patch& from, const VectorXd& points, const Patch& at) {
-  constexpr int kDensity = 14;
-  const TanhSinhRule rule(kDensity);
+  constexpr int kNearEdges = 14;
+  const TanhSinhRule rule(kNearEdges);
   const PatchPoints places{2 * rule.fromStart, 2 * rule.fromEnd};
-  const Eigen::ArrayXd weights = 2 * rule.weights * places.fromRight.pow(source.exponents().right) *
-                                 places.fromLeft.pow(source.exponents().left);
+  const Eigen::ArrayXd weights = 2 * rule.weights * edgeWeight(source.exponents(), places);
   MatrixXd values(points.size(), weights.size());
   for (Index i = 0; i < points.size(); ++i)
     for (Index j = 0; j < weights.size(); ++j) {
@@ -64,8 +63,8 @@ MatrixXd onAnother(const SurfaceKernel& kernel, const KernelMix& mix, const Refe
       const double distance =
           std::remainder(at.centre_rad - from.centre_rad + at.half_rad * points[i] - from.half_rad * x,
                          2 * std::numbers::pi);
-      values(i, j) =
-          weights[j] * (mix.even * kernel.evenAt(distance).value + mix.odd * kernel.oddAt(distance).value);
+      const KernelPair pair = kernel.valuesAt(distance);
+      values(i, j) = weights[j] * (mix.even * pair.even + mix.odd * pair.odd);
     }
   return values * jacobiValues(source.exponents(), source.terms(), places.x().matrix());
 }

@@ -8,6 +8,7 @@
 namespace strainfinger::contact {
 namespace {
 
+using Eigen::ArrayXd;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -84,6 +85,15 @@ MatrixXd stuckMoments(int count, const VectorXd& points) {
   return moments;
 }
 
+/// With a root or an inverse root at both edges: Chebyshev's, in closed form.
+QuadratureRule chebyshevRule(bool isSmooth, int count) {
+  const ArrayXd steps = ArrayXd::LinSpaced(count, count, 1);
+  const ArrayXd angles =
+      isSmooth ? ArrayXd(steps * (pi / (count + 1))) : ArrayXd((steps - 0.5) * (pi / count));
+  if (isSmooth) return {angles.cos(), pi / (count + 1) * angles.sin().square()};
+  return {angles.cos(), VectorXd::Constant(count, pi / count)};
+}
+
 }  // namespace
 
 MatrixXd jacobiValues(EdgeExponents exponents, int count, const VectorXd& points) {
@@ -99,6 +109,8 @@ MatrixXd jacobiValues(EdgeExponents exponents, int count, const VectorXd& points
 }
 
 QuadratureRule gaussRule(EdgeExponents exponents, int count) {
+  const bool isSymmetric = exponents.right == exponents.left;
+  if (isSymmetric && std::abs(exponents.right) == 0.5) return chebyshevRule(exponents.right > 0, count);
   const Recurrence recurrence(exponents, count);
   Eigen::SelfAdjointEigenSolver<MatrixXd> solver;
   solver.computeFromTridiagonal(recurrence.diagonal, recurrence.off.tail(count - 1), Eigen::EigenvaluesOnly);

@@ -1,5 +1,7 @@
 #include "host/contact/paper_method.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "host/base/failure.hpp"
@@ -53,6 +55,7 @@ PaperContact solveByPaper(const model::Annulus<double>& annulus, const Indenter&
   for (const SingularPair& pair : pairs) {
     if (!(pair.value > options.cutoff * pairs[0].value)) break;
     ++contact.kept;
+    contact.keptEven += pair.isEvenSlope ? 0 : 1;
     const VectorXd& wanted = pair.isEvenSlope ? even : odd;
     (pair.isEvenSlope ? evenUnknowns : oddUnknowns) += pair.unknowns * (pair.slopes.dot(wanted) / pair.value);
   }
@@ -60,6 +63,31 @@ PaperContact solveByPaper(const model::Annulus<double>& annulus, const Indenter&
   contact.normal_n_per_m = 2 * std::numbers::pi * radius_m * contact.tractions(0, 0);
   compareShapes(annulus, indenter, half_rad, contact);
   return contact;
+}
+
+PaperErrors errorsOf(const PaperContact& contact, const Contact& exact) {
+  constexpr int kPlaces = 4000;
+  constexpr double kBeyond = 1.007;
+  const double half_rad = exact.tractions[0].patch.half_rad, end_rad = std::numbers::pi - kBeyond * half_rad;
+  const double centre_pa = tractionAt(exact.tractions, 0).pressure_pa;
+  PaperErrors errors;
+  double within = 0, beyond = 0;
+  for (const double side : {-1.0, 1.0})
+    for (int i = 0; i < kPlaces; ++i) {
+      const double t = (i + 0.5) / kPlaces, inside_rad = side * half_rad * t;
+      const double inside_pa = tractionAt(contact.tractions, inside_rad).pressure_pa;
+      const double outside_pa =
+          tractionAt(contact.tractions, side * (kBeyond * half_rad + end_rad * t)).pressure_pa;
+      const double known_pa = tractionAt(exact.tractions, inside_rad).pressure_pa;
+      errors.inside = std::max(errors.inside, std::abs(inside_pa - known_pa) / centre_pa);
+      errors.outside = std::max(errors.outside, std::abs(outside_pa) / centre_pa);
+      within += half_rad * inside_pa * inside_pa;
+      beyond += end_rad * outside_pa * outside_pa;
+    }
+  errors.centre = std::abs(tractionAt(contact.tractions, 0).pressure_pa / centre_pa - 1);
+  errors.load = contact.normal_n_per_m / exact.normal_n_per_m - 1;
+  errors.leakedShare = beyond / (within + beyond);
+  return errors;
 }
 
 }  // namespace strainfinger::contact

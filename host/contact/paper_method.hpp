@@ -17,6 +17,7 @@ struct PaperOptions {
 struct PaperContact {
   FourierTractions tractions;  ///< not zero outside the contact: the window is cut
   int kept = 0;                ///< singular values
+  int keptEven = 0;            ///< of them those whose pressure is even
   double normal_n_per_m = 0;   ///< all around, what leaks out of the contact included
   double depth_m = 0;          ///< at the centre
   double residual_m = 0;       ///< worst distance from the indenter's shape, from its mean over the contact
@@ -29,5 +30,18 @@ struct PaperContact {
 /// Failure(kUsage) outside it. Costs 100 ms for 300 harmonics.
 PaperContact solveByPaper(const model::Annulus<double>& annulus, const Indenter& indenter, double width_m,
                           const PaperOptions& options);
+
+/// What that is off by, against the contact of the same width by SpectralSolver, per its pressure at the
+/// centre.
+struct PaperErrors {
+  double inside = 0;       ///< worst of the pressure within the contact
+  double centre = 0;       ///< of the pressure at the centre, absolute
+  double load = 0;         ///< of the normal load, relative
+  double outside = 0;      ///< largest pressure outside, from 0.7 % of a half width beyond the edges on
+  double leakedShare = 0;  ///< of the integral of the pressure's square: what is outside
+};
+
+/// `exact` is centred on the indenter's normal. Costs 10 ms for 300 harmonics.
+PaperErrors errorsOf(const PaperContact& contact, const Contact& exact);
 
 }  // namespace strainfinger::contact

@@ -147,7 +147,7 @@ void SpectralSolver::Assembly::fillProfile(Index at, const SurfaceMotion& edges)
   const double radius_m = solver_.kernel_.annulus().outer_radius_m;
   for (Index i = 0; i < rows(); ++i) {
     const double angle_rad = patch.centre_rad + patch.half_rad * solver_.pressure_.points()[i];
-    const SurfacePoint known = edges_.empty() ? SurfacePoint{} : edges.at(angle_rad);
+    const SurfacePoint known = edges_.empty() ? SurfacePoint{} : edges.displacementAt(angle_rad);
     const double profile_m = radius_m * angle_rad * angle_rad / 2 + indenter_.height(radius_m * angle_rad);
     right_[at * rows() + i] = (profile_m - known.ur_m) / lengthUnit_m_;
     if (solver_.shear_) right_[(patchCount() + at) * rows() + i] = -known.ut_m / lengthUnit_m_;

@@ -21,6 +21,12 @@ struct KernelValue {
   double slope = 0;
 };
 
+/// Both kernels at a distance psi != 0 [m/Pa].
+struct KernelPair {
+  double even = 0;
+  double odd = 0;
+};
+
 /// What the core reflects of each harmonic, n = 0 and 1 whole, per unit Fourier coefficient [m/Pa]: u_r of a
 /// normal and u_t of a tangential traction along themselves (cosines of cosines), and u_r of a tangential,
 /// u_t of a normal one (sines of cosines).
@@ -51,6 +57,8 @@ class SurfaceKernel {
   /// The same as a whole, by C and S. At psi = 0 the slope of odd has besides a delta function of oddStep().
   KernelValue evenAt(double angle_rad) const;
   KernelValue oddAt(double angle_rad) const;
+  /// Both values without the slopes, in a third of the time.
+  KernelPair valuesAt(double angle_rad) const;
   double oddStep() const;   ///< by how much odd jumps at psi = 0 [m/Pa]
   double evenPole() const;  ///< factor of cot(psi/2)/2 in the slope of even [m/Pa]
 

@@ -36,29 +36,36 @@ SurfaceMotion::SurfaceMotion(const SurfaceKernel& kernel, const Tractions& tract
       rule_(kDensity),
       coefficients_(fourierTractions(tractions, static_cast<int>(kernel.reflection().normal.size()) - 1)) {}
 
-SurfacePoint SurfaceMotion::at(double angle_rad) const {
+SurfacePoint SurfaceMotion::at(double angle_rad) const { return pointAt(angle_rad, true); }
+
+SurfacePoint SurfaceMotion::displacementAt(double angle_rad) const { return pointAt(angle_rad, false); }
+
+SurfacePoint SurfaceMotion::pointAt(double angle_rad, bool withSlopes) const {
   SurfacePoint point;
-  for (const PatchTractions& part : tractions_) addPatch(part, angle_rad, point);
+  for (const PatchTractions& part : tractions_) addPatch(part, angle_rad, withSlopes, point);
   addReflection(angle_rad, point);
   return point;
 }
 
 // The patch is cut at the point, if that is on it, and below the edge of a wedge.
-void SurfaceMotion::addPatch(const PatchTractions& part, double angle_rad, SurfacePoint& point) const {
+void SurfaceMotion::addPatch(const PatchTractions& part, double angle_rad, bool withSlopes,
+                             SurfacePoint& point) const {
   const double x = (angle_rad - part.patch.centre_rad) / part.patch.half_rad;
+  const bool isOnIt = std::abs(x) < 1;
   std::vector<double> cuts{-1, 1};
-  Traction here;
-  if (std::abs(x) < 1) {
-    cuts.push_back(x);
-    here = tractionAt({part}, angle_rad);
-    const double pole = kernel_.evenPole() * integralOfPole(part.patch, angle_rad);
-    point.urSlope_m += kernel_.oddStep() * here.shear_pa - pole * here.pressure_pa;
-    point.utSlope_m += kernel_.oddStep() * here.pressure_pa + pole * here.shear_pa;
-  }
+  if (isOnIt) cuts.push_back(x);
   if (part.edge.amplitude_pa != 0 && part.edge.position != x) cuts.push_back(part.edge.position);
   std::ranges::sort(cuts);
-  for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
-    addSegment(part, nodesBetween(part.patch, cuts[i], cuts[i + 1], x), here, point);
+  const Traction here = withSlopes && isOnIt ? tractionAt({part}, angle_rad) : Traction{};
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+    const Nodes nodes = nodesBetween(part.patch, cuts[i], cuts[i + 1], x);
+    addDisplacements(part, nodes, point);
+    if (withSlopes) addSlopes(part, nodes, here, point);
+  }
+  if (!withSlopes || !isOnIt) return;
+  const double pole = kernel_.evenPole() * integralOfPole(part.patch, angle_rad);
+  point.urSlope_m += kernel_.oddStep() * here.shear_pa - pole * here.pressure_pa;
+  point.utSlope_m += kernel_.oddStep() * here.pressure_pa + pole * here.shear_pa;
 }
 
 SurfaceMotion::Nodes SurfaceMotion::nodesBetween(const Patch& patch, double from, double to, double x) const {
@@ -69,23 +76,34 @@ SurfaceMotion::Nodes SurfaceMotion::nodesBetween(const Patch& patch, double from
     nodes.distances = patch.half_rad * (x - to + end);
   else
     nodes.distances = patch.half_rad * (x - from - start);
+  for (double& distance : nodes.distances)
+    if (std::abs(distance) > std::numbers::pi) distance = std::remainder(distance, 2 * std::numbers::pi);
   return nodes;
 }
 
-void SurfaceMotion::addSegment(const PatchTractions& part, const Nodes& nodes, Traction here,
-                               SurfacePoint& point) const {
+// A node so close to the point or to the edge of a wedge that rounding put it there has no weight either.
+void SurfaceMotion::addDisplacements(const PatchTractions& part, const Nodes& nodes,
+                                     SurfacePoint& point) const {
+  const ArrayXd pressures = nodes.weights * part.pressure_pa(nodes.places),
+                shears = part.friction * pressures + nodes.weights * part.stuck.at(nodes.places);
+  for (Index i = 0; i < pressures.size(); ++i) {
+    if (nodes.distances[i] == 0 || !std::isfinite(pressures[i])) continue;
+    const KernelPair pair = kernel_.valuesAt(nodes.distances[i]);
+    point.ur_m += pair.odd * shears[i] - pair.even * pressures[i];
+    point.ut_m += pair.odd * pressures[i] + pair.even * shears[i];
+  }
+}
+
+void SurfaceMotion::addSlopes(const PatchTractions& part, const Nodes& nodes, Traction here,
+                              SurfacePoint& point) const {
   const ArrayXd pressures = part.pressure_pa(nodes.places), shears = part.shear_pa(nodes.places);
   for (Index i = 0; i < pressures.size(); ++i) {
-    const double distance = std::remainder(nodes.distances[i], 2 * std::numbers::pi);
-    // A node so close to the point or to the edge of a wedge that rounding put it there has no weight either.
+    const double distance = nodes.distances[i];
     if (distance == 0 || !std::isfinite(pressures[i])) continue;
-    const KernelValue even = kernel_.evenAt(distance), odd = kernel_.oddAt(distance);
+    const double even = kernel_.evenAt(distance).slope, odd = kernel_.oddAt(distance).slope;
     const double pole = kernel_.evenPole() * 0.5 / std::tan(distance / 2);
-    const double pressure = nodes.weights[i] * pressures[i], shear = nodes.weights[i] * shears[i];
-    point.ur_m += odd.value * shear - even.value * pressure;
-    point.ut_m += odd.value * pressure + even.value * shear;
-    point.urSlope_m += odd.slope * shear - even.slope * pressure + pole * nodes.weights[i] * here.pressure_pa;
-    point.utSlope_m += odd.slope * pressure + even.slope * shear - pole * nodes.weights[i] * here.shear_pa;
+    point.urSlope_m += nodes.weights[i] * (odd * shears[i] - even * pressures[i] + pole * here.pressure_pa);
+    point.utSlope_m += nodes.weights[i] * (odd * pressures[i] + even * shears[i] - pole * here.shear_pa);
   }
 }
 

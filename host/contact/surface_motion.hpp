@@ -27,12 +27,16 @@ class SurfaceMotion {
 
   /// Costs about 20 us a patch.
   SurfacePoint at(double angle_rad) const;
+  /// The same without the slopes, in half the time.
+  SurfacePoint displacementAt(double angle_rad) const;
 
  private:
   struct Nodes;
+  SurfacePoint pointAt(double angle_rad, bool withSlopes) const;
   Nodes nodesBetween(const Patch& patch, double from, double to, double x) const;
-  void addPatch(const PatchTractions& part, double angle_rad, SurfacePoint& point) const;
-  void addSegment(const PatchTractions& part, const Nodes& nodes, Traction here, SurfacePoint& point) const;
+  void addPatch(const PatchTractions& part, double angle_rad, bool withSlopes, SurfacePoint& point) const;
+  void addDisplacements(const PatchTractions& part, const Nodes& nodes, SurfacePoint& point) const;
+  void addSlopes(const PatchTractions& part, const Nodes& nodes, Traction here, SurfacePoint& point) const;
   void addReflection(double angle_rad, SurfacePoint& point) const;
 
   const SurfaceKernel& kernel_;

@@ -56,11 +56,18 @@ void appendEdge(std::vector<LineTraction>& lines, const PatchTractions& part, in
 
 }  // namespace
 
+ArrayXd edgeWeight(EdgeExponents exponents, const PatchPoints& points) {
+  const bool isSymmetric = exponents.right == exponents.left;
+  if (isSymmetric && exponents.right == 0.5) return (points.fromRight * points.fromLeft).sqrt();
+  if (isSymmetric && exponents.right == -0.5) return (points.fromRight * points.fromLeft).rsqrt();
+  return points.fromRight.pow(exponents.right) * points.fromLeft.pow(exponents.left);
+}
+
 ArrayXd EdgeSeries::at(const PatchPoints& points) const {
   if (coefficients.size() == 0) return ArrayXd::Zero(points.fromLeft.size());
   const Eigen::VectorXd polynomial =
       jacobiValues(exponents, static_cast<int>(coefficients.size()), points.x().matrix()) * coefficients;
-  return points.fromRight.pow(exponents.right) * points.fromLeft.pow(exponents.left) * polynomial.array();
+  return edgeWeight(exponents, points) * polynomial.array();
 }
 
 double EdgeSeries::integral() const {

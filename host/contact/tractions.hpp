@@ -26,6 +26,9 @@ struct PatchPoints {
   Eigen::ArrayXd x() const { return (fromLeft - fromRight) / 2; }
 };
 
+/// (1 - x)^right (1 + x)^left.
+Eigen::ArrayXd edgeWeight(EdgeExponents exponents, const PatchPoints& points);
+
 /// (1 - x)^right (1 + x)^left times a series in the weight's orthonormal polynomials [Pa].
 struct EdgeSeries {
   EdgeExponents exponents;

@@ -103,10 +103,6 @@ Eigen::MatrixXd truncatedSeries(const Annulus<double>& annulus, double radius_m,
 
 namespace {
 
-/// Harmonics that are summed before they are added to the others: rounding grows with the longer of the two
-/// sums only. 400,000 harmonics as one sum cost three digits.
-constexpr int kBlock = 512;
-
 /// Factors of cos n angle, or of sin n angle, of those rows that have any.
 template <typename Scalar>
 struct HalfSeries {

@@ -13,6 +13,10 @@ namespace strainfinger::model {
 /// Most harmonics a series may have: enough for depths from 5e-5 r_b on, at a tolerance of 1e-15.
 inline constexpr int kMaxHarmonics = 1'000'000;
 
+/// Harmonics that are summed before they are added to the others: rounding grows with the longer of the two
+/// sums only. 400,000 harmonics as one sum cost three digits.
+inline constexpr int kBlock = 512;
+
 /// Angles [rad] over which a load is spread and a gauge averages, both uniformly; 0: a point.
 struct Windows {
   double load_rad = 0;

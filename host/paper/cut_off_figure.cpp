@@ -16,7 +16,7 @@ constexpr std::array kComponents{StrainComponent::kRadial, StrainComponent::kHoo
 constexpr double kFirstAlpha = 0.5, kLastAlpha = 0.95;
 constexpr int kAlphas = 91;
 
-constexpr const char* kPanels = R"(
+constexpr const char* kCutOffPanels = R"(
 set multiplot layout 1,2 margins 0.07,0.985,0.13,0.88 spacing 0.08
 set xlabel 'α = r_a / r_b'; set ylabel 'cut-off (cycles per revolution)'; set logscale y
 plot data('cutoffs') using 1:2 every ::1 with lines linewidth 1.8 linecolor rgb blue title 'e_{rr}, normal load', \
@@ -104,7 +104,7 @@ plot::Picture cutOffPicture(const Subject& subject) {
   const double last = lastAlpha(subject), first = std::min(kFirstAlpha, 0.8 * last);
   for (int i = 0; i < kAlphas; ++i)
     data.rows.push_back(rowAt(subject, first + (last - first) * i / (kAlphas - 1)));
-  return {1300, 560, std::string(plot::kStyle) + kPanels, {std::move(data)}};
+  return {1300, 560, std::string(plot::kStyle) + kCutOffPanels, {std::move(data)}};
 }
 
 std::vector<Claim> cutOffClaims() {

@@ -105,7 +105,7 @@ plot::Picture flatDisplacementPicture(const Subject& subject) {
 }
 
 plot::Picture flatStressPicture(const Subject& subject) {
-  constexpr int kPointsEachSide = 300;
+  constexpr int kAnglesOfAHalf = 300;
   const FlatContact flat(subject);
   const Ellipse ideal = hertz(flat);
   plot::DataFile data{"pressure", {"angle_rad", "pressure_pa", "hertz_pa"}, {}};
@@ -114,8 +114,8 @@ plot::Picture flatStressPicture(const Subject& subject) {
     papers.push_back(byPaper(flat, cutOff));
     data.columns.push_back(fmt::format("paper_cut_off_{}_pa", cutOff));
   }
-  for (int i = -kPointsEachSide; i <= kPointsEachSide; ++i) {
-    const double angle_rad = 3 * flat.half_rad() * i / kPointsEachSide;
+  for (int i = -kAnglesOfAHalf; i <= kAnglesOfAHalf; ++i) {
+    const double angle_rad = 3 * flat.half_rad() * i / kAnglesOfAHalf;
     data.rows.push_back({angle_rad, flat.pressure_pa(angle_rad),
                          ideal.pressure_pa(angle_rad * subject.annulus.outer_radius_m)});
     for (const contact::PaperContact& paper : papers)

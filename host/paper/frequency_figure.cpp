@@ -16,7 +16,7 @@ using model::kTangential;
 
 constexpr int kClaimedLast = 20;
 
-constexpr const char* kPanels = R"(
+constexpr const char* kFrequencyPanels = R"(
 set multiplot layout 1,2 margins 0.07,0.985,0.13,0.88 spacing 0.08
 set xlabel 'harmonic n (cycles per revolution)'; set xrange [0:last]; set yrange [-0.55:1.1]
 set ylabel 'coefficient / largest of the panel'
@@ -118,7 +118,7 @@ plot::Picture frequencyPicture(const Subject& subject) {
                   2 * std::max(shown.normal.last, shown.tangential.last),
                   largest(cylinder, StrainComponent::kRadial), largest(cylinder, StrainComponent::kShear),
                   largest(plane, StrainComponent::kRadial), largest(plane, StrainComponent::kShear));
-  return {1300, 560, plot::kStyle + numbers + kPanels, {std::move(data)}};
+  return {1300, 560, plot::kStyle + numbers + kFrequencyPanels, {std::move(data)}};
 }
 
 std::vector<Claim> frequencyClaims() {

@@ -15,9 +15,9 @@ namespace {
 using model::kNormal;
 using model::kTangential;
 
-constexpr int kPointsEachSide = 1000;
+constexpr int kAnglesEachSide = 1000;
 
-constexpr const char* kPanels = R"(
+constexpr const char* kImpulsePanels = R"(
 set multiplot layout 1,2 margins 0.07,0.985,0.13,0.88 spacing 0.08
 set xlabel 'θ (rad)'; set xrange [-1.2:1.2]; set yrange [-1.1:1.1]; set ylabel 'e_{rr} / its peak'
 do for [load = 0:1] {
@@ -70,15 +70,15 @@ plot::Picture impulsePicture(const Subject& subject) {
     for (const char* component : {"err", "ett", "ert"})
       for (const char* load : {"normal", "tangential"})
         data.columns.push_back(fmt::format("{}_{}_{}_per_n_per_m", model, component, load));
-  for (int i = -kPointsEachSide; i <= kPointsEachSide; ++i) {
-    const double angle_rad = i * std::numbers::pi / kPointsEachSide;
+  for (int i = -kAnglesEachSide; i <= kAnglesEachSide; ++i) {
+    const double angle_rad = i * std::numbers::pi / kAnglesEachSide;
     data.rows.push_back({angle_rad});
     for (const ImpulseCurve& curve : curves) data.rows.back().push_back(curve.at(angle_rad));
   }
   const std::string numbers =
       fmt::format("cylinderNormal = {}; cylinderTangential = {}; planeNormal = {}; planeTangential = {}\n",
                   curves[0].peak(), curves[1].peak(), curves[6].peak(), curves[7].peak());
-  return {1300, 560, plot::kStyle + numbers + kPanels, {std::move(data)}};
+  return {1300, 560, plot::kStyle + numbers + kImpulsePanels, {std::move(data)}};
 }
 
 std::vector<Claim> impulseClaims() {

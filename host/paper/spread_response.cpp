@@ -26,8 +26,8 @@ Window windowAt(double x, Spread spread) {
 SpreadResponse::SpreadResponse(const model::Annulus<double>& annulus, double radius_m, double width_m,
                                Spread spread) {
   constexpr std::array kRows{model::kErr};
-  constexpr double kTolerance = 1e-12;
-  series_ = model::truncatedSeries(annulus, radius_m, kRows, {}, kTolerance);
+  constexpr double kRelative = 1e-12;
+  series_ = model::truncatedSeries(annulus, radius_m, kRows, {}, kRelative);
   series_ /= std::numbers::pi * annulus.outer_radius_m;
   series_.row(0) /= 2;
   series_.col(model::kNormal) *= -1;

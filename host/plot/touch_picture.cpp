@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "host/base/angles.hpp"
 #include "host/plot/style.hpp"
 
 namespace strainfinger::plot {
@@ -73,12 +73,11 @@ double reduced_deg(double angle_deg) { return angle_deg - 360 * std::floor(angle
 
 /// Error of the estimate as an arc of the surface, the short way around.
 double arcError_m(const TrackPoint& point, double radius_m) {
-  return std::remainder(point.estimate.angle_deg - point.truth.angle_deg, 360.0) * std::numbers::pi / 180 *
-         radius_m;
+  return std::remainder(point.estimate.angle_deg - point.truth.angle_deg, 360.0) * kRadPerDeg * radius_m;
 }
 
 double arcSigma_m(const TrackPoint& point, double radius_m) {
-  return point.sigmaAngle_deg * std::numbers::pi / 180 * radius_m;
+  return point.sigmaAngle_deg * kRadPerDeg * radius_m;
 }
 
 DataFile profileData(const TouchRecord& record) {
@@ -110,7 +109,7 @@ std::vector<double> trackRow(const TrackPoint& point, double radius_m) {
 }
 
 std::vector<double> gapAt(double time_s) {
-  std::vector<double> row(9, kUnknown);
+  std::vector<double> row(9, kNoValue);
   row[0] = time_s;
   return row;
 }

@@ -3,17 +3,28 @@
 #include <algorithm>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace strainfinger::shape {
 namespace {
 
 constexpr double kOneSided95 = 1.6448536269514722;  // of a normal distribution, in sigmas
+constexpr double kTwoSided95 = 1.959963984540054;
 constexpr int kFitted = 4;
-constexpr int kMoment = 3;
+constexpr int kMomentPlace = 3;
 
 Measured measured(const TouchFit& fit, double value, int member) {
   return {value, std::sqrt(fit.covariance(member, member))};
+}
+
+/// The errors of 1 / (curvature + 1 / r_b), about the moment over the load, are normal; those of its inverse
+/// are not.
+Band bandOf(const Measured& curvature_per_m, double radius_m) {
+  const double both_per_m = curvature_per_m.value + 1 / radius_m;
+  const double share = kTwoSided95 * curvature_per_m.sigma / both_per_m;
+  const double most = share < 1 ? both_per_m / (1 - share) : std::numeric_limits<double>::infinity();
+  return {both_per_m / (1 + share) - 1 / radius_m, most - 1 / radius_m};
 }
 
 }  // namespace
@@ -30,17 +41,19 @@ double ShapeEstimator::probability(double chiSquared) const {
 
 /// Width and curvature by the first derivatives of what they are made of.
 void ShapeEstimator::addWidth(const TouchFit& fit, Shape& shape) const {
-  const double moment = fit.touch.moment_rad2, sigma = std::sqrt(fit.covariance(kMoment, kMoment));
+  const double moment = fit.touch.moment_rad2, sigma = std::sqrt(fit.covariance(kMomentPlace, kMomentPlace));
   const double most = std::max(0.0, moment) + kOneSided95 * sigma, radius_m = model_.outerRadius_m();
   shape.widthLimit_m = radius_m * equivalentWidth_rad(std::min(most, TouchModel::kMostMoment_rad2));
   shape.isWidthAtLimit = fit.isAtLimit;
-  if (!(moment * moment > kSure * sigma * sigma) || moment < 0) return;
+  shape.isSparse = model_.pitchInDepths() > kSparse;
+  if (shape.isSparse || !(moment * moment > kSure * sigma * sigma) || moment < 0) return;
   const double width_rad = equivalentWidth_rad(moment), logSlope = 1 / (2 * moment);
   shape.width_m = {radius_m * width_rad, radius_m * width_rad * logSlope * sigma};
   const auto curvature = curvature_.of(fit.touch.normal_n_per_m, width_rad);
   const Eigen::Vector4d slopes{0, curvature.toLogLoad_per_m / fit.touch.normal_n_per_m, 0,
                                curvature.toLogWidth_per_m * logSlope};
   shape.curvature_per_m = {curvature.value_per_m, std::sqrt(slopes.dot(fit.covariance * slopes))};
+  shape.curvatureBand_per_m = bandOf(*shape.curvature_per_m, radius_m);
 }
 
 /// All profiles from the ellipse's place: the best one's probability, and its name if it is alone.
@@ -65,7 +78,7 @@ std::optional<Shape> ShapeEstimator::estimate(const Eigen::VectorXd& strains) co
   shape.tangential_n_per_m = measured(fit, fit.touch.tangential_n_per_m, 2);
   shape.fitProbability = probability(fit.chiSquared);
   addWidth(fit, shape);
-  if (shape.width_m) addClass(fit, strains, shape);
+  if (shape.width_m && !found->rivalAngle_rad) addClass(fit, strains, shape);
   shape.rivalAngle_rad = found->rivalAngle_rad;
   const ResolvedPressure resolved = resolution(shape);
   shape.directions = resolved.directions();

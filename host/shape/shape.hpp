@@ -15,6 +15,12 @@ struct Measured {
   double sigma;
 };
 
+/// Holds what is estimated with 95 %.
+struct Band {
+  double low;
+  double high;
+};
+
 struct Shape {
   Touch touch;  ///< the best one, of elliptic pressure
   Measured angle_rad{};
@@ -24,7 +30,9 @@ struct Shape {
   std::optional<Measured> width_m;
   double widthLimit_m = 0;  ///< the width is below with 95 %, told from a line or not
   /// Of a round indenter that makes such a width under such a load (0: flat); with the width only.
+  /// Its errors are skewed, more than the width's: the band is not symmetric, and open above where infinite.
   std::optional<Measured> curvature_per_m;
+  std::optional<Band> curvatureBand_per_m;
   int directions = 0;          ///< of a pressure of this width that are above the noise, as ResolvedPressure
   bool isOddResolved = false;  ///< whether an uneven pressure would show
   /// The profile that fits better than all others by kSure; nothing if the readings don't separate them.
@@ -32,11 +40,18 @@ struct Shape {
   /// Of residuals as large as these or larger from noise alone; with a width those of the best profile.
   double fitProbability = 0;
   std::optional<double> rivalAngle_rad;
+  /// The ring's pitch is above kSparse: then there is neither width nor class, and answers may be farther off
+  /// than their sigmas say.
+  bool isSparse = false;
   bool isWidthAtLimit = false;  ///< as wide or as narrow as the fit may go: the width is not to be trusted
 };
 
 /// Below this probability residuals are not noise: two touches, a bad gauge, another noise.
 inline constexpr double kUnlikely = 1e-3;
+
+/// Depths of the gauges: in a ring of that pitch at the surface and more a touch between two gauges is seen
+/// by both alike whatever its width.
+inline constexpr double kSparse = 2;
 
 /// The estimator of one finger. Immutable; costs 2 ms to make.
 class ShapeEstimator {
@@ -44,7 +59,7 @@ class ShapeEstimator {
   /// Noise is that of config.gauges, friction and component are the config's; its contact width isn't used.
   explicit ShapeEstimator(const config::FingerConfig& config);
 
-  /// Nothing if the finger isn't touched. Domain: a finite strain a gauge. Costs 1.4 ms for 32
+  /// Nothing if the finger isn't touched. Domain: a finite strain a gauge. Costs 3 ms for 32
   /// gauges in the default finger.
   std::optional<Shape> estimate(const Eigen::VectorXd& strains) const;
 

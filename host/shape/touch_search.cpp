@@ -11,9 +11,12 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr int kStepsPerPitch = 8;
-constexpr double kApart = 3;          ///< sigmas: farther away is another touch
-constexpr double kSame = 0.1;         ///< sigmas: nearer is the same end of two searches
-constexpr double kNegligible = 1e-9;  ///< weight of a touch beside the best one
+constexpr double kApart = 3;           ///< sigmas: an end of the search farther away is another touch
+constexpr double kFar = 4.5;           ///< sigmas of all places: farther than any that are normal
+constexpr double kSame = 0.1;          ///< sigmas: nearer is the same end of two searches
+constexpr double kSameValley = 1.5;    ///< sigmas: nearer to a place of a valley lies in it
+constexpr double kTwoSided90 = 1.645;  ///< of a normal distribution, in sigmas
+constexpr std::size_t kEnough = 5;     ///< places: fewer have no spread
 constexpr std::size_t kStarts = 8;
 constexpr double kNear = 0.75;  ///< of what the best explains: the grid alone costs a few per cent
 
@@ -22,11 +25,12 @@ struct Candidate {
   double penalised;
 };
 
-/// Chi squared, and the sigmas by which a touch breaks the law of friction.
+/// Chi squared, and the sigmas by which a touch breaks the law of friction or is narrower than a line.
 double penalised(const TouchFit& fit, double friction) {
   const double excess = std::abs(fit.touch.tangential_n_per_m) - friction * fit.touch.normal_n_per_m;
-  const double sigmas = std::max(0.0, excess) / std::sqrt(fit.covariance(2, 2));
-  return fit.chiSquared + sigmas * sigmas;
+  const double sliding = std::max(0.0, excess) / std::sqrt(fit.covariance(2, 2));
+  const double narrow = std::max(0.0, -fit.touch.moment_rad2) / std::sqrt(fit.covariance(3, 3));
+  return fit.chiSquared + sliding * sliding + narrow * narrow;
 }
 
 Eigen::Vector4d difference(const Touch& a, const Touch& b) {
@@ -41,18 +45,64 @@ bool areApart(const TouchFit& fit, const Touch& touch, double sigmas) {
   return (difference(fit.touch, touch).array().abs() > sigmas * sigma).any();
 }
 
-/// Around the first of them, each weighing its likelihood, exp(-chi squared / 2).
-Eigen::Matrix4d mixedCovariance(const std::vector<Candidate>& candidates) {
+/// All places of all valleys within kPlausible of the best one's end; chi squared with the valley's penalty.
+PlausibleTouches placesOf(const TouchModel& model, const VectorXd& strains, double noise,
+                          const std::vector<Candidate>& candidates) {
+  PlausibleTouches all{{}, true};
+  for (const Candidate& candidate : candidates) {
+    if (!(candidate.penalised < candidates[0].penalised + kPlausible)) break;
+    const bool isSeen = std::ranges::any_of(all.touches, [&](const PlausibleTouch& place) {
+      return !areApart(candidate.fit, place.touch, kSameValley);
+    });
+    if (isSeen) continue;
+    PlausibleTouches valley = plausibleTouches(model, strains, noise, candidate.fit);
+    for (PlausibleTouch& place : valley.touches) {
+      place.chiSquared += candidate.penalised - candidate.fit.chiSquared;
+      all.touches.push_back(place);
+    }
+    all.areAll &= valley.areAll;
+  }
+  return all;
+}
+
+/// Around a touch, each weighing its likelihood, exp(-chi squared / 2), and its area.
+Eigen::Matrix4d covarianceAround(const Touch& touch, const std::vector<PlausibleTouch>& places) {
   Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
   double weights = 0;
-  for (const Candidate& candidate : candidates) {
-    const double weight = std::exp((candidates[0].penalised - candidate.penalised) / 2);
-    const Eigen::Vector4d offset = difference(candidate.fit.touch, candidates[0].fit.touch);
-    if (weight < kNegligible) break;
-    sum += weight * (candidate.fit.covariance + offset * offset.transpose());
+  for (const PlausibleTouch& place : places) {
+    const double weight = place.area * std::exp((places[0].chiSquared - place.chiSquared) / 2);
+    const Eigen::Vector4d offset = difference(place.touch, touch);
+    sum += weight * offset * offset.transpose();
+    sum.block<2, 2>(1, 1) += weight * place.loadCovariance;
     weights += weight;
   }
   return sum / weights;
+}
+
+/// Touches that fit about as well as the best one but are another: other ends of the search, and what of a
+/// valley is farther away than the sigmas of all let expect; all of what is known of a valley that wasn't
+/// followed to its end.
+std::vector<Touch> rivalsOf(const std::vector<Candidate>& candidates, const PlausibleTouches& places,
+                            const TouchFit& mixed) {
+  const double most = candidates[0].penalised + kRival;
+  std::vector<Touch> rivals;
+  for (const Candidate& other : candidates)
+    if (other.penalised < most && areApart(candidates[0].fit, other.fit.touch, kApart))
+      rivals.push_back(other.fit.touch);
+  for (const PlausibleTouch& place : places.touches)
+    if (place.chiSquared < most && (!places.areAll || areApart(mixed, place.touch, kFar)))
+      rivals.push_back(place.touch);
+  return rivals;
+}
+
+/// The covariance, enlarged so that bands of 90 % hold the rivals, and limits of 95 %.
+Eigen::Matrix4d holding(const std::vector<Touch>& rivals, const TouchFit& mixed) {
+  const Eigen::Array4d sigma = mixed.covariance.diagonal().array().sqrt();
+  Eigen::Array4d reach = sigma;
+  for (const Touch& rival : rivals)
+    reach = reach.max(difference(rival, mixed.touch).array().abs() / kTwoSided90);
+  const Eigen::Vector4d scale = reach / sigma;
+  return scale.asDiagonal() * mixed.covariance * scale.asDiagonal();
 }
 
 }  // namespace
@@ -125,7 +175,8 @@ TouchSearch::Start TouchSearch::bestLoads(Index place, double alongNormal, doubl
   return start;
 }
 
-/// The places that are better than their neighbours in angle and in moment, best first.
+/// The places that are better than their neighbours in angle, best first: for every moment, since a valley
+/// may bend away from the best place of the grid.
 std::vector<TouchSearch::Start> TouchSearch::starts(const VectorXd& strains) const {
   const VectorXd alongNormal = normal_.transpose() * strains,
                  alongTangential = tangential_.transpose() * strains;
@@ -141,9 +192,7 @@ std::vector<TouchSearch::Start> TouchSearch::starts(const VectorXd& strains) con
     const Index first = place / angles * angles, angle = place % angles;
     const double left = explained[first + (angle + angles - 1) % angles];
     const double right = explained[first + (angle + 1) % angles];
-    const double narrower = place >= angles ? explained[place - angles] : 0;
-    const double wider = place + angles < places ? explained[place + angles] : 0;
-    if (explained[place] > std::max({left, narrower, 0.0}) && explained[place] >= std::max(right, wider))
+    if (explained[place] > std::max(left, 0.0) && explained[place] >= right)
       peaks.push_back(all[static_cast<std::size_t>(place)]);
   }
   std::ranges::sort(peaks, std::greater<>(), &Start::explained);
@@ -165,12 +214,13 @@ std::optional<SearchResult> TouchSearch::search(const VectorXd& strains, double 
   const double untouched = strains.squaredNorm() / (noise * noise);
   if (candidates.empty() || !(untouched - candidates[0].fit.chiSquared > kTouched)) return std::nullopt;
   SearchResult result{candidates[0].fit, std::nullopt};
-  const auto rival = std::ranges::find_if(candidates, [&](const Candidate& other) {
-    return other.penalised < candidates[0].penalised + kSure &&
-           areApart(candidates[0].fit, other.fit.touch, kApart);
-  });
-  if (rival != candidates.end()) result.rivalAngle_rad = rival->fit.touch.angle_rad;
-  result.best.covariance = mixedCovariance(candidates);
+  const PlausibleTouches places = placesOf(model_, strains, noise, candidates);
+  if (places.touches.size() >= kEnough)
+    result.best.covariance = covarianceAround(result.best.touch, places.touches);
+  const std::vector<Touch> rivals = rivalsOf(candidates, places, result.best);
+  if (rivals.empty()) return result;
+  result.rivalAngle_rad = rivals[0].angle_rad;
+  result.best.covariance = holding(rivals, result.best);
   return result;
 }
 

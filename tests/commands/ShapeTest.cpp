@@ -55,7 +55,7 @@ TEST_GROUP(ShapeCommand){};
 // A uniform load 3 mm wide has the second moment of a semi-ellipse 3.464 mm wide.
 TEST(ShapeCommand, TellsWhatPressed) {
   const auto shape = shapeOf("", touch());
-  LONGS_EQUAL(18, shape.size());
+  LONGS_EQUAL(20, shape.size());
   STRCMP_EQUAL("1", shape[0].c_str());
   DOUBLES_EQUAL(100, std::stod(shape[1]), 0.02);
   DOUBLES_EQUAL(20, std::stod(shape[2]), 0.02);
@@ -68,7 +68,8 @@ TEST(ShapeCommand, HasItsColumns) {
   STRCMP_CONTAINS(
       "contact,angle_deg,normal_n_per_m,tangential_n_per_m,width_m,curvature_per_m,sigma_angle_deg,"
       "sigma_normal_n_per_m,sigma_tangential_n_per_m,sigma_width_m,sigma_curvature_per_m,width_limit_m,"
-      "directions,class,unresolved,fit_probability,rival_angle_deg,warnings\n",
+      "directions,class,unresolved,fit_probability,rival_angle_deg,warnings,"
+      "curvature_low_per_m,curvature_high_per_m\n",
       runProgram("shape", "").out.c_str());
 }
 
@@ -82,9 +83,26 @@ TEST(ShapeCommand, ALineHasALimitOfItsWidthOnly) {
 
 TEST(ShapeCommand, AnUntouchedFingerHasNoShape) {
   const std::string none = "0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n";
-  STRCMP_EQUAL("0,,,,,,,,,,,,,,,,,", rowOf("", none).c_str());
+  STRCMP_EQUAL("0,,,,,,,,,,,,,,,,,,,", rowOf("", none).c_str());
   const Run pressure = runProgram("shape --pressure", none);
   STRCMP_EQUAL("sample,angle_deg,pressure_pa,low_pa,high_pa,ellipse_pa\n", pressure.out.c_str());
+}
+
+TEST(ShapeCommand, ABandHoldsTheCurvature) {
+  const auto shape = shapeOf("", touch());
+  const double low = std::stod(shape[18]), curvature = std::stod(shape[5]), high = std::stod(shape[19]);
+  DOUBLES_EQUAL(2 * 1.96 * std::stod(shape[10]), high - low, 0.2 * (high - low));
+  CHECK_TRUE(low < curvature && curvature - low < high - curvature);
+}
+
+// 16 gauges 1.4 mm deep: a pitch of 3.6 depths.
+TEST(ShapeCommand, ASparseRingTellsNoWidth) {
+  const Run run = runShell(
+      "printf 'schema = 1\\n[finger]\\ncore_radius_m = 0.0108\\n[gauges]\\nradius_m = 0.0113\\n' "
+      ">sparse.toml && "
+      "echo 0,1e-3,5e-3,1e-3,0,0,0,0,0,0,0,0,0,0,0,0 | \"$STRAINFINGER\" shape -c sparse.toml");
+  STRCMP_CONTAINS("width class odd-part", run.out.c_str());
+  STRCMP_CONTAINS("sparse", run.out.c_str());
 }
 
 TEST(ShapeCommand, MoreNoiseTellsLess) {
@@ -127,6 +145,8 @@ TEST(ShapeCommand, SaysWhatIsWrongAndWhere) {
   refuses(1, "", "1,2,3\n", "stdin:1:");
   refuses(2, "--noise-strain 0", "", "--noise-strain");
   refuses(2, "--noise-strain nan", "", "--noise-strain");
+  refuses(2, "--points 5", "", "--points requires --pressure");
+  refuses(1, "", "0,1e300,0\n", "stdin:1:3: 1e300 is beyond +-1");
   refuses(2, "--points 1 --pressure", "", "--points");
   refuses(2, "-c no/such.toml", "", "no/such.toml");
 }

@@ -1,9 +1,14 @@
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <functional>
 #include <numbers>
-#include <thread>
+#include <optional>
+#include <span>
+#include <tuple>
 
+#include "host/base/failure.hpp"
+#include "host/model/series.hpp"
+#include "tests/stability/all_cores.hpp"
 #include "tests/stability/survey.hpp"
 #include "tests/stability/wide_field.hpp"
 
@@ -21,8 +26,9 @@ constexpr std::array kWidths_rad{0.0, 1e-6, 1e-4, 1e-2, 0.15, std::numbers::pi /
 /// Of the rubber's thickness, from the surface down.
 constexpr std::array kDepths{0.0, 0.01, 0.1, 0.5, 0.9, 1.0};
 
-/// From so many harmonics on only a few widths and angles are looked at: 100 digits take their time.
-constexpr int kManyHarmonics = 10'000;
+/// From so many harmonics on only a few widths and angles are looked at; from there on fewer Poisson's
+/// ratios.
+constexpr int kManyHarmonics = 10'000, kTooManyHarmonics = 100'000;
 
 /// Close to the load, to its edges, and far from it.
 std::vector<double> anglesFor(double width_rad, double depth, bool fewOnly) {
@@ -36,34 +42,46 @@ std::vector<double> anglesFor(double width_rad, double depth, bool fewOnly) {
   return angles_rad;
 }
 
-void compare(Worst& worst, const WideField& exact, const FieldRegion& region, const Annulus<double>& annulus,
-             double radius_m) {
-  std::array<Row, kRowCount> rows;
-  for (int row = 0; row < kRowCount; ++row) rows[static_cast<std::size_t>(row)] = static_cast<Row>(row);
-  const std::vector<double> angles_rad = anglesFor(region.width_rad, 1 - radius_m / annulus.outer_radius_m,
-                                                   WideField::harmonics(annulus, radius_m) > kManyHarmonics);
+std::vector<Row> allRows() {
+  std::vector<Row> rows;
+  for (int row = 0; row < kRowCount; ++row) rows.push_back(static_cast<Row>(row));
+  return rows;
+}
+
+/// The field of either load, one row an angle; nothing where it is refused.
+std::optional<std::array<Eigen::MatrixXd, 2>> fieldsOf(const Annulus<double>& annulus, double radius_m,
+                                                       double width_rad,
+                                                       const std::vector<double>& angles_rad) {
   std::array<Eigen::MatrixXd, 2> fields;
-  for (const Traction load : {kNormal, kTangential})
-    fields[load] = computeField(annulus, radius_m,
-                                {.normal_n_per_m = load == kNormal ? 1.0 : 0.0,
-                                 .tangential_n_per_m = load == kTangential ? 1.0 : 0.0,
-                                 .width_rad = region.width_rad},
-                                angles_rad, rows);
+  try {
+    for (const Traction load : {kNormal, kTangential})
+      fields[load] = computeField(annulus, radius_m,
+                                  {.normal_n_per_m = load == kNormal ? 1.0 : 0.0,
+                                   .tangential_n_per_m = load == kTangential ? 1.0 : 0.0,
+                                   .width_rad = width_rad},
+                                  angles_rad, allRows());
+  } catch (const Failure&) {
+    return std::nullopt;
+  }
+  return fields;
+}
+
+/// Against one exact value an angle.
+void compare(Worst& worst, const std::array<Eigen::MatrixXd, 2>& fields,
+             std::span<const WideField::Value> exact) {
   std::array<Wide, kRowCount> peaks{}, differences{};
-  for (std::size_t k = 0; k < angles_rad.size(); ++k) {
-    const auto known = exact.at(region.width_rad, angles_rad[k]);
+  for (std::size_t k = 0; k < exact.size(); ++k)
     for (int row = 0; row < kRowCount; ++row)
       for (const Traction load : {kNormal, kTangential}) {
         const double value = fields[load](static_cast<Eigen::Index>(k), row);
         const auto i = static_cast<std::size_t>(row);
-        peaks[i] = std::max(peaks[i], Wide(abs(known(row, load))));
+        peaks[i] = std::max(peaks[i], Wide(abs(exact[k](row, load))));
         ++worst.samples;
         worst.notFinite += std::isfinite(value) ? 0 : 1;
         if (std::isfinite(value))
-          differences[i] = std::max(differences[i], Wide(abs(value - known(row, load))));
+          differences[i] = std::max(differences[i], Wide(abs(value - exact[k](row, load))));
       }
-  }
-  for (const Row row : rows) {  // those that vanish (at the core) have to be zero
+  for (const Row row : allRows()) {  // those that vanish (at the core) have to be zero
     const double other = differences[row] < kVanishing ? 0 : double{INFINITY};
     worst.take(row, peaks[row] > kVanishing ? static_cast<double>(differences[row] / peaks[row]) : other);
   }
@@ -85,23 +103,47 @@ std::vector<Depth> depthsUpTo(int mostHarmonics) {
         const double radius_m = depth == 1 ? core_m : kOuterRadius_m - depth * rubber_m;
         const Annulus<double> annulus{core_m, kOuterRadius_m, kShearModulus_pa, poissonRatio};
         const int harmonics = WideField::harmonics(annulus, radius_m);
-        if (harmonics <= mostHarmonics) depths.push_back({annulus, radius_m, depth, harmonics});
+        if (harmonics <= mostHarmonics || mostHarmonics >= kMaxHarmonics)  // there it is to be refused
+          depths.push_back({annulus, radius_m, depth, harmonics});
       }
+  std::ranges::stable_sort(depths, std::greater<>(), &Depth::harmonics);  // the longest first: fewer wait
   return depths;
 }
 
-std::vector<FieldRegion> surveyDepth(const Depth& depth) {
-  const WideField exact(depth.annulus, depth.radius_m);
+/// 100 digits take their time: of long sums only some are looked at.
+bool isLeftOut(const Depth& depth, double width_rad, int mostHarmonics) {
+  return depth.harmonics > mostHarmonics ||
+         (depth.harmonics > kManyHarmonics && width_rad != kWidths_rad[1] &&
+          width_rad != kWidths_rad.back()) ||
+         (depth.harmonics > kTooManyHarmonics && depth.annulus.poisson_ratio < 0.5);
+}
+
+std::vector<FieldRegion> surveyDepth(const Depth& depth, int mostHarmonics) {
+  struct Part {
+    std::size_t region, first;
+    std::array<Eigen::MatrixXd, 2> fields;
+  };
   std::vector<FieldRegion> regions;
+  std::vector<WideField::Place> places;
+  std::vector<Part> parts;
   for (const double width_rad : kWidths_rad) {
-    const bool isRefused = depth.depthOfRubber == 0 && width_rad == 0;  // a delta function
-    const bool isLeftOut =
-        depth.harmonics > kManyHarmonics && width_rad != kWidths_rad[1] && width_rad != kWidths_rad.back();
-    if (isRefused || isLeftOut) continue;
     const double alpha = depth.annulus.core_radius_m / depth.annulus.outer_radius_m;
-    regions.push_back({alpha, depth.annulus.poisson_ratio, width_rad, depth.depthOfRubber, {}});
-    compare(regions.back().worst, exact, regions.back(), depth.annulus, depth.radius_m);
+    const FieldRegion region{alpha, depth.annulus.poisson_ratio, width_rad, depth.depthOfRubber, {}, false};
+    const std::vector<double> angles_rad = anglesFor(
+        width_rad, 1 - depth.radius_m / depth.annulus.outer_radius_m, depth.harmonics > kManyHarmonics);
+    const auto fields = fieldsOf(depth.annulus, depth.radius_m, width_rad, angles_rad);
+    if (fields && isLeftOut(depth, width_rad, mostHarmonics)) continue;
+    regions.push_back(region);
+    regions.back().isRefused = !fields;
+    if (!fields) continue;
+    parts.push_back({regions.size() - 1, places.size(), *fields});
+    for (const double angle_rad : angles_rad) places.push_back({width_rad, angle_rad});
   }
+  if (places.empty()) return regions;
+  const auto exact = WideField(depth.annulus, depth.radius_m).at(places);
+  for (const Part& part : parts)
+    compare(regions[part.region].worst, part.fields,
+            std::span(exact).subspan(part.first, static_cast<std::size_t>(part.fields[0].rows())));
   return regions;
 }
 
@@ -110,17 +152,12 @@ std::vector<FieldRegion> surveyDepth(const Depth& depth) {
 std::vector<FieldRegion> surveyFields(int mostHarmonics) {
   const std::vector<Depth> depths = depthsUpTo(mostHarmonics);
   std::vector<std::vector<FieldRegion>> found(depths.size());
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < depths.size(); i = next++) found[i] = surveyDepth(depths[i]);
-  };
-  {
-    std::vector<std::jthread> workers;
-    for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) workers.emplace_back(work);
-    work();
-  }
+  forEachOnAllCores(depths.size(), [&](std::size_t i) { found[i] = surveyDepth(depths[i], mostHarmonics); });
   std::vector<FieldRegion> regions;
   for (const auto& some : found) regions.insert(regions.end(), some.begin(), some.end());
+  std::ranges::stable_sort(regions, std::less<>(), [](const FieldRegion& region) {
+    return std::tuple(region.alpha, region.poissonRatio, region.depthOfRubber);
+  });
   return regions;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <set>
 
 #include "host/plot/style.hpp"
 
@@ -31,6 +32,11 @@ class LargestTable {
     if (!std::isnan(cell) && !(value <= cell)) cell = value;  // what is no number is the largest
   }
 
+  /// The cell says so if it has no value.
+  void refuse(const std::string& row, const std::string& column) {
+    refused_.insert({indexOf(rows_, row), indexOf(columns_, column)});
+  }
+
   std::string markdown(const std::string& corner) const {
     std::string text = fmt::format("| {} | {} |\n|--|", corner, fmt::join(columns_, " | "));
     for (std::size_t i = 0; i < columns_.size(); ++i) text += "--|";
@@ -38,7 +44,9 @@ class LargestTable {
       text += fmt::format("\n| {} |", rows_[i]);
       for (std::size_t k = 0; k < columns_.size(); ++k) {
         const auto cell = cells_.find({i, k});
-        text += cell == cells_.end() ? " |" : fmt::format(" {:.1e} |", cell->second);
+        text += cell != cells_.end()        ? fmt::format(" {:.1e} |", cell->second)
+                : refused_.contains({i, k}) ? " refused |"
+                                            : " |";
       }
     }
     return text + "\n";
@@ -71,7 +79,13 @@ class LargestTable {
   }
   std::vector<std::string> rows_, columns_;
   std::map<std::pair<std::size_t, std::size_t>, double> cells_;
+  std::set<std::pair<std::size_t, std::size_t>> refused_;
 };
+
+const char* nameOf(contact::Regime regime) {
+  constexpr std::array kRegimes{"frictionless", "sliding", "stick"};
+  return kRegimes[static_cast<std::size_t>(regime)];
+}
 
 LargestTable byHarmonic(const std::vector<HarmonicRegion>& regions) {
   LargestTable table;
@@ -88,27 +102,46 @@ LargestTable byPlace(const std::vector<HarmonicRegion>& regions) {
   return table;
 }
 
+void takeField(LargestTable& table, const FieldRegion& region, const std::string& column) {
+  const std::string alpha = fmt::format("{:g}", region.alpha);
+  if (region.isRefused)
+    table.refuse(alpha, column);
+  else
+    table.take(alpha, column, region.worst.largest());
+}
+
 LargestTable byDepth(const std::vector<FieldRegion>& regions) {
   LargestTable table;
-  for (const auto& region : regions)
-    table.take(fmt::format("{:g}", region.alpha), fmt::format("{:g}", region.depthOfRubber),
-               region.worst.largest());
+  for (const auto& region : regions) takeField(table, region, fmt::format("{:g}", region.depthOfRubber));
   return table;
 }
 
 LargestTable byWidth(const std::vector<FieldRegion>& regions) {
   LargestTable table;
-  for (const auto& region : regions)
-    table.take(fmt::format("{:g}", region.alpha), fmt::format("{:.3g}", region.width_rad),
-               region.worst.largest());
+  for (const auto& region : regions) takeField(table, region, fmt::format("{:.3g}", region.width_rad));
   return table;
 }
 
 LargestTable byContact(const std::vector<ContactRegion>& regions, bool isWarnedOf) {
   LargestTable table;
+  for (const auto& region : regions) {
+    const std::string alpha = fmt::format("{:g}", region.alpha),
+                      width = fmt::format("{:.3g}", region.width_rad);
+    if (region.isRefused)
+      table.refuse(alpha, width);
+    else if (region.isWarnedOf == isWarnedOf)
+      table.take(alpha, width, region.misfit);
+  }
+  return table;
+}
+
+/// By Poisson's ratio and indenter, where 100 digits have nothing to say.
+LargestTable byIndenter(const std::vector<ContactRegion>& regions, bool isWarnedOf) {
+  LargestTable table;
   for (const auto& region : regions)
-    if (region.isWarnedOf == isWarnedOf)
-      table.take(fmt::format("{:g}", region.alpha), fmt::format("{:.3g}", region.width_rad), region.misfit);
+    if (!region.isRefused && region.isWarnedOf == isWarnedOf)
+      table.take(fmt::format("{:g}", region.poissonRatio),
+                 fmt::format("{}, {}", region.indenter, nameOf(region.regime)), region.misfit);
   return table;
 }
 
@@ -133,20 +166,19 @@ std::string harmonicTable(const std::vector<HarmonicRegion>& regions) {
 
 std::string fieldTable(const std::vector<FieldRegion>& regions) {
   std::string text =
-      fmt::format("alpha,poisson_ratio,width_rad,depth_of_rubber,samples,not_finite,{}\n", kRowNames);
+      fmt::format("alpha,poisson_ratio,width_rad,depth_of_rubber,refused,samples,not_finite,{}\n", kRowNames);
   for (const FieldRegion& region : regions)
-    text += fmt::format("{},{},{},{},{}\n", region.alpha, region.poissonRatio, region.width_rad,
-                        region.depthOfRubber, errors(region.worst));
+    text += fmt::format("{},{},{},{},{:d},{}\n", region.alpha, region.poissonRatio, region.width_rad,
+                        region.depthOfRubber, region.isRefused, errors(region.worst));
   return text;
 }
 
 std::string contactTable(const std::vector<ContactRegion>& regions) {
-  constexpr std::array kRegimes{"frictionless", "sliding", "stick"};
-  std::string text = "alpha,poisson_ratio,width_rad,regime,residual_per_depth,warned_of\n";
+  std::string text = "alpha,poisson_ratio,width_rad,indenter,regime,residual_per_depth,warned_of,refused\n";
   for (const ContactRegion& region : regions)
-    text += fmt::format("{},{},{},{},{:.3g},{}\n", region.alpha, region.poissonRatio, region.width_rad,
-                        kRegimes[static_cast<std::size_t>(region.regime)], region.misfit,
-                        region.isWarnedOf ? 1 : 0);
+    text += fmt::format("{},{},{},{},{},{:.3g},{:d},{:d}\n", region.alpha, region.poissonRatio,
+                        region.width_rad, region.indenter, nameOf(region.regime), region.misfit,
+                        region.isWarnedOf, region.isRefused);
   return text;
 }
 
@@ -158,21 +190,38 @@ bool holds(const std::vector<ContactRegion>& regions) {
 
 std::string summary(const Surveys& surveys) {
   return fmt::format(
-      "Harmonics, relative to the larger of a row's two coefficients:\n\n{}\n{}\n"
+      "Harmonics, relative to the larger of a row's two coefficients (tau_tt passes through zero with both: "
+      "relative to tau_rr's, if larger); below 1e-290 they only have to be as small:\n\n{}\n{}\n"
       "Fields under line loads (width 0) and uniform loads of some width, relative to the peak of the row "
-      "(depth 0: the "
-      "surface, where a line load has no field and is refused; 1: the core; blank: too many harmonics for "
-      "100 "
-      "digits):\n\n{}\n{}\n"
-      "Contacts of a flat indenter, all regimes, residual over depth: answers without a warning, then those "
-      "that warn "
-      "(stick below nu = 1/2, layers far thinner than the contact is wide; blank: none):\n\n{}\n{}",
+      "(depth 0: the surface, where a line load has no field and is refused; 1: the core; refused: the "
+      "series "
+      "needs more than a million harmonics, and computeField() says so). Of depths that take more than "
+      "10,000 "
+      "harmonics two widths and four angles are looked at, of more than 100,000 nu = 1/2 "
+      "only:\n\n{}\n{}\n"
+      "Contacts (flat, a cylinder of 5 mm, a wedge of 160 degrees; all regimes; nu = 0, 0.3, 0.499999, 1/2; "
+      "of "
+      "alpha 0.99 and more flat and nu = 0.3 and 1/2 only, beyond 0.01 rad 1/2 only, at 0.999 without "
+      "friction), "
+      "residual over depth, recomputed from the tractions: answers without a warning, then those that warn "
+      "(stick below nu = 1/2, layers far thinner than the contact is wide; refused: no answer but an error; "
+      "blank: none):\n\n{}\n{}\n{}\n{}",
       byHarmonic(surveys.harmonics).markdown("alpha \\ harmonic"),
       byPlace(surveys.harmonics).markdown("Poisson's ratio \\ place"),
       byDepth(surveys.fields).markdown("alpha \\ depth / rubber"),
       byWidth(surveys.fields).markdown("alpha \\ width, rad"),
       byContact(surveys.contacts, false).markdown("alpha \\ width, rad"),
-      byContact(surveys.contacts, true).markdown("warned of: alpha \\ width, rad"));
+      byContact(surveys.contacts, true).markdown("warned of: alpha \\ width, rad"),
+      byIndenter(surveys.contacts, false).markdown("nu \\ indenter, regime"),
+      byIndenter(surveys.contacts, true).markdown("warned of: nu \\ indenter, regime"));
+}
+
+int countNotFinite(const Surveys& surveys) {
+  int count = 0;
+  for (const HarmonicRegion& region : surveys.harmonics) count += region.worst.notFinite;
+  for (const FieldRegion& region : surveys.fields) count += region.worst.notFinite;
+  for (const ContactRegion& region : surveys.contacts) count += std::isfinite(region.misfit) ? 0 : 1;
+  return count;
 }
 
 plot::Picture heatMaps(const Surveys& surveys) {

@@ -40,6 +40,9 @@ bool holds(const std::vector<Region>& regions) {
   return !regions.empty();
 }
 
+/// NaNs and infinities that were found, of all surveys.
+int countNotFinite(const Surveys& surveys);
+
 /// Whether every contact is finite and either fits or says that it doesn't.
 bool holds(const std::vector<ContactRegion>& regions);
 

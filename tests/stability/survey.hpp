@@ -54,26 +54,35 @@ struct FieldRegion {
   double alpha, poissonRatio, width_rad;
   double depthOfRubber;  ///< (r_b - r) / (r_b - r_a)
   Worst worst;
+  bool isRefused = false;  ///< computeField() says that it has no answer
 };
 
 /// Errors of computeField() relative to the largest value of a row among the angles looked at, of which some
-/// are close to the load and to its edges. Depths that take more harmonics than `mostHarmonics` are left out.
-/// Costs 5 us a harmonic, angle and region, on all cores: 10 s for up to 1000 harmonics, minutes for 100,000.
+/// are close to the load and to its edges. Depths that take more harmonics than `mostHarmonics` are left out,
+/// but for what is refused. Beyond 10,000 harmonics two widths and four angles are looked at, beyond 100,000
+/// Poisson's ratio 1/2 only. Costs 0.1 ms a harmonic and depth and 5 us a width and angle of it, on
+/// all cores: 10 s for up to 1000 harmonics, minutes for 1,000,000.
 std::vector<FieldRegion> surveyFields(int mostHarmonics);
 
-/// A flat indenter's contact of given width. There is no solver in 100 digits; but an answer's residual is
-/// computed anew from its tractions.
+/// A contact of given width. There is no solver in 100 digits; but an answer's residual is computed anew from
+/// its tractions.
 struct ContactRegion {
   double alpha, poissonRatio, width_rad;
   contact::Regime regime;
+  const char* indenter;
   double misfit = 0;        ///< residual over depth; NaN if anything in the answer is not finite
   bool isWarnedOf = false;  ///< by Contact::warnings
+  bool isRefused = false;
 };
 
-/// Every regime (sliding with a friction of 0.5), Poisson's ratios 0.3 and 0.5, widths from 1e-6 rad to a
-/// quarter turn, for every alpha up to 0.99; of the thinner ones widths up to 0.01 rad.
-/// Costs 0.1 s an alpha below 0.9, 10 s at 0.99.
-std::vector<ContactRegion> surveyContacts(std::span<const double> alphas);
+inline constexpr std::array kContactPoissonRatios{0.0, 0.3, 0.499999, 0.5};
+
+/// Every regime (sliding with a friction of 0.5), widths from 1e-6 rad to a quarter turn, a flat indenter, a
+/// cylinder of 5 mm and a wedge of 160 degrees.
+/// On layers of alpha >= 0.98 indenters are flat and Poisson's ratios 0.3 and 1/2, of widths beyond 0.01 rad
+/// 1/2 only, at 0.999 without friction. On all cores; costs 5 s an alpha below 0.9, a minute at 0.999.
+std::vector<ContactRegion> surveyContacts(std::span<const double> alphas,
+                                          std::span<const double> poissonRatios);
 
 /// Those of the whole survey.
 inline constexpr std::array kContactAlphas{0.01, 0.1, 0.5, 0.7, 0.85, 0.93, 0.97, 0.99, 0.999};

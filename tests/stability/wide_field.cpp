@@ -9,7 +9,7 @@ namespace {
 
 using namespace model;
 
-using Phases = Eigen::Matrix<Wide, kRowCount, 2>;
+using Phases = WideField::Value;
 
 /// cos and sin of 0, x, 2 x, ... by rotation: 100 digits have room for its errors.
 struct Multiples {
@@ -50,7 +50,7 @@ Phases closedForm(const testing::WideAnnulus& annulus, const Wide& width, const 
   return sum;
 }
 
-constexpr double kDigits = 25;
+constexpr double kDigits = 20;
 
 }  // namespace
 
@@ -64,27 +64,42 @@ int WideField::harmonics(const Annulus<double>& annulus, double radius_m) {
 }
 
 WideField::WideField(const Annulus<double>& annulus, double radius_m)
-    : atSurface_(radius_m == annulus.outer_radius_m), annulus_(testing::widen(annulus)) {
-  const HarmonicModel<Wide> responses(annulus_, Wide(radius_m));
-  for (int n = 0; n <= harmonics(annulus, radius_m); ++n) {
-    responses_.push_back(responses(n));
-    for (int row = 0; atSurface_ && n >= 2 && row < kRowCount; ++row)
-      for (const Traction traction : {kNormal, kTangential})
-        responses_.back()(row, traction) -= asymptote(annulus_, static_cast<Row>(row)).at(n, traction);
-  }
+    : atSurface_(radius_m == annulus.outer_radius_m),
+      annulus_(testing::widen(annulus)),
+      radius_m_(radius_m),
+      harmonics_(harmonics(annulus, radius_m)) {}
+
+/// At r_b without what the closed form has.
+testing::WideResponse WideField::response(const HarmonicModel<Wide>& responses, int n) const {
+  testing::WideResponse response = responses(n);
+  for (int row = 0; atSurface_ && n >= 2 && row < kRowCount; ++row)
+    for (const Traction traction : {kNormal, kTangential})
+      response(row, traction) -= asymptote(annulus_, static_cast<Row>(row)).at(n, traction);
+  return response;
 }
 
-Eigen::Matrix<Wide, kRowCount, 2> WideField::at(double width_rad, double angle_rad) const {
-  Phases sum = Phases::Zero();
-  Multiples angle{Wide(angle_rad)}, width{Wide(width_rad) / 2};
-  for (std::size_t n = 0; n < responses_.size(); ++n) {
-    const Wide weight = n == 0 ? Wide(0.5) : width.mean();
-    addTerm(sum, responses_[n], weight * angle.c, weight * angle.s);
-    angle.advance();
-    width.advance();
+std::vector<WideField::Value> WideField::at(std::span<const Place> places) const {
+  const HarmonicModel<Wide> responses(annulus_, radius_m_);
+  std::vector<Value> sums(places.size(), Value::Zero());
+  std::vector<Multiples> angles, widths;
+  for (const Place& place : places) {
+    angles.emplace_back(Wide(place.angle_rad));
+    widths.emplace_back(Wide(place.width_rad) / 2);
   }
-  if (atSurface_) sum += closedForm(annulus_, width_rad, angle_rad);
-  return sum / (boost::math::constants::pi<Wide>() * annulus_.outer_radius_m);
+  for (int n = 0; n <= harmonics_; ++n) {
+    const testing::WideResponse each = response(responses, n);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const Wide weight = n == 0 ? Wide(0.5) : widths[k].mean();
+      addTerm(sums[k], each, weight * angles[k].c, weight * angles[k].s);
+      angles[k].advance();
+      widths[k].advance();
+    }
+  }
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    if (atSurface_) sums[k] += closedForm(annulus_, places[k].width_rad, places[k].angle_rad);
+    sums[k] /= boost::math::constants::pi<Wide>() * annulus_.outer_radius_m;
+  }
+  return sums;
 }
 
 }  // namespace strainfinger::stability

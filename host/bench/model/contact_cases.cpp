@@ -1,10 +1,14 @@
-// Ways to a contact: flat indenter, frictionless, 2 mm.
+// Ways to a contact: flat indenter, frictionless, 2 mm; and what every kind of contact costs.
+
+#include <fmt/format.h>
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "host/bench/model/measured_case.hpp"
 #include "host/bench/model/precise.hpp"
+#include "host/bench/model/precise_contact.hpp"
 #include "host/contact/contact.hpp"
 #include "host/contact/paper_method.hpp"
 
@@ -13,7 +17,7 @@ namespace {
 
 using namespace contact;
 
-constexpr double kWidth_m = 2e-3;
+constexpr double kWidth_m = 2e-3, kFriction = 0.5;
 const double kHalf_rad = kWidth_m / 2 / benchAnnulus().outer_radius_m;
 
 /// The kernel included: nothing is kept from one contact to the next.
@@ -23,13 +27,43 @@ Tractions spectral(int terms) {
   return solver.solve({{0, kHalf_rad}}, Indenter::flat(), 0).tractions;
 }
 
-Contact whole(Regime regime) {
-  const SurfaceKernel kernel(benchAnnulus());
-  ContactRequest request;
-  request.regime = regime;
-  request.friction = 0.5;
-  request.size.value = kWidth_m;
-  return solveContact(kernel, request);
+/// Kernel, edges and residual.
+Contact whole(const ContactRequest& request) { return solveContact(SurfaceKernel(benchAnnulus()), request); }
+
+/// A cylinder as a profile measured every 10 um over +-4 mm.
+Indenter measuredCylinder(double radius_m) {
+  std::vector<double> position_m, height_m;
+  for (int i = -400; i <= 400; ++i) {
+    position_m.push_back(i * 10e-6);
+    height_m.push_back(position_m.back() * position_m.back() / (2 * radius_m));
+  }
+  return Indenter::measured(position_m, height_m);
+}
+
+/// Every indenter by width and by load, frictionless, sliding and sticking: times alone.
+void appendWholeCases(std::vector<MeasuredCase>& cases) {
+  const std::pair<const char*, Indenter> indenters[] = {{"flat", Indenter::flat()},
+                                                        {"cylinder 5 mm", Indenter::cylinder(5e-3)},
+                                                        {"wedge 80 deg", Indenter::wedge(80)},
+                                                        {"measured", measuredCylinder(5e-3)}};
+  const std::pair<const char*, ContactSize> sizes[] = {{"2 mm", {ContactSize::Kind::kWidth, kWidth_m}},
+                                                       {"20 N/m", {ContactSize::Kind::kLoad, 20}}};
+  const std::pair<const char*, Regime> regimes[] = {
+      {"frictionless", Regime::kFrictionless}, {"sliding", Regime::kSliding}, {"stick", Regime::kStick}};
+  for (const auto& [indenterName, indenter] : indenters)
+    for (const auto& [sizeName, size] : sizes)
+      for (const auto& [regimeName, regime] : regimes) {
+        const ContactRequest request{indenter, regime, kFriction, 0, size, {}};
+        cases.push_back({"a whole contact", fmt::format("{}, {}, {}", indenterName, sizeName, regimeName),
+                         "terms", static_cast<double>(whole(request).terms),
+                         std::numeric_limits<double>::quiet_NaN(),
+                         [request] { return whole(request).normal_n_per_m; }});
+      }
+}
+
+/// The flat, 2 mm.
+ContactRequest flatRequest(Regime regime) {
+  return {Indenter::flat(), regime, kFriction, 0, {ContactSize::Kind::kWidth, kWidth_m}, {}};
 }
 
 PaperContact byPaper(int harmonics, SlopeRows rows) {
@@ -40,30 +74,29 @@ PaperContact byPaper(int harmonics, SlopeRows rows) {
   return solveByPaper(benchAnnulus(), Indenter::flat(), kWidth_m, options);
 }
 
-/// Worst error of the pressure over the contact, per peak, against a series of 48 terms (it converges to
-/// rounding by 14).
-template <typename Pressure>
-double errorOf(const Pressure& pressure_pa) {
-  constexpr int kPlaces = 200;
-  static const Tractions known = spectral(48);
+/// Worst error of the pressure over the contact, per peak, against 50 digits.
+template <typename Made>
+double errorOf(const Made& tractions, double centre_rad, const PreciseContact& known) {
   double worst = 0;
-  for (int i = 0; i < kPlaces; ++i) {
-    const double angle_rad = kHalf_rad * i / kPlaces;
-    worst = std::max(worst, std::abs(pressure_pa(angle_rad) - tractionAt(known, angle_rad).pressure_pa));
+  for (Eigen::Index i = 0; i < known.angles_rad.size(); ++i) {
+    const double found_pa = tractionAt(tractions, centre_rad + known.angles_rad[i]).pressure_pa;
+    worst = std::max(worst, std::abs(found_pa - known.pressure_pa[i]));
   }
-  return worst / tractionAt(known, 0).pressure_pa;
+  return worst / known.pressure_pa.maxCoeff();
 }
 
-double errorOf(const Tractions& tractions) {
-  return errorOf([&](double angle_rad) { return tractionAt(tractions, angle_rad).pressure_pa; });
+/// Of a frictionless one.
+template <typename Made>
+double errorOf(const Made& tractions) {
+  static const PreciseContact known = preciseContact(kWidth_m, 0);
+  return errorOf(tractions, 0, known);
 }
 
 MeasuredCase paperCase(const char* method, int harmonics, SlopeRows rows) {
   const PaperContact found = byPaper(harmonics, rows);
-  const auto pressure = [&](double angle_rad) { return tractionAt(found.tractions, angle_rad).pressure_pa; };
-  return {"contact",         method,
-          "harmonics",       static_cast<double>(harmonics),
-          errorOf(pressure), [=] { return byPaper(harmonics, rows).normal_n_per_m; }};
+  return {"contact", method, "harmonics", static_cast<double>(harmonics), errorOf(found.tractions), [=] {
+            return byPaper(harmonics, rows).normal_n_per_m;
+          }};
 }
 
 }  // namespace
@@ -73,14 +106,17 @@ std::vector<MeasuredCase> contactCases() {
   for (const int terms : {4, 6, 8, 10, 12, 16, 24})
     cases.push_back({"contact", "spectral", "terms", static_cast<double>(terms), errorOf(spectral(terms)),
                      [terms] { return totalTraction(spectral(terms)).pressure_pa; }});
-  const Contact found = whole(Regime::kFrictionless);
+  const ContactRequest flat = flatRequest(Regime::kFrictionless);
+  const Contact found = whole(flat);
   cases.push_back({"contact", "ours (edges, residual too)", "terms", static_cast<double>(found.terms),
-                   errorOf(found.tractions), [] { return whole(Regime::kFrictionless).normal_n_per_m; }});
-  for (const Regime regime : {Regime::kSliding, Regime::kStick})
-    cases.push_back({"contact with friction", regime == Regime::kStick ? "ours, stick" : "ours, sliding",
-                     "terms", static_cast<double>(whole(regime).terms),
-                     std::numeric_limits<double>::quiet_NaN(),
-                     [regime] { return whole(regime).normal_n_per_m; }});
+                   errorOf(found.tractions), [flat] { return whole(flat).normal_n_per_m; }});
+  const ContactRequest slidingFlat = flatRequest(Regime::kSliding);
+  const Contact sliding = whole(slidingFlat);
+  cases.push_back(
+      {"contact", "ours, sliding", "terms", static_cast<double>(sliding.terms),
+       errorOf(sliding.tractions, sliding.tractions[0].patch.centre_rad, preciseContact(kWidth_m, kFriction)),
+       [slidingFlat] { return whole(slidingFlat).normal_n_per_m; }});
+  appendWholeCases(cases);
   for (const int harmonics : {75, 150, 300, 600, 1200})
     cases.push_back(paperCase("paper's, Gauss rows", harmonics, SlopeRows::kGauss));
   cases.push_back(paperCase("paper's, printed rows", 300, SlopeRows::kPrinted));

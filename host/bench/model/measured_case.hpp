@@ -27,11 +27,10 @@ struct Saving {
   double ratio() const { return all.time_s / needed.time_s; }
 };
 
-// The default finger's. Errors are against sums in 50 digits, contacts' and singular values' against a
-// converged solution.
+// The default finger's. Errors are against 50 digits: sums, contacts and singular values of their own.
 std::vector<MeasuredCase> tableCases();    // 1024 angles of e_rr per N/m, normal and tangential
 std::vector<MeasuredCase> fieldCases();    // eight rows at 360 angles at the gauges
-std::vector<MeasuredCase> contactCases();  // flat, frictionless, 2 mm
+std::vector<MeasuredCase> contactCases();  // flat, frictionless, 2 mm; every kind by its time alone
 std::vector<MeasuredCase> svdCases();      // 2 mm, n_c = 300, the first fourteen values
 std::vector<MeasuredCase> paperCases();    // the data of the figures, and the claims
 

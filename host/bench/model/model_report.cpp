@@ -104,10 +104,13 @@ std::string modelMarkdown(const std::vector<MeasuredCase>& cases, const std::vec
           fmt::format("{} {:g} ({:.0e}, {}); ", each.method, each.value, each.error, duration(each.time_s));
     text += "\n";
   }
-  text += "\n**Times alone**\n\n| what | time |\n|--|--|\n";
+  text +=
+      "\n**Others** (errors where there is one to measure)\n\n| what | error / peak | time |\n|--|--|--|\n";
   for (const MeasuredCase& each : cases)
-    if (std::isnan(each.error))
-      text += fmt::format("| {}: {} | {} |\n", each.task, each.method, duration(each.time_s));
+    if (std::ranges::find(kTasks, each.task) == kTasks.end())
+      text +=
+          fmt::format("| {}: {} | {} | {} |\n", each.task, each.method,
+                      std::isnan(each.error) ? "" : fmt::format("{:.1e}", each.error), duration(each.time_s));
   text +=
       "\n**What isn't asked for isn't computed**\n\n| left out | with it | without | ratio "
       "|\n|--|--|--|--|\n";

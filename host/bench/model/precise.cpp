@@ -4,15 +4,15 @@ namespace strainfinger::bench {
 
 using namespace model;
 
-Eigen::MatrixXd preciseField(double radius_m, const SurfaceLoad& load, std::span<const double> angles_rad) {
-  using Precise =
-      boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
-  constexpr int kHarmonics = 400;
+Annulus<Precise> preciseAnnulus() {
   const Annulus<double> annulus = benchAnnulus();
-  const HarmonicModel<Precise> responses(
-      {annulus.core_radius_m, annulus.outer_radius_m, annulus.shear_modulus_pa, annulus.poisson_ratio},
-      Precise(radius_m));
-  const Precise unit = 1 / (boost::math::constants::pi<Precise>() * Precise(annulus.outer_radius_m));
+  return {annulus.core_radius_m, annulus.outer_radius_m, annulus.shear_modulus_pa, annulus.poisson_ratio};
+}
+
+Eigen::MatrixXd preciseField(double radius_m, const SurfaceLoad& load, std::span<const double> angles_rad) {
+  constexpr int kHarmonics = 400;
+  const HarmonicModel<Precise> responses(preciseAnnulus(), Precise(radius_m));
+  const Precise unit = 1 / (boost::math::constants::pi<Precise>() * preciseAnnulus().outer_radius_m);
   Eigen::MatrixX<Precise> sum =
       Eigen::MatrixX<Precise>::Zero(static_cast<Eigen::Index>(angles_rad.size()), kRowCount);
   for (int n = 0; n <= kHarmonics; ++n) {

@@ -15,6 +15,12 @@ namespace strainfinger::bench {
 inline constexpr double kGauge_m = config::Gauges{}.radius_m;
 inline model::Annulus<double> benchAnnulus() { return config::Finger{}.annulus(); }
 
+using Precise =
+    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
+
+/// benchAnnulus(), its numbers taken as exact.
+model::Annulus<Precise> preciseAnnulus();
+
 /// One row an angle, one column each of model::Row, under a line load at 0; by 400 harmonics, which leave out
 /// 1e-52.
 Eigen::MatrixXd preciseField(double radius_m, const model::SurfaceLoad& load,

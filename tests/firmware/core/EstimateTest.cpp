@@ -16,7 +16,7 @@ namespace {
 constexpr double kBoundError = 0.04;
 constexpr std::int8_t kUp = 2;
 constexpr std::int32_t kWindow = 1 << 26;
-constexpr std::int32_t kMax = std::numeric_limits<std::int32_t>::max();
+constexpr std::int32_t kLargest = std::numeric_limits<std::int32_t>::max();
 }  // namespace
 
 TEST_GROUP(Estimate) {
@@ -37,7 +37,7 @@ TEST_GROUP(Estimate) {
   std::uint8_t qualityOf(double parts) {
     const double noise = constants.noise_variance * std::ldexp(1, constants.noise_variance_exponent);
     const double expected = std::floor(16 * std::ldexp(noise, 2 * (kUp - 16) - 2)) + kWindow / 4096.0;
-    fit.unexplained = static_cast<std::int32_t>(std::min<double>(std::round(parts * expected), kMax));
+    fit.unexplained = static_cast<std::int32_t>(std::min<double>(std::round(parts * expected), kLargest));
     return found().quality;
   }
   /// Load of an amplitude by the definition, in LineLoadQ12 steps.
@@ -130,15 +130,15 @@ TEST(Estimate, LoadsAreExactToOneStep) {
 
 TEST(Estimate, HugeLoadsSaturateWithTheirSign) {
   constants.load_exponent = -30 - (16 - fit.up);
-  fit.best.normal = kMax;
-  fit.best.tangential = -kMax;
+  fit.best.normal = kLargest;
+  fit.best.tangential = -kLargest;
   CHECK(found().normal == LineLoadQ12::max());
   CHECK(found().tangential == LineLoadQ12::min());
 }
 
 TEST(Estimate, TinyLoadsAreNone) {
   constants.load_exponent = -120;
-  fit.best.normal = kMax;
+  fit.best.normal = kLargest;
   LONGS_EQUAL(0, found().normal.raw());
 }
 

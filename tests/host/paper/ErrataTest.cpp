@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "host/contact/contact.hpp"
+#include "host/contact/contact_field.hpp"
 #include "host/contact/slope_map.hpp"
 #include "host/model/field.hpp"
 #include "host/model/harmonic.hpp"
@@ -112,6 +114,23 @@ TEST(Errata, APositiveLambdaPulls) {
 }
 
 // theta_w "in radians" is the total width (sec. 2.1), and 2 mm hold 7.5 periods of the 300th harmonic.
+// Of a frictionless contact, at its surface: there is no shear to slip under, yet the printed inequality says
+// it slips.
+TEST(Errata, FrictionAsPrintedLetsNothingStick) {
+  constexpr double kFriction = 0.5;
+  const contact::SurfaceKernel kernel(kFinger);
+  const contact::Contact flat = contact::solveContact(kernel, {});
+  const std::vector<double> angles_rad{-0.06, -0.02, 0.01, 0.05};
+  constexpr std::array kRows{model::kTrr, model::kTrt};
+  const Eigen::MatrixXd tractions =
+      contact::computeContactField(kernel, flat.tractions, kFinger.outer_radius_m, angles_rad, kRows);
+  for (const auto& row : tractions.rowwise()) {
+    const double p = row[0], q = row[1];  // tension positive, as sec. 2.1 has it
+    CHECK_FALSE(q < kFriction * p);
+    CHECK_TRUE(std::abs(q) <= kFriction * std::abs(p));
+  }
+}
+
 TEST(Errata, TheSamplesOfEquation5SpanTwiceTheWidth) {
   constexpr double kWidth_rad = 2 / 12.7;
   constexpr int kPoints = 604;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/paper/spectrum.hpp"
+
 // last: its macros redefine new
 #include <CppUTest/TestHarness.h>
 
@@ -26,6 +28,19 @@ ImpulseCurve cylinder(model::Traction load) {
 
 ImpulseCurve plane(model::Traction load) {
   return ImpulseCurve::ofHalfPlane(kFinger, kGauge_m, kRadial, load);
+}
+
+/// First angle at which the tangential curves differ by `share` of a peak, on a grid, the half plane's
+/// abscissa being radius_m theta; each over its own peak, or both over the finger's.
+double firstApart_rad(double radius_m, double share, bool scaled) {
+  const ImpulseCurve finger = cylinder(kTangential);
+  const HalfPlane rubber = halfPlaneOf(kFinger, kGauge_m);
+  const double planePeak = scaled ? plane(kTangential).peak() : finger.peak();
+  for (double angle_rad = 0; angle_rad < 1; angle_rad += 1e-4) {
+    const double flat = rubber.atArc(radius_m * angle_rad)(static_cast<int>(kRadial), kTangential);
+    if (std::abs(finger.relative(angle_rad) - flat / planePeak) >= share) return angle_rad;
+  }
+  return 0;
 }
 
 }  // namespace
@@ -53,6 +68,17 @@ TEST(ImpulseCurve, ChangesItsSignWhereItIsKnownTo) {
 TEST(ImpulseCurve, TangentialCurvesPartAtTheKnownAngles) {
   DOUBLES_EQUAL(0.3862, partingAngle_rad(cylinder(kTangential), plane(kTangential), 0.05), kGrid_rad);
   DOUBLES_EQUAL(0.4262, partingAngle_rad(cylinder(kTangential), plane(kTangential), 0.10), kGrid_rad);
+}
+
+// x = r_s theta in place of r_b theta: the half plane's curve is wider by r_b / r_s.
+TEST(ImpulseCurve, WithTheGaugesArcTheTangentialCurvesPartAtOnce) {
+  DOUBLES_EQUAL(0.017, firstApart_rad(kGauge_m, 0.05, true), 5e-4);
+  DOUBLES_EQUAL(0.037, firstApart_rad(kGauge_m, 0.10, true), 5e-4);
+  DOUBLES_EQUAL(0.3862, firstApart_rad(kFinger.outer_radius_m, 0.05, true), kGrid_rad);
+}
+
+TEST(ImpulseCurve, UnscaledTangentialCurvesPartByATenthAtTheAngleThePaperGives) {
+  DOUBLES_EQUAL(0.4009, firstApart_rad(kFinger.outer_radius_m, 0.10, false), kGrid_rad);
 }
 
 TEST(ImpulseCurve, NormalCurvesPartMuchEarlier) {

@@ -82,6 +82,19 @@ TEST(Spectrum, CutsOffTheHalfPlaneEarlier) {
   LONGS_EQUAL(11, cutOffs(plane, kRadial).tangential.last);
 }
 
+// Harmonic n as the wave number n / r_s, not n / r_b.
+TEST(Spectrum, CutsOffTheHalfPlaneEarlierStillWithTheGaugesArc) {
+  const HalfPlane rubber = halfPlaneOf(kFinger, kGauge_m);
+  const auto last = [&](model::Traction load) {
+    std::vector<double> spectrum;
+    for (int n = 0; n <= 60; ++n)
+      spectrum.push_back(rubber.atWaveNumber(n / kGauge_m)(static_cast<int>(kRadial), load));
+    return cutOff(spectrum).last;
+  };
+  LONGS_EQUAL(13, last(kNormal));
+  LONGS_EQUAL(8, last(kTangential));
+}
+
 TEST(Spectrum, RisesWithTheRadiusOfTheCore) {
   // alpha, cut-offs of e_rr and e_rt under normal and tangential loads, tangential over normal maximum
   constexpr std::array<std::array<double, 7>, 8> kKnown{{{0.50, 9.96, 9.73, 7.84, 2.13, 0.817, 5.01},

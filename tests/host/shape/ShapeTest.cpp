@@ -89,6 +89,15 @@ TEST(Shape, ACurvatureIsKnownHalfAsWellAsTheWidth) {
   CHECK_TRUE(ratio > 1.7 && ratio < 2.7);
 }
 
+TEST(Shape, ASparseRingTellsNeitherWidthNorClass) {
+  config = ringOf(0.85, 16);  // a pitch of 3.6 depths
+  const auto shape = shapeOf(ellipse(6), 1e-5);
+  CHECK_TRUE(shape->isSparse);
+  CHECK_FALSE(shape->width_m.has_value() || shape->profile.has_value());
+  config = ringOf(0.85, 32);
+  CHECK_FALSE(shapeOf(ellipse(6), 1e-3)->isSparse);
+}
+
 TEST(Shape, NamesAClassTheReadingsSeparate) {
   const auto named = [](const std::optional<Shape>& shape) {
     return shape->profile ? nameOf(*shape->profile) : "none";

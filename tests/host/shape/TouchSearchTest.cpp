@@ -63,16 +63,16 @@ TEST(TouchSearch, AnAmbiguousTouchNamesItsRival) {
   const TouchSearch search(model, 1);
   const double noise = 0.1 * peakStrain(config);
   int rivals = 0, covered = 0;
-  for (std::uint64_t i = 0; i < 100; ++i) {
-    const Touch truth{0.0634 * static_cast<double>(i), 10, 0, momentOfWidth(4e-3 / kSurface_m)};
+  for (std::uint64_t i = 0; i < 40; ++i) {
+    const Touch truth{0.1585 * static_cast<double>(i), 10, 0, momentOfWidth(4e-3 / kSurface_m)};
     const auto found = search.search(ellipseStrains(config, truth) + noiseOf(32, i, noise), noise);
     const double sigma = std::sqrt(found->best.covariance(0, 0));
     covered += offBy(truth.angle_rad, found->best.touch.angle_rad) < 2 * sigma;
     rivals += found->rivalAngle_rad.has_value();
     if (found->rivalAngle_rad) CHECK_TRUE(offBy(*found->rivalAngle_rad, truth.angle_rad) < 1);
   }
-  CHECK_TRUE(rivals > 20);
-  CHECK_TRUE(covered > 85);
+  CHECK_TRUE(rivals > 8);
+  CHECK_TRUE(covered > 34);
 }
 
 // Of two touches that fit alike the one that friction allows: 16 gauges, nearly over one.
@@ -92,4 +92,23 @@ TEST(TouchSearch, FrictionDecides) {
     slipsOfTheRough += ratio(10) > 0.4;
   }
   CHECK_TRUE(slips < slipsOfTheRough);
+}
+
+// Where one in a hundred used to be told wrong without a word: a tenth of a pitch beside a gauge, 1 % of
+// noise.
+TEST(TouchSearch, BandsHoldTheRival) {
+  const config::FingerConfig config = ringOf(0.7, 16);
+  const TouchModel model(config.finger, config.gauges);
+  const TouchSearch search(model, 1);
+  const double noise = 0.1 * peakStrain(config);
+  int rivals = 0;
+  for (std::uint64_t i = 0; i < 40; ++i) {
+    const Touch truth{0.0817 + 0.157 * static_cast<double>(i), 10, -2, momentOfWidth(1e-3 / kSurface_m)};
+    const auto found = search.search(ellipseStrains(config, truth) + noiseOf(16, i, noise), noise);
+    if (!found->rivalAngle_rad) continue;
+    ++rivals;
+    CHECK_TRUE(offBy(*found->rivalAngle_rad, found->best.touch.angle_rad) <=
+               1.65 * std::sqrt(found->best.covariance(0, 0)));
+  }
+  CHECK_TRUE(rivals > 3);
 }

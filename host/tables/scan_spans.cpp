@@ -8,9 +8,9 @@
 namespace strainfinger::tables {
 namespace {
 
-constexpr int kOffsets = 64;
-constexpr int kDirections = 64;
-constexpr double kLeastCone = 1;  ///< without friction, noise is still taken for tangential loads
+constexpr int kSpanOffsets = 64;
+constexpr int kSpanDirections = 64;
+constexpr double kLeastSpanCone = 1;  ///< without friction, noise is still taken for tangential loads
 constexpr double kShareMargin = 1.0 / 64;
 
 /// A step finds the maximum from a little farther than half a spacing of the scan's rows.
@@ -24,8 +24,8 @@ struct Distances {
 };
 
 /// A ring's readings of unit normal and tangential loads, from the gauge nearest to the contact on.
-struct Ring {
-  Ring(const model::ImpulseResponse& response, int gaugeCount, double offset_pitch) {
+struct PressedRing {
+  PressedRing(const model::ImpulseResponse& response, int gaugeCount, double offset_pitch) {
     for (int gauge = 0; gauge < gaugeCount; ++gauge) {
       const auto value = response.at((gauge - offset_pitch) * 2 * std::numbers::pi / gaugeCount);
       normal.push_back(value.normal);
@@ -48,7 +48,7 @@ void note(std::array<Distances, kShares>& distances, double share, double fromDe
   }
 }
 
-void noteContact(const Ring& ring, double sign, double direction, double offset_pitch,
+void noteContact(const PressedRing& ring, double sign, double direction, double offset_pitch,
                  std::array<Distances, kShares>& distances) {
   double energy = 0, deepest = 0;
   std::size_t gauge = 0;
@@ -87,14 +87,14 @@ ScanSpan spanOf(const Distances& distances) {
 }  // namespace
 
 std::array<ScanSpan, kShares> scanSpans(const model::ImpulseResponse& response, int gaugeCount, double cone) {
-  const double widest = std::max(cone, kLeastCone);
+  const double widest = std::max(cone, kLeastSpanCone);
   std::array<Distances, kShares> distances;
   const double sign = response.at(0).normal < 0 ? -1 : 1;
-  for (int step = -kOffsets; step <= kOffsets; ++step) {
-    const double offset_pitch = 0.5 * step / kOffsets;
-    const Ring ring(response, gaugeCount, offset_pitch);
-    for (int direction = -kDirections; direction <= kDirections; ++direction)
-      noteContact(ring, sign, widest * direction / kDirections, offset_pitch, distances);
+  for (int step = -kSpanOffsets; step <= kSpanOffsets; ++step) {
+    const double offset_pitch = 0.5 * step / kSpanOffsets;
+    const PressedRing ring(response, gaugeCount, offset_pitch);
+    for (int direction = -kSpanDirections; direction <= kSpanDirections; ++direction)
+      noteContact(ring, sign, widest * direction / kSpanDirections, offset_pitch, distances);
   }
   std::array<ScanSpan, kShares> spans{};
   std::transform(distances.begin(), distances.end(), spans.begin(), spanOf);

@@ -27,8 +27,8 @@ Split splitAt(const model::ImpulseResponse& response, int gaugeCount, double off
   return split;
 }
 
-constexpr int kOffsets = 32;
-constexpr int kDirections = 64;
+constexpr int kTailOffsets = 32;
+constexpr int kTailDirections = 64;
 
 double ratioOf(const Split& split, double direction) {
   const Eigen::Vector2d loads(1, direction);
@@ -40,10 +40,10 @@ double ratioOf(const Split& split, double direction) {
 
 double tailEnergy(const model::ImpulseResponse& response, int gaugeCount, double cone) {
   double most = 0;
-  for (int offset = 0; offset <= kOffsets; ++offset) {
-    const Split split = splitAt(response, gaugeCount, 0.5 * offset / kOffsets);
-    for (int step = -kDirections; step <= kDirections; ++step)
-      most = std::max(most, ratioOf(split, cone * step / kDirections));
+  for (int offset = 0; offset <= kTailOffsets; ++offset) {
+    const Split split = splitAt(response, gaugeCount, 0.5 * offset / kTailOffsets);
+    for (int step = -kTailDirections; step <= kTailDirections; ++step)
+      most = std::max(most, ratioOf(split, cone * step / kTailDirections));
   }
   return most;
 }

@@ -31,8 +31,8 @@ config::FingerConfig quietFinger(double noise_strain) {
   return config;
 }
 
-constexpr double kLoad = 30;
-constexpr double kNoise = 1e-3 * 460.603e-6 * kLoad;  ///< a thousandth of the peak
+constexpr double kPress = 30;
+constexpr double kNoise = 1e-3 * 460.603e-6 * kPress;  ///< a thousandth of the peak
 
 }  // namespace
 
@@ -74,7 +74,7 @@ TEST_GROUP(LeftOut) {
 
   /// Contacts within `reach` pitches of gauge `out`.
   Statistics run(GaugeSet out, int near, double reach, int count, std::uint64_t seed) {
-    Presses presses(ring.gauges(), kLoad, seed);
+    Presses presses(ring.gauges(), kPress, seed);
     Statistics result;
     while (result.contacts < count) {
       const Press press = presses.next();
@@ -123,7 +123,7 @@ TEST(LeftOut, ContactsBesideTheGaugeThatIsOutAreNearTheBound) {
 }
 
 TEST(LeftOut, WithoutAnythingLeftOutItIsTheFitOfAllGauges) {
-  Presses presses(ring.gauges(), kLoad, 303);
+  Presses presses(ring.gauges(), kPress, 303);
   for (int i = 0; i < 1000; ++i) {
     auto raw = ring.raw(presses.next());
     const std::uint32_t energy = gateEnergy(ring.constants(), raw);
@@ -140,7 +140,7 @@ TEST(LeftOut, TwoNeighboursOutNeverGiveAConfidentWrongAnswer) {
 }
 
 TEST(LeftOut, WithTooFewGaugesLeftNothingIsSettled) {
-  Presses presses(ring.gauges(), kLoad, 305);
+  Presses presses(ring.gauges(), kPress, 305);
   for (int i = 0; i < 100; ++i) {
     Press press = presses.next();
     press.position_pitch = 5;

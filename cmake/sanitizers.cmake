@@ -3,3 +3,12 @@ if(STRAINFINGER_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
   add_link_options(-fsanitize=address,undefined)
 endif()
+
+# strainfinger_leave_unsanitized(FILE...): arithmetic in many digits, too slow under the sanitizers. Eigen allocates
+# otherwise under them, so it is told to do as the sanitized files do.
+function(strainfinger_leave_unsanitized)
+  if(STRAINFINGER_SANITIZE)
+    set_source_files_properties(${ARGN} PROPERTIES
+      COMPILE_OPTIONS -fno-sanitize=all COMPILE_DEFINITIONS EIGEN_MALLOC_ALREADY_ALIGNED=0)
+  endif()
+endfunction()

@@ -5,10 +5,11 @@ set -euo pipefail
 
 packages=(
   cmake ninja-build g++ pkg-config clang-format           # build
-  libeigen3-dev libfmt-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev   # host tools
+  libeigen3-dev libboost-dev libfmt-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev   # host tools
   gnuplot-nox                                             # pictures
+  libbenchmark-dev                                        # benchmarks
   gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib   # firmware
-  libcpputest-dev libboost-dev python3-canmatrix          # tests: framework, high precision, DBC oracle
+  libcpputest-dev python3-canmatrix                       # tests: framework, DBC oracle
   can-utils iproute2                                      # candump, ip link
   qemu-system-arm clang                                   # tests: emulated boards, a second compiler
   qemu-system-x86 busybox-static python3                  # tests: a real vcan where this kernel has none

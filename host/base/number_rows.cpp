@@ -31,6 +31,13 @@ bool beginsWithNumber(const std::string& line) {
   return parseNumber(trimmed(std::string_view(line).substr(0, line.find(','))), value);
 }
 
+/// Numbers between semicolons are no header.
+bool hasSemicolonedNumber(const std::string& line) {
+  double value = 0;
+  return line.find(';') != std::string::npos &&
+         parseNumber(trimmed(std::string_view(line).substr(0, line.find(';'))), value);
+}
+
 bool isPassedOver(const std::string& line) {
   const std::string_view content = trimmed(line);
   return content.empty() || content.front() == '#';
@@ -38,14 +45,14 @@ bool isPassedOver(const std::string& line) {
 
 }  // namespace
 
-NumberRowReader::NumberRowReader(std::istream& stream, std::string name, std::size_t columns)
-    : stream_(stream), name_(std::move(name)), columns_(columns) {}
+NumberRowReader::NumberRowReader(std::istream& stream, std::string name, std::size_t columns, Limit limit)
+    : stream_(stream), name_(std::move(name)), columns_(columns), limit_(std::move(limit)) {}
 
 bool NumberRowReader::next(std::vector<double>& row) {
   for (std::string line; std::getline(stream_, line);) {
     ++line_;
     if (isPassedOver(line)) continue;
-    const bool isHeader = mayBeHeader_ && !beginsWithNumber(line);
+    const bool isHeader = mayBeHeader_ && !beginsWithNumber(line) && !hasSemicolonedNumber(line);
     mayBeHeader_ = false;
     if (isHeader) continue;
     parse(line, row);
@@ -60,8 +67,12 @@ void NumberRowReader::parse(const std::string& line, std::vector<double>& row) c
     const std::size_t end = std::min(line.find(',', begin), line.size());
     const std::string_view field = trimmed(std::string_view(line).substr(begin, end - begin));
     double value = 0;
+    if (field.find(';') != std::string_view::npos)
+      fail(begin + 1, fmt::format("\"{}\" has semicolons: separate columns by commas", field));
     if (!parseNumber(field, value)) fail(begin + 1, fmt::format("\"{}\" is no number", field));
     if (!std::isfinite(value)) fail(begin + 1, fmt::format("{} is no finite number", field));
+    if (std::abs(value) > limit_.most)
+      fail(begin + 1, fmt::format("{} is beyond +-{}: {}", field, limit_.most, limit_.hint));
     if (row.size() == columns_) fail(begin + 1, fmt::format("more than {} columns", columns_));
     row.push_back(value);
     begin = end + 1;

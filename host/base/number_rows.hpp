@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <istream>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -12,11 +13,19 @@ namespace strainfinger {
 /// that doesn't begin with a number is a header; blank lines and lines that begin with # are passed over.
 class NumberRowReader {
  public:
+  /// What numbers may be: at most `most` in size; `hint` says what a larger one may have been meant to be.
+  struct Limit {
+    double most;
+    std::string hint;
+  };
+
   /// `name` stands for the stream in messages ("stdin").
-  NumberRowReader(std::istream& stream, std::string name, std::size_t columns);
+  NumberRowReader(std::istream& stream, std::string name, std::size_t columns,
+                  Limit limit = {std::numeric_limits<double>::max(), ""});
 
   /// The next row; false at the end. Throws Failure(kFailure) with name:line:column, what is wrong and what
-  /// would be right, for a field that is no finite number and for a row of another length.
+  /// would be right, for a field that is no finite number or beyond the limit and for a
+  /// row of another length.
   bool next(std::vector<double>& row);
 
  private:
@@ -26,6 +35,7 @@ class NumberRowReader {
   std::istream& stream_;
   std::string name_;
   std::size_t columns_;
+  Limit limit_;
   std::size_t line_ = 0;
   bool mayBeHeader_ = true;
 };

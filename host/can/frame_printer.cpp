@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <limits>
+
+#include "host/base/no_value.hpp"
 
 namespace strainfinger::can {
 namespace {
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 std::string nameOrNumber(const FieldMeaning& meaning, std::int64_t value) {
   const ValueName* name = findName(meaning.names, value);
@@ -32,13 +31,13 @@ Cell decimal(double value) { return fmt::format("{}", value); }
 Cell fieldCell(const FieldSpec& field, std::int64_t raw, bool csv) {
   if (field.meaning.kind != FieldKind::kNumber) return valueText(field, raw);
   const std::optional<double> value = toPhysical(field, raw);
-  if (!value) return kUnknown;
+  if (!value) return kNoValue;
   if (field.meaning.stepsPerUnit == 1) return raw;
   return csv ? decimal(*value) : Cell(*value);
 }
 
 Cell timeCell(std::optional<std::int64_t> time_ns, bool csv) {
-  if (!time_ns) return kUnknown;
+  if (!time_ns) return kNoValue;
   constexpr std::int64_t kSecond = 1'000'000'000;
   if (!csv) return static_cast<double>(*time_ns) / kSecond;
   if (*time_ns % 1000 == 0) return fmt::format("{}.{:06}", *time_ns / kSecond, *time_ns % kSecond / 1000);
@@ -99,7 +98,7 @@ bool FramePrinter::print(std::optional<std::int64_t> time_ns, std::string_view i
 }
 
 void FramePrinter::printCsv(const std::vector<std::string>& names, const std::vector<Cell>& cells) {
-  std::vector<Cell> row(columns_.size(), kUnknown);
+  std::vector<Cell> row(columns_.size(), kNoValue);
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto column = std::find(columns_.begin(), columns_.end(), names[i]);
     row[static_cast<std::size_t>(column - columns_.begin())] = cells[i];

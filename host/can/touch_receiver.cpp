@@ -12,11 +12,11 @@ namespace {
 /// A member's value in the unit of its field.
 template <typename Frame, typename Member>
 double physical(const Frame& frame, Member Frame::*member) {
-  double value = kUnknown;
+  double value = kNoValue;
   const auto take = [&](const auto& field) {
     if constexpr (std::is_same_v<decltype(field.member), Member Frame::*>)
       if (field.member == member)
-        value = toPhysical({field.bits, field.meaning}, rawOf(frame.*member)).value_or(kUnknown);
+        value = toPhysical({field.bits, field.meaning}, rawOf(frame.*member)).value_or(kNoValue);
   };
   std::apply([&take](const auto&... field) { (take(field), ...); }, kLayout<Frame>.fields);
   return value;

@@ -2,25 +2,23 @@
 // What a finger says of a touch, put together again from its two frames.
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 
 #include "common/can_frame.hpp"
 #include "common/frames.hpp"
+#include "host/base/no_value.hpp"
 
 namespace strainfinger::can {
 
-inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-/// A CONTACT and its FORCE in physical units; kUnknown where the finger says so.
+/// A CONTACT and its FORCE in physical units; kNoValue where the finger says so.
 struct TouchReport {
-  double angle_deg = kUnknown;
-  double sigmaAngle_deg = kUnknown;
-  double normal_n = kUnknown;
-  double sigmaNormal_n = kUnknown;
-  double tangential_n = kUnknown;
-  double sigmaTangential_n = kUnknown;
-  double quality_percent = kUnknown;
+  double angle_deg = kNoValue;
+  double sigmaAngle_deg = kNoValue;
+  double normal_n = kNoValue;
+  double sigmaNormal_n = kNoValue;
+  double tangential_n = kNoValue;
+  double sigmaTangential_n = kNoValue;
+  double quality_percent = kNoValue;
   FingerFlags flags{};
   std::uint8_t sequence = 0;
 };

@@ -7,6 +7,10 @@ namespace strainfinger::cli {
 
 void addResponse(CLI::App& app);
 void addStrain(CLI::App& app);
+void addContact(CLI::App& app);
+void addSvd(CLI::App& app);
+void addField(CLI::App& app);
+void addShape(CLI::App& app);
 void addTables(CLI::App& app);
 void addLocate(CLI::App& app);
 void addRun(CLI::App& app);
@@ -14,5 +18,6 @@ void addDecode(CLI::App& app);
 void addDbc(CLI::App& app);
 void addTare(CLI::App& app);
 void addConfig(CLI::App& app);
+void addFigures(CLI::App& app);
 
 }  // namespace strainfinger::cli

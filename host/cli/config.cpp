@@ -8,7 +8,7 @@
 namespace strainfinger::cli {
 namespace {
 
-constexpr const char* kHelp =
+constexpr const char* kConfigHelp =
     "Changes settings of a finger on the bus: the contact rate until its next start, or for ever with "
     "--keep; its "
     "node number from its next start on.\n"
@@ -44,6 +44,6 @@ void runConfig(const ConfigOptions& options) {
 
 }  // namespace
 
-void addConfig(CLI::App& app) { addCommand<ConfigOptions>(app, "config", kHelp, runConfig); }
+void addConfig(CLI::App& app) { addCommand<ConfigOptions>(app, "config", kConfigHelp, runConfig); }
 
 }  // namespace strainfinger::cli

@@ -16,7 +16,7 @@
 namespace strainfinger::cli {
 namespace {
 
-constexpr const char* kHelp =
+constexpr const char* kDecodeHelp =
     "What the frames in a candump text (stdin, any form) say.\n"
     "CSV: time_s,interface,node,frame, then a column for each field of CONTACT, FORCE, HEARTBEAT and INFO, "
     "empty "
@@ -141,6 +141,6 @@ void runDecode(const DecodeOptions& options) {
 
 }  // namespace
 
-void addDecode(CLI::App& app) { addCommand<DecodeOptions>(app, "decode", kHelp, runDecode); }
+void addDecode(CLI::App& app) { addCommand<DecodeOptions>(app, "decode", kDecodeHelp, runDecode); }
 
 }  // namespace strainfinger::cli

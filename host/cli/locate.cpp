@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <iostream>
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "firmware/core/detect.hpp"
 #include "firmware/core/estimate.hpp"
 #include "firmware/core/locate.hpp"
+#include "host/base/no_value.hpp"
 #include "host/base/number_rows.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
@@ -20,7 +20,7 @@
 namespace strainfinger::cli {
 namespace {
 
-constexpr const char* kHelp =
+constexpr const char* kLocateHelp =
     "Where a finger is touched and how hard, from rows of gauge strains on stdin, by the firmware's own "
     "code.\n"
     "stdin: CSV, one strain a gauge in a row, a row a sample; a header row, blank lines and # comments are "
@@ -53,8 +53,7 @@ std::vector<Cell> cellsOf(const Contact& contact) {
 }
 
 std::vector<Cell> noContact() {
-  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  return {std::int64_t{0}, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
+  return {std::int64_t{0}, kNoValue, kNoValue, kNoValue, kNoValue, kNoValue, kNoValue, kNoValue};
 }
 
 void runLocate(const LocateOptions& options) {
@@ -78,6 +77,6 @@ void runLocate(const LocateOptions& options) {
 
 }  // namespace
 
-void addLocate(CLI::App& app) { addCommand<LocateOptions>(app, "locate", kHelp, runLocate); }
+void addLocate(CLI::App& app) { addCommand<LocateOptions>(app, "locate", kLocateHelp, runLocate); }
 
 }  // namespace strainfinger::cli

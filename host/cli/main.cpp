@@ -24,6 +24,10 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   strainfinger::cli::addResponse(app);
   strainfinger::cli::addStrain(app);
+  strainfinger::cli::addContact(app);
+  strainfinger::cli::addSvd(app);
+  strainfinger::cli::addField(app);
+  strainfinger::cli::addShape(app);
   strainfinger::cli::addTables(app);
   strainfinger::cli::addLocate(app);
   strainfinger::cli::addRun(app);
@@ -31,6 +35,7 @@ int main(int argc, char** argv) {
   strainfinger::cli::addDbc(app);
   strainfinger::cli::addTare(app);
   strainfinger::cli::addConfig(app);
+  strainfinger::cli::addFigures(app);
   try {
     app.parse(argc, argv);
     if (std::fflush(stdout) != 0) return complain(ExitCode::kFailure, "cannot write the output");

@@ -8,7 +8,7 @@
 namespace strainfinger::cli {
 namespace {
 
-constexpr const char* kHelp =
+constexpr const char* kResponseHelp =
     "How each harmonic n of the tractions on the surface acts at a radius: strains per Pa (tensor "
     "components), tau_rt in Pa per Pa, displacements in m per Pa.\n"
     "Columns _p: per unit p_n^s of p = tau_rr at r_b; _q: per unit q_n^c of q = tau_rt at r_b; tension and "
@@ -50,6 +50,6 @@ void runResponse(const ResponseOptions& options) {
 
 }  // namespace
 
-void addResponse(CLI::App& app) { addCommand<ResponseOptions>(app, "response", kHelp, runResponse); }
+void addResponse(CLI::App& app) { addCommand<ResponseOptions>(app, "response", kResponseHelp, runResponse); }
 
 }  // namespace strainfinger::cli

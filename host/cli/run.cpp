@@ -27,7 +27,7 @@ namespace {
 
 constexpr const char* kLoopback = "loopback";
 
-constexpr const char* kHelp =
+constexpr const char* kRunHelp =
     "The finger itself on this machine: the firmware's own code, simulated gauges, frames on CAN.\n"
     "--can loopback: needs no kernel support, runs as fast as it can and prints what `candump -L` would; the "
     "same seed gives the same output.\n"
@@ -182,6 +182,6 @@ void runRun(const RunOptions& options) {
 
 }  // namespace
 
-void addRun(CLI::App& app) { addCommand<RunOptions>(app, "run", kHelp, runRun); }
+void addRun(CLI::App& app) { addCommand<RunOptions>(app, "run", kRunHelp, runRun); }
 
 }  // namespace strainfinger::cli

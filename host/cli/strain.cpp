@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "host/base/angles.hpp"
 #include "host/base/failure.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
@@ -14,11 +15,13 @@
 namespace strainfinger::cli {
 namespace {
 
-constexpr const char* kHelp =
+constexpr const char* kStrainHelp =
     "Strains (tensor components, extension positive), displacements and stresses under a load on the "
     "surface, at a radius and a list of angles.\n"
     "The load is a line load, or uniform over --width-m. At the surface itself a line load has no field; one "
-    "of some width has.";
+    "of some width has, but at the edges of a tangential one err, ett and ttt_pa grow as logarithms without "
+    "end "
+    "and are inf (null in JSON).";
 
 constexpr double kMostLoad_n_per_m = 1e12;
 constexpr double kMostAngle_deg = 1e6;
@@ -87,7 +90,7 @@ std::vector<double> anglesOf(const StrainOptions& options) {
 std::vector<double> relativeAngles(const std::vector<double>& angles_deg, double contact_deg) {
   std::vector<double> angles_rad;
   for (const double angle_deg : angles_deg)
-    angles_rad.push_back(std::remainder(angle_deg - contact_deg, 360) * std::numbers::pi / 180);
+    angles_rad.push_back(std::remainder(angle_deg - contact_deg, 360) * kRadPerDeg);
   return angles_rad;
 }
 
@@ -113,6 +116,6 @@ void runStrain(const StrainOptions& options) {
 
 }  // namespace
 
-void addStrain(CLI::App& app) { addCommand<StrainOptions>(app, "strain", kHelp, runStrain); }
+void addStrain(CLI::App& app) { addCommand<StrainOptions>(app, "strain", kStrainHelp, runStrain); }
 
 }  // namespace strainfinger::cli

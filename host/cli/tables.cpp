@@ -12,7 +12,7 @@
 namespace strainfinger::cli {
 namespace {
 
-constexpr const char* kHelp =
+constexpr const char* kTablesHelp =
     "The lookup tables of a finger: the flash image that the firmware reads, made from the elastic model.\n"
     "  tables -o FILE      makes the image of the config's finger (and --header FILE, the same as C++ "
     "source)\n"
@@ -88,6 +88,6 @@ void runTables(const TablesOptions& options) {
 
 }  // namespace
 
-void addTables(CLI::App& app) { addCommand<TablesOptions>(app, "tables", kHelp, runTables); }
+void addTables(CLI::App& app) { addCommand<TablesOptions>(app, "tables", kTablesHelp, runTables); }
 
 }  // namespace strainfinger::cli

@@ -4,7 +4,7 @@
 namespace strainfinger::cli {
 namespace {
 
-constexpr const char* kHelp =
+constexpr const char* kTareHelp =
     "Lets a finger take the zero of its gauges now. Do not touch it: that takes 64 sample sets, a fifteenth "
     "of a "
     "second by default.\n"
@@ -23,6 +23,6 @@ void runTare(const TareOptions& options) { request(options.request, {tareRequest
 
 }  // namespace
 
-void addTare(CLI::App& app) { addCommand<TareOptions>(app, "tare", kHelp, runTare); }
+void addTare(CLI::App& app) { addCommand<TareOptions>(app, "tare", kTareHelp, runTare); }
 
 }  // namespace strainfinger::cli

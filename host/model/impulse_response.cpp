@@ -13,6 +13,17 @@ Row rowOf(StrainComponent component) {
   return component == StrainComponent::kHoop ? kEtt : kErt;
 }
 
+struct Sums {
+  double even = 0, odd = 0, evenSlope = 0, oddSlope = 0;
+  Sums& operator+=(const Sums& other) {
+    even += other.even;
+    odd += other.odd;
+    evenSlope += other.evenSlope;
+    oddSlope += other.oddSlope;
+    return *this;
+  }
+};
+
 }  // namespace
 
 // A pressing load of 1 N/m has the coefficients p_n^c = -1 / (pi r_b), a tangential one q_n^c = 1 / (pi r_b),
@@ -32,14 +43,20 @@ ImpulseResponse::ImpulseResponse(const Annulus<double>& annulus, double radius_m
 }
 
 ImpulseResponse::Value ImpulseResponse::at(double angle_rad) const {
-  double even = 0, odd = 0, evenSlope = 0, oddSlope = 0;
+  Sums all, block;
   visitMultiples(angle_rad, harmonics(), [&](int n, double c, double s) {
-    even += even_[n] * c;
-    odd += odd_[n] * s;
-    evenSlope -= n * even_[n] * s;
-    oddSlope += n * odd_[n] * c;
+    if (n % kBlock == 0) {
+      all += block;
+      block = {};
+    }
+    block.even += even_[n] * c;
+    block.odd += odd_[n] * s;
+    block.evenSlope -= n * even_[n] * s;
+    block.oddSlope += n * odd_[n] * c;
   });
-  return normalIsEven_ ? Value{even, odd, evenSlope, oddSlope} : Value{odd, even, oddSlope, evenSlope};
+  all += block;
+  return normalIsEven_ ? Value{all.even, all.odd, all.evenSlope, all.oddSlope}
+                       : Value{all.odd, all.even, all.oddSlope, all.evenSlope};
 }
 
 }  // namespace strainfinger::model

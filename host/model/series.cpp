@@ -12,8 +12,6 @@
 namespace strainfinger::model {
 namespace {
 
-double sinc(double x) { return x == 0 ? 1 : std::sin(x) / x; }
-
 void require(bool holds, const std::string& message) {
   if (!holds) throw Failure(ExitCode::kUsage, message);
 }
@@ -89,8 +87,6 @@ class GrowingSeries {
 
 }  // namespace
 
-double Windows::factor(int n) const { return sinc(n * load_rad / 2) * sinc(n * gauge_rad / 2); }
-
 Eigen::MatrixXd truncatedSeries(const Annulus<double>& annulus, double radius_m, std::span<const Row> rows,
                                 const Windows& windows, double tolerance) {
   requireDomain(annulus, radius_m, windows, tolerance);
@@ -105,36 +101,75 @@ Eigen::MatrixXd truncatedSeries(const Annulus<double>& annulus, double radius_m,
   throw notConvergent(annulus, radius_m);
 }
 
+namespace {
+
+/// Factors of cos n angle, or of sin n angle, of those rows that have any.
+template <typename Scalar>
+struct HalfSeries {
+  Eigen::MatrixX<Scalar> factors;
+  std::vector<Eigen::Index> rows;
+
+  HalfSeries(Eigen::Index harmonics, std::size_t mostRows)
+      : factors(harmonics, static_cast<Eigen::Index>(mostRows)) {}
+
+  void append(Eigen::Index row, double load, const auto& responses) {
+    if (load == 0) return;
+    factors.col(static_cast<Eigen::Index>(rows.size())) = Scalar(load) * responses;
+    rows.push_back(row);
+  }
+  /// Adds the sums over harmonics first, first + 1, ... of as many phases.
+  void addTo(auto&& result, const auto& phases, Eigen::Index first) const {
+    const auto count = static_cast<Eigen::Index>(rows.size());
+    if (count == 0) return;
+    const Eigen::RowVectorX<Scalar> sums = phases * factors.block(first, 0, phases.size(), count);
+    for (Eigen::Index i = 0; i < count; ++i) result[rows[static_cast<std::size_t>(i)]] += sums[i];
+  }
+};
+
+}  // namespace
+
 // By the pairing of HarmonicResponse p^c gives cosines of the rows that are even in a normal load and minus
 // sines of the others; q^c gives sines and cosines.
-Eigen::MatrixXd sumSeries(const Eigen::MatrixXd& table, std::span<const Row> rows,
-                          const Annulus<double>& annulus, const SurfaceLoad& load,
-                          std::span<const double> angles_rad) {
+template <typename Scalar>
+Eigen::MatrixX<Scalar> sumSeries(const Eigen::MatrixX<Scalar>& table, std::span<const Row> rows,
+                                 const Annulus<double>& annulus, const SurfaceLoad& load,
+                                 std::span<const double> angles_rad) {
   const LineCoefficients line(annulus, load);
-  Eigen::MatrixXd cosines(table.rows(), rows.size()), sines(table.rows(), rows.size());
-  for (Eigen::Index i = 0; i < cosines.cols(); ++i) {
-    const auto normal = line.normal * table.col(2 * i + kNormal);
-    const auto tangential = line.tangential * table.col(2 * i + kTangential);
+  HalfSeries<Scalar> cosines(table.rows(), rows.size()), sines(table.rows(), rows.size());
+  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(rows.size()); ++i) {
+    const auto normal = table.col(2 * i + kNormal), tangential = table.col(2 * i + kTangential);
     if (isEvenInNormalLoad(rows[static_cast<std::size_t>(i)])) {
-      cosines.col(i) = normal;
-      sines.col(i) = tangential;
+      cosines.append(i, line.normal, normal);
+      sines.append(i, line.tangential, tangential);
     } else {
-      cosines.col(i) = tangential;
-      sines.col(i) = -normal;
+      cosines.append(i, line.tangential, tangential);
+      sines.append(i, -line.normal, normal);
     }
   }
-  cosines.row(0) /= 2;
-  Eigen::MatrixXd result(angles_rad.size(), rows.size());
-  Eigen::RowVectorXd c(table.rows()), s(table.rows());
+  cosines.factors.row(0) /= 2;
+  Eigen::MatrixX<Scalar> result = Eigen::MatrixX<Scalar>::Zero(static_cast<Eigen::Index>(angles_rad.size()),
+                                                               static_cast<Eigen::Index>(rows.size()));
+  const int last = static_cast<int>(table.rows()) - 1;
+  Eigen::RowVectorX<Scalar> c(kBlock), s(kBlock);
   for (Eigen::Index k = 0; k < result.rows(); ++k) {
-    visitMultiples(angles_rad[static_cast<std::size_t>(k)] - load.centre_rad,
-                   static_cast<int>(table.rows()) - 1, [&](int n, double cosine, double sine) {
-                     c[n] = cosine;
-                     s[n] = sine;
-                   });
-    result.row(k) = c * cosines + s * sines;
+    const Scalar angle = Scalar(angles_rad[static_cast<std::size_t>(k)]) - Scalar(load.centre_rad);
+    visitMultiples(angle, last, [&](int n, Scalar cosine, Scalar sine) {
+      const int place = n % kBlock;
+      c[place] = cosine;
+      s[place] = sine;
+      if (place < kBlock - 1 && n < last) return;
+      cosines.addTo(result.row(k), c.head(place + 1), n - place);
+      sines.addTo(result.row(k), s.head(place + 1), n - place);
+    });
   }
   return result;
 }
+
+template Eigen::MatrixX<double> sumSeries(const Eigen::MatrixX<double>&, std::span<const Row>,
+                                          const Annulus<double>&, const SurfaceLoad&,
+                                          std::span<const double>);
+template Eigen::MatrixX<long double> sumSeries(const Eigen::MatrixX<long double>&, std::span<const Row>,
+                                               const Annulus<double>&, const SurfaceLoad&,
+                                               std::span<const double>);
 
 }  // namespace strainfinger::model

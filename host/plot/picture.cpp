@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -46,6 +47,35 @@ void writeData(const fs::path& path, const DataFile& data) {
   close(std::move(file), path);
 }
 
+/// A folder inside another one, in which files are made whole before they appear there. Gone with what is
+/// left in it when it goes.
+class Workshop {
+ public:
+  explicit Workshop(fs::path folder)
+      : folder_(std::move(folder)), inside_((folder_ / ".picture-XXXXXX").string()) {
+    if (::mkdtemp(inside_.data()) == nullptr) failWriting(folder_);
+  }
+  ~Workshop() {
+    std::error_code ignored;
+    fs::remove_all(inside_, ignored);
+  }
+  Workshop(const Workshop&) = delete;
+  Workshop& operator=(const Workshop&) = delete;
+
+  fs::path path() const { return inside_; }
+
+  void deliver() const {
+    for (const auto& file : fs::directory_iterator(inside_)) {
+      const fs::path target = folder_ / file.path().filename();
+      if (std::rename(file.path().c_str(), target.c_str()) != 0) failWriting(target);
+    }
+  }
+
+ private:
+  fs::path folder_;
+  std::string inside_;
+};
+
 /// Fonts that every gnuplot finds; sizes that look alike in both terminals.
 std::string terminal(const Picture& picture, const std::string& ending) {
   if (ending == ".png")
@@ -69,13 +99,15 @@ std::string completeScript(const Picture& picture, const std::string& stem, cons
 void requirePicturePath(const std::string& path) { terminal({}, fs::path(path).extension().string()); }
 
 void draw(const Picture& picture, const std::string& path) {
-  const fs::path file(path), folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  const fs::path file(path);
   const std::string stem = file.stem().string();
   const std::string script = completeScript(picture, stem, file.extension().string());
-  writeText(folder / (stem + ".gp"), script);
+  const Workshop workshop(file.has_parent_path() ? file.parent_path() : fs::path("."));
+  writeText(workshop.path() / (stem + ".gp"), script);
   for (const DataFile& data : picture.data)
-    writeData(folder / fmt::format("{}-{}.csv", stem, data.name), data);
-  runIn(folder.string(), {"gnuplot", stem + ".gp"}, "gnuplot-nox");
+    writeData(workshop.path() / fmt::format("{}-{}.csv", stem, data.name), data);
+  runIn(workshop.path().string(), {"gnuplot", stem + ".gp"}, "gnuplot-nox");
+  workshop.deliver();
 }
 
 }  // namespace strainfinger::plot

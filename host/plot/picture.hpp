@@ -25,8 +25,9 @@ struct Picture {
 
 /// Draws `picture` to `path`, which ends in .svg or .png, and leaves the script beside it (path with .gp) and
 /// the data (path's stem, a dash, the file's name, .csv). `cd` there and `gnuplot NAME.gp` draws it again.
-/// Throws Failure: kUsage for another ending, kFailure when a file cannot be written, when gnuplot is not
-/// installed, or with what gnuplot complains about.
+/// Each file appears whole; none does if one can't be made. Throws Failure: kUsage for another ending,
+/// kFailure when a file cannot be written, when gnuplot is not installed, or with what gnuplot complains
+/// about.
 void draw(const Picture& picture, const std::string& path);
 
 /// Throws Failure(kUsage) for a path that draw() would refuse: for who draws only after a long time.

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "host/base/angles.hpp"
+#include "host/plot/style.hpp"
 
 namespace strainfinger::plot {
 namespace {
@@ -12,16 +14,9 @@ namespace {
 constexpr double kMicro = 1e6;
 constexpr double kMilli = 1e3;
 
-// Okabe & Ito's colours, told apart by the colour-blind too. One meaning each, the same in all panels;
-// `fitted` is a light `estimate`.
-constexpr const char* kStyle = R"(
-truth = '#000000'; estimate = '#0072B2'; reading = '#D55E00'; tangential = '#E69F00'
-fitted = '#8CC5E3'; faint = '#777777'
-set encoding utf8
-set border 3 linecolor '#555555'
-set tics nomirror out scale 0.6 textcolor '#333333'
-set grid xtics ytics linecolor '#E6E6E6' linetype 1
-set key at graph 1,1.01 bottom right horizontal samplen 2 textcolor '#333333'
+// One meaning a colour, the same in all panels; `fitted` is a light `estimate`.
+constexpr const char* kColours = R"(
+truth = black; estimate = blue; reading = vermilion; tangential = orange; fitted = lightBlue
 set multiplot
 )";
 
@@ -78,12 +73,11 @@ double reduced_deg(double angle_deg) { return angle_deg - 360 * std::floor(angle
 
 /// Error of the estimate as an arc of the surface, the short way around.
 double arcError_m(const TrackPoint& point, double radius_m) {
-  return std::remainder(point.estimate.angle_deg - point.truth.angle_deg, 360.0) * std::numbers::pi / 180 *
-         radius_m;
+  return std::remainder(point.estimate.angle_deg - point.truth.angle_deg, 360.0) * kRadPerDeg * radius_m;
 }
 
 double arcSigma_m(const TrackPoint& point, double radius_m) {
-  return point.sigmaAngle_deg * std::numbers::pi / 180 * radius_m;
+  return point.sigmaAngle_deg * kRadPerDeg * radius_m;
 }
 
 DataFile profileData(const TouchRecord& record) {
@@ -115,7 +109,7 @@ std::vector<double> trackRow(const TrackPoint& point, double radius_m) {
 }
 
 std::vector<double> gapAt(double time_s) {
-  std::vector<double> row(9, kUnknown);
+  std::vector<double> row(9, kNoValue);
   row[0] = time_s;
   return row;
 }
@@ -179,6 +173,7 @@ std::string trackText(const TouchRecord& record) {
 
 Picture touchPicture(const TouchRecord& record) {
   std::string script = kStyle;
+  script += kColours;
   script.append(profileText(record)).append(kProfilePanels);
   script.append(trackText(record)).append(kTrackPanels);
   return {1500, 720, std::move(script), {profileData(record), readingData(record), trackData(record)}};

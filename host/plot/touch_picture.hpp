@@ -1,20 +1,18 @@
 #pragma once
 // The picture of a touched finger: what the gauges saw at one moment, and where the contact went.
 
-#include <limits>
 #include <vector>
 
+#include "host/base/no_value.hpp"
 #include "host/plot/picture.hpp"
 
 namespace strainfinger::plot {
 
-inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-/// A contact as known or as estimated; kUnknown throughout where there is none.
+/// A contact as known or as estimated; kNoValue throughout where there is none.
 struct ContactPoint {
-  double angle_deg = kUnknown;
-  double normal_n_per_m = kUnknown;
-  double tangential_n_per_m = kUnknown;
+  double angle_deg = kNoValue;
+  double normal_n_per_m = kNoValue;
+  double tangential_n_per_m = kNoValue;
 };
 
 struct ProfilePoint {
@@ -34,7 +32,7 @@ struct TrackPoint {
   double time_s;
   ContactPoint truth;
   ContactPoint estimate;
-  double sigmaAngle_deg = kUnknown;
+  double sigmaAngle_deg = kNoValue;
 };
 
 struct TouchRecord {

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
+
+#include "host/base/angles.hpp"
 
 namespace strainfinger::simulation {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 Touch touchAt(const TouchCourse& touch, double time_s) {
   const double since_s = time_s - touch.start_s;

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/base/angles.hpp"
+
 namespace strainfinger::simulation {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr double kTurn_rad = 2 * std::numbers::pi;
 
 }  // namespace
@@ -35,7 +36,7 @@ void Deviation::add(double value) {
 
 double Deviation::rms() const { return std::sqrt(squares_ / static_cast<double>(count_)); }
 
-double Deviation::worst() const { return count_ > 0 ? worst_ : can::kUnknown; }
+double Deviation::worst() const { return count_ > 0 ? worst_ : kNoValue; }
 
 void TouchErrors::add(const ComparedTouch& compared, const config::Finger& finger) {
   const FingerFlags flags = compared.report.flags;

@@ -38,12 +38,12 @@ bool seesOffset(const WindowFit& fit, DirectionRange directions) {
   return gradient(directions.least).dot(gradient(directions.most)) > 0;
 }
 
-constexpr int kDirections = 5;  // the errors are smooth between them once seesOffset() holds
+constexpr int kConeDirections = 5;  // the errors are smooth between them once seesOffset() holds
 
-std::array<Variances, kDirections> variancesOver(const WindowFit& fit, DirectionRange directions) {
-  std::array<Variances, kDirections> result;
-  for (int i = 0; i < kDirections; ++i) {
-    const double part = static_cast<double>(i) / (kDirections - 1);
+std::array<Variances, kConeDirections> variancesOver(const WindowFit& fit, DirectionRange directions) {
+  std::array<Variances, kConeDirections> result;
+  for (int i = 0; i < kConeDirections; ++i) {
+    const double part = static_cast<double>(i) / (kConeDirections - 1);
     result[static_cast<std::size_t>(i)] =
         variances(fit, directions.least + part * (directions.most - directions.least));
   }

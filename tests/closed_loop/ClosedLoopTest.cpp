@@ -170,7 +170,7 @@ TEST_GROUP(ClosedLoop) {
 
 namespace {
 
-constexpr int kContacts = 2500;
+constexpr int kTouches = 2500;
 constexpr double kContact_s = 0.008;  ///< from one touch to the next; half of it untouched
 
 /// Loads from 2 to 50 N/m, every order of magnitude alike, directions within +-45 deg, angles all around.
@@ -180,7 +180,7 @@ Scenario randomContacts(std::uint64_t seed) {
     return std::uniform_real_distribution<double>(least, most)(random);
   };
   std::vector<TouchCourse> touches;
-  for (int i = 0; i < kContacts; ++i) {
+  for (int i = 0; i < kTouches; ++i) {
     const double normal = std::exp(between(std::log(2), std::log(50)));
     const double tangential = normal * std::tan(between(-45 * kDeg, 45 * kDeg));
     const double start_s = 0.2 + i * kContact_s;
@@ -209,8 +209,8 @@ class FirstOfEach {
 TEST(ClosedLoop, RandomContactsAreAtTheBoundAndHonest) {
   const std::uint64_t random = seed();
   const Result result = run(randomContacts(random), FitMode::kRefined, random, FirstOfEach());
-  LONGS_EQUAL(kContacts, result.errors.arc_m.count() + result.errors.uncertain);
-  CHECK_TRUE(result.errors.uncertain < kContacts / 100);
+  LONGS_EQUAL(kTouches, result.errors.arc_m.count() + result.errors.uncertain);
+  CHECK_TRUE(result.errors.uncertain < kTouches / 100);
   checkWithin(result, 1.15, 12);
   checkHonest(result);
 }
@@ -219,7 +219,7 @@ TEST(ClosedLoop, RandomContactsAreAtTheBoundAndHonest) {
 TEST(ClosedLoop, ThreeReadingsAreNearTheBoundAndHonest) {
   const std::uint64_t random = seed();
   const Result result = run(randomContacts(random), FitMode::kThreePoint, random, FirstOfEach());
-  LONGS_EQUAL(kContacts, result.errors.arc_m.count() + result.errors.uncertain);
+  LONGS_EQUAL(kTouches, result.errors.arc_m.count() + result.errors.uncertain);
   checkWithin(result, 1.4, 15);
   checkHonest(result);
 }

@@ -27,10 +27,7 @@ std::vector<std::string> linesOf(const std::string& text) {
 }
 
 void refuses(const std::string& arguments, const char* named) {
-  const Run run = runProgram("response " + arguments);
-  LONGS_EQUAL_TEXT(2, run.status, arguments.c_str());
-  STRCMP_CONTAINS(named, run.err.c_str());
-  STRCMP_EQUAL("", run.out.c_str());
+  checkRefused("response " + arguments, named);
 }
 
 }  // namespace

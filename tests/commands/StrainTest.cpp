@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tests/commands/program.hpp"
+#include "tests/commands/tables.hpp"
 
 // last: its macros redefine new
 #include <CppUTest/TestHarness.h>
@@ -15,28 +16,8 @@ namespace {
 
 using Table = std::vector<std::vector<double>>;
 
-/// The rows after the header.
-Table tableOf(const std::string& text) {
-  std::istringstream stream(text);
-  Table rows;
-  std::string line;
-  for (std::getline(stream, line); std::getline(stream, line);) {
-    std::istringstream fields(line);
-    rows.emplace_back();
-    for (std::string field; std::getline(fields, field, ',');) rows.back().push_back(std::stod(field));
-  }
-  return rows;
-}
-
 std::string press(const std::string& more) {
   return "strain --normal-n-per-m 1 --tangential-n-per-m 0 --contact-deg 45 " + more;
-}
-
-void refuses(const std::string& arguments, const char* named) {
-  const Run run = runProgram(arguments);
-  LONGS_EQUAL_TEXT(2, run.status, arguments.c_str());
-  STRCMP_CONTAINS(named, run.err.c_str());
-  STRCMP_EQUAL("", run.out.c_str());
 }
 
 }  // namespace
@@ -122,42 +103,46 @@ TEST(StrainCommand, PrintsJson) {
 }
 
 TEST(StrainCommand, RefusesALineLoadAtTheSurface) {
-  refuses(press("--radius-m 12.7e-3 --points 1"), "--width-m");
-  refuses(press("--radius-m 12.69999e-3 --points 1"), "too close to the surface");
+  checkRefused(press("--radius-m 12.7e-3 --points 1"), "--width-m");
+  checkRefused(press("--radius-m 12.69999e-3 --points 1"), "too close to the surface");
 }
 
 TEST(StrainCommand, RefusesARadiusOutsideTheRubber) {
   for (const char* radius : {"8.8999e-3", "12.7001e-3", "nan", "inf", "x"})
-    refuses(press(std::string("--points 1 --radius-m ").append(radius)), "--radius-m");
+    checkRefused(press(std::string("--points 1 --radius-m ").append(radius)), "--radius-m");
 }
 
 TEST(StrainCommand, RefusesAWidthThatIsNone) {
   for (const char* width : {"-1e-3", "0.08", "nan", "inf", "x"})
-    refuses(press(std::string("--radius-m 9e-3 --points 1 --width-m ").append(width)), "--width-m");
+    checkRefused(press(std::string("--radius-m 9e-3 --points 1 --width-m ").append(width)), "--width-m");
 }
 
 TEST(StrainCommand, WantsAnglesOneWay) {
   for (const char* angles : {"", "--at-deg 1 --points 1"})
-    refuses(press(std::string("--radius-m 9e-3 ").append(angles)), "either --at-deg a,b,... or --points N");
+    checkRefused(press(std::string("--radius-m 9e-3 ").append(angles)),
+                 "either --at-deg a,b,... or --points N");
 }
 
 TEST(StrainCommand, RefusesAnglesThatAreNone) {
   for (const char* angles : {"1,x", "nan", "1,inf", "1e7", "''"})
-    refuses(press(std::string("--radius-m 9e-3 --at-deg ").append(angles)), "--at-deg");
+    checkRefused(press(std::string("--radius-m 9e-3 --at-deg ").append(angles)), "--at-deg");
   for (const char* points : {"0", "-1", "1000001", "1.5", "nan"})
-    refuses(press(std::string("--radius-m 9e-3 --points ").append(points)), "--points");
+    checkRefused(press(std::string("--radius-m 9e-3 --points ").append(points)), "--points");
 }
 
 TEST(StrainCommand, RefusesLoadsThatAreNone) {
   const std::string rest = "--radius-m 9e-3 --points 1 --contact-deg 0 ";
   for (const char* load : {"nan", "inf", "-1e13", "x"}) {
     const std::string value(load);
-    refuses("strain " + rest + "--tangential-n-per-m 0 --normal-n-per-m " + value, "--normal-n-per-m");
-    refuses("strain " + rest + "--normal-n-per-m 0 --tangential-n-per-m " + value, "--tangential-n-per-m");
+    checkRefused("strain " + rest + "--tangential-n-per-m 0 --normal-n-per-m " + value, "--normal-n-per-m");
+    checkRefused("strain " + rest + "--normal-n-per-m 0 --tangential-n-per-m " + value,
+                 "--tangential-n-per-m");
   }
 }
 
 TEST(StrainCommand, NamesWhatIsMissing) {
-  refuses("strain --radius-m 9e-3 --points 1 --contact-deg 0 --normal-n-per-m 1", "--tangential-n-per-m");
-  refuses("strain --radius-m 9e-3 --points 1 --normal-n-per-m 1 --tangential-n-per-m 0", "--contact-deg");
+  checkRefused("strain --radius-m 9e-3 --points 1 --contact-deg 0 --normal-n-per-m 1",
+               "--tangential-n-per-m");
+  checkRefused("strain --radius-m 9e-3 --points 1 --normal-n-per-m 1 --tangential-n-per-m 0",
+               "--contact-deg");
 }

@@ -8,6 +8,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "CppUTest/TestHarness.h"
+
 namespace strainfinger {
 namespace {
 
@@ -48,6 +50,13 @@ Run runShell(const std::string& command, const std::string& input) {
 
 Run runProgram(const std::string& arguments, const std::string& input) {
   return runShell(std::string("\"$STRAINFINGER\" ").append(arguments), input);
+}
+
+void checkRefused(const std::string& arguments, const char* named) {
+  const Run run = runProgram(arguments);
+  LONGS_EQUAL_TEXT(2, run.status, arguments.c_str());
+  STRCMP_CONTAINS(named, run.err.c_str());
+  STRCMP_EQUAL("", run.out.c_str());
 }
 
 }  // namespace strainfinger

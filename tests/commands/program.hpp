@@ -18,4 +18,8 @@ Run runProgram(const std::string& arguments, const std::string& input = "");
 /// Runs a shell command line in which $STRAINFINGER is the program.
 Run runShell(const std::string& command, const std::string& input = "");
 
+/// Checks that `strainfinger <arguments>` ends with status 2, a message with `named` in it, and prints
+/// nothing.
+void checkRefused(const std::string& arguments, const char* named);
+
 }  // namespace strainfinger

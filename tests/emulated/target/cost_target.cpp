@@ -1,12 +1,12 @@
-// What a sample set costs, in instructions, stage by stage. Run with `-icount shift=10,sleep=off`: an
-// instruction then takes 1024 ns of the emulator's time, and timer 0 counts 40 ns. Writes CSV to UART0: what
-// was measured, instructions.
+// What a sample set costs, in instructions, stage by stage (see instruction_counter.hpp for how to run it).
+// Writes CSV to UART0: what was measured, instructions.
 #include <algorithm>
 
 #include "firmware/app/finger.hpp"
 #include "firmware/board/cortex_m/linked_tables.hpp"
 #include "firmware/board/cortex_m/startup.hpp"
 #include "firmware/board/mps2/console.hpp"
+#include "firmware/board/mps2/instruction_counter.hpp"
 #include "firmware/board/mps2/semihosting.hpp"
 #include "tests/emulated/replay.hpp"
 #include "tests/emulated/target/test_image.hpp"
@@ -17,41 +17,10 @@ namespace strainfinger::board {
 namespace {
 
 using namespace emulated;
+using mps2::InstructionCounter;
 
 constexpr std::uint32_t kSamples = 2000;
 constexpr std::uint32_t kPaint = 0x57ACC57A;
-
-/// CMSDK APB timer (Cortex-M System Design Kit TRM, DDI 0479D, 4.1), counting down from its largest value.
-class InstructionCounter {
- public:
-  InstructionCounter() {
-    registers()[kReload] = ~0u;
-    registers()[kValue] = ~0u;
-    registers()[kControl] = 1;
-    const std::uint32_t begin = now();
-    overhead_ = now() - begin;
-  }
-
-  /// Instructions that `work` takes.
-  template <typename Work>
-  [[gnu::always_inline]] std::uint32_t of(Work work) const {
-    const std::uint32_t begin = now();
-    work();
-    const std::uint32_t ticks = now() - begin - overhead_;
-    return (ticks * 40 + 512) / 1024;
-  }
-
- private:
-  enum Register : std::uint8_t { kControl, kValue, kReload };
-  static std::uint32_t volatile* registers() { return reinterpret_cast<std::uint32_t volatile*>(0x40000000); }
-  static std::uint32_t now() {
-    asm volatile("" ::: "memory");
-    const std::uint32_t value = ~registers()[kValue];
-    asm volatile("" ::: "memory");
-    return value;
-  }
-  std::uint32_t overhead_;
-};
 
 struct Adc {
   hal::SampleSet next{};

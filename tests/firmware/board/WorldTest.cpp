@@ -13,7 +13,7 @@ using namespace strainfinger::mps2;
 
 namespace {
 
-struct FakeLine {
+struct FakeWorldLine {
   std::deque<std::uint8_t> bytes;
   bool put(std::uint8_t) noexcept { return true; }
   std::optional<std::uint8_t> get() noexcept {
@@ -31,12 +31,12 @@ struct FakeBus {
 
 }  // namespace
 
-using FakeWorld = World<FakeLine, FakeBus, doubles::FakeClock>;
+using FakeWorld = World<FakeWorldLine, FakeBus, doubles::FakeClock>;
 static_assert(hal::GaugeAdc<FakeWorld>);
 static_assert(hal::Clock<FakeWorld>);
 
 TEST_GROUP(World) {
-  FakeLine line;
+  FakeWorldLine line;
   FakeBus bus;
   FakeWorld world{line, bus};
   hal::SampleSet set{};

@@ -14,7 +14,7 @@ using namespace strainfinger::firmware;
 
 namespace {
 constexpr double kBoundError = 0.04;
-constexpr std::int32_t kMax = std::numeric_limits<std::int32_t>::max();
+constexpr std::int32_t kLargest = std::numeric_limits<std::int32_t>::max();
 }  // namespace
 
 TEST_GROUP(Estimate) {
@@ -138,15 +138,15 @@ TEST(Estimate, LoadsAreExactToOneStep) {
 
 TEST(Estimate, HugeLoadsSaturateWithTheirSign) {
   constants.load_exponent = -30 - fit.shift;
-  fit.best.normal = kMax;
-  fit.best.tangential = -kMax;
+  fit.best.normal = kLargest;
+  fit.best.tangential = -kLargest;
   CHECK(found().normal == LineLoadQ12::max());
   CHECK(found().tangential == LineLoadQ12::min());
 }
 
 TEST(Estimate, TinyLoadsAreNone) {
   constants.load_exponent = -120;
-  fit.best.normal = kMax;
+  fit.best.normal = kLargest;
   LONGS_EQUAL(0, found().normal.raw());
 }
 
@@ -155,8 +155,8 @@ TEST(Estimate, QualityIsTheExpectedPartOfTheUnexplained) {
   LONGS_EQUAL(100, qualityOf(100, 100));
   LONGS_EQUAL(99, qualityOf(101, 100));
   LONGS_EQUAL(50, qualityOf(200, 100));
-  LONGS_EQUAL(0, qualityOf(kMax, 100));
-  LONGS_EQUAL(100, qualityOf(kMax, kMax));
+  LONGS_EQUAL(0, qualityOf(kLargest, 100));
+  LONGS_EQUAL(100, qualityOf(kLargest, kLargest));
 }
 
 TEST(Estimate, QualityOf20AndLessIsUncertain) {
@@ -207,7 +207,7 @@ TEST(Estimate, TheErrorOfTheAngleIsAtMostHalfARevolution) {
 
 TEST(Estimate, AnyFitGivesSomeEstimate) {
   // For the sanitizers: the ends of every format, together.
-  for (const std::int32_t big : {kMax, -kMax, 0, 1})
+  for (const std::int32_t big : {kLargest, -kLargest, 0, 1})
     for (const int exponent : {-6, 0, 6})
       for (const int shift : {-2, 0, 18}) {
         fit.best = {16 * kOnePitch - 1, big, -big};

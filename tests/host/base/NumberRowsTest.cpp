@@ -68,3 +68,16 @@ TEST(NumberRows, RowsOfAnotherLengthAreRefused) {
   STRCMP_EQUAL("stdin:1:2: 1 columns where 2 are needed", complaintAbout("1\n").c_str());
   STRCMP_EQUAL("stdin:1:5: more than 2 columns", complaintAbout("1,2,3\n").c_str());
 }
+
+TEST(NumberRows, NumbersBeyondALimitAreRefusedWithAHint) {
+  std::istringstream stream("1,-1\n1,1.5\n");
+  NumberRowReader reader(stream, "stdin", 2, {1, "too large"});
+  std::vector<double> row;
+  CHECK_TRUE(reader.next(row));
+  try {
+    reader.next(row);
+    FAIL("taken");
+  } catch (const Failure& failure) {
+    STRCMP_EQUAL("stdin:2:3: 1.5 is beyond +-1: too large", failure.what());
+  }
+}

@@ -63,7 +63,7 @@ TEST(Picture, OtherEndingsAreAUsageErrorAndLeaveNothingBehind) {
 }
 
 TEST(Picture, AFolderThatIsNotThereIsNamedWithTheReason) {
-  STRCMP_CONTAINS("nowhere/a.gp: cannot write the file: No such file or directory",
+  STRCMP_CONTAINS("nowhere: cannot write the file: No such file or directory",
                   complaintAbout(folder.file("nowhere/a.png"), ExitCode::kFailure).c_str());
 }
 
@@ -71,4 +71,15 @@ TEST(Picture, WhatGnuplotComplainsAboutIsPassedOn) {
   picture.script = "plot nonsense\n";
   STRCMP_CONTAINS("undefined variable: nonsense",
                   complaintAbout(folder.file("a.png"), ExitCode::kFailure).c_str());
+  CHECK_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(Picture, LeavesNothingElseBehind) {
+  draw(picture, folder.file("a.png"));
+  int files = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder.path())) {
+    CHECK_TRUE(file.is_regular_file());
+    ++files;
+  }
+  LONGS_EQUAL(3, files);
 }

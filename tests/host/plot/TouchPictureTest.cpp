@@ -62,7 +62,7 @@ TEST(TouchPicture, TheErrorGoesTheShortWayAround) {
 
 TEST(TouchPicture, NothingWithoutAValueIsDrawnAsANumber) {
   TouchRecord record = slide();
-  record.track = {{0, {}, {}, kUnknown}, {1, {}, {}, kUnknown}};
+  record.track = {{0, {}, {}, strainfinger::kNoValue}, {1, {}, {}, strainfinger::kNoValue}};
   const DataFile track = file(touchPicture(record), "track");
   for (const auto& row : track.rows)
     CHECK_TRUE(std::all_of(row.begin() + 1, row.end(), [](double value) { return std::isnan(value); }));
@@ -70,7 +70,7 @@ TEST(TouchPicture, NothingWithoutAValueIsDrawnAsANumber) {
 
 TEST(TouchPicture, EveryRecordCanBeDrawnEvenAnEmptyOne) {
   TouchRecord idle;
-  idle.track = {{0, {}, {}, kUnknown}, {1, {}, {}, kUnknown}};
+  idle.track = {{0, {}, {}, strainfinger::kNoValue}, {1, {}, {}, strainfinger::kNoValue}};
   int count = 0;
   for (const TouchRecord& record : {slide(), idle, TouchRecord{}}) {
     const std::string path = folder.file(std::to_string(++count).append(".svg"));

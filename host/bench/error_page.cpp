@@ -1,0 +1,162 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "host/bench/error_pages.hpp"
+
+namespace strainfinger::bench {
+namespace {
+
+constexpr std::string_view kIntroduction = R"(# What the finger can and cannot do
+
+The default finger: 25.4 mm in diameter, 3.8 mm of rubber, 16 gauges of negligible length, 6 microstrain of noise (12-bit
+converter included), touched along a line. One sample set, no averaging. "Place" is arc of the surface. Errors are
+against the truth, of the answers that the finger itself calls certain; the others are counted. Unless said otherwise:
+any place, load directions within 45 degrees of the normal, "load" is the length of (normal, tangential).
+
+A line load in N/m times the length of the contact is a force: 30 N/m on 20 mm are 0.6 N.
+
+)";
+
+std::string cell(double value, int decimals) {
+  return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals);
+}
+
+std::string share(int part, int whole) {
+  const double percent = 100.0 * part / whole;
+  return part == 0 ? "0" : fmt::format(fmt::runtime(percent < 10 ? "{:.2g} %" : "{:.0f} %"), percent);
+}
+
+constexpr std::string_view kColumns =
+    " place, mm: RMS / 95 % / worst | normal, N/m: RMS / 95 % | tangential, N/m: RMS / 95 % | unnoticed | "
+    "uncertain | "
+    "wrong gauge, unflagged |\n";
+
+std::string columnsOf(const ErrorStatistics& s) {
+  return fmt::format(" {} / {} / {} | {} / {} | {} / {} | {} | {} | {} |\n", cell(s.arc_mm.rms(), 4),
+                     cell(s.arc_mm.most95(), 4), cell(s.arc_mm.worst(), 3), cell(s.normal_n_per_m.rms(), 3),
+                     cell(s.normal_n_per_m.most95(), 3), cell(s.tangential_n_per_m.rms(), 3),
+                     cell(s.tangential_n_per_m.most95(), 3), share(s.unnoticed, s.contacts),
+                     share(s.uncertain, s.contacts), share(s.wrong, s.contacts));
+}
+
+std::string table(const std::string& firstColumns, int columns) {
+  std::string text = "| " + firstColumns;
+  text.append(" |").append(kColumns).append("|");
+  for (int column = 0; column < columns + 6; ++column) text += "--|";
+  return text + "\n";
+}
+
+std::string sweepTable(const std::vector<ErrorCell>& cells, const char* sweep, const std::string& heading,
+                       const std::string& firstColumn, bool withLoad, bool withTold) {
+  std::string text = fmt::format("\n## {}\n\n", heading);
+  text += table(firstColumn + (withLoad ? " | load, N/m" : "") + (withTold ? " | tables know" : ""),
+                1 + withLoad + withTold);
+  for (const ErrorCell& c : cellsOf(cells, sweep)) {
+    text += fmt::format("| {:g} |", c.setting);
+    if (withLoad) text += fmt::format(" {:g} |", c.load_n_per_m);
+    if (withTold) text += c.told ? " yes |" : " no |";
+    text += columnsOf(c.statistics);
+  }
+  return text;
+}
+
+/// The worst first, by the place that 95 % of the answers keep to.
+std::vector<ErrorCell> worstOf(std::vector<ErrorCell> cells, std::size_t count) {
+  const auto worse = [](const ErrorCell& a, const ErrorCell& b) {
+    return a.statistics.arc_mm.most95() > b.statistics.arc_mm.most95();
+  };
+  std::erase_if(cells, [](const ErrorCell& c) { return std::isnan(c.statistics.arc_mm.most95()); });
+  std::sort(cells.begin(), cells.end(), worse);
+  cells.resize(std::min(count, cells.size()));
+  return cells;
+}
+
+std::string worstSettings(const std::vector<ErrorCell>& cells) {
+  std::vector<ErrorCell> others(cells);
+  std::erase_if(others, [](const ErrorCell& c) { return c.sweep == kMapSweep; });
+  std::string text = "\n## The worst settings\n\n" + table("setting | load, N/m | tables know", 3);
+  for (const ErrorCell& c : worstOf(others, 8))
+    text += fmt::format("| {} {:g} {} | {:g} | {} |{}", c.sweep, c.setting, c.unit, c.load_n_per_m,
+                        c.told ? "yes" : "no", columnsOf(c.statistics));
+  return text;
+}
+
+std::string worstPlaces(const std::vector<ErrorCell>& cells) {
+  std::string text =
+      "\n## The worst places of the map\n\n" + table("pitches from a gauge | direction | load, N/m", 3);
+  for (const ErrorCell& c : worstOf(cellsOf(cells, kMapSweep), 8))
+    text += fmt::format("| {:.3f} | {:.0f} deg | {:g} |{}", c.setting, c.direction_deg, c.load_n_per_m,
+                        columnsOf(c.statistics));
+  return text;
+}
+
+/// The statistics of one row of a sweep.
+const ErrorStatistics& rowOf(const std::vector<ErrorCell>& cells, const char* sweep, double setting,
+                             bool told) {
+  const auto found = std::find_if(cells.begin(), cells.end(), [&](const ErrorCell& c) {
+    return c.sweep == sweep && c.setting == setting && c.told == told;
+  });
+  return found->statistics;
+}
+
+/// The least load of the table from which on every touch is noticed.
+double surelyNoticed_n_per_m(const std::vector<ErrorCell>& cells) {
+  double least = std::numeric_limits<double>::quiet_NaN();
+  for (const ErrorCell& c : cellsOf(cells, kLoadSweep)) {
+    if (c.statistics.unnoticed > 0)
+      least = std::numeric_limits<double>::quiet_NaN();
+    else if (std::isnan(least))
+      least = c.setting;
+  }
+  return least;
+}
+
+std::string inShort(const std::vector<ErrorCell>& cells) {
+  const auto &firm = rowOf(cells, kLoadSweep, 30, true), &light = rowOf(cells, kLoadSweep, 5, true);
+  const auto &wide = rowOf(cells, kWidthSweep, 1, false), &wideTold = rowOf(cells, kWidthSweep, 1, true);
+  const ErrorCell worst = worstOf(cellsOf(cells, kMapSweep), 1).front();
+  return fmt::format(
+      "## In short\n\n"
+      "* **Place**: {:.3f} mm RMS at 30 N/m, {:.3f} mm at 5 N/m: it goes with noise over load.\n"
+      "* **Loads**: {:.2f} N/m RMS of normal and {:.2f} N/m of tangential load, at 5 N/m as at 30 N/m "
+      "({:.2f} and {:.2f}).\n"
+      "* **Weak touches**: from {:g} N/m on every one is noticed; the weaker, the more answers are flagged "
+      "uncertain.\n"
+      "* **Weakest spot**: {:+.3f} pitches from a gauge, pulled {:.0f} deg sideways: {:.3f} mm at 30 N/m (95 "
+      "%), against "
+      "{:.3f} mm anywhere. Over a gauge a small shift and a small tangential load look alike.\n"
+      "* **What the config says of contact width and gauge length matters**: a contact 1 mm wide is known to "
+      "{:.3f} mm RMS "
+      "when the tables know the width, to {:.3f} mm when they take it for a line.\n"
+      "* **What it cannot do**: tell two contacts apart, or where along the finger a contact is.\n",
+      firm.arc_mm.rms(), light.arc_mm.rms(), light.normal_n_per_m.rms(), light.tangential_n_per_m.rms(),
+      firm.normal_n_per_m.rms(), firm.tangential_n_per_m.rms(), surelyNoticed_n_per_m(cells), worst.setting,
+      worst.direction_deg, worst.statistics.arc_mm.most95(), firm.arc_mm.most95(), wideTold.arc_mm.rms(),
+      wide.arc_mm.rms());
+}
+
+}  // namespace
+
+std::string errorPage(const std::vector<ErrorCell>& cells, const SweepSettings& settings) {
+  std::string text(kIntroduction);
+  text += inShort(cells);
+  text += sweepTable(cells, kLoadSweep, "How hard must it be touched?", "load, N/m", false, false);
+  text += worstSettings(cells);
+  text += worstPlaces(cells);
+  text += "\n![Errors over position and load direction](error_map.png)\n";
+  text += "![Error of place over the other quantities](error_curves.png)\n";
+  text += sweepTable(cells, kNoiseSweep, "Noise of a gauge (16-bit converter)", "microstrain", true, false);
+  text += sweepTable(cells, kBitsSweep, "Bits of the converter", "bits", true, false);
+  text += sweepTable(cells, kWidthSweep, "Width of the contact", "mm", false, true);
+  text += sweepTable(cells, kLengthSweep, "Length of a gauge", "mm", false, true);
+  return text + fmt::format(
+                    "\n{} contacts a row, {} a cell of the map, seed {}. Made by "
+                    "`cmake --workflow --preset bench`; all figures: errors.csv.\n",
+                    settings.contacts, settings.repeats, settings.seed);
+}
+
+}  // namespace strainfinger::bench

@@ -1,0 +1,58 @@
+// What the finger can do: sweeps as CSV, pictures and a page.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "host/base/atomic_file.hpp"
+#include "host/base/failure.hpp"
+#include "host/bench/error_pages.hpp"
+
+using namespace strainfinger;
+
+namespace {
+
+struct Options {
+  std::string folder, page;
+  bench::SweepSettings settings;
+};
+
+void writeCsv(const std::string& path, const std::vector<bench::ErrorCell>& cells) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "w"), &std::fclose);
+  if (!file) throw Failure(ExitCode::kFailure, path + ": cannot write the file");
+  bench::writeErrorCsv(file.get(), cells);
+}
+
+void run(const Options& options) {
+  const auto cells = bench::errorSweeps(options.settings);
+  const std::string page = errorPage(cells, options.settings);
+  writeCsv(options.folder + "/errors.csv", cells);
+  for (const char* ending : {".svg", ".png"}) {
+    draw(bench::errorMapPicture(cells), options.folder + "/error_map" + ending);
+    draw(bench::errorCurvesPicture(cells), options.folder + "/error_curves" + ending);
+  }
+  writeFileAtomically(options.page, page);
+  std::fputs(page.c_str(), stdout);
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  CLI::App app{"Error of the finger over all that a user may meet", "error_report"};
+  Options options;
+  app.add_option("-o", options.folder, "where CSV and pictures go")->required();
+  app.add_option("--page", options.page, "the page to write (Markdown); it expects the pictures beside it")
+      ->required();
+  app.add_option("--contacts", options.settings.contacts, "contacts of each cell")
+      ->check(CLI::Range(10, 1'000'000));
+  app.add_option("--repeats", options.settings.repeats, "contacts of each cell of the map")
+      ->check(CLI::Range(1, 100'000));
+  app.add_option("--seed", options.settings.seed, "of places, directions and noise");
+  CLI11_PARSE(app, count, arguments);
+  try {
+    run(options);
+    return 0;
+  } catch (const Failure& failure) {
+    std::fprintf(stderr, "error_report: %s\n", failure.what());
+    return static_cast<int>(failure.code());
+  }
+}

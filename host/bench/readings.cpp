@@ -1,0 +1,71 @@
+#include "host/bench/readings.hpp"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <numbers>
+
+#include "common/fixed_real.hpp"
+#include "host/simulation/noise.hpp"
+
+namespace strainfinger::bench {
+namespace {
+
+/// Uniform in -1/2 .. 1/2, of the two channels behind the gauges' that begin at `channel`.
+double uniform(const simulation::Noise& noise, std::uint64_t number, std::uint32_t channel) {
+  return std::atan2(noise.at(number, channel), noise.at(number, channel + 1)) / (2 * std::numbers::pi);
+}
+
+Place<double> drawPlace(const simulation::Noise& noise, std::uint64_t number) {
+  const double position = (uniform(noise, number, kGauges) + 0.5) * kGauges;
+  const double direction = uniform(noise, number, kGauges + 2) * std::numbers::pi / 2;
+  return {position, kBenchLoad_n_per_m * std::cos(direction), kBenchLoad_n_per_m * std::sin(direction)};
+}
+
+}  // namespace
+
+BenchFinger::BenchFinger()
+    : response_(config_.finger.annulus(), config_.gauges.radius_m, config_.gauges.component) {}
+
+double BenchFinger::pitch_rad() { return 2 * std::numbers::pi / kGauges; }
+
+double BenchFinger::arc_um(double pitches) const {
+  return pitches * pitch_rad() * config_.finger.outer_radius_m * 1e6;
+}
+
+double BenchFinger::peakPerLoad() const { return std::abs(response_.at(0).normal); }
+
+model::ImpulseResponse::Value BenchFinger::response(double pitches) const {
+  auto value = response_.at(pitches * pitch_rad());
+  value.normalSlope *= pitch_rad();
+  value.tangentialSlope *= pitch_rad();
+  return value;
+}
+
+Eigen::Vector3d BenchFinger::bound(const Place<double>& place, double noise_strain) const {
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  for (int gauge = 0; gauge < kGauges; ++gauge) {
+    const auto value = response(gauge - place.position_pitch);
+    const Eigen::Vector3d row(-(place.normal * value.normalSlope + place.tangential * value.tangentialSlope),
+                              value.normal, value.tangential);
+    information += row * row.transpose();
+  }
+  return noise_strain * information.inverse().diagonal().cwiseSqrt();
+}
+
+Reading readingOf(const BenchFinger& finger, std::uint64_t seed, std::uint64_t number, double relativeNoise) {
+  const double noise_strain = relativeNoise * finger.peakPerLoad() * kBenchLoad_n_per_m;
+  const simulation::Noise noise(seed);
+  Reading reading{drawPlace(noise, number), {}, {}};
+  reading.bound = finger.bound(reading.truth, noise_strain);
+  for (std::uint32_t gauge = 0; gauge < kGauges; ++gauge) {
+    const auto value = finger.response(gauge - reading.truth.position_pitch);
+    const double strain = reading.truth.normal * value.normal + reading.truth.tangential * value.tangential +
+                          noise_strain * noise.at(number, gauge);
+    const StrainQ32 rounded = fromReal<StrainQ32>(strain);
+    reading.sample.strain_q32[gauge] = rounded.raw();
+    reading.sample.strain[gauge] = static_cast<float>(toReal(rounded));
+  }
+  return reading;
+}
+
+}  // namespace strainfinger::bench

@@ -1,0 +1,186 @@
+#include "host/contact/contact.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <vector>
+
+#include "host/base/angles.hpp"
+#include "host/base/failure.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/contact_options.hpp"
+#include "host/cli/model_options.hpp"
+#include "host/contact/paper_method.hpp"
+#include "host/contact/surface_motion.hpp"
+
+namespace strainfinger::cli {
+namespace {
+
+constexpr const char* kContactHelp =
+    "What an indenter and the finger exert on each other: pressure (positive when pressing), shear (positive "
+    "towards +theta) and the slope d u_r / d theta [m/rad] of the surface, against the angle from the "
+    "indenter's normal.\n"
+    "Where they touch, u_r = -approach + x^2 / 2 r_b + height(x), x = r_b theta: the paper's convention, in "
+    "which "
+    "a flat indenter's slope is r_b theta. How far the answer, recomputed from its tractions, is from that "
+    "is "
+    "the residual, told on stderr.";
+
+struct ContactCommand {
+  explicit ContactCommand(CLI::App& command) : common(command), contact(command) {
+    command.add_flag("--summary", summary, "Loads, width, depth, offset and residual only, as one row");
+    auto& list =
+        *command
+             .add_option("--at-deg", at_deg,
+                         "Angles to look at, from the indenter's normal [degrees], separated by commas")
+             ->type_name("a,b")
+             ->delimiter(',')
+             ->check(realFrom(-180, 180));
+    command.add_option("--points", points, "Or: so many, evenly over twice the contact's width (400)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1'000'000))
+        ->excludes(&list);
+    command.add_option("--method", method, "spectral, or paper: windowed Fourier series, pseudo-inverse")
+        ->check(CLI::IsMember({"spectral", "paper"}));
+    ofPaper = {
+        command.add_option("--harmonics", paper.harmonics, "Of --method paper: last harmonic n_c (300)")
+            ->check(CLI::Range(2, 5000)),
+        command
+            .add_option("--cutoff", paper.cutoff,
+                        "Of --method paper: singular values from there on, relative (0.1)")
+            ->check(realFrom(0, 1)),
+        command
+            .add_option("--rows", rows,
+                        "Of --method paper: printed, the paper's even points, or gauss: the continuum")
+            ->check(CLI::IsMember({"printed", "gauss"})),
+        command
+            .add_option("--window", window,
+                        "Of --method paper: last coefficient of the window, half of n_c as printed, or full")
+            ->check(CLI::IsMember({"half", "full"}))};
+  }
+  contact::PaperOptions paperOptions() const {
+    contact::PaperOptions options = paper;
+    options.rows = rows == "gauss" ? contact::SlopeRows::kGauss : contact::SlopeRows::kPrinted;
+    options.window = window == "full" ? contact::WindowCut::kFull : contact::WindowCut::kHalf;
+    return options;
+  }
+  CommonOptions common;
+  ContactOptions contact;
+  bool summary = false;
+  std::vector<double> at_deg;
+  int points = 400;
+  std::string method = "spectral";
+  contact::PaperOptions paper;
+  std::string rows = "printed";
+  std::string window = "half";
+  std::vector<CLI::Option*> ofPaper;
+};
+
+/// In the middle of `points` equal parts of twice the contact.
+std::vector<double> anglesOf(const ContactCommand& options, double offset_rad, double width_rad) {
+  std::vector<double> angles_rad;
+  for (const double angle_deg : options.at_deg) angles_rad.push_back(angle_deg * kRadPerDeg);
+  for (int i = 0; i < options.points && options.at_deg.empty(); ++i)
+    angles_rad.push_back(offset_rad + width_rad * (2 * (i + 0.5) / options.points - 1));
+  return angles_rad;
+}
+
+void printSummary(const ContactCommand& options, const contact::Contact& contact) {
+  TableWriter table(
+      stdout, options.common.format(),
+      {"normal_n_per_m", "tangential_n_per_m", "width_m", "depth_m", "offset_deg", "residual_m"});
+  table.row({contact.normal_n_per_m, contact.tangential_n_per_m, contact.width_m, contact.depth_m,
+             contact.offset_rad / kRadPerDeg, contact.residual_m});
+}
+
+void printTractions(const ContactCommand& options, const contact::SurfaceKernel& kernel,
+                    const contact::Contact& contact) {
+  const contact::SurfaceMotion motion(kernel, contact.tractions);
+  TableWriter table(stdout, options.common.format(), {"angle_deg", "pressure_pa", "shear_pa", "slope"});
+  const double width_rad = contact.width_m / kernel.annulus().outer_radius_m;
+  for (const double angle_rad : anglesOf(options, contact.offset_rad, width_rad)) {
+    const contact::Traction traction = contact::tractionAt(contact.tractions, angle_rad);
+    table.row(
+        {angle_rad / kRadPerDeg, traction.pressure_pa, traction.shear_pa, motion.at(angle_rad).urSlope_m});
+  }
+}
+
+void printPaper(const ContactCommand& options, const model::Annulus<double>& annulus, double width_m,
+                const contact::PaperContact& found) {
+  if (options.summary) {
+    contact::Contact summary;
+    summary.normal_n_per_m = found.normal_n_per_m;
+    summary.width_m = width_m;
+    summary.depth_m = found.depth_m;
+    summary.residual_m = found.residual_m;
+    return printSummary(options, summary);
+  }
+  TableWriter table(stdout, options.common.format(), {"angle_deg", "pressure_pa", "shear_pa", "slope"});
+  for (const double angle_rad : anglesOf(options, 0, width_m / annulus.outer_radius_m)) {
+    const contact::Traction traction = contact::tractionAt(found.tractions, angle_rad);
+    table.row({angle_rad / kRadPerDeg, traction.pressure_pa, traction.shear_pa,
+               contact::surfaceAt(annulus, found.tractions, angle_rad).urSlope_m});
+  }
+}
+
+/// Against the spectral answer, centred as the paper's is.
+void tellErrors(const model::Annulus<double>& annulus, contact::ContactRequest request,
+                const contact::PaperContact& found) {
+  request.centre_rad = 0;
+  const contact::Contact exact = contact::solveContact(contact::SurfaceKernel(annulus), request);
+  const contact::PaperErrors errors = contact::errorsOf(found, exact);
+  fmt::print(
+      stderr,
+      "contact: against --method spectral, per its peak: pressure off by {:.2g} at worst, by {:.2g} at the "
+      "centre, load by {:+.3g} %; outside the contact {:.2g} at worst, {:.1g} of the pressure's square\n",
+      errors.inside, errors.centre, 100 * errors.load, errors.outside, errors.leakedShare);
+  if (exact.residual_m > 1e-6 * std::abs(exact.depth_m))
+    fmt::print(stderr,
+               "contact: warning: no contact of this indenter is centred on its normal, where --method paper "
+               "holds it; --method spectral moves it to where it fits\n");
+  if (!(found.depth_m > 0 && found.normal_n_per_m > 0))
+    fmt::print(stderr,
+               "contact: warning: depth {:.2g} m, load {:.2g} N/m: what pulls the surface out is no contact; "
+               "raise --cutoff, or take --method spectral\n",
+               found.depth_m, found.normal_n_per_m);
+}
+
+void runPaper(const ContactCommand& options, const model::Annulus<double>& annulus,
+              const contact::ContactRequest& request) {
+  if (request.regime != contact::Regime::kFrictionless || request.centre_rad ||
+      request.size.kind != contact::ContactSize::Kind::kWidth)
+    throw Failure(
+        ExitCode::kUsage,
+        "--method paper knows frictionless contacts of given width, centred on the indenter's normal");
+  const auto found =
+      contact::solveByPaper(annulus, request.indenter, request.size.value, options.paperOptions());
+  fmt::print(stderr,
+             "contact: residual {:.2g} m; {} singular values kept, {} of them with an even pressure\n"
+             "contact: warning: --method paper is inaccurate by its nature; --method spectral is not\n",
+             found.residual_m, found.kept, found.keptEven);
+  tellErrors(annulus, request, found);
+  printPaper(options, annulus, request.size.value, found);
+}
+
+void runContact(const ContactCommand& options) {
+  const config::FingerConfig config = options.common.config();
+  const contact::ContactRequest request = options.contact.request(config);
+  for (const CLI::Option* option : options.ofPaper)
+    if (options.method != "paper" && option->count() > 0)
+      throw Failure(ExitCode::kUsage, option->get_name() + " goes with --method paper");
+  if (options.method == "paper") return runPaper(options, config.finger.annulus(), request);
+  const contact::SurfaceKernel kernel(config.finger.annulus());
+  const contact::Contact contact = contact::solveContact(kernel, request);
+  tellOf(contact);
+  if (options.summary)
+    printSummary(options, contact);
+  else
+    printTractions(options, kernel, contact);
+}
+
+}  // namespace
+
+void addContact(CLI::App& app) { addCommand<ContactCommand>(app, "contact", kContactHelp, runContact); }
+
+}  // namespace strainfinger::cli

@@ -1,0 +1,130 @@
+#include "host/cli/contact_options.hpp"
+
+#include <fmt/format.h>
+
+#include <sstream>
+
+#include "host/base/angles.hpp"
+#include "host/base/failure.hpp"
+#include "host/base/number_rows.hpp"
+#include "host/base/read_file.hpp"
+#include "host/cli/model_options.hpp"
+
+namespace strainfinger::cli {
+namespace {
+
+using contact::Indenter;
+
+/// The number after "kind:", within its domain.
+double parameterOf(const std::string& text, const std::string& kind, double least, double most) {
+  double value = 0;
+  const std::string number = text.substr(kind.size() + 1);
+  if (CLI::detail::lexical_cast(number, value) && value > least && value < most) return value;
+  throw Failure(ExitCode::kUsage, fmt::format("--indenter: {}: {} is not a number between {} and {}", kind,
+                                              number, least, most));
+}
+
+std::string textOf(const std::string& path) {
+  try {
+    return readFile(path, ExitCode::kUsage);
+  } catch (const Failure& failure) {
+    throw Failure(
+        failure.code(),
+        fmt::format("--indenter: \"{}\" is neither flat, cylinder:RADIUS_M, wedge:HALF_ANGLE_DEG nor a file "
+                    "that can be read ({})",
+                    path, failure.what()));
+  }
+}
+
+/// All that is wrong with a shape is a wrong request: exit status 2.
+Indenter readShape(const std::string& path) {
+  std::istringstream text(textOf(path));
+  std::string where;
+  try {
+    NumberRowReader reader(text, path, 2);
+    std::vector<double> position_m, height_m;
+    for (std::vector<double> row; reader.next(row);) {
+      position_m.push_back(row[0]);
+      height_m.push_back(row[1]);
+    }
+    where = path + ": ";  // the reader's messages have the place themselves
+    return Indenter::measured(position_m, height_m);
+  } catch (const Failure& failure) {
+    throw Failure(ExitCode::kUsage, where + failure.what());
+  }
+}
+
+contact::Regime regimeOf(const std::string& name) {
+  if (name == "sliding") return contact::Regime::kSliding;
+  return name == "stick" ? contact::Regime::kStick : contact::Regime::kFrictionless;
+}
+
+void require(bool is, const char* what) {
+  if (!is) throw Failure(ExitCode::kUsage, what);
+}
+
+}  // namespace
+
+Indenter parseIndenter(const std::string& text) {
+  constexpr double kMostRadius_m = 1e6;
+  if (text == "flat") return Indenter::flat();
+  if (text.starts_with("cylinder:"))
+    return Indenter::cylinder(parameterOf(text, "cylinder", 0, kMostRadius_m));
+  if (text.starts_with("wedge:")) return Indenter::wedge(parameterOf(text, "wedge", 0, 90));
+  return readShape(text);
+}
+
+void tellOf(const contact::Contact& contact) {
+  fmt::print(stderr, "contact: residual {:.2g} m, recomputed from the tractions; {} terms a patch\n",
+             contact.residual_m, contact.terms);
+  for (const std::string& warning : contact.warnings) fmt::print(stderr, "contact: warning: {}\n", warning);
+}
+
+ContactOptions::ContactOptions(CLI::App& command) {
+  command
+      .add_option(
+          "--indenter", indenter,
+          "flat, cylinder:RADIUS_M, wedge:HALF_ANGLE_DEG (between its axis and a face), or a CSV file "
+          "of x_m,height_m: the arc along the finger and the indenter's height above its tangent plane, "
+          "positive away from the finger")
+      ->required();
+  hasWidth = command.add_option("--width-m", width_m, "Width of the contact, an arc on the surface [m]");
+  hasLoad = command.add_option("--load-n-per-m", load_n_per_m, "Or: normal load [N/m]");
+  hasFriction =
+      command.add_option("--friction", friction,
+                         "Coefficient of friction when sliding, negative towards -theta; without it the "
+                         "config's");
+  command
+      .add_option("--regime", regime,
+                  "What happens sidewards; frictionless without it, sliding if --friction is given. Stick is "
+                  "ill-posed below nu = 1/2: a warning tells how open its load is, above 10 % it is refused")
+      ->check(CLI::IsMember({"frictionless", "sliding", "stick"}));
+  hasTangential = command.add_option("--tangential-n-per-m", tangential_n_per_m,
+                                     "Load sidewards of what sticks [N/m], to +theta; 0 without it");
+  hasCentre = command.add_option("--centre-deg", centre_deg,
+                                 "Holds the contact's centre there, from the indenter's normal [degrees]");
+  for (CLI::Option* option : {hasWidth, hasLoad, hasFriction, hasTangential, hasCentre})
+    option->type_name("NUMBER")->check(realFrom(-1e12, 1e12));
+  hasWidth->excludes(hasLoad);
+}
+
+contact::ContactRequest ContactOptions::request(const config::FingerConfig& config) const {
+  using contact::ContactSize;
+  require(hasWidth->count() + hasLoad->count() == 1,
+          "give the contact's size: --width-m W or --load-n-per-m P");
+  require(hasTangential->count() == 0 || regime == "stick", "--tangential-n-per-m goes with --regime stick");
+  require(hasFriction->count() == 0 || regime.empty() || regime == "sliding",
+          "--friction goes with --regime sliding");
+  contact::ContactRequest request;
+  request.indenter = parseIndenter(indenter);
+  request.regime = regimeOf(regime.empty() && hasFriction->count() ? "sliding" : regime);
+  if (request.regime == contact::Regime::kSliding)
+    request.friction = hasFriction->count() ? friction : config.contact.friction_coefficient;
+  request.tangential_n_per_m = tangential_n_per_m;
+  request.size = hasWidth->count() ? ContactSize{ContactSize::Kind::kWidth, width_m}
+                                   : ContactSize{ContactSize::Kind::kLoad, load_n_per_m};
+  if (hasCentre->count()) request.centre_rad = centre_deg * kRadPerDeg;
+  return request;
+}
+
+}  // namespace strainfinger::cli

@@ -1,0 +1,72 @@
+#include <array>
+#include <vector>
+
+#include "host/base/angles.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/contact_options.hpp"
+#include "host/cli/model_options.hpp"
+#include "host/contact/contact_field.hpp"
+
+namespace strainfinger::cli {
+namespace {
+
+constexpr const char* kFieldHelp =
+    "Strains, displacements and stresses in the rubber under an indenter, on a polar grid: even radii from "
+    "the "
+    "core to the surface, even angles from the indenter's normal. The load of a line or of a uniform "
+    "pressure is "
+    "for `strain`.";
+
+struct FieldOptions {
+  explicit FieldOptions(CLI::App& command) : common(command), contact(command) {
+    const auto count = CLI::Range(2, 10'000);
+    command.add_option("--radii", radii, "Number of radii, core and surface included (20)")->check(count);
+    command.add_option("--angles", angles, "Number of angles (81)")->check(count);
+    const auto angle = realFrom(-180, 180);
+    command.add_option("--from-deg", from_deg, "First angle [degrees] (-20)")->check(angle);
+    command.add_option("--to-deg", to_deg, "Last angle [degrees] (20)")->check(angle);
+  }
+  CommonOptions common;
+  ContactOptions contact;
+  int radii = 20;
+  int angles = 81;
+  double from_deg = -20;
+  double to_deg = 20;
+};
+
+std::vector<double> evenly(double from, double to, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) values.push_back(from + (to - from) * i / (count - 1));
+  values.back() = to;
+  return values;
+}
+
+void runField(const FieldOptions& options) {
+  using namespace model;
+  const config::FingerConfig config = options.common.config();
+  const contact::SurfaceKernel kernel(config.finger.annulus());
+  const contact::Contact contact = contact::solveContact(kernel, options.contact.request(config));
+  tellOf(contact);
+  constexpr std::array kRows{kErr, kEtt, kErt, kUr, kUt, kTrr, kTrt, kTtt};
+  const std::vector<double> angles_rad =
+      evenly(options.from_deg * kRadPerDeg, options.to_deg * kRadPerDeg, options.angles);
+  TableWriter table(
+      stdout, options.common.format(),
+      {"radius_m", "angle_deg", "err", "ett", "ert", "ur_m", "ut_m", "trr_pa", "trt_pa", "ttt_pa"});
+  for (const double radius_m :
+       evenly(config.finger.core_radius_m, config.finger.outer_radius_m, options.radii)) {
+    const auto field = contact::computeContactField(kernel, contact.tractions, radius_m, angles_rad, kRows);
+    for (std::size_t k = 0; k < angles_rad.size(); ++k) {
+      std::vector<Cell> cells{radius_m, angles_rad[k] / kRadPerDeg};
+      for (const double value : field.row(static_cast<Eigen::Index>(k))) cells.emplace_back(value);
+      table.row(cells);
+    }
+  }
+}
+
+}  // namespace
+
+void addField(CLI::App& app) { addCommand<FieldOptions>(app, "field", kFieldHelp, runField); }
+
+}  // namespace strainfinger::cli

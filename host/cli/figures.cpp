@@ -1,0 +1,115 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "host/base/atomic_file.hpp"
+#include "host/base/failure.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/commands.hpp"
+#include "host/paper/figure.hpp"
+#include "host/system/stop_signal.hpp"
+
+namespace strainfinger::cli {
+namespace {
+
+constexpr const char* kFiguresHelp =
+    "The figures of Nicolson & Fearing (1993), each as figure-N.svg and figure-N.png (needs gnuplot) with "
+    "its data "
+    "(figure-N-*.csv) and the script that draws them again (figure-N.gp).\n"
+    "On stdout, and in claims.csv: what the paper says about them, what was computed for the paper's finger, "
+    "and "
+    "whether that bears the paper out. With --config the figures are those of another finger.";
+
+struct FiguresOptions {
+  explicit FiguresOptions(CLI::App& command) : common(command) {
+    std::vector<int> numbers;
+    for (const paper::Figure& figure : paper::figures()) numbers.push_back(figure.number);
+    command.add_option("-o,--output", folder, "Folder for the files; made if it isn't there")
+        ->required()
+        ->type_name("DIR");
+    command.add_option("--only", only, "Only these figures, separated by commas")
+        ->type_name("N,N")
+        ->delimiter(',')
+        ->check(CLI::IsMember(numbers));
+  }
+
+  bool wants(const paper::Figure& figure) const {
+    return only.empty() || std::ranges::find(only, figure.number) != only.end();
+  }
+
+  CommonOptions common;
+  std::string folder;
+  std::vector<int> only;
+};
+
+void makeFolder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw Failure(ExitCode::kFailure, fmt::format("cannot make the folder {}: {}", folder, error.message()));
+}
+
+void writeClaims(std::FILE* stream, TableFormat format, const std::vector<paper::Claim>& claims) {
+  TableWriter table(stream, format, {"claim", "paper", "computed", "verdict"});
+  for (const paper::Claim& claim : claims)
+    table.row({claim.name, claim.paper, claim.computed, std::string(nameOf(claim.verdict))});
+}
+
+std::string claimsText(const std::vector<paper::Claim>& claims) {
+  char* text = nullptr;
+  std::size_t size = 0;
+  std::FILE* stream = ::open_memstream(&text, &size);
+  if (stream == nullptr) throw Failure(ExitCode::kFailure, "out of memory");
+  writeClaims(stream, TableFormat::kCsv, claims);
+  std::fclose(stream);
+  const std::unique_ptr<char, decltype(&std::free)> owner(text, &std::free);
+  return {text, size};
+}
+
+void drawFigure(const paper::Figure& figure, const paper::Subject& subject, const std::string& folder) {
+  const plot::Picture picture = figure.picture(subject);
+  for (const char* ending : {".svg", ".png"})
+    draw(picture, fmt::format("{}/figure-{}{}", folder, figure.number, ending));
+}
+
+/// Runs `work`; a failure of it after a signal, which ends gnuplot too, is an interruption.
+template <typename Work>
+void doInterruptibly(const system::StopSignal& stop, int figure, Work work) {
+  try {
+    work();
+  } catch (const Failure&) {
+    if (!stop.asked()) throw;
+  }
+  if (stop.asked())
+    throw Failure(ExitCode::kInterrupted, fmt::format("figures: interrupted at figure {}", figure));
+}
+
+void runFigures(const FiguresOptions& options) {
+  const paper::Subject subject(options.common.config());
+  makeFolder(options.folder);
+  const system::StopSignal stop;
+  std::vector<paper::Claim> claims;
+  for (const paper::Figure& figure : paper::figures()) {
+    if (!options.wants(figure)) continue;
+    fmt::print(stderr, "figure {}: {}\n", figure.number, figure.title);
+    doInterruptibly(stop, figure.number, [&] {
+      drawFigure(figure, subject, options.folder);
+      for (paper::Claim& claim : figure.claims()) claims.push_back(std::move(claim));
+    });
+  }
+  writeFileAtomically(options.folder + "/claims.csv", claimsText(claims));
+  writeClaims(stdout, options.common.format(), claims);
+}
+
+}  // namespace
+
+void addFigures(CLI::App& app) { addCommand<FiguresOptions>(app, "figures", kFiguresHelp, runFigures); }
+
+}  // namespace strainfinger::cli

@@ -1,0 +1,195 @@
+#include "host/shape/shape.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "host/base/angles.hpp"
+#include "host/base/no_value.hpp"
+#include "host/base/number_rows.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/model_options.hpp"
+
+namespace strainfinger::cli {
+namespace {
+
+constexpr const char* kShapeHelp =
+    "What pressed on the finger, from rows of gauge strains on stdin: as much as they tell, and no more.\n"
+    "stdin: CSV, one strain a gauge in a row, a row a touch; a header row, blank lines and # comments are "
+    "passed over.\n"
+    "stdout: one row a touch; what isn't known is empty. width_m: of the semi-ellipse with the load's second "
+    "moment, if no line load fits (3 sigma); width_limit_m: the width is below it with 95 %. "
+    "curvature_per_m: "
+    "of a round indenter that makes this width under this load, 0: flat; curvature_low_per_m and "
+    "curvature_high_per_m: its band of 95 %, no upper end where empty. directions: of the pressure, above "
+    "the noise. class: round, uniform, wedge or punch, if it fits better than the others by 9 in chi "
+    "squared. "
+    "unresolved: which of width, class and odd-part the strains don't tell. warnings: ambiguous (another "
+    "touch, at rival_angle_deg, fits about as well: bands of 95 % hold it, and no class is named), sparse "
+    "(the "
+    "gauges' pitch is twice their depth and more: no width, and answers may be farther off than the sigmas "
+    "say), misfit (residuals are not noise: "
+    "two "
+    "touches, a bad gauge, another noise), wide (wider than 1 rad, or narrower than a line).\n"
+    "With --pressure: the resolved part of the pressure with its band of 95 %, and the ellipse fitted.";
+
+constexpr double kTwoSided95 = 1.959963984540054;  // of a normal distribution, in sigmas
+struct ShapeOptions {
+  explicit ShapeOptions(CLI::App& command) : common(command) {
+    hasNoise = command
+                   .add_option("--noise-strain", noise_strain,
+                               "Standard deviation of a reading; the config's without it")
+                   ->type_name("S")
+                   ->check(realFrom(1e-12, 0.1));
+    auto* const withPressure =
+        command.add_flag("--pressure", pressure, "The pressure against the angle in place of the summary");
+    command.add_option("--points", points, "Angles that --pressure prints a touch (41)")
+        ->needs(withPressure)
+        ->type_name("N")
+        ->check(CLI::Range(2, 100'000));
+  }
+  config::FingerConfig config() const {
+    config::FingerConfig config = common.config();
+    if (hasNoise->count() > 0) config.gauges.noise_strain = noise_strain;
+    return config;
+  }
+  CommonOptions common;
+  CLI::Option* hasNoise;
+  double noise_strain = 0;
+  bool pressure = false;
+  int points = 41;
+};
+
+double degrees(double angle_rad) {
+  const double angle_deg = std::remainder(angle_rad / kRadPerDeg, 360);
+  return angle_deg < 0 ? angle_deg + 360 : angle_deg;
+}
+
+std::string unresolved(const shape::Shape& shape) {
+  std::vector<std::string> words;
+  if (!shape.width_m) words.emplace_back("width");
+  if (!shape.profile) words.emplace_back("class");
+  if (!shape.isOddResolved) words.emplace_back("odd-part");
+  return fmt::format("{}", fmt::join(words, " "));
+}
+
+std::string warnings(const shape::Shape& shape) {
+  std::vector<std::string> words;
+  if (shape.rivalAngle_rad) words.emplace_back("ambiguous");
+  if (shape.isSparse) words.emplace_back("sparse");
+  if (shape.fitProbability < shape::kUnlikely) words.emplace_back("misfit");
+  if (shape.isWidthAtLimit) words.emplace_back("wide");
+  return fmt::format("{}", fmt::join(words, " "));
+}
+
+std::vector<Cell> cellsOf(const shape::Shape& shape) {
+  const shape::Measured unknown{kNoValue, kNoValue};
+  const shape::Measured width = shape.width_m.value_or(unknown);
+  const shape::Measured curvature = shape.curvature_per_m.value_or(unknown);
+  const shape::Band band = shape.curvatureBand_per_m.value_or(shape::Band{kNoValue, kNoValue});
+  return {std::int64_t{1},
+          degrees(shape.angle_rad.value),
+          shape.normal_n_per_m.value,
+          shape.tangential_n_per_m.value,
+          width.value,
+          curvature.value,
+          shape.angle_rad.sigma / kRadPerDeg,
+          shape.normal_n_per_m.sigma,
+          shape.tangential_n_per_m.sigma,
+          width.sigma,
+          curvature.sigma,
+          shape.widthLimit_m,
+          std::int64_t{shape.directions},
+          std::string(shape.profile ? nameOf(*shape.profile) : ""),
+          unresolved(shape),
+          shape.fitProbability,
+          shape.rivalAngle_rad ? degrees(*shape.rivalAngle_rad) : kNoValue,
+          warnings(shape),
+          band.low,
+          std::isfinite(band.high) ? band.high : kNoValue};
+}
+
+std::vector<Cell> noTouch() {
+  std::vector<Cell> cells(20, kNoValue);
+  cells[0] = std::int64_t{0};
+  for (const std::size_t text : {13U, 14U, 17U}) cells[text] = std::string();
+  return cells;
+}
+
+/// Calls print(sample, strains), samples from 1.
+template <typename Print>
+void forEachRow(int gauges, Print print) {
+  NumberRowReader rows(std::cin, "stdin", static_cast<std::size_t>(gauges),
+                       {1, "a strain is an extension over a length, not in per cent or millionths"});
+  std::int64_t sample = 0;
+  for (std::vector<double> row; rows.next(row);) {
+    const Eigen::VectorXd strains = Eigen::Map<Eigen::VectorXd>(row.data(), gauges);
+    print(++sample, strains);
+  }
+}
+
+void printShapes(const ShapeOptions& options, const shape::ShapeEstimator& estimator) {
+  TableWriter table(stdout, options.common.format(),
+                    {"contact",
+                     "angle_deg",
+                     "normal_n_per_m",
+                     "tangential_n_per_m",
+                     "width_m",
+                     "curvature_per_m",
+                     "sigma_angle_deg",
+                     "sigma_normal_n_per_m",
+                     "sigma_tangential_n_per_m",
+                     "sigma_width_m",
+                     "sigma_curvature_per_m",
+                     "width_limit_m",
+                     "directions",
+                     "class",
+                     "unresolved",
+                     "fit_probability",
+                     "rival_angle_deg",
+                     "warnings",
+                     "curvature_low_per_m",
+                     "curvature_high_per_m"});
+  forEachRow(estimator.model().gauges(), [&](std::int64_t, const Eigen::VectorXd& strains) {
+    const auto shape = estimator.estimate(strains);
+    table.row(shape ? cellsOf(*shape) : noTouch());
+  });
+}
+
+void printPressures(const ShapeOptions& options, const shape::ShapeEstimator& estimator) {
+  TableWriter table(stdout, options.common.format(),
+                    {"sample", "angle_deg", "pressure_pa", "low_pa", "high_pa", "ellipse_pa"});
+  forEachRow(estimator.model().gauges(), [&](std::int64_t sample, const Eigen::VectorXd& strains) {
+    const auto shape = estimator.estimate(strains);
+    if (!shape) return;
+    const double half_rad = estimator.pressedHalf_rad(*shape);
+    const auto offsets_rad = Eigen::VectorXd::LinSpaced(options.points, -half_rad, half_rad);
+    const auto pressure = estimator.pressure(*shape, strains, offsets_rad);
+    const double mean_pa = shape->normal_n_per_m.value / estimator.model().outerRadius_m();
+    for (Eigen::Index i = 0; i < offsets_rad.size(); ++i) {
+      const double band_pa = kTwoSided95 * pressure.sigma_pa[i], value_pa = pressure.pressure_pa[i];
+      const double ellipse_pa =
+          mean_pa * density(shape::Profile::kEllipse, shape::momentOfWidth(2 * half_rad), offsets_rad[i]);
+      table.row({sample, degrees(shape->angle_rad.value + offsets_rad[i]), value_pa, value_pa - band_pa,
+                 value_pa + band_pa, ellipse_pa});
+    }
+  });
+}
+
+void runShape(const ShapeOptions& options) {
+  const shape::ShapeEstimator estimator(options.config());
+  if (options.pressure)
+    printPressures(options, estimator);
+  else
+    printShapes(options, estimator);
+}
+
+}  // namespace
+
+void addShape(CLI::App& app) { addCommand<ShapeOptions>(app, "shape", kShapeHelp, runShape); }
+
+}  // namespace strainfinger::cli

@@ -1,0 +1,160 @@
+#include "host/contact/edge_search.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "host/base/failure.hpp"
+
+namespace strainfinger::contact {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kMostSteps = 40;
+constexpr double kDifference = 1e-6;  // of a half width
+constexpr double kSmallStep = 2e-13;  // of a half width
+constexpr double kFits = 1e-9;        // misfit that an answer may have
+constexpr double kVanished = 1e-8;    // half width of a patch, of the whole contact's width
+constexpr double kSlow = 0.3;         // of the misfit is left: Broyden's updates don't do
+constexpr int kMostHalvings = 6;
+
+double worstOf(const VectorXd& values) { return values.cwiseAbs().maxCoeff(); }
+
+}  // namespace
+
+/// Unknowns are changes in half widths of the guess: of the centre, and of the logarithm of the half width.
+struct EdgeSearch::State {
+  VectorXd unknowns;
+  EdgeResult result;
+  VectorXd misfits;
+};
+
+EdgeSearch::EdgeSearch(const SurfaceKernel& kernel, const SpectralSolver& solver,
+                       const ContactRequest& request)
+    : kernel_(kernel), solver_(solver), request_(request) {}
+
+bool EdgeSearch::movesCentre(std::size_t patches) const {
+  if (patches > 1) return true;
+  const bool isSymmetric = request_.indenter.isSymmetric() &&
+                           (request_.regime == Regime::kFrictionless ||
+                            (request_.regime == Regime::kSliding && request_.friction == 0) ||
+                            (request_.regime == Regime::kStick && request_.tangential_n_per_m == 0));
+  return !request_.centre_rad && !isSymmetric;
+}
+
+bool EdgeSearch::changesWidth(std::size_t patches) const {
+  return patches > 1 || request_.size.kind == ContactSize::Kind::kLoad;
+}
+
+std::vector<Patch> EdgeSearch::patchesOf(const VectorXd& unknowns, const std::vector<Patch>& guess) const {
+  std::vector<Patch> patches = guess;
+  Index next = 0;
+  for (Patch& patch : patches) {
+    if (movesCentre(guess.size())) patch.centre_rad += patch.half_rad * unknowns[next++];
+    if (changesWidth(guess.size())) patch.half_rad *= std::exp(unknowns[next++]);
+  }
+  return patches;
+}
+
+VectorXd EdgeSearch::misfits(const std::vector<Patch>& patches, const PatchSolution& solution) const {
+  const double radius_m = kernel_.annulus().outer_radius_m;
+  const double width_rad = patches.back().last_rad() - patches.front().first_rad();
+  const double unit_m = radius_m * width_rad * width_rad / 4;
+  std::vector<double> misfits;
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    const auto index = static_cast<Index>(k);
+    if (movesCentre(patches.size())) misfits.push_back(solution.tilt_m[index] / unit_m);
+    if (k > 0) misfits.push_back((solution.lift_m[index] - solution.lift_m[0]) / unit_m);
+  }
+  if (changesWidth(patches.size())) {
+    const double size = request_.size.kind == ContactSize::Kind::kWidth
+                            ? radius_m * width_rad
+                            : radius_m * totalTraction(solution.tractions).pressure_pa;
+    misfits.push_back(std::log(size / request_.size.value));
+  }
+  return Eigen::Map<VectorXd>(misfits.data(), static_cast<Index>(misfits.size()));
+}
+
+void EdgeSearch::requireWithin(const std::vector<Patch>& patches) const {
+  const double radius_m = kernel_.annulus().outer_radius_m;
+  const double first_rad = patches.front().first_rad(), last_rad = patches.back().last_rad();
+  if (!(last_rad - first_rad <= kWidestContact_rad))
+    throw Failure(ExitCode::kFailure, "no contact found: the load needs one wider than half the surface");
+  if (!(radius_m * first_rad >= request_.indenter.firstPosition_m() &&
+        radius_m * last_rad <= request_.indenter.lastPosition_m()))
+    throw Failure(
+        ExitCode::kFailure,
+        fmt::format("the contact, {:.6g} to {:.6g} m, reaches beyond the measured shape, {} to {} m: "
+                    "measure more of it, or press less",
+                    radius_m * first_rad, radius_m * last_rad, request_.indenter.firstPosition_m(),
+                    request_.indenter.lastPosition_m()));
+}
+
+/// Whether patches are in order, and none has all but vanished.
+bool EdgeSearch::areApart(const std::vector<Patch>& patches) const {
+  const double width_rad = patches.back().last_rad() - patches.front().first_rad();
+  for (std::size_t k = 0; k < patches.size(); ++k)
+    if (patches[k].half_rad < kVanished * width_rad ||
+        (k > 0 && !(patches[k].first_rad() > patches[k - 1].last_rad())))
+      return false;
+  return true;
+}
+
+EdgeSearch::State EdgeSearch::evaluate(const VectorXd& unknowns, const std::vector<Patch>& guess) const {
+  State state{unknowns, {patchesOf(unknowns, guess), {}, {}}, {}};
+  requireWithin(state.result.patches);
+  state.result.solution = solver_.solve(state.result.patches, request_.indenter, request_.tangential_n_per_m);
+  state.misfits = misfits(state.result.patches, state.result.solution);
+  return state;
+}
+
+MatrixXd EdgeSearch::differences(const State& state, const std::vector<Patch>& guess) const {
+  const Index count = state.unknowns.size();
+  MatrixXd jacobian(count, count);
+  for (Index i = 0; i < count; ++i) {
+    VectorXd moved = state.unknowns;
+    moved[i] -= kDifference;  // inwards: the widest contact stays within its domain
+    jacobian.col(i) = (state.misfits - evaluate(moved, guess).misfits) / kDifference;
+  }
+  return jacobian;
+}
+
+EdgeResult EdgeSearch::run(const std::vector<Patch>& guess) const {
+  const auto count =
+      static_cast<Index>(guess.size()) * (movesCentre(guess.size()) + changesWidth(guess.size()));
+  State state = evaluate(VectorXd::Zero(count), guess);
+  if (count == 0) return state.result;
+  // One unknown, the width, and the load given: the load of a parabola grows with its square, of a wedge
+  // less.
+  MatrixXd jacobian = count == 1 && changesWidth(guess.size()) ? MatrixXd(MatrixXd::Constant(1, 1, 2))
+                                                               : differences(state, guess);
+  for (int step = 0; step < kMostSteps; ++step) {
+    VectorXd move = -jacobian.partialPivLu().solve(state.misfits);
+    move *= std::min(1.0, 0.5 / worstOf(move));
+    for (int half = 0; half < kMostHalvings && !areApart(patchesOf(state.unknowns + move, guess)); ++half)
+      move /= 2;
+    if (!areApart(patchesOf(state.unknowns + move, guess))) {
+      state.result.outcome = EdgeResult::Outcome::kCollide;
+      return state.result;
+    }
+    State next = evaluate(state.unknowns + move, guess);
+    const double misfit = worstOf(state.misfits), left = worstOf(next.misfits);
+    if (count > 2 && left > kSlow * misfit && left > kFits)
+      jacobian = differences(next, guess);
+    else
+      jacobian += (next.misfits - state.misfits - jacobian * move) * move.transpose() / move.squaredNorm();
+    state = std::move(next);
+    if (left < kSmallStep || worstOf(move) < kSmallStep ||
+        (left < kFits && misfit < kFits && left > misfit / 2))
+      break;
+  }
+  if (!(worstOf(state.misfits) < kFits)) state.result.outcome = EdgeResult::Outcome::kLost;
+  return state.result;
+}
+
+}  // namespace strainfinger::contact

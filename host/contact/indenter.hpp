@@ -1,0 +1,54 @@
+#pragma once
+// What presses on the finger.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace strainfinger::contact {
+
+/// The profile of a rigid indenter: its height above its tangent plane at x = 0, positive away from the
+/// finger, as a function of the arc x = r_b theta on the surface; where it touches,
+///     u_r = -depth + x^2 / (2 r_b) + height(x)
+/// (the paper's convention: a flat indenter's slope is r_b theta; another one, as r_b (1/cos theta - 1),
+/// gives loads that differ by 0.4 % at a width of 2 mm and 3.5 % at 6 mm). A value; copies share a measured
+/// shape.
+class Indenter {
+ public:
+  static Indenter flat();
+  /// Domain: radius_m > 0; the axis is parallel to the finger's.
+  static Indenter cylinder(double radius_m);
+  /// A blade with its edge on the finger; half_angle_deg is between its axis and each face. Domain: above 0,
+  /// below 90.
+  static Indenter wedge(double half_angle_deg);
+  /// Through measured points by a cubic spline (not-a-knot), so that a measured parabola is that parabola.
+  /// Throws Failure(kUsage) unless there are four points or more with rising positions.
+  static Indenter measured(std::vector<double> position_m, std::vector<double> height_m);
+
+  double height(double x_m) const;
+  double slope(double x_m) const;  ///< d height / dx; at the edge of a wedge: 0
+
+  bool isSymmetric() const { return spline_ == nullptr; }
+  bool isMeasured() const { return spline_ != nullptr; }
+  /// d height / dx just after x = 0 for a wedge, whose slope jumps by twice that; 0 for the others.
+  double edgeSlope() const { return edgeSlope_; }
+  /// Where the profile is known: all of it, or from the first to the last measured point.
+  double firstPosition_m() const;
+  double lastPosition_m() const;
+  /// Of the measured points; none of the others.
+  std::vector<double> positions_m() const { return spline_ ? spline_->position_m : std::vector<double>{}; }
+
+ private:
+  struct Spline {
+    std::vector<double> position_m, height_m, slope;
+  };
+  Indenter(double curvature_per_m, double edgeSlope)
+      : curvature_per_m_(curvature_per_m), edgeSlope_(edgeSlope) {}
+  std::size_t interval(double x_m) const;
+
+  double curvature_per_m_;
+  double edgeSlope_;
+  std::shared_ptr<const Spline> spline_;
+};
+
+}  // namespace strainfinger::contact

@@ -1,0 +1,179 @@
+#include "host/contact/region_search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/base/failure.hpp"
+#include "host/contact/contact_check.hpp"
+#include "host/contact/overlap.hpp"
+
+namespace strainfinger::contact {
+namespace {
+
+constexpr int kTerms = 64;
+constexpr int kMostTermsTogether = 160;
+constexpr double kConvergedRegions = 1e-7;  // of the last coefficients
+constexpr int kMostRounds = 10;
+constexpr int kMostLost = 2;
+constexpr std::size_t kMostRegions = 16;
+constexpr double kPenetration_m = 1e-12;
+constexpr double kPull = 1e-9;       // of the largest pressure
+constexpr double kVanishing = 1e-7;  // half width of a region, of the whole contact's width
+
+void requireFew(const std::vector<Patch>& patches, double radius_m) {
+  if (patches.size() > kMostRegions)
+    throw Failure(
+        ExitCode::kFailure,
+        fmt::format("the measured shape touches in more than {} regions between {:.4g} and {:.4g} m: if that "
+                    "is noise of the measurement, smooth the profile",
+                    kMostRegions, radius_m * patches.front().first_rad(),
+                    radius_m * patches.back().last_rad()));
+}
+
+/// What is left of a patch where its pressure pushes.
+void appendPushing(const PatchTractions& part, double largest_pa, std::vector<Patch>& patches) {
+  const Eigen::Index count = 4 * part.smooth.coefficients.size();
+  const Eigen::ArrayXd x =
+      -Eigen::ArrayXd::LinSpaced(count, 0.5, static_cast<double>(count) - 0.5).unaryExpr([&](double i) {
+        return std::cos(std::numbers::pi * i / static_cast<double>(count));
+      });
+  const Eigen::ArrayXd pressures = part.pressure_pa({1 + x, 1 - x});
+  if (pressures.minCoeff() >= -kPull * largest_pa) return patches.push_back(part.patch);
+  double first = -1;
+  const auto end = [&](double last) {
+    const Patch& patch = part.patch;
+    if (last > first)
+      patches.push_back(
+          {patch.centre_rad + patch.half_rad * (first + last) / 2, patch.half_rad * (last - first) / 2});
+  };
+  for (Eigen::Index i = 0; i < count; ++i) {
+    if (pressures[i] > 0) continue;
+    if (i > 0 && pressures[i - 1] > 0) end((x[i - 1] + x[i]) / 2);
+    first = i + 1 < count ? (x[i] + x[i + 1]) / 2 : 1;
+  }
+  if (pressures[count - 1] > 0) end(1);
+}
+
+double largestPressure(const Tractions& tractions) {
+  double largest_pa = 0;
+  const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(65, -1, 1);
+  for (const PatchTractions& part : tractions)
+    largest_pa = std::max(largest_pa, part.pressure_pa({1 + x, 1 - x}).maxCoeff());
+  return largest_pa;
+}
+
+bool areSame(const std::vector<Patch>& some, const std::vector<Patch>& others) {
+  return std::ranges::equal(some, others, {}, &Patch::half_rad, &Patch::half_rad);
+}
+
+/// What penetrates by more than it may and more than the surface is off within the regions.
+std::vector<Overlap> overlapsOf(const SurfaceKernel& kernel, const ContactRequest& request,
+                                const EdgeResult& found) {
+  const double approach_m = -found.solution.lift_m[0];
+  const double tolerance_m =
+      kPenetration_m + 2 * residual(kernel, request.indenter, found.solution.tractions, approach_m);
+  return findOverlaps(kernel, request.indenter, found.solution.tractions, approach_m, tolerance_m);
+}
+
+/// The regions that should be: the same ones if all is well.
+std::vector<Patch> improved(const SurfaceKernel& kernel, const ContactRequest& request,
+                            const EdgeResult& found) {
+  const Tractions& tractions = found.solution.tractions;
+  const double largest_pa = largestPressure(tractions);
+  std::vector<Patch> patches;
+  for (const PatchTractions& part : tractions)
+    if (part.smooth.integral() > 0) appendPushing(part, largest_pa, patches);
+  if (!areSame(patches, found.patches)) return patches;
+  for (const Overlap& overlap : overlapsOf(kernel, request, found)) {
+    const bool isBeside = overlap.deepest_rad < found.patches.front().first_rad() ||
+                          overlap.deepest_rad > found.patches.back().last_rad();
+    if (isBeside && request.size.kind == ContactSize::Kind::kWidth)
+      throw Failure(
+          ExitCode::kFailure,
+          fmt::format("no load makes a contact {} m wide: the shape touches at {:.6g} m too then, and its "
+                      "width jumps; give --load-n-per-m",
+                      request.size.value, kernel.annulus().outer_radius_m * overlap.deepest_rad));
+    patches.push_back({overlap.run.centre_rad, overlap.run.half_rad / 2});
+  }
+  std::ranges::sort(patches, {}, &Patch::centre_rad);
+  return patches;
+}
+
+/// Without the region that all but vanished, or else with the two that are closest as one.
+std::vector<Patch> reduced(std::vector<Patch> patches) {
+  const auto smallest = std::ranges::min_element(patches, {}, &Patch::half_rad);
+  if (smallest->half_rad < kVanishing * (patches.back().last_rad() - patches.front().first_rad())) {
+    patches.erase(smallest);
+    return patches;
+  }
+  std::size_t closest = 1;
+  const auto distance = [&](std::size_t k) { return patches[k].first_rad() - patches[k - 1].last_rad(); };
+  for (std::size_t k = 2; k < patches.size(); ++k)
+    if (distance(k) < distance(closest)) closest = k;
+  const double first_rad = patches[closest - 1].first_rad(), last_rad = patches[closest].last_rad();
+  patches[closest - 1] = {(first_rad + last_rad) / 2, (last_rad - first_rad) / 2};
+  patches.erase(patches.begin() + static_cast<std::ptrdiff_t>(closest));
+  return patches;
+}
+
+[[noreturn]] void throwUnsettled(const std::vector<Patch>& patches, const ContactRequest& request,
+                                 double radius_m) {
+  const Patch& narrowest = *std::ranges::min_element(patches, {}, &Patch::half_rad);
+  throw Failure(
+      ExitCode::kFailure,
+      fmt::format(
+          "no contact found: regions of the measured shape don't settle, the narrowest about {:.6g} m, "
+          "{:.2g} m wide; if that is noise of the measurement, smooth the profile{}",
+          radius_m * narrowest.centre_rad, 2 * radius_m * narrowest.half_rad,
+          request.size.kind == ContactSize::Kind::kWidth
+              ? "; if not, its width may jump over the one asked for: give --load-n-per-m"
+              : ""));
+}
+
+/// Rounds until the regions stay the same; if they don't, the outcome is not kSettled.
+EdgeResult settleOnce(const SurfaceKernel& kernel, const SpectralSolver& solver,
+                      const ContactRequest& request, std::vector<Patch> patches) {
+  using Outcome = EdgeResult::Outcome;
+  const EdgeSearch search(kernel, solver, request);
+  EdgeResult found{patches, {}, Outcome::kLost};
+  for (int round = 0, lost = 0; round < kMostRounds && !patches.empty() && lost < kMostLost; ++round) {
+    if (patches.size() > 1 && solver.terms() > kTerms) break;
+    requireFew(patches, kernel.annulus().outer_radius_m);
+    found = search.run(patches);
+    if (found.outcome == Outcome::kSettled) {
+      patches = improved(kernel, request, found);
+      if (areSame(patches, found.patches)) return found;
+    } else if (found.outcome == Outcome::kCollide) {
+      patches = reduced(found.patches);
+    } else {
+      if (patches.size() == 1) break;
+      patches.erase(
+          std::ranges::min_element(patches, {}, &Patch::half_rad));  // comes again if it has to touch
+      ++lost;
+    }
+  }
+  found.outcome = Outcome::kLost;
+  return found;
+}
+
+}  // namespace
+
+EdgeResult settleRegions(const SurfaceKernel& kernel, const ContactRequest& request,
+                         const std::vector<Patch>& patches, int& terms) {
+  EdgeResult found;
+  for (const int more : {kTerms, kMostTermsTogether}) {
+    terms = more;
+    const SpectralSolver solver(kernel, request.regime, request.friction, terms);
+    found = settleOnce(kernel, solver, request, patches);
+    const bool isSettled = found.outcome == EdgeResult::Outcome::kSettled;
+    if (isSettled && (found.patches.size() > 1 || terms == kMostTermsTogether ||
+                      found.solution.tail() < kConvergedRegions))
+      return found;
+  }
+  throwUnsettled(found.patches, request, kernel.annulus().outer_radius_m);
+}
+
+}  // namespace strainfinger::contact

@@ -1,0 +1,130 @@
+#include "host/contact/tractions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/contact/tanh_sinh.hpp"
+
+namespace strainfinger::contact {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+
+PatchPoints pointsAt(const Eigen::VectorXd& x) { return {1 + x.array(), 1 - x.array()}; }
+
+/// Nodes that a Gauss rule needs for a series times cos n (centre + half x).
+int nodesFor(const PatchTractions& part, int harmonics) {
+  const auto degree =
+      static_cast<int>(std::max(part.smooth.coefficients.size(), part.stuck.coefficients.size()));
+  return degree + 24 + static_cast<int>(0.75 * harmonics * part.patch.half_rad);
+}
+
+/// Line tractions of values at nodes; the weight function is in the rule, not in the values.
+void append(std::vector<LineTraction>& lines, const Patch& patch, const Eigen::VectorXd& x,
+            const ArrayXd& pressure, const ArrayXd& shear) {
+  for (Index i = 0; i < x.size(); ++i)
+    lines.push_back(
+        {patch.centre_rad + patch.half_rad * x[i], patch.half_rad * pressure[i], patch.half_rad * shear[i]});
+}
+
+void appendSeries(std::vector<LineTraction>& lines, const Patch& patch, const EdgeSeries& series, int nodes,
+                  Traction share) {
+  if (series.coefficients.size() == 0) return;
+  const QuadratureRule rule = gaussRule(series.exponents, nodes);
+  const ArrayXd loads =
+      (jacobiValues(series.exponents, static_cast<int>(series.coefficients.size()), rule.nodes) *
+       series.coefficients)
+          .array() *
+      rule.weights.array();
+  append(lines, patch, rule.nodes, share.pressure_pa * loads, share.shear_pa * loads);
+}
+
+/// Both sides of the edge.
+void appendEdge(std::vector<LineTraction>& lines, const PatchTractions& part, int harmonics) {
+  if (part.edge.amplitude_pa == 0) return;
+  const TanhSinhRule rule(16 + static_cast<int>(harmonics * part.patch.half_rad / 4));
+  const double x0 = part.edge.position;
+  for (const double end : {-1.0, 1.0}) {
+    const ArrayXd x = x0 + (end - x0) * rule.fromStart;
+    const ArrayXd values = part.edge.at({1 + x, 1 - x});  // infinite where rounding made x x0
+    const ArrayXd loads = std::abs(end - x0) * rule.weights * values.isFinite().select(values, 0);
+    append(lines, part.patch, x.matrix(), loads, part.friction * loads);
+  }
+}
+
+}  // namespace
+
+ArrayXd edgeWeight(EdgeExponents exponents, const PatchPoints& points) {
+  const bool isSymmetric = exponents.right == exponents.left;
+  if (isSymmetric && exponents.right == 0.5) return (points.fromRight * points.fromLeft).sqrt();
+  if (isSymmetric && exponents.right == -0.5) return (points.fromRight * points.fromLeft).rsqrt();
+  return points.fromRight.pow(exponents.right) * points.fromLeft.pow(exponents.left);
+}
+
+ArrayXd EdgeSeries::at(const PatchPoints& points) const {
+  if (coefficients.size() == 0) return ArrayXd::Zero(points.fromLeft.size());
+  const Eigen::VectorXd polynomial =
+      jacobiValues(exponents, static_cast<int>(coefficients.size()), points.x().matrix()) * coefficients;
+  return edgeWeight(exponents, points) * polynomial.array();
+}
+
+double EdgeSeries::integral() const {
+  if (coefficients.size() == 0) return 0;
+  return coefficients[0] / jacobiValues(exponents, 1, Eigen::VectorXd::Zero(1))(0, 0);
+}
+
+ArrayXd EdgePressure::at(const PatchPoints& points) const {
+  if (amplitude_pa == 0) return ArrayXd::Zero(points.fromLeft.size());
+  const ArrayXd offset = points.x() - position;
+  const ArrayXd root = (points.fromLeft * points.fromRight * ((1 - position) * (1 + position))).sqrt();
+  return amplitude_pa * (root / offset.abs()).asinh();
+}
+
+double EdgePressure::integral() const {
+  return amplitude_pa * std::numbers::pi * std::sqrt((1 - position) * (1 + position));
+}
+
+ArrayXd PatchTractions::pressure_pa(const PatchPoints& points) const {
+  return smooth.at(points) + edge.at(points);
+}
+
+ArrayXd PatchTractions::shear_pa(const PatchPoints& points) const {
+  const ArrayXd sliding = friction == 0 ? ArrayXd(ArrayXd::Zero(points.fromLeft.size()))
+                                        : ArrayXd(friction * pressure_pa(points));
+  return sliding + stuck.at(points);
+}
+
+Traction tractionAt(const Tractions& tractions, double angle_rad) {
+  for (const PatchTractions& part : tractions) {
+    const double x = (angle_rad - part.patch.centre_rad) / part.patch.half_rad;
+    if (!(std::abs(x) <= 1)) continue;
+    const PatchPoints point = pointsAt(Eigen::VectorXd::Constant(1, x));
+    return {part.pressure_pa(point)[0], part.shear_pa(point)[0]};
+  }
+  return {};
+}
+
+std::vector<LineTraction> lineTractions(const Tractions& tractions, int harmonics) {
+  std::vector<LineTraction> lines;
+  for (const PatchTractions& part : tractions) {
+    const int nodes = nodesFor(part, harmonics);
+    appendSeries(lines, part.patch, part.smooth, nodes, {1, part.friction});
+    appendSeries(lines, part.patch, part.stuck, nodes, {0, 1});
+    appendEdge(lines, part, harmonics);
+  }
+  return lines;
+}
+
+Traction totalTraction(const Tractions& tractions) {
+  Traction total;
+  for (const PatchTractions& part : tractions) {
+    const double pressure = part.patch.half_rad * (part.smooth.integral() + part.edge.integral());
+    total.pressure_pa += pressure;
+    total.shear_pa += part.friction * pressure + part.patch.half_rad * part.stuck.integral();
+  }
+  return total;
+}
+
+}  // namespace strainfinger::contact

@@ -1,0 +1,34 @@
+#include <array>
+
+#include "host/paper/figure.hpp"
+#include "host/paper/figure_makers.hpp"
+
+namespace strainfinger::paper {
+
+namespace {
+
+std::vector<Claim> noClaims() { return {}; }
+
+}  // namespace
+
+const char* nameOf(Verdict verdict) {
+  constexpr std::array kNames{"borne out", "in part", "not borne out"};
+  return kNames[static_cast<std::size_t>(verdict)];
+}
+
+std::span<const Figure> figures() {
+  static constexpr std::array kFigures{
+      Figure{2, "Displacements under a knife edge at 45 degrees", knifeEdgePicture, knifeEdgeClaims},
+      Figure{3, "Frequency responses of the strains", frequencyPicture, frequencyClaims},
+      Figure{4, "Impulse responses of the normal strain", impulsePicture, impulseClaims},
+      Figure{5, "Cut-off frequencies against alpha", cutOffPicture, cutOffClaims},
+      Figure{6, "Displacements under a flat frictionless indenter", flatDisplacementPicture, noClaims},
+      Figure{7, "Surface stress under a flat frictionless indenter", flatStressPicture, flatStressClaims},
+      Figure{8, "Singular values", singularValuePicture, singularValueClaims},
+      Figure{9, "Singular values that matter against the contact's width", countPicture, countClaims},
+      Figure{10, "Basis functions", basisPicture, basisClaims},
+  };
+  return kFigures;
+}
+
+}  // namespace strainfinger::paper

@@ -1,0 +1,130 @@
+// Fig. 3: strain coefficients against their index, finger and half plane.
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "host/paper/figure_makers.hpp"
+#include "host/paper/spectrum.hpp"
+#include "host/plot/style.hpp"
+
+namespace strainfinger::paper {
+namespace {
+
+using model::kNormal;
+using model::kTangential;
+
+constexpr int kClaimedLast = 20;
+
+constexpr const char* kFrequencyPanels = R"(
+set multiplot layout 1,2 margins 0.07,0.985,0.13,0.88 spacing 0.08
+set xlabel 'harmonic n (cycles per revolution)'; set xrange [0:last]; set yrange [-0.55:1.1]
+set ylabel 'coefficient / largest of the panel'
+set arrow 1 from 0,0.1 to last,0.1 nohead linecolor rgb faint dashtype 3
+set arrow 2 from 0,-0.1 to last,-0.1 nohead linecolor rgb faint dashtype 3
+panel(c) = c == 2 ? 'e_{rr}' : 'e_{rθ}'
+do for [c in '2 6'] {
+  set label 1 panel(c + 0) at graph 0,1.05 left font ',14'
+  cylinder = c == 2 ? cylinderRadial : cylinderShear; plane = c == 2 ? planeRadial : planeShear
+  plot 0 with lines linecolor rgb faint notitle, \
+       data('coefficients') using 1:(column(c + 0) / cylinder) every ::1 with linespoints pointtype 7 pointsize 0.5 \
+         linewidth 1.4 linecolor rgb blue title 'normal load', \
+       '' using 1:(column(c + 1) / cylinder) every ::1 with linespoints pointtype 7 pointsize 0.5 \
+         linewidth 1.4 linecolor rgb vermilion title 'tangential', \
+       '' using 1:(column(c + 6) / plane) every ::1 with lines dashtype 2 linewidth 1.4 linecolor rgb blue title 'half plane', \
+       '' using 1:(column(c + 7) / plane) every ::1 with lines dashtype 2 linewidth 1.4 linecolor rgb vermilion title 'half plane'
+}
+unset multiplot
+)";
+
+double largest(const Spectra& spectra, StrainComponent component) {
+  const CutOffs found = cutOffs(spectra, component);
+  return std::max(found.normal.maximum, found.tangential.maximum);
+}
+
+std::vector<std::string> columnNames() {
+  std::vector<std::string> names{"n"};
+  for (const char* model : {"cylinder", "half_plane"})
+    for (const char* component : {"err", "ett", "ert"})
+      for (const char* load : {"p", "q"})
+        names.push_back(fmt::format("{}_{}_{}_per_pa", model, component, load));
+  return names;
+}
+
+/// Largest of the shares of their maxima that the responses of both components still have at a harmonic.
+double largestShare(const Spectra& spectra, int n, StrainComponent component) {
+  double share = 0;
+  for (const auto load : {kNormal, kTangential}) {
+    const auto values = spectra.col(column(component, load));
+    share = std::max(share, std::abs(values[n]) / values.cwiseAbs().maxCoeff());
+  }
+  return share;
+}
+
+std::string list(const CutOffs& found) {
+  return fmt::format("{} ({:.2f}) from a normal and {} ({:.2f}) from a tangential load", found.normal.last,
+                     found.normal.interpolated, found.tangential.last, found.tangential.interpolated);
+}
+
+Claim lastHarmonics(const Spectra& spectra) {
+  const CutOffs radial = cutOffs(spectra, StrainComponent::kRadial),
+                shear = cutOffs(spectra, StrainComponent::kShear);
+  const double left = std::max(largestShare(spectra, kClaimedLast, StrainComponent::kRadial),
+                               largestShare(spectra, kClaimedLast, StrainComponent::kShear));
+  const int last =
+      std::max({radial.normal.last, radial.tangential.last, shear.normal.last, shear.tangential.last});
+  const Verdict verdict = last < kClaimedLast    ? Verdict::kBorneOut
+                          : last == kClaimedLast ? Verdict::kInPart
+                                                 : Verdict::kNotBorneOut;
+  return {
+      "cut-off", "e_rr and e_rt drop below 10 % of their maximum by the 20th coefficient (sec. 3, fig. 3)",
+      fmt::format(
+          "last harmonic (interpolated) at 10 % or more: e_rr {}; e_rt {}; largest share left at the 20th: "
+          "{:.1f} %",
+          list(radial), list(shear), 100 * left),
+      verdict};
+}
+
+Claim comparedLoads(const Spectra& spectra) {
+  const double radial = 1 / cutOffs(spectra, StrainComponent::kRadial).ratio();
+  const double shear = cutOffs(spectra, StrainComponent::kShear).ratio();
+  const bool isTwo = std::max(radial, 1 / radial) <= 2, isThree = std::lround(shear) == 3;
+  return {
+      "loads-compared",
+      "normal and tangential loads act on e_rr within a factor of 2; on e_rt the tangential load is 3 times "
+      "as "
+      "strong (sec. 3, fig. 3)",
+      fmt::format("largest coefficients: e_rr normal / tangential {:.2f}; e_rt tangential / normal {:.2f}",
+                  radial, shear),
+      isTwo && isThree   ? Verdict::kBorneOut
+      : isTwo || isThree ? Verdict::kInPart
+                         : Verdict::kNotBorneOut};
+}
+
+}  // namespace
+
+plot::Picture frequencyPicture(const Subject& subject) {
+  const Spectra cylinder = cylinderSpectra(subject.annulus, subject.gaugeRadius_m);
+  const Spectra plane = halfPlaneSpectra(subject.annulus, subject.gaugeRadius_m);
+  const CutOffs shown = cutOffs(cylinder, StrainComponent::kRadial);
+  plot::DataFile data{"coefficients", columnNames(), {}};
+  for (Eigen::Index n = 0; n < std::min(cylinder.rows(), plane.rows()); ++n) {
+    data.rows.push_back({static_cast<double>(n)});
+    for (const Spectra* spectra : {&cylinder, &plane})
+      for (const double value : spectra->row(n)) data.rows.back().push_back(value);
+  }
+  const std::string numbers =
+      fmt::format("last = {}; cylinderRadial = {}; cylinderShear = {}; planeRadial = {}; planeShear = {}\n",
+                  2 * std::max(shown.normal.last, shown.tangential.last),
+                  largest(cylinder, StrainComponent::kRadial), largest(cylinder, StrainComponent::kShear),
+                  largest(plane, StrainComponent::kRadial), largest(plane, StrainComponent::kShear));
+  return {1300, 560, plot::kStyle + numbers + kFrequencyPanels, {std::move(data)}};
+}
+
+std::vector<Claim> frequencyClaims() {
+  const Subject paper = paperSubject();
+  const Spectra spectra = cylinderSpectra(paper.annulus, paper.gaugeRadius_m);
+  return {lastHarmonics(spectra), comparedLoads(spectra)};
+}
+
+}  // namespace strainfinger::paper

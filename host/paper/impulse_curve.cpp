@@ -1,0 +1,67 @@
+#include "host/paper/impulse_curve.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "host/model/impulse_response.hpp"
+#include "host/paper/crossing.hpp"
+#include "host/paper/spectrum.hpp"
+
+namespace strainfinger::paper {
+namespace {
+
+constexpr double kStep_rad = 2e-3;
+
+/// Largest magnitude near `angle`, by the parabola through three points; its error is of fourth order.
+double refinedPeakAngle(const std::function<double(double)>& strain, double angle_rad) {
+  double step = kStep_rad;
+  for (int i = 0; i < 3; ++i, step /= 8) {
+    const double before = strain(angle_rad - step), at = strain(angle_rad), after = strain(angle_rad + step);
+    const double curvature = before - 2 * at + after;
+    if (curvature != 0) angle_rad += step / 2 * (before - after) / curvature;
+  }
+  return angle_rad;
+}
+
+}  // namespace
+
+ImpulseCurve::ImpulseCurve(std::function<double(double)> strain) : strain_(std::move(strain)) {
+  double best = 0;
+  for (double angle = 0; angle <= std::numbers::pi; angle += kStep_rad) {
+    const double size = std::abs(strain_(angle));
+    if (size > peak_) {
+      peak_ = size;
+      best = angle;
+    }
+  }
+  peakAngle_ = best == 0 ? 0 : refinedPeakAngle(strain_, best);
+  peak_ = std::abs(strain_(peakAngle_));
+}
+
+ImpulseCurve ImpulseCurve::ofCylinder(const model::Annulus<double>& annulus, double radius_m,
+                                      StrainComponent component, model::Traction load) {
+  return ImpulseCurve([response = model::ImpulseResponse(annulus, radius_m, component), load](double angle) {
+    const auto value = response.at(angle);
+    return load == model::kNormal ? value.normal : value.tangential;
+  });
+}
+
+ImpulseCurve ImpulseCurve::ofHalfPlane(const model::Annulus<double>& annulus, double radius_m,
+                                       StrainComponent component, model::Traction load) {
+  return ImpulseCurve([plane = halfPlaneOf(annulus, radius_m), r_b = annulus.outer_radius_m,
+                       row = static_cast<int>(component),
+                       load](double angle) { return plane.atArc(r_b * angle)(row, load); });
+}
+
+double ImpulseCurve::zeroAngle_rad() const {
+  return firstCrossing(strain_, 1e-9, std::numbers::pi, kStep_rad);
+}
+
+double partingAngle_rad(const ImpulseCurve& one, const ImpulseCurve& other, double share) {
+  const auto excess = [&](double angle) {
+    return std::abs(one.relative(angle) - other.relative(angle)) - share;
+  };
+  return firstCrossing(excess, 0, std::numbers::pi, kStep_rad);
+}
+
+}  // namespace strainfinger::paper

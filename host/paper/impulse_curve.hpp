@@ -1,0 +1,40 @@
+#pragma once
+// One strain against the angle to the line load that makes it: the paper's impulse responses, of finger and
+// half plane alike, and where they part.
+
+#include <functional>
+
+#include "common/quantities.hpp"
+#include "host/model/harmonic.hpp"
+
+namespace strainfinger::paper {
+
+/// Strain per N/m, pressing or towards +theta, at an angle [rad] from the load; even or odd in it. For the
+/// half plane the angle is that of the arc on the finger's surface, x = r_b theta. (With x = r_s theta its
+/// curves would leave the finger's from 0.02 rad on already, not from the 0.4 rad of the paper.)
+class ImpulseCurve {
+ public:
+  /// Domain and errors as model::ImpulseResponse.
+  static ImpulseCurve ofCylinder(const model::Annulus<double>& annulus, double radius_m,
+                                 StrainComponent component, model::Traction load);
+  static ImpulseCurve ofHalfPlane(const model::Annulus<double>& annulus, double radius_m,
+                                  StrainComponent component, model::Traction load);
+
+  double at(double angle_rad) const { return strain_(angle_rad); }
+  double relative(double angle_rad) const { return strain_(angle_rad) / peak_; }
+
+  double peak() const { return peak_; }                ///< largest magnitude
+  double peakAngle_rad() const { return peakAngle_; }  ///< >= 0
+  double zeroAngle_rad() const;                        ///< of the first change of sign beyond 0; NaN without
+
+ private:
+  explicit ImpulseCurve(std::function<double(double)> strain);
+  std::function<double(double)> strain_;
+  double peak_ = 0, peakAngle_ = 0;
+};
+
+/// First angle >= 0 at which two curves, each over its own peak, differ by `share` of the peak; NaN without
+/// one.
+double partingAngle_rad(const ImpulseCurve& one, const ImpulseCurve& other, double share);
+
+}  // namespace strainfinger::paper

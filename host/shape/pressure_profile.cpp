@@ -1,0 +1,144 @@
+#include "host/shape/pressure_profile.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace strainfinger::shape {
+namespace {
+
+constexpr std::array kProfiles{Profile::kEllipse, Profile::kUniform, Profile::kWedge, Profile::kPunch};
+
+/// (h^2 / moment) of each.
+constexpr double squareOverMoment(Profile profile) {
+  switch (profile) {
+    case Profile::kEllipse:
+      return 4;
+    case Profile::kUniform:
+      return 3;
+    case Profile::kWedge:
+      return 6;
+    case Profile::kPunch:
+      break;
+  }
+  return 2;
+}
+
+/// The power series of the factor in -x^2 / 4, x = n h: coefficient k over coefficient k - 1. From J_m's
+/// series, sin x / x and the integral of J_0.
+double coefficientRatio(Profile profile, int k) {
+  switch (profile) {
+    case Profile::kEllipse:
+      return 1.0 / (k * (k + 1.0));
+    case Profile::kUniform:
+      return 4.0 / (2 * k * (2 * k + 1.0));
+    case Profile::kWedge:
+      return (2 * k - 1.0) / (1.0 * k * k * (2 * k + 1));
+    case Profile::kPunch:
+      break;
+  }
+  return 1.0 / (1.0 * k * k);
+}
+
+/// Value and derivative to x^2 by the series: without cancellation for x^2 < 0, little for x^2 <= 4.
+SpreadFactor bySeries(Profile profile, double square) {
+  SpreadFactor factor{1, 0};
+  double term = 1;
+  for (int k = 1; k < 200; ++k) {
+    const double slopeTerm = term * coefficientRatio(profile, k) * -k / 4;
+    term *= coefficientRatio(profile, k) * -square / 4;
+    factor.value += term;
+    factor.slope += slopeTerm;
+    if (std::abs(slopeTerm) <= 1e-17 * std::abs(factor.slope)) break;
+  }
+  return factor;
+}
+
+/// (1/x) int_0^x J_0 = (2/x) sum J_(2k+1)(x), by Miller's recurrence downwards, 1 = J_0 + 2 sum J_2k.
+double meanOfBessel(double x) {
+  const int last = 2 * (static_cast<int>(x) / 2 + 25);
+  double above = 0, here = 1e-300, even = 0, odd = 0;
+  for (int m = last; m > 0; --m) {
+    (m % 2 == 0 ? even : odd) += here;
+    const double below = 2 * m / x * here - above;
+    above = here;
+    here = below;
+  }
+  return 2 * odd / (x * (here + 2 * even));
+}
+
+/// Value and derivative to x.
+SpreadFactor inClosedForm(Profile profile, double x) {
+  switch (profile) {
+    case Profile::kEllipse: {
+      const double first = 2 * ::j1(x) / x;
+      return {first, 2 * (::j0(x) - first) / x};
+    }
+    case Profile::kUniform: {
+      const double sinc = std::sin(x) / x;
+      return {sinc, (std::cos(x) - sinc) / x};
+    }
+    case Profile::kWedge: {
+      const double mean = meanOfBessel(x);
+      return {mean, (::j0(x) - mean) / x};
+    }
+    case Profile::kPunch:
+      break;
+  }
+  return {::j0(x), -::j1(x)};
+}
+
+}  // namespace
+
+std::span<const Profile> allProfiles() { return kProfiles; }
+
+const char* nameOf(Profile profile) {
+  switch (profile) {
+    case Profile::kEllipse:
+      return "round";
+    case Profile::kUniform:
+      return "uniform";
+    case Profile::kWedge:
+      return "wedge";
+    case Profile::kPunch:
+      break;
+  }
+  return "punch";
+}
+
+double halfWidth_rad(Profile profile, double moment_rad2) {
+  return std::sqrt(squareOverMoment(profile) * moment_rad2);
+}
+
+double equivalentWidth_rad(double moment_rad2) { return 4 * std::sqrt(std::max(0.0, moment_rad2)); }
+
+SpreadFactor spreadFactor(Profile profile, int n, double moment_rad2) {
+  const double perMoment = squareOverMoment(profile) * n * n, square = perMoment * moment_rad2;
+  if (square <= 4) {
+    const SpreadFactor factor = bySeries(profile, square);
+    return {factor.value, factor.slope * perMoment};
+  }
+  const double x = std::sqrt(square);
+  const SpreadFactor factor = inClosedForm(profile, x);
+  return {factor.value, factor.slope * perMoment / (2 * x)};
+}
+
+double density(Profile profile, double moment_rad2, double offset_rad) {
+  const double half_rad = halfWidth_rad(profile, moment_rad2), t = std::abs(offset_rad) / half_rad;
+  if (t > 1) return 0;
+  const double root = std::sqrt((1 - t) * (1 + t));
+  switch (profile) {
+    case Profile::kEllipse:
+      return 2 * root / (std::numbers::pi * half_rad);
+    case Profile::kUniform:
+      return 1 / (2 * half_rad);
+    case Profile::kWedge:
+      return std::acosh(1 / t) / (std::numbers::pi * half_rad);
+    case Profile::kPunch:
+      break;
+  }
+  return 1 / (std::numbers::pi * half_rad * root);
+}
+
+}  // namespace strainfinger::shape

@@ -1,0 +1,102 @@
+#include "host/shape/shape.hpp"
+
+#include <algorithm>
+#include <boost/math/special_functions/gamma.hpp>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace strainfinger::shape {
+namespace {
+
+constexpr double kOneSided95 = 1.6448536269514722;  // of a normal distribution, in sigmas
+constexpr double kTwoSided95 = 1.959963984540054;
+constexpr int kFitted = 4;
+constexpr int kMomentPlace = 3;
+
+Measured measured(const TouchFit& fit, double value, int member) {
+  return {value, std::sqrt(fit.covariance(member, member))};
+}
+
+/// The errors of 1 / (curvature + 1 / r_b), about the moment over the load, are normal; those of its inverse
+/// are not.
+Band bandOf(const Measured& curvature_per_m, double radius_m) {
+  const double both_per_m = curvature_per_m.value + 1 / radius_m;
+  const double share = kTwoSided95 * curvature_per_m.sigma / both_per_m;
+  const double most = share < 1 ? both_per_m / (1 - share) : std::numeric_limits<double>::infinity();
+  return {both_per_m / (1 + share) - 1 / radius_m, most - 1 / radius_m};
+}
+
+}  // namespace
+
+ShapeEstimator::ShapeEstimator(const config::FingerConfig& config)
+    : noise_(config.gauges.noise_strain),
+      model_(config.finger, config.gauges),
+      search_(model_, config.contact.friction_coefficient),
+      curvature_(config.finger.annulus()) {}
+
+double ShapeEstimator::probability(double chiSquared) const {
+  return boost::math::gamma_q((model_.gauges() - kFitted) / 2.0, chiSquared / 2);
+}
+
+/// Width and curvature by the first derivatives of what they are made of.
+void ShapeEstimator::addWidth(const TouchFit& fit, Shape& shape) const {
+  const double moment = fit.touch.moment_rad2, sigma = std::sqrt(fit.covariance(kMomentPlace, kMomentPlace));
+  const double most = std::max(0.0, moment) + kOneSided95 * sigma, radius_m = model_.outerRadius_m();
+  shape.widthLimit_m = radius_m * equivalentWidth_rad(std::min(most, TouchModel::kMostMoment_rad2));
+  shape.isWidthAtLimit = fit.isAtLimit;
+  shape.isSparse = model_.pitchInDepths() > kSparse;
+  if (shape.isSparse || !(moment * moment > kSure * sigma * sigma) || moment < 0) return;
+  const double width_rad = equivalentWidth_rad(moment), logSlope = 1 / (2 * moment);
+  shape.width_m = {radius_m * width_rad, radius_m * width_rad * logSlope * sigma};
+  const auto curvature = curvature_.of(fit.touch.normal_n_per_m, width_rad);
+  const Eigen::Vector4d slopes{0, curvature.toLogLoad_per_m / fit.touch.normal_n_per_m, 0,
+                               curvature.toLogWidth_per_m * logSlope};
+  shape.curvature_per_m = {curvature.value_per_m, std::sqrt(slopes.dot(fit.covariance * slopes))};
+  shape.curvatureBand_per_m = bandOf(*shape.curvature_per_m, radius_m);
+}
+
+/// All profiles from the ellipse's place: the best one's probability, and its name if it is alone.
+void ShapeEstimator::addClass(const TouchFit& fit, const Eigen::VectorXd& strains, Shape& shape) const {
+  std::vector<std::pair<double, Profile>> fits;
+  for (const Profile profile : allProfiles())
+    fits.emplace_back(refine(model_, profile, strains, noise_, fit.touch).chiSquared, profile);
+  std::ranges::sort(fits);
+  shape.fitProbability = probability(fits[0].first);
+  const bool isAlone = fits[1].first >= fits[0].first + kSure;
+  if (isAlone && shape.fitProbability >= kUnlikely) shape.profile = fits[0].second;
+}
+
+std::optional<Shape> ShapeEstimator::estimate(const Eigen::VectorXd& strains) const {
+  const auto found = search_.search(strains, noise_);
+  if (!found) return std::nullopt;
+  const TouchFit& fit = found->best;
+  Shape shape;
+  shape.touch = fit.touch;
+  shape.angle_rad = measured(fit, fit.touch.angle_rad, 0);
+  shape.normal_n_per_m = measured(fit, fit.touch.normal_n_per_m, 1);
+  shape.tangential_n_per_m = measured(fit, fit.touch.tangential_n_per_m, 2);
+  shape.fitProbability = probability(fit.chiSquared);
+  addWidth(fit, shape);
+  if (shape.width_m && !found->rivalAngle_rad) addClass(fit, strains, shape);
+  shape.rivalAngle_rad = found->rivalAngle_rad;
+  const ResolvedPressure resolved = resolution(shape);
+  shape.directions = resolved.directions();
+  shape.isOddResolved = resolved.isOddResolved();
+  return shape;
+}
+
+double ShapeEstimator::pressedHalf_rad(const Shape& shape) const {
+  return (shape.width_m ? shape.width_m->value : shape.widthLimit_m) / model_.outerRadius_m() / 2;
+}
+
+ResolvedPressure ShapeEstimator::resolution(const Shape& shape) const {
+  return {model_, shape.touch, pressedHalf_rad(shape), noise_};
+}
+
+PressureEstimate ShapeEstimator::pressure(const Shape& shape, const Eigen::VectorXd& strains,
+                                          const Eigen::VectorXd& offsets_rad) const {
+  return resolution(shape).estimate(strains, offsets_rad);
+}
+
+}  // namespace strainfinger::shape

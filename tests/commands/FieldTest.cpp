@@ -1,0 +1,41 @@
+#include <cmath>
+#include <string>
+
+#include "tests/commands/program.hpp"
+#include "tests/commands/tables.hpp"
+
+// last: its macros redefine new
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+
+TEST_GROUP(FieldCommand){};
+
+TEST(FieldCommand, PrintsAPolarGrid) {
+  const Run run =
+      runProgram("field --indenter flat --width-m 2e-3 --radii 3 --angles 5 --from-deg -4 --to-deg 4");
+  LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS("radius_m,angle_deg,err,ett,ert,ur_m,ut_m,trr_pa,trt_pa,ttt_pa\n", run.out.c_str());
+  const auto rows = tableOf(run.out);
+  LONGS_EQUAL(15, rows.size());
+  DOUBLES_EQUAL(8.9e-3, rows[0][0], 0);
+  DOUBLES_EQUAL(0, rows[0][5], 0);  // nothing moves at the core
+  DOUBLES_EQUAL(-2, rows[6][1], 1e-14);
+  DOUBLES_EQUAL(12.7e-3, rows[12][0], 0);
+  DOUBLES_EQUAL(-13686.2526384, rows[12][7], 1e-7);  // below the middle of the contact
+  DOUBLES_EQUAL(-72.0332531e-6, rows[12][5], 1e-13);
+}
+
+TEST(FieldCommand, TellsResidualAndWarnings) {
+  const Run run =
+      runProgram("field --indenter flat --width-m 2e-3 --friction 1 --centre-deg 0 --radii 2 --angles 2");
+  STRCMP_CONTAINS("contact: residual ", run.err.c_str());
+  STRCMP_CONTAINS("contact: warning: ", run.err.c_str());
+}
+
+TEST(FieldCommand, RefusesGridsThatAreNone) {
+  for (const char* grid : {"--radii 1", "--angles 1", "--from-deg 181", "--to-deg nan"}) {
+    const Run run = runProgram(std::string("field --indenter flat --width-m 2e-3 ").append(grid));
+    LONGS_EQUAL(2, run.status);
+  }
+}

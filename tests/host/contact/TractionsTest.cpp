@@ -1,0 +1,82 @@
+#include "host/contact/tractions.hpp"
+
+#include <cmath>
+#include <numbers>
+
+// last: its macros redefine new
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger::contact;
+using std::numbers::pi;
+
+TEST_GROUP(Tractions){
+    /// A semi-ellipse of peak 3 Pa, its shear half of it, and a stuck shear 1 / sqrt(1 - x^2).
+    static Tractions ellipse(){PatchTractions part;
+part.patch = {0.5, 0.2};
+part.smooth = {kSmoothEdges, Eigen::VectorXd::Constant(1, 3 * std::sqrt(pi / 2))};
+part.friction = 0.5;
+part.stuck = {kStuckEdges, Eigen::VectorXd::Constant(1, std::sqrt(pi))};
+return {part};
+}
+
+static Tractions edge() {
+  PatchTractions part;
+  part.patch = {-0.5, 0.1};
+  part.edge = {0.3, 7};
+  part.friction = -1;
+  return {part};
+}
+
+/// Sum of the line tractions times cos n angle.
+static Traction coefficient(const Tractions& tractions, int n) {
+  Traction sum;
+  for (const LineTraction& line : lineTractions(tractions, n)) {
+    sum.pressure_pa += line.pressure_pa_rad * std::cos(n * line.angle_rad);
+    sum.shear_pa += line.shear_pa_rad * std::cos(n * line.angle_rad);
+  }
+  return sum;
+}
+}
+;
+
+TEST(Tractions, AreWhatTheyAreMadeOf) {
+  const Traction centre = tractionAt(ellipse(), 0.5), side = tractionAt(ellipse(), 0.38);  // x = -0.6
+  DOUBLES_EQUAL(3, centre.pressure_pa, 1e-15);
+  DOUBLES_EQUAL(2.5, centre.shear_pa, 1e-15);
+  DOUBLES_EQUAL(2.4, side.pressure_pa, 1e-14);
+  DOUBLES_EQUAL(1.2 + 1.25, side.shear_pa, 1e-14);
+}
+
+TEST(Tractions, AreExactlyZeroOutside) {
+  for (const double angle_rad : {0.2999, 0.7001, -3.0}) {
+    DOUBLES_EQUAL(0, tractionAt(ellipse(), angle_rad).pressure_pa, 0);
+    DOUBLES_EQUAL(0, tractionAt(ellipse(), angle_rad).shear_pa, 0);
+  }
+}
+
+// int sqrt(1 - x^2) cos(k x) dx = pi J_1(k) / k, int cos(k x) / sqrt(1 - x^2) dx = pi J_0(k).
+TEST(Tractions, HaveTheFourierCoefficientsOfLineTractions) {
+  for (const int n : {0, 1, 7, 300}) {
+    const double k = 0.2 * n, turn = 0.2 * std::cos(n * 0.5) * pi;
+    const double root = n == 0 ? 0.5 : std::cyl_bessel_j(1, k) / k;
+    const Traction sum = coefficient(ellipse(), n);
+    DOUBLES_EQUAL(3 * root * turn, sum.pressure_pa, 2e-14);
+    DOUBLES_EQUAL((1.5 * root + std::cyl_bessel_j(0, k)) * turn, sum.shear_pa, 1e-13);
+  }
+}
+
+TEST(Tractions, TotalsAreTheZerothCoefficients) {
+  for (const Tractions& tractions : {ellipse(), edge()}) {
+    DOUBLES_EQUAL(coefficient(tractions, 0).pressure_pa, totalTraction(tractions).pressure_pa, 1e-14);
+    DOUBLES_EQUAL(coefficient(tractions, 0).shear_pa, totalTraction(tractions).shear_pa, 1e-14);
+  }
+}
+
+TEST(Tractions, PressureBelowAnEdgeIsInfiniteAtTheEdgeOnly) {
+  PatchTractions middle = edge()[0];
+  middle.edge.position = 0;
+  CHECK_TRUE(std::isinf(tractionAt({middle}, -0.5).pressure_pa));
+  const double known = 7 * std::acosh((1 + 0.5 * 0.3) / 0.8);  // x = -0.5
+  DOUBLES_EQUAL(known, tractionAt(edge(), -0.55).pressure_pa, 1e-13);
+  DOUBLES_EQUAL(-known, tractionAt(edge(), -0.55).shear_pa, 1e-13);
+}

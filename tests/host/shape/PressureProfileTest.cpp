@@ -1,0 +1,98 @@
+#include "host/shape/pressure_profile.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+// last: its macros redefine new
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger::shape;
+
+namespace {
+
+/// Integral of density * f over x = half sin^3(u): roots at the edges and a logarithm in the middle vanish.
+template <typename Function>
+double integral(Profile profile, double moment, Function f) {
+  constexpr int kSteps = 4000;
+  const double half = halfWidth_rad(profile, moment), step = std::numbers::pi / kSteps;
+  double sum = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double turn = -std::numbers::pi / 2 + (i + 0.5) * step, sine = std::sin(turn);
+    const double x = half * std::pow(sine, 3);
+    sum += density(profile, moment, x) * f(x) * half * 3 * sine * sine * std::cos(turn) * step;
+  }
+  return sum;
+}
+
+double transformed(Profile profile, double moment, int n) {
+  return integral(profile, moment, [n](double x) { return std::cos(n * x); });
+}
+
+}  // namespace
+
+TEST_GROUP(PressureProfile){};
+
+TEST(PressureProfile, DensitiesHaveTheLoadAndTheMomentAskedFor) {
+  for (const Profile profile : allProfiles()) {
+    DOUBLES_EQUAL(1, transformed(profile, 0.02, 0), 1e-6);  // midpoint rule
+    DOUBLES_EQUAL(0.02, integral(profile, 0.02, [](double x) { return x * x; }), 1e-7);
+  }
+}
+
+TEST(PressureProfile, FactorsAreTheDensitiesFourierTransforms) {
+  for (const Profile profile : allProfiles())
+    for (const int n : {0, 1, 7, 13, 60, 140})
+      DOUBLES_EQUAL(transformed(profile, 0.02, n), spreadFactor(profile, n, 0.02).value, 1e-6);
+}
+
+// The closed forms take over from the series where n h = 2.
+TEST(PressureProfile, FactorsAreSmooth) {
+  for (const Profile profile : allProfiles()) {
+    const double h = halfWidth_rad(profile, 1), change = 4 / (h * h);
+    const SpreadFactor below = spreadFactor(profile, 1, change * (1 - 1e-12));
+    const SpreadFactor above = spreadFactor(profile, 1, change * (1 + 1e-12));
+    DOUBLES_EQUAL(below.value, above.value, 1e-11);
+    DOUBLES_EQUAL(below.slope, above.slope, 1e-11);
+  }
+}
+
+TEST(PressureProfile, SlopesAreDerivatives) {
+  for (const Profile profile : allProfiles())
+    for (const double moment : {-1e-3, 0.0, 1e-4, 0.01, 0.05}) {
+      const int n = 11;
+      const double step = 1e-6;
+      const double difference =
+          spreadFactor(profile, n, moment + step).value - spreadFactor(profile, n, moment - step).value;
+      DOUBLES_EQUAL(difference / (2 * step), spreadFactor(profile, n, moment).slope, 1e-4);  // of 60
+    }
+}
+
+// 1 - n^2 moment / 2 + ...: all profiles of one moment are the same to a gauge that is deep enough.
+TEST(PressureProfile, TheMomentIsWhatTheyHaveInCommon) {
+  for (const Profile profile : allProfiles()) {
+    DOUBLES_EQUAL(-0.5 * 9, spreadFactor(profile, 3, 0).slope, 1e-14);
+    DOUBLES_EQUAL(1, spreadFactor(profile, 3, 0).value, 0);
+  }
+}
+
+// I_1(y) 2 / y at y = 2: 1.590636854637329 (Abramowitz & Stegun, table 9.8).
+TEST(PressureProfile, IsContinuedBelowNoWidth) {
+  DOUBLES_EQUAL(1.590636854637329, spreadFactor(Profile::kEllipse, 10, -0.01).value, 1e-14);
+}
+
+TEST(PressureProfile, NothingPressesOutside) {
+  for (const Profile profile : allProfiles())
+    DOUBLES_EQUAL(0, density(profile, 0.01, 1.0001 * halfWidth_rad(profile, 0.01)), 0);
+}
+
+TEST(PressureProfile, EquivalentWidthsAreTheEllipses) {
+  DOUBLES_EQUAL(2 * halfWidth_rad(Profile::kEllipse, 0.01), equivalentWidth_rad(0.01), 1e-15);
+  DOUBLES_EQUAL(0.01, momentOfWidth(equivalentWidth_rad(0.01)), 1e-17);
+  DOUBLES_EQUAL(0, equivalentWidth_rad(-0.01), 0);
+}
+
+TEST(PressureProfile, HasNames) {
+  for (const Profile profile : allProfiles()) CHECK_TRUE(std::strlen(nameOf(profile)) > 3);
+  STRCMP_EQUAL("round", nameOf(Profile::kEllipse));
+}

@@ -3,10 +3,10 @@
 # tests/architecture and checked there.
 
 # strainfinger_compile_together(TARGET) (but for files with the property SKIP_UNITY_BUILD_INCLUSION)
-# The sanitized copy compiles files in batches, in half the time; that every file includes what it needs, the plain copy
-# shows. So the files of a room have names of their own even for what only they use.
+# What compiles everything for tests' sake compiles files in batches, in half the time; that every file includes what it
+# needs, the preset `dev` shows. So the files of a room have names of their own even for what only they use.
 function(strainfinger_compile_together target)
-  if(STRAINFINGER_SANITIZE)
+  if(STRAINFINGER_COMPILE_TOGETHER)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
   endif()
 endfunction()

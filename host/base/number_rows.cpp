@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -26,16 +27,15 @@ bool parseNumber(std::string_view text, double& value) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-bool beginsWithNumber(const std::string& line) {
+/// A row in which nothing is a number, between commas or semicolons.
+bool isAllNames(const std::string& line) {
   double value = 0;
-  return parseNumber(trimmed(std::string_view(line).substr(0, line.find(','))), value);
-}
-
-/// Numbers between semicolons are no header.
-bool hasSemicolonedNumber(const std::string& line) {
-  double value = 0;
-  return line.find(';') != std::string::npos &&
-         parseNumber(trimmed(std::string_view(line).substr(0, line.find(';'))), value);
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find_first_of(",;", begin), line.size());
+    if (parseNumber(trimmed(std::string_view(line).substr(begin, end - begin)), value)) return false;
+    begin = end + 1;
+  }
+  return true;
 }
 
 bool isPassedOver(const std::string& line) {
@@ -52,13 +52,24 @@ bool NumberRowReader::next(std::vector<double>& row) {
   for (std::string line; std::getline(stream_, line);) {
     ++line_;
     if (isPassedOver(line)) continue;
-    const bool isHeader = mayBeHeader_ && !beginsWithNumber(line) && !hasSemicolonedNumber(line);
+    const bool isHeader = mayBeHeader_ && isAllNames(line);
     mayBeHeader_ = false;
-    if (isHeader) continue;
+    if (isHeader) {
+      takeHeader(line);
+      continue;
+    }
     parse(line, row);
     return true;
   }
   return false;
+}
+
+void NumberRowReader::takeHeader(const std::string& line) const {
+  std::string names = line;
+  std::erase_if(names, [](char c) { return kBlanks.find(c) != std::string_view::npos; });
+  const bool isCommas = names.find(';') == std::string::npos;  // or the rows tell of semicolons
+  if (isCommas && !limit_.header.empty() && names != limit_.header)
+    fail(1, fmt::format("the header is \"{}\", not \"{}\"", names, limit_.header));
 }
 
 void NumberRowReader::parse(const std::string& line, std::vector<double>& row) const {

@@ -5,30 +5,35 @@
 #include <istream>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace strainfinger {
 
 /// Reads rows of `columns` finite numbers, separated by commas (blanks around them are allowed). A first row
-/// that doesn't begin with a number is a header; blank lines and lines that begin with # are passed over.
+/// without a number is a header; blank lines and lines that begin with # are passed over.
 class NumberRowReader {
  public:
-  /// What numbers may be: at most `most` in size; `hint` says what a larger one may have been meant to be.
+  /// What may be there: numbers of at most `most` in size (`hint` says what a larger one may have been meant
+  /// to be); as a header, if there is one, just `header` (blanks apart), or any where that is empty.
   struct Limit {
-    double most;
-    std::string hint;
+    double most = std::numeric_limits<double>::max();
+    std::string hint = {};
+    std::string header = {};
   };
 
   /// `name` stands for the stream in messages ("stdin").
-  NumberRowReader(std::istream& stream, std::string name, std::size_t columns,
-                  Limit limit = {std::numeric_limits<double>::max(), ""});
+  NumberRowReader(std::istream& stream, std::string name, std::size_t columns, Limit limit);
+  NumberRowReader(std::istream& stream, std::string name, std::size_t columns)
+      : NumberRowReader(stream, std::move(name), columns, Limit()) {}
 
   /// The next row; false at the end. Throws Failure(kFailure) with name:line:column, what is wrong and what
-  /// would be right, for a field that is no finite number or beyond the limit and for a
-  /// row of another length.
+  /// would be right, for a field that is no finite number or beyond the limit, for a
+  /// row of another length and for another header.
   bool next(std::vector<double>& row);
 
  private:
+  void takeHeader(const std::string& line) const;
   void parse(const std::string& line, std::vector<double>& row) const;
   [[noreturn]] void fail(std::size_t column, const std::string& what) const;
 

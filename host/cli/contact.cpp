@@ -172,7 +172,7 @@ void runContact(const ContactCommand& options) {
   if (options.method == "paper") return runPaper(options, config.finger.annulus(), request);
   const contact::SurfaceKernel kernel(config.finger.annulus());
   const contact::Contact contact = contact::solveContact(kernel, request);
-  tellOf(contact);
+  tellOf(contact, kernel.annulus());
   if (options.summary)
     printSummary(options, contact);
   else

@@ -41,7 +41,7 @@ Indenter readShape(const std::string& path) {
   std::istringstream text(textOf(path));
   std::string where;
   try {
-    NumberRowReader reader(text, path, 2);
+    NumberRowReader reader(text, path, 2, {.header = "x_m,height_m"});
     std::vector<double> position_m, height_m;
     for (std::vector<double> row; reader.next(row);) {
       position_m.push_back(row[0]);
@@ -74,10 +74,17 @@ Indenter parseIndenter(const std::string& text) {
   return readShape(text);
 }
 
-void tellOf(const contact::Contact& contact) {
+void tellOf(const contact::Contact& contact, const model::Annulus<double>& annulus) {
   fmt::print(stderr, "contact: residual {:.2g} m, recomputed from the tractions; {} terms a patch\n",
              contact.residual_m, contact.terms);
   for (const std::string& warning : contact.warnings) fmt::print(stderr, "contact: warning: {}\n", warning);
+  constexpr double kMostLinear = 0.2;  // strains are about the depth over the thickness
+  const double share = contact.depth_m / (annulus.outer_radius_m - annulus.core_radius_m);
+  if (share > kMostLinear)
+    fmt::print(stderr,
+               "contact: warning: {:.2g} of the rubber's thickness deep: strains are large, the model is for "
+               "small ones\n",
+               share);
 }
 
 ContactOptions::ContactOptions(CLI::App& command) {

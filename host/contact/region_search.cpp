@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "host/base/failure.hpp"
@@ -67,6 +68,15 @@ double largestPressure(const Tractions& tractions) {
 
 bool areSame(const std::vector<Patch>& some, const std::vector<Patch>& others) {
   return std::ranges::equal(some, others, {}, &Patch::half_rad, &Patch::half_rad);
+}
+
+/// Edges that come back although what pulled beside them was cut off: a series' ringing, nothing that pulls.
+bool comeBack(const std::vector<Patch>& some, const std::vector<Patch>& others) {
+  constexpr double kAlike = 1e-3;  // of a half width: ringing spans the last hundredth of it
+  return std::ranges::equal(some, others, [](const Patch& one, const Patch& other) {
+    return std::abs(one.first_rad() - other.first_rad()) < kAlike * one.half_rad &&
+           std::abs(one.last_rad() - other.last_rad()) < kAlike * one.half_rad;
+  });
 }
 
 /// What penetrates by more than it may and more than the surface is off within the regions.
@@ -138,7 +148,7 @@ EdgeResult settleOnce(const SurfaceKernel& kernel, const SpectralSolver& solver,
                       const ContactRequest& request, std::vector<Patch> patches) {
   using Outcome = EdgeResult::Outcome;
   const EdgeSearch search(kernel, solver, request);
-  EdgeResult found{patches, {}, Outcome::kLost};
+  EdgeResult found{patches, {}, Outcome::kLost}, before{{}, {}, Outcome::kLost};
   for (int round = 0, lost = 0; round < kMostRounds && !patches.empty() && lost < kMostLost; ++round) {
     if (patches.size() > 1 && solver.terms() > kTerms) break;
     requireFew(patches, kernel.annulus().outer_radius_m);
@@ -146,6 +156,9 @@ EdgeResult settleOnce(const SurfaceKernel& kernel, const SpectralSolver& solver,
     if (found.outcome == Outcome::kSettled) {
       patches = improved(kernel, request, found);
       if (areSame(patches, found.patches)) return found;
+      if (comeBack(before.patches, found.patches) && overlapsOf(kernel, request, before).empty())
+        return before;
+      before = found;
     } else if (found.outcome == Outcome::kCollide) {
       patches = reduced(found.patches);
     } else {
@@ -163,17 +176,25 @@ EdgeResult settleOnce(const SurfaceKernel& kernel, const SpectralSolver& solver,
 
 EdgeResult settleRegions(const SurfaceKernel& kernel, const ContactRequest& request,
                          const std::vector<Patch>& patches, int& terms) {
-  EdgeResult found;
+  EdgeResult best;
+  double least_m = std::numeric_limits<double>::infinity();
   for (const int more : {kTerms, kMostTermsTogether}) {
-    terms = more;
-    const SpectralSolver solver(kernel, request.regime, request.friction, terms);
-    found = settleOnce(kernel, solver, request, patches);
+    const SpectralSolver solver(kernel, request.regime, request.friction, more);
+    EdgeResult found = settleOnce(kernel, solver, request, patches);
     const bool isSettled = found.outcome == EdgeResult::Outcome::kSettled;
-    if (isSettled && (found.patches.size() > 1 || terms == kMostTermsTogether ||
-                      found.solution.tail() < kConvergedRegions))
-      return found;
+    if (!isSettled && std::isfinite(least_m)) break;
+    const double misfit_m =
+        isSettled ? residual(kernel, request.indenter, found.solution.tractions, -found.solution.lift_m[0])
+                  : least_m;
+    if (isSettled && misfit_m > least_m) break;  // a kink rings the more, the more terms
+    best = std::move(found);
+    terms = more;
+    least_m = misfit_m;
+    if (isSettled && (best.patches.size() > 1 || best.solution.tail() < kConvergedRegions)) break;
   }
-  throwUnsettled(found.patches, request, kernel.annulus().outer_radius_m);
+  if (best.outcome != EdgeResult::Outcome::kSettled)
+    throwUnsettled(best.patches, request, kernel.annulus().outer_radius_m);
+  return best;
 }
 
 }  // namespace strainfinger::contact

@@ -43,6 +43,28 @@ TEST(NumberRows, AHeaderBlankLinesAndCommentsArePassedOver) {
   LONGS_EQUAL(2, read("g0,g1\n\n# measured today\n1,2\r\n 3 ,\t4\n").size());
 }
 
+TEST(NumberRows, AFirstRowWithANumberInItIsNoHeader) {
+  STRCMP_EQUAL("stdin:1:1: \"foo\" is no number", complaintAbout("foo,2\n").c_str());
+}
+
+TEST(NumberRows, AnotherHeaderThanTheOneAskedForIsRefused) {
+  const auto firstOf = [](const std::string& text) {
+    std::istringstream stream(text);
+    NumberRowReader reader(stream, "shape.csv", 2, {.header = "x_m,height_m"});
+    std::vector<double> row;
+    return reader.next(row) ? row[1] : -1;
+  };
+  DOUBLES_EQUAL(2, firstOf("x_m, height_m\n1,2\n"), 0);
+  DOUBLES_EQUAL(2, firstOf("1,2\n"), 0);
+  std::string told;
+  try {
+    firstOf("x_mm,height_mm\n1,2\n");
+  } catch (const Failure& failure) {
+    told = failure.what();
+  }
+  STRCMP_EQUAL("shape.csv:1:1: the header is \"x_mm,height_mm\", not \"x_m,height_m\"", told.c_str());
+}
+
 TEST(NumberRows, ALastLineWithoutNewlineCounts) { LONGS_EQUAL(1, read("1,2").size()); }
 
 TEST(NumberRows, NoTextGivesNoRows) { LONGS_EQUAL(0, read("").size()); }

@@ -20,7 +20,7 @@ namespace strainfinger {
 static_assert(std::endian::native == std::endian::little, "the image is little-endian and is read in place");
 
 inline constexpr std::uint32_t kTableMagic = 0x42544653;  ///< "SFTB" in the file's first four bytes
-inline constexpr std::uint16_t kTableFormat = 3;          ///< raised with every change of the layout
+inline constexpr std::uint16_t kTableFormat = 4;          ///< raised with every change of the layout
 
 /// Gauges that one fit looks at: the nearest one and three on either side. With 16 gauges they hold all but
 /// 0.4 / 0.3 / 0.9 % of what the whole ring knows of angle, normal and tangential load.
@@ -152,6 +152,23 @@ struct FitRow {
 
 using FitTable = std::array<FitRow, kFitRows>;
 
+/// How sensitive each gauge is, from calibration: gauge i's gain is reading_gain (1 + correction_i
+/// 2^-exponent). One exponent for all, so that a ring whose gauges are alike to 12 % has steps of 0.1 %.
+struct GaugeGains {
+  std::array<std::int8_t, kMaxGauges> correction;
+  std::uint8_t exponent;                 ///< 0: not calibrated, and no gauge is corrected
+  std::array<std::uint8_t, 7> reserved;  ///< 0
+
+  constexpr bool isCalibrated() const { return exponent != 0; }
+  constexpr std::int64_t gainOf(std::int32_t readingGain, std::size_t gauge) const {
+    return readingGain + (std::int64_t{readingGain} * correction[gauge] >> exponent);
+  }
+  bool operator==(const GaugeGains&) const = default;
+};
+
+inline constexpr int kLeastGainExponent = 6;  ///< corrections up to 127/64, for gains down to 1/2
+inline constexpr int kMostGainExponent = 15;
+
 struct TableImage {
   std::uint32_t magic;
   std::uint16_t format;
@@ -161,11 +178,13 @@ struct TableImage {
   TableParameters parameters;
   TableConstants constants;
   FitTable rows;
+  GaugeGains gains;
 };
 
 static_assert(std::is_trivially_copyable_v<TableImage>);
-static_assert(sizeof(TableParameters) == 104 && sizeof(TableConstants) == 64 && sizeof(FitRow) == 88);
-static_assert(sizeof(TableImage) == 16 + 104 + 64 + 88 * kFitRows, "no padding anywhere");
+static_assert(sizeof(TableParameters) == 104 && sizeof(TableConstants) == 64 && sizeof(FitRow) == 88 &&
+              sizeof(GaugeGains) == 40);
+static_assert(sizeof(TableImage) == 16 + 104 + 64 + 88 * kFitRows + 40, "no padding anywhere");
 
 /// Why an image was refused. The numbers go on the bus and into exit statuses: never reuse one.
 enum class TableFault : std::uint8_t {
@@ -194,8 +213,20 @@ inline constexpr int kMostGradientExponent = 12;
 inline constexpr int kMostGateShift = 14;
 
 /// Strains of any code and zero stay smaller than 2^(15 + gate_shift).
-constexpr bool usableGain(std::int32_t gain, int gateShift) {
+constexpr bool usableGain(std::int64_t gain, int gateShift) {
   return gain >= 0 && gain <= (std::int64_t{1} << (16 + gateShift)) - 2;
+}
+
+/// Gains of all gauges, in use or not, are usable; none is corrected without an exponent.
+constexpr bool usable(const GaugeGains& gains, const TableConstants& constants) {
+  const bool inDomain =
+      gains.isCalibrated()
+          ? gains.exponent >= kLeastGainExponent && gains.exponent <= kMostGainExponent
+          : std::all_of(gains.correction.begin(), gains.correction.end(), [](int each) { return each == 0; });
+  if (!inDomain) return false;
+  for (std::size_t i = 0; i < gains.correction.size(); ++i)
+    if (!usableGain(gains.gainOf(constants.reading_gain, i), constants.gate_shift)) return false;
+  return true;
 }
 
 constexpr bool isSign(int value) { return value == 1 || value == -1; }
@@ -245,7 +276,7 @@ inline TableFault checkTableImage(const TableImage& image) {
   if (image.image_bytes != sizeof(TableImage)) return TableFault::kLength;
   if (image.crc32 != crc32(checkedBytes(image))) return TableFault::kChecksum;
   const bool works =
-      usable(image.parameters, image.constants) &&
+      usable(image.parameters, image.constants) && usable(image.gains, image.constants) &&
       std::all_of(image.rows.begin(), image.rows.end(), [](const FitRow& row) { return usable(row); });
   return works ? TableFault::kNone : TableFault::kConstants;
 }

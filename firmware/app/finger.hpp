@@ -21,7 +21,7 @@ struct FingerSettings {
   std::uint8_t node = 1;               ///< 1 .. 63
   std::uint16_t contactRate_hz = 500;  ///< kSlowestContactRate_hz .. kFastestContactRate_hz
   FitMode mode = FitMode::kRefined;
-  FingerFlags standingFlags{};    ///< simulated, uncalibrated
+  FingerFlags standingFlags{};    ///< simulated, uncalibrated: that one unless the tables have gains
   FingerFaults standingFaults{};  ///< configuration, clock
   std::uint8_t board = 0;         ///< tells boards apart; 0: not known
 };
@@ -46,7 +46,7 @@ class Finger {
       : settings_(settings),
         kept_{settings.node, settings.contactRate_hz},
         pipeline_(tables, settings.mode),
-        reporter_(periodOf(settings.contactRate_hz), settings.standingFlags),
+        reporter_(periodOf(settings.contactRate_hz), standingFlagsOf(settings, tables)),
         adc_(adc),
         can_(can),
         clock_(clock),
@@ -83,6 +83,12 @@ class Finger {
   const Readings& readings() const { return pipeline_.readings(); }  ///< of the last observation
 
  private:
+  static FingerFlags standingFlagsOf(const FingerSettings& settings, const TableImage& tables) {
+    FingerFlags flags = settings.standingFlags;
+    if (tables.gains.isCalibrated()) flags.set(FingerFlag::kUncalibrated, false);
+    return flags;
+  }
+
   static constexpr std::uint32_t kHeartbeatPeriod_us = std::uint32_t{kHeartbeatPeriod_ms} * 1000;
   static constexpr std::uint32_t kGaugesPeriod_us = std::uint32_t{kGaugesPeriod_ms} * 1000;
   static constexpr std::uint32_t kSilentConverter_us = 100'000;

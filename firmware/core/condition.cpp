@@ -11,6 +11,13 @@ Calibration nominalCalibration(const TableConstants& constants) {
   return calibration;
 }
 
+Calibration tabledCalibration(const TableImage& tables) {
+  Calibration calibration = nominalCalibration(tables.constants);
+  for (std::size_t i = 0; i < calibration.gain.size(); ++i)
+    calibration.gain[i] = static_cast<std::int32_t>(tables.gains.gainOf(tables.constants.reading_gain, i));
+  return calibration;
+}
+
 std::int32_t strainOf(const Calibration& calibration, std::uint16_t code, std::size_t gauge) {
   return conditioned(code, calibration.zero_q15[gauge], calibration.gain[gauge]);
 }

@@ -24,6 +24,10 @@ struct Calibration {
 /// Every gauge at nominal gain, the zero at mid-scale.
 Calibration nominalCalibration(const TableConstants& constants);
 
+/// Every gauge at the gain that the tables have for it, the zero at mid-scale. `tables` passed
+/// checkTableImage().
+Calibration tabledCalibration(const TableImage& tables);
+
 inline constexpr int kCodeBits = 15;  ///< a code's fraction bits as a zero
 
 /// strain * 2^32 of a code. Any code, zero and gain that are not negative.

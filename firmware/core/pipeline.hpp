@@ -24,10 +24,7 @@ struct Observation {
 class Pipeline {
  public:
   Pipeline(const TableImage& tables, FitMode mode)
-      : tables_(&tables),
-        calibration_(nominalCalibration(tables.constants)),
-        jumps_(tables.constants),
-        mode_(mode) {}
+      : tables_(&tables), calibration_(tabledCalibration(tables)), jumps_(tables.constants), mode_(mode) {}
 
   /// Costs conditioning and the gate when nothing touches; else a fit (see locate()).
   const Observation& process(Codes codes);

@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
   strainfinger::cli::addSvd(app);
   strainfinger::cli::addField(app);
   strainfinger::cli::addShape(app);
+  strainfinger::cli::addCalibrate(app);
   strainfinger::cli::addTables(app);
   strainfinger::cli::addLocate(app);
   strainfinger::cli::addRun(app);

@@ -33,6 +33,7 @@ constexpr const char* kRunHelp =
     "same seed gives the same output.\n"
     "--can IFACE: a SocketCAN interface (vcan0, can0), in real time, a sample set every millisecond; prints "
     "nothing on stdout. It obeys `tare` and `config`.\n"
+    "The simulated gauges have the gains of the config's [calibration].\n"
     "At the end stderr has a summary with the errors against the truth (--json: as one object). Ctrl-C ends "
     "a run as its duration would, with exit status 130.";
 
@@ -54,6 +55,8 @@ struct RunOptions {
                     "A gauge fails, at a second or from the start: dead, open, short, stuck or noisy, as in "
                     "stuck:5@2.5; may be given several times")
         ->type_name("KIND:GAUGE[@S]");
+    command.add_flag("--uncalibrated", uncalibrated,
+                     "The gauges have the gains of the config's [calibration], the tables don't");
     command.add_flag("--truth", truth, "Truth beside estimate on stderr, four lines a second");
     command
         .add_option("--picture", pictures,
@@ -71,6 +74,7 @@ struct RunOptions {
   std::string scenarioPath;
   std::uint64_t seed = 1;
   std::optional<double> duration_s;
+  bool uncalibrated = false;
   bool truth = false;
   std::vector<std::string> pictures;
   std::vector<std::string> faults;
@@ -134,7 +138,9 @@ class Watchers {
 template <typename Port, typename Wait, typename Afterwards>
 void runOn(Port& port, const RunOptions& options, Wait wait, Afterwards afterwards) {
   const config::FingerConfig config = options.common.config();
-  const auto tables = options.firmware.tablesOf(config);
+  config::FingerConfig known = config;
+  if (options.uncalibrated) known.calibration.gain.clear();
+  const auto tables = options.firmware.tablesOf(known);
   const simulation::Scenario scenario = scenarioOf(options);
   const auto end_us = static_cast<std::uint64_t>(std::llround(durationOf(options, scenario) * 1e6));
   simulation::SimulatedFinger finger(config, scenario, *tables, options.firmware.mode(), options.seed, port,

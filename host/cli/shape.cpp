@@ -9,10 +9,10 @@
 
 #include "host/base/angles.hpp"
 #include "host/base/no_value.hpp"
-#include "host/base/number_rows.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/model_options.hpp"
+#include "host/cli/strain_rows.hpp"
 
 namespace strainfinger::cli {
 namespace {
@@ -20,7 +20,7 @@ namespace {
 constexpr const char* kShapeHelp =
     "What pressed on the finger, from rows of gauge strains on stdin: as much as they tell, and no more.\n"
     "stdin: CSV, one strain a gauge in a row, a row a touch; a header row, blank lines and # comments are "
-    "passed over.\n"
+    "passed over. Gains of the config's [calibration] are applied to them.\n"
     "stdout: one row a touch; what isn't known is empty. width_m: of the semi-ellipse with the load's second "
     "moment, if no line load fits (3 sigma); width_limit_m: the width is below it with 95 %. "
     "curvature_per_m: "
@@ -122,12 +122,15 @@ std::vector<Cell> noTouch() {
 
 /// Calls print(sample, strains), samples from 1.
 template <typename Print>
-void forEachRow(int gauges, Print print) {
-  NumberRowReader rows(std::cin, "stdin", static_cast<std::size_t>(gauges),
-                       {1, "a strain is an extension over a length, not in per cent or millionths"});
+void forEachRow(const config::FingerConfig& config, Print print) {
+  NumberRowReader rows(std::cin, "stdin", static_cast<std::size_t>(config.gauges.count), strainLimit());
+  Eigen::VectorXd gains = Eigen::VectorXd::Ones(config.gauges.count);
+  for (std::size_t i = 0; i < config.calibration.gain.size(); ++i)
+    gains[static_cast<Eigen::Index>(i)] = config.calibration.gain[i];
   std::int64_t sample = 0;
   for (std::vector<double> row; rows.next(row);) {
-    const Eigen::VectorXd strains = Eigen::Map<Eigen::VectorXd>(row.data(), gauges);
+    const Eigen::VectorXd strains =
+        Eigen::Map<Eigen::VectorXd>(row.data(), config.gauges.count).cwiseQuotient(gains);
     print(++sample, strains);
   }
 }
@@ -154,7 +157,7 @@ void printShapes(const ShapeOptions& options, const shape::ShapeEstimator& estim
                      "warnings",
                      "curvature_low_per_m",
                      "curvature_high_per_m"});
-  forEachRow(estimator.model().gauges(), [&](std::int64_t, const Eigen::VectorXd& strains) {
+  forEachRow(options.config(), [&](std::int64_t, const Eigen::VectorXd& strains) {
     const auto shape = estimator.estimate(strains);
     table.row(shape ? cellsOf(*shape) : noTouch());
   });
@@ -163,7 +166,7 @@ void printShapes(const ShapeOptions& options, const shape::ShapeEstimator& estim
 void printPressures(const ShapeOptions& options, const shape::ShapeEstimator& estimator) {
   TableWriter table(stdout, options.common.format(),
                     {"sample", "angle_deg", "pressure_pa", "low_pa", "high_pa", "ellipse_pa"});
-  forEachRow(estimator.model().gauges(), [&](std::int64_t sample, const Eigen::VectorXd& strains) {
+  forEachRow(options.config(), [&](std::int64_t sample, const Eigen::VectorXd& strains) {
     const auto shape = estimator.estimate(strains);
     if (!shape) return;
     const double half_rad = estimator.pressedHalf_rad(*shape);

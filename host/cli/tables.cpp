@@ -69,6 +69,8 @@ void showInfo(const TablesOptions& options) {
   table.row({"crc32", fmt::format("{:08X}", image->crc32)});
   for (const tables::Parameter& parameter : tables::parametersOf(image->parameters))
     table.row({parameter.key, parameter.value});
+  const tables::Parameter gains = tables::gainsOf(image->gains, image->constants.gauge_count);
+  table.row({gains.key, gains.value});
 }
 
 void verify(const TablesOptions& options) {

@@ -2,6 +2,10 @@
 // One finger, as finger.toml describes it. The defaults are the default finger: Fearing's (1990), the one
 // Nicolson & Fearing (1993) compute with, and electronics that suit it.
 
+#include <cmath>
+#include <numbers>
+#include <vector>
+
 #include "common/quantities.hpp"
 #include "host/model/annulus.hpp"
 
@@ -28,6 +32,13 @@ struct Gauges {
   double noise_strain = 6e-6;       ///< standard deviation of a conditioned reading, quantisation included
   double full_scale_strain = 0.03;  ///< the converter covers +- this; 65 N/m on the default finger
   int adc_bits = 12;
+
+  /// Of a gauge, 0 .. 360.
+  double angle_deg(int gauge) const { return std::fmod(first_angle_deg + gauge * 360.0 / count, 360); }
+  /// The same, not reduced.
+  double angle_rad(int gauge) const {
+    return (first_angle_deg / 360 + static_cast<double>(gauge) / count) * 2 * std::numbers::pi;
+  }
 };
 
 struct Contact {
@@ -41,11 +52,16 @@ struct Can {
   double contact_rate_hz = 500;
 };
 
+struct Calibration {
+  std::vector<double> gain;  ///< what each gauge reads over what it should; empty: not calibrated
+};
+
 struct FingerConfig {
   Finger finger;
   Gauges gauges;
   Contact contact;
   Can can;
+  Calibration calibration;
 };
 
 }  // namespace strainfinger::config

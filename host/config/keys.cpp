@@ -60,6 +60,9 @@ std::vector<Key> makeKeys() {
       {"can", "contact_rate_hz", slot<&F::can, &Can::contact_rate_hz>(),
        Domain::between(kSlowestContactRate_hz, kFastestContactRate_hz),
        "contacts are reported at most this often"},
+      {"calibration", "gain", slot<&F::calibration, &Calibration::gain>(), Domain::between(0.5, 2),
+       "what each gauge reads over what a gauge of this finger should, from `strainfinger calibrate`; an "
+       "empty list: not calibrated"},
   };
 }
 
@@ -108,6 +111,15 @@ std::vector<Relation> makeRelations() {
              "{}",
              c.can.contact_rate_hz, contactLoad_bps(c.can), c.can.bitrate,
              c.can.bitrate / (kFramesPerContact * kWorstFrame_bits));
+       }},
+      {[](Config c) {
+         return c.calibration.gain.empty() ||
+                c.calibration.gain.size() == static_cast<std::size_t>(c.gauges.count);
+       },
+       {"calibration.gain", "gauges.count"},
+       [](Config c) {
+         return fmt::format("calibration.gain has {} numbers; it must have one a gauge, gauges.count = {}",
+                            c.calibration.gain.size(), c.gauges.count);
        }},
   };
 }

@@ -23,14 +23,14 @@ constexpr std::string_view componentName(StrainComponent component) {
 }
 
 /// Where a key's value lives in a FingerConfig; its type is the key's type.
-using Slot =
-    std::variant<double& (*)(FingerConfig&), int& (*)(FingerConfig&), StrainComponent& (*)(FingerConfig&)>;
+using Slot = std::variant<double& (*)(FingerConfig&), int& (*)(FingerConfig&),
+                          StrainComponent& (*)(FingerConfig&), std::vector<double>& (*)(FingerConfig&)>;
 
 struct Key {
   std::string_view section;
   std::string_view name;
   Slot slot;
-  Domain domain;               ///< of the number; for a component, of its number
+  Domain domain;               ///< of the number; for a component, of its number; of each number of a list
   std::string_view doc;        ///< one line, with the unit if the name has none
   std::string dotted() const;  ///< "section.name"
 };

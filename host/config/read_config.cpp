@@ -60,6 +60,10 @@ void readValue(const toml::node& node, const Key& key, StrainComponent& value) {
   value = static_cast<StrainComponent>(name - kComponentNames.begin());
 }
 
+void readValue(const toml::node& node, const Key& key, std::vector<double>& value) {
+  value = realsIn(node, key.dotted(), key.domain);
+}
+
 /// Where a broken relation is reported: the defaults keep all of them, so the file has one of its keys.
 const toml::source_region& placeOf(const Relation& relation, const toml::table& root) {
   for (const std::string& dotted : relation.keys)

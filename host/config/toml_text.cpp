@@ -114,6 +114,14 @@ double realIn(const toml::node& node, std::string_view key, const Domain& domain
   return checked(*value, node, key, domain);
 }
 
+std::vector<double> realsIn(const toml::node& node, std::string_view key, const Domain& domain) {
+  if (!node.is_array()) failType(node, key, fmt::format("a list of real numbers, each {}", domain.text()));
+  std::vector<double> values;
+  for (const toml::node& element : *node.as_array())
+    values.push_back(realIn(element, fmt::format("{}[{}]", key, values.size()), domain));
+  return values;
+}
+
 std::int64_t integerIn(const toml::node& node, std::string_view key, const Domain& domain) {
   if (!node.is_integer()) failType(node, key, fmt::format("an integer: {}", domain.text()));
   return checked(node.as_integer()->get(), node, key, domain);

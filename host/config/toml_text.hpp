@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "host/config/domain.hpp"
 
@@ -33,6 +34,7 @@ void checkKeys(const toml::table& table, std::string_view prefix, std::span<cons
 
 /// The value of a key, of its type and in its domain. An integer is a real number too, not the reverse.
 double realIn(const toml::node& node, std::string_view key, const Domain& domain);
+std::vector<double> realsIn(const toml::node& node, std::string_view key, const Domain& domain);  ///< a list
 std::int64_t integerIn(const toml::node& node, std::string_view key, const Domain& domain);
 std::string textOf(const toml::node& node, std::string_view key);
 const toml::table& sectionOf(const toml::node& node, std::string_view key);

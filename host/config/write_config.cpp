@@ -9,11 +9,16 @@ namespace {
 
 std::string valueText(double value) { return fmt::format("{}", value); }
 std::string valueText(int value) { return fmt::format("{}", value); }
+std::string valueText(const std::vector<double>& values) {
+  return fmt::format("[{}]", fmt::join(values, ", "));
+}
 std::string valueText(StrainComponent value) { return fmt::format("\"{}\"", componentName(value)); }
 
 std::string domainText(const Key& key) {
   if (std::holds_alternative<StrainComponent& (*)(FingerConfig&)>(key.slot))
     return fmt::format("one of {}", fmt::join(kComponentNames, ", "));
+  if (std::holds_alternative<std::vector<double>& (*)(FingerConfig&)>(key.slot))
+    return fmt::format("each {}", key.domain.text());
   return key.domain.text();
 }
 

@@ -1,7 +1,6 @@
 #include "host/shape/touch_model.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace strainfinger::shape {
 
@@ -25,9 +24,7 @@ TouchModel::TouchModel(const config::Finger& finger, const config::Gauges& gauge
       orders_(VectorXd::LinSpaced(line_.harmonics() + 1, 0, line_.harmonics())),
       outerRadius_m_(finger.outer_radius_m),
       depth_(1 - gauges.radius_m / finger.outer_radius_m) {
-  for (int i = 0; i < gauges.count; ++i)
-    angles_rad_[i] =
-        (gauges.first_angle_deg / 360 + static_cast<double>(i) / gauges.count) * 2 * std::numbers::pi;
+  for (int i = 0; i < gauges.count; ++i) angles_rad_[i] = gauges.angle_rad(i);
   const MatrixXd phases = angles_rad_ * orders_.transpose();
   cosines_ = phases.array().cos();
   sines_ = phases.array().sin();

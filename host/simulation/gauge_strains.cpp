@@ -1,7 +1,5 @@
 #include "host/simulation/gauge_strains.hpp"
 
-#include <numbers>
-
 namespace strainfinger::simulation {
 namespace {
 
@@ -31,8 +29,6 @@ double GaugeStrains::at(double angle_rad, std::span<const Touch> touches) const 
   return strain;
 }
 
-double GaugeStrains::gaugeAngle_rad(int gauge) const {
-  return (gauges_.first_angle_deg / 360 + static_cast<double>(gauge) / gauges_.count) * 2 * std::numbers::pi;
-}
+double GaugeStrains::gaugeAngle_rad(int gauge) const { return gauges_.angle_rad(gauge); }
 
 }  // namespace strainfinger::simulation

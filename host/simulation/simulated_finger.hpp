@@ -49,7 +49,8 @@ struct RunCounts {
 };
 
 /// A finger on `port`, which must outlive it like `tables`. Its gauges' zeros are off by `kZeroSpread` of
-/// full scale, so that they need the zero which the firmware takes; their gains are nominal.
+/// full scale, so that they need the zero which the firmware takes; their gains are the
+/// config's, and reports are flagged uncalibrated when `tables` don't have them.
 template <hal::CanPort Port>
 class SimulatedFinger {
  public:
@@ -100,7 +101,9 @@ class SimulatedFinger {
     return {.node = static_cast<std::uint8_t>(config.can.node),
             .contactRate_hz = static_cast<std::uint16_t>(config.can.contact_rate_hz),
             .mode = mode,
-            .standingFlags = {FingerFlag::kSimulated}};
+            .standingFlags = config.calibration.gain.empty()
+                                 ? FingerFlags{FingerFlag::kSimulated}
+                                 : FingerFlags{FingerFlag::kSimulated, FingerFlag::kUncalibrated}};
   }
 
   /// As a receiver on the bus would. A CONTACT is compared with the truth of its own set, whenever its FORCE

@@ -19,7 +19,8 @@ SimulatedGauges::SimulatedGauges(const config::FingerConfig& config, Scenario sc
   const Noise ring(~options.seed);
   for (std::uint32_t gauge = 0; gauge < kMaxGauges; ++gauge) {
     zero_strain_[gauge] = options.zeroSpread_strain * ring.at(0, gauge);
-    gain_[gauge] = 1 + options.gainSpread * ring.at(1, gauge);
+    const auto& known = config.calibration.gain;
+    gain_[gauge] = (gauge < known.size() ? known[gauge] : 1) * (1 + options.gainSpread * ring.at(1, gauge));
   }
 }
 

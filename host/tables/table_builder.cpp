@@ -9,6 +9,7 @@
 #include "host/base/failure.hpp"
 #include "host/model/impulse_response.hpp"
 #include "host/tables/fit_table.hpp"
+#include "host/tables/gauge_gains.hpp"
 #include "host/tables/scan_spans.hpp"
 #include "host/tables/tail_energy.hpp"
 
@@ -51,9 +52,9 @@ std::uint32_t rounded(double value) { return saturate<std::uint32_t>(std::llroun
 constexpr double kGateRounding = 0.5;
 
 void fillNoise(TableConstants& constants, double noise_q32, double fullScale_q32) {
-  // The converter spans 2 full scales and the zero may lie anywhere in it.
+  // The converter spans 2 full scales and the zero may lie anywhere in it: usableGain(), with 1 for rounding.
   constants.gate_shift =
-      static_cast<std::uint8_t>(std::max(0.0, std::ceil(std::log2(2 * fullScale_q32)) - 15));
+      static_cast<std::uint8_t>(std::max(0.0, std::ceil(std::log2(4 * fullScale_q32 + 3)) - 16));
   const auto variance = normalised(noise_q32 * noise_q32, 24);
   constants.noise_variance = rounded(variance.mantissa);
   constants.noise_variance_exponent = static_cast<std::int8_t>(variance.exponent);
@@ -88,14 +89,31 @@ bool hasOnePeak(const config::Gauges& gauges) {
   return gauges.count >= 16 && gauges.component != StrainComponent::kShear;
 }
 
+/// What correcting gains makes of the noise, as an RMS, and of the largest full scale.
+struct Corrected {
+  double noise_strain;
+  double full_scale_strain;
+};
+
+Corrected corrected(const config::FingerConfig& config) {
+  const auto factors = correctionFactors(gaugeGains(config), config.gauges.count);
+  double squares = 0, largest = 1;  // gauges beyond the ring have a factor of 1
+  for (const double factor : factors) {
+    squares += factor * factor;
+    largest = std::max(largest, factor);
+  }
+  return {config.gauges.noise_strain * std::sqrt(squares / config.gauges.count),
+          config.gauges.full_scale_strain * largest};
+}
+
 TableConstants tableConstants(const config::FingerConfig& config, bool peakIsNegative) {
   TableConstants constants{};
   constants.gauge_count = static_cast<std::uint8_t>(config.gauges.count);
   constants.pitch_turn_q35 = rounded(powerOfTwo(35) / config.gauges.count);
   const double turns = config.gauges.first_angle_deg / 360;
   constants.first_angle_q32 = fromReal<TurnQ32>(turns - std::floor(turns)).raw();
-  fillNoise(constants, config.gauges.noise_strain * powerOfTwo(32),
-            config.gauges.full_scale_strain * powerOfTwo(32));
+  const Corrected ring = corrected(config);
+  fillNoise(constants, ring.noise_strain * powerOfTwo(32), ring.full_scale_strain * powerOfTwo(32));
   constants.reading_gain =
       static_cast<std::int32_t>(rounded(config.gauges.full_scale_strain * powerOfTwo(34)));
   constants.force_per_load_q16 = rounded(config.finger.length_m * 1000 * powerOfTwo(16));
@@ -169,6 +187,7 @@ TableImage buildTableImage(const config::FingerConfig& config) {
       tail_q16(tailEnergy(response, config.gauges.count, frictionCone(config.contact)));
   image.constants.scan_span = scanSpans(response, config.gauges.count, frictionCone(config.contact));
   image.rows = fitTable(fits, exponent);
+  image.gains = gaugeGains(config);
   image.crc32 = crc32(checkedBytes(image));
   if (!hasOnePeak(config.gauges)) searchEverywhere(image);
   return image;

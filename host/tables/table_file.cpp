@@ -9,6 +9,7 @@
 
 #include "host/base/read_file.hpp"
 #include "host/config/keys.hpp"
+#include "host/tables/gauge_gains.hpp"
 #include "host/tables/table_builder.hpp"
 
 namespace strainfinger::tables {
@@ -76,6 +77,14 @@ std::vector<Parameter> parametersOf(const TableParameters& p) {
           {"contact.width_m", p.contact_width_m}};
 }
 
+Parameter gainsOf(const GaugeGains& gains, int count) {
+  std::vector<std::string> texts;
+  if (gains.isCalibrated())
+    for (const double factor : correctionFactors(gains, count))
+      texts.push_back(fmt::format("{:.4g}", 1 / factor));
+  return {"calibration.gain", fmt::format("[{}]", fmt::join(texts, ", "))};
+}
+
 void requireTablesOf(const TableImage& image, const config::FingerConfig& config, const std::string& path) {
   const auto has = parametersOf(image.parameters);
   const auto wants = parametersOf(tableParameters(config));
@@ -84,6 +93,11 @@ void requireTablesOf(const TableImage& image, const config::FingerConfig& config
     if (has[i].value == wants[i].value) continue;
     fmt::format_to(std::back_inserter(differences), "\n  {} is {}, the config has {}", has[i].key,
                    textOf(has[i].value), textOf(wants[i].value));
+  }
+  if (const GaugeGains wanted = gaugeGains(config); image.gains != wanted) {
+    const Parameter gains = gainsOf(image.gains, image.constants.gauge_count);
+    fmt::format_to(std::back_inserter(differences), "\n  {} is {}, the config has {}", gains.key,
+                   textOf(gains.value), textOf(gainsOf(wanted, config.gauges.count).value));
   }
   if (differences.empty()) return;
   throw Failure(ExitCode::kMismatch,
@@ -105,6 +119,8 @@ std::string imageHeader(const TableImage& image) {
       "anew.\n";
   for (const Parameter& parameter : parametersOf(image.parameters))
     fmt::format_to(std::back_inserter(text), "//   {} = {}\n", parameter.key, textOf(parameter.value));
+  const Parameter gains = gainsOf(image.gains, image.constants.gauge_count);
+  fmt::format_to(std::back_inserter(text), "//   {} = {}\n", gains.key, textOf(gains.value));
   fmt::format_to(std::back_inserter(text),
                  "// CRC-32 0x{:08X}\n\n#include <cstdint>\n\nnamespace strainfinger {{\n\n"
                  "alignas(8) inline constexpr std::uint8_t kDefaultTableBytes[{}] = {{",

@@ -25,6 +25,8 @@ struct Parameter {
   Cell value;
 };
 std::vector<Parameter> parametersOf(const TableParameters& parameters);
+/// The gains as the image has them, to 4 digits: "[0.9501, 1.02, ..]", "[]" if not calibrated.
+Parameter gainsOf(const GaugeGains& gains, int count);
 
 /// The bytes of an image: a file's content.
 std::string imageBytes(const TableImage& image);

@@ -105,6 +105,18 @@ TEST(TableImage, ConstantsThatLoopsAndShiftsRelyOnStayInTheirDomain) {
   checkDomain(image_->parameters.component, {0, 1, 2}, {3, 255});
 }
 
+TEST(TableImage, GainsThatConditioningReliesOnStayInTheirDomain) {
+  image_->constants.gate_shift = 13;
+  image_->constants.reading_gain = 1 << 28;  // 2^29 - 2 at most
+  GaugeGains& gains = image_->gains;
+  checkDomain(gains.exponent, {6, 15, 0}, {1, 5, 16, 255});
+  checkDomain(gains.correction[31], {0}, {1, -1});  // without an exponent
+  gains.exponent = 7;
+  checkDomain(gains.correction[31], {-128, 127, 0}, {});
+  gains.exponent = 6;
+  checkDomain(gains.correction[0], {-64, 63}, {-65, -128, 64, 127});
+}
+
 TEST(TableImage, FaultsKeepTheirNumbers) {
   LONGS_EQUAL(0, static_cast<int>(TableFault::kNone));
   LONGS_EQUAL(1, static_cast<int>(TableFault::kTooShort));

@@ -26,6 +26,13 @@ struct DomainCase {
   std::vector<std::string> outside;
 };
 
+/// A list for the default ring, its last number `last`.
+std::string gains(const std::string& last) {
+  std::string list = "[";
+  for (int i = 1; i < 16; ++i) list += "1.0, ";
+  return list + last + "]";
+}
+
 const std::vector<DomainCase>& domainCases() {
   static const std::vector<DomainCase> cases = {
       {"finger.core_radius_m", {"1e-300", "0.0094"}, {"0", "-1e-3", "1.1", "8.9"}},
@@ -48,13 +55,20 @@ const std::vector<DomainCase>& domainCases() {
       {"can.node", {"1", "63"}, {"0", "64", "-1", "4294967297"}},
       {"can.bitrate", {"250000", "500000", "1000000"}, {"0", "999999", "125", "-1000000"}},
       {"can.contact_rate_hz", {"20", "1000", "333.3"}, {"19.99", "1001", "0", "-500"}},
+      {"calibration.gain", {"[]", gains("0.5"), gains("2"), gains("1")}, {}},
   };
   return cases;
 }
 
+double numberOf(const std::vector<double>& values) { return values.empty() ? 0 : values.back(); }
+template <typename Value>
+double numberOf(Value value) {
+  return static_cast<double>(value);
+}
+
 double number(const FingerConfig& config, const Key& key) {
   FingerConfig copy = config;
-  return std::visit([&](auto slot) { return static_cast<double>(slot(copy)); }, key.slot);
+  return std::visit([&](auto slot) { return numberOf(slot(copy)); }, key.slot);
 }
 
 }  // namespace
@@ -105,7 +119,8 @@ TEST(ReadConfig, NotANumberAndTheInfinitiesAreInNoDomain) {
 TEST(ReadConfig, ValuesOfAnotherTypeNameTheKeyAndBothTypes) {
   for (const Key& key : keys()) {
     checkMention(settingOf(key.dotted(), "true"), key.dotted() + " is a boolean; it must be ");
-    checkMention(settingOf(key.dotted(), "[1]"), key.dotted() + " is a list; it must be ");
+    if (key.section != "calibration")
+      checkMention(settingOf(key.dotted(), "[1]"), key.dotted() + " is a list; it must be ");
     checkMention(settingOf(key.dotted(), "1979-05-27"), key.dotted() + " is a date or time; it must be ");
     checkMention(settingOf(key.dotted(), "{a = 1}"), key.dotted() + " is a section; it must be ");
     if (key.name != "component") checkMention(settingOf(key.dotted(), "\"1\""), " is a text; it must be ");
@@ -125,7 +140,10 @@ TEST(ReadConfig, EachKeySetsItsOwnMemberAndNoOther) {
     const std::string& value = domainCases()[i].inside.back();
     const FingerConfig read = readConfig(settingOf(keys()[i].dotted(), value), "f");
     for (std::size_t j = 0; j < keys().size(); ++j) {
-      const double expected = i != j ? number({}, keys()[j]) : value[0] == '"' ? 2 : std::stod(value);
+      const double expected = i != j            ? number({}, keys()[j])
+                              : value[0] == '"' ? 2
+                              : value[0] == '[' ? 1
+                                                : std::stod(value);
       DOUBLES_EQUAL(expected, number(read, keys()[j]), 0);
     }
   }
@@ -149,7 +167,7 @@ TEST(ReadConfig, AKeyInTheWrongSectionIsSentToTheRightOne) {
 TEST(ReadConfig, UnknownSectionsAreNamedWithWhatWasProbablyMeant) {
   checkMention("schema = 1\n[guages]\ncount = 16", "unknown key guages; did you mean gauges?");
   checkMention("schema = 1\n[zzzzzzzz]",
-               "unknown key zzzzzzzz; known here: schema, finger, gauges, contact, can");
+               "unknown key zzzzzzzz; known here: schema, finger, gauges, contact, can, calibration");
 }
 
 TEST(ReadConfig, ASectionThatIsAValueIsAnError) {
@@ -186,6 +204,24 @@ TEST(ReadConfig, ConditionsBetweenKeysNameThemAllAndPointIntoTheFile) {
   checkMention(settingOf("contact.width_m", "0.0128"), "must be at most finger.outer_radius_m = 0.0127");
   checkMention(settingOf("can.bitrate", "125000"),
                "f.toml:3:11: can.contact_rate_hz = 500 needs up to 135000");
+}
+
+TEST(ReadConfig, AGainOutOfItsDomainIsNamedWithItsPlace) {
+  for (const char* gain : {"0.499", "2.001", "0", "-1", "nan", "inf"})
+    checkMention(settingOf("calibration.gain", gains(gain)),
+                 std::string("f.toml:3:84: calibration.gain[15] = ") + gain);
+  checkMention(settingOf("calibration.gain", gains("0.4")),
+               "calibration.gain[15] = 0.4 is out of its domain; it must be 0.5 to 2");
+  checkMention(settingOf("calibration.gain", gains("\"1\"")),
+               "calibration.gain[15] is a text; it must be a real");
+  checkMention(settingOf("calibration.gain", "1.0"),
+               "is a real number; it must be a list of real numbers, each 0.5");
+}
+
+TEST(ReadConfig, ThereIsAGainForEveryGaugeOrNone) {
+  checkComplaint(settingOf("calibration.gain", "[1, 1]"),
+                 "f.toml:3:8: calibration.gain has 2 numbers; it must have one a gauge, gauges.count = 16");
+  checkMention("schema = 1\ngauges.count = 18\ncalibration.gain = " + gains("1"), "has 16 numbers");
 }
 
 TEST(ReadConfig, AnUnreadableFileIsNamedWithTheReason) {

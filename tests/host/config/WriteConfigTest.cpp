@@ -31,6 +31,8 @@ TEST_GROUP(WriteConfig) {
                   9};
     any.contact = {uniform(0, 10), uniform(0, 0.01)};
     any.can = {1 + static_cast<int>(random() % 63), 500000, uniform(20, 1000)};
+    if (random() % 2 == 0)
+      for (int i = 0; i < any.gauges.count; ++i) any.calibration.gain.push_back(uniform(0.5, 2));
     return any;
   }
 
@@ -52,6 +54,7 @@ TEST(WriteConfig, EveryKeyIsDocumentedWithItsDomain) {
   const std::string text = writeConfig({});
   for (const Key& key : keys()) STRCMP_CONTAINS(std::string(key.doc).c_str(), text.c_str());
   STRCMP_CONTAINS("# gauges in the ring, evenly spaced [even, 12 to 32]\ncount = 16\n", text.c_str());
+  STRCMP_CONTAINS("not calibrated [each 0.5 to 2]\ngain = []\n", text.c_str());
   STRCMP_CONTAINS("# the strain the gauges read [one of radial, hoop, shear]\ncomponent = \"radial\"\n",
                   text.c_str());
 }

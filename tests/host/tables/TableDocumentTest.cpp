@@ -132,6 +132,14 @@ Rows fitRows(const FitRow& row) {
   return rows;
 }
 
+Rows gainRows(const GaugeGains& gains) {
+  Rows rows(offsetof(TableImage, gains));
+  rows.add("correction", gains.correction);
+  rows.add("exponent", gains.exponent);
+  rows.add("reserved", gains.reserved);
+  return rows;
+}
+
 std::string readDocument() {
   std::ostringstream text;
   text << std::ifstream(STRAINFINGER_TABLE_DOCUMENT).rdbuf();
@@ -176,6 +184,7 @@ TEST(TableDocument, HasEveryFieldAtItsOffset) {
   checkTable("## Parameters", parameterRows(image_.parameters));
   checkTable("## Constants", constantRows(image_.constants));
   checkTable("## Rows", fitRows(image_.rows[0]));
+  checkTable("## Gains", gainRows(image_.gains));
 }
 
 TEST(TableDocument, ItsFieldsLeaveNoGaps) {
@@ -183,6 +192,7 @@ TEST(TableDocument, ItsFieldsLeaveNoGaps) {
   LONGS_EQUAL(offsetof(TableImage, constants), parameterRows(image_.parameters).end());
   LONGS_EQUAL(offsetof(TableImage, rows), constantRows(image_.constants).end());
   LONGS_EQUAL(sizeof(FitRow), fitRows(image_.rows[0]).end());
+  LONGS_EQUAL(sizeof(TableImage), gainRows(image_.gains).end());
 }
 
 TEST(TableDocument, OffsetsThatDependOnAlignmentAreThoseOfTheCompiler) {
@@ -198,6 +208,7 @@ TEST(TableDocument, HasThePartsAtTheirOffsets) {
   checkPart(offsetof(TableImage, parameters), sizeof(TableParameters));
   checkPart(offsetof(TableImage, constants), sizeof(TableConstants));
   checkPart(offsetof(TableImage, rows), sizeof(FitTable));
+  checkPart(offsetof(TableImage, gains), sizeof(GaugeGains));
   checkHas(fmt::format("{} of {} bytes", kFitRows, sizeof(FitRow)));
 }
 

@@ -1,0 +1,133 @@
+// Gauges that differ, calibrated by what they read themselves, against gauges that don't.
+
+#include "host/calibration/calibrate.hpp"
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "host/simulation/simulated_finger.hpp"
+#include "host/tables/table_builder.hpp"
+#include "tests/doubles/fake_can_port.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::simulation;
+
+namespace {
+
+constexpr std::uint64_t kSeed = 20240912;
+constexpr double kNormal_n_per_m = 20;
+constexpr double kTangential_n_per_m = 4;
+
+/// Once around the ring in two seconds.
+Scenario roundTrip() {
+  return Scenario({{0.2, 2.2, Course({{0, 0}, {2, 360}}), Course({{0, kNormal_n_per_m}}),
+                    Course({{0, kTangential_n_per_m}})}});
+}
+
+struct Errors {
+  double angle_deg;
+  double normal_n_per_m;
+};
+
+/// A finger of gauges as `gauges` says, that works with tables made from `known`.
+class Trip {
+ public:
+  Trip(const config::FingerConfig& gauges, const config::FingerConfig& known, std::uint64_t seed)
+      : length_m_(gauges.finger.length_m),
+        tables_(std::make_unique<TableImage>(tables::buildTableImage(known))) {
+    doubles::FakeCanPort port;
+    SimulatedFinger<doubles::FakeCanPort> finger(gauges, roundTrip(), *tables_, firmware::FitMode::kRefined,
+                                                 seed, port);
+    for (int i = 0; i < 2200; ++i)
+      finger.pass(1,
+                  [&](const Moment& moment) { keep(moment, finger.readings().strains(known.gauges.count)); });
+  }
+
+  /// RMS.
+  Errors errors() const {
+    Errors sum{};
+    for (const ComparedTouch& each : compared_) {
+      const Touch& truth = each.truth.front();
+      const double turned = each.report.angle_deg - truth.angle_rad * 180 / std::numbers::pi;
+      sum.angle_deg += std::pow(std::remainder(turned, 360), 2);
+      sum.normal_n_per_m += std::pow(each.report.normal_n / length_m_ - truth.normal_n_per_m, 2);
+    }
+    const auto count = static_cast<double>(compared_.size());
+    return {std::sqrt(sum.angle_deg / count), std::sqrt(sum.normal_n_per_m / count)};
+  }
+
+  bool isAllMarked(FingerFlag flag, bool on) const {
+    for (const ComparedTouch& each : compared_)
+      if (each.report.flags.has(flag) != on) return false;
+    return !compared_.empty();
+  }
+
+  /// The config with the gains that the readings tell.
+  config::FingerConfig calibrated(config::FingerConfig config) const {
+    Eigen::MatrixXd readings(static_cast<Eigen::Index>(rows_.size()), config.gauges.count);
+    for (std::size_t i = 0; i < rows_.size(); ++i) readings.row(static_cast<Eigen::Index>(i)) = rows_[i];
+    for (const auto& gauge : calibration::calibrate(config, touches_, readings).gauges)
+      config.calibration.gain.push_back(gauge.gain.value);
+    return config;
+  }
+
+ private:
+  void keep(const Moment& moment, std::span<const std::int32_t> strains) {
+    if (moment.compared && !moment.compared->truth.empty()) compared_.push_back(*moment.compared);
+    if (moment.truth.empty()) return;
+    const Touch& touch = moment.truth.front();
+    touches_.push_back(
+        {touch.angle_rad * 180 / std::numbers::pi, touch.normal_n_per_m, touch.tangential_n_per_m});
+    Eigen::RowVectorXd row(static_cast<Eigen::Index>(strains.size()));
+    for (std::size_t i = 0; i < strains.size(); ++i)
+      row[static_cast<Eigen::Index>(i)] = std::ldexp(strains[i], -32);
+    rows_.push_back(row);
+  }
+
+  double length_m_;
+  std::unique_ptr<TableImage> tables_;
+  std::vector<ComparedTouch> compared_;
+  std::vector<calibration::KnownTouch> touches_;
+  std::vector<Eigen::RowVectorXd> rows_;
+};
+
+}  // namespace
+
+TEST_GROUP(CalibrationLoop) {
+  const config::FingerConfig nominal_;
+
+  /// Gains 5 % off, as an RMS.
+  config::FingerConfig scattered() {
+    config::FingerConfig config;
+    std::mt19937_64 random(kSeed);
+    std::normal_distribution<double> gain(1, 0.05);
+    for (int i = 0; i < config.gauges.count; ++i) config.calibration.gain.push_back(gain(random));
+    return config;
+  }
+};
+
+TEST(CalibrationLoop, GaugesThatDifferAreAsGoodAsNominalOnesOnceCalibrated) {
+  UT_PRINT("seed 20240912");
+  const Trip uncalibrated(scattered(), nominal_, 1);
+  const Trip calibrated(scattered(), uncalibrated.calibrated(nominal_), 2);
+  const Errors before = uncalibrated.errors(), after = calibrated.errors();
+  const Errors ideal = Trip(nominal_, nominal_, 2).errors();
+  UT_PRINT(StringFromFormat("deg %.4f %.4f %.4f, N/m %.4f %.4f %.4f", before.angle_deg, after.angle_deg,
+                            ideal.angle_deg, before.normal_n_per_m, after.normal_n_per_m,
+                            ideal.normal_n_per_m)
+               .asCharString());
+  CHECK_TRUE(after.angle_deg < 1.2 * ideal.angle_deg && before.angle_deg > 4 * ideal.angle_deg);
+  CHECK_TRUE(after.normal_n_per_m < 1.2 * ideal.normal_n_per_m);
+  CHECK_TRUE(before.normal_n_per_m > 4 * ideal.normal_n_per_m);
+}
+
+TEST(CalibrationLoop, OnlyTablesWithoutGainsAreFlagged) {
+  CHECK_TRUE(Trip(scattered(), nominal_, 1).isAllMarked(FingerFlag::kUncalibrated, true));
+  CHECK_TRUE(Trip(scattered(), scattered(), 1).isAllMarked(FingerFlag::kUncalibrated, false));
+}

@@ -1,0 +1,82 @@
+#include "host/tables/gauge_gains.hpp"
+
+#include <memory>
+#include <string>
+
+#include "firmware/core/condition.hpp"
+#include "host/base/failure.hpp"
+#include "host/tables/table_builder.hpp"
+#include "host/tables/table_file.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::tables;
+
+TEST_GROUP(GaugeGains){
+    config::FingerConfig configWith(double first, double others){config::FingerConfig config;
+config.calibration.gain.assign(static_cast<std::size_t>(config.gauges.count), others);
+config.calibration.gain[0] = first;
+return config;
+}
+
+void checkFactor(double gain, double tolerance) {
+  const auto factors = correctionFactors(gaugeGains(configWith(gain, 1)), 16);
+  DOUBLES_EQUAL(1 / gain, factors[0], tolerance);
+  DOUBLES_EQUAL(1, factors[15], 0);
+}
+}
+;
+
+TEST(GaugeGains, AreThereOnlyAfterCalibration) {
+  CHECK_FALSE(gaugeGains({}).isCalibrated());
+  CHECK_TRUE(gaugeGains(configWith(1, 1)).isCalibrated());
+  DOUBLES_EQUAL(1, correctionFactors(gaugeGains({}), 16)[3], 0);
+}
+
+// Half a step of the exponent that holds the correction, 1 / gain - 1, in 127 steps.
+TEST(GaugeGains, HaveStepsThatSuitTheLargest) {
+  checkFactor(1.001, 0x1p-16);
+  checkFactor(0.9, 0x1p-11);
+  checkFactor(1.1, 0x1p-11);
+  checkFactor(0.7, 0x1p-9);
+  checkFactor(2, 0x1p-8);
+  checkFactor(0.5, 0x1p-7);
+}
+
+TEST(GaugeGains, EveryGainOfTheDomainMakesTablesThatTheFirmwareTakes) {
+  for (const double gain : {0.5, 0.9, 1.0, 1.1, 2.0})
+    for (const double others : {0.5, 1.0, 2.0}) {
+      const TableImage image = buildTableImage(configWith(gain, others));
+      CHECK(checkTableImage(image) == TableFault::kNone);
+    }
+}
+
+// There the gains of the ring fill the words of conditioning to the last bit.
+TEST(GaugeGains, AFullScaleThatIsAPowerOfTwoMakesTablesThatTheFirmwareTakes) {
+  config::FingerConfig config = configWith(0.5, 1);
+  config.gauges.full_scale_strain = 0x1p-6;
+  CHECK(checkTableImage(buildTableImage(config)) == TableFault::kNone);
+  config.calibration.gain.clear();
+  CHECK(checkTableImage(buildTableImage(config)) == TableFault::kNone);
+}
+
+TEST(GaugeGains, ReachTheFirmwaresCalibration) {
+  const auto image = std::make_unique<TableImage>(buildTableImage(configWith(0.8, 1)));
+  const auto calibration = firmware::tabledCalibration(*image);
+  DOUBLES_EQUAL(1.25 * calibration.gain[15], calibration.gain[0], 2);
+  LONGS_EQUAL(image->constants.reading_gain, calibration.gain[15]);
+}
+
+TEST(GaugeGains, TablesOfOtherGainsAreAnotherFingers) {
+  const TableImage image = buildTableImage(configWith(0.8, 1));
+  requireTablesOf(image, configWith(0.8, 1), "f.bin");
+  try {
+    requireTablesOf(image, {}, "f.bin");
+    FAIL("accepted");
+  } catch (const Failure& failure) {
+    LONGS_EQUAL(static_cast<int>(ExitCode::kMismatch), static_cast<int>(failure.code()));
+    STRCMP_CONTAINS("calibration.gain is [0.8, 1, 1, ", failure.what());
+    STRCMP_CONTAINS("the config has []", failure.what());
+  }
+}

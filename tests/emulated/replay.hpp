@@ -84,6 +84,4 @@ std::uint32_t replayBlock(const TableImage& tables, std::uint32_t first, std::ui
   return hash.value();
 }
 
-inline constexpr std::uint32_t kBlock = 4096;
-
 }  // namespace strainfinger::emulated

@@ -1,5 +1,7 @@
-// One gauge out of use: the fit goes on with the others, at their bound.
+// One gauge out of use: the fit goes on with the others, at their bound. The figures of firmware/README.md
+// are of STRAINFINGER_TEST_CONTACTS=40000.
 #include <Eigen/Dense>
+#include <cstdlib>
 
 #include "common/fixed_real.hpp"
 #include "firmware/core/detect.hpp"
@@ -29,6 +31,13 @@ config::FingerConfig quietFinger(double noise_strain) {
   config::FingerConfig config;
   config.gauges.noise_strain = noise_strain;
   return config;
+}
+
+/// A few large errors make up a part of the normal load's RMS: from one ten thousand to the next it is 1.01
+/// to 1.11 times the bound, beside the gauge that is out 1.10 to 1.50 times.
+int contacts() {
+  const char* given = std::getenv("STRAINFINGER_TEST_CONTACTS");
+  return given ? std::atoi(given) : 10'000;
 }
 
 constexpr double kPress = 30;
@@ -105,9 +114,9 @@ TEST_GROUP(LeftOut) {
 };
 
 TEST(LeftOut, OneGaugeOutReachesTheBoundOfTheRemainingFifteen) {
-  const Statistics result = run(1u << 5, 5, 8, 40'000, 301);
+  const Statistics result = run(1u << 5, 5, 8, contacts(), 301);
   LONGS_EQUAL(0, result.gross);
-  CHECK(result.uncertain < 40'000 / 100);
+  CHECK(result.uncertain < result.contacts / 100);
   checkWithin({1.1, 1.1, 1.1}, result.overBound);
   checkWithin({1.1, 1.1, 1.1}, result.overSigma);
 }
@@ -115,16 +124,16 @@ TEST(LeftOut, OneGaugeOutReachesTheBoundOfTheRemainingFifteen) {
 // Within a pitch of it a contact's own readings are the ones that are missing: an unlimited search in double
 // precision is at 1.04, 1.18 and 1.03 there, because the normal load is far from linear.
 TEST(LeftOut, ContactsBesideTheGaugeThatIsOutAreNearTheBound) {
-  const Statistics result = run(1u << 5, 5, 1, 40'000, 302);
+  const Statistics result = run(1u << 5, 5, 1, contacts(), 302);
   LONGS_EQUAL(0, result.gross);
-  CHECK(result.uncertain < 40'000 / 20);
+  CHECK(result.uncertain < result.contacts / 20);
   checkWithin({1.15, 1.35, 1.15}, result.overBound);
   checkWithin({1.2, 1.35, 1.15}, result.overSigma);
 }
 
 TEST(LeftOut, WithoutAnythingLeftOutItIsTheFitOfAllGauges) {
   Presses presses(ring.gauges(), kPress, 303);
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < 200; ++i) {
     auto raw = ring.raw(presses.next());
     const std::uint32_t energy = gateEnergy(ring.constants(), raw);
     const Fit all = locate(ring.tables(), FitMode::kRefined, raw, energy);
@@ -134,7 +143,7 @@ TEST(LeftOut, WithoutAnythingLeftOutItIsTheFitOfAllGauges) {
 
 // Two of the readings that matter most are missing: often nobody can tell, and then nothing is said for sure.
 TEST(LeftOut, TwoNeighboursOutNeverGiveAConfidentWrongAnswer) {
-  const Statistics result = run(3u << 5, 5, 3, 10'000, 304);
+  const Statistics result = run(3u << 5, 5, 3, contacts(), 304);
   LONGS_EQUAL(0, result.gross);
   checkWithin({2, 2, 2}, result.overSigma);
 }

@@ -11,7 +11,8 @@
 namespace strainfinger::firmware {
 
 /// Energy of a ring's strains: the sum of their squares / 4^gate_shift, rounded down, saturating at 2^32 - 1.
-/// An even number of strains, up to 32, each smaller than 2^29 (usableGain()), so that the sum stays below 2^63.
+/// An even number of strains, up to 32, each smaller than 2^29 (usableGain()), so that the sum stays below
+/// 2^63.
 inline std::uint32_t gateEnergy(const TableConstants& constants, std::span<const std::int32_t> strains_q32) {
   static_assert(2 * kMostGateShift < 32);
   const std::int32_t* strain = strains_q32.data();

@@ -32,8 +32,8 @@ struct TripleChoice {
 };
 TripleChoice tripleChoice(const FitRow& row, const Projections& projection);
 
-/// Newton steps of the three readings from a fit whose step was taken, until the next one would no longer matter:
-/// its projections and length are then theirs. False: they lead away from it, or nowhere.
+/// Newton steps of the three readings from a fit whose step was taken, until the next one would no longer
+/// matter: its projections and length are then theirs. False: they lead away from it, or nowhere.
 bool solveTriple(const FitTable& rows, int mirrorSign, WindowFit& fit);
 
 }  // namespace strainfinger::firmware

@@ -1,19 +1,14 @@
 #pragma once
 // A board's main(): the same on every board.
 
-#include "common/table_image.hpp"
 #include "firmware/app/announce.hpp"
 #include "firmware/app/finger.hpp"
+#include "firmware/app/whole_tables.hpp"
 
 namespace strainfinger::firmware {
 
 /// The version of this build, from the project's CMakeLists.txt.
 inline constexpr Version kFirmwareVersion{STRAINFINGER_VERSION_MAJOR, STRAINFINGER_VERSION_MINOR};
-
-/// Not inlined: what the check needs would be on the stack for ever.
-[[gnu::noinline]] inline bool areWhole(const TableImage& tables) {
-  return checkTableImage(tables) == TableFault::kNone;
-}
 
 /// Says that there are no tables, for ever. Not inlined: what it needs would be on the stack of every other
 /// run.

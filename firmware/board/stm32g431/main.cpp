@@ -1,6 +1,7 @@
 // The finger board: what is on it, put together.
 
 #include "firmware/app/run.hpp"
+#include "firmware/app/whole_tables.hpp"
 #include "firmware/board/cortex_m/crash.hpp"
 #include "firmware/board/cortex_m/linked_tables.hpp"
 #include "firmware/board/cortex_m/startup.hpp"
@@ -53,7 +54,7 @@ bool ramSurvived() {
 [[gnu::noinline]] const TableImage& tables() {
   const TableImage& chosen =
       tablesOf(*reinterpret_cast<const TableImage*>(kTablePages.address()), board::kLinkedTables);
-  tablesInUse = checkTableImage(chosen) == TableFault::kNone;
+  tablesInUse = firmware::areWhole(chosen);
   return chosen;
 }
 

@@ -112,19 +112,19 @@ TEST_GROUP(CalibrationLoop) {
   }
 };
 
+// Where one gauge has most of the energy, its 5 % are 5 % of the load: 1 N/m, 16 times what noise (0.065 % of
+// the peak) makes of it, and 5 % of the 11 deg in which a response ends: 0.5 deg. The tables' corrections are
+// rounded to 2^-10, 0.028 % as an RMS: beside the noise that is 9 %, and chance is 3 % for 1000 reports.
 TEST(CalibrationLoop, GaugesThatDifferAreAsGoodAsNominalOnesOnceCalibrated) {
   UT_PRINT("seed 20240912");
   const Trip uncalibrated(scattered(), nominal_, 1);
   const Trip calibrated(scattered(), uncalibrated.calibrated(nominal_), 2);
   const Errors before = uncalibrated.errors(), after = calibrated.errors();
   const Errors ideal = Trip(nominal_, nominal_, 2).errors();
-  UT_PRINT(StringFromFormat("deg %.4f %.4f %.4f, N/m %.4f %.4f %.4f", before.angle_deg, after.angle_deg,
-                            ideal.angle_deg, before.normal_n_per_m, after.normal_n_per_m,
-                            ideal.normal_n_per_m)
-               .asCharString());
-  CHECK_TRUE(after.angle_deg < 1.2 * ideal.angle_deg && before.angle_deg > 4 * ideal.angle_deg);
-  CHECK_TRUE(after.normal_n_per_m < 1.2 * ideal.normal_n_per_m);
-  CHECK_TRUE(before.normal_n_per_m > 4 * ideal.normal_n_per_m);
+  CHECK(before.angle_deg > 10 * ideal.angle_deg);
+  CHECK(before.normal_n_per_m > 10 * ideal.normal_n_per_m);
+  CHECK(after.angle_deg < 1.2 * ideal.angle_deg);
+  CHECK(after.normal_n_per_m < 1.2 * ideal.normal_n_per_m);
 }
 
 TEST(CalibrationLoop, OnlyTablesWithoutGainsAreFlagged) {

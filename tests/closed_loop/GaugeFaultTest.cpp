@@ -1,5 +1,9 @@
 // Gauges that fail: how soon the firmware names them, from the converter's codes on.
-#include <memory>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <vector>
 
 #include "common/fixed_real.hpp"
 #include "firmware/core/estimate.hpp"
@@ -88,6 +92,47 @@ TEST_GROUP(GaugeFault) {
       for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += strains[i];
     }
     return sum;
+  }
+
+  /// Touches of 1000, of 10 to 50 N/m, in four sample sets of which a gauge is blamed for their width.
+  int blamedByWidth(double width_m, std::uint64_t seed) {
+    config::FingerConfig wide;
+    wide.contact.width_m = width_m;
+    const ModelRing actual{wide};
+    Presses random(16, 1, seed);
+    std::mt19937_64 loads(seed);
+    std::uniform_real_distribution<double> uniform(std::log(10), std::log(50));
+    int blamed = 0;
+    for (int trial = 0; trial < 1000; ++trial) {
+      Press press = random.next();
+      const double load = std::exp(uniform(loads));
+      press.normal *= load, press.tangential *= load;
+      Pipeline pipeline(ring.tables(), FitMode::kRefined);
+      blamed += seen(pipeline, actual.strains(press), random, 4).outOfUse != 0;
+    }
+    std::printf("%g mm wide: a gauge blamed in %d of 1000\n", width_m * 1e3, blamed);
+    return blamed;
+  }
+
+  /// Longest of 50 trials; a gauge has so many times its noise and nothing touches.
+  int setsUntilNoisyIsNamed(double noisier, std::uint64_t seed) {
+    Presses random(16, 1, seed);
+    std::vector<int> sets;
+    for (int trial = 0; trial < 50; ++trial) {
+      Pipeline pipeline(ring.tables(), FitMode::kRefined);
+      std::vector<double> strains(16);
+      int set = 0;
+      while (pipeline.observation().outOfUse == 0 && ++set < 20'000) {
+        strains[5] = random.noise(noisier * config.gauges.noise_strain);
+        seen(pipeline, strains, random);
+      }
+      LONGS_EQUAL(1u << 5, pipeline.observation().outOfUse);
+      sets.push_back(set);
+    }
+    std::sort(sets.begin(), sets.end());
+    std::printf("%g times the noise: named after %d sample sets (median), %d at most\n", noisier, sets[25],
+                sets.back());
+    return sets.back();
   }
 
   /// A contact that goes once round the ring.
@@ -203,16 +248,15 @@ TEST(GaugeFault, ADeadGaugeDoesNotComeBack) {
 }
 
 TEST(GaugeFault, ANoisyGaugeIsNamedWhileNothingTouches) {
-  Presses random(16, 1, 408);
-  for (int trial = 0; trial < 50; ++trial) {
-    Pipeline pipeline(ring.tables(), FitMode::kRefined);
-    std::vector<double> strains(16);
-    for (int i = 0; i < 500; ++i) {
-      strains[5] = random.noise(10 * config.gauges.noise_strain);
-      seen(pipeline, strains, random);
-    }
-    LONGS_EQUAL(1u << 5, pipeline.observation().outOfUse);
-  }
+  CHECK(setsUntilNoisyIsNamed(10, 408) <= 500);
+  CHECK(setsUntilNoisyIsNamed(3, 410) <= 10'000);
+}
+
+// A contact of 2 mm is no line: what it leaves of a line's fit can look like a gauge that fails.
+TEST(GaugeFault, ContactsLittleWiderThanTheTablesSayBlameNoGauge) {
+  CHECK(blamedByWidth(1e-3, 411) <= 5);
+  CHECK(blamedByWidth(2e-3, 411) <= 60);
+  CHECK(blamedByWidth(4e-3, 411) <= 450);
 }
 
 TEST(GaugeFault, BeyondItsRangeTheFingerGoesOnWithTheOtherGauges) {

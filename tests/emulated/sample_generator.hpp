@@ -127,11 +127,12 @@ constexpr hal::SampleSet wild(Draws& draws) {
 /// Sample sets after which a replay starts afresh.
 inline constexpr std::uint32_t kBlock = 4096;
 
-/// Sample set number `sample`; wild ones are the last sixteenth of each block, so that the rest is felt with
-/// all gauges.
+/// Sample set number `sample`. The last 256 of every fourth block are wild ones: what they lead to takes many
+/// times the time, and the rest is to be felt with all gauges.
 constexpr hal::SampleSet generatedSamples(std::uint32_t sample) {
+  constexpr std::uint32_t kCycle = 4 * kBlock, kWild = 256;
   Draws draws(sample);
-  return sample % kBlock < kBlock / 16 * 15 ? ordinary(draws) : wild(draws);
+  return sample % kCycle < kCycle - kWild ? ordinary(draws) : wild(draws);
 }
 
 }  // namespace strainfinger::emulated

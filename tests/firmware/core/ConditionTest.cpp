@@ -45,9 +45,7 @@ TEST_GROUP(Condition) {
     });
   }
 
-  std::uint32_t saturatedBy(std::vector<std::uint16_t> codes) {
-    return saturatedGauges(constants, codes);
-  }
+  std::uint32_t saturatedBy(std::vector<std::uint16_t> codes) { return saturatedGauges(constants, codes); }
 };
 
 TEST(Condition, EveryCodeGivesTheExactProductRoundedDown) {

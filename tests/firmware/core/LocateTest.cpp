@@ -29,7 +29,6 @@ constexpr RingKind kRings[] = {{12, kRadial}, {14, kRadial}, {16, kRadial}, {20,
                                {32, kRadial}, {12, kHoop},   {16, kHoop},   {32, kHoop},   {16, kShear},
                                {20, kShear},  {24, kShear},  {32, kShear}};
 
-
 }  // namespace
 
 TEST_GROUP(Locate){

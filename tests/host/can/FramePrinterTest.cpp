@@ -65,7 +65,8 @@ TEST(FramePrinter, PrintsHeartbeatAsARow) {
                                           .faults = {FingerFault::kTables, FingerFault::kCan},
                                           .uptime_s = 12,
                                           .table_crc = 167});
-  STRCMP_EQUAL("0.001500,can0,5,HEARTBEAT,,,,,,,,,,,fault,1,tables+can,12,,,,167,,,,,,,,,,\n", rows().c_str());
+  STRCMP_EQUAL("0.001500,can0,5,HEARTBEAT,,,,,,,,,,,fault,1,tables+can,12,,,,167,,,,,,,,,,\n",
+               rows().c_str());
 }
 
 TEST(FramePrinter, PrintsInfoAsARow) {
@@ -74,7 +75,8 @@ TEST(FramePrinter, PrintsInfoAsARow) {
                                      .restarts = 2,
                                      .crash_address = 4096,
                                      .board = 77});
-  STRCMP_EQUAL("0.001500,can0,5,INFO,,,,,,,,,,,,,,,,,,,software,assertion,2,0,0,4096,77,,,\n", rows().c_str());
+  STRCMP_EQUAL("0.001500,can0,5,INFO,,,,,,,,,,,,,,,,,,,software,assertion,2,0,0,4096,77,,,\n",
+               rows().c_str());
 }
 
 TEST(FramePrinter, PrintsGaugesByTheirNumbers) {

@@ -14,7 +14,8 @@ using namespace strainfinger;
 
 namespace {
 constexpr double kCone = 1.25;
-constexpr double kHalfSpacing_rows = 4, kSlack_rows = 2.5;  ///< what a first step covers; half a row for sampling
+constexpr double kHalfSpacing_rows = 4,
+                 kSlack_rows = 2.5;  ///< what a first step covers; half a row for sampling
 }  // namespace
 
 TEST_GROUP(ScanSpans) {

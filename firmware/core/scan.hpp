@@ -86,9 +86,7 @@ struct Region {
   int centre;  ///< gauge in the middle of the window
   Signal signal;
   BestTwo peaks;
-  int anchor;                    ///< where the strains said that the middle should be
-  bool lookedBeside = false;     ///< the windows two gauges from there were scanned ..
-  std::array<Start, 2> besides;  ///< .. and explain less
+  int anchor;  ///< where the strains said that the middle should be
 };
 [[gnu::always_inline]] inline void scanWindow(const Problem& problem, int first, int last, Region& region) {
   region.signal = windowSignal(problem.strains, region.centre, problem.up);

@@ -69,31 +69,29 @@ bool takeTripleStep(const FitRow& row, WindowFit& fit) {
 }
 
 /// The window fit that a fit of seven readings came from.
-WindowFit windowFitOf(const Problem& problem, const Fit& fit) {
+WindowFit windowFitOf(const TableImage& tables, const std::int32_t* strains_q32, const Fit& fit) {
   WindowFit window;
-  const PitchQ20 ring = problem.gauges() * kOnePitch;
-  PitchQ20 offset = fit.best.position - fit.centre * kOnePitch;
-  if (offset > ring / 2) offset -= ring;
-  if (offset < -ring / 2) offset += ring;
-  const int row = static_cast<int>(fit.row - problem.tables.rows.data());
-  const Signal signal = signalAround(problem, fit.centre);
+  const TableConstants& constants = tables.constants;
+  const PitchQ20 offset = fit.offset(constants.gauge_count);
+  const int row = static_cast<int>(fit.row - tables.rows.data());
+  const Signal signal = windowSignal({strains_q32, constants.gauge_count}, fit.centre, fit.up);
   window.centre = fit.centre;
   window.side = offset < 0 ? -1 : 1;
   window.row = row;
-  window.signal = offset < 0 ? mirrored(signal, problem.mirrorSign()) : signal;
+  window.signal = offset < 0 ? mirrored(signal, constants.mirror_sign) : signal;
   window.step.projection =
       projectionsOn(*fit.row, window.signal);  // the fit may have crossed the middle gauge
   window.step.length = absolute(offset) - row * kRowSpacing;
   return window;
 }
 
-[[gnu::noinline]] void leaveToThree(const Problem& problem, Fit& fit) {
-  WindowFit window = windowFitOf(problem, fit);
-  if (!solveTriple(problem.tables.rows, problem.mirrorSign(), window)) return;
+[[gnu::noinline]] void leaveToThree(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32) {
+  WindowFit window = windowFitOf(tables, strains_q32, fit);
+  if (!solveTriple(tables.rows, tables.constants.mirror_sign, window)) return;
   const bool alone = fit.alternative == fit.best;
-  fit.row = unknown(problem.tables.rows.data()) + window.row;
+  fit.row = unknown(tables.rows.data()) + window.row;
   const Amplitudes amplitudes = amplitudesOf(*fit.row, window.step);
-  fit.best = {roundTheRing(window.position(), problem.gauges()), amplitudes.normal,
+  fit.best = {roundTheRing(window.position(), tables.constants.gauge_count), amplitudes.normal,
               window.side * amplitudes.tangential};
   if (alone) fit.alternative = fit.best;
   fit.projection = window.step.projection;
@@ -136,10 +134,10 @@ bool solveTriple(const FitTable& rows, int mirrorSign, WindowFit& fit) {
   return false;
 }
 
-Fit locateByThree(const TableImage& tables, std::span<const std::int32_t> strains_q32, std::uint32_t energy) {
-  Fit fit = locateBySeven(tables, strains_q32, energy);
-  if (fit.settled) leaveToThree(problemOf(tables, strains_q32, energy), fit);
-  return fit;
+void locateByThree(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32,
+                   std::uint32_t energy) {
+  locateBySeven(fit, tables, strains_q32, energy);
+  if (fit.settled) leaveToThree(fit, tables, strains_q32);
 }
 
 }  // namespace strainfinger::firmware

@@ -131,12 +131,8 @@ void Contest::enter(const Problem& problem, const WindowFit& from, const Judgeme
 [[gnu::noinline]] Shortlist startsAnywhere(const Problem& problem) {
   Shortlist list;
   const FitTable& rows = problem.tables.rows;
-  const bool finely = problem.tables.constants.scan_step == kMinScanStep;
-  for (int gauge = 0; gauge < problem.gauges(); ++gauge) {
-    const Signal signal = signalAround(problem, gauge);
-    if (finely) list.add(scanned<kMinScanStep / 2, kMinScanStep>(rows, signal), gauge);
-    if (!finely) list.add(scanned<kMaxScanStep / 2, kMaxScanStep>(rows, signal), gauge);
-  }
+  for (int gauge = 0; gauge < problem.gauges(); ++gauge)
+    list.add(scanned(rows, signalAround(problem, gauge), problem.tables.constants.scan_step), gauge);
   return list;
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "firmware/core/condition.hpp"
+#include "firmware/core/error_products.hpp"
 #include "firmware/core/fit_step.hpp"
 #include "firmware/core/side_energies.hpp"
 #include "firmware/core/triple_step.hpp"
@@ -37,6 +38,12 @@ static void threeSteps(const Signal& signal) {
     amplitudesOf(provedRow, step);
     tripleSystem(provedRow, gauges, step.projection);
   }
+}
+/// Of any deviations and covariances of so many bits.
+static void variance(int deviationBits, int covarianceBits) {
+  const auto any = [](int bits) { return Number(-(std::int64_t{1} << bits), std::int64_t{1} << bits); };
+  const Number d = any(deviationBits), c = any(covarianceBits);
+  quadraticForm({d, d, d}, {c, c, c, c, c, c});
 }
 /// Folds any window of a length [signal]. Of two readings the sum is longest where they are equal.
 static void fold(double length, int up) {
@@ -77,6 +84,28 @@ TEST(Ranges, AmplitudesAndTheirSlopesOverflowNothing) {
 TEST(Ranges, AStepOfThreeReadingsAndItsAmplitudesOverflowNothing) {
   forEachScale([&] { threeSteps(anySignal()); });
   checkNone();
+}
+
+TEST(Ranges, WhatThreeReadingsWeighInAnErrorOverflowsNothing) {
+  forEachScale([] {
+    const Signal signal = anySignal();
+    const Number any(-32768, 32767);
+    for (const GaugeTriple& gauges : kTripleList) {
+      const Projections u = projectionsOn(provedRow, signal);
+      const FitStep step =
+          tripleStep(provedRow, tripleSystem(provedRow, gauges, u), twiceRead(signal, gauges), u);
+      const Number slope = amplitudeSlopes(provedRow, step.projection).normal;
+      amplitudeWeight(provedRow, tripleSystem(provedRow, gauges, step.projection), 0, {any, any}, slope);
+    }
+  });
+  checkNone();
+}
+
+TEST(Ranges, TheVarianceWithGaugesLeftOutOverflowsNothing) {
+  variance(kDeviationBits, kCovarianceBits);
+  checkNone();
+  variance(kDeviationBits + 2, kCovarianceBits);
+  CHECK(overflows > 0);
 }
 
 TEST(Ranges, ALongerSignalWouldBeFoundInThreeReadings) {

@@ -35,6 +35,7 @@ class Function:
         self.name = name
         self.instructions = []  # (mnemonic, operands)
         self.calls = set()  # addresses
+        self.ends = set()  # addresses of functions that it goes on to once its own frame is given back
         self.indirect = False
         self.frame = 0
 
@@ -48,6 +49,14 @@ def leaves_through_a_pointer(mnemonic, operands, before):
     if mnemonic.startswith("mov"):
         return re.match(r"pc, (?!lr)", operands) is not None
     return mnemonic.startswith("ldr") and re.match(r"pc, (?!\[sp)", operands) is not None
+
+
+def gives_back_its_frame(mnemonic, operands):
+    """The last step before a call at the end (a branch that doesn't come back): lr is as the caller left it."""
+    if mnemonic.startswith("ldr"):
+        return operands.startswith("lr, [sp], #")
+    pops = mnemonic.startswith("pop") or (mnemonic.startswith("ldmia") and operands.startswith("sp!"))
+    return pops and re.search(r"\blr}", operands) is not None
 
 
 def disassembled(elf):
@@ -66,7 +75,8 @@ def disassembled(elf):
         for mnemonic, operands in function.instructions:
             target = re.search(r"\b([0-9a-f]+) <([^>+]+)>", operands)
             if mnemonic.startswith("b") and target and (target[2] != function.name or mnemonic in ("bl", "blx")):
-                function.calls.add(int(target[1], 16))
+                ends = not mnemonic.startswith("bl") and gives_back_its_frame(*before)
+                (function.ends if ends else function.calls).add(int(target[1], 16))
             if not target and leaves_through_a_pointer(mnemonic, operands, before):
                 function.indirect = True
             if not (mnemonic.startswith("add") and operands.startswith("sp, #")):
@@ -128,6 +138,10 @@ class Stack:
         self.functions, self.complain = functions, complain
         self.deepest, self.open = {}, []
 
+    def most_of(self, addresses):
+        return max((self.of(call) for call in sorted(addresses) if call in self.functions),
+                   default=(0, []), key=lambda found: found[0])
+
     def of(self, address):
         """(bytes, names along the deepest path)"""
         if address in self.open:
@@ -137,10 +151,10 @@ class Stack:
         if address not in self.deepest:
             function = self.functions[address]
             self.open.append(address)
-            below = max((self.of(call) for call in sorted(function.calls) if call in self.functions),
-                        default=(0, []), key=lambda found: found[0])
+            below, instead = self.most_of(function.calls), self.most_of(function.ends)
             self.open.pop()
-            self.deepest[address] = (function.frame + below[0], [(function.name, function.frame)] + below[1])
+            within = (function.frame + below[0], [(function.name, function.frame)] + below[1])
+            self.deepest[address] = max(within, instead, key=lambda found: found[0])
         return self.deepest[address]
 
 

@@ -11,7 +11,6 @@ constexpr PitchQ20 kSameAnswer = kOnePitch / 12;
 /// A contact leaves about this part of its energy outside its window, as a power of two: up to 2 % with 16
 /// gauges and fewer, a few percent with more, which are not in doubt.
 constexpr int kTailShift = 6;
-
 /// Beyond the last row: what the fit looks for belongs to another window.
 bool walkedOut(const WindowFit& fit) { return fit.offset() >= kFitRows * kRowSpacing; }
 
@@ -24,15 +23,16 @@ void changeWindow(const Problem& problem, WindowFit& fit) {
 
 }  // namespace
 
-void solve(const Problem& problem, InWindow window, Answer& answer) {
-  const FitTable& rows = problem.tables.rows;
-  WindowFit& fit = answer.fit;
+std::int32_t leftOutside(const Problem& problem, std::int32_t windowEnergy) {
+  return std::min(problem.ringEnergy - windowEnergy, windowEnergy >> kTailShift);
+}
+
+bool solve(const Problem& problem, InWindow window, WindowFit& fit) {
   for (bool mayMove = window == InWindow::kNearest;; mayMove = false) {
-    answer.settled = refine(rows, problem.mirrorSign(), fit);
-    if (!mayMove || fit.offset() <= kFarFromMiddle) break;
+    const bool settled = refine(problem.tables.rows, problem.mirrorSign(), fit);
+    if (!mayMove || fit.offset() <= kFarFromMiddle) return settled;
     changeWindow(problem, fit);
   }
-  judge(problem, answer);
 }
 
 bool isNear(const Problem& problem, PitchQ20 one, PitchQ20 other) {
@@ -41,26 +41,11 @@ bool isNear(const Problem& problem, PitchQ20 one, PitchQ20 other) {
   return std::min(apart, absolute(ring - apart)) < kSameAnswer;
 }
 
-Standing standingOf(const Problem& problem, const Answer& answer) {
-  const std::int32_t outside =
-      std::min(problem.ringEnergy - answer.windowEnergy, answer.windowEnergy >> kTailShift);
-  return {.energy = answer.energy + outside,
+Standing standingOf(const Problem& problem, const WindowFit& fit, const Judgement& judgement) {
+  return {.energy = judgement.energy + leftOutside(problem, judgement.windowEnergy),
           .found = true,
-          .admissible = answer.admissible(),
-          .isRival = answer.pressed && (answer.settled || !walkedOut(answer.fit))};
-}
-
-void Contest::enter(const Problem& problem, const Answer& answer) {
-  const Standing standing = standingOf(problem, answer);
-  const bool wins = standing.betterThan(first);
-  const bool sameAgain = first.found && isNear(problem, answer.fit.position(), best.fit.position());
-  if (wins) {
-    if (first.found && !sameAgain) setSecond(first, best, problem.gauges());
-    best = answer;
-    first = standing;
-  } else if (!sameAgain && standing.betterThan(second)) {
-    setSecond(standing, answer, problem.gauges());
-  }
+          .admissible = judgement.admissible(),
+          .isRival = judgement.pressed && (judgement.settled || !walkedOut(fit))};
 }
 
 }  // namespace strainfinger::firmware

@@ -24,47 +24,56 @@ inline PitchQ20 roundTheRing(PitchQ20 position, int gauges) {
   return position >= ring ? position - ring : position;
 }
 
-/// A refined fit.
-struct Answer {
-  WindowFit fit;
-  Amplitudes amplitudes;
+/// What a refined fit comes to. Apart from the fit, so that it may stay in registers.
+struct Judgement {
+  std::int32_t normal;  ///< amplitudes, the tangential one + towards the fit's side
+  std::int32_t tangential;
   std::int32_t energy;        ///< that the seven gauges say it explains ..
   std::int32_t windowEnergy;  ///< .. of so much
   bool settled;               ///< the steps came to an end within the table
   bool pressed;               ///< presses, and no harder sideways than friction allows
 
   bool admissible() const { return settled && pressed; }
-  Placement placement(int gauges) const {
-    return {roundTheRing(fit.position(), gauges), amplitudes.normal, fit.side * amplitudes.tangential};
-  }
+  std::int32_t unexplained() const { return windowEnergy - energy; }
 };
+
+[[gnu::always_inline]] inline Placement placementOf(const WindowFit& fit, const Judgement& judgement,
+                                                    int gauges) {
+  return {roundTheRing(fit.position(), gauges), judgement.normal, fit.side * judgement.tangential};
+}
 
 /// Fits farther from their middle gauge than this belong to another window.
 inline constexpr PitchQ20 kFarFromMiddle = kOnePitch * 53 / 100;
 
-inline bool withinCone(const TableConstants& constants, const Amplitudes& amplitudes) {
-  if (amplitudes.normal <= 0) return false;
-  const std::int32_t limit = mulHigh(amplitudes.normal, constants.friction_cone_q8 << 15);
-  return absolute(amplitudes.tangential) >> 9 <= limit;
+inline bool withinCone(const TableConstants& constants, std::int32_t normal, std::int32_t tangential) {
+  if (normal <= 0) return false;
+  const std::int32_t limit = mulHigh(normal, constants.friction_cone_q8 << 15);
+  return absolute(tangential) >> 9 <= limit;
 }
 
 /// What a fit's last step says.
-inline void judge(const Problem& problem, Answer& answer) {
-  const WindowFit& fit = answer.fit;
-  answer.energy = fit.step.energy();
-  answer.windowEnergy = energyOf(fit.signal);
-  answer.amplitudes = amplitudesOf(*unknown(unknown(problem.tables.rows.data()) + fit.row), fit.step);
-  answer.pressed = withinCone(problem.tables.constants, answer.amplitudes);
+inline Judgement judged(const Problem& problem, const WindowFit& fit, bool settled) {
+  const auto [normal, tangential] =
+      amplitudesOf(*unknown(unknown(problem.tables.rows.data()) + fit.row), fit.step);
+  return {normal,
+          tangential,
+          fit.step.energy(),
+          energyOf(fit.signal),
+          settled,
+          withinCone(problem.tables.constants, normal, tangential)};
 }
 
 /// Which window a fit ends in.
 enum class InWindow : std::uint8_t { kOwn, kNearest };
 
-/// Refines the answer's fit from its row and judges it.
-void solve(const Problem& problem, InWindow window, Answer& answer);
+/// Refines a fit from its row. False: it did not settle.
+bool solve(const Problem& problem, InWindow window, WindowFit& fit);
 
 /// Positions of fits that ran, or are about to run, into the same maximum.
 bool isNear(const Problem& problem, PitchQ20 one, PitchQ20 other);
+
+/// Energy that a contact may have left outside a window of so much.
+std::int32_t leftOutside(const Problem& problem, std::int32_t windowEnergy);
 
 /// What decides between two answers.
 struct Standing {
@@ -79,22 +88,6 @@ struct Standing {
     return energy > other.energy;
   }
 };
-Standing standingOf(const Problem& problem, const Answer& answer);
-
-/// The best answer, and the next best that is not the same one: of that only what is reported, for the
-/// stack's sake.
-struct Contest {
-  Answer& best;
-  Standing first{}, second{};
-  Placement secondPlacement;
-
-  void enter(const Problem& problem, const Answer& answer);
-
- private:
-  void setSecond(const Standing& standing, const Answer& answer, int gauges) {
-    second = standing;
-    secondPlacement = answer.placement(gauges);
-  }
-};
+Standing standingOf(const Problem& problem, const WindowFit& fit, const Judgement& judgement);
 
 }  // namespace strainfinger::firmware

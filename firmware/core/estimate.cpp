@@ -4,6 +4,7 @@
 #include <bit>
 #include <limits>
 
+#include "firmware/core/error_products.hpp"
 #include "firmware/core/integer_root.hpp"
 #include "firmware/core/triple_fit.hpp"
 
@@ -85,7 +86,7 @@ Errors refinedErrors(const TableConstants& constants, const Fit& fit) {
 
 /// Standard errors of an amplitude along the three directions in which a contact moves the readings, were
 /// these told by all gauges: by its loads' coefficients, and carried over from the offset.
-using Deviations = std::array<std::int64_t, 3>;
+using Deviations = std::array<Wide, 3>;
 
 Deviations deviationsOf(const TableConstants& constants, const Fit& fit, std::array<std::int16_t, 2> gains,
                         std::int32_t slope, std::int32_t offset_sigma) {
@@ -100,12 +101,9 @@ Deviations deviationsOf(const TableConstants& constants, const Fit& fit, std::ar
 std::int32_t reducedSigma(Deviations deviations, const std::array<std::int32_t, 6>& covariance_q12) {
   std::int64_t largest = 0;
   for (const std::int64_t each : deviations) largest = std::max(largest, std::abs(each));
-  const int down = std::max(64 - std::countl_zero(static_cast<std::uint64_t>(largest)) - 19, 0);
+  const int down = std::max(64 - std::countl_zero(static_cast<std::uint64_t>(largest)) - kDeviationBits, 0);
   for (std::int64_t& each : deviations) each >>= down;
-  const auto& [d1, d2, d3] = deviations;
-  const auto& [c11, c12, c13, c22, c23, c33] = covariance_q12;
-  const std::int64_t variance =
-      d1 * d1 * c11 + d2 * d2 * c22 + d3 * d3 * c33 + 2 * (d1 * d2 * c12 + d1 * d3 * c13 + d2 * d3 * c23);
+  const Wide variance = quadraticForm(deviations, covariance_q12);
   return root({static_cast<std::uint64_t>(std::max<std::int64_t>(variance, 0)), 2 * down - 12});
 }
 
@@ -150,13 +148,9 @@ Errors tripleErrors(const TableConstants& constants, const Fit& fit) {
   // An amplitude changes with the projections, and per row spacing of offset.
   const auto sigma = [&](std::int32_t load1, std::int32_t load2, std::int32_t slope) {
     Vector3 weights;
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-      const std::int64_t own =
-          std::int64_t{load1} * system.forProjection1[i] + std::int64_t{load2} * system.forProjection2[i];
-      const std::int64_t carried = std::int64_t{slope} * system.forOffset[i] * kRowsPerPitch;
-      weights[i] = saturate<std::int32_t>(
-          (own * (1 << 14) + (carried >> (fit.row->gradient_exponent + 3)) * 8) >> kLowered);
-    }
+    for (std::size_t i = 0; i < weights.size(); ++i)
+      weights[i] =
+          saturate<std::int32_t>(amplitudeWeight(*fit.row, system, i, {load1, load2}, slope) >> kLowered);
     return weightedSigma(constants, fit, weights, kLowered, system.volume);
   };
   return {

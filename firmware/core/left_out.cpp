@@ -250,7 +250,8 @@ Rivals searchRemaining(const Problem& problem, const RingSignal& signal) {
 Fit locateWithout(const TableImage& tables, GaugeSet leftOut, std::span<std::int32_t> strains_q32,
                   std::uint32_t energy) {
   const Verdict verdict = prepare(tables, leftOut, strains_q32, energy);
-  Fit fit = locateBySeven(tables, strains_q32, energy);
+  Fit fit;
+  locateBySeven(fit, tables, strains_q32.data(), energy);
   widen(tables, leftOut, strains_q32, energy, fit);
   if (!verdict.determined) fit.settled = false;
   if (verdict.ambiguous) {

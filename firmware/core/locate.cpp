@@ -32,10 +32,8 @@ std::int32_t rivalLimit(const Problem& problem, std::int32_t best, int shift) {
 }
 
 /// Another window may hold a better answer.
-inline bool doubtful(const Problem& problem, const Answer& answer) {
-  const std::int32_t window = answer.windowEnergy;
-  return !answer.admissible() || mayBeAlias(problem) ||
-         window - answer.energy > problem.noise + (window >> kRoundingShift) ||
+inline bool doubtful(const Problem& problem, bool admissible, std::int32_t unexplained, std::int32_t window) {
+  return !admissible || mayBeAlias(problem) || unexplained > problem.noise + (window >> kRoundingShift) ||
          problem.ringEnergy - window > problem.noise + (window >> kOutsideShift);
 }
 
@@ -66,13 +64,57 @@ class Shortlist {
   std::array<Start, 6> starts_;
 };
 
+/// What is reported of an answer, but for the alternative.
+[[gnu::always_inline]] inline void report(const Problem& problem, const WindowFit& from,
+                                          const Judgement& judgement, PitchQ20 position, Fit& fit) {
+  fit.best.position = position;
+  fit.best.normal = judgement.normal;
+  fit.best.tangential = from.side * judgement.tangential;
+  fit.row = unknown(problem.tables.rows.data()) + from.row;
+  fit.projection = from.step.projection;
+  fit.information = from.step.information;
+  fit.unexplained = judgement.unexplained();
+  fit.windowEnergy = judgement.windowEnergy;
+  fit.up = static_cast<std::int8_t>(problem.up);
+  fit.centre = static_cast<std::uint8_t>(from.centre);
+  fit.readings = FitMode::kRefined;
+  fit.reduced = false;
+  fit.settled =
+      judgement.settled & judgement.pressed & (judgement.energy >> 1 > problem.noise);  // 64 variances
+}
+
+/// The best answer, in what is reported, and the next best that is not the same one.
+struct Contest {
+  Fit& fit;
+  Standing first{}, second{};
+
+  void enter(const Problem& problem, const WindowFit& from, const Judgement& judgement);
+};
+
+void Contest::enter(const Problem& problem, const WindowFit& from, const Judgement& judgement) {
+  const Standing standing = standingOf(problem, from, judgement);
+  const Placement place = placementOf(from, judgement, problem.gauges());
+  const bool sameAgain = first.found && isNear(problem, place.position, fit.best.position);
+  if (standing.betterThan(first)) {
+    if (first.found && !sameAgain) {
+      second = first;
+      fit.alternative = fit.best;
+    }
+    first = standing;
+    report(problem, from, judgement, place.position, fit);
+  } else if (!sameAgain && standing.betterThan(second)) {
+    second = standing;
+    fit.alternative = place;
+  }
+}
+
 /// Refines a fit from a row of a window and enters it, in a frame of its own.
 [[gnu::noinline]] void enterFit(const Problem& problem, InWindow window, int centre, int row,
                                 Contest& contest) {
-  Answer answer;
-  answer.fit.start(signalAround(problem, centre), centre, row, problem.mirrorSign());
-  solve(problem, window, answer);
-  contest.enter(problem, answer);
+  WindowFit fit;
+  fit.start(signalAround(problem, centre), centre, row, problem.mirrorSign());
+  const bool settled = solve(problem, window, fit);
+  contest.enter(problem, fit, judged(problem, fit, settled));
 }
 
 /// Refines every start of the list that may win.
@@ -89,56 +131,33 @@ class Shortlist {
 [[gnu::noinline]] Shortlist startsAnywhere(const Problem& problem) {
   Shortlist list;
   const FitTable& rows = problem.tables.rows;
-  const bool finely = problem.tables.constants.scan_step == kMinScanStep;
-  for (int gauge = 0; gauge < problem.gauges(); ++gauge) {
-    const Signal signal = signalAround(problem, gauge);
-    if (finely) list.add(scanned<kMinScanStep / 2, kMinScanStep>(rows, signal), gauge);
-    if (!finely) list.add(scanned<kMaxScanStep / 2, kMaxScanStep>(rows, signal), gauge);
-  }
+  for (int gauge = 0; gauge < problem.gauges(); ++gauge)
+    list.add(scanned(rows, signalAround(problem, gauge), problem.tables.constants.scan_step), gauge);
   return list;
 }
 
 /// Contacts midway between two gauges may bend the strains most one, two or three gauges away: enters what is
 /// there, on either side of the windows two gauges off, and three where noise may tip the balance.
-inline void enterBeside(const Problem& problem, const Region& region, Contest& contest) {
+inline void enterBeside(const Problem& problem, Contest& contest) {
   constexpr std::array<std::int8_t, 4> kAway{-2, 2, -3, 3};
   std::array<Start, 4> starts;
-  std::size_t count = 2;
-  if (region.lookedBeside && !mayBeAlias(problem)) {
-    std::copy(region.besides.begin(), region.besides.end(), starts.begin());
-  } else {
-    count = mayBeAlias(problem) ? 4 : 2;
-    for (std::size_t i = 0; i < count; ++i)
-      starts[i] = midwayStart(problem, wrapped(region.anchor + kAway[i], problem.gauges()));
-  }
+  const std::size_t count = mayBeAlias(problem) ? 4 : 2;
   std::int32_t best = 0;
-  for (std::size_t i = 0; i < count; ++i) best = std::max(best, starts[i].energy);
+  for (std::size_t i = 0; i < count; ++i) {
+    starts[i] = midwayStart(problem, wrapped(contest.fit.anchor + kAway[i], problem.gauges()));
+    best = std::max(best, starts[i].energy);
+  }
   for (std::size_t i = 0; i < count; ++i)
     if (starts[i].energy > rivalLimit(problem, best, kStarterShift))
       enterFit(problem, InWindow::kOwn, starts[i].centre, starts[i].row, contest);
 }
 
-/// The runner-up explains the readings as well, within noise.
-bool isAmbiguous(const Problem& problem, const Contest& contest) {
-  return contest.second.isRival &&
-         contest.second.energy > contest.first.energy - marginOf(problem, contest.best.windowEnergy);
-}
-
-inline Fit reportOf(const Problem& problem, const Answer& best) {
-  const Placement placement = best.placement(problem.gauges());
-  Fit fit;
-  fit.best = fit.alternative = placement;
-  fit.row = unknown(problem.tables.rows.data()) + best.fit.row;
-  fit.projection = best.fit.step.projection;
-  fit.information = best.fit.step.information;
-  fit.unexplained = best.windowEnergy - best.energy;
-  fit.windowEnergy = best.windowEnergy;
-  fit.up = static_cast<std::int8_t>(problem.up);
-  fit.centre = static_cast<std::uint8_t>(best.fit.centre);
-  fit.readings = FitMode::kRefined;
-  fit.ambiguous = fit.reduced = false;
-  fit.settled = best.admissible() && best.energy >> 1 > problem.noise;  // 64 variances
-  return fit;
+/// Says in the report whether the runner-up explains the readings as well, within noise.
+void conclude(const Problem& problem, const Contest& contest) {
+  Fit& fit = contest.fit;
+  const Standing &first = contest.first, &second = contest.second;
+  if (!second.found) fit.alternative = fit.best;
+  fit.ambiguous = second.isRival && second.energy > first.energy - marginOf(problem, fit.windowEnergy);
 }
 
 /// Where a single step from a row of a window leads.
@@ -189,45 +208,66 @@ bool mayBeAsGood(const Problem& problem, const Lead& lead, const ToBeat& answer,
   return mayBeAsGood(problem, rival, answer, kTwoStepsShift);
 }
 
-Fit reportOf(const Problem& problem, const Contest& contest) {
-  Fit fit = reportOf(problem, contest.best);
-  if (contest.second.found) {
-    fit.alternative = contest.secondPlacement;
-    fit.ambiguous = isAmbiguous(problem, contest);
-  }
-  return fit;
+/// What the readings' first answer leaves to be done.
+enum class Task : std::uint8_t { kNone, kSearchOn, kSearchEverywhere };
+
+/// .. of the same problem, of which its fit knows the scale.
+struct Next {
+  Task task = Task::kNone;
+  const TableImage* tables = nullptr;
+  const std::int32_t* strains_q32 = nullptr;
+  std::int32_t ringEnergy = 0;
+
+  Next() = default;
+  Next(Task todo, const Problem& problem)
+      : task(todo),
+        tables(&problem.tables),
+        strains_q32(problem.strains.data()),
+        ringEnergy(problem.ringEnergy) {}
+};
+Problem problemAgain(const Fit& fit, const TableImage& tables, const std::int32_t* strains_q32,
+                     std::int32_t ringEnergy) {
+  const TableConstants& constants = tables.constants;
+  return {tables, {strains_q32, constants.gauge_count}, fit.up, ringEnergy, noiseEnergy(constants, fit.up)};
 }
 
-/// What a search at the anchor comes to that the first answer doesn't end.
-[[gnu::noinline]] Fit searchedOn(const Problem& problem, const Region& region, const int* rivalRow,
-                                 Answer& answer) {
-  Contest contest{answer, {}, {}, {}};
-  if (answer.fit.offset() > kFarFromMiddle) solve(problem, InWindow::kNearest, answer);
-  if (rivalRow != nullptr) {
-    contest.first = standingOf(problem, answer);
-    enterFit(problem, InWindow::kNearest, region.centre, *rivalRow, contest);
-  }
-  if (doubtful(problem, answer)) {
-    contest.first = contest.first.found ? contest.first : standingOf(problem, answer);
-    enterBeside(problem, region, contest);
-  }
-  return reportOf(problem, contest);
+/// Goes on from a first answer that may not be the best. If it is ambiguous so far, `alternative.position` is
+/// where to look as well: an offset in its window.
+[[gnu::noinline]] void searchOn(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32,
+                                std::int32_t ringEnergy) {
+  const Problem problem = problemAgain(fit, tables, strains_q32, ringEnergy);
+  Contest contest{fit};
+  const int centre = fit.centre;
+  const Lead rival{fit.alternative.position, 0};
+  const PitchQ20 offset = fit.offset(problem.gauges());
+  if (fit.settled && absolute(offset) <= kFarFromMiddle)
+    contest.first = {fit.windowEnergy - fit.unexplained + leftOutside(problem, fit.windowEnergy), true, true,
+                     true};
+  else
+    enterFit(problem, InWindow::kNearest, centre, Lead{offset, 0}.row(), contest);
+  if (fit.ambiguous) enterFit(problem, InWindow::kNearest, centre, rival.row(), contest);
+  if (doubtful(problem, fit.settled, fit.unexplained, fit.windowEnergy)) enterBeside(problem, contest);
+  conclude(problem, contest);
 }
 
-/// `answer`: room for one.
-[[gnu::noinline]] Fit searchedEverywhere(const Problem& problem, Answer& answer) {
-  Contest contest{answer, {}, {}, {}};
+[[gnu::noinline]] void searchEverywhere(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32,
+                                        std::int32_t ringEnergy) {
+  const Problem problem = problemAgain(fit, tables, strains_q32, ringEnergy);
+  Contest contest{fit};
   enterBest(problem, startsAnywhere(problem), contest);
-  return reportOf(problem, contest);
+  conclude(problem, contest);
 }
 
-}  // namespace
+bool needsEveryWindow(const Problem& problem) {
+  return problem.tables.constants.anchor_rule == AnchorRule::kExhaustive || isWeak(problem);
+}
 
-Fit locateBySeven(const TableImage& tables, std::span<const std::int32_t> strains_q32, std::uint32_t energy) {
-  const Problem problem = problemOf(tables, strains_q32, energy);
-  Answer answer;
-  if (tables.constants.anchor_rule == AnchorRule::kExhaustive || isWeak(problem))
-    return searchedEverywhere(problem, answer);
+/// The first answer, and what is next.
+[[gnu::always_inline]] inline Next firstAnswer(const Problem& problem, Fit& fit) {
+  if (needsEveryWindow(problem)) {
+    fit.up = static_cast<std::int8_t>(problem.up);
+    return {Task::kSearchEverywhere, problem};
+  }
   Region region;
   look(problem, region);
   const Signal& signal = region.signal;
@@ -236,16 +276,35 @@ Fit locateBySeven(const TableImage& tables, std::span<const std::int32_t> strain
   Lead rival;
   bool contested = mayWin(problem, peaks);
   if (contested) chooseStart(problem, signal, peaks, row, rival);
-  answer.fit.start(signal, region.centre, row, problem.mirrorSign());
-  answer.settled = refine(tables.rows, problem.mirrorSign(), answer.fit);
-  judge(problem, answer);
+  WindowFit window;
+  window.start(signal, region.centre, row, problem.mirrorSign());
+  const bool settled = refine(problem.tables.rows, problem.mirrorSign(), window);
+  const Judgement judgement = judged(problem, window, settled);
   contested = contested &&
               staysAsGood(problem, signal,
-                          {answer.energy, answer.windowEnergy, answer.fit.side * answer.fit.offset()}, rival);
-  if (!contested && answer.fit.offset() <= kFarFromMiddle && !doubtful(problem, answer))
-    return reportOf(problem, answer);
-  const int rivalRow = contested ? rival.row() : 0;
-  return searchedOn(problem, region, contested ? &rivalRow : nullptr, answer);
+                          {judgement.energy, judgement.windowEnergy, window.side * window.offset()}, rival);
+  const bool ends =
+      !contested && window.offset() <= kFarFromMiddle &&
+      !doubtful(problem, judgement.admissible(), judgement.unexplained(), judgement.windowEnergy);
+  const PitchQ20 position = roundTheRing(window.position(), problem.gauges());
+  report(problem, window, judgement, position, fit);
+  fit.alternative.position = contested ? rival.offset : position;
+  fit.alternative.normal = judgement.normal;
+  fit.alternative.tangential = window.side * judgement.tangential;
+  fit.ambiguous = contested;
+  fit.anchor = static_cast<std::uint8_t>(region.anchor);
+  return ends ? Next{} : Next{Task::kSearchOn, problem};
+}
+
+}  // namespace
+
+void locateBySeven(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32,
+                   std::uint32_t energy) {
+  const Next next = firstAnswer(problemOf(tables, {strains_q32, tables.constants.gauge_count}, energy), fit);
+  // Calls at the end, which need no frame but their own.
+  if (next.task == Task::kSearchOn) return searchOn(fit, *next.tables, next.strains_q32, next.ringEnergy);
+  if (next.task == Task::kSearchEverywhere)
+    return searchEverywhere(fit, *next.tables, next.strains_q32, next.ringEnergy);
 }
 
 }  // namespace strainfinger::firmware

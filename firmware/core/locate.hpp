@@ -13,37 +13,47 @@ namespace strainfinger::firmware {
 
 /// What locate() found, in its own units; estimate.hpp turns it into quantities and errors.
 struct Fit {
-  Placement best{};
-  Placement alternative{};               ///< the next best answer; meaningful when ambiguous
-  const FitRow* row = nullptr;           ///< that the answer was found from ..
-  Projections projection{};              ///< .. with these: what the answer's errors depend on
-  std::int32_t information = 0;          ///< see FitStep
-  std::int32_t unexplained = 0;          ///< energy the fit leaves in its window ..
-  std::int32_t windowEnergy = 0;         ///< .. of so much
-  std::int8_t up = 0;                    ///< readings were divided by 2^(16 - up)
-  std::uint8_t centre = 0;               ///< the window's middle gauge
-  FitMode readings = FitMode::kRefined;  ///< that the answer rests on: seven, or the row's three
-  bool ambiguous = false;                ///< another answer explains the readings as well, within noise
-  bool reduced = false;                  ///< gauges were left out (left_out.hpp)
-  bool settled = false;  ///< the fit converged, presses, stays within the friction cone, and is no mere noise
+  Placement best;
+  Placement alternative;      ///< the next best answer; meaningful when ambiguous
+  const FitRow* row;          ///< that the answer was found from ..
+  Projections projection;     ///< .. with these: what the answer's errors depend on
+  std::int32_t information;   ///< see FitStep
+  std::int32_t unexplained;   ///< energy the fit leaves in its window ..
+  std::int32_t windowEnergy;  ///< .. of so much
+  std::int8_t up;             ///< readings were divided by 2^(16 - up)
+  std::uint8_t centre;        ///< the window's middle gauge
+  std::uint8_t anchor;        ///< where the readings said that it should be
+  FitMode readings;           ///< that the answer rests on: seven, or the row's three
+  bool reduced;               ///< gauges were left out (left_out.hpp)
+  bool ambiguous;             ///< another answer explains the readings as well, within noise
+  bool settled;  ///< the fit converged, presses, stays within the friction cone, and is no mere noise
   /// If reduced: covariance of what the readings say along the two loads and the offset (tangent.hpp), in
   /// variances of a reading * 2^12.
   std::array<std::int32_t, 6> covariance_q12;
+
+  /// From the window's middle gauge.
+  PitchQ20 offset(int gauges) const {
+    const PitchQ20 ring = gauges * kOnePitch, apart = best.position - centre * kOnePitch;
+    if (apart > ring / 2) return apart - ring;
+    return apart < -ring / 2 ? apart + ring : apart;
+  }
 };
 
 /// Fits one line contact to the strains of a ring that is touched; one strain a gauge, each within
 /// +-2^(15 + gate_shift). `energy`: their gateEnergy().
 /// Bounded time: a part of a window scanned and one fit for most contacts, three windows and four fits for
 /// those in doubt, every window and six fits for a touch so weak that noise could win in a wrong one.
-Fit locateBySeven(const TableImage& tables, std::span<const std::int32_t> strains_q32, std::uint32_t energy);
+void locateBySeven(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32, std::uint32_t energy);
 
 /// The same, the answer left to the row's three best conditioned readings if they lead where all seven do.
-Fit locateByThree(const TableImage& tables, std::span<const std::int32_t> strains_q32, std::uint32_t energy);
+void locateByThree(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32, std::uint32_t energy);
 
 inline Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t> strains_q32,
                   std::uint32_t energy) {
-  return mode == FitMode::kRefined ? locateBySeven(tables, strains_q32, energy)
-                                   : locateByThree(tables, strains_q32, energy);
+  Fit fit;
+  mode == FitMode::kRefined ? locateBySeven(fit, tables, strains_q32.data(), energy)
+                            : locateByThree(fit, tables, strains_q32.data(), energy);
+  return fit;
 }
 
 }  // namespace strainfinger::firmware

@@ -155,4 +155,10 @@ constexpr Number clippedQuotient(Number numerator, Number divisor) {
   return divisor <= 0 ? 0 : clipped<Bits>(numerator / divisor);
 }
 
+/// The same with a divisor of either sign, which is not 0.
+template <int Bits>
+constexpr Number signedQuotient(Number numerator, Number divisor) {
+  return clipped<Bits>(numerator / divisor);
+}
+
 }  // namespace strainfinger::firmware

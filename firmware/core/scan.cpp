@@ -85,15 +85,13 @@ int bendAnchor(const Problem& problem) {
                                                   : sharpestBend<-1>(problem.strains);
 }
 
-/// Takes another start if it is better. Returns the one that is not taken.
-Start lookAlso(const Problem& problem, int centre, Region& region) {
+/// Takes another start if it is better.
+void lookAlso(const Problem& problem, int centre, Region& region) {
   const Start other = midwayStart(problem, wrapped(centre, problem.gauges()));
-  if (other.energy <= region.peaks.first.energy) return other;
-  const Start before = startAt(region.centre, region.peaks.first);
+  if (other.energy <= region.peaks.first.energy) return;
   region.centre = other.centre;
   region.signal = signalAround(problem, other.centre);
   region.peaks = {{other.energy, other.row}, {-1, 0}};
-  return before;
 }
 
 /// The same contact from the next gauge's window.
@@ -121,19 +119,46 @@ Start midwayStart(const Problem& problem, int centre) {
   return startAt(centre, sides.minus.energy > sides.plus.energy ? sides.minus : sides.plus);
 }
 
+namespace {
+
+[[gnu::always_inline]] inline Scan scannedBy(int step, const FitTable& rows, const Signal& signal) {
+  const int first = step / 2, second = first + step;
+  const FitRow* at = unknown(&rows[static_cast<std::size_t>(first)]);
+  const SideEnergies inner = exactEnergies(sideParts(*at, signal));
+  Peak minus{-1, 0}, plus{-1, 0};
+  for (int row = second; row <= kScanReach; row += step) {
+    at = unknown(at + step);
+    const SideEnergies energy = roughEnergies(sideParts(*at, signal));
+    raise(minus, energy.minus, -row);
+    raise(plus, energy.plus, row);
+  }
+  Peak middle = inner.minus > inner.plus ? Peak{inner.minus, -first} : Peak{inner.plus, first};
+  if (minus.row == -second && minus.energy <= inner.minus) minus.energy = -1;
+  if (plus.row == second && plus.energy <= inner.plus) plus.energy = -1;
+  if (middle.energy <= (middle.row < 0 ? minus.energy : plus.energy)) middle.energy = -1;
+  return {middle, minus, plus};
+}
+
+}  // namespace
+
+Scan scanned(const FitTable& rows, const Signal& signal, int step) {
+  if (step == kMaxScanStep) return scannedBy(kMaxScanStep, rows, signal);  // unrolled: that of most fingers
+  return scannedBy(step, rows, signal);
+}
+
 void lookAtBend(const Problem& problem, int first, Region& region) {
   region.anchor = region.centre = bendAnchor(problem);
   scanWindow(problem, first, kScanReach, region);
   const Peak& best = region.peaks.first;
-  const auto also = [&](int away) { return lookAlso(problem, region.anchor + away, region); };
+  const auto also = [&](int away) { lookAlso(problem, region.anchor + away, region); };
   if (best.energy < problem.ringEnergy - (problem.ringEnergy >> kLeftShift) - problem.noise) {
     // Midway between two gauges, two or three from here; where it looks like this edge, three on the other
     // side.
     if (absolute(best.row) == kScanReach) {
       also(best.row < 0 ? 3 : -3);
     } else {
-      region.besides = {also(-2), also(2)};
-      region.lookedBeside = true;
+      also(-2);
+      also(2);
     }
   }
   if (absolute(best.row) == kScanReach && !mayWin(problem, region.peaks)) changeWindow(problem, region);

@@ -86,9 +86,7 @@ struct Region {
   int centre;  ///< gauge in the middle of the window
   Signal signal;
   BestTwo peaks;
-  int anchor;                    ///< where the strains said that the middle should be
-  bool lookedBeside = false;     ///< the windows two gauges from there were scanned ..
-  std::array<Start, 2> besides;  ///< .. and explain less
+  int anchor;  ///< where the strains said that the middle should be
 };
 [[gnu::always_inline]] inline void scanWindow(const Problem& problem, int first, int last, Region& region) {
   region.signal = windowSignal(problem.strains, region.centre, problem.up);
@@ -139,26 +137,7 @@ struct Scan {
   Peak middle, minus, plus;
 };
 
-/// Scans a window at rows First, First + Step .. up to kScanReach.
-template <int First, int Step>
-Scan scanned(const FitTable& rows, const Signal& signal) {
-  constexpr int kSecond = First + Step;
-  const FitRow* at = unknown(&rows[First]);
-  const SideEnergies inner = exactEnergies(sideParts(*at, signal));
-  at = unknown(at + Step);
-  const SideEnergies outer = roughEnergies(sideParts(*at, signal));
-  Peak minus{outer.minus, -kSecond}, plus{outer.plus, kSecond};
-  for (int row = kSecond + Step; row <= kScanReach; row += Step) {
-    at = unknown(at + Step);
-    const SideEnergies energy = roughEnergies(sideParts(*at, signal));
-    raise(minus, energy.minus, -row);
-    raise(plus, energy.plus, row);
-  }
-  Peak middle = inner.minus > inner.plus ? Peak{inner.minus, -First} : Peak{inner.plus, First};
-  if (minus.row == -kSecond && minus.energy <= inner.minus) minus.energy = -1;
-  if (plus.row == kSecond && plus.energy <= inner.plus) plus.energy = -1;
-  if (middle.energy <= (middle.row < 0 ? minus.energy : plus.energy)) middle.energy = -1;
-  return {middle, minus, plus};
-}
+/// Scans a window at rows step / 2, 3/2 step .. up to kScanReach.
+Scan scanned(const FitTable& rows, const Signal& signal, int step);
 
 }  // namespace strainfinger::firmware

@@ -72,10 +72,13 @@ def faults(lines, readme, images):
             yield f"{elf}: a second run counts differently"
         yield from locator_faults(elf, counts)
         yield from stack_faults(elf, counts["stack_bytes"][0])
+        if "m4" in elf and locator_stack(elf) > LOCATOR_STACK:
+            yield f"{elf}: locate needs {locator_stack(elf)} bytes of stack, more than {LOCATOR_STACK}"
 
 
 # Most that the stages may take: median, 95 %, worst of firm contacts. The locator's purpose is to stay below these.
 BARS = {"m4": {"condition": 128, "gate": 60, "locate": [700, 900, 2000]}, "m0plus": {"locate": [2300]}}
+LOCATOR_STACK = 512  # bytes on a Cortex-M4, in either mode
 
 
 def locator_faults(elf, counts):
@@ -83,6 +86,15 @@ def locator_faults(elf, counts):
         bars = bar if isinstance(bar, list) else [bar, bar, bar]
         if any(found > most for found, most in zip(spread(counts[stage])[1:], bars)):
             yield f"{elf}: {stage} takes {spread(counts[stage])[1:]}, more than {bars}"
+
+
+def locator_stack(elf):
+    """Deepest that either mode gets, by the image's instructions."""
+    functions = check_image.disassembled(elf)
+    for function in functions.values():
+        function.frame = check_image.pushed(function)
+    stack = check_image.Stack(functions, lambda complaint: None)
+    return max(stack.of(at)[0] for at, function in functions.items() if re.search("locateBy(Seven|Three)", function.name))
 
 
 def stack_faults(elf, measured):
@@ -101,7 +113,7 @@ def main():
     lines = list(table(*counts.values()))
     print("\n".join(lines))
     for elf, figures in counts.items():
-        print(f"{Path(elf).stem}: {figures['stack_bytes'][0]} bytes of stack used")
+        print(f"{Path(elf).stem}: {figures['stack_bytes'][0]} bytes of stack used, {locator_stack(elf)} by locate")
     found = list(faults(lines, Path(sys.argv[2]).read_text(), counts)) if check else []
     print("\n".join(found), file=sys.stderr)
     return 1 if found else 0

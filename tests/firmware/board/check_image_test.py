@@ -68,6 +68,17 @@ class CheckImage(unittest.TestCase):
         self.assertTrue(300 <= stack(alone) <= 340, alone)  # 200 + 100, and saved registers
         self.assertTrue(36 + 40 <= stack(interrupted) - stack(alone) <= 36 + 40 + 24, interrupted)
 
+    def test_a_call_at_the_end_needs_no_frame_but_its_own(self):
+        source = """asm(".syntax unified; .thumb; .type deep, %function; .type outer, %function; .global outer;"
+                        "deep: sub sp, #240; add sp, #240; bx lr;"
+                        "outer: push {r4, lr}; sub sp, #200; LAST; b.w deep");
+            extern "C" void outer(); extern "C" void resetHandler() { outer(); asm volatile(""); }"""
+        stack = lambda last: int(self.check(source.replace("LAST", last))[1].split("stack ")[1].split()[0])
+        for last in ("add sp, #200; ldmia.w sp!, {r4, lr}", "add sp, #204; ldr.w lr, [sp], #4"):
+            self.assertEqual(stack(last), 8 + 240)
+        for last in ("nop", "add sp, #204; ldr.w r4, [sp], #4", "ldmia.w sp!, {r4, r5}"):
+            self.assertEqual(stack(last), 8 + 208 + 240)
+
     def test_a_heap_is_found(self):
         self.refused("heap: malloc is linked", """#include <stdlib.h>
             void* volatile p; extern "C" void resetHandler() { p = malloc(3); }""")

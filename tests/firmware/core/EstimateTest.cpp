@@ -22,9 +22,10 @@ constexpr std::int32_t kLargest = std::numeric_limits<std::int32_t>::max();
 TEST_GROUP(Estimate) {
   const ModelRing ring;
   TableConstants constants = ring.constants();
-  Fit fit;
+  Fit fit{};
 
   void setup() override {
+    fit.readings = FitMode::kRefined;
     fit.settled = true;
     fit.row = &ring.tables().rows[20];
     fit.information = 1 << 26;

@@ -7,8 +7,10 @@
 #include <limits>
 
 #include "firmware/core/condition.hpp"
+#include "firmware/core/error_products.hpp"
 #include "firmware/core/fit_step.hpp"
 #include "firmware/core/side_energies.hpp"
+#include "firmware/core/triple_step.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -24,6 +26,24 @@ static Signal anySignal() {
   const Number any(-32767, 32767, 16);  // below kFoldedLength
   const auto pair = [&](unsigned part) { return Pair{any, any, kSignalLength, part}; };
   return {{pair(1), pair(2)}, {pair(4), pair(8)}};
+}
+/// A step of any three readings, and what is made of its answer: amplitudes, and the system that its errors
+/// come from.
+static void threeSteps(const Signal& signal) {
+  for (const GaugeTriple& gauges : kTripleList) {
+    const Projections u = projectionsOn(provedRow, signal);
+    const FitStep step =
+        tripleStep(provedRow, tripleSystem(provedRow, gauges, u), twiceRead(signal, gauges), u);
+    CHECK(step.length.most() < 1 << 17);
+    amplitudesOf(provedRow, step);
+    tripleSystem(provedRow, gauges, step.projection);
+  }
+}
+/// Of any deviations and covariances of so many bits.
+static void variance(int deviationBits, int covarianceBits) {
+  const auto any = [](int bits) { return Number(-(std::int64_t{1} << bits), std::int64_t{1} << bits); };
+  const Number d = any(deviationBits), c = any(covarianceBits);
+  quadraticForm({d, d, d}, {c, c, c, c, c, c});
 }
 /// Folds any window of a length [signal]. Of two readings the sum is longest where they are equal.
 static void fold(double length, int up) {
@@ -59,6 +79,43 @@ TEST(Ranges, AStepOverflowsNothing) {
 TEST(Ranges, AmplitudesAndTheirSlopesOverflowNothing) {
   forEachScale([&] { amplitudesOf(provedRow, fitStep(provedRow, anySignal())); });
   checkNone();
+}
+
+TEST(Ranges, AStepOfThreeReadingsAndItsAmplitudesOverflowNothing) {
+  forEachScale([&] { threeSteps(anySignal()); });
+  checkNone();
+}
+
+TEST(Ranges, WhatThreeReadingsWeighInAnErrorOverflowsNothing) {
+  forEachScale([] {
+    const Signal signal = anySignal();
+    const Number any(-32768, 32767);
+    for (const GaugeTriple& gauges : kTripleList) {
+      const Projections u = projectionsOn(provedRow, signal);
+      const FitStep step =
+          tripleStep(provedRow, tripleSystem(provedRow, gauges, u), twiceRead(signal, gauges), u);
+      const Number slope = amplitudeSlopes(provedRow, step.projection).normal;
+      amplitudeWeight(provedRow, tripleSystem(provedRow, gauges, step.projection), 0, {any, any}, slope);
+    }
+  });
+  checkNone();
+}
+
+TEST(Ranges, TheVarianceWithGaugesLeftOutOverflowsNothing) {
+  variance(kDeviationBits, kCovarianceBits);
+  checkNone();
+  variance(kDeviationBits + 2, kCovarianceBits);
+  CHECK(overflows > 0);
+}
+
+TEST(Ranges, ALongerSignalWouldBeFoundInThreeReadings) {
+  Signal signal = anySignal();
+  for (Pair* pair : {&signal.even[0], &signal.even[1], &signal.odd[0], &signal.odd[1]})
+    pair->length = 1.3 * kSignalLength;
+  fitStep(provedRow, signal);
+  checkNone();  // all seven have room for that
+  threeSteps(signal);
+  CHECK(overflows > 0);
 }
 
 TEST(Ranges, EnergiesOverflowNothing) {

@@ -129,4 +129,11 @@ Number clippedQuotient(Number numerator, Number) {
   return {-limit, std::min(limit, (std::int64_t{1} << (Bits - 1)) - 1)};
 }
 
+template <int Bits>
+Number signedQuotient(Number numerator, Number divisor) {
+  return clippedQuotient<Bits>(numerator, divisor);
+}
+
+constexpr int absolute(int value) { return value < 0 ? -value : value; }
+
 }  // namespace strainfinger::firmware

@@ -52,15 +52,14 @@ std::vector<Patch> firstGuess(const SurfaceKernel& kernel, const ContactRequest&
 }
 
 bool isSmooth(const SurfaceKernel& kernel, const Indenter& indenter) {
-  return kernel.annulus().poisson_ratio == 0.5 && indenter.edgeSlope() == 0 && !indenter.isMeasured();
+  return kernel.annulus().poisson_ratio == 0.5 && !indenter.isMeasured();
 }
 
 /// Enough for 1e-12 of what is smooth and 1e-6 of what is not: the pressure follows the layer's depth. What
 /// is ill-posed gets no more than that. Below a wedge that slides the pressure is the least smooth.
 int termsFor(const SurfaceKernel& kernel, const ContactRequest& request, const std::vector<Patch>& patches) {
   const bool isOpen = isIllPosed(kernel, request), isMore = !isOpen && !isSmooth(kernel, request.indenter);
-  const bool isRough = request.indenter.edgeSlope() != 0 && request.regime == Regime::kSliding;
-  if (!isOpen && (isRough || request.indenter.isMeasured())) return 64;
+  if (!isOpen && request.indenter.isMeasured()) return 64;
   const model::Annulus<double>& annulus = kernel.annulus();
   const double layer = 1 - annulus.core_radius_m / annulus.outer_radius_m;
   double half_rad = 0;

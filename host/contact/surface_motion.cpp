@@ -47,14 +47,14 @@ SurfacePoint SurfaceMotion::pointAt(double angle_rad, bool withSlopes) const {
   return point;
 }
 
-// The patch is cut at the point, if that is on it, and below the edge of a wedge.
+// The patch is cut at the point, if that is on it, and below the tip of a wedge.
 void SurfaceMotion::addPatch(const PatchTractions& part, double angle_rad, bool withSlopes,
                              SurfacePoint& point) const {
   const double x = (angle_rad - part.patch.centre_rad) / part.patch.half_rad;
   const bool isOnIt = std::abs(x) < 1;
   std::vector<double> cuts{-1, 1};
   if (isOnIt) cuts.push_back(x);
-  if (part.edge.amplitude_pa != 0 && part.edge.position != x) cuts.push_back(part.edge.position);
+  if (part.tip.isThere() && part.tip.position != x) cuts.push_back(part.tip.position);
   std::ranges::sort(cuts);
   const Traction here = withSlopes && isOnIt ? tractionAt({part}, angle_rad) : Traction{};
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
@@ -81,11 +81,11 @@ SurfaceMotion::Nodes SurfaceMotion::nodesBetween(const Patch& patch, double from
   return nodes;
 }
 
-// A node so close to the point or to the edge of a wedge that rounding put it there has no weight either.
+// A node so close to the point or to the tip of a wedge that rounding put it there has no weight either.
 void SurfaceMotion::addDisplacements(const PatchTractions& part, const Nodes& nodes,
                                      SurfacePoint& point) const {
   const ArrayXd pressures = nodes.weights * part.pressure_pa(nodes.places),
-                shears = part.friction * pressures + nodes.weights * part.stuck.at(nodes.places);
+                shears = part.friction * pressures + nodes.weights * part.stuck_pa(nodes.places);
   for (Index i = 0; i < pressures.size(); ++i) {
     if (nodes.distances[i] == 0 || !std::isfinite(pressures[i])) continue;
     const KernelPair pair = kernel_.valuesAt(nodes.distances[i]);
@@ -100,7 +100,7 @@ void SurfaceMotion::addSlopes(const PatchTractions& part, const Nodes& nodes, Tr
   for (Index i = 0; i < pressures.size(); ++i) {
     const double distance = nodes.distances[i];
     if (distance == 0 || !std::isfinite(pressures[i])) continue;
-    const double even = kernel_.evenAt(distance).slope, odd = kernel_.oddAt(distance).slope;
+    const auto [even, odd] = kernel_.slopesAt(distance);
     const double pole = kernel_.evenPole() * 0.5 / std::tan(distance / 2);
     point.urSlope_m += nodes.weights[i] * (odd * shears[i] - even * pressures[i] + pole * here.pressure_pa);
     point.utSlope_m += nodes.weights[i] * (odd * pressures[i] + even * shears[i] - pole * here.shear_pa);

@@ -19,7 +19,7 @@ struct SurfacePoint {
 
 /// Integrates kernel and tractions by the double exponential rule from the point to the edges of each patch:
 /// not what the solver does, which it is there to check. Error: 1e-13 of the largest displacement, slopes
-/// 1e-11 of the largest (1e-8 within 1e-9 half widths of an edge). At an edge of a patch, or below the edge
+/// 1e-11 of the largest (1e-8 within 1e-9 half widths of an edge). At an edge of a patch, or below the tip
 /// of a wedge, slopes are infinite or not a number.
 class SurfaceMotion {
  public:

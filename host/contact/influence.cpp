@@ -19,26 +19,29 @@ using Eigen::VectorXd;
 ArrayXXd reflectedOnItself(const SurfaceKernel& kernel, const KernelMix& mix, const VectorXd& points,
                            const VectorXd& nodes, double half_rad) {
   const VectorXd &even = mix.reflected, &odd = kernel.reflection().coupling;
-  const auto last = static_cast<int>(even.size()) - 1;
-  const int count = 16 + static_cast<int>(1.2 * half_rad * last);
+  const auto harmonics = static_cast<int>(even.size()) - 1;
+  const int count = 16 + static_cast<int>(1.2 * half_rad * harmonics);
   VectorXd series = VectorXd::Zero(count);
   for (int k = 0; k < count; ++k) {
     const double angle = std::numbers::pi * (k + 0.5) / count;
     double value = -mix.even * even[0] / 2;
-    model::visitMultiples(2 * half_rad * std::cos(angle), last, [&](int n, double c, double s) {
+    model::visitMultiples(2 * half_rad * std::cos(angle), harmonics, [&](int n, double c, double s) {
       value += mix.even * even[n] * c + mix.odd * odd[n] * s;
     });
     model::visitMultiples(angle, count - 1, [&](int j, double c, double) { series[j] += value * c; });
   }
   series *= 2 / (std::numbers::pi * count);
   series[0] /= 2;
+  const double rounding = 1e-17 * series.cwiseAbs().maxCoeff();
+  Index last = count;
+  while (last > 1 && std::abs(series[last - 1]) < rounding) --last;
   const ArrayXXd twice =
       (points.replicate(1, nodes.size()) - nodes.transpose().replicate(points.size(), 1)).array();
-  ArrayXXd sum = ArrayXXd::Zero(twice.rows(), twice.cols()), next = sum, last2 = sum;
-  for (Index j = count; j-- > 1;) {  // Clenshaw
-    last2 = twice * sum - next + series[j];
+  ArrayXXd sum = ArrayXXd::Zero(twice.rows(), twice.cols()), next = sum, made = sum;
+  for (Index j = last; j-- > 1;) {  // Clenshaw
+    made = twice * sum - next + series[j];
     next.swap(sum);
-    sum.swap(last2);
+    sum.swap(made);
   }
   return twice / 2 * sum - next + series[0];
 }

@@ -101,29 +101,28 @@ PatchSolution SpectralSolver::Assembly::solve(double tangential_n_per_m) {
 void SpectralSolver::Assembly::fillOwn(Index at) {
   const SurfaceKernel& kernel = solver_.kernel_;
   const ReferencePatch &pressure = solver_.pressure_, &nodes = solver_.shear_ ? *solver_.shear_ : pressure;
-  const PatchTractions& tip = tips_[static_cast<std::size_t>(at)];
-  const bool isTipInClosedForm = tip.tip.isThere() && tip.tip.step.size() == 0;
+  const PatchTractions& known = tips_[static_cast<std::size_t>(at)];
   const auto own = [&](const KernelMix& mix) {
-    return OwnInfluence(kernel, mix, pressure.points(), nodes.rules().rule.nodes, tip.patch.half_rad);
+    return OwnInfluence(kernel, mix, pressure.points(), nodes.rules().rule.nodes, known.patch.half_rad);
   };
+  const bool hasTip = known.tip.isThere() && known.tip.step.size() == 0;
+  const PatchRules tip = hasTip ? tipRules({known.tip, known.stuckTip}, nodes) : PatchRules{};
   const double unit = pressureUnit_pa_ / lengthUnit_m_;
-  const Index row = at * rows(), rowT = (patchCount() + at) * rows();
-  const Index p = at * pressure.terms();
+  const Index row = at * rows(), column = at * pressure.terms();
   const OwnInfluence normal = own({-1, solver_.friction_, kernel.reflection().normal});
-  matrix_.block(row, p, rows(), pressure.terms()) = unit * normal.of(pressure.rules());
-  if (isTipInClosedForm)
-    right_.segment(row, rows()) -= normal.of(tipRules(tip.tip, nodes)) / lengthUnit_m_;
+  matrix_.block(row, column, rows(), pressure.terms()) = unit * normal.of(pressure.rules());
+  if (hasTip) right_.segment(row, rows()) -= normal.of(tip).col(0) / lengthUnit_m_;
   if (!solver_.shear_) return;
-  const Index q = firstShear() + at * nodes.terms();
+  const Index rowT = (patchCount() + at) * rows(), columnT = firstShear() + at * nodes.terms();
   const OwnInfluence across = own({0, 1, kernel.reflection().normal}),
                      along = own({1, 0, kernel.reflection().sheared});
-  matrix_.block(rowT, p, rows(), pressure.terms()) = unit * across.of(pressure.rules());
-  matrix_.block(row, q, rows(), nodes.terms()) = unit * across.of(nodes.rules());
-  matrix_.block(rowT, q, rows(), nodes.terms()) = unit * along.of(nodes.rules());
-  if (!isTipInClosedForm) return;
-  const PatchRules pressed = tipRules(tip.tip, nodes), stuck = tipRules(tip.stuckTip, nodes);
-  right_.segment(row, rows()) -= across.of(stuck) / lengthUnit_m_;
-  right_.segment(rowT, rows()) -= (across.of(pressed) + along.of(stuck)) / lengthUnit_m_;
+  matrix_.block(rowT, column, rows(), pressure.terms()) = unit * across.of(pressure.rules());
+  matrix_.block(row, columnT, rows(), nodes.terms()) = unit * across.of(nodes.rules());
+  matrix_.block(rowT, columnT, rows(), nodes.terms()) = unit * along.of(nodes.rules());
+  if (!hasTip) return;
+  const MatrixXd acrossTip = across.of(tip), alongTip = along.of(tip);
+  right_.segment(row, rows()) -= acrossTip.col(1) / lengthUnit_m_;
+  right_.segment(rowT, rows()) -= (acrossTip.col(0) + alongTip.col(1)) / lengthUnit_m_;
 }
 
 void SpectralSolver::Assembly::fillOther(Index at, Index from) {

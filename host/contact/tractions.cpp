@@ -41,9 +41,23 @@ void appendSeries(std::vector<LineTraction>& lines, const Patch& patch, const Ed
   append(lines, patch, rule.nodes, share.pressure_pa * loads, share.shear_pa * loads);
 }
 
+/// Gauss's nodes with the weights that integrate arccosh times polynomials.
+ArrayXd tipLoads(const TipTraction& tip, const QuadratureRule& rule) {
+  if (!tip.isThere()) return ArrayXd::Zero(rule.nodes.size());
+  const auto count = static_cast<int>(rule.nodes.size());
+  const Eigen::MatrixXd values = jacobiValues(kSmoothEdges, count, rule.nodes);
+  const ArrayXd weights = rule.weights.array() * (values * tipMoments(tip.position, count)).array();
+  return weights * (values.leftCols(tip.log.size()) * tip.log).array();
+}
+
+void appendSteplessTip(std::vector<LineTraction>& lines, const PatchTractions& part, int nodes) {
+  const QuadratureRule rule = gaussRule(kSmoothEdges, nodes + static_cast<int>(part.tip.log.size()));
+  const ArrayXd pressures = tipLoads(part.tip, rule);
+  append(lines, part.patch, rule.nodes, pressures, part.friction * pressures + tipLoads(part.stuckTip, rule));
+}
+
 /// Both sides of the tip.
-void appendTip(std::vector<LineTraction>& lines, const PatchTractions& part, int harmonics) {
-  if (!part.tip.isThere()) return;
+void appendSteppedTip(std::vector<LineTraction>& lines, const PatchTractions& part, int harmonics) {
   const TanhSinhRule rule(16 + static_cast<int>(harmonics * part.patch.half_rad / 4));
   const double x0 = part.tip.position;
   for (const double end : {-1.0, 1.0}) {
@@ -139,7 +153,10 @@ std::vector<LineTraction> lineTractions(const Tractions& tractions, int harmonic
     const int nodes = nodesFor(part, harmonics);
     appendSeries(lines, part.patch, part.smooth, nodes, {1, part.friction});
     appendSeries(lines, part.patch, part.stuck, nodes, {0, 1});
-    appendTip(lines, part, harmonics);
+    if (part.tip.step.size() > 0)
+      appendSteppedTip(lines, part, harmonics);
+    else if (part.tip.isThere())
+      appendSteplessTip(lines, part, nodes);
   }
   return lines;
 }

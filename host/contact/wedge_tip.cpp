@@ -46,9 +46,9 @@ Powers onPatch(Powers a, double half_rad) {
 }
 
 /// Series of (1 - x^2)^2 [a / (1 - x^2)^2], the bracket cut after so many powers of t = x - x0 as leave
-/// nothing but t^10 ln|t|: for edges with other powers than 1/2, which a root there must not meddle with.
+/// nothing but t^6 ln|t| (more amplify what the edges lack): for edges with other powers than 1/2, which a root there must not meddle with.
 Powers awayFromEdges(const Powers& a, double x0) {
-  constexpr Index kKept = 10;
+  constexpr Index kKept = 6;
   Powers result = a;
   result.tail(kPowers - kKept).setZero();
   const double constant = 1 - x0 * x0;  // 1 - x^2 = constant - 2 x0 t - t^2
@@ -81,6 +81,10 @@ TipTraction tractionOf(const Powers& powers, double x0, bool hasStep) {
   return tip;
 }
 
+VectorXd seriesAt(const VectorXd& coefficients, const VectorXd& x) {
+  return jacobiValues(kSmoothEdges, static_cast<int>(coefficients.size()), x) * coefficients;
+}
+
 }  // namespace
 
 TipTractions tipTractions(const SurfaceKernel& kernel, const Indenter& indenter, Regime regime,
@@ -106,10 +110,10 @@ TipTractions tipTractions(const SurfaceKernel& kernel, const Indenter& indenter,
 // With y = cos phi, x0 = cos phi0: the integral of arccosh / (x - y) is (pi^2/2) sgn(x - x0) + pi asin x0, and
 // (U_k(x) - U_k(y)) / (x - y) = 2 sum_j U_j(x) U_(k-1-j)(y); the logarithm's are the antiderivatives, their
 // constants from int T_n / sqrt(1 - x^2) = 0 and that of the logarithm, -pi ln 2. norm U_k is orthonormal.
-PatchRules tipRules(const TipTraction& tip, const ReferencePatch& same) {
+PatchRules tipRules(const TipTractions& tip, const ReferencePatch& same) {
   const VectorXd &points = same.points(), &places = same.rules().rule.nodes;
   const auto nodes = static_cast<int>(places.size()) - 2;
-  const double norm = std::sqrt(2 / pi), x0 = tip.position, phi0 = std::acos(x0);
+  const double norm = std::sqrt(2 / pi), x0 = tip.pressure.position, phi0 = std::acos(x0);
   const VectorXd moments = tipMoments(x0, nodes);
   const ArrayXd angles = points.array().acos(), side = (points.array() - x0).sign();
   MatrixXd integrals(points.size(), nodes), antiderivatives(points.size(), nodes);
@@ -129,7 +133,9 @@ PatchRules tipRules(const TipTraction& tip, const ReferencePatch& same) {
   if (same.exponents().right < 0) weights.array() *= 1 - places.array().square();
   const MatrixXd projection = values.transpose() * weights.asDiagonal();
   PatchRules rules{points, {places, projection.transpose() * moments}, {}, integrals * projection, 0, {}};
-  rules.basis = jacobiValues(kSmoothEdges, static_cast<int>(tip.log.size()), places) * tip.log;
+  rules.basis.resize(places.size(), tip.stuck.isThere() ? 2 : 1);
+  rules.basis.col(0) = seriesAt(tip.pressure.log, places);
+  if (tip.stuck.isThere()) rules.basis.col(1) = seriesAt(tip.stuck.log, places);
   return rules;
 }
 

@@ -30,9 +30,9 @@ struct TipTractions {
 TipTractions tipTractions(const SurfaceKernel& kernel, const Indenter& indenter, Regime regime,
                           double friction, const Patch& patch);
 
-/// Rules for the logarithm of a tip (one column: the traction itself) seen at the points of other rules on the
-/// same patch, at the same nodes: in closed form but for the analytic factors of the kernel. Domain: a
-/// traction without a step; rules of kSmoothEdges or kStuckEdges.
-PatchRules tipRules(const TipTraction& tip, const ReferencePatch& same);
+/// Rules for the logarithms of a tip, one column for the pressure, one for what sticks if there is that, seen
+/// at the points of other rules on the same patch, at the same nodes: in closed form but for the analytic
+/// factors of the kernel. Domain: tractions without a step; rules of kSmoothEdges or kStuckEdges.
+PatchRules tipRules(const TipTractions& tip, const ReferencePatch& same);
 
 }  // namespace strainfinger::contact

@@ -81,6 +81,18 @@ TEST(Tractions, TotalsAreTheZerothCoefficients) {
   }
 }
 
+// With a step of zero the double exponential rule integrates what product weights do without.
+TEST(Tractions, ATipsFourierCoefficientsAreThoseOfItsIntegral) {
+  Tractions smooth = stepped(), known = stepped();
+  smooth[0].tip.step = {};
+  known[0].tip.step.setZero();
+  for (const int n : {0, 3, 40, 300}) {
+    const Traction sum = coefficient(smooth, n), integral = coefficient(known, n);
+    DOUBLES_EQUAL(integral.pressure_pa, sum.pressure_pa, 1e-14);
+    DOUBLES_EQUAL(integral.shear_pa, sum.shear_pa, 1e-14);
+  }
+}
+
 TEST(Tractions, PressureBelowATipIsInfiniteAtTheTipOnly) {
   PatchTractions middle = tip()[0];
   middle.tip.position = 0;

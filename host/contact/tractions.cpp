@@ -41,7 +41,7 @@ void appendSeries(std::vector<LineTraction>& lines, const Patch& patch, const Ed
   append(lines, patch, rule.nodes, share.pressure_pa * loads, share.shear_pa * loads);
 }
 
-/// Gauss's nodes with the weights that integrate arccosh times polynomials.
+/// Gauss's nodes with weights that integrate arccosh times polynomials of lower degree than nodes.
 ArrayXd tipLoads(const TipTraction& tip, const QuadratureRule& rule) {
   if (!tip.isThere()) return ArrayXd::Zero(rule.nodes.size());
   const auto count = static_cast<int>(rule.nodes.size());
@@ -50,8 +50,10 @@ ArrayXd tipLoads(const TipTraction& tip, const QuadratureRule& rule) {
   return weights * (values.leftCols(tip.log.size()) * tip.log).array();
 }
 
-void appendSteplessTip(std::vector<LineTraction>& lines, const PatchTractions& part, int nodes) {
-  const QuadratureRule rule = gaussRule(kSmoothEdges, nodes + static_cast<int>(part.tip.log.size()));
+void appendSteplessTip(std::vector<LineTraction>& lines, const PatchTractions& part, int harmonics) {
+  const auto degree = static_cast<int>(part.tip.log.size());
+  const QuadratureRule rule =
+      gaussRule(kSmoothEdges, degree + 24 + static_cast<int>(1.5 * harmonics * part.patch.half_rad));
   const ArrayXd pressures = tipLoads(part.tip, rule);
   append(lines, part.patch, rule.nodes, pressures, part.friction * pressures + tipLoads(part.stuckTip, rule));
 }
@@ -156,7 +158,7 @@ std::vector<LineTraction> lineTractions(const Tractions& tractions, int harmonic
     if (part.tip.step.size() > 0)
       appendSteppedTip(lines, part, harmonics);
     else if (part.tip.isThere())
-      appendSteplessTip(lines, part, nodes);
+      appendSteplessTip(lines, part, harmonics);
   }
   return lines;
 }

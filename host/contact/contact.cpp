@@ -84,10 +84,15 @@ EdgeResult settled(const SurfaceKernel& kernel, const SpectralSolver& solver, co
   return result;
 }
 
-EdgeResult searchEdges(const SurfaceKernel& kernel, const ContactRequest& request, EdgeResult guess,
-                       int& terms) {
+EdgeResult searchRegions(const SurfaceKernel& kernel, const ContactRequest& request, int& terms) {
+  if (const std::optional<EdgeResult> plain = settlePlainRegion(kernel, request, terms)) return *plain;
+  return settleRegions(kernel, request, findRegions(kernel, request.indenter, request.size), terms);
+}
+
+EdgeResult searchEdges(const SurfaceKernel& kernel, const ContactRequest& request, int& terms) {
   if (request.indenter.isMeasured() && !request.centre_rad && !isIllPosed(kernel, request))
-    return settleRegions(kernel, request, guess.patches, terms);
+    return searchRegions(kernel, request, terms);
+  EdgeResult guess = firstGuess(kernel, request);
   for (terms = termsFor(kernel, request, guess.patches);; terms = std::min(2 * terms, kMostTerms)) {
     const SpectralSolver solver(kernel, request.regime, request.friction, terms);
     EdgeResult result = settled(kernel, solver, request, guess);
@@ -102,7 +107,7 @@ EdgeResult searchEdges(const SurfaceKernel& kernel, const ContactRequest& reques
 Contact solveContact(const SurfaceKernel& kernel, const ContactRequest& request) {
   requireDomain(kernel, request);
   Contact contact;
-  const EdgeResult found = searchEdges(kernel, request, firstGuess(kernel, request), contact.terms);
+  const EdgeResult found = searchEdges(kernel, request, contact.terms);
   const double radius_m = kernel.annulus().outer_radius_m;
   const double first_rad = found.patches.front().first_rad(), last_rad = found.patches.back().last_rad();
   const Traction total = totalTraction(found.solution.tractions);

@@ -9,6 +9,7 @@
 
 #include "host/base/failure.hpp"
 #include "host/contact/contact_check.hpp"
+#include "host/contact/contact_regions.hpp"
 #include "host/contact/overlap.hpp"
 
 namespace strainfinger::contact {
@@ -88,14 +89,19 @@ std::vector<Overlap> overlapsOf(const SurfaceKernel& kernel, const ContactReques
   return findOverlaps(kernel, request.indenter, found.solution.tractions, approach_m, tolerance_m);
 }
 
-/// The regions that should be: the same ones if all is well.
-std::vector<Patch> improved(const SurfaceKernel& kernel, const ContactRequest& request,
-                            const EdgeResult& found) {
-  const Tractions& tractions = found.solution.tractions;
+/// What is left of the patches where their pressures push.
+std::vector<Patch> pushing(const Tractions& tractions) {
   const double largest_pa = largestPressure(tractions);
   std::vector<Patch> patches;
   for (const PatchTractions& part : tractions)
     if (part.smooth.integral() > 0) appendPushing(part, largest_pa, patches);
+  return patches;
+}
+
+/// The regions that should be: the same ones if all is well.
+std::vector<Patch> improved(const SurfaceKernel& kernel, const ContactRequest& request,
+                            const EdgeResult& found) {
+  std::vector<Patch> patches = pushing(found.solution.tractions);
   if (!areSame(patches, found.patches)) return patches;
   for (const Overlap& overlap : overlapsOf(kernel, request, found)) {
     const bool isBeside = overlap.deepest_rad < found.patches.front().first_rad() ||
@@ -173,6 +179,25 @@ EdgeResult settleOnce(const SurfaceKernel& kernel, const SpectralSolver& solver,
 }
 
 }  // namespace
+
+std::optional<EdgeResult> settlePlainRegion(const SurfaceKernel& kernel, const ContactRequest& request,
+                                            int& terms) {
+  constexpr double kConverged = 1e-12;  // else more terms, up to those of several regions
+  EdgeResult found{{guessRegion(kernel, request.indenter, request.size)}, {}};
+  try {
+    for (terms = 16; terms <= kTerms; terms *= 2) {
+      const SpectralSolver solver(kernel, request.regime, request.friction, terms);
+      found = EdgeSearch(kernel, solver, request).run(found.patches, found.jacobian);
+      if (found.outcome != EdgeResult::Outcome::kSettled) return {};
+      if (found.solution.tail() < (terms < kTerms ? kConverged : kConvergedRegions)) break;
+    }
+  } catch (const Failure&) {  // beyond the shape: the search of all regions tells, if it fails too
+    return {};
+  }
+  const bool isContact = terms <= kTerms && areSame(pushing(found.solution.tractions), found.patches) &&
+                         overlapsOf(kernel, request, found).empty();
+  return isContact ? std::optional(found) : std::nullopt;
+}
 
 EdgeResult settleRegions(const SurfaceKernel& kernel, const ContactRequest& request,
                          const std::vector<Patch>& patches, int& terms) {

@@ -1,11 +1,17 @@
 #pragma once
 // Which regions of a measured shape touch, and where they end.
 
+#include <optional>
 #include <vector>
 
 #include "host/contact/edge_search.hpp"
 
 namespace strainfinger::contact {
+
+/// The contact if it is one region on a smooth shape, as guessRegion() has it about: a few terms converge, the
+/// shape is nowhere inside the rubber and nothing pulls, so that it is the contact. Costs 1 ms.
+std::optional<EdgeResult> settlePlainRegion(const SurfaceKernel& kernel, const ContactRequest& request,
+                                            int& terms);
 
 /// Edges of the regions guessed, then of those that Signorini's conditions want besides: where the shape is
 /// inside the rubber another region begins, one that pulls as a whole goes, one that pulls somewhere is cut

@@ -63,8 +63,7 @@ MatrixXd signOnItself(const SurfaceKernel& kernel, const KernelMix& mix, const P
 /// The weighted basis at nodes that are dense at both edges, whichever of them is near.
 MatrixXd onAnother(const SurfaceKernel& kernel, const KernelMix& mix, const ReferencePatch& source,
                    const Patch& from, const VectorXd& points, const Patch& at) {
-  constexpr int kNearEdges = 14;
-  const TanhSinhRule rule(kNearEdges);
+  const TanhSinhRule rule(kEdgeDensity);
   const PatchPoints places{2 * rule.fromStart, 2 * rule.fromEnd};
   const Eigen::ArrayXd weights = 2 * rule.weights * edgeWeight(source.exponents(), places);
   MatrixXd values(points.size(), weights.size());

@@ -5,6 +5,10 @@
 
 namespace strainfinger::contact {
 
+/// Density of the rule that serves between edges of patches and singularities of the kernel: enough for
+/// polynomials of degree 40 besides.
+inline constexpr int kEdgeDensity = 14;
+
 /// Nodes in (0, 1), as distances to either end (the smaller one has all its digits), with their weights
 /// (Takahasi & Mori 1974, double exponential).
 struct TanhSinhRule {

@@ -14,7 +14,6 @@
 namespace strainfinger::contact {
 namespace {
 
-constexpr int kMostTerms = 160;
 constexpr double kConverged = 1e-12;  // of the last coefficients
 
 void requireDomain(const SurfaceKernel& kernel, const ContactRequest& request) {

@@ -60,23 +60,35 @@ MatrixXd signOnItself(const SurfaceKernel& kernel, const KernelMix& mix, const P
   return result;
 }
 
-/// The weighted basis at nodes that are dense at both edges, whichever of them is near.
+/// Whether the kernel is so smooth between two patches that the source's own rule integrates it.
+bool areFar(const Patch& from, const Patch& at) {
+  constexpr double kFar = 1.3;  // half widths: 16 nodes more than terms leave 2.1^-32 of the kernel
+  const double apart_rad = std::abs(std::remainder(at.centre_rad - from.centre_rad, 2 * std::numbers::pi));
+  return apart_rad - at.half_rad > kFar * from.half_rad;
+}
+
+/// By the source's rule, or at nodes that are dense at both edges, whichever of them is near.
 MatrixXd onAnother(const SurfaceKernel& kernel, const KernelMix& mix, const ReferencePatch& source,
                    const Patch& from, const VectorXd& points, const Patch& at) {
-  const TanhSinhRule rule(kEdgeDensity);
-  const PatchPoints places{2 * rule.fromStart, 2 * rule.fromEnd};
-  const Eigen::ArrayXd weights = 2 * rule.weights * edgeWeight(source.exponents(), places);
-  MatrixXd values(points.size(), weights.size());
-  for (Index i = 0; i < points.size(); ++i)
-    for (Index j = 0; j < weights.size(); ++j) {
-      const double x = places.x()[j];
+  VectorXd nodes = source.rules().rule.nodes;
+  MatrixXd weighted = source.rules().rule.weights.asDiagonal() * source.rules().basis;
+  if (!areFar(from, at)) {
+    const TanhSinhRule rule = TanhSinhRule::ofDegree(source.terms());
+    const PatchPoints places{2 * rule.fromStart, 2 * rule.fromEnd};
+    nodes = places.x();
+    weighted = (2 * rule.weights * edgeWeight(source.exponents(), places)).matrix().asDiagonal() *
+               jacobiValues(source.exponents(), source.terms(), nodes);
+  }
+  MatrixXd values(points.size(), nodes.size());
+  for (Index j = 0; j < nodes.size(); ++j)
+    for (Index i = 0; i < points.size(); ++i) {
       const double distance =
-          std::remainder(at.centre_rad - from.centre_rad + at.half_rad * points[i] - from.half_rad * x,
+          std::remainder(at.centre_rad - from.centre_rad + at.half_rad * points[i] - from.half_rad * nodes[j],
                          2 * std::numbers::pi);
-      const KernelPair pair = kernel.valuesAt(distance);
-      values(i, j) = weights[j] * (mix.even * pair.even + mix.odd * pair.odd);
+      const auto [even, odd] = kernel.valuesAt(distance);
+      values(i, j) = mix.even * even + mix.odd * odd;
     }
-  return values * jacobiValues(source.exponents(), source.terms(), places.x().matrix());
+  return values * weighted;
 }
 
 /// cos n angle and sin n angle: one row an angle.

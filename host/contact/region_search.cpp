@@ -15,9 +15,10 @@
 namespace strainfinger::contact {
 namespace {
 
+constexpr int kFewTerms = 24;  // that a smooth shape needs
 constexpr int kTerms = 64;
-constexpr int kMostTermsTogether = 160;
-constexpr double kConvergedRegions = 1e-7;  // of the last coefficients
+constexpr double kConverged = 1e-12;  // of the last coefficients: else more terms
+constexpr double kConvergedRegions = 1e-7;
 constexpr int kMostRounds = 10;
 constexpr int kMostLost = 2;
 constexpr std::size_t kMostRegions = 16;
@@ -182,7 +183,6 @@ EdgeResult settleOnce(const SurfaceKernel& kernel, const SpectralSolver& solver,
 
 std::optional<EdgeResult> settlePlainRegion(const SurfaceKernel& kernel, const ContactRequest& request,
                                             int& terms) {
-  constexpr double kConverged = 1e-12;  // else more terms, up to those of several regions
   EdgeResult found{{guessRegion(kernel, request.indenter, request.size)}, {}};
   try {
     for (terms = 16; terms <= kTerms; terms *= 2) {
@@ -200,10 +200,16 @@ std::optional<EdgeResult> settlePlainRegion(const SurfaceKernel& kernel, const C
 }
 
 EdgeResult settleRegions(const SurfaceKernel& kernel, const ContactRequest& request,
-                         const std::vector<Patch>& patches, int& terms) {
-  EdgeResult best;
+                         std::vector<Patch> patches, int& terms) {
+  terms = kFewTerms;
+  EdgeResult best = settleOnce(kernel, SpectralSolver(kernel, request.regime, request.friction, terms),
+                               request, patches);
+  if (best.outcome == EdgeResult::Outcome::kSettled) {
+    if (best.solution.tail() < kConverged) return best;
+    patches = best.patches;
+  }
   double least_m = std::numeric_limits<double>::infinity();
-  for (const int more : {kTerms, kMostTermsTogether}) {
+  for (const int more : {kTerms, kMostTerms}) {
     const SpectralSolver solver(kernel, request.regime, request.friction, more);
     EdgeResult found = settleOnce(kernel, solver, request, patches);
     const bool isSettled = found.outcome == EdgeResult::Outcome::kSettled;

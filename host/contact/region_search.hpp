@@ -18,8 +18,8 @@ std::optional<EdgeResult> settlePlainRegion(const SurfaceKernel& kernel, const C
 /// there, two that grow into each other become one; until nothing penetrates by more than 1e-12 m (and twice
 /// the residual) and nothing pulls. Throws Failure(kFailure) that says where if the regions become more than
 /// 16 or don't settle in 10 rounds, and if the width asked for is one that the contact jumps over.
-/// Each region has 64 terms, or a single one 160 if it needs them; `terms` tells.
+/// Each region has 24 terms if these converge, or 64, or a single one 160; `terms` tells.
 EdgeResult settleRegions(const SurfaceKernel& kernel, const ContactRequest& request,
-                         const std::vector<Patch>& patches, int& terms);
+                         std::vector<Patch> patches, int& terms);
 
 }  // namespace strainfinger::contact

@@ -14,6 +14,13 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
+int degreeOf(const Tractions& tractions) {
+  Index most = 0;
+  for (const PatchTractions& part : tractions)
+    most = std::max({most, part.smooth.coefficients.size(), part.stuck.coefficients.size()});
+  return static_cast<int>(most);
+}
+
 /// int cot((theta - phi)/2)/2 dphi over the patch, principal value.
 double integralOfPole(const Patch& patch, double angle_rad) {
   return std::log(
@@ -25,7 +32,7 @@ double integralOfPole(const Patch& patch, double angle_rad) {
 SurfaceMotion::SurfaceMotion(const SurfaceKernel& kernel, const Tractions& tractions)
     : kernel_(kernel),
       tractions_(tractions),
-      rule_(kEdgeDensity),
+      rule_(TanhSinhRule::ofDegree(degreeOf(tractions))),
       coefficients_(fourierTractions(tractions, static_cast<int>(kernel.reflection().normal.size()) - 1)) {
   for (const PatchTractions& part : tractions_) {
     const bool isCut = part.tip.isThere();

@@ -5,10 +5,6 @@
 
 namespace strainfinger::contact {
 
-/// Density of the rule that serves between edges of patches and singularities of the kernel: enough for
-/// polynomials of degree 40 besides.
-inline constexpr int kEdgeDensity = 14;
-
 /// Nodes in (0, 1), as distances to either end (the smaller one has all its digits), with their weights
 /// (Takahasi & Mori 1974, double exponential).
 struct TanhSinhRule {
@@ -19,6 +15,10 @@ struct TanhSinhRule {
   /// `density` nodes per unit of the transformed variable, about 8 times as many in all. 16 integrate
   /// x^a (1-x)^b ln x times a polynomial of degree 20, a and b >= -1/2, to 1e-14.
   explicit TanhSinhRule(int density);
+
+  /// Dense enough between edges of patches and singularities of the kernel, to 1e-14, for polynomials of a
+  /// degree besides.
+  static TanhSinhRule ofDegree(int degree);
 };
 
 }  // namespace strainfinger::contact

@@ -199,11 +199,10 @@ std::string summary(const Surveys& surveys) {
       "core; refused: the series needs more than a million harmonics, and computeField() says so). Of "
       "depths that take more than 10,000 harmonics two widths and four angles are looked at (the others "
       "are blank where all depths do), of more than 100,000 nu = 1/2 only:\n\n{}\n{}\nContacts (flat, a "
-      "cylinder of 5 mm, a wedge of 160 degrees; all regimes; nu = 0, 0.3, 0.499999, 1/2; of alpha 0.99 "
-      "and more flat and nu = 0.3 and 1/2 only, beyond 0.01 rad 1/2 only, at 0.999 without friction), "
-      "residual over depth, recomputed from the tractions: answers without a warning, then those that "
-      "warn (stick below nu = 1/2, layers far thinner than the contact is wide; refused: no answer but "
-      "an error; blank: none):\n\n{}\n{}\n{}\n{}",
+      "cylinder of 5 mm, a wedge of 160 degrees; all regimes; nu = 0, 0.3, 0.499999, 1/2; at alpha 0.999 "
+      "beyond 0.01 rad flat, frictionless and nu = 1/2 only), residual over depth, recomputed from the "
+      "tractions: answers without a warning, then those that warn (stick below nu = 1/2, layers far "
+      "thinner than the contact is wide; refused: no answer but an error; blank: none):\n\n{}\n{}\n{}\n{}",
       byHarmonic(surveys.harmonics).markdown("alpha \\ harmonic"),
       byPlace(surveys.harmonics).markdown("Poisson's ratio \\ place"),
       byDepth(surveys.fields).markdown("alpha \\ depth / rubber"),

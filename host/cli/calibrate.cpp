@@ -22,12 +22,12 @@ namespace {
 
 constexpr const char* kCalibrateHelp =
     "Each gauge's gain, from touches that are known: what it reads over what the elastic model gives.\n"
-    "--strains: CSV, one strain a gauge in a row, as `locate` reads them, without an earlier calibration; "
-    "--touches: CSV with angle_deg, normal_n_per_m and tangential_n_per_m of each of these rows. Rows with "
-    "both loads 0 are of the untouched finger: with them zeros are fitted too, without them zeros are 0. "
-    "A header row, blank lines and # comments are passed over.\n"
-    "stdout: one row a gauge; residual_strain is the RMS of what the fit leaves. Sigmas are for the config's "
-    "noise_strain, or for the residuals where these are larger.\n"
+    "--strains: CSV, one strain a gauge in a row, as `locate` reads them, without an earlier "
+    "calibration; --touches: CSV with angle_deg, normal_n_per_m and tangential_n_per_m of each of these "
+    "rows. Rows with both loads 0 are of the untouched finger: with them zeros are fitted too, without "
+    "them zeros are 0. A header row, blank lines and # comments are passed over.\n"
+    "stdout: one row a gauge; residual_strain is the RMS of what the fit leaves. Sigmas are for the "
+    "config's noise_strain, or for the residuals where these are larger.\n"
     "Exit status 1 when the touches don't tell a gain to 1 %, naming the gauges and the touches that are "
     "missing, and when touches and strains don't belong together.";
 

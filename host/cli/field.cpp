@@ -12,11 +12,9 @@ namespace strainfinger::cli {
 namespace {
 
 constexpr const char* kFieldHelp =
-    "Strains, displacements and stresses in the rubber under an indenter, on a polar grid: even radii from "
-    "the "
-    "core to the surface, even angles from the indenter's normal. The load of a line or of a uniform "
-    "pressure is "
-    "for `strain`.";
+    "Strains, displacements and stresses in the rubber under an indenter, on a polar grid: even radii "
+    "from the core to the surface, even angles from the indenter's normal. The load of a line or of a "
+    "uniform pressure is for `strain`.";
 
 struct FieldOptions {
   explicit FieldOptions(CLI::App& command) : common(command), contact(command) {

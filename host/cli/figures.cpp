@@ -20,12 +20,10 @@ namespace strainfinger::cli {
 namespace {
 
 constexpr const char* kFiguresHelp =
-    "The figures of Nicolson & Fearing (1993), each as figure-N.svg and figure-N.png (needs gnuplot) with "
-    "its data "
-    "(figure-N-*.csv) and the script that draws them again (figure-N.gp).\n"
-    "On stdout, and in claims.csv: what the paper says about them, what was computed for the paper's finger, "
-    "and "
-    "whether that bears the paper out. With --config the figures are those of another finger.";
+    "The figures of Nicolson & Fearing (1993), each as figure-N.svg and figure-N.png (needs gnuplot) "
+    "with its data (figure-N-*.csv) and the script that draws them again (figure-N.gp).\n"
+    "On stdout, and in claims.csv: what the paper says about them, what was computed for the paper's "
+    "finger, and whether that bears the paper out. With --config the figures are those of another finger.";
 
 struct FiguresOptions {
   explicit FiguresOptions(CLI::App& command) : common(command) {

@@ -24,10 +24,11 @@ namespace {
 constexpr const char* kLocateHelp =
     "Where a finger is touched and how hard, from rows of gauge strains on stdin, by the firmware's own "
     "code.\n"
-    "stdin: CSV, one strain a gauge in a row, a row a sample; a header row, blank lines and # comments are "
-    "passed over. Gains that the tables have from a calibration are applied to them.\n"
+    "stdin: CSV, one strain a gauge in a row, a row a sample; a header row, blank lines and # comments "
+    "are passed over. Gains that the tables have from a calibration are applied to them.\n"
     "stdout: one row a sample; contact is 1 or 0, and without contact the other columns are empty.\n"
-    "quality: percent, 20 or less when the answer is uncertain (another angle fits as well, or none fits).";
+    "quality: percent, 20 or less when the answer is uncertain (another angle fits as well, or none "
+    "fits).";
 
 struct LocateOptions {
   explicit LocateOptions(CLI::App& command) : common(command), firmware(command) {}

@@ -25,17 +25,18 @@
 namespace strainfinger::cli {
 namespace {
 
-constexpr const char* kLoopback = "loopback";
+constexpr const char* kLoopback =
+    "loopback";
 
 constexpr const char* kRunHelp =
     "The finger itself on this machine: the firmware's own code, simulated gauges, frames on CAN.\n"
-    "--can loopback: needs no kernel support, runs as fast as it can and prints what `candump -L` would; the "
-    "same seed gives the same output.\n"
-    "--can IFACE: a SocketCAN interface (vcan0, can0), in real time, a sample set every millisecond; prints "
-    "nothing on stdout. It obeys `tare` and `config`.\n"
+    "--can loopback: needs no kernel support, runs as fast as it can and prints what `candump -L` would; "
+    "the same seed gives the same output.\n"
+    "--can IFACE: a SocketCAN interface (vcan0, can0), in real time, a sample set every millisecond; "
+    "prints nothing on stdout. It obeys `tare` and `config`.\n"
     "The simulated gauges have the gains of the config's [calibration].\n"
-    "At the end stderr has a summary with the errors against the truth (--json: as one object). Ctrl-C ends "
-    "a run as its duration would, with exit status 130.";
+    "At the end stderr has a summary with the errors against the truth (--json: as one object). Ctrl-C "
+    "ends a run as its duration would, with exit status 130.";
 
 struct RunOptions {
   explicit RunOptions(CLI::App& command) : common(command), firmware(command) {

@@ -13,31 +13,29 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/model_options.hpp"
 #include "host/cli/strain_rows.hpp"
+#include "host/shape/quantiles.hpp"
 
 namespace strainfinger::cli {
 namespace {
 
 constexpr const char* kShapeHelp =
-    "What pressed on the finger, from rows of gauge strains on stdin: as much as they tell, and no more.\n"
-    "stdin: CSV, one strain a gauge in a row, a row a touch; a header row, blank lines and # comments are "
-    "passed over. Gains of the config's [calibration] are applied to them.\n"
-    "stdout: one row a touch; what isn't known is empty. width_m: of the semi-ellipse with the load's second "
-    "moment, if no line load fits (3 sigma); width_limit_m: the width is below it with 95 %. "
-    "curvature_per_m: "
-    "of a round indenter that makes this width under this load, 0: flat; curvature_low_per_m and "
-    "curvature_high_per_m: its band of 95 %, no upper end where empty. directions: of the pressure, above "
-    "the noise. class: round, uniform, wedge or punch, if it fits better than the others by 9 in chi "
-    "squared. "
-    "unresolved: which of width, class and odd-part the strains don't tell. warnings: ambiguous (another "
-    "touch, at rival_angle_deg, fits about as well: bands of 95 % hold it, and no class is named), sparse "
-    "(the "
-    "gauges' pitch is twice their depth and more: no width, and answers may be farther off than the sigmas "
-    "say), misfit (residuals are not noise: "
-    "two "
-    "touches, a bad gauge, another noise), wide (wider than 1 rad, or narrower than a line).\n"
+    "What pressed on the finger, from rows of gauge strains on stdin: as much as they tell, and no "
+    "more.\n"
+    "stdin: CSV, one strain a gauge in a row, a row a touch; a header row, blank lines and # comments "
+    "are passed over. Gains of the config's [calibration] are applied to them.\n"
+    "stdout: one row a touch; what isn't known is empty. width_m: of the semi-ellipse with the load's "
+    "second moment, if no line load fits (3 sigma); width_limit_m: the width is below it with 95 %. "
+    "curvature_per_m: of a round indenter that makes this width under this load, 0: flat; "
+    "curvature_low_per_m and curvature_high_per_m: its band of 95 %, no upper end where empty. "
+    "directions: of the pressure, above the noise. class: round, uniform, wedge or punch, if it fits "
+    "better than the others by 9 in chi squared. unresolved: which of width, class and odd-part the "
+    "strains don't tell. warnings: ambiguous (another touch, at rival_angle_deg, fits about as well: "
+    "bands of 95 % hold it, and no class is named), sparse (the gauges' pitch is twice their depth and "
+    "more: no width, and answers may be farther off than the sigmas say), misfit (residuals are not "
+    "noise: two touches, a bad gauge, another noise), profile (another class fits too, and has a value "
+    "outside its band of 95 %), wide (wider than 1 rad, or narrower than a line).\n"
     "With --pressure: the resolved part of the pressure with its band of 95 %, and the ellipse fitted.";
 
-constexpr double kTwoSided95 = 1.959963984540054;  // of a normal distribution, in sigmas
 struct ShapeOptions {
   explicit ShapeOptions(CLI::App& command) : common(command) {
     hasNoise = command
@@ -82,6 +80,7 @@ std::string warnings(const shape::Shape& shape) {
   if (shape.rivalAngle_rad) words.emplace_back("ambiguous");
   if (shape.isSparse) words.emplace_back("sparse");
   if (shape.fitProbability < shape::kUnlikely) words.emplace_back("misfit");
+  if (shape.isOfEllipse) words.emplace_back("profile");
   if (shape.isWidthAtLimit) words.emplace_back("wide");
   return fmt::format("{}", fmt::join(words, " "));
 }
@@ -174,7 +173,7 @@ void printPressures(const ShapeOptions& options, const shape::ShapeEstimator& es
     const auto pressure = estimator.pressure(*shape, strains, offsets_rad);
     const double mean_pa = shape->normal_n_per_m.value / estimator.model().outerRadius_m();
     for (Eigen::Index i = 0; i < offsets_rad.size(); ++i) {
-      const double band_pa = kTwoSided95 * pressure.sigma_pa[i], value_pa = pressure.pressure_pa[i];
+      const double band_pa = shape::kTwoSided95 * pressure.sigma_pa[i], value_pa = pressure.pressure_pa[i];
       const double ellipse_pa =
           mean_pa * density(shape::Profile::kEllipse, shape::momentOfWidth(2 * half_rad), offsets_rad[i]);
       table.row({sample, degrees(shape->angle_rad.value + offsets_rad[i]), value_pa, value_pa - band_pa,

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <numbers>
 #include <vector>
 
 #include "host/base/angles.hpp"
@@ -14,18 +15,23 @@ namespace {
 
 constexpr const char* kSvdHelp =
     "Singular values of the paper's map T C, from Hanning-windowed Fourier coefficients of pressure and "
-    "shear up "
-    "to half the harmonics to the slope of the surface in the contact [m/(rad Pa)], largest first.\n"
-    "With --basis K the first K pairs instead: u_r and its slope d u_r / d theta against the angle from the "
-    "contact's centre, and the pressure (positive when pressing) and shear that make them, per unit of "
-    "coefficients. Pairs are even or odd: an even shape has an odd slope and an even pressure.";
+    "shear up to half the harmonics to the slope of the surface in the contact [m/(rad Pa)], largest "
+    "first.\n"
+    "With --basis K the first K pairs instead: u_r and its slope d u_r / d theta against the angle from "
+    "the contact's centre, and the pressure (positive when pressing) and shear that make them, per unit "
+    "of coefficients. Pairs are even or odd: an even shape has an odd slope and an even pressure.";
 
 struct SvdOptions {
   explicit SvdOptions(CLI::App& command) : common(command) {
     command.add_option("--width-m", width_m, "Width of the contact, an arc on the surface [m]")
         ->required()
         ->type_name("W");
-    command.add_option("--harmonics", harmonics, "Last harmonic n_c")->required()->type_name("N");
+    command
+        .add_option(
+            "--harmonics", harmonics,
+            fmt::format("Last harmonic n_c ({} to {})", contact::kLeastHarmonics, contact::kMostHarmonics))
+        ->required()
+        ->type_name("N");
     auto* const withBasis =
         command.add_option("--basis", basis, "Prints the first K shape and pressure functions")
             ->type_name("K")

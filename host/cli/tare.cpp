@@ -5,9 +5,8 @@ namespace strainfinger::cli {
 namespace {
 
 constexpr const char* kTareHelp =
-    "Lets a finger take the zero of its gauges now. Do not touch it: that takes 64 sample sets, a fifteenth "
-    "of a "
-    "second by default.\n"
+    "Lets a finger take the zero of its gauges now. Do not touch it: that takes 64 sample sets, a "
+    "fifteenth of a second by default.\n"
     "A finger that feels a touch refuses; --force takes the zero anyway, for one whose old zero is off.\n"
     "Prints interface,node,command,status. Exit status: 1 refused, 3 no interface, 4 no such node.";
 

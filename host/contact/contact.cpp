@@ -14,7 +14,6 @@
 namespace strainfinger::contact {
 namespace {
 
-constexpr int kMostTerms = 160;
 constexpr double kConverged = 1e-12;  // of the last coefficients
 
 void requireDomain(const SurfaceKernel& kernel, const ContactRequest& request) {
@@ -30,37 +29,45 @@ void requireDomain(const SurfaceKernel& kernel, const ContactRequest& request) {
   require(std::abs(request.friction) <= 10, "the coefficient of friction must be from -10 to 10");
 }
 
-/// A contact's half width by Hertz on a half plane, P = pi E* a^2 / 4 R + E* slope a, at most the widest.
-double hertzHalf_rad(const model::Annulus<double>& annulus, const Indenter& indenter, double load_n_per_m) {
-  const double radius_m = annulus.outer_radius_m, probe_m = 1e-4 * radius_m;
-  const double modulus_pa = 2 * annulus.shear_modulus_pa / (1 - annulus.poisson_ratio);
-  const double slope = indenter.edgeSlope();
-  const double curvature_per_m = 1 / radius_m + (indenter.slope(probe_m) - slope) / probe_m;
-  const double square = std::numbers::pi * modulus_pa * curvature_per_m / 4, linear = modulus_pa * slope;
-  const double half_m = 2 * load_n_per_m / (linear + std::sqrt(linear * linear + 4 * square * load_n_per_m));
-  return std::min(half_m / radius_m, kWidestContact_rad / 2);
-}
+/// A contact by Hertz on a half plane, P = pi E* a^2 / 4 R + E* slope a, at most the widest.
+struct HertzContact {
+  double half_rad;
+  double exponent;  ///< d ln P / d ln a
 
-std::vector<Patch> firstGuess(const SurfaceKernel& kernel, const ContactRequest& request) {
+  HertzContact(const model::Annulus<double>& annulus, const Indenter& indenter, double load_n_per_m) {
+    const double radius_m = annulus.outer_radius_m, probe_m = 1e-4 * radius_m;
+    const double modulus_pa = 2 * annulus.shear_modulus_pa / (1 - annulus.poisson_ratio);
+    const double slope = indenter.edgeSlope();
+    const double curvature_per_m = 1 / radius_m + (indenter.slope(probe_m) - slope) / probe_m;
+    const double square = std::numbers::pi * modulus_pa * curvature_per_m / 4, linear = modulus_pa * slope;
+    const double half_m =
+        2 * load_n_per_m / (linear + std::sqrt(linear * linear + 4 * square * load_n_per_m));
+    half_rad = std::min(half_m / radius_m, kWidestContact_rad / 2);
+    exponent = 1 + square * half_m * half_m / load_n_per_m;
+  }
+};
+
+EdgeResult firstGuess(const SurfaceKernel& kernel, const ContactRequest& request) {
   if (request.indenter.isMeasured() && !request.centre_rad)
-    return findRegions(kernel, request.indenter, request.size);
-  const model::Annulus<double>& annulus = kernel.annulus();
-  const double half_rad = request.size.kind == ContactSize::Kind::kWidth
-                              ? request.size.value / (2 * annulus.outer_radius_m)
-                              : hertzHalf_rad(annulus, request.indenter, request.size.value);
-  return {{request.centre_rad.value_or(0), half_rad}};
+    return {findRegions(kernel, request.indenter, request.size), {}};
+  const double centre_rad = request.centre_rad.value_or(0);
+  if (request.size.kind == ContactSize::Kind::kWidth)
+    return {{{centre_rad, request.size.value / (2 * kernel.annulus().outer_radius_m)}}, {}};
+  const HertzContact hertz(kernel.annulus(), request.indenter, request.size.value);
+  EdgeResult guess{{{centre_rad, hertz.half_rad}}, {}};
+  guess.jacobian = Eigen::MatrixXd::Constant(1, 1, hertz.exponent);
+  return guess;
 }
 
 bool isSmooth(const SurfaceKernel& kernel, const Indenter& indenter) {
-  return kernel.annulus().poisson_ratio == 0.5 && indenter.edgeSlope() == 0 && !indenter.isMeasured();
+  return kernel.annulus().poisson_ratio == 0.5 && !indenter.isMeasured();
 }
 
 /// Enough for 1e-12 of what is smooth and 1e-6 of what is not: the pressure follows the layer's depth. What
 /// is ill-posed gets no more than that. Below a wedge that slides the pressure is the least smooth.
 int termsFor(const SurfaceKernel& kernel, const ContactRequest& request, const std::vector<Patch>& patches) {
   const bool isOpen = isIllPosed(kernel, request), isMore = !isOpen && !isSmooth(kernel, request.indenter);
-  const bool isRough = request.indenter.edgeSlope() != 0 && request.regime == Regime::kSliding;
-  if (!isOpen && (isRough || request.indenter.isMeasured())) return 64;
+  if (!isOpen && request.indenter.isMeasured()) return 64;
   const model::Annulus<double>& annulus = kernel.annulus();
   const double layer = 1 - annulus.core_radius_m / annulus.outer_radius_m;
   double half_rad = 0;
@@ -69,23 +76,28 @@ int termsFor(const SurfaceKernel& kernel, const ContactRequest& request, const s
 }
 
 EdgeResult settled(const SurfaceKernel& kernel, const SpectralSolver& solver, const ContactRequest& request,
-                   const std::vector<Patch>& patches) {
-  EdgeResult result = EdgeSearch(kernel, solver, request).run(patches);
+                   const EdgeResult& guess) {
+  EdgeResult result = EdgeSearch(kernel, solver, request).run(guess.patches, guess.jacobian);
   if (result.outcome != EdgeResult::Outcome::kSettled)
     throw Failure(ExitCode::kFailure, "no contact found: no edges fit this indenter at this load or width");
   return result;
 }
 
-EdgeResult searchEdges(const SurfaceKernel& kernel, const ContactRequest& request, std::vector<Patch> patches,
-                       int& terms) {
+EdgeResult searchRegions(const SurfaceKernel& kernel, const ContactRequest& request, int& terms) {
+  if (const std::optional<EdgeResult> plain = settlePlainRegion(kernel, request, terms)) return *plain;
+  return settleRegions(kernel, request, findRegions(kernel, request.indenter, request.size), terms);
+}
+
+EdgeResult searchEdges(const SurfaceKernel& kernel, const ContactRequest& request, int& terms) {
   if (request.indenter.isMeasured() && !request.centre_rad && !isIllPosed(kernel, request))
-    return settleRegions(kernel, request, patches, terms);
-  for (terms = termsFor(kernel, request, patches);; terms = std::min(2 * terms, kMostTerms)) {
+    return searchRegions(kernel, request, terms);
+  EdgeResult guess = firstGuess(kernel, request);
+  for (terms = termsFor(kernel, request, guess.patches);; terms = std::min(2 * terms, kMostTerms)) {
     const SpectralSolver solver(kernel, request.regime, request.friction, terms);
-    EdgeResult result = settled(kernel, solver, request, patches);
+    EdgeResult result = settled(kernel, solver, request, guess);
     const bool isWorthMore = isSmooth(kernel, request.indenter) && terms < kMostTerms;
     if (!isWorthMore || result.solution.tail() < kConverged) return result;
-    patches = result.patches;
+    guess = std::move(result);
   }
 }
 
@@ -94,7 +106,7 @@ EdgeResult searchEdges(const SurfaceKernel& kernel, const ContactRequest& reques
 Contact solveContact(const SurfaceKernel& kernel, const ContactRequest& request) {
   requireDomain(kernel, request);
   Contact contact;
-  const EdgeResult found = searchEdges(kernel, request, firstGuess(kernel, request), contact.terms);
+  const EdgeResult found = searchEdges(kernel, request, contact.terms);
   const double radius_m = kernel.annulus().outer_radius_m;
   const double first_rad = found.patches.front().first_rad(), last_rad = found.patches.back().last_rad();
   const Traction total = totalTraction(found.solution.tractions);

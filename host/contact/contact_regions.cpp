@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "host/base/failure.hpp"
@@ -163,7 +164,68 @@ std::vector<Patch> regionsOfWidth(const SurfaceKernel& kernel, const Indenter& i
                   radius_m * width_rad, search.low(), radius_m * touch.extent_rad()));
 }
 
+/// A measured shape above the undeformed surface, and the region below some level of it.
+class Basin {
+ public:
+  Basin(double radius_m, const Indenter& indenter) : x_m_(indenter.positions_m()) {
+    for (const double x_m : x_m_) gap_m_.push_back(x_m * x_m / (2 * radius_m) + indenter.height(x_m));
+    lowest_ = static_cast<std::size_t>(std::ranges::min_element(gap_m_) - gap_m_.begin());
+  }
+
+  double lowest_m() const { return gap_m_[lowest_]; }
+  double highest_m() const { return std::ranges::max(gap_m_); }
+
+  struct Region {
+    double first_m, last_m;
+    double area_m2;  ///< between level and gap
+
+    double width_m() const { return last_m - first_m; }
+  };
+  Region below(double level_m) const {
+    Region region{x_m_[lowest_], x_m_[lowest_], 0};
+    for (std::size_t i = lowest_; i > 0 && region.first_m == x_m_[i]; --i)
+      region.first_m = step(i, i - 1, level_m, region.area_m2);
+    for (std::size_t i = lowest_; i + 1 < x_m_.size() && region.last_m == x_m_[i]; ++i)
+      region.last_m = step(i, i + 1, level_m, region.area_m2);
+    return region;
+  }
+
+ private:
+  /// Where the region ends between two points, straight from one to the other.
+  double step(std::size_t from, std::size_t to, double level_m, double& area_m2) const {
+    const double depth_m = level_m - gap_m_[from], next_m = std::max(0.0, level_m - gap_m_[to]);
+    const double share = next_m > 0 ? 1 : depth_m / (gap_m_[to] - gap_m_[from]);
+    const double length_m = share * (x_m_[to] - x_m_[from]);
+    area_m2 += std::abs(length_m) * (depth_m + next_m) / 2;
+    return next_m > 0 ? x_m_[to] : x_m_[from] + length_m;
+  }
+
+  std::vector<double> x_m_, gap_m_;
+  std::size_t lowest_;
+};
+
 }  // namespace
+
+Patch guessRegion(const SurfaceKernel& kernel, const Indenter& indenter, const ContactSize& size) {
+  constexpr int kHalvings = 30;
+  const model::Annulus<double>& annulus = kernel.annulus();
+  const double modulus_pa = 2 * annulus.shear_modulus_pa / (1 - annulus.poisson_ratio);
+  const Basin basin(annulus.outer_radius_m, indenter);
+  // a parabola's load is (pi/2) E* depth, the area above it (2/3) depth width
+  const auto sizeOf = [&](const Basin::Region& region) {
+    return size.kind == ContactSize::Kind::kWidth
+               ? region.width_m()
+               : 3 * std::numbers::pi / 4 * modulus_pa * region.area_m2 / region.width_m();
+  };
+  double low_m = basin.lowest_m(), high_m = basin.highest_m();
+  for (int step = 0; step < kHalvings; ++step) {
+    const double level_m = (low_m + high_m) / 2;
+    (sizeOf(basin.below(level_m)) < size.value ? low_m : high_m) = level_m;
+  }
+  const Basin::Region region = basin.below(high_m);
+  const double scale = 1 / annulus.outer_radius_m;
+  return {scale * (region.first_m + region.last_m) / 2, scale * region.width_m() / 2};
+}
 
 std::vector<Patch> findRegions(const SurfaceKernel& kernel, const Indenter& indenter,
                                const ContactSize& size) {

@@ -124,15 +124,22 @@ MatrixXd EdgeSearch::differences(const State& state, const std::vector<Patch>& g
   return jacobian;
 }
 
-EdgeResult EdgeSearch::run(const std::vector<Patch>& guess) const {
+// A centre moves by half widths of the guess, so by others about other patches.
+MatrixXd EdgeSearch::aboutPatches(MatrixXd jacobian, const std::vector<Patch>& patches,
+                                  const std::vector<Patch>& guess) const {
+  if (!movesCentre(patches.size())) return jacobian;
+  const Index step = changesWidth(patches.size()) ? 2 : 1;
+  for (std::size_t k = 0; k < patches.size(); ++k)
+    jacobian.col(static_cast<Index>(k) * step) *= patches[k].half_rad / guess[k].half_rad;
+  return jacobian;
+}
+
+EdgeResult EdgeSearch::run(const std::vector<Patch>& guess, const MatrixXd& known) const {
   const auto count =
       static_cast<Index>(guess.size()) * (movesCentre(guess.size()) + changesWidth(guess.size()));
   State state = evaluate(VectorXd::Zero(count), guess);
   if (count == 0) return state.result;
-  // One unknown, the width, and the load given: the load of a parabola grows with its square, of a wedge
-  // less.
-  MatrixXd jacobian = count == 1 && changesWidth(guess.size()) ? MatrixXd(MatrixXd::Constant(1, 1, 2))
-                                                               : differences(state, guess);
+  MatrixXd jacobian = known.cols() == count ? known : differences(state, guess);
   for (int step = 0; step < kMostSteps; ++step) {
     VectorXd move = -jacobian.partialPivLu().solve(state.misfits);
     move *= std::min(1.0, 0.5 / worstOf(move));
@@ -154,6 +161,7 @@ EdgeResult EdgeSearch::run(const std::vector<Patch>& guess) const {
       break;
   }
   if (!(worstOf(state.misfits) < kFits)) state.result.outcome = EdgeResult::Outcome::kLost;
+  state.result.jacobian = aboutPatches(jacobian, state.result.patches, guess);
   return state.result;
 }
 

@@ -12,6 +12,8 @@ struct EdgeResult {
   PatchSolution solution;
   /// kCollide: two patches run into each other, or one vanishes; kLost: no edges fit.
   enum class Outcome { kSettled, kCollide, kLost } outcome = Outcome::kSettled;
+  /// Of the misfits, by the unknowns about these patches, as it was last known; none if nothing is unknown.
+  Eigen::MatrixXd jacobian{};
 };
 
 /// Moves patches until every tilt is 0, all lifts are the same and the size is what is asked for. Unknowns: a
@@ -22,15 +24,17 @@ class EdgeSearch {
   /// Keeps references to all three.
   EdgeSearch(const SurfaceKernel& kernel, const SpectralSolver& solver, const ContactRequest& request);
 
-  /// Newton's method, its Jacobian by differences once and by Broyden's updates then; 1 solve for a symmetric
-  /// contact of given width, about 8 for one of given load. Throws Failure(kFailure)
+  /// Newton's method, its Jacobian as given, if it fits, or by differences once; then by Broyden's updates. 1
+  /// solve for a symmetric contact of given width, about 6 for one of given load. Throws Failure(kFailure)
   /// if the contact grows beyond the indenter or half the surface.
-  EdgeResult run(const std::vector<Patch>& guess) const;
+  EdgeResult run(const std::vector<Patch>& guess, const Eigen::MatrixXd& jacobian = {}) const;
 
  private:
   struct State;
   State evaluate(const Eigen::VectorXd& unknowns, const std::vector<Patch>& guess) const;
   Eigen::MatrixXd differences(const State& state, const std::vector<Patch>& guess) const;
+  Eigen::MatrixXd aboutPatches(Eigen::MatrixXd jacobian, const std::vector<Patch>& patches,
+                               const std::vector<Patch>& guess) const;
   std::vector<Patch> patchesOf(const Eigen::VectorXd& unknowns, const std::vector<Patch>& guess) const;
   Eigen::VectorXd misfits(const std::vector<Patch>& patches, const PatchSolution& solution) const;
   bool movesCentre(std::size_t patches) const;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <unsupported/Eigen/Splines>
+#include <utility>
 
 #include "host/base/angles.hpp"
 #include "host/base/failure.hpp"
@@ -26,30 +28,36 @@ void requireRising(const std::vector<double>& position_m) {
                                 position_m[i], position_m[i - 1]));
 }
 
-/// Slopes at the points that make the cubic pieces twice differentiable, and the first two and last two
-/// pieces one cubic each.
-std::vector<double> splineSlopes(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y) {
-  const Index n = x.size(), last = n - 1;
-  const Eigen::ArrayXd step = x.tail(last) - x.head(last), chord = (y.tail(last) - y.head(last)) / step;
-  Eigen::SparseMatrix<double> matrix(n, n);
-  Eigen::VectorXd right(n);
-  const auto endRow = [&](Index row, Index next, Index i, Index k) {
-    const double a = step[i], b = step[k];
-    matrix.insert(row, row) = b;
-    matrix.insert(row, next) = a + b;
-    right[row] = ((3 * a + 2 * b) * b * chord[i] + a * a * chord[k]) / (a + b);
-  };
-  endRow(0, 1, 0, 1);
-  endRow(last, last - 1, last - 1, last - 2);
-  for (Index i = 1; i < last; ++i) {
-    matrix.insert(i, i - 1) = step[i];
-    matrix.insert(i, i) = 2 * (step[i - 1] + step[i]);
-    matrix.insert(i, i + 1) = step[i - 1];
-    right[i] = 3 * (step[i] * chord[i - 1] + step[i - 1] * chord[i]);
+using Pieces = Eigen::Matrix<double, Indenter::kPowers, Eigen::Dynamic>;
+using Splines = Eigen::Spline<double, 1, Eigen::Dynamic>;
+
+/// The spline through points, of degree 5 or as much less as there are fewer than six of them: what it is
+/// from each point to the next, as coefficients of powers of 0..1. Its fifth derivative jumps at the points,
+/// but for the first and last three.
+Pieces splineThrough(const Eigen::ArrayXd& x, const Eigen::VectorXd& y) {
+  const Index count = x.size(), degree = std::min<Index>(Indenter::kPowers - 1, count - 1);
+  Splines::KnotVectorType knots(count + degree + 1);
+  knots << Splines::KnotVectorType::Constant(degree + 1, x[0]),
+      x.segment((degree + 1) / 2, count - degree - 1).transpose(),
+      Splines::KnotVectorType::Constant(degree + 1, x[count - 1]);
+  Eigen::SparseMatrix<double> matrix(count, count);
+  matrix.reserve(Eigen::VectorXi::Constant(count, Indenter::kPowers));
+  for (Index i = 0; i < count; ++i) {
+    const auto basis = Splines::BasisFunctions(x[i], degree, knots);
+    for (Index k = 0, first = Splines::Span(x[i], degree, knots) - degree; k <= degree; ++k)
+      if (basis[k] != 0) matrix.insert(i, first + k) = basis[k];
   }
   matrix.makeCompressed();
-  const Eigen::VectorXd slopes = Eigen::SparseLU<Eigen::SparseMatrix<double>>(matrix).solve(right);
-  return {slopes.begin(), slopes.end()};
+  const Eigen::VectorXd controls = Eigen::SparseLU<Eigen::SparseMatrix<double>>(matrix).solve(y);
+  Pieces pieces = Pieces::Zero(Indenter::kPowers, count - 1);
+  for (Index i = 0; i + 1 < count; ++i) {
+    const auto basis = Splines::BasisFunctionDerivatives(x[i], degree, degree, knots);
+    const auto near = controls.segment(Splines::Span(x[i], degree, knots) - degree, degree + 1);
+    double factor = 1;
+    for (Index k = 0; k <= degree; factor *= (x[i + 1] - x[i]) / static_cast<double>(++k))
+      pieces(k, i) = factor * basis.row(k).matrix().dot(near);
+  }
+  return pieces;
 }
 
 Eigen::ArrayXd arrayOf(const std::vector<double>& values) {
@@ -66,10 +74,9 @@ Indenter Indenter::wedge(double half_angle_deg) { return {0, 1 / std::tan(half_a
 
 Indenter Indenter::measured(std::vector<double> position_m, std::vector<double> height_m) {
   requireRising(position_m);
-  std::vector<double> slopes = splineSlopes(arrayOf(position_m), arrayOf(height_m));
   Indenter indenter(0, 0);
-  indenter.spline_ =
-      std::make_shared<const Spline>(Spline{std::move(position_m), std::move(height_m), std::move(slopes)});
+  Pieces pieces = splineThrough(arrayOf(position_m), arrayOf(height_m));
+  indenter.spline_ = std::make_shared<const Spline>(Spline{std::move(position_m), std::move(pieces)});
   return indenter;
 }
 
@@ -77,28 +84,27 @@ double Indenter::firstPosition_m() const { return spline_ ? spline_->position_m.
 
 double Indenter::lastPosition_m() const { return spline_ ? spline_->position_m.back() : kInfinity; }
 
-std::size_t Indenter::interval(double x_m) const {
+Indenter::Place Indenter::place(double x_m) const {
   const auto& x = spline_->position_m;
-  const auto after = std::upper_bound(x.begin() + 1, x.end() - 1, x_m);
-  return static_cast<std::size_t>(after - x.begin()) - 1;
+  const auto after = std::upper_bound(x.begin() + 1, x.end() - 1, x_m), before = after - 1;
+  return {before - x.begin(), (x_m - *before) / (*after - *before)};
 }
 
 double Indenter::height(double x_m) const {
   if (!spline_) return curvature_per_m_ * x_m * x_m / 2 + edgeSlope_ * std::abs(x_m);
-  const auto& [x, y, slope] = *spline_;
-  const std::size_t i = interval(x_m);
-  const double step = x[i + 1] - x[i], t = (x_m - x[i]) / step, rise = y[i + 1] - y[i];
-  const double before = step * slope[i] - rise, after = rise - step * slope[i + 1];
-  return y[i] + t * rise + t * (1 - t) * ((1 - t) * before + t * after);
+  const auto [i, t] = place(x_m);
+  double sum = 0;
+  for (Index k = kPowers; k-- > 0;) sum = sum * t + spline_->pieces(k, i);
+  return sum;
 }
 
 double Indenter::slope(double x_m) const {
   if (!spline_) return curvature_per_m_ * x_m + (x_m == 0 ? 0 : std::copysign(edgeSlope_, x_m));
-  const auto& [x, y, slope] = *spline_;
-  const std::size_t i = interval(x_m);
-  const double step = x[i + 1] - x[i], t = (x_m - x[i]) / step, rise = y[i + 1] - y[i];
-  const double before = step * slope[i] - rise, after = rise - step * slope[i + 1];
-  return (rise + (1 - t) * (1 - 3 * t) * before + t * (2 - 3 * t) * after) / step;
+  const auto [i, t] = place(x_m);
+  double sum = 0;
+  for (Index k = kPowers; k-- > 1;) sum = sum * t + static_cast<double>(k) * spline_->pieces(k, i);
+  return sum / (spline_->position_m[static_cast<std::size_t>(i) + 1] -
+                spline_->position_m[static_cast<std::size_t>(i)]);
 }
 
 }  // namespace strainfinger::contact

@@ -1,6 +1,7 @@
 #pragma once
 // What presses on the finger.
 
+#include <Eigen/Core>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,13 +16,16 @@ namespace strainfinger::contact {
 /// shape.
 class Indenter {
  public:
+  static constexpr int kPowers = 6;  ///< of the spline through measured points
+
   static Indenter flat();
   /// Domain: radius_m > 0; the axis is parallel to the finger's.
   static Indenter cylinder(double radius_m);
   /// A blade with its edge on the finger; half_angle_deg is between its axis and each face. Domain: above 0,
   /// below 90.
   static Indenter wedge(double half_angle_deg);
-  /// Through measured points by a cubic spline (not-a-knot), so that a measured parabola is that parabola.
+  /// Through measured points by a spline of the fifth degree (not-a-knot), so that a measured parabola is that
+  /// parabola, and what the spline itself is rough by at its points is below 1e-12 m of contacts.
   /// Throws Failure(kUsage) unless there are four points or more with rising positions.
   static Indenter measured(std::vector<double> position_m, std::vector<double> height_m);
 
@@ -40,11 +44,16 @@ class Indenter {
 
  private:
   struct Spline {
-    std::vector<double> position_m, height_m, slope;
+    std::vector<double> position_m;
+    Eigen::Matrix<double, kPowers, Eigen::Dynamic> pieces;  ///< columns: powers of 0..1 between two points
+  };
+  struct Place {
+    Eigen::Index piece;
+    double share;  ///< of the way from its first point to the next
   };
   Indenter(double curvature_per_m, double edgeSlope)
       : curvature_per_m_(curvature_per_m), edgeSlope_(edgeSlope) {}
-  std::size_t interval(double x_m) const;
+  Place place(double x_m) const;
 
   double curvature_per_m_;
   double edgeSlope_;

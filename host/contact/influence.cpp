@@ -9,64 +9,86 @@
 namespace strainfinger::contact {
 namespace {
 
+using Eigen::ArrayXXd;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-KernelParts mixedParts(const SurfaceKernel& kernel, const KernelMix& mix, double angle_rad) {
-  KernelParts parts;
-  if (mix.even != 0) {
-    const KernelParts even = kernel.even(angle_rad);
-    parts = {mix.even * even.log, mix.even * even.sgn, mix.even * even.smooth};
+/// What the core reflects from y to x, both on a patch: a function of their distance, by its Chebyshev series.
+/// Harmonic n has Bessel coefficients, which fall from k = 2 half n on, and is the smaller the larger n is.
+ArrayXXd reflectedOnItself(const SurfaceKernel& kernel, const KernelMix& mix, const VectorXd& points,
+                           const VectorXd& nodes, double half_rad) {
+  const VectorXd &even = mix.reflected, &odd = kernel.reflection().coupling;
+  const auto harmonics = static_cast<int>(even.size()) - 1;
+  const int count = 16 + static_cast<int>(1.2 * half_rad * harmonics);
+  VectorXd series = VectorXd::Zero(count);
+  for (int k = 0; k < count; ++k) {
+    const double angle = std::numbers::pi * (k + 0.5) / count;
+    double value = -mix.even * even[0] / 2;
+    model::visitMultiples(2 * half_rad * std::cos(angle), harmonics, [&](int n, double c, double s) {
+      value += mix.even * even[n] * c + mix.odd * odd[n] * s;
+    });
+    model::visitMultiples(angle, count - 1, [&](int j, double c, double) { series[j] += value * c; });
   }
-  if (mix.odd != 0) {
-    const KernelParts odd = kernel.odd(angle_rad);
-    parts = {parts.log + mix.odd * odd.log, parts.sgn + mix.odd * odd.sgn,
-             parts.smooth + mix.odd * odd.smooth};
+  series *= 2 / (std::numbers::pi * count);
+  series[0] /= 2;
+  const double rounding = 1e-17 * series.cwiseAbs().maxCoeff();
+  Index last = count;
+  while (last > 1 && std::abs(series[last - 1]) < rounding) --last;
+  const ArrayXXd twice =
+      (points.replicate(1, nodes.size()) - nodes.transpose().replicate(points.size(), 1)).array();
+  ArrayXXd sum = ArrayXXd::Zero(twice.rows(), twice.cols()), next = sum, made = sum;
+  for (Index j = last; j-- > 1;) {  // Clenshaw
+    made = twice * sum - next + series[j];
+    next.swap(sum);
+    sum.swap(made);
   }
-  return parts;
+  return twice / 2 * sum - next + series[0];
 }
 
-/// ln|psi| = ln half + ln|x - y|; what logWeights() hold of the sign is left out of the sign's rule.
-MatrixXd onItself(const SurfaceKernel& kernel, const KernelMix& mix, const ReferencePatch& patch,
-                  double half_rad) {
-  const VectorXd &x = patch.points(), &y = patch.rule().nodes, &weights = patch.rule().weights;
-  const double logHalf = std::log(half_rad);
-  MatrixXd values(x.size(), y.size());
-  for (Index j = 0; j < y.size(); ++j)
-    for (Index i = 0; i < x.size(); ++i) {
-      const KernelParts parts = mixedParts(kernel, mix, half_rad * (x[i] - y[j]));
-      values(i, j) = patch.logWeights()(i, j) * parts.log + weights[j] * (parts.log * logHalf + parts.smooth);
-    }
-  MatrixXd result = values * patch.basis();
-  for (Index i = 0; i < static_cast<Index>(patch.signRules().size()); ++i) {
-    const auto& [rule, basis] = patch.signRules()[static_cast<std::size_t>(i)];
-    for (Index j = 0; j < rule.nodes.size(); ++j) {
-      const KernelParts parts = mixedParts(kernel, mix, half_rad * (x[i] - rule.nodes[j]));
-      result.row(i) += rule.weights[j] * (parts.sgn - parts.log * patch.signInLog()) * basis.row(j);
-    }
+/// Rows: the odd part of the kernel at the points; what logWeights hold of the sign is left out.
+MatrixXd signOnItself(const SurfaceKernel& kernel, const KernelMix& mix, const PatchRules& rules,
+                      double half_rad) {
+  MatrixXd result(rules.points.size(), rules.basis.cols());
+  for (Index i = 0; i < result.rows(); ++i) {
+    const auto& [rule, basis] = rules.signRules[static_cast<std::size_t>(i)];
+    const KernelTable parts = kernel.table(mix.even, mix.odd, half_rad * rules.points.segment(i, 1).array(),
+                                           half_rad * rule.nodes.array());
+    result.row(i) =
+        ((parts.sgn - rules.signInLog * parts.log).matrix().cwiseProduct(rule.weights.transpose())) * basis;
   }
   return result;
 }
 
-/// The weighted basis at nodes that are dense at both edges, whichever of them is near.
+/// Whether the kernel is so smooth between two patches that the source's own rule integrates it.
+bool areFar(const Patch& from, const Patch& at) {
+  constexpr double kFar = 1.3;  // half widths: 16 nodes more than terms leave 2.1^-32 of the kernel
+  const double apart_rad = std::abs(std::remainder(at.centre_rad - from.centre_rad, 2 * std::numbers::pi));
+  return apart_rad - at.half_rad > kFar * from.half_rad;
+}
+
+/// By the source's rule, or at nodes that are dense at both edges, whichever of them is near.
 MatrixXd onAnother(const SurfaceKernel& kernel, const KernelMix& mix, const ReferencePatch& source,
                    const Patch& from, const VectorXd& points, const Patch& at) {
-  constexpr int kNearEdges = 14;
-  const TanhSinhRule rule(kNearEdges);
-  const PatchPoints places{2 * rule.fromStart, 2 * rule.fromEnd};
-  const Eigen::ArrayXd weights = 2 * rule.weights * edgeWeight(source.exponents(), places);
-  MatrixXd values(points.size(), weights.size());
-  for (Index i = 0; i < points.size(); ++i)
-    for (Index j = 0; j < weights.size(); ++j) {
-      const double x = places.x()[j];
+  VectorXd nodes = source.rules().rule.nodes;
+  MatrixXd weighted = source.rules().rule.weights.asDiagonal() * source.rules().basis;
+  if (!areFar(from, at)) {
+    const TanhSinhRule rule = TanhSinhRule::ofDegree(source.terms());
+    const PatchPoints places{2 * rule.fromStart, 2 * rule.fromEnd};
+    nodes = places.x();
+    weighted = (2 * rule.weights * edgeWeight(source.exponents(), places)).matrix().asDiagonal() *
+               jacobiValues(source.exponents(), source.terms(), nodes);
+  }
+  MatrixXd values(points.size(), nodes.size());
+  for (Index j = 0; j < nodes.size(); ++j)
+    for (Index i = 0; i < points.size(); ++i) {
       const double distance =
-          std::remainder(at.centre_rad - from.centre_rad + at.half_rad * points[i] - from.half_rad * x,
+          std::remainder(at.centre_rad - from.centre_rad + at.half_rad * points[i] - from.half_rad * nodes[j],
                          2 * std::numbers::pi);
-      const KernelPair pair = kernel.valuesAt(distance);
-      values(i, j) = weights[j] * (mix.even * pair.even + mix.odd * pair.odd);
+      const auto [even, odd] = kernel.valuesAt(distance);
+      values(i, j) = mix.even * even + mix.odd * odd;
     }
-  return values * jacobiValues(source.exponents(), source.terms(), places.x().matrix());
+  return values * weighted;
 }
 
 /// cos n angle and sin n angle: one row an angle.
@@ -87,8 +109,8 @@ struct Multiples {
 MatrixXd reflected(const SurfaceKernel& kernel, const KernelMix& mix, const ReferencePatch& source,
                    const Patch& from, const VectorXd& points, const Patch& at) {
   const VectorXd &even = mix.reflected, &odd = kernel.reflection().coupling;
-  const Multiples here(at, points, even.size()), there(from, source.rule().nodes, even.size());
-  const MatrixXd weighted = source.rule().weights.asDiagonal() * source.basis() / std::numbers::pi;
+  const Multiples here(at, points, even.size()), there(from, source.rules().rule.nodes, even.size());
+  const MatrixXd weighted = source.rules().rule.weights.asDiagonal() * source.rules().basis / std::numbers::pi;
   MatrixXd cosines = there.cosines.transpose() * weighted, sines = there.sines.transpose() * weighted;
   cosines.row(0) /= 2;  // Fourier coefficients of the basis
   MatrixXd result = MatrixXd::Zero(points.size(), source.terms());
@@ -103,12 +125,29 @@ MatrixXd reflected(const SurfaceKernel& kernel, const KernelMix& mix, const Refe
 
 }  // namespace
 
+// ln|psi| = ln half + ln|x - y|.
+OwnInfluence::OwnInfluence(const SurfaceKernel& kernel, const KernelMix& mix, const VectorXd& points,
+                           const VectorXd& nodes, double half_rad)
+    : kernel_(kernel), mix_(mix), half_rad_(half_rad) {
+  const KernelTable parts =
+      kernel.table(mix.even, mix.odd, half_rad * points.array(), half_rad * nodes.array());
+  log_ = parts.log;
+  smooth_ =
+      parts.log * std::log(half_rad) + parts.smooth + reflectedOnItself(kernel, mix, points, nodes, half_rad);
+}
+
+MatrixXd OwnInfluence::of(const PatchRules& rules) const {
+  const MatrixXd values = rules.logWeights.cwiseProduct(log_.matrix()) +
+                          smooth_.matrix() * rules.rule.weights.asDiagonal();
+  MatrixXd result = values * rules.basis;
+  if (!rules.signRules.empty()) result += signOnItself(kernel_, mix_, rules, half_rad_);
+  return half_rad_ * result;
+}
+
 MatrixXd influence(const SurfaceKernel& kernel, const KernelMix& mix, const ReferencePatch& source,
                    const Patch& from, const VectorXd& points, const Patch& at) {
-  const bool isSame = from.centre_rad == at.centre_rad;
-  const MatrixXd direct = isSame ? onItself(kernel, mix, source, from.half_rad)
-                                 : onAnother(kernel, mix, source, from, points, at);
-  return from.half_rad * (direct + reflected(kernel, mix, source, from, points, at));
+  return from.half_rad * (onAnother(kernel, mix, source, from, points, at) +
+                          reflected(kernel, mix, source, from, points, at));
 }
 
 }  // namespace strainfinger::contact

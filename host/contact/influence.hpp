@@ -17,8 +17,27 @@ struct KernelMix {
   const Eigen::VectorXd& reflected;
 };
 
-/// Row i, column k: the displacement [m/Pa] at point i of `reference` on `at` of the k-th weighted polynomial
-/// of `source` on `from`.
+/// What moves a patch's points under tractions at nodes of the same patch, looked up once for all densities
+/// that are known at these nodes.
+class OwnInfluence {
+ public:
+  /// Keeps references to the kernel and the reflection. Costs 15 us for 16 points and 30 nodes.
+  OwnInfluence(const SurfaceKernel& kernel, const KernelMix& mix, const Eigen::VectorXd& points,
+               const Eigen::VectorXd& nodes, double half_rad);
+
+  /// Row i, column k: the displacement [m/Pa] at point i of the k-th density. Domain: rules for the points and
+  /// nodes given.
+  Eigen::MatrixXd of(const PatchRules& rules) const;
+
+ private:
+  const SurfaceKernel& kernel_;
+  KernelMix mix_;
+  double half_rad_;
+  Eigen::ArrayXXd log_, smooth_;
+};
+
+/// Row i, column k: the displacement [m/Pa] at point i on `at` of the k-th weighted polynomial of `source` on
+/// `from`, which doesn't overlap with it.
 Eigen::MatrixXd influence(const SurfaceKernel& kernel, const KernelMix& mix, const ReferencePatch& source,
                           const Patch& from, const Eigen::VectorXd& points, const Patch& at);
 

@@ -67,14 +67,14 @@ PaperContact solveByPaper(const model::Annulus<double>& annulus, const Indenter&
 
 PaperErrors errorsOf(const PaperContact& contact, const Contact& exact) {
   constexpr int kPlaces = 4000;
-  constexpr double kBeyond = 1.007;
+  constexpr double kBeyond = 1.0065;
   const double half_rad = exact.tractions[0].patch.half_rad, end_rad = std::numbers::pi - kBeyond * half_rad;
   const double centre_pa = tractionAt(exact.tractions, 0).pressure_pa;
   PaperErrors errors;
   double within = 0, beyond = 0;
   for (const double side : {-1.0, 1.0})
-    for (int i = 0; i < kPlaces; ++i) {
-      const double t = (i + 0.5) / kPlaces, inside_rad = side * half_rad * t;
+    for (int i = 0; i <= kPlaces; ++i) {
+      const double t = static_cast<double>(i) / kPlaces, inside_rad = side * half_rad * t;
       const double inside_pa = tractionAt(contact.tractions, inside_rad).pressure_pa;
       const double outside_pa =
           tractionAt(contact.tractions, side * (kBeyond * half_rad + end_rad * t)).pressure_pa;

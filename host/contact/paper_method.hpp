@@ -37,7 +37,7 @@ struct PaperErrors {
   double inside = 0;       ///< worst of the pressure within the contact
   double centre = 0;       ///< of the pressure at the centre, absolute
   double load = 0;         ///< of the normal load, relative
-  double outside = 0;      ///< largest pressure outside, from 0.7 % of a half width beyond the edges on
+  double outside = 0;      ///< largest pressure outside, from 0.65 % of a half width beyond the edges on
   double leakedShare = 0;  ///< of the integral of the pressure's square: what is outside
 };
 

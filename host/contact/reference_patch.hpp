@@ -7,42 +7,47 @@
 
 namespace strainfinger::contact {
 
-/// For one weight: collocation points x_i, and the rules that integrate weight * f against what a kernel has
-/// at each of them. f is a polynomial of the basis times an analytic factor of the kernel.
+/// How a density on a patch is integrated against what a kernel has at each of some points x_i of the same
+/// patch. The density is known at nodes y_j, as functions (columns of `basis`) times a weight that is not.
+struct PatchRules {
+  Eigen::VectorXd points;      ///< x_i
+  QuadratureRule rule;         ///< sum weights_j f(y_j) = int weight f
+  Eigen::MatrixXd basis;       ///< function k at y_j
+  Eigen::MatrixXd logWeights;  ///< sum (i, j) f(y_j) = int weight(y) f(y) [ln|x_i - y| + signInLog sgn(x_i - y)]
+  double signInLog = 0;
+
+  /// One side of a point: sum weights * f(y) = int weight(y) f(y) sgn(x_i - y) dy, the basis in rows like the
+  /// nodes.
+  struct SignRule {
+    QuadratureRule rule;
+    Eigen::MatrixXd basis;
+  };
+  std::vector<SignRule> signRules;  ///< one a point; none: no kernel with a sign is asked for
+};
+
+/// Those of weighted polynomials: weight * f, f a polynomial of the basis times an analytic factor of the
+/// kernel.
 class ReferencePatch {
  public:
   /// `terms` polynomials seen at `points` Chebyshev points. `withSign` prepares sgn(x_i - y) too.
   /// Costs 50 us for 16 terms.
   ReferencePatch(EdgeExponents exponents, int terms, int points, bool withSign);
 
+  /// The same densities, known at the nodes of another patch's rule as functions times that one's weight.
+  /// Domain: kSmoothEdges; the other one kStuckEdges, of terms and more.
+  ReferencePatch atNodesOf(const ReferencePatch& other) const;
+
   EdgeExponents exponents() const { return exponents_; }
-  int terms() const { return static_cast<int>(basis_.cols()); }
-  const Eigen::VectorXd& points() const { return points_; }          ///< x_i
-  const QuadratureRule& rule() const { return rule_; }               ///< nodes y_j, weights
-  const Eigen::MatrixXd& basis() const { return basis_; }            ///< polynomial k at y_j
-  const Eigen::MatrixXd& logWeights() const { return logWeights_; }  ///< (i, j): as logarithmicMoments()
-
-  /// What logWeights() hold of sgn(x - y): (pi/2) cot(pi right).
-  double signInLog() const { return signInLog_; }
-
-  /// One side of a collocation point: sum weights * f(y) = int weight(y) f(y) sgn(x_i - y) dy, the basis in
-  /// rows like the nodes.
-  struct SignRule {
-    QuadratureRule rule;
-    Eigen::MatrixXd basis;
-  };
-  const std::vector<SignRule>& signRules() const { return signRules_; }  ///< one a point; none without sign
+  int terms() const { return static_cast<int>(rules_.basis.cols()); }
+  const Eigen::VectorXd& points() const { return rules_.points; }
+  const PatchRules& rules() const { return rules_; }
 
  private:
-  SignRule signRule(double x, const QuadratureRule& fromRight, const QuadratureRule& fromLeft) const;
+  PatchRules::SignRule signRule(double x, const QuadratureRule& fromRight,
+                                const QuadratureRule& fromLeft) const;
 
   EdgeExponents exponents_;
-  Eigen::VectorXd points_;
-  QuadratureRule rule_;
-  Eigen::MatrixXd basis_;
-  Eigen::MatrixXd logWeights_;
-  double signInLog_;
-  std::vector<SignRule> signRules_;
+  PatchRules rules_;
 };
 
 }  // namespace strainfinger::contact

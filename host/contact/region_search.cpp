@@ -9,14 +9,16 @@
 
 #include "host/base/failure.hpp"
 #include "host/contact/contact_check.hpp"
+#include "host/contact/contact_regions.hpp"
 #include "host/contact/overlap.hpp"
 
 namespace strainfinger::contact {
 namespace {
 
+constexpr int kFewTerms = 24;  // that a smooth shape needs
 constexpr int kTerms = 64;
-constexpr int kMostTermsTogether = 160;
-constexpr double kConvergedRegions = 1e-7;  // of the last coefficients
+constexpr double kConverged = 1e-12;  // of the last coefficients: else more terms
+constexpr double kConvergedRegions = 1e-7;
 constexpr int kMostRounds = 10;
 constexpr int kMostLost = 2;
 constexpr std::size_t kMostRegions = 16;
@@ -88,14 +90,19 @@ std::vector<Overlap> overlapsOf(const SurfaceKernel& kernel, const ContactReques
   return findOverlaps(kernel, request.indenter, found.solution.tractions, approach_m, tolerance_m);
 }
 
-/// The regions that should be: the same ones if all is well.
-std::vector<Patch> improved(const SurfaceKernel& kernel, const ContactRequest& request,
-                            const EdgeResult& found) {
-  const Tractions& tractions = found.solution.tractions;
+/// What is left of the patches where their pressures push.
+std::vector<Patch> pushing(const Tractions& tractions) {
   const double largest_pa = largestPressure(tractions);
   std::vector<Patch> patches;
   for (const PatchTractions& part : tractions)
     if (part.smooth.integral() > 0) appendPushing(part, largest_pa, patches);
+  return patches;
+}
+
+/// The regions that should be: the same ones if all is well.
+std::vector<Patch> improved(const SurfaceKernel& kernel, const ContactRequest& request,
+                            const EdgeResult& found) {
+  std::vector<Patch> patches = pushing(found.solution.tractions);
   if (!areSame(patches, found.patches)) return patches;
   for (const Overlap& overlap : overlapsOf(kernel, request, found)) {
     const bool isBeside = overlap.deepest_rad < found.patches.front().first_rad() ||
@@ -174,11 +181,35 @@ EdgeResult settleOnce(const SurfaceKernel& kernel, const SpectralSolver& solver,
 
 }  // namespace
 
+std::optional<EdgeResult> settlePlainRegion(const SurfaceKernel& kernel, const ContactRequest& request,
+                                            int& terms) {
+  EdgeResult found{{guessRegion(kernel, request.indenter, request.size)}, {}};
+  try {
+    for (terms = 16; terms <= kTerms; terms *= 2) {
+      const SpectralSolver solver(kernel, request.regime, request.friction, terms);
+      found = EdgeSearch(kernel, solver, request).run(found.patches, found.jacobian);
+      if (found.outcome != EdgeResult::Outcome::kSettled) return {};
+      if (found.solution.tail() < (terms < kTerms ? kConverged : kConvergedRegions)) break;
+    }
+  } catch (const Failure&) {  // beyond the shape: the search of all regions tells, if it fails too
+    return {};
+  }
+  const bool isContact = terms <= kTerms && areSame(pushing(found.solution.tractions), found.patches) &&
+                         overlapsOf(kernel, request, found).empty();
+  return isContact ? std::optional(found) : std::nullopt;
+}
+
 EdgeResult settleRegions(const SurfaceKernel& kernel, const ContactRequest& request,
-                         const std::vector<Patch>& patches, int& terms) {
-  EdgeResult best;
+                         std::vector<Patch> patches, int& terms) {
+  terms = kFewTerms;
+  EdgeResult best = settleOnce(kernel, SpectralSolver(kernel, request.regime, request.friction, terms),
+                               request, patches);
+  if (best.outcome == EdgeResult::Outcome::kSettled) {
+    if (best.solution.tail() < kConverged) return best;
+    patches = best.patches;
+  }
   double least_m = std::numeric_limits<double>::infinity();
-  for (const int more : {kTerms, kMostTermsTogether}) {
+  for (const int more : {kTerms, kMostTerms}) {
     const SpectralSolver solver(kernel, request.regime, request.friction, more);
     EdgeResult found = settleOnce(kernel, solver, request, patches);
     const bool isSettled = found.outcome == EdgeResult::Outcome::kSettled;

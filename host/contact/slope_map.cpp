@@ -19,8 +19,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using std::numbers::pi;
 
-constexpr int kMostHarmonics = 20'000;
-
 double sinc(double x) { return x == 0 ? 1 : std::sin(x) / x; }
 
 /// (1/pi) int (1 + cos(2 pi theta / width))/2 cos n theta dtheta over the width.
@@ -36,8 +34,9 @@ VectorXd hanningCoefficients(double width_rad, int count) {
 void requireDomain(const SlopeMapRequest& request) {
   if (!(request.width_rad > 0 && request.width_rad <= pi))
     throw Failure(ExitCode::kUsage, "the width must be above 0 and at most half the surface");
-  if (request.harmonics < 2 || request.harmonics > kMostHarmonics)
-    throw Failure(ExitCode::kUsage, fmt::format("the harmonics must be from 2 to {}", kMostHarmonics));
+  if (request.harmonics < kLeastHarmonics || request.harmonics > kMostHarmonics)
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("the harmonics must be from {} to {}", kLeastHarmonics, kMostHarmonics));
 }
 
 /// n times the response of u_r to (normal, tangential) tractions, one row a harmonic.

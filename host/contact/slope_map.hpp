@@ -20,6 +20,8 @@ enum class WindowCut {
   kFull,  ///< as far as products reach n_c, where they are cut
 };
 
+inline constexpr int kLeastHarmonics = 2, kMostHarmonics = 20'000;
+
 struct SlopeMapRequest {
   double width_rad = 0;   ///< of the contact
   int harmonics = 300;    ///< n_c
@@ -34,8 +36,8 @@ struct SlopeMapRequest {
 /// each. The slope of the constant term is 0 (in eq. 9 a displacement stands there).
 class SlopeMap {
  public:
-  /// Domain: 0 < width_rad <= pi, 2 <= harmonics <= 20,000. Throws Failure(kUsage) outside it. Costs 1 ms for
-  /// 2 mm and 300 harmonics by Gauss's rows, without shear half.
+  /// Domain: 0 < width_rad <= pi, kLeastHarmonics <= harmonics <= kMostHarmonics. Throws Failure(kUsage)
+  /// outside it. Costs 1 ms for 2 mm and 300 harmonics by Gauss's rows, without shear half.
   SlopeMap(const model::Annulus<double>& annulus, const SlopeMapRequest& request);
 
   /// Rows: the angles, each times its weight [m/rad]; columns: unknowns of the pressure, then of the shear

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <tuple>
 
 #include "host/contact/influence.hpp"
 #include "host/contact/surface_motion.hpp"
@@ -23,22 +22,14 @@ EdgeExponents pressureEdges(const SurfaceKernel& kernel, double friction) {
 
 bool needsSign(const SurfaceKernel& kernel) { return kernel.annulus().poisson_ratio != 0.5; }
 
-/// The pressure below the edge of a wedge, if that is on the patch.
-EdgePressure edgePressure(const Indenter& indenter, const Patch& patch,
-                          const model::Annulus<double>& annulus) {
-  const double position = -patch.centre_rad / patch.half_rad;
-  if (indenter.edgeSlope() == 0 || !(std::abs(position) < 1)) return {};
-  const double modulus_pa = 2 * annulus.shear_modulus_pa / (1 - annulus.poisson_ratio);
-  return {position, indenter.edgeSlope() * modulus_pa / std::numbers::pi};
-}
-
 }  // namespace
 
 double PatchSolution::tail() const {
   double worst = 0;
   for (const PatchTractions& part : tractions) {
     const VectorXd& c = part.smooth.coefficients;
-    const double largest = std::max(c.cwiseAbs().maxCoeff(), std::abs(part.edge.amplitude_pa));
+    double largest = c.cwiseAbs().maxCoeff();
+    if (part.tip.isThere()) largest = std::max(largest, std::abs(part.tip.log[0]));
     if (largest > 0) worst = std::max(worst, c.tail(3).cwiseAbs().maxCoeff() / largest);
   }
   return worst;
@@ -59,17 +50,18 @@ class SpectralSolver::Assembly {
   Index firstLift() const {
     return firstShear() + (solver_.shear_ ? patchCount() * solver_.shear_->terms() : 0);
   }
-  void fillPressure(Index at, Index from);
-  void fillShear(Index at, Index from);
+  void fillOwn(Index at);
+  void fillOther(Index at, Index from);
   void fillRigid(Index at);
-  void fillProfile(Index at, const SurfaceMotion& edges);
+  void fillProfile(Index at);
+  void fillStep(Index at);  ///< where the tip's tractions have one: numerically
   void fillTangentialLoad(double tangential_n_per_m);
   PatchSolution unpack(const VectorXd& unknowns) const;
 
   const SpectralSolver& solver_;
   const std::vector<Patch>& patches_;
   const Indenter& indenter_;
-  Tractions edges_;
+  Tractions tips_;  ///< what is known of the tractions
   double lengthUnit_m_, pressureUnit_pa_;
   MatrixXd matrix_;
   VectorXd right_;
@@ -80,13 +72,11 @@ SpectralSolver::Assembly::Assembly(const SpectralSolver& solver, const std::vect
     : solver_(solver), patches_(patches), indenter_(indenter) {
   const model::Annulus<double>& annulus = solver.kernel_.annulus();
   double largest = 0;
-  bool hasEdge = false;
   for (const Patch& patch : patches) {
     largest = std::max(largest, patch.half_rad);
-    edges_.push_back({patch, {}, edgePressure(indenter, patch, annulus), solver.friction_, {}});
-    hasEdge |= edges_.back().edge.amplitude_pa != 0;
+    TipTractions tip = tipTractions(solver.kernel_, indenter, solver.regime_, solver.friction_, patch);
+    tips_.push_back({patch, {}, std::move(tip.pressure), solver.friction_, {}, std::move(tip.stuck)});
   }
-  if (!hasEdge) edges_.clear();
   pressureUnit_pa_ = annulus.shear_modulus_pa * largest;
   lengthUnit_m_ = annulus.outer_radius_m * largest * largest;
   const Index size = firstLift() + 2 * patchCount() + (solver.shear_ ? 1 : 0);
@@ -95,44 +85,63 @@ SpectralSolver::Assembly::Assembly(const SpectralSolver& solver, const std::vect
 }
 
 PatchSolution SpectralSolver::Assembly::solve(double tangential_n_per_m) {
-  const SurfaceMotion edges(solver_.kernel_, edges_);
   for (Index at = 0; at < patchCount(); ++at) {
-    for (Index from = 0; from < patchCount(); ++from) {
-      fillPressure(at, from);
-      if (solver_.shear_) fillShear(at, from);
-    }
+    fillOwn(at);
+    for (Index from = 0; from < patchCount(); ++from)
+      if (from != at) fillOther(at, from);
     fillRigid(at);
-    fillProfile(at, edges);
+    fillProfile(at);
+    if (tips_[static_cast<std::size_t>(at)].tip.step.size() > 0) fillStep(at);
   }
   if (solver_.shear_) fillTangentialLoad(tangential_n_per_m);
   return unpack(matrix_.partialPivLu().solve(right_));
 }
 
-void SpectralSolver::Assembly::fillPressure(Index at, Index from) {
-  const auto& [kernel, friction, pressure, shear] =
-      std::tie(solver_.kernel_, solver_.friction_, solver_.pressure_, solver_.shear_);
-  const Patch &here = patches_[static_cast<std::size_t>(at)],
-              &there = patches_[static_cast<std::size_t>(from)];
+// Tangential displacements only where something sticks.
+void SpectralSolver::Assembly::fillOwn(Index at) {
+  const SurfaceKernel& kernel = solver_.kernel_;
+  const ReferencePatch &pressure = solver_.pressure_, &nodes = solver_.shear_ ? *solver_.shear_ : pressure;
+  const PatchTractions& known = tips_[static_cast<std::size_t>(at)];
+  const auto own = [&](const KernelMix& mix) {
+    return OwnInfluence(kernel, mix, pressure.points(), nodes.rules().rule.nodes, known.patch.half_rad);
+  };
+  const bool hasTip = known.tip.isThere() && known.tip.step.size() == 0;
+  const PatchRules tip = hasTip ? tipRules({known.tip, known.stuckTip}, nodes) : PatchRules{};
   const double unit = pressureUnit_pa_ / lengthUnit_m_;
-  const Reflection& reflection = kernel.reflection();
-  matrix_.block(at * rows(), from * pressure.terms(), rows(), pressure.terms()) =
-      unit * influence(kernel, {-1, friction, reflection.normal}, pressure, there, pressure.points(), here);
-  if (shear)
-    matrix_.block((patchCount() + at) * rows(), from * pressure.terms(), rows(), pressure.terms()) =
-        unit * influence(kernel, {0, 1, reflection.sheared}, pressure, there, pressure.points(), here);
+  const Index row = at * rows(), column = at * pressure.terms();
+  const OwnInfluence normal = own({-1, solver_.friction_, kernel.reflection().normal});
+  matrix_.block(row, column, rows(), pressure.terms()) = unit * normal.of(pressure.rules());
+  if (hasTip) right_.segment(row, rows()) -= normal.of(tip).col(0) / lengthUnit_m_;
+  if (!solver_.shear_) return;
+  const Index rowT = (patchCount() + at) * rows(), columnT = firstShear() + at * nodes.terms();
+  const OwnInfluence across = own({0, 1, kernel.reflection().normal}),
+                     along = own({1, 0, kernel.reflection().sheared});
+  matrix_.block(rowT, column, rows(), pressure.terms()) = unit * across.of(pressure.rules());
+  matrix_.block(row, columnT, rows(), nodes.terms()) = unit * across.of(nodes.rules());
+  matrix_.block(rowT, columnT, rows(), nodes.terms()) = unit * along.of(nodes.rules());
+  if (!hasTip) return;
+  const MatrixXd acrossTip = across.of(tip), alongTip = along.of(tip);
+  right_.segment(row, rows()) -= acrossTip.col(1) / lengthUnit_m_;
+  right_.segment(rowT, rows()) -= (acrossTip.col(0) + alongTip.col(1)) / lengthUnit_m_;
 }
 
-void SpectralSolver::Assembly::fillShear(Index at, Index from) {
-  const ReferencePatch& shear = *solver_.shear_;
+void SpectralSolver::Assembly::fillOther(Index at, Index from) {
+  const SurfaceKernel& kernel = solver_.kernel_;
+  const Reflection& reflection = kernel.reflection();
   const Patch &here = patches_[static_cast<std::size_t>(at)],
               &there = patches_[static_cast<std::size_t>(from)];
-  const double unit = pressureUnit_pa_ / lengthUnit_m_;
-  const Reflection& reflection = solver_.kernel_.reflection();
-  const Index column = firstShear() + from * shear.terms();
-  matrix_.block(at * rows(), column, rows(), shear.terms()) =
-      unit * influence(solver_.kernel_, {0, 1, reflection.normal}, shear, there, shear.points(), here);
-  matrix_.block((patchCount() + at) * rows(), column, rows(), shear.terms()) =
-      unit * influence(solver_.kernel_, {1, 0, reflection.sheared}, shear, there, shear.points(), here);
+  const auto fill = [&](Index row, Index column, const KernelMix& mix, const ReferencePatch& source) {
+    matrix_.block(row * rows(), column, rows(), source.terms()) =
+        pressureUnit_pa_ / lengthUnit_m_ * influence(kernel, mix, source, there, source.points(), here);
+  };
+  const ReferencePatch& pressure = solver_.pressure_;
+  const Index p = from * pressure.terms();
+  fill(at, p, {-1, solver_.friction_, reflection.normal}, pressure);
+  if (!solver_.shear_) return;
+  const Index q = firstShear() + from * solver_.shear_->terms(), atT = patchCount() + at;
+  fill(at, q, {0, 1, reflection.normal}, *solver_.shear_);
+  fill(atT, p, {0, 1, reflection.sheared}, pressure);
+  fill(atT, q, {1, 0, reflection.sheared}, *solver_.shear_);
 }
 
 void SpectralSolver::Assembly::fillRigid(Index at) {
@@ -142,15 +151,24 @@ void SpectralSolver::Assembly::fillRigid(Index at) {
     matrix_.block((patchCount() + at) * rows(), matrix_.cols() - 1, rows(), 1).setConstant(-1);
 }
 
-void SpectralSolver::Assembly::fillProfile(Index at, const SurfaceMotion& edges) {
+void SpectralSolver::Assembly::fillProfile(Index at) {
   const Patch& patch = patches_[static_cast<std::size_t>(at)];
   const double radius_m = solver_.kernel_.annulus().outer_radius_m;
   for (Index i = 0; i < rows(); ++i) {
     const double angle_rad = patch.centre_rad + patch.half_rad * solver_.pressure_.points()[i];
-    const SurfacePoint known = edges_.empty() ? SurfacePoint{} : edges.displacementAt(angle_rad);
     const double profile_m = radius_m * angle_rad * angle_rad / 2 + indenter_.height(radius_m * angle_rad);
-    right_[at * rows() + i] = (profile_m - known.ur_m) / lengthUnit_m_;
-    if (solver_.shear_) right_[(patchCount() + at) * rows() + i] = -known.ut_m / lengthUnit_m_;
+    right_[at * rows() + i] += profile_m / lengthUnit_m_;
+  }
+}
+
+void SpectralSolver::Assembly::fillStep(Index at) {
+  const PatchTractions& part = tips_[static_cast<std::size_t>(at)];
+  const SurfaceMotion motion(solver_.kernel_, {part});
+  for (Index i = 0; i < rows(); ++i) {
+    const double x = solver_.pressure_.points()[i];
+    const SurfacePoint point = motion.displacementAt(part.patch.centre_rad + part.patch.half_rad * x);
+    right_[at * rows() + i] -= point.ur_m / lengthUnit_m_;
+    if (solver_.shear_) right_[(patchCount() + at) * rows() + i] -= point.ut_m / lengthUnit_m_;
   }
 }
 
@@ -163,15 +181,15 @@ void SpectralSolver::Assembly::fillTangentialLoad(double tangential_n_per_m) {
   for (Index l = 0; l < patchCount(); ++l)
     matrix_(row, firstShear() + l * shear.terms()) =
         integral * patches_[static_cast<std::size_t>(l)].half_rad / scale;
-  right_[row] = tangential_n_per_m / (solver_.kernel_.annulus().outer_radius_m * pressureUnit_pa_ * scale);
+  const double radius_m = solver_.kernel_.annulus().outer_radius_m;
+  right_[row] = (tangential_n_per_m / radius_m - totalTraction(tips_).shear_pa) / (pressureUnit_pa_ * scale);
 }
 
 PatchSolution SpectralSolver::Assembly::unpack(const VectorXd& unknowns) const {
   PatchSolution solution;
   for (Index l = 0; l < patchCount(); ++l) {
     const auto index = static_cast<std::size_t>(l);
-    PatchTractions part{patches_[index], {}, {}, solver_.friction_, {}};
-    if (!edges_.empty()) part.edge = edges_[index].edge;
+    PatchTractions part = tips_[index];
     part.smooth = {solver_.pressure_.exponents(),
                    pressureUnit_pa_ * unknowns.segment(l * solver_.terms(), solver_.terms())};
     if (solver_.shear_)
@@ -188,9 +206,12 @@ PatchSolution SpectralSolver::Assembly::unpack(const VectorXd& unknowns) const {
 
 SpectralSolver::SpectralSolver(const SurfaceKernel& kernel, Regime regime, double friction, int terms)
     : kernel_(kernel),
+      regime_(regime),
       friction_(regime == Regime::kSliding ? friction : 0),
       pressure_(pressureEdges(kernel, friction_), terms, terms + 2, needsSign(kernel)) {
-  if (regime == Regime::kStick) shear_.emplace(kStuckEdges, terms + 2, terms + 2, needsSign(kernel));
+  if (regime != Regime::kStick) return;
+  shear_.emplace(kStuckEdges, terms + 2, terms + 2, needsSign(kernel));
+  pressure_ = pressure_.atNodesOf(*shear_);
 }
 
 PatchSolution SpectralSolver::solve(const std::vector<Patch>& patches, const Indenter& indenter,

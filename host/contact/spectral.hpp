@@ -8,15 +8,12 @@
 #include "host/contact/reference_patch.hpp"
 #include "host/contact/surface_kernel.hpp"
 #include "host/contact/tractions.hpp"
+#include "host/contact/wedge_tip.hpp"
 
 namespace strainfinger::contact {
 
-/// What happens between indenter and surface besides the normal contact.
-enum class Regime {
-  kFrictionless,
-  kSliding,  ///< shear = friction * pressure everywhere, towards +theta for a positive friction
-  kStick,    ///< the surface follows the indenter sidewards too: u_t = const
-};
+/// Most terms that searches give one patch: what they haven't resolved by then is said to be inaccurate.
+inline constexpr int kMostTerms = 160;
 
 /// Tractions that vanish at the edges of the patches (shear that sticks: rise there) and make
 /// u_r = x^2 / (2 r_b) + height(x) + lift + tilt * (theta - centre) / half on each patch. A patch is a
@@ -53,6 +50,7 @@ class SpectralSolver {
   class Assembly;
 
   const SurfaceKernel& kernel_;
+  Regime regime_;
   double friction_;
   ReferencePatch pressure_;
   std::optional<ReferencePatch> shear_;

@@ -66,34 +66,20 @@ KernelParts SurfaceKernel::odd(double angle_rad) const {
           scale_ * (log * logSinc(angle_rad) - saw * angle_rad + kappa_ * s / 2)};
 }
 
-namespace {
-
-/// sin, cos, C, S and -dC/dpsi.
-struct Sums {
-  double s, c, C, S, halfCotangent;
-
-  explicit Sums(double angle_rad)
-      : s(std::sin(angle_rad)),
-        c(std::cos(angle_rad)),
-        C(-std::log(2 * std::abs(std::sin(angle_rad / 2)))),
-        S(std::copysign((pi - std::abs(angle_rad)) / 2, angle_rad)),
-        halfCotangent(0.5 / std::tan(angle_rad / 2)) {}
-};
-
-}  // namespace
-
-KernelValue SurfaceKernel::evenAt(double angle_rad) const {
-  const auto [s, c, C, S, halfCotangent] = Sums(angle_rad);
-  return {scale_ * ((kappa_ + 1) * c * C + (kappa_ - 1) * s * S - kappa_ * (1 + c / 2)),
-          scale_ * (-(kappa_ + 1) * (s * C + c * halfCotangent) + (kappa_ - 1) * (c * S - s / 2) +
-                    kappa_ * s / 2)};
-}
-
-KernelValue SurfaceKernel::oddAt(double angle_rad) const {
-  const auto [s, c, C, S, halfCotangent] = Sums(angle_rad);
-  return {scale_ * ((kappa_ + 1) * s * C - (kappa_ - 1) * c * S + kappa_ * s / 2),
-          scale_ *
-              ((kappa_ + 1) * (c * C - s * halfCotangent) + (kappa_ - 1) * (s * S + c / 2) + kappa_ * c / 2)};
+KernelTable SurfaceKernel::table(double even, double odd, const Eigen::ArrayXd& at_rad,
+                                 const Eigen::ArrayXd& from_rad) const {
+  using Eigen::ArrayXXd, Eigen::VectorXd;
+  const VectorXd cosAt = at_rad.cos(), sinAt = at_rad.sin(), cosFrom = from_rad.cos(), sinFrom = from_rad.sin();
+  const ArrayXXd c = (cosAt * cosFrom.transpose() + sinAt * sinFrom.transpose()).array(),
+                 s = (sinAt * cosFrom.transpose() - cosAt * sinFrom.transpose()).array(),
+                 angles = at_rad.replicate(1, from_rad.size()) - from_rad.transpose().replicate(at_rad.size(), 1);
+  KernelTable table;
+  table.log = -scale_ * (kappa_ + 1) * (even * c + odd * s);
+  const ArrayXXd saw = scale_ * (kappa_ - 1) / 2 * (even * s - odd * c);
+  table.sgn = saw * pi;
+  table.smooth = table.log * angles.unaryExpr(&logSinc) - saw * angles -
+                 scale_ * kappa_ * (even * (1 + c / 2) - odd * s / 2);
+  return table;
 }
 
 KernelPair SurfaceKernel::valuesAt(double angle_rad) const {
@@ -102,6 +88,16 @@ KernelPair SurfaceKernel::valuesAt(double angle_rad) const {
   const double S = std::copysign((pi - std::abs(angle_rad)) / 2, angle_rad);
   return {scale_ * ((kappa_ + 1) * c * C + (kappa_ - 1) * s * S - kappa_ * (1 + c / 2)),
           scale_ * ((kappa_ + 1) * s * C - (kappa_ - 1) * c * S + kappa_ * s / 2)};
+}
+
+KernelPair SurfaceKernel::slopesAt(double angle_rad) const {
+  const double s = std::sin(angle_rad), c = std::cos(angle_rad), halfCotangent = 0.5 / std::tan(angle_rad / 2);
+  const double C = -std::log(2 * std::abs(std::sin(angle_rad / 2)));
+  const double S = std::copysign((pi - std::abs(angle_rad)) / 2, angle_rad);
+  return {scale_ * (-(kappa_ + 1) * (s * C + c * halfCotangent) + (kappa_ - 1) * (c * S - s / 2) +
+                    kappa_ * s / 2),
+          scale_ *
+              ((kappa_ + 1) * (c * C - s * halfCotangent) + (kappa_ - 1) * (s * S + c / 2) + kappa_ * c / 2)};
 }
 
 double SurfaceKernel::oddStep() const { return -scale_ * (kappa_ - 1) * pi; }

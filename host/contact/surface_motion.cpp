@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "host/contact/fourier_tractions.hpp"
 #include "host/model/series.hpp"
@@ -13,7 +14,12 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-constexpr int kDensity = 14;  // of the rule: enough for polynomials of degree 40 besides the edges
+int degreeOf(const Tractions& tractions) {
+  Index most = 0;
+  for (const PatchTractions& part : tractions)
+    most = std::max({most, part.smooth.coefficients.size(), part.stuck.coefficients.size()});
+  return static_cast<int>(most);
+}
 
 /// int cot((theta - phi)/2)/2 dphi over the patch, principal value.
 double integralOfPole(const Patch& patch, double angle_rad) {
@@ -23,18 +29,19 @@ double integralOfPole(const Patch& patch, double angle_rad) {
 
 }  // namespace
 
-/// A segment of a patch: places, weights [rad], and distances point - place [rad].
-struct SurfaceMotion::Nodes {
-  PatchPoints places;
-  ArrayXd weights;
-  ArrayXd distances;
-};
-
 SurfaceMotion::SurfaceMotion(const SurfaceKernel& kernel, const Tractions& tractions)
     : kernel_(kernel),
       tractions_(tractions),
-      rule_(kDensity),
-      coefficients_(fourierTractions(tractions, static_cast<int>(kernel.reflection().normal.size()) - 1)) {}
+      rule_(TanhSinhRule::ofDegree(degreeOf(tractions))),
+      coefficients_(fourierTractions(tractions, static_cast<int>(kernel.reflection().normal.size()) - 1)) {
+  for (const PatchTractions& part : tractions_) {
+    const bool isCut = part.tip.isThere();
+    const double cut = isCut ? part.tip.position : 1;
+    Beside beside{{segmentOf(part, -1, cut)}, lineTractions({part}, 0)};
+    if (isCut) beside.near.push_back(segmentOf(part, cut, 1));
+    beside_.push_back(std::move(beside));
+  }
+}
 
 SurfacePoint SurfaceMotion::at(double angle_rad) const { return pointAt(angle_rad, true); }
 
@@ -42,25 +49,69 @@ SurfacePoint SurfaceMotion::displacementAt(double angle_rad) const { return poin
 
 SurfacePoint SurfaceMotion::pointAt(double angle_rad, bool withSlopes) const {
   SurfacePoint point;
-  for (const PatchTractions& part : tractions_) addPatch(part, angle_rad, withSlopes, point);
+  for (std::size_t k = 0; k < tractions_.size(); ++k) {
+    const Patch& patch = tractions_[k].patch;
+    if (withSlopes || std::abs(angle_rad - patch.centre_rad) < patch.half_rad)
+      addPatch(tractions_[k], angle_rad, withSlopes, point);
+    else
+      addFromBeside(tractions_[k], beside_[k], angle_rad, point);
+  }
   addReflection(angle_rad, point);
   return point;
 }
 
-// The patch is cut at the point, if that is on it, and below the edge of a wedge.
+SurfaceMotion::Segment SurfaceMotion::segmentOf(const PatchTractions& part, double from, double to) const {
+  const double length = to - from;
+  Segment segment{from, to, {1 + from + length * rule_.fromStart, 1 - to + length * rule_.fromEnd}, {}, {}, {}};
+  segment.weights = part.patch.half_rad * length * rule_.weights;
+  segment.pressures = segment.weights * part.pressure_pa(segment.places);
+  segment.shears = part.friction * segment.pressures + segment.weights * part.stuck_pa(segment.places);
+  return segment;
+}
+
+/// Distances of the segment's nodes from a place, from the end next to it so that none loses digits.
+ArrayXd SurfaceMotion::distancesOf(const Patch& patch, const Segment& segment, double x) const {
+  const double length = segment.to - segment.from;
+  ArrayXd distances = x >= segment.to ? ArrayXd(x - segment.to + length * rule_.fromEnd)
+                                      : ArrayXd(x - segment.from - length * rule_.fromStart);
+  distances *= patch.half_rad;
+  for (double& distance : distances)
+    if (std::abs(distance) > std::numbers::pi) distance = std::remainder(distance, 2 * std::numbers::pi);
+  return distances;
+}
+
+void SurfaceMotion::addFromBeside(const PatchTractions& part, const Beside& beside, double angle_rad,
+                                  SurfacePoint& point) const {
+  constexpr double kFar = 1.3;  // half widths: 24 nodes more than terms leave 2.1^-48 of the kernel
+  const double from_rad = std::remainder(angle_rad - part.patch.centre_rad, 2 * std::numbers::pi);
+  if (std::abs(from_rad) < kFar * part.patch.half_rad) {
+    for (const Segment& segment : beside.near)
+      addDisplacements(distancesOf(part.patch, segment, from_rad / part.patch.half_rad), segment, point);
+    return;
+  }
+  for (const LineTraction& line : beside.far) {
+    const auto [even, odd] =
+        kernel_.valuesAt(std::remainder(angle_rad - line.angle_rad, 2 * std::numbers::pi));
+    point.ur_m += odd * line.shear_pa_rad - even * line.pressure_pa_rad;
+    point.ut_m += odd * line.pressure_pa_rad + even * line.shear_pa_rad;
+  }
+}
+
+// The patch is cut at the point, if that is on it, and below the tip of a wedge.
 void SurfaceMotion::addPatch(const PatchTractions& part, double angle_rad, bool withSlopes,
                              SurfacePoint& point) const {
   const double x = (angle_rad - part.patch.centre_rad) / part.patch.half_rad;
   const bool isOnIt = std::abs(x) < 1;
   std::vector<double> cuts{-1, 1};
   if (isOnIt) cuts.push_back(x);
-  if (part.edge.amplitude_pa != 0 && part.edge.position != x) cuts.push_back(part.edge.position);
+  if (part.tip.isThere() && part.tip.position != x) cuts.push_back(part.tip.position);
   std::ranges::sort(cuts);
   const Traction here = withSlopes && isOnIt ? tractionAt({part}, angle_rad) : Traction{};
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-    const Nodes nodes = nodesBetween(part.patch, cuts[i], cuts[i + 1], x);
-    addDisplacements(part, nodes, point);
-    if (withSlopes) addSlopes(part, nodes, here, point);
+    const Segment segment = segmentOf(part, cuts[i], cuts[i + 1]);
+    const ArrayXd distances = distancesOf(part.patch, segment, x);
+    addDisplacements(distances, segment, point);
+    if (withSlopes) addSlopes(distances, segment, here, point);
   }
   if (!withSlopes || !isOnIt) return;
   const double pole = kernel_.evenPole() * integralOfPole(part.patch, angle_rad);
@@ -68,42 +119,27 @@ void SurfaceMotion::addPatch(const PatchTractions& part, double angle_rad, bool 
   point.utSlope_m += kernel_.oddStep() * here.pressure_pa + pole * here.shear_pa;
 }
 
-SurfaceMotion::Nodes SurfaceMotion::nodesBetween(const Patch& patch, double from, double to, double x) const {
-  const double length = to - from;
-  const ArrayXd start = length * rule_.fromStart, end = length * rule_.fromEnd;
-  Nodes nodes{{1 + from + start, 1 - to + end}, patch.half_rad * length * rule_.weights, {}};
-  if (x >= to)
-    nodes.distances = patch.half_rad * (x - to + end);
-  else
-    nodes.distances = patch.half_rad * (x - from - start);
-  for (double& distance : nodes.distances)
-    if (std::abs(distance) > std::numbers::pi) distance = std::remainder(distance, 2 * std::numbers::pi);
-  return nodes;
-}
-
-// A node so close to the point or to the edge of a wedge that rounding put it there has no weight either.
-void SurfaceMotion::addDisplacements(const PatchTractions& part, const Nodes& nodes,
+// A node so close to the point or to the tip of a wedge that rounding put it there has no weight either.
+void SurfaceMotion::addDisplacements(const ArrayXd& distances, const Segment& segment,
                                      SurfacePoint& point) const {
-  const ArrayXd pressures = nodes.weights * part.pressure_pa(nodes.places),
-                shears = part.friction * pressures + nodes.weights * part.stuck.at(nodes.places);
-  for (Index i = 0; i < pressures.size(); ++i) {
-    if (nodes.distances[i] == 0 || !std::isfinite(pressures[i])) continue;
-    const KernelPair pair = kernel_.valuesAt(nodes.distances[i]);
-    point.ur_m += pair.odd * shears[i] - pair.even * pressures[i];
-    point.ut_m += pair.odd * pressures[i] + pair.even * shears[i];
+  for (Index i = 0; i < distances.size(); ++i) {
+    const double pressure = segment.pressures[i], shear = segment.shears[i];
+    if (distances[i] == 0 || !std::isfinite(pressure)) continue;
+    const auto [even, odd] = kernel_.valuesAt(distances[i]);
+    point.ur_m += odd * shear - even * pressure;
+    point.ut_m += odd * pressure + even * shear;
   }
 }
 
-void SurfaceMotion::addSlopes(const PatchTractions& part, const Nodes& nodes, Traction here,
+void SurfaceMotion::addSlopes(const ArrayXd& distances, const Segment& segment, Traction here,
                               SurfacePoint& point) const {
-  const ArrayXd pressures = part.pressure_pa(nodes.places), shears = part.shear_pa(nodes.places);
-  for (Index i = 0; i < pressures.size(); ++i) {
-    const double distance = nodes.distances[i];
-    if (distance == 0 || !std::isfinite(pressures[i])) continue;
-    const double even = kernel_.evenAt(distance).slope, odd = kernel_.oddAt(distance).slope;
-    const double pole = kernel_.evenPole() * 0.5 / std::tan(distance / 2);
-    point.urSlope_m += nodes.weights[i] * (odd * shears[i] - even * pressures[i] + pole * here.pressure_pa);
-    point.utSlope_m += nodes.weights[i] * (odd * pressures[i] + even * shears[i] - pole * here.shear_pa);
+  for (Index i = 0; i < distances.size(); ++i) {
+    const double distance = distances[i], pressure = segment.pressures[i], shear = segment.shears[i];
+    if (distance == 0 || !std::isfinite(pressure)) continue;
+    const auto [even, odd] = kernel_.slopesAt(distance);
+    const double pole = segment.weights[i] * kernel_.evenPole() * 0.5 / std::tan(distance / 2);
+    point.urSlope_m += odd * shear - even * pressure + pole * here.pressure_pa;
+    point.utSlope_m += odd * pressure + even * shear - pole * here.shear_pa;
   }
 }
 

@@ -1,5 +1,6 @@
 #include "host/contact/tanh_sinh.hpp"
 
+#include <algorithm>
 #include <numbers>
 
 namespace strainfinger::contact {
@@ -14,5 +15,7 @@ TanhSinhRule::TanhSinhRule(int density) {
   fromEnd = 1 / (1 + exponent.exp());
   weights = step * std::numbers::pi * t.cosh() * fromStart * fromEnd;
 }
+
+TanhSinhRule TanhSinhRule::ofDegree(int degree) { return TanhSinhRule(std::max(14, 10 + degree / 5)); }
 
 }  // namespace strainfinger::contact

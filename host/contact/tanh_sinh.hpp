@@ -15,6 +15,10 @@ struct TanhSinhRule {
   /// `density` nodes per unit of the transformed variable, about 8 times as many in all. 16 integrate
   /// x^a (1-x)^b ln x times a polynomial of degree 20, a and b >= -1/2, to 1e-14.
   explicit TanhSinhRule(int density);
+
+  /// Dense enough between edges of patches and singularities of the kernel, to 1e-14, for polynomials of a
+  /// degree besides.
+  static TanhSinhRule ofDegree(int degree);
 };
 
 }  // namespace strainfinger::contact

@@ -41,16 +41,35 @@ void appendSeries(std::vector<LineTraction>& lines, const Patch& patch, const Ed
   append(lines, patch, rule.nodes, share.pressure_pa * loads, share.shear_pa * loads);
 }
 
-/// Both sides of the edge.
-void appendEdge(std::vector<LineTraction>& lines, const PatchTractions& part, int harmonics) {
-  if (part.edge.amplitude_pa == 0) return;
+/// Gauss's nodes with weights that integrate arccosh times polynomials of lower degree than nodes.
+ArrayXd tipLoads(const TipTraction& tip, const QuadratureRule& rule) {
+  if (!tip.isThere()) return ArrayXd::Zero(rule.nodes.size());
+  const auto count = static_cast<int>(rule.nodes.size());
+  const Eigen::MatrixXd values = jacobiValues(kSmoothEdges, count, rule.nodes);
+  const ArrayXd weights = rule.weights.array() * (values * tipMoments(tip.position, count)).array();
+  return weights * (values.leftCols(tip.log.size()) * tip.log).array();
+}
+
+void appendSteplessTip(std::vector<LineTraction>& lines, const PatchTractions& part, int harmonics) {
+  const auto degree = static_cast<int>(part.tip.log.size());
+  const QuadratureRule rule =
+      gaussRule(kSmoothEdges, degree + 24 + static_cast<int>(1.5 * harmonics * part.patch.half_rad));
+  const ArrayXd pressures = tipLoads(part.tip, rule);
+  append(lines, part.patch, rule.nodes, pressures, part.friction * pressures + tipLoads(part.stuckTip, rule));
+}
+
+/// Both sides of the tip.
+void appendSteppedTip(std::vector<LineTraction>& lines, const PatchTractions& part, int harmonics) {
   const TanhSinhRule rule(16 + static_cast<int>(harmonics * part.patch.half_rad / 4));
-  const double x0 = part.edge.position;
+  const double x0 = part.tip.position;
   for (const double end : {-1.0, 1.0}) {
     const ArrayXd x = x0 + (end - x0) * rule.fromStart;
-    const ArrayXd values = part.edge.at({1 + x, 1 - x});  // infinite where rounding made x x0
-    const ArrayXd loads = std::abs(end - x0) * rule.weights * values.isFinite().select(values, 0);
-    append(lines, part.patch, x.matrix(), loads, part.friction * loads);
+    const auto loads = [&](const TipTraction& tip) -> ArrayXd {
+      const ArrayXd values = tip.at({1 + x, 1 - x});  // infinite where rounding made x x0
+      return std::abs(end - x0) * rule.weights * values.isFinite().select(values, 0);
+    };
+    const ArrayXd pressures = loads(part.tip);
+    append(lines, part.patch, x.matrix(), pressures, part.friction * pressures + loads(part.stuckTip));
   }
 }
 
@@ -75,25 +94,49 @@ double EdgeSeries::integral() const {
   return coefficients[0] / jacobiValues(exponents, 1, Eigen::VectorXd::Zero(1))(0, 0);
 }
 
-ArrayXd EdgePressure::at(const PatchPoints& points) const {
-  if (amplitude_pa == 0) return ArrayXd::Zero(points.fromLeft.size());
-  const ArrayXd offset = points.x() - position;
+ArrayXd TipTraction::at(const PatchPoints& points) const {
+  if (!isThere()) return ArrayXd::Zero(points.fromLeft.size());
+  const Eigen::VectorXd x = points.x();
+  const ArrayXd offset = x.array() - position;
   const ArrayXd root = (points.fromLeft * points.fromRight * ((1 - position) * (1 + position))).sqrt();
-  return amplitude_pa * (root / offset.abs()).asinh();
+  const auto series = [&](const Eigen::VectorXd& c) -> ArrayXd {
+    return jacobiValues(kSmoothEdges, static_cast<int>(c.size()), x) * c;
+  };
+  ArrayXd values = (root / offset.abs()).asinh() * series(log);
+  if (step.size() > 0) values += offset.sign() * root.binaryExpr(offset.abs(), [](double up, double along) {
+    return std::atan2(up, along);
+  }) * series(step);
+  return values;
 }
 
-double EdgePressure::integral() const {
-  return amplitude_pa * std::numbers::pi * std::sqrt((1 - position) * (1 + position));
+double TipTraction::integral() const {
+  if (!isThere()) return 0;
+  double sum = log.dot(tipMoments(position, static_cast<int>(log.size())));
+  const double angle = std::acos(position), ratio = position / (1 + std::sin(angle));
+  for (Index k = 0; k < step.size(); ++k) {
+    const auto n = static_cast<double>(k + 1);
+    sum -= step[k] * std::sqrt(2 * std::numbers::pi) / n * (std::cos(n * angle) - std::pow(ratio, n));
+  }
+  return sum;
+}
+
+// With x = cos phi the function is 2 sum sin(n phi0) sin(n phi) / n.
+Eigen::VectorXd tipMoments(double position, int count) {
+  const ArrayXd n = ArrayXd::LinSpaced(count, 1, count);
+  return std::sqrt(2 * std::numbers::pi) * (n * std::acos(position)).sin() / n;
 }
 
 ArrayXd PatchTractions::pressure_pa(const PatchPoints& points) const {
-  return smooth.at(points) + edge.at(points);
+  return smooth.at(points) + tip.at(points);
+}
+
+ArrayXd PatchTractions::stuck_pa(const PatchPoints& points) const {
+  return stuck.at(points) + stuckTip.at(points);
 }
 
 ArrayXd PatchTractions::shear_pa(const PatchPoints& points) const {
-  const ArrayXd sliding = friction == 0 ? ArrayXd(ArrayXd::Zero(points.fromLeft.size()))
-                                        : ArrayXd(friction * pressure_pa(points));
-  return sliding + stuck.at(points);
+  if (friction == 0) return stuck_pa(points);
+  return friction * pressure_pa(points) + stuck_pa(points);
 }
 
 Traction tractionAt(const Tractions& tractions, double angle_rad) {
@@ -112,7 +155,10 @@ std::vector<LineTraction> lineTractions(const Tractions& tractions, int harmonic
     const int nodes = nodesFor(part, harmonics);
     appendSeries(lines, part.patch, part.smooth, nodes, {1, part.friction});
     appendSeries(lines, part.patch, part.stuck, nodes, {0, 1});
-    appendEdge(lines, part, harmonics);
+    if (part.tip.step.size() > 0)
+      appendSteppedTip(lines, part, harmonics);
+    else if (part.tip.isThere())
+      appendSteplessTip(lines, part, harmonics);
   }
   return lines;
 }
@@ -120,9 +166,10 @@ std::vector<LineTraction> lineTractions(const Tractions& tractions, int harmonic
 Traction totalTraction(const Tractions& tractions) {
   Traction total;
   for (const PatchTractions& part : tractions) {
-    const double pressure = part.patch.half_rad * (part.smooth.integral() + part.edge.integral());
+    const double pressure = part.patch.half_rad * (part.smooth.integral() + part.tip.integral());
     total.pressure_pa += pressure;
-    total.shear_pa += part.friction * pressure + part.patch.half_rad * part.stuck.integral();
+    total.shear_pa += part.friction * pressure +
+                      part.patch.half_rad * (part.stuck.integral() + part.stuckTip.integral());
   }
   return total;
 }

@@ -38,25 +38,33 @@ struct EdgeSeries {
   double integral() const;  ///< over x
 };
 
-/// amplitude arccosh|(1 - x x0) / (x - x0)|: the pressure below a jump of the indenter's slope at x0, zero at
-/// both edges. On a half plane it makes the surface amplitude pi^2 (1 - nu) |x - x0| half / (2 pi mu) deep.
-struct EdgePressure {
-  double position = 0;      ///< x0
-  double amplitude_pa = 0;  ///< 0: there is no edge
+/// Below a jump of the indenter's slope at x0, with z = (x - x0) / (1 - x x0):
+///     arccosh(1/|z|) log(x) + sgn(z) arccos|z| step(x) [Pa],
+/// both zero at the edges; log and step are series in the orthonormal polynomials of kSmoothEdges.
+struct TipTraction {
+  double position = 0;  ///< x0
+  Eigen::VectorXd log;  ///< no coefficients: there is no tip
+  Eigen::VectorXd step;
 
+  bool isThere() const { return log.size() > 0; }
   Eigen::ArrayXd at(const PatchPoints& points) const;
   double integral() const;  ///< over x
 };
+
+/// Integrals over x in -1..1 of arccosh(1/|z|) times each of the first `count` polynomials of kSmoothEdges.
+Eigen::VectorXd tipMoments(double position, int count);
 
 /// shear = friction * pressure + stuck.
 struct PatchTractions {
   Patch patch;
   EdgeSeries smooth;
-  EdgePressure edge;
+  TipTraction tip{};
   double friction = 0;
-  EdgeSeries stuck;  ///< no coefficients: nothing sticks
+  EdgeSeries stuck{};  ///< no coefficients: nothing sticks
+  TipTraction stuckTip{};
 
   Eigen::ArrayXd pressure_pa(const PatchPoints& points) const;
+  Eigen::ArrayXd stuck_pa(const PatchPoints& points) const;
   Eigen::ArrayXd shear_pa(const PatchPoints& points) const;
 };
 

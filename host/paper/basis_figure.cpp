@@ -130,9 +130,10 @@ double oddness(const plot::DataFile& data, std::size_t column, bool isEven) {
 /// 2 mu times the largest e_rr that the pressure makes at the gauges, over the largest pressure.
 double visibility(const Subject& subject, const Pair& pair) {
   constexpr std::array kRows{model::kErr};
-  constexpr double kSpan_rad = 1, kDigits = 1e-9;
+  constexpr double kSpan_rad = 1, kRelativeError = 1e-9;
   constexpr int kAngles = 501;
-  Eigen::MatrixXd table = model::truncatedSeries(subject.annulus, subject.gaugeRadius_m, kRows, {}, kDigits);
+  Eigen::MatrixXd table =
+      model::truncatedSeries(subject.annulus, subject.gaugeRadius_m, kRows, {}, kRelativeError);
   const auto last = std::min(table.rows(), pair.tractions.rows()) - 1;
   double strain = 0, pressure = 0;
   for (int i = 0; i < kAngles; ++i) {

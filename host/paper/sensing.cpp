@@ -71,8 +71,7 @@ WidthEffect widthEffect(const model::Annulus<double>& annulus, double radius_m, 
 
 double kindEffect(const model::Annulus<double>& annulus, double radius_m, double width_m) {
   const Eigen::VectorXd ellipse = normalProfile({annulus, radius_m, width_m});
-  const double same_m = width_m / std::numbers::sqrt2;  // second moments: a^2/4 and c^2/2
-  const Eigen::VectorXd punch = normalProfile({annulus, radius_m, same_m, Spread::kPunch});
+  const Eigen::VectorXd punch = normalProfile({annulus, radius_m, width_m, shape::Profile::kPunch});
   return (punch - ellipse).cwiseAbs().maxCoeff() / ellipse.cwiseAbs().maxCoeff();
 }
 

@@ -1,42 +1,28 @@
 #include "host/paper/spread_response.hpp"
 
 #include <array>
-#include <cmath>
 #include <numbers>
 
 #include "host/model/series.hpp"
 
 namespace strainfinger::paper {
-namespace {
-
-/// What harmonics are multiplied by, and its derivative to x.
-struct Window {
-  double value, slope;
-};
-
-Window windowAt(double x, Spread spread) {
-  const auto bessel = [x](int order) { return std::cyl_bessel_j(static_cast<double>(order), x); };
-  if (x == 0) return {1, 0};
-  if (spread == Spread::kPunch) return {bessel(0), -bessel(1)};
-  return {2 * bessel(1) / x, -2 * bessel(2) / x};
-}
-
-}  // namespace
 
 SpreadResponse::SpreadResponse(const model::Annulus<double>& annulus, double radius_m, double width_m,
-                               Spread spread) {
+                               shape::Profile profile) {
   constexpr std::array kRows{model::kErr};
-  constexpr double kRelative = 1e-12;
-  series_ = model::truncatedSeries(annulus, radius_m, kRows, {}, kRelative);
+  constexpr double kRelativeError = 1e-12;
+  series_ = model::truncatedSeries(annulus, radius_m, kRows, {}, kRelativeError);
   series_ /= std::numbers::pi * annulus.outer_radius_m;
   series_.row(0) /= 2;
   series_.col(model::kNormal) *= -1;
   perWidth_ = series_;
+  const double width_rad = width_m / annulus.outer_radius_m;
+  const double moment_rad2 = shape::momentOfWidth(width_rad),
+               momentPerWidth = 2 * shape::momentOfWidth(1) * width_rad / annulus.outer_radius_m;
   for (Eigen::Index n = 0; n < series_.rows(); ++n) {
-    const double perWidth = static_cast<double>(n) / (2 * annulus.outer_radius_m);
-    const Window window = windowAt(perWidth * width_m, spread);
-    series_.row(n) *= window.value;
-    perWidth_.row(n) *= perWidth * window.slope;
+    const shape::SpreadFactor factor = shape::spreadFactor(profile, static_cast<int>(n), moment_rad2);
+    series_.row(n) *= factor.value;
+    perWidth_.row(n) *= factor.slope * momentPerWidth;
   }
 }
 

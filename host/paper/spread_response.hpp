@@ -4,22 +4,18 @@
 #include <Eigen/Core>
 
 #include "host/model/annulus.hpp"
+#include "host/shape/pressure_profile.hpp"
 
 namespace strainfinger::paper {
-
-/// How a load is spread over its width.
-enum class Spread {
-  kSemiEllipse,  ///< harmonic n: that of a line load times 2 J1(x)/x, x = n half width
-  kPunch,        ///< infinite at the edges: times J0(x)
-};
 
 /// e_rr per N/m of a normal (pressing) and of a tangential load. A semi-ellipse in place of a contact's exact
 /// pressure costs 1.5e-5 of the peak at 2 mm, 1e-3 at 4 mm (default finger).
 class SpreadResponse {
  public:
-  /// Domain and errors as model::ImpulseResponse; 0 <= width_m <= 2 pi outer_radius_m, an arc of the surface.
+  /// The profile has the second moment of a semi-ellipse of that width, an arc of the surface, 0 to
+  /// 2 pi outer_radius_m. Domain and errors besides as model::ImpulseResponse.
   SpreadResponse(const model::Annulus<double>& annulus, double radius_m, double width_m,
-                 Spread spread = Spread::kSemiEllipse);
+                 shape::Profile profile = shape::Profile::kEllipse);
 
   struct Value {
     double normal, tangential;                  ///< strain per N/m

@@ -6,13 +6,12 @@
 #include <limits>
 #include <vector>
 
+#include "host/shape/quantiles.hpp"
+
 namespace strainfinger::shape {
 namespace {
 
-constexpr double kOneSided95 = 1.6448536269514722;  // of a normal distribution, in sigmas
-constexpr double kTwoSided95 = 1.959963984540054;
 constexpr int kFitted = 4;
-constexpr int kMomentPlace = 3;
 
 Measured measured(const TouchFit& fit, double value, int member) {
   return {value, std::sqrt(fit.covariance(member, member))};
@@ -40,8 +39,11 @@ double ShapeEstimator::probability(double chiSquared) const {
 }
 
 /// Width and curvature by the first derivatives of what they are made of.
-void ShapeEstimator::addWidth(const TouchFit& fit, Shape& shape) const {
-  const double moment = fit.touch.moment_rad2, sigma = std::sqrt(fit.covariance(kMomentPlace, kMomentPlace));
+void ShapeEstimator::addMeasures(const TouchFit& fit, Shape& shape) const {
+  shape.angle_rad = measured(fit, fit.touch.angle_rad, 0);
+  shape.normal_n_per_m = measured(fit, fit.touch.normal_n_per_m, 1);
+  shape.tangential_n_per_m = measured(fit, fit.touch.tangential_n_per_m, 2);
+  const double moment = fit.touch.moment_rad2, sigma = std::sqrt(fit.covariance(kMoment, kMoment));
   const double most = std::max(0.0, moment) + kOneSided95 * sigma, radius_m = model_.outerRadius_m();
   shape.widthLimit_m = radius_m * equivalentWidth_rad(std::min(most, TouchModel::kMostMoment_rad2));
   shape.isWidthAtLimit = fit.isAtLimit;
@@ -56,15 +58,28 @@ void ShapeEstimator::addWidth(const TouchFit& fit, Shape& shape) const {
   shape.curvatureBand_per_m = bandOf(*shape.curvature_per_m, radius_m);
 }
 
-/// All profiles from the ellipse's place: the best one's probability, and its name if it is alone.
-void ShapeEstimator::addClass(const TouchFit& fit, const Eigen::VectorXd& strains, Shape& shape) const {
-  std::vector<std::pair<double, Profile>> fits;
+/// All profiles from the ellipse's place: the best one's probability, its name and measures if it is alone.
+void ShapeEstimator::addClass(const TouchFit& ellipse, const Eigen::VectorXd& strains, Shape& shape) const {
+  struct Fitted {
+    Profile profile;
+    TouchFit fit;
+  };
+  std::vector<Fitted> fits;
   for (const Profile profile : allProfiles())
-    fits.emplace_back(refine(model_, profile, strains, noise_, fit.touch).chiSquared, profile);
-  std::ranges::sort(fits);
-  shape.fitProbability = probability(fits[0].first);
-  const bool isAlone = fits[1].first >= fits[0].first + kSure;
-  if (isAlone && shape.fitProbability >= kUnlikely) shape.profile = fits[0].second;
+    fits.push_back({profile, refine(model_, profile, strains, noise_, ellipse.touch)});
+  std::ranges::sort(fits, {}, [](const Fitted& fitted) { return fitted.fit.chiSquared; });
+  const auto fitsToo = [&](const Fitted& fitted) {
+    return fitted.fit.chiSquared < fits[0].fit.chiSquared + kSure;
+  };
+  shape.fitProbability = probability(fits[0].fit.chiSquared);
+  if (!fitsToo(fits[1]) && shape.fitProbability >= kUnlikely) {
+    shape.profile = fits[0].profile;
+    addMeasures(fits[0].fit, shape);
+  } else {
+    shape.isOfEllipse = std::ranges::any_of(fits, [&](const Fitted& fitted) {
+      return fitsToo(fitted) && areApart(ellipse, fitted.fit.touch, kTwoSided95);
+    });
+  }
 }
 
 std::optional<Shape> ShapeEstimator::estimate(const Eigen::VectorXd& strains) const {
@@ -73,11 +88,8 @@ std::optional<Shape> ShapeEstimator::estimate(const Eigen::VectorXd& strains) co
   const TouchFit& fit = found->best;
   Shape shape;
   shape.touch = fit.touch;
-  shape.angle_rad = measured(fit, fit.touch.angle_rad, 0);
-  shape.normal_n_per_m = measured(fit, fit.touch.normal_n_per_m, 1);
-  shape.tangential_n_per_m = measured(fit, fit.touch.tangential_n_per_m, 2);
   shape.fitProbability = probability(fit.chiSquared);
-  addWidth(fit, shape);
+  addMeasures(fit, shape);
   if (shape.width_m && !found->rivalAngle_rad) addClass(fit, strains, shape);
   shape.rivalAngle_rad = found->rivalAngle_rad;
   const ResolvedPressure resolved = resolution(shape);

@@ -21,6 +21,7 @@ struct Band {
   double high;
 };
 
+/// What is measured is that of the profile, if there is one, and of an ellipse if there is none.
 struct Shape {
   Touch touch;  ///< the best one, of elliptic pressure
   Measured angle_rad{};
@@ -43,6 +44,9 @@ struct Shape {
   /// The ring's pitch is above kSparse: then there is neither width nor class, and answers may be farther off
   /// than their sigmas say.
   bool isSparse = false;
+  /// Another profile fits the readings too, and has a load, place or width outside its band of 95 %: what is
+  /// estimated is that of an elliptic pressure, if it is one.
+  bool isOfEllipse = false;
   bool isWidthAtLimit = false;  ///< as wide or as narrow as the fit may go: the width is not to be trusted
 };
 
@@ -75,8 +79,8 @@ class ShapeEstimator {
 
  private:
   ResolvedPressure resolution(const Shape& shape) const;
-  void addWidth(const TouchFit& fit, Shape& shape) const;
-  void addClass(const TouchFit& fit, const Eigen::VectorXd& strains, Shape& shape) const;
+  void addMeasures(const TouchFit& fit, Shape& shape) const;
+  void addClass(const TouchFit& ellipse, const Eigen::VectorXd& strains, Shape& shape) const;
   double probability(double chiSquared) const;
 
   double noise_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace strainfinger::shape {
 namespace {
@@ -13,7 +14,6 @@ using Eigen::Matrix4d;
 using Eigen::Vector4d;
 using Eigen::VectorXd;
 
-constexpr int kMoment = 3;  ///< its place among a touch's members
 constexpr int kMostSteps = 100;
 constexpr double kSmallStep = 1e-12;  ///< in strains, of those read
 constexpr double kSmallGain = 1e-9;   ///< of the sum of squares: 1e-4 sigma of what is fitted
@@ -80,6 +80,17 @@ TouchFit refine(const TouchModel& model, Profile profile, const VectorXd& strain
   const Matrix4d curvature = response.slopes.transpose() * response.slopes;
   return {touch, noise * noise * inverseOf(curvature), rest.squaredNorm() / (noise * noise),
           isAtLimit(model, touch.moment_rad2)};
+}
+
+Vector4d difference(const Touch& a, const Touch& b) {
+  return {std::remainder(a.angle_rad - b.angle_rad, 2 * std::numbers::pi),
+          a.normal_n_per_m - b.normal_n_per_m, a.tangential_n_per_m - b.tangential_n_per_m,
+          a.moment_rad2 - b.moment_rad2};
+}
+
+bool areApart(const TouchFit& fit, const Touch& touch, double sigmas) {
+  const Eigen::Array4d sigma = fit.covariance.diagonal().array().sqrt();
+  return (difference(fit.touch, touch).array().abs() > sigmas * sigma).any();
 }
 
 }  // namespace strainfinger::shape

@@ -17,4 +17,10 @@ struct TouchFit {
 TouchFit refine(const TouchModel& model, Profile profile, const Eigen::VectorXd& strains, double noise,
                 const Touch& start);
 
+/// a - b, member by member; angles the short way round.
+Eigen::Vector4d difference(const Touch& a, const Touch& b);
+
+/// Whether a touch differs from a fit by so many of its sigmas, in any of its members.
+bool areApart(const TouchFit& fit, const Touch& touch, double sigmas);
+
 }  // namespace strainfinger::shape

@@ -15,9 +15,12 @@ struct Touch {
   double angle_rad = 0;
   double normal_n_per_m = 0;
   double tangential_n_per_m = 0;
-  double moment_rad2 =
-      0;  ///< second moment of the load about angle_rad; below 0: continued, as spreadFactor()
+  /// Second moment of the load about angle_rad; below 0: continued, as spreadFactor().
+  double moment_rad2 = 0;
 };
+
+/// The moment's place among a touch's members, in slopes and covariances.
+inline constexpr int kMoment = 3;
 
 /// The strains of a touch and their derivatives to its members, in their order: one row a gauge.
 struct TouchStrains {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/shape/quantiles.hpp"
+
 namespace strainfinger::shape {
 namespace {
 
@@ -11,12 +13,11 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr int kStepsPerPitch = 8;
-constexpr double kApart = 3;           ///< sigmas: an end of the search farther away is another touch
-constexpr double kFar = 4.5;           ///< sigmas of all places: farther than any that are normal
-constexpr double kSame = 0.1;          ///< sigmas: nearer is the same end of two searches
-constexpr double kSameValley = 1.5;    ///< sigmas: nearer to a place of a valley lies in it
-constexpr double kTwoSided90 = 1.645;  ///< of a normal distribution, in sigmas
-constexpr std::size_t kEnough = 5;     ///< places: fewer have no spread
+constexpr double kApart = 3;         ///< sigmas: an end of the search farther away is another touch
+constexpr double kFar = 4.5;         ///< sigmas of all places: farther than any that are normal
+constexpr double kSame = 0.1;        ///< sigmas: nearer is the same end of two searches
+constexpr double kSameValley = 1.5;  ///< sigmas: nearer to a place of a valley lies in it
+constexpr std::size_t kEnough = 5;   ///< places: fewer have no spread
 constexpr std::size_t kStarts = 8;
 constexpr double kNear = 0.75;  ///< of what the best explains: the grid alone costs a few per cent
 
@@ -31,18 +32,6 @@ double penalised(const TouchFit& fit, double friction) {
   const double sliding = std::max(0.0, excess) / std::sqrt(fit.covariance(2, 2));
   const double narrow = std::max(0.0, -fit.touch.moment_rad2) / std::sqrt(fit.covariance(3, 3));
   return fit.chiSquared + sliding * sliding + narrow * narrow;
-}
-
-Eigen::Vector4d difference(const Touch& a, const Touch& b) {
-  return {std::remainder(a.angle_rad - b.angle_rad, 2 * std::numbers::pi),
-          a.normal_n_per_m - b.normal_n_per_m, a.tangential_n_per_m - b.tangential_n_per_m,
-          a.moment_rad2 - b.moment_rad2};
-}
-
-/// Whether a touch differs from a fit by so many of its sigmas, in any of its numbers.
-bool areApart(const TouchFit& fit, const Touch& touch, double sigmas) {
-  const Eigen::Array4d sigma = fit.covariance.diagonal().array().sqrt();
-  return (difference(fit.touch, touch).array().abs() > sigmas * sigma).any();
 }
 
 /// All places of all valleys within kPlausible of the best one's end; chi squared with the valley's penalty.
@@ -95,12 +84,12 @@ std::vector<Touch> rivalsOf(const std::vector<Candidate>& candidates, const Plau
   return rivals;
 }
 
-/// The covariance, enlarged so that bands of 90 % hold the rivals, and limits of 95 %.
+/// The covariance, enlarged so that limits of 95 % on either side hold the rivals.
 Eigen::Matrix4d holding(const std::vector<Touch>& rivals, const TouchFit& mixed) {
   const Eigen::Array4d sigma = mixed.covariance.diagonal().array().sqrt();
   Eigen::Array4d reach = sigma;
   for (const Touch& rival : rivals)
-    reach = reach.max(difference(rival, mixed.touch).array().abs() / kTwoSided90);
+    reach = reach.max(difference(rival, mixed.touch).array().abs() / kOneSided95);
   const Eigen::Vector4d scale = reach / sigma;
   return scale.asDiagonal() * mixed.covariance * scale.asDiagonal();
 }

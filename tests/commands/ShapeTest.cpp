@@ -98,9 +98,9 @@ TEST(ShapeCommand, ABandHoldsTheCurvature) {
 // 16 gauges 1.4 mm deep: a pitch of 3.6 depths.
 TEST(ShapeCommand, ASparseRingTellsNoWidth) {
   const Run run = runShell(
-      "printf 'schema = 1\\n[finger]\\ncore_radius_m = 0.0108\\n[gauges]\\nradius_m = 0.0113\\n' "
-      ">sparse.toml && "
-      "echo 0,1e-3,5e-3,1e-3,0,0,0,0,0,0,0,0,0,0,0,0 | \"$STRAINFINGER\" shape -c sparse.toml");
+      "config=$(mktemp) && trap 'rm $config' EXIT && "
+      "printf 'schema = 1\\n[finger]\\ncore_radius_m = 0.0108\\n[gauges]\\nradius_m = 0.0113\\n' >$config && "
+      "echo 0,1e-3,5e-3,1e-3,0,0,0,0,0,0,0,0,0,0,0,0 | \"$STRAINFINGER\" shape -c $config");
   STRCMP_CONTAINS("width class odd-part", run.out.c_str());
   STRCMP_CONTAINS("sparse", run.out.c_str());
 }
@@ -108,6 +108,13 @@ TEST(ShapeCommand, ASparseRingTellsNoWidth) {
 TEST(ShapeCommand, MoreNoiseTellsLess) {
   const double sigma = std::stod(shapeOf("", touch())[6]);
   DOUBLES_EQUAL(3 * sigma, std::stod(shapeOf("--noise-strain 1.8e-5", touch())[6]), 0.02 * sigma);
+}
+
+TEST(ShapeCommand, AWidthThatHangsOnThePressuresProfileIsWarnedOf) {
+  const auto strains =
+      readings("--normal-n-per-m 20 --tangential-n-per-m 0 --contact-deg 100 --width-m 4e-3");
+  STRCMP_EQUAL("profile", shapeOf("--noise-strain 6e-6", strains)[17].c_str());
+  STRCMP_EQUAL("", shapeOf("--noise-strain 6e-4", strains)[17].c_str());
 }
 
 TEST(ShapeCommand, WhatIsNoTouchOfThisFingerIsWarnedOf) {

@@ -102,23 +102,25 @@ LargestTable byPlace(const std::vector<HarmonicRegion>& regions) {
   return table;
 }
 
-void takeField(LargestTable& table, const FieldRegion& region, const std::string& column) {
-  const std::string alpha = fmt::format("{:g}", region.alpha);
-  if (region.isRefused)
-    table.refuse(alpha, column);
-  else
-    table.take(alpha, column, region.worst.largest());
-}
-
 LargestTable byDepth(const std::vector<FieldRegion>& regions) {
   LargestTable table;
-  for (const auto& region : regions) takeField(table, region, fmt::format("{:g}", region.depthOfRubber));
+  for (const auto& region : regions) {
+    const std::string alpha = fmt::format("{:g}", region.alpha),
+                      depth = fmt::format("{:g}", region.depthOfRubber);
+    if (region.isRefused)
+      table.refuse(alpha, depth);
+    else
+      table.take(alpha, depth, region.worst.largest());
+  }
   return table;
 }
 
 LargestTable byWidth(const std::vector<FieldRegion>& regions) {
   LargestTable table;
-  for (const auto& region : regions) takeField(table, region, fmt::format("{:.3g}", region.width_rad));
+  for (const auto& region : regions)
+    if (!region.isRefused)  // for its depth, whatever the width
+      table.take(fmt::format("{:g}", region.alpha), fmt::format("{:.3g}", region.width_rad),
+                 region.worst.largest());
   return table;
 }
 
@@ -190,22 +192,17 @@ bool holds(const std::vector<ContactRegion>& regions) {
 
 std::string summary(const Surveys& surveys) {
   return fmt::format(
-      "Harmonics, relative to the larger of a row's two coefficients (tau_tt passes through zero with both: "
-      "relative to tau_rr's, if larger); below 1e-290 they only have to be as small:\n\n{}\n{}\n"
-      "Fields under line loads (width 0) and uniform loads of some width, relative to the peak of the row "
-      "(depth 0: the surface, where a line load has no field and is refused; 1: the core; refused: the "
-      "series "
-      "needs more than a million harmonics, and computeField() says so). Of depths that take more than "
-      "10,000 "
-      "harmonics two widths and four angles are looked at, of more than 100,000 nu = 1/2 "
-      "only:\n\n{}\n{}\n"
-      "Contacts (flat, a cylinder of 5 mm, a wedge of 160 degrees; all regimes; nu = 0, 0.3, 0.499999, 1/2; "
-      "of "
-      "alpha 0.99 and more flat and nu = 0.3 and 1/2 only, beyond 0.01 rad 1/2 only, at 0.999 without "
-      "friction), "
-      "residual over depth, recomputed from the tractions: answers without a warning, then those that warn "
-      "(stick below nu = 1/2, layers far thinner than the contact is wide; refused: no answer but an error; "
-      "blank: none):\n\n{}\n{}\n{}\n{}",
+      "Harmonics, relative to the larger of a row's two coefficients (tau_tt passes through zero with "
+      "both: relative to tau_rr's, if larger); below 1e-290 they only have to be as "
+      "small:\n\n{}\n{}\nFields under line loads (width 0) and uniform loads of some width, relative to "
+      "the peak of the row (depth 0: the surface, where a line load has no field and is refused; 1: the "
+      "core; refused: the series needs more than a million harmonics, and computeField() says so). Of "
+      "depths that take more than 10,000 harmonics two widths and four angles are looked at (the others "
+      "are blank where all depths do), of more than 100,000 nu = 1/2 only:\n\n{}\n{}\nContacts (flat, a "
+      "cylinder of 5 mm, a wedge of 160 degrees; all regimes; nu = 0, 0.3, 0.499999, 1/2; at alpha 0.999 "
+      "beyond 0.01 rad flat, frictionless and nu = 1/2 only), residual over depth, recomputed from the "
+      "tractions: answers without a warning, then those that warn (stick below nu = 1/2, layers far "
+      "thinner than the contact is wide; refused: no answer but an error; blank: none):\n\n{}\n{}\n{}\n{}",
       byHarmonic(surveys.harmonics).markdown("alpha \\ harmonic"),
       byPlace(surveys.harmonics).markdown("Poisson's ratio \\ place"),
       byDepth(surveys.fields).markdown("alpha \\ depth / rubber"),

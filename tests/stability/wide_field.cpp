@@ -10,21 +10,7 @@ namespace {
 using namespace model;
 
 using Phases = WideField::Value;
-
-/// cos and sin of 0, x, 2 x, ... by rotation: 100 digits have room for its errors.
-struct Multiples {
-  explicit Multiples(const Wide& angle) : x(angle), cosine(cos(angle)), sine(sin(angle)) {}
-  void advance() {
-    const Wide next = c * cosine - s * sine;
-    s = s * cosine + c * sine;
-    c = next;
-    phase += x;
-  }
-  Wide mean() const { return phase == 0 ? Wide(1) : Wide(s / phase); }
-
-  Wide x, cosine, sine;
-  Wide c = 1, s = 0, phase = 0;
-};
+using testing::Multiples;
 
 /// What multiplies the responses of a row: of a pressing load p^c = -1, of a tangential one q^c = 1.
 void addTerm(Phases& sum, const testing::WideResponse& response, const Wide& c, const Wide& s) {

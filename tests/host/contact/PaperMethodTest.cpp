@@ -40,7 +40,7 @@ constexpr std::array kKnownFull{KnownPaper{WindowCut::kFull, 0.1, 0.41, 0, -19.2
                                 KnownPaper{WindowCut::kFull, 1e-3, 0.18, 0, -5.4, 0.024, 1e-4, 6},
                                 KnownPaper{WindowCut::kFull, 1e-4, 0.10, 0, -2.5, 0.042, 2e-4, 7},
                                 KnownPaper{WindowCut::kFull, 1e-6, 0.16, 0, 2.5, 0.13, 1e-3, 8},
-                                KnownPaper{WindowCut::kFull, 1e-8, 0.34, 0, 13, 0.3, 6e-3, 9}};
+                                KnownPaper{WindowCut::kFull, 1e-8, 0.34, 0, 13, 0.32, 6e-3, 9}};
 
 PaperContact solve(WindowCut window, double cutoff) {
   PaperOptions options;
@@ -56,15 +56,18 @@ TEST_GROUP(PaperMethod) {
   const Contact exact = solveContact(kernel, {});
   const double peak_pa = tractionAt(exact.tractions, 0).pressure_pa;
 
-  /// Worst error inside (edges included) or outside the contact, per peak. Outside begins 0.7 % of a half
-  /// width beyond the edge, as in what is known: at the edge itself, with the whole window, it is up to 1.4
-  /// times as large.
+  /// What is known of the outside begins so many half widths from the centre: at the edge itself, with the
+  /// whole window, it is up to 1.4 times as large.
+  static constexpr double kBeyond = 1.0065;
+  static constexpr int kPlaces = 4000;
+
+  /// Worst error inside (edges included) or outside the contact, per peak.
   double worst(const PaperContact& contact, bool inside) const {
     const double half_rad = 1e-3 / kSurface_m;
     double worst = 0;
-    for (int i = 0; i <= 2000; ++i) {
-      const double angle_rad =
-          inside ? half_rad * i / 2000 : 1.007 * half_rad + (std::numbers::pi - 1.007 * half_rad) * i / 2000;
+    const double from_rad = inside ? 0 : kBeyond * half_rad, to_rad = inside ? half_rad : std::numbers::pi;
+    for (int i = 0; i <= kPlaces; ++i) {
+      const double angle_rad = from_rad + (to_rad - from_rad) * i / kPlaces;
       const double wanted = inside ? tractionAt(exact.tractions, angle_rad).pressure_pa : 0;
       worst = std::max(worst, std::abs(tractionAt(contact.tractions, angle_rad).pressure_pa - wanted));
     }
@@ -75,15 +78,14 @@ TEST_GROUP(PaperMethod) {
   static double leaked(const PaperContact& contact) {
     const double half_rad = 1e-3 / kSurface_m;
     const auto square = [&](double from_rad, double to_rad) {
-      constexpr int kSteps = 1000;
       double sum = 0;
-      for (int i = 0; i < kSteps; ++i) {
-        const double angle_rad = from_rad + (to_rad - from_rad) * (i + 0.5) / kSteps;
+      for (int i = 0; i < kPlaces; ++i) {
+        const double angle_rad = from_rad + (to_rad - from_rad) * (i + 0.5) / kPlaces;
         sum += std::pow(tractionAt(contact.tractions, angle_rad).pressure_pa, 2);
       }
-      return sum * (to_rad - from_rad) / kSteps;
+      return sum * (to_rad - from_rad) / kPlaces;
     };
-    const double outside = square(1.007 * half_rad, std::numbers::pi);
+    const double outside = square(kBeyond * half_rad, std::numbers::pi);
     return outside / (outside + square(0, half_rad));
   }
 
@@ -142,8 +144,8 @@ TEST(PaperMethod, MissesTheContactByWhatIsKnown) {
 TEST(PaperMethod, ItsErrorsAreThoseFoundHere) {
   const PaperContact contact = solve(WindowCut::kHalf, 1e-3);
   const PaperErrors errors = errorsOf(contact, exact);
-  DOUBLES_EQUAL(worst(contact, true), errors.inside, 1e-3);
-  DOUBLES_EQUAL(worst(contact, false), errors.outside, 1e-3);
+  DOUBLES_EQUAL(worst(contact, true), errors.inside, 1e-12);
+  DOUBLES_EQUAL(worst(contact, false), errors.outside, 1e-12);
   DOUBLES_EQUAL(leaked(contact), errors.leakedShare, 1e-2 * errors.leakedShare);
   DOUBLES_EQUAL(contact.normal_n_per_m / exact.normal_n_per_m - 1, errors.load, 1e-15);
 }
@@ -152,8 +154,8 @@ TEST(PaperMethod, MissesByOtherAmountsWithTheWholeWindow) {
   for (const KnownPaper& known : kKnownFull) {
     const PaperContact contact = solve(known.window, known.cutoff);
     DOUBLES_EQUAL(known.inside, worst(contact, true), 0.006);
-    DOUBLES_EQUAL(known.load, 100 * (contact.normal_n_per_m / exact.normal_n_per_m - 1), 0.5);
-    leaksAsKnown(known.outside, worst(contact, false));
+    DOUBLES_EQUAL(known.load, 100 * (contact.normal_n_per_m / exact.normal_n_per_m - 1), 0.06);
+    DOUBLES_EQUAL(known.outside, worst(contact, false), std::max(0.03 * known.outside, 5e-4));
     leaksAsKnown(known.leaked, leaked(contact));
     LONGS_EQUAL(known.even, evenKept(known));
   }

@@ -1,8 +1,9 @@
 #include "host/contact/region_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdio>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <string>
@@ -22,6 +23,8 @@ using namespace strainfinger::contact;
 using namespace strainfinger::testing;
 
 namespace {
+
+constexpr unsigned kSeed = 2026;  // of the first random shape, the next has the next
 
 /// Every 2 um over +-2.5 mm.
 template <typename Height>
@@ -46,6 +49,33 @@ Indenter randomBump(std::mt19937& random) {
   const double width_m = draw(3e-6, 10e-6);
   const double height_m = draw(10e-6, 40e-6), at_m = std::copysign(draw(0.5e-3, 0.8e-3), draw(-1, 1));
   return finelyMeasured([=](double x) { return bump(x, at_m, width_m, height_m); });
+}
+
+/// Two of 100 to 500 um, 10 to 100 um high, within 1 mm of the normal.
+Indenter randomBumps(std::mt19937& random) {
+  const auto draw = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  std::array<double, 6> drawn{};
+  for (std::size_t i = 0; i < 6; i += 3) {
+    drawn[i] = draw(-1e-3, 1e-3);
+    drawn[i + 1] = draw(100e-6, 500e-6);
+    drawn[i + 2] = draw(10e-6, 100e-6);
+  }
+  return measured([=](double x) {
+    return bump(x, drawn[0], drawn[1], drawn[2]) + bump(x, drawn[3], drawn[4], drawn[5]);
+  });
+}
+
+/// Between the edges of the regions.
+double leastPressure_pa(const Contact& contact) {
+  double least_pa = std::numeric_limits<double>::infinity();
+  for (const PatchTractions& part : contact.tractions)
+    for (double x = -0.999; x < 1; x += 0.001) {
+      const double angle_rad = part.patch.centre_rad + x * part.patch.half_rad;
+      least_pa = std::min(least_pa, tractionAt(contact.tractions, angle_rad).pressure_pa);
+    }
+  return least_pa;
 }
 
 /// How deep the shape is inside the rubber at a measured point where nothing presses.
@@ -88,7 +118,7 @@ TEST(RegionSearch, ABumpOfFourMicrometresBesideTheContactTouches) {
   }
 }
 
-// The series rings at the tip: what it pulls at the edges then is no reason to give up.
+// The spline is smooth about the tip, for as many terms as resolve the distance of points; fewer ring there.
 TEST(RegionSearch, AMeasuredWedgeIsNearlyTheWedgeAndSaysHowNearly) {
   const double slope = std::tan(10 * std::numbers::pi / 180);
   for (ContactRequest request : {ofWidth(1e-3), ofWidth(2e-3), ofLoad(20), ofLoad(60)}) {
@@ -96,26 +126,27 @@ TEST(RegionSearch, AMeasuredWedgeIsNearlyTheWedgeAndSaysHowNearly) {
     const Contact known = solve(request);
     request.indenter = measured([=](double x) { return slope * std::abs(x); });
     const Contact contact = solve(request);
-    DOUBLES_EQUAL(known.normal_n_per_m, contact.normal_n_per_m, 2e-3 * known.normal_n_per_m);
-    DOUBLES_EQUAL(known.width_m, contact.width_m, 2e-3 * known.width_m);
-    STRCMP_CONTAINS("inaccurate", contact.warnings.at(0).c_str());
+    DOUBLES_EQUAL(known.normal_n_per_m, contact.normal_n_per_m, 1e-3 * known.normal_n_per_m);
+    DOUBLES_EQUAL(known.width_m, contact.width_m, 1e-3 * known.width_m);
+    LONGS_EQUAL(contact.residual_m > 1e-6 * contact.depth_m, contact.warnings.size());
   }
 }
 
 TEST(RegionSearch, NoRandomBumpIsInsideTheRubber) {
-  constexpr unsigned kSeed = 2026;
-  std::printf("seeds from %u ", kSeed);
   std::size_t regions = 0;
-  for (unsigned seed = kSeed; seed < kSeed + 3; ++seed) {
-    std::mt19937 random(seed);
-    ContactRequest request = ofLoad(4);
-    request.indenter = randomBump(random);
-    const Contact contact = solve(request);
-    const double inside_m = deepestInside_m(request.indenter, contact);
-    CHECK_TRUE_TEXT(inside_m < 1e-12 + 2 * contact.residual_m, ("seed " + std::to_string(seed)).c_str());
-    regions += contact.tractions.size();
-  }
-  CHECK_TRUE(regions > 3);  // or no bump touched
+  for (const bool isNarrow : {true, false})
+    for (unsigned seed = kSeed; seed < kSeed + (isNarrow ? 3 : 12); ++seed) {
+      std::mt19937 random(seed);
+      ContactRequest request = ofLoad(isNarrow ? 4 : 30);
+      request.indenter = isNarrow ? randomBump(random) : randomBumps(random);
+      const Contact contact = solve(request);
+      const std::string text = "seed " + std::to_string(seed);
+      CHECK_TRUE_TEXT(deepestInside_m(request.indenter, contact) < 1e-12, text.c_str());
+      CHECK_TRUE_TEXT(contact.residual_m < 1e-12, text.c_str());
+      CHECK_TRUE_TEXT(leastPressure_pa(contact) >= 0, text.c_str());
+      regions += contact.tractions.size();
+    }
+  CHECK_TRUE(regions > 20);  // or few bumps touched
 }
 
 TEST(RegionSearch, NoiseEndsInAnErrorThatTellsWhatToDo) {

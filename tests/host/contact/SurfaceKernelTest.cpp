@@ -36,7 +36,7 @@ TEST_GROUP(SurfaceKernel) {
   }
 
   static Sums closedAt(const SurfaceKernel& kernel, double angle_rad) {
-    const double even = kernel.evenAt(angle_rad).value, odd = kernel.oddAt(angle_rad).value;
+    const double even = kernel.valuesAt(angle_rad).even, odd = kernel.valuesAt(angle_rad).odd;
     Sums sums{even, odd, even};
     const Reflection& reflection = kernel.reflection();
     for (int n = 0; n < reflection.normal.size(); ++n) {
@@ -66,9 +66,9 @@ TEST(SurfaceKernel, PartsAddUpToTheWhole) {
   for (const double angle_rad : {1e-9, -1e-4, 0.003, -0.5, 3.0}) {
     const double log = std::log(std::abs(angle_rad)), sign = angle_rad > 0 ? 1 : -1;
     const KernelParts even = kernel.even(angle_rad), odd = kernel.odd(angle_rad);
-    const double rounding = 1e-14 * std::abs(kernel.evenAt(1e-9).value);
-    DOUBLES_EQUAL(kernel.evenAt(angle_rad).value, even.log * log + even.sgn * sign + even.smooth, rounding);
-    DOUBLES_EQUAL(kernel.oddAt(angle_rad).value, odd.log * log + odd.sgn * sign + odd.smooth, rounding);
+    const double rounding = 1e-14 * std::abs(kernel.valuesAt(1e-9).even);
+    DOUBLES_EQUAL(kernel.valuesAt(angle_rad).even, even.log * log + even.sgn * sign + even.smooth, rounding);
+    DOUBLES_EQUAL(kernel.valuesAt(angle_rad).odd, odd.log * log + odd.sgn * sign + odd.smooth, rounding);
   }
 }
 
@@ -76,16 +76,16 @@ TEST(SurfaceKernel, SlopesAreDerivatives) {
   const SurfaceKernel kernel(fingerOf(0.7, 0.3));
   const double step = 1e-5;
   for (const double angle_rad : {-0.5, 0.2, 3.0}) {
-    const double even = kernel.evenAt(angle_rad + step).value - kernel.evenAt(angle_rad - step).value;
-    const double odd = kernel.oddAt(angle_rad + step).value - kernel.oddAt(angle_rad - step).value;
-    DOUBLES_EQUAL(even / (2 * step), kernel.evenAt(angle_rad).slope, -1e-8 * kernel.evenPole());
-    DOUBLES_EQUAL(odd / (2 * step), kernel.oddAt(angle_rad).slope, -1e-8 * kernel.evenPole());
+    const double even = kernel.valuesAt(angle_rad + step).even - kernel.valuesAt(angle_rad - step).even;
+    const double odd = kernel.valuesAt(angle_rad + step).odd - kernel.valuesAt(angle_rad - step).odd;
+    DOUBLES_EQUAL(even / (2 * step), kernel.slopesAt(angle_rad).even, -1e-8 * kernel.evenPole());
+    DOUBLES_EQUAL(odd / (2 * step), kernel.slopesAt(angle_rad).odd, -1e-8 * kernel.evenPole());
   }
 }
 
 TEST(SurfaceKernel, OddJumpsByItsStep) {
   const SurfaceKernel kernel(fingerOf(0.7, 0.3));
-  const double jump = kernel.oddAt(1e-12).value - kernel.oddAt(-1e-12).value;
+  const double jump = kernel.valuesAt(1e-12).odd - kernel.valuesAt(-1e-12).odd;
   DOUBLES_EQUAL(kernel.oddStep(), jump, 1e-9 * std::abs(jump));
   DOUBLES_EQUAL(0, SurfaceKernel(fingerOf(0.7, 0.5)).oddStep(), 0);
 }

@@ -19,11 +19,20 @@ part.stuck = {kStuckEdges, Eigen::VectorXd::Constant(1, std::sqrt(pi))};
 return {part};
 }
 
-static Tractions edge() {
+/// 7 arccosh(1/|z|), x0 = 0.3, and as much shear the other way.
+static Tractions tip() {
   PatchTractions part;
   part.patch = {-0.5, 0.1};
-  part.edge = {0.3, 7};
+  part.tip = {0.3, Eigen::VectorXd::Constant(1, 7 * std::sqrt(pi / 2)), {}};
   part.friction = -1;
+  return {part};
+}
+
+/// The same with series of several terms, and a step of the pressure.
+static Tractions stepped() {
+  PatchTractions part = tip()[0];
+  part.tip.log = Eigen::Vector3d(1, -2, 3);
+  part.tip.step = Eigen::Vector2d(4, 5);
   return {part};
 }
 
@@ -66,17 +75,39 @@ TEST(Tractions, HaveTheFourierCoefficientsOfLineTractions) {
 }
 
 TEST(Tractions, TotalsAreTheZerothCoefficients) {
-  for (const Tractions& tractions : {ellipse(), edge()}) {
+  for (const Tractions& tractions : {ellipse(), tip(), stepped()}) {
     DOUBLES_EQUAL(coefficient(tractions, 0).pressure_pa, totalTraction(tractions).pressure_pa, 1e-14);
     DOUBLES_EQUAL(coefficient(tractions, 0).shear_pa, totalTraction(tractions).shear_pa, 1e-14);
   }
 }
 
-TEST(Tractions, PressureBelowAnEdgeIsInfiniteAtTheEdgeOnly) {
-  PatchTractions middle = edge()[0];
-  middle.edge.position = 0;
+// With a step of zero the double exponential rule integrates what product weights do without.
+TEST(Tractions, ATipsFourierCoefficientsAreThoseOfItsIntegral) {
+  Tractions smooth = stepped(), known = stepped();
+  smooth[0].tip.step = {};
+  known[0].tip.step.setZero();
+  for (const int n : {0, 3, 40, 300}) {
+    const Traction sum = coefficient(smooth, n), integral = coefficient(known, n);
+    DOUBLES_EQUAL(integral.pressure_pa, sum.pressure_pa, 1e-14);
+    DOUBLES_EQUAL(integral.shear_pa, sum.shear_pa, 1e-14);
+  }
+}
+
+TEST(Tractions, PressureBelowATipIsInfiniteAtTheTipOnly) {
+  PatchTractions middle = tip()[0];
+  middle.tip.position = 0;
   CHECK_TRUE(std::isinf(tractionAt({middle}, -0.5).pressure_pa));
   const double known = 7 * std::acosh((1 + 0.5 * 0.3) / 0.8);  // x = -0.5
-  DOUBLES_EQUAL(known, tractionAt(edge(), -0.55).pressure_pa, 1e-13);
-  DOUBLES_EQUAL(-known, tractionAt(edge(), -0.55).shear_pa, 1e-13);
+  DOUBLES_EQUAL(known, tractionAt(tip(), -0.55).pressure_pa, 1e-13);
+  DOUBLES_EQUAL(-known, tractionAt(tip(), -0.55).shear_pa, 1e-13);
+}
+
+// arccos|z| is pi/2 on both sides of the tip; the series' first two polynomials are sqrt(2/pi) {1, 2 x}.
+TEST(Tractions, PressureBelowATipJumpsByTheStep) {
+  PatchTractions part = stepped()[0];
+  part.tip.log.setZero();
+  const double root = std::sqrt(2 / pi), known = pi / 2 * root * (4 + 5 * 2 * 0.3);
+  const double at_rad = part.patch.centre_rad + 0.3 * part.patch.half_rad, by_rad = 1e-12;
+  DOUBLES_EQUAL(known, tractionAt({part}, at_rad + by_rad).pressure_pa, 1e-9);
+  DOUBLES_EQUAL(-known, tractionAt({part}, at_rad - by_rad).pressure_pa, 1e-9);
 }

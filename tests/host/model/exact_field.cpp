@@ -6,26 +6,6 @@
 #include "tests/host/model/wide.hpp"
 
 namespace strainfinger::testing {
-namespace {
-
-/// cos and sin of 0, x, 2 x, ... by rotation: 100 digits have room for its errors.
-struct Multiples {
-  explicit Multiples(const Wide& angle) : x(angle), cosine(cos(angle)), sine(sin(angle)) {}
-  void advance() {
-    const Wide next = c * cosine - s * sine;
-    s = s * cosine + c * sine;
-    c = next;
-    phase += x;
-  }
-  /// Of cos over the phases from -phase to phase.
-  Wide mean() const { return phase == 0 ? Wide(1) : Wide(s / phase); }
-
-  Wide x, cosine, sine;
-  Wide c = 1, s = 0, phase = 0;
-};
-
-}  // namespace
-
 struct ExactField::Harmonics {
   WideAnnulus finger;
   std::vector<WideResponse> responses;

@@ -13,6 +13,7 @@
 #include "host/contact/slope_map.hpp"
 #include "host/model/field.hpp"
 #include "host/model/harmonic.hpp"
+#include "tests/host/model/fingers.hpp"
 
 // last: its macros redefine new
 #include <CppUTest/TestHarness.h>
@@ -24,9 +25,9 @@ namespace {
 using Real = long double;
 using Matrix2 = Eigen::Matrix<Real, 2, 2>;
 using std::numbers::pi;
+using testing::kDefaultFinger;
+using testing::kGaugeRadius_m;
 
-constexpr model::Annulus<double> kFinger{8.9e-3, 12.7e-3, 8.3e4, 0.5};
-constexpr double kGauge_m = 9.4e-3;
 constexpr std::array kRowsOfThePaper{model::kTrr, model::kTrt, model::kUr, model::kUt, model::kErr};
 
 /// The appendix at one radius. Names as there; s is sigma-hat.
@@ -79,7 +80,7 @@ TEST_GROUP(Errata){};
 
 // Long double: the printed form loses digits to alpha^-2n, 1e-5 of them by harmonic 20.
 TEST(Errata, TheAppendixHoldsWithTheExponentsRead) {
-  for (const model::Annulus<double>& finger : {kFinger, model::Annulus<double>{5e-3, 10e-3, 1e5, 0.3}})
+  for (const model::Annulus<double>& finger : {kDefaultFinger, model::Annulus<double>{5e-3, 10e-3, 1e5, 0.3}})
     for (int n = 2; n <= 12; ++n) {
       const double radius_m = (finger.core_radius_m + finger.outer_radius_m) / 2;
       const Appendix appendix(finger, radius_m, n);
@@ -95,7 +96,7 @@ TEST(Errata, TheAppendixHoldsWithTheExponentsRead) {
 
 // At r_b stresses have to be the tractions.
 TEST(Errata, TheAppendixAsPrintedDoesNotMeetTheLoad) {
-  const Appendix appendix(kFinger, kFinger.outer_radius_m, 5);
+  const Appendix appendix(kDefaultFinger, kDefaultFinger.outer_radius_m, 5);
   const auto missed = [&](const Matrix2& B) {
     return static_cast<double>(
         (appendix.response(B).topRows<2>() - Matrix2::Identity()).cwiseAbs().maxCoeff());
@@ -107,8 +108,10 @@ TEST(Errata, TheAppendixAsPrintedDoesNotMeetTheLoad) {
 TEST(Errata, APositiveLambdaPulls) {
   constexpr std::array kRows{model::kErr};
   const std::vector<double> above{0.0};
-  const double outwards = model::computeField(kFinger, kGauge_m, {.normal_n_per_m = -1}, above, kRows)(0, 0);
-  const double coefficient = model::HarmonicModel<double>(kFinger, kGauge_m)(5)(model::kErr, model::kNormal);
+  const double outwards =
+      model::computeField(kDefaultFinger, kGaugeRadius_m, {.normal_n_per_m = -1}, above, kRows)(0, 0);
+  const double coefficient =
+      model::HarmonicModel<double>(kDefaultFinger, kGaugeRadius_m)(5)(model::kErr, model::kNormal);
   CHECK_TRUE(coefficient > 0);  // of p, and so the impulse response of eq. p_k = lambda / pi cos k theta_c
   CHECK_TRUE(outwards > 0);
 }
@@ -118,12 +121,12 @@ TEST(Errata, APositiveLambdaPulls) {
 // it slips.
 TEST(Errata, FrictionAsPrintedLetsNothingStick) {
   constexpr double kFriction = 0.5;
-  const contact::SurfaceKernel kernel(kFinger);
+  const contact::SurfaceKernel kernel(kDefaultFinger);
   const contact::Contact flat = contact::solveContact(kernel, {});
   const std::vector<double> angles_rad{-0.06, -0.02, 0.01, 0.05};
   constexpr std::array kRows{model::kTrr, model::kTrt};
   const Eigen::MatrixXd tractions =
-      contact::computeContactField(kernel, flat.tractions, kFinger.outer_radius_m, angles_rad, kRows);
+      contact::computeContactField(kernel, flat.tractions, kDefaultFinger.outer_radius_m, angles_rad, kRows);
   for (const auto& row : tractions.rowwise()) {
     const double p = row[0], q = row[1];  // tension positive, as sec. 2.1 has it
     CHECK_FALSE(q < kFriction * p);
@@ -160,16 +163,18 @@ TEST(Errata, TheShearColumnsOfEquation8HaveTheirSuperscriptsExchanged) {
   constexpr std::array kRows{model::kUr};
   std::vector<double> angles_rad;
   for (int i = 0; i < kAngles; ++i) angles_rad.push_back(2 * pi * (i + 0.5) / kAngles);
-  const auto field = model::computeField(
-      kFinger, kFinger.outer_radius_m, {.tangential_n_per_m = 1, .width_rad = kWidth_rad}, angles_rad, kRows);
+  const auto field =
+      model::computeField(kDefaultFinger, kDefaultFinger.outer_radius_m,
+                          {.tangential_n_per_m = 1, .width_rad = kWidth_rad}, angles_rad, kRows);
   double sine = 0, cosine = 0;
   for (int i = 0; i < kAngles; ++i) {
     sine += field(i, 0) * std::sin(kHarmonic * angles_rad[static_cast<std::size_t>(i)]) * 2 / kAngles;
     cosine += field(i, 0) * std::cos(kHarmonic * angles_rad[static_cast<std::size_t>(i)]) * 2 / kAngles;
   }
   const double window = std::sin(kHarmonic * kWidth_rad / 2) / (kHarmonic * kWidth_rad / 2);
-  const double load = window / (pi * kFinger.outer_radius_m);
-  const auto response = model::HarmonicModel<double>(kFinger, kFinger.outer_radius_m)(kHarmonic);
+  const double load = window / (pi * kDefaultFinger.outer_radius_m);
+  const auto response =
+      model::HarmonicModel<double>(kDefaultFinger, kDefaultFinger.outer_radius_m)(kHarmonic);
   DOUBLES_EQUAL(response(model::kUr, model::kTangential), sine / load, 1e-3 * std::abs(sine / load));
   DOUBLES_EQUAL(0, cosine / sine, 1e-9);
 }
@@ -187,7 +192,7 @@ TEST(Errata, TheConstantTermHasNoSlopeButADisplacement) {
 TEST(Errata, TheDecompositionOfEquation14HasItsPairsInRows) {
   contact::SlopeMapRequest request;
   request.width_rad = 2 / 12.7;
-  const contact::SlopeMap map(kFinger, request);
+  const contact::SlopeMap map(kDefaultFinger, request);
   for (const bool isEven : {false, true}) {
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(map.block(isEven).rows(), map.block(isEven).cols());
     for (const auto& pair : contact::singularPairs(map))

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/base/angles.hpp"
 #include "host/paper/spectrum.hpp"
+#include "tests/host/model/fingers.hpp"
 
 // last: its macros redefine new
 #include <CppUTest/TestHarness.h>
@@ -13,28 +15,27 @@ using namespace strainfinger;
 using namespace strainfinger::paper;
 using model::kNormal;
 using model::kTangential;
+using testing::kDefaultFinger;
+using testing::kGaugeRadius_m;
 
 namespace {
 
-constexpr model::Annulus<double> kFinger{8.9e-3, 12.7e-3, 8.3e4, 0.5};
-constexpr double kGauge_m = 9.4e-3;
 constexpr auto kRadial = StrainComponent::kRadial;
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kGrid_rad = 2e-4;
 
 ImpulseCurve cylinder(model::Traction load) {
-  return ImpulseCurve::ofCylinder(kFinger, kGauge_m, kRadial, load);
+  return ImpulseCurve::ofCylinder(kDefaultFinger, kGaugeRadius_m, kRadial, load);
 }
 
 ImpulseCurve plane(model::Traction load) {
-  return ImpulseCurve::ofHalfPlane(kFinger, kGauge_m, kRadial, load);
+  return ImpulseCurve::ofHalfPlane(kDefaultFinger, kGaugeRadius_m, kRadial, load);
 }
 
 /// First angle at which the tangential curves differ by `share` of a peak, on a grid, the half plane's
 /// abscissa being radius_m theta; each over its own peak, or both over the finger's.
 double firstApart_rad(double radius_m, double share, bool scaled) {
   const ImpulseCurve finger = cylinder(kTangential);
-  const HalfPlane rubber = halfPlaneOf(kFinger, kGauge_m);
+  const HalfPlane rubber = halfPlaneOf(kDefaultFinger, kGaugeRadius_m);
   const double planePeak = scaled ? plane(kTangential).peak() : finger.peak();
   for (double angle_rad = 0; angle_rad < 1; angle_rad += 1e-4) {
     const double flat = rubber.atArc(radius_m * angle_rad)(static_cast<int>(kRadial), kTangential);
@@ -59,10 +60,10 @@ TEST(ImpulseCurve, HasTheKnownPeaks) {
 }
 
 TEST(ImpulseCurve, ChangesItsSignWhereItIsKnownTo) {
-  DOUBLES_EQUAL(11.0805, cylinder(kNormal).zeroAngle_rad() / kDegree, 5e-5);
-  DOUBLES_EQUAL(15.0135, cylinder(kTangential).zeroAngle_rad() / kDegree, 5e-5);
+  DOUBLES_EQUAL(11.0805, cylinder(kNormal).zeroAngle_rad() / kRadPerDeg, 5e-5);
+  DOUBLES_EQUAL(15.0135, cylinder(kTangential).zeroAngle_rad() / kRadPerDeg, 5e-5);
   DOUBLES_EQUAL(3.3 / 12.7, plane(kNormal).zeroAngle_rad(), 1e-12);
-  DOUBLES_EQUAL(14.89, plane(kNormal).zeroAngle_rad() / kDegree, 5e-3);
+  DOUBLES_EQUAL(14.89, plane(kNormal).zeroAngle_rad() / kRadPerDeg, 5e-3);
 }
 
 TEST(ImpulseCurve, TangentialCurvesPartAtTheKnownAngles) {
@@ -72,13 +73,13 @@ TEST(ImpulseCurve, TangentialCurvesPartAtTheKnownAngles) {
 
 // x = r_s theta in place of r_b theta: the half plane's curve is wider by r_b / r_s.
 TEST(ImpulseCurve, WithTheGaugesArcTheTangentialCurvesPartAtOnce) {
-  DOUBLES_EQUAL(0.017, firstApart_rad(kGauge_m, 0.05, true), 5e-4);
-  DOUBLES_EQUAL(0.037, firstApart_rad(kGauge_m, 0.10, true), 5e-4);
-  DOUBLES_EQUAL(0.3862, firstApart_rad(kFinger.outer_radius_m, 0.05, true), kGrid_rad);
+  DOUBLES_EQUAL(0.017, firstApart_rad(kGaugeRadius_m, 0.05, true), 5e-4);
+  DOUBLES_EQUAL(0.037, firstApart_rad(kGaugeRadius_m, 0.10, true), 5e-4);
+  DOUBLES_EQUAL(0.3862, firstApart_rad(kDefaultFinger.outer_radius_m, 0.05, true), kGrid_rad);
 }
 
 TEST(ImpulseCurve, UnscaledTangentialCurvesPartByATenthAtTheAngleThePaperGives) {
-  DOUBLES_EQUAL(0.4009, firstApart_rad(kFinger.outer_radius_m, 0.10, false), kGrid_rad);
+  DOUBLES_EQUAL(0.4009, firstApart_rad(kDefaultFinger.outer_radius_m, 0.10, false), kGrid_rad);
 }
 
 TEST(ImpulseCurve, NormalCurvesPartMuchEarlier) {
@@ -93,8 +94,8 @@ TEST(ImpulseCurve, IsEvenOrOddAsItsLoad) {
   for (const auto component : {kRadial, StrainComponent::kHoop, StrainComponent::kShear})
     for (const auto load : {kNormal, kTangential}) {
       const bool even = (component == StrainComponent::kShear) == (load == kTangential);
-      for (const auto& curve : {ImpulseCurve::ofCylinder(kFinger, kGauge_m, component, load),
-                                ImpulseCurve::ofHalfPlane(kFinger, kGauge_m, component, load)})
+      for (const auto& curve : {ImpulseCurve::ofCylinder(kDefaultFinger, kGaugeRadius_m, component, load),
+                                ImpulseCurve::ofHalfPlane(kDefaultFinger, kGaugeRadius_m, component, load)})
         DOUBLES_EQUAL(curve.at(0.2), (even ? 1 : -1) * curve.at(-0.2), 1e-17);
     }
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/host/model/fingers.hpp"
+
 // last: its macros redefine new
 #include <CppUTest/TestHarness.h>
 
@@ -12,17 +14,17 @@ using namespace strainfinger;
 using namespace strainfinger::paper;
 using model::kNormal;
 using model::kTangential;
+using testing::kDefaultFinger;
+using testing::kGaugeRadius_m;
 
 namespace {
 
-constexpr model::Annulus<double> kFinger{8.9e-3, 12.7e-3, 8.3e4, 0.5};
-constexpr double kGauge_m = 9.4e-3;
 constexpr auto kRadial = StrainComponent::kRadial;
 constexpr auto kShear = StrainComponent::kShear;
 
 /// The paper's fig. 5: r_b of the default finger, gauges 0.5 mm above the core.
 Spectra spectraFor(double alpha) {
-  model::Annulus<double> finger = kFinger;
+  model::Annulus<double> finger = kDefaultFinger;
   finger.core_radius_m = alpha * finger.outer_radius_m;
   return cylinderSpectra(finger, finger.core_radius_m + 0.5e-3);
 }
@@ -30,8 +32,8 @@ Spectra spectraFor(double alpha) {
 }  // namespace
 
 TEST_GROUP(Spectrum) {
-  const Spectra cylinder = cylinderSpectra(kFinger, kGauge_m);
-  const Spectra plane = halfPlaneSpectra(kFinger, kGauge_m);
+  const Spectra cylinder = cylinderSpectra(kDefaultFinger, kGaugeRadius_m);
+  const Spectra plane = halfPlaneSpectra(kDefaultFinger, kGaugeRadius_m);
 
   static double share(const Spectra& spectra, int n, StrainComponent component, model::Traction load) {
     const auto values = spectra.col(column(component, load));
@@ -84,11 +86,11 @@ TEST(Spectrum, CutsOffTheHalfPlaneEarlier) {
 
 // Harmonic n as the wave number n / r_s, not n / r_b.
 TEST(Spectrum, CutsOffTheHalfPlaneEarlierStillWithTheGaugesArc) {
-  const HalfPlane rubber = halfPlaneOf(kFinger, kGauge_m);
+  const HalfPlane rubber = halfPlaneOf(kDefaultFinger, kGaugeRadius_m);
   const auto last = [&](model::Traction load) {
     std::vector<double> spectrum;
     for (int n = 0; n <= 60; ++n)
-      spectrum.push_back(rubber.atWaveNumber(n / kGauge_m)(static_cast<int>(kRadial), load));
+      spectrum.push_back(rubber.atWaveNumber(n / kGaugeRadius_m)(static_cast<int>(kRadial), load));
     return cutOff(spectrum).last;
   };
   LONGS_EQUAL(13, last(kNormal));

@@ -5,6 +5,7 @@
 
 #include "host/contact/contact.hpp"
 #include "host/contact/contact_field.hpp"
+#include "host/shape/quantiles.hpp"
 #include "tests/host/shape/rings.hpp"
 
 // last: its macros redefine new
@@ -43,6 +44,16 @@ TEST_GROUP(Shape) {
     request.indenter = indenter;
     request.size = {contact::ContactSize::Kind::kLoad, load_n_per_m};
     return contact::solveContact(contact::SurfaceKernel(config.finger.annulus()), request);
+  }
+
+  static void checkWithinBands(const Touch& known, const Shape& shape) {
+    const auto check = [](double value, const Measured& found) {
+      DOUBLES_EQUAL(value, found.value, kTwoSided95 * found.sigma);
+    };
+    check(known.angle_rad, shape.angle_rad);
+    check(known.normal_n_per_m, shape.normal_n_per_m);
+    check(known.tangential_n_per_m, shape.tangential_n_per_m);
+    check(kSurface_m * equivalentWidth_rad(known.moment_rad2), *shape.width_m);
   }
 
   /// A flat end with corners: equal line loads at Chebyshev's nodes.
@@ -106,6 +117,22 @@ TEST(Shape, NamesAClassTheReadingsSeparate) {
   STRCMP_EQUAL("round", named(shapeOf(ellipse(6), 1e-3)));
   STRCMP_EQUAL("none", named(shapeOf(punch(2.5e-3), 1e-1)));
   STRCMP_EQUAL("none", named(shapeOf(ellipse(2), 1e-3)));
+}
+
+// Without noise in the readings the profile that made them fits best: all is its own, or within the bands.
+TEST(Shape, WhatHangsOnTheProfileSaysSo) {
+  const TouchModel ring(config.finger, config.gauges);
+  int warned = 0, named = 0;
+  for (const Profile profile : allProfiles())
+    for (const double width_mm : {2.0, 3.0, 4.0, 6.0})
+      for (const double noise : {1e-4, 1e-3, 1e-2}) {
+        const Touch touch{angle_rad, 20, 5, momentOfWidth(width_mm * 1e-3 / kSurface_m)};
+        const auto shape = shapeOf(ring.respond(profile, touch).strains, noise);
+        warned += shape->isOfEllipse;
+        named += shape->profile == profile;
+        if (shape->width_m && !shape->isOfEllipse) checkWithinBands(touch, *shape);
+      }
+  CHECK_TRUE(warned > 0 && named > 0);
 }
 
 TEST(Shape, TwoTouchesAreNoneThatFits) {

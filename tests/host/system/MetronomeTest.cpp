@@ -1,12 +1,24 @@
 #include "host/system/metronome.hpp"
 
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+// last: its macros redefine new
 #include <CppUTest/TestHarness.h>
 
 using namespace std::chrono_literals;
 using strainfinger::system::Metronome;
 using Clock = std::chrono::steady_clock;
 
-TEST_GROUP(Metronome){};
+TEST_GROUP(Metronome){/// A busy machine may wake a sleeper late, but not every time.
+                      template <typename Measure>
+                      static Clock::duration shortestOf(Measure measure){Clock::duration shortest = measure();
+for (int i = 1; i < 10; ++i) shortest = std::min(shortest, measure());
+return shortest;
+}
+}
+;
 
 TEST(Metronome, ABeatTakesItsPeriodAndNoLessInTheSum) {
   const auto start = Clock::now();
@@ -18,22 +30,28 @@ TEST(Metronome, ABeatTakesItsPeriodAndNoLessInTheSum) {
   CHECK_TRUE(elapsed >= beats * 2ms);
 }
 
-// The bound is loose for busy machines; sleeping through the lateness again would take 40 ms.
+// Sleeping through the lateness again would take 20 ms.
 TEST(Metronome, ALateCallerIsToldOfEveryBeatAtOnce) {
-  Metronome metronome(2ms);
-  std::this_thread::sleep_for(21ms);
-  const auto late = Clock::now();
-  CHECK_TRUE(metronome.wait() >= 10);
-  CHECK_TRUE(Clock::now() - late < 20ms);
+  const auto late = shortestOf([] {
+    Metronome metronome(2ms);
+    std::this_thread::sleep_for(21ms);
+    const auto begin = Clock::now();
+    CHECK_TRUE(metronome.wait() >= 10);
+    return Clock::now() - begin;
+  });
+  CHECK_TRUE(late < 10ms);
 }
 
+// Were the beat moved by it, the second would come 5 ms late.
 TEST(Metronome, LatenessDoesNotMoveTheBeat) {
-  const auto start = Clock::now();
-  Metronome metronome(10ms);
-  std::this_thread::sleep_for(15ms);
-  std::uint64_t beats = metronome.wait();
-  beats += metronome.wait();
-  const auto elapsed = Clock::now() - start;
-  CHECK_TRUE(elapsed >= beats * 10ms);
-  CHECK_TRUE(elapsed < (beats + 1) * 10ms + 50ms);
+  const auto late = shortestOf([] {
+    const auto start = Clock::now();
+    Metronome metronome(10ms);
+    std::this_thread::sleep_for(15ms);
+    std::uint64_t beats = metronome.wait();
+    beats += metronome.wait();
+    return Clock::now() - start - static_cast<int>(beats) * 10ms;
+  });
+  CHECK_TRUE(late >= 0ms);
+  CHECK_TRUE(late < 4ms);
 }

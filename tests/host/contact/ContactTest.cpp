@@ -226,8 +226,9 @@ TEST(Contact, AWedgeThatSlidesOnCompressibleRubberPressesAllOver) {
         const Contact contact = solve(request, fingerOf(0.7, poissonRatio));
         CHECK_TRUE(contact.warnings.empty());
         CHECK_TRUE(contact.residual_m < 1e-6 * contact.depth_m);
-        const auto finer = SpectralSolver(SurfaceKernel(fingerOf(0.7, poissonRatio)), Regime::kSliding, friction,
-                                          80).solve({contact.tractions[0].patch}, request.indenter, 0);
+        const auto finer =
+            SpectralSolver(SurfaceKernel(fingerOf(0.7, poissonRatio)), Regime::kSliding, friction, 80)
+                .solve({contact.tractions[0].patch}, request.indenter, 0);
         equalRelative(kSurface_m * totalTraction(finer.tractions).pressure_pa, contact.normal_n_per_m, 2e-6);
         DOUBLES_EQUAL(0, finer.tilt_m[0], 2e-6 * contact.depth_m);
       }

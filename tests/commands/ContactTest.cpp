@@ -141,8 +141,8 @@ TEST(ContactCommand, ThePapersMethodSaysWhenItsAnswerIsNoContact) {
 }
 
 TEST(ContactCommand, WarnsOfLargeStrains) {
-  const char* told = "0.2 of the rubber's thickness deep: strains are large";
-  STRCMP_CONTAINS(told, runProgram(flat("--width-m 8.4e-3 --summary")).err.c_str());
+  const char* told = "0.21 of the rubber's thickness deep: strains are large";
+  STRCMP_CONTAINS(told, runProgram(flat("--width-m 10e-3 --summary")).err.c_str());
   CHECK_TRUE(runProgram(flat("--width-m 4e-3 --summary")).err.find("strains are large") == std::string::npos);
 }
 

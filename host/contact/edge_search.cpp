@@ -64,7 +64,8 @@ std::vector<Patch> EdgeSearch::patchesOf(const VectorXd& unknowns, const std::ve
 VectorXd EdgeSearch::misfits(const std::vector<Patch>& patches, const PatchSolution& solution) const {
   const double radius_m = kernel_.annulus().outer_radius_m;
   const double width_rad = patches.back().last_rad() - patches.front().first_rad();
-  const double unit_m = radius_m * width_rad * width_rad / 4;
+  const double unit_m =
+      radius_m * (width_rad * width_rad / 4 + request_.indenter.edgeSlope() * width_rad / 2);
   std::vector<double> misfits;
   for (std::size_t k = 0; k < patches.size(); ++k) {
     const auto index = static_cast<Index>(k);

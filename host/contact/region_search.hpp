@@ -8,8 +8,8 @@
 
 namespace strainfinger::contact {
 
-/// The contact if it is one region on a smooth shape, as guessRegion() has it about: a few terms converge, the
-/// shape is nowhere inside the rubber and nothing pulls, so that it is the contact. Costs 1 ms.
+/// The contact if it is one region on a smooth shape, as guessRegion() has it about: a few terms converge,
+/// the shape is nowhere inside the rubber and nothing pulls, so that it is the contact. Costs 1 ms.
 std::optional<EdgeResult> settlePlainRegion(const SurfaceKernel& kernel, const ContactRequest& request,
                                             int& terms);
 

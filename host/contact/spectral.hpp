@@ -15,6 +15,9 @@ namespace strainfinger::contact {
 /// Most terms that searches give one patch: what they haven't resolved by then is said to be inaccurate.
 inline constexpr int kMostTerms = 160;
 
+/// Terms of each patch on a measured shape that fewer don't resolve.
+inline constexpr int kMeasuredTerms = 64;
+
 /// Tractions that vanish at the edges of the patches (shear that sticks: rise there) and make
 /// u_r = x^2 / (2 r_b) + height(x) + lift + tilt * (theta - centre) / half on each patch. A patch is a
 /// contact region if its tilt is 0 and all lifts are the same, -depth.

@@ -18,7 +18,7 @@ namespace {
 constexpr double kMostResidual = 9e-7;
 
 /// Of each patch, none of them a point of the solver's.
-constexpr std::array kPlaces{-0.999, -0.93, -0.71, -0.31, 0.13, 0.53, 0.83, 0.97};
+constexpr std::array kResidualPlaces{-0.999, -0.93, -0.71, -0.31, 0.13, 0.53, 0.83, 0.97};
 
 /// Above the undeformed surface, for no approach.
 double profileAt(const SurfaceKernel& kernel, const Indenter& indenter, double angle_rad) {
@@ -41,7 +41,7 @@ bool pulls(const Tractions& tractions) {
 double deepestOf(const SurfaceKernel& kernel, const Indenter& indenter, const Contact& contact) {
   double deepest_m = -std::numeric_limits<double>::infinity();
   for (const PatchTractions& part : contact.tractions)
-    for (const double place : kPlaces) {
+    for (const double place : kResidualPlaces) {
       const double angle_rad = part.patch.centre_rad + place * part.patch.half_rad;
       deepest_m = std::max(deepest_m, contact.approach_m - profileAt(kernel, indenter, angle_rad));
     }
@@ -91,7 +91,7 @@ double residual(const SurfaceKernel& kernel, const Indenter& indenter, const Tra
   const SurfaceMotion motion(kernel, tractions);
   double worst_m = 0;
   for (const PatchTractions& part : tractions)
-    for (const double place : kPlaces) {
+    for (const double place : kResidualPlaces) {
       const double angle_rad = part.patch.centre_rad + place * part.patch.half_rad;
       const SurfacePoint point = motion.displacementAt(angle_rad);
       worst_m = std::max(worst_m, std::abs(point.ur_m - profileAt(kernel, indenter, angle_rad) + approach_m));

@@ -135,7 +135,7 @@ TEST(RegionSearch, AMeasuredWedgeIsNearlyTheWedgeAndSaysHowNearly) {
 TEST(RegionSearch, NoRandomBumpIsInsideTheRubber) {
   std::size_t regions = 0;
   for (const bool isNarrow : {true, false})
-    for (unsigned seed = kSeed; seed < kSeed + (isNarrow ? 3 : 12); ++seed) {
+    for (unsigned seed = kSeed; seed < kSeed + (isNarrow ? 3 : 8); ++seed) {
       std::mt19937 random(seed);
       ContactRequest request = ofLoad(isNarrow ? 4 : 30);
       request.indenter = isNarrow ? randomBump(random) : randomBumps(random);
@@ -146,7 +146,7 @@ TEST(RegionSearch, NoRandomBumpIsInsideTheRubber) {
       CHECK_TRUE_TEXT(leastPressure_pa(contact) >= 0, text.c_str());
       regions += contact.tractions.size();
     }
-  CHECK_TRUE(regions > 20);  // or few bumps touched
+  CHECK_TRUE(regions > 14);  // or few bumps touched
 }
 
 TEST(RegionSearch, NoiseEndsInAnErrorThatTellsWhatToDo) {

@@ -22,10 +22,14 @@ constexpr const char* kContactHelp =
     "towards +theta) and the slope d u_r / d theta [m/rad] of the surface, against the angle from the "
     "indenter's normal.\n"
     "Where they touch, u_r = -approach + x^2 / 2 r_b + height(x), x = r_b theta: the paper's convention, in "
-    "which "
-    "a flat indenter's slope is r_b theta. How far the answer, recomputed from its tractions, is from that "
-    "is "
-    "the residual, told on stderr.";
+    "which a flat indenter's slope is r_b theta. How far the answer, recomputed from its tractions, is from "
+    "that is the residual, told on stderr, as is where it touches in several regions. Exactly below the edge "
+    "of a wedge the pressure is infinite.\n"
+    "The summary's depth is that of the indenter's profile below the undeformed surface at the contact's "
+    "centre: below 0 if that is between regions, where the profile stands clear.";
+
+/// More of them take minutes.
+constexpr int kMostHarmonics = 2000, kMostPrintedHarmonics = 1000;
 
 struct ContactCommand {
   explicit ContactCommand(CLI::App& command) : common(command), contact(command) {
@@ -45,7 +49,7 @@ struct ContactCommand {
         ->check(CLI::IsMember({"spectral", "paper"}));
     ofPaper = {
         command.add_option("--harmonics", paper.harmonics, "Of --method paper: last harmonic n_c (300)")
-            ->check(CLI::Range(2, 5000)),
+            ->check(CLI::Range(2, kMostHarmonics)),
         command
             .add_option("--cutoff", paper.cutoff,
                         "Of --method paper: singular values from there on, relative (0.1)")
@@ -62,6 +66,11 @@ struct ContactCommand {
   contact::PaperOptions paperOptions() const {
     contact::PaperOptions options = paper;
     options.rows = rows == "gauss" ? contact::SlopeRows::kGauss : contact::SlopeRows::kPrinted;
+    if (rows == "printed" && paper.harmonics > kMostPrintedHarmonics)
+      throw Failure(ExitCode::kUsage,
+                    fmt::format("--harmonics: more than {} take minutes with the paper's even points; add "
+                                "--rows gauss, which has the continuum's values in a second",
+                                kMostPrintedHarmonics));
     options.window = window == "full" ? contact::WindowCut::kFull : contact::WindowCut::kHalf;
     return options;
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
 #include <sstream>
 
 #include "host/base/angles.hpp"
@@ -63,6 +64,16 @@ void require(bool is, const char* what) {
   if (!is) throw Failure(ExitCode::kUsage, what);
 }
 
+/// "; regions from .. to .. and from .. to .. m", if there are several.
+std::string regionsOf(const contact::Contact& contact, double radius_m) {
+  if (contact.tractions.size() < 2) return "";
+  std::string text = fmt::format("; {} regions:", contact.tractions.size());
+  for (const contact::PatchTractions& part : contact.tractions)
+    fmt::format_to(std::back_inserter(text), "{} {:.6g} to {:.6g}", text.ends_with(':') ? "" : ",",
+                   radius_m * part.patch.first_rad(), radius_m * part.patch.last_rad());
+  return text.append(" m");
+}
+
 }  // namespace
 
 Indenter parseIndenter(const std::string& text) {
@@ -75,11 +86,11 @@ Indenter parseIndenter(const std::string& text) {
 }
 
 void tellOf(const contact::Contact& contact, const model::Annulus<double>& annulus) {
-  fmt::print(stderr, "contact: residual {:.2g} m, recomputed from the tractions; {} terms a patch\n",
-             contact.residual_m, contact.terms);
+  fmt::print(stderr, "contact: residual {:.2g} m, recomputed from the tractions; {} terms a patch{}\n",
+             contact.residual_m, contact.terms, regionsOf(contact, annulus.outer_radius_m));
   for (const std::string& warning : contact.warnings) fmt::print(stderr, "contact: warning: {}\n", warning);
   constexpr double kMostLinear = 0.2;  // strains are about the depth over the thickness
-  const double share = contact.depth_m / (annulus.outer_radius_m - annulus.core_radius_m);
+  const double share = contact.deepest_m / (annulus.outer_radius_m - annulus.core_radius_m);
   if (share > kMostLinear)
     fmt::print(stderr,
                "contact: warning: {:.2g} of the rubber's thickness deep: strains are large, the model is for "
@@ -91,16 +102,16 @@ ContactOptions::ContactOptions(CLI::App& command) {
   command
       .add_option(
           "--indenter", indenter,
-          "flat, cylinder:RADIUS_M, wedge:HALF_ANGLE_DEG (between its axis and a face), or a CSV file "
-          "of x_m,height_m: the arc along the finger and the indenter's height above its tangent plane, "
-          "positive away from the finger")
+          "flat, cylinder:RADIUS_M, wedge:HALF_ANGLE_DEG (between its axis and a face), or a CSV file of "
+          "x_m,height_m: the arc along the finger and the indenter's height above its tangent plane, "
+          "positive "
+          "away from the finger")
       ->required();
   hasWidth = command.add_option("--width-m", width_m, "Width of the contact, an arc on the surface [m]");
   hasLoad = command.add_option("--load-n-per-m", load_n_per_m, "Or: normal load [N/m]");
-  hasFriction =
-      command.add_option("--friction", friction,
-                         "Coefficient of friction when sliding, negative towards -theta; without it the "
-                         "config's");
+  hasFriction = command.add_option(
+      "--friction", friction,
+      "Coefficient of friction when sliding, negative towards -theta; without it the config's");
   command
       .add_option("--regime", regime,
                   "What happens sidewards; frictionless without it, sliding if --friction is given. Stick is "

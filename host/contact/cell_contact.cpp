@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "host/base/failure.hpp"
-#include "host/model/series.hpp"
+#include "host/contact/multiples.hpp"
 
 namespace strainfinger::contact {
 namespace {
@@ -18,17 +18,6 @@ using Eigen::VectorXd;
 
 constexpr int kMostSweeps = 200;
 
-/// cos n x and sin n x: one row a place.
-MatrixXd multiples(const VectorXd& angles_rad, Index harmonics) {
-  MatrixXd result(angles_rad.size(), 2 * harmonics);
-  for (Index i = 0; i < angles_rad.size(); ++i)
-    model::visitMultiples(angles_rad[i], static_cast<int>(harmonics) - 1, [&](int n, double c, double s) {
-      result(i, n) = c;
-      result(i, harmonics + n) = s;
-    });
-  return result;
-}
-
 /// How deep a uniform pressure of 1 Pa on each cell (column) presses the middle of each (row) [m/Pa]: the
 /// logarithm integrated over the cell, the rest of the kernel by its middle.
 MatrixXd cellInfluence(const SurfaceKernel& kernel, const Grid& grid) {
@@ -36,8 +25,9 @@ MatrixXd cellInfluence(const SurfaceKernel& kernel, const Grid& grid) {
   const VectorXd middles = grid.middles_rad(), widths = grid.widths_rad();
   VectorXd reflected = kernel.reflection().normal / std::numbers::pi;
   reflected[0] /= 2;
-  const MatrixXd waves = multiples(middles, reflected.size());
-  MatrixXd influence = waves * reflected.replicate(2, 1).asDiagonal() * waves.transpose();
+  const Multiples waves(middles, reflected.size());
+  MatrixXd influence = waves.cosines * reflected.asDiagonal() * waves.cosines.transpose();
+  influence += waves.sines * reflected.asDiagonal() * waves.sines.transpose();
   for (Index j = 0; j < grid.cells(); ++j)
     for (Index i = 0; i < grid.cells(); ++i) {
       const double distance = middles[i] - middles[j];

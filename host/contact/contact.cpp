@@ -14,8 +14,6 @@
 namespace strainfinger::contact {
 namespace {
 
-constexpr double kConverged = 1e-12;  // of the last coefficients
-
 void requireDomain(const SurfaceKernel& kernel, const ContactRequest& request) {
   const auto require = [](bool is, const std::string& what) {
     if (!is) throw Failure(ExitCode::kUsage, what);
@@ -64,10 +62,10 @@ bool isSmooth(const SurfaceKernel& kernel, const Indenter& indenter) {
 }
 
 /// Enough for 1e-12 of what is smooth and 1e-6 of what is not: the pressure follows the layer's depth. What
-/// is ill-posed gets no more than that. Below a wedge that slides the pressure is the least smooth.
+/// is ill-posed gets no more than that.
 int termsFor(const SurfaceKernel& kernel, const ContactRequest& request, const std::vector<Patch>& patches) {
   const bool isOpen = isIllPosed(kernel, request), isMore = !isOpen && !isSmooth(kernel, request.indenter);
-  if (!isOpen && request.indenter.isMeasured()) return 64;
+  if (!isOpen && request.indenter.isMeasured()) return kMeasuredTerms;
   const model::Annulus<double>& annulus = kernel.annulus();
   const double layer = 1 - annulus.core_radius_m / annulus.outer_radius_m;
   double half_rad = 0;

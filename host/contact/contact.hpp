@@ -34,6 +34,7 @@ struct Contact {
   double width_m = 0;     ///< arc from the first edge to the last
   double depth_m = 0;     ///< of the indenter's profile below the undeformed surface, at the contact's centre
   double approach_m = 0;  ///< the same at the indenter's normal: u_r = -approach + x^2 / (2 r_b) + height(x)
+  double deepest_m = 0;   ///< how far below the undeformed surface the contact reaches anywhere
   double shift_m = 0;     ///< u_t of what sticks
   double offset_rad = 0;  ///< the contact's centre, from the indenter's normal
   /// How far the surface is from the indenter (what sticks: also from its sideward shift) at worst,
@@ -51,10 +52,10 @@ inline constexpr double kWidestContact_rad = 3.141592653589793;
 /// Throws Failure(kUsage) outside it, and Failure(kFailure) if the load needs a wider contact, if the contact
 /// reaches the end of a measured shape, if no contact fits, or if it sticks below nu = 1/2 and has no load of
 /// its own (README.md, Limits).
-/// Error for nu = 1/2 and a smooth indenter: 1e-12 of load, width and peak pressure, 1e-10 rad of the offset;
-/// nu < 1/2, or a wedge: 1e-6. Stick below nu = 1/2 is ill-posed and tells by how much; a wedge that slides
-/// is the least accurate (README.md). residual_m tells. Costs 0.2 ms for a flat indenter of 2 mm in the
-/// default finger, 0.4 ms if the load is given.
+/// Error for nu = 1/2 and a flat indenter, a cylinder or a wedge: 1e-12 of load, width and peak pressure,
+/// 1e-10 rad of the offset; nu < 1/2: 1e-6. Stick below nu = 1/2 is ill-posed and tells by how much
+/// (README.md). residual_m tells. Costs 0.2 ms for a flat indenter of 2 mm in the default finger, 0.3 ms if
+/// the load is given.
 Contact solveContact(const SurfaceKernel& kernel, const ContactRequest& request);
 
 }  // namespace strainfinger::contact

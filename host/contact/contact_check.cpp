@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "host/base/failure.hpp"
 #include "host/contact/overlap.hpp"
@@ -13,8 +14,17 @@
 namespace strainfinger::contact {
 namespace {
 
-constexpr double kMostResidual =
-    9e-7;  // of the depth goes unsaid: just below what the stability survey fails at
+/// Of the depth, that goes unsaid: just below what the stability survey fails at.
+constexpr double kMostResidual = 9e-7;
+
+/// Of each patch, none of them a point of the solver's.
+constexpr std::array kResidualPlaces{-0.999, -0.93, -0.71, -0.31, 0.13, 0.53, 0.83, 0.97};
+
+/// Above the undeformed surface, for no approach.
+double profileAt(const SurfaceKernel& kernel, const Indenter& indenter, double angle_rad) {
+  const double x_m = kernel.annulus().outer_radius_m * angle_rad;
+  return x_m * angle_rad / 2 + indenter.height(x_m);
+}
 
 bool pulls(const Tractions& tractions) {
   const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(201, -1, 1);
@@ -25,6 +35,17 @@ bool pulls(const Tractions& tractions) {
     most = std::max(most, pressures.maxCoeff());
   }
   return least < -1e-9 * most;
+}
+
+/// At the places where the residual is looked at.
+double deepestOf(const SurfaceKernel& kernel, const Indenter& indenter, const Contact& contact) {
+  double deepest_m = -std::numeric_limits<double>::infinity();
+  for (const PatchTractions& part : contact.tractions)
+    for (const double place : kResidualPlaces) {
+      const double angle_rad = part.patch.centre_rad + place * part.patch.half_rad;
+      deepest_m = std::max(deepest_m, contact.approach_m - profileAt(kernel, indenter, angle_rad));
+    }
+  return deepest_m;
 }
 
 void warnOfOverlaps(const SurfaceKernel& kernel, const Indenter& indenter, Contact& contact) {
@@ -67,16 +88,13 @@ void doubtStick(const SurfaceKernel& kernel, const ContactRequest& request, Cont
 
 double residual(const SurfaceKernel& kernel, const Indenter& indenter, const Tractions& tractions,
                 double approach_m, std::optional<double> shift_m) {
-  constexpr std::array kPlaces{-0.999, -0.93, -0.71, -0.31, 0.13, 0.53, 0.83, 0.97};
   const SurfaceMotion motion(kernel, tractions);
-  const double radius_m = kernel.annulus().outer_radius_m;
   double worst_m = 0;
   for (const PatchTractions& part : tractions)
-    for (const double place : kPlaces) {
+    for (const double place : kResidualPlaces) {
       const double angle_rad = part.patch.centre_rad + place * part.patch.half_rad;
       const SurfacePoint point = motion.displacementAt(angle_rad);
-      const double wanted_m = radius_m * angle_rad * angle_rad / 2 + indenter.height(radius_m * angle_rad);
-      worst_m = std::max(worst_m, std::abs(point.ur_m - wanted_m + approach_m));
+      worst_m = std::max(worst_m, std::abs(point.ur_m - profileAt(kernel, indenter, angle_rad) + approach_m));
       if (shift_m) worst_m = std::max(worst_m, std::abs(point.ut_m - *shift_m));
     }
   return worst_m;
@@ -91,7 +109,8 @@ void checkContact(const SurfaceKernel& kernel, const ContactRequest& request, Co
   const bool sticks = request.regime == Regime::kStick;
   contact.residual_m = residual(kernel, request.indenter, contact.tractions, contact.approach_m,
                                 sticks ? std::optional(contact.shift_m) : std::nullopt);
-  const double depth_m = std::max(std::abs(contact.depth_m), std::abs(contact.approach_m));
+  contact.deepest_m = deepestOf(kernel, request.indenter, contact);
+  const double depth_m = std::max(contact.deepest_m, std::abs(contact.approach_m));
   if (isIllPosed(kernel, request)) doubtStick(kernel, request, contact);
   if (request.centre_rad && contact.residual_m > kMostResidual * depth_m)
     warnings.emplace_back(

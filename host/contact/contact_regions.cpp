@@ -172,6 +172,8 @@ class Basin {
     lowest_ = static_cast<std::size_t>(std::ranges::min_element(gap_m_) - gap_m_.begin());
   }
 
+  double lowestAt_m() const { return x_m_[lowest_]; }
+  bool isLowestAtAnEnd() const { return lowest_ == 0 || lowest_ + 1 == x_m_.size(); }
   double lowest_m() const { return gap_m_[lowest_]; }
   double highest_m() const { return std::ranges::max(gap_m_); }
 
@@ -204,6 +206,16 @@ class Basin {
   std::size_t lowest_;
 };
 
+/// What is lowest touches first, and wider than that place.
+void requireLowestWithin(const Basin& basin) {
+  if (basin.isLowestAtAnEnd())
+    throw Failure(
+        ExitCode::kFailure,
+        fmt::format("no contact found: the measured shape is nearest to the finger at its end, {:.6g} "
+                    "m, and touches beyond it: measure more of it",
+                    basin.lowestAt_m()));
+}
+
 }  // namespace
 
 Patch guessRegion(const SurfaceKernel& kernel, const Indenter& indenter, const ContactSize& size) {
@@ -229,6 +241,7 @@ Patch guessRegion(const SurfaceKernel& kernel, const Indenter& indenter, const C
 
 std::vector<Patch> findRegions(const SurfaceKernel& kernel, const Indenter& indenter,
                                const ContactSize& size) {
+  requireLowestWithin(Basin(kernel.annulus().outer_radius_m, indenter));
   if (size.kind == ContactSize::Kind::kLoad)
     return refinedRegions(kernel, indenter, size.value, touchUnder(kernel, indenter, size.value));
   const double width_rad = size.value / kernel.annulus().outer_radius_m;

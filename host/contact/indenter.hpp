@@ -24,9 +24,9 @@ class Indenter {
   /// A blade with its edge on the finger; half_angle_deg is between its axis and each face. Domain: above 0,
   /// below 90.
   static Indenter wedge(double half_angle_deg);
-  /// Through measured points by a spline of the fifth degree (not-a-knot), so that a measured parabola is that
-  /// parabola, and what the spline itself is rough by at its points is below 1e-12 m of contacts.
-  /// Throws Failure(kUsage) unless there are four points or more with rising positions.
+  /// Through measured points by a spline of the fifth degree (not-a-knot), so that a measured parabola is
+  /// that parabola, and what the spline itself is rough by at its points is below 1e-12 m of contacts. Throws
+  /// Failure(kUsage) unless there are four points or more with rising positions.
   static Indenter measured(std::vector<double> position_m, std::vector<double> height_m);
 
   double height(double x_m) const;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/contact/multiples.hpp"
 #include "host/contact/tanh_sinh.hpp"
 #include "host/model/series.hpp"
 
@@ -14,8 +15,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// What the core reflects from y to x, both on a patch: a function of their distance, by its Chebyshev series.
-/// Harmonic n has Bessel coefficients, which fall from k = 2 half n on, and is the smaller the larger n is.
+/// What the core reflects from y to x, both on a patch: a function of their distance, by its Chebyshev
+/// series. Harmonic n has Bessel coefficients, which fall from k = 2 half n on, and is the smaller the larger
+/// n is.
 ArrayXXd reflectedOnItself(const SurfaceKernel& kernel, const KernelMix& mix, const VectorXd& points,
                            const VectorXd& nodes, double half_rad) {
   const VectorXd &even = mix.reflected, &odd = kernel.reflection().coupling;
@@ -91,26 +93,16 @@ MatrixXd onAnother(const SurfaceKernel& kernel, const KernelMix& mix, const Refe
   return values * weighted;
 }
 
-/// cos n angle and sin n angle: one row an angle.
-struct Multiples {
-  MatrixXd cosines, sines;
-
-  Multiples(const Patch& patch, const VectorXd& x, Index harmonics)
-      : cosines(x.size(), harmonics), sines(x.size(), harmonics) {
-    for (Index i = 0; i < x.size(); ++i)
-      model::visitMultiples(patch.centre_rad + patch.half_rad * x[i], static_cast<int>(harmonics) - 1,
-                            [&](int n, double c, double s) {
-                              cosines(i, n) = c;
-                              sines(i, n) = s;
-                            });
-  }
-};
-
 MatrixXd reflected(const SurfaceKernel& kernel, const KernelMix& mix, const ReferencePatch& source,
                    const Patch& from, const VectorXd& points, const Patch& at) {
   const VectorXd &even = mix.reflected, &odd = kernel.reflection().coupling;
-  const Multiples here(at, points, even.size()), there(from, source.rules().rule.nodes, even.size());
-  const MatrixXd weighted = source.rules().rule.weights.asDiagonal() * source.rules().basis / std::numbers::pi;
+  const auto anglesOn = [](const Patch& patch, const VectorXd& x) -> VectorXd {
+    return patch.centre_rad + patch.half_rad * x.array();
+  };
+  const Multiples here(anglesOn(at, points), even.size()),
+      there(anglesOn(from, source.rules().rule.nodes), even.size());
+  const MatrixXd weighted =
+      source.rules().rule.weights.asDiagonal() * source.rules().basis / std::numbers::pi;
   MatrixXd cosines = there.cosines.transpose() * weighted, sines = there.sines.transpose() * weighted;
   cosines.row(0) /= 2;  // Fourier coefficients of the basis
   MatrixXd result = MatrixXd::Zero(points.size(), source.terms());
@@ -137,8 +129,8 @@ OwnInfluence::OwnInfluence(const SurfaceKernel& kernel, const KernelMix& mix, co
 }
 
 MatrixXd OwnInfluence::of(const PatchRules& rules) const {
-  const MatrixXd values = rules.logWeights.cwiseProduct(log_.matrix()) +
-                          smooth_.matrix() * rules.rule.weights.asDiagonal();
+  const MatrixXd values =
+      rules.logWeights.cwiseProduct(log_.matrix()) + smooth_.matrix() * rules.rule.weights.asDiagonal();
   MatrixXd result = values * rules.basis;
   if (!rules.signRules.empty()) result += signOnItself(kernel_, mix_, rules, half_rad_);
   return half_rad_ * result;

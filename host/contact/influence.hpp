@@ -25,8 +25,8 @@ class OwnInfluence {
   OwnInfluence(const SurfaceKernel& kernel, const KernelMix& mix, const Eigen::VectorXd& points,
                const Eigen::VectorXd& nodes, double half_rad);
 
-  /// Row i, column k: the displacement [m/Pa] at point i of the k-th density. Domain: rules for the points and
-  /// nodes given.
+  /// Row i, column k: the displacement [m/Pa] at point i of the k-th density. Domain: rules for the points
+  /// and nodes given.
   Eigen::MatrixXd of(const PatchRules& rules) const;
 
  private:

@@ -51,7 +51,7 @@ ReferencePatch ReferencePatch::atNodesOf(const ReferencePatch& other) const {
 // The integral over all of the patch, less twice that over the shorter side: there the weight of the far edge
 // is analytic.
 PatchRules::SignRule ReferencePatch::signRule(double x, const QuadratureRule& fromRight,
-                                                  const QuadratureRule& fromLeft) const {
+                                              const QuadratureRule& fromLeft) const {
   const bool isRight = x >= 0;
   const QuadratureRule& side = isRight ? fromRight : fromLeft;
   const double sign = isRight ? 1 : -1, half = (1 - std::abs(x)) / 2;

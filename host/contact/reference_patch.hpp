@@ -10,10 +10,11 @@ namespace strainfinger::contact {
 /// How a density on a patch is integrated against what a kernel has at each of some points x_i of the same
 /// patch. The density is known at nodes y_j, as functions (columns of `basis`) times a weight that is not.
 struct PatchRules {
-  Eigen::VectorXd points;      ///< x_i
-  QuadratureRule rule;         ///< sum weights_j f(y_j) = int weight f
-  Eigen::MatrixXd basis;       ///< function k at y_j
-  Eigen::MatrixXd logWeights;  ///< sum (i, j) f(y_j) = int weight(y) f(y) [ln|x_i - y| + signInLog sgn(x_i - y)]
+  Eigen::VectorXd points;  ///< x_i
+  QuadratureRule rule;     ///< sum weights_j f(y_j) = int weight f
+  Eigen::MatrixXd basis;   ///< function k at y_j
+  Eigen::MatrixXd
+      logWeights;  ///< sum (i, j) f(y_j) = int weight(y) f(y) [ln|x_i - y| + signInLog sgn(x_i - y)]
   double signInLog = 0;
 
   /// One side of a point: sum weights * f(y) = int weight(y) f(y) sgn(x_i - y) dy, the basis in rows like the

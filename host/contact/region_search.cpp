@@ -15,13 +15,12 @@
 namespace strainfinger::contact {
 namespace {
 
-constexpr int kFewTerms = 24;  // that a smooth shape needs
-constexpr int kTerms = 64;
-constexpr double kConverged = 1e-12;  // of the last coefficients: else more terms
-constexpr double kConvergedRegions = 1e-7;
+constexpr int kFewTerms = 24;               // that a smooth shape needs
+constexpr double kConvergedRegions = 1e-7;  // of the last coefficients, with many terms
 constexpr int kMostRounds = 10;
 constexpr int kMostLost = 2;
 constexpr std::size_t kMostRegions = 16;
+constexpr std::size_t kFewRegions = 2;  // that get the most terms, in seconds
 constexpr double kPenetration_m = 1e-12;
 constexpr double kPull = 1e-9;       // of the largest pressure
 constexpr double kVanishing = 1e-7;  // half width of a region, of the whole contact's width
@@ -157,7 +156,7 @@ EdgeResult settleOnce(const SurfaceKernel& kernel, const SpectralSolver& solver,
   const EdgeSearch search(kernel, solver, request);
   EdgeResult found{patches, {}, Outcome::kLost}, before{{}, {}, Outcome::kLost};
   for (int round = 0, lost = 0; round < kMostRounds && !patches.empty() && lost < kMostLost; ++round) {
-    if (patches.size() > 1 && solver.terms() > kTerms) break;
+    if (patches.size() > kFewRegions && solver.terms() > kMeasuredTerms) break;
     requireFew(patches, kernel.annulus().outer_radius_m);
     found = search.run(patches);
     if (found.outcome == Outcome::kSettled) {
@@ -185,16 +184,17 @@ std::optional<EdgeResult> settlePlainRegion(const SurfaceKernel& kernel, const C
                                             int& terms) {
   EdgeResult found{{guessRegion(kernel, request.indenter, request.size)}, {}};
   try {
-    for (terms = 16; terms <= kTerms; terms *= 2) {
+    for (terms = 16; terms <= kMeasuredTerms; terms *= 2) {
       const SpectralSolver solver(kernel, request.regime, request.friction, terms);
       found = EdgeSearch(kernel, solver, request).run(found.patches, found.jacobian);
       if (found.outcome != EdgeResult::Outcome::kSettled) return {};
-      if (found.solution.tail() < (terms < kTerms ? kConverged : kConvergedRegions)) break;
+      if (found.solution.tail() < (terms < kMeasuredTerms ? kConverged : kConvergedRegions)) break;
     }
   } catch (const Failure&) {  // beyond the shape: the search of all regions tells, if it fails too
     return {};
   }
-  const bool isContact = terms <= kTerms && areSame(pushing(found.solution.tractions), found.patches) &&
+  const bool isContact = terms <= kMeasuredTerms &&
+                         areSame(pushing(found.solution.tractions), found.patches) &&
                          overlapsOf(kernel, request, found).empty();
   return isContact ? std::optional(found) : std::nullopt;
 }
@@ -202,14 +202,14 @@ std::optional<EdgeResult> settlePlainRegion(const SurfaceKernel& kernel, const C
 EdgeResult settleRegions(const SurfaceKernel& kernel, const ContactRequest& request,
                          std::vector<Patch> patches, int& terms) {
   terms = kFewTerms;
-  EdgeResult best = settleOnce(kernel, SpectralSolver(kernel, request.regime, request.friction, terms),
-                               request, patches);
+  EdgeResult best =
+      settleOnce(kernel, SpectralSolver(kernel, request.regime, request.friction, terms), request, patches);
   if (best.outcome == EdgeResult::Outcome::kSettled) {
     if (best.solution.tail() < kConverged) return best;
     patches = best.patches;
   }
   double least_m = std::numeric_limits<double>::infinity();
-  for (const int more : {kTerms, kMostTerms}) {
+  for (const int more : {kMeasuredTerms, kMostTerms}) {
     const SpectralSolver solver(kernel, request.regime, request.friction, more);
     EdgeResult found = settleOnce(kernel, solver, request, patches);
     const bool isSettled = found.outcome == EdgeResult::Outcome::kSettled;
@@ -221,7 +221,10 @@ EdgeResult settleRegions(const SurfaceKernel& kernel, const ContactRequest& requ
     best = std::move(found);
     terms = more;
     least_m = misfit_m;
-    if (isSettled && (best.patches.size() > 1 || best.solution.tail() < kConvergedRegions)) break;
+    if (!isSettled) continue;
+    if (best.patches.size() > kFewRegions || least_m < kPenetration_m) break;
+    if (best.patches.size() == 1 && best.solution.tail() < kConvergedRegions) break;
+    patches = best.patches;
   }
   if (best.outcome != EdgeResult::Outcome::kSettled)
     throwUnsettled(best.patches, request, kernel.annulus().outer_radius_m);

@@ -69,10 +69,12 @@ KernelParts SurfaceKernel::odd(double angle_rad) const {
 KernelTable SurfaceKernel::table(double even, double odd, const Eigen::ArrayXd& at_rad,
                                  const Eigen::ArrayXd& from_rad) const {
   using Eigen::ArrayXXd, Eigen::VectorXd;
-  const VectorXd cosAt = at_rad.cos(), sinAt = at_rad.sin(), cosFrom = from_rad.cos(), sinFrom = from_rad.sin();
+  const VectorXd cosAt = at_rad.cos(), sinAt = at_rad.sin(), cosFrom = from_rad.cos(),
+                 sinFrom = from_rad.sin();
   const ArrayXXd c = (cosAt * cosFrom.transpose() + sinAt * sinFrom.transpose()).array(),
                  s = (sinAt * cosFrom.transpose() - cosAt * sinFrom.transpose()).array(),
-                 angles = at_rad.replicate(1, from_rad.size()) - from_rad.transpose().replicate(at_rad.size(), 1);
+                 angles =
+                     at_rad.replicate(1, from_rad.size()) - from_rad.transpose().replicate(at_rad.size(), 1);
   KernelTable table;
   table.log = -scale_ * (kappa_ + 1) * (even * c + odd * s);
   const ArrayXXd saw = scale_ * (kappa_ - 1) / 2 * (even * s - odd * c);
@@ -91,11 +93,12 @@ KernelPair SurfaceKernel::valuesAt(double angle_rad) const {
 }
 
 KernelPair SurfaceKernel::slopesAt(double angle_rad) const {
-  const double s = std::sin(angle_rad), c = std::cos(angle_rad), halfCotangent = 0.5 / std::tan(angle_rad / 2);
+  const double s = std::sin(angle_rad), c = std::cos(angle_rad),
+               halfCotangent = 0.5 / std::tan(angle_rad / 2);
   const double C = -std::log(2 * std::abs(std::sin(angle_rad / 2)));
   const double S = std::copysign((pi - std::abs(angle_rad)) / 2, angle_rad);
-  return {scale_ * (-(kappa_ + 1) * (s * C + c * halfCotangent) + (kappa_ - 1) * (c * S - s / 2) +
-                    kappa_ * s / 2),
+  return {scale_ *
+              (-(kappa_ + 1) * (s * C + c * halfCotangent) + (kappa_ - 1) * (c * S - s / 2) + kappa_ * s / 2),
           scale_ *
               ((kappa_ + 1) * (c * C - s * halfCotangent) + (kappa_ - 1) * (s * S + c / 2) + kappa_ * c / 2)};
 }

@@ -62,7 +62,8 @@ SurfacePoint SurfaceMotion::pointAt(double angle_rad, bool withSlopes) const {
 
 SurfaceMotion::Segment SurfaceMotion::segmentOf(const PatchTractions& part, double from, double to) const {
   const double length = to - from;
-  Segment segment{from, to, {1 + from + length * rule_.fromStart, 1 - to + length * rule_.fromEnd}, {}, {}, {}};
+  Segment segment{from, to, {1 + from + length * rule_.fromStart, 1 - to + length * rule_.fromEnd},
+                  {},   {}, {}};
   segment.weights = part.patch.half_rad * length * rule_.weights;
   segment.pressures = segment.weights * part.pressure_pa(segment.places);
   segment.shears = part.friction * segment.pressures + segment.weights * part.stuck_pa(segment.places);

@@ -103,9 +103,10 @@ ArrayXd TipTraction::at(const PatchPoints& points) const {
     return jacobiValues(kSmoothEdges, static_cast<int>(c.size()), x) * c;
   };
   ArrayXd values = (root / offset.abs()).asinh() * series(log);
-  if (step.size() > 0) values += offset.sign() * root.binaryExpr(offset.abs(), [](double up, double along) {
-    return std::atan2(up, along);
-  }) * series(step);
+  if (step.size() > 0)
+    values += offset.sign() * root.binaryExpr(offset.abs(), [](double up, double along) {
+      return std::atan2(up, along);
+    }) * series(step);
   return values;
 }
 
@@ -168,8 +169,8 @@ Traction totalTraction(const Tractions& tractions) {
   for (const PatchTractions& part : tractions) {
     const double pressure = part.patch.half_rad * (part.smooth.integral() + part.tip.integral());
     total.pressure_pa += pressure;
-    total.shear_pa += part.friction * pressure +
-                      part.patch.half_rad * (part.stuck.integral() + part.stuckTip.integral());
+    total.shear_pa +=
+        part.friction * pressure + part.patch.half_rad * (part.stuck.integral() + part.stuckTip.integral());
   }
   return total;
 }

@@ -46,7 +46,8 @@ Powers onPatch(Powers a, double half_rad) {
 }
 
 /// Series of (1 - x^2)^2 [a / (1 - x^2)^2], the bracket cut after so many powers of t = x - x0 as leave
-/// nothing but t^6 ln|t| (more amplify what the edges lack): for edges with other powers than 1/2, which a root there must not meddle with.
+/// nothing but t^6 ln|t| (more amplify what the edges lack): for edges with other powers than 1/2, which a
+/// root there must not meddle with.
 Powers awayFromEdges(const Powers& a, double x0) {
   constexpr Index kKept = 6;
   Powers result = a;
@@ -65,7 +66,9 @@ Powers awayFromEdges(const Powers& a, double x0) {
 TipTraction tractionOf(const Powers& powers, double x0, bool hasStep) {
   const double largest = powers.cwiseAbs().maxCoeff();
   Index count = kPowers;
-  while (count > 1 && std::abs(powers[count - 1]) * std::ldexp(1.0, static_cast<int>(count)) < 1e-18 * largest) --count;
+  while (count > 1 &&
+         std::abs(powers[count - 1]) * std::ldexp(1.0, static_cast<int>(count)) < 1e-18 * largest)
+    --count;
   const QuadratureRule rule = gaussRule(kSmoothEdges, static_cast<int>(count));
   VectorXd log(count), step(count);
   for (Index i = 0; i < count; ++i) {
@@ -74,8 +77,8 @@ TipTraction tractionOf(const Powers& powers, double x0, bool hasStep) {
     log[i] = sum.real();
     step[i] = -sum.imag();
   }
-  const MatrixXd transform = jacobiValues(kSmoothEdges, static_cast<int>(count), rule.nodes).transpose() *
-                             rule.weights.asDiagonal();
+  const MatrixXd transform =
+      jacobiValues(kSmoothEdges, static_cast<int>(count), rule.nodes).transpose() * rule.weights.asDiagonal();
   TipTraction tip{x0, transform * log, {}};
   if (hasStep) tip.step = transform * step;
   return tip;
@@ -107,9 +110,10 @@ TipTractions tipTractions(const SurfaceKernel& kernel, const Indenter& indenter,
   return {traction(kernel.edgeShift(friction) == 0 ? powers : awayFromEdges(powers, x0)), {}};
 }
 
-// With y = cos phi, x0 = cos phi0: the integral of arccosh / (x - y) is (pi^2/2) sgn(x - x0) + pi asin x0, and
-// (U_k(x) - U_k(y)) / (x - y) = 2 sum_j U_j(x) U_(k-1-j)(y); the logarithm's are the antiderivatives, their
-// constants from int T_n / sqrt(1 - x^2) = 0 and that of the logarithm, -pi ln 2. norm U_k is orthonormal.
+// With y = cos phi, x0 = cos phi0: the integral of arccosh / (x - y) is (pi^2/2) sgn(x - x0) + pi asin x0,
+// and (U_k(x) - U_k(y)) / (x - y) = 2 sum_j U_j(x) U_(k-1-j)(y); the logarithm's are the antiderivatives,
+// their constants from int T_n / sqrt(1 - x^2) = 0 and that of the logarithm, -pi ln 2. norm U_k is
+// orthonormal.
 PatchRules tipRules(const TipTractions& tip, const ReferencePatch& same) {
   const VectorXd &points = same.points(), &places = same.rules().rule.nodes;
   const auto nodes = static_cast<int>(places.size()) - 2;
@@ -121,9 +125,10 @@ PatchRules tipRules(const TipTractions& tip, const ReferencePatch& same) {
     const auto n = static_cast<double>(k + 1);
     const double there = std::cos(n * phi0) / n;
     antiderivatives.col(k) = (n * angles).cos() / n;
-    integrals.col(k) = norm * pi * (pi / 2 * side * (antiderivatives.col(k).array() - there) +
-                                    std::asin(x0) * antiderivatives.col(k).array() -
-                                    std::sin(n * phi0) / (n * n) - there * (pi / 2 - phi0));
+    integrals.col(k) = norm * pi *
+                       (pi / 2 * side * (antiderivatives.col(k).array() - there) +
+                        std::asin(x0) * antiderivatives.col(k).array() - std::sin(n * phi0) / (n * n) -
+                        there * (pi / 2 - phi0));
     integrals.col(k) -= 2 * antiderivatives.leftCols(k) * moments.head(k).reverse();
     integrals.col(k).array() -= std::numbers::ln2 * moments[k];
   }

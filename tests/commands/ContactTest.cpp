@@ -140,6 +140,31 @@ TEST(ContactCommand, ThePapersMethodSaysWhenItsAnswerIsNoContact) {
   STRCMP_CONTAINS("what pulls the surface out is no contact", uncut.err.c_str());
 }
 
+TEST(ContactCommand, WarnsOfLargeStrains) {
+  const char* told = "0.21 of the rubber's thickness deep: strains are large";
+  STRCMP_CONTAINS(told, runProgram(flat("--width-m 10e-3 --summary")).err.c_str());
+  CHECK_TRUE(runProgram(flat("--width-m 4e-3 --summary")).err.find("strains are large") == std::string::npos);
+}
+
+// The centre is between two bumps 0.1 mm high, which are 2 mm apart: the profile stands clear of the finger
+// there.
+TEST(ContactCommand, TellsTheRegionsOfAShapeThatTouchesTwice) {
+  std::string shape;
+  for (int i = -40; i <= 40; ++i) {
+    const double x = i * 0.05, height = -0.1 * (std::exp(-std::pow((x - 1) / 0.3, 2)) +
+                                                std::exp(-std::pow((x + 1) / 0.3, 2)));
+    shape += std::to_string(x) + "e-3," + std::to_string(height) + "e-3\n";
+  }
+  const Run run = runProgram("contact --indenter /dev/stdin --load-n-per-m 5 --summary", shape);
+  STRCMP_CONTAINS("; 2 regions: -0.00", run.err.c_str());
+  CHECK_TRUE(tableOf(run.out).at(0)[3] < 0);
+}
+
+TEST(ContactCommand, RefusesHarmonicsThatTakeMinutes) {
+  refuses(flat("--width-m 2e-3 --method paper --harmonics 1001"), "add --rows gauss");
+  refuses(flat("--width-m 2e-3 --method paper --harmonics 2001"), "--harmonics");
+}
+
 TEST(ContactCommand, WarnsWhenNothingFits) {
   const Run run = runProgram(flat("--width-m 2e-3 --friction 0.5 --centre-deg 0 --summary"));
   LONGS_EQUAL(0, run.status);

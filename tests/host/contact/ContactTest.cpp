@@ -215,6 +215,18 @@ TEST(Contact, MoreTermsFindTheSameContactBelowAWedge) {
       }
 }
 
+// At 13 nm a wedge's faces rise 300,000 times as much as a plane bends away.
+TEST(Contact, AWedgeSlidesOnTheNarrowestContactToo) {
+  for (const double poissonRatio : {0.5, 0.3}) {
+    ContactRequest request = sliding(0.5);
+    request.indenter = Indenter::wedge(80);
+    request.size.value = 1e-6 * kSurface_m;
+    const Contact contact = solve(request, fingerOf(0.7, poissonRatio));
+    CHECK_TRUE(contact.warnings.empty());
+    CHECK_TRUE(contact.residual_m < 1e-6 * contact.deepest_m);
+  }
+}
+
 // Below nu = 1/2 tractions have a step at the tip besides, and other exponents at the edges.
 TEST(Contact, AWedgeThatSlidesOnCompressibleRubberPressesAllOver) {
   for (const double poissonRatio : {0.45, 0.3, 0.0})
@@ -226,8 +238,9 @@ TEST(Contact, AWedgeThatSlidesOnCompressibleRubberPressesAllOver) {
         const Contact contact = solve(request, fingerOf(0.7, poissonRatio));
         CHECK_TRUE(contact.warnings.empty());
         CHECK_TRUE(contact.residual_m < 1e-6 * contact.depth_m);
-        const auto finer = SpectralSolver(SurfaceKernel(fingerOf(0.7, poissonRatio)), Regime::kSliding, friction,
-                                          80).solve({contact.tractions[0].patch}, request.indenter, 0);
+        const auto finer =
+            SpectralSolver(SurfaceKernel(fingerOf(0.7, poissonRatio)), Regime::kSliding, friction, 80)
+                .solve({contact.tractions[0].patch}, request.indenter, 0);
         equalRelative(kSurface_m * totalTraction(finer.tractions).pressure_pa, contact.normal_n_per_m, 2e-6);
         DOUBLES_EQUAL(0, finer.tilt_m[0], 2e-6 * contact.depth_m);
       }

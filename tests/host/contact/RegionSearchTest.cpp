@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "host/base/angles.hpp"
 #include "host/base/failure.hpp"
 #include "host/contact/overlap.hpp"
 #include "host/contact/surface_motion.hpp"
@@ -120,7 +120,7 @@ TEST(RegionSearch, ABumpOfFourMicrometresBesideTheContactTouches) {
 
 // The spline is smooth about the tip, for as many terms as resolve the distance of points; fewer ring there.
 TEST(RegionSearch, AMeasuredWedgeIsNearlyTheWedgeAndSaysHowNearly) {
-  const double slope = std::tan(10 * std::numbers::pi / 180);
+  const double slope = std::tan(10 * kRadPerDeg);
   for (ContactRequest request : {ofWidth(1e-3), ofWidth(2e-3), ofLoad(20), ofLoad(60)}) {
     request.indenter = Indenter::wedge(80);
     const Contact known = solve(request);
@@ -135,7 +135,7 @@ TEST(RegionSearch, AMeasuredWedgeIsNearlyTheWedgeAndSaysHowNearly) {
 TEST(RegionSearch, NoRandomBumpIsInsideTheRubber) {
   std::size_t regions = 0;
   for (const bool isNarrow : {true, false})
-    for (unsigned seed = kSeed; seed < kSeed + (isNarrow ? 3 : 12); ++seed) {
+    for (unsigned seed = kSeed; seed < kSeed + (isNarrow ? 3 : 8); ++seed) {
       std::mt19937 random(seed);
       ContactRequest request = ofLoad(isNarrow ? 4 : 30);
       request.indenter = isNarrow ? randomBump(random) : randomBumps(random);
@@ -146,7 +146,7 @@ TEST(RegionSearch, NoRandomBumpIsInsideTheRubber) {
       CHECK_TRUE_TEXT(leastPressure_pa(contact) >= 0, text.c_str());
       regions += contact.tractions.size();
     }
-  CHECK_TRUE(regions > 20);  // or few bumps touched
+  CHECK_TRUE(regions > 14);  // or few bumps touched
 }
 
 TEST(RegionSearch, NoiseEndsInAnErrorThatTellsWhatToDo) {
@@ -163,6 +163,13 @@ TEST(RegionSearch, AWidthThatBumpsBesideItForbidAreRefused) {
   ContactRequest request = ofWidth(1.6e-3);
   request.indenter = finelyMeasured([](double x) { return bump(std::abs(x), 0.9e-3, 20e-6, 60e-6); });
   STRCMP_CONTAINS("its width jumps", refusalOf(request).c_str());
+}
+
+TEST(RegionSearch, AHollowThatTouchesAtTheEndOfItsMeasurementIsRefused) {
+  for (ContactRequest request : {ofLoad(20), ofWidth(1e-3)}) {
+    request.indenter = measured([](double x) { return -std::abs(x); });
+    STRCMP_CONTAINS("nearest to the finger at its end", refusalOf(request).c_str());
+  }
 }
 
 TEST(RegionSearch, AWidthBeyondTheShapeIsRefused) {

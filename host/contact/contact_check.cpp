@@ -17,6 +17,9 @@ namespace {
 /// Of the depth, that goes unsaid: just below what the stability survey fails at.
 constexpr double kMostResidual = 9e-7;
 
+/// Of the depth: what is farther off is no answer.
+constexpr double kHopeless = 0.1;
+
 /// Of each patch, none of them a point of the solver's.
 constexpr std::array kResidualPlaces{-0.999, -0.93, -0.71, -0.31, 0.13, 0.53, 0.83, 0.97};
 
@@ -116,6 +119,13 @@ void checkContact(const SurfaceKernel& kernel, const ContactRequest& request, Co
     warnings.emplace_back(
         "no contact with its centre held there fits this indenter: the tractions are those of an indenter "
         "that is turned by what the residual tells");
+  else if (contact.residual_m > kHopeless * depth_m)
+    throw Failure(
+        ExitCode::kFailure,
+        fmt::format("{} terms a patch leave {:.2g} of the depth unresolved: the contact is too wide for "
+                    "so thin a layer, or its shape too rough; ask for less width or load, or for thicker "
+                    "rubber",
+                    contact.terms, contact.residual_m / depth_m));
   else if (!isIllPosed(kernel, request) && contact.residual_m > kMostResidual * depth_m)
     warnings.push_back(fmt::format("inaccurate: {} terms a patch leave {:.2g} of the depth unresolved",
                                    contact.terms, contact.residual_m / depth_m));

@@ -14,8 +14,6 @@
 namespace strainfinger::contact {
 namespace {
 
-constexpr double kConverged = 1e-12;  // of the last coefficients
-
 void requireDomain(const SurfaceKernel& kernel, const ContactRequest& request) {
   const auto require = [](bool is, const std::string& what) {
     if (!is) throw Failure(ExitCode::kUsage, what);

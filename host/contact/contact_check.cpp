@@ -17,8 +17,11 @@ namespace {
 /// Of the depth, that goes unsaid: just below what the stability survey fails at.
 constexpr double kMostResidual = 9e-7;
 
+/// Of the depth: what is farther off is no answer.
+constexpr double kHopeless = 0.1;
+
 /// Of each patch, none of them a point of the solver's.
-constexpr std::array kPlaces{-0.999, -0.93, -0.71, -0.31, 0.13, 0.53, 0.83, 0.97};
+constexpr std::array kResidualPlaces{-0.999, -0.93, -0.71, -0.31, 0.13, 0.53, 0.83, 0.97};
 
 /// Above the undeformed surface, for no approach.
 double profileAt(const SurfaceKernel& kernel, const Indenter& indenter, double angle_rad) {
@@ -41,7 +44,7 @@ bool pulls(const Tractions& tractions) {
 double deepestOf(const SurfaceKernel& kernel, const Indenter& indenter, const Contact& contact) {
   double deepest_m = -std::numeric_limits<double>::infinity();
   for (const PatchTractions& part : contact.tractions)
-    for (const double place : kPlaces) {
+    for (const double place : kResidualPlaces) {
       const double angle_rad = part.patch.centre_rad + place * part.patch.half_rad;
       deepest_m = std::max(deepest_m, contact.approach_m - profileAt(kernel, indenter, angle_rad));
     }
@@ -91,7 +94,7 @@ double residual(const SurfaceKernel& kernel, const Indenter& indenter, const Tra
   const SurfaceMotion motion(kernel, tractions);
   double worst_m = 0;
   for (const PatchTractions& part : tractions)
-    for (const double place : kPlaces) {
+    for (const double place : kResidualPlaces) {
       const double angle_rad = part.patch.centre_rad + place * part.patch.half_rad;
       const SurfacePoint point = motion.displacementAt(angle_rad);
       worst_m = std::max(worst_m, std::abs(point.ur_m - profileAt(kernel, indenter, angle_rad) + approach_m));
@@ -116,6 +119,13 @@ void checkContact(const SurfaceKernel& kernel, const ContactRequest& request, Co
     warnings.emplace_back(
         "no contact with its centre held there fits this indenter: the tractions are those of an indenter "
         "that is turned by what the residual tells");
+  else if (contact.residual_m > kHopeless * depth_m)
+    throw Failure(
+        ExitCode::kFailure,
+        fmt::format("{} terms a patch leave {:.2g} of the depth unresolved: the contact is too wide for "
+                    "so thin a layer, or its shape too rough; ask for less width or load, or for thicker "
+                    "rubber",
+                    contact.terms, contact.residual_m / depth_m));
   else if (!isIllPosed(kernel, request) && contact.residual_m > kMostResidual * depth_m)
     warnings.push_back(fmt::format("inaccurate: {} terms a patch leave {:.2g} of the depth unresolved",
                                    contact.terms, contact.residual_m / depth_m));

@@ -17,8 +17,8 @@ double residual(const SurfaceKernel& kernel, const Indenter& indenter, const Tra
                 double approach_m, std::optional<double> shift_m = {});
 
 /// Fills in the residual and the warnings of a contact that has everything else.
-/// Throws Failure(kFailure) if a compressible rubber sticks and the edges' resolution decides the load by
-/// more than a tenth.
+/// Throws Failure(kFailure) if more than a tenth of the depth is unresolved, or if a compressible rubber
+/// sticks and the edges' resolution decides the load by more than a tenth.
 void checkContact(const SurfaceKernel& kernel, const ContactRequest& request, Contact& contact);
 
 }  // namespace strainfinger::contact

@@ -23,6 +23,12 @@ constexpr double kVanished = 1e-8;    // half width of a patch, of the whole con
 constexpr double kSlow = 0.3;         // of the misfit is left: Broyden's updates don't do
 constexpr int kMostHalvings = 6;
 
+/// The logarithm, and its tangent where ratios are small or below 0, as the load of a bad guess may be.
+double logarithmAbove(double ratio) {
+  constexpr double kLeast = 0.1;
+  return ratio > kLeast ? std::log(ratio) : std::log(kLeast) + ratio / kLeast - 1;
+}
+
 double worstOf(const VectorXd& values) { return values.cwiseAbs().maxCoeff(); }
 
 }  // namespace
@@ -76,24 +82,31 @@ VectorXd EdgeSearch::misfits(const std::vector<Patch>& patches, const PatchSolut
     const double size = request_.size.kind == ContactSize::Kind::kWidth
                             ? radius_m * width_rad
                             : radius_m * totalTraction(solution.tractions).pressure_pa;
-    misfits.push_back(std::log(size / request_.size.value));
+    misfits.push_back(logarithmAbove(size / request_.size.value));
   }
   return Eigen::Map<VectorXd>(misfits.data(), static_cast<Index>(misfits.size()));
 }
 
+bool EdgeSearch::areWithin(const std::vector<Patch>& patches) const {
+  const double radius_m = kernel_.annulus().outer_radius_m;
+  const double first_rad = patches.front().first_rad(), last_rad = patches.back().last_rad();
+  return last_rad - first_rad <= kWidestContact_rad &&
+         radius_m * first_rad >= request_.indenter.firstPosition_m() &&
+         radius_m * last_rad <= request_.indenter.lastPosition_m();
+}
+
 void EdgeSearch::requireWithin(const std::vector<Patch>& patches) const {
+  if (areWithin(patches)) return;
   const double radius_m = kernel_.annulus().outer_radius_m;
   const double first_rad = patches.front().first_rad(), last_rad = patches.back().last_rad();
   if (!(last_rad - first_rad <= kWidestContact_rad))
     throw Failure(ExitCode::kFailure, "no contact found: the load needs one wider than half the surface");
-  if (!(radius_m * first_rad >= request_.indenter.firstPosition_m() &&
-        radius_m * last_rad <= request_.indenter.lastPosition_m()))
-    throw Failure(
-        ExitCode::kFailure,
-        fmt::format("the contact, {:.6g} to {:.6g} m, reaches beyond the measured shape, {} to {} m: "
-                    "measure more of it, or press less",
-                    radius_m * first_rad, radius_m * last_rad, request_.indenter.firstPosition_m(),
-                    request_.indenter.lastPosition_m()));
+  throw Failure(
+      ExitCode::kFailure,
+      fmt::format("the contact, {:.6g} to {:.6g} m, reaches beyond the measured shape, {} to {} m: measure "
+                  "more of it, or press less",
+                  radius_m * first_rad, radius_m * last_rad, request_.indenter.firstPosition_m(),
+                  request_.indenter.lastPosition_m()));
 }
 
 /// Whether patches are in order, and none has all but vanished.
@@ -144,8 +157,11 @@ EdgeResult EdgeSearch::run(const std::vector<Patch>& guess, const MatrixXd& know
   for (int step = 0; step < kMostSteps; ++step) {
     VectorXd move = -jacobian.partialPivLu().solve(state.misfits);
     move *= std::min(1.0, 0.5 / worstOf(move));
-    for (int half = 0; half < kMostHalvings && !areApart(patchesOf(state.unknowns + move, guess)); ++half)
+    for (int half = 0; half < kMostHalvings; ++half) {
+      const std::vector<Patch> moved = patchesOf(state.unknowns + move, guess);
+      if (areApart(moved) && areWithin(moved)) break;
       move /= 2;
+    }
     if (!areApart(patchesOf(state.unknowns + move, guess))) {
       state.result.outcome = EdgeResult::Outcome::kCollide;
       return state.result;

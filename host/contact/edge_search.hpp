@@ -39,6 +39,7 @@ class EdgeSearch {
   Eigen::VectorXd misfits(const std::vector<Patch>& patches, const PatchSolution& solution) const;
   bool movesCentre(std::size_t patches) const;
   bool changesWidth(std::size_t patches) const;
+  bool areWithin(const std::vector<Patch>& patches) const;
   void requireWithin(const std::vector<Patch>& patches) const;
   bool areApart(const std::vector<Patch>& patches) const;
 

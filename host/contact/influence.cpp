@@ -22,15 +22,18 @@ ArrayXXd reflectedOnItself(const SurfaceKernel& kernel, const KernelMix& mix, co
                            const VectorXd& nodes, double half_rad) {
   const VectorXd &even = mix.reflected, &odd = kernel.reflection().coupling;
   const auto harmonics = static_cast<int>(even.size()) - 1;
-  const int count = 16 + static_cast<int>(1.2 * half_rad * harmonics);
+  const int half = 8 + static_cast<int>(0.6 * half_rad * harmonics), count = 2 * half;
   VectorXd series = VectorXd::Zero(count);
-  for (int k = 0; k < count; ++k) {
+  for (int k = 0; k < half; ++k) {  // and the other half by symmetry
     const double angle = std::numbers::pi * (k + 0.5) / count;
-    double value = -mix.even * even[0] / 2;
+    double along = -mix.even * even[0] / 2, across = 0;
     model::visitMultiples(2 * half_rad * std::cos(angle), harmonics, [&](int n, double c, double s) {
-      value += mix.even * even[n] * c + mix.odd * odd[n] * s;
+      along += mix.even * even[n] * c;
+      across += mix.odd * odd[n] * s;
     });
-    model::visitMultiples(angle, count - 1, [&](int j, double c, double) { series[j] += value * c; });
+    model::visitMultiples(angle, count - 1, [&](int j, double c, double) {
+      series[j] += 2 * (j % 2 == 0 ? along : across) * c;
+    });
   }
   series *= 2 / (std::numbers::pi * count);
   series[0] /= 2;

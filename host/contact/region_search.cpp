@@ -15,12 +15,12 @@
 namespace strainfinger::contact {
 namespace {
 
-constexpr int kFewTerms = 24;         // that a smooth shape needs
-constexpr double kConverged = 1e-12;  // of the last coefficients: else more terms
-constexpr double kConvergedRegions = 1e-7;
+constexpr int kFewTerms = 24;               // that a smooth shape needs
+constexpr double kConvergedRegions = 1e-7;  // of the last coefficients, with many terms
 constexpr int kMostRounds = 10;
 constexpr int kMostLost = 2;
 constexpr std::size_t kMostRegions = 16;
+constexpr std::size_t kFewRegions = 2;  // that get the most terms, in seconds
 constexpr double kPenetration_m = 1e-12;
 constexpr double kPull = 1e-9;       // of the largest pressure
 constexpr double kVanishing = 1e-7;  // half width of a region, of the whole contact's width
@@ -156,7 +156,7 @@ EdgeResult settleOnce(const SurfaceKernel& kernel, const SpectralSolver& solver,
   const EdgeSearch search(kernel, solver, request);
   EdgeResult found{patches, {}, Outcome::kLost}, before{{}, {}, Outcome::kLost};
   for (int round = 0, lost = 0; round < kMostRounds && !patches.empty() && lost < kMostLost; ++round) {
-    if (patches.size() > 1 && solver.terms() > kMeasuredTerms) break;
+    if (patches.size() > kFewRegions && solver.terms() > kMeasuredTerms) break;
     requireFew(patches, kernel.annulus().outer_radius_m);
     found = search.run(patches);
     if (found.outcome == Outcome::kSettled) {
@@ -221,7 +221,10 @@ EdgeResult settleRegions(const SurfaceKernel& kernel, const ContactRequest& requ
     best = std::move(found);
     terms = more;
     least_m = misfit_m;
-    if (isSettled && (best.patches.size() > 1 || best.solution.tail() < kConvergedRegions)) break;
+    if (!isSettled) continue;
+    if (best.patches.size() > kFewRegions || least_m < kPenetration_m) break;
+    if (best.patches.size() == 1 && best.solution.tail() < kConvergedRegions) break;
+    patches = best.patches;
   }
   if (best.outcome != EdgeResult::Outcome::kSettled)
     throwUnsettled(best.patches, request, kernel.annulus().outer_radius_m);

@@ -18,7 +18,7 @@ std::optional<EdgeResult> settlePlainRegion(const SurfaceKernel& kernel, const C
 /// there, two that grow into each other become one; until nothing penetrates by more than 1e-12 m (and twice
 /// the residual) and nothing pulls. Throws Failure(kFailure) that says where if the regions become more than
 /// 16 or don't settle in 10 rounds, and if the width asked for is one that the contact jumps over.
-/// Each region has 24 terms if these converge, or 64, or a single one 160; `terms` tells.
+/// Each region has 24 terms if these converge, or 64, or, of one or two, 160; `terms` tells.
 EdgeResult settleRegions(const SurfaceKernel& kernel, const ContactRequest& request,
                          std::vector<Patch> patches, int& terms);
 

@@ -12,6 +12,9 @@
 
 namespace strainfinger::contact {
 
+/// A PatchSolution::tail() from which on more terms change nothing.
+inline constexpr double kConverged = 1e-12;
+
 /// Most terms that searches give one patch: what they haven't resolved by then is said to be inaccurate.
 inline constexpr int kMostTerms = 160;
 
@@ -27,7 +30,7 @@ struct PatchSolution {
   Eigen::VectorXd tilt_m;
   double shift_m = 0;  ///< u_t of what sticks
 
-  /// The last coefficients of the pressures relative to the largest: below 1e-12 where the series converged.
+  /// The last coefficients of the pressures relative to the largest: below kConverged where the series did.
   double tail() const;
 };
 

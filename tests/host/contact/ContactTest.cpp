@@ -337,6 +337,12 @@ TEST(Contact, SlidingOnAThinLayerCarriesTheKnownLoad) {
   equalRelative(39.767612, solve(sliding(1), fingerOf(0.93, 0.5)).normal_n_per_m, 2e-8);
 }
 
+TEST(Contact, WhatIsNotResolvedAtAllIsNoAnswer) {
+  const auto thin = fingerOf(0.99, 0.5);
+  CHECK_FALSE(solve(ofWidth(10e-3), thin).warnings.empty());
+  CHECK_THROWS(Failure, solve(ofWidth(20e-3), thin));
+}
+
 TEST(Contact, RefusesWhatIsOutsideItsDomain) {
   const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
   for (const double value : {0.0, -1.0, nan, infinity}) {

@@ -135,7 +135,7 @@ TEST(RegionSearch, AMeasuredWedgeIsNearlyTheWedgeAndSaysHowNearly) {
 TEST(RegionSearch, NoRandomBumpIsInsideTheRubber) {
   std::size_t regions = 0;
   for (const bool isNarrow : {true, false})
-    for (unsigned seed = kSeed; seed < kSeed + (isNarrow ? 3 : 12); ++seed) {
+    for (unsigned seed = kSeed; seed < kSeed + (isNarrow ? 3 : 8); ++seed) {
       std::mt19937 random(seed);
       ContactRequest request = ofLoad(isNarrow ? 4 : 30);
       request.indenter = isNarrow ? randomBump(random) : randomBumps(random);
@@ -146,7 +146,21 @@ TEST(RegionSearch, NoRandomBumpIsInsideTheRubber) {
       CHECK_TRUE_TEXT(leastPressure_pa(contact) >= 0, text.c_str());
       regions += contact.tractions.size();
     }
-  CHECK_TRUE(regions > 20);  // or few bumps touched
+  CHECK_TRUE(regions > 14);  // or few bumps touched
+}
+
+// Shares and widths, per nm, of the README's table; the plane without noise has the known width.
+TEST(RegionSearch, NoiseThatIsSolvedTellsWhatItLeaves) {
+  for (const double noise_nm : {1.0, 10.0}) {
+    std::mt19937 random(8);
+    std::normal_distribution<double> noise(0, noise_nm * 1e-9);
+    ContactRequest request = ofLoad(20);
+    request.indenter = measured([&](double) { return noise(random); });
+    const Contact contact = solve(request);
+    STRCMP_CONTAINS("inaccurate: 160 terms", contact.warnings.at(0).c_str());
+    CHECK_TRUE(contact.residual_m < 2e-5 * noise_nm * contact.deepest_m);
+    DOUBLES_EQUAL(1.932184257e-3, contact.width_m, 2e-4 * noise_nm * contact.width_m);
+  }
 }
 
 TEST(RegionSearch, NoiseEndsInAnErrorThatTellsWhatToDo) {

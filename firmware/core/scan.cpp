@@ -70,7 +70,7 @@ int deepest(const std::int32_t* gauge, int gauges) {
     }
     gauge += 2;
   };
-  for (int left = gauges % 8; left > 0; left -= 2) lookAtTwo();
+  for (unsigned left = static_cast<unsigned>(gauges) % 8; left != 0; left -= 2) lookAtTwo();
   while (gauge != end) {
     lookAtTwo();
     lookAtTwo();

@@ -25,8 +25,7 @@
 namespace strainfinger::cli {
 namespace {
 
-constexpr const char* kLoopback =
-    "loopback";
+constexpr const char* kLoopback = "loopback";
 
 constexpr const char* kRunHelp =
     "The finger itself on this machine: the firmware's own code, simulated gauges, frames on CAN.\n"

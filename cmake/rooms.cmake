@@ -3,7 +3,7 @@
 # tests/architecture and checked there.
 
 # strainfinger_compile_together(TARGET) (but for files with the property SKIP_UNITY_BUILD_INCLUSION)
-# What compiles everything for tests' sake compiles files in batches, in half the time; that every file includes what it
+# What compiles everything for tests' sake compiles files in batches, which is sooner done; that every file includes what it
 # needs, the preset `dev` shows. So the files of a room have names of their own even for what only they use.
 function(strainfinger_compile_together target)
   if(STRAINFINGER_COMPILE_TOGETHER)

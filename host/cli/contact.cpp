@@ -28,7 +28,7 @@ constexpr const char* kContactHelp =
     "The summary's depth is that of the indenter's profile below the undeformed surface at the contact's "
     "centre: below 0 if that is between regions, where the profile stands clear.";
 
-/// More of them take minutes.
+/// Time grows with the cube: 1000 by the printed rows take 1.4 s, 2000 by Gauss's 0.4 s.
 constexpr int kMostHarmonics = 2000, kMostPrintedHarmonics = 1000;
 
 struct ContactCommand {
@@ -67,10 +67,11 @@ struct ContactCommand {
     contact::PaperOptions options = paper;
     options.rows = rows == "gauss" ? contact::SlopeRows::kGauss : contact::SlopeRows::kPrinted;
     if (rows == "printed" && paper.harmonics > kMostPrintedHarmonics)
-      throw Failure(ExitCode::kUsage,
-                    fmt::format("--harmonics: more than {} take minutes with the paper's even points; add "
-                                "--rows gauss, which has the continuum's values in a second",
-                                kMostPrintedHarmonics));
+      throw Failure(
+          ExitCode::kUsage,
+          fmt::format("--harmonics: at most {} with the paper's even points; add --rows gauss, which "
+                      "has the continuum's values at a fraction of the cost",
+                      kMostPrintedHarmonics));
     options.window = window == "full" ? contact::WindowCut::kFull : contact::WindowCut::kHalf;
     return options;
   }

@@ -20,7 +20,7 @@ std::vector<Patch> findRegions(const SurfaceKernel& kernel, const Indenter& inde
 
 /// One region about the lowest place of a measured shape on the undeformed surface, as wide as asked for or
 /// as a parabola would be that fills as much below the same level under the load: where shapes have one
-/// region, close enough for EdgeSearch. Costs 50 us for 800 points.
+/// region, close enough for EdgeSearch. Costs 60 us for 800 points.
 Patch guessRegion(const SurfaceKernel& kernel, const Indenter& indenter, const ContactSize& size);
 
 }  // namespace strainfinger::contact

@@ -18,7 +18,7 @@ struct Overlap {
 /// Overlaps deeper than `tolerance_m` outside the patches, in rising order, over all of the measured shape.
 /// Looks at every measured point and three places between any two, and follows what is nearly touching to its
 /// deepest point: the shape is the spline through its points. Domain: a measured indenter. Costs 5 us for
-/// each place not plainly above the surface, 1 to 2 ms in all for 800 points.
+/// each place not plainly above the surface, 2 ms in all for 800 points.
 std::vector<Overlap> findOverlaps(const SurfaceKernel& kernel, const Indenter& indenter,
                                   const Tractions& tractions, double approach_m, double tolerance_m);
 

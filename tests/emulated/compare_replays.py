@@ -9,7 +9,7 @@ import sys
 
 import emulator
 
-SAMPLES_PER_BLOCK = 4096
+SAMPLES_PER_BLOCK = 1024
 
 
 def lines_of(image, *arguments):

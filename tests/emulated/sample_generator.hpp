@@ -104,11 +104,12 @@ constexpr hal::SampleSet strange(Draws& draws) {
   return set;
 }
 
-/// One contact or none, with no more noise than the tables expect: what a finger feels day in, day out.
-constexpr hal::SampleSet ordinary(Draws& draws) {
+/// One contact or none, with no more noise than the tables expect: what a finger feels day in, day out. Loads to
+/// twice `range`.
+constexpr hal::SampleSet ordinary(Draws& draws, std::uint32_t range) {
   Deflections codes{};
-  if (draws.below(8) != 0) press(codes, drawContact(draws, 1u << 14));
-  addNoise(codes, draws, 3 + static_cast<int>(draws.below(5)));
+  if (draws.below(8) != 0) press(codes, drawContact(draws, range));
+  addNoise(codes, draws, 4 + static_cast<int>(draws.below(4)));
   return converted(codes, draws.below(2) == 0);
 }
 
@@ -125,14 +126,15 @@ constexpr hal::SampleSet wild(Draws& draws) {
 }
 
 /// Sample sets after which a replay starts afresh.
-inline constexpr std::uint32_t kBlock = 4096;
+inline constexpr std::uint32_t kBlock = 1024;
 
-/// Sample set number `sample`. The last 256 of every fourth block are wild ones: what they lead to takes many
-/// times the time, and the rest is to be felt with all gauges.
+/// Sample set number `sample`. What takes many times the time is rarer than the rest: every eighth block presses
+/// gauges to the ends of the converter's range, and the last 128 of every sixteenth are wild ones.
 constexpr hal::SampleSet generatedSamples(std::uint32_t sample) {
-  constexpr std::uint32_t kCycle = 4 * kBlock, kWild = 256;
+  constexpr std::uint32_t kCycle = 16 * kBlock, kWild = 128;
   Draws draws(sample);
-  return sample % kCycle < kCycle - kWild ? ordinary(draws) : wild(draws);
+  if (sample % kCycle >= kCycle - kWild) return wild(draws);
+  return ordinary(draws, sample / kBlock % 8 == 5 ? 1u << 14 : 1u << 13);
 }
 
 }  // namespace strainfinger::emulated

@@ -2,7 +2,11 @@
 record
 strainfinger run --can vcan0 2>"$TMPDIR/summary" &
 finger=$!
-sleep 1
+for _ in $(seq 300); do   # until it is heard, however slow the machine
+  grep -q ' 701#' "$recording" && break
+  sleep 0.1
+done
+sleep 0.5
 kill -TERM $finger
 status=0
 wait $finger || status=$?

@@ -10,6 +10,10 @@
 namespace strainfinger::firmware {
 namespace {
 
+/// Components of a move saturate here: the squares of seven fit 63 bits. Only moves that the readings left
+/// don't determine are so long.
+constexpr std::int64_t kLongestMove = std::int64_t{1} << 30;
+
 /// Fewer than this part of the information left is none, as a power of two.
 constexpr int kDeterminedShift = 12;
 
@@ -87,8 +91,8 @@ std::array<std::int32_t, 2> solved(const LoadPair& pair) {
     for (std::size_t i = 0; i < 2; ++i)
       component += std::int64_t{weight(row.gradient[i], step)} *
                    ((std::int64_t{loads[i]} * row.gradient_length[i]) >> 15);
-    component >>= 15;
-    move[indexOf(step)] = saturate<std::int32_t>(component);
+    component = std::clamp(component >> 15, -kLongestMove, kLongestMove);
+    move[indexOf(step)] = static_cast<std::int32_t>(component);
     energy += component * component;
   }
   const int excess = 64 - std::countl_zero(static_cast<std::uint64_t>(energy)) - 30;

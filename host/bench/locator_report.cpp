@@ -85,13 +85,14 @@ std::string label(const Point& point) {
 }
 
 std::string legend(const std::vector<MethodResult>& results, const std::vector<Point>& points) {
-  constexpr double kTop = 0.88, kLine = 0.045;
+  constexpr double kTop = 0.88, kMostLine = 0.045;
+  const double line = std::min(kMostLine, kTop / static_cast<double>(points.size()));
   std::string script;
   double height = kTop;
   for (const Point& point : points) {
     script += fmt::format("set label \"{} {}\" at screen 0.81,screen {:.3f} left font ',10' textcolor '{}'\n",
                           point.number, results[point.number - 1].name, height, colourOf(point.ours));
-    height -= kLine;
+    height -= line;
   }
   return script;
 }

@@ -1,12 +1,13 @@
 # strainfinger_bench_variants(PREFIX [flag...])
-# The locator compiled anew for every folder here, as PREFIX_FOLDER; PREFIX_variants is all of them.
+# The locator compiled anew for every folder here, as PREFIX_FOLDER; PREFIX_variants is all of them. rows64 has no folder: it is
+# the firmware's own rule, compiled as the others are.
 function(strainfinger_bench_variants prefix)
   set(folder ${PROJECT_SOURCE_DIR}/host/bench/variants)
   set(sources scan answer triple_fit locate)
   list(TRANSFORM sources PREPEND ${PROJECT_SOURCE_DIR}/firmware/core/)
   list(TRANSFORM sources APPEND .cpp)
   add_library(${prefix}_variants INTERFACE)
-  foreach(variant IN ITEMS rows32 rows16 two_rows one_step)
+  foreach(variant IN ITEMS rows64 rows32 rows16 two_rows one_step)
     add_library(${prefix}_${variant} STATIC EXCLUDE_FROM_ALL ${folder}/locate_into.cpp ${sources})
     set_target_properties(${prefix}_${variant} PROPERTIES UNITY_BUILD ON)
     target_include_directories(${prefix}_${variant} BEFORE PRIVATE ${folder}/${variant} ${PROJECT_SOURCE_DIR})

@@ -4,6 +4,9 @@
 #include "firmware/core/locate.hpp"
 #include "host/bench/methods/sample.hpp"
 
+namespace strainfinger_rows64::bench {
+void locateInto(void* fit, const void* tables, bool byThree, const std::int32_t* strains_q32);
+}
 namespace strainfinger_rows32::bench {
 void locateInto(void* fit, const void* tables, bool byThree, const std::int32_t* strains_q32);
 }
@@ -31,8 +34,9 @@ struct Variant {
   }
 };
 
-inline constexpr std::array<Variant, 6> kVariants{
-    {{"ours: refined with 32 rows a pitch", strainfinger_rows32::bench::locateInto, false},
+inline constexpr std::array<Variant, 7> kVariants{
+    {{"ours: refined with 64 rows a pitch", strainfinger_rows64::bench::locateInto, false},
+     {"ours: refined with 32 rows a pitch", strainfinger_rows32::bench::locateInto, false},
      {"ours: refined with 16 rows a pitch", strainfinger_rows16::bench::locateInto, false},
      {"ours: refined until a step of 2 rows", strainfinger_two_rows::bench::locateInto, false},
      {"ours: refined by one step", strainfinger_one_step::bench::locateInto, false},

@@ -4,8 +4,8 @@
 #include <cstring>
 
 #include "host/bench/make_bundle.hpp"
+#include "host/bench/methods/catalogue.hpp"
 #include "host/bench/score.hpp"
-#include "host/bench/variants/variants.hpp"
 
 // last: its macros redefine new
 #include <CppUTest/TestHarness.h>
@@ -59,6 +59,14 @@ TEST(Variants, EachFindsEveryContact) {
 TEST(Variants, MoreRowsAreMoreAccurate) {
   CHECK(worst_pitch(named("refined with 32")) < worst_pitch(named("refined with 16")));
   CHECK(worst_pitch(named("step of 2 rows")) < worst_pitch(named("one step")));
+}
+
+TEST(Variants, TheFirmwaresOwnRuleGivesTheFirmwaresAnswers) {
+  forEachFit(named("64"), [&](const firmware::Fit& fit, const Reading& reading) {
+    const auto own = fitOf(tables.usual, firmware::FitMode::kRefined, reading.sample);
+    CHECK(fit.best == own.best);
+    CHECK(fit.row == own.row);
+  });
 }
 
 TEST(Variants, EachUsesItsRowsOnly) {

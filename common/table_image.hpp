@@ -239,13 +239,28 @@ constexpr bool usable(ScanSpan span) {
   return isStart(span.first()) && (span.last() == 0 || (isStart(span.last()) && span.last() >= span.first()));
 }
 
+/// Variances have 24 bits; 2^24 is what rounding makes of the largest.
+inline constexpr std::uint32_t kMostNoiseVariance = std::uint32_t{1} << 24;
+
+/// Exponents with which a reading's standard deviation is a number below 2^31 and shifted by less than 32.
+inline constexpr int kLeastNoiseExponent = -62;
+inline constexpr int kMostNoiseExponent = 36;
+
+constexpr bool usableNoise(std::uint32_t variance, int exponent) {
+  return variance <= kMostNoiseVariance && exponent >= kLeastNoiseExponent && exponent <= kMostNoiseExponent;
+}
+
+/// Loads are amplitudes times load_scale shifted right: readings are divided by up to 2^(gate_shift + 2).
+constexpr bool usableLoads(int loadExponent, int gateShift) { return loadExponent < -2 - gateShift; }
+
 /// What the firmware's loops and shifts rely on, and names that have a meaning.
 constexpr bool usable(const TableParameters& parameters, const TableConstants& constants) {
   return parameters.component <= StrainComponent::kShear && constants.gauge_count >= kMinGauges &&
          constants.gauge_count <= kMaxGauges && constants.gauge_count % 2 == 0 &&
          constants.gate_shift <= kMostGateShift && usableGain(constants.reading_gain, constants.gate_shift) &&
-         isSign(constants.mirror_sign) && isSign(constants.anchor_sign) &&
-         constants.anchor_rule <= AnchorRule::kExhaustive &&
+         usableNoise(constants.noise_variance, constants.noise_variance_exponent) &&
+         usableLoads(constants.load_exponent, constants.gate_shift) && isSign(constants.mirror_sign) &&
+         isSign(constants.anchor_sign) && constants.anchor_rule <= AnchorRule::kExhaustive &&
          (constants.scan_step == kMinScanStep || constants.scan_step == kMaxScanStep) &&
          std::all_of(constants.scan_span.begin(), constants.scan_span.end(),
                      [](ScanSpan span) { return usable(span); });

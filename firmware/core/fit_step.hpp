@@ -6,6 +6,7 @@
 
 #include "common/table_image.hpp"
 #include "firmware/core/signal.hpp"
+#include "firmware/core/step_rule.hpp"
 
 namespace strainfinger::firmware {
 
@@ -17,9 +18,14 @@ inline constexpr int kRowBits = 14;
 inline constexpr PitchQ20 kRowSpacing = 1 << kRowBits;
 static_assert(kOnePitch / kRowSpacing == kRowsPerPitch);
 
-/// A step this short lands so near its row that another would change nothing that matters; a little more than
-/// half a spacing, so that two neighbouring rows can't hand a fit to and fro.
-inline constexpr PitchQ20 kConverged = kRowSpacing * 5 / 8;
+/// The last step of a fit may be this long.
+inline constexpr PitchQ20 kConverged = kRowSpacing * kConverged_eighths / 8;
+
+/// Fits end within 2^this row spacings of their row.
+inline constexpr int kBeyondRowBits = kConverged > 4 * kRowSpacing   ? 3
+                                      : kConverged > 2 * kRowSpacing ? 2
+                                      : kConverged > kRowSpacing     ? 1
+                                                                     : 0;
 
 using Projections = std::array<Number, 2>;
 
@@ -99,9 +105,9 @@ inline AmplitudeSlopes amplitudeSlopes(const FitRow& row, const Projections& pro
 
 inline Amplitudes amplitudesOf(const FitRow& row, const FitStep& step) {
   const AmplitudeSlopes slopes = amplitudeSlopes(row, step.projection);
-  const Pair beyondRow = lowOnly(clipped<kRowBits + 1>(step.length));
+  const Pair beyondRow = lowOnly(clipped<kRowBits + 1>(step.length >> kBeyondRowBits));
   const auto moved = [&](Number atRow, Number slope) {
-    return atRow + scaledByLow(slope, beyondRow) * (1 << (16 - kRowBits));
+    return atRow + scaledByLow(slope, beyondRow) * (1 << (16 - kRowBits + kBeyondRowBits));
   };
   return {moved(times(pairAt(&row.load[0]), step.projection), slopes.normal),
           moved(times(row.load[2], step.projection[1]), slopes.tangential)};

@@ -88,10 +88,12 @@ struct LeftOut {
   std::int32_t relief;   ///< what that takes off the unexplained energy: r^2 / (1 - h)
   std::int32_t reading;  ///< what the others say that it should be: itself - r / (1 - h)
 };
-LeftOut leftOut(std::int32_t reading, std::int32_t residual, std::int32_t leverage_q15) {
+LeftOut leftOut(std::int32_t reading, std::int32_t difference, std::int32_t leverage_q15) {
+  constexpr std::int32_t kMost = 1 << 24;  // from 2^17 on, both results saturate
+  const std::int64_t residual = std::clamp(difference, -kMost, kMost);
   const std::int32_t left = std::max<std::int32_t>((1 << 15) - leverage_q15, 1 << 9);
-  return {saturate<std::int32_t>((std::int64_t{residual} * residual << 13) / left),
-          saturate<std::int16_t>(reading - (std::int64_t{residual} << 15) / left)};
+  return {saturate<std::int32_t>((residual * residual << 13) / left),
+          saturate<std::int16_t>(reading - (residual << 15) / left)};
 }
 
 void lookThere(const Problem& problem, const RingSignal& signal, int look, Suspects& suspects) {
@@ -116,8 +118,8 @@ void lookThere(const Problem& problem, const RingSignal& signal, int look, Suspe
     } else {
       beyond -= energyOf(reading);
     }
-    const std::int32_t unexplained =
-        std::max<std::int32_t>(inside, 0) + std::max<std::int32_t>(beyond - problem.tail(trusted), 0);
+    const auto unexplained = saturate<std::int32_t>(
+        std::max<std::int64_t>(inside, 0) + std::max<std::int32_t>(beyond - problem.tail(trusted), 0));
     enter(suspects, {unexplained, static_cast<std::int16_t>(look), static_cast<std::int8_t>(gauge)});
   }
 }

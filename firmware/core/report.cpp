@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "firmware/core/estimate.hpp"
+#include "firmware/core/units.hpp"
 
 namespace strainfinger::firmware {
 namespace {
@@ -11,21 +12,17 @@ constexpr int kQualityStep = 10;  ///< percent that count as a change
 
 std::int32_t magnitude(std::int32_t value) { return value < 0 ? -value : value; }
 
-/// Hundredths of a degree, 0 .. 36000.
-std::uint32_t centidegrees(TurnQ32 turns) {
-  return static_cast<std::uint32_t>((std::uint64_t{turns.raw()} * 36000 + (std::uint64_t{1} << 31)) >> 32);
-}
+std::uint32_t centidegreesOf(TurnQ32 turns) { return static_cast<std::uint32_t>(centidegrees(turns.raw())); }
 
 std::int8_t alternativeDegrees(const Contact& contact) {
-  const auto apart = static_cast<std::int32_t>(contact.alternative.raw() - contact.angle.raw());
-  const auto degrees = static_cast<std::int32_t>((std::int64_t{apart} * 360 + (std::int64_t{1} << 31)) >> 32);
+  const std::int32_t degrees =
+      wholeDegrees(static_cast<std::int32_t>(contact.alternative.raw() - contact.angle.raw()));
   return saturate<std::int8_t>(degrees < -127 ? -127 : degrees);
 }
 
-/// Force of a line load [mN * 2^halvings], rounded.
-std::int64_t force(const TableConstants& constants, LineLoadQ12 load, int halvings) {
-  const int down = 16 + LineLoadQ12::kFracBits - halvings;
-  return (std::int64_t{load.raw()} * constants.force_per_load_q16 + (std::int64_t{1} << (down - 1))) >> down;
+std::int64_t forceOf(const TableConstants& constants, LineLoadQ12 load, int halvings) {
+  static_assert(LineLoadQ12::kFracBits == 12);
+  return force(constants.force_per_load_q16, load.raw(), halvings);
 }
 
 /// Into a field whose extreme value is reserved for "not known".
@@ -65,15 +62,15 @@ std::uint32_t gaugesUsed(const TableConstants& constants, const Observation& obs
 TouchFrames touchFrames(const TableConstants& constants, const Contact& contact, FingerFlags flags,
                         std::uint8_t sequence) {
   TouchFrames frames;
-  frames.contact.angle_cdeg = static_cast<std::uint16_t>(centidegrees(contact.angle) % 36000);
+  frames.contact.angle_cdeg = static_cast<std::uint16_t>(centidegreesOf(contact.angle) % 36000);
   if (contact.ambiguous) frames.contact.alternative_deg = alternativeDegrees(contact);
   frames.contact.quality_percent = contact.quality;
-  frames.force.normal_mN = known<std::int16_t>(force(constants, contact.normal, 0));
-  frames.force.tangential_mN = known<std::int16_t>(force(constants, contact.tangential, 0));
-  frames.contact.sigma_angle_cdeg = knownError<std::uint16_t>(centidegrees(contact.sigmaAngle));
-  frames.force.sigma_normal_half_mN = knownError<std::uint8_t>(force(constants, contact.sigmaNormal, 1));
+  frames.force.normal_mN = known<std::int16_t>(forceOf(constants, contact.normal, 0));
+  frames.force.tangential_mN = known<std::int16_t>(forceOf(constants, contact.tangential, 0));
+  frames.contact.sigma_angle_cdeg = knownError<std::uint16_t>(centidegreesOf(contact.sigmaAngle));
+  frames.force.sigma_normal_half_mN = knownError<std::uint8_t>(forceOf(constants, contact.sigmaNormal, 1));
   frames.force.sigma_tangential_half_mN =
-      knownError<std::uint8_t>(force(constants, contact.sigmaTangential, 1));
+      knownError<std::uint8_t>(forceOf(constants, contact.sigmaTangential, 1));
   frames.contact.flags = frames.force.flags = flags;
   frames.contact.sequence = frames.force.sequence = sequence;
   return frames;

@@ -5,10 +5,15 @@
 #include <cstdlib>
 #include <limits>
 
+#include "firmware/core/error_products.hpp"
 #include "firmware/core/integer_root.hpp"
 
 namespace strainfinger::firmware {
 namespace {
+
+/// Components of moves and residuals saturate here: the squares of seven fit 63 bits. They are so long only
+/// where the readings left hardly determine them.
+constexpr std::int64_t kLongest = std::int64_t{1} << 30;
 
 /// Fewer than this part of the information left is none, as a power of two.
 constexpr int kDeterminedShift = 12;
@@ -87,8 +92,8 @@ std::array<std::int32_t, 2> solved(const LoadPair& pair) {
     for (std::size_t i = 0; i < 2; ++i)
       component += std::int64_t{weight(row.gradient[i], step)} *
                    ((std::int64_t{loads[i]} * row.gradient_length[i]) >> 15);
-    component >>= 15;
-    move[indexOf(step)] = saturate<std::int32_t>(component);
+    component = std::clamp(component >> 15, -kLongest, kLongest);
+    move[indexOf(step)] = static_cast<std::int32_t>(component);
     energy += component * component;
   }
   const int excess = 64 - std::countl_zero(static_cast<std::uint64_t>(energy)) - 30;
@@ -127,7 +132,8 @@ std::int32_t predictedAt(const Tangent& tangent, const Three& coefficients, std:
   for (std::size_t i = 0; i < kWindowGauges; ++i) {
     if ((readings.leftOut >> i & 1) != 0) continue;
     const std::int64_t reading = readings.at[i];
-    const std::int64_t residual = reading * 16 - predictedAt(tangent, share.coefficients, i);
+    const std::int64_t residual =
+        std::clamp(reading * 16 - predictedAt(tangent, share.coefficients, i), -kLongest, kLongest);
     window += reading * reading;
     unexplained += residual * residual;
   }
@@ -174,11 +180,10 @@ namespace {
 /// The adjoint of a matrix, in its format, and the determinant.
 [[gnu::noinline]] std::int32_t adjoin(const Symmetric& m, Symmetric& adjoint) {
   const std::int64_t a = m[0], b = m[1], c = m[2], d = m[3], e = m[4], f = m[5];
-  const auto narrow = [](std::int64_t value) { return static_cast<std::int32_t>(value); };
-  adjoint = {narrow(times(d, f) - times(e, e)), narrow(times(c, e) - times(b, f)),
-             narrow(times(b, e) - times(c, d)), narrow(times(a, f) - times(c, c)),
-             narrow(times(b, c) - times(a, e)), narrow(times(a, d) - times(b, b))};
-  return narrow(times(a, adjoint[0]) + times(b, adjoint[1]) + times(c, adjoint[2]));
+  adjoint = {narrowed(times(d, f) - times(e, e)), narrowed(times(c, e) - times(b, f)),
+             narrowed(times(b, e) - times(c, d)), narrowed(times(a, f) - times(c, c)),
+             narrowed(times(b, c) - times(a, e)), narrowed(times(a, d) - times(b, b))};
+  return narrowed(times(a, adjoint[0]) + times(b, adjoint[1]) + times(c, adjoint[2]));
 }
 
 }  // namespace
@@ -187,18 +192,22 @@ std::int16_t scaledStrain(std::int32_t strain_q32, int up) {
   return saturate<std::int16_t>((std::int64_t{strain_q32} * (std::int64_t{1} << up) + (1 << 15)) >> 16);
 }
 
+[[gnu::noinline]] std::int32_t narrowed(std::int64_t value) { return saturate<std::int32_t>(value); }
+
 bool invert(const Symmetric& matrix_q24, Symmetric& inverse_q12) {
   const std::int32_t determinant = adjoin(matrix_q24, inverse_q12);
   if (!determined(determinant, kMatrixBits)) return false;
+  constexpr std::int64_t kLargest = std::int64_t{1} << kCovarianceBits;
   for (std::int32_t& element : inverse_q12)
-    element = static_cast<std::int32_t>(std::int64_t{element} * (1 << 12) / determinant);
+    element = static_cast<std::int32_t>(
+        std::clamp(std::int64_t{element} * (1 << 12) / determinant, -kLargest, kLargest));
   return true;
 }
 
 Three product_q12(const Symmetric& m, const Three& v) {
   const auto row = [&](std::size_t a, std::size_t b, std::size_t c) {
-    return saturate<std::int32_t>(
-        (std::int64_t{m[a]} * v[0] + std::int64_t{m[b]} * v[1] + std::int64_t{m[c]} * v[2]) >> 12);
+    return narrowed((std::int64_t{m[a]} * v[0] + std::int64_t{m[b]} * v[1] + std::int64_t{m[c]} * v[2]) >>
+                    12);
   };
   return {row(0, 1, 2), row(1, 3, 4), row(2, 4, 5)};
 }
@@ -216,9 +225,9 @@ View viewOf(const Problem& problem, PitchQ20 position) {
 
 PitchQ20 Share::beyondRow(const Tangent& tangent) const {
   if (tangent.steepness == 0) return 0;
-  constexpr std::int64_t kLongest = kOnePitch / 8;
+  constexpr std::int64_t kEighth = kOnePitch / 8;
   const std::int64_t length = std::int64_t{coefficients[2]} * (1 << (kPitchBits + 2)) / tangent.steepness;
-  return static_cast<PitchQ20>(std::clamp(length, -kLongest, kLongest));
+  return static_cast<PitchQ20>(std::clamp(length, -kEighth, kEighth));
 }
 
 std::int32_t LocalFit::leverage_q15(int step) const {

@@ -40,6 +40,9 @@ struct View {
 int gaugeAt(const Problem& problem, const View& view, int step);
 View viewOf(const Problem& problem, PitchQ20 position);
 
+/// saturate<std::int32_t>() where room counts for more than time.
+std::int32_t narrowed(std::int64_t value);
+
 /// Three numbers a reading, or three combinations of the window's readings.
 using Three = std::array<std::int32_t, 3>;
 /// Symmetric 3 x 3: 11, 12, 13, 22, 23, 33.

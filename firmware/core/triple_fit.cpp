@@ -64,7 +64,7 @@ bool solveTriple(const FitTable& rows, int mirrorSign, WindowFit& fit) {
     fit.step.projection = projectionsOn(row, fit.signal);
     if (!takeTripleStep(row, fit)) return false;
     if (absolute(fit.side * fit.offset() - before) > kFarthest) return false;
-    if (absolute(fit.step.length) <= kRowSpacing) return true;
+    if (absolute(fit.step.length) <= kRowSpacing << kRowStrideBits) return true;
   }
   return false;
 }

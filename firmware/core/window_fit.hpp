@@ -30,7 +30,8 @@ struct WindowFit {
 };
 
 inline int nearestRow(PitchQ20 offset) {
-  return std::min<int>((offset + kRowSpacing / 2) >> kRowBits, kFitRows - 1);
+  constexpr int kBits = kRowBits + kRowStrideBits, kLast = (kFitRows - 1) >> kRowStrideBits;
+  return std::min<int>((offset + (1 << kBits) / 2) >> kBits, kLast) << kRowStrideBits;
 }
 
 /// To the row nearest to where the last step leads; over the middle gauge if need be.
@@ -54,10 +55,9 @@ constexpr bool isConverged(Number length) { return length <= kConverged && lengt
 /// row: two are typical. False: not there after eight steps, or walked beyond the last row; the fit is then
 /// no answer.
 inline bool refine(const FitTable& rows, int mirrorSign, WindowFit& fit) {
-  constexpr int kMaxSteps = 8;
   const FitRow* const first = unknown(rows.data());
   FitStep step = fitStep(*unknown(first + fit.row), fit.signal);
-  for (int left = kMaxSteps - 1; left > 0 && !isConverged(step.length); --left) {
+  for (int left = kMostSteps - 1; left > 0 && !isConverged(step.length); --left) {
     follow(fit, step.length, mirrorSign);
     step = fitStep(*unknown(first + fit.row), fit.signal);
   }

@@ -56,8 +56,7 @@ struct Ways {
     std::array<std::int64_t, 3> sums{};
     for (int step = -kWindowReach; step <= kWindowReach; ++step)
       for (std::size_t way = 0; way < 3; ++way) sums[way] += weight(step, way) * at(gauge(step));
-    return {static_cast<std::int32_t>(sums[0] >> 15), static_cast<std::int32_t>(sums[1] >> 15),
-            static_cast<std::int32_t>(sums[2] >> 15)};
+    return {narrowed(sums[0] >> 15), narrowed(sums[1] >> 15), narrowed(sums[2] >> 15)};
   }
 };
 
@@ -83,7 +82,7 @@ Three sharedDrift(const Ways& ways, std::span<const std::int32_t> changes_q32, c
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t way = 0; way < 3; ++way)
       right[i] -= std::int64_t{patternAlong[i][way]} * changeAlong[way];
-    sums[i] = static_cast<std::int32_t>((right[i] >> 14) / count);
+    sums[i] = narrowed((right[i] >> 14) / count);
     for (std::size_t j = i; j < 3; ++j, ++k) {
       for (std::size_t way = 0; way < 3; ++way)
         matrix[k] -= std::int64_t{patternAlong[i][way]} * patternAlong[j][way];
@@ -92,6 +91,13 @@ Three sharedDrift(const Ways& ways, std::span<const std::int32_t> changes_q32, c
   }
   if (invert(scaled, inverse)) shared = product_q12(inverse, sums);
   return shared;
+}
+
+/// Changes of more than the whole range saturate: the squares of three fit 63 bits. A contact that did as
+/// much has moved.
+[[gnu::noinline]] std::int32_t withinRange(std::int64_t change) {
+  constexpr std::int64_t kRange = std::int64_t{1} << 30;
+  return static_cast<std::int32_t>(std::clamp(change, -kRange, kRange));
 }
 
 /// Splits changes into what a contact has done, which is taken out of them, and drift. Returns the squared
@@ -109,13 +115,14 @@ std::int64_t takeOutContact(const Ways& ways, std::span<std::int32_t> changes_q3
   for (std::size_t way = 0; way < 3; ++way) {
     std::int64_t drift = 0;
     for (std::size_t i = 0; i < 3; ++i) drift += std::int64_t{patternAlong[i][way]} * shared[i];
-    contact[way] -= static_cast<std::int32_t>(drift >> 14);
+    contact[way] = withinRange(contact[way] - (drift >> 14));
     square += std::int64_t{contact[way]} * contact[way];
   }
   for (int step = -kWindowReach; step <= kWindowReach; ++step) {
     std::int64_t part = 0;
     for (std::size_t way = 0; way < 3; ++way) part += ways.weight(step, way) * contact[way];
-    changes_q32[ways.gauge(step)] -= static_cast<std::int32_t>(part >> 15);
+    std::int32_t& change = changes_q32[ways.gauge(step)];
+    change = withinRange(change - (part >> 15));
   }
   return square;
 }

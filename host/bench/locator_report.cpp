@@ -77,21 +77,23 @@ struct Point {
 
 const char* colourOf(bool ours) { return ours ? "#0072B2" : "#D55E00"; }
 
-/// Its number, above or below in turn: neighbours are often of one family.
+/// Its number, on three sides in turn: neighbours are often of one family.
 std::string label(const Point& point) {
-  return fmt::format("set label \"{}\" at first {},first {} center offset 0,{} font ',10' textcolor '{}'\n",
-                     point.number, point.cost, point.arc_um, point.number % 2 == 1 ? 0.9 : -0.9,
+  constexpr std::array<const char*, 3> kAway{"-1.3,0", "0,0.9", "0,-0.9"};
+  return fmt::format("set label \"{}\" at first {},first {} center offset {} font ',10' textcolor '{}'\n",
+                     point.number, point.cost, point.arc_um, kAway[point.number % kAway.size()],
                      colourOf(point.ours));
 }
 
 std::string legend(const std::vector<MethodResult>& results, const std::vector<Point>& points) {
-  constexpr double kTop = 0.88, kLine = 0.045;
+  constexpr double kTop = 0.88, kMostLine = 0.045;
+  const double line = std::min(kMostLine, kTop / static_cast<double>(points.size()));
   std::string script;
   double height = kTop;
   for (const Point& point : points) {
     script += fmt::format("set label \"{} {}\" at screen 0.81,screen {:.3f} left font ',10' textcolor '{}'\n",
                           point.number, results[point.number - 1].name, height, colourOf(point.ours));
-    height -= kLine;
+    height -= line;
   }
   return script;
 }

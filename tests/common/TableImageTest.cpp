@@ -20,6 +20,7 @@ TEST_GROUP(TableImage) {
     image_->constants.gauge_count = 16;
     image_->constants.mirror_sign = image_->constants.anchor_sign = 1;
     image_->constants.scan_step = kMaxScanStep;
+    image_->constants.load_exponent = -50;
     image_->constants.scan_span.fill(ScanSpan::of(kFirstScanRow, kLastScanRow));
     sign();
   }
@@ -103,6 +104,19 @@ TEST(TableImage, ConstantsThatLoopsAndShiftsRelyOnStayInTheirDomain) {
   checkDomain(image_->rows[43].gradient_exponent, {-3, 12}, {-4, 13, -128, 127});
   checkDomain(image_->rows[43].triple[1], {0, 34}, {35, 255});
   checkDomain(image_->parameters.component, {0, 1, 2}, {3, 255});
+}
+
+TEST(TableImage, TheNoiseThatStandardErrorsAreMadeOfStaysInItsDomain) {
+  TableConstants& constants = image_->constants;
+  checkDomain(constants.noise_variance, {0, 1, 1 << 24}, {(1 << 24) + 1, 1 << 25, -1});
+  checkDomain(constants.noise_variance_exponent, {-62, 0, 36}, {-63, -128, 37, 127});
+}
+
+TEST(TableImage, LoadsAreShiftedRightHoweverLargeTheReadingsAre) {
+  TableConstants& constants = image_->constants;
+  checkDomain(constants.load_exponent, {-32768, -50, -3}, {-2, 0, 32767});
+  constants.gate_shift = 14;
+  checkDomain(constants.load_exponent, {-17}, {-16, -3});
 }
 
 TEST(TableImage, GainsThatConditioningReliesOnStayInTheirDomain) {

@@ -9,6 +9,7 @@
 #include "host/bench/methods/bundle.hpp"
 #include "host/bench/methods/levenberg_marquardt.hpp"
 #include "host/bench/methods/scan_and_step.hpp"
+#include "host/bench/variants/variants.hpp"
 
 namespace strainfinger::bench {
 
@@ -36,6 +37,8 @@ void visitOurs(const NoiseTables& tables, Visit&& visit) {
   visit(Method{"ours: three-point", false, 1}, [&](const Sample& s) { return fitOf(usual, kThreePoint, s); });
   visit(Method{"ours: refined in every window", false, 4},
         [&](const Sample& s) { return fitOf(tables.everyWindow, kRefined, s); });
+  for (const Variant& variant : kVariants)
+    visit(Method{variant.name, false, 1}, [&](const Sample& s) { return variant.fitOf(usual, s); });
 }
 
 /// Likewise for the others, all in float; f(sample) gives a Place<float>.

@@ -52,6 +52,17 @@ TEST(Detect, TheLargestEnergyBelowSaturationIsExact) {
   UNSIGNED_LONGS_EQUAL(4294967291u, energyOf(strains, 0));
 }
 
+TEST(Detect, TheNoiseOfAReadingIsRightForEveryExponent) {
+  // 24 bits of the variance give 12 or 13 of its root; smaller than 1 it is rounded down.
+  for (int exponent = kLeastNoiseExponent; exponent <= kMostNoiseExponent; ++exponent)
+    for (const std::uint32_t variance : {std::uint32_t{0}, std::uint32_t{1} << 23, kMostNoiseVariance}) {
+      constants.noise_variance = variance;
+      constants.noise_variance_exponent = static_cast<std::int8_t>(exponent);
+      const double noise = std::sqrt(std::ldexp(variance, exponent));
+      DOUBLES_EQUAL(noise, readingNoise_q32(constants), 1 + noise * 1e-3);
+    }
+}
+
 TEST(Detect, AContactBeginsAtTheUpperThreshold) {
   CHECK_FALSE(gate.update(constants, 999));
   CHECK_FALSE(gate.touched());

@@ -11,61 +11,75 @@
 #include "firmware/core/fit_step.hpp"
 #include "firmware/core/side_energies.hpp"
 #include "firmware/core/triple_step.hpp"
+#include "firmware/core/units.hpp"
 
 #include <CppUTest/TestHarness.h>
 
 using namespace strainfinger;
 using namespace strainfinger::firmware;
 
-TEST_GROUP(Ranges){void setup() override{overflows = 0;
-}
-void checkNone() { LONGS_EQUAL(0, overflows); }
+TEST_GROUP(Ranges) {
+  void setup() override { overflows = 0; }
+  void checkNone() { LONGS_EQUAL(0, overflows); }
 
-/// Any readings of a window, as long as they may be together.
-static Signal anySignal() {
-  const Number any(-32767, 32767, 16);  // below kFoldedLength
-  const auto pair = [&](unsigned part) { return Pair{any, any, kSignalLength, part}; };
-  return {{pair(1), pair(2)}, {pair(4), pair(8)}};
-}
-/// A step of any three readings, and what is made of its answer: amplitudes, and the system that its errors
-/// come from.
-static void threeSteps(const Signal& signal) {
-  for (const GaugeTriple& gauges : kTripleList) {
-    const Projections u = projectionsOn(provedRow, signal);
-    const FitStep step =
-        tripleStep(provedRow, tripleSystem(provedRow, gauges, u), twiceRead(signal, gauges), u);
-    CHECK(step.length.most() < 1 << 17);
-    amplitudesOf(provedRow, step);
-    tripleSystem(provedRow, gauges, step.projection);
+  /// Any readings of a window, as long as they may be together.
+  static Signal anySignal() {
+    const Number any(-32767, 32767, 16);  // below kFoldedLength
+    const auto pair = [&](unsigned part) { return Pair{any, any, kSignalLength, part}; };
+    return {{pair(1), pair(2)}, {pair(4), pair(8)}};
   }
-}
-/// Of any deviations and covariances of so many bits.
-static void variance(int deviationBits, int covarianceBits) {
-  const auto any = [](int bits) { return Number(-(std::int64_t{1} << bits), std::int64_t{1} << bits); };
-  const Number d = any(deviationBits), c = any(covarianceBits);
-  quadraticForm({d, d, d}, {c, c, c, c, c, c});
-}
-/// Folds any window of a length [signal]. Of two readings the sum is longest where they are equal.
-static void fold(double length, int up) {
-  const double alone = std::min(std::ldexp(length, 16 - up), std::exp2(15 + kMostGateShift));
-  const auto any = [](double most) {
-    const auto limit = static_cast<std::int64_t>(most);
-    return Number(-limit, limit);
-  };
-  const Number half = any(alone / std::sqrt(2.0));
-  const std::array<Number, kWindowGauges> window{half, half, half, any(alone), half, half, half};
-  foldedSignal(window.data(), up);
-}
-/// Calls visit for a row of each scale that tables may have.
-template <typename Visit>
-static void forEachScale(Visit visit) {
-  for (int exponent = kLeastGradientExponent; exponent <= kMostGradientExponent; ++exponent) {
-    provedRow.gradient_exponent = static_cast<std::int8_t>(exponent);
-    visit();
+  /// A step of any three readings, and what is made of its answer: amplitudes, and the system that its errors
+  /// come from.
+  static void threeSteps(const Signal& signal) {
+    for (const GaugeTriple& gauges : kTripleList) {
+      const Projections u = projectionsOn(provedRow, signal);
+      const FitStep step =
+          tripleStep(provedRow, tripleSystem(provedRow, gauges, u), twiceRead(signal, gauges), u);
+      CHECK(step.length.most() < 1 << 17);
+      amplitudesOf(provedRow, step);
+      tripleSystem(provedRow, gauges, step.projection);
+    }
   }
-}
-}
-;
+  /// Of any deviations and covariances of so many bits.
+  static void variance(int deviationBits, int covarianceBits) {
+    const auto any = [](int bits) { return Number(-(std::int64_t{1} << bits), std::int64_t{1} << bits); };
+    const Number d = any(deviationBits), c = any(covarianceBits);
+    quadraticForm({d, d, d}, {c, c, c, c, c, c});
+  }
+  /// The noise of any tables that usable() admits, and scales at which its exponent is least, 0 and most;
+  /// that roots stand any is shown by itself.
+  static constexpr int kLeastExponent = kLeastNoiseExponent - 2 * 16 - 2;
+  static constexpr int kMostExponent = kMostNoiseExponent + 2 * (30 - 16) - 2;
+  template <typename Sigma>
+  static int forEachNoise(Sigma sigma, std::uint64_t most = kMostNoiseVariance) {
+    int ways = 0;
+    for (const int exponent : {kLeastExponent, kMostExponent})
+      ways += forEachWay([&] { sigma(Scaled{Natural(0.0L, static_cast<long double>(most)), exponent}); });
+    return ways;
+  }
+  static Number anyOf(int bits) {
+    return {-(std::int64_t{1} << (bits - 1)), (std::int64_t{1} << (bits - 1)) - 1};
+  }
+  /// Folds any window of a length [signal]. Of two readings the sum is longest where they are equal.
+  static void fold(double length, int up) {
+    const double alone = std::min(std::ldexp(length, 16 - up), std::exp2(15 + kMostGateShift));
+    const auto any = [](double most) {
+      const auto limit = static_cast<std::int64_t>(most);
+      return Number(-limit, limit);
+    };
+    const Number half = any(alone / std::sqrt(2.0));
+    const std::array<Number, kWindowGauges> window{half, half, half, any(alone), half, half, half};
+    foldedSignal(window.data(), up);
+  }
+  /// Calls visit for a row of each scale that tables may have.
+  template <typename Visit>
+  static void forEachScale(Visit visit) {
+    for (int exponent = kLeastGradientExponent; exponent <= kMostGradientExponent; ++exponent) {
+      provedRow.gradient_exponent = static_cast<std::int8_t>(exponent);
+      visit();
+    }
+  }
+};
 
 TEST(Ranges, AStepOverflowsNothing) {
   forEachScale([&] {
@@ -139,6 +153,7 @@ TEST(Ranges, AnyCodeZeroAndGainGivesAStrainOfTheGate) {
   // .. the sum of whose squares fits 63 bits, with the most gauges and the coarsest gate.
   constexpr std::uint64_t kLargest = (std::uint64_t{1} << (15 + kMostGateShift)) - 1;
   static_assert(kLargest * kLargest * kMaxGauges < std::uint64_t{1} << 63);
+  static_assert(4 * kLargest < std::uint64_t{1} << 31);  // a bend of the strains
   checkNone();
   conditioned(Number(0, 0x10000), Number(0, kMost), Number(0, kMost));
   CHECK(overflows > 0);
@@ -165,5 +180,101 @@ TEST(Ranges, APairTakenThreeTimesWouldBeFound) {
   const Number twice = dot(weights, signal.even[0], dot(weights, signal.even[0]));
   checkNone();
   dot(weights, signal.even[0], twice);
+  CHECK(overflows > 0);
+}
+
+TEST(Ranges, RootsAndPlainNumbersOfAnySizeOverflowNothing) {
+  const auto ofAll = [](std::uint64_t most) {
+    for (int exponent = -300; exponent < 300; ++exponent)
+      forEachWay([&] {
+        const Number found = root({Natural(0.0L, static_cast<long double>(most)), exponent});
+        CHECK(found.least() >= 0);
+      });
+  };
+  ofAll((std::uint64_t{1} << 62) + ((std::uint64_t{1} << 62) - 1));
+  for (int exponent = -300; exponent < 63; ++exponent)
+    forEachWay([&] { plain({Natural(0.0L, 0x1p64L - 1), exponent}); });
+  LONGS_EQUAL(65, forEachWay([] { normalised(Natural(0.0L, 0x1p64L - 1)); }));
+  checkNone();
+  ofAll(~std::uint64_t{0});
+  CHECK(overflows > 0);
+}
+
+TEST(Ranges, ErrorsOfAllSevenReadingsOverflowNothing) {
+  const auto ofNoise = [](std::uint64_t most) {
+    int ways = 0;
+    forEachScale([&] {
+      if (provedRow.gradient_exponent % 5 != 2) return;  // -3, 2, 7, 12
+      const FitStep step = fitStep(provedRow, anySignal());
+      ways += forEachNoise(
+          [&](Scaled noise) { offsetSigma(noise, step.information, provedRow.gradient_exponent); }, most);
+    });
+    return ways;
+  };
+  CHECK(ofNoise(kMostNoiseVariance) > 1000);
+  checkNone();
+  ofNoise(std::uint64_t{1} << 57);
+  CHECK(overflows > 0);
+}
+
+TEST(Ranges, ErrorsOfLoadsOverflowNothing) {
+  const Number gain = anyOf(16), offset(0, std::numeric_limits<std::int32_t>::max());
+  const Number slope = amplitudeSlopes(provedRow, fitStep(provedRow, anySignal()).projection).normal;
+  const auto sigma = [&](Scaled noise) { amplitudeSigma(noise, {gain, gain}, slope, offset); };
+  CHECK(forEachNoise(sigma) > 100);
+  forEachNoise([&](Scaled noise) { deviationsOf(noise, {gain, gain}, slope, offset); });
+  checkNone();
+  forEachNoise(sigma, std::uint64_t{1} << 33);
+  CHECK(overflows > 0);
+}
+
+TEST(Ranges, ErrorsWithGaugesLeftOutOverflowNothing) {
+  const Wide any(-0x1p63L + 1, 0x1p63L - 1);  // what deviationsOf() gives has as many bits
+  const auto sigma = [&](int bits) {
+    const Number c(-(std::int64_t{1} << bits), std::int64_t{1} << bits);
+    return forEachWay([&] { reducedSigma({any, any, any}, {c, c, c, c, c, c}); });
+  };
+  CHECK(sigma(kCovarianceBits) > 1000);
+  checkNone();
+  sigma(kCovarianceBits + 2);
+  CHECK(overflows > 0);
+}
+
+TEST(Ranges, ErrorsOfThreeReadingsOverflowNothing) {
+  Vector3 weights;
+  for (std::size_t i = 0; i < 3; ++i) weights[i] = anyOf(32);
+  const auto sigma = [&](Scaled noise) { weightedSigma(noise, weights, 20, anyOf(32)); };
+  CHECK(forEachNoise(sigma) > 1000);
+  checkNone();
+  forEachNoise(sigma, std::uint64_t{1} << 33);
+  CHECK(overflows > 0);
+}
+
+TEST(Ranges, LoadsOverflowNothingWhateverTheirScale) {
+  for (int gateShift = 0; gateShift <= kMostGateShift; ++gateShift)
+    for (int load = std::numeric_limits<std::int16_t>::min(); usableLoads(load, gateShift); ++load)
+      lineLoad(anyOf(32), anyOf(32), load + 16 - (14 - gateShift));  // the least `up`: see problemOf()
+  checkNone();
+  lineLoad(anyOf(32), anyOf(32), 0);
+  CHECK(overflows > 0);
+}
+
+TEST(Ranges, AnglesOfAnyPlaceOverflowNothing) {
+  const Number anywhere(0, kMaxGauges * kOnePitch);
+  revolutions(Natural(0.0L, 0x1p32L - 1), anywhere);
+  CHECK(centidegrees(Natural(0.0L, 0x1p32L - 1)).most() == 36000);
+  CHECK(wholeDegrees(anyOf(32)).most() <= 180);
+  checkNone();
+  revolutions(Natural(0.0L, 0x1p40L), anywhere);
+  const int found = overflows;
+  CHECK(found > 0);
+  centidegrees(Natural(0.0L, 0x1p49L));
+  CHECK(overflows > found);
+}
+
+TEST(Ranges, ForcesOfAnyLoadOverflowNothing) {
+  for (const int halvings : {0, 1}) force({0.0L, 0x1p32L - 1}, anyOf(32), halvings);
+  checkNone();
+  force({0.0L, 0x1p33L}, anyOf(32), 0);
   CHECK(overflows > 0);
 }

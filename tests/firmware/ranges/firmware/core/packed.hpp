@@ -14,6 +14,7 @@
 
 #include "common/fixed.hpp"
 #include "common/table_image.hpp"
+#include "firmware/core/choices.hpp"
 
 namespace strainfinger::firmware {
 
@@ -35,7 +36,27 @@ class Number {
   friend Number operator+(Number a, Number b) { return {a.least_ + b.least_, a.most_ + b.most_}; }
   friend Number operator-(Number a, Number b) { return {a.least_ - b.most_, a.most_ - b.least_}; }
   friend Number operator*(Number a, Number b) { return product(a, b, 0); }
-  friend Number operator>>(Number a, int by) { return {a.least_ >> by, a.most_ >> by}; }
+  friend Number operator>>(Number a, int by) {
+    if (by < 0 || by > 31) ++overflows;
+    return {a.least_ >> by, a.most_ >> by};
+  }
+
+  // Goes by what the number is: for each in turn, and the number knows it from then on.
+  friend bool operator<=(Number& a, int limit) {
+    const bool is = a.most_ <= limit || (a.least_ <= limit && choices.of(2) == 0);
+    (is ? a.most_ : a.least_) = is ? std::min<std::int64_t>(a.most_, limit)
+                                   : std::max<std::int64_t>(a.least_, std::int64_t{limit} + 1);
+    return is;
+  }
+  friend bool operator==(Number& a, int value) {
+    if (a.most_ < value || a.least_ > value) return false;
+    const int below = a.least_ < value ? 1 : 0, above = a.most_ > value ? 1 : 0;
+    const int side = choices.of(1 + below + above);
+    if (side == 0) a.least_ = a.most_ = value;
+    if (side == 1 && below != 0) a.most_ = value - 1;
+    if (side == 1 + below && above != 0) a.least_ = value + 1;
+    return side == 0;
+  }
 
   /// a * b / 2^down, rounded down; what is in between has 64 bits.
   static Number product(Number a, Number b, int down) {

@@ -20,12 +20,19 @@ namespace strainfinger {
 static_assert(std::endian::native == std::endian::little, "the image is little-endian and is read in place");
 
 inline constexpr std::uint32_t kTableMagic = 0x42544653;  ///< "SFTB" in the file's first four bytes
-inline constexpr std::uint16_t kTableFormat = 4;          ///< raised with every change of the layout
+inline constexpr std::uint16_t kTableFormat = 5;          ///< raised with every change of the layout
 
 /// Gauges that one fit looks at: the nearest one and three on either side. With 16 gauges they hold all but
 /// 0.4 / 0.3 / 0.9 % of what the whole ring knows of angle, normal and tangential load.
 inline constexpr int kWindowGauges = 7;
 inline constexpr int kWindowReach = kWindowGauges / 2;
+
+/// Finer rings have a wider response, in pitches: there a fit also looks at the outer pair, the gauges at
+/// distance 4, of which it takes the difference. With it a window of 24 gauges holds all but 0.6 / 0.2 / 1.8
+/// % of what its ring knows, instead of 1.8 / 0.3 / 5.3 %.
+inline constexpr int kOuterReach = kWindowReach + 1;
+constexpr bool hasOuterPair(int gauges) { return gauges > 16; }
+constexpr int fitReach(int gauges) { return hasOuterPair(gauges) ? kOuterReach : kWindowReach; }
 
 /// Rows of a fit table: contact offsets 0, 1/64, .. 43/64 of a pitch from the window's middle gauge. Beyond
 /// half a pitch the next gauge's window takes over; the rest is overlap, so that a fit may walk across.
@@ -110,7 +117,7 @@ struct TableConstants {
 };
 
 /// A signal over the window, folded about the middle gauge: middle, then sums of the pairs at distance
-/// 1, 2, 3, then differences (+ side minus - side) of the same pairs, then padding.
+/// 1, 2, 3, then differences (+ side minus - side) of the same pairs, then that of the outer pair, 0 without.
 /// Folding halves the table (offsets of the other sign are the mirrored signal) and lets a scan share its
 /// products. Aligned for loads of two words at once.
 struct alignas(8) FoldedWeights : std::array<std::int16_t, 8> {};
@@ -136,8 +143,8 @@ inline constexpr std::array<GaugeTriple, kTriples> kTripleList = [] {
 enum FitSense : std::uint8_t { kWithOffset = 0, kAgainstOffset = 1 };
 
 /// The linear algebra of a fit with the contact at one offset, per unit amplitude of the response's peak.
-/// B = [normal response, tangential response] over the window (7 x 2), B = U R (QR), ' = d/d(offset in
-/// pitches), W = (1 - U U^T) B' R^-1.
+/// B = [normal response, tangential response] over the window and, over sqrt(2), of the outer pair's
+/// difference (8 x 2), B = U R (QR), ' = d/d(offset in pitches), W = (1 - U U^T) B' R^-1.
 struct FitRow {
   std::array<FoldedWeights, 2> basis;           ///< columns of U [* 2^15]
   std::array<FoldedWeights, 2> gradient;        ///< columns of W, each of length 1 [* 2^15]; 0: W_i is 0

@@ -88,7 +88,7 @@ struct LeftOut {
   std::int32_t relief;   ///< what that takes off the unexplained energy: r^2 / (1 - h)
   std::int32_t reading;  ///< what the others say that it should be: itself - r / (1 - h)
 };
-LeftOut leftOut(std::int32_t reading, std::int32_t difference, std::int32_t leverage_q15) {
+[[gnu::noinline]] LeftOut leftOut(std::int32_t reading, std::int32_t difference, std::int32_t leverage_q15) {
   constexpr std::int32_t kMost = 1 << 24;  // from 2^17 on, both results saturate
   const std::int64_t residual = std::clamp(difference, -kMost, kMost);
   const std::int32_t left = std::max<std::int32_t>((1 << 15) - leverage_q15, 1 << 9);
@@ -100,7 +100,8 @@ void lookThere(const Problem& problem, const RingSignal& signal, int look, Suspe
   const View view = lookAt(problem, wrapped(look, kLooksPerPitch * problem.gauges()));
   const LocalFit fit = localFit(problem, signal, view);
   if (!fit.share.determined) return;
-  std::int32_t window = 0;
+  const std::int32_t outer = fit.share.outerEnergy();
+  std::int32_t window = outer;
   for (int step = -kWindowReach; step <= kWindowReach; ++step)
     window += energyOf(signal.at(gaugeAt(problem, view, step)));
   const std::int32_t outside = std::max<std::int32_t>(problem.ringEnergy - window, 0);
@@ -108,7 +109,8 @@ void lookThere(const Problem& problem, const RingSignal& signal, int look, Suspe
     const int gauge = gaugeAt(problem, view, step);
     if (contains(signal.leftOut, gauge)) continue;
     const std::int32_t reading = signal.at(gauge);
-    std::int32_t inside = fit.share.unexplained, beyond = outside, trusted = window;
+    std::int64_t inside = fit.share.unexplained;
+    std::int32_t beyond = outside, trusted = window;
     if (std::abs(step) <= kWindowReach) {
       const LeftOut without =
           leftOut(reading, reading - fit.predicted(problem, view, step), fit.leverage_q15(step));
@@ -117,6 +119,11 @@ void lookThere(const Problem& problem, const RingSignal& signal, int look, Suspe
       trusted += oneBeside(trusted, energyOf(without.reading));
     } else {
       beyond -= energyOf(reading);
+    }
+    if (std::abs(step) == kOuterReach && outer != 0) {  // what the other one of the pair reads goes with it
+      inside -= leftOut(0, fit.outerResidual(), fit.leverage_q15(kOuterReach)).relief;
+      beyond += outer;
+      trusted -= outer;
     }
     const auto unexplained = saturate<std::int32_t>(
         std::max<std::int64_t>(inside, 0) + std::max<std::int32_t>(beyond - problem.tail(trusted), 0));
@@ -148,12 +155,13 @@ struct Observed {
   const View view = viewOf(others, position);
   const LocalFit fit = localFit(others, signal, view);
   std::int32_t outside = others.ringEnergy;
-  for (int step = -kWindowReach; step <= kWindowReach; ++step) {
+  const int reach = fitReach(others.gauges());
+  for (int step = -reach; step <= reach; ++step) {
     const int each = gaugeAt(others, view, step);
-    outside -= energyOf(signal.at(each));
+    if (std::abs(step) <= kWindowReach) outside -= energyOf(signal.at(each));
     if (each != gauge) continue;
-    const std::int32_t predicted = fit.predicted(others, view, step);
-    const bool farOff = 2 * std::abs(reading - predicted) > std::abs(predicted);
+    const std::int32_t expected = scaledStrain(fit.expected_q32(others, signal, view, step), others.up);
+    const bool farOff = 2 * std::abs(reading - expected) > std::abs(expected);
     return farOff ? Suspect::Kind::kFault : Suspect::Kind::kMisshapen;
   }
   const bool alone = outside <= (energyOf(reading) >> kNeighbourShift) + others.variances(kNoise / 2);
@@ -214,13 +222,23 @@ struct Observed {
   return problem.ringEnergy - std::max<std::int32_t>(searchRemaining(problem, signal).best.explained, 0);
 }
 
+/// One contact's fit takes their difference: without either it is the same fit, which can't tell them apart.
+bool areOuterPair(const Suspect& a, const Suspect& b, int gauges) {
+  const int apart = std::abs(a.gauge - b.gauge);
+  return hasOuterPair(gauges) && std::min(apart, gauges - apart) == 2 * kOuterReach;
+}
+
 /// `all`: unexplainedWithAll().
 [[gnu::noinline]] Misfit verdictOn(const Observed& observed, const Suspects& suspects, std::int32_t all) {
   const Suspect& best = suspects[0];
   const Problem problem = observed.problem();
   if (best.unexplained > (all >> kOwnShift) + problem.variances(kNoise / 2)) return {.several = true};
   const std::int32_t clear = best.unexplained + best.unexplained / 4 + problem.variances(kTold);
-  if (best.unexplained > tolerated(problem) / 2 || suspects[1].unexplained <= clear) return {.several = true};
+  if (best.unexplained > tolerated(problem) / 2) return {.several = true};
+  if (suspects[1].unexplained <= clear) {
+    const bool pair = areOuterPair(best, suspects[1], problem.gauges()) && suspects[2].unexplained > clear;
+    return {.several = !pair};
+  }
   if (best.kind == Suspect::Kind::kContact) return {.several = true};
   return {.culprit = best.kind == Suspect::Kind::kFault ? 1u << best.gauge : 0};
 }

@@ -38,7 +38,7 @@ PitchQ20 positionOf(const Problem& problem, const View& view, PitchQ20 beyondRow
 /// Energy outside the window that a contact there may well have left.
 [[gnu::noinline]] std::int32_t tailOf(const Problem& problem, const RingSignal& signal, const View& view,
                                       const LocalFit& fit) {
-  std::int32_t window = 0, missing = 0;
+  std::int32_t window = fit.share.outerEnergy(), missing = 0;
   for (int step = -kWindowReach; step <= kWindowReach; ++step) {
     const int gauge = gaugeAt(problem, view, step);
     const std::int32_t reading = signal.at(gauge);
@@ -124,11 +124,12 @@ struct Peaks {
   const LocalFit fit = localFit(problem, signal, view);
   if (!fit.share.determined) return false;
   const std::int32_t limit = (1 << (15 + problem.tables.constants.gate_shift)) - 1;
-  for (int step = -kWindowReach; step <= kWindowReach; ++step) {
+  const int reach = fitReach(problem.gauges());
+  for (int step = -reach; step <= reach; ++step) {
     const int gauge = gaugeAt(problem, view, step);
     if (contains(signal.leftOut, gauge))
       strains_q32[static_cast<std::size_t>(gauge)] =
-          std::clamp(fit.predicted_q32(problem, view, step), -limit, limit);
+          std::clamp(fit.expected_q32(problem, signal, view, step), -limit, limit);
   }
   return true;
 }

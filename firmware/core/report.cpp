@@ -52,7 +52,8 @@ bool moved(std::int32_t by, std::int32_t sigma) { return by > 0 && by > sigma; }
 std::uint32_t gaugesUsed(const TableConstants& constants, const Observation& observation) {
   if (!observation.fit) return ~std::uint32_t{0} >> (kMaxGauges - constants.gauge_count);
   std::uint32_t used = 0;
-  for (int offset = -kWindowReach; offset <= kWindowReach; ++offset)
+  const int reach = fitReach(constants.gauge_count);
+  for (int offset = -reach; offset <= reach; ++offset)
     used |= 1u << wrapped(observation.fit->centre + offset, constants.gauge_count);
   return used;
 }

@@ -11,10 +11,10 @@
 
 namespace strainfinger::firmware {
 
-/// Middle reading and sums of the pairs at distance 1, 2, 3; their differences (+ side minus - side), a zero.
-/// Not halved: FoldedWeights are, so that weights . signal is the unfolded product.
-/// Domain: the window's norm before folding is below 2^14.5, so sums and differences fit 16 bits and a
-/// product with weights of norm <= 1 (2^15) stays below 2^29.5, with every partial sum.
+/// Middle reading and sums of the pairs at distance 1, 2, 3; their differences (+ side minus - side), and
+/// that of the outer pair, 0 in rings without. Not halved: FoldedWeights are, so that weights . signal is the
+/// unfolded product. Domain: the window's norm before folding is below 2^14.5, so sums and differences fit 16
+/// bits and a product with weights of norm <= 1 (2^15) stays below 2^29.5, with every partial sum.
 struct Signal {
   std::array<Pair, 2> even;
   std::array<Pair, 2> odd;
@@ -31,9 +31,16 @@ constexpr int wrapped(int gauge, int gauges) {
 /// Left by `up`, which may not take it out of 32 bits.
 inline Number raised(Number value, int up) { return value * (1 << up); }
 
+/// The difference of the outer pair, of readings each within +-2^29, rounded: its upper half is divided by
+/// 2^(16 - up).
+inline Number foldedOuter(Number minus, Number plus, int up) {
+  const Number half = 0x8000 >> up;
+  return raised(plus + half - minus, up);
+}
+
 /// A window's readings, from its - side to its + side and each within +-2^29, divided by 2^(16 - up) and
-/// rounded after folding.
-inline Signal foldedSignal(const Number* window, int up) {
+/// rounded after folding. `outer`: foldedOuter() or 0.
+inline Signal foldedSignal(const Number* window, int up, Number outer) {
   const Number* const middle = window + kWindowReach;
   const Number half = 0x8000 >> up;
   const Number plus1 = middle[1] + half, plus2 = middle[2] + half, plus3 = middle[3] + half;
@@ -41,22 +48,31 @@ inline Signal foldedSignal(const Number* window, int up) {
   return {{upperHalves(raised(*middle + half, up), raised(plus1 + minus1, up)),
            upperHalves(raised(plus2 + minus2, up), raised(plus3 + minus3, up))},
           {upperHalves(raised(plus1 - minus1, up), raised(plus2 - minus2, up)),
-           upperHalves(raised(plus3 - minus3, up), 0)}};
+           upperHalves(raised(plus3 - minus3, up), outer)}};
+}
+
+/// foldedOuter() of the window around gauge `centre`. Apart, for the sake of rings without.
+[[gnu::noinline]] inline Number outerAround(const Number* strains_q32, int gauges, int centre, int up) {
+  const auto at = [&](int gauge) { return strains_q32[wrapped(gauge, gauges)]; };
+  return foldedOuter(at(centre - kOuterReach), at(centre + kOuterReach), up);
 }
 
 /// The window around gauge `centre`.
 [[gnu::always_inline]] inline Signal windowSignal(std::span<const Number> strains_q32, int centre, int up) {
   const int gauges = static_cast<int>(strains_q32.size());
   const int first = wrapped(centre - kWindowReach, gauges);
+  Number outer = 0;
+  if (hasOuterPair(gauges)) [[unlikely]]
+    outer = outerAround(strains_q32.data(), gauges, centre, up);
   const Number* at = &strains_q32[static_cast<std::size_t>(first)];
-  if (first + kWindowGauges <= gauges) return foldedSignal(at, up);
+  if (first + kWindowGauges <= gauges) return foldedSignal(at, up, outer);
   const Number* const wrappedAt = at - gauges;
   const int whole = gauges - first;  // readings until the ring is round
   std::array<Number, kWindowGauges> window;
 #pragma GCC unroll 7
   for (int k = 0; k < kWindowGauges; ++k)
     window[static_cast<std::size_t>(k)] = (k < whole ? at : wrappedAt)[k];
-  return foldedSignal(window.data(), up);
+  return foldedSignal(window.data(), up, outer);
 }
 
 /// The same readings with the ring's sense of rotation reversed; mirrorSign as in TableConstants.

@@ -18,20 +18,34 @@ constexpr std::int64_t kLongest = std::int64_t{1} << 30;
 /// Fewer than this part of the information left is none, as a power of two.
 constexpr int kDeterminedShift = 12;
 
-using WindowSignal = std::array<std::int16_t, kWindowGauges>;
-
 int weight(const FoldedWeights& folded, int step) {
   if (step == 0) return folded[0];
+  if (step > kWindowReach) return timesRootTwo<std::int32_t>(folded[kWindowGauges]);
   const auto distance = static_cast<std::size_t>(std::abs(step));
   return folded[distance] + (step > 0 ? 1 : -1) * folded[distance + kWindowReach];
 }
 
-std::size_t indexOf(int step) { return static_cast<std::size_t>(step + kWindowReach); }
-
 struct WindowReadings {
-  WindowSignal at{};
-  unsigned leftOut = 0;  ///< bit per index
+  std::array<std::int16_t, kReadings> at{};
+  std::int16_t last = kWindowReach;  ///< step
+  std::uint16_t leftOut = 0;         ///< bit per index
+
+  bool isLeftOut(int step) const { return (leftOut >> indexOf(step) & 1) != 0; }
+  void leaveOut(int step) { leftOut = static_cast<std::uint16_t>(leftOut | 1u << indexOf(step)); }
 };
+
+/// Without either gauge the outer pair tells nothing.
+[[gnu::noinline]] void readOuterPair(const Problem& problem, const RingSignal& signal, const View& view,
+                                     int sign, WindowReadings& readings) {
+  readings.last = kOuterReach;
+  std::int32_t difference = 0;
+  for (int side = -1; side <= 1; side += 2) {
+    const int gauge = gaugeAt(problem, view, side * kOuterReach);
+    if (contains(signal.leftOut, gauge)) return readings.leaveOut(kOuterReach);
+    difference += side * signal.at(gauge);
+  }
+  readings.at[indexOf(kOuterReach)] = saturate<std::int16_t>(overRootTwo(sign * difference));
+}
 
 WindowReadings readingsOf(const Problem& problem, const RingSignal& signal, const View& view) {
   WindowReadings readings;
@@ -39,8 +53,9 @@ WindowReadings readingsOf(const Problem& problem, const RingSignal& signal, cons
   for (int step = -kWindowReach; step <= kWindowReach; ++step) {
     const int gauge = gaugeAt(problem, view, step);
     readings.at[indexOf(step)] = saturate<std::int16_t>(sign * signal.at(gauge));
-    if (contains(signal.leftOut, gauge)) readings.leftOut |= 1u << indexOf(step);
+    if (contains(signal.leftOut, gauge)) readings.leaveOut(step);
   }
+  if (hasOuterPair(problem.gauges())) readOuterPair(problem, signal, view, sign, readings);
   return readings;
 }
 
@@ -56,9 +71,9 @@ struct LoadPair {
 
 [[gnu::noinline]] LoadPair projected(const FitRow& row, const WindowReadings& readings) {
   LoadPair pair;
-  for (int step = -kWindowReach; step <= kWindowReach; ++step) {
+  for (int step = -kWindowReach; step <= readings.last; ++step) {
     const std::int32_t u1 = weight(row.basis[0], step), u2 = weight(row.basis[1], step);
-    if ((readings.leftOut >> indexOf(step) & 1) != 0) {
+    if (readings.isLeftOut(step)) {
       pair.left11 -= u1 * u1 >> 15;
       pair.left12 -= u1 * u2 >> 15;
       pair.left22 -= u2 * u2 >> 15;
@@ -83,11 +98,11 @@ std::array<std::int32_t, 2> solved(const LoadPair& pair) {
 }
 
 /// Adds the direction of a move: W u.
-[[gnu::noinline]] void addMove(const FitRow& row, const std::array<std::int32_t, 2>& loads,
+[[gnu::noinline]] void addMove(const FitRow& row, const std::array<std::int32_t, 2>& loads, int last,
                                Tangent& tangent) {
-  std::array<std::int32_t, kWindowGauges> move{};
+  std::array<std::int32_t, kReadings> move{};
   std::int64_t energy = 0;
-  for (int step = -kWindowReach; step <= kWindowReach; ++step) {
+  for (int step = -kWindowReach; step <= last; ++step) {
     std::int64_t component = 0;
     for (std::size_t i = 0; i < 2; ++i)
       component += std::int64_t{weight(row.gradient[i], step)} *
@@ -101,7 +116,7 @@ std::array<std::int32_t, 2> solved(const LoadPair& pair) {
   const auto top = halved >= 0 ? energy >> (2 * halved) : energy << (-2 * halved);
   const auto length = static_cast<std::int32_t>(integerRoot(static_cast<std::uint32_t>(top)));
   if (energy == 0 || length == 0) return;
-  for (std::size_t i = 0; i < kWindowGauges; ++i) {
+  for (std::size_t i = 0; i <= indexOf(last); ++i) {
     const std::int64_t scaled = halved >= 0 ? move[i] >> halved : std::int64_t{move[i]} * (1 << -halved);
     tangent.at[i][2] = saturate<std::int16_t>(static_cast<std::int32_t>(scaled) * (1 << 15) / length);
   }
@@ -109,8 +124,8 @@ std::array<std::int32_t, 2> solved(const LoadPair& pair) {
   tangent.steepness = up >= 0 ? std::int64_t{length} << up : std::int64_t{length} >> -up;
 }
 
-[[gnu::noinline]] void addLoads(const FitRow& row, Tangent& tangent) {
-  for (int step = -kWindowReach; step <= kWindowReach; ++step)
+[[gnu::noinline]] void addLoads(const FitRow& row, int last, Tangent& tangent) {
+  for (int step = -kWindowReach; step <= last; ++step)
     for (std::size_t i = 0; i < 2; ++i)
       tangent.at[indexOf(step)][i] = saturate<std::int16_t>(weight(row.basis[i], step));
 }
@@ -120,7 +135,7 @@ constexpr int kMatrixBits = 24;
 /// Product of two numbers * 2^24.
 std::int64_t times(std::int64_t a, std::int64_t b) { return (a * b) >> kMatrixBits; }
 
-/// What the gauge at an index should read [signal * 2^4], as its view sees it.
+/// What should be read at an index [signal * 2^4], as its view sees it.
 std::int32_t predictedAt(const Tangent& tangent, const Three& coefficients, std::size_t index) {
   std::int64_t reading = 0;
   for (std::size_t k = 0; k < 3; ++k) reading += std::int64_t{tangent.at[index][k]} * coefficients[k];
@@ -129,7 +144,7 @@ std::int32_t predictedAt(const Tangent& tangent, const Three& coefficients, std:
 
 [[gnu::noinline]] void addEnergies(const Tangent& tangent, const WindowReadings& readings, Share& share) {
   std::int64_t window = 0, unexplained = 0;
-  for (std::size_t i = 0; i < kWindowGauges; ++i) {
+  for (std::size_t i = 0; i <= indexOf(readings.last); ++i) {
     if ((readings.leftOut >> i & 1) != 0) continue;
     const std::int64_t reading = readings.at[i];
     const std::int64_t residual =
@@ -146,7 +161,7 @@ std::int32_t predictedAt(const Tangent& tangent, const Three& coefficients, std:
   constexpr std::int32_t kOne = 1 << kMatrixBits;
   left = {kOne, 0, 0, kOne, 0, kOne};
   Three sums{};
-  for (std::size_t i = 0; i < kWindowGauges; ++i) {
+  for (std::size_t i = 0; i <= indexOf(readings.last); ++i) {
     const auto& e = tangent.at[i];
     std::size_t element = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -166,6 +181,7 @@ std::int32_t predictedAt(const Tangent& tangent, const Three& coefficients, std:
   share.determined = invert(share.covariance_q12, share.covariance_q12);
   if (!share.determined) return;
   share.coefficients = product_q12(share.covariance_q12, sums);
+  share.outer = readings.at[indexOf(kOuterReach)];
   addEnergies(tangent, readings, share);
 }
 
@@ -236,6 +252,10 @@ std::int32_t LocalFit::leverage_q15(int step) const {
   return sum;
 }
 
+std::int32_t LocalFit::outerResidual() const {
+  return share.outer - ((predictedAt(tangent, share.coefficients, indexOf(kOuterReach)) + 8) >> 4);
+}
+
 std::int32_t LocalFit::predicted(const Problem& problem, const View& view, int step) const {
   const std::int32_t reading = (predictedAt(tangent, share.coefficients, indexOf(step)) + 8) >> 4;
   return view.side < 0 ? reading * problem.mirrorSign() : reading;
@@ -248,12 +268,22 @@ std::int32_t LocalFit::predicted_q32(const Problem& problem, const View& view, i
   return saturate<std::int32_t>(up >= 0 ? reading * (std::int64_t{1} << up) : reading >> -up);
 }
 
+std::int32_t LocalFit::expected_q32(const Problem& problem, const RingSignal& signal, const View& view,
+                                    int step) const {
+  if (std::abs(step) <= kWindowReach) return predicted_q32(problem, view, step);
+  const std::int64_t pair = timesRootTwo<std::int64_t>(predicted_q32(problem, view, kOuterReach));
+  const std::int64_t more = step > 0 ? pair : -pair;
+  const int other = gaugeAt(problem, view, -step);
+  return saturate<std::int32_t>(
+      contains(signal.leftOut, other) ? more / 2 : problem.strains[static_cast<std::size_t>(other)] + more);
+}
+
 LocalFit localFit(const Problem& problem, const RingSignal& signal, const View& view) {
   const FitRow& row = rowOf(problem, view);
   const WindowReadings readings = readingsOf(problem, signal, view);
   LocalFit fit;
-  addLoads(row, fit.tangent);
-  addMove(row, solved(projected(row, readings)), fit.tangent);
+  addLoads(row, readings.last, fit.tangent);
+  addMove(row, solved(projected(row, readings)), readings.last, fit.tangent);
   fillShare(fit.tangent, readings, fit.share);
   return fit;
 }

@@ -36,7 +36,7 @@ struct View {
   int row = 0;
 };
 
-/// The gauge at `step` (-kWindowReach .. kWindowReach) of a view.
+/// The gauge at `step` of a view.
 int gaugeAt(const Problem& problem, const View& view, int step);
 View viewOf(const Problem& problem, PitchQ20 position);
 
@@ -55,11 +55,21 @@ bool invert(const Symmetric& matrix_q24, Symmetric& inverse_q12);
 /// matrix * vector, with a matrix * 2^12.
 Three product_q12(const Symmetric& matrix_q12, const Three& vector);
 
+/// What is read at steps -kWindowReach .. fitReach(): a gauge each, but at kOuterReach, as one reading, the
+/// difference of the outer pair (+ side minus - side) over sqrt(2), which has the noise of a gauge.
+inline constexpr std::size_t kReadings = kWindowGauges + 1;
+constexpr std::size_t indexOf(int step) { return static_cast<std::size_t>(step + kWindowReach); }
+constexpr std::int32_t overRootTwo(std::int32_t number) { return (number * 23170 + (1 << 14)) >> 15; }
+template <typename Integer>
+constexpr Integer timesRootTwo(Integer number) {
+  return (number * 46341 + (1 << 14)) >> 15;
+}
+
 /// Unit vectors at right angles in the space of a window's readings [* 2^15]: two that a contact reaches by
 /// changing its loads, one by moving. A fit takes from the readings what lies along them, so
-/// sum of squares over the three = leverage of a gauge.
+/// sum of squares over the three = leverage of a reading.
 struct Tangent {
-  std::array<std::array<std::int16_t, 3>, kWindowGauges> at{};
+  std::array<std::array<std::int16_t, 3>, kReadings> at{};  ///< by indexOf(step)
   /// Length of the change that a move of one pitch makes [signal * 2^6]; 0: moving changes nothing.
   std::int64_t steepness = 0;
 };
@@ -71,6 +81,9 @@ struct Share {
   std::int32_t explained = 0;    ///< energy (a quarter of the squared signal) of the window's readings left
   std::int32_t unexplained = 0;  ///< the rest of it, from the residuals: exact where it is small
   bool determined = false;       ///< enough gauges are left to tell where and how hard
+  std::int16_t outer = 0;        ///< what is read at kOuterReach, as the view sees it
+
+  std::int32_t outerEnergy() const { return (outer * outer) >> 2; }
 
   PitchQ20 beyondRow(const Tangent& tangent) const;
 };
@@ -81,9 +94,15 @@ struct LocalFit {
   Share share;
   /// How much of its own reading the fit takes at `step` of the view.
   std::int32_t leverage_q15(int step) const;
-  /// What the gauge there should read [signal], and as a strain.
+  /// What the fit leaves of Share::outer.
+  std::int32_t outerResidual() const;
+  /// What should be read there [signal], and as a strain.
   std::int32_t predicted(const Problem& problem, const View& view, int step) const;
   std::int32_t predicted_q32(const Problem& problem, const View& view, int step) const;
+  /// What the gauge at `step` (- fitReach() .. fitReach()) should read, as a strain. Of the outer pair: as
+  /// the other one reads; half of the difference if that one is left out, too.
+  std::int32_t expected_q32(const Problem& problem, const RingSignal& signal, const View& view,
+                            int step) const;
 };
 LocalFit localFit(const Problem& problem, const RingSignal& signal, const View& view);
 

@@ -11,12 +11,10 @@ namespace strainfinger::firmware {
 using Vector3 = std::array<Number, 3>;
 
 /// Where a gauge is in what was folded: at signed distance k from the middle, its part of a sum and of a
-/// difference. The eighth number of a column is 0.
+/// difference, of which the middle gauge has none.
 struct Unfolded {
   explicit Unfolded(int k)
-      : even(static_cast<std::size_t>(absolute(k))),
-        odd(k == 0 ? 7 : even + kWindowReach),
-        sign(k < 0 ? -1 : 1) {}
+      : even(static_cast<std::size_t>(absolute(k))), odd(even + kWindowReach), sign((k > 0) - (k < 0)) {}
 
   std::size_t even, odd;
   std::int32_t sign;

@@ -44,17 +44,19 @@ struct Ways {
   View view;
   Tangent tangent;
 
-  std::int64_t weight(int step, std::size_t way) const {
+  [[gnu::noinline]] std::int64_t weight(int step, std::size_t way) const {
     const int sign = view.side > 0 ? 1 : problem.mirrorSign();
-    return sign * tangent.at[static_cast<std::size_t>(step + kWindowReach)][way];
+    if (std::abs(step) <= kWindowReach) return sign * tangent.at[indexOf(step)][way];
+    return (step > 0 ? sign : -sign) * overRootTwo(tangent.at[indexOf(kOuterReach)][way]);
   }
+  int reach() const { return fitReach(problem.gauges()); }
   std::size_t gauge(int step) const { return static_cast<std::size_t>(gaugeAt(problem, view, step)); }
 
   /// Components along the ways of what `at(gauge)` gives.
   template <typename At>
   Three along(At at) const {
     std::array<std::int64_t, 3> sums{};
-    for (int step = -kWindowReach; step <= kWindowReach; ++step)
+    for (int step = -reach(); step <= reach(); ++step)
       for (std::size_t way = 0; way < 3; ++way) sums[way] += weight(step, way) * at(gauge(step));
     return {narrowed(sums[0] >> 15), narrowed(sums[1] >> 15), narrowed(sums[2] >> 15)};
   }
@@ -118,7 +120,7 @@ std::int64_t takeOutContact(const Ways& ways, std::span<std::int32_t> changes_q3
     contact[way] = withinRange(contact[way] - (drift >> 14));
     square += std::int64_t{contact[way]} * contact[way];
   }
-  for (int step = -kWindowReach; step <= kWindowReach; ++step) {
+  for (int step = -ways.reach(); step <= ways.reach(); ++step) {
     std::int64_t part = 0;
     for (std::size_t way = 0; way < 3; ++way) part += ways.weight(step, way) * contact[way];
     std::int32_t& change = changes_q32[ways.gauge(step)];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "common/fixed_real.hpp"
 #include "host/base/failure.hpp"
@@ -22,6 +23,7 @@ FoldedWeights folded(const WindowVector& weights) {
     result[static_cast<std::size_t>(distance)] = q16((plus + minus) / 2, 15);
     result[static_cast<std::size_t>(distance + kWindowReach)] = q16((plus - minus) / 2, 15);
   }
+  result[kWindowGauges] = q16(weights[kWindowGauges] / std::numbers::sqrt2, 15);
   return result;
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 WindowMatrix masked(const WindowMatrix& matrix, const GaugeMask& mask) {
   WindowMatrix result = matrix;
-  for (int k = 0; k < kWindowGauges; ++k) {
+  for (int k = 0; k < kWindowReadings; ++k) {
     if (!mask[static_cast<std::size_t>(k)]) result.row(k).setZero();
   }
   return result;
@@ -53,11 +53,17 @@ std::array<Variances, kConeDirections> variancesOver(const WindowFit& fit, Direc
 
 WindowResponse windowResponse(const model::ImpulseResponse& response, int gaugeCount, double offset_pitch) {
   const double pitch_rad = 2 * std::numbers::pi / gaugeCount;
-  WindowResponse window;
-  for (int k = 0; k < kWindowGauges; ++k) {
-    const auto value = response.at((k - kWindowReach - offset_pitch) * pitch_rad);
-    window.value.row(k) << value.normal, value.tangential;
-    window.slope.row(k) << -value.normalSlope * pitch_rad, -value.tangentialSlope * pitch_rad;
+  const auto at = [&](int gauge) { return response.at((gauge - offset_pitch) * pitch_rad); };
+  WindowResponse window{WindowMatrix::Zero(), WindowMatrix::Zero()};
+  const auto add = [&](int row, const model::ImpulseResponse::Value& value, double weight) {
+    window.value.row(row) += weight * Eigen::RowVector2d(value.normal, value.tangential);
+    window.slope.row(row) -=
+        weight * pitch_rad * Eigen::RowVector2d(value.normalSlope, value.tangentialSlope);
+  };
+  for (int k = 0; k < kWindowGauges; ++k) add(k, at(k - kWindowReach), 1);
+  if (hasOuterPair(gaugeCount)) {
+    add(kWindowGauges, at(kOuterReach), 1 / std::numbers::sqrt2);
+    add(kWindowGauges, at(-kOuterReach), -1 / std::numbers::sqrt2);
   }
   return window;
 }

@@ -10,14 +10,17 @@
 
 namespace strainfinger::tables {
 
-using WindowVector = Eigen::Matrix<double, kWindowGauges, 1>;
-using WindowMatrix = Eigen::Matrix<double, kWindowGauges, 2>;
+/// What a fit reads: a window's gauges from the one farthest on the - side on, then the difference of the
+/// outer pair over sqrt(2), which has the noise of a reading; 0 in rings without.
+inline constexpr int kWindowReadings = kWindowGauges + 1;
+using WindowVector = Eigen::Matrix<double, kWindowReadings, 1>;
+using WindowMatrix = Eigen::Matrix<double, kWindowReadings, 2>;
 
-/// Gauges of a window that take part; index 0 is the one farthest on the - side.
-using GaugeMask = std::array<bool, kWindowGauges>;
-inline constexpr GaugeMask kAllGauges{true, true, true, true, true, true, true};
+/// Readings of a window that take part.
+using GaugeMask = std::array<bool, kWindowReadings>;
+inline constexpr GaugeMask kAllGauges{true, true, true, true, true, true, true, true};
 
-/// Responses of a window's gauges to a contact `offset` pitches towards + from the middle gauge: columns
+/// Responses of a window's readings to a contact `offset` pitches towards + from the middle gauge: columns
 /// normal and tangential [strain per N/m]; `slope` is their derivative by the offset in pitches.
 struct WindowResponse {
   WindowMatrix value;

@@ -12,11 +12,9 @@ namespace {
 
 constexpr GaugeSet kFive = 1u << 5;
 
-}  // namespace
-
-TEST_GROUP(GaugeWatch) {
-  const ModelRing ring;
-  GaugeWatch watch;
+template <int Gauges>
+struct Watched : Utest {
+  const ModelRing ring{ModelRing::configOf(Gauges)};
 
   std::vector<double> sum(const Press& one, const Press& other) {
     auto strains = ring.strains(one);
@@ -34,6 +32,11 @@ TEST_GROUP(GaugeWatch) {
     return examine(ring.tables(), 0, raw, gateEnergy(ring.constants(), raw));
   }
 };
+
+}  // namespace
+
+TEST_GROUP_BASE(GaugeWatch, Watched<16>) { GaugeWatch watch; };
+TEST_GROUP_BASE(GaugeWatchOfAFineRing, Watched<24>){};
 
 TEST(GaugeWatch, TwoAccusationsInFourSetsTakeAGaugeOutOfUse) {
   watch.accuse(kFive);
@@ -81,6 +84,31 @@ TEST(GaugeWatch, AGaugeThatReadsWhatNothingElseSeesIsTheCulprit) {
   strains[5] = 4e-3;
   CHECK_TRUE(misfits(strains));
   LONGS_EQUAL(kFive, examined(strains).culprit);
+}
+
+TEST(GaugeWatchOfAFineRing, OneContactFits) {
+  Presses presses(24, 30, 603);
+  for (int i = 0; i < 1000; ++i) CHECK_FALSE(misfits(ring.strains(presses.next())));
+}
+
+// 4 pitches from gauge 5, on either side.
+TEST(GaugeWatchOfAFineRing, AGaugeOfTheOuterPairIsTheCulpritWhereItIsFarOff) {
+  for (const double position : {8.7, 9.0, 9.3, 1.0, 0.8}) {
+    auto strains = ring.strains({position, 20, 10});
+    strains[5] += 8e-3;
+    CHECK_TRUE(misfits(strains));
+    LONGS_EQUAL(kFive, examined(strains).culprit);
+  }
+}
+
+TEST(GaugeWatchOfAFineRing, WhatMayBeEitherOfTheOuterPairIsNoSecondContact) {
+  for (const double position : {8.7, 9.0, 9.3, 1.0, 0.8}) {
+    auto strains = ring.strains({position, 20, 10});
+    strains[5] -= 2e-3;
+    CHECK_TRUE(misfits(strains));
+    CHECK_FALSE(examined(strains).several);
+    LONGS_EQUAL(0, examined(strains).culprit & ~kFive);
+  }
 }
 
 TEST_GROUP(JumpWatch) {

@@ -27,8 +27,9 @@ struct Statistics {
   Errors overSigma = Errors::Zero();
 };
 
-config::FingerConfig quietFinger(double noise_strain) {
+config::FingerConfig quietFinger(int gauges, double noise_strain) {
   config::FingerConfig config;
+  config.gauges.count = gauges;
   config.gauges.noise_strain = noise_strain;
   return config;
 }
@@ -43,10 +44,9 @@ int contacts() {
 constexpr double kPress = 30;
 constexpr double kNoise = 1e-3 * 460.603e-6 * kPress;  ///< a thousandth of the peak
 
-}  // namespace
-
-TEST_GROUP(LeftOut) {
-  const ModelRing ring{quietFinger(kNoise)};
+template <int Gauges>
+struct WithoutGauges : Utest {
+  const ModelRing ring{quietFinger(Gauges, kNoise)};
 
   /// The Cramer-Rao bound of the gauges that are not out.
   Errors bound(const Press& press, GaugeSet out) {
@@ -111,7 +111,21 @@ TEST_GROUP(LeftOut) {
   static void checkWithin(const Errors& limits, const Errors& values) {
     for (int i = 0; i < 3; ++i) CHECK(values[i] <= limits[i]);
   }
+  void checkNothingLeftOut() {
+    Presses presses(ring.gauges(), kPress, 303);
+    for (int i = 0; i < 200; ++i) {
+      auto raw = ring.raw(presses.next());
+      const std::uint32_t energy = gateEnergy(ring.constants(), raw);
+      const Fit all = locate(ring.tables(), FitMode::kRefined, raw, energy);
+      LONGS_EQUAL(all.best.position, locateWithout(ring.tables(), 0, raw, energy).best.position);
+    }
+  }
 };
+
+}  // namespace
+
+TEST_GROUP_BASE(LeftOut, WithoutGauges<16>){};
+TEST_GROUP_BASE(LeftOutOfAFineRing, WithoutGauges<24>){};
 
 TEST(LeftOut, OneGaugeOutReachesTheBoundOfTheRemainingFifteen) {
   const Statistics result = run(1u << 5, 5, 8, contacts(), 301);
@@ -131,15 +145,7 @@ TEST(LeftOut, ContactsBesideTheGaugeThatIsOutAreNearTheBound) {
   checkWithin({1.2, 1.35, 1.15}, result.overSigma);
 }
 
-TEST(LeftOut, WithoutAnythingLeftOutItIsTheFitOfAllGauges) {
-  Presses presses(ring.gauges(), kPress, 303);
-  for (int i = 0; i < 200; ++i) {
-    auto raw = ring.raw(presses.next());
-    const std::uint32_t energy = gateEnergy(ring.constants(), raw);
-    const Fit all = locate(ring.tables(), FitMode::kRefined, raw, energy);
-    LONGS_EQUAL(all.best.position, locateWithout(ring.tables(), 0, raw, energy).best.position);
-  }
-}
+TEST(LeftOut, WithoutAnythingLeftOutItIsTheFitOfAllGauges) { checkNothingLeftOut(); }
 
 // Two of the readings that matter most are missing: often nobody can tell, and then nothing is said for sure.
 TEST(LeftOut, TwoNeighboursOutNeverGiveAConfidentWrongAnswer) {
@@ -154,5 +160,25 @@ TEST(LeftOut, WithTooFewGaugesLeftNothingIsSettled) {
     Press press = presses.next();
     press.position_pitch = 5;
     CHECK_TRUE(located(press, 0x7Fu << 2, presses).uncertain);
+  }
+}
+
+TEST(LeftOutOfAFineRing, WithoutAnythingLeftOutItIsTheFitOfAllGauges) { checkNothingLeftOut(); }
+
+// Many of these contacts lack a gauge of the outer pair, and some both gauges of one.
+TEST(LeftOutOfAFineRing, OneGaugeOutReachesTheBoundOfTheRemaining) {
+  const Statistics result = run(1u << 5, 5, 5.5, contacts(), 306);
+  LONGS_EQUAL(0, result.gross);
+  CHECK(result.uncertain < result.contacts / 100);
+  checkWithin({1.1, 1.1, 1.1}, result.overBound);
+  checkWithin({1.1, 1.1, 1.1}, result.overSigma);
+}
+
+TEST(LeftOutOfAFineRing, AContactWithoutItsOuterPairIsThatOfTheSeven) {
+  for (const GaugeSet out : {1u << 1, 1u << 9, 1u << 1 | 1u << 9}) {
+    const Statistics result = run(out, 5, 0.4, contacts() / 5, 307);
+    LONGS_EQUAL(0, result.uncertain);
+    checkWithin({1.05, 1.05, 1.1}, result.overBound);
+    checkWithin({1.05, 1.05, 1.05}, result.overSigma);
   }
 }

@@ -69,7 +69,7 @@ TEST_GROUP(Ranges) {
     };
     const Number half = any(alone / std::sqrt(2.0));
     const std::array<Number, kWindowGauges> window{half, half, half, any(alone), half, half, half};
-    foldedSignal(window.data(), up);
+    foldedSignal(window.data(), up, foldedOuter(half, half, up));
   }
   /// Calls visit for a row of each scale that tables may have.
   template <typename Visit>

@@ -16,17 +16,23 @@ inline model::ImpulseResponse responseOf(const config::FingerConfig& config) {
           config.gauges.arc_length_m, config.contact.width_m};
 }
 
-using OracleMatrix = Eigen::Matrix<double, kWindowGauges, 2>;
+using OracleMatrix = Eigen::Matrix<double, kWindowGauges + 1, 2>;
 
-/// The responses of a window's gauges (rows; those not in `mask` are zero) to a normal and a tangential load
-/// of 1 N/m at an offset from the middle one.
+/// The responses of a window's gauges, and of their outer pair (rows; those not in `mask` are zero), to a
+/// normal and a tangential load of 1 N/m at an offset from the middle one.
 inline OracleMatrix oracleResponse(const model::ImpulseResponse& response, int gauges, double offset_pitch,
-                                   const std::array<bool, kWindowGauges>& mask) {
+                                   const std::array<bool, kWindowGauges + 1>& mask) {
   OracleMatrix matrix = OracleMatrix::Zero();
   for (int k = 0; k < kWindowGauges; ++k) {
     if (!mask[static_cast<std::size_t>(k)]) continue;
     const auto value = response.at((k - 3 - offset_pitch) * 2 * std::numbers::pi / gauges);
     matrix.row(k) << value.normal, value.tangential;
+  }
+  if (gauges > 16 && mask[kWindowGauges]) {
+    const auto plus = response.at((4 - offset_pitch) * 2 * std::numbers::pi / gauges);
+    const auto minus = response.at((-4 - offset_pitch) * 2 * std::numbers::pi / gauges);
+    matrix.row(kWindowGauges) << plus.normal - minus.normal, plus.tangential - minus.tangential;
+    matrix.row(kWindowGauges) /= std::numbers::sqrt2;
   }
   return matrix;
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -24,9 +25,9 @@ struct Oracle {
   OracleMatrix basis, gradient;
   Eigen::Matrix2d amplitude, amplitudeSlope;
 
-  Oracle(const model::ImpulseResponse& model, double peak, double offset) {
+  Oracle(const model::ImpulseResponse& model, int gauges, double peak, double offset) {
     const auto values = [&](double at) -> OracleMatrix {
-      return oracleResponse(model, 16, at, kAllGauges) / peak;
+      return oracleResponse(model, gauges, at, kAllGauges) / peak;
     };
     const Eigen::HouseholderQR<OracleMatrix> qr(values(offset));
     basis = qr.householderQ() * OracleMatrix::Identity();
@@ -61,7 +62,7 @@ TEST_GROUP(FitTable) {
       checkNumber((q15[3 + k] + q15[3 - k]) / 2, folded[static_cast<std::size_t>(k)]);
       checkNumber((q15[3 + k] - q15[3 - k]) / 2, folded[static_cast<std::size_t>(k + 3)]);
     }
-    LONGS_EQUAL(0, folded[7]);
+    checkNumber(q15[7] / std::numbers::sqrt2, folded[7]);
   }
 
   void checkGradient(const Oracle& oracle, const FitRow& row) {
@@ -71,16 +72,17 @@ TEST_GROUP(FitTable) {
       const Eigen::VectorXd column = oracle.gradient.col(static_cast<Eigen::Index>(i));
       checkNumber(column.norm() / unit, row.gradient_length[i]);
       const bool isZero = row.gradient_length[i] == 0;
-      direction.push_back(isZero ? Eigen::VectorXd::Zero(7).eval() : column.normalized());
+      direction.push_back(isZero ? Eigen::VectorXd::Zero(8).eval() : column.normalized());
       checkWeights(direction[i], row.gradient[i]);
     }
     CHECK(std::max(row.gradient_length[0], row.gradient_length[1]) >= 1 << 14);
     checkNumber(direction[0].dot(direction[1]) * 32768, row.gradient_cosine);
   }
 
-  void checkRow(const FitRow& row, std::size_t j) {
-    const Oracle oracle(model_, peak_, static_cast<double>(j) / 64);
-    const double scale = std::ldexp(1.0, image_->constants.amplitude_exponent);
+  void checkRow(const TableImage& image, std::size_t j) {
+    const FitRow& row = image.rows[j];
+    const Oracle oracle(model_, image.constants.gauge_count, peak_, static_cast<double>(j) / 64);
+    const double scale = std::ldexp(1.0, image.constants.amplitude_exponent);
     for (int i = 0; i < 2; ++i) checkWeights(oracle.basis.col(i), row.basis[static_cast<std::size_t>(i)]);
     checkGradient(oracle, row);
     LONGS_EQUAL(0, row.reserved);
@@ -110,6 +112,11 @@ TEST_GROUP(FitTable) {
     return numbers;
   }
 
+  static config::FingerConfig withGauges(int count) {
+    config::FingerConfig config;
+    config.gauges.count = count;
+    return config;
+  }
   static WindowFits fitsOf(const WindowFit& fit) {
     WindowFits fits{};
     fits.rows.fill(fit);
@@ -118,7 +125,14 @@ TEST_GROUP(FitTable) {
 };
 
 TEST(FitTable, EveryNumberOfTheRowsIsTheOraclesRounded) {
-  for (std::size_t j = 0; j < kFitRows; ++j) checkRow(image_->rows[j], j);
+  for (std::size_t j = 0; j < kFitRows; ++j) checkRow(*image_, j);
+}
+
+TEST(FitTable, AFinerRingsRowsWeighTheOuterPair) {
+  const auto finer = std::make_unique<TableImage>(buildTableImage(withGauges(24)));
+  for (std::size_t j = 0; j < kFitRows; ++j) checkRow(*finer, j);
+  CHECK(finer->rows[20].basis[1][7] != 0);
+  for (const FitRow& row : image_->rows) LONGS_EQUAL(0, row.basis[0][7] | row.basis[1][7]);
 }
 
 TEST(FitTable, EveryRowNamesItsBestTriples) {

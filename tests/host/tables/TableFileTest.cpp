@@ -97,9 +97,9 @@ TEST(TableFile, AnotherFormatIsAMismatchWhateverFollows) {
   std::string other = bytes_.substr(0, 100);
   other[4] = 1;
   checkVerdict(other,
-               fmt::format("5: {}: a table image of format 1, this program and its firmware read format 4; "
+               fmt::format("5: {}: a table image of format 1, this program and its firmware read format {}; "
                            "make it anew",
-                           path_));
+                           path_, kTableFormat));
 }
 
 TEST(TableFile, ConstantsOutOfTheirDomainAreRefusedUnderARightChecksum) {
@@ -205,5 +205,5 @@ TEST(TableFile, TheHeaderSaysWhatItIsOf) {
   STRCMP_CONTAINS("//   gauges.radius_m = 0.0094\n", header.c_str());
   STRCMP_CONTAINS("//   gauges.component = radial\n", header.c_str());
   STRCMP_CONTAINS(fmt::format("// CRC-32 0x{:08X}\n", image_->crc32).c_str(), header.c_str());
-  STRCMP_CONTAINS("kDefaultTableBytes[4096] = {\n    83, 70, 84, 66, 4, 0,", header.c_str());
+  STRCMP_CONTAINS("kDefaultTableBytes[4096] = {\n    83, 70, 84, 66, 5, 0,", header.c_str());
 }

@@ -13,21 +13,21 @@ using namespace strainfinger::tables;
 
 // Oracles: Eigen's Householder QR and finite differences of the model's values.
 TEST_GROUP(WindowFit) {
-  static constexpr int kGauges = 16;
+  int gauges_ = 16;
   static constexpr double kPeak = 460.603e-6;  // strain per N/m, brings everything to the size of 1
   const model::ImpulseResponse model_ = responseOf({});
   const std::vector<double> offsets_{0, 0.1, 0.25, 0.4, 0.5, 0.6, 43.0 / 64};
   const std::vector<GaugeMask> masks_{kAllGauges, {false, true, true, false, true, false, false}};
 
   WindowResponse responseAt(double offset) {
-    WindowResponse response = windowResponse(model_, kGauges, offset);
+    WindowResponse response = windowResponse(model_, gauges_, offset);
     response.value /= kPeak;
     response.slope /= kPeak;
     return response;
   }
   WindowFit fitAt(double offset, const GaugeMask& mask) { return windowFit(responseAt(offset), mask); }
   OracleMatrix valuesAt(double offset, const GaugeMask& mask) {
-    return oracleResponse(model_, kGauges, offset, mask) / kPeak;
+    return oracleResponse(model_, gauges_, offset, mask) / kPeak;
   }
   Eigen::Vector2d loadsAt(double offset, const GaugeMask& mask, const WindowVector& signal) {
     return valuesAt(offset, mask).householderQr().solve(signal);
@@ -38,14 +38,17 @@ TEST_GROUP(WindowFit) {
   }
   template <typename Check>
   void forEachFit(const Check& check) {
-    for (const GaugeMask& mask : masks_)
-      for (const double offset : offsets_) check(offset, mask, fitAt(offset, mask));
+    for (const int gauges : {16, 24}) {
+      gauges_ = gauges;
+      for (const GaugeMask& mask : masks_)
+        for (const double offset : offsets_) check(offset, mask, fitAt(offset, mask));
+    }
   }
 
   std::mt19937_64 random_{20240614};
   WindowVector anySignal(const GaugeMask& mask) {
     WindowVector signal;
-    for (int k = 0; k < kWindowGauges; ++k)
+    for (int k = 0; k < kWindowReadings; ++k)
       signal[k] = mask[static_cast<std::size_t>(k)] ? std::normal_distribution<>()(random_) : 0;
     return signal;
   }
@@ -54,7 +57,7 @@ TEST_GROUP(WindowFit) {
   /// Fisher's matrix of (offset, normal, tangential) inverted: the variances for unit noise.
   Eigen::Vector3d variances(double offset, const GaugeMask& mask, double direction) {
     const auto values = [&](double at) { return valuesAt(at, mask); };
-    Eigen::Matrix<double, kWindowGauges, 3> jacobian;
+    Eigen::Matrix<double, kWindowReadings, 3> jacobian;
     jacobian << derivative(values, offset) * Eigen::Vector2d(1, direction), values(offset);
     return (jacobian.transpose() * jacobian).inverse().diagonal();
   }
@@ -74,7 +77,7 @@ TEST_GROUP(WindowFit) {
     std::vector<GaugeMask> result;
     for (unsigned bits = 0; bits < 128; ++bits) {
       GaugeMask mask{};
-      for (std::size_t k = 0; k < mask.size(); ++k) mask[k] = (bits >> k & 1) != 0;
+      for (std::size_t k = 0; k < kWindowGauges; ++k) mask[k] = (bits >> k & 1) != 0;
       if (std::popcount(bits) == 3) result.push_back(mask);
     }
     return result;
@@ -82,13 +85,16 @@ TEST_GROUP(WindowFit) {
 };
 
 TEST(WindowFit, ResponsesAreTheModelsAtTheGauges) {
-  for (const double offset : offsets_)
+  forEachFit([&](double offset, const GaugeMask&, const WindowFit&) {
     checkNear(valuesAt(offset, kAllGauges), responseAt(offset).value, 1e-14);
+  });
 }
 
 TEST(WindowFit, SlopesAreDerivativesByTheOffset) {
   const auto values = [&](double at) { return valuesAt(at, kAllGauges); };
-  for (const double offset : offsets_) checkNear(derivative(values, offset), responseAt(offset).slope, 1e-8);
+  forEachFit([&](double offset, const GaugeMask&, const WindowFit&) {
+    checkNear(derivative(values, offset), responseAt(offset).slope, 1e-8);
+  });
 }
 
 TEST(WindowFit, TheBasisIsOrthonormalAndSpansTheResponses) {

@@ -42,9 +42,7 @@ class Vector3 {
 
 struct Unfolded {
   explicit Unfolded(int k)
-      : even(static_cast<std::size_t>(absolute(k))),
-        odd(k == 0 ? 7 : even + kWindowReach),
-        sign(k < 0 ? -1 : 1) {}
+      : even(static_cast<std::size_t>(absolute(k))), odd(even + kWindowReach), sign((k > 0) - (k < 0)) {}
   std::size_t even, odd;
   std::int64_t sign;
 };

@@ -104,8 +104,7 @@ ContactOptions::ContactOptions(CLI::App& command) {
           "--indenter", indenter,
           "flat, cylinder:RADIUS_M, wedge:HALF_ANGLE_DEG (between its axis and a face), or a CSV file of "
           "x_m,height_m: the arc along the finger and the indenter's height above its tangent plane, "
-          "positive "
-          "away from the finger")
+          "positive away from the finger")
       ->required();
   hasWidth = command.add_option("--width-m", width_m, "Width of the contact, an arc on the surface [m]");
   hasLoad = command.add_option("--load-n-per-m", load_n_per_m, "Or: normal load [N/m]");

@@ -6,6 +6,7 @@
 
 #include "host/contact/indenter.hpp"
 #include "host/contact/reference_patch.hpp"
+#include "host/contact/regime.hpp"
 #include "host/contact/surface_kernel.hpp"
 #include "host/contact/tractions.hpp"
 #include "host/contact/wedge_tip.hpp"

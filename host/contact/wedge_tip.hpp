@@ -3,17 +3,11 @@
 
 #include "host/contact/indenter.hpp"
 #include "host/contact/reference_patch.hpp"
+#include "host/contact/regime.hpp"
 #include "host/contact/surface_kernel.hpp"
 #include "host/contact/tractions.hpp"
 
 namespace strainfinger::contact {
-
-/// What happens between indenter and surface besides the normal contact.
-enum class Regime {
-  kFrictionless,
-  kSliding,  ///< shear = friction * pressure everywhere, towards +theta for a positive friction
-  kStick,    ///< the surface follows the indenter sidewards too: u_t = const
-};
 
 /// Of the pressure, and of what sticks of the shear.
 struct TipTractions {

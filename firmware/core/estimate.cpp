@@ -142,7 +142,7 @@ std::int32_t weightedSigma(const TableConstants& constants, const Fit& fit, cons
 
 Errors tripleErrors(const TableConstants& constants, const Fit& fit) {
   constexpr int kLowered = 20;
-  const TripleSystem system = tripleChoice(*fit.row, fit.projection).system;
+  const TripleSystem system = systemOf(*fit.row, fit.triple, fit.projection);
   const AmplitudeSlopes slopes = amplitudeSlopes(*fit.row, fit.projection);
   const auto& load = fit.row->load;
   // An amplitude changes with the projections, and per row spacing of offset.

@@ -61,12 +61,12 @@ inline Number secantLength(Number here, Number closer) {
   return signedQuotient<kRowBits + 2>(clipped<23>(here) * 256, nonZero(closer >> 6));
 }
 
-/// What `closer` has to be for an offset whose error is four times that of all seven gauges, which have so
+/// What `closer` has to be for an offset whose error is sqrt(8) times that of all seven gauges, which have so
 /// much information (see FitStep); both squared.
 inline Number leastCloser(const NearNormal& normal, Number information) {
   const Number middle = normal.middle >> 16;
   const Pair beside = upperHalves(normal.sum, normal.difference);
-  return mulHigh(middle * middle + (dot(beside, beside) >> 1), information) >> 4;
+  return mulHigh(middle * middle + (dot(beside, beside) >> 1), information) >> 3;
 }
 inline Number closerSquared(const FitRow& row, Number closer) {
   const Number lowered = clipped<16>(closer >> (row.gradient_exponent + 9));

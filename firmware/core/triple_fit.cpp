@@ -71,33 +71,43 @@ NearSignal nearSignalOf(const TableConstants& constants, const std::int32_t* str
                   side, constants.mirror_sign);
 }
 
+/// From the middle between two rows: as far as a straight line between their distances holds.
+constexpr PitchQ20 kBetweenRows = kRowSpacing * 3 / 4;
+
 /// Leaves the answer to the three nearest readings, between the two rows around it. False: they tell it with
-/// more than four times the error of all seven, or lead away.
+/// more than sqrt(8) times the error of all seven, or lead away.
 [[gnu::noinline]] bool leaveToNear(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32) {
   const TableConstants& constants = tables.constants;
   const PitchQ20 offset = fit.offset(constants.gauge_count);
   const int side = offset < 0 ? -1 : 1;
   const NearSignal signal = nearSignalOf(constants, strains_q32, fit, side);
   const FitRow* const rows = unknown(tables.rows.data());
-  const int number = std::min<int>(absolute(offset) >> kRowBits, kFitRows - 2);
-  const FitRow& row = *unknown(rows + number);
-  const FitRow& next = *(&row + 1);
-  const NearColumns columns = nearColumns(row), nextColumns = nearColumns(next);
-  const NearNormal normal = nearNormal(row, columns), nextNormal = nearNormal(next, nextColumns);
-  const std::int32_t distance = distanceFrom(normal, signal);
-  const std::int32_t closer = distance - distanceFrom(nextNormal, signal);
-  const std::int32_t beyond = secantLength(distance, closer);
-  if (absolute(beyond - kRowSpacing / 2) > kRowSpacing * 5 / 4) return false;
-  if (closerSquared(*fit.row, closer) < leastCloser(normal, fit.information)) return false;
-  const NearQuotients quotients = between(nearQuotients(columns, normal.sum, signal),
-                                          nearQuotients(nextColumns, nextNormal.sum, signal), beyond);
-  if (absolute(quotients.divisor) < kLeastDivisor) return false;
-  fit.projection = nearProjections(quotients);
-  fit.row = &row;
-  const Amplitudes amplitudes = nearAmplitudes(row, next, fit.projection, beyond);
-  replaceBest(fit, {roundTheRing(fit.centre * kOnePitch + side * (number * kRowSpacing + beyond),
-                                 constants.gauge_count),
-                    amplitudes.normal, side * amplitudes.tangential});
+  int number = std::min<int>(absolute(offset) >> kRowBits, kFitRows - 2);
+  for (bool again = false;; again = true) {
+    const FitRow& row = *unknown(rows + number);
+    const FitRow& next = *(&row + 1);
+    const NearColumns columns = nearColumns(row), nextColumns = nearColumns(next);
+    const NearNormal normal = nearNormal(row, columns), nextNormal = nearNormal(next, nextColumns);
+    const std::int32_t distance = distanceFrom(normal, signal);
+    const std::int32_t closer = distance - distanceFrom(nextNormal, signal);
+    const std::int32_t beyond = secantLength(distance, closer);
+    if (absolute(beyond - kRowSpacing / 2) > kBetweenRows) {
+      number += beyond >> kRowBits;
+      if (again || number < 0 || number > kFitRows - 2) return false;
+      continue;
+    }
+    if (closerSquared(*fit.row, closer) < leastCloser(normal, fit.information)) return false;
+    const NearQuotients quotients = between(nearQuotients(columns, normal.sum, signal),
+                                            nearQuotients(nextColumns, nextNormal.sum, signal), beyond);
+    if (absolute(quotients.divisor) < kLeastDivisor) return false;
+    fit.projection = nearProjections(quotients);
+    fit.row = beyond > kRowSpacing / 2 ? &next : &row;
+    const Amplitudes amplitudes = nearAmplitudes(row, next, fit.projection, beyond);
+    replaceBest(fit, {roundTheRing(fit.centre * kOnePitch + side * (number * kRowSpacing + beyond),
+                                   constants.gauge_count),
+                      amplitudes.normal, side * amplitudes.tangential});
+    break;
+  }
   fit.readings = FitMode::kThreePoint;
   fit.triple = kNearTriple;
   return true;

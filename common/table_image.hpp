@@ -138,6 +138,10 @@ inline constexpr std::array<GaugeTriple, kTriples> kTripleList = [] {
   return list;
 }();
 
+/// Number of {-1, 0, 1}: the middle gauge and its neighbours.
+inline constexpr std::uint8_t kNearTriple = 25;
+static_assert(kTripleList[kNearTriple] == GaugeTriple{-1, 0, 1});
+
 /// Which way the tangential load pulls, seen from the window's middle gauge: three readings that see the
 /// offset well for one sense are nearly blind for the other, so each has its own triples.
 enum FitSense : std::uint8_t { kWithOffset = 0, kAgainstOffset = 1 };

@@ -44,7 +44,7 @@ Errors reducedErrors(Scaled noise, const Fit& fit, PitchQ20 mostOffset) {
 
 Errors tripleErrors(Scaled noise, const Fit& fit) {
   constexpr int kLowered = 20;
-  const TripleSystem system = tripleChoice(*fit.row, fit.projection).system;
+  const TripleSystem system = systemOf(*fit.row, fit.triple, fit.projection);
   const AmplitudeSlopes slopes = amplitudeSlopes(*fit.row, fit.projection);
   const auto& load = fit.row->load;
   // An amplitude changes with the projections, and per row spacing of offset.

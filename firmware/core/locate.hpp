@@ -23,7 +23,8 @@ struct Fit {
   std::int8_t up;             ///< readings were divided by 2^(16 - up)
   std::uint8_t centre;        ///< the window's middle gauge
   std::uint8_t anchor;        ///< where the readings said that it should be
-  FitMode readings;           ///< that the answer rests on: seven, or the row's three
+  FitMode readings;           ///< that the answer rests on: seven, or three ..
+  std::uint8_t triple;        ///< .. of this number in kTripleList
   bool reduced;               ///< gauges were left out (left_out.hpp)
   bool ambiguous;             ///< another answer explains the readings as well, within noise
   bool settled;  ///< the fit converged, presses, stays within the friction cone, and is no mere noise

@@ -7,6 +7,8 @@
 // pairAt(numbers)           two numbers next to each other, the first at a multiple of 4 bytes
 // a + b, a - b              number by number; the caller keeps them within 16 bits
 // dot(a, b)                 a.low * b.low + a.high * b.high, which the caller keeps below 2^31
+// lows(a, b)                a.low and b.low; lowAndHigh(a, b): a.low and b.high
+// determinant(a, b)         a.low * b.high - a.high * b.low, which the caller keeps below 2^31
 // scaledByLow(a, b)         a * b.low / 2^16, rounded down; scaledByHigh(): b.high
 // dot(a, b, sum), addScaledByLow(sum, a, b), addScaledByHigh(sum, a, b)    the same, added to a sum
 
@@ -49,6 +51,17 @@ inline Pair pairAt(const std::int16_t* numbers) {
   return pair;
 }
 
+inline Pair lows(Pair a, Pair b) {
+  Pair pair;
+  asm("pkhbt %0, %1, %2, lsl #16" : "=r"(pair.bits) : "r"(a.bits), "r"(b.bits));
+  return pair;
+}
+inline Pair lowAndHigh(Pair a, Pair b) {
+  Pair pair;
+  asm("pkhbt %0, %1, %2" : "=r"(pair.bits) : "r"(a.bits), "r"(b.bits));
+  return pair;
+}
+
 inline Pair operator+(Pair a, Pair b) {
   return {
       static_cast<std::uint32_t>(__sadd16(static_cast<int16x2_t>(a.bits), static_cast<int16x2_t>(b.bits)))};
@@ -62,6 +75,9 @@ inline std::int32_t dot(Pair a, Pair b) {
 }
 inline std::int32_t dot(Pair a, Pair b, std::int32_t sum) {
   return __smlad(static_cast<int16x2_t>(a.bits), static_cast<int16x2_t>(b.bits), sum);
+}
+inline std::int32_t determinant(Pair a, Pair b) {
+  return __smusdx(static_cast<int16x2_t>(a.bits), static_cast<int16x2_t>(b.bits));
 }
 inline std::int32_t scaledByLow(std::int32_t a, Pair b) {
   return __smlawb(a, static_cast<std::int32_t>(b.bits), 0);
@@ -93,10 +109,14 @@ inline Pair upperHalves(std::int32_t low, std::int32_t high) { return {low >> 16
 inline Pair lowOnly(std::int32_t number) { return {number, 0}; }
 inline Pair pairAt(const std::int16_t* numbers) { return {numbers[0], numbers[1]}; }
 
+inline Pair lows(Pair a, Pair b) { return {a.lower, b.lower}; }
+inline Pair lowAndHigh(Pair a, Pair b) { return {a.lower, b.upper}; }
+
 inline Pair operator+(Pair a, Pair b) { return {a.lower + b.lower, a.upper + b.upper}; }
 inline Pair operator-(Pair a, Pair b) { return {a.lower - b.lower, a.upper - b.upper}; }
 inline std::int32_t dot(Pair a, Pair b) { return a.lower * b.lower + a.upper * b.upper; }
 inline std::int32_t dot(Pair a, Pair b, std::int32_t sum) { return sum + dot(a, b); }
+inline std::int32_t determinant(Pair a, Pair b) { return a.lower * b.upper - a.upper * b.lower; }
 
 inline std::int32_t scaledBy(std::int32_t a, std::int32_t b) {
   return (a >> 16) * b + (((a & 0xFFFF) * b) >> 16);
@@ -160,5 +180,8 @@ template <int Bits>
 constexpr Number signedQuotient(Number numerator, Number divisor) {
   return clipped<Bits>(numerator / divisor);
 }
+
+/// The same number or the next one further from 0, so that it may divide.
+constexpr Number nonZero(Number value) { return value | 1; }
 
 }  // namespace strainfinger::firmware

@@ -6,12 +6,8 @@
 
 namespace strainfinger::firmware {
 
-/// The system of a row's best triple at given projections, whose second has the sign of the tangential load.
-struct TripleChoice {
-  GaugeTriple gauges;
-  TripleSystem system;
-};
-TripleChoice tripleChoice(const FitRow& row, const Projections& projection);
+/// tripleSystem() of a triple by its number, in one place.
+TripleSystem systemOf(const FitRow& row, std::uint8_t triple, const Projections& projection);
 
 /// Newton steps of the three readings from a fit whose step was taken, until the next one would no longer
 /// matter: its projections and length are then theirs. False: they lead away from it, or nowhere.

@@ -76,7 +76,7 @@ TEST_GROUP(Estimate) {
     const double middle = model.between(press.position_pitch, fitted.centre);
     std::vector<int> gauges{-3, -2, -1, 0, 1, 2, 3};
     if (fitted.readings == FitMode::kThreePoint) {
-      const auto& triple = kTripleList[fitted.row->triple[fitted.projection[1] < 0 ? 1 : 0]];
+      const auto& triple = kTripleList[fitted.triple];
       gauges.assign(triple.begin(), triple.end());
     }
     std::vector<double> offsets;

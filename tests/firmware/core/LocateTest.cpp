@@ -67,6 +67,18 @@ static std::vector<std::int32_t> noisy(const ModelRing& ring, Presses& presses, 
   return ring.raw(strains);
 }
 
+static bool onNearest(const Fit& fit) {
+  return fit.readings == FitMode::kThreePoint && fit.triple == kNearTriple;
+}
+/// The same but for noise on all gauges beyond the next ones of `centre`.
+static std::vector<std::int32_t> othersDisturbed(const ModelRing& ring, Presses& presses,
+                                                 std::vector<std::int32_t> strains, int centre) {
+  for (int away = 2; away <= ring.gauges() - 2; ++away)
+    strains[static_cast<std::size_t>((centre + away) % ring.gauges())] +=
+        static_cast<std::int32_t>(std::ldexp(presses.noise(ring.noise_strain()), 32));
+  return strains;
+}
+
 /// Extreme rings: what(random, limit) fills one strain.
 template <typename What>
 static void checkNeverCertain(What what) {
@@ -239,6 +251,25 @@ TEST(Locate, TheAngleDoesNotDependOnTheScale) {
       LONGS_EQUAL(fit.up - doubling, scaled.up);
     }
   }
+}
+
+// What noise does to the others moves such an answer by less than a tenth of what it does to the three: only
+// where the two rows that it is solved between change.
+TEST(Locate, ThreePointRestsOnTheNearestReadingsWhereTheseTellEnough) {
+  const ModelRing ring;
+  Presses presses(16, kLoad, 18);
+  int tried = 0;
+  for (int i = 0; i < 300; ++i) {
+    const auto strains = noisy(ring, presses, ring.noise_strain());
+    const Fit fit = fitOf(ring, FitMode::kThreePoint, strains);
+    const Fit other = fitOf(ring, FitMode::kThreePoint, othersDisturbed(ring, presses, strains, fit.centre));
+    if (!onNearest(fit) || !onNearest(other)) continue;
+    ++tried;
+    const double moved = std::ldexp(other.best.position - fit.best.position, -kPitchBits);
+    DOUBLES_EQUAL(0, ring.arc_um(ring.between(0, moved)), 1);
+    DOUBLES_EQUAL(1, static_cast<double>(other.best.normal) / fit.best.normal, 1e-3);
+  }
+  CHECK(tried > 180);
 }
 
 TEST(Locate, TheSameStrainsGiveTheSameAnswer) {

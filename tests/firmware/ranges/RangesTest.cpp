@@ -9,6 +9,7 @@
 #include "firmware/core/condition.hpp"
 #include "firmware/core/error_products.hpp"
 #include "firmware/core/fit_step.hpp"
+#include "firmware/core/near_triple.hpp"
 #include "firmware/core/side_energies.hpp"
 #include "firmware/core/triple_step.hpp"
 #include "firmware/core/units.hpp"
@@ -40,6 +41,22 @@ TEST_GROUP(Ranges) {
       tripleSystem(provedRow, gauges, step.projection);
     }
   }
+  /// The three nearest readings, solved between any two rows, for any information that all seven may have.
+  static void solveNearest(const NearSignal& signal) {
+    const NearColumns columns = nearColumns(provedRow);
+    const NearNormal normal = nearNormal(provedRow, columns);
+    const Number closer = distanceFrom(normal, signal) - distanceFrom(normal, signal);
+    const Number beyond = secantLength(distanceFrom(normal, signal), closer);
+    closerSquared(provedRow, closer);
+    leastCloser(normal, fitStep(provedRow, anySignal()).information);
+    const NearQuotients quotients = nearQuotients(columns, normal.sum, signal);
+    nearAmplitudes(provedRow, provedRow, nearProjections(between(quotients, quotients, beyond)), beyond);
+  }
+  /// Any readings of them, as long as they may be together.
+  static NearSignal anyNearSignal(double length) {
+    const Number any(-32767, 32767, 16);
+    return {{any, any, length, 1}, {any, any, length, 4}};
+  }
   /// Of any deviations and covariances of so many bits.
   static void variance(int deviationBits, int covarianceBits) {
     const auto any = [](int bits) { return Number(-(std::int64_t{1} << bits), std::int64_t{1} << bits); };
@@ -70,6 +87,7 @@ TEST_GROUP(Ranges) {
     const Number half = any(alone / std::sqrt(2.0));
     const std::array<Number, kWindowGauges> window{half, half, half, any(alone), half, half, half};
     foldedSignal(window.data(), up, foldedOuter(half, half, up));
+    nearSignal(half, any(alone), half, up);
   }
   /// Calls visit for a row of each scale that tables may have.
   template <typename Visit>
@@ -98,6 +116,13 @@ TEST(Ranges, AmplitudesAndTheirSlopesOverflowNothing) {
 TEST(Ranges, AStepOfThreeReadingsAndItsAmplitudesOverflowNothing) {
   forEachScale([&] { threeSteps(anySignal()); });
   checkNone();
+}
+
+TEST(Ranges, TheThreeNearestReadingsBetweenTwoRowsOverflowNothing) {
+  forEachScale([&] { solveNearest(anyNearSignal(kSignalLength)); });
+  checkNone();
+  solveNearest(anyNearSignal(4 * kSignalLength));
+  CHECK(overflows > 0);
 }
 
 TEST(Ranges, WhatThreeReadingsWeighInAnErrorOverflowsNothing) {

@@ -112,6 +112,17 @@ inline Pair pairAt(const std::int16_t* numbers) {
   return {any, any, kWeightLength, 1u << pair};
 }
 
+/// Two numbers are no longer than all that they are part of. One of a pair of which nothing is known has been
+/// halved, as the weights are: the difference of two readings is then no longer than they are.
+inline Pair lows(Pair a, Pair b) { return {a.lower, b.lower, a.length}; }
+inline Pair lowAndHigh(Pair a, Pair b) { return {a.lower, b.upper, a.length}; }
+inline Number determinant(Pair a, Pair b) {
+  const double lengths = a.length * b.length;
+  if (lengths == 0) return a.lower * b.upper - a.upper * b.lower;
+  const auto most = static_cast<std::int64_t>(std::ceil(lengths));
+  return {-most, most};
+}
+
 inline Pair operator+(Pair a, Pair b) {
   const Number lower = a.lower + b.lower, upper = a.upper + b.upper;
   return {Number(lower.least(), lower.most(), 16), Number(upper.least(), upper.most(), 16)};
@@ -154,6 +165,8 @@ template <int Bits>
 Number signedQuotient(Number numerator, Number divisor) {
   return clippedQuotient<Bits>(numerator, divisor);
 }
+
+inline Number nonZero(Number value) { return value; }
 
 constexpr int absolute(int value) { return value < 0 ? -value : value; }
 

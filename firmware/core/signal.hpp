@@ -12,9 +12,11 @@
 namespace strainfinger::firmware {
 
 /// Middle reading and sums of the pairs at distance 1, 2, 3; their differences (+ side minus - side), and
-/// that of the outer pair, 0 in rings without. Not halved: FoldedWeights are, so that weights . signal is the
-/// unfolded product. Domain: the window's norm before folding is below 2^14.5, so sums and differences fit 16
-/// bits and a product with weights of norm <= 1 (2^15) stays below 2^29.5, with every partial sum.
+/// that of the outer pair, 0 in rings without.
+/// Not halved: FoldedWeights are, so that weights . signal is the unfolded product; the outer pair's is of
+/// its difference as it is.
+/// Domain: the window's norm before folding is below 2^14.5, so sums and differences fit 16 bits and a
+/// product with weights of norm <= 1 (2^15) stays below 2^29.5, with every partial sum.
 struct Signal {
   std::array<Pair, 2> even;
   std::array<Pair, 2> odd;

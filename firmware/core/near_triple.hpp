@@ -61,7 +61,7 @@ inline Number secantLength(Number here, Number closer) {
   return signedQuotient<kRowBits + 2>(clipped<23>(here) * 256, nonZero(closer >> 6));
 }
 
-/// What `closer` has to be for an offset whose error is sqrt(8) times that of all seven gauges, which have so
+/// What `closer` has to be for an offset whose error is sqrt(2) times that of all seven gauges, which have so
 /// much information (see FitStep); both squared.
 inline Number leastCloser(const NearNormal& normal, Number information) {
   const Number middle = normal.middle >> 16;
@@ -95,7 +95,7 @@ inline NearQuotients between(const NearQuotients& here, const NearQuotients& nex
 }
 
 /// The least divisor [/ 4] that tells the loads well enough.
-inline constexpr std::int32_t kLeastDivisor = 1 << 25;
+inline constexpr std::int32_t kLeastDivisor = 3 << 24;
 
 /// |divisor| at least the least one.
 inline Projections nearProjections(const NearQuotients& quotients) {

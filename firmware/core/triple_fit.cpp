@@ -75,7 +75,7 @@ NearSignal nearSignalOf(const TableConstants& constants, const std::int32_t* str
 constexpr PitchQ20 kBetweenRows = kRowSpacing * 3 / 4;
 
 /// Leaves the answer to the three nearest readings, between the two rows around it. False: they tell it with
-/// more than sqrt(8) times the error of all seven, or lead away.
+/// more than sqrt(2) times the error of all seven, or lead away.
 [[gnu::noinline]] bool leaveToNear(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32) {
   const TableConstants& constants = tables.constants;
   const PitchQ20 offset = fit.offset(constants.gauge_count);

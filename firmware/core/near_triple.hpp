@@ -56,7 +56,8 @@ inline Number distanceFrom(const NearNormal& normal, const NearSignal& signal) {
          mulHigh(normal.difference, low(signal.odd) * (1 << 11));
 }
 
-/// Where between two neighbouring rows the distance vanishes, or up to two rows beyond [row spacing * 2^14].
+/// Where between two neighbouring rows the distance vanishes, or up to two rows beyond [their spacing *
+/// 2^14].
 inline Number secantLength(Number here, Number closer) {
   return signedQuotient<kRowBits + 2>(clipped<23>(here) * 256, nonZero(closer >> 6));
 }
@@ -69,7 +70,7 @@ inline Number leastCloser(const NearNormal& normal, Number information) {
   return mulHigh(middle * middle + (dot(beside, beside) >> 1), information) >> 3;
 }
 inline Number closerSquared(const FitRow& row, Number closer) {
-  const Number lowered = clipped<16>(closer >> (row.gradient_exponent + 9));
+  const Number lowered = clipped<16>(closer >> (row.gradient_exponent + 9 + kRowStrideBits));
   return lowered * lowered;
 }
 

@@ -77,23 +77,24 @@ constexpr PitchQ20 kBetweenRows = kRowSpacing * 3 / 4;
 /// Leaves the answer to the three nearest readings, between the two rows around it. False: they tell it with
 /// more than sqrt(2) times the error of all seven, or lead away.
 [[gnu::noinline]] bool leaveToNear(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32) {
+  constexpr int kBits = kRowBits + kRowStrideBits, kLast = ((kFitRows - 1) >> kRowStrideBits) - 1;
   const TableConstants& constants = tables.constants;
   const PitchQ20 offset = fit.offset(constants.gauge_count);
   const int side = offset < 0 ? -1 : 1;
   const NearSignal signal = nearSignalOf(constants, strains_q32, fit, side);
   const FitRow* const rows = unknown(tables.rows.data());
-  int number = std::min<int>(absolute(offset) >> kRowBits, kFitRows - 2);
+  int pair = std::min<int>(absolute(offset) >> kBits, kLast);
   for (bool again = false;; again = true) {
-    const FitRow& row = *unknown(rows + number);
-    const FitRow& next = *(&row + 1);
+    const FitRow& row = *unknown(rows + (pair << kRowStrideBits));
+    const FitRow& next = *(&row + (1 << kRowStrideBits));
     const NearColumns columns = nearColumns(row), nextColumns = nearColumns(next);
     const NearNormal normal = nearNormal(row, columns), nextNormal = nearNormal(next, nextColumns);
     const std::int32_t distance = distanceFrom(normal, signal);
     const std::int32_t closer = distance - distanceFrom(nextNormal, signal);
     const std::int32_t beyond = secantLength(distance, closer);
     if (absolute(beyond - kRowSpacing / 2) > kBetweenRows) {
-      number += beyond >> kRowBits;
-      if (again || number < 0 || number > kFitRows - 2) return false;
+      pair += beyond >> kRowBits;
+      if (again || pair < 0 || pair > kLast) return false;
       continue;
     }
     if (closerSquared(*fit.row, closer) < leastCloser(normal, fit.information)) return false;
@@ -103,8 +104,8 @@ constexpr PitchQ20 kBetweenRows = kRowSpacing * 3 / 4;
     fit.projection = nearProjections(quotients);
     fit.row = beyond > kRowSpacing / 2 ? &next : &row;
     const Amplitudes amplitudes = nearAmplitudes(row, next, fit.projection, beyond);
-    replaceBest(fit, {roundTheRing(fit.centre * kOnePitch + side * (number * kRowSpacing + beyond),
-                                   constants.gauge_count),
+    const PitchQ20 found = (pair << kBits) + (beyond << kRowStrideBits);
+    replaceBest(fit, {roundTheRing(fit.centre * kOnePitch + side * found, constants.gauge_count),
                       amplitudes.normal, side * amplitudes.tangential});
     break;
   }

@@ -104,8 +104,8 @@ constexpr hal::SampleSet strange(Draws& draws) {
   return set;
 }
 
-/// One contact or none, with no more noise than the tables expect: what a finger feels day in, day out. Loads to
-/// twice `range`.
+/// One contact or none, with no more noise than the tables expect: what a finger feels day in, day out. Loads
+/// to twice `range`.
 constexpr hal::SampleSet ordinary(Draws& draws, std::uint32_t range) {
   Deflections codes{};
   if (draws.below(8) != 0) press(codes, drawContact(draws, range));
@@ -128,8 +128,8 @@ constexpr hal::SampleSet wild(Draws& draws) {
 /// Sample sets after which a replay starts afresh.
 inline constexpr std::uint32_t kBlock = 1024;
 
-/// Sample set number `sample`. What takes many times the time is rarer than the rest: every eighth block presses
-/// gauges to the ends of the converter's range, and the last 128 of every sixteenth are wild ones.
+/// Sample set number `sample`. What takes many times the time is rarer than the rest: every eighth block
+/// presses gauges to the ends of the converter's range, and the last 128 of every sixteenth are wild ones.
 constexpr hal::SampleSet generatedSamples(std::uint32_t sample) {
   constexpr std::uint32_t kCycle = 16 * kBlock, kWild = 128;
   Draws draws(sample);

@@ -8,9 +8,6 @@ namespace {
 /// Fits closer than this ran into the same maximum.
 constexpr PitchQ20 kSameAnswer = kOnePitch / 12;
 
-/// A contact leaves about this part of its energy outside its window, as a power of two: up to 2 % with 16
-/// gauges and fewer, a few percent with more, which are not in doubt.
-constexpr int kTailShift = 6;
 /// Beyond the last row: what the fit looks for belongs to another window.
 bool walkedOut(const WindowFit& fit) { return fit.offset() >= kFitRows * kRowSpacing; }
 
@@ -24,7 +21,7 @@ void changeWindow(const Problem& problem, WindowFit& fit) {
 }  // namespace
 
 std::int32_t leftOutside(const Problem& problem, std::int32_t windowEnergy) {
-  return std::min(problem.ringEnergy - windowEnergy, windowEnergy >> kTailShift);
+  return std::min(problem.ringEnergy - windowEnergy, problem.tail(windowEnergy));
 }
 
 bool solve(const Problem& problem, InWindow window, WindowFit& fit) {

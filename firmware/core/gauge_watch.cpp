@@ -299,7 +299,7 @@ void GaugeWatch::reconsider(GaugeSet right, GaugeSet wrong) {
 }
 
 bool GaugeWatch::wantsToExamine() {
-  if (misfits_ < kExamineAtOnce + kExamineEvery) {
+  if (misfits_ + 1 < kExamineAtOnce + kExamineEvery) {
     ++misfits_;
   } else {
     misfits_ = kExamineAtOnce;

@@ -71,7 +71,7 @@ class JumpWatch {
   std::uint8_t jumps_ = 0;
 };
 
-/// Gauges that were culprits in two of four sample sets, or in more than one of seventeen for longer, are out
+/// Gauges that were culprits in two of six sample sets, or in more than one of seventeen for longer, are out
 /// of use until they read for a while what the others predict, or there is a new zero.
 class GaugeWatch {
  public:

@@ -21,11 +21,11 @@ struct Candidate {
   }
 };
 
-/// Follows the remaining readings from a view to the nearest best fit; at most six steps.
+/// Follows the remaining readings from a view to the nearest best fit; at most eight steps.
 Candidate followed(const Problem& problem, const RingSignal& signal, View view);
 
 /// The two best contacts of the whole ring, for the remaining gauges. Cost: 128 projections with 16 gauges
-/// and three fits, about five times a located contact; only rings with a gauge out of use pay it.
+/// and up to eleven fits; only rings with a gauge out of use pay it.
 struct Rivals {
   Candidate best;
   Candidate second;

@@ -10,10 +10,11 @@
 namespace strainfinger::firmware {
 namespace {
 
-/// A ring of less energy than 1024 variances can look right in any window, one of less than 4096 two or three
-/// gauges away.
+/// A ring of less energy than 1024 variances can look right in any window, one of less than 4096 two gauges
+/// away, one of less than 16,384 three.
 constexpr int kWeakShift = 5;
 constexpr int kAliasShift = 7;
+constexpr int kFarAliasShift = 9;
 
 // Parts of the energy, as powers of two:
 constexpr int kStarterShift = 4;     ///< within 1/16 (and as many) a peak of another window may
@@ -21,9 +22,10 @@ constexpr int kRoundingShift = 12;   ///< 1/4096 is lost in rounding
 constexpr int kAmbiguousShift = 14;  ///< rounding makes two fits differ by less than this
 constexpr int kOneStepShift = 10;    ///< .. after a single step by less than this ..
 constexpr int kTwoStepsShift = 12;   ///< .. and after a second by less than this
-constexpr int kOutsideShift = 3;     ///< a contact leaves less than 1/8 of its energy outside its window
+constexpr int kOutsideShift = 5;     ///< a contact leaves less than 1/32 of its energy outside its window
 
 bool mayBeAlias(const Problem& problem) { return problem.ringEnergy >> kAliasShift < problem.noise; }
+bool mayBeFarAlias(const Problem& problem) { return problem.ringEnergy >> kFarAliasShift < problem.noise; }
 bool isWeak(const Problem& problem) { return problem.ringEnergy >> kWeakShift < problem.noise; }
 
 /// How much less a peak of a scan may explain than the best and still win once it is refined.
@@ -141,7 +143,7 @@ void Contest::enter(const Problem& problem, const WindowFit& from, const Judgeme
 inline void enterBeside(const Problem& problem, Contest& contest) {
   constexpr std::array<std::int8_t, 4> kAway{-2, 2, -3, 3};
   std::array<Start, 4> starts;
-  const std::size_t count = mayBeAlias(problem) ? 4 : 2;
+  const std::size_t count = mayBeFarAlias(problem) ? 4 : 2;
   std::int32_t best = 0;
   for (std::size_t i = 0; i < count; ++i) {
     starts[i] = midwayStart(problem, wrapped(contest.fit.anchor + kAway[i], problem.gauges()));

@@ -39,7 +39,7 @@ class Pipeline {
   /// So few gauges work that nothing is said for sure.
   bool tooFewGauges() const { return tooManyOut(watch_.outOfUse(), constants().gauge_count); }
   const ZeroTracker& zeroTracker() const { return tracker_; }
-  /// Of the last sample set; gauges that are left out have what the others say they should read.
+  /// Of the last sample set; gauges that are left out have what the others say they should read, or 0.
   const Readings& readings() const { return readings_; }
 
  private:

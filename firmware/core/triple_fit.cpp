@@ -18,9 +18,8 @@ std::uint8_t tripleAt(const FitRow& row, const Projections& projection) {
 }
 
 /// A step from a row onto which the signal is projected.
-bool takeTripleStep(const FitRow& row, WindowFit& fit) {
+bool takeTripleStep(const FitRow& row, std::uint8_t triple, WindowFit& fit) {
   const Projections u = fit.step.projection;
-  const std::uint8_t triple = tripleAt(row, u);
   const TripleSystem system = systemOf(row, triple, u);
   if (absolute(system.volume) < 1 << 16) return false;
   fit.step = tripleStep(row, system, twiceRead(fit.signal, kTripleList[triple]), u);
@@ -52,14 +51,15 @@ WindowFit windowFitOf(const TableImage& tables, const std::int32_t* strains_q32,
 
 [[gnu::noinline]] void leaveToThree(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32) {
   WindowFit window = windowFitOf(tables, strains_q32, fit);
-  if (!solveTriple(tables.rows, tables.constants.mirror_sign, window)) return;
+  const auto triple = solveTriple(tables.rows, tables.constants.mirror_sign, window);
+  if (!triple) return;
   fit.row = unknown(tables.rows.data()) + window.row;
   const Amplitudes amplitudes = amplitudesOf(*fit.row, window.step);
   replaceBest(fit, {roundTheRing(window.position(), tables.constants.gauge_count), amplitudes.normal,
                     window.side * amplitudes.tangential});
   fit.projection = window.step.projection;
   fit.readings = FitMode::kThreePoint;
-  fit.triple = tripleAt(*fit.row, fit.projection);
+  fit.triple = *triple;
 }
 
 /// Middle reading and the two beside it, as a fit's side sees them.
@@ -120,18 +120,19 @@ TripleSystem systemOf(const FitRow& row, std::uint8_t triple, const Projections&
   return tripleSystem(row, kTripleList[triple], projection);
 }
 
-bool solveTriple(const FitTable& rows, int mirrorSign, WindowFit& fit) {
+std::optional<std::uint8_t> solveTriple(const FitTable& rows, int mirrorSign, WindowFit& fit) {
   constexpr int kMaxSteps = 3;
   const PitchQ20 before = fit.side * fit.offset();
   for (int left = kMaxSteps; left > 0; --left) {
     follow(fit, fit.step.length, mirrorSign);
     const FitRow& row = *unknown(unknown(rows.data()) + fit.row);
     fit.step.projection = projectionsOn(row, fit.signal);
-    if (!takeTripleStep(row, fit)) return false;
-    if (absolute(fit.side * fit.offset() - before) > kFarthest) return false;
-    if (absolute(fit.step.length) <= kRowSpacing << kRowStrideBits) return true;
+    const std::uint8_t triple = tripleAt(row, fit.step.projection);
+    if (!takeTripleStep(row, triple, fit)) return {};
+    if (absolute(fit.side * fit.offset() - before) > kFarthest) return {};
+    if (absolute(fit.step.length) <= kRowSpacing << kRowStrideBits) return triple;
   }
-  return false;
+  return {};
 }
 
 void locateByThree(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32,

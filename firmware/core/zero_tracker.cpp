@@ -177,6 +177,7 @@ void ZeroTracker::followTouched(const TableImage& tables, PitchQ20 position, Gau
   const auto averages = std::span(sum_).first(tables.constants.gauge_count);
   if (!resting_) {
     rest_ = sum_;
+    restLeftOut_ = leftOut_;
     resting_ = true;
     return;
   }
@@ -199,7 +200,7 @@ void ZeroTracker::followTouched(const TableImage& tables, PitchQ20 position, Gau
 void ZeroTracker::finish(const TableImage& tables, const std::optional<Fit>& fit, Calibration& calibration) {
   for (std::int32_t& sum : sum_) sum >>= kAverageShift;
   if (touched_) {
-    followTouched(tables, fit->best.position, leftOut_, calibration);
+    followTouched(tables, fit->best.position, leftOut_ | (resting_ ? restLeftOut_ : 0), calibration);
   } else {
     followUntouched(tables.constants, leftOut_, calibration);
   }

@@ -78,6 +78,7 @@ class ZeroTracker {
   std::uint16_t sets_ = 0;
   std::uint16_t doubts_ = 0;  ///< sets in a row that say otherwise than touched_
   GaugeSet leftOut_ = 0;      ///< in any set of the interval
+  GaugeSet restLeftOut_ = 0;  ///< .. of the one that rest_ is of
   bool touched_ = false;
   bool resting_ = false;  ///< rest_ holds
 };

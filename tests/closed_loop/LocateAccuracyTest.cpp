@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <numbers>
 #include <random>
@@ -24,13 +25,19 @@ using firmware::FitMode;
 
 namespace {
 
-constexpr int kContacts = 100'000;
+int contactCount(int usual) {
+  const char* asked = std::getenv("STRAINFINGER_TEST_CONTACTS");
+  return asked ? std::atoi(asked) : usual;
+}
 constexpr double kPeakPerLoad = 460.603e-6;  ///< strain per N/m at the gauge under a normal load
 
 struct Statistics {
-  int gross = 0;  ///< more than half a pitch off
+  int contacts = 0;
+  int gross = 0;    ///< more than half a pitch off
+  int certain = 0;  ///< .. and beyond 6 reported sigmas
   int unseen = 0;
-  double arc_um = 0;          ///< RMS
+  double arc_um = 0;  ///< RMS
+  double worst_um = 0;
   Eigen::Vector3d overBound;  ///< RMS of error / Cramer-Rao bound: angle, normal, tangential
   Eigen::Vector3d overSigma;  ///< RMS of error / reported sigma
 };
@@ -51,10 +58,12 @@ class Trial {
     image_ = std::make_unique<TableImage>(tables::buildTableImage(config));
   }
 
-  Statistics run(FitMode mode, std::uint64_t seed, int contacts = kContacts) {
-    std::printf("seed %llu ", static_cast<unsigned long long>(seed));
+  Statistics run(FitMode mode, std::uint64_t seed, int usual = 100'000) {
+    const int contacts = contactCount(usual);
+    std::printf("%d contacts, seed %llu ", contacts, static_cast<unsigned long long>(seed));
     random_.seed(seed);
     Statistics result;
+    result.contacts = contacts;
     Eigen::Vector3d bound = Eigen::Vector3d::Zero(), sigma = bound;
     for (int i = 0; i < contacts; ++i) {
       const Truth truth = next();
@@ -64,17 +73,23 @@ class Trial {
         continue;
       }
       const Eigen::Vector3d error = errorOf(*contact, truth);
-      result.gross += std::abs(error[0]) > std::numbers::pi / gauges_ ? 1 : 0;
+      const bool gross = std::abs(error[0]) > std::numbers::pi / gauges_;
+      result.gross += gross;
+      result.certain += gross && std::abs(error[0]) > 6 * sigmasOf(*contact)[0];
       result.arc_um += std::pow(error[0] * 12.7e3, 2) / contacts;
+      result.worst_um = std::max(result.worst_um, std::abs(error[0] * 12.7e3));
       if (noise_ > 0) bound += error.cwiseAbs2().cwiseQuotient(variances(truth)) / contacts;
       sigma += error.cwiseQuotient(sigmasOf(*contact)).cwiseAbs2() / contacts;
     }
     result.arc_um = std::sqrt(result.arc_um);
     result.overBound = bound.cwiseSqrt();
     result.overSigma = sigma.cwiseSqrt();
-    std::printf("arc %.2f um, over bound %.3f %.3f %.3f, over sigma %.3f %.3f %.3f ", result.arc_um,
-                result.overBound[0], result.overBound[1], result.overBound[2], result.overSigma[0],
-                result.overSigma[1], result.overSigma[2]);
+    std::printf(
+        "gross %d, of them %d certain, arc %.2f um, worst %.2f um, over bound %.3f %.3f %.3f, over sigma "
+        "%.3f %.3f %.3f ",
+        result.gross, result.certain, result.arc_um, result.worst_um, result.overBound[0],
+        result.overBound[1], result.overBound[2], result.overSigma[0], result.overSigma[1],
+        result.overSigma[2]);
     return result;
   }
 
@@ -138,6 +153,9 @@ LONGS_EQUAL(0, result.unseen);
 static void checkBelow(const Eigen::Vector3d& limits, const Eigen::Vector3d& values) {
   for (int i = 0; i < 3; ++i) CHECK(values[i] <= limits[i]);
 }
+static void checkHonest(const Statistics& result) {
+  for (int i = 0; i < 3; ++i) DOUBLES_EQUAL(1, result.overSigma[i], 0.1);
+}
 }
 ;
 
@@ -155,10 +173,11 @@ TEST(LocateAccuracy, ThreePointWithoutNoiseIsWithinAMicrometreOrSo) {
 }
 
 TEST(LocateAccuracy, LightAndHeavyTouchesWithoutNoiseAreAsGood) {
-  for (const double load : {2.0, 6.0, 60.0}) {
+  for (const double load : {1.0, 6.0, 60.0}) {
     const Statistics result = Trial(0, load).run(FitMode::kRefined, 103);
     checkNoGrossError(result);
     CHECK(result.arc_um <= 1);
+    CHECK(result.worst_um <= 5);
   }
 }
 
@@ -166,14 +185,14 @@ TEST(LocateAccuracy, RefinedAtAThousandthOfNoiseReachesTheBound) {
   const Statistics result = Trial(1e-3, 30).run(FitMode::kRefined, 104);
   checkNoGrossError(result);
   checkBelow({1.03, 1.03, 1.03}, result.overBound);
-  checkBelow({1.1, 1.1, 1.1}, result.overSigma);
+  checkHonest(result);
 }
 
 TEST(LocateAccuracy, ThreePointAtAThousandthOfNoiseIsWithinHalfAgainOfTheBound) {
   const Statistics result = Trial(1e-3, 30).run(FitMode::kThreePoint, 105);
   checkNoGrossError(result);
   checkBelow({1.5, 1.5, 1.5}, result.overBound);
-  checkBelow({1.1, 1.1, 1.1}, result.overSigma);
+  checkHonest(result);
 }
 
 // Seven gauges of 24 and the outer pair's difference know all but 0.6, 0.2 and 1.8 % of what the ring does.
@@ -181,5 +200,12 @@ TEST(LocateAccuracy, TwentyFourGaugesAtAHundredthOfNoiseReachTheBound) {
   const Statistics result = Trial(1e-2, 30, 24).run(FitMode::kRefined, 106, 40'000);
   checkNoGrossError(result);
   checkBelow({1.03, 1.03, 1.03}, result.overBound);
-  checkBelow({1.1, 1.1, 1.1}, result.overSigma);
+  checkHonest(result);
+}
+
+// At this noise 16 gauges don't tell every branch apart: such answers say that they are uncertain.
+TEST(LocateAccuracy, SixteenGaugesAtAHundredthOfNoiseAreRarelyWrongAndHardlyEverCertainOfIt) {
+  const Statistics result = Trial(1e-2, 30).run(FitMode::kRefined, 107);
+  CHECK(result.gross <= result.contacts / 200);
+  CHECK(result.certain <= result.contacts / 10'000);
 }

@@ -108,7 +108,7 @@ constexpr hal::SampleSet strange(Draws& draws) {
 /// to twice `range`.
 constexpr hal::SampleSet ordinary(Draws& draws, std::uint32_t range) {
   Deflections codes{};
-  if (draws.below(8) != 0) press(codes, drawContact(draws, range));
+  if (draws.below(4) != 0) press(codes, drawContact(draws, range));
   addNoise(codes, draws, 4 + static_cast<int>(draws.below(4)));
   return converted(codes, draws.below(2) == 0);
 }
@@ -128,13 +128,13 @@ constexpr hal::SampleSet wild(Draws& draws) {
 /// Sample sets after which a replay starts afresh.
 inline constexpr std::uint32_t kBlock = 1024;
 
-/// Sample set number `sample`. What takes many times the time is rarer than the rest: every eighth block
-/// presses gauges to the ends of the converter's range, and the last 128 of every sixteenth are wild ones.
+/// Sample set number `sample`. What takes many times the time is rarer than the rest: every sixteenth block
+/// presses gauges to the ends of the converter's range, and the last 96 of every sixteenth are wild ones.
 constexpr hal::SampleSet generatedSamples(std::uint32_t sample) {
-  constexpr std::uint32_t kCycle = 16 * kBlock, kWild = 128;
+  constexpr std::uint32_t kCycle = 16 * kBlock, kWild = 96;
   Draws draws(sample);
   if (sample % kCycle >= kCycle - kWild) return wild(draws);
-  return ordinary(draws, sample / kBlock % 8 == 5 ? 1u << 14 : 1u << 13);
+  return ordinary(draws, sample / kBlock % 16 == 5 ? 1u << 14 : 1u << 13);
 }
 
 }  // namespace strainfinger::emulated

@@ -124,7 +124,7 @@ TEST_GROUP(WindowFit) {
   Refined threeFrom(const Case& c, double offset_pitch, int start) {
     WindowFit fit = startOf(c, start);
     refine(rows, 1, fit);
-    const bool settled = solveTriple(rows, 1, fit);
+    const bool settled = solveTriple(rows, 1, fit).has_value();
     return judged(fit, settled, c, offset_pitch);
   }
   /// Visits contacts all over the window, and every row within an eighth of a pitch of them.
@@ -217,7 +217,7 @@ TEST(WindowFit, ThreeGaugesThatSayNothingAreNoAnswer) {
   WindowFit fit = startOf(contact(0.1, 0), 6);
   fit.signal = {};
   fit.step = {};
-  CHECK_FALSE(solveTriple(rows, 1, fit));
+  CHECK_FALSE(solveTriple(rows, 1, fit).has_value());
 }
 
 TEST(WindowFit, NoOffsetSendsNeighbouringRowsToAndFro) {

@@ -1,4 +1,6 @@
 // What the benchmark compiles with other rules is the firmware's locator, and follows these rules.
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <cstring>

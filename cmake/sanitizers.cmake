@@ -4,8 +4,8 @@ if(STRAINFINGER_SANITIZE)
   add_link_options(-fsanitize=address,undefined)
 endif()
 
-# strainfinger_leave_unsanitized(FILE...): a library's algorithm, or arithmetic in many digits, too slow under the sanitizers. Eigen allocates
-# otherwise under them, so it is told to do as the sanitized files do.
+# strainfinger_leave_unsanitized(FILE...): a library's algorithm, or arithmetic in many digits, too slow under the
+# sanitizers. Eigen allocates otherwise under them, so it is told to do as the sanitized files do.
 function(strainfinger_leave_unsanitized)
   if(STRAINFINGER_SANITIZE)
     set_source_files_properties(${ARGN} PROPERTIES

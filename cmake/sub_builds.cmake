@@ -1,11 +1,10 @@
 # The sanitized copy of the tree: built with this one, by the preset that people use for it, and its tests (named
-# sanitized.*) run by this one's ctest. Brief: without the tests of the commands and of the paper's figures, which
-# put the rooms together and take a minute of CI's twenty; the preset `sanitize` by itself has them.
+# sanitized.*) run by this one's ctest.
 set(sanitized ${PROJECT_BINARY_DIR}/sanitized)
 
 add_custom_target(sanitized ALL
   COMMAND ${CMAKE_COMMAND} --preset sanitize -S ${PROJECT_SOURCE_DIR} -B ${sanitized}
-          -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} -DSTRAINFINGER_BRIEF=ON --log-level=WARNING
+          -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} --log-level=WARNING
   COMMAND ${CMAKE_COMMAND} --build ${sanitized} --parallel 2
   WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} USES_TERMINAL VERBATIM)
 

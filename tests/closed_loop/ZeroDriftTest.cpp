@@ -1,4 +1,7 @@
 // Held touches while the gauges drift, from the converter's codes on.
+#include <cmath>
+#include <optional>
+
 #include "common/fixed_real.hpp"
 #include "firmware/core/estimate.hpp"
 #include "firmware/core/pipeline.hpp"
@@ -35,6 +38,7 @@ struct Drifting : Utest {
   std::vector<double> rates;
   Pipeline pipeline{ring.tables(), FitMode::kRefined};
   double drifted_s = 0;
+  std::optional<std::size_t> open;  ///< a gauge that reads the end of its range
 
   void drift(const Drift& drift) {
     for (int gauge = 0; gauge < Gauges; ++gauge)
@@ -47,6 +51,7 @@ struct Drifting : Utest {
     std::array<std::uint16_t, kMaxGauges> codes{};
     for (std::size_t i = 0; i < strains.size(); ++i)
       codes[i] = converter.codeOf(strains[i] + rates[i] * drifted_s + random.noise(analogNoise));
+    if (open) codes[*open] = 0;
     drifted_s += 1.0 / kSetsPerSecond;
     pipeline.process(Codes(codes).first(Gauges));
   }
@@ -140,6 +145,25 @@ TEST(ZeroDrift, TenMinutesOfTouchMakeTheZeroStale) {
   CHECK_TRUE(pipeline.observation().staleZero);
   rest(5);
   CHECK_FALSE(pipeline.observation().staleZero);
+}
+
+// What it read before the touch came to rest was the others' prediction: the touch has not changed by what it
+// differs.
+TEST(ZeroDrift, AGaugeThatComesBackWhileATouchRestsKeepsItsZero) {
+  drift({});
+  rest(1);
+  const std::int32_t before = pipeline.calibration().zero_q15[8];
+  open = 8;
+  hold({7.3, 5, 0}, 6);
+  CHECK_TRUE(contains(pipeline.observation().outOfUse, 8));
+  open.reset();
+  auto strains = ring.strains({7.3, 5, 0});
+  strains[8] *= 1.01;
+  for (int i = 0; i < 12 * kSetsPerSecond; ++i) step(strains);
+  CHECK_FALSE(contains(pipeline.observation().outOfUse, 8));
+  const double moved_codes = std::ldexp(pipeline.calibration().zero_q15[8] - before, -15);
+  std::printf("zero moved by %.2f codes ", moved_codes);
+  DOUBLES_EQUAL(0, moved_codes, 0.25);
 }
 
 TEST(ZeroDriftOfAFineRing, AHeldTouchKeepsItsLoadOverTenMinutesOfThermalDrift) {

@@ -4,27 +4,34 @@
 #include "firmware/core/locate.hpp"
 #include "host/bench/methods/sample.hpp"
 
+namespace strainfinger::bench {
+
+/// As in locate_into.hpp, in whichever namespace.
+using LocateInto = void(void* fit, const void* tables, bool byThree, const std::int32_t* strains_q32);
+
+}  // namespace strainfinger::bench
+
 namespace strainfinger_rows64::bench {
-void locateInto(void* fit, const void* tables, bool byThree, const std::int32_t* strains_q32);
+strainfinger::bench::LocateInto locateInto;
 }
 namespace strainfinger_rows32::bench {
-void locateInto(void* fit, const void* tables, bool byThree, const std::int32_t* strains_q32);
+strainfinger::bench::LocateInto locateInto;
 }
 namespace strainfinger_rows16::bench {
-void locateInto(void* fit, const void* tables, bool byThree, const std::int32_t* strains_q32);
+strainfinger::bench::LocateInto locateInto;
 }
 namespace strainfinger_two_rows::bench {
-void locateInto(void* fit, const void* tables, bool byThree, const std::int32_t* strains_q32);
+strainfinger::bench::LocateInto locateInto;
 }
 namespace strainfinger_one_step::bench {
-void locateInto(void* fit, const void* tables, bool byThree, const std::int32_t* strains_q32);
+strainfinger::bench::LocateInto locateInto;
 }
 
 namespace strainfinger::bench {
 
 struct Variant {
   const char* name;
-  void (*locateInto)(void* fit, const void* tables, bool byThree, const std::int32_t* strains_q32);
+  LocateInto* locateInto;
   bool byThree;
 
   firmware::Fit fitOf(const TableImage& tables, const Sample& sample) const {

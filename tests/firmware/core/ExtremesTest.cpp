@@ -89,6 +89,8 @@ TEST_GROUP(Extremes) {
     image_->image_bytes = sizeof(TableImage);
     fillConstants(image_->constants);
     for (FitRow& row : image_->rows) fillRow(row);
+    image_->gains.exponent = static_cast<std::uint8_t>(upTo(kLeastGainExponent, kMostGainExponent));
+    for (std::int8_t& each : image_->gains.correction) each = static_cast<std::int8_t>(upTo(-64, 0));
     image_->crc32 = crc32(checkedBytes(*image_));
     CHECK(checkTableImage(*image_) == TableFault::kNone);
     codes_.resize(constants_.gauge_count);

@@ -108,6 +108,13 @@ struct WithoutGauges : Utest {
     return result;
   }
 
+  /// As good as the gauges that are left allow, and honest.
+  static void checkNearBound(const Statistics& result) {
+    LONGS_EQUAL(0, result.gross);
+    CHECK(result.uncertain < result.contacts / 100);
+    checkWithin({1.1, 1.1, 1.1}, result.overBound);
+    checkWithin({1.1, 1.1, 1.1}, result.overSigma);
+  }
   static void checkWithin(const Errors& limits, const Errors& values) {
     for (int i = 0; i < 3; ++i) CHECK(values[i] <= limits[i]);
   }
@@ -128,11 +135,7 @@ TEST_GROUP_BASE(LeftOut, WithoutGauges<16>){};
 TEST_GROUP_BASE(LeftOutOfAFineRing, WithoutGauges<24>){};
 
 TEST(LeftOut, OneGaugeOutReachesTheBoundOfTheRemainingFifteen) {
-  const Statistics result = run(1u << 5, 5, 8, contacts(), 301);
-  LONGS_EQUAL(0, result.gross);
-  CHECK(result.uncertain < result.contacts / 100);
-  checkWithin({1.1, 1.1, 1.1}, result.overBound);
-  checkWithin({1.1, 1.1, 1.1}, result.overSigma);
+  checkNearBound(run(1u << 5, 5, 8, contacts(), 301));
 }
 
 // Within a pitch of it a contact's own readings are the ones that are missing: an unlimited search in double
@@ -167,11 +170,7 @@ TEST(LeftOutOfAFineRing, WithoutAnythingLeftOutItIsTheFitOfAllGauges) { checkNot
 
 // Many of these contacts lack a gauge of the outer pair, and some both gauges of one.
 TEST(LeftOutOfAFineRing, OneGaugeOutReachesTheBoundOfTheRemaining) {
-  const Statistics result = run(1u << 5, 5, 5.5, contacts(), 306);
-  LONGS_EQUAL(0, result.gross);
-  CHECK(result.uncertain < result.contacts / 100);
-  checkWithin({1.1, 1.1, 1.1}, result.overBound);
-  checkWithin({1.1, 1.1, 1.1}, result.overSigma);
+  checkNearBound(run(1u << 5, 5, 5.5, contacts(), 306));
 }
 
 TEST(LeftOutOfAFineRing, AContactWithoutItsOuterPairIsThatOfTheSeven) {

@@ -74,3 +74,13 @@ TEST(ScanSpans, TheNearerTheContactTheLargerTheShare) {
   CHECK(spans[4].first() > spans[12].first());
   CHECK(spans[4].last() > spans[12].last());
 }
+
+TEST(ScanSpans, MostContactsAreLookedForAroundOneReading) {
+  const auto spans = tables::scanSpans(response, 16, kCone);
+  constexpr int kContacts = 20'000;
+  int aroundOne = 0;
+  for (int i = 0; i < kContacts; ++i)
+    aroundOne += spans[static_cast<std::size_t>(draw(16).share * kShares)].last() != 0;
+  std::printf("%.1f %% ", 100.0 * aroundOne / kContacts);
+  CHECK(aroundOne > kContacts * 85 / 100);
+}

@@ -11,6 +11,11 @@ function(strainfinger_compile_together target)
   endif()
 endfunction()
 
+# GCC collects garbage as if memory were scarce: a tenth of the time of large batches.
+if(STRAINFINGER_COMPILE_TOGETHER AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  add_compile_options("SHELL:--param ggc-min-expand=200" "SHELL:--param ggc-min-heapsize=600000")
+endif()
+
 # strainfinger_room(NAME [SOURCES file...] [DEPENDS target...])
 # Makes strainfinger_NAME (alias strainfinger::NAME); header-only without SOURCES.
 function(strainfinger_room name)

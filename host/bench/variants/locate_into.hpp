@@ -1,7 +1,7 @@
 #pragma once
-// The firmware's locator with other rules of when to stop and which rows to use: compiled anew for each rule of
-// variants.cmake, whose firmware/core/step_rule.hpp stands before the firmware's, in a namespace of its own (the
-// project's is renamed on the compiler's command line).
+// The firmware's locator with other rules of when to stop and which rows to use: compiled anew for each rule
+// of variants.cmake, whose firmware/core/step_rule.hpp stands before the firmware's, in a namespace of its
+// own (the project's is renamed on the compiler's command line).
 
 #include <cstdint>
 

@@ -86,9 +86,19 @@ std::uint8_t qualityOf(const TableConstants& constants, const Fit& fit) {
   return static_cast<std::uint8_t>(std::min<std::int64_t>(percent, doubt ? kUncertainQuality : 100));
 }
 
-/// Two answers a distance apart: the reported error is at least a third of it.
-std::int32_t covering(std::int32_t sigma, std::int64_t difference) {
-  return std::max(sigma, saturate<std::int32_t>((difference < 0 ? -difference : difference) / 3));
+/// Standard errors that an alternative is away at least: three, or as many as noise needs to make it the
+/// better one.
+int errorsAway(const TableConstants& constants, const Fit& fit) {
+  static_assert(kNoiseUnit == 32);
+  const std::int32_t sixteenVariances = noiseEnergy(constants, fit.up) / 2;
+  if (fit.ambiguous || fit.deficit < sixteenVariances) return 3;
+  return fit.deficit < sixteenVariances + sixteenVariances / 2 ? 4 : 5;
+}
+
+/// So that as many errors reach the alternative, and beyond it as far as its own error.
+std::int32_t covering(std::int32_t sigma, std::int64_t difference, int errors) {
+  const std::int64_t reach = (difference < 0 ? -difference : difference) + sigma;
+  return std::max(sigma, saturate<std::int32_t>(reach / errors));
 }
 
 }  // namespace
@@ -97,11 +107,12 @@ Contact estimate(const TableConstants& constants, const Fit& fit) {
   const PitchQ20 ring = constants.gauge_count * kOnePitch;
   auto [offset, normal, tangential] = errorsOf(noiseOf(constants, fit), fit, ring / 2);
   offset = std::min(offset, ring / 2);
-  if (fit.ambiguous) {
+  if (fit.deficit != kNoRival) {
+    const int errors = errorsAway(constants, fit);
     const PitchQ20 apart = std::abs(fit.best.position - fit.alternative.position);
-    offset = covering(offset, std::min(apart, ring - apart));
-    normal = covering(normal, std::int64_t{fit.best.normal} - fit.alternative.normal);
-    tangential = covering(tangential, std::int64_t{fit.best.tangential} - fit.alternative.tangential);
+    offset = covering(offset, std::min(apart, ring - apart), errors);
+    normal = covering(normal, std::int64_t{fit.best.normal} - fit.alternative.normal, errors);
+    tangential = covering(tangential, std::int64_t{fit.best.tangential} - fit.alternative.tangential, errors);
   }
   Contact contact;
   contact.angle = angleOf(constants, fit.best.position);

@@ -257,6 +257,7 @@ Fit locateWithout(const TableImage& tables, GaugeSet leftOut, std::span<std::int
   if (!verdict.determined) fit.settled = false;
   if (verdict.ambiguous) {
     fit.ambiguous = true;
+    fit.deficit = 0;
     fit.alternative = verdict.alternative;
   }
   return fit;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "common/quantities.hpp"
@@ -11,10 +12,14 @@
 
 namespace strainfinger::firmware {
 
+/// Nowhere else is a contact that noise could take for the best.
+inline constexpr std::int32_t kNoRival = std::numeric_limits<std::int32_t>::max();
+
 /// What locate() found, in its own units; estimate.hpp turns it into quantities and errors.
 struct Fit {
   Placement best;
-  Placement alternative;      ///< the next best answer; meaningful when ambiguous
+  Placement alternative;      ///< the next best answer, or as far as a valley may lead; of use with a ..
+  std::int32_t deficit;       ///< .. energy that it explains less, or kNoRival
   const FitRow* row;          ///< that the answer was found from ..
   Projections projection;     ///< .. with these: what the answer's errors depend on
   std::int32_t information;   ///< see FitStep

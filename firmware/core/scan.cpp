@@ -119,9 +119,7 @@ Start midwayStart(const Problem& problem, int centre) {
   return startAt(centre, sides.minus.energy > sides.plus.energy ? sides.minus : sides.plus);
 }
 
-namespace {
-
-[[gnu::always_inline]] inline Scan scannedBy(int step, const FitTable& rows, const Signal& signal) {
+Scan scanned(const FitTable& rows, const Signal& signal, int step) {
   const int first = step / 2, second = first + step;
   const FitRow* at = unknown(&rows[static_cast<std::size_t>(first)]);
   const SideEnergies inner = exactEnergies(sideParts(*at, signal));
@@ -137,13 +135,6 @@ namespace {
   if (plus.row == second && plus.energy <= inner.plus) plus.energy = -1;
   if (middle.energy <= (middle.row < 0 ? minus.energy : plus.energy)) middle.energy = -1;
   return {middle, minus, plus};
-}
-
-}  // namespace
-
-Scan scanned(const FitTable& rows, const Signal& signal, int step) {
-  if (step == kMaxScanStep) return scannedBy(kMaxScanStep, rows, signal);  // unrolled: that of most fingers
-  return scannedBy(step, rows, signal);
 }
 
 void lookAtBend(const Problem& problem, int first, Region& region) {

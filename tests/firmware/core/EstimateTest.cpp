@@ -1,7 +1,9 @@
 #include "firmware/core/estimate.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "common/fixed_real.hpp"
 #include "firmware/core/detect.hpp"
@@ -31,6 +33,25 @@ TEST_GROUP(Estimate) {
     fit.information = 1 << 26;
     fit.up = kUp;
     fit.windowEnergy = kWindow;
+    fit.deficit = kNoRival;
+  }
+  /// A third, a fourth .. of the distance to `fit.alternative` and of the answer's own error beyond it.
+  void checkCovers(int errors) {
+    fit.best = {kOnePitch / 10, 3'000'000, 0};
+    fit.alternative = {16 * kOnePitch - kOnePitch / 5, 1'500'000,
+                       -600'000};  // 0.3 pitches away, round the wrap
+    const std::int32_t deficit = std::exchange(fit.deficit, kNoRival);
+    const Contact alone = found();
+    fit.deficit = deficit;
+    const Contact contact = found();
+    const auto covering = [&](double own, double distance) {
+      return std::max(own, (distance + own) / errors);
+    };
+    DOUBLES_EQUAL(covering(toReal(alone.sigmaAngle) * 16, 0.3), toReal(contact.sigmaAngle) * 16, 1e-5);
+    DOUBLES_EQUAL(covering(alone.sigmaNormal.raw(), load(1'500'000)), contact.sigmaNormal.raw(), 1);
+    DOUBLES_EQUAL(covering(alone.sigmaTangential.raw(), load(600'000)), contact.sigmaTangential.raw(), 1);
+    CHECK(contact.sigmaAngle.raw() > alone.sigmaAngle.raw());
+    DOUBLES_EQUAL(15.8 / 16, toReal(contact.alternative), 1e-6);
   }
 
   Contact found() { return estimate(constants, fit); }
@@ -174,19 +195,26 @@ TEST(Estimate, AmbiguousAndUnsettledFitsAreUncertainHoweverWellTheyFit) {
 
 TEST(Estimate, AmbiguousErrorsAreAThirdOfTheDistanceAtLeast) {
   fit.ambiguous = true;
-  fit.best = {kOnePitch / 10, 3'000'000, 0};
-  fit.alternative = {16 * kOnePitch - kOnePitch / 5, 1'500'000,
-                     -600'000};  // 0.3 pitches away, round the wrap
-  const Contact contact = found();
-  DOUBLES_EQUAL(0.1, toReal(contact.sigmaAngle) * 16, 1e-5);
-  DOUBLES_EQUAL(load(500'000), contact.sigmaNormal.raw(), 1);
-  DOUBLES_EQUAL(load(200'000), contact.sigmaTangential.raw(), 1);
-  DOUBLES_EQUAL(15.8 / 16, toReal(contact.alternative), 1e-6);
+  fit.deficit = 0;
+  checkCovers(3);
+}
+
+TEST(Estimate, ErrorsReachAnAlternativeInAsManyDeviationsAsNoiseNeedsToMakeItTheBetter) {
+  constants.noise_variance_exponent += 10;
+  const std::int32_t variances32 = noiseEnergy(constants, kUp);
+  CHECK(variances32 >= 32);
+  const std::array cases{std::pair{0, 3}, std::pair{15, 3}, std::pair{17, 4}, std::pair{25, 5},
+                         std::pair{32, 5}};
+  for (const auto& [variances, errors] : cases) {
+    fit.deficit = variances32 * variances / 32;
+    checkCovers(errors);
+  }
 }
 
 TEST(Estimate, AmbiguityDoesNotMakeErrorsSmaller) {
   const TurnQ32 alone = found().sigmaAngle;
   fit.ambiguous = true;
+  fit.deficit = 0;
   fit.alternative = fit.best;
   CHECK(found().sigmaAngle == alone);
 }

@@ -17,10 +17,10 @@ using namespace strainfinger::testing;
 
 namespace {
 
-constexpr std::array kRows{kErr, kErt, kUr};
+constexpr std::array kHarmonicRows{kErr, kErt, kUr};
 
 Eigen::MatrixXd series(double radius_m, double tolerance, const Windows& windows = {}) {
-  return truncatedSeries(kDefaultFinger, radius_m, kRows, windows, tolerance);
+  return truncatedSeries(kDefaultFinger, radius_m, kHarmonicRows, windows, tolerance);
 }
 
 std::string complaint(double radius_m, const Windows& windows, double tolerance) {
@@ -60,8 +60,8 @@ TEST(Series, KeepsToTheToleranceForEveryFinger) {
   for (int i = 0; i < 300; ++i) {
     const Sample sample = sampler.next();
     if (sample.radius_m > 0.998 * sample.finger.outer_radius_m) continue;
-    const auto all = truncatedSeries(sample.finger, sample.radius_m, kRows, {}, 1e-25);
-    const auto kept = truncatedSeries(sample.finger, sample.radius_m, kRows, {}, 1e-9);
+    const auto all = truncatedSeries(sample.finger, sample.radius_m, kHarmonicRows, {}, 1e-25);
+    const auto kept = truncatedSeries(sample.finger, sample.radius_m, kHarmonicRows, {}, 1e-9);
     CHECK_TRUE_TEXT(leftOut(all, kept) <= 1e-9, sample.text().c_str());
   }
 }

@@ -16,8 +16,8 @@ using namespace strainfinger::testing;
 
 namespace {
 
-constexpr std::array kRows{kTrr, kTrt, kTtt, kUr, kUt, kErr, kEtt, kErt};
-constexpr std::array kAngles_rad{0.0, 0.03, -0.05, 0.12, 0.2, -1.0, 2.5, std::numbers::pi};
+constexpr std::array kSurfaceRows{kTrr, kTrt, kTtt, kUr, kUt, kErr, kEtt, kErt};
+constexpr std::array kSurfaceAngles_rad{0.0, 0.03, -0.05, 0.12, 0.2, -1.0, 2.5, std::numbers::pi};
 constexpr double kWidth_rad = 0.15;
 constexpr SurfaceLoad kLoad{.normal_n_per_m = 3, .tangential_n_per_m = 2, .width_rad = kWidth_rad};
 
@@ -46,7 +46,7 @@ class FilteredSeries {
     for (int n = 0; n <= kLast; ++n) {
       const auto& term = terms_[static_cast<std::size_t>(n)];
       const double c = std::cos(n * angle_rad), s = std::sin(n * angle_rad);
-      for (const Row row : kRows) {
+      for (const Row row : kSurfaceRows) {
         const bool isShear = row == kTrt || row == kUt || row == kErt;
         sums[row] += isShear ? term(row, kTangential) * c - term(row, kNormal) * s
                              : term(row, kNormal) * c + term(row, kTangential) * s;
@@ -61,12 +61,12 @@ class FilteredSeries {
 };
 
 void checkAgainstFilteredSums(const Annulus<double>& finger) {
-  const Eigen::MatrixXd field = computeSurfaceField(finger, kLoad, kAngles_rad, kRows);
+  const Eigen::MatrixXd field = computeSurfaceField(finger, kLoad, kSurfaceAngles_rad, kSurfaceRows);
   const FilteredSeries series(finger, kLoad);
   for (Eigen::Index k = 0; k < field.rows(); ++k) {
-    const auto known = series.at(kAngles_rad[static_cast<std::size_t>(k)]);
+    const auto known = series.at(kSurfaceAngles_rad[static_cast<std::size_t>(k)]);
     for (Eigen::Index i = 0; i < field.cols(); ++i)
-      DOUBLES_EQUAL(known[kRows[static_cast<std::size_t>(i)]], field(k, i),
+      DOUBLES_EQUAL(known[kSurfaceRows[static_cast<std::size_t>(i)]], field(k, i),
                     1e-11 * field.col(i).cwiseAbs().maxCoeff());
   }
 }
@@ -116,7 +116,8 @@ TEST(SurfaceField, AtTheEdgeJumpsAreHalfwayAndDisplacementsFinite) {
 TEST(SurfaceField, ANormalLoadAloneHasNoInfiniteStrain) {
   SurfaceLoad press = kLoad;
   press.tangential_n_per_m = 0;
-  for (const Row row : kRows) CHECK_TRUE(std::isfinite(at(kDefaultFinger, press, kWidth_rad / 2, row)));
+  for (const Row row : kSurfaceRows)
+    CHECK_TRUE(std::isfinite(at(kDefaultFinger, press, kWidth_rad / 2, row)));
 }
 
 TEST(SurfaceField, OfANarrowLoadKeepsItsDigits) {

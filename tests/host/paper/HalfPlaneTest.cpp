@@ -15,8 +15,8 @@ using model::kTangential;
 
 namespace {
 
-constexpr int kRadial = static_cast<int>(StrainComponent::kRadial);
-constexpr int kShear = static_cast<int>(StrainComponent::kShear);
+constexpr int kRadialRow = static_cast<int>(StrainComponent::kRadial);
+constexpr int kShearRow = static_cast<int>(StrainComponent::kShear);
 constexpr double kMu_pa = 8.3e4;
 constexpr double kDepth_m = 3.3e-3;  // of the default finger's gauges
 
@@ -43,24 +43,24 @@ TEST_GROUP(HalfPlane) {
 
 // Computed for this project; printed to the digits given.
 TEST(HalfPlane, HasTheKnownPeaks) {
-  DOUBLES_EQUAL(-5.810695e-4, rubber.atArc(0)(kRadial, kNormal), 5e-11);
-  DOUBLES_EQUAL(-1.452674e-4, rubber.atArc(0.414213562 * kDepth_m)(kRadial, kTangential), 5e-11);
-  DOUBLES_EQUAL(+1.452674e-4, rubber.atArc(2.414213562 * kDepth_m)(kRadial, kTangential), 5e-11);
+  DOUBLES_EQUAL(-5.810695e-4, rubber.atArc(0)(kRadialRow, kNormal), 5e-11);
+  DOUBLES_EQUAL(-1.452674e-4, rubber.atArc(0.414213562 * kDepth_m)(kRadialRow, kTangential), 5e-11);
+  DOUBLES_EQUAL(+1.452674e-4, rubber.atArc(2.414213562 * kDepth_m)(kRadialRow, kTangential), 5e-11);
 }
 
 TEST(HalfPlane, NormalStrainChangesItsSignAtADepthFromTheLoad) {
-  DOUBLES_EQUAL(0, rubber.atArc(kDepth_m)(kRadial, kNormal), 1e-18);
-  DOUBLES_EQUAL(0, rubber.atArc(-kDepth_m)(kRadial, kTangential), 1e-18);
+  DOUBLES_EQUAL(0, rubber.atArc(kDepth_m)(kRadialRow, kNormal), 1e-18);
+  DOUBLES_EQUAL(0, rubber.atArc(-kDepth_m)(kRadialRow, kTangential), 1e-18);
 }
 
 TEST(HalfPlane, IncompressibleResponsesAreTheKnownOnes) {
   for (const double depth : {0.0, 0.3, 1.0, 4.0}) {
     const Strains wave = rubber.atWaveNumber(depth / kDepth_m);
     const double unit = std::exp(-depth) / (2 * kMu_pa);
-    DOUBLES_EQUAL(depth * unit, wave(kRadial, kNormal), 1e-20);
-    DOUBLES_EQUAL((1 - depth) * unit, wave(kRadial, kTangential), 1e-20);
-    DOUBLES_EQUAL(depth * unit, wave(kShear, kNormal), 1e-20);
-    DOUBLES_EQUAL((1 - depth) * unit, wave(kShear, kTangential), 1e-20);
+    DOUBLES_EQUAL(depth * unit, wave(kRadialRow, kNormal), 1e-20);
+    DOUBLES_EQUAL((1 - depth) * unit, wave(kRadialRow, kTangential), 1e-20);
+    DOUBLES_EQUAL(depth * unit, wave(kShearRow, kNormal), 1e-20);
+    DOUBLES_EQUAL((1 - depth) * unit, wave(kShearRow, kTangential), 1e-20);
   }
 }
 

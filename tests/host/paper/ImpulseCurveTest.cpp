@@ -20,15 +20,14 @@ using testing::kGaugeRadius_m;
 
 namespace {
 
-constexpr auto kRadial = StrainComponent::kRadial;
 constexpr double kGrid_rad = 2e-4;
 
 ImpulseCurve cylinder(model::Traction load) {
-  return ImpulseCurve::ofCylinder(kDefaultFinger, kGaugeRadius_m, kRadial, load);
+  return ImpulseCurve::ofCylinder(kDefaultFinger, kGaugeRadius_m, StrainComponent::kRadial, load);
 }
 
 ImpulseCurve plane(model::Traction load) {
-  return ImpulseCurve::ofHalfPlane(kDefaultFinger, kGaugeRadius_m, kRadial, load);
+  return ImpulseCurve::ofHalfPlane(kDefaultFinger, kGaugeRadius_m, StrainComponent::kRadial, load);
 }
 
 /// First angle at which the tangential curves differ by `share` of a peak, on a grid, the half plane's
@@ -38,7 +37,8 @@ double firstApart_rad(double radius_m, double share, bool scaled) {
   const HalfPlane rubber = halfPlaneOf(kDefaultFinger, kGaugeRadius_m);
   const double planePeak = scaled ? plane(kTangential).peak() : finger.peak();
   for (double angle_rad = 0; angle_rad < 1; angle_rad += 1e-4) {
-    const double flat = rubber.atArc(radius_m * angle_rad)(static_cast<int>(kRadial), kTangential);
+    const double flat =
+        rubber.atArc(radius_m * angle_rad)(static_cast<int>(StrainComponent::kRadial), kTangential);
     if (std::abs(finger.relative(angle_rad) - flat / planePeak) >= share) return angle_rad;
   }
   return 0;
@@ -91,7 +91,7 @@ TEST(ImpulseCurve, NormalCurvesPartMuchEarlier) {
 }
 
 TEST(ImpulseCurve, IsEvenOrOddAsItsLoad) {
-  for (const auto component : {kRadial, StrainComponent::kHoop, StrainComponent::kShear})
+  for (const auto component : {StrainComponent::kRadial, StrainComponent::kHoop, StrainComponent::kShear})
     for (const auto load : {kNormal, kTangential}) {
       const bool even = (component == StrainComponent::kShear) == (load == kTangential);
       for (const auto& curve : {ImpulseCurve::ofCylinder(kDefaultFinger, kGaugeRadius_m, component, load),

@@ -16,9 +16,9 @@ namespace {
 constexpr SendRule rule(std::uint16_t id) { return {.newestWins = id % 2 == 0, .background = id >= 0x400}; }
 constexpr SendRule noRule(std::uint16_t) { return {}; }
 
-using Port = FdcanPort<doubles::FakeBus, doubles::FakeClock, noRule>;
+using PlainPort = FdcanPort<doubles::FakeBus, doubles::FakeClock, noRule>;
 using RuledPort = FdcanPort<doubles::FakeBus, doubles::FakeClock, rule>;
-static_assert(hal::CanPort<Port>);
+static_assert(hal::CanPort<PlainPort>);
 
 constexpr BitTiming kTiming = *canTiming(ClockSource::kCrystal, 1'000'000);
 
@@ -26,7 +26,7 @@ constexpr BitTiming kTiming = *canTiming(ClockSource::kCrystal, 1'000'000);
 class FdcanBench {
  public:
   FdcanBench() { CHECK_TRUE(port_.start({.timing = kTiming})); }
-  Port& port() { return port_; }
+  PlainPort& port() { return port_; }
   bool otherSends(const CanFrame& frame) {
     const bool sent = controller_.deliver(frame);
     port_.poll();
@@ -55,7 +55,7 @@ class FdcanBench {
  private:
   doubles::FakeFdcan controller_;
   doubles::FakeClock clock_;
-  Port port_{doubles::FakeBus(controller_.registers), clock_};
+  PlainPort port_{doubles::FakeBus(controller_.registers), clock_};
 };
 
 }  // namespace

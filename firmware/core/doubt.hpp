@@ -1,0 +1,81 @@
+#pragma once
+// When the first answer may not be the best, and what is done about it: rare, and made small.
+
+#include "firmware/core/locate.hpp"
+#include "firmware/core/scan.hpp"
+
+namespace strainfinger::firmware {
+
+/// A ring of less energy than 1024 variances can look right in any window.
+inline bool isWeak(const Problem& problem) { return problem.ringEnergy >> 5 < problem.noise; }
+/// One of less than 4096 variances can look right two gauges away.
+inline bool mayBeAlias(const Problem& problem) { return problem.ringEnergy >> 7 < problem.noise; }
+
+/// Nearer to a gauge than this the readings may hardly change as a contact and its load move together: there
+/// may be two answers, one on either side.
+inline constexpr PitchQ20 kBesideGauge = kOnePitch * 3 / 16;
+/// Noise may hide what tells them apart: seen up to 200,000 variances with 16 gauges and up to 4,000,000 with
+/// 18, the worst number for the default finger (LocateAccuracy.NoPlaceAcrossAGaugeIsTakenForCertain).
+inline bool mayBeHidden(const Problem& problem) {
+  return problem.ringEnergy >> (hasOuterPair(problem.gauges()) ? 18 : 13) < problem.noise;
+}
+
+/// Another window may hold a better answer: the contact's own leaves but noise and 1/4096, and a contact less
+/// than 1/32 outside its window.
+inline bool doubtful(const Problem& problem, bool admissible, std::int32_t unexplained, std::int32_t window) {
+  return !admissible || mayBeAlias(problem) || unexplained > problem.noise + (window >> 12) ||
+         problem.ringEnergy - window > problem.noise + (window >> 5);
+}
+
+/// Two answers whose energies differ by less explain the readings equally well, within noise and rounding
+/// (1/2^14).
+inline std::int32_t marginOf(const Problem& problem, std::int32_t window) {
+  const std::int32_t twelveVariances = problem.noise * 3 / 8;
+  return (isWeak(problem) ? 2 * twelveVariances : twelveVariances) + (window >> 14);
+}
+
+/// Where they differ by less, the reported errors cover both. Of two places d standard errors apart the wrong
+/// one explains 32 variances more as noise is (32 + d^2) / (2 d) standard errors, at least sqrt(32): once in
+/// 10^8.
+inline std::int32_t coveredMargin(const Problem& problem, std::int32_t window) {
+  static_assert(kNoiseUnit == 32);
+  return problem.noise + (window >> 14);
+}
+
+/// Where a single step from a row of a window leads.
+struct Lead {
+  PitchQ20 offset;      ///< from the window's middle gauge, negative on its - side
+  std::int32_t energy;  ///< explained there
+
+  int row() const { return offset < 0 ? -nearestRow(-offset) : nearestRow(offset); }
+};
+
+/// What is reported of an answer, but for the alternative.
+[[gnu::always_inline]] inline void report(const Problem& problem, const WindowFit& from,
+                                          const Judgement& judgement, PitchQ20 position, Fit& fit) {
+  fit.best.position = position;
+  fit.best.normal = judgement.normal;
+  fit.best.tangential = from.side * judgement.tangential;
+  fit.row = unknown(problem.tables.rows.data()) + from.row;
+  fit.projection = from.step.projection;
+  fit.information = from.step.information;
+  fit.unexplained = judgement.unexplained();
+  fit.windowEnergy = judgement.windowEnergy;
+  fit.up = static_cast<std::int8_t>(problem.up);
+  fit.centre = static_cast<std::uint8_t>(from.centre);
+  fit.readings = FitMode::kRefined;
+  fit.reduced = false;
+  fit.settled =
+      judgement.settled & judgement.pressed & (judgement.energy >> 1 > problem.noise);  // 64 variances
+}
+
+/// Goes on from a first answer that may not be the best. If it is ambiguous so far, `alternative.position` is
+/// where to look as well: an offset in its window.
+void searchOn(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32, std::int32_t ringEnergy);
+
+/// Looks at every window: where the model's strongest response has no single peak over the contact, or noise
+/// may hide it.
+void searchEverywhere(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32,
+                      std::int32_t ringEnergy);
+
+}  // namespace strainfinger::firmware

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdlib>
 
+#include "firmware/core/whole_scan.hpp"
+
 namespace strainfinger::firmware {
 namespace {
 
@@ -106,6 +108,34 @@ inline void enterBeside(const Problem& problem, Contest& contest) {
       enterFit(problem, InWindow::kOwn, starts[i].centre, starts[i].row, contest);
 }
 
+/// Another place beside the gauge, and how much less of the readings it explains.
+struct Across {
+  Placement place;
+  std::int32_t deficit = kNoRival;
+};
+[[gnu::noinline]] Across lookAcross(const Problem& problem, const Fit& fit, PitchQ20 offset) {
+  Across across;
+  if (!fit.settled || absolute(fit.offset(problem.gauges())) >= kBesideGauge) return across;
+  WindowFit there;
+  there.start(signalAround(problem, fit.centre), fit.centre, Lead{offset, 0}.row(), problem.mirrorSign());
+  takeStep(problem.tables.rows, there);
+  there.step.length = there.step.slope = 0;
+  const Judgement judgement = judged(problem, there, true);
+  across.place = placementOf(there, judgement, problem.gauges());
+  across.deficit = std::max<std::int32_t>(fit.windowEnergy - fit.unexplained - judgement.energy, 0);
+  return across;
+}
+
+/// Where no second answer lies across the gauge, a shallow valley may lead there, or halfway, all the same:
+/// the answer's own information then says too much.
+[[gnu::noinline]] void coverValley(const Problem& problem, Fit& fit, PitchQ20 offset) {
+  Across across = lookAcross(problem, fit, offset);
+  if (offset != 0 && across.deficit >= problem.noise) across = lookAcross(problem, fit, 0);
+  if (across.deficit >= problem.noise) return;
+  fit.deficit = across.deficit;
+  fit.alternative = across.place;
+}
+
 /// Says in the report whether the runner-up explains the readings as well, within noise.
 void conclude(const Problem& problem, const Contest& contest) {
   Fit& fit = contest.fit;
@@ -117,34 +147,6 @@ void conclude(const Problem& problem, const Contest& contest) {
                                               : contest.second.found && deficit < -margin;
   fit.deficit = covered ? std::max<std::int32_t>(deficit, 0) : kNoRival;
   fit.ambiguous = covered && deficit < margin;
-}
-
-/// A place as far from the gauge on its other side, and how much less of the readings it explains.
-struct Across {
-  Placement place;
-  std::int32_t deficit = kNoRival;
-};
-[[gnu::noinline]] Across lookAcross(const Problem& problem, const Fit& fit) {
-  Across across;
-  const PitchQ20 offset = fit.offset(problem.gauges());
-  if (!fit.settled || absolute(offset) >= kBesideGauge) return across;
-  WindowFit there;
-  there.start(signalAround(problem, fit.centre), fit.centre, Lead{-offset, 0}.row(), problem.mirrorSign());
-  takeStep(problem.tables.rows, there);
-  there.step.length = there.step.slope = 0;
-  const Judgement judgement = judged(problem, there, true);
-  across.place = placementOf(there, judgement, problem.gauges());
-  across.deficit = std::max<std::int32_t>(fit.windowEnergy - fit.unexplained - judgement.energy, 0);
-  return across;
-}
-
-/// Where no second answer lies across the gauge, a shallow valley may lead there all the same: the answer's
-/// own information then says too much.
-void coverValley(const Problem& problem, Fit& fit) {
-  const Across across = lookAcross(problem, fit);
-  if (across.deficit >= problem.noise) return;
-  fit.deficit = across.deficit;
-  fit.alternative = across.place;
 }
 
 Problem problemAgain(const Fit& fit, const TableImage& tables, const std::int32_t* strains_q32,
@@ -162,11 +164,13 @@ void searchOn(Fit& fit, const TableImage& tables, const std::int32_t* strains_q3
   const PitchQ20 offset = fit.offset(problem.gauges());
   const bool stays = fit.settled && absolute(offset) <= kFarFromMiddle;
   PitchQ20 rival = fit.alternative.position;
-  bool contested = fit.ambiguous;
+  bool contested = fit.ambiguous, twofold = false;
   if (stays && !contested) {
     rival = -offset;
-    contest.keeps = contested = lookAcross(problem, fit).deficit < 2 * problem.noise;
-    if (!contested && !doubtful(problem, true, fit.unexplained, fit.windowEnergy)) return;
+    contest.keeps = contested = twofold =
+        mayBeHidden(problem) && lookAcross(problem, fit, rival).deficit < 2 * problem.noise;
+    if (!contested && !doubtful(problem, true, fit.unexplained, fit.windowEnergy))
+      return coverValley(problem, fit, 0);
   }
   if (stays)
     contest.first = {fit.windowEnergy - fit.unexplained + leftOutside(problem, fit.windowEnergy), true, true,
@@ -177,7 +181,7 @@ void searchOn(Fit& fit, const TableImage& tables, const std::int32_t* strains_q3
   contest.keeps = false;
   if (doubtful(problem, fit.settled, fit.unexplained, fit.windowEnergy)) enterBeside(problem, contest);
   conclude(problem, contest);
-  if (fit.deficit == kNoRival) coverValley(problem, fit);
+  if (twofold && fit.deficit == kNoRival) coverValley(problem, fit, -fit.offset(problem.gauges()));
 }
 
 void searchEverywhere(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32,
@@ -186,6 +190,7 @@ void searchEverywhere(Fit& fit, const TableImage& tables, const std::int32_t* st
   Contest contest{fit};
   enterBest(problem, startsAnywhere(problem), contest);
   conclude(problem, contest);
+  if (isWeak(problem) && fit.deficit == kNoRival) coverValley(problem, fit, -fit.offset(problem.gauges()));
 }
 
 }  // namespace strainfinger::firmware

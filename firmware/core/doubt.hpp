@@ -14,8 +14,8 @@ inline bool mayBeAlias(const Problem& problem) { return problem.ringEnergy >> 7 
 /// Nearer to a gauge than this the readings may hardly change as a contact and its load move together: there
 /// may be two answers, one on either side.
 inline constexpr PitchQ20 kBesideGauge = kOnePitch * 3 / 16;
-/// Noise may hide what tells them apart: seen up to 200,000 variances with 16 gauges and up to 4,000,000 with
-/// 18, the worst number for the default finger (LocateAccuracy.NoPlaceAcrossAGaugeIsTakenForCertain).
+/// Noise may hide what tells them apart up to 260,000 variances, seen with 16 gauges (of 18, which have the
+/// most such contacts, 8,400,000: LocateAccuracy.NoPlaceAcrossAGaugeIsTakenForCertain).
 inline bool mayBeHidden(const Problem& problem) {
   return problem.ringEnergy >> (hasOuterPair(problem.gauges()) ? 18 : 13) < problem.noise;
 }

@@ -131,13 +131,4 @@ inline void look(const Problem& problem, Region& region) {
   scanWindow(problem, span.first(), span.last(), region);
 }
 
-/// Three peaks of a window that is scanned completely: the two offsets beside the middle gauge, and what lies
-/// beyond them on the - and + sides.
-struct Scan {
-  Peak middle, minus, plus;
-};
-
-/// Scans a window at rows step / 2, 3/2 step .. up to kScanReach.
-Scan scanned(const FitTable& rows, const Signal& signal, int step);
-
 }  // namespace strainfinger::firmware

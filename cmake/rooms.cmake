@@ -7,7 +7,7 @@
 # needs, the preset `dev` shows. So the files of a room have names of their own even for what only they use.
 function(strainfinger_compile_together target)
   if(STRAINFINGER_COMPILE_TOGETHER)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
   endif()
 endfunction()
 

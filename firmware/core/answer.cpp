@@ -42,7 +42,8 @@ Standing standingOf(const Problem& problem, const WindowFit& fit, const Judgemen
   return {.energy = judgement.energy + leftOutside(problem, judgement.windowEnergy),
           .found = true,
           .admissible = judgement.admissible(),
-          .isRival = judgement.pressed && (judgement.settled || !walkedOut(fit))};
+          .isRival = judgement.pressed && (judgement.settled || !walkedOut(fit)),
+          .settled = judgement.settled};
 }
 
 }  // namespace strainfinger::firmware

@@ -81,6 +81,7 @@ struct Standing {
   bool found;
   bool admissible;
   bool isRival;  ///< to be reckoned with, if only as the next best
+  bool settled;
 
   bool betterThan(const Standing& other) const {
     if (!other.found) return true;

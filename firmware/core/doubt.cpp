@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 
 #include "firmware/core/whole_scan.hpp"
 
@@ -16,6 +15,13 @@ bool mayBeFarAlias(const Problem& problem) { return problem.ringEnergy >> 9 < pr
 std::int32_t rivalLimit(const Problem& problem, std::int32_t best) {
   constexpr int kStarterShift = 4;
   return best - (best >> kStarterShift) - problem.noise;
+}
+
+/// Two answers whose energies differ by less explain the readings equally well, within noise and rounding
+/// (1/2^14).
+std::int32_t marginOf(const Problem& problem, std::int32_t window) {
+  const std::int32_t twelveVariances = problem.noise * 3 / 8;
+  return (isWeak(problem) ? 2 * twelveVariances : twelveVariances) + (window >> 14);
 }
 
 /// The best few of any number of starts, the best first.
@@ -108,7 +114,7 @@ inline void enterBeside(const Problem& problem, Contest& contest) {
       enterFit(problem, InWindow::kOwn, starts[i].centre, starts[i].row, contest);
 }
 
-/// Another place beside the gauge, and how much less of the readings it explains.
+/// Another place beside the gauge, whatever load it takes, and how much less of the readings it explains.
 struct Across {
   Placement place;
   std::int32_t deficit = kNoRival;
@@ -141,10 +147,11 @@ void conclude(const Problem& problem, const Contest& contest) {
   Fit& fit = contest.fit;
   const std::int32_t deficit = contest.first.energy - contest.second.energy;
   if (!contest.second.found) fit.alternative = fit.best;
-  // What may not be, beyond friction's cone, counts where it explains what no other answer does.
+  // What may not be, beyond friction's cone, counts where it explains what no other answer does: noise may
+  // have moved it there.
   const std::int32_t margin = marginOf(problem, fit.windowEnergy);
   const bool covered = contest.second.isRival ? deficit < coveredMargin(problem, fit.windowEnergy)
-                                              : contest.second.found && deficit < -margin;
+                                              : contest.second.settled && deficit < -margin;
   fit.deficit = covered ? std::max<std::int32_t>(deficit, 0) : kNoRival;
   fit.ambiguous = covered && deficit < margin;
 }
@@ -174,13 +181,14 @@ void searchOn(Fit& fit, const TableImage& tables, const std::int32_t* strains_q3
   }
   if (stays)
     contest.first = {fit.windowEnergy - fit.unexplained + leftOutside(problem, fit.windowEnergy), true, true,
-                     true};
+                     true, true};
   else
     enterFit(problem, InWindow::kNearest, centre, Lead{offset, 0}.row(), contest);
   if (contested) enterFit(problem, InWindow::kNearest, centre, Lead{rival, 0}.row(), contest);
   contest.keeps = false;
   if (doubtful(problem, fit.settled, fit.unexplained, fit.windowEnergy)) enterBeside(problem, contest);
   conclude(problem, contest);
+  // Only then: the dearest contacts have two peaks in the scan, and a rival that was refined.
   if (twofold && fit.deficit == kNoRival) coverValley(problem, fit, -fit.offset(problem.gauges()));
 }
 

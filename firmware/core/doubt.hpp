@@ -1,5 +1,5 @@
 #pragma once
-// When the first answer may not be the best, and what is done about it: rare, and made small.
+// When the first answer may not be the best, and what is done about it: rare.
 
 #include "firmware/core/locate.hpp"
 #include "firmware/core/scan.hpp"
@@ -27,16 +27,9 @@ inline bool doubtful(const Problem& problem, bool admissible, std::int32_t unexp
          problem.ringEnergy - window > problem.noise + (window >> 5);
 }
 
-/// Two answers whose energies differ by less explain the readings equally well, within noise and rounding
-/// (1/2^14).
-inline std::int32_t marginOf(const Problem& problem, std::int32_t window) {
-  const std::int32_t twelveVariances = problem.noise * 3 / 8;
-  return (isWeak(problem) ? 2 * twelveVariances : twelveVariances) + (window >> 14);
-}
-
-/// Where they differ by less, the reported errors cover both. Of two places d standard errors apart the wrong
-/// one explains 32 variances more as noise is (32 + d^2) / (2 d) standard errors, at least sqrt(32): once in
-/// 10^8.
+/// Where two answers differ by less, the reported errors cover both. Of two places d standard errors apart
+/// the wrong one explains 32 variances more as noise is (32 + d^2) / (2 d) standard errors, at least
+/// sqrt(32): once in 10^8.
 inline std::int32_t coveredMargin(const Problem& problem, std::int32_t window) {
   static_assert(kNoiseUnit == 32);
   return problem.noise + (window >> 14);

@@ -7,8 +7,8 @@
 namespace strainfinger::firmware {
 
 /// Angle, loads, standard errors, quality. The errors are the Cramer-Rao bound of the readings used, at the
-/// noise in the tables, widened to cover the alternative of an ambiguous fit. Cost: three square roots, so
-/// only for fits that are reported.
+/// noise in the tables, widened to cover another place that noise may hide (Fit::deficit). Cost: three square
+/// roots, so only for fits that are reported.
 Contact estimate(const TableConstants& constants, const Fit& fit);
 
 }  // namespace strainfinger::firmware

@@ -1,6 +1,8 @@
 #include "firmware/core/locate.hpp"
 
+#include "firmware/core/answer.hpp"
 #include "firmware/core/doubt.hpp"
+#include "firmware/core/scan.hpp"
 
 namespace strainfinger::firmware {
 namespace {
@@ -109,7 +111,7 @@ bool needsEveryWindow(const Problem& problem) {
   fit.alternative.normal = judgement.normal;
   fit.alternative.tangential = window.side * judgement.tangential;
   fit.ambiguous = contested;
-
+  fit.deficit = kNoRival;
   fit.anchor = static_cast<std::uint8_t>(region.anchor);
   return ends ? Next{} : Next{Task::kSearchOn, problem};
 }

@@ -47,8 +47,8 @@ struct Fit {
 
 /// Fits one line contact to the strains of a ring that is touched; one strain a gauge, each within
 /// +-2^(15 + gate_shift). `energy`: their gateEnergy().
-/// Bounded time: a part of a window scanned and one fit for most contacts, three windows and four fits for
-/// those in doubt, every window and six fits for a touch so weak that noise could win in a wrong one.
+/// Bounded time: a part of a window scanned and one fit for most contacts, up to five windows and six fits
+/// for those in doubt, every window and six fits for a touch so weak that noise could win in a wrong one.
 void locateBySeven(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32, std::uint32_t energy);
 
 /// The same, the answer left to the row's three best conditioned readings if they lead where all seven do.

@@ -213,7 +213,7 @@ TEST(LocateAccuracy, SixteenGaugesAtAHundredthOfNoiseAreRarelyWrongAndHardlyEver
   CHECK(result.certain <= result.contacts / 10'000);
 }
 
-// Contacts so weak that noise (of the default finger: 6 microstrain) may tip the balance to another window.
+// Noise (of the default finger: 6 microstrain) may tip the balance to another window, or across a gauge.
 TEST(LocateAccuracy, AWrongPlaceIsNeverCertain) {
   for (const double load : {1.0, 2.0, 3.0, 5.0}) {
     const Statistics result = Trial(6e-6 / (kPeakPerLoad * load), load).run(FitMode::kRefined, 108, 40'000);

@@ -35,6 +35,7 @@ inline void add(Hash& hash, const firmware::Placement& placement) {
 inline void add(Hash& hash, const TableImage& tables, const firmware::Fit& fit, std::uint32_t sample) {
   add(hash, fit.best);
   add(hash, fit.alternative);
+  hash.add(fit.deficit);
   hash.add(std::int32_t{fit.ambiguous} + 2 * std::int32_t{fit.settled} + 256 * fit.centre);
   for (const std::int32_t projection : fit.projection) hash.add(projection);
   hash.add(static_cast<std::int32_t>(fit.row - tables.rows.data()) * 256 + fit.up);

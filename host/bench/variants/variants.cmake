@@ -2,17 +2,17 @@
 # The locator compiled anew for every rule below, as PREFIX_NAME; PREFIX_variants is all of them.
 function(strainfinger_bench_variants prefix)
   add_library(${prefix}_variants INTERFACE)
-  macro(variant name)
+  macro(strainfinger_bench_rule name)
     strainfinger_bench_variant(${prefix}_${name} ${name} "${ARGN}" ${flags})
     target_link_libraries(${prefix}_variants INTERFACE ${prefix}_${name})
   endmacro()
   set(flags ${ARGN})
   # NAME, then as in step_rule.hpp: a last step's length in eighths of a row spacing, steps, stride of the rows as a power of two
-  variant(rows64)              # the firmware's own rule, compiled as the others are
-  variant(rows32 10 8 1)       # every second row, and a tolerance to match
-  variant(rows16 20 8 2)       # every fourth
-  variant(two_rows 16 8 0)     # steps of up to two rows are the last
-  variant(one_step 64 1 0)     # the first is, at most an eighth of a pitch as it is
+  strainfinger_bench_rule(rows64)              # the firmware's own rule, compiled as the others are
+  strainfinger_bench_rule(rows32 10 8 1)       # every second row, and a tolerance to match
+  strainfinger_bench_rule(rows16 20 8 2)       # every fourth
+  strainfinger_bench_rule(two_rows 16 8 0)     # steps of up to two rows are the last
+  strainfinger_bench_rule(one_step 64 1 0)     # the first is, at most an eighth of a pitch as it is
 endfunction()
 
 # strainfinger_bench_variant(TARGET NAME RULE [flag...]): RULE is empty or a list as above.

@@ -253,6 +253,7 @@ TEST(Estimate, AnyFitGivesSomeEstimate) {
           fit.up = static_cast<std::int8_t>(up);
           fit.readings = mode;
           fit.ambiguous = up == 0;
+          fit.deficit = up == 0 ? 0 : kNoRival;
           const Contact contact = found();
           CHECK(contact.sigmaNormal.raw() >= 0 && contact.sigmaTangential.raw() >= 0);
         }

@@ -78,7 +78,7 @@ TEST_GROUP(Extremes) {
     constants.anchor_sign = static_cast<std::int8_t>(2 * upTo(0, 1) - 1);
     constants.gauge_count = static_cast<std::uint8_t>(2 * upTo(kMinGauges / 2, kMaxGauges / 2));
     constants.anchor_rule = static_cast<AnchorRule>(upTo(0, 1));
-    constants.scan_step = upTo(0, 1) == 0 ? kMinScanStep : kMaxScanStep;
+    constants.scan_step = static_cast<std::uint8_t>(upTo(0, 1) == 0 ? kMinScanStep : kMaxScanStep);
     for (ScanSpan& span : constants.scan_span)
       span = upTo(0, 2) == 0 ? ScanSpan::of(kFirstScanRow, 0) : ScanSpan::of(4 + 8 * upTo(0, 1), 36);
   }

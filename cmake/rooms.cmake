@@ -11,7 +11,7 @@ function(strainfinger_compile_together target)
   endif()
 endfunction()
 
-# GCC collects garbage as if memory were scarce: a tenth of the time of large batches.
+# Large batches have much to collect, and GCC does it as if memory were scarce.
 if(STRAINFINGER_COMPILE_TOGETHER AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   add_compile_options("SHELL:--param ggc-min-expand=200" "SHELL:--param ggc-min-heapsize=600000")
 endif()

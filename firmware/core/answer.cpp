@@ -39,11 +39,12 @@ bool isNear(const Problem& problem, PitchQ20 one, PitchQ20 other) {
 }
 
 Standing standingOf(const Problem& problem, const WindowFit& fit, const Judgement& judgement) {
-  return {.energy = judgement.energy + leftOutside(problem, judgement.windowEnergy),
+  const std::int32_t energy = judgement.energy + leftOutside(problem, judgement.windowEnergy);
+  const bool mayBe = judgement.pressed && (judgement.settled || !walkedOut(fit));
+  return {.energy = energy,
+          .asRunnerUp = mayBe ? energy : energy - (problem.noise - problem.noise / 8),
           .found = true,
-          .admissible = judgement.admissible(),
-          .isRival = judgement.pressed && (judgement.settled || !walkedOut(fit)),
-          .settled = judgement.settled};
+          .admissible = judgement.admissible()};
 }
 
 }  // namespace strainfinger::firmware

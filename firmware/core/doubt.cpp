@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "firmware/core/whole_scan.hpp"
 
@@ -60,13 +61,15 @@ void Contest::enter(const Problem& problem, const WindowFit& from, const Judgeme
   const bool sameAgain = first.found && isNear(problem, place.position, fit.best.position);
   if (sameAgain && keeps) return;
   if (standing.betterThan(first)) {
-    if (first.found && !sameAgain) {
+    const bool staysSecond = second.found && second.asRunnerUp > first.asRunnerUp &&
+                             !isNear(problem, place.position, fit.alternative.position);
+    if (first.found && !sameAgain && !staysSecond) {
       second = first;
       fit.alternative = fit.best;
     }
     first = standing;
     report(problem, from, judgement, place.position, fit);
-  } else if (!sameAgain && standing.betterThan(second)) {
+  } else if (!sameAgain && (!second.found || standing.asRunnerUp > second.asRunnerUp)) {
     second = standing;
     fit.alternative = place;
   }
@@ -82,7 +85,7 @@ void Contest::enter(const Problem& problem, const WindowFit& from, const Judgeme
 }
 
 /// Refines every start of the list that may win.
-[[gnu::noinline]] void enterBest(const Problem& problem, const Shortlist& list, Contest& contest) {
+[[gnu::noinline, gnu::cold]] void enterBest(const Problem& problem, const Shortlist& list, Contest& contest) {
   const std::int32_t limit = rivalLimit(problem, list.starts()[0].energy);
   for (const Start& from : list.starts()) {
     if (from.energy <= limit) return;
@@ -98,15 +101,16 @@ void Contest::enter(const Problem& problem, const WindowFit& from, const Judgeme
   return list;
 }
 
-/// Contacts midway between two gauges may bend the strains most one, two or three gauges away: enters what is
-/// there, on either side of the windows two gauges off, and three where noise may tip the balance.
+/// Contacts midway between two gauges may bend the strains most (at the anchor) two gauges away; where noise
+/// may tip the balance, the answer may lie three from the contact: enters what is there, on either side.
 inline void enterBeside(const Problem& problem, Contest& contest) {
-  constexpr std::array<std::int8_t, 4> kAway{-2, 2, -3, 3};
+  const int anchor = contest.fit.anchor, centre = contest.fit.centre;
+  const std::array<int, 4> centres{anchor - 2, anchor + 2, centre - 3, centre + 3};
   std::array<Start, 4> starts;
   const std::size_t count = mayBeFarAlias(problem) ? 4 : 2;
   std::int32_t best = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    starts[i] = midwayStart(problem, wrapped(contest.fit.anchor + kAway[i], problem.gauges()));
+    starts[i] = midwayStart(problem, wrapped(centres[i], problem.gauges()));
     best = std::max(best, starts[i].energy);
   }
   for (std::size_t i = 0; i < count; ++i)
@@ -114,14 +118,16 @@ inline void enterBeside(const Problem& problem, Contest& contest) {
       enterFit(problem, InWindow::kOwn, starts[i].centre, starts[i].row, contest);
 }
 
-/// Another place beside the gauge, whatever load it takes, and how much less of the readings it explains.
+/// Another place beside the gauge, whatever load it takes, and how much less of the readings it explains:
+/// looked for where noise may hide it.
 struct Across {
-  Placement place;
+  Placement place{};
   std::int32_t deficit = kNoRival;
 };
 [[gnu::noinline]] Across lookAcross(const Problem& problem, const Fit& fit, PitchQ20 offset) {
   Across across;
-  if (!fit.settled || absolute(fit.offset(problem.gauges())) >= kBesideGauge) return across;
+  const PitchQ20 from = fit.offset(problem.gauges());
+  if (!fit.settled || absolute(from) >= kBesideGauge || !mayBeHidden(problem, from)) return across;
   WindowFit there;
   there.start(signalAround(problem, fit.centre), fit.centre, Lead{offset, 0}.row(), problem.mirrorSign());
   takeStep(problem.tables.rows, there);
@@ -134,7 +140,7 @@ struct Across {
 
 /// Where no second answer lies across the gauge, a shallow valley may lead there, or halfway, all the same:
 /// the answer's own information then says too much.
-[[gnu::noinline]] void coverValley(const Problem& problem, Fit& fit, PitchQ20 offset) {
+[[gnu::noinline, gnu::cold]] void coverValley(const Problem& problem, Fit& fit, PitchQ20 offset) {
   Across across = lookAcross(problem, fit, offset);
   if (offset != 0 && across.deficit >= problem.noise) across = lookAcross(problem, fit, 0);
   if (across.deficit >= problem.noise) return;
@@ -145,15 +151,11 @@ struct Across {
 /// Says in the report whether the runner-up explains the readings as well, within noise.
 void conclude(const Problem& problem, const Contest& contest) {
   Fit& fit = contest.fit;
-  const std::int32_t deficit = contest.first.energy - contest.second.energy;
   if (!contest.second.found) fit.alternative = fit.best;
-  // What may not be, beyond friction's cone, counts where it explains what no other answer does: noise may
-  // have moved it there.
-  const std::int32_t margin = marginOf(problem, fit.windowEnergy);
-  const bool covered = contest.second.isRival ? deficit < coveredMargin(problem, fit.windowEnergy)
-                                              : contest.second.settled && deficit < -margin;
+  const std::int32_t deficit = contest.first.energy - contest.second.asRunnerUp;
+  const bool covered = contest.second.found && deficit < coveredMargin(problem, fit.windowEnergy);
   fit.deficit = covered ? std::max<std::int32_t>(deficit, 0) : kNoRival;
-  fit.ambiguous = covered && deficit < margin;
+  fit.ambiguous = covered && deficit < marginOf(problem, fit.windowEnergy);
 }
 
 Problem problemAgain(const Fit& fit, const TableImage& tables, const std::int32_t* strains_q32,
@@ -171,21 +173,20 @@ void searchOn(Fit& fit, const TableImage& tables, const std::int32_t* strains_q3
   const PitchQ20 offset = fit.offset(problem.gauges());
   const bool stays = fit.settled && absolute(offset) <= kFarFromMiddle;
   PitchQ20 rival = fit.alternative.position;
-  bool contested = fit.ambiguous, twofold = false;
+  bool contested = fit.ambiguous;
   if (stays && !contested) {
     rival = -offset;
-    contest.keeps = contested = twofold =
-        mayBeHidden(problem) && lookAcross(problem, fit, rival).deficit < 2 * problem.noise;
+    contest.keeps = contested = lookAcross(problem, fit, rival).deficit < 2 * problem.noise;
     if (!contested && !doubtful(problem, true, fit.unexplained, fit.windowEnergy))
       return coverValley(problem, fit, 0);
   }
+  const std::int32_t energy = fit.windowEnergy - fit.unexplained + leftOutside(problem, fit.windowEnergy);
   if (stays)
-    contest.first = {fit.windowEnergy - fit.unexplained + leftOutside(problem, fit.windowEnergy), true, true,
-                     true, true};
+    contest.first = {.energy = energy, .asRunnerUp = energy, .found = true, .admissible = true};
   else
     enterFit(problem, InWindow::kNearest, centre, Lead{offset, 0}.row(), contest);
   if (contested) enterFit(problem, InWindow::kNearest, centre, Lead{rival, 0}.row(), contest);
-  contest.keeps = false;
+  const bool twofold = std::exchange(contest.keeps, false);
   if (doubtful(problem, fit.settled, fit.unexplained, fit.windowEnergy)) enterBeside(problem, contest);
   conclude(problem, contest);
   // Only then: the dearest contacts have two peaks in the scan, and a rival that was refined.
@@ -198,7 +199,7 @@ void searchEverywhere(Fit& fit, const TableImage& tables, const std::int32_t* st
   Contest contest{fit};
   enterBest(problem, startsAnywhere(problem), contest);
   conclude(problem, contest);
-  if (isWeak(problem) && fit.deficit == kNoRival) coverValley(problem, fit, -fit.offset(problem.gauges()));
+  if (fit.deficit == kNoRival) coverValley(problem, fit, -fit.offset(problem.gauges()));
 }
 
 }  // namespace strainfinger::firmware

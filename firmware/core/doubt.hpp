@@ -8,16 +8,18 @@ namespace strainfinger::firmware {
 
 /// A ring of less energy than 1024 variances can look right in any window.
 inline bool isWeak(const Problem& problem) { return problem.ringEnergy >> 5 < problem.noise; }
-/// One of less than 4096 variances can look right two gauges away.
-inline bool mayBeAlias(const Problem& problem) { return problem.ringEnergy >> 7 < problem.noise; }
+/// One of less than 8192 variances can look right two gauges away.
+inline bool mayBeAlias(const Problem& problem) { return problem.ringEnergy >> 8 < problem.noise; }
 
 /// Nearer to a gauge than this the readings may hardly change as a contact and its load move together: there
 /// may be two answers, one on either side.
-inline constexpr PitchQ20 kBesideGauge = kOnePitch * 3 / 16;
-/// Noise may hide what tells them apart up to 260,000 variances, seen with 16 gauges (of 18, which have the
-/// most such contacts, 8,400,000: LocateAccuracy.NoPlaceAcrossAGaugeIsTakenForCertain).
-inline bool mayBeHidden(const Problem& problem) {
-  return problem.ringEnergy >> (hasOuterPair(problem.gauges()) ? 18 : 13) < problem.noise;
+inline constexpr PitchQ20 kBesideGauge = kOnePitch / 4;
+/// Noise may hide what tells them apart up to 260,000 variances, or twice as many where they are within 1/16
+/// pitch, seen with 16 gauges (of 18, which have the most such contacts, 8,400,000:
+/// LocateAccuracy.NoPlaceAcrossAGaugeIsTakenForCertain).
+inline bool mayBeHidden(const Problem& problem, PitchQ20 offset) {
+  const std::int32_t energy = problem.ringEnergy >> (hasOuterPair(problem.gauges()) ? 19 : 14);
+  return energy < problem.noise && (absolute(offset) < kOnePitch / 16 || 2 * energy < problem.noise);
 }
 
 /// Another window may hold a better answer: the contact's own leaves but noise and 1/4096, and a contact less

@@ -87,12 +87,14 @@ std::uint8_t qualityOf(const TableConstants& constants, const Fit& fit) {
 }
 
 /// Standard errors that an alternative is away at least: three, or as many as noise needs to make it the
-/// better one.
+/// better one; two below eight variances, which are a valley's, maybe longer (runners-up are ambiguous up to
+/// 12).
 int errorsAway(const TableConstants& constants, const Fit& fit) {
   static_assert(kNoiseUnit == 32);
-  const std::int32_t sixteenVariances = noiseEnergy(constants, fit.up) / 2;
-  if (fit.ambiguous || fit.deficit < sixteenVariances) return 3;
-  return fit.deficit < sixteenVariances + sixteenVariances / 2 ? 4 : 5;
+  if (fit.ambiguous) return 3;
+  const std::int32_t eightVariances = noiseEnergy(constants, fit.up) / 4;
+  return 2 + (fit.deficit >= eightVariances) + (fit.deficit >= 2 * eightVariances) +
+         (fit.deficit >= 3 * eightVariances);
 }
 
 /// So that as many errors reach the alternative, and beyond it as far as its own error.

@@ -159,7 +159,7 @@ Placement rescaled(const Placement& place, int fromUp, int toUp) {
 [[gnu::noinline]] Verdict judge(const TableImage& tables, GaugeSet leftOut, const Rivals& rivals,
                                 std::span<std::int32_t> strains_q32, std::uint32_t& energy) {
   const Problem problem = problemOf(tables, strains_q32, energy);
-  const std::int32_t margin = problem.variances(kAmbiguous) + (rivals.best.explained >> kAmbiguousShift);
+  const std::int64_t margin = problem.variances(kAmbiguous) + (rivals.best.explained >> kAmbiguousShift);
   Verdict verdict;
   verdict.ambiguous = rivals.second.admissible && rivals.second.explained > rivals.best.explained - margin;
   verdict.determined = rivals.best.explained > problem.variances(kFaint) &&

@@ -76,9 +76,8 @@ bool needsEveryWindow(const Problem& problem) {
 
 /// Not nearer to another gauge, and no other place across its own gauge that noise may hide.
 [[gnu::always_inline]] inline bool staysWhereItIs(const Problem& problem, PitchQ20 offset) {
-  constexpr std::uint32_t kBetween = kFarFromMiddle - kBesideGauge;
-  if (static_cast<std::uint32_t>(offset - kBesideGauge) <= kBetween) return true;
-  return offset <= kFarFromMiddle && !mayBeHidden(problem);
+  if (offset >= kBesideGauge) return offset <= kFarFromMiddle;
+  return !mayBeHidden(problem, offset);
 }
 
 /// The first answer, and what is next.

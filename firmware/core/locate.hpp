@@ -19,7 +19,7 @@ inline constexpr std::int32_t kNoRival = std::numeric_limits<std::int32_t>::max(
 struct Fit {
   Placement best;
   Placement alternative;      ///< the next best answer, or as far as a valley may lead; of use with a ..
-  std::int32_t deficit;       ///< .. energy that it explains less, or kNoRival
+  std::int32_t deficit;       ///< .. energy that it explains less, or counts for less, or kNoRival
   const FitRow* row;          ///< that the answer was found from ..
   Projections projection;     ///< .. with these: what the answer's errors depend on
   std::int32_t information;   ///< see FitStep
@@ -47,7 +47,7 @@ struct Fit {
 
 /// Fits one line contact to the strains of a ring that is touched; one strain a gauge, each within
 /// +-2^(15 + gate_shift). `energy`: their gateEnergy().
-/// Bounded time: a part of a window scanned and one fit for most contacts, up to five windows and six fits
+/// Bounded time: a part of a window scanned and one fit for most contacts, up to five windows and seven fits
 /// for those in doubt, every window and six fits for a touch so weak that noise could win in a wrong one.
 void locateBySeven(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32, std::uint32_t energy);
 

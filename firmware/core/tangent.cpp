@@ -11,9 +11,9 @@
 namespace strainfinger::firmware {
 namespace {
 
-/// Components of moves and residuals saturate here: the squares of seven fit 63 bits. They are so long only
+/// Components of moves and residuals saturate here: the squares of eight fit 63 bits. They are so long only
 /// where the readings left hardly determine them.
-constexpr std::int64_t kLongest = std::int64_t{1} << 30;
+constexpr std::int64_t kLongest = (std::int64_t{1} << 30) - 1;
 
 /// Fewer than this part of the information left is none, as a power of two.
 constexpr int kDeterminedShift = 12;
@@ -156,6 +156,11 @@ std::int32_t predictedAt(const Tangent& tangent, const Three& coefficients, std:
   share.explained = saturate<std::int32_t>((window >> 2) - share.unexplained);
 }
 
+/// Without the four bits that a prediction has below a signal.
+std::int32_t rounded(std::int32_t prediction) {
+  return static_cast<std::int32_t>((std::int64_t{prediction} + 8) >> 4);
+}
+
 /// Sums over the readings left [signal * 2^4], and what they leave of an identity [* 2^24].
 [[gnu::noinline]] Three sumsOf(const Tangent& tangent, const WindowReadings& readings, Symmetric& left) {
   constexpr std::int32_t kOne = 1 << kMatrixBits;
@@ -253,11 +258,11 @@ std::int32_t LocalFit::leverage_q15(int step) const {
 }
 
 std::int32_t LocalFit::outerResidual() const {
-  return share.outer - ((predictedAt(tangent, share.coefficients, indexOf(kOuterReach)) + 8) >> 4);
+  return share.outer - rounded(predictedAt(tangent, share.coefficients, indexOf(kOuterReach)));
 }
 
 std::int32_t LocalFit::predicted(const Problem& problem, const View& view, int step) const {
-  const std::int32_t reading = (predictedAt(tangent, share.coefficients, indexOf(step)) + 8) >> 4;
+  const std::int32_t reading = rounded(predictedAt(tangent, share.coefficients, indexOf(step)));
   return view.side < 0 ? reading * problem.mirrorSign() : reading;
 }
 

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string_view>
 
+#include "host/base/no_value.hpp"
+#include "host/bench/cells.hpp"
 #include "host/bench/error_pages.hpp"
 
 namespace strainfinger::bench {
@@ -21,26 +22,18 @@ A line load in N/m times the length of the contact is a force: 30 N/m on 20 mm a
 
 )";
 
-std::string cell(double value, int decimals) {
-  return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals);
-}
-
-std::string share(int part, int whole) {
-  const double percent = 100.0 * part / whole;
-  return part == 0 ? "0" : fmt::format(fmt::runtime(percent < 10 ? "{:.2g} %" : "{:.0f} %"), percent);
-}
-
 constexpr std::string_view kColumns =
     " place, mm: RMS / 95 % / worst | normal, N/m: RMS / 95 % | tangential, N/m: RMS / 95 % | unnoticed | "
     "uncertain | "
     "wrong gauge, unflagged |\n";
 
 std::string columnsOf(const ErrorStatistics& s) {
-  return fmt::format(" {} / {} / {} | {} / {} | {} / {} | {} | {} | {} |\n", cell(s.arc_mm.rms(), 4),
-                     cell(s.arc_mm.most95(), 4), cell(s.arc_mm.worst(), 3), cell(s.normal_n_per_m.rms(), 3),
-                     cell(s.normal_n_per_m.most95(), 3), cell(s.tangential_n_per_m.rms(), 3),
-                     cell(s.tangential_n_per_m.most95(), 3), share(s.unnoticed, s.contacts),
-                     share(s.uncertain, s.contacts), share(s.wrong, s.contacts));
+  return fmt::format(" {} / {} / {} | {} / {} | {} / {} | {} | {} | {} |\n", number(s.arc_mm.rms(), 4),
+                     number(s.arc_mm.most95(), 4), number(s.arc_mm.worst(), 3),
+                     number(s.normal_n_per_m.rms(), 3), number(s.normal_n_per_m.most95(), 3),
+                     number(s.tangential_n_per_m.rms(), 3), number(s.tangential_n_per_m.most95(), 3),
+                     share(s.unnoticed, s.contacts), share(s.uncertain, s.contacts),
+                     share(s.wrong, s.contacts));
 }
 
 std::string table(const std::string& firstColumns, int columns) {
@@ -105,10 +98,10 @@ const ErrorStatistics& rowOf(const std::vector<ErrorCell>& cells, const char* sw
 
 /// The least load of the table from which on every touch is noticed.
 double surelyNoticed_n_per_m(const std::vector<ErrorCell>& cells) {
-  double least = std::numeric_limits<double>::quiet_NaN();
+  double least = kNoValue;
   for (const ErrorCell& c : cellsOf(cells, kLoadSweep)) {
     if (c.statistics.unnoticed > 0)
-      least = std::numeric_limits<double>::quiet_NaN();
+      least = kNoValue;
     else if (std::isnan(least))
       least = c.setting;
   }

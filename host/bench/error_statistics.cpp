@@ -8,17 +8,13 @@
 #include "firmware/core/estimate.hpp"
 #include "firmware/core/pipeline.hpp"
 #include "host/base/no_value.hpp"
+#include "host/bench/uniform.hpp"
 #include "host/tables/table_builder.hpp"
 
 namespace strainfinger::bench {
 namespace {
 
 constexpr std::uint32_t kPlaceChannel = kMaxGauges - 4;  ///< of the noise: behind the gauges'
-
-/// Uniform in -1/2 .. 1/2.
-double uniform(const simulation::Noise& noise, std::uint64_t sample, std::uint32_t channel) {
-  return std::atan2(noise.at(sample, channel), noise.at(sample, channel + 1)) / (2 * std::numbers::pi);
-}
 
 }  // namespace
 

@@ -6,13 +6,10 @@
 #include <cmath>
 
 #include "host/base/table_writer.hpp"
+#include "host/bench/cells.hpp"
 
 namespace strainfinger::bench {
 namespace {
-
-std::string number(double value, int decimals) {
-  return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals);
-}
 
 /// Three digits of a ratio to the bound; what is far from it says so.
 std::string ratio(double value) { return value >= 100 ? "> 100" : number(value, value < 10 ? 2 : 0); }
@@ -20,10 +17,6 @@ std::string ratio(double value) { return value >= 100 ? "> 100" : number(value, 
 std::string ratios(const Score& score) {
   return fmt::format("{} / {} / {}", ratio(score.overBound[0]), ratio(score.overBound[1]),
                      ratio(score.overBound[2]));
-}
-
-std::string share(int part, int whole) {
-  return part == 0 ? "0" : fmt::format("{:.2g} %", 100.0 * part / whole);
 }
 
 std::string thousands(double value) {

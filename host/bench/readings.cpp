@@ -5,15 +5,11 @@
 #include <numbers>
 
 #include "common/fixed_real.hpp"
+#include "host/bench/uniform.hpp"
 #include "host/simulation/noise.hpp"
 
 namespace strainfinger::bench {
 namespace {
-
-/// Uniform in -1/2 .. 1/2, of the two channels behind the gauges' that begin at `channel`.
-double uniform(const simulation::Noise& noise, std::uint64_t number, std::uint32_t channel) {
-  return std::atan2(noise.at(number, channel), noise.at(number, channel + 1)) / (2 * std::numbers::pi);
-}
 
 Place<double> drawPlace(const simulation::Noise& noise, std::uint64_t number) {
   const double position = (uniform(noise, number, kGauges) + 0.5) * kGauges;

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """compare_replays.py BLOCKS REFERENCE CANDIDATE: the firmware's logic on two machines or of two compilers, bit for bit.
 
-Each is a program for this machine, or an .elf for an emulated board (replay_host.cpp, target/replay_target.cpp). Where
-a block's hash differs, the first sample set in it that does is found and named.
+Each is a program for this machine, or an .elf for an emulated board (replay_host.cpp, target/replay_target.cpp); what
+the reference says of every block is in REFERENCE.txt. Where a block's hash differs, the first sample set in it that does
+is found and named.
 """
 import subprocess
 import sys
@@ -29,9 +30,11 @@ def first_difference(ours, theirs):
 def main():
     blocks, reference, candidate = int(sys.argv[1]), sys.argv[2], sys.argv[3]
     emulator.require(*(name for name in (reference, candidate) if name.endswith(".elf")))
-    ours, theirs = lines_of(reference, 0, blocks), lines_of(candidate, 0, blocks)
+    with open(reference + ".txt") as told:
+        ours = told.read().splitlines()[:blocks]
     if len(ours) != blocks:
-        sys.exit(f"{reference}: {len(ours)} lines for {blocks} blocks")
+        sys.exit(f"{reference}.txt: {len(ours)} lines for {blocks} blocks")
+    theirs = lines_of(candidate, 0, blocks)
     different = first_difference(ours, theirs)
     if not different:
         print(f"{blocks * SAMPLES_PER_BLOCK} sample sets, {blocks} blocks, no difference")

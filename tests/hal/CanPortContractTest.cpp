@@ -37,7 +37,7 @@ class TappedBench : public LoopbackBench {
   can::TappedPort<can::LoopbackPort> tapped_{LoopbackBench::port()};
 };
 
-class FakeBench {
+class FakeCanPortBench {
  public:
   doubles::FakeCanPort& port() { return port_; }
   bool otherSends(const CanFrame& frame) {
@@ -60,5 +60,5 @@ class FakeBench {
 }  // namespace
 
 CAN_PORT_CONTRACT(Loopback, LoopbackBench)
-CAN_PORT_CONTRACT(Fake, FakeBench)
+CAN_PORT_CONTRACT(Fake, FakeCanPortBench)
 CAN_PORT_CONTRACT(Tapped, TappedBench)

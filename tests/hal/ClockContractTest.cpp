@@ -18,7 +18,7 @@ class SteadyBench {
   system::SteadyClock clock_;
 };
 
-class FakeBench {
+class FakeClockBench {
  public:
   doubles::FakeClock& clock() { return clock_; }
   void pass(std::uint32_t time_us) { clock_.advance(time_us); }
@@ -27,9 +27,9 @@ class FakeBench {
   doubles::FakeClock clock_{UINT32_MAX - 1000};  // so that it wraps on the way
 };
 
-class SimulatedBench {
+class SimulatedClockBench {
  public:
-  SimulatedBench() { clock_.advance_us(UINT32_MAX - 1000); }
+  SimulatedClockBench() { clock_.advance_us(UINT32_MAX - 1000); }
   simulation::SimulatedClock& clock() { return clock_; }
   void pass(std::uint32_t time_us) { clock_.advance_us(time_us); }
 
@@ -40,5 +40,5 @@ class SimulatedBench {
 }  // namespace
 
 CLOCK_CONTRACT(Steady, SteadyBench)
-CLOCK_CONTRACT(Fake, FakeBench)
-CLOCK_CONTRACT(Simulated, SimulatedBench)
+CLOCK_CONTRACT(Fake, FakeClockBench)
+CLOCK_CONTRACT(Simulated, SimulatedClockBench)

@@ -6,7 +6,7 @@ using namespace strainfinger;
 
 namespace {
 
-class FakeBench {
+class FakeGaugeAdcBench {
  public:
   static constexpr int kGauges = kMaxGauges;
   static constexpr int kCapacity = doubles::FakeGaugeAdc::kCapacity;
@@ -24,7 +24,7 @@ class FakeBench {
 };
 
 /// A twin that is read at once tells what each conversion gave; the noise makes every set another.
-class SimulatedBench {
+class SimulatedGaugeAdcBench {
  public:
   static constexpr int kGauges = config::Gauges{}.count;
   static constexpr int kCapacity = simulation::SimulatedGauges::kBuffers;
@@ -44,5 +44,5 @@ class SimulatedBench {
 
 }  // namespace
 
-GAUGE_ADC_CONTRACT(Fake, FakeBench)
-GAUGE_ADC_CONTRACT(Simulated, SimulatedBench)
+GAUGE_ADC_CONTRACT(Fake, FakeGaugeAdcBench)
+GAUGE_ADC_CONTRACT(Simulated, SimulatedGaugeAdcBench)

@@ -18,7 +18,6 @@ namespace {
 using namespace model;
 
 constexpr double kVanishing = 1e-60;
-constexpr double kOuterRadius_m = 12.7e-3, kShearModulus_pa = 8.3e4;
 constexpr std::array kFieldAlphas{0.01, 0.1, 0.5, 0.7, 0.85, 0.93, 0.97, 0.99, 0.999};
 constexpr std::array kFieldPoissonRatios{0.0, 0.499999, 0.5};
 constexpr std::array kWidths_rad{0.0, 1e-6, 1e-4, 1e-2, 0.15, std::numbers::pi / 2};

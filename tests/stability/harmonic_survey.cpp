@@ -12,7 +12,6 @@ using namespace model;
 using testing::Wide;
 
 constexpr double kUnderflowing = 1e-290;
-constexpr double kOuterRadius_m = 12.7e-3, kShearModulus_pa = 8.3e4;
 
 /// Draws from ranges whose ends come up often.
 class Draw {

@@ -11,6 +11,9 @@
 
 namespace strainfinger::stability {
 
+/// The default finger's.
+inline constexpr double kOuterRadius_m = 12.7e-3, kShearModulus_pa = 8.3e4;
+
 struct Range {
   double from, to;
 };

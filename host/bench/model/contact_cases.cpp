@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "host/base/no_value.hpp"
 #include "host/bench/model/measured_case.hpp"
 #include "host/bench/model/precise.hpp"
 #include "host/bench/model/precise_contact.hpp"
@@ -55,8 +55,7 @@ void appendWholeCases(std::vector<MeasuredCase>& cases) {
       for (const auto& [regimeName, regime] : regimes) {
         const ContactRequest request{indenter, regime, kFriction, 0, size, {}};
         cases.push_back({"a whole contact", fmt::format("{}, {}, {}", indenterName, sizeName, regimeName),
-                         "terms", static_cast<double>(whole(request).terms),
-                         std::numeric_limits<double>::quiet_NaN(),
+                         "terms", static_cast<double>(whole(request).terms), kNoValue,
                          [request] { return whole(request).normal_n_per_m; }});
       }
 }

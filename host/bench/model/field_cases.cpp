@@ -2,9 +2,9 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "host/base/no_value.hpp"
 #include "host/bench/model/measured_case.hpp"
 #include "host/bench/model/precise.hpp"
 #include "host/model/field.hpp"
@@ -18,7 +18,6 @@ using namespace model;
 constexpr int kAngles = 360;
 constexpr SurfaceLoad kLoad{.normal_n_per_m = 1, .tangential_n_per_m = 0.5};
 constexpr std::array kAllRows{kTrr, kTrt, kTtt, kUr, kUt, kErr, kEtt, kErt};
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 const std::vector<double>& angles() {
   static const std::vector<double> angles_rad = [] {
@@ -72,7 +71,7 @@ MeasuredCase fixedCase(const char* method, int last) {
 }
 
 MeasuredCase part(const char* method, const std::function<Eigen::MatrixXd()>& field) {
-  return {"saving", method, "angles", kAngles, kNothing, [field] { return field()(1, 0); }};
+  return {"saving", method, "angles", kAngles, kNoValue, [field] { return field()(1, 0); }};
 }
 
 }  // namespace

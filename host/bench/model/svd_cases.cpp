@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <limits>
 
+#include "host/base/no_value.hpp"
 #include "host/bench/model/measured_case.hpp"
 #include "host/bench/model/precise.hpp"
 #include "host/bench/model/precise_contact.hpp"
@@ -20,7 +20,6 @@ using Eigen::MatrixXd;
 using Values = std::vector<double>;
 
 constexpr int kCompared = 14;
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 SlopeMapRequest request(SlopeRows rows, bool withShear) {
   SlopeMapRequest made;
@@ -135,7 +134,7 @@ MeasuredCase rowsCase(const char* method, int rows, Values (*make)(int)) {
 }
 
 MeasuredCase timeOnly(const char* method, const std::function<Values()>& make) {
-  return {"saving", method, "harmonics", 300, kNothing, [make] { return make()[1]; }};
+  return {"saving", method, "harmonics", 300, kNoValue, [make] { return make()[1]; }};
 }
 
 }  // namespace
@@ -177,8 +176,8 @@ std::vector<MeasuredCase> paperCases() {
     for (const paper::Figure& figure : paper::figures()) count += static_cast<double>(figure.claims().size());
     return count;
   };
-  return {{"paper", "data of all figures", "figures", 9, kNothing, data},
-          {"paper", "all claims", "figures", 9, kNothing, claims}};
+  return {{"paper", "data of all figures", "figures", 9, kNoValue, data},
+          {"paper", "all claims", "figures", 9, kNoValue, claims}};
 }
 
 }  // namespace strainfinger::bench

@@ -1,7 +1,12 @@
 #include "firmware/core/window_fit.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <random>
+#include <vector>
 
 #include "firmware/core/triple_fit.hpp"
 #include "tests/firmware/core/model_ring.hpp"
@@ -211,6 +216,41 @@ TEST(WindowFit, ThreeGaugesFindTheSameContact) {
     DOUBLES_EQUAL(0, result.error_um, 4);
     DOUBLES_EQUAL(0, result.loadError, 1e-3);
   });
+}
+
+// Of disturbed readings, whose other four say something else.
+TEST(WindowFit, TheThreeReadingsThatAreNamedAreExplained) {
+  std::printf("seed 6 ");
+  std::mt19937 random(6);
+  std::uniform_int_distribution<std::int32_t> disturbance(-60, 60);
+  double worst = 0, square = 0;
+  int answers = 0;
+  forEachStart([&](Case c, double, int start) {
+    std::vector<std::int32_t> strains;
+    for (double& reading : c.readings) {
+      reading += disturbance(random);
+      strains.push_back(static_cast<std::int32_t>(reading));
+    }
+    c.signal = windowSignal(strains, 3, 16);
+    WindowFit fit = startOf(c, start);
+    refine(rows, 1, fit);
+    const auto triple = solveTriple(rows, 1, fit);
+    if (!triple) return;
+    const Eigen::Vector2d loads = loadsOf(fit, c.perLoad) * c.perLoad;
+    for (const int gauge : kTripleList[*triple]) {
+      const int k = fit.side * gauge;
+      const auto value = ring.response(k - pitches(fit.position()));
+      const double left = std::abs(c.readings[k + 3] - value.normal * loads[0] - value.tangential * loads[1]);
+      worst = std::max(worst, left);
+      square += left * left / 3;
+    }
+    ++answers;
+  });
+  const double rms = std::sqrt(square / answers);
+  std::printf("%d answers, RMS %.2f, worst %.1f of %.0f ", answers, rms, worst, kSignalNorm);
+  CHECK(answers > 9000);
+  CHECK(rms < 4);
+  CHECK(worst < 30);
 }
 
 TEST(WindowFit, ThreeGaugesThatSayNothingAreNoAnswer) {

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Flash, RAM and worst-case stack of a bare-metal image against its budgets.
 
-    check_image.py [--flash N] [--ram N] [--stack N] [--interrupt HANDLER]... IMAGE.elf --objects a.o b.o ...
+    check_image.py [--flash N] [--ram N] [--stack N] [--interrupt HANDLER]... [--sources FOLDER]
+                   IMAGE.elf --objects a.o b.o ...
 
 Fails when a budget is exceeded, and when the image contains a heap, floating point (instructions or the compiler's
-routines), recursion, calls through pointers, or a stack frame of unknown size: each is named, with where it is.
+routines), recursion, calls through pointers, a stack frame of unknown size, or the path of its sources (it would be
+another image in another folder): each is named, with where it is.
 
 The call graph is that of the linked image (its disassembly), so it has what the linker and the libraries added.
 Frame sizes are the larger of what the compiler says (-fcallgraph-info=su beside each object) and what a function's
@@ -15,6 +17,7 @@ import argparse
 import re
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 TOOLS = "arm-none-eabi-"
@@ -131,6 +134,13 @@ def sections(elf):
             yield name, int(size, 16), kind != "NOBITS", "W" in flags or kind == "NOBITS"
 
 
+def loaded(elf):
+    """The bytes that are written to the flash."""
+    with tempfile.NamedTemporaryFile() as file:
+        run(TOOLS + "objcopy", "-O", "binary", elf, file.name)
+        return Path(file.name).read_bytes()
+
+
 class Stack:
     """Deepest use from a function on, by depth-first search."""
 
@@ -166,6 +176,7 @@ def arguments():
         parser.add_argument("--" + budget, type=int)
     parser.add_argument("--report", help="file to write the figures to, too")
     parser.add_argument("--interrupt", action="append", default=[])
+    parser.add_argument("--sources", help="folder whose path may not be in the image")
     parser.add_argument("--entry", default="resetHandler")
     return parser.parse_args()
 
@@ -202,6 +213,9 @@ def main():
             complain(f"call through a pointer in {function.name}: its stack is not known")
         if function.name in unbounded:
             complain(f"stack frame of no fixed size: {function.name}")
+
+    if options.sources and options.sources.encode() in loaded(options.elf):
+        complain(f"path of the sources: {options.sources}, as of an assertion")
 
     used = {"flash": 0, "ram": 0, "stack": deepest}
     for _, size, in_flash, in_ram in sections(options.elf):

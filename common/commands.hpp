@@ -160,13 +160,15 @@ constexpr ResponseFrame responseTo(Command command, CommandStatus status) {
 /// ISO-TP single frame, or the other direction.
 template <typename Frame>
 constexpr std::optional<Frame> readSingleFrame(CanFrame frame, std::uint8_t node) {
+  constexpr FunctionCode function = kLayout<Frame>.spec.function;
+  constexpr std::uint8_t wholeLength = kLayout<Frame>.spec.length;
   const std::uint8_t length = frame.data[0];
-  if (frame.id != canId(kLayout<Frame>.spec.function, node) || length < Frame::kFewestBytes ||
-      frame.length <= length || frame.length > frame.data.size())
+  if (frame.id != canId(function, node) || length < Frame::kFewestBytes || frame.length <= length ||
+      frame.length > frame.data.size())
     return std::nullopt;
   frame.length = length + 1;
   CanFrame whole = asReceived(frame);
-  whole.length = kLayout<Frame>.spec.length;
+  whole.length = wholeLength;
   const auto values = decode<Frame>(whole);
   if (!values || values->answer != Frame{}.answer) return std::nullopt;
   return values;

@@ -114,6 +114,13 @@ class CheckImage(unittest.TestCase):
         self.refused("stack frame of no fixed size: resetHandler", """int volatile n; extern "C" void resetHandler() {
             void* p = __builtin_alloca(n); asm volatile("" :: "r"(p) : "memory"); }""")
 
+    def test_the_path_of_its_sources_is_found(self):
+        source = "char const* volatile p; extern \"C\" void resetHandler() { p = __FILE__; }"
+        self.refused(f"path of the sources: {self.folder}", source, "--sources", str(self.folder))
+        mapped = ("-mfloat-abi=soft", "-g", f"-fmacro-prefix-map={self.folder}/=")
+        status, said = self.check(source, "--sources", str(self.folder), flags=mapped)
+        self.assertEqual(status, 0, said)
+
     def test_a_last_call_through_a_pointer_is_found(self):
         self.refused("call through a pointer in resetHandler",
                      "void (*volatile f)(); extern \"C\" void resetHandler() { f(); }",

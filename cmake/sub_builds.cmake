@@ -2,10 +2,14 @@
 # sanitized.*) run by this one's ctest.
 set(sanitized ${PROJECT_BINARY_DIR}/sanitized)
 
+# Half the cores: it is about half of what is compiled, and compilers that share a core take each other's cache.
+cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
+math(EXPR half "(${cores} + 1) / 2")
+
 add_custom_target(sanitized ALL
   COMMAND ${CMAKE_COMMAND} --preset sanitize -S ${PROJECT_SOURCE_DIR} -B ${sanitized}
           -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} --log-level=WARNING
-  COMMAND ${CMAKE_COMMAND} --build ${sanitized} --parallel 2
+  COMMAND ${CMAKE_COMMAND} --build ${sanitized} --parallel ${half}
   WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} USES_TERMINAL VERBATIM)
 
 # A copy that was not built is a test that fails, not fewer tests.

@@ -40,6 +40,7 @@ bool isNear(const Problem& problem, PitchQ20 one, PitchQ20 other) {
 
 Standing standingOf(const Problem& problem, const WindowFit& fit, const Judgement& judgement) {
   const std::int32_t energy = judgement.energy + leftOutside(problem, judgement.windowEnergy);
+  static_assert(kNoiseUnit == 32);
   const bool mayBe = judgement.pressed && (judgement.settled || !walkedOut(fit));
   return {.energy = energy,
           .asRunnerUp = mayBe ? energy : energy - (problem.noise - problem.noise / 8),

@@ -12,7 +12,7 @@ namespace {
 
 using namespace contact;
 
-constexpr std::array kContactWidths_rad{1e-6, 1e-4, 1e-2, 0.15, std::numbers::pi / 4, std::numbers::pi / 2};
+constexpr std::array kWidths_rad{1e-6, 1e-4, 1e-2, 0.15, std::numbers::pi / 4, std::numbers::pi / 2};
 
 struct NamedIndenter {
   const char* name;
@@ -81,7 +81,7 @@ std::vector<Case> casesOf(std::span<const double> alphas, std::span<const double
   std::vector<Case> cases;
   for (const double alpha : alphas)
     for (const double poissonRatio : poissonRatios)
-      for (const double width_rad : kContactWidths_rad)
+      for (const double width_rad : kWidths_rad)
         for (const Regime regime : {Regime::kFrictionless, Regime::kSliding, Regime::kStick})
           for (const NamedIndenter& pressed : indenters()) {
             const Case each{alpha, poissonRatio, width_rad, regime, pressed};

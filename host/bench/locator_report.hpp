@@ -20,8 +20,8 @@ std::string locatorVerdict(const std::vector<MethodResult>& results, const Count
 /// CSV: one row a method and level of noise. Columns that end in _counted and were not are empty.
 void writeLocatorCsv(std::FILE* stream, const std::vector<MethodResult>& results, const Counts& counts);
 
-/// Error over instructions on a Cortex-M4, a panel for each level with noise; time on this machine when
-/// nothing was counted.
+/// Error over instructions on a Cortex-M4, a panel for each level with noise and below it a close-up of what
+/// lies around the first method; time on this machine when nothing was counted.
 plot::Picture locatorPicture(const std::vector<MethodResult>& results, const Counts& counts);
 
 }  // namespace strainfinger::bench

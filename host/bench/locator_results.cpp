@@ -104,4 +104,8 @@ Count Counts::of(std::size_t core, const std::string& method, std::size_t level)
   return found == counts_.end() ? Count{kUncounted, kUncounted, kUncounted} : found->second;
 }
 
+double countOnM4(const MethodResult& result, const Counts& counts, std::size_t level) {
+  return counts.of(result.usesFloat ? kM4WithFpu : kM4, result.name, level).median;
+}
+
 }  // namespace strainfinger::bench

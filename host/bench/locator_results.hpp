@@ -48,4 +48,7 @@ class Counts {
   std::map<std::array<std::string, 3>, Count> counts_;
 };
 
+/// Median where it is least on a Cortex-M4: with the FPU for those that have a use for it. NaN: not counted.
+double countOnM4(const MethodResult& result, const Counts& counts, std::size_t level);
+
 }  // namespace strainfinger::bench

@@ -214,8 +214,9 @@ def main():
         if function.name in unbounded:
             complain(f"stack frame of no fixed size: {function.name}")
 
-    if options.sources and options.sources.encode() in loaded(options.elf):
-        complain(f"path of the sources: {options.sources}, as of an assertion")
+    if options.sources:
+        for path in re.findall(re.escape(options.sources.encode()) + rb"[^\0]*", loaded(options.elf)):
+            complain(f"path of the sources: {path.decode()}, as of an assertion")
 
     used = {"flash": 0, "ram": 0, "stack": deepest}
     for _, size, in_flash, in_ram in sections(options.elf):

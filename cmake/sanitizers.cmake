@@ -13,7 +13,7 @@ function(strainfinger_leave_unsanitized)
   endif()
 endfunction()
 
-# strainfinger_sanitize_lightly(): in the folders that are added after it, the rooms of Eigen's templates, without the checks
+# strainfinger_sanitize_lightly(): in the folders that are added after it, the rooms that compile most of Eigen's templates, without the checks
 # that make a quarter of the time to compile them: of null pointers, which the address sanitizer stops when they are used,
 # and of alignment, sizes and virtual tables, which code that casts no pointers can't get wrong.
 macro(strainfinger_sanitize_lightly)

@@ -160,15 +160,16 @@ constexpr ResponseFrame responseTo(Command command, CommandStatus status) {
 /// ISO-TP single frame, or the other direction.
 template <typename Frame>
 constexpr std::optional<Frame> readSingleFrame(CanFrame frame, std::uint8_t node) {
-  constexpr FunctionCode function = kLayout<Frame>.spec.function;
-  constexpr std::uint8_t wholeLength = kLayout<Frame>.spec.length;
+  // Constants: a layout that is read at run time is in the image, with all its texts.
+  constexpr FunctionCode kFunction = kLayout<Frame>.spec.function;
+  constexpr std::uint8_t kWholeLength = kLayout<Frame>.spec.length;
   const std::uint8_t length = frame.data[0];
-  if (frame.id != canId(function, node) || length < Frame::kFewestBytes || frame.length <= length ||
+  if (frame.id != canId(kFunction, node) || length < Frame::kFewestBytes || frame.length <= length ||
       frame.length > frame.data.size())
     return std::nullopt;
   frame.length = length + 1;
   CanFrame whole = asReceived(frame);
-  whole.length = wholeLength;
+  whole.length = kWholeLength;
   const auto values = decode<Frame>(whole);
   if (!values || values->answer != Frame{}.answer) return std::nullopt;
   return values;

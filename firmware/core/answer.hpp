@@ -78,8 +78,8 @@ std::int32_t leftOutside(const Problem& problem, std::int32_t windowEnergy);
 /// What decides between two answers.
 struct Standing {
   std::int32_t energy;  ///< explained, and what a contact there may have left outside the window
-  /// What may not be, beyond friction's cone or the table, counts for 28 variances less: noise may have
-  /// moved it there.
+  /// What may not be, beyond friction's cone or the table, counts for 28 variances less: noise may have moved
+  /// it there, but is covered (coveredMargin()) only within two standard deviations.
   std::int32_t asRunnerUp;
   bool found;
   bool admissible;

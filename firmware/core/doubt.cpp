@@ -101,8 +101,9 @@ void Contest::enter(const Problem& problem, const WindowFit& from, const Judgeme
   return list;
 }
 
-/// Contacts midway between two gauges may bend the strains most (at the anchor) two gauges away; where noise
-/// may tip the balance, the answer may lie three from the contact: enters what is there, on either side.
+/// Contacts midway between two gauges may have their anchor (the deepest reading, or the sharpest bend) two
+/// gauges away; where noise may tip the balance, the answer may lie three from the contact: enters what is
+/// there, on either side.
 inline void enterBeside(const Problem& problem, Contest& contest) {
   const int anchor = contest.fit.anchor, centre = contest.fit.centre;
   const std::array<int, 4> centres{anchor - 2, anchor + 2, centre - 3, centre + 3};

@@ -47,7 +47,7 @@ struct Fit {
 
 /// Fits one line contact to the strains of a ring that is touched; one strain a gauge, each within
 /// +-2^(15 + gate_shift). `energy`: their gateEnergy().
-/// Bounded time: a part of a window scanned and one fit for most contacts, up to five windows and seven fits
+/// Bounded time: a part of a window scanned and one fit for most contacts, up to six windows and nine fits
 /// for those in doubt, every window and six fits for a touch so weak that noise could win in a wrong one.
 void locateBySeven(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32, std::uint32_t energy);
 

@@ -9,7 +9,8 @@
 namespace strainfinger::firmware {
 namespace {
 
-/// Readings, below 2^28, are summed in steps of 2^6: far below the noise of one.
+/// Readings, below 2^29 (kMostGateShift), are summed in steps of 2^6, far below the noise of one: 256 of them
+/// stay below 2^31.
 constexpr int kSumShift = 6;
 constexpr int kAverageShift = 2;
 static_assert(ZeroTracker::kInterval / ZeroTracker::kEvery == 1 << (kSumShift + kAverageShift));

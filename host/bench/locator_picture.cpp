@@ -44,8 +44,8 @@ Area around(const Point& point) {
   return {point.cost / 1.25, point.cost * 2.6, point.arc_um / 1.4, point.arc_um * 4.6};
 }
 
-/// One level of noise.
-struct Level {
+/// What is drawn of one level of noise.
+struct NoisePanel {
   std::size_t number;
   std::vector<Point> points;
   double bound_um;
@@ -62,10 +62,10 @@ std::string label(const Point& point) {
                      colourOf(point.ours));
 }
 
-std::string labels(const Level& level, bool ofCloseUp) {
+std::string labels(const NoisePanel& panel, bool ofCloseUp) {
   std::string script;
-  for (const Point& point : level.points)
-    if (level.closeUp.holds(point) == ofCloseUp) script += label(point);
+  for (const Point& point : panel.points)
+    if (panel.closeUp.holds(point) == ofCloseUp) script += label(point);
   return script;
 }
 
@@ -93,26 +93,26 @@ std::vector<Point> pointsOf(const std::vector<MethodResult>& results, const Coun
   return points;
 }
 
-std::string plotOf(const Level& level) {
+std::string plotOf(const NoisePanel& panel) {
   return fmt::format(
       "plot {0} with lines linestyle 3, data('level{1}') using 2:($4==0 ? $3 : NaN) every ::1 with points "
       "linestyle 2, '' using 2:($4==1 ? $3 : NaN) every ::1 with points linestyle 1\n"
       "unset label\nunset ylabel\n",
-      level.bound_um, level.number);
+      panel.bound_um, panel.number);
 }
 
 /// Everything, with a frame around what the close-up shows.
-std::string overview(const Level& level) {
-  const Area& area = level.closeUp;
+std::string overview(const NoisePanel& panel) {
+  const Area& area = panel.closeUp;
   return fmt::format(
              "set title 'noise {} of the peak strain'\nset xrange [*:*]\nset yrange [{}:*]\n"
              "set format x '10^{{%L}}'; set format y '%g'\n"
              "set object 1 rectangle from {},{} to {},{} fillstyle empty border linecolor '#555555'\n"
              "set label \"Cramer-Rao bound\" at graph 0.99,first {} right offset 0,-0.7 font ',10' textcolor "
              "'#777777'\n",
-             kLevelSettings[level.number].name, level.bound_um / 2, area.leastCost, area.least_um,
-             area.mostCost, area.most_um, level.bound_um) +
-         labels(level, false) + plotOf(level) + "unset object 1\n";
+             kLevelSettings[panel.number].name, panel.bound_um / 2, area.leastCost, area.least_um,
+             area.mostCost, area.most_um, panel.bound_um) +
+         labels(panel, false) + plotOf(panel) + "unset object 1\n";
 }
 
 /// A range, with tics at 1, 1.5, 2, 3, 5 and 7 times powers of ten.
@@ -125,14 +125,14 @@ std::string range(const char* axis, double least, double most) {
   return fmt::format("set {0}tics ({1})\nset {0}range [{2}:{3}]\n", axis, tics, least, most);
 }
 
-std::string closeUp(const Level& level, bool counted) {
-  const Area& area = level.closeUp;
+std::string closeUp(const NoisePanel& panel, bool counted) {
+  const Area& area = panel.closeUp;
   return fmt::format("set title 'noise {}: the frame above'\nset xlabel '{}'\nset format x '%g'\n",
-                     kLevelSettings[level.number].name,
+                     kLevelSettings[panel.number].name,
                      counted ? "instructions a fit, median, Cortex-M4 (float methods: with FPU)"
                              : "ns a fit on this machine") +
          range("x", area.leastCost, area.mostCost) + range("y", area.least_um, area.most_um) +
-         labels(level, true) + plotOf(level);
+         labels(panel, true) + plotOf(panel);
 }
 
 }  // namespace
@@ -143,13 +143,14 @@ plot::Picture locatorPicture(const std::vector<MethodResult>& results, const Cou
   picture.script += kErrorAxis + legend(results, pointsOf(results, counts, kTimedLevel));
   for (const std::size_t number : {std::size_t{1}, std::size_t{2}}) {
     const auto points = pointsOf(results, counts, number);
-    const Level level{number, points, results.back().score[number].arcBound_um, around(points.front())};
+    if (points.empty()) continue;
+    const NoisePanel panel{number, points, results.back().score[number].arcBound_um, around(points.front())};
     plot::DataFile data{fmt::format("level{}", number), {"number", "cost", "arc_rms_of_all_um", "ours"}, {}};
     for (const Point& point : points)
       data.rows.push_back(
           {static_cast<double>(point.number), point.cost, point.arc_um, point.ours ? 1.0 : 0.0});
-    picture.script += overview(level);
-    closeUps += closeUp(level, !counts.empty());
+    picture.script += overview(panel);
+    closeUps += closeUp(panel, !counts.empty());
     picture.data.push_back(std::move(data));
   }
   picture.script += kErrorAxis + closeUps + "unset multiplot\n";

@@ -1,12 +1,12 @@
 #include "host/contact/cell_contact.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
 #include "host/base/failure.hpp"
+#include "host/contact/decompositions.hpp"
 #include "host/contact/multiples.hpp"
 
 namespace strainfinger::contact {
@@ -107,7 +107,7 @@ VectorXd CellContact::solve(const std::vector<Index>& active, double load_n_per_
   equations(count, count) = 0;
   VectorXd right(count + 1);
   right << -gap_m_(active), load_n_per_m;
-  return equations.partialPivLu().solve(right);
+  return luSolution(equations, right);
 }
 
 std::vector<Index> CellContact::nextActive(const std::vector<Index>& active, const VectorXd& solution) const {

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "host/base/failure.hpp"
+#include "host/contact/decompositions.hpp"
 
 namespace strainfinger::contact {
 namespace {
@@ -155,7 +155,7 @@ EdgeResult EdgeSearch::run(const std::vector<Patch>& guess, const MatrixXd& know
   if (count == 0) return state.result;
   MatrixXd jacobian = known.cols() == count ? known : differences(state, guess);
   for (int step = 0; step < kMostSteps; ++step) {
-    VectorXd move = -jacobian.partialPivLu().solve(state.misfits);
+    VectorXd move = -luSolution(jacobian, state.misfits);
     move *= std::min(1.0, 0.5 / worstOf(move));
     for (int half = 0; half < kMostHalvings; ++half) {
       const std::vector<Patch> moved = patchesOf(state.unknowns + move, guess);

@@ -1,9 +1,10 @@
 #include "host/contact/jacobi.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <boost/math/special_functions/digamma.hpp>
 #include <cmath>
 #include <numbers>
+
+#include "host/contact/decompositions.hpp"
 
 namespace strainfinger::contact {
 namespace {
@@ -112,9 +113,7 @@ QuadratureRule gaussRule(EdgeExponents exponents, int count) {
   const bool isSymmetric = exponents.right == exponents.left;
   if (isSymmetric && std::abs(exponents.right) == 0.5) return chebyshevRule(exponents.right > 0, count);
   const Recurrence recurrence(exponents, count);
-  Eigen::SelfAdjointEigenSolver<MatrixXd> solver;
-  solver.computeFromTridiagonal(recurrence.diagonal, recurrence.off.tail(count - 1), Eigen::EigenvaluesOnly);
-  QuadratureRule rule{solver.eigenvalues(), {}};
+  QuadratureRule rule{tridiagonalEigenvalues(recurrence.diagonal, recurrence.off.tail(count - 1)), {}};
   rule.weights = jacobiValues(exponents, count, rule.nodes).rowwise().squaredNorm().cwiseInverse();
   return rule;
 }

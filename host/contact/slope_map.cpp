@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "host/base/failure.hpp"
-#include "host/contact/thin_svd.hpp"
+#include "host/contact/decompositions.hpp"
 #include "host/model/harmonic.hpp"
 #include "host/model/series.hpp"
 

@@ -1,10 +1,10 @@
 #include "host/contact/spectral.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "host/contact/decompositions.hpp"
 #include "host/contact/influence.hpp"
 #include "host/contact/surface_motion.hpp"
 
@@ -94,7 +94,7 @@ PatchSolution SpectralSolver::Assembly::solve(double tangential_n_per_m) {
     if (tips_[static_cast<std::size_t>(at)].tip.step.size() > 0) fillStep(at);
   }
   if (solver_.shear_) fillTangentialLoad(tangential_n_per_m);
-  return unpack(matrix_.partialPivLu().solve(right_));
+  return unpack(luSolution(matrix_, right_));
 }
 
 // Tangential displacements only where something sticks.

@@ -1,12 +1,11 @@
 #include "host/shape/resolved_pressure.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "host/contact/decompositions.hpp"
 #include "host/contact/jacobi.hpp"
-#include "host/contact/thin_svd.hpp"
 
 namespace strainfinger::shape {
 namespace {
@@ -40,8 +39,8 @@ ResolvedPressure::ResolvedPressure(const TouchModel& model, const Touch& touch, 
   MatrixXd map = model.normalLineStrains(angles_rad) * roots.asDiagonal();
   const auto above = [](const VectorXd& values, double least) { return (values.array() > least).count(); };
   // Squares of the singular values: what is small among them is below any noise.
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> squares(map * map.transpose(), Eigen::EigenvaluesOnly);
-  directions_ = static_cast<int>(above(squares.eigenvalues(), visible * visible));
+  const VectorXd squares = contact::symmetricEigenvalues(map * map.transpose());
+  directions_ = static_cast<int>(above(squares, visible * visible));
   const VectorXd shear = model.respond(Profile::kEllipse, touch).slopes.col(2).normalized();
   map -= shear * (shear.transpose() * map);
   const contact::ThinSvd svd = contact::thinSvd(map);

@@ -32,6 +32,8 @@ int contactCount(int usual) {
   return asked ? std::atoi(asked) : usual;
 }
 constexpr double kPeakPerLoad = 460.603e-6;  ///< strain per N/m at the gauge under a normal load
+/// The default finger's noise, 6 microstrain, relative to the peak strain of a load.
+constexpr double defaultNoiseAt(double load_n_per_m) { return 6e-6 / (kPeakPerLoad * load_n_per_m); }
 
 struct Statistics {
   int contacts = 0;
@@ -61,16 +63,16 @@ class Trial {
     image_ = std::make_unique<TableImage>(tables::buildTableImage(config));
   }
 
-  /// Contacts only so far from a gauge, on either side of it [pitches].
-  Trial& between(double nearest, double farthest) {
-    nearest_ = nearest;
-    farthest_ = farthest;
+  /// Contacts only so far from a gauge, on either side of it.
+  Trial& between(double nearest_pitch, double farthest_pitch) {
+    nearest_ = nearest_pitch;
+    farthest_ = farthest_pitch;
     return *this;
   }
-  /// Loads only that lean so far [degrees] away from that gauge.
-  Trial& leaning(double least, double most) {
-    least_rad_ = least * std::numbers::pi / 180;
-    most_rad_ = most * std::numbers::pi / 180;
+  /// Loads only that lean so far away from that gauge.
+  Trial& leaning(double least_deg, double most_deg) {
+    least_rad_ = least_deg * std::numbers::pi / 180;
+    most_rad_ = most_deg * std::numbers::pi / 180;
     return *this;
   }
 
@@ -226,30 +228,32 @@ TEST(LocateAccuracy, TwentyFourGaugesAtAHundredthOfNoiseReachTheBound) {
   checkHonest(result);
 }
 
-// At this noise 16 gauges don't tell every branch apart: such answers say that they are uncertain.
+// At this noise 16 gauges don't tell every branch apart: such answers say that they are uncertain. README.md
+// says that all do.
 TEST(LocateAccuracy, SixteenGaugesAtAHundredthOfNoiseAreRarelyWrongAndHardlyEverCertainOfIt) {
   const Statistics result = Trial(1e-2, 30).run(FitMode::kRefined, 107);
   CHECK(result.gross <= result.contacts / 200);
   CHECK(result.certain <= result.contacts / 10'000);
+  LONGS_EQUAL(0, result.untold);
 }
 
 // Noise (of the default finger: 6 microstrain) may tip the balance to another window, or across a gauge, or
 // beyond what friction allows.
 TEST(LocateAccuracy, AWrongPlaceIsNeverCertain) {
   for (const double load : {0.6, 1.0, 2.0, 3.0, 5.0}) {
-    const Statistics result = Trial(6e-6 / (kPeakPerLoad * load), load).run(FitMode::kRefined, 108, 40'000);
+    const Statistics result = Trial(defaultNoiseAt(load), load).run(FitMode::kRefined, 108, 40'000);
     LONGS_EQUAL(0, result.untold);
-    CHECK(result.unseen <= result.contacts / 20);
+    CHECK(result.unseen <= (load < 1 ? result.contacts / 20 : 0));
   }
 }
 
 // There noise may make up a contact that lies two or three gauges away.
 TEST(LocateAccuracy, AWrongPlaceIsNeverCertainTowardsTheMiddleBetweenGauges) {
   for (const double load : {2.0, 3.0, 5.0, 8.0}) {
-    Trial trial(6e-6 / (kPeakPerLoad * load), load);
+    Trial trial(defaultNoiseAt(load), load);
     const Statistics result = trial.between(0.37, 0.47).leaning(35, 45).run(FitMode::kRefined, 110, 40'000);
     LONGS_EQUAL(0, result.untold);
-    CHECK(result.unseen <= result.contacts / 20);
+    LONGS_EQUAL(0, result.unseen);
   }
 }
 
@@ -259,5 +263,6 @@ TEST(LocateAccuracy, NoPlaceAcrossAGaugeIsTakenForCertain) {
   for (const double noise : {2e-3, 1e-3, 5e-4}) {
     const Statistics result = Trial(noise, 20, 18).run(FitMode::kRefined, 109, 40'000);
     LONGS_EQUAL(0, result.untold);
+    LONGS_EQUAL(0, result.unseen);
   }
 }

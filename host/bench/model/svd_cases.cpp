@@ -7,9 +7,9 @@
 #include "host/bench/model/measured_case.hpp"
 #include "host/bench/model/precise.hpp"
 #include "host/bench/model/precise_contact.hpp"
+#include "host/contact/decompositions.hpp"
 #include "host/contact/jacobi.hpp"
 #include "host/contact/slope_map.hpp"
-#include "host/contact/thin_svd.hpp"
 #include "host/paper/figure.hpp"
 
 namespace strainfinger::bench {

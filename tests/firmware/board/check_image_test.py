@@ -116,7 +116,7 @@ class CheckImage(unittest.TestCase):
 
     def test_the_path_of_its_sources_is_found(self):
         source = "char const* volatile p; extern \"C\" void resetHandler() { p = __FILE__; }"
-        self.refused(f"path of the sources: {self.folder}", source, "--sources", str(self.folder))
+        self.refused(f"path of the sources: {self.folder}/image.cpp", source, "--sources", str(self.folder))
         mapped = ("-mfloat-abi=soft", "-g", f"-fmacro-prefix-map={self.folder}/=")
         status, said = self.check(source, "--sources", str(self.folder), flags=mapped)
         self.assertEqual(status, 0, said)

@@ -90,6 +90,8 @@ TEST(LocatorReport, ThePictureHasAPointForEachMethodWithACost) {
   LONGS_EQUAL(4, locatorPicture(results, Counts()).data[0].rows.size());
   LONGS_EQUAL(4, locatorPicture(results, someCounts()).data[0].rows.size());
   LONGS_EQUAL(1, locatorPicture(results, someCounts()).data[1].rows.size());
+  LONGS_EQUAL(
+      0, locatorPicture(results, counts(R"({"Cortex-M0+": {"fine": {"0.1 %": [1, 2, 3]}}})")).data.size());
   draw(locatorPicture(results, someCounts()), folder.file("pareto.svg"));
   checkHas(readFile(folder.file("pareto.svg"), ExitCode::kFailure), "3 fine");
 }

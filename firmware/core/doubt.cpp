@@ -9,8 +9,8 @@
 namespace strainfinger::firmware {
 namespace {
 
-/// A ring of less energy than 16,384 variances can look right three gauges away.
-bool mayBeFarAlias(const Problem& problem) { return problem.ringEnergy >> 9 < problem.noise; }
+/// So weak a ring can look right three gauges away.
+bool mayBeFarAlias(const Problem& problem) { return isBelow(problem, 14); }
 
 /// How much less a peak of a scan may explain than the best and still win once it is refined.
 std::int32_t rivalLimit(const Problem& problem, std::int32_t best) {

@@ -6,10 +6,16 @@
 
 namespace strainfinger::firmware {
 
-/// A ring of less energy than 1024 variances can look right in any window.
-inline bool isWeak(const Problem& problem) { return problem.ringEnergy >> 5 < problem.noise; }
-/// One of less than 8192 variances can look right two gauges away.
-inline bool mayBeAlias(const Problem& problem) { return problem.ringEnergy >> 8 < problem.noise; }
+/// Has the ring less energy than 2^exponent variances of a reading? From 5 on.
+inline bool isBelow(const Problem& problem, int exponent) {
+  static_assert(kNoiseUnit == 1 << 5);
+  return problem.ringEnergy >> (exponent - 5) < problem.noise;
+}
+
+/// So weak a ring can look right in any window.
+inline bool isWeak(const Problem& problem) { return isBelow(problem, 10); }
+/// .. two gauges away.
+inline bool mayBeAlias(const Problem& problem) { return isBelow(problem, 13); }
 
 /// Nearer to a gauge than this the readings may hardly change as a contact and its load move together: there
 /// may be two answers, one on either side.

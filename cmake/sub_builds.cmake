@@ -2,8 +2,8 @@
 # sanitized.*) run by this one's ctest.
 set(sanitized ${PROJECT_BINARY_DIR}/sanitized)
 
-# Half the cores, besides the outer build's jobs: it is about half of what is compiled, and compilers that share a core
-# take each other's cache.
+# Half the cores, besides the outer build's jobs: it is about half of what is compiled, and five compilers on two cores
+# took 12 % more processor time than two.
 cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
 math(EXPR half "(${cores} + 1) / 2")
 

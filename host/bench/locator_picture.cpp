@@ -1,24 +1,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "host/bench/locator_report.hpp"
+#include "host/plot/style.hpp"
 
 namespace strainfinger::bench {
 namespace {
 
-/// Okabe & Ito's colours, told apart by the colour-blind too.
-constexpr const char* kStyle = R"(
-set encoding utf8
-set border 3 linecolor '#555555'
-set tics nomirror out scale 0.6 textcolor '#333333'
-set grid xtics ytics linecolor '#E6E6E6' linetype 1
+constexpr const char* kPanels = R"(
 set logscale xy
 set key off
-set style line 1 linecolor rgb '#0072B2' pointtype 7 pointsize 1.4
-set style line 2 linecolor rgb '#D55E00' pointtype 6 pointsize 1.2 linewidth 1.6
-set style line 3 linecolor rgb '#777777' linewidth 1.4 dashtype 2
+set style line 1 linecolor rgb blue pointtype 7 pointsize 1.4
+set style line 2 linecolor rgb vermilion pointtype 6 pointsize 1.2 linewidth 1.6
+set style line 3 linecolor rgb faint linewidth 1.4 dashtype 2
 set multiplot layout 2,2 margins 0.055,0.80,0.06,0.96 spacing 0.065,0.09
 )";
 constexpr const char* kErrorAxis = "set ylabel 'error of place, RMS of all answers (um of arc)'\n";
@@ -52,12 +51,12 @@ struct NoisePanel {
   Area closeUp;
 };
 
-const char* colourOf(bool ours) { return ours ? "#0072B2" : "#D55E00"; }
+const char* colourOf(bool ours) { return ours ? "blue" : "vermilion"; }
 
 /// Its number, two lines above it, one above and one below in turn: neighbours are often of one family.
 std::string label(const Point& point) {
   constexpr std::array<const char*, 3> kAway{"0,1.9", "0,0.9", "0,-0.9"};
-  return fmt::format("set label \"{}\" at first {},first {} center offset {} font ',10' textcolor '{}'\n",
+  return fmt::format("set label \"{}\" at first {},first {} center offset {} font ',10' textcolor rgb {}\n",
                      point.number, point.cost, point.arc_um, kAway[point.number % kAway.size()],
                      colourOf(point.ours));
 }
@@ -75,8 +74,9 @@ std::string legend(const std::vector<MethodResult>& results, const std::vector<P
   std::string script;
   double height = kTop;
   for (const Point& point : points) {
-    script += fmt::format("set label \"{} {}\" at screen 0.81,screen {:.3f} left font ',10' textcolor '{}'\n",
-                          point.number, results[point.number - 1].name, height, colourOf(point.ours));
+    script +=
+        fmt::format("set label \"{} {}\" at screen 0.81,screen {:.3f} left font ',10' textcolor rgb {}\n",
+                    point.number, results[point.number - 1].name, height, colourOf(point.ours));
     height -= line;
   }
   return script;
@@ -109,7 +109,8 @@ std::string overview(const NoisePanel& panel) {
              "set format x '10^{{%L}}'; set format y '%g'\n"
              "set object 1 rectangle from {},{} to {},{} fillstyle empty border linecolor '#555555'\n"
              "set label \"Cramer-Rao bound\" at graph 0.99,first {} right offset 0,-0.7 font ',10' textcolor "
-             "'#777777'\n",
+             "rgb "
+             "faint\n",
              kLevelSettings[panel.number].name, panel.bound_um / 2, area.leastCost, area.least_um,
              area.mostCost, area.most_um, panel.bound_um) +
          labels(panel, false) + plotOf(panel) + "unset object 1\n";
@@ -138,7 +139,7 @@ std::string closeUp(const NoisePanel& panel, bool counted) {
 }  // namespace
 
 plot::Picture locatorPicture(const std::vector<MethodResult>& results, const Counts& counts) {
-  plot::Picture picture{1600, 1240, kStyle, {}};
+  plot::Picture picture{1600, 1240, std::string(plot::kStyle) + kPanels, {}};
   std::string closeUps;
   picture.script += kErrorAxis + legend(results, pointsOf(results, counts, kTimedLevel));
   for (const std::size_t number : {std::size_t{1}, std::size_t{2}}) {

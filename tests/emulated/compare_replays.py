@@ -2,8 +2,8 @@
 """compare_replays.py BLOCKS REFERENCE CANDIDATE: the firmware's logic on two machines or of two compilers, bit for bit.
 
 REFERENCE is a program for this machine (replay_host.cpp), and what it says of every block is in REFERENCE.txt; CANDIDATE
-is one too, or an .elf for an emulated board (target/replay_target.cpp). Where a block's hash differs, the first sample set in it that does
-is found and named.
+is one too, or an .elf for an emulated board (target/replay_target.cpp). Where a block's hash differs, the first sample
+set in it that does is found and named.
 """
 import subprocess
 import sys
@@ -29,7 +29,7 @@ def first_difference(ours, theirs):
 
 def main():
     blocks, reference, candidate = int(sys.argv[1]), sys.argv[2], sys.argv[3]
-    emulator.require(*(name for name in [candidate] if name.endswith(".elf")))
+    emulator.require(*([candidate] if candidate.endswith(".elf") else []))
     with open(reference + ".txt") as told:
         ours = told.read().splitlines()[:blocks]
     if len(ours) != blocks:

@@ -25,29 +25,18 @@ constexpr std::uint8_t kExamineEvery = 64;  ///< .. and then one in so many
 
 constexpr int kLooksPerPitch = 16;
 
-std::int32_t energyOf(std::int32_t reading) { return (reading * reading) >> 2; }
-
-/// Energies of a ring about a window, and the largest of each.
-struct Split {
-  std::int32_t window = 0, outside = 0;
-  std::int32_t largestInside = 0, largestOutside = 0;
-};
-
 Split splitAt(const Problem& problem, int centre) {
   Split split;
   for (int step = -problem.gauges() / 2; step < problem.gauges() / 2; ++step) {
     const auto gauge = static_cast<std::size_t>(wrapped(centre + step, problem.gauges()));
     const std::int32_t energy = energyOf(scaledStrain(problem.strains[gauge], problem.up));
-    const bool inside = std::abs(step) <= kWindowReach;
-    (inside ? split.window : split.outside) += energy;
-    std::int32_t& largest = inside ? split.largestInside : split.largestOutside;
-    largest = std::max(largest, energy);
+    std::abs(step) <= kWindowReach ? split.addInside(energy) : split.addOutside(energy);
   }
   return split;
 }
 
 std::int32_t tolerated(const Problem& problem) {
-  return problem.variances(kNoise) + (problem.ringEnergy >> kGainShift);
+  return noiseAndPart(problem.variances(kNoise), problem.ringEnergy, kGainShift);
 }
 
 /// The gauge that can be left out with most effect, and what is then unexplained; wherever the contact is.
@@ -83,19 +72,6 @@ View lookAt(const Problem& problem, int look) {
   return viewOf(problem, roundTheRing((2 * look + 1) * (kRows / 2) * kRowSpacing, problem.gauges()));
 }
 
-/// A reading with residual r and leverage h, left out.
-struct LeftOut {
-  std::int32_t relief;   ///< what that takes off the unexplained energy: r^2 / (1 - h)
-  std::int32_t reading;  ///< what the others say that it should be: itself - r / (1 - h)
-};
-[[gnu::noinline]] LeftOut leftOut(std::int32_t reading, std::int32_t difference, std::int32_t leverage_q15) {
-  constexpr std::int32_t kMost = 1 << 24;  // from 2^17 on, both results saturate
-  const std::int64_t residual = std::clamp(difference, -kMost, kMost);
-  const std::int32_t left = std::max<std::int32_t>((1 << 15) - leverage_q15, 1 << 9);
-  return {saturate<std::int32_t>((residual * residual << 13) / left),
-          saturate<std::int16_t>(reading - (residual << 15) / left)};
-}
-
 void lookThere(const Problem& problem, const RingSignal& signal, int look, Suspects& suspects) {
   const View view = lookAt(problem, wrapped(look, kLooksPerPitch * problem.gauges()));
   const LocalFit fit = localFit(problem, signal, view);
@@ -109,33 +85,23 @@ void lookThere(const Problem& problem, const RingSignal& signal, int look, Suspe
     const int gauge = gaugeAt(problem, view, step);
     if (contains(signal.leftOut, gauge)) continue;
     const std::int32_t reading = signal.at(gauge);
-    std::int64_t inside = fit.share.unexplained;
-    std::int32_t beyond = outside, trusted = window;
+    Unexplained without{fit.share.unexplained, outside, window};
     if (std::abs(step) <= kWindowReach) {
-      const LeftOut without =
-          leftOut(reading, reading - fit.predicted(problem, view, step), fit.leverage_q15(step));
-      inside -= without.relief;
-      trusted -= energyOf(reading);
-      trusted += oneBeside(trusted, energyOf(without.reading));
+      const std::int32_t residual = reading - fit.predicted(problem, view, step);
+      without.leaveInside(reading, leftOut(reading, residual, fit.leverage_q15(step)));
     } else {
-      beyond -= energyOf(reading);
+      without.leaveOutside(energyOf(reading));
     }
-    if (std::abs(step) == kOuterReach && outer != 0) {  // what the other one of the pair reads goes with it
-      inside -= leftOut(0, fit.outerResidual(), fit.leverage_q15(kOuterReach)).relief;
-      beyond += outer;
-      trusted -= outer;
-    }
-    const auto unexplained = saturate<std::int32_t>(
-        std::max<std::int64_t>(inside, 0) + std::max<std::int32_t>(beyond - problem.tail(trusted), 0));
+    if (std::abs(step) == kOuterReach && outer != 0)  // what the other one of the pair reads goes with it
+      without.leaveOuter(outer, leftOut(0, fit.outerResidual(), fit.leverage_q15(kOuterReach)));
+    const std::int32_t unexplained = without.energy(problem.tables.constants.tail_q16);
     enter(suspects, {unexplained, static_cast<std::int16_t>(look), static_cast<std::int8_t>(gauge)});
   }
 }
 
 /// Whether a contact of this window, with one gauge left out, can explain the ring at all.
 bool mayExplain(const Problem& problem, int centre) {
-  const Split split = splitAt(problem, centre);
-  const std::int32_t trusted = split.window - split.largestInside;
-  return split.outside - split.largestOutside - (trusted >> kMayShift) <= tolerated(problem);
+  return splitAt(problem, centre).leastUnexplained(kMayShift) <= tolerated(problem);
 }
 
 /// What was observed, not yet as a problem: functions that make one of it don't share their stack.
@@ -161,10 +127,10 @@ struct Observed {
     if (std::abs(step) <= kWindowReach) outside -= energyOf(signal.at(each));
     if (each != gauge) continue;
     const std::int32_t expected = scaledStrain(fit.expected_q32(others, signal, view, step), others.up);
-    const bool farOff = 2 * std::abs(reading - expected) > std::abs(expected);
-    return farOff ? Suspect::Kind::kFault : Suspect::Kind::kMisshapen;
+    return farOff(reading, expected) > 0 ? Suspect::Kind::kFault : Suspect::Kind::kMisshapen;
   }
-  const bool alone = outside <= (energyOf(reading) >> kNeighbourShift) + others.variances(kNoise / 2);
+  const bool alone =
+      outside <= noiseAndPart(others.variances(kNoise / 2), energyOf(reading), kNeighbourShift);
   return alone ? Suspect::Kind::kFault : Suspect::Kind::kContact;
 }
 
@@ -188,8 +154,7 @@ struct Observed {
   const RingSignal signal{others, observed.leftOut | 1u << suspect.gauge};
   Candidate best = bestNear(others, signal, suspect.look);
   if (!best.admissible) best = searchRemaining(others, signal).best;
-  suspect.unexplained =
-      std::max<std::int32_t>(others.ringEnergy - std::max<std::int32_t>(best.explained, 0), 0);
+  suspect.unexplained = leftOf(others.ringEnergy, best.explained);
   suspect.kind = kindOf(others, signal, best.place.position, suspect.gauge, reading);
 }
 
@@ -201,7 +166,8 @@ struct Observed {
   for (int gauge = 1; gauge < problem.gauges(); ++gauge)
     if (std::abs(signal.at(gauge)) > std::abs(signal.at(largest))) largest = gauge;
   const std::int32_t others = problem.ringEnergy - energyOf(signal.at(largest));
-  const bool alone = others <= problem.variances(kNoise / 2) + (problem.ringEnergy >> (kGainShift - 1));
+  const bool alone =
+      others <= noiseAndPart(problem.variances(kNoise / 2), problem.ringEnergy, kGainShift - 1);
   return alone ? largest : -1;
 }
 
@@ -232,8 +198,9 @@ bool areOuterPair(const Suspect& a, const Suspect& b, int gauges) {
 [[gnu::noinline]] Misfit verdictOn(const Observed& observed, const Suspects& suspects, std::int32_t all) {
   const Suspect& best = suspects[0];
   const Problem problem = observed.problem();
-  if (best.unexplained > (all >> kOwnShift) + problem.variances(kNoise / 2)) return {.several = true};
-  const std::int32_t clear = best.unexplained + best.unexplained / 4 + problem.variances(kTold);
+  if (best.unexplained > noiseAndPart(problem.variances(kNoise / 2), all, kOwnShift))
+    return {.several = true};
+  const std::int32_t clear = mostLikeIt(best.unexplained, problem.variances(kTold));
   if (best.unexplained > tolerated(problem) / 2) return {.several = true};
   if (suspects[1].unexplained <= clear) {
     const bool pair = areOuterPair(best, suspects[1], problem.gauges()) && suspects[2].unexplained > clear;
@@ -248,8 +215,9 @@ bool areOuterPair(const Suspect& a, const Suspect& b, int gauges) {
 bool isMisfit(const TableImage& tables, std::span<const std::int32_t> strains_q32, std::uint32_t energy,
               const Fit& fit) {
   const Problem problem = problemOf(tables, strains_q32, energy);
-  const std::int32_t outside = problem.ringEnergy - fit.windowEnergy - problem.tail(fit.windowEnergy);
-  return fit.unexplained + std::max<std::int32_t>(outside, 0) > tolerated(problem);
+  const std::int32_t outside =
+      excessOutside(problem.ringEnergy - fit.windowEnergy, fit.windowEnergy, tables.constants.tail_q16);
+  return fit.unexplained + outside > tolerated(problem);
 }
 
 Misfit examine(const TableImage& tables, GaugeSet leftOut, std::span<const std::int32_t> strains_q32,
@@ -267,8 +235,7 @@ Misfit examine(const TableImage& tables, GaugeSet leftOut, std::span<const std::
 bool JumpWatch::isOthersNoise(const TableConstants& constants, std::int32_t reading,
                               std::uint32_t energy) const {
   const auto isQuietWithout = [&](std::int32_t own, std::uint32_t all) {
-    const std::int64_t coarse = own >> constants.gate_shift;
-    return all - coarse * coarse < constants.gate_off;
+    return std::int64_t{all} - gatePart(own, constants.gate_shift) < constants.gate_off;
   };
   return isQuietWithout(reading, energy) && isQuietWithout(before_q32_, energyBefore_);
 }

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "firmware/core/detect.hpp"
+#include "firmware/core/gauge_watch_products.hpp"
 #include "firmware/core/left_out.hpp"
 
 namespace strainfinger::firmware {
@@ -42,7 +43,7 @@ class JumpWatch {
                 std::uint32_t energy) {
     const std::int32_t reading = strains_q32[gauge_];
     GaugeSet noisy = 0;
-    if (looks_ != 0 && absolute(reading - before_q32_) > jump_q32_ &&
+    if (looks_ != 0 && jumpOf(reading, before_q32_) > jump_q32_ &&
         isOthersNoise(constants, reading, energy) && ++jumps_ == kJumps) {
       noisy = 1u << gauge_;
       looks_ = kLooks;

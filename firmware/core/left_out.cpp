@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "firmware/core/detect.hpp"
+#include "firmware/core/left_out_products.hpp"
 
 namespace strainfinger::firmware {
 namespace {
@@ -14,7 +15,6 @@ constexpr int kMaxSteps = 8;
 constexpr PitchQ20 kLongestStep = kOnePitch / 8;
 constexpr std::uint32_t kAmbiguous = 12;  ///< answers closer than this many variances are not told apart
 constexpr std::uint32_t kFaint = 64;      ///< an answer that explains less may be noise
-constexpr int kAmbiguousShift = 17;       ///< rounding makes two fits differ by this part of their energy
 constexpr std::size_t kPeaks = 3;
 /// Where the search looks from the best peak's fit, in eighths of a pitch.
 constexpr std::array<std::int8_t, 8> kAway{-4, -3, -2, -1, 1, 2, 3, 4};
@@ -31,43 +31,32 @@ View lookAt(const Problem& problem, int look) {
 }
 
 PitchQ20 positionOf(const Problem& problem, const View& view, PitchQ20 beyondRow) {
-  const PitchQ20 offset = view.row * kRowSpacing + beyondRow;
-  return roundTheRing(view.centre * kOnePitch + view.side * offset, problem.gauges());
+  return roundTheRing(placeOf(view.centre, view.side, view.row, beyondRow), problem.gauges());
 }
 
 /// Energy outside the window that a contact there may well have left.
 [[gnu::noinline]] std::int32_t tailOf(const Problem& problem, const RingSignal& signal, const View& view,
                                       const LocalFit& fit) {
-  std::int32_t window = fit.share.outerEnergy(), missing = 0;
+  WindowEnergies window{fit.share.outerEnergy()};
   for (int step = -kWindowReach; step <= kWindowReach; ++step) {
     const int gauge = gaugeAt(problem, view, step);
-    const std::int32_t reading = signal.at(gauge);
-    window += (reading * reading) >> 2;
-    if (contains(signal.leftOut, gauge)) {
-      const std::int32_t predicted = saturate<std::int16_t>(fit.predicted(problem, view, step));
-      missing += (predicted * predicted) >> 2;
-    }
+    window.add(signal.at(gauge));
+    if (contains(signal.leftOut, gauge)) window.addMissing(fit.predicted(problem, view, step));
   }
-  return std::clamp<std::int32_t>(problem.ringEnergy - window, 0,
-                                  problem.tail(window + oneBeside(window, missing)));
+  return window.outside(problem.ringEnergy, problem.tables.constants.tail_q16);
 }
 
-/// Amplitudes as locate() has them, at the view's row.
+/// Where a fit at a view leads, with its loads.
 [[gnu::noinline]] Placement placed(const Problem& problem, const View& view, PitchQ20 beyondRow,
                                    const Three& coefficients) {
-  constexpr int kDown = 5;  // from coefficients * 2^4 to projections * 2^15, then as scaledBy() in window_fit
-  const auto& load = problem.tables.rows[static_cast<std::size_t>(view.row)].load;
-  const std::int64_t normal =
-      std::int64_t{load[0]} * coefficients[0] + std::int64_t{load[1]} * coefficients[1];
-  const std::int64_t tangential = std::int64_t{load[2]} * coefficients[1];
-  return {positionOf(problem, view, beyondRow), saturate<std::int32_t>(normal >> kDown),
-          saturate<std::int32_t>(view.side * (tangential >> kDown))};
+  const FitRow& row = problem.tables.rows[static_cast<std::size_t>(view.row)];
+  const auto [normal, tangential] = amplitudesAt(row, view.side, coefficients);
+  return {positionOf(problem, view, beyondRow), normal, tangential};
 }
 
 bool withinCone(const Problem& problem, const Placement& place) {
   if (place.normal <= 0) return false;
-  return std::abs(std::int64_t{place.tangential}) * 256 <=
-         std::int64_t{place.normal} * problem.tables.constants.friction_cone_q8;
+  return insideCone({place.normal, place.tangential}, problem.tables.constants.friction_cone_q8) >= 0;
 }
 
 PitchQ20 distance(PitchQ20 a, PitchQ20 b, int gauges) {
@@ -146,26 +135,22 @@ struct Verdict {
   Placement alternative{};  ///< with the amplitudes of a fit to the readings filled in
 };
 
-/// From one problem's scale to another's.
-Placement rescaled(const Placement& place, int fromUp, int toUp) {
-  const auto scaled = [&](std::int32_t amplitude) {
-    return saturate<std::int32_t>(toUp >= fromUp ? std::int64_t{amplitude} * (1 << (toUp - fromUp))
-                                                 : std::int64_t{amplitude} >> (fromUp - toUp));
-  };
-  return {place.position, scaled(place.normal), scaled(place.tangential)};
+/// From one problem's scale to another's, whose `up` is so much more.
+Placement inScale(const Placement& place, int up) {
+  return {place.position, rescaled(place.normal, up), rescaled(place.tangential, up)};
 }
 
 /// Fills in; the verdict goes with what gateEnergy() then is.
 [[gnu::noinline]] Verdict judge(const TableImage& tables, GaugeSet leftOut, const Rivals& rivals,
                                 std::span<std::int32_t> strains_q32, std::uint32_t& energy) {
   const Problem problem = problemOf(tables, strains_q32, energy);
-  const std::int64_t margin = problem.variances(kAmbiguous) + (rivals.best.explained >> kAmbiguousShift);
   Verdict verdict;
-  verdict.ambiguous = rivals.second.admissible && rivals.second.explained > rivals.best.explained - margin;
+  const std::int64_t least = leastOfRivals(rivals.best.explained, problem.variances(kAmbiguous));
+  verdict.ambiguous = rivals.second.admissible && rivals.second.explained > least;
   verdict.determined = rivals.best.explained > problem.variances(kFaint) &&
                        fillIn(problem, RingSignal{problem, leftOut}, rivals.best.place.position, strains_q32);
   energy = gateEnergy(tables.constants, strains_q32);
-  verdict.alternative = rescaled(rivals.second.place, problem.up, problemOf(tables, strains_q32, energy).up);
+  verdict.alternative = inScale(rivals.second.place, problemOf(tables, strains_q32, energy).up - problem.up);
   return verdict;
 }
 

@@ -35,11 +35,6 @@ Rivals searchRemaining(const Problem& problem, const RingSignal& signal);
 /// With more gauges out than one in eight of the ring, another contact can look like the one that is there.
 constexpr bool tooManyOut(GaugeSet leftOut, int gauges) { return std::popcount(leftOut) > gauges / 8; }
 
-/// Energy of one gauge where the rest of its window has `others`: at most 16 times that, whatever is said.
-constexpr std::int32_t oneBeside(std::int32_t others, std::int32_t said) {
-  return static_cast<std::int32_t>(said < 16 * std::int64_t{others} ? said : 16 * std::int64_t{others});
-}
-
 /// Fits one contact to the readings that are not in `leftOut`, which are replaced in `strains_q32` by what
 /// the others say they should be: a fit to all of them is then the fit to the others. Its errors are those of
 /// the others; where these cannot tell, the fit is not settled. `energy`: gateEnergy() of the others.

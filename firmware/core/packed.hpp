@@ -25,6 +25,9 @@ namespace strainfinger::firmware {
 /// (tests/firmware/ranges).
 using Number = std::int32_t;
 
+/// One of them that is kept in 16 bits.
+using Short = std::int16_t;
+
 /// A number of a table.
 constexpr Number tabled(std::int16_t number) { return number; }
 
@@ -145,6 +148,11 @@ inline std::int32_t productOf(Pair pair) { return low(pair) * high(pair); }
 
 /// |value|; value is not the least of all.
 constexpr std::int32_t absolute(std::int32_t value) { return value < 0 ? -value : value; }
+
+/// Of a value of 16 bits.
+constexpr Number squareOfShort(Number value) { return value * value; }
+constexpr Number atLeast(Number value, Number least) { return value < least ? least : value; }
+constexpr Number atMost(Number value, Number most) { return value > most ? most : value; }
 
 /// value^2, exactly. Cores without long products make it of three short ones.
 constexpr std::int64_t squareOf(std::int32_t value) {

@@ -1,14 +1,7 @@
 #include "firmware/core/pipeline.hpp"
 
-#include <cstdlib>
-
 namespace strainfinger::firmware {
 namespace {
-
-/// A gauge out of use is judged where it should have this part of the ring's energy, by whether it is off by
-/// more than this part of what it should read.
-constexpr int kMuch = 16;
-constexpr int kNear = 8;
 
 void clear(GaugeSet gauges, std::span<std::int32_t> strains_q32) {
   for (std::size_t i = 0; gauges != 0; ++i, gauges >>= 1)
@@ -51,8 +44,9 @@ GaugeSet Pipeline::implausiblySaturated(Codes codes) const {
   GaugeSet gauges = 0;
   for (std::size_t i = 0; i < codes.size(); ++i) {
     if ((observation_.saturated >> i & 1) == 0) continue;
-    const std::int64_t measured = strainOf(calibration_, codes[i], i), predicted = readings_.strain_q32[i];
-    const bool beyond = measured < 0 ? predicted < measured * 3 / 4 : predicted > measured * 3 / 4;
+    const std::int32_t measured = strainOf(calibration_, codes[i], i), predicted = readings_.strain_q32[i];
+    const std::int32_t least = leastAtRail(measured);
+    const bool beyond = measured < 0 ? predicted < least : predicted > least;
     if (!beyond) gauges |= 1u << i;
   }
   return gauges;
@@ -63,10 +57,9 @@ GaugeSet Pipeline::implausiblySaturated(Codes codes) const {
   GaugeSet right = 0, wrong = 0;
   for (std::size_t i = 0; i < codes.size(); ++i) {
     if (!contains(watch_.outOfUse(), static_cast<int>(i))) continue;
-    const std::int64_t predicted = readings_.strain_q32[i], coarse = predicted >> constants().gate_shift;
-    if (kMuch * coarse * coarse < energy_) continue;
-    const std::int64_t off = std::abs(strainOf(calibration_, codes[i], i) - predicted);
-    (kNear * off < std::abs(predicted) ? right : wrong) |= 1u << i;
+    const std::int32_t predicted = readings_.strain_q32[i];
+    if (muchOf(gatePart(predicted, constants().gate_shift)) < energy_) continue;
+    (offBy(strainOf(calibration_, codes[i], i), predicted) < 0 ? right : wrong) |= 1u << i;
   }
   watch_.reconsider(right, wrong);
 }

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "common/table_image.hpp"
+#include "firmware/core/energies.hpp"
 #include "firmware/core/window_fit.hpp"
 
 namespace strainfinger::firmware {
@@ -16,9 +17,6 @@ enum class FitMode : std::uint8_t {
   kThreePoint,  ///< three well-conditioned readings, as the paper concludes
   kRefined,     ///< all seven of the window
 };
-
-/// The noise of a ring is given as the energy of so many variances of a reading.
-inline constexpr std::uint32_t kNoiseUnit = 32;
 
 /// Energies here are sums of squares of strains / 2^(16 - up), divided by 4 (see signal.hpp). Differences of
 /// explained energies are differences of log-likelihood, in units of half a variance.
@@ -30,14 +28,9 @@ struct Problem {
   std::int32_t noise;                     ///< kNoiseUnit variances of a reading, 1 .. 2^27
 
   /// So many variances of a reading as an energy, at least 1.
-  std::int32_t variances(std::int32_t count) const {
-    return static_cast<std::int32_t>(
-        std::clamp<std::int64_t>(std::int64_t{noise} * count / kNoiseUnit, 1, 1 << 27));
-  }
+  std::int32_t variances(std::int32_t count) const { return energyOfVariances(noise, count); }
   /// The most that a contact with so much energy in its window leaves outside.
-  std::int32_t tail(std::int32_t window) const {
-    return static_cast<std::int32_t>((std::int64_t{window} * tables.constants.tail_q16) >> 16);
-  }
+  std::int32_t tail(std::int32_t window) const { return mostOutside(window, tables.constants.tail_q16); }
 
   int mirrorSign() const { return tables.constants.mirror_sign; }
   int gauges() const { return tables.constants.gauge_count; }
@@ -45,10 +38,9 @@ struct Problem {
 
 /// kNoiseUnit variances of a reading divided by 2^(16 - up), as an energy; from 1 to 2^27.
 inline std::int32_t noiseEnergy(const TableConstants& constants, int up) {
-  constexpr std::int32_t kMost = 1 << 27;
   const std::uint32_t variances = constants.noise_variance * kNoiseUnit;  // 24 + 5 bits
   const int down = 2 * (16 - up) + 2 - constants.noise_variance_exponent;
-  if (down < 2) return kMost;
+  if (down < 2) return kMostNoise;
   if (down > 28) return 1;
   return std::max<std::int32_t>(static_cast<std::int32_t>(variances >> down), 1);
 }

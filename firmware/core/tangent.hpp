@@ -7,15 +7,13 @@
 #include <span>
 
 #include "firmware/core/problem.hpp"
+#include "firmware/core/tangent_products.hpp"
 
 namespace strainfinger::firmware {
 
 /// Bit i: gauge i.
 using GaugeSet = std::uint32_t;
 constexpr bool contains(GaugeSet set, int gauge) { return (set >> gauge & 1) != 0; }
-
-/// A strain divided by 2^(16 - up), rounded, saturating.
-std::int16_t scaledStrain(std::int32_t strain_q32, int up);
 
 /// The ring's strains as the problem scales them, rounded; gauges that are left out read 0. Scaled as they
 /// are asked for: no copy on the stack.
@@ -40,36 +38,15 @@ struct View {
 int gaugeAt(const Problem& problem, const View& view, int step);
 View viewOf(const Problem& problem, PitchQ20 position);
 
-/// saturate<std::int32_t>() where room counts for more than time.
-std::int32_t narrowed(std::int64_t value);
-
-/// Three numbers a reading, or three combinations of the window's readings.
-using Three = std::array<std::int32_t, 3>;
-/// Symmetric 3 x 3: 11, 12, 13, 22, 23, 33.
-using Symmetric = std::array<std::int32_t, 6>;
-
 /// Inverse [* 2^12] of a symmetric matrix [* 2^24] with elements up to 1, in its place if need be; false
 /// where its determinant is next to nothing.
 bool invert(const Symmetric& matrix_q24, Symmetric& inverse_q12);
-
-/// matrix * vector, with a matrix * 2^12.
-Three product_q12(const Symmetric& matrix_q12, const Three& vector);
-
-/// What is read at steps -kWindowReach .. fitReach(): a gauge each, but at kOuterReach, as one reading, the
-/// difference of the outer pair (+ side minus - side) over sqrt(2), which has the noise of a gauge.
-inline constexpr std::size_t kReadings = kWindowGauges + 1;
-constexpr std::size_t indexOf(int step) { return static_cast<std::size_t>(step + kWindowReach); }
-constexpr std::int32_t overRootTwo(std::int32_t number) { return (number * 23170 + (1 << 14)) >> 15; }
-template <typename Integer>
-constexpr Integer timesRootTwo(Integer number) {
-  return (number * 46341 + (1 << 14)) >> 15;
-}
 
 /// Unit vectors at right angles in the space of a window's readings [* 2^15]: two that a contact reaches by
 /// changing its loads, one by moving. A fit takes from the readings what lies along them, so
 /// sum of squares over the three = leverage of a reading.
 struct Tangent {
-  std::array<std::array<std::int16_t, 3>, kReadings> at{};  ///< by indexOf(step)
+  std::array<Directions, kReadings> at{};  ///< by indexOf(step)
   /// Length of the change that a move of one pitch makes [signal * 2^6]; 0: moving changes nothing.
   std::int64_t steepness = 0;
 };
@@ -83,7 +60,7 @@ struct Share {
   bool determined = false;       ///< enough gauges are left to tell where and how hard
   std::int16_t outer = 0;        ///< what is read at kOuterReach, as the view sees it
 
-  std::int32_t outerEnergy() const { return (outer * outer) >> 2; }
+  std::int32_t outerEnergy() const { return energyOf(outer); }
 
   PitchQ20 beyondRow(const Tangent& tangent) const;
 };

@@ -30,13 +30,16 @@ TEST_GROUP(Problem) {
     return problemOf(*image, strains, energy);
   }
 
-  /// The longest window of readings [as scaled] of a ring of that energy: seven gauges within
+  /// The longest that so many gauges' readings [as scaled] of a ring of that energy are: each is within
   /// +-2^(15 + gate_shift), which is where an energy saturates.
-  double longestWindow(std::uint32_t energy, int gateShift) {
+  double longest(int gauges, std::uint32_t energy, int gateShift) {
     const bool saturated = energy == std::numeric_limits<std::uint32_t>::max();
     const double ring = saturated ? std::exp2(17.5) : std::sqrt(energy + 1.0);
-    const double window = std::min(ring, std::sqrt(7.0) * std::exp2(15));
-    return std::ldexp(window, gateShift - 16 + of(energy, gateShift).up);
+    const double readings = std::min(ring, std::sqrt(gauges) * std::exp2(15));
+    return std::ldexp(readings, gateShift - 16 + of(energy, gateShift).up);
+  }
+  double longestWindow(std::uint32_t energy, int gateShift) {
+    return longest(kWindowGauges, energy, gateShift);
   }
 
   /// Visits both ends of every range of energies that are scaled alike.
@@ -60,6 +63,18 @@ TEST(Problem, NoWindowOfAnyRingIsLongerThanASignalMayBe) {
   for (int gateShift = 0; gateShift <= kMostGateShift; ++gateShift)
     forEachEnergy(
         [&](std::uint32_t energy) { CHECK(longestWindow(energy, gateShift) + kRounding < kLargestSignal); });
+}
+
+TEST(Problem, NoReadingsOfAnyRingAreLongerThanTheProofOfRangesTakesThem) {
+  constexpr double kEachRounded = 0.5, kOuterRounded = 1.5;
+  const double rounding = std::hypot(std::sqrt(kWindowGauges) * kEachRounded, kOuterRounded);
+  for (int gateShift = 0; gateShift <= kMostGateShift; ++gateShift)
+    forEachEnergy([&](std::uint32_t energy) {
+      // The outer pair's difference over sqrt(2) is no longer than the pair.
+      CHECK(longest(kWindowGauges + 2, energy, gateShift) + rounding < std::exp2(14.6));
+      CHECK(longest(kMaxGauges, energy, gateShift) + std::sqrt(kMaxGauges) * kEachRounded <
+            std::exp2(15.5) + 3);
+    });
 }
 
 TEST(Problem, SignalsUseAllButTwoOfTheirBits) {

@@ -13,16 +13,14 @@
 #include "firmware/core/side_energies.hpp"
 #include "firmware/core/triple_step.hpp"
 #include "firmware/core/units.hpp"
+#include "tests/firmware/ranges/ranges_group.hpp"
 
 #include <CppUTest/TestHarness.h>
 
 using namespace strainfinger;
 using namespace strainfinger::firmware;
 
-TEST_GROUP(Ranges) {
-  void setup() override { overflows = 0; }
-  void checkNone() { LONGS_EQUAL(0, overflows); }
-
+TEST_GROUP_BASE(Ranges, RangesGroup) {
   /// Any readings of a window, as long as they may be together.
   static Signal anySignal() {
     const Number any(-32767, 32767, 16);  // below kFoldedLength
@@ -73,9 +71,6 @@ TEST_GROUP(Ranges) {
     for (const int exponent : {kLeastExponent, kMostExponent})
       ways += forEachWay([&] { sigma(Scaled{Natural(0.0L, static_cast<long double>(most)), exponent}); });
     return ways;
-  }
-  static Number anyOf(int bits) {
-    return {-(std::int64_t{1} << (bits - 1)), (std::int64_t{1} << (bits - 1)) - 1};
   }
   /// Folds any window of a length [signal]. Of two readings the sum is longest where they are equal.
   static void fold(double length, int up) {

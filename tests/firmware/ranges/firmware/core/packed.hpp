@@ -4,13 +4,15 @@
 //
 // Bounds alone forget that a projection is no longer than what is projected. So the four pairs of a folded
 // column of weights, and those of a signal, know the length they share: a sum of products of pairs, each
-// taken once, is at most the product of the lengths (Cauchy and Schwarz).
+// taken once, is at most the product of the lengths (Cauchy and Schwarz). So do single numbers of a vector.
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <utility>
 
 #include "common/fixed.hpp"
 #include "common/table_image.hpp"
@@ -33,13 +35,39 @@ class Number {
   std::int64_t least() const { return least_; }
   std::int64_t most() const { return most_; }
 
-  friend Number operator+(Number a, Number b) { return {a.least_ + b.least_, a.most_ + b.most_}; }
+  friend Number operator+(Number a, Number b) {
+    if (a.isZero()) return b;
+    const std::int64_t least = a.least_ + b.least_, most = a.most_ + b.most_;
+    if (a.sumsWith(b)) return sumOf(least, most, a.whole_, a.parts_ | b.parts_, a.rounding_);
+    return {least, most};
+  }
   friend Number operator-(Number a, Number b) { return {a.least_ - b.most_, a.most_ - b.least_}; }
-  friend Number operator*(Number a, Number b) { return product(a, b, 0); }
+  friend Number operator*(Number a, Number b) {
+    const auto [least, most] = products(a, b);
+    if (a.length_ > 0 && b.length_ > 0 && a.parts_ == b.parts_)
+      return sumOf(least, most, a.length_ * b.length_, a.parts_, 0);
+    if (a.length_ == 0 || b.length_ > 0) return {least, most};
+    return component({least, most}, a.length_ * static_cast<double>(b.size()), a.parts_);
+  }
+  /// Rounded towards 0; of a divisor above 0.
+  friend Number operator/(Number a, Number b) {
+    if (b.least_ <= 0) ++overflows;
+    const std::int64_t divisor = std::max<std::int64_t>(b.least_, 1);
+    const Number quotient(std::min(a.least_ / divisor, a.least_ / std::max(b.most_, divisor)),
+                          std::max(a.most_ / divisor, a.most_ / std::max(b.most_, divisor)));
+    if (a.length_ == 0) return quotient;
+    return component(quotient, a.length_ / static_cast<double>(divisor), a.parts_);
+  }
   friend Number operator>>(Number a, int by) {
     if (by < 0 || by > 31) ++overflows;
-    return {a.least_ >> by, a.most_ >> by};
+    const std::int64_t least = a.least_ >> by, most = a.most_ >> by;
+    if (a.whole_ > 0)
+      return sumOf(least, most, std::ldexp(a.whole_, -by), a.parts_, std::ldexp(a.rounding_, -by) + 1);
+    if (a.length_ == 0) return {least, most};
+    return component({least, most}, std::ldexp(a.length_, -by) + std::sqrt(double{kMaxGauges}), a.parts_);
   }
+  Number& operator+=(Number other) { return *this = *this + other; }
+  Number& operator-=(Number other) { return *this = *this - other; }
 
   // Goes by what the number is: for each in turn, and the number knows it from then on.
   friend bool operator<=(Number& a, int limit) {
@@ -60,8 +88,7 @@ class Number {
 
   /// a * b / 2^down, rounded down; what is in between has 64 bits.
   static Number product(Number a, Number b, int down) {
-    const auto [least, most] =
-        std::minmax({a.least_ * b.least_, a.least_ * b.most_, a.most_ * b.least_, a.most_ * b.most_});
+    const auto [least, most] = products(a, b);
     return {least >> down, most >> down};
   }
 
@@ -74,11 +101,61 @@ class Number {
   }
   unsigned parts() const { return parts_; }
 
+  /// One of the numbers of a vector no longer than that. A sum of products of two such vectors' numbers is as
+  /// one of pairs; what else is done with a number is done with all of its vector.
+  static Number component(Number any, double length, unsigned part) {
+    any.parts_ = part;
+    any.length_ = length;
+    return any;
+  }
+  double length() const { return length_; }
+  /// With other bounds, which are nearer to 0.
+  Number within(std::int64_t least, std::int64_t most) const {
+    Number nearer = *this;
+    nearer.least_ = std::clamp(least_, least, most);
+    nearer.most_ = std::clamp(most_, least, most);
+    return nearer;
+  }
+  std::int64_t size() const { return std::max(std::abs(least_), std::abs(most_)); }
+
  private:
+  static std::pair<std::int64_t, std::int64_t> products(const Number& a, const Number& b) {
+    return std::minmax({a.least_ * b.least_, a.least_ * b.most_, a.most_ * b.least_, a.most_ * b.most_});
+  }
+  /// Of products of numbers, each rounded by no more than that, within bounds of their own.
+  static Number sumOf(std::int64_t least, std::int64_t most, double whole, unsigned parts, double rounding) {
+    const auto limit = static_cast<std::int64_t>(std::ceil(whole + rounding * std::popcount(parts)));
+    Number sum(std::clamp(least, -limit, limit), std::clamp(most, -limit, limit));
+    sum.parts_ = parts;
+    sum.whole_ = whole;
+    sum.rounding_ = rounding;
+    return sum;
+  }
+  bool isZero() const { return least_ == 0 && most_ == 0; }
+  bool sumsWith(const Number& other) const {
+    return whole_ > 0 && whole_ == other.whole_ && rounding_ == other.rounding_ &&
+           (parts_ & other.parts_) == 0;
+  }
+
   std::int64_t least_ = 0, most_ = 0;
   unsigned parts_ = 0;
+  double whole_ = 0, rounding_ = 0;  ///< of a sum of products
+  double length_ = 0;                ///< of the vector that it is a component of; 0: of none
 };
 
+/// Kept in 16 bits.
+class Short : public Number {
+ public:
+  Short() = default;
+  Short(Number number) : Number(number) {
+    if (number.least() < -32768 || number.most() > 32767) ++overflows;
+  }
+};
+
+inline Number squareOfShort(Number value) {
+  const Number square = value * value;
+  return square.within(0, square.most());
+}
 inline Number mulHigh(Number a, Number b) { return Number::product(a, b, 32); }
 inline Number tabled(std::int16_t) { return {-32768, 32767}; }
 
@@ -151,7 +228,7 @@ inline Number productOf(Pair pair) { return pair.lower * pair.upper; }
 template <int Bits>
 Number clipped(Number value) {
   constexpr std::int64_t kLimit = std::int64_t{1} << (Bits - 1);
-  return {std::clamp(value.least(), -kLimit, kLimit - 1), std::clamp(value.most(), -kLimit, kLimit - 1)};
+  return value.within(-kLimit, kLimit - 1);
 }
 /// Whatever the divisor.
 template <int Bits>
@@ -168,6 +245,17 @@ Number signedQuotient(Number numerator, Number divisor) {
 
 inline Number nonZero(Number value) { return value; }
 
+inline Number atLeast(Number value, Number least) {
+  return {std::max(value.least(), least.least()), std::max(value.most(), least.most())};
+}
+inline Number atMost(Number value, Number most) {
+  return {std::min(value.least(), most.least()), std::min(value.most(), most.most())};
+}
+
 constexpr int absolute(int value) { return value < 0 ? -value : value; }
+inline Number absolute(Number value) {
+  const std::int64_t least = value.least() > 0 ? value.least() : value.most() < 0 ? -value.most() : 0;
+  return {least, value.size()};
+}
 
 }  // namespace strainfinger::firmware

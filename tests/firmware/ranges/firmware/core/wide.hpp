@@ -19,6 +19,7 @@ class Wide {
   Wide() = default;
   Wide(Number number) : Wide(number.least(), number.most()) {}
   Wide(int number) : Wide(number, number) {}
+  explicit Wide(class Natural);
   Wide(long double least, long double most) : least_(least), most_(most) {
     if (least < -kLimit || most >= kLimit) ++overflows;
   }
@@ -31,11 +32,21 @@ class Wide {
   long double size() const { return std::max(std::abs(least_), std::abs(most_)); }
 
   friend Wide operator+(Wide a, Wide b) { return {a.least_ + b.least_, a.most_ + b.most_}; }
+  friend Wide operator-(Wide a, Wide b) { return {a.least_ - b.most_, a.most_ - b.least_}; }
   friend Wide operator*(Wide a, Wide b) {
     const auto [least, most] =
         std::minmax({a.least_ * b.least_, a.least_ * b.most_, a.most_ * b.least_, a.most_ * b.most_});
     return {least, most};
   }
+  /// Rounded towards 0; of a divisor above 0.
+  friend Wide operator/(Wide a, Wide b) {
+    if (b.least_ < 1) ++overflows;
+    const long double divisor = std::max(b.least_, 1.0L), larger = std::max(b.most_, divisor);
+    return {std::trunc(a.least_ / (a.least_ < 0 ? divisor : larger)),
+            std::trunc(a.most_ / (a.most_ < 0 ? larger : divisor))};
+  }
+  Wide& operator+=(Wide other) { return *this = *this + other; }
+  Wide& operator-=(Wide other) { return *this = *this - other; }
   friend Wide operator>>(Wide a, int by) {
     if (by < 0 || by > 63) ++overflows;
     return {std::floor(std::ldexp(a.least_, -by)), std::floor(std::ldexp(a.most_, -by))};
@@ -82,6 +93,7 @@ class Natural {
     if (by < 0 || by > 63) ++overflows;
     return {std::ldexp(a.least_, by), std::ldexp(a.most_, by)};
   }
+  Natural& operator+=(Natural other) { return *this = *this + other; }
   /// Of no use but with 0.
   friend bool operator==(Natural& a, int) {
     const bool is = a.most_ == 0 || (a.least_ == 0 && choices.of(2) == 0);
@@ -92,6 +104,9 @@ class Natural {
  private:
   long double least_ = 0, most_ = 0;
 };
+
+inline Wide::Wide(Natural number)
+    : Wide(static_cast<long double>(number.least()), static_cast<long double>(number.most())) {}
 
 inline int leadingZeros(Natural& value) {
   const auto least = static_cast<int>(std::bit_width(value.least()));
@@ -113,6 +128,7 @@ inline Natural squared(Wide value) {
   if (value.size() * value.size() >= 0x1p63L) ++overflows;
   return {least * least, value.size() * value.size()};
 }
+inline Wide squareOf(Number value) { return Wide(squared(value)); }
 inline Natural shortSquare(Number value) {
   if (value.least() < -32768 || value.most() > 32767) ++overflows;
   return squared(value);
@@ -132,6 +148,13 @@ inline Wide noLarger(Wide value, Natural most) {
   const auto limit = static_cast<long double>(most.most());
   return {std::clamp(value.least(), -limit, limit), std::clamp(value.most(), -limit, limit)};
 }
+inline Number noLonger(Number value, Natural square) {
+  const long double length = std::sqrt(static_cast<long double>(square.most()));
+  const auto limit = static_cast<std::int64_t>(length);
+  const Number known = value.within(-limit, limit);
+  if (value.parts() == 0) return known;
+  return Number::component(known, static_cast<double>(std::nextafter(length, 0x1p64L)), value.parts());
+}
 inline Natural lowWord(Natural value) {
   if (value.most() >> 32 != 0) ++overflows;
   return value;
@@ -140,15 +163,19 @@ inline Number integerRoot(Natural value) {
   return {integerRoot(static_cast<std::uint32_t>(value.least())),
           integerRoot(static_cast<std::uint32_t>(value.most()))};
 }
-inline Wide limited(Wide value, Wide most) {
-  const long double limit = most.most();
-  return {std::clamp(value.least(), -limit, limit), std::clamp(value.most(), -limit, limit)};
+inline Wide lesser(Wide a, Wide b) { return {std::min(a.least(), b.least()), std::min(a.most(), b.most())}; }
+inline Wide clamped(Wide value, Wide least, Wide most) {
+  return {std::clamp(value.least(), least.least(), most.most()),
+          std::clamp(value.most(), least.least(), most.most())};
 }
+inline Wide limited(Wide value, Wide most) { return clamped(value, Wide{0} - most, most); }
 inline Number saturated(Wide value) {
   constexpr long double kLeast = std::numeric_limits<std::int32_t>::min();
   constexpr long double kMost = std::numeric_limits<std::int32_t>::max();
   return static_cast<Number>(
       Wide(std::clamp(value.least(), kLeast, kMost), std::clamp(value.most(), kLeast, kMost)));
 }
+inline Number narrowed(Wide value) { return saturated(value); }
+inline Short shortened(Wide value) { return clipped<16>(saturated(value)); }
 
 }  // namespace strainfinger::firmware

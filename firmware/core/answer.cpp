@@ -21,7 +21,7 @@ void changeWindow(const Problem& problem, WindowFit& fit) {
 }  // namespace
 
 std::int32_t leftOutside(const Problem& problem, std::int32_t windowEnergy) {
-  return std::min(problem.ringEnergy - windowEnergy, problem.tail(windowEnergy));
+  return std::min(problem.ringEnergy - windowEnergy, mostOutside(windowEnergy, problem.tail_q16()));
 }
 
 bool solve(const Problem& problem, InWindow window, WindowFit& fit) {

@@ -1,9 +1,9 @@
 #pragma once
-// The arithmetic of zeros that follow drift (zero_tracker.hpp): all of its sums, products and quotients, no
-// decisions.
+// The arithmetic of zeros that follow drift (zero_tracker.hpp): all that could leave its word, no decisions.
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 #include "firmware/core/tangent_products.hpp"
@@ -16,14 +16,15 @@ inline constexpr int kSumShift = 6;
 inline constexpr int kAverageShift = 2;
 inline constexpr int kAveraged = 1 << (kSumShift + kAverageShift);
 
-/// What a reading adds to a sum of kAveraged, which is their average shifted left by kAverageShift.
-inline Number summand(Number strain_q32) { return strain_q32 >> kSumShift; }
+/// What a reading adds to a sum of kAveraged, which is their average shifted left by kAverageShift. Rounded
+/// towards 0: an average is no larger than the largest reading.
+inline Number summand(Number strain_q32) { return strain_q32 / (1 << kSumShift); }
 
 /// A gauge's angle from the first [revolutions * 2^32]; `pitch_turn_q35` of 32 bits.
 inline Natural turnTo(Number gauge, Natural pitch_turn_q35) { return (Natural(gauge) * pitch_turn_q35) >> 3; }
 
 /// Sine [* 2^14], within 0.2 %: a parabola, and a second one through its error. `half`: half revolutions
-/// [* 2^14], less than one either way.
+/// [* 2^14], -2^14 .. 2^14 - 1.
 inline Number sine_q14(Number half) {
   const Number parabola = (half * ((1 << 14) - absolute(half))) >> 12;
   return parabola + ((230 * (((parabola * absolute(parabola)) >> 14) - parabola)) >> 10);

@@ -2,6 +2,8 @@
 // Energies of readings, of noise, and of what a contact may leave outside its window: a quarter of the
 // squared signal, as in signal.hpp.
 
+#include <cstdint>
+
 #include "firmware/core/wide.hpp"
 
 namespace strainfinger::firmware {

@@ -94,7 +94,7 @@ void lookThere(const Problem& problem, const RingSignal& signal, int look, Suspe
     }
     if (std::abs(step) == kOuterReach && outer != 0)  // what the other one of the pair reads goes with it
       without.leaveOuter(outer, leftOut(0, fit.outerResidual(), fit.leverage_q15(kOuterReach)));
-    const std::int32_t unexplained = without.energy(problem.tables.constants.tail_q16);
+    const std::int32_t unexplained = without.energy(problem.tail_q16());
     enter(suspects, {unexplained, static_cast<std::int16_t>(look), static_cast<std::int8_t>(gauge)});
   }
 }
@@ -216,7 +216,7 @@ bool isMisfit(const TableImage& tables, std::span<const std::int32_t> strains_q3
               const Fit& fit) {
   const Problem problem = problemOf(tables, strains_q32, energy);
   const std::int32_t outside =
-      excessOutside(problem.ringEnergy - fit.windowEnergy, fit.windowEnergy, tables.constants.tail_q16);
+      excessOutside(problem.ringEnergy - fit.windowEnergy, fit.windowEnergy, problem.tail_q16());
   return fit.unexplained + outside > tolerated(problem);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 // The arithmetic of whether a gauge is to be trusted (gauge_watch.hpp, pipeline.hpp), most of it
-// leave-one-out prediction: all of its sums, products and quotients, no decisions.
+// leave-one-out prediction: all that could leave its word, no decisions.
+
+#include <cstdint>
 
 #include "firmware/core/energies.hpp"
 
@@ -79,7 +81,7 @@ struct Unexplained {
   }
 };
 
-/// More than nothing: a reading is off what it should be by more than half of that.
+/// Above 0: a reading is off what it should be by more than half of that.
 inline Number farOff(Number reading, Number expected) {
   return absolute(reading - expected) * 2 - absolute(expected);
 }
@@ -93,15 +95,12 @@ inline Number gatePart(Number strain_q32, int gateShift) { return squareOfShort(
 /// A gauge at a rail is where it should be if the others predict more than this.
 inline Number leastAtRail(Number rail_q32) { return Number(Wide{rail_q32} * 3 / 4); }
 
-/// A gauge out of use is judged where it should have this part of the ring's energy, by whether it is off by
-/// more than this part of what it should read.
-inline constexpr int kMuch = 16;
-inline constexpr int kNear = 8;
-/// Less than the gate's energy of the ring: not to be judged.
-inline Wide muchOf(Number gatePart) { return Wide{gatePart} * kMuch; }
-/// Less than nothing: a gauge reads what the others predict.
+/// A gauge out of use is judged where it should have at least a sixteenth of the ring's energy (the gate's):
+/// where this is no less than that.
+inline Wide muchOf(Number gatePart) { return Wide{gatePart} * 16; }
+/// Below 0: a gauge reads what the others predict, within an eighth.
 inline Wide offBy(Number measured_q32, Number predicted_q32) {
-  return Wide{absolute(measured_q32 - predicted_q32)} * kNear - absolute(predicted_q32);
+  return Wide{absolute(measured_q32 - predicted_q32)} * 8 - absolute(predicted_q32);
 }
 
 }  // namespace strainfinger::firmware

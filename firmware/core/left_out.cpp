@@ -43,7 +43,7 @@ PitchQ20 positionOf(const Problem& problem, const View& view, PitchQ20 beyondRow
     window.add(signal.at(gauge));
     if (contains(signal.leftOut, gauge)) window.addMissing(fit.predicted(problem, view, step));
   }
-  return window.outside(problem.ringEnergy, problem.tables.constants.tail_q16);
+  return window.outside(problem.ringEnergy, problem.tail_q16());
 }
 
 /// Where a fit at a view leads, with its loads.

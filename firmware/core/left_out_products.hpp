@@ -1,8 +1,9 @@
 #pragma once
-// The arithmetic of fits to the gauges that are not left out (left_out.hpp): all of its sums and products, no
-// decisions.
+// The arithmetic of fits to the gauges that are not left out (left_out.hpp): all that could leave its
+// word, no decisions.
 
 #include "firmware/core/energies.hpp"
+#include "firmware/core/fit_step.hpp"
 #include "firmware/core/tangent_products.hpp"
 
 namespace strainfinger::firmware {

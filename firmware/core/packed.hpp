@@ -2,14 +2,14 @@
 // Pairs of 16-bit numbers, and the products the locator is made of: single instructions on pairs in a word
 // where the core has Arm's DSP extension (Cortex-M4), plain C++ with the same results elsewhere.
 //
-// upperHalves(a, b)         the upper halves of two numbers: what is left when divided by 2^16 and rounded
-// down lowOnly(a)                a pair of which only the low number, of 16 bits, will be looked at
-// pairAt(numbers)           two numbers next to each other, the first at a multiple of 4 bytes
-// a + b, a - b              number by number; the caller keeps them within 16 bits
-// dot(a, b)                 a.low * b.low + a.high * b.high, which the caller keeps below 2^31
-// lows(a, b)                a.low and b.low; lowAndHigh(a, b): a.low and b.high
-// determinant(a, b)         a.low * b.high - a.high * b.low, which the caller keeps below 2^31
-// scaledByLow(a, b)         a * b.low / 2^16, rounded down; scaledByHigh(): b.high
+// upperHalves(a, b)   the upper halves of two numbers: divided by 2^16, rounded down
+// lowOnly(a)          a pair of which only the low number, of 16 bits, will be looked at
+// pairAt(numbers)     two numbers next to each other, the first at a multiple of 4 bytes
+// a + b, a - b        number by number; the caller keeps them within 16 bits
+// dot(a, b)           a.low * b.low + a.high * b.high, which the caller keeps below 2^31
+// lows(a, b)          a.low and b.low; lowAndHigh(a, b): a.low and b.high
+// determinant(a, b)   a.low * b.high - a.high * b.low, which the caller keeps below 2^31
+// scaledByLow(a, b)   a * b.low / 2^16, rounded down; scaledByHigh(): b.high
 // dot(a, b, sum), addScaledByLow(sum, a, b), addScaledByHigh(sum, a, b)    the same, added to a sum
 
 #include <cstdint>

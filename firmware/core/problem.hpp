@@ -29,8 +29,8 @@ struct Problem {
 
   /// So many variances of a reading as an energy, at least 1.
   std::int32_t variances(std::int32_t count) const { return energyOfVariances(noise, count); }
-  /// The most that a contact with so much energy in its window leaves outside.
-  std::int32_t tail(std::int32_t window) const { return mostOutside(window, tables.constants.tail_q16); }
+  /// See mostOutside().
+  std::int32_t tail_q16() const { return tables.constants.tail_q16; }
 
   int mirrorSign() const { return tables.constants.mirror_sign; }
   int gauges() const { return tables.constants.gauge_count; }

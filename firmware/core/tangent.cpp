@@ -42,7 +42,7 @@ WindowReadings readingsOf(const Problem& problem, const RingSignal& signal, cons
 [[gnu::noinline]] LoadPair projected(const FitRow& row, const WindowReadings& readings) {
   LoadPair pair;
   for (int step = -kWindowReach; step <= readings.last; ++step) {
-    const std::int32_t weight1 = weight(row.basis[0], step), weight2 = weight(row.basis[1], step);
+    const std::int32_t weight1 = weightAt(row.basis[0], step), weight2 = weightAt(row.basis[1], step);
     if (readings.isLeftOut(step)) {
       pair.leaveOut(weight1, weight2);
     } else {
@@ -71,7 +71,7 @@ WindowReadings readingsOf(const Problem& problem, const RingSignal& signal, cons
 [[gnu::noinline]] void addLoads(const FitRow& row, int last, Tangent& tangent) {
   for (int step = -kWindowReach; step <= last; ++step)
     for (std::size_t i = 0; i < 2; ++i)
-      tangent.at[indexOf(step)][i] = static_cast<Short>(clipped<16>(weight(row.basis[i], step)));
+      tangent.at[indexOf(step)][i] = static_cast<Short>(clipped<16>(weightAt(row.basis[i], step)));
 }
 
 /// What should be read at an index [signal * 2^4], as its view sees it.
@@ -146,11 +146,11 @@ std::int32_t LocalFit::leverage_q15(int step) const {
 }
 
 std::int32_t LocalFit::outerResidual() const {
-  return share.outer - rounded(predictedAt(tangent, share.coefficients, indexOf(kOuterReach)));
+  return share.outer - wholeReading(predictedAt(tangent, share.coefficients, indexOf(kOuterReach)));
 }
 
 std::int32_t LocalFit::predicted(const Problem& problem, const View& view, int step) const {
-  const std::int32_t reading = rounded(predictedAt(tangent, share.coefficients, indexOf(step)));
+  const std::int32_t reading = wholeReading(predictedAt(tangent, share.coefficients, indexOf(step)));
   return view.side < 0 ? reading * problem.mirrorSign() : reading;
 }
 

@@ -1,13 +1,16 @@
 #pragma once
-// The arithmetic of what a contact can do to the readings of a window (tangent.hpp): all of its sums,
-// products and quotients, no decisions.
+// The arithmetic of what a contact can do to the readings of a window (tangent.hpp): all that
+// could leave its word, no decisions.
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 
 #include "firmware/core/energies.hpp"
 #include "firmware/core/error_products.hpp"
+#include "firmware/core/fit_step.hpp"
+#include "firmware/core/integer_root.hpp"
 
 namespace strainfinger::firmware {
 
@@ -61,7 +64,7 @@ inline Short outerReading(Number difference) {
 
 /// A column's weight of the reading at a step, which folding halved or, of the outer pair, divided by
 /// sqrt(2).
-inline Number weight(const FoldedWeights& folded, int step) {
+inline Number weightAt(const FoldedWeights& folded, int step) {
   if (step == 0) return tabled(folded[0]);
   if (step > kWindowReach) return timesRootTwo<Number>(tabled(folded[kWindowGauges]));
   const auto distance = static_cast<std::size_t>(std::abs(step));
@@ -107,7 +110,7 @@ inline Number explainedBy(const LoadPair& pair, Number determinant_q15) {
 inline Number moveAt(const FitRow& row, const std::array<Number, 2>& loads, int step) {
   Wide component = 0;
   for (std::size_t i = 0; i < 2; ++i)
-    component += weight(row.gradient[i], step) * ((Wide{loads[i]} * tabled(row.gradient_length[i])) >> 15);
+    component += weightAt(row.gradient[i], step) * ((Wide{loads[i]} * tabled(row.gradient_length[i])) >> 15);
   return Number(limited(component >> 15, kLongest));
 }
 
@@ -180,7 +183,7 @@ inline Number predictedFrom(const Directions& e, const Three& coefficients) {
   return saturated((reading + (1 << 14)) >> 15);
 }
 /// Without the four bits that a prediction has below a signal.
-inline Number rounded(Number prediction) { return Number((Wide{prediction} + 8) >> 4); }
+inline Number wholeReading(Number prediction) { return Number((Wide{prediction} + 8) >> 4); }
 
 /// value * 2^up, rounded down, saturating; `value` of 32 bits or one more, `up` -30 .. 30.
 [[gnu::noinline]] inline Number rescaled(Wide value, int up) {

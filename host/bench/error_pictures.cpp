@@ -1,19 +1,19 @@
 #include <fmt/format.h>
 
-#include <limits>
-#include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "host/bench/error_pages.hpp"
+#include "host/plot/style.hpp"
 
 namespace strainfinger::bench {
 namespace {
 
 constexpr double kMicro = 1e3;  ///< um in a mm
 
-constexpr const char* kMapScript = R"(
-set encoding utf8
-set border linecolor '#555555'
-set tics nomirror out scale 0.6 textcolor '#333333'
+constexpr const char* kMaps = R"(
+set border 31; unset grid
 set palette defined (0 '#FFFFFF', 0.25 '#CFE5F2', 0.5 '#56B4E9', 0.75 '#0072B2', 1 '#00263A')
 set xrange [-0.5:0.5]; set yrange [-45:45]; set ytics 15 format '%g°'; set cbrange [0:*]
 set xlabel 'contact, pitches from the nearest gauge'
@@ -29,17 +29,12 @@ plot data('map') using 1:2:5 every ::1 with image
 unset multiplot
 )";
 
-// Okabe & Ito's colours, told apart by the colour-blind too.
-constexpr const char* kCurvesStyle = R"(
-set encoding utf8
-set border 3 linecolor '#555555'
-set tics nomirror out scale 0.6 textcolor '#333333'
-set grid xtics ytics linecolor '#E6E6E6' linetype 1
-set key top center horizontal samplen 2 textcolor '#333333' maxrows 2
-set style line 1 linecolor rgb '#0072B2' linewidth 2 pointtype 7 pointsize 0.8
-set style line 2 linecolor rgb '#0072B2' linewidth 1.4 dashtype 3 pointtype 6 pointsize 0.8
-set style line 3 linecolor rgb '#D55E00' linewidth 2 pointtype 7 pointsize 0.8
-set style line 4 linecolor rgb '#D55E00' linewidth 1.4 dashtype 3 pointtype 6 pointsize 0.8
+constexpr const char* kCurves = R"(
+set key inside top center horizontal samplen 2 textcolor '#333333' maxrows 2
+set style line 1 linecolor rgb blue linewidth 2 pointtype 7 pointsize 0.8
+set style line 2 linecolor rgb blue linewidth 1.4 dashtype 3 pointtype 6 pointsize 0.8
+set style line 3 linecolor rgb vermilion linewidth 2 pointtype 7 pointsize 0.8
+set style line 4 linecolor rgb vermilion linewidth 1.4 dashtype 3 pointtype 6 pointsize 0.8
 set logscale y; set format y '%g'
 set multiplot layout 2,3 margins 0.06,0.985,0.08,0.96 spacing 0.06,0.11
 )";
@@ -108,11 +103,11 @@ plot::Picture errorMapPicture(const std::vector<ErrorCell>& cells) {
     data.rows.push_back({cell.setting, cell.direction_deg, s.arc_mm.rms() * kMicro, s.normal_n_per_m.rms(),
                          s.tangential_n_per_m.rms()});
   }
-  return {1500, 480, kMapScript, {std::move(data)}};
+  return {1500, 480, std::string(plot::kStyle) + kMaps, {std::move(data)}};
 }
 
 plot::Picture errorCurvesPicture(const std::vector<ErrorCell>& cells) {
-  plot::Picture picture{1500, 820, kCurvesStyle, {}};
+  plot::Picture picture{1500, 820, std::string(plot::kStyle) + kCurves, {}};
   for (const Panel& panel : panels()) {
     picture.script += panelScript(panel);
     for (std::size_t i = 0; i < panel.lines.size(); ++i) picture.data.push_back(lineData(cells, panel, i));

@@ -41,8 +41,8 @@ struct GeneratedContact {
   std::int32_t tangential;
 };
 
-/// Any angle; loads to twice `range` over thirteen octaves, the more often the larger: the faintest cost ten
-/// times what others do; tangential load within 1.25 times the normal one either way.
+/// Any angle; loads up to twice `range`, over thirteen octaves, large ones more often, as the faintest cost
+/// ten times as much; tangential load within 1.25 times the normal one either way.
 constexpr GeneratedContact drawContact(Draws& draws, std::uint32_t range) {
   const std::uint32_t angle = draws.next();
   const auto normal =

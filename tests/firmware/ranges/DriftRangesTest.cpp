@@ -1,6 +1,6 @@
 // No intermediate result of zeros that follow drift leaves its word (firmware/core/drift_products.hpp), for
 // any readings that conditioning gives, any contact and any tables that checkTableImage() accepts.
-#include <array>
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 
@@ -103,14 +103,14 @@ TEST(DriftRanges, FollowingByAnyStrainOverflowsNothing) {
   CHECK(overflows > 0);
 }
 
-TEST(DriftRanges, TheSquareOfAWindowOverflowsNothing) {
+TEST(DriftRanges, TheSquareOfARingOverflowsNothing) {
   const Number average = sumOf(kAveraged) >> kAverageShift;
   const auto squareOfGauges = [&](int gauges) {
     Wide sum = 0;
     for (int gauge = 0; gauge < gauges; ++gauge) sum += squareOf(average);
     return sum;
   };
-  squareOfGauges(kWindowGauges);
+  squareOfGauges(kMaxGauges);  // as in gateEnergy()
   checkNone();
   squareOfGauges(kMaxGauges + 1);
   CHECK(overflows > 0);

@@ -1,7 +1,6 @@
 // No intermediate result of the search without some gauges, and of that for a gauge that fails, leaves its
 // word (left_out_products.hpp, gauge_watch_products.hpp, energies.hpp of firmware/core), for any readings and
 // any tables that checkTableImage() accepts.
-#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -102,7 +101,7 @@ TEST(LeftOutRanges, LeavingAnyGaugeOutOverflowsNothing) {
 TEST(LeftOutRanges, TellingCulpritsApartOverflowsNothing) {
   const Number noise = energyOfVariances(kNoise, 64);
   mostLikeIt((kRing >> 4) + noise, noise);
-  excessOutside(kRing - upTo(1 << 28), upTo(1 << 28), kTail);
+  kRing + excessOutside(kRing - kRing, kRing, kTail);  // unexplained inside and outside: a misfit
   checkNone();
   mostLikeIt(kSaturating, noise);
   CHECK(overflows > 0);

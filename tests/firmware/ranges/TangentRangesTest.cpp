@@ -1,6 +1,5 @@
 // No intermediate result of fits without some gauges leaves its word (firmware/core/tangent_products.hpp),
 // for any readings, any of them left out, and any tables that checkTableImage() accepts.
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -15,15 +14,15 @@ using namespace strainfinger::firmware;
 
 TEST_GROUP_BASE(TangentRanges, RangesGroup) {
   static constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
-  /// Of a column that is no longer folded; the outer pair's weight is rounded.
-  static inline const double kUnfoldedLength = kWeightLength + 0.5;
+  /// Of a column that is no longer folded; the outer pair's weight is rounded, and so is the root of two.
+  static inline const double kUnfoldedLength = kWeightLength + 1;
 
   static Short anyReading(std::size_t index, double length) {
     return Number::component(anyOf(16), length, 1u << index);
   }
   static int stepOf(std::size_t index) { return static_cast<int>(index) - kWindowReach; }
   static Number anyWeight(std::size_t index) {
-    return Number::component(weight(provedRow.basis[0], stepOf(index)), kUnfoldedLength, 1u << index);
+    return Number::component(weightAt(provedRow.basis[0], stepOf(index)), kUnfoldedLength, 1u << index);
   }
   /// Loads of readings as long as they may be together, any of them left out.
   static LoadPair loadsOf(double length) {
@@ -129,7 +128,7 @@ TEST(TangentRanges, InversesAndTheirProductsOverflowNothing) {
 TEST(TangentRanges, PredictionsOfAnyCoefficientsOverflowNothing) {
   const Short any = anyOf(16);
   const Number prediction = predictedFrom({any, any, any}, {anyOf(32), anyOf(32), anyOf(32)});
-  any - rounded(prediction) * Number(-1, 1);
+  any - wholeReading(prediction) * Number(-1, 1);
   for (int up = 0; up <= 30; ++up) predictedStrain(Wide{prediction} * Number(-1, 1), up);
   const Wide pair = timesRootTwo<Wide>(anyOf(32));
   besideOther(anyOf(32), pair * Number(-1, 1));

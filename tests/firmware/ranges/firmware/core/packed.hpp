@@ -102,15 +102,17 @@ class Number {
   unsigned parts() const { return parts_; }
 
   /// One of the numbers of a vector no longer than that. A sum of products of two such vectors' numbers is as
-  /// one of pairs; what else is done with a number is done with all of its vector.
+  /// one of pairs. What is done with one number must be done with all of its vector, and no other vectors of
+  /// these lengths may come into the sum: the test that says `component` sees to it.
   static Number component(Number any, double length, unsigned part) {
     any.parts_ = part;
     any.length_ = length;
     return any;
   }
   double length() const { return length_; }
-  /// With other bounds, which are nearer to 0.
+  /// With other bounds, which are nearer to 0 and on either side of it.
   Number within(std::int64_t least, std::int64_t most) const {
+    if (least > 0 || most < 0) ++overflows;
     Number nearer = *this;
     nearer.least_ = std::clamp(least_, least, most);
     nearer.most_ = std::clamp(most_, least, most);
@@ -153,6 +155,7 @@ class Short : public Number {
 };
 
 inline Number squareOfShort(Number value) {
+  if (value.least() < -32768 || value.most() > 32767) ++overflows;
   const Number square = value * value;
   return square.within(0, square.most());
 }

@@ -153,7 +153,7 @@ inline Number noLonger(Number value, Natural square) {
   const auto limit = static_cast<std::int64_t>(length);
   const Number known = value.within(-limit, limit);
   if (value.parts() == 0) return known;
-  return Number::component(known, static_cast<double>(std::nextafter(length, 0x1p64L)), value.parts());
+  return Number::component(known, std::nextafter(static_cast<double>(length), 0x1p64), value.parts());
 }
 inline Natural lowWord(Natural value) {
   if (value.most() >> 32 != 0) ++overflows;

@@ -1,6 +1,8 @@
 # What a scenario (scenarios/*.bash) has: vcan0, up and silent; $tests, this folder; `strainfinger` on the PATH; $TMPDIR to write to; and
 # these. It passes if its last command does, and fails at the first command that fails (bash -eu -o pipefail).
 
+trap 'kill $(jobs -p) 2>/dev/null || true' EXIT   # a scenario that fails leaves nobody on the bus of the next
+
 fail() { echo "failed: $*"; exit 1; }
 
 # expect WHAT EXPECTED ACTUAL
@@ -28,3 +30,17 @@ stop_recording() {
 
 # The recorded frames without time and interface: 123#DEADBEEF
 recorded_frames() { cut -d' ' -f3 "$recording"; }
+
+# summed_up NAME: that number of the summary of `run --json` in $TMPDIR/summary
+summed_up() { sed -n 's/.*"'"$1"'":\([0-9.]*\).*/\1/p' "$TMPDIR/summary"; }
+
+# What is recorded has the heartbeats of the run that $TMPDIR/summary sums up: all that were sent, and one for each 100 ms but for
+# what a late machine loses: a heartbeat waits for a step, of at most two sample sets beside the lost ones.
+expect_heartbeats() {
+  local heard lost duration_ms
+  heard=$(recorded_frames | grep -c '^701#')
+  lost=$(summed_up overruns)
+  duration_ms=$(awk "BEGIN { print int(1000 * $(summed_up duration_s)) }")
+  expect "heartbeats heard" "$(summed_up heartbeats)" "$heard"
+  [ $((heard * 102 + lost)) -ge "$duration_ms" ] || fail "$heard heartbeats in $duration_ms ms, of which $lost are lost"
+}

@@ -15,7 +15,7 @@ import unittest
 from pathlib import Path
 
 import emulator
-from machine import Machine
+from machine import TIMEOUT_S, Machine
 from touches import SLIDE_S, TouchedFinger, check_arrived, check_truth, decoded, touch_frames
 
 NODES = (1, 2, 3)
@@ -23,6 +23,7 @@ PERIOD_S = 0.001
 FRAMES = 2000
 FRAMES_PER_S = 1000
 ACTIVE, PASSIVE, BUS_OFF = 0, 2, 3  # hal::CanState
+UNTOUCHED = [emulator.samples_record([0x8000] * 16)]
 LINK = "ip -d link show slcan1"
 UNTIL = "for _ in $(seq 100); do ! {link} | grep -q {state} || break; sleep 0.05; done; {link}"
 
@@ -34,6 +35,14 @@ def play(tracks):
         for board, records in tracks:
             board.world.sendall(records[number])
         time.sleep(max(0, begin + (number + 1) * PERIOD_S - time.monotonic()))
+
+
+def untouched_until(board, done):
+    end = time.monotonic() + TIMEOUT_S
+    while not done.exists():
+        if time.monotonic() > end:
+            raise RuntimeError(f"no {done.name} within {TIMEOUT_S} s")
+        play([(board, 100 * UNTOUCHED)])
 
 
 class Recording:
@@ -84,12 +93,11 @@ class Told:
     NODE, TOUCHED_MS, RATE_HZ = 2, 600, 100
 
     def __init__(self, machine, board, finger):
-        untouched = [emulator.samples_record([0x8000] * 16)]
-        play([(board, 100 * untouched)])
+        play([(board, 100 * UNTOUCHED)])
         program = f"{STRAINFINGER} {{}} --can vcan0 --node {self.NODE}"
-        machine.run(f"({program.format('tare')} &>$TMPDIR/tare; touch $TMPDIR/tared) &")
-        play([(board, 1500 * untouched)])  # a zero takes 64; the rest is for the program to start
-        self.tare = machine.run("for _ in $(seq 100); do [ ! -e $TMPDIR/tared ] || break; sleep 0.05; done; cat $TMPDIR/tare")
+        machine.run(f"({program.format('tare')} &>$TMPDIR/tare; touch $JOB/tared) &")
+        untouched_until(board, machine.job / "tared")  # a zero takes 64 sets; the program takes its time to start
+        self.tare = machine.run("cat $TMPDIR/tare")
         self.rate = machine.run(f"{program.format('config')} --contact-rate-hz {self.RATE_HZ} 2>&1")
         machine.record()
         play([(board, finger.records[300:300 + self.TOUCHED_MS])])

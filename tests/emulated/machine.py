@@ -7,7 +7,7 @@ from pathlib import Path
 
 import emulator
 
-TIMEOUT_S = 60
+TIMEOUT_S, ALL_TIMEOUT_S = 60, 500  # of a step, of all of them
 # Finger n is slcan<n>, and all of them are on vcan0, as on one bus: what they send is heard there, and requests that are
 # sent there (600 + node) reach them.
 JOIN = """
@@ -39,7 +39,8 @@ cat $TMPDIR/recording
 class Machine:
     def __init__(self, in_vcan, job, boards):
         self.job, self.steps = Path(job), 0
-        environment = {**os.environ, "IN_VCAN_JOB": str(job), "IN_VCAN_SERIAL": " ".join(b.bus_path for b in boards)}
+        environment = {**os.environ, "IN_VCAN_JOB": str(job), "IN_VCAN_SERIAL": " ".join(b.bus_path for b in boards),
+                       "STRAINFINGER_VCAN_TIMEOUT_s": str(ALL_TIMEOUT_S)}
         self.process = subprocess.Popen([in_vcan, "bash", str(Path(__file__).with_name("in_machine.bash"))],
                                         env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         self.boards = boards

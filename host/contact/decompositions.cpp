@@ -14,6 +14,11 @@ ThinSvd thinSvd(const MatrixXd& matrix) {
   return {svd.matrixU(), svd.singularValues(), svd.matrixV()};
 }
 
+VectorXd leastSquares(const MatrixXd& matrix, const VectorXd& right) {
+  const ThinSvd svd = thinSvd(matrix);
+  return svd.right * (svd.left.transpose() * right).cwiseQuotient(svd.values);
+}
+
 VectorXd luSolution(const MatrixXd& equations, const VectorXd& right) {
   return equations.partialPivLu().solve(right);
 }

@@ -17,6 +17,9 @@ struct ThinSvd {
 /// Divide and conquer; Jacobi's, which keeps small values' digits, for 16 columns and less (Eigen::BDCSVD).
 ThinSvd thinSvd(const Eigen::MatrixXd& matrix);
 
+/// x with the least |matrix * x - right|, by thinSvd(): of independent columns.
+Eigen::VectorXd leastSquares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
+
 /// x of equations * x = right, by LU with partial pivoting (Eigen::PartialPivLU): of singular equations,
 /// whatever comes of it.
 Eigen::VectorXd luSolution(const Eigen::MatrixXd& equations, const Eigen::VectorXd& right);

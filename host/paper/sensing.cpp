@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "host/contact/decompositions.hpp"
 #include "host/paper/spread_response.hpp"
 
 namespace strainfinger::paper {
@@ -48,7 +49,7 @@ int solutions(const Triples& triples, const Eigen::Vector3d& readings) {
   int count = 0;
   for (std::size_t i = 1; i < triples.readings.size(); ++i) {
     if ((misfit(i - 1) < 0) == (misfit(i) < 0)) continue;
-    const Eigen::Vector2d load = triples.readings[i].colPivHouseholderQr().solve(readings);
+    const Eigen::Vector2d load = contact::leastSquares(triples.readings[i], readings);
     count += load[0] > 0 && std::abs(load[1]) <= load[0] ? 1 : 0;
   }
   return count;

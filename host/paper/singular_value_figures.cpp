@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host/contact/decompositions.hpp"
 #include "host/contact/slope_map.hpp"
 #include "host/paper/figure_makers.hpp"
 #include "host/plot/style.hpp"
@@ -81,7 +82,7 @@ struct Line {
       widths.row(i) << 1, row[0] * 1e3;
       counts[i] = row[column];
     }
-    const Eigen::Vector2d line = widths.colPivHouseholderQr().solve(counts);
+    const Eigen::Vector2d line = contact::leastSquares(widths, counts);
     at0 = line[0];
     perMm = line[1];
     worst = (counts - widths * line).cwiseAbs().maxCoeff();

@@ -49,10 +49,12 @@ TEST_GROUP(WindowFit) {
       response.row(k + 3) << value.normal, value.tangential;
       slope.row(k + 3) << -value.normalSlope * ring.pitch_rad(), -value.tangentialSlope * ring.pitch_rad();
     }
-    const auto solver = response.colPivHouseholderQr();
-    const Eigen::Vector2d loads = solver.solve(readings);
+    const auto leastSquares = [&](const Vector7& vector) -> Eigen::Vector2d {
+      return (response.transpose() * response).inverse() * (response.transpose() * vector);
+    };
+    const Eigen::Vector2d loads = leastSquares(readings);
     const Vector7 moved = slope * loads;
-    const Vector7 gradient = moved - response * solver.solve(moved);
+    const Vector7 gradient = moved - response * leastSquares(moved);
     const Vector7 residual = readings - response * loads;
     return {loads, (response * loads).squaredNorm(), gradient.dot(residual) / gradient.squaredNorm(),
             gradient.squaredNorm()};

@@ -20,7 +20,7 @@ namespace {
 /// Nearest integers, and what the oracle's finite differences may be off.
 constexpr double kHalfStep = 0.501;
 
-/// The rows' numbers once more: Householder QR of the model's values, slopes by finite differences.
+/// The rows' numbers once more: Cholesky's factors of the model's values, slopes by finite differences.
 struct Oracle {
   OracleMatrix basis, gradient;
   Eigen::Matrix2d amplitude, amplitudeSlope;
@@ -29,15 +29,13 @@ struct Oracle {
     const auto values = [&](double at) -> OracleMatrix {
       return oracleResponse(model, gauges, at, kAllGauges) / peak;
     };
-    const Eigen::HouseholderQR<OracleMatrix> qr(values(offset));
-    basis = qr.householderQ() * OracleMatrix::Identity();
-    Eigen::Matrix2d r = qr.matrixQR().topRows<2>().triangularView<Eigen::Upper>();
-    for (int i = 0; i < 2; ++i) {
-      if (r(i, i) >= 0) continue;
-      r.row(i) *= -1;
-      basis.col(i) *= -1;
-    }
+    const Eigen::Matrix2d gram = values(offset).transpose() * values(offset);
+    Eigen::Matrix2d r = Eigen::Matrix2d::Zero();
+    r(0, 0) = std::sqrt(gram(0, 0));
+    r(0, 1) = gram(0, 1) / r(0, 0);
+    r(1, 1) = std::sqrt(gram(1, 1) - r(0, 1) * r(0, 1));
     amplitude = r.inverse();
+    basis = values(offset) * amplitude;
     const OracleMatrix slope = derivative(values, offset) * amplitude;
     gradient = slope - basis * (basis.transpose() * slope);
     amplitudeSlope = -amplitude * basis.transpose() * slope / kRowsPerPitch;

@@ -37,9 +37,10 @@ def play(tracks):
         time.sleep(max(0, begin + (number + 1) * PERIOD_S - time.monotonic()))
 
 
-def untouched_until(board, done):
+def untouched_until(machine, board, done):
     end = time.monotonic() + TIMEOUT_S
     while not done.exists():
+        machine.check_alive()
         if time.monotonic() > end:
             raise RuntimeError(f"no {done.name} within {TIMEOUT_S} s")
         play([(board, 100 * UNTOUCHED)])
@@ -95,8 +96,8 @@ class Told:
     def __init__(self, machine, board, finger):
         play([(board, 100 * UNTOUCHED)])
         program = f"{STRAINFINGER} {{}} --can vcan0 --node {self.NODE}"
-        machine.run(f"({program.format('tare')} &>$TMPDIR/tare; touch $JOB/tared) &")
-        untouched_until(board, machine.job / "tared")  # a zero takes 64 sets; the program takes its time to start
+        machine.run(f"({program.format('tare')} &>$TMPDIR/tare || true; touch $JOB/tared) &")
+        untouched_until(machine, board, machine.job / "tared")  # a zero takes 64 sets; the program takes its time to start
         self.tare = machine.run("cat $TMPDIR/tare")
         self.rate = machine.run(f"{program.format('config')} --contact-rate-hz {self.RATE_HZ} 2>&1")
         machine.record()

@@ -8,7 +8,7 @@ import emulator
 
 MIDDLE = [0x8000] * 16
 HEARTBEAT = b"t7018"
-SECONDS, HEARTBEATS_PER_S = 2, 10
+SECONDS, HEARTBEATS_PER_S = 4, 10
 SETS_PER_S = 50  # too few for two heartbeats, were time their number
 
 

@@ -33,7 +33,7 @@ struct Oracle {
     Eigen::Matrix2d r = Eigen::Matrix2d::Zero();
     r(0, 0) = std::sqrt(gram(0, 0));
     r(0, 1) = gram(0, 1) / r(0, 0);
-    r(1, 1) = std::sqrt(gram(1, 1) - r(0, 1) * r(0, 1));
+    r(1, 1) = std::sqrt(gram.determinant()) / r(0, 0);
     amplitude = r.inverse();
     basis = values(offset) * amplitude;
     const OracleMatrix slope = derivative(values, offset) * amplitude;

@@ -29,13 +29,14 @@ struct Oracle {
     const auto values = [&](double at) -> OracleMatrix {
       return oracleResponse(model, gauges, at, kAllGauges) / peak;
     };
-    const Eigen::Matrix2d gram = values(offset).transpose() * values(offset);
+    const OracleMatrix here = values(offset);
+    const Eigen::Matrix2d gram = here.transpose() * here;
     Eigen::Matrix2d r = Eigen::Matrix2d::Zero();
     r(0, 0) = std::sqrt(gram(0, 0));
     r(0, 1) = gram(0, 1) / r(0, 0);
     r(1, 1) = std::sqrt(gram.determinant()) / r(0, 0);
     amplitude = r.inverse();
-    basis = values(offset) * amplitude;
+    basis = here * amplitude;
     const OracleMatrix slope = derivative(values, offset) * amplitude;
     gradient = slope - basis * (basis.transpose() * slope);
     amplitudeSlope = -amplitude * basis.transpose() * slope / kRowsPerPitch;

@@ -20,7 +20,7 @@ namespace strainfinger {
 static_assert(std::endian::native == std::endian::little, "the image is little-endian and is read in place");
 
 inline constexpr std::uint32_t kTableMagic = 0x42544653;  ///< "SFTB" in the file's first four bytes
-inline constexpr std::uint16_t kTableFormat = 5;          ///< raised with every change of the layout
+inline constexpr std::uint16_t kTableFormat = 6;          ///< raised with every change of the layout
 
 /// Gauges that one fit looks at: the nearest one and three on either side. With 16 gauges they hold all but
 /// 0.4 / 0.3 / 0.9 % of what the whole ring knows of angle, normal and tangential load.
@@ -34,10 +34,10 @@ inline constexpr int kOuterReach = kWindowReach + 1;
 constexpr bool hasOuterPair(int gauges) { return gauges > 16; }
 constexpr int fitReach(int gauges) { return hasOuterPair(gauges) ? kOuterReach : kWindowReach; }
 
-/// Rows of a fit table: contact offsets 0, 1/64, .. 43/64 of a pitch from the window's middle gauge. Beyond
+/// Rows of a fit table: contact offsets 0, 1/64, .. 39/64 of a pitch from the window's middle gauge. Beyond
 /// half a pitch the next gauge's window takes over; the rest is overlap, so that a fit may walk across.
 inline constexpr int kRowsPerPitch = 64;
-inline constexpr int kFitRows = 44;
+inline constexpr int kFitRows = 40;
 
 /// Rows between the starts of a scan, either of the two: fewer cost more, more would step over a maximum.
 inline constexpr int kMinScanStep = 4;
@@ -61,6 +61,17 @@ struct ScanSpan {
   bool operator==(const ScanSpan&) const = default;
 };
 inline constexpr int kShares = 16;  ///< shares are told apart by sixteenths
+
+/// Where a contact is, by the share that the deepest reading has: the differences of the pairs around it (+
+/// side minus - side; the outer pair's last, which the host's weights leave out), weighted and over that
+/// reading, add up to the offset [pitches * 2^kStartWeightBits], to within 1/16 pitch for most. The first 0:
+/// they don't. Of firm contacts (TableConstants::firm_exponent), a quarter of a pitch or more from that
+/// gauge, a fit from there that explains the readings is theirs: another offset of its window would not
+/// explain them within noise.
+struct alignas(8) StartWeights : std::array<std::int16_t, 4> {
+  constexpr bool tell() const { return front() != 0; }
+};
+inline constexpr int kStartWeightBits = 10;
 
 /// What the image was made from, as in finger.toml. The firmware carries it and doesn't look at it.
 struct TableParameters {
@@ -114,6 +125,9 @@ struct TableConstants {
   AnchorRule anchor_rule;
   std::uint8_t scan_step;  ///< rows between the starts of a scan: half a step, 3/2, 5/2 .. of it
   std::array<ScanSpan, kShares> scan_span;  ///< by the deepest reading's share
+  std::uint16_t near_pole_q15;           ///< offset at which near rows would tell no loads [pitches * 2^15]
+  std::uint8_t firm_exponent;            ///< from 2^this variances on, a ring's readings have one explanation
+  std::array<std::uint8_t, 5> reserved;  ///< 0
 };
 
 /// A signal over the window, folded about the middle gauge: middle, then sums of the pairs at distance
@@ -163,6 +177,24 @@ struct FitRow {
 
 using FitTable = std::array<FitRow, kFitRows>;
 
+/// Near rows: contact offsets 0, 1/32, .. 12/32 of a pitch. Beyond, three readings around the contact hardly
+/// tell its loads.
+inline constexpr int kNearRows = 13;
+inline constexpr int kNearStride = 2;  ///< rows of the fit table from one to the next
+
+/// What the middle reading and the two beside it tell of a contact at one offset, folded. As the loads change
+/// they span a plane. All 0: they don't tell the loads.
+struct alignas(8) NearRow {
+  std::array<std::int16_t, 4>
+      normal;  ///< to the plane: of middle, sum, difference, then 0 [* 2^14; the longest 1]
+  std::array<std::int16_t, 2> normal_load;      ///< of middle and difference [* 2^(amplitude_exponent - 1)]
+  std::array<std::int16_t, 2> tangential_load;  ///< .. the same
+
+  constexpr bool tells() const { return tangential_load[1] != 0; }
+};
+
+using NearTable = std::array<NearRow, kNearRows>;
+
 /// How sensitive each gauge is, from calibration: gauge i's gain is reading_gain (1 + correction_i
 /// 2^-exponent). One exponent for all, so that a ring whose gauges are alike to 12 % has steps of 0.1 %.
 struct GaugeGains {
@@ -188,14 +220,17 @@ struct TableImage {
   std::uint32_t crc32;        ///< of everything behind this field
   TableParameters parameters;
   TableConstants constants;
+  std::array<StartWeights, kShares> start;
   FitTable rows;
+  NearTable near;
   GaugeGains gains;
 };
 
 static_assert(std::is_trivially_copyable_v<TableImage>);
-static_assert(sizeof(TableParameters) == 104 && sizeof(TableConstants) == 64 && sizeof(FitRow) == 88 &&
-              sizeof(GaugeGains) == 40);
-static_assert(sizeof(TableImage) == 16 + 104 + 64 + 88 * kFitRows + 40, "no padding anywhere");
+static_assert(sizeof(TableParameters) == 104 && sizeof(TableConstants) == 72 && sizeof(FitRow) == 88 &&
+              sizeof(NearRow) == 16 && sizeof(GaugeGains) == 40);
+static_assert(sizeof(TableImage) == 16 + 104 + 72 + 8 * kShares + 88 * kFitRows + 16 * kNearRows + 40,
+              "no padding anywhere");
 
 /// Why an image was refused. The numbers go on the bus and into exit statuses: never reuse one.
 enum class TableFault : std::uint8_t {
@@ -250,6 +285,10 @@ constexpr bool usable(ScanSpan span) {
   return isStart(span.first()) && (span.last() == 0 || (isStart(span.last()) && span.last() >= span.first()));
 }
 
+/// Less is in doubt whatever it is (mayBeAlias()); energies have 28 bits, and noise is told by 2^5 variances.
+inline constexpr int kLeastFirmExponent = 13;
+inline constexpr int kMostFirmExponent = 31;
+
 /// Variances have 24 bits; 2^24 is what rounding makes of the largest.
 inline constexpr std::uint32_t kMostNoiseVariance = std::uint32_t{1} << 24;
 
@@ -264,6 +303,11 @@ constexpr bool usableNoise(std::uint32_t variance, int exponent) {
 /// Loads are amplitudes times load_scale shifted right: readings are divided by up to 2^(gate_shift + 2).
 constexpr bool usableLoads(int loadExponent, int gateShift) { return loadExponent < -2 - gateShift; }
 
+template <typename Rows>
+constexpr bool allUsable(const Rows& rows) {
+  return std::all_of(rows.begin(), rows.end(), [](const auto& row) { return usable(row); });
+}
+
 /// What the firmware's loops and shifts rely on, and names that have a meaning.
 constexpr bool usable(const TableParameters& parameters, const TableConstants& constants) {
   return parameters.component <= StrainComponent::kShear && constants.gauge_count >= kMinGauges &&
@@ -273,8 +317,8 @@ constexpr bool usable(const TableParameters& parameters, const TableConstants& c
          usableLoads(constants.load_exponent, constants.gate_shift) && isSign(constants.mirror_sign) &&
          isSign(constants.anchor_sign) && constants.anchor_rule <= AnchorRule::kExhaustive &&
          (constants.scan_step == kMinScanStep || constants.scan_step == kMaxScanStep) &&
-         std::all_of(constants.scan_span.begin(), constants.scan_span.end(),
-                     [](ScanSpan span) { return usable(span); });
+         constants.firm_exponent >= kLeastFirmExponent && constants.firm_exponent <= kMostFirmExponent &&
+         allUsable(constants.scan_span);
 }
 
 /// Products of readings with a column of weights fit their words if its length is 1, but for rounding.
@@ -295,15 +339,44 @@ constexpr bool usable(const FitRow& row) {
          row.triple[0] < kTriples && row.triple[1] < kTriples;
 }
 
+/// The sum of what is divided by the deepest reading fits its word.
+constexpr bool usable(const StartWeights& weights) {
+  return unfoldedEnergy({{0, 0, 0, 0, weights[0], weights[1], weights[2], weights[3]}}) <= kMostWeightEnergy;
+}
+
+/// Three near rows' products with readings, and differences of them, fit their words if they are no longer
+/// than 1/2, but for rounding.
+inline constexpr std::int64_t kMostNearEnergy = (std::int64_t{1} << 28) + (1 << 17);
+
+constexpr bool usable(const NearRow& row) {
+  const auto fits = [](std::int16_t middle, std::int16_t sum, std::int16_t difference) {
+    return unfoldedEnergy({{middle, sum, 0, 0, difference, 0, 0, 0}}) <= kMostNearEnergy;
+  };
+  return fits(row.normal[0], row.normal[1], row.normal[2]) && row.normal[3] == 0 &&
+         fits(row.normal_load[0], 0, row.normal_load[1]) &&
+         fits(row.tangential_load[0], 0, row.tangential_load[1]);
+}
+
+/// Near rows end before their pole.
+inline constexpr int kLeastNearPole_q15 = kNearRows * (1 << 10);
+
+/// Where every window is looked at, no start is told.
+constexpr bool agrees(const TableImage& image) {
+  return image.constants.near_pole_q15 >= kLeastNearPole_q15 &&
+         (image.constants.anchor_rule != AnchorRule::kExhaustive ||
+          std::none_of(image.start.begin(), image.start.end(),
+                       [](const auto& weights) { return weights.tell(); }));
+}
+
 /// Looks at everything that can be wrong with an image of the right size. Cost: one pass over its bytes.
 inline TableFault checkTableImage(const TableImage& image) {
   if (image.magic != kTableMagic) return TableFault::kMagic;
   if (image.format != kTableFormat || image.reserved != 0) return TableFault::kFormat;
   if (image.image_bytes != sizeof(TableImage)) return TableFault::kLength;
   if (image.crc32 != crc32(checkedBytes(image))) return TableFault::kChecksum;
-  const bool works =
-      usable(image.parameters, image.constants) && usable(image.gains, image.constants) &&
-      std::all_of(image.rows.begin(), image.rows.end(), [](const FitRow& row) { return usable(row); });
+  const bool works = usable(image.parameters, image.constants) && usable(image.gains, image.constants) &&
+                     allUsable(image.start) && allUsable(image.rows) && allUsable(image.near) &&
+                     agrees(image);
   return works ? TableFault::kNone : TableFault::kConstants;
 }
 

@@ -28,6 +28,12 @@ inline bool mayBeHidden(const Problem& problem, PitchQ20 offset) {
   return energy < problem.noise && (absolute(offset) < kOnePitch / 16 || 2 * energy < problem.noise);
 }
 
+/// Of contacts a quarter of a pitch or more from a gauge no place but their own explains the readings within
+/// noise.
+inline bool isFirm(const Problem& problem) {
+  return !isBelow(problem, problem.tables.constants.firm_exponent);
+}
+
 /// Another window may hold a better answer: the contact's own leaves but noise and 1/4096, and a contact less
 /// than 1/32 outside its window.
 inline bool doubtful(const Problem& problem, bool admissible, std::int32_t unexplained, std::int32_t window) {

@@ -80,39 +80,63 @@ bool needsEveryWindow(const Problem& problem) {
   return !mayBeHidden(problem, offset);
 }
 
-/// The first answer, and what is next.
+/// Where the first fit starts: at the row that the pairs beside the deepest reading tell.
+[[gnu::always_inline]] inline void startAsTold(const Problem& problem, const Deepest& deepest,
+                                               const StartWeights& weights, Region& region, int& row) {
+  region.anchor = region.centre = deepest.gauge;
+  region.signal = windowSignal(problem.strains, deepest.gauge, problem.up);
+  row = toldRow(weights, region.signal);
+}
+
+/// .. or at the best peak of a scan. Whether it has a rival.
+[[gnu::always_inline]] inline bool startAtPeak(const Problem& problem, const Deepest& deepest, Region& region,
+                                               int& row, Lead& rival) {
+  look(problem, deepest, region);
+  const BestTwo& peaks = region.peaks;
+  row = peaks.first.row;
+  if (!mayWin(problem, peaks)) return false;
+  chooseStart(problem, region.signal, peaks, row, rival);
+  return true;
+}
+
+/// The first answer, and what is next. Of firm contacts whose place is told no scan is made, if a fit from
+/// there explains the readings.
 [[gnu::always_inline]] inline Next firstAnswer(const Problem& problem, Fit& fit) {
   if (needsEveryWindow(problem)) {
     fit.up = static_cast<std::int8_t>(problem.up);
     return {Task::kSearchEverywhere, problem};
   }
+  const Deepest deepest = deepestOf(problem);
+  const StartWeights& weights = startWeights(problem, deepest);
   Region region;
-  look(problem, region);
-  const Signal& signal = region.signal;
-  const BestTwo& peaks = region.peaks;
-  int row = peaks.first.row;
-  Lead rival;
-  bool contested = mayWin(problem, peaks);
-  if (contested) chooseStart(problem, signal, peaks, row, rival);
-  WindowFit window;
-  window.start(signal, region.centre, row, problem.mirrorSign());
-  const bool settled = refine(problem.tables.rows, problem.mirrorSign(), window);
-  const Judgement judgement = judged(problem, window, settled);
-  contested = contested &&
-              staysAsGood(problem, signal,
-                          {judgement.energy, judgement.windowEnergy, window.side * window.offset()}, rival);
-  const bool ends =
-      !contested && staysWhereItIs(problem, window.offset()) &&
-      !doubtful(problem, judgement.admissible(), judgement.unexplained(), judgement.windowEnergy);
-  const PitchQ20 position = roundTheRing(window.position(), problem.gauges());
-  report(problem, window, judgement, position, fit);
-  fit.alternative.position = contested ? rival.offset : position;
-  fit.alternative.normal = judgement.normal;
-  fit.alternative.tangential = window.side * judgement.tangential;
-  fit.ambiguous = contested;
-  fit.deficit = kNoRival;
-  fit.anchor = static_cast<std::uint8_t>(region.anchor);
-  return ends ? Next{} : Next{Task::kSearchOn, problem};
+  for (bool told = isFirm(problem) && weights.tell();; told = false) {
+    int row = 0;
+    Lead rival;
+    bool contested = false;
+    if (told)
+      startAsTold(problem, deepest, weights, region, row);
+    else
+      contested = startAtPeak(problem, deepest, region, row, rival);
+    WindowFit window;
+    window.start(region.signal, region.centre, row, problem.mirrorSign());
+    const bool settled = refine(problem.tables.rows, problem.mirrorSign(), window);
+    const Judgement judgement = judged(problem, window, settled);
+    const ToBeat answer{judgement.energy, judgement.windowEnergy, window.side * window.offset()};
+    contested = contested && staysAsGood(problem, region.signal, answer, rival);
+    const bool doubt =
+        doubtful(problem, judgement.admissible(), judgement.unexplained(), judgement.windowEnergy);
+    if (told && doubt) continue;
+    const PitchQ20 position = roundTheRing(window.position(), problem.gauges());
+    report(problem, window, judgement, position, fit);
+    fit.alternative.position = contested ? rival.offset : position;
+    fit.alternative.normal = judgement.normal;
+    fit.alternative.tangential = window.side * judgement.tangential;
+    fit.ambiguous = contested;
+    fit.deficit = kNoRival;
+    fit.anchor = static_cast<std::uint8_t>(region.anchor);
+    const bool ends = !contested && !doubt && staysWhereItIs(problem, window.offset());
+    return ends ? Next{} : Next{Task::kSearchOn, problem};
+  }
 }
 
 }  // namespace

@@ -121,7 +121,8 @@ Start midwayStart(const Problem& problem, int centre) {
 
 void lookAtBend(const Problem& problem, int first, Region& region) {
   region.anchor = region.centre = bendAnchor(problem);
-  scanWindow(problem, first, kScanReach, region);
+  region.signal = windowSignal(problem.strains, region.centre, problem.up);
+  region.peaks = bestTwo(scannedSides(problem.tables.rows, region.signal, first, kScanReach));
   const Peak& best = region.peaks.first;
   const auto also = [&](int away) { lookAlso(problem, region.anchor + away, region); };
   if (best.energy < problem.ringEnergy - (problem.ringEnergy >> kLeftShift) - problem.noise) {

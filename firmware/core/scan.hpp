@@ -7,6 +7,7 @@
 
 #include "firmware/core/problem.hpp"
 #include "firmware/core/side_energies.hpp"
+#include "firmware/core/told_start.hpp"
 
 namespace strainfinger::firmware {
 
@@ -88,11 +89,6 @@ struct Region {
   BestTwo peaks;
   int anchor;  ///< where the strains said that the middle should be
 };
-[[gnu::always_inline]] inline void scanWindow(const Problem& problem, int first, int last, Region& region) {
-  region.signal = windowSignal(problem.strains, region.centre, problem.up);
-  region.peaks = bestTwo(scannedSides(problem.tables.rows, region.signal, first, last));
-}
-
 /// The gauge with the largest reading of a pressing load's sign, the first of equals.
 int deepestGauge(const std::int32_t* strains_q32, int gauges, int sign);
 
@@ -120,15 +116,36 @@ inline std::size_t shareOf(const Problem& problem, int gauge) {
 #endif
 }
 
+/// The deepest reading: whose it is, and its share of the ring's energy in sixteenths.
+struct Deepest {
+  int gauge;
+  std::size_t share;
+};
+inline Deepest deepestOf(const Problem& problem) {
+  const int gauge =
+      deepestGauge(problem.strains.data(), problem.gauges(), problem.tables.constants.anchor_sign);
+  return {gauge, shareOf(problem, gauge)};
+}
+
 /// Finds a start: most contacts are looked for around the deepest reading and nowhere else, at two or three
 /// of the five offsets of a scan (see ScanSpan).
-inline void look(const Problem& problem, Region& region) {
-  const TableConstants& constants = problem.tables.constants;
-  region.anchor = region.centre =
-      deepestGauge(problem.strains.data(), problem.gauges(), constants.anchor_sign);
-  const ScanSpan span = constants.scan_span[shareOf(problem, region.centre)];
+inline void look(const Problem& problem, const Deepest& deepest, Region& region) {
+  region.anchor = region.centre = deepest.gauge;
+  const ScanSpan span = problem.tables.constants.scan_span[deepest.share];
   if (span.last() == 0) return lookAtBend(problem, span.first(), region);
-  scanWindow(problem, span.first(), span.last(), region);
+  region.signal = windowSignal(problem.strains, region.centre, problem.up);
+  region.peaks = bestTwo(scannedSides(problem.tables.rows, region.signal, span.first(), span.last()));
+}
+
+inline const StartWeights& startWeights(const Problem& problem, const Deepest& deepest) {
+  return unknown(problem.tables.start.data())[deepest.share];
+}
+
+/// The row that the pairs beside a window's middle gauge tell, negative on the - side.
+inline int toldRow(const StartWeights& weights, const Signal& signal) {
+  const Number offset = toldOffset(weights, signal);
+  const int row = nearestRow(absolute(offset) * (1 << (kPitchBits - kStartWeightBits)));
+  return offset < 0 ? -row : row;
 }
 
 }  // namespace strainfinger::firmware

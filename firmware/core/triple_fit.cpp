@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "firmware/core/locate.hpp"
-#include "firmware/core/near_triple.hpp"
+#include "firmware/core/near_fit.hpp"
 #include "firmware/core/scan.hpp"
 
 namespace strainfinger::firmware {
@@ -32,7 +32,8 @@ WindowFit windowFitOf(const TableImage& tables, const std::int32_t* strains_q32,
   const TableConstants& constants = tables.constants;
   const PitchQ20 offset = fit.offset(constants.gauge_count);
   const int row = static_cast<int>(fit.row - tables.rows.data());
-  const Signal signal = windowSignal({strains_q32, constants.gauge_count}, fit.centre, fit.up);
+  const Problem problem{tables, {strains_q32, constants.gauge_count}, fit.up, fit.windowEnergy, 1};
+  const Signal signal = signalAround(problem, fit.centre);
   window.centre = fit.centre;
   window.side = offset < 0 ? -1 : 1;
   window.row = row;
@@ -62,58 +63,6 @@ WindowFit windowFitOf(const TableImage& tables, const std::int32_t* strains_q32,
   fit.triple = *triple;
 }
 
-/// Middle reading and the two beside it, as a fit's side sees them.
-NearSignal nearSignalOf(const TableConstants& constants, const std::int32_t* strains_q32, const Fit& fit,
-                        int side) {
-  const int gauges = constants.gauge_count;
-  return seenFrom(nearSignal(strains_q32[wrapped(fit.centre - 1, gauges)], strains_q32[fit.centre],
-                             strains_q32[wrapped(fit.centre + 1, gauges)], fit.up),
-                  side, constants.mirror_sign);
-}
-
-/// From the middle between two rows: as far as a straight line between their distances holds.
-constexpr PitchQ20 kBetweenRows = kRowSpacing * 3 / 4;
-
-/// Leaves the answer to the three nearest readings, between the two rows around it. False: they tell it with
-/// more than sqrt(2) times the error of all seven, or lead away.
-[[gnu::noinline]] bool leaveToNear(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32) {
-  constexpr int kBits = kRowBits + kRowStrideBits, kLast = ((kFitRows - 1) >> kRowStrideBits) - 1;
-  const TableConstants& constants = tables.constants;
-  const PitchQ20 offset = fit.offset(constants.gauge_count);
-  const int side = offset < 0 ? -1 : 1;
-  const NearSignal signal = nearSignalOf(constants, strains_q32, fit, side);
-  const FitRow* const rows = unknown(tables.rows.data());
-  int pair = std::min<int>(absolute(offset) >> kBits, kLast);
-  for (bool again = false;; again = true) {
-    const FitRow& row = *unknown(rows + (pair << kRowStrideBits));
-    const FitRow& next = *(&row + (1 << kRowStrideBits));
-    const NearColumns columns = nearColumns(row), nextColumns = nearColumns(next);
-    const NearNormal normal = nearNormal(row, columns), nextNormal = nearNormal(next, nextColumns);
-    const std::int32_t distance = distanceFrom(normal, signal);
-    const std::int32_t closer = distance - distanceFrom(nextNormal, signal);
-    const std::int32_t beyond = secantLength(distance, closer);
-    if (absolute(beyond - kRowSpacing / 2) > kBetweenRows) {
-      pair += beyond >> kRowBits;
-      if (again || pair < 0 || pair > kLast) return false;
-      continue;
-    }
-    if (closerSquared(*fit.row, closer) < leastCloser(normal, fit.information)) return false;
-    const NearQuotients quotients = between(nearQuotients(columns, normal.sum, signal),
-                                            nearQuotients(nextColumns, nextNormal.sum, signal), beyond);
-    if (absolute(quotients.divisor) < kLeastDivisor) return false;
-    fit.projection = nearProjections(quotients);
-    fit.row = beyond > kRowSpacing / 2 ? &next : &row;
-    const Amplitudes amplitudes = nearAmplitudes(row, next, fit.projection, beyond);
-    const PitchQ20 found = (pair << kBits) + (beyond << kRowStrideBits);
-    replaceBest(fit, {roundTheRing(fit.centre * kOnePitch + side * found, constants.gauge_count),
-                      amplitudes.normal, side * amplitudes.tangential});
-    break;
-  }
-  fit.readings = FitMode::kThreePoint;
-  fit.triple = kNearTriple;
-  return true;
-}
-
 }  // namespace
 
 TripleSystem systemOf(const FitRow& row, std::uint8_t triple, const Projections& projection) {
@@ -137,8 +86,9 @@ std::optional<std::uint8_t> solveTriple(const FitTable& rows, int mirrorSign, Wi
 
 void locateByThree(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32,
                    std::uint32_t energy) {
+  if (locateByNearest(fit, tables, strains_q32, energy)) return;
   locateBySeven(fit, tables, strains_q32, energy);
-  if (fit.settled && !leaveToNear(fit, tables, strains_q32)) leaveToThree(fit, tables, strains_q32);
+  if (fit.settled) leaveToThree(fit, tables, strains_q32);
 }
 
 }  // namespace strainfinger::firmware

@@ -131,10 +131,21 @@ class Trials {
 
 SelfCheck selfCheck(const TableImage& image) { return Trials(image).run(); }
 
+namespace {
+
+/// Contacts that are not firm are scanned for: firm ones are here, too.
+bool scanMisplaces(TableImage image) {
+  image.start = {};
+  return selfCheck(image).misplaced.has_value();
+}
+
+}  // namespace
+
 CheckedTables buildCheckedTables(const config::FingerConfig& config) {
   CheckedTables tables{buildTableImage(config), {}};
   tables.check = selfCheck(tables.image);
-  if (tables.check.misplaced && tables.image.constants.anchor_rule != AnchorRule::kExhaustive) {
+  if (tables.image.constants.anchor_rule != AnchorRule::kExhaustive &&
+      (tables.check.misplaced || scanMisplaces(tables.image))) {
     searchEverywhere(tables.image);
     tables.check = selfCheck(tables.image);
   }

@@ -44,8 +44,9 @@ struct CheckedTables {
   SelfCheck check;
 };
 
-/// buildTableImage(), checked. Where the quick way to find the nearest gauge misplaces a contact, the image
-/// has the firmware look at every window; where that doesn't help either, throws as requireLocatable() does.
+/// buildTableImage(), checked. Where a quick way to find the nearest gauge, a start that is told or a scan,
+/// misplaces a contact, the image has the firmware look at every window; where that doesn't help either,
+/// throws as requireLocatable() does.
 CheckedTables buildCheckedTables(const config::FingerConfig& config);
 
 }  // namespace strainfinger::tables

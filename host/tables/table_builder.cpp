@@ -8,9 +8,12 @@
 #include "common/fixed_real.hpp"
 #include "host/base/failure.hpp"
 #include "host/model/impulse_response.hpp"
+#include "host/tables/elsewhere.hpp"
 #include "host/tables/fit_table.hpp"
 #include "host/tables/gauge_gains.hpp"
+#include "host/tables/near_table.hpp"
 #include "host/tables/scan_spans.hpp"
+#include "host/tables/start_weights.hpp"
 #include "host/tables/tail_energy.hpp"
 
 namespace strainfinger::tables {
@@ -126,6 +129,14 @@ TableConstants tableConstants(const config::FingerConfig& config, bool peakIsNeg
   return constants;
 }
 
+/// No start is told where however firm a contact another place explains it.
+void fillStart(TableImage& image, double leastElsewhere, const std::array<StartWeights, kShares>& weights) {
+  const int exponent = firmExponent(leastElsewhere);
+  image.constants.firm_exponent =
+      static_cast<std::uint8_t>(std::clamp(exponent, kLeastFirmExponent, kMostFirmExponent));
+  if (exponent <= kMostFirmExponent) image.start = weights;
+}
+
 /// Readings and loads must fit the firmware's integers.
 void requireFormats(const config::Gauges& gauges, double peak) {
   const double step = powerOfTwo(-StrainQ32::kFracBits);
@@ -174,7 +185,8 @@ TableImage buildTableImage(const config::FingerConfig& config) {
   const WindowResponses responses = windowResponses(response, config.gauges.count);
   const double peak = peakPerLoad(responses);
   requireFormats(config.gauges, peak);
-  const WindowFits fits = windowFits(responses, peak, frictionCone(config.contact));
+  const double cone = frictionCone(config.contact);
+  const WindowFits fits = windowFits(responses, peak, cone);
   TableImage image{};
   image.magic = kTableMagic;
   image.format = kTableFormat;
@@ -183,10 +195,14 @@ TableImage buildTableImage(const config::FingerConfig& config) {
   image.constants = tableConstants(config, response.at(0).normal < 0);
   const int exponent = amplitudeExponent(fits);
   fillLoads(image.constants, peak, exponent);
-  image.constants.tail_q16 =
-      tail_q16(tailEnergy(response, config.gauges.count, frictionCone(config.contact)));
-  image.constants.scan_span = scanSpans(response, config.gauges.count, frictionCone(config.contact));
+  image.constants.tail_q16 = tail_q16(tailEnergy(response, config.gauges.count, cone));
+  image.constants.scan_span = scanSpans(response, config.gauges.count, cone);
+  fillStart(image, leastElsewhere(response, config.gauges.count, cone),
+            startWeights(response, config.gauges.count, cone));
   image.rows = fitTable(fits, exponent);
+  const double pole_pitch = nearPole(response, config.gauges.count);
+  image.constants.near_pole_q15 = saturate<std::uint16_t>(std::llround(std::ldexp(pole_pitch, 15)));
+  image.near = nearTable(responses, peak, exponent, pole_pitch);
   image.gains = gaugeGains(config);
   image.crc32 = crc32(checkedBytes(image));
   if (!hasOnePeak(config.gauges)) searchEverywhere(image);
@@ -196,6 +212,7 @@ TableImage buildTableImage(const config::FingerConfig& config) {
 void searchEverywhere(TableImage& image) {
   image.constants.anchor_rule = AnchorRule::kExhaustive;
   image.constants.scan_step = kMinScanStep;
+  image.start = {};
   image.crc32 = crc32(checkedBytes(image));
 }
 

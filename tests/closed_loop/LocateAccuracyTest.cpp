@@ -247,6 +247,14 @@ TEST(LocateAccuracy, AWrongPlaceIsNeverCertain) {
   }
 }
 
+TEST(LocateAccuracy, AWrongPlaceIsNeverCertainByThreeReadings) {
+  for (const double load : {2.0, 3.0, 5.0, 8.0}) {
+    const Statistics result = Trial(defaultNoiseAt(load), load).run(FitMode::kThreePoint, 111, 40'000);
+    LONGS_EQUAL(0, result.untold);
+    LONGS_EQUAL(0, result.unseen);
+  }
+}
+
 // There noise may make up a contact that lies two or three gauges away.
 TEST(LocateAccuracy, AWrongPlaceIsNeverCertainTowardsTheMiddleBetweenGauges) {
   for (const double load : {2.0, 3.0, 5.0, 8.0}) {

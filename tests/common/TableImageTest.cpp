@@ -21,6 +21,8 @@ TEST_GROUP(TableImage) {
     image_->constants.mirror_sign = image_->constants.anchor_sign = 1;
     image_->constants.scan_step = kMaxScanStep;
     image_->constants.load_exponent = -50;
+    image_->constants.firm_exponent = 16;
+    image_->constants.near_pole_q15 = 15'000;
     image_->constants.scan_span.fill(ScanSpan::of(kFirstScanRow, kLastScanRow));
     sign();
   }
@@ -101,8 +103,10 @@ TEST(TableImage, ConstantsThatLoopsAndShiftsRelyOnStayInTheirDomain) {
   checkDomain(constants.scan_step, {4, 8}, {0, 3, 5, 9, 255});
   checkDomain(constants.scan_span[15].packed, {0x01, 0x09, 0x11, 0x73, 0x91},
               {0x00, 0x02, 0x10, 0x21, 0x37, 0xB1, 0xFF});
-  checkDomain(image_->rows[43].gradient_exponent, {-3, 12}, {-4, 13, -128, 127});
-  checkDomain(image_->rows[43].triple[1], {0, 34}, {35, 255});
+  checkDomain(constants.firm_exponent, {13, 31}, {0, 12, 32, 255});
+  checkDomain(constants.near_pole_q15, {13312, 65535}, {0, 13311});
+  checkDomain(image_->rows[39].gradient_exponent, {-3, 12}, {-4, 13, -128, 127});
+  checkDomain(image_->rows[39].triple[1], {0, 34}, {35, 255});
   checkDomain(image_->parameters.component, {0, 1, 2}, {3, 255});
 }
 
@@ -146,4 +150,28 @@ TEST(TableImage, WeightsLongerThanOneAreRefused) {
   checkDomain(image_->rows[7].gradient[1][6], {0, 300, -300}, {500, -500});
   image_->rows[7].gradient[1] = {};
   checkDomain(image_->rows[9].basis[0][2], {23170, -23170}, {23180, 32767, -32768});
+}
+
+TEST(TableImage, StartWeightsWhoseSumWouldNotFitAreRefused) {
+  checkDomain(image_->start[15][0], {23170, -23170}, {23180, 32767, -32768});
+  image_->start[3] = {{16384, 16384}};
+  checkDomain(image_->start[3][3], {0, 300, -300}, {500, -500});
+}
+
+TEST(TableImage, NearRowsWhoseDifferencesWouldNotFitAreRefused) {
+  NearRow& row = image_->near[12];
+  checkDomain(row.normal[0], {16384, -16384, 0}, {16390, 32767, -32768});
+  checkDomain(row.normal[2], {11585, -11585, 0}, {11600, -32768});
+  checkDomain(row.normal[3], {0}, {1, -1});
+  checkDomain(row.normal_load[0], {16384, -16384, 0}, {16390, -32768});
+  checkDomain(row.normal_load[1], {11585, 0}, {11600, 32767});
+  checkDomain(row.tangential_load[1], {-11585, 0}, {-11600, -32768});
+  checkDomain(row.tangential_load[0], {16384}, {16390});
+}
+
+TEST(TableImage, WhereEveryWindowIsLookedAtNoStartIsTold) {
+  image_->constants.anchor_rule = AnchorRule::kExhaustive;
+  checkDomain(image_->start[7][0], {0}, {1, -1});
+  image_->constants.anchor_rule = AnchorRule::kSecondDifference;
+  checkDomain(image_->start[7][0], {1, -1}, {});
 }

@@ -19,7 +19,8 @@ TWELVE = "[gauges]\ncount = 12\n"
 CRC_AT = 12
 # One bit each: header, parameters, constants, first and last rows (common/TABLES.md).
 FLIPS = {"magic": 0, "format": 4, "reserved": 6, "image_bytes": 9, "crc32": CRC_AT + 3, "core_radius_m": 16,
-         "gauge_count": 164, "scan_span": 175, "basis of the first row": 184, "a row in the middle": 2000, "the end": 4055}
+         "gauge_count": 164, "scan_span": 175, "start": 200, "basis of the first row": 320, "a row in the middle": 2000,
+         "a near row": 3900, "the end": 4087}
 ANOTHER_FORMAT, NOT_WHOLE = 5, 6  # exit statuses of `tables verify`
 RUN, FAULT = 2, 3  # FingerState
 TABLES_FAULT = 1  # bit of FingerFault

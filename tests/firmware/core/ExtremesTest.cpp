@@ -58,6 +58,24 @@ TEST_GROUP(Extremes) {
     row.gradient_exponent = static_cast<std::int8_t>(upTo(kLeastGradientExponent, kMostGradientExponent));
     for (std::uint8_t& each : row.triple) each = static_cast<std::uint8_t>(upTo(0, kTriples - 1));
   }
+  void fillStart(StartWeights & weights) {
+    FoldedWeights column{};
+    fillColumn(column);
+    std::copy(column.begin() + 4, column.end(), weights.begin());
+  }
+  /// Half as long as a column may be.
+  void fillNear(NearRow & row) {
+    const auto half = [&] {
+      FoldedWeights column{};
+      fillColumn(column);
+      for (std::int16_t& each : column) each = static_cast<std::int16_t>(each / 2);
+      return column;
+    };
+    const FoldedWeights normal = half(), pressing = half(), pulling = half();
+    row.normal = {normal[0], normal[1], normal[4], 0};
+    row.normal_load = {pressing[0], pressing[4]};
+    row.tangential_load = {pulling[0], pulling[4]};
+  }
   void fillConstants(TableConstants & constants) {
     fillAny(constants.pitch_turn_q35);
     fillAny(constants.first_angle_q32);
@@ -78,6 +96,8 @@ TEST_GROUP(Extremes) {
     constants.anchor_sign = static_cast<std::int8_t>(2 * upTo(0, 1) - 1);
     constants.gauge_count = static_cast<std::uint8_t>(2 * upTo(kMinGauges / 2, kMaxGauges / 2));
     constants.anchor_rule = static_cast<AnchorRule>(upTo(0, 1));
+    constants.near_pole_q15 = static_cast<std::uint16_t>(upTo(kLeastNearPole_q15, 0xFFFF));
+    constants.firm_exponent = static_cast<std::uint8_t>(upTo(kLeastFirmExponent, kMostFirmExponent));
     constants.scan_step = static_cast<std::uint8_t>(upTo(0, 1) == 0 ? kMinScanStep : kMaxScanStep);
     for (ScanSpan& span : constants.scan_span)
       span = upTo(0, 2) == 0 ? ScanSpan::of(kFirstScanRow, 0) : ScanSpan::of(4 + 8 * upTo(0, 1), 36);
@@ -88,7 +108,10 @@ TEST_GROUP(Extremes) {
     image_->format = kTableFormat;
     image_->image_bytes = sizeof(TableImage);
     fillConstants(image_->constants);
+    if (image_->constants.anchor_rule != AnchorRule::kExhaustive)
+      for (StartWeights& weights : image_->start) fillStart(weights);
     for (FitRow& row : image_->rows) fillRow(row);
+    for (NearRow& row : image_->near) fillNear(row);
     image_->gains.exponent = static_cast<std::uint8_t>(upTo(kLeastGainExponent, kMostGainExponent));
     for (std::int8_t& each : image_->gains.correction) each = static_cast<std::int8_t>(upTo(-64, 0));
     image_->crc32 = crc32(checkedBytes(*image_));

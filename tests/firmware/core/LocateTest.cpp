@@ -2,6 +2,7 @@
 
 #include "common/fixed_real.hpp"
 #include "firmware/core/detect.hpp"
+#include "firmware/core/doubt.hpp"
 #include "firmware/core/estimate.hpp"
 #include "tests/firmware/core/global_search.hpp"
 
@@ -67,6 +68,15 @@ static std::vector<std::int32_t> noisy(const ModelRing& ring, Presses& presses, 
   return ring.raw(strains);
 }
 
+static bool isTold(const ModelRing& ring, const std::vector<std::int32_t>& strains, std::uint32_t energy) {
+  const Problem problem = problemOf(ring.tables(), strains, energy);
+  return isFirm(problem) && startWeights(problem, deepestOf(problem)).tell();
+}
+/// Its errors reach another place, and not just the other end of its own.
+static bool coversAnother(const ModelRing& ring, const Fit& fit) {
+  const double apart = std::ldexp(fit.alternative.position - fit.best.position, -kPitchBits);
+  return fit.deficit != kNoRival && std::abs(ring.between(0, apart)) > 1.0 / 12;
+}
 static bool onNearest(const Fit& fit) {
   return fit.readings == FitMode::kThreePoint && fit.triple == kNearTriple;
 }
@@ -229,9 +239,9 @@ TEST(Locate, MirroredStrainsGiveTheMirroredAnswer) {
       if (apart_um > 0) ++inexact;
       CHECK(apart_um <= kMirrored_um);
     }
-    // Differences of two readings that end in a half are rounded up, mirrored or not; shear's mirror negates
-    // sums, too.
-    CHECK(shear || inexact <= 5);
+    // Differences of two readings that end in a half are rounded up, mirrored or not, and may start a fit
+    // from another row; shear's mirror negates sums, too.
+    CHECK(shear || inexact <= 10);
   });
 }
 
@@ -245,16 +255,17 @@ TEST(Locate, TheAngleDoesNotDependOnTheScale) {
     for (int doubling = 1; doubling <= 4; ++doubling) {
       for (std::int32_t& strain : strains) strain *= 2;
       const Fit scaled = locate(ring.tables(), FitMode::kRefined, strains, energy << (2 * doubling));
-      // Weak contacts are looked at from more windows, whose rows round differently.
+      // Firm contacts start from the row that is told, others from a scan's: the last row may be another,
+      // which rounds differently.
       const double moved = std::ldexp(scaled.best.position - fit.best.position, -kPitchBits);
-      DOUBLES_EQUAL(0, ring.arc_um(moved), 1);
+      DOUBLES_EQUAL(0, ring.arc_um(moved), 3);
       LONGS_EQUAL(fit.up - doubling, scaled.up);
     }
   }
 }
 
-// What noise does to the others moves such an answer by less than a tenth of what it does to the three: only
-// where the two rows that it is solved between change.
+// What noise does to the others moves such an answer by a fraction of what it does to the three: only where
+// another start leads to other rows that it is solved between.
 TEST(Locate, ThreePointRestsOnTheNearestReadingsWhereTheseTellEnough) {
   const ModelRing ring;
   Presses presses(16, kLoad, 18);
@@ -266,10 +277,56 @@ TEST(Locate, ThreePointRestsOnTheNearestReadingsWhereTheseTellEnough) {
     if (!onNearest(fit) || !onNearest(other)) continue;
     ++tried;
     const double moved = std::ldexp(other.best.position - fit.best.position, -kPitchBits);
-    DOUBLES_EQUAL(0, ring.arc_um(ring.between(0, moved)), 1);
-    DOUBLES_EQUAL(1, static_cast<double>(other.best.normal) / fit.best.normal, 1e-3);
+    DOUBLES_EQUAL(0, ring.arc_um(ring.between(0, moved)), 2);
+    DOUBLES_EQUAL(1, static_cast<double>(other.best.normal) / fit.best.normal, 2e-3);
   }
-  CHECK(tried > 180);
+  CHECK(tried > 150);
+}
+
+// Between rows of the tables, where noise is a small part of the errors: rounding of the tables adds a
+// two-thousandth of the load, straight lines between near rows a two-hundredth and less of the tangential
+// one.
+TEST(Locate, LoadsOfHeavyTouchesAreRightWhereverTheyAre) {
+  const ModelRing ring;
+  for (const FitMode mode : {FitMode::kRefined, FitMode::kThreePoint})
+    for (int step = -128; step <= 128; ++step)
+      for (const double direction : {-0.9, -0.5, -0.2, 0.0, 0.4, 0.8}) {
+        const Press press{8 + step / 256.0, 60, 60 * direction};
+        const Contact contact = contactOf(ring, mode, ring.raw(press));
+        const double rounding = 60.0 / 2000;
+        DOUBLES_EQUAL(press.normal, toReal(contact.normal), rounding + 3 * toReal(contact.sigmaNormal));
+        DOUBLES_EQUAL(press.tangential, toReal(contact.tangential),
+                      rounding + 4 * toReal(contact.sigmaTangential));
+      }
+}
+
+// The pairs beside the deepest reading tell where to start: no scan is made, and no rival looked for. Neither
+// would have said anything else.
+TEST(Locate, AToldStartLeadsWhereAScanDoes) {
+  for (const int gauges : {16, 20, 24, 32}) {
+    config::FingerConfig config = ModelRing::configOf(gauges);
+    config.gauges.noise_strain = 0.0005 * kLoad * ModelRing(config).peakPerLoad();
+    const ModelRing ring(config);
+    TableImage untold = ring.tables();
+    untold.start = {};
+    Presses presses(gauges, kLoad, 20);
+    int told = 0;
+    for (int i = 0; i < 5000; ++i) {
+      const auto strains = noisy(ring, presses, ring.noise_strain());
+      const std::uint32_t energy = gateEnergy(ring.constants(), strains);
+      told += isTold(ring, strains, energy) ? 1 : 0;
+      const Fit fit = fitOf(ring, FitMode::kRefined, strains);
+      const Fit scanned = locate(untold, FitMode::kRefined, strains, energy);
+      const double apart = std::ldexp(fit.best.position - scanned.best.position, -kPitchBits);
+      // Other rows round differently, most of all where the readings hardly tell the place.
+      const double sigma_pitch = toReal(estimate(ring.constants(), scanned).sigmaAngle) * gauges;
+      DOUBLES_EQUAL(0, ring.arc_um(ring.between(0, apart)), 10 + ring.arc_um(sigma_pitch) / 4);
+      CHECK(fit.ambiguous == scanned.ambiguous);
+      CHECK(coversAnother(ring, fit) == coversAnother(ring, scanned));
+    }
+    std::printf("%d gauges: %.1f %% told ", gauges, told / 50.0);
+    CHECK(told > (gauges == 16 ? 4000 : 0));
+  }
 }
 
 TEST(Locate, TheSameStrainsGiveTheSameAnswer) {

@@ -11,6 +11,7 @@
 #include "firmware/core/fit_step.hpp"
 #include "firmware/core/near_triple.hpp"
 #include "firmware/core/side_energies.hpp"
+#include "firmware/core/told_start.hpp"
 #include "firmware/core/triple_step.hpp"
 #include "firmware/core/units.hpp"
 #include "tests/firmware/ranges/ranges_group.hpp"
@@ -39,21 +40,33 @@ TEST_GROUP_BASE(Ranges, RangesGroup) {
       tripleSystem(provedRow, gauges, step.projection);
     }
   }
-  /// The three nearest readings, solved between any two rows, for any information that all seven may have.
-  static void solveNearest(const NearSignal& signal) {
-    const NearColumns columns = nearColumns(provedRow);
-    const NearNormal normal = nearNormal(provedRow, columns);
-    const Number closer = distanceFrom(normal, signal) - distanceFrom(normal, signal);
-    const Number beyond = secantLength(distanceFrom(normal, signal), closer);
-    closerSquared(provedRow, closer);
-    leastCloser(normal, fitStep(provedRow, anySignal()).information);
-    const NearQuotients quotients = nearQuotients(columns, normal.sum, signal);
-    nearAmplitudes(provedRow, provedRow, nearProjections(between(quotients, quotients, beyond)), beyond);
+  /// The three nearest readings, solved between any near rows, and judged by all seven beside any row.
+  static void solveNearest(const Signal& signal) {
+    const AtRows away{distanceFrom(provedNear[0], signal), distanceFrom(provedNear[1], signal),
+                      distanceFrom(provedNear[2], signal)};
+    const Number fall = away.first - away.second, one = 1 << kBetweenBits;
+    mulHigh(fall, fall);
+    overFall(away.first, fall);
+    const Number straight(-one.most() / 4, 5 * one.most() / 4);
+    const Number length = curved(away, straight);
+    CHECK(length.least() >= -one.most() / 2 && length.most() < 3 * one.most() / 2);
+    const Pair readings = lows(signal.even[0], signal.odd[0]);
+    constexpr int kPastLast_q15 = ((kNearRows - 3) * 2 + 3) << 9;  // 3/2 rows behind the last that is tried
+    static_assert(kPastLast_q15 < kLeastNearPole_q15);
+    const Number factor = poleFactor({-(1 << 9), kPastLast_q15}, {kLeastNearPole_q15, 0xFFFF});
+    for (const NearLoad load : {&NearRow::normal_load, &NearRow::tangential_load})
+      nearAmplitude(provedNear.data(), load, readings, length, factor);
+    const Projections u = projectionsOn(provedRow, signal);
+    const Number information =
+        informationOf(weightedBy(provedRow, u), lowOnly(tabled(provedRow.gradient_cosine)));
+    energyBeside(provedRow, u, information, {-3 * kRowSpacing / 4, kRowSpacing / 2});
   }
-  /// Any readings of them, as long as they may be together.
-  static NearSignal anyNearSignal(double length) {
-    const Number any(-32767, 32767, 16);
-    return {{any, any, length, 1}, {any, any, length, 4}};
+  /// .. as if they could be so many times as long.
+  static Signal longer(double times) {
+    Signal signal = anySignal();
+    for (Pair* pair : {&signal.even[0], &signal.even[1], &signal.odd[0], &signal.odd[1]})
+      pair->length = times * kSignalLength;
+    return signal;
   }
   /// Of any deviations and covariances of so many bits.
   static void variance(int deviationBits, int covarianceBits) {
@@ -82,7 +95,6 @@ TEST_GROUP_BASE(Ranges, RangesGroup) {
     const Number half = any(alone / std::sqrt(2.0));
     const std::array<Number, kWindowGauges> window{half, half, half, any(alone), half, half, half};
     foldedSignal(window.data(), up, foldedOuter(half, half, up));
-    nearSignal(half, any(alone), half, up);
   }
   /// Calls visit for a row of each scale that tables may have.
   template <typename Visit>
@@ -113,10 +125,17 @@ TEST(Ranges, AStepOfThreeReadingsAndItsAmplitudesOverflowNothing) {
   checkNone();
 }
 
-TEST(Ranges, TheThreeNearestReadingsBetweenTwoRowsOverflowNothing) {
-  forEachScale([&] { solveNearest(anyNearSignal(kSignalLength)); });
+TEST(Ranges, TheThreeNearestReadingsBetweenNearRowsOverflowNothing) {
+  forEachScale([&] { solveNearest(anySignal()); });
   checkNone();
-  solveNearest(anyNearSignal(4 * kSignalLength));
+  solveNearest(longer(2));
+  CHECK(overflows > 0);
+}
+
+TEST(Ranges, AToldStartOverflowsNothing) {
+  CHECK(toldOffset(provedStart, anySignal()).size() <= 1 << kStartWeightBits);
+  checkNone();
+  toldOffset(provedStart, longer(4));
   CHECK(overflows > 0);
 }
 
@@ -143,9 +162,7 @@ TEST(Ranges, TheVarianceWithGaugesLeftOutOverflowsNothing) {
 }
 
 TEST(Ranges, ALongerSignalWouldBeFoundInThreeReadings) {
-  Signal signal = anySignal();
-  for (Pair* pair : {&signal.even[0], &signal.even[1], &signal.odd[0], &signal.odd[1]})
-    pair->length = 1.3 * kSignalLength;
+  const Signal signal = longer(1.3);
   fitStep(provedRow, signal);
   checkNone();  // all seven have room for that
   threeSteps(signal);
@@ -187,10 +204,7 @@ TEST(Ranges, FoldingOverflowsNothing) {
 }
 
 TEST(Ranges, ASignalTwiceAsLongWouldBeFound) {
-  Signal signal = anySignal();
-  for (Pair* pair : {&signal.even[0], &signal.even[1], &signal.odd[0], &signal.odd[1]})
-    pair->length = 4 * kSignalLength;
-  fitStep(provedRow, signal);
+  fitStep(provedRow, longer(4));
   CHECK(overflows > 0);
 }
 

@@ -109,10 +109,14 @@ TEST(SelfCheck, ShallowShearGaugesAreToldOfRadialOnes) {
 
 TEST(SelfCheck, WhereTheQuickSearchMisplacesEveryWindowIsLookedAt) {
   config_.gauges.radius_m = 10e-3;
-  CHECK(check().misplaced.has_value());
+  TableImage image = buildTableImage(config_);
+  CHECK_FALSE(selfCheck(image).misplaced.has_value());
+  image.start = {};
+  CHECK(selfCheck(image).misplaced.has_value());
   const CheckedTables checked = buildCheckedTables(config_);
   CHECK(checked.image.constants.anchor_rule == AnchorRule::kExhaustive);
   CHECK_FALSE(checked.check.misplaced.has_value());
+  for (const StartWeights& weights : checked.image.start) CHECK_FALSE(weights.tell());
   LONGS_EQUAL(static_cast<int>(TableFault::kNone), static_cast<int>(checkTableImage(checked.image)));
 }
 

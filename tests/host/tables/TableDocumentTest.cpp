@@ -39,6 +39,8 @@ struct TypeName<std::array<Number, Count>> {
 };
 template <std::size_t Count>
 struct TypeName<std::array<FoldedWeights, Count>> : TypeName<std::array<std::int16_t, 8 * Count>> {};
+template <std::size_t Count>
+struct TypeName<std::array<StartWeights, Count>> : TypeName<std::array<std::int16_t, 4 * Count>> {};
 template <typename Number, std::size_t Inner, std::size_t Count>
 struct TypeName<std::array<std::array<Number, Inner>, Count>> : TypeName<std::array<Number, Inner * Count>> {
 };
@@ -115,6 +117,15 @@ Rows constantRows(const TableConstants& c) {
   rows.add("anchor_rule", c.anchor_rule);
   rows.add("scan_step", c.scan_step);
   rows.add("scan_span", c.scan_span);
+  rows.add("near_pole_q15", c.near_pole_q15);
+  rows.add("firm_exponent", c.firm_exponent);
+  rows.add("reserved", c.reserved);
+  return rows;
+}
+
+Rows startRows(const TableImage& image) {
+  Rows rows(offsetof(TableImage, start));
+  rows.add("start", image.start);
   return rows;
 }
 
@@ -129,6 +140,14 @@ Rows fitRows(const FitRow& row) {
   rows.add("load", row.load);
   rows.add("triple", row.triple);
   rows.add("load_slope", row.load_slope);
+  return rows;
+}
+
+Rows nearRows(const NearRow& row) {
+  Rows rows(0);
+  rows.add("normal", row.normal);
+  rows.add("normal_load", row.normal_load);
+  rows.add("tangential_load", row.tangential_load);
   return rows;
 }
 
@@ -183,15 +202,19 @@ TEST(TableDocument, HasEveryFieldAtItsOffset) {
   checkTable("## Header", headerRows(image_));
   checkTable("## Parameters", parameterRows(image_.parameters));
   checkTable("## Constants", constantRows(image_.constants));
+  checkTable("## Start", startRows(image_));
   checkTable("## Rows", fitRows(image_.rows[0]));
+  checkTable("## Near rows", nearRows(image_.near[0]));
   checkTable("## Gains", gainRows(image_.gains));
 }
 
 TEST(TableDocument, ItsFieldsLeaveNoGaps) {
   LONGS_EQUAL(kTableHeaderBytes, headerRows(image_).end());
   LONGS_EQUAL(offsetof(TableImage, constants), parameterRows(image_.parameters).end());
-  LONGS_EQUAL(offsetof(TableImage, rows), constantRows(image_.constants).end());
+  LONGS_EQUAL(offsetof(TableImage, start), constantRows(image_.constants).end());
+  LONGS_EQUAL(offsetof(TableImage, rows), startRows(image_).end());
   LONGS_EQUAL(sizeof(FitRow), fitRows(image_.rows[0]).end());
+  LONGS_EQUAL(sizeof(NearRow), nearRows(image_.near[0]).end());
   LONGS_EQUAL(sizeof(TableImage), gainRows(image_.gains).end());
 }
 
@@ -207,9 +230,13 @@ TEST(TableDocument, HasThePartsAtTheirOffsets) {
   checkPart(0, kTableHeaderBytes);
   checkPart(offsetof(TableImage, parameters), sizeof(TableParameters));
   checkPart(offsetof(TableImage, constants), sizeof(TableConstants));
+  checkPart(offsetof(TableImage, start), sizeof(TableImage::start));
   checkPart(offsetof(TableImage, rows), sizeof(FitTable));
+  checkPart(offsetof(TableImage, near), sizeof(NearTable));
   checkPart(offsetof(TableImage, gains), sizeof(GaugeGains));
+  checkHas(fmt::format("{} weights of {} bytes", kShares, sizeof(StartWeights)));
   checkHas(fmt::format("{} of {} bytes", kFitRows, sizeof(FitRow)));
+  checkHas(fmt::format("{} of {} bytes", kNearRows, sizeof(NearRow)));
 }
 
 TEST(TableDocument, NamesFormatMagicAndLength) {
@@ -222,8 +249,10 @@ TEST(TableDocument, ItsExampleIsTheDefaultFinger) {
   const std::string bytes = tables::imageBytes(image_);
   checkHas(dumpLine(bytes, 0) + dumpLine(bytes, 16));
   const std::size_t constants = offsetof(TableImage, constants);
-  checkHas(dumpLine(bytes, constants) + dumpLine(bytes, constants + 16) + dumpLine(bytes, constants + 32) +
-           dumpLine(bytes, constants + 48));
+  checkHas(
+      dumpLine(bytes, constants) + dumpLine(bytes, constants + 16) + dumpLine(bytes, constants + 32) +
+      dumpLine(bytes, constants + 48) +
+      dumpLine(bytes, constants + 64).substr(0, std::string("    00000000  00 00 00 00 00 00 00 00").size()));
   checkHas(fmt::format("CRC-32 {:08X}\n", image_.crc32));
   checkHas(fmt::format("{} * 2^{}: (6e-6", image_.constants.noise_variance,
                        image_.constants.noise_variance_exponent));

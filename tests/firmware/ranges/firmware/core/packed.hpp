@@ -7,6 +7,7 @@
 // taken once, is at most the product of the lengths (Cauchy and Schwarz). So do single numbers of a vector.
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -181,15 +182,32 @@ inline Pair upperHalves(Number low, Number high) {
 }
 inline Pair lowOnly(Number number) { return {Number(number.least(), number.most(), 16), 0}; }
 
-/// The pairs of the row that is proved. Its weights are those of any row that usable() admits.
+/// The rows and weights that are proved, any that usable() admits, and their lengths.
 inline FitRow provedRow{};
+inline std::array<NearRow, 3> provedNear{};
+inline StartWeights provedStart{};
+inline const double kNearLength = std::sqrt(static_cast<double>(kMostNearEnergy));
+
+/// Numbers of a table from its start on; none of another one.
+template <typename Table>
+std::size_t numbersInto(const Table& table, const std::int16_t* numbers) {
+  return (reinterpret_cast<std::uintptr_t>(numbers) - reinterpret_cast<std::uintptr_t>(&table)) /
+         sizeof(std::int16_t);
+}
+
+/// Each pair is that part of a column which goes with the same part of a signal.
 inline Pair pairAt(const std::int16_t* numbers) {
   const Number any = tabled(0);
-  const auto offset = static_cast<std::size_t>(reinterpret_cast<const std::byte*>(numbers) -
-                                               reinterpret_cast<const std::byte*>(&provedRow));
-  if (offset >= offsetof(FitRow, gradient_length)) return {any, any};
-  const std::size_t pair = offset % sizeof(FoldedWeights) / (2 * sizeof(std::int16_t));
-  return {any, any, kWeightLength, 1u << pair};
+  if (const auto at = numbersInto(provedRow, numbers); at < offsetof(FitRow, gradient_length) / 2)
+    return {any, any, kWeightLength, 1u << (at % (sizeof(FoldedWeights) / 2) / 2)};
+  constexpr unsigned kFirstEven = 1, kFirstOdd = 4, kSecondOdd = 8;
+  if (const auto at = numbersInto(provedStart, numbers); at < provedStart.size())
+    return {any, any, kWeightLength, at == 0 ? kFirstOdd : kSecondOdd};
+  if (const auto at = numbersInto(provedNear, numbers); at < sizeof provedNear / 2) {
+    const std::size_t inRow = at % (sizeof(NearRow) / 2);
+    return {any, any, kNearLength, inRow == 0 ? kFirstEven : inRow == 2 ? kFirstOdd : 0};
+  }
+  return {any, any};
 }
 
 /// Two numbers are no longer than all that they are part of. One of a pair of which nothing is known has been

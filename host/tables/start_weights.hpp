@@ -1,0 +1,18 @@
+#pragma once
+// Where a contact is, told at once from how differently the gauges on either side of the deepest one read.
+
+#include <array>
+
+#include "common/table_image.hpp"
+#include "host/model/impulse_response.hpp"
+
+namespace strainfinger::tables {
+
+/// By the share that the deepest reading has of the ring's energy: the weights of the pairs' differences
+/// whose sum comes closest to the offset of the contacts that have this share, in the mean square over all
+/// places and loads within `cone`, with kStartNoise. None where 3 of 10 of them would start more than 1/16
+/// pitch off. Cost: the responses of a ring at 129 offsets.
+std::array<StartWeights, kShares> startWeights(const model::ImpulseResponse& response, int gaugeCount,
+                                               double cone);
+
+}  // namespace strainfinger::tables

@@ -47,11 +47,13 @@ struct Fit {
 
 /// Fits one line contact to the strains of a ring that is touched; one strain a gauge, each within
 /// +-2^(15 + gate_shift). `energy`: their gateEnergy().
-/// Bounded time: a part of a window scanned and one fit for most contacts, up to six windows and nine fits
-/// for those in doubt, every window and six fits for a touch so weak that noise could win in a wrong one.
+/// Bounded time: one fit from a start that is told for most firm contacts, a part of a window scanned and one
+/// fit for others, up to six windows and nine fits for those in doubt, every window and six fits for a touch
+/// so weak that noise could win in a wrong one.
 void locateBySeven(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32, std::uint32_t energy);
 
-/// The same, the answer left to the row's three best conditioned readings if they lead where all seven do.
+/// By the three readings around the deepest one where they tell (near_fit.hpp). Else the same, the answer
+/// left to the row's three best conditioned readings if they lead where all seven do.
 void locateByThree(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32, std::uint32_t energy);
 
 inline Fit locate(const TableImage& tables, FitMode mode, std::span<const std::int32_t> strains_q32,

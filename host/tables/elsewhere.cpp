@@ -12,9 +12,9 @@
 namespace strainfinger::tables {
 namespace {
 
-constexpr int kOffsets = 64;     ///< a pitch
-constexpr int kFarthest = 40;    ///< of them, from a window's middle gauge: as far as the fit table
-constexpr int kDirections = 32;  ///< to either side
+constexpr int kElsewhereOffsets = 64;     ///< a pitch
+constexpr int kElsewhereFarthest = 40;    ///< of them, from a window's middle gauge: as far as the fit table
+constexpr int kElsewhereDirections = 32;  ///< to either side
 constexpr double kBeyondCone = 1.25;
 constexpr double kMostOutside = 1.0 / 32;  ///< of the window's energy: what leaves more is in doubt
 
@@ -38,8 +38,8 @@ using Offsets = std::vector<Offset>;
 
 Offsets offsetsOf(const model::ImpulseResponse& response, int gaugeCount) {
   Offsets offsets;
-  for (int i = -kFarthest; i <= kFarthest; ++i)
-    offsets.emplace_back(response, gaugeCount, static_cast<double>(i) / kOffsets);
+  for (int i = -kElsewhereFarthest; i <= kElsewhereFarthest; ++i)
+    offsets.emplace_back(response, gaugeCount, static_cast<double>(i) / kElsewhereOffsets);
   return offsets;
 }
 
@@ -60,7 +60,7 @@ double leastElsewhereOf(const Offsets& offsets, const WindowVector& readings, in
   }
   double least = 1;
   for (std::size_t i = 1; i + 1 < left.size(); ++i) {
-    const bool same = std::abs(static_cast<int>(i) - kFarthest - own) <= 1;
+    const bool same = std::abs(static_cast<int>(i) - kElsewhereFarthest - own) <= 1;
     if (!same && allowed[i] && left[i] <= left[i - 1] && left[i] <= left[i + 1])
       least = std::min(least, leastOf(left[i - 1], left[i], left[i + 1]));
   }
@@ -86,7 +86,8 @@ Seen seenOf(const std::vector<double>& ring, int place) {
   seen.outside = energy - seen.readings.squaredNorm();
   if (hasOuterPair(gauges))
     seen.readings[kWindowGauges] = (at(kOuterReach) - at(-kOuterReach)) / std::numbers::sqrt2;
-  seen.own = static_cast<int>(std::remainder(place - deepest * kOffsets, gauges * kOffsets));
+  seen.own =
+      static_cast<int>(std::remainder(place - deepest * kElsewhereOffsets, gauges * kElsewhereOffsets));
   return seen;
 }
 
@@ -96,17 +97,18 @@ double leastElsewhere(const model::ImpulseResponse& response, int gaugeCount, do
   const Offsets offsets = offsetsOf(response, gaugeCount);
   const double sign = response.at(0).normal < 0 ? -1 : 1;
   double least = 1;
-  for (int place = -kOffsets / 2; place <= kOffsets / 2; ++place) {
+  for (int place = -kElsewhereOffsets / 2; place <= kElsewhereOffsets / 2; ++place) {
     std::vector<model::ImpulseResponse::Value> values;
     for (int gauge = 0; gauge < gaugeCount; ++gauge)
-      values.push_back(
-          response.at((gauge - static_cast<double>(place) / kOffsets) * 2 * std::numbers::pi / gaugeCount));
-    for (int step = -kDirections; step <= kDirections; ++step) {
+      values.push_back(response.at((gauge - static_cast<double>(place) / kElsewhereOffsets) * 2 *
+                                   std::numbers::pi / gaugeCount));
+    for (int step = -kElsewhereDirections; step <= kElsewhereDirections; ++step) {
       std::vector<double> ring;
       for (const auto& value : values)
-        ring.push_back(sign * (value.normal + cone * step / kDirections * value.tangential));
+        ring.push_back(sign * (value.normal + cone * step / kElsewhereDirections * value.tangential));
       Seen seen = seenOf(ring, place);
-      if (std::abs(seen.own) < kOffsets / 4 || seen.outside > kMostOutside * seen.readings.squaredNorm())
+      if (std::abs(seen.own) < kElsewhereOffsets / 4 ||
+          seen.outside > kMostOutside * seen.readings.squaredNorm())
         continue;
       seen.readings *= sign;
       least = std::min(least, leastElsewhereOf(offsets, seen.readings, seen.own, cone));

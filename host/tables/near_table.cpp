@@ -10,13 +10,13 @@
 namespace strainfinger::tables {
 namespace {
 
-constexpr double kLongest = 0x1p14 - 1;
+constexpr double kLongestNear = 0x1p14 - 1;
 
-std::int16_t rounded(double value) { return saturate<std::int16_t>(std::llround(value)); }
+std::int16_t nearWeight(double value) { return saturate<std::int16_t>(std::llround(value)); }
 
 /// Weights of middle reading and difference for one load, of the responses of all three to both.
 std::array<std::int16_t, 2> loadOf(const Eigen::Vector2d& weights) {
-  return {rounded(weights[0]), rounded(weights[1])};
+  return {nearWeight(weights[0]), nearWeight(weights[1])};
 }
 
 double unfoldedLength(const Eigen::Vector2d& weights) {
@@ -44,8 +44,9 @@ NearRow nearRow(const NearResponse& response, const Eigen::Vector3d& normal, dou
   Eigen::Matrix2d loads;
   loads << told(1, 1), -told(0, 1), -told(1, 0), told(0, 0);
   loads *= scale / determinant;
-  if (!(unfoldedLength(loads.row(0)) < kLongest && unfoldedLength(loads.row(1)) < kLongest)) return {};
-  const auto weight = [](double value) { return rounded(std::ldexp(value, 14)); };
+  if (!(unfoldedLength(loads.row(0)) < kLongestNear && unfoldedLength(loads.row(1)) < kLongestNear))
+    return {};
+  const auto weight = [](double value) { return nearWeight(std::ldexp(value, 14)); };
   return {{weight(normal[1]), weight((normal[2] + normal[0]) / 2), weight((normal[2] - normal[0]) / 2), 0},
           loadOf(loads.row(0)),
           loadOf(loads.row(1))};

@@ -11,10 +11,11 @@
 namespace strainfinger::tables {
 namespace {
 
-constexpr int kOffsets = 128;
-constexpr int kDirections = 32;
-constexpr double kFarthest_pitch = 0.6;  ///< contacts farther from the deepest gauge belong to another window
-constexpr double kStartNoise = 0.002;    ///< of a reading, relative to the deepest one
+constexpr int kStartOffsets = 128;
+constexpr int kStartDirections = 32;
+constexpr double kStartFarthest_pitch =
+    0.6;                               ///< contacts farther from the deepest gauge belong to another window
+constexpr double kStartNoise = 0.002;  ///< of a reading, relative to the deepest one
 constexpr double kMostError_pitch = 1.0 / 16;
 
 struct Example {
@@ -43,15 +44,15 @@ void addContact(const std::vector<double>& readings, double position_pitch, Exam
 Examples examplesOf(const model::ImpulseResponse& response, int gaugeCount, double cone) {
   Examples examples;
   const double sign = response.at(0).normal < 0 ? -1 : 1;
-  for (int step = 0; step <= kOffsets; ++step) {
-    const double position_pitch = static_cast<double>(step) / kOffsets - 0.5;
+  for (int step = 0; step <= kStartOffsets; ++step) {
+    const double position_pitch = static_cast<double>(step) / kStartOffsets - 0.5;
     std::vector<model::ImpulseResponse::Value> values;
     for (int gauge = 0; gauge < gaugeCount; ++gauge)
       values.push_back(response.at((gauge - position_pitch) * 2 * std::numbers::pi / gaugeCount));
-    for (int direction = -kDirections; direction <= kDirections; ++direction) {
+    for (int direction = -kStartDirections; direction <= kStartDirections; ++direction) {
       std::vector<double> readings;
       for (const auto& value : values)
-        readings.push_back(sign * (value.normal + cone * direction / kDirections * value.tangential));
+        readings.push_back(sign * (value.normal + cone * direction / kStartDirections * value.tangential));
       addContact(readings, position_pitch, examples);
     }
   }
@@ -60,7 +61,7 @@ Examples examplesOf(const model::ImpulseResponse& response, int gaugeCount, doub
 
 StartWeights weightsFrom(const std::vector<Example>& examples) {
   const auto isHere = [](const Example& example) {
-    return std::abs(example.offset_pitch) <= kFarthest_pitch;
+    return std::abs(example.offset_pitch) <= kStartFarthest_pitch;
   };
   if (std::count_if(examples.begin(), examples.end(), isHere) < 8) return {};
   Eigen::Matrix3d products = Eigen::Matrix3d::Zero();

@@ -15,12 +15,13 @@ using namespace strainfinger;
 
 namespace {
 
-constexpr int kGauges = 16;
-constexpr double kCone = 1.25;
-constexpr int kPlaces = 128;  ///< a pitch
+constexpr int kElsewhereGauges = 16;
+constexpr double kElsewhereCone = 1.25;
+constexpr int kElsewherePlaces = 128;  ///< a pitch
 
-double readingOf(const model::ImpulseResponse& response, int gauge, double position, double tangential) {
-  const auto value = response.at((gauge - position) * 2 * std::numbers::pi / kGauges);
+double elsewhereReading(const model::ImpulseResponse& response, int gauge, double position,
+                        double tangential) {
+  const auto value = response.at((gauge - position) * 2 * std::numbers::pi / kElsewhereGauges);
   return value.normal + tangential * value.tangential;
 }
 
@@ -33,7 +34,7 @@ struct Left {
 Left leftAt(const model::ImpulseResponse& response, const std::vector<double>& readings, double position) {
   double nn = 0, nt = 0, tt = 0, n = 0, t = 0, energy = 0;
   for (int gauge = -3; gauge <= 3; ++gauge) {
-    const auto value = response.at((gauge - position) * 2 * std::numbers::pi / kGauges);
+    const auto value = response.at((gauge - position) * 2 * std::numbers::pi / kElsewhereGauges);
     const double reading = readings[static_cast<std::size_t>(gauge + 3)];
     nn += value.normal * value.normal;
     nt += value.normal * value.tangential;
@@ -45,24 +46,24 @@ Left leftAt(const model::ImpulseResponse& response, const std::vector<double>& r
   const double determinant = nn * tt - nt * nt;
   const double normal = (n * tt - t * nt) / determinant, tangential = (t * nn - n * nt) / determinant;
   return {1 - (normal * n + tangential * t) / energy,
-          normal > 0 && std::abs(tangential) < 1.25 * kCone * normal};
+          normal > 0 && std::abs(tangential) < 1.25 * kElsewhereCone * normal};
 }
 
 /// Of a contact whose deepest reading is gauge 0's.
-double leastOf(const model::ImpulseResponse& response, double position, double tangential) {
+double leastFor(const model::ImpulseResponse& response, double position, double tangential) {
   std::vector<double> readings;
   for (int gauge = -3; gauge <= 3; ++gauge)
-    readings.push_back(readingOf(response, gauge, position, tangential));
+    readings.push_back(elsewhereReading(response, gauge, position, tangential));
   if (std::min_element(readings.begin(), readings.end()) - readings.begin() != 3)
     return 1;  // a peak is negative
   std::vector<Left> left;
-  for (int i = -kPlaces * 5 / 8; i <= kPlaces * 5 / 8; ++i)
-    left.push_back(leftAt(response, readings, static_cast<double>(i) / kPlaces));
+  for (int i = -kElsewherePlaces * 5 / 8; i <= kElsewherePlaces * 5 / 8; ++i)
+    left.push_back(leftAt(response, readings, static_cast<double>(i) / kElsewherePlaces));
   double least = 1;
   for (std::size_t i = 1; i + 1 < left.size(); ++i) {
-    const double place = static_cast<double>(i) / kPlaces - 5.0 / 8;
+    const double place = static_cast<double>(i) / kElsewherePlaces - 5.0 / 8;
     const bool valley = left[i].part <= left[i + 1].part && left[i].part <= left[i - 1].part;
-    if (valley && left[i].allowed && std::abs(place - position) > 2.0 / kPlaces)
+    if (valley && left[i].allowed && std::abs(place - position) > 2.0 / kElsewherePlaces)
       least = std::min(least, left[i].part);
   }
   return least;
@@ -75,18 +76,19 @@ TEST_GROUP(Elsewhere) { const model::ImpulseResponse response_ = tables::respons
 TEST(Elsewhere, NoContactAQuarterOfAPitchFromAGaugeLooksMoreLikeAnother) {
   std::printf("seed 79 ");
   std::mt19937_64 random(79);
-  std::uniform_real_distribution<double> offset(0.25, 0.5), direction(-kCone, kCone);
-  const double expected = tables::leastElsewhere(response_, kGauges, kCone);
+  std::uniform_real_distribution<double> offset(0.25, 0.5), direction(-kElsewhereCone, kElsewhereCone);
+  const double expected = tables::leastElsewhere(response_, kElsewhereGauges, kElsewhereCone);
   double least = 1;
   for (int i = 0; i < 2000; ++i)
-    least = std::min(least, leastOf(response_, offset(random), direction(random)));
+    least = std::min(least, leastFor(response_, offset(random), direction(random)));
   std::printf("%.4f, %.4f of all drawn ", expected, least);
   CHECK(least > 0.97 * expected);
   CHECK(least < 1.5 * expected);
 }
 
 TEST(Elsewhere, NearerToAGaugeTheyDo) {
-  CHECK(leastOf(response_, 0.12, -0.28) < 0.5 * tables::leastElsewhere(response_, kGauges, kCone));
+  CHECK(leastFor(response_, 0.12, -0.28) <
+        0.5 * tables::leastElsewhere(response_, kElsewhereGauges, kElsewhereCone));
 }
 
 TEST(Elsewhere, OneHundredAndSeventyFiveVariancesAreFirm) {

@@ -13,15 +13,15 @@
 using namespace strainfinger;
 
 namespace {
-constexpr int kAmplitudeExponent = 12;
-constexpr double kPole_pitch = 0.45;
+constexpr int kNearAmplitudeExponent = 12;
+constexpr double kNearPole_pitch = 0.45;
 }  // namespace
 
 TEST_GROUP(NearTable) {
   const model::ImpulseResponse model_ = tables::responseOf({});
   const tables::WindowResponses responses_ = tables::windowResponses(model_, 16);
   const double peak_ = std::abs(model_.at(0).normal);
-  const NearTable table_ = tables::nearTable(responses_, peak_, kAmplitudeExponent, kPole_pitch);
+  const NearTable table_ = tables::nearTable(responses_, peak_, kNearAmplitudeExponent, kNearPole_pitch);
 
   /// Of gauges -1, 0 and 1, to loads in units of the peak.
   Eigen::Vector3d readings(std::size_t row, double normal, double tangential) const {
@@ -62,8 +62,9 @@ TEST(NearTable, MiddleReadingAndDifferenceTellTheLoads) {
     for (const double tangential : {-1.0, 0.0, 0.5}) {
       const Eigen::Vector3d read = readings(row, 1, tangential);
       const auto told = [&](const std::array<std::int16_t, 2>& weights) {
-        return std::ldexp(weights[0] * read[1] + weights[1] * (read[2] - read[0]), 1 - kAmplitudeExponent) /
-               (1 - static_cast<double>(row) / 32 / kPole_pitch);
+        return std::ldexp(weights[0] * read[1] + weights[1] * (read[2] - read[0]),
+                          1 - kNearAmplitudeExponent) /
+               (1 - static_cast<double>(row) / 32 / kNearPole_pitch);
       };
       DOUBLES_EQUAL(1, told(table_[row].normal_load), 1e-3);
       DOUBLES_EQUAL(tangential, told(table_[row].tangential_load), 1e-3);
@@ -72,7 +73,7 @@ TEST(NearTable, MiddleReadingAndDifferenceTellTheLoads) {
 
 TEST(NearTable, BeforeThePoleItsLoadsTurnSlowly) {
   const double pole = tables::nearPole(model_, 16);
-  const NearTable table = tables::nearTable(responses_, peak_, kAmplitudeExponent, pole);
+  const NearTable table = tables::nearTable(responses_, peak_, kNearAmplitudeExponent, pole);
   for (std::size_t row = 1; row + 1 < kNearRows; ++row) {
     const auto bend = [&](std::size_t i) {
       const auto at = [&](std::size_t j) { return static_cast<double>(table[j].normal_load[i]); };
@@ -94,7 +95,7 @@ TEST(NearTable, AtThePoleTheLoadsAreNotTold) {
 }
 
 TEST(NearTable, FromTheFirstLoadsThatDoNotFitNoneAreTold) {
-  const NearTable coarse = tables::nearTable(responses_, peak_, kAmplitudeExponent + 1, 2);
+  const NearTable coarse = tables::nearTable(responses_, peak_, kNearAmplitudeExponent + 1, 2);
   CHECK(coarse[0].tells());
   CHECK(!coarse[12].tells());
   bool told = true;

@@ -16,9 +16,9 @@ using namespace strainfinger;
 
 namespace {
 
-constexpr double kCone = 1.25;
-constexpr double kNoise = 0.002;  ///< of a reading, relative to the deepest
-constexpr int kContacts = 20'000;
+constexpr double kStartCone = 1.25;
+constexpr double kStartNoise = 0.002;  ///< of a reading, relative to the deepest
+constexpr int kStartContacts = 20'000;
 
 struct Told {
   double share;
@@ -43,13 +43,13 @@ TEST_GROUP(StartWeights) {
     return std::uniform_real_distribution<double>(least, most)(random_);
   }
   Told draw(int gauges) {
-    const double position = uniform(0, gauges), direction = uniform(-kCone, kCone);
+    const double position = uniform(0, gauges), direction = uniform(-kStartCone, kStartCone);
     std::vector<double> readings;
     for (int gauge = 0; gauge < gauges; ++gauge) {
       const auto value = response_.at((gauge - position) * 2 * std::numbers::pi / gauges);
       readings.push_back(-value.normal - direction * value.tangential);  // a pressing load's peak is negative
     }
-    const double noise = kNoise * *std::max_element(readings.begin(), readings.end());
+    const double noise = kStartNoise * *std::max_element(readings.begin(), readings.end());
     for (double& reading : readings) reading += std::normal_distribution<>(0, noise)(random_);
     const auto deepest =
         static_cast<int>(std::max_element(readings.begin(), readings.end()) - readings.begin());
@@ -69,21 +69,21 @@ TEST_GROUP(StartWeights) {
 };
 
 TEST(StartWeights, MostContactsStartWithinASixteenthOfAPitch) {
-  const auto weights = tables::startWeights(response_, 16, kCone);
+  const auto weights = tables::startWeights(response_, 16, kStartCone);
   int close = 0;
-  for (int i = 0; i < kContacts; ++i) {
+  for (int i = 0; i < kStartContacts; ++i) {
     const Told told = draw(16);
     const StartWeights& own = weightsFor(weights, told);
     close += own.tell() && std::abs(toldOffset(own, told) - told.offset_pitch) < 1.0 / 16;
   }
-  std::printf("%.1f %% ", 100.0 * close / kContacts);
-  CHECK(close > kContacts * 80 / 100);
+  std::printf("%.1f %% ", 100.0 * close / kStartContacts);
+  CHECK(close > kStartContacts * 80 / 100);
 }
 
 TEST(StartWeights, OtherWeightsAreFartherOff) {
-  const auto weights = tables::startWeights(response_, 16, kCone);
+  const auto weights = tables::startWeights(response_, 16, kStartCone);
   std::vector<Told> drawn;
-  for (int i = 0; i < kContacts; ++i) {
+  for (int i = 0; i < kStartContacts; ++i) {
     const Told told = draw(16);
     if (static_cast<int>(told.share * kShares) == 12 && std::abs(told.offset_pitch) < 0.6)
       drawn.push_back(told);
@@ -102,7 +102,7 @@ TEST(StartWeights, OtherWeightsAreFartherOff) {
 }
 
 TEST(StartWeights, MirroredContactsStartMirrored) {
-  const auto weights = tables::startWeights(response_, 16, kCone);
+  const auto weights = tables::startWeights(response_, 16, kStartCone);
   for (int i = 0; i < 100; ++i) {
     Told told = draw(16);
     const double offset = toldOffset(weightsFor(weights, told), told);
@@ -112,11 +112,11 @@ TEST(StartWeights, MirroredContactsStartMirrored) {
 }
 
 TEST(StartWeights, AShareThatNoContactHasTellsNothing) {
-  const auto weights = tables::startWeights(response_, 16, kCone);
+  const auto weights = tables::startWeights(response_, 16, kStartCone);
   CHECK(!weights[15].tell());
 }
 
 TEST(StartWeights, AreWithinTheirFormatForEveryRing) {
   for (int gauges = kMinGauges; gauges <= kMaxGauges; gauges += 2)
-    for (const StartWeights& each : tables::startWeights(response_, gauges, kCone)) CHECK(usable(each));
+    for (const StartWeights& each : tables::startWeights(response_, gauges, kStartCone)) CHECK(usable(each));
 }

@@ -63,11 +63,10 @@ struct ScanSpan {
 inline constexpr int kShares = 16;  ///< shares are told apart by sixteenths
 
 /// Where a contact is, by the share that the deepest reading has: the differences of the pairs around it (+
-/// side minus - side; the outer pair's last, which the host's weights leave out), weighted and over that
-/// reading, add up to the offset [pitches * 2^kStartWeightBits], to within 1/16 pitch for most. The first 0:
-/// they don't. Of firm contacts (TableConstants::firm_exponent), a quarter of a pitch or more from that
-/// gauge, a fit from there that explains the readings is theirs: another offset of its window would not
-/// explain them within noise.
+/// side minus - side; the outer pair's last, 0 without), weighted and over that reading, add up to the offset
+/// [pitches * 2^kStartWeightBits], to within 1/16 pitch for most. The first 0: they don't. Of firm contacts
+/// (TableConstants::firm_exponent), a quarter of a pitch or more from that gauge, a fit from there that
+/// explains the readings is theirs: another offset of its window would not explain them within noise.
 struct alignas(8) StartWeights : std::array<std::int16_t, 4> {
   constexpr bool tell() const { return front() != 0; }
 };
@@ -183,12 +182,14 @@ inline constexpr int kNearRows = 13;
 inline constexpr int kNearStride = 2;  ///< rows of the fit table from one to the next
 
 /// What the middle reading and the two beside it tell of a contact at one offset, folded. As the loads change
-/// they span a plane. All 0: they don't tell the loads.
+/// they span a plane, whose normal is the cross product of the responses to a unit of either. The loads are
+/// those of middle and difference, times 1 - offset / near_pole: what they grow by near the pole, where these
+/// two no longer tell them apart, is left to the firmware. The last tangential one 0: this row and those
+/// behind it don't tell.
 struct alignas(8) NearRow {
-  std::array<std::int16_t, 4>
-      normal;  ///< to the plane: of middle, sum, difference, then 0 [* 2^14; the longest 1]
-  std::array<std::int16_t, 2> normal_load;      ///< of middle and difference [* 2^(amplitude_exponent - 1)]
-  std::array<std::int16_t, 2> tangential_load;  ///< .. the same
+  std::array<std::int16_t, 4> normal;           ///< middle, sum, difference, 0 [* 2^14; the longest 1]
+  std::array<std::int16_t, 2> normal_load;      ///< middle, difference [* 2^(amplitude_exponent - 1)]
+  std::array<std::int16_t, 2> tangential_load;  ///< the same
 
   constexpr bool tells() const { return tangential_load[1] != 0; }
 };
@@ -308,6 +309,9 @@ constexpr bool allUsable(const Rows& rows) {
   return std::all_of(rows.begin(), rows.end(), [](const auto& row) { return usable(row); });
 }
 
+/// Near rows end before their pole.
+inline constexpr int kLeastNearPole_q15 = kNearRows * (1 << 10);
+
 /// What the firmware's loops and shifts rely on, and names that have a meaning.
 constexpr bool usable(const TableParameters& parameters, const TableConstants& constants) {
   return parameters.component <= StrainComponent::kShear && constants.gauge_count >= kMinGauges &&
@@ -318,7 +322,7 @@ constexpr bool usable(const TableParameters& parameters, const TableConstants& c
          isSign(constants.anchor_sign) && constants.anchor_rule <= AnchorRule::kExhaustive &&
          (constants.scan_step == kMinScanStep || constants.scan_step == kMaxScanStep) &&
          constants.firm_exponent >= kLeastFirmExponent && constants.firm_exponent <= kMostFirmExponent &&
-         allUsable(constants.scan_span);
+         constants.near_pole_q15 >= kLeastNearPole_q15 && allUsable(constants.scan_span);
 }
 
 /// Products of readings with a column of weights fit their words if its length is 1, but for rounding.
@@ -357,15 +361,10 @@ constexpr bool usable(const NearRow& row) {
          fits(row.tangential_load[0], 0, row.tangential_load[1]);
 }
 
-/// Near rows end before their pole.
-inline constexpr int kLeastNearPole_q15 = kNearRows * (1 << 10);
-
 /// Where every window is looked at, no start is told.
-constexpr bool agrees(const TableImage& image) {
-  return image.constants.near_pole_q15 >= kLeastNearPole_q15 &&
-         (image.constants.anchor_rule != AnchorRule::kExhaustive ||
-          std::none_of(image.start.begin(), image.start.end(),
-                       [](const auto& weights) { return weights.tell(); }));
+constexpr bool agree(const std::array<StartWeights, kShares>& start, AnchorRule rule) {
+  return rule != AnchorRule::kExhaustive ||
+         std::none_of(start.begin(), start.end(), [](const auto& weights) { return weights.tell(); });
 }
 
 /// Looks at everything that can be wrong with an image of the right size. Cost: one pass over its bytes.
@@ -376,7 +375,7 @@ inline TableFault checkTableImage(const TableImage& image) {
   if (image.crc32 != crc32(checkedBytes(image))) return TableFault::kChecksum;
   const bool works = usable(image.parameters, image.constants) && usable(image.gains, image.constants) &&
                      allUsable(image.start) && allUsable(image.rows) && allUsable(image.near) &&
-                     agrees(image);
+                     agree(image.start, image.constants.anchor_rule);
   return works ? TableFault::kNone : TableFault::kConstants;
 }
 

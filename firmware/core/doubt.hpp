@@ -28,8 +28,8 @@ inline bool mayBeHidden(const Problem& problem, PitchQ20 offset) {
   return energy < problem.noise && (absolute(offset) < kOnePitch / 16 || 2 * energy < problem.noise);
 }
 
-/// Of contacts a quarter of a pitch or more from a gauge no place but their own explains the readings within
-/// noise.
+/// Of contacts a quarter of a pitch or more from their window's middle gauge no other offset of the window
+/// explains the readings within noise.
 inline bool isFirm(const Problem& problem) {
   return !isBelow(problem, problem.tables.constants.firm_exponent);
 }

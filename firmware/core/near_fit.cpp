@@ -53,7 +53,8 @@ struct Meeting {
   return false;
 }
 
-/// Where the distance falls by less than a sixth of the window's length a pitch, it doesn't tell the offset.
+/// Where the distance, in units of the longest normal, falls by less than a sixth of the window's length a
+/// pitch, it doesn't tell the offset.
 bool tellsOffset(const Meeting& meeting, std::int32_t windowEnergy) {
   return mulHigh(meeting.fall, meeting.fall) >= windowEnergy >> 17;
 }

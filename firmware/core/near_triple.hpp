@@ -12,7 +12,7 @@ namespace strainfinger::firmware {
 inline constexpr int kNearBits = kRowBits + 1;
 static_assert(kNearStride == 1 << (kNearBits - kRowBits));
 
-/// How far the readings are from a row's plane [signal * 2^14].
+/// How far the readings are from a row's plane, times the length of its normal [signal * 2^14].
 inline Number distanceFrom(const NearRow& row, const Signal& signal) {
   return dot(pairAt(&row.normal[2]), signal.odd[0], dot(pairAt(&row.normal[0]), signal.even[0]));
 }
@@ -21,8 +21,7 @@ inline Number distanceFrom(const NearRow& row, const Signal& signal) {
 struct AtRows {
   Number first, second, third;
 
-  Number rise() const { return second - first; }
-  Number bend() const { return third - second - rise(); }
+  Number bend() const { return third - second - (second - first); }
 };
 
 /// Lengths from the first of the rows [their spacing * 2^12].
@@ -33,12 +32,13 @@ inline Number overFall(Number value, Number fall) {
   return signedQuotient<16>(clipped<27>(value) * 16, nonZero(fall >> 8));
 }
 
-/// length * (length - 1) / 2 [* 2^12], of a length between -1/2 and 3/2.
+/// length * (length - 1) / 2 [* 2^12], of a length between -1/4 and 5/4.
 inline Number secondOrder(Number length) {
   return (length * (length - (1 << kBetweenBits))) >> (kBetweenBits + 1);
 }
 
-/// Where the distances vanish, from where a straight line does, or up to a quarter of a spacing from there.
+/// Where the distances vanish, from where a straight line does (-1/4 to 5/4 from the first), or up to a
+/// quarter of a spacing from there.
 inline Number curved(const AtRows& distances, Number straight) {
   const Number bend = overFall(distances.bend(), distances.first - distances.second);
   return straight + clipped<kBetweenBits - 1>((bend * secondOrder(straight)) >> kBetweenBits);

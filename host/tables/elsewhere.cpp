@@ -3,10 +3,11 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <cstdlib>
 #include <vector>
 
 #include "common/table_image.hpp"
+#include "host/tables/pressed_ring.hpp"
 #include "host/tables/window_fit.hpp"
 
 namespace strainfinger::tables {
@@ -15,103 +16,119 @@ namespace {
 constexpr int kElsewhereOffsets = 64;     ///< a pitch
 constexpr int kElsewhereFarthest = 40;    ///< of them, from a window's middle gauge: as far as the fit table
 constexpr int kElsewhereDirections = 32;  ///< to either side
+constexpr int kNearestContact = kElsewhereOffsets / 4;
+constexpr int kFarthestContact = kElsewhereOffsets * 3 / 2;
 constexpr double kBeyondCone = 1.25;
-constexpr double kMostOutside = 1.0 / 32;  ///< of the window's energy: what leaves more is in doubt
+constexpr double kMostOutside = 1.0 / 30;  ///< of the window's energy: more than 1/32 and noise is in doubt
 
 /// Another offset d standard errors away is within 32 variances of a contact's own, which is where it is
 /// told, once noise is (d^2 - 32) / (2 d) standard errors: 5.4 of d^2 = 175.
 constexpr double kFirmVariances = 175;
 
-/// An offset of a window.
+WindowMatrix windowAt(const model::ImpulseResponse& response, int gaugeCount, int offset) {
+  return peakSign(response) *
+         windowResponse(response, gaugeCount, static_cast<double>(offset) / kElsewhereOffsets).value;
+}
+
+/// An offset at which a window might be fitted.
 struct Offset {
   WindowMatrix responses;
   Eigen::Matrix2d inverse;  ///< of their products
-
-  Offset(const model::ImpulseResponse& response, int gaugeCount, double offset_pitch)
-      : responses(windowResponse(response, gaugeCount, offset_pitch).value),
-        inverse((responses.transpose() * responses).inverse()) {}
-  Eigen::Vector2d loads(const WindowVector& readings) const {
-    return inverse * (responses.transpose() * readings);
-  }
 };
 using Offsets = std::vector<Offset>;
 
 Offsets offsetsOf(const model::ImpulseResponse& response, int gaugeCount) {
   Offsets offsets;
-  for (int i = -kElsewhereFarthest; i <= kElsewhereFarthest; ++i)
-    offsets.emplace_back(response, gaugeCount, static_cast<double>(i) / kElsewhereOffsets);
+  for (int i = -kElsewhereFarthest; i <= kElsewhereFarthest; ++i) {
+    const WindowMatrix responses = windowAt(response, gaugeCount, i);
+    offsets.push_back({responses, (responses.transpose() * responses).inverse()});
+  }
   return offsets;
 }
 
+/// Energy of readings of a unit normal load and a tangential one.
+struct Energy {
+  double normal, both, tangential;
+
+  explicit Energy(const Eigen::Matrix2d& form)
+      : normal(form(0, 0)), both(form(0, 1) + form(1, 0)), tangential(form(1, 1)) {}
+  double of(double load) const { return normal + load * (both + load * tangential); }
+};
+
+/// What an offset makes of the readings of contacts at another one.
+struct Rival {
+  Eigen::Matrix2d loads;  ///< that it takes, per load of theirs
+  Energy left;            ///< of the readings, unexplained
+
+  Rival(const Offset& offset, const WindowMatrix& readings)
+      : loads(offset.inverse * offset.responses.transpose() * readings),
+        left((readings - offset.responses * loads).transpose() * (readings - offset.responses * loads)) {}
+  bool isAllowed(double load, double cone) const {
+    const double normal = loads(0, 0) + load * loads(0, 1), tangential = loads(1, 0) + load * loads(1, 1);
+    return normal > 0 && std::abs(tangential) <= kBeyondCone * cone * normal;
+  }
+};
+
 /// What is left at the middle of three offsets, at the least of the parabola through them.
-double leastOf(double before, double here, double after) {
+double leastBetween(double before, double here, double after) {
   const double bend = before - 2 * here + after, slope = (after - before) / 2;
   return bend > 0 ? std::max(here - slope * slope / (2 * bend), 0.0) : here;
 }
 
-/// Of the readings of a contact `own` offsets from the window's middle gauge.
-double leastElsewhereOf(const Offsets& offsets, const WindowVector& readings, int own, double cone) {
-  std::vector<double> left;
-  std::vector<bool> allowed;
-  for (const Offset& each : offsets) {
-    const Eigen::Vector2d loads = each.loads(readings);
-    left.push_back((readings - each.responses * loads).squaredNorm() / readings.squaredNorm());
-    allowed.push_back(loads[0] > 0 && std::abs(loads[1]) <= kBeyondCone * cone * loads[0]);
-  }
-  double least = 1;
-  for (std::size_t i = 1; i + 1 < left.size(); ++i) {
-    const bool same = std::abs(static_cast<int>(i) - kElsewhereFarthest - own) <= 1;
-    if (!same && allowed[i] && left[i] <= left[i - 1] && left[i] <= left[i + 1])
-      least = std::min(least, leastOf(left[i - 1], left[i], left[i + 1]));
-  }
-  return least;
-}
+/// Contacts so many offsets from a window's middle gauge, which is the deepest.
+class Contacts {
+ public:
+  Contacts(const model::ImpulseResponse& response, int gaugeCount, int own)
+      : own_(own),
+        ring_(response, gaugeCount, static_cast<double>(own) / kElsewhereOffsets),
+        readings_(windowAt(response, gaugeCount, own)),
+        energy_(readings_.transpose() * readings_) {}
 
-/// The window around the deepest reading.
-struct Seen {
-  WindowVector readings = WindowVector::Zero();
-  int own = 0;  ///< the contact's offset from its middle gauge
-  double outside = 0;
+  /// Those with this load belong to another window, or leave too much outside theirs to be believed there.
+  bool areElsewhere(double load) const {
+    const PressedRing ring = ring_.pressed(load);
+    const double inside = energy_.of(load);
+    return ring.deepest != 0 || ring.energy - inside > kMostOutside * inside;
+  }
+  std::vector<Rival> rivals(const Offsets& offsets) const {
+    std::vector<Rival> rivals;
+    rivals.reserve(offsets.size());
+    for (const Offset& each : offsets) rivals.emplace_back(each, readings_);
+    return rivals;
+  }
+  /// The least part of their energy that is left at another offset.
+  double leastOf(const std::vector<Rival>& rivals, double load, double cone) const {
+    std::vector<double> left;
+    left.reserve(rivals.size());
+    for (const Rival& each : rivals) left.push_back(each.left.of(load));
+    double least = energy_.of(load);
+    for (std::size_t i = 1; i + 1 < left.size(); ++i) {
+      const bool isSame = std::abs(static_cast<int>(i) - kElsewhereFarthest - own_) <= 1;
+      if (!isSame && left[i] <= left[i - 1] && left[i] <= left[i + 1] && rivals[i].isAllowed(load, cone))
+        least = std::min(least, leastBetween(left[i - 1], left[i], left[i + 1]));
+    }
+    return least / energy_.of(load);
+  }
+
+ private:
+  int own_;
+  RingResponse ring_;
+  WindowMatrix readings_;
+  Energy energy_;
 };
-Seen seenOf(const std::vector<double>& ring, int place) {
-  const int gauges = static_cast<int>(ring.size());
-  const auto deepest = static_cast<int>(std::max_element(ring.begin(), ring.end()) - ring.begin());
-  const auto at = [&](int away) {
-    return ring[static_cast<std::size_t>((deepest + away + gauges) % gauges)];
-  };
-  Seen seen;
-  for (int k = 0; k < kWindowGauges; ++k) seen.readings[k] = at(k - kWindowReach);
-  double energy = 0;
-  for (const double reading : ring) energy += reading * reading;
-  seen.outside = energy - seen.readings.squaredNorm();
-  if (hasOuterPair(gauges))
-    seen.readings[kWindowGauges] = (at(kOuterReach) - at(-kOuterReach)) / std::numbers::sqrt2;
-  seen.own =
-      static_cast<int>(std::remainder(place - deepest * kElsewhereOffsets, gauges * kElsewhereOffsets));
-  return seen;
-}
 
 }  // namespace
 
 double leastElsewhere(const model::ImpulseResponse& response, int gaugeCount, double cone) {
   const Offsets offsets = offsetsOf(response, gaugeCount);
-  const double sign = response.at(0).normal < 0 ? -1 : 1;
   double least = 1;
-  for (int place = -kElsewhereOffsets / 2; place <= kElsewhereOffsets / 2; ++place) {
-    std::vector<model::ImpulseResponse::Value> values;
-    for (int gauge = 0; gauge < gaugeCount; ++gauge)
-      values.push_back(response.at((gauge - static_cast<double>(place) / kElsewhereOffsets) * 2 *
-                                   std::numbers::pi / gaugeCount));
+  // Those on the other side are their mirror images.
+  for (int own = kNearestContact; own <= kFarthestContact; ++own) {
+    const Contacts contacts(response, gaugeCount, own);
+    const std::vector<Rival> rivals = contacts.rivals(offsets);
     for (int step = -kElsewhereDirections; step <= kElsewhereDirections; ++step) {
-      std::vector<double> ring;
-      for (const auto& value : values)
-        ring.push_back(sign * (value.normal + cone * step / kElsewhereDirections * value.tangential));
-      Seen seen = seenOf(ring, place);
-      if (std::abs(seen.own) < kElsewhereOffsets / 4 ||
-          seen.outside > kMostOutside * seen.readings.squaredNorm())
-        continue;
-      seen.readings *= sign;
-      least = std::min(least, leastElsewhereOf(offsets, seen.readings, seen.own, cone));
+      const double load = cone * step / kElsewhereDirections;
+      if (!contacts.areElsewhere(load)) least = std::min(least, contacts.leastOf(rivals, load, cone));
     }
   }
   return least;

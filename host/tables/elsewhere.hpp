@@ -8,8 +8,8 @@ namespace strainfinger::tables {
 /// The least part of a window's energy that a fit at another offset of it leaves unexplained, with loads a
 /// little beyond `cone` (largest |tangential| / normal). The window is that of the deepest reading, the
 /// contacts are all that are a quarter of a pitch or more from its gauge (nearer ones have a second look),
-/// but those that leave too much outside the window to be believed there. Cost: the responses of a ring at 33
-/// places, and 40 fits for each of 1000 contacts.
+/// but those that leave too much outside the window to be believed there. Cost: the responses of a ring at 81
+/// places and of a window at 162, and 81 fits at each of those.
 double leastElsewhere(const model::ImpulseResponse& response, int gaugeCount, double cone);
 
 /// As TableConstants::firm_exponent, not limited to what it may be.

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <vector>
+
+#include "host/tables/pressed_ring.hpp"
 
 namespace strainfinger::tables {
 namespace {
@@ -23,18 +23,6 @@ struct Distances {
   double nearest = kRowsPerPitch / 2;  ///< .. and the least from any [rows]
 };
 
-/// A ring's readings of unit normal and tangential loads, from the gauge nearest to the contact on.
-struct PressedRing {
-  PressedRing(const model::ImpulseResponse& response, int gaugeCount, double offset_pitch) {
-    for (int gauge = 0; gauge < gaugeCount; ++gauge) {
-      const auto value = response.at((gauge - offset_pitch) * 2 * std::numbers::pi / gaugeCount);
-      normal.push_back(value.normal);
-      tangential.push_back(value.tangential);
-    }
-  }
-  std::vector<double> normal, tangential;
-};
-
 void note(std::array<Distances, kShares>& distances, double share, double fromDeepest_rows,
           double fromNearest_rows) {
   const auto bin = [](double value) {
@@ -48,23 +36,10 @@ void note(std::array<Distances, kShares>& distances, double share, double fromDe
   }
 }
 
-void noteContact(const PressedRing& ring, double sign, double direction, double offset_pitch,
-                 std::array<Distances, kShares>& distances) {
-  double energy = 0, deepest = 0;
-  std::size_t gauge = 0;
-  for (std::size_t i = 0; i < ring.normal.size(); ++i) {
-    const double reading = sign * (ring.normal[i] + direction * ring.tangential[i]);
-    energy += reading * reading;
-    if (reading > deepest) {
-      deepest = reading;
-      gauge = i;
-    }
-  }
-  if (energy == 0) return;
-  const double apart =
-      std::remainder(static_cast<double>(gauge) - offset_pitch, static_cast<double>(ring.normal.size()));
-  note(distances, deepest * deepest / energy, std::abs(apart) * kRowsPerPitch,
-       std::abs(offset_pitch) * kRowsPerPitch);
+void noteContact(const PressedRing& ring, std::array<Distances, kShares>& distances) {
+  if (ring.energy == 0) return;
+  note(distances, ring.share(), std::abs(ring.offset_pitch()) * kRowsPerPitch,
+       std::abs(ring.position_pitch) * kRowsPerPitch);
 }
 
 /// The row of a scan from whose half spacing on an offset lies.
@@ -89,12 +64,10 @@ ScanSpan spanOf(const Distances& distances) {
 std::array<ScanSpan, kShares> scanSpans(const model::ImpulseResponse& response, int gaugeCount, double cone) {
   const double widest = std::max(cone, kLeastSpanCone);
   std::array<Distances, kShares> distances;
-  const double sign = response.at(0).normal < 0 ? -1 : 1;
   for (int step = -kSpanOffsets; step <= kSpanOffsets; ++step) {
-    const double offset_pitch = 0.5 * step / kSpanOffsets;
-    const PressedRing ring(response, gaugeCount, offset_pitch);
+    const RingResponse here(response, gaugeCount, 0.5 * step / kSpanOffsets);
     for (int direction = -kSpanDirections; direction <= kSpanDirections; ++direction)
-      noteContact(ring, sign, widest * direction / kSpanDirections, offset_pitch, distances);
+      noteContact(here.pressed(widest * direction / kSpanDirections), distances);
   }
   std::array<ScanSpan, kShares> spans{};
   std::transform(distances.begin(), distances.end(), spans.begin(), spanOf);

@@ -12,6 +12,7 @@
 #include "host/tables/fit_table.hpp"
 #include "host/tables/gauge_gains.hpp"
 #include "host/tables/near_table.hpp"
+#include "host/tables/pressed_ring.hpp"
 #include "host/tables/scan_spans.hpp"
 #include "host/tables/start_weights.hpp"
 #include "host/tables/tail_energy.hpp"
@@ -192,7 +193,7 @@ TableImage buildTableImage(const config::FingerConfig& config) {
   image.format = kTableFormat;
   image.image_bytes = sizeof(TableImage);
   image.parameters = tableParameters(config);
-  image.constants = tableConstants(config, response.at(0).normal < 0);
+  image.constants = tableConstants(config, peakSign(response) < 0);
   const int exponent = amplitudeExponent(fits);
   fillLoads(image.constants, peak, exponent);
   image.constants.tail_q16 = tail_q16(tailEnergy(response, config.gauges.count, cone));

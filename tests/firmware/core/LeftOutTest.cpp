@@ -8,6 +8,7 @@
 #include "firmware/core/estimate.hpp"
 #include "firmware/core/left_out.hpp"
 #include "tests/firmware/core/model_ring.hpp"
+#include "tests/under_sanitizers.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -38,7 +39,7 @@ config::FingerConfig quietFinger(int gauges, double noise_strain) {
 /// to 1.11 times the bound, beside the gauge that is out 1.10 to 1.50 times.
 int contacts() {
   const char* given = std::getenv("STRAINFINGER_TEST_CONTACTS");
-  return given ? std::atoi(given) : 10'000;
+  return given ? std::atoi(given) : randomCases(10'000);
 }
 
 constexpr double kPress = 30;
@@ -120,7 +121,7 @@ struct WithoutGauges : Utest {
   }
   void checkNothingLeftOut() {
     Presses presses(ring.gauges(), kPress, 303);
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < randomCases(200); ++i) {
       auto raw = ring.raw(presses.next());
       const std::uint32_t energy = gateEnergy(ring.constants(), raw);
       const Fit all = locate(ring.tables(), FitMode::kRefined, raw, energy);

@@ -81,24 +81,36 @@ TEST(StartWeights, MostContactsStartWithinASixteenthOfAPitch) {
 }
 
 TEST(StartWeights, OtherWeightsAreFartherOff) {
-  const auto weights = tables::startWeights(response_, 16, kStartCone);
-  std::vector<Told> drawn;
-  for (int i = 0; i < kStartContacts; ++i) {
-    const Told told = draw(16);
-    if (static_cast<int>(told.share * kShares) == 12 && std::abs(told.offset_pitch) < 0.6)
-      drawn.push_back(told);
-  }
-  const auto squares = [&](const StartWeights& each) {
-    double sum = 0;
-    for (const Told& told : drawn) sum += std::pow(toldOffset(each, told) - told.offset_pitch, 2);
-    return sum;
-  };
-  for (std::size_t i = 0; i < 3; ++i)
-    for (const int change : {-400, 400}) {
-      StartWeights other = weights[12];
-      other[i] = static_cast<std::int16_t>(other[i] + change);
-      CHECK(squares(other) > squares(weights[12]));
+  for (const auto& [gauges, share] : {std::pair{16, 12}, {24, 8}}) {
+    const StartWeights own =
+        tables::startWeights(response_, gauges, kStartCone)[static_cast<unsigned>(share)];
+    CHECK(own.tell());
+    std::vector<Told> drawn;
+    for (int i = 0; i < kStartContacts; ++i) {
+      const Told told = draw(gauges);
+      if (static_cast<int>(told.share * kShares) == share && std::abs(told.offset_pitch) < 0.6)
+        drawn.push_back(told);
     }
+    const auto squares = [&](const StartWeights& each) {
+      double sum = 0;
+      for (const Told& told : drawn) sum += std::pow(toldOffset(each, told) - told.offset_pitch, 2);
+      return sum;
+    };
+    for (std::size_t i = 0; i < own.size(); ++i)
+      for (const int change : {-400, 400}) {
+        StartWeights other = own;
+        other[i] = static_cast<std::int16_t>(other[i] + change);
+        CHECK(squares(other) > squares(own));
+      }
+  }
+}
+
+TEST(StartWeights, OnlyRingsWithAnOuterPairWeighIt) {
+  for (const int gauges : {16, 18, 24, 32}) {
+    const auto weights = tables::startWeights(response_, gauges, kStartCone);
+    for (const StartWeights& each : weights)
+      if (each.tell()) CHECK_EQUAL(hasOuterPair(gauges), each[3] != 0);
+  }
 }
 
 TEST(StartWeights, MirroredContactsStartMirrored) {

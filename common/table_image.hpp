@@ -125,7 +125,7 @@ struct TableConstants {
   std::uint8_t scan_step;  ///< rows between the starts of a scan: half a step, 3/2, 5/2 .. of it
   std::array<ScanSpan, kShares> scan_span;  ///< by the deepest reading's share
   std::uint16_t near_pole_q15;           ///< offset at which near rows would tell no loads [pitches * 2^15]
-  std::uint8_t firm_exponent;            ///< from 2^this variances on, a ring's readings have one explanation
+  std::uint8_t firm_exponent;            ///< a ring of 2^this variances is firm, see StartWeights
   std::array<std::uint8_t, 5> reserved;  ///< 0
 };
 

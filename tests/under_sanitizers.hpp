@@ -4,17 +4,7 @@
 
 namespace strainfinger {
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define __SANITIZE_ADDRESS__ 1
-#endif
-#endif
-
-#if defined(__SANITIZE_ADDRESS__)
-inline constexpr bool kSanitized = true;
-#else
-inline constexpr bool kSanitized = false;
-#endif
+inline constexpr bool kSanitized = STRAINFINGER_SANITIZED;
 
 /// Random cases that a test draws, of so many in the plain copy.
 constexpr int randomCases(int plain) { return kSanitized ? (plain + 7) / 8 : plain; }

@@ -17,17 +17,16 @@ constexpr int kElsewhereOffsets = 64;     ///< a pitch
 constexpr int kElsewhereFarthest = 40;    ///< of them, from a window's middle gauge: as far as the fit table
 constexpr int kElsewhereDirections = 32;  ///< to either side
 constexpr int kNearestContact = kElsewhereOffsets / 4;
-constexpr int kFarthestContact = kElsewhereOffsets * 3 / 2;
+constexpr int kFarthestContact = kElsewhereOffsets * 3 / 2;  ///< those beyond leave too much outside
 constexpr double kBeyondCone = 1.25;
-constexpr double kMostOutside = 1.0 / 30;  ///< of the window's energy: more than 1/32 and noise is in doubt
+constexpr double kMostOutside = 1.0 / 28;  ///< of the window's energy: more than 1/32 and noise is in doubt
 
 /// Another offset d standard errors away is within 32 variances of a contact's own, which is where it is
 /// told, once noise is (d^2 - 32) / (2 d) standard errors: 5.4 of d^2 = 175.
 constexpr double kFirmVariances = 175;
 
 WindowMatrix windowAt(const model::ImpulseResponse& response, int gaugeCount, int offset) {
-  return peakSign(response) *
-         windowResponse(response, gaugeCount, static_cast<double>(offset) / kElsewhereOffsets).value;
+  return windowResponse(response, gaugeCount, static_cast<double>(offset) / kElsewhereOffsets).value;
 }
 
 /// An offset at which a window might be fitted.
@@ -75,7 +74,7 @@ double leastBetween(double before, double here, double after) {
   return bend > 0 ? std::max(here - slope * slope / (2 * bend), 0.0) : here;
 }
 
-/// Contacts so many offsets from a window's middle gauge, which is the deepest.
+/// Contacts so many offsets from a window's middle gauge.
 class Contacts {
  public:
   Contacts(const model::ImpulseResponse& response, int gaugeCount, int own)
@@ -84,11 +83,11 @@ class Contacts {
         readings_(windowAt(response, gaugeCount, own)),
         energy_(readings_.transpose() * readings_) {}
 
-  /// Those with this load belong to another window, or leave too much outside theirs to be believed there.
-  bool areElsewhere(double load) const {
-    const PressedRing ring = ring_.pressed(load);
+  PressedRing ring(double load) const { return ring_.pressed(load); }
+  /// With this load that gauge is the deepest, and too little is left outside the window to be in doubt.
+  bool belongHere(const PressedRing& ring, double load) const {
     const double inside = energy_.of(load);
-    return ring.deepest != 0 || ring.energy - inside > kMostOutside * inside;
+    return ring.deepest == 0 && ring.energy - inside <= kMostOutside * inside;
   }
   std::vector<Rival> rivals(const Offsets& offsets) const {
     std::vector<Rival> rivals;
@@ -96,8 +95,8 @@ class Contacts {
     for (const Offset& each : offsets) rivals.emplace_back(each, readings_);
     return rivals;
   }
-  /// The least part of their energy that is left at another offset.
-  double leastOf(const std::vector<Rival>& rivals, double load, double cone) const {
+  /// The least energy that is left at another offset.
+  double leastLeft(const std::vector<Rival>& rivals, double load, double cone) const {
     std::vector<double> left;
     left.reserve(rivals.size());
     for (const Rival& each : rivals) left.push_back(each.left.of(load));
@@ -107,7 +106,7 @@ class Contacts {
       if (!isSame && left[i] <= left[i - 1] && left[i] <= left[i + 1] && rivals[i].isAllowed(load, cone))
         least = std::min(least, leastBetween(left[i - 1], left[i], left[i + 1]));
     }
-    return least / energy_.of(load);
+    return least;
   }
 
  private:
@@ -128,14 +127,16 @@ double leastElsewhere(const model::ImpulseResponse& response, int gaugeCount, do
     const std::vector<Rival> rivals = contacts.rivals(offsets);
     for (int step = -kElsewhereDirections; step <= kElsewhereDirections; ++step) {
       const double load = cone * step / kElsewhereDirections;
-      if (!contacts.areElsewhere(load)) least = std::min(least, contacts.leastOf(rivals, load, cone));
+      const PressedRing ring = contacts.ring(load);
+      if (contacts.belongHere(ring, load))
+        least = std::min(least, contacts.leastLeft(rivals, load, cone) / ring.energy);
     }
   }
   return least;
 }
 
-int firmExponent(double leastElsewhere) {
-  return static_cast<int>(std::ceil(std::log2(kFirmVariances / std::max(leastElsewhere, 1e-12))));
+int firmExponent(double leastLeft) {
+  return static_cast<int>(std::ceil(std::log2(kFirmVariances / std::max(leastLeft, 1e-12))));
 }
 
 }  // namespace strainfinger::tables

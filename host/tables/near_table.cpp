@@ -14,7 +14,7 @@ constexpr double kLongestNear = 0x1p14 - 1;
 
 std::int16_t nearWeight(double value) { return saturate<std::int16_t>(std::llround(value)); }
 
-/// Weights of middle reading and difference for one load, of the responses of all three to both.
+/// Weights of middle reading and difference for one load, rounded.
 std::array<std::int16_t, 2> loadOf(const Eigen::Vector2d& weights) {
   return {nearWeight(weights[0]), nearWeight(weights[1])};
 }

@@ -8,7 +8,7 @@
 
 namespace strainfinger::tables {
 
-/// Of what a normal load makes the gauge under it read.
+/// Of what a normal load makes the gauge under it read; 1 for shear, of which that is nothing.
 inline double peakSign(const model::ImpulseResponse& response) { return response.at(0).normal < 0 ? -1 : 1; }
 
 /// Readings of a contact somewhere on a ring.
@@ -25,8 +25,8 @@ struct PressedRing {
   }
   /// Difference of the pair at this distance from the deepest gauge, + side minus - side.
   double differenceAt(int distance) const { return at(distance) - at(-distance); }
-  /// What the deepest reading has of the energy; 0 if nothing is read.
-  double share() const { return energy > 0 ? at(0) * at(0) / energy : 0; }
+  /// What the deepest reading has of the energy; 0 if nothing is pressed.
+  double share() const { return at(0) > 0 ? at(0) * at(0) / energy : 0; }
   /// Of the contact from the deepest gauge, the short way round [pitches].
   double offset_pitch() const;
 };

@@ -37,7 +37,7 @@ void note(std::array<Distances, kShares>& distances, double share, double fromDe
 }
 
 void noteContact(const PressedRing& ring, std::array<Distances, kShares>& distances) {
-  if (ring.energy == 0) return;
+  if (ring.share() == 0) return;
   note(distances, ring.share(), std::abs(ring.offset_pitch()) * kRowsPerPitch,
        std::abs(ring.position_pitch) * kRowsPerPitch);
 }

@@ -28,7 +28,7 @@ struct Example {
 using Examples = std::array<std::vector<Example>, kShares>;
 
 void addContact(const PressedRing& ring, Examples& examples) {
-  if (!(ring.at(0) > 0)) return;
+  if (ring.share() == 0) return;
   Example example{Differences::Zero(), ring.offset_pitch()};
   for (int distance = 1; distance <= fitReach(ring.gauges()); ++distance)
     example.differences[distance - 1] = ring.differenceAt(distance) / ring.at(0);

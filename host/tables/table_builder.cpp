@@ -127,15 +127,16 @@ TableConstants tableConstants(const config::FingerConfig& config, bool peakIsNeg
   constants.anchor_sign = peakIsNegative ? 1 : -1;
   constants.anchor_rule = AnchorRule::kSecondDifference;
   constants.scan_step = kMaxScanStep;
+  constants.firm_exponent = kMostFirmExponent;
   return constants;
 }
 
 /// No start is told where however firm a contact another place explains it.
-void fillStart(TableImage& image, double leastElsewhere, const std::array<StartWeights, kShares>& weights) {
-  const int exponent = firmExponent(leastElsewhere);
-  image.constants.firm_exponent =
-      static_cast<std::uint8_t>(std::clamp(exponent, kLeastFirmExponent, kMostFirmExponent));
-  if (exponent <= kMostFirmExponent) image.start = weights;
+void fillStart(TableImage& image, const model::ImpulseResponse& response, int gaugeCount, double cone) {
+  const int exponent = firmExponent(leastElsewhere(response, gaugeCount, cone));
+  if (exponent > kMostFirmExponent) return;
+  image.constants.firm_exponent = static_cast<std::uint8_t>(std::max(exponent, kLeastFirmExponent));
+  image.start = startWeights(response, gaugeCount, cone);
 }
 
 /// Readings and loads must fit the firmware's integers.
@@ -198,8 +199,7 @@ TableImage buildTableImage(const config::FingerConfig& config) {
   fillLoads(image.constants, peak, exponent);
   image.constants.tail_q16 = tail_q16(tailEnergy(response, config.gauges.count, cone));
   image.constants.scan_span = scanSpans(response, config.gauges.count, cone);
-  fillStart(image, leastElsewhere(response, config.gauges.count, cone),
-            startWeights(response, config.gauges.count, cone));
+  if (hasOnePeak(config.gauges)) fillStart(image, response, config.gauges.count, cone);
   image.rows = fitTable(fits, exponent);
   const double pole_pitch = nearPole(response, config.gauges.count);
   image.constants.near_pole_q15 = saturate<std::uint16_t>(std::llround(std::ldexp(pole_pitch, 15)));

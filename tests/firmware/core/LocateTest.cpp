@@ -33,7 +33,7 @@ struct RingKind {
 constexpr RingKind kRings[] = {{16, kRadial}, {32, kRadial}, {12, kHoop},   {20, kShear}, {12, kRadial},
                                {14, kRadial}, {20, kRadial}, {24, kRadial}, {16, kHoop},  {32, kHoop},
                                {16, kShear},  {24, kShear},  {32, kShear}};
-constexpr int kSanitizedRings = 4;  // whose tables take a second to make there
+constexpr int kSanitizedRings = 4;  // the first, of each kind: their tables alone take seconds there
 
 }  // namespace
 
@@ -191,7 +191,8 @@ TEST(Locate, ChoosesTheBranchOfAGlobalSearch) {
       CHECK_TRUE(same || contact.quality <= kUncertain);
       if (contact.quality <= kUncertain) ++uncertain;
     }
-    CHECK(uncertain < randomCases(400));
+    std::printf("%d of %d uncertain ", uncertain, randomCases(2000));
+    CHECK(uncertain < randomCases(400));  // a sixth of 16 gauges', none of the others'
   }
 }
 
@@ -246,7 +247,7 @@ TEST(Locate, MirroredStrainsGiveTheMirroredAnswer) {
     }
     // Differences of two readings that end in a half are rounded up, mirrored or not, and may start a fit
     // from another row; shear's mirror negates sums, too.
-    CHECK(shear || inexact <= 10);
+    CHECK(shear || inexact <= randomCases(16));
   });
 }
 
@@ -332,7 +333,7 @@ TEST(Locate, AToldStartLeadsWhereAScanDoes) {
       CHECK(coversAnother(ring, fit) == coversAnother(ring, scanned));
     }
     std::printf("%d gauges: %.1f %% told ", gauges, 100.0 * told / randomCases(5000));
-    CHECK(told > (gauges == 16 ? randomCases(4000) : 0));
+    CHECK(told > randomCases(gauges == 16 ? 4250 : 4750));
   }
 }
 

@@ -41,14 +41,18 @@ Left leftOf(const ElsewhereReadings& readings, const tables::OracleMatrix& respo
 /// Contacts on a ring, seen by the window around gauge 0.
 class ElsewhereRing {
  public:
-  ElsewhereRing(const model::ImpulseResponse& response, int gauges) : response_(response), gauges_(gauges) {
+  ElsewhereRing(const model::ImpulseResponse& response, int gauges)
+      : response_(response), gauges_(gauges), sign_(response.at(0).normal < 0 ? -1 : 1) {
     for (int i = -kFarthestPlace; i <= kFarthestPlace; ++i)
       places_.push_back(windowAt(static_cast<double>(i) / kElsewherePlaces));
   }
-  /// The least part left at another place; 1 for a contact that isn't this window's.
+  /// The least part of the ring's energy that is left at another place; 1 for a contact that isn't this
+  /// window's.
   double leastFor(double position, double tangential) const {
     const ElsewhereReadings readings = windowAt(position) * Eigen::Vector2d(1, tangential);
-    if (!isOwn(position, tangential, readings.squaredNorm())) return 1;
+    const double inside = readings.squaredNorm();
+    const Whole whole = wholeAt(position, tangential);
+    if (whole.deepest != 0 || whole.energy - inside > inside / 29) return 1;  // little is read outside
     std::vector<Left> left;
     for (const auto& place : places_) left.push_back(leftOf(readings, place));
     double least = 1;
@@ -58,30 +62,34 @@ class ElsewhereRing {
       if (valley && left[i].allowed && std::abs(place - position) > 2.0 / kElsewherePlaces)
         least = std::min(least, left[i].part);
     }
-    return least;
+    return least * inside / whole.energy;
   }
 
  private:
   tables::OracleMatrix windowAt(double position) const {
     return tables::oracleResponse(response_, gauges_, position, tables::kAllGauges);
   }
-  /// Gauge 0 reads most, and little is read outside.
-  bool isOwn(double position, double tangential, double inside) const {
-    double energy = 0, deepest = 0;
-    int gaugeOfDeepest = 0;
+  struct Whole {
+    double energy = 0;
+    int deepest = 0;  ///< gauge
+  };
+  Whole wholeAt(double position, double tangential) const {
+    Whole whole;
+    double deepest = 0;
     for (int gauge = 0; gauge < gauges_; ++gauge) {
       const auto value = response_.at((gauge - position) * 2 * std::numbers::pi / gauges_);
-      const double reading = value.normal + tangential * value.tangential;
-      energy += reading * reading;
-      if (reading >= deepest) continue;  // a pressing load's peak is negative
+      const double reading = sign_ * (value.normal + tangential * value.tangential);
+      whole.energy += reading * reading;
+      if (reading <= deepest) continue;
       deepest = reading;
-      gaugeOfDeepest = gauge;
+      whole.deepest = gauge;
     }
-    return gaugeOfDeepest == 0 && energy - inside < inside / 31;
+    return whole;
   }
 
   const model::ImpulseResponse& response_;
   int gauges_;
+  double sign_;  ///< of a pressing load's peak
   std::vector<tables::OracleMatrix> places_;
 };
 
@@ -89,15 +97,22 @@ class ElsewhereRing {
 
 TEST_GROUP(Elsewhere) { const model::ImpulseResponse response_ = tables::responseOf({}); };
 
+// On either side of the gauge, and wherever its reading is still the deepest.
 TEST(Elsewhere, NoContactAQuarterOfAPitchFromAGaugeLooksMoreLikeAnother) {
   std::printf("seed 79 ");
+  config::FingerConfig hoop;
+  hoop.gauges.component = StrainComponent::kHoop;
+  const model::ImpulseResponse hoopResponse = tables::responseOf(hoop);
   std::mt19937_64 random(79);
-  std::uniform_real_distribution<double> offset(0.25, 0.5), direction(-kElsewhereCone, kElsewhereCone);
-  for (const int gauges : {16, 18}) {
-    const double expected = tables::leastElsewhere(response_, gauges, kElsewhereCone);
-    const ElsewhereRing ring(response_, gauges);
+  std::uniform_real_distribution<double> distance(0.25, 0.9), direction(-kElsewhereCone, kElsewhereCone);
+  for (const auto& [response, gauges] : {std::pair{&response_, 16}, {&response_, 18}, {&hoopResponse, 16}}) {
+    const double expected = tables::leastElsewhere(*response, gauges, kElsewhereCone);
+    const ElsewhereRing ring(*response, gauges);
     double least = 1;
-    for (int i = 0; i < 700; ++i) least = std::min(least, ring.leastFor(offset(random), direction(random)));
+    for (int i = 0; i < 3000; ++i) {
+      const double position = distance(random) * (i % 2 == 0 ? 1 : -1);
+      least = std::min(least, ring.leastFor(position, direction(random)));
+    }
     std::printf("%d: %.4f, %.4f of all drawn ", gauges, expected, least);
     CHECK(least > 0.97 * expected);
     CHECK(least < 1.5 * expected);

@@ -107,19 +107,12 @@ TEST(StartWeights, OtherWeightsAreFartherOff) {
 
 TEST(StartWeights, OnlyRingsWithAnOuterPairWeighIt) {
   for (const int gauges : {16, 18, 24, 32}) {
-    const auto weights = tables::startWeights(response_, gauges, kStartCone);
-    for (const StartWeights& each : weights)
+    int telling = 0;
+    for (const StartWeights& each : tables::startWeights(response_, gauges, kStartCone)) {
+      telling += each.tell() ? 1 : 0;
       if (each.tell()) CHECK_EQUAL(hasOuterPair(gauges), each[3] != 0);
-  }
-}
-
-TEST(StartWeights, MirroredContactsStartMirrored) {
-  const auto weights = tables::startWeights(response_, 16, kStartCone);
-  for (int i = 0; i < 100; ++i) {
-    Told told = draw(16);
-    const double offset = toldOffset(weightsFor(weights, told), told);
-    for (double& difference : told.differences) difference = -difference;
-    DOUBLES_EQUAL(-offset, toldOffset(weightsFor(weights, told), told), 1e-12);
+    }
+    CHECK(telling > 0);
   }
 }
 

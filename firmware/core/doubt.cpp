@@ -119,29 +119,30 @@ inline void enterBeside(const Problem& problem, Contest& contest) {
       enterFit(problem, InWindow::kOwn, starts[i].centre, starts[i].row, contest);
 }
 
-/// Another place beside the gauge, whatever load it takes, and how much less of the readings it explains:
-/// looked for where noise may hide it.
+/// Whether noise may hide another place beside the gauge of an answer that is so far from it.
+inline bool mayLieAcross(const Problem& problem, PitchQ20 offset) {
+  return absolute(offset) < kBesideGauge && mayBeHidden(problem, offset);
+}
+
+/// Another place beside the gauge, whatever load it takes, and how much less of the readings it explains.
 struct Across {
-  Placement place{};
-  std::int32_t deficit = kNoRival;
+  Placement place;
+  std::int32_t deficit;
 };
 [[gnu::noinline]] Across lookAcross(const Problem& problem, const Fit& fit, PitchQ20 offset) {
-  Across across;
-  const PitchQ20 from = fit.offset(problem.gauges());
-  if (!fit.settled || absolute(from) >= kBesideGauge || !mayBeHidden(problem, from)) return across;
   WindowFit there;
   there.start(signalAround(problem, fit.centre), fit.centre, Lead{offset, 0}.row(), problem.mirrorSign());
   takeStep(problem.tables.rows, there);
   there.step.length = there.step.slope = 0;
   const Judgement judgement = judged(problem, there, true);
-  across.place = placementOf(there, judgement, problem.gauges());
-  across.deficit = std::max<std::int32_t>(fit.windowEnergy - fit.unexplained - judgement.energy, 0);
-  return across;
+  return {placementOf(there, judgement, problem.gauges()),
+          std::max<std::int32_t>(fit.windowEnergy - fit.unexplained - judgement.energy, 0)};
 }
 
 /// Where no second answer lies across the gauge, a shallow valley may lead there, or halfway, all the same:
 /// the answer's own information then says too much.
 [[gnu::noinline, gnu::cold]] void coverValley(const Problem& problem, Fit& fit, PitchQ20 offset) {
+  if (!fit.settled || !mayLieAcross(problem, fit.offset(problem.gauges()))) return;
   Across across = lookAcross(problem, fit, offset);
   if (offset != 0 && across.deficit >= problem.noise) across = lookAcross(problem, fit, 0);
   if (across.deficit >= problem.noise) return;
@@ -177,7 +178,8 @@ void searchOn(Fit& fit, const TableImage& tables, const std::int32_t* strains_q3
   bool contested = fit.ambiguous;
   if (stays && !contested) {
     rival = -offset;
-    contest.keeps = contested = lookAcross(problem, fit, rival).deficit < 2 * problem.noise;
+    contest.keeps = contested =
+        mayLieAcross(problem, offset) && lookAcross(problem, fit, rival).deficit < 2 * problem.noise;
     if (!contested && !doubtful(problem, true, fit.unexplained, fit.windowEnergy))
       return coverValley(problem, fit, 0);
   }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "firmware/core/detect.hpp"
+#include "firmware/core/doubt.hpp"
 #include "firmware/core/left_out_products.hpp"
 
 namespace strainfinger::firmware {
@@ -15,7 +16,7 @@ constexpr int kMaxSteps = 8;
 constexpr PitchQ20 kLongestStep = kOnePitch / 8;
 constexpr std::uint32_t kAmbiguous = 12;  ///< answers closer than this many variances are not told apart
 constexpr std::uint32_t kFaint = 64;      ///< an answer that explains less may be noise
-constexpr std::size_t kPeaks = 3;
+constexpr std::size_t kPeaks = 6;
 /// Where the search looks from the best peak's fit, in eighths of a pitch.
 constexpr std::array<std::int8_t, 8> kAway{-4, -3, -2, -1, 1, 2, 3, 4};
 constexpr PitchQ20 kSame = kOnePitch / 12;  ///< fits closer than this ran into one maximum
@@ -106,7 +107,8 @@ struct Peaks {
   return peaks;
 }
 
-/// Writes what the readings left out should be; those outside the window of the fit should be 0.
+/// Writes what the readings left out should be; those outside the window of the fit should be 0. False: that
+/// isn't known, or is beyond what readings hold.
 [[gnu::noinline]] bool fillIn(const Problem& problem, const RingSignal& signal, PitchQ20 position,
                               std::span<std::int32_t> strains_q32) {
   const View view = viewOf(problem, position);
@@ -116,9 +118,10 @@ struct Peaks {
   const int reach = fitReach(problem.gauges());
   for (int step = -reach; step <= reach; ++step) {
     const int gauge = gaugeAt(problem, view, step);
-    if (contains(signal.leftOut, gauge))
-      strains_q32[static_cast<std::size_t>(gauge)] =
-          std::clamp(fit.expected_q32(problem, signal, view, step), -limit, limit);
+    if (!contains(signal.leftOut, gauge)) continue;
+    const std::int32_t expected = fit.expected_q32(problem, signal, view, step);
+    if (absolute(expected) > limit) return false;
+    strains_q32[static_cast<std::size_t>(gauge)] = expected;
   }
   return true;
 }
@@ -128,11 +131,12 @@ void clear(GaugeSet gauges, std::span<std::int32_t> strains_q32) {
     if (contains(gauges, static_cast<int>(i))) strains_q32[i] = 0;
 }
 
-/// What the search says of a fit, beside its place.
+/// What the search says of a fit.
 struct Verdict {
   bool determined = false;
   bool ambiguous = false;
-  Placement alternative{};  ///< with the amplitudes of a fit to the readings filled in
+  PitchQ20 best = 0;        ///< place for which readings were filled in
+  Placement alternative{};  ///< with the amplitudes of a fit to all of them
 };
 
 /// From one problem's scale to another's, whose `up` is so much more.
@@ -150,6 +154,7 @@ Placement inScale(const Placement& place, int up) {
   verdict.determined = rivals.best.explained > problem.variances(kFaint) &&
                        fillIn(problem, RingSignal{problem, leftOut}, rivals.best.place.position, strains_q32);
   energy = gateEnergy(tables.constants, strains_q32);
+  verdict.best = rivals.best.place.position;
   verdict.alternative = inScale(rivals.second.place, problemOf(tables, strains_q32, energy).up - problem.up);
   return verdict;
 }
@@ -185,6 +190,22 @@ View viewOf(const Problem& problem, const Fit& fit) {
   return {fit.centre, offset < 0 ? -1 : 1, static_cast<int>(fit.row - problem.tables.rows.data())};
 }
 
+/// To all readings, from where the remaining ones led: where what was filled in leads the fit elsewhere.
+[[gnu::noinline]] void fitAt(const TableImage& tables, PitchQ20 position,
+                             std::span<const std::int32_t> strains_q32, std::uint32_t energy, Fit& fit) {
+  const Problem problem = problemOf(tables, strains_q32, energy);
+  const View view = viewOf(problem, position);
+  WindowFit window;
+  window.start(signalAround(problem, view.centre), view.centre, view.side * view.row, problem.mirrorSign());
+  const bool settled = solve(problem, InWindow::kNearest, window);
+  report(problem, window, judged(problem, window, settled), roundTheRing(window.position(), problem.gauges()),
+         fit);
+  fit.alternative = fit.best;
+  fit.deficit = kNoRival;
+  fit.ambiguous = false;
+  fit.anchor = fit.centre;
+}
+
 /// The errors of a fit to filled-in readings are those of the readings that are real.
 [[gnu::noinline]] void widen(const TableImage& tables, GaugeSet leftOut,
                              std::span<const std::int32_t> strains_q32, std::uint32_t energy, Fit& fit) {
@@ -208,7 +229,7 @@ Candidate followed(const Problem& problem, const RingSignal& signal, View view) 
     const PitchQ20 step = std::clamp(whole, -longest, longest);
     candidate.place = placed(problem, view, step, fit.share.coefficients);
     candidate.explained = fit.share.explained + tailOf(problem, signal, view, fit);
-    if (std::abs(whole) <= kRowSpacing * 5 / 8) {
+    if (std::abs(whole) <= kConverged) {
       candidate.admissible = withinCone(problem, candidate.place);
       break;
     }
@@ -238,6 +259,8 @@ Fit locateWithout(const TableImage& tables, GaugeSet leftOut, std::span<std::int
   const Verdict verdict = prepare(tables, leftOut, strains_q32, energy);
   Fit fit;
   locateBySeven(fit, tables, strains_q32.data(), energy);
+  if (distance(fit.best.position, verdict.best, tables.constants.gauge_count) >= kSame)
+    fitAt(tables, verdict.best, strains_q32, energy, fit);
   widen(tables, leftOut, strains_q32, energy, fit);
   if (!verdict.determined) fit.settled = false;
   if (verdict.ambiguous) {

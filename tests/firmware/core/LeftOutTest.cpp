@@ -23,9 +23,12 @@ using Errors = Eigen::Array3d;
 struct Statistics {
   int contacts = 0;
   int uncertain = 0;
-  int gross = 0;  ///< certain, and off by more than half a pitch
-  Errors overBound = Errors::Zero();
+  int gross = 0;  ///< off by more than half a pitch, whatever is said of it
+  int certainAndGross = 0;
+  Errors overBound = Errors::Zero();  ///< of those that are certain
   Errors overSigma = Errors::Zero();
+  Errors allOverBound = Errors::Zero();
+  Errors allOverSigma = Errors::Zero();
 };
 
 config::FingerConfig quietFinger(int gauges, double noise_strain) {
@@ -36,7 +39,8 @@ config::FingerConfig quietFinger(int gauges, double noise_strain) {
 }
 
 /// A few large errors make up a part of the normal load's RMS: from one ten thousand to the next it is 1.01
-/// to 1.11 times the bound, beside the gauge that is out 1.10 to 1.50 times.
+/// to 1.08 times the bound, beside the gauge that is out 1.10 to 1.30 times; more with those that are called
+/// uncertain.
 int contacts() {
   const char* given = std::getenv("STRAINFINGER_TEST_CONTACTS");
   return given ? std::atoi(given) : randomCases(10'000);
@@ -91,22 +95,32 @@ struct WithoutGauges : Utest {
       if (std::abs(ring.between(near, press.position_pitch)) > reach) continue;
       ++result.contacts;
       const Contact contact = located(press, out, presses);
-      if (contact.uncertain) {
-        ++result.uncertain;
-        continue;
-      }
       const Errors error = errorsOf(contact, press);
-      if (std::abs(error[0]) > 0.5) ++result.gross;
-      result.overBound += (error / bound(press, out)).square();
-      result.overSigma += (error / sigmasOf(contact)).square();
+      const Errors overBound = (error / bound(press, out)).square();
+      const Errors overSigma = (error / sigmasOf(contact)).square();
+      const bool gross = std::abs(error[0]) > 0.5;
+      result.gross += gross;
+      result.allOverBound += overBound;
+      result.allOverSigma += overSigma;
+      result.uncertain += contact.uncertain;
+      if (contact.uncertain) continue;
+      result.certainAndGross += gross;
+      result.overBound += overBound;
+      result.overSigma += overSigma;
     }
     const double certain = result.contacts - result.uncertain;
-    result.overBound = (result.overBound / certain).sqrt();
-    result.overSigma = (result.overSigma / certain).sqrt();
-    std::printf("%d contacts, %d uncertain, %d gross, over bound %.3f %.3f %.3f, over sigma %.3f %.3f %.3f\n",
-                count, result.uncertain, result.gross, result.overBound[0], result.overBound[1],
-                result.overBound[2], result.overSigma[0], result.overSigma[1], result.overSigma[2]);
+    std::printf("%d contacts, %d uncertain, %d gross, of them %d certain", count, result.uncertain,
+                result.gross, result.certainAndGross);
+    toRms("over bound", certain, result.overBound);
+    toRms("over sigma", certain, result.overSigma);
+    toRms("all over bound", count, result.allOverBound);
+    toRms("all over sigma", count, result.allOverSigma);
+    std::printf("\n");
     return result;
+  }
+  static void toRms(const char* what, double count, Errors& sumOfSquares) {
+    sumOfSquares = (sumOfSquares / count).sqrt();
+    std::printf(", %s %.3f %.3f %.3f", what, sumOfSquares[0], sumOfSquares[1], sumOfSquares[2]);
   }
 
   /// As good as the gauges that are left allow, and honest.
@@ -115,6 +129,8 @@ struct WithoutGauges : Utest {
     CHECK(result.uncertain < result.contacts / 100);
     checkWithin({1.1, 1.1, 1.1}, result.overBound);
     checkWithin({1.1, 1.1, 1.1}, result.overSigma);
+    checkWithin({1.1, 1.25, 1.1}, result.allOverBound);
+    checkWithin({1.1, 1.1, 1.1}, result.allOverSigma);
   }
   /// Not of the few contacts of a sanitized copy.
   static void checkWithin(const Errors& limits, const Errors& values) {
@@ -156,7 +172,7 @@ TEST(LeftOut, WithoutAnythingLeftOutItIsTheFitOfAllGauges) { checkNothingLeftOut
 // Two of the readings that matter most are missing: often nobody can tell, and then nothing is said for sure.
 TEST(LeftOut, TwoNeighboursOutNeverGiveAConfidentWrongAnswer) {
   const Statistics result = run(3u << 5, 5, 3, contacts(), 304);
-  LONGS_EQUAL(0, result.gross);
+  LONGS_EQUAL(0, result.certainAndGross);
   checkWithin({2, 2, 2}, result.overSigma);
 }
 

@@ -159,4 +159,9 @@ TEST(LocateCommand, TablesOfAnotherFingerAreAMismatch) {
   STRCMP_CONTAINS("gauges.count", run.err.c_str());
 }
 
-TEST(LocateCommand, AnUnknownModeIsAUsageError) { LONGS_EQUAL(2, runProgram("locate --mode guess").status); }
+TEST(LocateCommand, AnUnknownModeIsToldOfTheKnownOnes) {
+  for (const std::string mode : {"guess", "0", "Refined"})
+    checkRefused("locate --mode " + mode,
+                 ("--mode: " + mode + " is not one of refined, three-point\n").c_str());
+  STRCMP_CONTAINS("--mode MODE ", runProgram("locate --help").out.c_str());
+}

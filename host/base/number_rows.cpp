@@ -1,11 +1,15 @@
 #include "host/base/number_rows.hpp"
 
 #include <fmt/format.h>
+#include <strings.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <string_view>
+#include <utility>
 
 #include "host/base/failure.hpp"
 
@@ -13,6 +17,10 @@ namespace strainfinger {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r";
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // UTF-8's, as spreadsheets begin their CSV
+constexpr std::array kOtherSeparators{std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}};
+/// What other programs write where there is no number; NaN and infinities are numbers to parseNumber().
+constexpr std::array kNoNumbers{"na", "n/a", "null", "none", "nil", "missing", "empty"};
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(kBlanks);
@@ -27,15 +35,40 @@ bool parseNumber(std::string_view text, double& value) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-/// A row in which nothing is a number, between commas or semicolons.
-bool isAllNames(const std::string& line) {
-  double value = 0;
+std::vector<std::string_view> fieldsOf(std::string_view line) {
+  std::vector<std::string_view> fields;
   for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find_first_of(",;", begin), line.size());
-    if (parseNumber(trimmed(std::string_view(line).substr(begin, end - begin)), value)) return false;
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    fields.push_back(trimmed(line.substr(begin, end - begin)));
     begin = end + 1;
   }
-  return true;
+  return fields;
+}
+
+std::string_view unquoted(std::string_view field) {
+  const bool isQuoted = field.size() >= 2 && field.starts_with('"') && field.ends_with('"');
+  return isQuoted ? field.substr(1, field.size() - 2) : field;
+}
+
+bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+bool isNoNumberOf(std::string_view field, const char* word) {
+  return field.size() == std::strlen(word) && strncasecmp(field.data(), word, field.size()) == 0;
+}
+
+/// Of a column: nothing that could have been meant as a value, or as several.
+bool isName(std::string_view field) {
+  const std::string_view name = unquoted(field);
+  double value = 0;
+  return !name.empty() && isLetter(name.front()) && name.find_first_of(";\t") == std::string_view::npos &&
+         !parseNumber(name, value) &&
+         std::none_of(kNoNumbers.begin(), kNoNumbers.end(),
+                      [&](const char* word) { return isNoNumberOf(name, word); });
+}
+
+bool isAllNames(std::string_view line) {
+  const auto fields = fieldsOf(line);
+  return std::all_of(fields.begin(), fields.end(), isName);
 }
 
 bool isPassedOver(const std::string& line) {
@@ -50,7 +83,7 @@ NumberRowReader::NumberRowReader(std::istream& stream, std::string name, std::si
 
 bool NumberRowReader::next(std::vector<double>& row) {
   for (std::string line; std::getline(stream_, line);) {
-    ++line_;
+    if (++line_ == 1 && line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
     if (isPassedOver(line)) continue;
     const bool isHeader = mayBeHeader_ && isAllNames(line);
     mayBeHeader_ = false;
@@ -66,10 +99,11 @@ bool NumberRowReader::next(std::vector<double>& row) {
 
 void NumberRowReader::takeHeader(const std::string& line) const {
   std::string names = line;
-  std::erase_if(names, [](char c) { return kBlanks.find(c) != std::string_view::npos; });
-  const bool isCommas = names.find(';') == std::string::npos;  // or the rows tell of semicolons
-  if (isCommas && !limit_.header.empty() && names != limit_.header)
+  std::erase_if(names, [](char c) { return c == '"' || kBlanks.find(c) != std::string_view::npos; });
+  if (!limit_.header.empty() && names != limit_.header)
     fail(1, fmt::format("the header is \"{}\", not \"{}\"", names, limit_.header));
+  if (const std::size_t count = fieldsOf(line).size(); count != columns_)
+    fail(1, fmt::format("the header has {} columns where {} are needed", count, columns_));
 }
 
 void NumberRowReader::parse(const std::string& line, std::vector<double>& row) const {
@@ -78,8 +112,9 @@ void NumberRowReader::parse(const std::string& line, std::vector<double>& row) c
     const std::size_t end = std::min(line.find(',', begin), line.size());
     const std::string_view field = trimmed(std::string_view(line).substr(begin, end - begin));
     double value = 0;
-    if (field.find(';') != std::string_view::npos)
-      fail(begin + 1, fmt::format("\"{}\" has semicolons: separate columns by commas", field));
+    for (const auto& [separator, name] : kOtherSeparators)
+      if (field.find(separator) != std::string_view::npos)
+        fail(begin + 1, fmt::format("\"{}\" has {}: separate columns by commas", field, name));
     if (!parseNumber(field, value)) fail(begin + 1, fmt::format("\"{}\" is no number", field));
     if (!std::isfinite(value)) fail(begin + 1, fmt::format("{} is no finite number", field));
     if (std::abs(value) > limit_.most)

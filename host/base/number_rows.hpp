@@ -11,7 +11,9 @@
 namespace strainfinger {
 
 /// Reads rows of `columns` finite numbers, separated by commas (blanks around them are allowed). A first row
-/// without a number is a header; blank lines and lines that begin with # are passed over.
+/// of names is a header: they begin with a letter and are no word for a missing number (NA, nan, null ..),
+/// may be quoted, and are as many as the columns. Blank lines and lines that begin with # are passed over, as
+/// is a byte order mark.
 class NumberRowReader {
  public:
   /// What may be there: numbers of at most `most` in size (`hint` says what a larger one may have been meant

@@ -18,8 +18,7 @@ double analogNoise_strain() { return simulation::analogNoise_strain(config::Gaug
 
 void setElectronics(config::Gauges& gauges, int bits, double analog_strain) {
   gauges.adc_bits = bits;
-  gauges.noise_strain =
-      std::hypot(analog_strain, simulation::Converter(gauges).step_strain() / std::sqrt(12.0));
+  gauges.noise_strain = std::hypot(analog_strain, gauges.quantisation_strain());
 }
 
 class Sweeps {

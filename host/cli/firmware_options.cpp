@@ -1,6 +1,11 @@
 #include "host/cli/firmware_options.hpp"
 
-#include <map>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
 
 #include "host/tables/self_check.hpp"
 #include "host/tables/table_file.hpp"
@@ -9,13 +14,29 @@ namespace strainfinger::cli {
 
 using firmware::FitMode;
 
+namespace {
+
+constexpr std::array kModes{std::pair{std::string_view("refined"), FitMode::kRefined},
+                            std::pair{std::string_view("three-point"), FitMode::kThreePoint}};
+
+/// From a mode's name to its number. CLI11's own transformers show users the numbers as well.
+std::string toMode(std::string& name) {
+  const auto mode =
+      std::find_if(kModes.begin(), kModes.end(), [&](const auto& known) { return known.first == name; });
+  if (mode == kModes.end())
+    return fmt::format("{} is not one of {}, {}", name, kModes[0].first, kModes[1].first);
+  name = std::to_string(static_cast<int>(mode->second));
+  return {};
+}
+
+}  // namespace
+
 FirmwareOptions::FirmwareOptions(CLI::App& command) {
   command.add_option("--tables", tablesPath_, "Table image (tables -o); made from the config without it")
       ->type_name("FILE");
-  const std::map<std::string, FitMode> modes{{"three-point", FitMode::kThreePoint},
-                                             {"refined", FitMode::kRefined}};
-  command.add_option("--mode", mode_, "three-point or refined (default)")
-      ->transform(CLI::CheckedTransformer(modes).description("MODE"));
+  command.add_option("--mode", mode_, "How it fits: refined (default) or three-point")
+      ->type_name("MODE")
+      ->transform(CLI::Validator(toMode, ""));
 }
 
 std::unique_ptr<TableImage> FirmwareOptions::tables(const config::FingerConfig& config) const {

@@ -2,6 +2,8 @@
 
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,7 @@
 #include "common/fixed_real.hpp"
 #include "firmware/core/detect.hpp"
 #include "firmware/core/estimate.hpp"
+#include "firmware/core/left_out.hpp"
 #include "firmware/core/locate.hpp"
 #include "host/base/no_value.hpp"
 #include "host/cli/command.hpp"
@@ -21,14 +24,23 @@
 namespace strainfinger::cli {
 namespace {
 
+using firmware::Fit;
+using firmware::FitMode;
+using firmware::GaugeSet;
+
 constexpr const char* kLocateHelp =
     "Where a finger is touched and how hard, from rows of gauge strains on stdin, by the firmware's own "
     "code.\n"
     "stdin: CSV, one strain a gauge in a row, a row a sample; a header row, blank lines and # comments "
-    "are passed over. Gains that the tables have from a calibration are applied to them.\n"
-    "stdout: one row a sample; contact is 1 or 0, and without contact the other columns are empty.\n"
-    "quality: percent, 20 or less when the answer is uncertain (another angle fits as well, or none "
-    "fits).";
+    "are passed over. Gains that the tables have from a calibration are applied to them. A reading at the "
+    "end of the converter's range (gauges.full_scale_strain) or beyond is left out and the contact found by "
+    "the others, as the firmware does.\n"
+    "stdout: one row a sample, of\n"
+    "  contact: 1 or 0; where it is 0, or too few readings are left to tell where, the others are empty\n"
+    "  angle_deg: degrees, 0 to 360\n"
+    "  normal_n_per_m, tangential_n_per_m: N/m\n"
+    "  sigma_angle_deg, sigma_normal_n_per_m, sigma_tangential_n_per_m: standard errors, in the same units\n"
+    "  quality: percent, 20 or less when the answer is uncertain (another angle fits as well, or none fits)";
 
 struct LocateOptions {
   explicit LocateOptions(CLI::App& command) : common(command), firmware(command) {}
@@ -54,8 +66,19 @@ std::vector<Cell> cellsOf(const Contact& contact) {
           std::int64_t{contact.quality}};
 }
 
-std::vector<Cell> noContact() {
-  return {std::int64_t{0}, kNoValue, kNoValue, kNoValue, kNoValue, kNoValue, kNoValue, kNoValue};
+std::vector<Cell> nothingBut(bool contact) {
+  return {std::int64_t{contact}, kNoValue, kNoValue, kNoValue, kNoValue, kNoValue, kNoValue, kNoValue};
+}
+
+/// Nothing when what is left of the readings could be noise. `energy`: gateEnergy() of all of them.
+std::optional<Fit> fitTo(const TableImage& image, FitMode mode, GaugeSet leftOut,
+                         std::span<std::int32_t> strains_q32, std::uint32_t energy) {
+  if (leftOut == 0) return firmware::locate(image, mode, strains_q32, energy);
+  for (std::size_t i = 0; i < strains_q32.size(); ++i)
+    if (firmware::contains(leftOut, static_cast<int>(i))) strains_q32[i] = 0;
+  const std::uint32_t energyLeft = firmware::gateEnergy(image.constants, strains_q32);
+  if (!firmware::ContactGate{}.passes(image.constants, energyLeft)) return std::nullopt;
+  return firmware::locateWithout(image, leftOut, strains_q32, energyLeft);
 }
 
 void runLocate(const LocateOptions& options) {
@@ -73,9 +96,10 @@ void runLocate(const LocateOptions& options) {
       strains[i] = tables::readingOf(constants, factors[i] * row[i]);
     const std::uint32_t energy = firmware::gateEnergy(constants, strains);
     const bool touched = gate.update(constants, energy);
-    table.row(touched ? cellsOf(firmware::estimate(
-                            constants, firmware::locate(*image, options.firmware.mode(), strains, energy)))
-                      : noContact());
+    std::optional<Fit> fit;
+    if (touched)
+      fit = fitTo(*image, options.firmware.mode(), tables::gaugesAtRail(*image, row), strains, energy);
+    table.row(fit ? cellsOf(firmware::estimate(constants, *fit)) : nothingBut(touched));
   }
 }
 

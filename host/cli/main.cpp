@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <string>
 
 #include "host/base/failure.hpp"
 #include "host/cli/commands.hpp"
@@ -14,6 +15,11 @@ int finish(ExitCode code) { return static_cast<int>(code); }
 int complain(ExitCode code, const char* message) {
   std::fprintf(stderr, "strainfinger: %s\n", message);
   return finish(code);
+}
+
+/// CLI11 says of a command that it doesn't know only that one is missing.
+bool isUnknownCommand(const CLI::App& app, const CLI::ParseError& error) {
+  return error.get_exit_code() != 0 && app.get_subcommands().empty() && !app.remaining().empty();
 }
 
 }  // namespace
@@ -42,6 +48,9 @@ int main(int argc, char** argv) {
     if (std::fflush(stdout) != 0) return complain(ExitCode::kFailure, "cannot write the output");
     return finish(ExitCode::kOk);
   } catch (const CLI::ParseError& error) {
+    if (isUnknownCommand(app, error))
+      return complain(ExitCode::kUsage,
+                      (app.remaining().front() + " is no command; strainfinger --help lists them").c_str());
     return app.exit(error) == 0 ? finish(ExitCode::kOk) : finish(ExitCode::kUsage);
   } catch (const strainfinger::Failure& failure) {
     return complain(failure.code(), failure.what());

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -37,6 +38,14 @@ constexpr const char* kRunHelp =
     "At the end stderr has a summary with the errors against the truth (--json: as one object). Ctrl-C "
     "ends a run as its duration would, with exit status 130.";
 
+std::string complaintAboutSeed(const std::string& text) {
+  std::uint64_t seed = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, seed);
+  if (error == std::errc{} && stop == end) return {};
+  return fmt::format("{} is no whole number from 0 to 2^64 - 1", text);
+}
+
 struct RunOptions {
   explicit RunOptions(CLI::App& command) : common(command), firmware(command) {
     command.add_option("--can", interface, "Interface, or loopback (default)")->type_name("IFACE");
@@ -45,7 +54,7 @@ struct RunOptions {
                     "What touches the finger (TOML); the built-in scenario without it")
         ->type_name("FILE");
     command.add_option("--seed", seed, "Of the noise and of the gauges' zeros (default 1)")
-        ->check(CLI::NonNegativeNumber);
+        ->check(complaintAboutSeed);
     command
         .add_option("--duration", duration_s,
                     "Seconds; without it the loopback runs the scenario once, an interface until Ctrl-C")

@@ -33,6 +33,11 @@ struct Gauges {
   double full_scale_strain = 0.03;  ///< the converter covers +- this; 65 N/m on the default finger
   int adc_bits = 12;
 
+  /// One code of the converter.
+  double step_strain() const { return 2 * std::ldexp(full_scale_strain, -adc_bits); }
+  /// Standard deviation of what rounding to codes adds.
+  double quantisation_strain() const { return step_strain() / std::sqrt(12.0); }
+
   /// Of a gauge, 0 .. 360.
   double angle_deg(int gauge) const { return std::fmod(first_angle_deg + gauge * 360.0 / count, 360); }
   /// The same, not reduced.

@@ -97,6 +97,16 @@ std::vector<Relation> makeRelations() {
              "and gauges.radius_m = {} leave",
              c.gauges.arc_length_m, pitchArc_m(c.gauges), c.gauges.count, c.gauges.radius_m);
        }},
+      {[](Config c) { return c.gauges.noise_strain >= c.gauges.quantisation_strain(); },
+       {"gauges.noise_strain", "gauges.adc_bits", "gauges.full_scale_strain"},
+       [](Config c) {
+         return fmt::format(
+             "gauges.noise_strain = {} is less than the quantisation alone, {:.3g}, that gauges.adc_bits = "
+             "{} "
+             "over +-gauges.full_scale_strain = {} leaves; use more bits, a smaller full scale or more noise",
+             c.gauges.noise_strain, c.gauges.quantisation_strain(), c.gauges.adc_bits,
+             c.gauges.full_scale_strain);
+       }},
       {[](Config c) { return c.contact.width_m <= c.finger.outer_radius_m; },
        {"contact.width_m", "finger.outer_radius_m"},
        [](Config c) {

@@ -1,10 +1,6 @@
 #include "host/simulation/converter.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
-
-#include "host/base/failure.hpp"
 
 namespace strainfinger::simulation {
 namespace {
@@ -14,10 +10,8 @@ constexpr double kMidScale = 0x8000;
 
 }  // namespace
 
-double Converter::step_strain() const { return 2 * std::ldexp(fullScale_strain_, -bits_); }
-
 std::uint16_t Converter::codeOf(double strain) const {
-  const double code = std::floor((strain + fullScale_strain_) / step_strain() + 0.5);
+  const double code = std::floor((strain + fullScale_strain_) / step_strain_ + 0.5);
   const double top = std::ldexp(1.0, bits_) - 1;
   if (!(code > 0)) return 0;
   return static_cast<std::uint16_t>(static_cast<std::uint32_t>(std::fmin(code, top)) << (kCodeBits - bits_));
@@ -28,15 +22,8 @@ double Converter::strainOf(std::uint16_t code) const {
 }
 
 double analogNoise_strain(const config::Gauges& gauges) {
-  const double quantisation = Converter(gauges).step_strain() / std::sqrt(12.0);
-  const double variance = gauges.noise_strain * gauges.noise_strain - quantisation * quantisation;
-  if (variance >= 0) return std::sqrt(variance);
-  throw Failure(
-      ExitCode::kUsage,
-      fmt::format("gauges.noise_strain = {} is less than the quantisation alone, {:.3g}, that "
-                  "gauges.adc_bits = {} over "
-                  "+-gauges.full_scale_strain = {} leaves; use more bits, a smaller full scale or more noise",
-                  gauges.noise_strain, quantisation, gauges.adc_bits, gauges.full_scale_strain));
+  const double noise = gauges.noise_strain, quantisation = gauges.quantisation_strain();
+  return std::sqrt(std::fmax(noise * noise - quantisation * quantisation, 0));
 }
 
 }  // namespace strainfinger::simulation

@@ -11,9 +11,10 @@ namespace strainfinger::simulation {
 class Converter {
  public:
   explicit Converter(const config::Gauges& gauges)
-      : fullScale_strain_(gauges.full_scale_strain), bits_(gauges.adc_bits) {}
+      : fullScale_strain_(gauges.full_scale_strain),
+        step_strain_(gauges.step_strain()),
+        bits_(gauges.adc_bits) {}
 
-  double step_strain() const;  ///< one code of `bits`
   /// The nearest code, left-justified to 16 bits; beyond the ends, the rail. NaN gives the lower rail.
   std::uint16_t codeOf(double strain) const;
   /// The strain in the middle of a code's interval.
@@ -21,11 +22,12 @@ class Converter {
 
  private:
   double fullScale_strain_;
+  double step_strain_;
   int bits_;
 };
 
 /// The standard deviation of the noise before the converter that makes, with the step^2/12 of quantisation,
-/// the noise_strain of a reading. Throws Failure(kUsage) when quantisation alone is more than noise_strain.
+/// the noise_strain of a reading; 0 when quantisation alone is more, as in no config that was read.
 double analogNoise_strain(const config::Gauges& gauges);
 
 }  // namespace strainfinger::simulation

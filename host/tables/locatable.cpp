@@ -42,6 +42,16 @@ std::string figuresOf(const TableParameters& p) {
                                               figuresOf(image.parameters)));
 }
 
+/// Wherever the gauges are, and however many.
+[[noreturn]] void refuseNoise(const TableParameters& p, const SelfCheck& check) {
+  throw Failure(
+      ExitCode::kUsage,
+      fmt::format("contacts cannot be located with this noise: where the gauges see it worst a "
+                  "contact drowns in noise up to {:.3g} N/m, beyond half of full scale ({:.3g} N/m); "
+                  "gauges.noise_strain = {} is too large for gauges.full_scale_strain = {}",
+                  check.detected_n_per_m, check.halfScale_n_per_m, p.noise_strain, p.full_scale_strain));
+}
+
 std::string placeOf(const TableParameters& p, const Misplaced& m) {
   const double pitch_deg = 360.0 / p.gauge_count;
   return fmt::format(
@@ -54,14 +64,8 @@ std::string placeOf(const TableParameters& p, const Misplaced& m) {
 }  // namespace
 
 void requireLocatable(const TableImage& image, const SelfCheck& check) {
-  if (!(check.detected_n_per_m <= check.halfScale_n_per_m))
-    refuse(image,
-           fmt::format("where they see it worst a contact drowns in noise up to {:.3g} N/m, beyond half "
-                       "of full scale ({:.3g} N/m); gauges.noise_strain = {} is too large for "
-                       "gauges.full_scale_strain = {}, or the gauges see too little",
-                       check.detected_n_per_m, check.halfScale_n_per_m, image.parameters.noise_strain,
-                       image.parameters.full_scale_strain));
   if (check.misplaced) refuse(image, placeOf(image.parameters, *check.misplaced));
+  if (!(check.detected_n_per_m <= check.halfScale_n_per_m)) refuseNoise(image.parameters, check);
   if (check.uncertain > kMostUncertain * check.contacts)
     refuse(image, fmt::format("{} of {} contacts have no certain answer", check.uncertain, check.contacts));
 }

@@ -7,6 +7,7 @@
 
 #include "common/fixed_real.hpp"
 #include "host/base/failure.hpp"
+#include "host/config/keys.hpp"
 #include "host/model/impulse_response.hpp"
 #include "host/tables/elsewhere.hpp"
 #include "host/tables/fit_table.hpp"
@@ -139,8 +140,13 @@ void fillStart(TableImage& image, const model::ImpulseResponse& response, int ga
   image.start = startWeights(response, gaugeCount, cone);
 }
 
+/// Of the strain at the gauges to load / (shear modulus * radius): that of usual gauges is about one, what
+/// rounding leaves of none at all 1e-16.
+constexpr double kLeastResponse = 1e-12;
+
 /// Readings and loads must fit the firmware's integers.
-void requireFormats(const config::Gauges& gauges, double peak) {
+void requireFormats(const config::FingerConfig& config, double peak) {
+  const config::Gauges& gauges = config.gauges;
   const double step = powerOfTwo(-StrainQ32::kFracBits);
   if (gauges.noise_strain < step)
     throw Failure(
@@ -148,14 +154,21 @@ void requireFormats(const config::Gauges& gauges, double peak) {
         fmt::format("gauges.noise_strain = {} is below the firmware's step of strain; it must be at "
                     "least {:.3g}",
                     gauges.noise_strain, step));
+  if (peak * config.finger.shear_modulus_pa * config.finger.outer_radius_m < kLeastResponse)
+    throw Failure(
+        ExitCode::kUsage,
+        fmt::format("gauges.radius_m = {} is where the rubber has no {} strain, on the core "
+                    "(finger.core_radius_m = {}): move the gauges outwards, or read another "
+                    "gauges.component",
+                    gauges.radius_m, config::componentName(gauges.component), config.finger.core_radius_m));
   const double fullScale_n_per_m = gauges.full_scale_strain / peak;
   const double largest = toReal(LineLoadQ12::max()),
                least = kLeastFullScale * powerOfTwo(-LineLoadQ12::kFracBits);
   if (!(fullScale_n_per_m >= least && fullScale_n_per_m <= largest))
     throw Failure(ExitCode::kUsage,
                   fmt::format("gauges.full_scale_strain = {} is a load of {:.3g} N/m on this finger; the "
-                              "firmware's loads need one from {:.3g} to {:.3g} N/m: change it, or "
-                              "finger.shear_modulus_pa",
+                              "firmware's loads need one from {:.3g} to {:.3g} N/m: change it, "
+                              "finger.shear_modulus_pa or gauges.radius_m",
                               gauges.full_scale_strain, fullScale_n_per_m, least, largest));
 }
 
@@ -186,7 +199,7 @@ TableImage buildTableImage(const config::FingerConfig& config) {
                                         config.contact.width_m);
   const WindowResponses responses = windowResponses(response, config.gauges.count);
   const double peak = peakPerLoad(responses);
-  requireFormats(config.gauges, peak);
+  requireFormats(config, peak);
   const double cone = frictionCone(config.contact);
   const WindowFits fits = windowFits(responses, peak, cone);
   TableImage image{};

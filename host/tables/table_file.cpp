@@ -46,6 +46,12 @@ std::string textOf(const Cell& value) {
   return std::visit([](const auto& content) { return fmt::format("{}", content); }, value);
 }
 
+/// Nothing for what is no table image: nobody is told to write over it.
+std::string adviceOn(TableFault fault, const std::string& path) {
+  if (fault == TableFault::kTooShort || fault == TableFault::kMagic) return {};
+  return fmt::format("; make it anew with: strainfinger tables [-c CONFIG] -o {}", path);
+}
+
 }  // namespace
 
 std::unique_ptr<TableImage> readTableFile(const std::string& path) {
@@ -55,8 +61,7 @@ std::unique_ptr<TableImage> readTableFile(const std::string& path) {
   const TableFault fault = faultOf(*image, bytes.size());
   if (fault == TableFault::kNone) return image;
   throw Failure(fault == TableFault::kFormat ? ExitCode::kMismatch : ExitCode::kVerificationFailed,
-                fmt::format("{}: {}; make it anew with: strainfinger tables -o {}", path,
-                            wordsFor(fault, *image, bytes.size()), path));
+                fmt::format("{}: {}{}", path, wordsFor(fault, *image, bytes.size()), adviceOn(fault, path)));
 }
 
 std::vector<Parameter> parametersOf(const TableParameters& p) {

@@ -100,7 +100,7 @@ TEST(ContactCommand, SaysWhereAShapeIsWrong) {
     STRCMP_CONTAINS(named, run.err.c_str());
   };
   fails("0;0\n1e-3;0\n", "/dev/stdin:1:1: \"0;0\" has semicolons: separate columns by commas");
-  fails("x;y\n0;0\n", "/dev/stdin:2:1: \"0;0\" has semicolons");
+  fails("x;y\n0;0\n", "/dev/stdin:1:1: \"x;y\" has semicolons");
   fails("0,0\n1e-3,x\n", "/dev/stdin:2:");
   fails("0,0\n1e-3,0\n", "four points");
   fails("0,0\n1e-3,0\n1e-3,0\n2e-3,0\n", "must rise");

@@ -34,6 +34,20 @@ TEST(DbcCommand, WritesAFile) {
   STRCMP_EQUAL("same\n", run.out.c_str());
 }
 
+TEST(DbcCommand, WritesToStandardOutputByName) {
+  const Run run = runShell(
+      "f=$(mktemp -d); ln -s /dev/stdout $f/link; \"$STRAINFINGER\" dbc -o $f/link | "
+      "cmp - <(\"$STRAINFINGER\" dbc) && echo same; rm -r $f");
+  STRCMP_EQUAL("same\n", run.out.c_str());
+}
+
+TEST(DbcCommand, ADeviceThatIsFullIsAFailure) {
+  const Run run = runShell(
+      "f=$(mktemp -d); ln -s /dev/full $f/link; \"$STRAINFINGER\" dbc -o $f/link; echo $?; rm -r $f");
+  STRCMP_EQUAL("1\n", run.out.c_str());
+  STRCMP_CONTAINS("link: No space left on device", run.err.c_str());
+}
+
 TEST(DbcCommand, SaysWhyAFileCannotBeWritten) {
   const Run run = runProgram("dbc -o /nowhere/finger.dbc");
   LONGS_EQUAL(1, run.status);

@@ -1,36 +1,92 @@
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/commands/program.hpp"
+#include "tests/commands/tables.hpp"
 
 // last: its macros redefine new
 #include <CppUTest/TestHarness.h>
 
 using namespace strainfinger;
 
-TEST_GROUP(LocateCommand){
-    static std::vector<std::string> lines(const std::string& text){std::vector<std::string> result;
-std::istringstream stream(text);
-for (std::string line; std::getline(stream, line);) result.push_back(line);
-return result;
-}
-/// A row of radial strains of the 16 gauges, as `strain` has them.
-static std::string touchAt(const std::string& angle_deg) {
-  return runShell(
-             "\"$STRAINFINGER\" strain --radius-m 9.4e-3 --normal-n-per-m 30 --tangential-n-per-m 10 "
-             "--contact-deg " +
-             angle_deg + " --points 16 | tail -n +2 | cut -d, -f2 | paste -sd,")
-      .out;
-}
-static std::string nothing() { return "0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n"; }
-static void checkComplaint(const char* message, const std::string& input) {
-  const Run run = runProgram("locate", input);
-  LONGS_EQUAL(1, run.status);
-  STRCMP_CONTAINS(message, run.err.c_str());
-}
-}
-;
+TEST_GROUP(LocateCommand) {
+  static std::vector<std::string> lines(const std::string& text) {
+    std::vector<std::string> result;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) result.push_back(line);
+    return result;
+  }
+  /// A row of radial strains of the 16 gauges, as `strain` has them.
+  static std::string touchAt(const std::string& angle_deg) {
+    return runShell(
+               "\"$STRAINFINGER\" strain --radius-m 9.4e-3 --normal-n-per-m 30 --tangential-n-per-m 10 "
+               "--contact-deg " +
+               angle_deg + " --points 16 | tail -n +2 | cut -d, -f2 | paste -sd,")
+        .out;
+  }
+  struct Range {
+    double least = -1, most = 1;
+  };
+  struct Firm {
+    double times = 0;  ///< the loads of touchAt()
+    std::string row;
+  };
+  /// The touch of touchAt(), so much harder that its largest reading is `peak`, clipped to a range.
+  static Firm firmTouchAt(const std::string& angle_deg, double peak, Range range) {
+    const std::string touch = touchAt(angle_deg);
+    const std::vector<double> strains = tableOf("header\n" + touch).front();
+    double largest = 0;
+    for (const double strain : strains) largest = std::max(largest, std::abs(strain));
+    const double times = peak / largest;
+    std::ostringstream row;
+    row.precision(17);
+    for (const double strain : strains)
+      row << (row.tellp() > 0 ? "," : "") << std::clamp(times * strain, range.least, range.most);
+    return {times, row.str() + "\n"};
+  }
+  static const std::vector<std::string>& angles_deg() {
+    static const std::vector<std::string> angles{"0", "5", "11.25", "47", "100", "181.3", "200.7", "351"};
+    return angles;
+  }
+  static std::vector<Firm> firmTouches(double peak, Range range) {
+    std::vector<Firm> touches;
+    for (const std::string& angle_deg : angles_deg()) touches.push_back(firmTouchAt(angle_deg, peak, range));
+    return touches;
+  }
+  static std::string located(const std::vector<Firm>& touches, const std::string& mode) {
+    std::string input;
+    for (const Firm& touch : touches) input += touch.row;
+    return runProgram("locate --mode " + mode, input).out;
+  }
+  /// Every touch is found within 3 of its sigma, or is uncertain; the number of those that are not.
+  static std::size_t checkFirmTouches(double peak, Range range, const char* mode) {
+    const std::vector<Firm> touches = firmTouches(peak, range);
+    const auto rows = tableOf(located(touches, mode));
+    LONGS_EQUAL(touches.size(), rows.size());
+    std::size_t certain = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto& row = rows[i];
+      LONGS_EQUAL(8, row.size());
+      if (row[7] <= 20) continue;
+      ++certain;
+      constexpr double kOfTheTables_deg = 0.01, kOfTheTables = 0.001;  // 2 um of arc
+      DOUBLES_EQUAL(0, std::remainder(row[1] - std::stod(angles_deg()[i]), 360),
+                    3 * row[4] + kOfTheTables_deg);
+      DOUBLES_EQUAL(30 * touches[i].times, row[2], 3 * row[5] + kOfTheTables * row[2]);
+      DOUBLES_EQUAL(10 * touches[i].times, row[3], 3 * row[6] + kOfTheTables * row[2]);
+    }
+    return certain;
+  }
+  static std::string nothing() { return "0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n"; }
+  static void checkComplaint(const char* message, const std::string& input) {
+    const Run run = runProgram("locate", input);
+    LONGS_EQUAL(1, run.status);
+    STRCMP_CONTAINS(message, run.err.c_str());
+  }
+};
 
 TEST(LocateCommand, FindsWhatTheModelSays) {
   for (const char* mode : {"", "--mode refined", "--mode three-point"}) {
@@ -69,6 +125,30 @@ TEST(LocateCommand, BadRowsAreNamedWithTheirPlace) {
   checkComplaint("nan is no finite number", "nan,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n");
 }
 
+TEST(LocateCommand, ClippedReadingsAreLeftOut) {
+  for (const char* mode : {"refined", "three-point"}) {
+    CHECK_COMPARE(checkFirmTouches(1.1 * 0.03, {-0.03, 0.03}, mode), >=, 6);
+    CHECK_COMPARE(checkFirmTouches(1.1 * 0.03, {-0.03, 0.03 - 2 * 0.03 / 4096}, mode), >=, 6);  // its codes
+  }
+}
+
+TEST(LocateCommand, ReadingsBeyondFullScaleAreLeftOutAsClippedOnesAre) {
+  for (const double peak : {1.1 * 0.03, 0.22}) {
+    checkFirmTouches(peak, {}, "refined");
+    STRCMP_EQUAL(located(firmTouches(peak, {-0.03, 0.03}), "refined").c_str(),
+                 located(firmTouches(peak, {}), "refined").c_str());
+  }
+}
+
+TEST(LocateCommand, ATouchWithNoReadingLeftIsStillATouch) {
+  std::string clipped;
+  for (int gauge = 0; gauge < 16; ++gauge) clipped += gauge % 3 == 0 ? "0.03," : "-0.5,";
+  clipped.back() = '\n';
+  const auto out = lines(runProgram("locate", clipped).out);
+  LONGS_EQUAL(2, out.size());
+  STRCMP_EQUAL("1,,,,,,,", out[1].c_str());
+}
+
 TEST(LocateCommand, TablesOfAnotherFingerAreAMismatch) {
   const Run run = runShell(
       "folder=$(mktemp -d) && trap 'rm -rf \"$folder\"' EXIT && cd \"$folder\" && "
@@ -79,4 +159,9 @@ TEST(LocateCommand, TablesOfAnotherFingerAreAMismatch) {
   STRCMP_CONTAINS("gauges.count", run.err.c_str());
 }
 
-TEST(LocateCommand, AnUnknownModeIsAUsageError) { LONGS_EQUAL(2, runProgram("locate --mode guess").status); }
+TEST(LocateCommand, AnUnknownModeIsToldOfTheKnownOnes) {
+  for (const std::string mode : {"guess", "0", "Refined"})
+    checkRefused("locate --mode " + mode,
+                 ("--mode: " + mode + " is not one of refined, three-point\n").c_str());
+  STRCMP_CONTAINS("--mode MODE ", runProgram("locate --help").out.c_str());
+}

@@ -168,7 +168,9 @@ TEST(RunCommand, RefusesAFaultThatIsNone) {
 TEST(RunCommand, RefusesWhatIsOutsideTheDomain) {
   checkRefused(runProgram("run --duration 0"), 2, "--duration");
   checkRefused(runProgram("run --duration nan"), 2, "--duration");
-  checkRefused(runProgram("run --seed -1"), 2, "--seed");
+  for (const std::string seed : {"-1", "1.5", "18446744073709551616", "x"})
+    checkRefused(runProgram("run --seed " + seed), 2,
+                 ("--seed: " + seed + " is no whole number from 0 to 2^64 - 1\n").c_str());
   checkRefused(runProgram("run --mode best"), 2, "--mode");
   checkRefused(runProgram("run --picture touch.bmp"), 2, "pictures are .svg or .png");
   checkRefused(runProgram("run --scenario /nowhere.toml"), 2, "/nowhere.toml");

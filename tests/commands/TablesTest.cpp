@@ -70,4 +70,14 @@ TEST(TablesCommand, ABadConfigLeavesTheOldImage) {
             "exit $status; }");
 }
 
+TEST(TablesCommand, NoiseBelowTheConvertersIsRefusedByEveryCommandThatNeedsTables) {
+  const char* complaint =
+      "coarse.toml:3:12: gauges.noise_strain = 6e-06 is less than the quantisation alone, 6.77e-05, that "
+      "gauges.adc_bits = 8 over +-gauges.full_scale_strain = 0.03 leaves";
+  for (const std::string command : {"tables -o coarse.tables", "locate", "run --duration 1"})
+    checkEnds(2, complaint,
+              "printf 'schema = 1\\n[gauges]\\nadc_bits = 8\\n' >coarse.toml && \"$STRAINFINGER\" " +
+                  command + " -c coarse.toml </dev/null");
+}
+
 TEST(TablesCommand, WithoutAnythingToDoSaysHow) { checkEnds(2, "-o FILE", "\"$STRAINFINGER\" tables"); }

@@ -47,6 +47,49 @@ TEST(NumberRows, AFirstRowWithANumberInItIsNoHeader) {
   STRCMP_EQUAL("stdin:1:1: \"foo\" is no number", complaintAbout("foo,2\n").c_str());
 }
 
+TEST(NumberRows, NamesMayBeQuoted) { LONGS_EQUAL(1, read("\"g0\", \"gauge 1\"\n1,2\n").size()); }
+
+TEST(NumberRows, AByteOrderMarkIsPassedOver) {
+  LONGS_EQUAL(1, read("\xEF\xBB\xBFg0,g1\n1,2\n").size());
+  LONGS_EQUAL(1, read("\xEF\xBB\xBF"
+                      "1,2\n")
+                     .size());
+  STRCMP_CONTAINS("stdin:2:1: ", complaintAbout("1,2\n\xEF\xBB\xBF"
+                                                "1,2\n")
+                                     .c_str());
+}
+
+TEST(NumberRows, AFirstRowWithOtherSeparatorsIsNoHeader) {
+  STRCMP_EQUAL("stdin:1:1: \"1\t2\" has tabs: separate columns by commas", complaintAbout("1\t2\n").c_str());
+  STRCMP_EQUAL("stdin:1:1: \"g0\tg1\" has tabs: separate columns by commas",
+               complaintAbout("g0\tg1\n1\t2\n").c_str());
+  STRCMP_EQUAL("stdin:1:1: \"1;2\" has semicolons: separate columns by commas",
+               complaintAbout("1;2\n").c_str());
+  STRCMP_EQUAL("stdin:1:1: \"1 2\" is no number", complaintAbout("1 2\n").c_str());
+}
+
+TEST(NumberRows, AFirstRowOfQuotedNumbersIsNoHeader) {
+  STRCMP_EQUAL("stdin:1:1: \"\"1\"\" is no number", complaintAbout("\"1\",\"2\"\n").c_str());
+}
+
+TEST(NumberRows, AFirstRowOfMissingNumbersIsNoHeader) {
+  for (const std::string missing : {"NA", "n/a", "null", "None", "nil", "missing", "\"NA\"", "-", "", "*"})
+    STRCMP_EQUAL(("stdin:1:1: \"" + missing + "\" is no number").c_str(),
+                 complaintAbout(missing + "," + missing + "\n1,2\n").c_str());
+  STRCMP_EQUAL("stdin:1:1: NaN is no finite number", complaintAbout("NaN,NaN\n").c_str());
+  STRCMP_EQUAL("stdin:1:1: \"g0\" is no number", complaintAbout("g0,NA\n1,2\n").c_str());
+}
+
+TEST(NumberRows, AHeaderHasANameForEachColumn) {
+  STRCMP_EQUAL("stdin:1:1: the header has 3 columns where 2 are needed",
+               complaintAbout("a,b,c\n1,2\n").c_str());
+  STRCMP_EQUAL("stdin:1:1: the header has 1 columns where 2 are needed", complaintAbout("a\n1,2\n").c_str());
+}
+
+TEST(NumberRows, OnlyTheFirstRowIsAHeader) {
+  STRCMP_EQUAL("stdin:2:1: \"a\" is no number", complaintAbout("a,b\na,b\n1,2\n").c_str());
+}
+
 TEST(NumberRows, AnotherHeaderThanTheOneAskedForIsRefused) {
   const auto firstOf = [](const std::string& text) {
     std::istringstream stream(text);

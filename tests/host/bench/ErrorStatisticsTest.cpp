@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "host/base/failure.hpp"
-
 // last: its macros redefine new
 #include <CppUTest/TestHarness.h>
 
@@ -55,10 +53,4 @@ TEST(ErrorStatistics, AWidthThatTheTablesDoNotKnowCostsAccuracy) {
 TEST(ErrorStatistics, TheSameSeedGivesTheSameErrors) {
   DOUBLES_EQUAL(touched({}, {}, 5).arc_mm.rms(), touched({}, {}, 5).arc_mm.rms(), 0);
   CHECK(touched({}, {}, 5).arc_mm.rms() != touched({}, {}, 5, 9).arc_mm.rms());
-}
-
-TEST(ErrorStatistics, AConverterThatMakesMoreNoiseThanThereIsIsRefused) {
-  config::FingerConfig coarse;
-  coarse.gauges.adc_bits = 8;
-  CHECK_THROWS(Failure, Trial(coarse, coarse, 1));
 }

@@ -47,9 +47,9 @@ const std::vector<DomainCase>& domainCases() {
       {"gauges.component", {"\"radial\"", "\"hoop\"", "\"shear\""}, {"\"\"", "\"Radial\"", "\"err\""}},
       {"gauges.first_angle_deg", {"0", "359.999"}, {"-0.001", "360", "1e9"}},
       {"gauges.arc_length_m", {"0", "3.69e-3"}, {"-1e-9", "1.1"}},
-      {"gauges.noise_strain", {"1e-12", "0.1"}, {"0", "-6e-6", "0.11"}},
-      {"gauges.full_scale_strain", {"1e-12", "0.1"}, {"0", "-0.03", "0.11"}},
-      {"gauges.adc_bits", {"8", "12", "16"}, {"7", "17", "-12", "4294967304"}},
+      {"gauges.noise_strain", {"4.3e-6", "0.1"}, {"0", "-6e-6", "0.11"}},
+      {"gauges.full_scale_strain", {"1e-12", "0.0425"}, {"0", "-0.03", "0.11"}},
+      {"gauges.adc_bits", {"12", "16"}, {"7", "17", "-12", "4294967304"}},
       {"contact.friction_coefficient", {"0", "10"}, {"-0.001", "10.1"}},
       {"contact.width_m", {"0", "0.0127"}, {"-1e-3", "1.1"}},
       {"can.node", {"1", "63"}, {"0", "64", "-1", "4294967297"}},
@@ -204,6 +204,24 @@ TEST(ReadConfig, ConditionsBetweenKeysNameThemAllAndPointIntoTheFile) {
   checkMention(settingOf("contact.width_m", "0.0128"), "must be at most finger.outer_radius_m = 0.0127");
   checkMention(settingOf("can.bitrate", "125000"),
                "f.toml:3:11: can.contact_rate_hz = 500 needs up to 135000");
+}
+
+// Of 12 bits over +-0.03: 0.06 / 2^12 / sqrt(12) = 4.2286e-6.
+TEST(ReadConfig, NoiseIsAtLeastThatOfTheConverter) {
+  checkComplaint(
+      settingOf("gauges.noise_strain", "4.228e-6"),
+      "f.toml:3:16: gauges.noise_strain = 4.228e-06 is less than the quantisation alone, 4.23e-06, "
+      "that gauges.adc_bits = 12 over +-gauges.full_scale_strain = 0.03 leaves; use more bits, a "
+      "smaller full scale or more noise");
+  checkComplaint(settingOf("gauges.noise_strain", "4.229e-6"), "accepted");
+  checkMention(settingOf("gauges.adc_bits", "8"), "f.toml:3:12: gauges.noise_strain = 6e-06 is less");
+  checkMention(settingOf("gauges.full_scale_strain", "0.1"),
+               "f.toml:3:21: gauges.noise_strain = 6e-06 is less");
+}
+
+TEST(ReadConfig, CoarseConvertersAndLargeFullScalesGoWithMoreNoise) {
+  checkComplaint(settingOf("gauges.adc_bits", "8") + "\nnoise_strain = 7e-5", "accepted");
+  checkComplaint(settingOf("gauges.full_scale_strain", "0.1") + "\nnoise_strain = 2e-5", "accepted");
 }
 
 TEST(ReadConfig, AGainOutOfItsDomainIsNamedWithItsPlace) {

@@ -26,7 +26,7 @@ TEST_GROUP(WriteConfig) {
                   StrainComponent::kShear,
                   uniform(0, 359),
                   uniform(0, 1e-3),
-                  uniform(1e-9, 0.1),
+                  uniform(1e-3, 0.1),
                   uniform(1e-9, 0.1),
                   9};
     any.contact = {uniform(0, 10), uniform(0, 0.01)};

@@ -197,15 +197,6 @@ TEST(SimulatedFinger, TheConvertersRangeIsTheConfigs) {
   CHECK_TRUE(saturated(0.006));
 }
 
-// A step of 8 bits over +-0.03 is 2.3e-4, 6.8e-5 RMS; of 12 bits 1.5e-5, 4.2e-6 RMS.
-TEST(SimulatedFinger, AFinerConverterNeedsLessNoise) {
-  config.gauges.noise_strain = 1e-5;
-  config.gauges.adc_bits = 8;
-  CHECK_THROWS(Failure, Bench(config, hold(90)));
-  config.gauges.adc_bits = 12;
-  Bench bench(config, hold(90));
-}
-
 TEST(SimulatedFinger, TheSeedDecidesEveryFrame) {
   Bench one(config, builtInScenario()), same(config, builtInScenario()), other(config, builtInScenario(), 2);
   for (Bench* bench : {&one, &same, &other}) bench->run(2);

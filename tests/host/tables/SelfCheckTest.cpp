@@ -124,6 +124,7 @@ TEST(SelfCheck, NoiseThatDrownsAContactAtHalfOfFullScaleIsRefused) {
   config_.gauges.noise_strain = 5e-4;
   checkRefusal("a contact drowns in noise up to 60.5 N/m, beyond half of full scale (32.6 N/m)");
   checkRefusal("gauges.noise_strain = 0.0005 is too large for gauges.full_scale_strain = 0.03");
+  CHECK(refusal().find("shallow") == std::string::npos);
 }
 
 // As if the model were wrong: rows that belong to a finger with deeper gauges, half a pitch of twist.
@@ -151,6 +152,13 @@ TEST(SelfCheck, AFingerThatIsMostlyUncertainIsRefused) {
   STRCMP_EQUAL("accepted", verdictOn(result).c_str());
   result.uncertain = 501;
   STRCMP_CONTAINS("501 of 1000 contacts have no certain answer", verdictOn(result).c_str());
+}
+
+TEST(SelfCheck, AMisplacedContactIsToldOfRatherThanNoise) {
+  SelfCheck result = goodResult();
+  result.detected_n_per_m = 2 * result.halfScale_n_per_m;
+  result.misplaced = Misplaced{firmware::FitMode::kRefined, 7.5, 0, 0.125, 2};
+  STRCMP_CONTAINS("are found 45 deg away", verdictOn(result).c_str());
 }
 
 TEST(SelfCheck, DetectionThatCannotBeToldIsRefused) {

@@ -228,7 +228,9 @@ TEST(TableBuilder, LoadsThatTheFormatCannotHoldAreRefused) {
   config_.finger.shear_modulus_pa = 1e9;
   checkRefusal("gauges.full_scale_strain = 0.03 is a load of 7.85e+05 N/m on this finger");
   config_.finger.shear_modulus_pa = 100;
-  checkRefusal("from 0.25 to 5.24e+05 N/m: change it, or finger.shear_modulus_pa");
+  checkRefusal(
+      "from 0.25 to 5.24e+05 N/m: change it, finger.shear_modulus_pa or "
+      "gauges.radius_m");
 }
 
 TEST(TableBuilder, LoadsUpToBothEndsOfTheFormatAreTaken) {
@@ -236,6 +238,17 @@ TEST(TableBuilder, LoadsUpToBothEndsOfTheFormatAreTaken) {
     config_.finger.shear_modulus_pa = modulus;
     checkTaken();
   }
+}
+
+TEST(TableBuilder, GaugesOnTheCoreThatFeelNothingAreRefused) {
+  config_.gauges.radius_m = config_.finger.core_radius_m;
+  checkRefusal("gauges.radius_m = 0.0089 is where the rubber has no radial strain, on the core");
+  config_.finger.poisson_ratio = 0.4;
+  checkTaken();
+  config_.gauges.component = StrainComponent::kHoop;
+  checkRefusal("gauges.radius_m = 0.0089 is where the rubber has no hoop strain, on the core");
+  config_.gauges.component = StrainComponent::kShear;
+  checkTaken();
 }
 
 TEST(TableBuilder, GaugesTooNearTheSurfaceAreRefused) {

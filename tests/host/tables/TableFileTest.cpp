@@ -58,7 +58,7 @@ TEST(TableFile, AWholeImageReadsBackAsItWas) {
 }
 
 TEST(TableFile, FlippedBitsOfTheHeaderAreNamedByTheirField) {
-  checkFlips(0, 4, damaged("not a table image; make it anew with: strainfinger tables -o "));
+  checkFlips(0, 4, damaged("not a table image"));
   checkFlips(4, 8, fmt::format("5: {}: a table image of format ", path_));
   checkFlips(8, 12, damaged("4088 bytes, and "));
   checkFlips(12, 16, damaged("damaged, its CRC-32 does not match"));
@@ -91,6 +91,16 @@ TEST(TableFile, ALongerFileIsRefused) {
 TEST(TableFile, SomethingElseIsNoTableImage) {
   checkVerdict("schema = 1\n[finger]\n", damaged("not a table image"));
   checkVerdict(std::string(sizeof(TableImage), '\0'), damaged("not a table image"));
+}
+
+TEST(TableFile, OnlyOverTableImagesIsAnotherAdvised) {
+  const std::string advice = fmt::format("make it anew with: strainfinger tables [-c CONFIG] -o {}", path_);
+  write(bytes_.substr(0, 1000));
+  STRCMP_CONTAINS(advice.c_str(), verdictOn(path_).c_str());
+  for (const std::string& other : {std::string("root:x:0:0:root:/root:/bin/bash\n"), bytes_.substr(0, 3)}) {
+    write(other);
+    CHECK(verdictOn(path_).find("-o") == std::string::npos);
+  }
 }
 
 TEST(TableFile, AnotherFormatIsAMismatchWhateverFollows) {

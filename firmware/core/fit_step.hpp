@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "common/table_image.hpp"
+#include "firmware/core/quotients.hpp"
 #include "firmware/core/signal.hpp"
 #include "firmware/core/step_rule.hpp"
 

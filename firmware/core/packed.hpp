@@ -12,6 +12,7 @@
 // scaledByLow(a, b)   a * b.low / 2^16, rounded down; scaledByHigh(): b.high
 // dot(a, b, sum), addScaledByLow(sum, a, b), addScaledByHigh(sum, a, b)    the same, added to a sum
 
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
@@ -30,6 +31,12 @@ using Short = std::int16_t;
 
 /// A number of a table.
 constexpr Number tabled(std::int16_t number) { return number; }
+
+/// The i-th of some weights of a column; the proof then knows how long they are together.
+template <typename Column>
+constexpr Number ofColumn(const Column&, std::size_t, Number weight) {
+  return weight;
+}
 
 #if defined(__ARM_FEATURE_DSP)
 
@@ -176,20 +183,5 @@ constexpr std::int32_t clipped(std::int32_t value) {
   if (value >= kLimit) return kLimit - 1;
   return value < -kLimit ? -kLimit : value;
 }
-
-/// numerator / divisor rounded towards 0, of so many bits; 0 if the divisor is none.
-template <int Bits>
-constexpr Number clippedQuotient(Number numerator, Number divisor) {
-  return divisor <= 0 ? 0 : clipped<Bits>(numerator / divisor);
-}
-
-/// The same with a divisor of either sign, which is not 0.
-template <int Bits>
-constexpr Number signedQuotient(Number numerator, Number divisor) {
-  return clipped<Bits>(numerator / divisor);
-}
-
-/// The same number or the next one further from 0, so that it may divide.
-constexpr Number nonZero(Number value) { return value | 1; }
 
 }  // namespace strainfinger::firmware

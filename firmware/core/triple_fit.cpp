@@ -21,7 +21,7 @@ std::uint8_t tripleAt(const FitRow& row, const Projections& projection) {
 bool takeTripleStep(const FitRow& row, std::uint8_t triple, WindowFit& fit) {
   const Projections u = fit.step.projection;
   const TripleSystem system = systemOf(row, triple, u);
-  if (absolute(system.volume) < 1 << 16) return false;
+  if (absolute(system.volume) < kLeastVolume) return false;
   fit.step = tripleStep(row, system, twiceRead(fit.signal, kTripleList[triple]), u);
   return true;
 }

@@ -57,8 +57,11 @@ inline Number correction(Number numerator, Number volume) {
   return signedQuotient<15>(numerator, volume >> 15) * (1 << 14);
 }
 
+/// A system of less volume tells nothing, and is not divided by.
+inline constexpr std::int32_t kLeastVolume = 1 << 16;
+
 /// Corrects the projections of a row, and says where from it the three readings lead. What the row leaves of
-/// a reading is clipped at 2^13: more is no contact there. |volume| at least 2^16.
+/// a reading is clipped at 2^13: more is no contact there. |volume| at least kLeastVolume.
 inline FitStep tripleStep(const FitRow& row, const TripleSystem& system, const Vector3& twiceRead,
                           const Projections& u) {
   Vector3 left;

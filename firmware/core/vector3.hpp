@@ -30,11 +30,11 @@ inline Columns columnsOf(const FitRow& row, const GaugeTriple& gauges) {
   for (std::size_t i = 0; i < gauges.size(); ++i) {
     const Unfolded gauge(gauges[i]);
     const auto weightIn = [&](const FoldedWeights& folded) {
-      return clipped<16>(folded[gauge.even] + gauge.sign * folded[gauge.odd]);
+      return clipped<16>(tabled(folded[gauge.even]) + gauge.sign * tabled(folded[gauge.odd]));
     };
     for (std::size_t j = 0; j < 2; ++j) {
-      columns.basis[j][i] = weightIn(row.basis[j]);
-      columns.gradient[j][i] = weightIn(row.gradient[j]);
+      columns.basis[j][i] = ofColumn(row.basis[j], i, weightIn(row.basis[j]));
+      columns.gradient[j][i] = ofColumn(row.gradient[j], i, weightIn(row.gradient[j]));
     }
   }
   return columns;

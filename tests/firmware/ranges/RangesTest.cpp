@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <limits>
+#include <random>
 
 #include "firmware/core/condition.hpp"
 #include "firmware/core/error_products.hpp"
@@ -31,14 +33,30 @@ TEST_GROUP_BASE(Ranges, RangesGroup) {
   /// A step of any three readings, and what is made of its answer: amplitudes, and the system that its errors
   /// come from.
   static void threeSteps(const Signal& signal) {
-    for (const GaugeTriple& gauges : kTripleList) {
-      const Projections u = projectionsOn(provedRow, signal);
-      const FitStep step =
-          tripleStep(provedRow, tripleSystem(provedRow, gauges, u), twiceRead(signal, gauges), u);
+    forEachTriple(signal, [](const GaugeTriple& gauges, const FitStep& step) {
       CHECK(step.length.most() < 1 << 17);
       amplitudesOf(provedRow, step);
       tripleSystem(provedRow, gauges, step.projection);
+    });
+  }
+  /// Calls visit for any step of each triple, of a volume of either sign that is no less than that.
+  template <typename Visit>
+  static void forEachTriple(const Signal& signal, Visit visit, std::int64_t leastVolume = kLeastVolume) {
+    for (const GaugeTriple& gauges : kTripleList) {
+      const Projections u = projectionsOn(provedRow, signal);
+      TripleSystem system = tripleSystem(provedRow, gauges, u);
+      const Number any = system.volume;
+      for (const Number& volume : {Number(any.least(), -leastVolume), Number(leastVolume, any.most())}) {
+        system.volume = volume;
+        visit(gauges, tripleStep(provedRow, system, twiceRead(signal, gauges), u));
+      }
     }
+  }
+  /// What each of three readings weighs in the amplitudes of a row.
+  static void weigh(const TripleSystem& system, const Projections& projection) {
+    const Number any = anyOf(16), slope = amplitudeSlopes(provedRow, projection).normal;
+    for (std::size_t reading = 0; reading < 3; ++reading)
+      amplitudeWeight(provedRow, system, reading, {any, any}, slope);
   }
   /// The three nearest readings, solved between any near rows, and judged by all seven beside any row.
   static void solveNearest(const Signal& signal) {
@@ -60,6 +78,32 @@ TEST_GROUP_BASE(Ranges, RangesGroup) {
     const Number information =
         informationOf(weightedBy(provedRow, u), lowOnly(tabled(provedRow.gradient_cosine)));
     energyBeside(provedRow, u, information, {-3 * kRowSpacing / 4, kRowSpacing / 2});
+  }
+  /// Three weights of any column, and of one that is as long as it may be.
+  static Vector3 anyColumn(std::size_t column) {
+    const FoldedWeights& weights = provedRow.basis[column];
+    return {ofColumn(weights, 0, anyOf(16)), ofColumn(weights, 1, anyOf(16)),
+            ofColumn(weights, 2, anyOf(16))};
+  }
+  template <typename Random>
+  static Vector3 someColumn(Random & random) {
+    std::normal_distribution<double> along;
+    const std::array<double, 3> way{along(random), along(random), along(random)};
+    const double scale = 32767 / std::hypot(way[0], way[1], way[2]);
+    Vector3 column;
+    for (std::size_t i = 0; i < 3; ++i) column[i] = static_cast<std::int64_t>(way[i] * scale);
+    return column;
+  }
+  static void checkHeld(const Number& bounds, const Number& number) {
+    CHECK(bounds.least() <= number.least() && number.most() <= bounds.most());
+  }
+  static void checkHeld(const Vector3& bounds, const Vector3& vector) {
+    double square = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      checkHeld(bounds[i], vector[i]);
+      square += static_cast<double>(vector[i].least() * vector[i].least());
+    }
+    CHECK(std::sqrt(square) <= bounds[0].length());
   }
   /// .. as if they could be so many times as long.
   static Signal longer(double times) {
@@ -107,51 +151,100 @@ TEST_GROUP_BASE(Ranges, RangesGroup) {
 };
 
 TEST(Ranges, AStepOverflowsNothing) {
-  forEachScale([&] {
-    const FitStep step = fitStep(provedRow, anySignal());
-    step.energy();
-    CHECK(step.length.most() < 1 << 17);
-  });
+  const auto steps = [](const Signal& signal) {
+    forEachScale([&] {
+      forEachWay([&] {
+        const FitStep step = fitStep(provedRow, signal);
+        step.energy();
+        CHECK(step.length.most() < 1 << 17);
+      });
+    });
+  };
+  steps(anySignal());
   checkNone();
+  steps(longer(4));
+  CHECK(overflows > 0);
 }
 
 TEST(Ranges, AmplitudesAndTheirSlopesOverflowNothing) {
-  forEachScale([&] { amplitudesOf(provedRow, fitStep(provedRow, anySignal())); });
+  forEachScale([&] { forEachWay([&] { amplitudesOf(provedRow, fitStep(provedRow, anySignal())); }); });
   checkNone();
+  amplitudesOf(
+      provedRow,
+      {.projection = {anyOf(32), anyOf(32)}, .slope = 0, .information = 0, .quotient = 0, .length = 0});
+  CHECK(overflows > 0);
 }
 
 TEST(Ranges, AStepOfThreeReadingsAndItsAmplitudesOverflowNothing) {
   forEachScale([&] { threeSteps(anySignal()); });
   checkNone();
+  threeSteps(longer(1.3));
+  CHECK(overflows > 0);
+}
+
+TEST(Ranges, ProductsOfVectorsHaveBoundsThatHoldThoseOfAllVectors) {
+  constexpr unsigned kSeed = 62;
+  std::printf("seed %u ", kSeed);
+  std::mt19937 random(kSeed);
+  const Vector3 a = anyColumn(0), b = anyColumn(1);
+  const Number any(-5000, 5000), reading(-(1 << 14), 1 << 14);
+  const Vector3 sum = combined(a, b, {any, any}), product = cross(a, sum);
+  const Number volume = inner(product, b), explained = inner(product, {reading, reading, reading});
+  checkNone();
+  for (int trial = 0; trial < 10'000; ++trial) {
+    const auto within = [&](std::int64_t most) {
+      return Number(std::uniform_int_distribution<std::int64_t>(-most, most)(random));
+    };
+    const Vector3 a1 = someColumn(random), b1 = someColumn(random);
+    const Vector3 sum1 = combined(a1, b1, {within(5000), within(5000)}), product1 = cross(a1, sum1);
+    checkHeld(sum, sum1);
+    checkHeld(product, product1);
+    checkHeld(volume, inner(product1, b1));
+    checkHeld(explained, inner(product1, {within(1 << 14), within(1 << 14), within(1 << 14)}));
+  }
+}
+
+TEST(Ranges, AVolumeThatMayBeNoneWouldBeFound) {
+  const auto ofVolume = [](std::int64_t least) {
+    forEachTriple(
+        anySignal(), [](const auto&, const auto&) {}, least);
+  };
+  ofVolume(kLeastVolume / 2);
+  checkNone();
+  ofVolume(kLeastVolume / 2 - 1);
+  CHECK(overflows > 0);
 }
 
 TEST(Ranges, TheThreeNearestReadingsBetweenNearRowsOverflowNothing) {
-  forEachScale([&] { solveNearest(anySignal()); });
+  forEachScale([&] { forEachWay([&] { solveNearest(anySignal()); }); });
   checkNone();
-  solveNearest(longer(2));
+  forEachWay([&] { solveNearest(longer(2)); });
   CHECK(overflows > 0);
 }
 
 TEST(Ranges, AToldStartOverflowsNothing) {
-  CHECK(toldOffset(provedStart, anySignal()).size() <= 1 << kStartWeightBits);
+  const auto start = [](const Signal& signal) {
+    forEachWay([&] { CHECK(toldOffset(provedStart, signal).size() <= 1 << kStartWeightBits); });
+  };
+  start(anySignal());
   checkNone();
-  toldOffset(provedStart, longer(4));
+  start(longer(4));
   CHECK(overflows > 0);
 }
 
 TEST(Ranges, WhatThreeReadingsWeighInAnErrorOverflowsNothing) {
   forEachScale([] {
-    const Signal signal = anySignal();
-    const Number any(-32768, 32767);
-    for (const GaugeTriple& gauges : kTripleList) {
-      const Projections u = projectionsOn(provedRow, signal);
-      const FitStep step =
-          tripleStep(provedRow, tripleSystem(provedRow, gauges, u), twiceRead(signal, gauges), u);
-      const Number slope = amplitudeSlopes(provedRow, step.projection).normal;
-      amplitudeWeight(provedRow, tripleSystem(provedRow, gauges, step.projection), 0, {any, any}, slope);
-    }
+    forEachTriple(anySignal(), [](const GaugeTriple& gauges, const FitStep& step) {
+      weigh(tripleSystem(provedRow, gauges, step.projection), step.projection);
+    });
   });
   checkNone();
+  TripleSystem beyond{};
+  beyond.forOffset = {anyOf(32), anyOf(32), anyOf(32)};
+  weigh(beyond, {1 << 16, 1 << 16});
+  checkNone();
+  weigh(beyond, {anyOf(32), 1 << 16});
+  CHECK(overflows > 0);
 }
 
 TEST(Ranges, TheVarianceWithGaugesLeftOutOverflowsNothing) {
@@ -161,20 +254,16 @@ TEST(Ranges, TheVarianceWithGaugesLeftOutOverflowsNothing) {
   CHECK(overflows > 0);
 }
 
-TEST(Ranges, ALongerSignalWouldBeFoundInThreeReadings) {
-  const Signal signal = longer(1.3);
-  fitStep(provedRow, signal);
-  checkNone();  // all seven have room for that
-  threeSteps(signal);
-  CHECK(overflows > 0);
-}
-
 TEST(Ranges, EnergiesOverflowNothing) {
-  const Signal signal = anySignal();
-  energyOf(signal);
-  exactEnergies(sideParts(provedRow, signal));
-  roughEnergies(sideParts(provedRow, signal));
+  const auto energies = [](const Signal& signal) {
+    energyOf(signal);
+    exactEnergies(sideParts(provedRow, signal));
+    roughEnergies(sideParts(provedRow, signal));
+  };
+  energies(anySignal());
   checkNone();
+  energies(longer(2));
+  CHECK(overflows > 0);
 }
 
 TEST(Ranges, AnyCodeZeroAndGainGivesAStrainOfTheGate) {
@@ -200,11 +289,6 @@ TEST(Ranges, FoldingOverflowsNothing) {
   for (int up = 0; up <= 30; ++up) fold(kSignalLength - 1, up);  // 1: rounding, see ProblemTest
   checkNone();
   fold(kSignalLength + 1, 10);
-  CHECK(overflows > 0);
-}
-
-TEST(Ranges, ASignalTwiceAsLongWouldBeFound) {
-  fitStep(provedRow, longer(4));
   CHECK(overflows > 0);
 }
 
@@ -239,9 +323,10 @@ TEST(Ranges, ErrorsOfAllSevenReadingsOverflowNothing) {
     int ways = 0;
     forEachScale([&] {
       if (provedRow.gradient_exponent % 5 != 2) return;  // -3, 2, 7, 12
-      const FitStep step = fitStep(provedRow, anySignal());
+      const Number information = informationOf(weightedBy(provedRow, projectionsOn(provedRow, anySignal())),
+                                               lowOnly(tabled(provedRow.gradient_cosine)));
       ways += forEachNoise(
-          [&](Scaled noise) { offsetSigma(noise, step.information, provedRow.gradient_exponent); }, most);
+          [&](Scaled noise) { offsetSigma(noise, information, provedRow.gradient_exponent); }, most);
     });
     return ways;
   };
@@ -253,7 +338,7 @@ TEST(Ranges, ErrorsOfAllSevenReadingsOverflowNothing) {
 
 TEST(Ranges, ErrorsOfLoadsOverflowNothing) {
   const Number gain = anyOf(16), offset(0, std::numeric_limits<std::int32_t>::max());
-  const Number slope = amplitudeSlopes(provedRow, fitStep(provedRow, anySignal()).projection).normal;
+  const Number slope = amplitudeSlopes(provedRow, projectionsOn(provedRow, anySignal())).normal;
   const auto sigma = [&](Scaled noise) { amplitudeSigma(noise, {gain, gain}, slope, offset); };
   CHECK(forEachNoise(sigma) > 100);
   forEachNoise([&](Scaled noise) { deviationsOf(noise, {gain, gain}, slope, offset); });

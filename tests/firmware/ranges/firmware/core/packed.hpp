@@ -4,7 +4,8 @@
 //
 // Bounds alone forget that a projection is no longer than what is projected. So the four pairs of a folded
 // column of weights, and those of a signal, know the length they share: a sum of products of pairs, each
-// taken once, is at most the product of the lengths (Cauchy and Schwarz). So do single numbers of a vector.
+// taken once, is at most the product of the lengths (Cauchy and Schwarz). So do single numbers of a vector,
+// and so is each number of a cross product of two (Lagrange).
 
 #include <algorithm>
 #include <array>
@@ -24,13 +25,24 @@ namespace strainfinger::firmware {
 /// How many results could leave their word so far.
 inline int overflows = 0;
 
+/// Which vector a number is of. What is made of vectors in the same way has the same name; 0 has none.
+using Name = std::uint64_t;
+constexpr Name named(char how, Name a, Name b = 1) {
+  if (a == 0 || b == 0) return 0;
+  constexpr Name kOdd = 0x9E3779B97F4A7C15;
+  return (((a * kOdd) ^ b) * kOdd ^ static_cast<Name>(how)) * kOdd;
+}
+
 class Number {
  public:
   Number() = default;
   Number(std::int64_t value) : Number(value, value) {}
   Number(std::int64_t least, std::int64_t most, int bits = 32) : least_(least), most_(most) {
     const std::int64_t limit = std::int64_t{1} << (bits - 1);
-    if (least < -limit || most >= limit) ++overflows;
+    if (least >= -limit && most < limit) return;
+    ++overflows;
+    least_ = std::clamp(least, -limit, limit - 1);  // or what follows would overflow here, too
+    most_ = std::clamp(most, -limit, limit - 1);
   }
 
   std::int64_t least() const { return least_; }
@@ -39,33 +51,54 @@ class Number {
   friend Number operator+(Number a, Number b) {
     if (a.isZero()) return b;
     const std::int64_t least = a.least_ + b.least_, most = a.most_ + b.most_;
-    if (a.sumsWith(b)) return sumOf(least, most, a.whole_, a.parts_ | b.parts_, a.rounding_);
+    if (a.sumsWith(b)) return sumOf(least, most, a.whole_, a.parts_ | b.parts_, a.rounding_, a.of_);
+    if (a.isBeside(b)) return someOf(least, most, a, b);
+    if (a.isLike(b))
+      return component({least, most}, a.length_ + b.length_, a.parts_, named('+', a.of_, b.of_));
     return {least, most};
   }
-  friend Number operator-(Number a, Number b) { return {a.least_ - b.most_, a.most_ - b.least_}; }
+  friend Number operator-(Number a, Number b) {
+    const std::int64_t least = a.least_ - b.most_, most = a.most_ - b.least_;
+    if (a.isMinorWith(b)) return crossed(least, most, a);
+    return {least, most};
+  }
   friend Number operator*(Number a, Number b) {
     const auto [least, most] = products(a, b);
-    if (a.length_ > 0 && b.length_ > 0 && a.parts_ == b.parts_)
-      return sumOf(least, most, a.length_ * b.length_, a.parts_, 0);
-    if (a.length_ == 0 || b.length_ > 0) return {least, most};
-    return component({least, most}, a.length_ * static_cast<double>(b.size()), a.parts_);
+    if (a.isComponent() && b.isComponent()) {
+      const double whole = a.length_ * b.length_;
+      if (a.parts_ == b.parts_) return sumOf(least, most, whole, a.parts_, 0, named('.', a.of_, b.of_));
+      return minor(least, most, whole, a, b);
+    }
+    if (!a.isComponent()) return {least, most};
+    return component({least, most}, a.length_ * static_cast<double>(b.size()), a.parts_, named('*', a.of_));
   }
-  /// Rounded towards 0; of a divisor above 0.
+  /// Rounded towards 0; of a divisor that is on one side of it.
   friend Number operator/(Number a, Number b) {
-    if (b.least_ <= 0) ++overflows;
-    const std::int64_t divisor = std::max<std::int64_t>(b.least_, 1);
-    const Number quotient(std::min(a.least_ / divisor, a.least_ / std::max(b.most_, divisor)),
-                          std::max(a.most_ / divisor, a.most_ / std::max(b.most_, divisor)));
-    if (a.length_ == 0) return quotient;
-    return component(quotient, a.length_ / static_cast<double>(divisor), a.parts_);
+    if (b.least_ <= 0 && b.most_ >= 0) {
+      ++overflows;
+      return {-a.size(), a.size()};
+    }
+    const auto [least, most] =
+        std::minmax({a.least_ / b.least_, a.least_ / b.most_, a.most_ / b.least_, a.most_ / b.most_});
+    if (!a.isComponent()) return {least, most};
+    const auto divisor = static_cast<double>(std::min(std::abs(b.least_), std::abs(b.most_)));
+    return component({least, most}, a.length_ / divisor, a.parts_, named('/', a.of_));
   }
   friend Number operator>>(Number a, int by) {
     if (by < 0 || by > 31) ++overflows;
     const std::int64_t least = a.least_ >> by, most = a.most_ >> by;
     if (a.whole_ > 0)
-      return sumOf(least, most, std::ldexp(a.whole_, -by), a.parts_, std::ldexp(a.rounding_, -by) + 1);
-    if (a.length_ == 0) return {least, most};
-    return component({least, most}, std::ldexp(a.length_, -by) + std::sqrt(double{kMaxGauges}), a.parts_);
+      return sumOf(least, most, std::ldexp(a.whole_, -by), a.parts_, std::ldexp(a.rounding_, -by) + 1, a.of_);
+    if (!a.isComponent()) return {least, most};
+    return component({least, most}, std::ldexp(a.length_, -by) + std::sqrt(double{kMaxGauges}), a.parts_,
+                     named('>', a.of_));
+  }
+  /// Of the last bit alone, which makes it odd: of either sign in turn.
+  friend Number operator|(Number a, int bit) {
+    if (bit != 1) ++overflows;
+    const bool isNegative = a.most_ < 0 || (a.least_ < 0 && choices.of(2) == 0);
+    if (isNegative) return {a.least_ | 1, std::min<std::int64_t>(a.most_ | 1, -1)};
+    return {std::max<std::int64_t>(a.least_, 0) | 1, a.most_ | 1};
   }
   Number& operator+=(Number other) { return *this = *this + other; }
   Number& operator-=(Number other) { return *this = *this - other; }
@@ -105,9 +138,12 @@ class Number {
   /// One of the numbers of a vector no longer than that. A sum of products of two such vectors' numbers is as
   /// one of pairs. What is done with one number must be done with all of its vector, and no other vectors of
   /// these lengths may come into the sum: the test that says `component` sees to it.
-  static Number component(Number any, double length, unsigned part) {
+  /// Of a vector with a name, also sums of its numbers are known, and of a cross product what its numbers
+  /// are.
+  static Number component(Number any, double length, unsigned part, Name of = 0) {
     any.parts_ = part;
     any.length_ = length;
+    any.of_ = of;
     return any;
   }
   double length() const { return length_; }
@@ -122,28 +158,62 @@ class Number {
   std::int64_t size() const { return std::max(std::abs(least_), std::abs(most_)); }
 
  private:
+  /// A product of two vectors' numbers at different places, of which a cross product is made.
+  static Number minor(std::int64_t least, std::int64_t most, double whole, const Number& a, const Number& b) {
+    Number product = component({least, most}, whole, 0, named('x', a.of_, b.of_));
+    product.left_ = static_cast<std::uint8_t>(a.parts_);
+    product.right_ = static_cast<std::uint8_t>(b.parts_);
+    return product;
+  }
+  bool isMinorWith(const Number& other) const {
+    return left_ != 0 && left_ == other.right_ && right_ == other.left_ && of_ != 0 && of_ == other.of_ &&
+           length_ == other.length_;
+  }
+  static Number crossed(std::int64_t least, std::int64_t most, const Number& a) {
+    const auto limit = static_cast<std::int64_t>(std::ceil(a.length_));
+    return component({std::max(least, -limit), std::min(most, limit)}, a.length_, 7u ^ a.left_ ^ a.right_,
+                     a.of_);
+  }
+  /// The sum of some numbers of one vector: no more than as many equal ones would be.
+  static Number someOf(std::int64_t least, std::int64_t most, const Number& a, const Number& b) {
+    const unsigned parts = a.parts_ | b.parts_;
+    const auto limit = static_cast<std::int64_t>(std::ceil(a.length_ * std::sqrt(std::popcount(parts))));
+    return component({std::max(least, -limit), std::min(most, limit)}, a.length_, parts, a.of_);
+  }
+  bool isComponent() const { return length_ > 0 && std::has_single_bit(parts_); }
+  bool isBeside(const Number& other) const {
+    return length_ > 0 && of_ != 0 && of_ == other.of_ && length_ == other.length_ && parts_ != 0 &&
+           (parts_ & other.parts_) == 0;
+  }
+  bool isLike(const Number& other) const {
+    return isComponent() && other.isComponent() && parts_ == other.parts_;
+  }
   static std::pair<std::int64_t, std::int64_t> products(const Number& a, const Number& b) {
     return std::minmax({a.least_ * b.least_, a.least_ * b.most_, a.most_ * b.least_, a.most_ * b.most_});
   }
   /// Of products of numbers, each rounded by no more than that, within bounds of their own.
-  static Number sumOf(std::int64_t least, std::int64_t most, double whole, unsigned parts, double rounding) {
+  static Number sumOf(std::int64_t least, std::int64_t most, double whole, unsigned parts, double rounding,
+                      Name of) {
     const auto limit = static_cast<std::int64_t>(std::ceil(whole + rounding * std::popcount(parts)));
     Number sum(std::clamp(least, -limit, limit), std::clamp(most, -limit, limit));
     sum.parts_ = parts;
     sum.whole_ = whole;
     sum.rounding_ = rounding;
+    sum.of_ = of;
     return sum;
   }
   bool isZero() const { return least_ == 0 && most_ == 0; }
   bool sumsWith(const Number& other) const {
-    return whole_ > 0 && whole_ == other.whole_ && rounding_ == other.rounding_ &&
+    return whole_ > 0 && whole_ == other.whole_ && rounding_ == other.rounding_ && of_ == other.of_ &&
            (parts_ & other.parts_) == 0;
   }
 
   std::int64_t least_ = 0, most_ = 0;
   unsigned parts_ = 0;
-  double whole_ = 0, rounding_ = 0;  ///< of a sum of products
-  double length_ = 0;                ///< of the vector that it is a component of; 0: of none
+  double whole_ = 0, rounding_ = 0;    ///< of a sum of products
+  double length_ = 0;                  ///< of the vector that it is a component of; 0: of none
+  Name of_ = 0;                        ///< .. and that vector, or both of the product
+  std::uint8_t left_ = 0, right_ = 0;  ///< of two vectors' numbers at different places: at which
 };
 
 /// Kept in 16 bits.
@@ -210,6 +280,14 @@ inline Pair pairAt(const std::int16_t* numbers) {
   return {any, any};
 }
 
+/// Three numbers of a column of a row.
+template <typename Column>
+Number ofColumn(const Column& column, std::size_t i, Number weight) {
+  const std::size_t at = numbersInto(provedRow, column.data());
+  if (at >= offsetof(FitRow, gradient_length) / 2) ++overflows;
+  return Number::component(weight, kWeightLength, 1u << i, at + 1);
+}
+
 /// Two numbers are no longer than all that they are part of. One of a pair of which nothing is known has been
 /// halved, as the weights are: the difference of two readings is then no longer than they are.
 inline Pair lows(Pair a, Pair b) { return {a.lower, b.lower, a.length}; }
@@ -251,21 +329,6 @@ Number clipped(Number value) {
   constexpr std::int64_t kLimit = std::int64_t{1} << (Bits - 1);
   return value.within(-kLimit, kLimit - 1);
 }
-/// Whatever the divisor.
-template <int Bits>
-Number clippedQuotient(Number numerator, Number) {
-  const std::int64_t most = std::max(std::abs(numerator.least()), std::abs(numerator.most()));
-  const std::int64_t limit = std::min(most, std::int64_t{1} << (Bits - 1));
-  return {-limit, std::min(limit, (std::int64_t{1} << (Bits - 1)) - 1)};
-}
-
-template <int Bits>
-Number signedQuotient(Number numerator, Number divisor) {
-  return clippedQuotient<Bits>(numerator, divisor);
-}
-
-inline Number nonZero(Number value) { return value; }
-
 inline Number atLeast(Number value, Number least) {
   return {std::max(value.least(), least.least()), std::max(value.most(), least.most())};
 }

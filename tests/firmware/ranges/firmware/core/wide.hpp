@@ -30,6 +30,8 @@ class Wide {
   long double least() const { return least_; }
   long double most() const { return most_; }
   long double size() const { return std::max(std::abs(least_), std::abs(most_)); }
+  /// How near to 0.
+  long double nearest() const { return least_ > 0 ? least_ : most_ < 0 ? -most_ : 0; }
 
   friend Wide operator+(Wide a, Wide b) { return {a.least_ + b.least_, a.most_ + b.most_}; }
   friend Wide operator-(Wide a, Wide b) { return {a.least_ - b.most_, a.most_ - b.least_}; }
@@ -124,9 +126,8 @@ inline int leadingZeros(Number& value) {
 }
 
 inline Natural squared(Wide value) {
-  const long double least = value.least() > 0 ? value.least() : value.most() < 0 ? -value.most() : 0;
   if (value.size() * value.size() >= 0x1p63L) ++overflows;
-  return {least * least, value.size() * value.size()};
+  return {value.nearest() * value.nearest(), value.size() * value.size()};
 }
 inline Wide squareOf(Number value) { return Wide(squared(value)); }
 inline Natural shortSquare(Number value) {
@@ -135,7 +136,7 @@ inline Natural shortSquare(Number value) {
 }
 inline Natural sizeOf(Wide value) {
   if (value.size() >= 0x1p63L) ++overflows;
-  return {0, value.size()};
+  return {value.nearest(), value.size()};
 }
 inline Natural larger(Natural a, Natural b) {
   return {static_cast<long double>(std::max(a.least(), b.least())),

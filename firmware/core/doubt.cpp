@@ -18,11 +18,12 @@ std::int32_t rivalLimit(const Problem& problem, std::int32_t best) {
   return best - (best >> kStarterShift) - problem.noise;
 }
 
-/// Two answers whose energies differ by less explain the readings equally well, within noise and rounding
-/// (1/2^14).
+/// Two answers whose energies differ by less explain the readings equally well, within four standard errors
+/// of noise and rounding (1/2^14).
 std::int32_t marginOf(const Problem& problem, std::int32_t window) {
-  const std::int32_t twelveVariances = problem.noise * 3 / 8;
-  return (isWeak(problem) ? 2 * twelveVariances : twelveVariances) + (window >> 14);
+  static_assert(kNoiseUnit == 32);
+  const std::int32_t sixteenVariances = problem.noise / 2;
+  return (isWeak(problem) ? 2 * sixteenVariances : sixteenVariances) + (window >> 14);
 }
 
 /// The best few of any number of starts, the best first.
@@ -194,6 +195,16 @@ void searchOn(Fit& fit, const TableImage& tables, const std::int32_t* strains_q3
   conclude(problem, contest);
   // Only then: the dearest contacts have two peaks in the scan, and a rival that was refined.
   if (twofold && fit.deficit == kNoRival) coverValley(problem, fit, -fit.offset(problem.gauges()));
+}
+
+[[gnu::cold]] void locateAt(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32,
+                            PitchQ20 position) {
+  const Problem problem = problemAgain(fit, tables, strains_q32, 0);
+  Contest contest{fit};
+  const int centre = wrapped((position + kOnePitch / 2) >> kPitchBits, problem.gauges());
+  const Lead lead{position - ((position + kOnePitch / 2) >> kPitchBits) * kOnePitch, 0};
+  enterFit(problem, InWindow::kNearest, centre, lead.row(), contest);
+  conclude(problem, contest);
 }
 
 void searchEverywhere(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32,

@@ -80,6 +80,9 @@ struct Lead {
 /// where to look as well: an offset in its window.
 void searchOn(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32, std::int32_t ringEnergy);
 
+/// The fit that is reached from a position of the same ring, instead of the one that was found; no other.
+void locateAt(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32, PitchQ20 position);
+
 /// Looks at every window: where the model's strongest response has no single peak over the contact, or noise
 /// may hide it.
 void searchEverywhere(Fit& fit, const TableImage& tables, const std::int32_t* strains_q32,

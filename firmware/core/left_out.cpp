@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kMaxSteps = 8;
 constexpr PitchQ20 kLongestStep = kOnePitch / 8;
-constexpr std::uint32_t kAmbiguous = 12;  ///< answers closer than this many variances are not told apart
+constexpr std::uint32_t kAmbiguous = 16;  ///< answers closer than this many variances are not told apart
 constexpr std::uint32_t kFaint = 64;      ///< an answer that explains less may be noise
 constexpr std::size_t kPeaks = 6;
 /// Where the search looks from the best peak's fit, in eighths of a pitch.
@@ -75,16 +75,17 @@ PitchQ20 distance(PitchQ20 a, PitchQ20 b, int gauges) {
   }
 }
 
-/// The looks whose energy is a peak of the ring's, the highest.
+/// Where the ring's energy has a peak, the highest first; -1: no more.
+using Looks = std::array<std::int16_t, kPeaks>;
 struct Peaks {
   Peaks() {
     look.fill(-1);
     energy.fill(-1);
   }
-  std::array<int, kPeaks> look;
+  Looks look;
   std::array<std::int32_t, kPeaks> energy;
 
-  void enter(int newLook, std::int32_t newEnergy) {
+  void enter(std::int16_t newLook, std::int32_t newEnergy) {
     for (std::size_t i = 0; i < look.size(); ++i) {
       if (newEnergy <= energy[i]) continue;
       std::swap(newEnergy, energy[i]);
@@ -93,18 +94,18 @@ struct Peaks {
   }
 };
 
-[[gnu::noinline]] Peaks peaksOf(const Problem& problem, const RingSignal& signal) {
+[[gnu::noinline]] Looks peaksOf(const Problem& problem, const RingSignal& signal) {
   const int looks = kLooksPerPitch * problem.gauges();
   Peaks peaks;
   std::int32_t before = explainedAt(problem, signal, lookAt(problem, -1));
   std::int32_t here = explainedAt(problem, signal, lookAt(problem, 0));
   for (int look = 0; look < looks; ++look) {
     const std::int32_t after = explainedAt(problem, signal, lookAt(problem, look + 1));
-    if (before <= here && after < here) peaks.enter(look, here);
+    if (before <= here && after < here) peaks.enter(static_cast<std::int16_t>(look), here);
     before = here;
     here = after;
   }
-  return peaks;
+  return peaks.look;
 }
 
 /// Writes what the readings left out should be; those outside the window of the fit should be 0. False: that
@@ -190,22 +191,6 @@ View viewOf(const Problem& problem, const Fit& fit) {
   return {fit.centre, offset < 0 ? -1 : 1, static_cast<int>(fit.row - problem.tables.rows.data())};
 }
 
-/// To all readings, from where the remaining ones led: where what was filled in leads the fit elsewhere.
-[[gnu::noinline]] void fitAt(const TableImage& tables, PitchQ20 position,
-                             std::span<const std::int32_t> strains_q32, std::uint32_t energy, Fit& fit) {
-  const Problem problem = problemOf(tables, strains_q32, energy);
-  const View view = viewOf(problem, position);
-  WindowFit window;
-  window.start(signalAround(problem, view.centre), view.centre, view.side * view.row, problem.mirrorSign());
-  const bool settled = solve(problem, InWindow::kNearest, window);
-  report(problem, window, judged(problem, window, settled), roundTheRing(window.position(), problem.gauges()),
-         fit);
-  fit.alternative = fit.best;
-  fit.deficit = kNoRival;
-  fit.ambiguous = false;
-  fit.anchor = fit.centre;
-}
-
 /// The errors of a fit to filled-in readings are those of the readings that are real.
 [[gnu::noinline]] void widen(const TableImage& tables, GaugeSet leftOut,
                              std::span<const std::int32_t> strains_q32, std::uint32_t energy, Fit& fit) {
@@ -239,15 +224,15 @@ Candidate followed(const Problem& problem, const RingSignal& signal, View view) 
 }
 
 Rivals searchRemaining(const Problem& problem, const RingSignal& signal) {
-  const Peaks peaks = peaksOf(problem, signal);
+  const Looks peaks = peaksOf(problem, signal);
   Rivals rivals;
   PitchQ20 first = 0;
   for (std::size_t start = 0; start < kPeaks + kAway.size(); ++start) {  // one call, for the stack's sake
     if (start == kPeaks) first = rivals.best.place.position;
-    if (start < kPeaks && peaks.look[start] < 0) continue;
+    if (start < kPeaks && peaks[start] < 0) continue;
     const View view =
         start < kPeaks
-            ? lookAt(problem, peaks.look[start])
+            ? lookAt(problem, peaks[start])
             : viewOf(problem, roundTheRing(first + kAway[start - kPeaks] * kOnePitch / 8, problem.gauges()));
     enter(rivals, followed(problem, signal, view), problem.gauges());
   }
@@ -260,7 +245,7 @@ Fit locateWithout(const TableImage& tables, GaugeSet leftOut, std::span<std::int
   Fit fit;
   locateBySeven(fit, tables, strains_q32.data(), energy);
   if (distance(fit.best.position, verdict.best, tables.constants.gauge_count) >= kSame)
-    fitAt(tables, verdict.best, strains_q32, energy, fit);
+    locateAt(fit, tables, strains_q32.data(), verdict.best);
   widen(tables, leftOut, strains_q32, energy, fit);
   if (!verdict.determined) fit.settled = false;
   if (verdict.ambiguous) {

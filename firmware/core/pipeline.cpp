@@ -19,6 +19,11 @@ Made(Make) -> Made<Make>;
 
 }  // namespace
 
+/// In one place, and small: of readings that were changed.
+[[gnu::noinline, gnu::cold]] std::uint32_t Pipeline::energyAgain() {
+  return gateEnergy(constants(), strains());
+}
+
 /// Not inlined, nor are the other stages that need much stack: none needs the others'.
 [[gnu::noinline]] void Pipeline::look() {
   observation_.fit.reset();
@@ -28,19 +33,19 @@ Made(Make) -> Made<Make>;
   } else {
     observation_.fit.emplace(
         Made{[&] { return locateWithout(*tables_, observation_.leftOut, strains(), energy_); }});
-    energy_ = gateEnergy(constants(), strains());  // what was filled in is in the fit
+    energy_ = energyAgain();  // what was filled in is in the fit
   }
 }
 
 [[gnu::always_inline]] inline void Pipeline::lookWithout(GaugeSet gauges) {
   observation_.leftOut |= gauges;
   clear(observation_.leftOut, strains());
-  energy_ = gateEnergy(constants(), strains());
+  energy_ = energyAgain();
   look();
 }
 
 /// Gauges at a rail where the others say that they should be well within their range.
-GaugeSet Pipeline::implausiblySaturated(Codes codes) const {
+[[gnu::cold]] GaugeSet Pipeline::implausiblySaturated(Codes codes) const {
   GaugeSet gauges = 0;
   for (std::size_t i = 0; i < codes.size(); ++i) {
     if ((observation_.saturated >> i & 1) == 0) continue;
@@ -53,7 +58,7 @@ GaugeSet Pipeline::implausiblySaturated(Codes codes) const {
 }
 
 /// Gauges out of use against what the others predict, where that is much.
-[[gnu::noinline]] void Pipeline::reconsider(Codes codes) {
+[[gnu::noinline, gnu::cold]] void Pipeline::reconsider(Codes codes) {
   GaugeSet right = 0, wrong = 0;
   for (std::size_t i = 0; i < codes.size(); ++i) {
     if (!contains(watch_.outOfUse(), static_cast<int>(i))) continue;
@@ -62,6 +67,19 @@ GaugeSet Pipeline::implausiblySaturated(Codes codes) const {
     (offBy(strainOf(calibration_, codes[i], i), predicted) < 0 ? right : wrong) |= 1u << i;
   }
   watch_.reconsider(right, wrong);
+}
+
+/// Gauges out of use that feel a firm touch while the ring is untouched: stuck, whatever the others feel of
+/// the next one.
+[[gnu::noinline, gnu::cold]] void Pipeline::convictStuck(Codes codes) {
+  GaugeSet stuck = 0;
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    if (!contains(watch_.outOfUse(), static_cast<int>(i))) continue;
+    const auto energy =
+        static_cast<std::uint32_t>(gatePart(strainOf(calibration_, codes[i], i), constants().gate_shift));
+    if (energy / 16 >= constants().gate_on) stuck |= 1u << i;
+  }
+  watch_.convict(stuck);
 }
 
 [[gnu::noinline]] GaugeSet Pipeline::culprits(Codes codes) {
@@ -73,8 +91,7 @@ GaugeSet Pipeline::implausiblySaturated(Codes codes) const {
     if (watch_.outOfUse() != 0 && observation_.fit && observation_.fit->settled) reconsider(codes);
   } else if (watch_.wantsToExamine()) {
     clear(observation_.leftOut, strains());
-    const Misfit found =
-        examine(*tables_, observation_.leftOut, strains(), gateEnergy(constants(), strains()));
+    const Misfit found = examine(*tables_, observation_.leftOut, strains(), energyAgain());
     watch_.found(found);
     gauges |= found.culprit;
   }
@@ -110,6 +127,7 @@ const Observation& Pipeline::process(Codes codes) {
     accused = culprits(codes);
   } else {
     watch_.allIsWell();
+    if (watch_.outOfUse() != 0) convictStuck(codes);
   }
   if ((accused & ~observation_.leftOut) != 0) lookWithout(accused);
   conclude(accused);

@@ -44,12 +44,14 @@ class Pipeline {
 
  private:
   std::span<std::int32_t> strains() { return std::span(readings_.strain_q32).first(constants().gauge_count); }
+  std::uint32_t energyAgain();
   void look();
   void lookWithout(GaugeSet gauges);
   GaugeSet culprits(Codes codes);
   void conclude(GaugeSet accused);
   GaugeSet implausiblySaturated(Codes codes) const;
   void reconsider(Codes codes);
+  void convictStuck(Codes codes);
 
   const TableImage* tables_;
   Calibration calibration_;

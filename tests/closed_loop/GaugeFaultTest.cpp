@@ -247,6 +247,22 @@ TEST(GaugeFault, ADeadGaugeDoesNotComeBack) {
   }
 }
 
+// A gripper's: the same touch again and again, at which the gauge happens to read right.
+TEST(GaugeFault, AStuckGaugeDoesNotComeBackInTouchesLikeTheOneThatItIsStuckAt) {
+  Presses random(16, 1, 412);
+  Pipeline pipeline(ring.tables(), FitMode::kRefined);
+  const auto held = ring.strains({5.2, 20, 3}), released = std::vector<double>(16, 0.0);
+  const auto stuck = [&](std::vector<double> strains) {
+    strains[5] = held[5];
+    return strains;
+  };
+  seen(pipeline, held, random, 100);
+  LONGS_EQUAL(1u << 5, seen(pipeline, stuck(released), random, 100).outOfUse);
+  for (int touch = 0; touch < 3; ++touch) {
+    LONGS_EQUAL(1u << 5, seen(pipeline, stuck(held), random, 500).outOfUse);
+    LONGS_EQUAL(1u << 5, seen(pipeline, stuck(released), random, 100).outOfUse);
+  }
+}
 TEST(GaugeFault, ANoisyGaugeIsNamedWhileNothingTouches) {
   CHECK(setsUntilNoisyIsNamed(10, 408) <= 500);
   CHECK(setsUntilNoisyIsNamed(3, 410) <= 10'000);

@@ -39,6 +39,7 @@ struct Statistics {
   int contacts = 0;
   int gross = 0;    ///< more than half a pitch off
   int certain = 0;  ///< .. and beyond 6 reported sigmas
+  int unsaid = 0;   ///< .. and not called uncertain, whatever sigma says
   int unseen = 0;
   int untold = 0;     ///< beyond 6 reported sigmas, and not called uncertain
   double arc_um = 0;  ///< RMS
@@ -94,6 +95,7 @@ class Trial {
       const bool gross = std::abs(error[0]) > std::numbers::pi / gauges_;
       result.gross += gross;
       result.certain += gross && std::abs(error[0]) > 6 * sigmasOf(*contact)[0];
+      result.unsaid += gross && !contact->uncertain;
       result.untold += !contact->uncertain && std::abs(error[0]) > 6 * sigmasOf(*contact)[0];
       result.arc_um += std::pow(error[0] * 12.7e3, 2) / contacts;
       result.worst_um = std::max(result.worst_um, std::abs(error[0] * 12.7e3));
@@ -104,12 +106,13 @@ class Trial {
     result.overBound = bound.cwiseSqrt();
     result.overSigma = sigma.cwiseSqrt();
     std::printf(
-        "gross %d, of them %d certain, untold %d, arc %.2f um, worst %.2f um, over bound %.3f %.3f %.3f, "
+        "gross %d, of them %d certain, %d unsaid, untold %d, arc %.2f um, worst %.2f um, over bound %.3f "
+        "%.3f %.3f, "
         "over sigma "
         "%.3f %.3f %.3f ",
-        result.gross, result.certain, result.untold, result.arc_um, result.worst_um, result.overBound[0],
-        result.overBound[1], result.overBound[2], result.overSigma[0], result.overSigma[1],
-        result.overSigma[2]);
+        result.gross, result.certain, result.unsaid, result.untold, result.arc_um, result.worst_um,
+        result.overBound[0], result.overBound[1], result.overBound[2], result.overSigma[0],
+        result.overSigma[1], result.overSigma[2]);
     return result;
   }
 

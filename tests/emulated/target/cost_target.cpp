@@ -22,6 +22,7 @@ using namespace emulated;
 using mps2::InstructionCounter;
 
 constexpr std::uint32_t kSamples = 2000;
+constexpr std::uint32_t kFirmSamples = 40'000;  ///< of which the worst is a bar
 constexpr std::uint32_t kPaint = 0x57ACC57A;
 
 struct Adc {
@@ -143,7 +144,7 @@ void runBoard() {
   mps2::Console line;
   console = &line;
   const InstructionCounter counter;
-  for (std::uint32_t sample = 0; sample < kSamples; ++sample)
+  for (std::uint32_t sample = 0; sample < kFirmSamples; ++sample)
     stages(counter, firmSamplesOf(sample), "locate", "locate_three_point");
   for (std::uint32_t sample = 0; sample < kSamples; ++sample)
     stages(counter, samplesOf(sample, true), "locate_any", "locate_three_point_any");

@@ -181,6 +181,11 @@ LONGS_EQUAL(0, result.unseen);
 static void checkBelow(const Eigen::Vector3d& limits, const Eigen::Vector3d& values) {
   for (int i = 0; i < 3; ++i) CHECK(values[i] <= limits[i]);
 }
+/// No contact is far off and says nothing of it, but for those within a few of their errors that are rare.
+static void checkSaid(const Statistics& result) {
+  LONGS_EQUAL(0, result.untold);
+  CHECK(result.unsaid <= result.contacts / 20'000);
+}
 static void checkHonest(const Statistics& result) {
   for (int i = 0; i < 3; ++i) DOUBLES_EQUAL(1, result.overSigma[i], 0.1);
 }
@@ -237,7 +242,7 @@ TEST(LocateAccuracy, SixteenGaugesAtAHundredthOfNoiseAreRarelyWrongAndHardlyEver
   const Statistics result = Trial(1e-2, 30).run(FitMode::kRefined, 107);
   CHECK(result.gross <= result.contacts / 200);
   CHECK(result.certain <= result.contacts / 10'000);
-  LONGS_EQUAL(0, result.untold);
+  checkSaid(result);
 }
 
 // Noise (of the default finger: 6 microstrain) may tip the balance to another window, or across a gauge, or
@@ -245,7 +250,7 @@ TEST(LocateAccuracy, SixteenGaugesAtAHundredthOfNoiseAreRarelyWrongAndHardlyEver
 TEST(LocateAccuracy, AWrongPlaceIsNeverCertain) {
   for (const double load : {0.6, 1.0, 2.0, 3.0, 5.0}) {
     const Statistics result = Trial(defaultNoiseAt(load), load).run(FitMode::kRefined, 108, 40'000);
-    LONGS_EQUAL(0, result.untold);
+    checkSaid(result);
     CHECK(result.unseen <= (load < 1 ? result.contacts / 20 : 0));
   }
 }
@@ -253,7 +258,7 @@ TEST(LocateAccuracy, AWrongPlaceIsNeverCertain) {
 TEST(LocateAccuracy, AWrongPlaceIsNeverCertainByThreeReadings) {
   for (const double load : {2.0, 3.0, 5.0, 8.0}) {
     const Statistics result = Trial(defaultNoiseAt(load), load).run(FitMode::kThreePoint, 111, 40'000);
-    LONGS_EQUAL(0, result.untold);
+    checkSaid(result);
     LONGS_EQUAL(0, result.unseen);
   }
 }
@@ -263,7 +268,7 @@ TEST(LocateAccuracy, AWrongPlaceIsNeverCertainTowardsTheMiddleBetweenGauges) {
   for (const double load : {2.0, 3.0, 5.0, 8.0}) {
     Trial trial(defaultNoiseAt(load), load);
     const Statistics result = trial.between(0.37, 0.47).leaning(35, 45).run(FitMode::kRefined, 110, 40'000);
-    LONGS_EQUAL(0, result.untold);
+    checkSaid(result);
     LONGS_EQUAL(0, result.unseen);
   }
 }
@@ -273,7 +278,7 @@ TEST(LocateAccuracy, AWrongPlaceIsNeverCertainTowardsTheMiddleBetweenGauges) {
 TEST(LocateAccuracy, NoPlaceAcrossAGaugeIsTakenForCertain) {
   for (const double noise : {2e-3, 1e-3, 5e-4}) {
     const Statistics result = Trial(noise, 20, 18).run(FitMode::kRefined, 109, 40'000);
-    LONGS_EQUAL(0, result.untold);
+    checkSaid(result);
     LONGS_EQUAL(0, result.unseen);
   }
 }

@@ -57,24 +57,46 @@ std::string sweepTable(const std::vector<ErrorCell>& cells, const char* sweep, c
   return text;
 }
 
-/// The worst first, by the place that 95 % of the answers keep to.
+/// The worst first, by the place that 95 % of the answers keep to; of settings that leave answers.
 std::vector<ErrorCell> worstOf(std::vector<ErrorCell> cells, std::size_t count) {
   const auto worse = [](const ErrorCell& a, const ErrorCell& b) {
     return a.statistics.arc_mm.most95() > b.statistics.arc_mm.most95();
   };
-  std::erase_if(cells, [](const ErrorCell& c) { return std::isnan(c.statistics.arc_mm.most95()); });
+  std::erase_if(cells, [](const ErrorCell& c) { return !isMostlyCertain(c.statistics); });
   std::sort(cells.begin(), cells.end(), worse);
   cells.resize(std::min(count, cells.size()));
   return cells;
 }
 
+std::string settingOf(const ErrorCell& c) {
+  return fmt::format("| {} {:g} {} | {:g} | {} |", c.sweep, c.setting, c.unit, c.load_n_per_m,
+                     c.told ? "yes" : "no");
+}
+
+/// Where there is hardly an answer, the most silent first.
+std::string silentSettings(std::vector<ErrorCell> cells) {
+  std::erase_if(cells, [](const ErrorCell& c) { return isMostlyCertain(c.statistics); });
+  std::sort(cells.begin(), cells.end(), [](const ErrorCell& a, const ErrorCell& b) {
+    return a.statistics.certain() < b.statistics.certain();
+  });
+  std::string text =
+      "\nFewer than half of the contacts get a certain answer:\n\n"
+      "| setting | load, N/m | tables know | certain | unnoticed | uncertain |\n|--|--|--|--|--|--|\n";
+  for (const ErrorCell& c : cells) {
+    const ErrorStatistics& s = c.statistics;
+    text += fmt::format("{} {} | {} | {} |\n", settingOf(c), share(s.certain(), s.contacts),
+                        share(s.unnoticed, s.contacts), share(s.uncertain, s.contacts));
+  }
+  return text;
+}
+
 std::string worstSettings(const std::vector<ErrorCell>& cells) {
   std::vector<ErrorCell> others(cells);
   std::erase_if(others, [](const ErrorCell& c) { return c.sweep == kMapSweep; });
-  std::string text = "\n## The worst settings\n\n" + table("setting | load, N/m | tables know", 3);
-  for (const ErrorCell& c : worstOf(others, 8))
-    text += fmt::format("| {} {:g} {} | {:g} | {} |{}", c.sweep, c.setting, c.unit, c.load_n_per_m,
-                        c.told ? "yes" : "no", columnsOf(c.statistics));
+  std::string text = "\n## The worst settings\n" + silentSettings(others) +
+                     "\nThe largest errors of the others:\n\n" +
+                     table("setting | load, N/m | tables know", 3);
+  for (const ErrorCell& c : worstOf(others, 8)) text += settingOf(c) + columnsOf(c.statistics);
   return text;
 }
 
@@ -110,7 +132,7 @@ double surelyNoticed_n_per_m(const std::vector<ErrorCell>& cells) {
 
 std::string inShort(const std::vector<ErrorCell>& cells) {
   const auto &firm = rowOf(cells, kLoadSweep, 30, true), &light = rowOf(cells, kLoadSweep, 5, true);
-  const auto &wide = rowOf(cells, kWidthSweep, 1, false), &wideTold = rowOf(cells, kWidthSweep, 1, true);
+  const auto &wide = rowOf(cells, kWidthSweep, 2, false), &wideTold = rowOf(cells, kWidthSweep, 2, true);
   const ErrorCell worst = worstOf(cellsOf(cells, kMapSweep), 1).front();
   return fmt::format(
       "## In short\n\n"
@@ -122,14 +144,18 @@ std::string inShort(const std::vector<ErrorCell>& cells) {
       "* **Weakest spot**: {:+.3f} pitches from a gauge, pulled {:.0f} deg sideways: {:.3f} mm at 30 N/m (95 "
       "%), against "
       "{:.3f} mm anywhere. Over a gauge a small shift and a small tangential load look alike.\n"
-      "* **What the config says of contact width and gauge length matters**: a contact 1 mm wide is known to "
-      "{:.3f} mm RMS "
-      "when the tables know the width, to {:.3f} mm when they take it for a line.\n"
+      "* **What the config says of contact width and gauge length matters**: a flat pressed with 30 N/m "
+      "touches "
+      "along some 2 mm "
+      "(`strainfinger contact --indenter flat --load-n-per-m 30 --summary`). Such a contact is known to "
+      "{:.3f} "
+      "mm RMS when the tables know the width; when they take it for a line {} of the answers are flagged "
+      "uncertain, and the others are {:.3f} mm RMS off.\n"
       "* **What it cannot do**: tell two contacts apart, or where along the finger a contact is.\n",
       firm.arc_mm.rms(), light.arc_mm.rms(), light.normal_n_per_m.rms(), light.tangential_n_per_m.rms(),
       firm.normal_n_per_m.rms(), firm.tangential_n_per_m.rms(), surelyNoticed_n_per_m(cells), worst.setting,
       worst.direction_deg, worst.statistics.arc_mm.most95(), firm.arc_mm.most95(), wideTold.arc_mm.rms(),
-      wide.arc_mm.rms());
+      share(wide.uncertain, wide.contacts), wide.arc_mm.rms());
 }
 
 }  // namespace
@@ -137,18 +163,20 @@ std::string inShort(const std::vector<ErrorCell>& cells) {
 std::string errorPage(const std::vector<ErrorCell>& cells, const SweepSettings& settings) {
   std::string text(kIntroduction);
   text += inShort(cells);
-  text += sweepTable(cells, kLoadSweep, "How hard must it be touched?", "load, N/m", false, false);
   text += worstSettings(cells);
   text += worstPlaces(cells);
   text += "\n![Errors over position and load direction](error_map.png)\n";
   text += "![Error of place over the other quantities](error_curves.png)\n";
+  text += "\nLines end where fewer than half of the contacts get a certain answer.\n";
+  text += sweepTable(cells, kLoadSweep, "How hard must it be touched?", "load, N/m", false, false);
   text += sweepTable(cells, kNoiseSweep, "Noise of a gauge (16-bit converter)", "microstrain", true, false);
   text += sweepTable(cells, kBitsSweep, "Bits of the converter", "bits", true, false);
   text += sweepTable(cells, kWidthSweep, "Width of the contact", "mm", false, true);
   text += sweepTable(cells, kLengthSweep, "Length of a gauge", "mm", false, true);
   return text + fmt::format(
                     "\n{} contacts a row, {} a cell of the map, seed {}. Made by "
-                    "`cmake --workflow --preset bench`; all figures: errors.csv.\n",
+                    "`cmake --workflow --preset bench`; all figures: "
+                    "build/bench/results/errors.csv.\n",
                     settings.contacts, settings.repeats, settings.seed);
 }
 

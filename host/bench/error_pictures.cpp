@@ -4,13 +4,12 @@
 #include <utility>
 #include <vector>
 
+#include "host/base/no_value.hpp"
 #include "host/bench/error_pages.hpp"
 #include "host/plot/style.hpp"
 
 namespace strainfinger::bench {
 namespace {
-
-constexpr double kMicro = 1e3;  ///< um in a mm
 
 constexpr const char* kMaps = R"(
 set border 31; unset grid
@@ -19,7 +18,7 @@ set xrange [-0.5:0.5]; set yrange [-45:45]; set ytics 15 format '%g°'; set cbra
 set xlabel 'contact, pitches from the nearest gauge'
 set key off
 set multiplot layout 1,3 margins 0.05,0.94,0.12,0.88 spacing 0.105
-set title 'error of place, RMS (um of arc)'; set ylabel 'load direction from the normal' offset 1
+set title 'error of place at 30 N/m, RMS (mm of arc)'; set ylabel 'load direction from the normal' offset 1
 plot data('map') using 1:2:3 every ::1 with image
 unset ylabel
 set title 'error of normal load, RMS (N/m)'
@@ -69,19 +68,20 @@ const std::vector<Panel>& panels() {
 
 plot::DataFile lineData(const std::vector<ErrorCell>& cells, const Panel& panel, std::size_t index) {
   const Line& line = panel.lines[index];
-  plot::DataFile data{fmt::format("{}{}", panel.name, index), {"setting", "arc_rms_um", "arc_95_um"}, {}};
+  plot::DataFile data{fmt::format("{}{}", panel.name, index), {"setting", "arc_rms_mm", "arc_95_mm"}, {}};
   for (const ErrorCell& cell : cellsOf(cells, panel.sweep)) {
     if (cell.told != line.told || (line.load_n_per_m != kAnyLoad && cell.load_n_per_m != line.load_n_per_m))
       continue;
     const Spread& arc = cell.statistics.arc_mm;
-    data.rows.push_back({cell.setting, arc.rms() * kMicro, arc.most95() * kMicro});
+    const bool tells = isMostlyCertain(cell.statistics);
+    data.rows.push_back({cell.setting, tells ? arc.rms() : kNoValue, tells ? arc.most95() : kNoValue});
   }
   return data;
 }
 
 std::string panelScript(const Panel& panel) {
   std::string script =
-      fmt::format("set xlabel '{}'\n{} logscale x\nset ylabel 'error of place (um of arc)'\nplot ",
+      fmt::format("set xlabel '{}'\n{} logscale x\nset ylabel 'error of place (mm of arc)'\nplot ",
                   panel.xLabel, panel.logarithmic ? "set" : "unset");
   for (std::size_t i = 0; i < panel.lines.size(); ++i)
     script += fmt::format(
@@ -96,11 +96,11 @@ std::string panelScript(const Panel& panel) {
 plot::Picture errorMapPicture(const std::vector<ErrorCell>& cells) {
   plot::DataFile data{
       "map",
-      {"offset_pitch", "direction_deg", "arc_rms_um", "normal_rms_n_per_m", "tangential_rms_n_per_m"},
+      {"offset_pitch", "direction_deg", "arc_rms_mm", "normal_rms_n_per_m", "tangential_rms_n_per_m"},
       {}};
   for (const ErrorCell& cell : cellsOf(cells, kMapSweep)) {
     const ErrorStatistics& s = cell.statistics;
-    data.rows.push_back({cell.setting, cell.direction_deg, s.arc_mm.rms() * kMicro, s.normal_n_per_m.rms(),
+    data.rows.push_back({cell.setting, cell.direction_deg, s.arc_mm.rms(), s.normal_n_per_m.rms(),
                          s.tangential_n_per_m.rms()});
   }
   return {1500, 480, std::string(plot::kStyle) + kMaps, {std::move(data)}};

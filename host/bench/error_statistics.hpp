@@ -31,7 +31,14 @@ struct ErrorStatistics {
   int uncertain = 0;  ///< flagged so
   int wrong = 0;      ///< given as certain, and more than half a pitch off
   Spread arc_mm, normal_n_per_m, tangential_n_per_m;
+
+  int certain() const { return contacts - unnoticed - uncertain; }
 };
+
+/// Figures of the few answers that are certain say little of a finger that mostly gives none.
+inline bool isMostlyCertain(const ErrorStatistics& statistics) {
+  return 2 * statistics.certain() >= statistics.contacts;
+}
 
 /// A finger as it is, and one as its tables think it is.
 class Trial {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "host/base/table_writer.hpp"
@@ -10,6 +11,9 @@
 
 namespace strainfinger::bench {
 namespace {
+
+/// Cortex-M4 without and with an FPU: where noise is large doubts are dear.
+constexpr std::array<std::size_t, 2> kCoresInNoise{0, 1};
 
 /// Three digits of a ratio to the bound; what is far from it says so.
 std::string ratio(double value) { return value >= 100 ? "> 100" : number(value, value < 10 ? 2 : 0); }
@@ -39,6 +43,8 @@ std::string markdownRow(const MethodResult& result, const Counts& counts) {
                                 share(much.gross, much.readings), thousands(result.time_ns));
   for (std::size_t core = 0; core < kCores.size(); ++core)
     row.append(" ").append(countCell(counts.of(core, result.name, kTimedLevel))).append(" |");
+  for (const std::size_t core : kCoresInNoise)
+    row.append(" ").append(countCell(counts.of(core, result.name, kLevels - 1))).append(" |");
   return row;
 }
 
@@ -74,7 +80,8 @@ std::string locatorMarkdown(const std::vector<MethodResult>& results, const Coun
       "at 1 % | "
       "gross | ns here |";
   for (const char* core : kCores) text.append(" ").append(core).append(" |");
-  text += "\n|--|--|--|--|--|--|--|--|--|--|\n";
+  for (const std::size_t core : kCoresInNoise) text.append(" ").append(kCores[core]).append(", 1 % |");
+  text += "\n|--|--|--|--|--|--|--|--|--|--|--|--|\n";
   for (const MethodResult& result : results) text.append(markdownRow(result, counts)).append("\n");
   return text;
 }

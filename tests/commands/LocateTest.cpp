@@ -133,7 +133,7 @@ TEST(LocateCommand, ClippedReadingsAreLeftOut) {
 }
 
 TEST(LocateCommand, ReadingsBeyondFullScaleAreLeftOutAsClippedOnesAre) {
-  for (const double peak : {1.1 * 0.03, 0.22}) {
+  for (const double peak : {1.1 * 0.03, 0.07, 0.08, 0.22}) {
     checkFirmTouches(peak, {}, "refined");
     STRCMP_EQUAL(located(firmTouches(peak, {-0.03, 0.03}), "refined").c_str(),
                  located(firmTouches(peak, {}), "refined").c_str());

@@ -8,7 +8,7 @@
 
 namespace strainfinger::bench {
 
-/// The same as the firmware's: steps that are smaller don't matter.
+/// About the firmware's (1/102): steps that are smaller do not matter.
 inline constexpr double kSettled_pitch = 1.0 / 128;
 
 /// J^T J and J^T r of a least-squares step, J's columns place, normal, tangential.

@@ -44,7 +44,8 @@ class RingResiduals {
   const Ring<float>& strain_;
 };
 
-/// Eigen's own stopping rules, at the firmware's tolerance. Uses the heap, as the library does.
+/// Eigen's own stopping rules; with a relative tolerance of 1e-4 places are as exact as a float needs. Uses
+/// the heap, as the library does.
 inline Place<float> levenbergMarquardt(const RingResponse<float>& response, const Ring<float>& strain,
                                        const Place<float>& start) {
   constexpr int kEvaluations = 50;

@@ -53,12 +53,12 @@ TEST_GROUP(LocatorReport) {
 TEST(LocatorReport, ARowOfTheTableHasErrorsTimeAndInstructions) {
   checkHas(locatorMarkdown(results, someCounts()),
            "| ours: refined | 1.01 / 1.02 / 1.03 | 0 | 12.00 (0) | 1.01 / 1.02 / 1.03 | 0 | 12,345 | 700 "
-           "(900) | - | - |");
+           "(900) | - | - | 800 (901) | - |");
   checkHas(locatorMarkdown(results, someCounts()), "| rough | 1.01 / 1.02 / 1.03 | 9 % |");
 }
 
 TEST(LocatorReport, WhatWasNotCountedIsADash) {
-  checkHas(locatorMarkdown(results, Counts()), "| 12,345 | - | - | - |");
+  checkHas(locatorMarkdown(results, Counts()), "| 12,345 | - | - | - | - | - |");
   CHECK(Counts().empty());
   STRCMP_EQUAL("", locatorVerdict(results, Counts()).c_str());
 }

@@ -337,6 +337,31 @@ TEST(Locate, AToldStartLeadsWhereAScanDoes) {
   }
 }
 
+// A reading that is missing misleads what the pairs tell: then all is as if they told nothing.
+TEST(Locate, AToldStartThatLeavesDoubtIsForgotten) {
+  const ModelRing ring;
+  TableImage untold = ring.tables();
+  untold.start = {};
+  Presses presses(16, kLoad, 22);
+  int doubted = 0;
+  for (int i = 0; i < randomCases(2000); ++i) {
+    auto strains = noisy(ring, presses, ring.noise_strain());
+    const auto deepest = static_cast<std::size_t>(deepestGauge(strains.data(), 16, 1));
+    strains[(deepest + static_cast<std::size_t>(i % 3) + 15) % 16] = 0;
+    const std::uint32_t energy = gateEnergy(ring.constants(), strains);
+    const Fit fit = fitOf(ring, FitMode::kRefined, strains);
+    if (!doubtful(problemOf(ring.tables(), strains, energy), fit.settled, fit.unexplained, fit.windowEnergy))
+      continue;
+    ++doubted;
+    const Fit scanned = locate(untold, FitMode::kRefined, strains, energy);
+    CHECK(fit.best == scanned.best && fit.alternative == scanned.alternative);
+    LONGS_EQUAL(scanned.unexplained, fit.unexplained);
+    LONGS_EQUAL(scanned.ambiguous, fit.ambiguous);
+  }
+  std::printf("%d in doubt ", doubted);
+  CHECK(doubted > randomCases(1500));
+}
+
 TEST(Locate, TheSameStrainsGiveTheSameAnswer) {
   const ModelRing ring;
   Presses presses(16, kLoad, 17);

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "firmware/core/tangent.hpp"
 #include "firmware/core/whole_scan.hpp"
 
 namespace strainfinger::firmware {
@@ -21,9 +22,9 @@ std::int32_t rivalLimit(const Problem& problem, std::int32_t best) {
 /// Two answers whose energies differ by less explain the readings equally well, within four standard errors
 /// of noise and rounding (1/2^14).
 std::int32_t marginOf(const Problem& problem, std::int32_t window) {
-  static_assert(kNoiseUnit == 32);
-  const std::int32_t sixteenVariances = problem.noise / 2;
-  return (isWeak(problem) ? 2 * sixteenVariances : sixteenVariances) + (window >> 14);
+  static_assert(kNoiseUnit == 2 * kToldApart);
+  const std::int32_t apart = problem.noise / 2;
+  return (isWeak(problem) ? 2 * apart : apart) + (window >> 14);
 }
 
 /// The best few of any number of starts, the best first.
@@ -201,9 +202,8 @@ void searchOn(Fit& fit, const TableImage& tables, const std::int32_t* strains_q3
                             PitchQ20 position) {
   const Problem problem = problemAgain(fit, tables, strains_q32, 0);
   Contest contest{fit};
-  const int centre = wrapped((position + kOnePitch / 2) >> kPitchBits, problem.gauges());
-  const Lead lead{position - ((position + kOnePitch / 2) >> kPitchBits) * kOnePitch, 0};
-  enterFit(problem, InWindow::kNearest, centre, lead.row(), contest);
+  const View view = viewOf(problem, position);
+  enterFit(problem, InWindow::kNearest, view.centre, view.side * view.row, contest);
   conclude(problem, contest);
 }
 

@@ -41,6 +41,9 @@ inline bool doubtful(const Problem& problem, bool admissible, std::int32_t unexp
          problem.ringEnergy - window > problem.noise + (window >> 5);
 }
 
+/// Answers whose energies differ by fewer variances are not told apart: four standard errors.
+inline constexpr int kToldApart = 16;
+
 /// Where two answers differ by less, the reported errors cover both. Of two places d standard errors apart
 /// the wrong one explains 32 variances more as noise is (32 + d^2) / (2 d) standard errors, at least
 /// sqrt(32): once in 10^8.

@@ -14,8 +14,7 @@ namespace {
 
 constexpr int kMaxSteps = 8;
 constexpr PitchQ20 kLongestStep = kOnePitch / 8;
-constexpr std::uint32_t kAmbiguous = 16;  ///< answers closer than this many variances are not told apart
-constexpr std::uint32_t kFaint = 64;      ///< an answer that explains less may be noise
+constexpr std::uint32_t kFaint = 64;  ///< an answer that explains less may be noise
 constexpr std::size_t kPeaks = 6;
 /// Where the search looks from the best peak's fit, in eighths of a pitch.
 constexpr std::array<std::int8_t, 8> kAway{-4, -3, -2, -1, 1, 2, 3, 4};
@@ -150,7 +149,7 @@ Placement inScale(const Placement& place, int up) {
                                 std::span<std::int32_t> strains_q32, std::uint32_t& energy) {
   const Problem problem = problemOf(tables, strains_q32, energy);
   Verdict verdict;
-  const std::int64_t least = leastOfRivals(rivals.best.explained, problem.variances(kAmbiguous));
+  const std::int64_t least = leastOfRivals(rivals.best.explained, problem.variances(kToldApart));
   verdict.ambiguous = rivals.second.admissible && rivals.second.explained > least;
   verdict.determined = rivals.best.explained > problem.variances(kFaint) &&
                        fillIn(problem, RingSignal{problem, leftOut}, rivals.best.place.position, strains_q32);

@@ -51,8 +51,8 @@ inline void takeStep(const FitTable& rows, WindowFit& fit) {
 
 constexpr bool isConverged(Number length) { return length <= kConverged && length >= -kConverged; }
 
-/// Beside a gauge two neighbouring rows may hand a fit to and fro all the same (1 of 20,000 contacts at 0.1 %
-/// noise): where it ends is between them.
+/// Beside a gauge two neighbouring rows may hand a fit to and fro all the same (24 of 400,000 contacts at
+/// 0.1 % of noise): where it ends is between them.
 [[gnu::noinline, gnu::cold]] inline bool isBetweenRows(Number length) {
   return length < kRowSpacing && length > -kRowSpacing;
 }

@@ -39,7 +39,7 @@ std::vector<std::string_view> fieldsOf(std::string_view line) {
   std::vector<std::string_view> fields;
   for (std::size_t begin = 0; begin <= line.size();) {
     const std::size_t end = std::min(line.find(',', begin), line.size());
-    fields.push_back(trimmed(line.substr(begin, end - begin)));
+    fields.push_back(line.substr(begin, end - begin));
     begin = end + 1;
   }
   return fields;
@@ -58,7 +58,7 @@ bool isNoNumberOf(std::string_view field, const char* word) {
 
 /// Of a column: nothing that could have been meant as a value, or as several.
 bool isName(std::string_view field) {
-  const std::string_view name = unquoted(field);
+  const std::string_view name = unquoted(trimmed(field));
   double value = 0;
   return !name.empty() && isLetter(name.front()) && name.find_first_of(";\t") == std::string_view::npos &&
          !parseNumber(name, value) &&
@@ -108,20 +108,19 @@ void NumberRowReader::takeHeader(const std::string& line) const {
 
 void NumberRowReader::parse(const std::string& line, std::vector<double>& row) const {
   row.clear();
-  for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
-    const std::string_view field = trimmed(std::string_view(line).substr(begin, end - begin));
+  for (const std::string_view untrimmed : fieldsOf(line)) {
+    const std::string_view field = trimmed(untrimmed);
+    const auto column = static_cast<std::size_t>(untrimmed.data() - line.data()) + 1;
     double value = 0;
     for (const auto& [separator, name] : kOtherSeparators)
       if (field.find(separator) != std::string_view::npos)
-        fail(begin + 1, fmt::format("\"{}\" has {}: separate columns by commas", field, name));
-    if (!parseNumber(field, value)) fail(begin + 1, fmt::format("\"{}\" is no number", field));
-    if (!std::isfinite(value)) fail(begin + 1, fmt::format("{} is no finite number", field));
+        fail(column, fmt::format("\"{}\" has {}: separate columns by commas", field, name));
+    if (!parseNumber(field, value)) fail(column, fmt::format("\"{}\" is no number", field));
+    if (!std::isfinite(value)) fail(column, fmt::format("{} is no finite number", field));
     if (std::abs(value) > limit_.most)
-      fail(begin + 1, fmt::format("{} is beyond +-{}: {}", field, limit_.most, limit_.hint));
-    if (row.size() == columns_) fail(begin + 1, fmt::format("more than {} columns", columns_));
+      fail(column, fmt::format("{} is beyond +-{}: {}", field, limit_.most, limit_.hint));
+    if (row.size() == columns_) fail(column, fmt::format("more than {} columns", columns_));
     row.push_back(value);
-    begin = end + 1;
   }
   if (row.size() < columns_)
     fail(line.size() + 1, fmt::format("{} columns where {} are needed", row.size(), columns_));

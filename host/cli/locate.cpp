@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 
 #include "common/contact.hpp"
 #include "common/fixed_real.hpp"
+#include "firmware/core/condition.hpp"
 #include "firmware/core/detect.hpp"
 #include "firmware/core/estimate.hpp"
 #include "firmware/core/left_out.hpp"
@@ -18,6 +20,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/firmware_options.hpp"
 #include "host/cli/strain_rows.hpp"
+#include "host/simulation/converter.hpp"
 #include "host/tables/gauge_gains.hpp"
 #include "host/tables/readings.hpp"
 
@@ -70,6 +73,30 @@ std::vector<Cell> nothingBut(bool contact) {
   return {std::int64_t{contact}, kNoValue, kNoValue, kNoValue, kNoValue, kNoValue, kNoValue, kNoValue};
 }
 
+/// The gauges that the finger's converter has at a rail, where they may read anything beyond.
+class Rails {
+ public:
+  explicit Rails(const TableImage& image) : constants_(image.constants), converter_(gaugesOf(image)) {}
+
+  /// `strains`: before gains.
+  GaugeSet of(std::span<const double> strains) const {
+    std::array<std::uint16_t, kMaxGauges> codes{};
+    for (std::size_t i = 0; i < strains.size(); ++i) codes[i] = converter_.codeOf(strains[i]);
+    return firmware::saturatedGauges(constants_, firmware::Codes(codes).first(strains.size()));
+  }
+
+ private:
+  static config::Gauges gaugesOf(const TableImage& image) {
+    config::Gauges gauges;
+    gauges.full_scale_strain = image.parameters.full_scale_strain;
+    gauges.adc_bits = image.parameters.adc_bits;
+    return gauges;
+  }
+
+  const TableConstants& constants_;
+  simulation::Converter converter_;
+};
+
 /// Nothing when what is left of the readings could be noise. `energy`: gateEnergy() of all of them.
 std::optional<Fit> fitTo(const TableImage& image, FitMode mode, GaugeSet leftOut,
                          std::span<std::int32_t> strains_q32, std::uint32_t energy) {
@@ -88,6 +115,7 @@ void runLocate(const LocateOptions& options) {
   TableWriter table(stdout, options.common.format(),
                     {"contact", "angle_deg", "normal_n_per_m", "tangential_n_per_m", "sigma_angle_deg",
                      "sigma_normal_n_per_m", "sigma_tangential_n_per_m", "quality"});
+  const Rails rails(*image);
   firmware::ContactGate gate;
   std::vector<std::int32_t> strains(constants.gauge_count);
   const auto factors = tables::correctionFactors(image->gains, constants.gauge_count);
@@ -97,8 +125,7 @@ void runLocate(const LocateOptions& options) {
     const std::uint32_t energy = firmware::gateEnergy(constants, strains);
     const bool touched = gate.update(constants, energy);
     std::optional<Fit> fit;
-    if (touched)
-      fit = fitTo(*image, options.firmware.mode(), tables::gaugesAtRail(*image, row), strains, energy);
+    if (touched) fit = fitTo(*image, options.firmware.mode(), rails.of(row), strains, energy);
     table.row(fit ? cellsOf(firmware::estimate(constants, *fit)) : nothingBut(touched));
   }
 }

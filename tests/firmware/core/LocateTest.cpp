@@ -7,6 +7,7 @@
 #include "firmware/core/detect.hpp"
 #include "firmware/core/doubt.hpp"
 #include "firmware/core/estimate.hpp"
+#include "firmware/core/near_fit.hpp"
 #include "tests/firmware/core/global_search.hpp"
 #include "tests/under_sanitizers.hpp"
 
@@ -84,6 +85,10 @@ static bool coversAnother(const ModelRing& ring, const Fit& fit) {
 }
 static bool onNearest(const Fit& fit) {
   return fit.readings == FitMode::kThreePoint && fit.triple == kNearTriple;
+}
+static bool believesNearest(const ModelRing& ring, const std::vector<std::int32_t>& strains) {
+  Fit fit;
+  return locateByNearest(fit, ring.tables(), strains.data(), gateEnergy(ring.constants(), strains));
 }
 /// The same but for noise on all gauges beyond the next ones of `centre`.
 static std::vector<std::int32_t> othersDisturbed(const ModelRing& ring, Presses& presses,
@@ -306,6 +311,32 @@ TEST(Locate, LoadsOfHeavyTouchesAreRightWhereverTheyAre) {
         DOUBLES_EQUAL(press.tangential, toReal(contact.tangential),
                       rounding + 4 * toReal(contact.sigmaTangential));
       }
+}
+
+// A reading that the three don't rest on says no.
+TEST(Locate, TheNearestReadingsAreNotBelievedAgainstTheOthers) {
+  const ModelRing ring;
+  Presses presses(16, kLoad, 23);
+  int tried = 0;
+  for (int i = 0; i < randomCases(1000); ++i) {
+    auto strains = noisy(ring, presses, ring.noise_strain());
+    const Fit fit = fitOf(ring, FitMode::kThreePoint, strains);
+    if (!believesNearest(ring, strains)) continue;
+    ++tried;
+    const std::size_t beside = (fit.centre + static_cast<std::size_t>(i % 2 != 0 ? 3 : 13)) % 16;
+    strains[beside] += strains[fit.centre] / 8;
+    CHECK_FALSE(believesNearest(ring, strains));
+  }
+  CHECK(tried > randomCases(500));
+}
+
+TEST(Locate, TheNearestReadingsAreNotBelievedBeyondTheFrictionCone) {
+  const ModelRing ring;
+  for (double offset = -0.36; offset < 0.37; offset += 0.01)
+    for (const double pull : {-1.0, 1.0}) {
+      const auto strains = ring.raw(Press{5 + offset, 10, pull * 20});
+      CHECK_FALSE(believesNearest(ring, strains));
+    }
 }
 
 // The pairs beside the deepest reading tell where to start: no scan is made, and no rival looked for. Neither

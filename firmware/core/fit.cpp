@@ -1,0 +1,253 @@
+#include "firmware/core/fit.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "firmware/core/response.hpp"
+
+namespace strainfinger::firmware {
+namespace {
+
+/// A step turns a contact by at most three half nodes, where the responses are still nearly linear.
+constexpr Number kMostTurn = 3;
+/// A step changes the second moment by at most 1/16 + 5/16 of it.
+constexpr Number kMostWidening_q20 = 1 << (kMomentBits - 4);
+
+constexpr int kLoadExponent = 2;  ///< of the loads' columns, whose entries have 15 bits
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+/// |tangential| / (friction * normal) [* 2^15], at most 1: how much of the contact slips (Mindlin).
+Number slip_q15(const TableConstants& constants, const ContactState& contact) {
+  const Number most = contact.normal > 0 ? scaled<8>(contact.normal, constants.friction_q8) : 0;
+  const Number pull = magnitude(contact.tangential);
+  if (pull >= most) return 1 << 15;
+  const int down = std::max(17 - std::countl_zero(static_cast<std::uint32_t>(most)), 0);
+  return static_cast<Number>((static_cast<std::uint32_t>(pull >> down) << 15) /
+                             static_cast<std::uint32_t>(most >> down));
+}
+
+/// A contact with what its lookups share. The pressure's second moment is m, that of the tangential traction
+/// m (2 - slip), here as a fraction of twice the largest m.
+struct ContactModel {
+  ContactModel(const TableImage& tables, const ContactState& contact)
+      : tables(tables), contact(contact), normalCell(momentCell(tables.constants, contact.moment_q20)) {
+    const Number slip = slip_q15(tables.constants, contact);
+    const Number part_q16 = (1 << 16) - slip;
+    tangentialCell = momentCell(tables.constants, scaled<16>(contact.moment_q20, part_q16));
+    tangentialRate_q8 = scaled<16>(tangentialCell.rate_q8, part_q16);
+  }
+
+  struct Reading {
+    Number normal, tangential;  ///< responses
+    Number angle, moment;       ///< slopes: readings per half node and per unit of second moment
+    Number predicted;
+  };
+
+  Number predictedAt(std::uint32_t gaugeAngle_q32) const {
+    const AngleNode node = angleNode(tables.constants, gaugeAngle_q32 - contact.angle_q32);
+    const Number normal = valueOf(tables.patch(node.node, normalCell.cell).normal, normalCell.s_q15, node.t_q15);
+    const Number tangential =
+        valueOf(tables.patch(node.node, tangentialCell.cell).tangential, tangentialCell.s_q15, node.t_q15);
+    return readingOf(oddSign(node, normal, tables.constants.mirror_sign),
+                     oddSign(node, tangential, -tables.constants.mirror_sign));
+  }
+
+  Reading at(std::uint32_t gaugeAngle_q32) const {
+    const TableConstants& constants = tables.constants;
+    const AngleNode node = angleNode(constants, gaugeAngle_q32 - contact.angle_q32);
+    const Response normal =
+        responseOf(tables.patch(node.node, normalCell.cell).normal, normalCell.s_q15, node.t_q15);
+    const Response tangential =
+        responseOf(tables.patch(node.node, tangentialCell.cell).tangential, tangentialCell.s_q15, node.t_q15);
+    const int sign = constants.mirror_sign;
+    Reading reading;
+    reading.normal = oddSign(node, normal.value, sign);
+    reading.tangential = oddSign(node, tangential.value, -sign);
+    reading.predicted = readingOf(reading.normal, reading.tangential);
+    // Turning the contact forward brings a gauge beyond it nearer, one behind it farther away.
+    reading.angle = -readingOf(oddSign(node, normal.slope, -sign), oddSign(node, tangential.slope, sign));
+    reading.moment = readingOf(oddSign(node, scaled<8>(normal.widening, normalCell.rate_q8), sign),
+                               oddSign(node, scaled<8>(tangential.widening, tangentialRate_q8), -sign));
+    return reading;
+  }
+
+  static Number oddSign(const AngleNode& node, Number value, int sign) {
+    return node.mirrored && sign < 0 ? -value : value;
+  }
+  Number readingOf(Number normal, Number tangential) const {
+    return static_cast<Number>((Wide{contact.normal} * normal + Wide{contact.tangential} * tangential) >> 16);
+  }
+
+  const TableImage& tables;
+  const ContactState& contact;
+  MomentCell normalCell;
+  MomentCell tangentialCell;
+  Number tangentialRate_q8;
+};
+
+int loadsOf(int contact) { return 2 * contact; }
+int angleOf(const Hypothesis& hypothesis, int contact) { return 2 * hypothesis.contacts + contact; }
+int momentOf(const Hypothesis& hypothesis, int contact) { return 3 * hypothesis.contacts + contact; }
+
+bool isInReach(const TableConstants& constants, std::uint32_t distance_q32) {
+  return distance_q32 + constants.reach_q32 <= 2 * constants.reach_q32;
+}
+
+void chooseRows(const TableImage& tables, Linearisation& linearisation) {
+  const Hypothesis& hypothesis = linearisation.hypothesis;
+  int rows = 0;
+  for (int gauge = 0; gauge < tables.constants.gauge_count && rows < kMostRows; ++gauge) {
+    if (!contains(hypothesis.gauges, gauge)) continue;
+    const std::uint32_t angle_q32 = tables.gauge_angle_q32[index(gauge)];
+    bool inReach = false;
+    for (int k = 0; k < hypothesis.contacts; ++k)
+      inReach |= isInReach(tables.constants, angle_q32 - linearisation.at[index(k)].angle_q32);
+    if (inReach) linearisation.gauge[index(rows++)] = static_cast<std::uint8_t>(gauge);
+  }
+  linearisation.usedRows = static_cast<std::uint8_t>(rows);
+  if (rows % 2 != 0)
+    for (Rows& column : linearisation.column) column[index(rows)] = 0;
+  linearisation.rows = static_cast<std::uint8_t>((rows + 1) & ~1);
+}
+
+using WideColumn = std::array<Number, kMostRows>;
+
+/// A column as numbers below 2^13, scaled by a power of two.
+void setColumn(Linearisation& linearisation, int unknown, const WideColumn& entries) {
+  std::uint32_t bits = 1;
+  for (int row = 0; row < linearisation.usedRows; ++row)
+    bits |= static_cast<std::uint32_t>(magnitude(entries[index(row)]));
+  const int exponent = std::max(32 - kColumnBits - std::countl_zero(bits), -8);
+  linearisation.exponent[index(unknown)] = static_cast<std::int8_t>(exponent);
+  Rows& column = linearisation.column[index(unknown)];
+  for (int row = 0; row < linearisation.usedRows; ++row)
+    column[index(row)] = static_cast<std::int16_t>(
+        exponent >= 0 ? entries[index(row)] >> exponent : entries[index(row)] << -exponent);
+}
+
+void lineariseContact(const TableImage& tables, int contact, Linearisation& linearisation,
+                      std::array<Number, kMaxGauges>& predicted) {
+  const Hypothesis& hypothesis = linearisation.hypothesis;
+  const ContactModel model(tables, linearisation.at[index(contact)]);
+  Rows& normal = linearisation.column[index(loadsOf(contact))];
+  Rows& tangential = linearisation.column[index(loadsOf(contact) + 1)];
+  WideColumn angle, moment;
+  for (int gauge = 0, row = 0; gauge < tables.constants.gauge_count; ++gauge) {
+    const std::uint32_t angle_q32 = tables.gauge_angle_q32[index(gauge)];
+    if (row >= linearisation.usedRows || linearisation.gauge[index(row)] != gauge) {
+      predicted[index(gauge)] += model.predictedAt(angle_q32);
+      continue;
+    }
+    const ContactModel::Reading reading = model.at(angle_q32);
+    normal[index(row)] = static_cast<std::int16_t>(reading.normal >> kLoadExponent);
+    tangential[index(row)] = static_cast<std::int16_t>(reading.tangential >> kLoadExponent);
+    angle[index(row)] = reading.angle;
+    moment[index(row)] = reading.moment;
+    predicted[index(gauge)] += reading.predicted;
+    ++row;
+  }
+  linearisation.exponent[index(loadsOf(contact))] = linearisation.exponent[index(loadsOf(contact) + 1)] =
+      kLoadExponent;
+  setColumn(linearisation, angleOf(hypothesis, contact), angle);
+  if (hypothesis.widthIsFree) setColumn(linearisation, momentOf(hypothesis, contact), moment);
+}
+
+/// [units of an unknown] as a step of its column.
+Number stepOf(Wide units, int exponent, int unitBits) {
+  return shifted(units, exponent + kStepBits - unitBits, 1 << 28);
+}
+
+void setLimits(const Linearisation& linearisation, Vector& low, Vector& high) {
+  const Hypothesis& hypothesis = linearisation.hypothesis;
+  low.fill(-(1 << 28));
+  high.fill(1 << 28);
+  for (int k = 0; k < hypothesis.contacts; ++k) {
+    const int angle = angleOf(hypothesis, k);
+    high[index(angle)] = stepOf(kMostTurn << 15, linearisation.exponent[index(angle)], 15);
+    low[index(angle)] = -high[index(angle)];
+    if (!hypothesis.widthIsFree) continue;
+    const int moment = momentOf(hypothesis, k), exponent = linearisation.exponent[index(moment)];
+    const Number now = linearisation.at[index(k)].moment_q20;
+    const Number most = kMostWidening_q20 + 5 * (now >> 4);
+    high[index(moment)] = stepOf(std::min(most, (1 << kMomentBits) - now), exponent, kMomentBits);
+    low[index(moment)] = stepOf(-std::min(most, now), exponent, kMomentBits);
+  }
+}
+
+/// A step of a column in units of its unknown.
+Number unitsOf(Number x_q14, int exponent, int unitBits, Number limit) {
+  return shifted(x_q14, unitBits - kStepBits - exponent, limit);
+}
+
+void take(const TableConstants& constants, const Linearisation& linearisation, const Step& step,
+          ContactStates& contacts) {
+  const Hypothesis& hypothesis = linearisation.hypothesis;
+  const auto units = [&](int unknown, int unitBits) {
+    return unitsOf(step.x_q14[index(unknown)], linearisation.exponent[index(unknown)], unitBits, 1 << 28);
+  };
+  for (int k = 0; k < hypothesis.contacts; ++k) {
+    ContactState& contact = contacts[index(k)];
+    contact.normal = limited(contact.normal + units(loadsOf(k), 16), kMostLoad);
+    contact.tangential = limited(contact.tangential + units(loadsOf(k) + 1, 16), kMostLoad);
+    contact.angle_q32 += static_cast<std::uint32_t>(
+        scaled<15>(units(angleOf(hypothesis, k), 15), halfNode_q32(constants)));
+    if (hypothesis.widthIsFree)
+      contact.moment_q20 =
+          std::clamp(contact.moment_q20 + units(momentOf(hypothesis, k), kMomentBits), 0, 1 << kMomentBits);
+  }
+}
+
+/// Largest reduction of the residuals' squares by a step after which another would not matter: what the
+/// curvature of the responses adds to the residuals is then below a fifth of a standard deviation.
+bool isConverged(Wide reduction, const ScaledReadings& readings) {
+  constexpr Wide kSquare = 512 / 16;
+  return reduction < 64 || (reduction < Wide{1} << 31 && reduction * reduction <= kSquare * readings.variance_q4);
+}
+
+}  // namespace
+
+void linearise(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,
+               Linearisation& linearisation) {
+  linearisation.hypothesis = hypothesis;
+  linearisation.at = contacts;
+  chooseRows(tables, linearisation);
+  std::array<Number, kMaxGauges> predicted{};
+  for (int k = 0; k < hypothesis.contacts; ++k) lineariseContact(tables, k, linearisation, predicted);
+  for (int gauge = 0; gauge < tables.constants.gauge_count; ++gauge)
+    linearisation.predicted[index(gauge)] = saturate<std::int16_t>(predicted[index(gauge)]);
+  decompose(linearisation.column, linearisation.rows, hypothesis.unknowns(), linearisation.decomposition);
+}
+
+Solution step(const TableImage& tables, const Linearisation& linearisation, const ScaledReadings& readings) {
+  const Hypothesis& hypothesis = linearisation.hypothesis;
+  Rows residual;
+  residual[index(linearisation.rows - (linearisation.rows > 0 ? 1 : 0))] = 0;
+  Wide energy = 0;
+  for (int gauge = 0, row = 0; gauge < tables.constants.gauge_count; ++gauge) {
+    if (!contains(hypothesis.gauges, gauge)) continue;
+    const auto rest = saturate<std::int16_t>(readings.value[index(gauge)] -
+                                             Number{linearisation.predicted[index(gauge)]});
+    energy += Wide{rest} * rest;
+    if (row < linearisation.usedRows && linearisation.gauge[index(row)] == gauge) residual[index(row++)] = rest;
+  }
+  Vector low, high;
+  setLimits(linearisation, low, high);
+  const Step best = solve(linearisation.decomposition, linearisation.column, linearisation.rows, residual, low, high);
+  Solution solution{hypothesis, linearisation.at, std::max<Wide>(energy - best.reduction, 0),
+                    isConverged(best.reduction, readings)};
+  take(tables.constants, linearisation, best, solution.contact);
+  return solution;
+}
+
+Solution fit(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& start,
+             const ScaledReadings& readings, int mostSteps, Linearisation& linearisation) {
+  Solution solution{hypothesis, start};
+  for (int i = 0; i < mostSteps && !solution.converged; ++i) {
+    linearise(tables, hypothesis, solution.contact, linearisation);
+    solution = step(tables, linearisation, readings);
+  }
+  return solution;
+}
+
+}  // namespace strainfinger::firmware

@@ -1,0 +1,49 @@
+#pragma once
+// Gauss-Newton: the contacts of a hypothesis that explain the readings best, near where one starts.
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "common/table_image.hpp"
+#include "firmware/core/hypothesis.hpp"
+#include "firmware/core/normal_equations.hpp"
+
+namespace strainfinger::firmware {
+
+/// A hypothesis linearised at some contacts: what the gauges should read, and how that changes with each
+/// unknown. Unknowns are ordered normal and tangential load of each contact, angles, second moments.
+struct Linearisation {
+  Hypothesis hypothesis;
+  ContactStates at;
+  alignas(4) std::array<Rows, kMostUnknowns> column;  ///< * 2^exponent: readings per unit of the unknown
+  std::array<std::int8_t, kMostUnknowns> exponent;
+  std::array<std::uint8_t, kMostRows> gauge;  ///< whose readings the rows are
+  std::uint8_t rows;                          ///< even: the last may be empty
+  std::uint8_t usedRows;
+  std::array<std::int16_t, kMaxGauges> predicted;  ///< of every gauge of the ring
+  Decomposition decomposition;
+};
+
+/// Where a fit stands.
+struct Solution {
+  Hypothesis hypothesis;
+  ContactStates contact;
+  Wide residualEnergy = 0;  ///< sum of squared residuals of all gauges that count
+  bool converged = false;
+
+  std::span<const ContactState> contacts() const { return std::span(contact).first(hypothesis.contacts); }
+};
+
+/// Cost: two table lookups a gauge in reach of a contact, and the decomposition.
+void linearise(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,
+               Linearisation& linearisation);
+
+/// One step from a linearisation to these readings. `solution.converged`: the linear model holds that far.
+Solution step(const TableImage& tables, const Linearisation& linearisation, const ScaledReadings& readings);
+
+/// Steps until they converge, `mostSteps` at most.
+Solution fit(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& start,
+             const ScaledReadings& readings, int mostSteps, Linearisation& linearisation);
+
+}  // namespace strainfinger::firmware

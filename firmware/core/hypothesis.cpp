@@ -1,0 +1,40 @@
+#include "firmware/core/hypothesis.hpp"
+
+namespace strainfinger::firmware {
+namespace {
+
+/// Rounding of a reading and of its prediction: 1/12 each, and what is lost in the columns [* 2^4].
+constexpr std::uint32_t kRoundingVariance_q4 = 4;
+constexpr std::uint32_t kMostVariance_q4 = 0x7FFFFFFF;
+
+std::uint32_t noiseVariance_q4(const TableConstants& constants, int shift) {
+  const int up = constants.noise_variance_exponent + 4 - 2 * shift;
+  if (up <= -32) return 0;
+  if (up < 0) return constants.noise_variance >> -up;
+  if (up >= 8 || constants.noise_variance > kMostVariance_q4 >> up) return kMostVariance_q4;
+  return constants.noise_variance << up;
+}
+
+}  // namespace
+
+ScaledReadings scaledReadings(const TableConstants& constants, std::span<const std::int32_t> strains_q32,
+                              GaugeSet gauges) {
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; i < strains_q32.size(); ++i)
+    if (contains(gauges, static_cast<int>(i)))
+      bits |= static_cast<std::uint32_t>(strains_q32[i] < 0 ? ~strains_q32[i] : strains_q32[i]);
+  ScaledReadings scaled;
+  scaled.shift = static_cast<std::int8_t>(std::max(17 - std::countl_zero(bits), 0));
+  Number largest = 0;
+  for (std::size_t i = 0; i < strains_q32.size(); ++i) {
+    scaled.value[i] = saturate<std::int16_t>(strains_q32[i] >> scaled.shift);
+    if (contains(gauges, static_cast<int>(i))) largest = std::max(largest, magnitude(Number{scaled.value[i]}));
+  }
+  const auto modelError = static_cast<std::uint32_t>(largest) * constants.model_error_q16 >> 14;  // * 4
+  const std::uint32_t noise = noiseVariance_q4(constants, scaled.shift);
+  const std::uint64_t variance = std::uint64_t{modelError} * modelError + noise + kRoundingVariance_q4;
+  scaled.variance_q4 = static_cast<std::uint32_t>(std::min<std::uint64_t>(variance, kMostVariance_q4));
+  return scaled;
+}
+
+}  // namespace strainfinger::firmware

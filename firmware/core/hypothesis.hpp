@@ -1,0 +1,57 @@
+#pragma once
+// What may have made the readings: how many contacts, with which unknowns, read by which gauges.
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "common/quantities.hpp"
+#include "common/table_image.hpp"
+#include "firmware/core/integers.hpp"
+
+namespace strainfinger::firmware {
+
+/// Bit i: gauge i.
+using GaugeSet = std::uint32_t;
+
+constexpr GaugeSet allGauges(int count) { return ~GaugeSet{0} >> (kMaxGauges - count); }
+constexpr bool contains(GaugeSet gauges, int gauge) { return (gauges >> gauge & 1) != 0; }
+
+inline constexpr int kMostContacts = 2;
+
+/// A contact in the units of the fit.
+struct ContactState {
+  std::uint32_t angle_q32 = 0;  ///< TurnQ32
+  Number normal = 0;      ///< amplitude: scaled readings * 2 where the response is largest, within kMostLoad
+  Number tangential = 0;  ///< the same
+  Number moment_q20 = 0;  ///< second moment of the pressure, see kMomentBits
+};
+
+inline constexpr Number kMostLoad = 1 << 20;
+
+/// Which contacts are sought with which unknowns. Line or wide contact, one or two, with or without some
+/// gauges: all are solved by the same fit.
+struct Hypothesis {
+  std::uint8_t contacts = 1;
+  bool widthIsFree = true;
+  GaugeSet gauges = 0;  ///< whose readings count
+
+  constexpr int unknowns() const { return contacts * (widthIsFree ? 4 : 3); }
+  bool operator==(const Hypothesis&) const = default;
+};
+
+using ContactStates = std::array<ContactState, kMostContacts>;
+
+/// The readings of a ring as 16-bit numbers: strain * 2^32 / 2^shift, the largest in [2^14, 2^15) unless all
+/// are tiny. Half a step of rounding is part of the variance.
+struct ScaledReadings {
+  std::array<std::int16_t, kMaxGauges> value{};
+  std::uint32_t variance_q4 = 0;  ///< of a reading: noise, rounding and the model's error [* 2^4]
+  std::int8_t shift = 0;
+};
+
+/// `gauges`: those that count when the scale and the model's error are chosen; others may saturate.
+ScaledReadings scaledReadings(const TableConstants& constants, std::span<const std::int32_t> strains_q32,
+                              GaugeSet gauges);
+
+}  // namespace strainfinger::firmware

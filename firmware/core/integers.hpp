@@ -1,0 +1,77 @@
+#pragma once
+// The integers that the estimator computes with. The proof that nothing overflows puts intervals in their
+// place (tests/firmware/ranges).
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+#include "common/fixed.hpp"
+
+#if defined(__ARM_FEATURE_DSP)
+#include <arm_acle.h>
+#endif
+
+namespace strainfinger::firmware {
+
+using Number = std::int32_t;
+using Wide = std::int64_t;
+
+constexpr Number magnitude(Number value) { return value < 0 ? -value : value; }
+constexpr Wide magnitude(Wide value) { return value < 0 ? -value : value; }
+
+/// To the nearest within +-limit.
+constexpr Number limited(Number value, Number limit) { return std::clamp(value, -limit, limit); }
+constexpr Number limited(Wide value, Number limit) {
+  return static_cast<Number>(std::clamp<Wide>(value, -limit, limit));
+}
+
+/// value * factor / 2^bits, rounded down; the caller keeps the result within 32 bits.
+template <int bits>
+constexpr Number scaled(Number value, Number factor) {
+  return static_cast<Number>((Wide{value} * factor) >> bits);
+}
+
+/// value * 2^up for any sign of `up`, rounded down and to the nearest within +-limit.
+constexpr Number shifted(Wide value, int up, Number limit) {
+  if (up <= 0) return limited(value >> std::min(-up, 63), limit);
+  const Wide most = Wide{limit} >> std::min(up, 62);
+  if (value > most) return limit;
+  if (value < -most) return -limit;
+  return static_cast<Number>(value << up);
+}
+
+/// Sum of a[i] * b[i]; `count` is even, both start at multiples of 4 bytes. Two products an instruction where
+/// the core has Arm's DSP extension. The caller keeps the sum within 32 bits.
+inline Number dot(const std::int16_t* a, const std::int16_t* b, int count) {
+  Number sum = 0;
+#if defined(__ARM_FEATURE_DSP)
+  for (int i = 0; i < count; i += 2) {
+    int16x2_t pairA, pairB;
+    __builtin_memcpy(&pairA, a + i, sizeof pairA);
+    __builtin_memcpy(&pairB, b + i, sizeof pairB);
+    sum = __smlad(pairA, pairB, sum);
+  }
+#else
+  for (int i = 0; i < count; ++i) sum += a[i] * b[i];
+#endif
+  return sum;
+}
+
+/// The same for sums that need more than 32 bits.
+inline Wide wideDot(const std::int16_t* a, const std::int16_t* b, int count) {
+  Wide sum = 0;
+#if defined(__ARM_FEATURE_DSP)
+  for (int i = 0; i < count; i += 2) {
+    int16x2_t pairA, pairB;
+    __builtin_memcpy(&pairA, a + i, sizeof pairA);
+    __builtin_memcpy(&pairB, b + i, sizeof pairB);
+    sum = __smlald(pairA, pairB, sum);
+  }
+#else
+  for (int i = 0; i < count; ++i) sum += a[i] * b[i];
+#endif
+  return sum;
+}
+
+}  // namespace strainfinger::firmware

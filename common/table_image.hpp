@@ -70,19 +70,19 @@ struct TableConstants {
   std::uint32_t largest_moment_um2;  ///< second moment of the widest pressure [um^2]
   std::uint32_t known_moment_q20;    ///< fraction of it, where the width is known
   std::int16_t load_exponent;
-  std::uint16_t friction_q8;       ///< coefficient of friction [* 2^8]
-  std::uint16_t cone_q8;           ///< largest |tangential| / normal an answer may have [* 2^8]
-  std::uint16_t model_error_q16;   ///< standard deviation of a reading's model error over the largest reading
-  std::uint16_t adc_rail;          ///< left-justified code at which the converter clips; 0 is the other
-  std::uint16_t node_count;        ///< angle nodes over half a revolution
+  std::uint16_t friction_q8;      ///< coefficient of friction [* 2^8]
+  std::uint16_t cone_q8;          ///< largest |tangential| / normal an answer may have [* 2^8]
+  std::uint16_t model_error_q16;  ///< standard deviation of a reading's model error over the largest reading
+  std::uint16_t adc_rail;         ///< left-justified code at which the converter clips; 0 is the other
+  std::uint16_t node_count;       ///< angle nodes over half a revolution
   std::int8_t noise_variance_exponent;
-  std::int8_t mirror_sign;         ///< reading seen from the other side: +1 radial, hoop; -1 shear
-  std::int8_t peak_sign;           ///< sign of the largest reading that a pressing load makes
+  std::int8_t mirror_sign;  ///< reading seen from the other side: +1 radial, hoop; -1 shear
+  std::int8_t peak_sign;    ///< sign of the largest reading that a pressing load makes
   std::uint8_t gauge_count;
-  std::uint8_t cell_count;         ///< cells of the second moment
-  std::uint8_t width_is_known;     ///< 1: known_moment_q20 holds, no width is fitted
-  std::uint8_t gate_shift;         ///< the gate's energy is the sum of (strain >> gate_shift)^2
-  std::uint8_t reserved;           ///< 0
+  std::uint8_t cell_count;      ///< cells of the second moment
+  std::uint8_t width_is_known;  ///< 1: known_moment_q20 holds, no width is fitted
+  std::uint8_t gate_shift;      ///< the gate's energy is the sum of (strain >> gate_shift)^2
+  std::uint8_t reserved;        ///< 0
   std::array<std::uint16_t, kMostCells + 1> cell_edge_q15;  ///< ascending from 0 to 2^15 (all of it)
   std::array<std::uint16_t, kMostCells> cell_rate_q8;       ///< 2 / (cell's width) [* 2^8]
   std::array<std::uint8_t, 6> reserved2;                    ///< 0
@@ -216,8 +216,7 @@ constexpr bool usable(const TableParameters& parameters, const TableConstants& c
          (constants.peak_sign == 1 || constants.peak_sign == -1) && constants.width_is_known <= 1 &&
          constants.known_moment_q20 <= 1u << kMomentBits && constants.cone_q8 > 0 &&
          constants.reach_q32 < std::uint32_t{1} << 31 && usableCells(constants) &&
-         constants.node_count >= kLeastNodes &&
-         constants.node_count * constants.cell_count <= kMostPatches;
+         constants.node_count >= kLeastNodes && constants.node_count * constants.cell_count <= kMostPatches;
 }
 
 /// Gauges of the ring ascend within one revolution from the first one.
@@ -242,12 +241,11 @@ inline TableFault checkTableImage(const TableImage& image) {
   if (image.format != kTableFormat || image.reserved != 0) return TableFault::kFormat;
   if (image.image_bytes != sizeof(TableImage)) return TableFault::kLength;
   if (image.crc32 != crc32(checkedBytes(image))) return TableFault::kChecksum;
-  const bool works =
-      usable(image.parameters, image.constants) && usable(image.gains, image.constants) &&
-      usable(image.gauge_angle_q32, image.constants.gauge_count) &&
-      std::all_of(image.patches.begin(), image.patches.end(), [](const PatchPair& pair) {
-        return usable(pair.normal) && usable(pair.tangential);
-      });
+  const bool works = usable(image.parameters, image.constants) && usable(image.gains, image.constants) &&
+                     usable(image.gauge_angle_q32, image.constants.gauge_count) &&
+                     std::all_of(image.patches.begin(), image.patches.end(), [](const PatchPair& pair) {
+                       return usable(pair.normal) && usable(pair.tangential);
+                     });
   return works ? TableFault::kNone : TableFault::kConstants;
 }
 

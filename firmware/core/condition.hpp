@@ -7,7 +7,7 @@
 
 #include "common/fixed.hpp"
 #include "common/table_image.hpp"
-#include "firmware/core/packed.hpp"
+#include "firmware/core/integers.hpp"
 
 namespace strainfinger::firmware {
 

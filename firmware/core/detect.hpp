@@ -6,7 +6,7 @@
 
 #include "common/table_image.hpp"
 #include "firmware/core/integer_root.hpp"
-#include "firmware/core/packed.hpp"
+#include "firmware/core/integers.hpp"
 
 namespace strainfinger::firmware {
 

@@ -30,10 +30,9 @@ Number slip_q15(const TableConstants& constants, const ContactState& contact) {
 /// A contact with what its lookups share. The pressure's second moment is m, that of the tangential traction
 /// m (2 - slip), here as a fraction of twice the largest m.
 struct ContactModel {
-  ContactModel(const TableImage& tables, const ContactState& contact)
+  ContactModel(const TableImage& tables, const ContactState& contact, Number slip_q15)
       : tables(tables), contact(contact), normalCell(momentCell(tables.constants, contact.moment_q20)) {
-    const Number slip = slip_q15(tables.constants, contact);
-    const Number part_q16 = (1 << 16) - slip;
+    const Number part_q16 = (1 << 16) - slip_q15;
     tangentialCell = momentCell(tables.constants, scaled<16>(contact.moment_q20, part_q16));
     tangentialRate_q8 = scaled<16>(tangentialCell.rate_q8, part_q16);
   }
@@ -44,13 +43,22 @@ struct ContactModel {
     Number predicted;
   };
 
-  Number predictedAt(std::uint32_t gaugeAngle_q32) const {
+  struct Loads {
+    Number normal, tangential;  ///< responses
+  };
+
+  Loads loadsAt(std::uint32_t gaugeAngle_q32) const {
     const AngleNode node = angleNode(tables.constants, gaugeAngle_q32 - contact.angle_q32);
-    const Number normal = valueOf(tables.patch(node.node, normalCell.cell).normal, normalCell.s_q15, node.t_q15);
+    const Number normal =
+        valueOf(tables.patch(node.node, normalCell.cell).normal, normalCell.s_q15, node.t_q15);
     const Number tangential =
         valueOf(tables.patch(node.node, tangentialCell.cell).tangential, tangentialCell.s_q15, node.t_q15);
-    return readingOf(oddSign(node, normal, tables.constants.mirror_sign),
-                     oddSign(node, tangential, -tables.constants.mirror_sign));
+    return {oddSign(node, normal, tables.constants.mirror_sign),
+            oddSign(node, tangential, -tables.constants.mirror_sign)};
+  }
+  Number predictedAt(std::uint32_t gaugeAngle_q32) const {
+    const Loads loads = loadsAt(gaugeAngle_q32);
+    return readingOf(loads.normal, loads.tangential);
   }
 
   Reading at(std::uint32_t gaugeAngle_q32) const {
@@ -94,16 +102,20 @@ bool isInReach(const TableConstants& constants, std::uint32_t distance_q32) {
   return distance_q32 + constants.reach_q32 <= 2 * constants.reach_q32;
 }
 
+bool isInReachOfAny(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,
+                    std::uint32_t gaugeAngle_q32) {
+  for (int k = 0; k < hypothesis.contacts; ++k)
+    if (isInReach(tables.constants, gaugeAngle_q32 - contacts[index(k)].angle_q32)) return true;
+  return false;
+}
+
 void chooseRows(const TableImage& tables, Linearisation& linearisation) {
   const Hypothesis& hypothesis = linearisation.hypothesis;
   int rows = 0;
   for (int gauge = 0; gauge < tables.constants.gauge_count && rows < kMostRows; ++gauge) {
     if (!contains(hypothesis.gauges, gauge)) continue;
-    const std::uint32_t angle_q32 = tables.gauge_angle_q32[index(gauge)];
-    bool inReach = false;
-    for (int k = 0; k < hypothesis.contacts; ++k)
-      inReach |= isInReach(tables.constants, angle_q32 - linearisation.at[index(k)].angle_q32);
-    if (inReach) linearisation.gauge[index(rows++)] = static_cast<std::uint8_t>(gauge);
+    if (isInReachOfAny(tables, hypothesis, linearisation.at, tables.gauge_angle_q32[index(gauge)]))
+      linearisation.gauge[index(rows++)] = static_cast<std::uint8_t>(gauge);
   }
   linearisation.usedRows = static_cast<std::uint8_t>(rows);
   if (rows % 2 != 0)
@@ -122,14 +134,15 @@ void setColumn(Linearisation& linearisation, int unknown, const WideColumn& entr
   linearisation.exponent[index(unknown)] = static_cast<std::int8_t>(exponent);
   Rows& column = linearisation.column[index(unknown)];
   for (int row = 0; row < linearisation.usedRows; ++row)
-    column[index(row)] = static_cast<std::int16_t>(
-        exponent >= 0 ? entries[index(row)] >> exponent : entries[index(row)] << -exponent);
+    column[index(row)] = static_cast<std::int16_t>(exponent >= 0 ? entries[index(row)] >> exponent
+                                                                 : entries[index(row)] << -exponent);
 }
 
 void lineariseContact(const TableImage& tables, int contact, Linearisation& linearisation,
                       std::array<Number, kMaxGauges>& predicted) {
   const Hypothesis& hypothesis = linearisation.hypothesis;
-  const ContactModel model(tables, linearisation.at[index(contact)]);
+  const ContactState& state = linearisation.at[index(contact)];
+  const ContactModel model(tables, state, slip_q15(tables.constants, state));
   Rows& normal = linearisation.column[index(loadsOf(contact))];
   Rows& tangential = linearisation.column[index(loadsOf(contact) + 1)];
   WideColumn angle, moment;
@@ -190,8 +203,8 @@ void take(const TableConstants& constants, const Linearisation& linearisation, c
     ContactState& contact = contacts[index(k)];
     contact.normal = limited(contact.normal + units(loadsOf(k), 16), kMostLoad);
     contact.tangential = limited(contact.tangential + units(loadsOf(k) + 1, 16), kMostLoad);
-    contact.angle_q32 += static_cast<std::uint32_t>(
-        scaled<15>(units(angleOf(hypothesis, k), 15), halfNode_q32(constants)));
+    contact.angle_q32 +=
+        static_cast<std::uint32_t>(scaled<15>(units(angleOf(hypothesis, k), 15), halfNode_q32(constants)));
     if (hypothesis.widthIsFree)
       contact.moment_q20 =
           std::clamp(contact.moment_q20 + units(momentOf(hypothesis, k), kMomentBits), 0, 1 << kMomentBits);
@@ -202,7 +215,8 @@ void take(const TableConstants& constants, const Linearisation& linearisation, c
 /// curvature of the responses adds to the residuals is then below a fifth of a standard deviation.
 bool isConverged(Wide reduction, const ScaledReadings& readings) {
   constexpr Wide kSquare = 512 / 16;
-  return reduction < 64 || (reduction < Wide{1} << 31 && reduction * reduction <= kSquare * readings.variance_q4);
+  return reduction < 64 ||
+         (reduction < Wide{1} << 31 && reduction * reduction <= kSquare * readings.variance_q4);
 }
 
 }  // namespace
@@ -226,17 +240,61 @@ Solution step(const TableImage& tables, const Linearisation& linearisation, cons
   Wide energy = 0;
   for (int gauge = 0, row = 0; gauge < tables.constants.gauge_count; ++gauge) {
     if (!contains(hypothesis.gauges, gauge)) continue;
-    const auto rest = saturate<std::int16_t>(readings.value[index(gauge)] -
-                                             Number{linearisation.predicted[index(gauge)]});
+    const auto rest =
+        saturate<std::int16_t>(readings.value[index(gauge)] - Number{linearisation.predicted[index(gauge)]});
     energy += Wide{rest} * rest;
-    if (row < linearisation.usedRows && linearisation.gauge[index(row)] == gauge) residual[index(row++)] = rest;
+    if (row < linearisation.usedRows && linearisation.gauge[index(row)] == gauge)
+      residual[index(row++)] = rest;
   }
   Vector low, high;
   setLimits(linearisation, low, high);
-  const Step best = solve(linearisation.decomposition, linearisation.column, linearisation.rows, residual, low, high);
+  const Step best =
+      solve(linearisation.decomposition, linearisation.column, linearisation.rows, residual, low, high);
   Solution solution{hypothesis, linearisation.at, std::max<Wide>(energy - best.reduction, 0),
                     isConverged(best.reduction, readings)};
   take(tables.constants, linearisation, best, solution.contact);
+  return solution;
+}
+
+Solution fitLoads(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,
+                  const ScaledReadings& readings) {
+  constexpr Number kHalfSlips_q15 = 1 << 14;
+  alignas(4) std::array<Rows, kMostUnknowns> columns;
+  alignas(4) Rows residual;
+  int rows = 0;
+  Wide energy = 0;
+  for (int k = 0; k < hypothesis.contacts; ++k) {
+    const ContactModel model(tables, contacts[index(k)], kHalfSlips_q15);
+    rows = 0;
+    for (int gauge = 0; gauge < tables.constants.gauge_count && rows < kMostRows; ++gauge) {
+      if (!contains(hypothesis.gauges, gauge)) continue;
+      const Number reading = readings.value[index(gauge)];
+      if (k == 0) energy += Wide{reading} * reading;
+      const std::uint32_t angle_q32 = tables.gauge_angle_q32[index(gauge)];
+      if (!isInReachOfAny(tables, hypothesis, contacts, angle_q32)) continue;
+      const ContactModel::Loads loads = model.loadsAt(angle_q32);
+      columns[index(loadsOf(k))][index(rows)] = static_cast<std::int16_t>(loads.normal >> kLoadExponent);
+      columns[index(loadsOf(k) + 1)][index(rows)] =
+          static_cast<std::int16_t>(loads.tangential >> kLoadExponent);
+      residual[index(rows++)] = static_cast<std::int16_t>(reading);
+    }
+  }
+  const int unknowns = 2 * hypothesis.contacts;
+  if (rows % 2 != 0) {
+    for (int i = 0; i < unknowns; ++i) columns[index(i)][index(rows)] = 0;
+    residual[index(rows++)] = 0;
+  }
+  Decomposition decomposition;
+  decompose(columns, rows, unknowns, decomposition);
+  Vector low, high;
+  low.fill(-kMostLoad);
+  high.fill(kMostLoad);
+  const Step best = solve(decomposition, columns, rows, residual, low, high);
+  Solution solution{hypothesis, contacts, std::max<Wide>(energy - best.reduction, 0)};
+  for (int k = 0; k < hypothesis.contacts; ++k) {
+    solution.contact[index(k)].normal = best.x_q14[index(loadsOf(k))];
+    solution.contact[index(k)].tangential = best.x_q14[index(loadsOf(k) + 1)];
+  }
   return solution;
 }
 

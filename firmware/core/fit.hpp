@@ -42,6 +42,11 @@ void linearise(const TableImage& tables, const Hypothesis& hypothesis, const Con
 /// One step from a linearisation to these readings. `solution.converged`: the linear model holds that far.
 Solution step(const TableImage& tables, const Linearisation& linearisation, const ScaledReadings& readings);
 
+/// The best loads of contacts at these places and of these widths; their residual energy. Half of each
+/// contact is taken to slip. Cost: a table lookup a gauge in reach and load, without slopes.
+Solution fitLoads(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,
+                  const ScaledReadings& readings);
+
 /// Steps until they converge, `mostSteps` at most.
 Solution fit(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& start,
              const ScaledReadings& readings, int mostSteps, Linearisation& linearisation);

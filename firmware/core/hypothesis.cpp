@@ -28,7 +28,8 @@ ScaledReadings scaledReadings(const TableConstants& constants, std::span<const s
   Number largest = 0;
   for (std::size_t i = 0; i < strains_q32.size(); ++i) {
     scaled.value[i] = saturate<std::int16_t>(strains_q32[i] >> scaled.shift);
-    if (contains(gauges, static_cast<int>(i))) largest = std::max(largest, magnitude(Number{scaled.value[i]}));
+    if (contains(gauges, static_cast<int>(i)))
+      largest = std::max(largest, magnitude(Number{scaled.value[i]}));
   }
   const auto modelError = static_cast<std::uint32_t>(largest) * constants.model_error_q16 >> 14;  // * 4
   const std::uint32_t noise = noiseVariance_q4(constants, scaled.shift);

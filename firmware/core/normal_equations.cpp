@@ -22,7 +22,7 @@ Number divided(Wide value, Decomposition::Reciprocal by, int bits, Number limit)
 
 Decomposition::Reciprocal reciprocalOf(Number value) {
   const int up = std::countl_zero(static_cast<std::uint32_t>(value)) - 1;
-  const auto normal = static_cast<std::uint32_t>(value) << up;        // in [2^30, 2^31)
+  const auto normal = static_cast<std::uint32_t>(value) << up;             // in [2^30, 2^31)
   const std::uint32_t guess = (~std::uint32_t{0} / (normal >> 15)) << 14;  // 2^61 / normal, to 2^-15
   const std::uint64_t twice = (std::uint64_t{1} << 62) - std::uint64_t{normal} * guess;
   const auto mantissa = static_cast<std::uint32_t>((guess * (twice >> 31)) >> 30);  // one Newton step
@@ -84,7 +84,8 @@ Step solve(const Decomposition& decomposition, const std::array<Rows, kMostUnkno
     step.x_q14[at(i)] = taken;
     if (taken == wanted) continue;
     const Wide missed = limited(Wide{wanted} - taken, 1 << 24);
-    const Wide lost = std::min<Wide>((magnitude(missed) * decomposition.pivot[at(i)]) >> kStepBits, Wide{1} << 34);
+    const Wide lost =
+        std::min<Wide>((magnitude(missed) * decomposition.pivot[at(i)]) >> kStepBits, Wide{1} << 34);
     reduction -= (lost * magnitude(missed)) >> down;
   }
   step.reduction = shifted(reduction, down - kStepBits, 0x7FFFFFFF);
@@ -110,7 +111,8 @@ std::array<Wide, kMostUnknowns> variances(const Decomposition& decomposition) {
       const auto reciprocal = decomposition.reciprocal[at(k)];
       const int up = reciprocal.exponent + kVarianceBits - kLowerBits + 17;
       const Wide product = square * (reciprocal.mantissa >> 17);  // below 2^54
-      variance[at(i)] += up >= 0 ? std::min(product, Wide{1} << 54) << std::min(up, 4) : product >> std::min(-up, 63);
+      variance[at(i)] +=
+          up >= 0 ? std::min(product, Wide{1} << 54) << std::min(up, 4) : product >> std::min(-up, 63);
     }
   }
   return variance;

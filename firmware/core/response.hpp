@@ -16,7 +16,8 @@ struct MomentCell {
 inline MomentCell momentCell(const TableConstants& constants, Number moment_q20) {
   constexpr int kUp = kMomentBits - 15;
   int cell = 0;
-  while (cell + 1 < constants.cell_count && moment_q20 >= constants.cell_edge_q15[static_cast<std::size_t>(cell + 1)] << kUp)
+  while (cell + 1 < constants.cell_count &&
+         moment_q20 >= constants.cell_edge_q15[static_cast<std::size_t>(cell + 1)] << kUp)
     ++cell;
   const auto at = static_cast<std::size_t>(cell);
   const Number middle = (constants.cell_edge_q15[at] + constants.cell_edge_q15[at + 1]) << (kUp - 1);
@@ -27,8 +28,8 @@ inline MomentCell momentCell(const TableConstants& constants, Number moment_q20)
 /// Where a distance lies in the tables.
 struct AngleNode {
   int node;
-  Number t_q15;    ///< from the node, -2^15 .. 2^15 half way to its neighbours
-  bool mirrored;   ///< the gauge is on the contact's clockwise side
+  Number t_q15;   ///< from the node, -2^15 .. 2^15 half way to its neighbours
+  bool mirrored;  ///< the gauge is on the contact's clockwise side
 };
 
 /// `distance_q32`: the gauge's angle minus the contact's, TurnQ32.
@@ -38,7 +39,8 @@ inline AngleNode angleNode(const TableConstants& constants, std::uint32_t distan
   const std::uint64_t position = std::uint64_t{size} * constants.node_count;  // [nodes * 2^31]
   const auto node = static_cast<int>(position >> 31);
   if (node >= constants.node_count) return {constants.node_count - 1, (1 << 15) - 1, mirrored};
-  return {node, static_cast<Number>(static_cast<std::uint32_t>(position >> 15) & 0xFFFF) - (1 << 15), mirrored};
+  return {node, static_cast<Number>(static_cast<std::uint32_t>(position >> 15) & 0xFFFF) - (1 << 15),
+          mirrored};
 }
 
 /// Turns [* 2^32] of t = 1: half the angle between two nodes.

@@ -1,7 +1,7 @@
 #pragma once
 // From a fit's units to those of contacts, and from those to the integers of frames.
 
-#include "firmware/core/wide.hpp"
+#include "firmware/core/integers.hpp"
 
 namespace strainfinger::firmware {
 

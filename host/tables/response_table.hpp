@@ -14,9 +14,9 @@ struct ResponseTable {
   int cells;
   std::array<std::uint16_t, kMostCells + 1> cell_edge_q15{};
   std::array<std::uint16_t, kMostCells> cell_rate_q8{};
-  double strainPerUnit;       ///< strain per N/m of response 2^15
-  double largestMoment_m2;    ///< second moment of the widest pressure
-  int peakSign;               ///< of what a pressing load makes the gauge under it read
+  double strainPerUnit;     ///< strain per N/m of response 2^15
+  double largestMoment_m2;  ///< second moment of the widest pressure
+  int peakSign;             ///< of what a pressing load makes the gauge under it read
   std::vector<PatchPair> patches;
 };
 

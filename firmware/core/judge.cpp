@@ -1,0 +1,59 @@
+#include "firmware/core/judge.hpp"
+
+#include <bit>
+
+namespace strainfinger::firmware {
+namespace {
+
+Number largestReading(const ScaledReadings& readings, GaugeSet gauges) {
+  Number largest = 0;
+  for (int i = 0; i < kMaxGauges; ++i)
+    if (contains(gauges, i))
+      largest = std::max(largest, magnitude(Number{readings.value[static_cast<std::size_t>(i)]}));
+  return largest;
+}
+
+}  // namespace
+
+bool isAdmissible(const TableConstants& constants, const ContactState& contact) {
+  return contact.normal > 0 && magnitude(contact.tangential) <= scaled<8>(contact.normal, constants.cone_q8);
+}
+
+bool isAdmissible(const TableConstants& constants, const Solution& solution) {
+  for (const ContactState& contact : solution.contacts())
+    if (!isAdmissible(constants, contact)) return false;
+  return true;
+}
+
+bool isPromising(const TableConstants& constants, const Solution& solution) {
+  for (const ContactState& contact : solution.contacts())
+    if (contact.normal <= 0 ||
+        magnitude(contact.tangential) >> 2 > scaled<8>(contact.normal, constants.cone_q8))
+      return false;
+  return true;
+}
+
+int freedoms(const Hypothesis& hypothesis) {
+  return std::popcount(hypothesis.gauges) - hypothesis.unknowns();
+}
+
+bool isAccepted(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings) {
+  const int left = freedoms(solution.hypothesis);
+  if (left < 1 || !isAdmissible(constants, solution)) return false;
+  const Number off = largestReading(readings, solution.hypothesis.gauges) >> 5;
+  const Wide profile = (Wide{off} * off * left) >> (2 * (threshold::kProfileErrorBits - 5));
+  return solution.residualEnergy <=
+         energyOf(readings, threshold::kGatePerFreedom * left + threshold::kGate) + profile;
+}
+
+bool isFirm(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings) {
+  const Number largest = largestReading(readings, solution.hypothesis.gauges);
+  if (Wide{largest} * largest < energyOf(readings, threshold::kFirmSignal)) return false;
+  for (const ContactState& contact : solution.contacts())
+    if (solution.hypothesis.widthIsFree &&
+        (Wide{contact.moment_q20} * constants.largest_moment_um2 >> kMomentBits) > threshold::kFirmMoment_um2)
+      return false;
+  return true;
+}
+
+}  // namespace strainfinger::firmware

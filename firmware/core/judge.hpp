@@ -1,0 +1,59 @@
+#pragma once
+// Which hypothesis is believed: every threshold of the estimator stands here.
+
+#include <cstdint>
+
+#include "firmware/core/fit.hpp"
+
+namespace strainfinger::firmware {
+
+/// Thresholds. Chi-squared is a sum of squared residuals over a reading's variance (noise, rounding, model
+/// error); differences of it are twice those of the log-likelihood.
+namespace threshold {
+
+/// A hypothesis explains the readings up to chi-squared = kGatePerFreedom * freedoms + kGate: 5.0 standard
+/// normal deviates for 12 degrees of freedom (Wilson & Hilferty 1931).
+inline constexpr int kGatePerFreedom = 2;
+inline constexpr int kGate = 28;
+/// What no pressure profile of the tables has: part of the largest reading, as a power of two, by which each
+/// reading may be off besides [log2]. A uniform pressure read as a semi-ellipse: 0.07 % at 3 mm.
+inline constexpr int kProfileErrorBits = 10;
+/// Two answers are not told apart within this difference of chi-squared: four standard errors.
+inline constexpr int kAmbiguous = 16;
+/// Reported errors reach another answer up to this difference of chi-squared.
+inline constexpr int kCovered = 32;
+/// Largest reading over a standard deviation [squared] and second moment of contacts that have no second
+/// answer near by: the gap of chi-squared is 80 at 14 N/m and 2 mm on the default finger.
+inline constexpr int kFirmSignal = 1'200'000;
+inline constexpr int kFirmMoment_um2 = 360'000;
+/// A contact of a pair whose loads explain less than this much of chi-squared is none.
+inline constexpr int kFaint = 36;
+/// A gauge is a suspect only if leaving it out takes this much more off chi-squared than any other gauge.
+inline constexpr int kCulpritMargin = 12;
+/// A suspect's reading is off by at least this part of the largest reading, 1/16.
+inline constexpr int kCulpritBits = 4;
+
+}  // namespace threshold
+
+/// Sum of squares that `deviations` of chi-squared are.
+constexpr Wide energyOf(const ScaledReadings& readings, Wide chiSquared) {
+  return (chiSquared * readings.variance_q4) >> 4;
+}
+
+/// The contact presses and stays within the friction cone.
+bool isAdmissible(const TableConstants& constants, const ContactState& contact);
+bool isAdmissible(const TableConstants& constants, const Solution& solution);
+
+/// A fit from these contacts may lead to admissible ones: beside the right place loads are far off.
+bool isPromising(const TableConstants& constants, const Solution& solution);
+
+/// Degrees of freedom that are left.
+int freedoms(const Hypothesis& hypothesis);
+
+/// The hypothesis explains the readings within noise and model error, by admissible contacts.
+bool isAccepted(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings);
+
+/// So much signal and so narrow a contact that no other answer explains the readings.
+bool isFirm(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings);
+
+}  // namespace strainfinger::firmware

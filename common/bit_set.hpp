@@ -1,16 +1,17 @@
 #pragma once
-// Named bits in a byte.
+// Named bits in an unsigned integer.
 
+#include <concepts>
 #include <cstdint>
 #include <initializer_list>
 
 namespace strainfinger {
 
-/// A set of Bit, an enum whose values are bit numbers 0 .. 7. Costs what the byte costs.
-template <typename Bit>
+/// A set of Bit, an enum whose values are bit numbers of RawBits. Costs what that integer costs.
+template <typename Bit, std::unsigned_integral RawBits = std::uint8_t>
 class BitSet {
  public:
-  using Raw = std::uint8_t;
+  using Raw = RawBits;
 
   constexpr BitSet() = default;
   constexpr BitSet(std::initializer_list<Bit> bits) {

@@ -31,8 +31,11 @@ inline constexpr std::uint8_t kLastNode = 63;
 enum class FunctionCode : std::uint16_t {
   kGauges = 0x080,
   kContact = 0x180,
+  kContact2 = 0x200,
   kForce = 0x280,
-  kRaw = 0x380,
+  kForce2 = 0x300,
+  kPatch = 0x380,
+  kRaw = 0x400,
   kInfo = 0x480,
   kResponse = 0x580,
   kRequest = 0x600,
@@ -57,6 +60,7 @@ enum class FieldKind : std::uint8_t {
 struct FieldMeaning {
   const char* name;               ///< snake_case, unique in its frame, at most 32 characters
   std::int32_t stepsPerUnit = 1;  ///< physical = raw / stepsPerUnit: exact where a factor of 0.01 is not
+  std::int32_t unitsPerStep = 1;  ///< for steps larger than a unit: physical = raw * unitsPerStep
   const char* unit = "";          ///< ASCII, SI; "" for a plain number
   bool openEnded = false;         ///< the largest valid value means "that or more"
   const char* comment;            ///< one sentence, ASCII, without quotation marks
@@ -154,6 +158,10 @@ struct FrameLayout {
           return std::array{FieldSpec{field.bits, field.meaning}...};
         },
         fields);
+  }
+  /// The same fields sent as another frame.
+  constexpr FrameLayout sentAs(FrameSpec other) const {
+    return std::apply([&other](const auto&... field) { return FrameLayout(other, field...); }, fields);
   }
   FrameSpec spec;
   std::tuple<Fields...> fields;

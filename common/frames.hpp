@@ -12,16 +12,15 @@
 namespace strainfinger {
 
 /// Goes up when a frame changes its meaning; receivers of another version must not read the frames.
-inline constexpr std::uint8_t kProtocolVersion = 1;
+inline constexpr std::uint8_t kProtocolVersion = 2;
 
-/// In contact CONTACT and FORCE are sent this often at least; HEARTBEAT, INFO and GAUGES
-/// always.
+/// In contact CONTACT, FORCE and PATCH are sent this often at least; HEARTBEAT, INFO and GAUGES always.
 inline constexpr std::uint16_t kContactPeriod_ms = 50;
 inline constexpr std::uint16_t kHeartbeatPeriod_ms = 100;
 inline constexpr std::uint16_t kInfoPeriod_ms = 1000;
 inline constexpr std::uint16_t kGaugesPeriod_ms = 1000;
 
-/// What a reader must know before using the numbers of CONTACT and FORCE. Bit numbers; never reuse one.
+/// What a reader must know before using the numbers of a touch. Bit numbers; never reuse one.
 enum class FingerFlag : std::uint8_t {
   kContact = 0,
   kSaturated = 1,
@@ -39,7 +38,7 @@ inline constexpr std::array kFingerFlagNames{
     ValueName{1, "saturated", "A gauge the estimate uses is at the end of its range"},
     ValueName{2, "degraded", "A gauge is out of use, the sigmas are larger for it"},
     ValueName{3, "uncertain", "Another contact fits nearly as well: see alternative"},
-    ValueName{4, "several_contacts", "The strains are not those of one contact"},
+    ValueName{4, "several_contacts", "More than one contact: see contacts in PATCH for how many are located"},
     ValueName{5, "stale_zero", "The zero of the gauges is too old to be trusted"},
     ValueName{6, "uncalibrated", "No calibration: forces are those of the nominal finger"},
     ValueName{7, "simulated", "From simulated gauges, not from a finger"},
@@ -64,8 +63,9 @@ enum class FingerFault : std::uint8_t {
   kWatchdogReset = 5,
   kSamples = 6,
   kClock = 7,
+  kNoisy = 8,
 };
-using FingerFaults = BitSet<FingerFault>;
+using FingerFaults = BitSet<FingerFault, std::uint16_t>;
 
 inline constexpr std::array kFingerFaultNames{
     ValueName{0, "tables", "The lookup tables are absent, damaged or of another finger"},
@@ -76,6 +76,8 @@ inline constexpr std::array kFingerFaultNames{
     ValueName{5, "watchdog_reset", "The last reset was the watchdog's"},
     ValueName{6, "samples", "Sample sets were lost since the start: the finger was not back in time"},
     ValueName{7, "clock", "The clock is the inaccurate one of two: the bit rate may be off"},
+    ValueName{8, "noisy",
+              "The untouched gauges are noisier than the finger was made for: weak touches are missed"},
 };
 
 /// Why the finger started. Never reuse a number.
@@ -138,6 +140,32 @@ struct ForceFrame {
   bool operator==(const ForceFrame&) const = default;
 };
 
+/// How wide the contact is, and how well contacts explain the strains.
+struct PatchFrame {
+  std::uint16_t width_um = kNotKnown<std::uint16_t>;
+  std::uint16_t sigma_width_um = kNotKnown<std::uint16_t>;
+  std::uint8_t chi_sixteenths = kNotKnown<std::uint8_t>;
+  std::uint8_t contacts = 0;
+  FingerFlags flags{};
+  std::uint8_t sequence = 0;
+  bool operator==(const PatchFrame&) const = default;
+};
+
+/// Where a second contact is, and how hard.
+struct Contact2Frame : ContactFrame {};
+struct Force2Frame : ForceFrame {};
+
+/// CAN error counters are sent in steps: the limits of ISO 11898, warning at 96 and passive at 128, are whole
+/// steps, so that the nearest step below tells exactly on which side of them a counter is.
+inline constexpr std::uint8_t kErrorsPerStep = 16;
+inline constexpr std::uint8_t kErrorStepsNotKnown = 15;  ///< of the four bits that the frame has for them
+
+constexpr std::uint8_t errorSteps(std::uint8_t errors) {
+  constexpr std::uint8_t kMost = kErrorStepsNotKnown - 1;
+  const auto steps = static_cast<std::uint8_t>(errors / kErrorsPerStep);
+  return steps < kMost ? steps : kMost;
+}
+
 /// How the finger is.
 struct HeartbeatFrame {
   FingerState state = FingerState::kBoot;
@@ -145,8 +173,8 @@ struct HeartbeatFrame {
   FingerFaults faults{};
   std::uint16_t uptime_s = kNotKnown<std::uint16_t>;
   std::int8_t temperature_degC = kNotKnown<std::int8_t>;
-  std::uint8_t tx_errors = kNotKnown<std::uint8_t>;
-  std::uint8_t rx_errors = kNotKnown<std::uint8_t>;
+  std::uint8_t tx_error_steps = kErrorStepsNotKnown;
+  std::uint8_t rx_error_steps = kErrorStepsNotKnown;
   std::uint8_t table_crc = 0;  ///< low byte of the CRC-32 of the tables
   bool operator==(const HeartbeatFrame&) const = default;
 };
@@ -216,6 +244,16 @@ inline constexpr FrameLayout kLayout<ContactFrame>{
 static_assert(WireFrame<ContactFrame>);
 
 template <>
+inline constexpr auto kLayout<Contact2Frame> = kLayout<ContactFrame>.sentAs(
+    {.name = "CONTACT2",
+     .function = FunctionCode::kContact2,
+     .length = 8,
+     .period_ms = kContactPeriod_ms,
+     .onChange = true,
+     .comment = "Where a second contact is, while there is one: numbered like the CONTACT of the first"});
+static_assert(WireFrame<Contact2Frame>);
+
+template <>
 inline constexpr FrameLayout kLayout<ForceFrame>{
     FrameSpec{.name = "FORCE",
               .function = FunctionCode::kForce,
@@ -262,6 +300,62 @@ inline constexpr FrameLayout kLayout<ForceFrame>{
 static_assert(WireFrame<ForceFrame>);
 
 template <>
+inline constexpr auto kLayout<Force2Frame> =
+    kLayout<ForceFrame>.sentAs({.name = "FORCE2",
+                                .function = FunctionCode::kForce2,
+                                .length = 8,
+                                .period_ms = kContactPeriod_ms,
+                                .onChange = true,
+                                .comment = "How hard a second contact presses: after each CONTACT2"});
+static_assert(WireFrame<Force2Frame>);
+
+template <>
+inline constexpr FrameLayout kLayout<PatchFrame>{
+    FrameSpec{.name = "PATCH",
+              .function = FunctionCode::kPatch,
+              .length = 8,
+              .period_ms = kContactPeriod_ms,
+              .onChange = true,
+              .comment = "How wide the contact is, and how well contacts explain the strains: after each "
+                         "CONTACT and its FORCE"},
+    Field{&PatchFrame::width_um,
+          {.lsb = 0, .width = 16, .unknowable = true},
+          {.name = "width",
+           .stepsPerUnit = 1'000'000,
+           .unit = "m",
+           .openEnded = true,
+           .comment = "Width of the uniform pressure with the same second moment; not known: not fitted"}},
+    Field{&PatchFrame::sigma_width_um,
+          {.lsb = 16, .width = 16, .unknowable = true},
+          {.name = "sigma_width",
+           .stepsPerUnit = 1'000'000,
+           .unit = "m",
+           .openEnded = true,
+           .comment = "Standard deviation of the width"}},
+    Field{&PatchFrame::chi_sixteenths,
+          {.lsb = 32, .width = 8, .unknowable = true},
+          {.name = "chi",
+           .stepsPerUnit = 16,
+           .openEnded = true,
+           .comment = "Root of chi-squared per degree of freedom of what the fit leaves: 1 is noise alone"}},
+    Field{
+        &PatchFrame::contacts,
+        {.lsb = 40, .width = 8},
+        {.name = "contacts",
+         .comment = "Contacts located: with 2, a CONTACT2 and a FORCE2 of the same number belong to these"}},
+    Field{&PatchFrame::flags,
+          {.lsb = 48, .width = 8},
+          {.name = "flags",
+           .comment = "The same as in its CONTACT",
+           .kind = FieldKind::kFlags,
+           .names = kFingerFlagNames}},
+    Field{&PatchFrame::sequence,
+          {.lsb = 56, .width = 8},
+          {.name = "sequence", .comment = "The number of its CONTACT"}},
+};
+static_assert(WireFrame<PatchFrame>);
+
+template <>
 inline constexpr FrameLayout kLayout<HeartbeatFrame>{
     FrameSpec{.name = "HEARTBEAT",
               .function = FunctionCode::kHeartbeat,
@@ -279,27 +373,29 @@ inline constexpr FrameLayout kLayout<HeartbeatFrame>{
           {.lsb = 4, .width = 4},
           {.name = "protocol", .comment = "Version of these frames"}},
     Field{&HeartbeatFrame::faults,
-          {.lsb = 8, .width = 8},
+          {.lsb = 8, .width = 16},
           {.name = "faults",
            .comment = "What is wrong with the finger",
            .kind = FieldKind::kFlags,
            .names = kFingerFaultNames}},
     Field{&HeartbeatFrame::uptime_s,
-          {.lsb = 16, .width = 16, .unknowable = true},
+          {.lsb = 24, .width = 16, .unknowable = true},
           {.name = "uptime", .unit = "s", .openEnded = true, .comment = "Time since the last reset"}},
     Field{&HeartbeatFrame::temperature_degC,
-          {.lsb = 32, .width = 8, .unknowable = true},
-          {.name = "temperature", .unit = "degC", .comment = "Temperature of the board"}},
-    Field{&HeartbeatFrame::tx_errors,
           {.lsb = 40, .width = 8, .unknowable = true},
+          {.name = "temperature", .unit = "degC", .comment = "Temperature of the board"}},
+    Field{&HeartbeatFrame::tx_error_steps,
+          {.lsb = 48, .width = 4, .unknowable = true},
           {.name = "tx_errors",
+           .unitsPerStep = kErrorsPerStep,
            .openEnded = true,
-           .comment = "Transmit error counter of the CAN controller (ISO 11898)"}},
-    Field{&HeartbeatFrame::rx_errors,
-          {.lsb = 48, .width = 8, .unknowable = true},
+           .comment = "Transmit error counter of the CAN controller (ISO 11898), rounded down"}},
+    Field{&HeartbeatFrame::rx_error_steps,
+          {.lsb = 52, .width = 4, .unknowable = true},
           {.name = "rx_errors",
+           .unitsPerStep = kErrorsPerStep,
            .openEnded = true,
-           .comment = "Receive error counter of the CAN controller (ISO 11898)"}},
+           .comment = "Receive error counter of the CAN controller (ISO 11898), rounded down"}},
     Field{&HeartbeatFrame::table_crc,
           {.lsb = 56, .width = 8},
           {.name = "table_crc", .comment = "Low byte of the CRC-32 of the tables"}},
@@ -376,6 +472,7 @@ inline constexpr FrameLayout kLayout<GaugesFrame>{
 static_assert(WireFrame<GaugesFrame>);
 
 /// Every frame a finger sends.
-using FingerFrames = std::tuple<ContactFrame, ForceFrame, HeartbeatFrame, InfoFrame, GaugesFrame>;
+using FingerFrames = std::tuple<ContactFrame, ForceFrame, PatchFrame, Contact2Frame, Force2Frame,
+                                HeartbeatFrame, InfoFrame, GaugesFrame>;
 
 }  // namespace strainfinger

@@ -7,6 +7,7 @@
 
 #include "common/commands.hpp"
 #include "common/frames.hpp"
+#include "firmware/app/owed_frames.hpp"
 #include "firmware/app/stored_settings.hpp"
 #include "firmware/core/pipeline.hpp"
 #include "firmware/core/report.hpp"
@@ -30,10 +31,9 @@ struct FingerSettings {
 struct FingerCounters {
   std::uint32_t sampleSets = 0;
   std::uint32_t fits = 0;
-  std::uint32_t touchesSent = 0;  ///< pairs of CONTACT and FORCE
-  std::uint32_t touchesBusy = 0;  ///< pairs the port couldn't take at once; a newer one replaced them
-  std::uint32_t forcesLost =
-      0;  ///< FORCE frames whose CONTACT went out but which the port didn't take in time
+  std::uint32_t touchesSent = 0;        ///< with all their frames: CONTACT, FORCE, PATCH ..
+  std::uint32_t touchesBusy = 0;        ///< the port couldn't take CONTACT at once; a newer one replaced it
+  std::uint32_t touchesIncomplete = 0;  ///< CONTACT went out, but the port didn't take the others in time
 };
 
 /// Runs one finger. `tables` must have passed checkTableImage(); everything is held by reference.
@@ -64,7 +64,7 @@ class Finger {
   bool step() {
     const std::uint32_t now_us = clock_.now_us();
     countUptime(now_us);
-    if (forceOwed_) sendForce(now_us);
+    if (owed_.any()) sendOwed(now_us);
     const bool sampled = adc_.read(codes_);
     if (sampled) {
       take(now_us);
@@ -134,7 +134,7 @@ class Finger {
 
   /// Not inlined, so that its frames aren't on the stack while the locator, which needs it most, runs.
   [[gnu::noinline]] void report(std::uint32_t now_us) {
-    if (forceOwed_) return;
+    if (owed_.any()) return;
     const auto frames = reporter_.frames(pipeline_.constants(), pipeline_.observation(), now_us);
     if (!frames) return;
     if (!can_.send(encode(frames->contact, settings_.node))) {
@@ -142,21 +142,14 @@ class Finger {
       return;
     }
     reporter_.sent(*frames, now_us);
-    force_ = frames->force;
-    forceOwed_ = true;
-    contactAt_us_ = now_us;
-    sendForce(now_us);
+    owed_.owe(*frames, settings_.node, now_us);
+    sendOwed(now_us);
   }
 
-  /// A FORCE that the port can't take waits for its CONTACT's sake, but never until it is old.
-  void sendForce(std::uint32_t now_us) {
-    if (now_us - contactAt_us_ >= std::uint32_t{kContactPeriod_ms} * 1000) {
-      ++counters_.forcesLost;
-      forceOwed_ = false;
-    } else if (can_.send(encode(force_, settings_.node))) {
-      ++counters_.touchesSent;
-      forceOwed_ = false;
-    }
+  void sendOwed(std::uint32_t now_us) {
+    const OwedFrames::Outcome outcome = owed_.send(can_, now_us);
+    if (outcome == OwedFrames::Outcome::kAllSent) ++counters_.touchesSent;
+    if (outcome == OwedFrames::Outcome::kTooOld) ++counters_.touchesIncomplete;
   }
 
   void beat(std::uint32_t now_us) {
@@ -172,12 +165,12 @@ class Finger {
     frame.faults.set(FingerFault::kGauges, pipeline_.tooFewGauges());
     frame.faults.set(FingerFault::kConverter, isConverterSilent(now_us));
     frame.faults.set(FingerFault::kCan,
-                     status.dropped != 0 || status.missed != 0 || counters_.forcesLost != 0);
+                     status.dropped != 0 || status.missed != 0 || counters_.touchesIncomplete != 0);
     frame.faults.set(FingerFault::kWatchdogReset, watchdog_.resetCause() == hal::ResetCause::kWatchdog);
     frame.faults.set(FingerFault::kSamples, adc_.overruns() != 0);
     frame.uptime_s = saturate<std::uint16_t>(uptime_s_ < kLongestUptime_s ? uptime_s_ : kLongestUptime_s);
-    if (status.txErrors) frame.tx_errors = *status.txErrors;
-    if (status.rxErrors) frame.rx_errors = *status.rxErrors;
+    if (status.txErrors) frame.tx_error_steps = errorSteps(*status.txErrors);
+    if (status.rxErrors) frame.rx_error_steps = errorSteps(*status.rxErrors);
     frame.table_crc = tableCrc_;
     return frame;
   }
@@ -270,8 +263,7 @@ class Finger {
   std::uint8_t tableCrc_;
   FingerState state_ = FingerState::kBoot;
   hal::SampleSet codes_{};
-  ForceFrame force_{};
-  bool forceOwed_ = false;
+  OwedFrames owed_;
   std::optional<CommandStatus> tareStatus_;  ///< to answer when the zero is taken
   std::optional<ResponseFrame> response_;    ///< that the port hasn't taken yet
   FingerCounters counters_{};
@@ -284,7 +276,6 @@ class Finger {
   std::uint32_t setsPerSecond_ = 0;  ///< sample sets of the last whole second
   std::uint32_t setsAtSecond_ = 0;
   GaugeSet saidOutOfUse_ = 0;
-  std::uint32_t contactAt_us_ = 0;
   std::uint32_t requestedAt_us_ = 0;
 };
 

@@ -48,6 +48,26 @@ std::int32_t angleBetween_cdeg(std::uint16_t a, std::uint16_t b) {
 /// Moved by more than its own error, in units of the value.
 bool moved(std::int32_t by, std::int32_t sigma) { return by > 0 && by > sigma; }
 
+bool moved(const ContactFrame& contact, const ContactFrame& last) {
+  return moved(angleBetween_cdeg(contact.angle_cdeg, last.angle_cdeg), contact.sigma_angle_cdeg) ||
+         magnitude(contact.quality_percent - last.quality_percent) >= kQualityStep;
+}
+
+bool moved(const ForceFrame& force, const ForceFrame& last) {
+  return moved(magnitude(force.normal_mN - last.normal_mN), force.sigma_normal_half_mN / 2) ||
+         moved(magnitude(force.tangential_mN - last.tangential_mN), force.sigma_tangential_half_mN / 2);
+}
+
+bool moved(const PatchFrame& patch, const PatchFrame& last) {
+  constexpr std::uint16_t kUnknown = kNotKnown<std::uint16_t>;
+  if ((patch.width_um == kUnknown) != (last.width_um == kUnknown)) return true;
+  return moved(magnitude(patch.width_um - last.width_um), patch.sigma_width_um);
+}
+
+bool moved(const SecondContactFrames& second, const SecondContactFrames& last) {
+  return moved(second.contact, last.contact) || moved(second.force, last.force);
+}
+
 /// Bit i: gauge i takes part in the fit; every gauge of the ring when there is none.
 std::uint32_t gaugesUsed(const TableConstants& constants, const Observation& observation) {
   if (!observation.fit) return ~std::uint32_t{0} >> (kMaxGauges - constants.gauge_count);
@@ -58,22 +78,63 @@ std::uint32_t gaugesUsed(const TableConstants& constants, const Observation& obs
   return used;
 }
 
+ContactFrame contactFrame(const Contact& contact) {
+  ContactFrame frame;
+  frame.angle_cdeg = static_cast<std::uint16_t>(centidegreesOf(contact.angle) % 36000);
+  frame.sigma_angle_cdeg = knownError<std::uint16_t>(centidegreesOf(contact.sigmaAngle));
+  if (contact.ambiguous) frame.alternative_deg = alternativeDegrees(contact);
+  frame.quality_percent = contact.quality;
+  return frame;
+}
+
+ForceFrame forceFrame(const TableConstants& constants, const Contact& contact) {
+  ForceFrame frame;
+  frame.normal_mN = known<std::int16_t>(forceOf(constants, contact.normal, 0));
+  frame.tangential_mN = known<std::int16_t>(forceOf(constants, contact.tangential, 0));
+  frame.sigma_normal_half_mN = knownError<std::uint8_t>(forceOf(constants, contact.sigmaNormal, 1));
+  frame.sigma_tangential_half_mN = knownError<std::uint8_t>(forceOf(constants, contact.sigmaTangential, 1));
+  return frame;
+}
+
+PatchFrame patchFrame(const Contact& contact) {
+  PatchFrame frame;
+  if (contact.width_um != kWidthNotFitted) {
+    frame.width_um = known<std::uint16_t>(contact.width_um);
+    frame.sigma_width_um = knownError<std::uint16_t>(contact.sigmaWidth_um);
+  }
+  if (contact.chi_q4 != kNoChi) frame.chi_sixteenths = known<std::uint8_t>(contact.chi_q4);
+  return frame;
+}
+
+/// The same flags and number in each frame.
+void label(TouchFrames& frames, FingerFlags flags, std::uint8_t sequence) {
+  const auto each = [flags, sequence](auto& frame) {
+    frame.flags = flags;
+    frame.sequence = sequence;
+  };
+  each(frames.contact);
+  each(frames.force);
+  each(frames.patch);
+  if (!frames.second) return;
+  each(frames.second->contact);
+  each(frames.second->force);
+}
+
 }  // namespace
 
-TouchFrames touchFrames(const TableConstants& constants, const Contact& contact, FingerFlags flags,
-                        std::uint8_t sequence) {
+TouchFrames touchFrames(const TableConstants& constants, const Contact& contact,
+                        const std::optional<Contact>& second, FingerFlags flags, std::uint8_t sequence) {
+  TouchFrames frames{contactFrame(contact), forceFrame(constants, contact), patchFrame(contact), {}};
+  if (second) frames.second = {{contactFrame(*second)}, {forceFrame(constants, *second)}};
+  frames.patch.contacts = second ? 2 : 1;
+  label(frames, flags, sequence);
+  return frames;
+}
+
+TouchFrames releaseFrames(FingerFlags flags, std::uint8_t sequence) {
   TouchFrames frames;
-  frames.contact.angle_cdeg = static_cast<std::uint16_t>(centidegreesOf(contact.angle) % 36000);
-  if (contact.ambiguous) frames.contact.alternative_deg = alternativeDegrees(contact);
-  frames.contact.quality_percent = contact.quality;
-  frames.force.normal_mN = known<std::int16_t>(forceOf(constants, contact.normal, 0));
-  frames.force.tangential_mN = known<std::int16_t>(forceOf(constants, contact.tangential, 0));
-  frames.contact.sigma_angle_cdeg = knownError<std::uint16_t>(centidegreesOf(contact.sigmaAngle));
-  frames.force.sigma_normal_half_mN = knownError<std::uint8_t>(forceOf(constants, contact.sigmaNormal, 1));
-  frames.force.sigma_tangential_half_mN =
-      knownError<std::uint8_t>(forceOf(constants, contact.sigmaTangential, 1));
-  frames.contact.flags = frames.force.flags = flags;
-  frames.contact.sequence = frames.force.sequence = sequence;
+  frames.force.normal_mN = frames.force.tangential_mN = 0;
+  label(frames, flags, sequence);
   return frames;
 }
 
@@ -93,16 +154,16 @@ GaugesFrame gaugesFrame(GaugeSet outOfUse, const ZeroTracker& tracker, std::uint
   return frame;
 }
 
+bool isNews(const TouchFrames& frames, const TouchFrames& last) {
+  if (frames.contact.flags != last.contact.flags) return true;
+  if (frames.second.has_value() != last.second.has_value()) return true;
+  return moved(frames.contact, last.contact) || moved(frames.force, last.force) ||
+         moved(frames.patch, last.patch) || (frames.second && moved(*frames.second, *last.second));
+}
+
 bool TouchReporter::worthSaying(const TouchFrames& frames, std::uint32_t now_us) const {
-  const auto& [contact, force] = frames;
-  const auto& [lastContact, lastForce] = last_;
-  if (!any_ || contact.flags != lastContact.flags) return true;
-  if (now_us - sentAt_us_ >= std::uint32_t{kContactPeriod_ms} * 1000) return true;
-  return moved(angleBetween_cdeg(contact.angle_cdeg, lastContact.angle_cdeg), contact.sigma_angle_cdeg) ||
-         moved(magnitude(force.normal_mN - lastForce.normal_mN), force.sigma_normal_half_mN / 2) ||
-         moved(magnitude(force.tangential_mN - lastForce.tangential_mN),
-               force.sigma_tangential_half_mN / 2) ||
-         magnitude(contact.quality_percent - lastContact.quality_percent) >= kQualityStep;
+  if (!any_ || now_us - sentAt_us_ >= std::uint32_t{kContactPeriod_ms} * 1000) return true;
+  return isNews(frames, last_);
 }
 
 std::optional<TouchFrames> TouchReporter::frames(const TableConstants& constants,
@@ -117,15 +178,12 @@ std::optional<TouchFrames> TouchReporter::frames(const TableConstants& constants
   flags.set(FingerFlag::kStaleZero, observation.staleZero);
   if (!observation.fit) {
     if (!any_ || !last_.contact.flags.has(FingerFlag::kContact)) return std::nullopt;
-    TouchFrames released;
-    released.contact.flags = released.force.flags = flags;
-    released.contact.sequence = released.force.sequence = next;
-    return released;
+    return releaseFrames(flags, next);
   }
   const Contact contact = estimate(constants, *observation.fit);
   flags.set(FingerFlag::kContact);
   flags.set(FingerFlag::kUncertain, contact.uncertain);
-  const TouchFrames frames = touchFrames(constants, contact, flags, next);
+  const TouchFrames frames = touchFrames(constants, contact, std::nullopt, flags, next);
   if (!worthSaying(frames, now_us)) return std::nullopt;
   return frames;
 }

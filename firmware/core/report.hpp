@@ -11,22 +11,39 @@
 
 namespace strainfinger::firmware {
 
-/// A CONTACT frame and the FORCE frame of the same sequence number.
+/// The frames of a second contact.
+struct SecondContactFrames {
+  Contact2Frame contact;
+  Force2Frame force;
+  bool operator==(const SecondContactFrames&) const = default;
+};
+
+/// All frames of one sequence number. They have the same flags.
 struct TouchFrames {
   ContactFrame contact;
   ForceFrame force;
+  PatchFrame patch;
+  std::optional<SecondContactFrames> second;
 };
 
-/// The frames' integers: rounded to nearest, saturating at the ends of their fields.
-TouchFrames touchFrames(const TableConstants& constants, const Contact& contact, FingerFlags flags,
-                        std::uint8_t sequence);
+/// The frames' integers: rounded to nearest, saturating at the ends of their fields. The patch is that of the
+/// first contact.
+TouchFrames touchFrames(const TableConstants& constants, const Contact& contact,
+                        const std::optional<Contact>& second, FingerFlags flags, std::uint8_t sequence);
+
+/// What is said once when nothing touches the finger any more: no force, and a place and a width that are not
+/// known.
+TouchFrames releaseFrames(FingerFlags flags, std::uint8_t sequence);
 
 /// What a GAUGES frame says; age and rate are not known before there are sample sets by the second.
 GaugesFrame gaugesFrame(GaugeSet outOfUse, const ZeroTracker& tracker, std::uint32_t setsPerSecond);
 
-/// When to say something: at most at the contact rate; when angle, a force, its flags or its quality changed
-/// by more than noise does; at least every kContactPeriod_ms in contact; once when contact ends. Otherwise
-/// never.
+/// Whether something changed by more than its own error, a quality by ten percent, or a flag, the number of
+/// contacts or whether the width is known at all.
+bool isNews(const TouchFrames& frames, const TouchFrames& last);
+
+/// When to say something: at most at the contact rate; when there is news; at least every kContactPeriod_ms
+/// in contact; once when contact ends. Otherwise never.
 class TouchReporter {
  public:
   /// `standing`: flags that hold for every frame (simulated, uncalibrated ..).

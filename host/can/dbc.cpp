@@ -48,7 +48,7 @@ Signal fieldSignal(const FieldSpec& field) {
   const auto& [bits, meaning] = field;
   return {meaning.name,
           bits,
-          1.0 / meaning.stepsPerUnit,
+          stepOf(meaning),
           *toPhysical(field, minRaw(bits)),
           *toPhysical(field, maxRaw(bits)),
           meaning.unit,

@@ -39,15 +39,19 @@ const ValueName* findName(std::span<const ValueName> names, std::int64_t value) 
   return found != names.end() ? &*found : nullptr;
 }
 
+double stepOf(const FieldMeaning& meaning) {
+  return static_cast<double>(meaning.unitsPerStep) / meaning.stepsPerUnit;
+}
+
 std::optional<double> toPhysical(const FieldSpec& field, std::int64_t raw) {
   if (!isValidRaw(field.bits, raw)) return std::nullopt;
-  return static_cast<double>(raw) / field.meaning.stepsPerUnit;
+  return static_cast<double>(raw * field.meaning.unitsPerStep) / field.meaning.stepsPerUnit;
 }
 
 std::int64_t fromPhysical(const FieldSpec& field, std::optional<double> value) {
   if (!value || std::isnan(*value))
     return field.bits.unknowable ? invalidRaw(field.bits) : minRaw(field.bits);
-  const double raw = std::round(*value * field.meaning.stepsPerUnit);
+  const double raw = std::round(*value * field.meaning.stepsPerUnit / field.meaning.unitsPerStep);
   return static_cast<std::int64_t>(
       std::clamp(raw, static_cast<double>(minRaw(field.bits)), static_cast<double>(maxRaw(field.bits))));
 }

@@ -27,6 +27,9 @@ const FrameEntry* findFrame(const CanFrame& frame);
 /// The name of a value, or of a bit; null if it has none.
 const ValueName* findName(std::span<const ValueName> names, std::int64_t value);
 
+/// What one step of the raw value is, in the field's unit.
+double stepOf(const FieldMeaning& meaning);
+
 /// The raw value in the field's unit; nothing where it is not a valid one (not known, or reserved).
 std::optional<double> toPhysical(const FieldSpec& field, std::int64_t raw);
 

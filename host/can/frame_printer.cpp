@@ -32,7 +32,7 @@ Cell fieldCell(const FieldSpec& field, std::int64_t raw, bool csv) {
   if (field.meaning.kind != FieldKind::kNumber) return valueText(field, raw);
   const std::optional<double> value = toPhysical(field, raw);
   if (!value) return kNoValue;
-  if (field.meaning.stepsPerUnit == 1) return raw;
+  if (field.meaning.stepsPerUnit == 1) return raw * field.meaning.unitsPerStep;
   return csv ? decimal(*value) : Cell(*value);
 }
 

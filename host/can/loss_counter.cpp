@@ -2,16 +2,23 @@
 
 namespace strainfinger::can {
 
+namespace {
+
+/// A second contact has frames only while there is one, so that their numbers have gaps.
+bool isOfEveryTouch(FunctionCode function) {
+  return function != FunctionCode::kContact2 && function != FunctionCode::kForce2;
+}
+
+}  // namespace
+
 void LossCounter::count(const std::string& interface, const CanFrame& frame) {
-  if (const auto contact = decode<ContactFrame>(frame)) {
-    Stream& stream = streamOf(interface, *nodeOf(frame.id, FunctionCode::kContact));
-    countSequence(stream, stream.lastContact, contact->sequence);
-  } else if (const auto force = decode<ForceFrame>(frame)) {
-    Stream& stream = streamOf(interface, *nodeOf(frame.id, FunctionCode::kForce));
-    countSequence(stream, stream.lastForce, force->sequence);
-  } else if (const auto heartbeat = decode<HeartbeatFrame>(frame)) {
+  if (countNumbered<ContactFrame>(interface, frame) || countNumbered<ForceFrame>(interface, frame) ||
+      countNumbered<Contact2Frame>(interface, frame) || countNumbered<Force2Frame>(interface, frame))
+    return;
+  if (countNumbered<PatchFrame>(interface, frame))
+    countAnnounced(streamOf(interface, *nodeOf(frame.id, FunctionCode::kPatch)), *decode<PatchFrame>(frame));
+  if (const auto heartbeat = decode<HeartbeatFrame>(frame))
     countHeartbeat(streamOf(interface, *nodeOf(frame.id, FunctionCode::kHeartbeat)), *heartbeat);
-  }
 }
 
 LossCounter::Stream& LossCounter::streamOf(const std::string& interface, std::uint8_t node) {
@@ -21,13 +28,33 @@ LossCounter::Stream& LossCounter::streamOf(const std::string& interface, std::ui
   return stream;
 }
 
-void LossCounter::countSequence(Stream& stream, std::optional<std::uint8_t>& last, std::uint8_t sequence) {
+/// False: it is another frame.
+template <typename Frame>
+bool LossCounter::countNumbered(const std::string& interface, const CanFrame& frame) {
+  constexpr FunctionCode kFunction = kLayout<Frame>.spec.function;
+  const auto values = decode<Frame>(frame);
+  if (!values) return false;
+  Stream& stream = streamOf(interface, *nodeOf(frame.id, kFunction));
   ++stream.seen.received;
-  if (last && *last == sequence)
+  const auto [last, isFirst] = stream.last.try_emplace(kFunction, values->sequence);
+  if (!isFirst && last->second == values->sequence)
     ++stream.seen.repeated;
-  else if (last)
-    stream.seen.lost += static_cast<std::uint8_t>(sequence - *last - 1);
-  last = sequence;
+  else if (!isFirst && isOfEveryTouch(kFunction))
+    stream.seen.lost += static_cast<std::uint8_t>(values->sequence - last->second - 1);
+  last->second = values->sequence;
+  return true;
+}
+
+/// What the PATCH before this one announced must have come by now: a controller sends PATCH last.
+void LossCounter::countAnnounced(Stream& stream, const PatchFrame& patch) {
+  if (stream.announced == patch.sequence) return;
+  if (stream.announced)
+    for (const FunctionCode function : {FunctionCode::kContact2, FunctionCode::kForce2}) {
+      const auto last = stream.last.find(function);
+      if (last == stream.last.end() || last->second != *stream.announced) ++stream.seen.lost;
+    }
+  stream.announced.reset();
+  if (patch.contacts >= 2) stream.announced = patch.sequence;
 }
 
 void LossCounter::countHeartbeat(Stream& stream, const HeartbeatFrame& heartbeat) {
@@ -35,8 +62,8 @@ void LossCounter::countHeartbeat(Stream& stream, const HeartbeatFrame& heartbeat
   if (heartbeat.uptime_s == kNotKnown<std::uint16_t>) return;
   if (heartbeat.uptime_s < stream.uptime_s) {
     ++stream.seen.restarts;
-    stream.lastContact.reset();
-    stream.lastForce.reset();
+    stream.last.clear();
+    stream.announced.reset();
   }
   stream.uptime_s = heartbeat.uptime_s;
 }

@@ -17,7 +17,7 @@ namespace strainfinger::can {
 struct NodeCount {
   std::string interface;
   std::uint8_t node = 0;
-  std::uint64_t received = 0;            ///< CONTACT and FORCE
+  std::uint64_t received = 0;            ///< of touches: CONTACT, FORCE, PATCH, CONTACT2 and FORCE2
   std::uint64_t lost = 0;                ///< of these, as far as the sequence numbers tell: modulo 256
   std::uint64_t repeated = 0;            ///< the same number twice in a row
   std::optional<std::uint8_t> protocol;  ///< of its last HEARTBEAT
@@ -35,13 +35,15 @@ class LossCounter {
  private:
   struct Stream {
     NodeCount seen;
-    std::optional<std::uint8_t> lastContact;
-    std::optional<std::uint8_t> lastForce;
+    std::map<FunctionCode, std::uint8_t> last;  ///< sequence number of the last frame of each kind
+    std::optional<std::uint8_t> announced;      ///< of the last PATCH, if a second contact belongs to it
     std::uint16_t uptime_s = 0;
   };
+  template <typename Frame>
+  bool countNumbered(const std::string& interface, const CanFrame& frame);
   Stream& streamOf(const std::string& interface, std::uint8_t node);
-  void countSequence(Stream& stream, std::optional<std::uint8_t>& last, std::uint8_t sequence);
-  void countHeartbeat(Stream& stream, const HeartbeatFrame& heartbeat);
+  static void countAnnounced(Stream& stream, const PatchFrame& patch);
+  static void countHeartbeat(Stream& stream, const HeartbeatFrame& heartbeat);
 
   std::map<std::pair<std::string, std::uint8_t>, Stream> streams_;
 };

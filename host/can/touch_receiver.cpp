@@ -22,30 +22,51 @@ double physical(const Frame& frame, Member Frame::*member) {
   return value;
 }
 
-TouchReport reportOf(const ContactFrame& contact, const ForceFrame& force) {
+ContactReport reportOf(const ContactFrame& contact, const ForceFrame& force) {
   return {.angle_deg = physical(contact, &ContactFrame::angle_cdeg),
           .sigmaAngle_deg = physical(contact, &ContactFrame::sigma_angle_cdeg),
           .normal_n = physical(force, &ForceFrame::normal_mN),
           .sigmaNormal_n = physical(force, &ForceFrame::sigma_normal_half_mN),
           .tangential_n = physical(force, &ForceFrame::tangential_mN),
           .sigmaTangential_n = physical(force, &ForceFrame::sigma_tangential_half_mN),
-          .quality_percent = physical(contact, &ContactFrame::quality_percent),
-          .flags = contact.flags,
-          .sequence = contact.sequence};
+          .quality_percent = physical(contact, &ContactFrame::quality_percent)};
 }
 
 }  // namespace
 
+bool TouchReceiver::Touch::isComplete() const {
+  return contact && force && patch && (patch->contacts < 2 || (contact2 && force2));
+}
+
+TouchReport TouchReceiver::Touch::report() const {
+  TouchReport report{reportOf(*contact, *force)};
+  report.width_m = physical(*patch, &PatchFrame::width_um);
+  report.sigmaWidth_m = physical(*patch, &PatchFrame::sigma_width_um);
+  report.chi = physical(*patch, &PatchFrame::chi_sixteenths);
+  if (patch->contacts >= 2) report.second = reportOf(*contact2, *force2);
+  report.flags = contact->flags;
+  report.sequence = contact->sequence;
+  return report;
+}
+
+/// Whether the frame is this one, of our node.
+template <typename Frame>
+bool TouchReceiver::keep(const CanFrame& frame, std::optional<Frame>& place) const {
+  if (frame.id != canId(kLayout<Frame>.spec.function, node_)) return false;
+  const auto values = decode<Frame>(frame);
+  if (values && touch_.contact && values->sequence == touch_.contact->sequence) place = values;
+  return true;
+}
+
 std::optional<TouchReport> TouchReceiver::take(const CanFrame& frame) {
   if (frame.id == canId(FunctionCode::kContact, node_)) {
-    contact_ = decode<ContactFrame>(frame);
+    touch_ = {.contact = decode<ContactFrame>(frame)};
     return std::nullopt;
   }
-  if (frame.id != canId(FunctionCode::kForce, node_)) return std::nullopt;
-  const auto force = decode<ForceFrame>(frame);
-  const auto contact = std::exchange(contact_, std::nullopt);
-  if (!contact || !force || contact->sequence != force->sequence) return std::nullopt;
-  return reportOf(*contact, *force);
+  const bool kept = keep(frame, touch_.force) || keep(frame, touch_.patch) || keep(frame, touch_.contact2) ||
+                    keep(frame, touch_.force2);
+  if (!kept || !touch_.isComplete()) return std::nullopt;
+  return std::exchange(touch_, {}).report();
 }
 
 }  // namespace strainfinger::can

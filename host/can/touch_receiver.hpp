@@ -1,5 +1,5 @@
 #pragma once
-// What a finger says of a touch, put together again from its two frames.
+// What a finger says of a touch, put together again from its frames.
 
 #include <cstdint>
 #include <optional>
@@ -10,8 +10,9 @@
 
 namespace strainfinger::can {
 
-/// A CONTACT and its FORCE in physical units; kNoValue where the finger says so.
-struct TouchReport {
+/// A CONTACT and its FORCE, or a CONTACT2 and its FORCE2, in physical units; kNoValue where the finger says
+/// so.
+struct ContactReport {
   double angle_deg = kNoValue;
   double sigmaAngle_deg = kNoValue;
   double normal_n = kNoValue;
@@ -19,6 +20,14 @@ struct TouchReport {
   double tangential_n = kNoValue;
   double sigmaTangential_n = kNoValue;
   double quality_percent = kNoValue;
+};
+
+/// All frames of one sequence number.
+struct TouchReport : ContactReport {
+  double width_m = kNoValue;
+  double sigmaWidth_m = kNoValue;
+  double chi = kNoValue;
+  std::optional<ContactReport> second{};
   FingerFlags flags{};
   std::uint8_t sequence = 0;
 };
@@ -28,13 +37,27 @@ class TouchReceiver {
  public:
   explicit TouchReceiver(std::uint8_t node) : node_(node) {}
 
-  /// Takes any frame in the order of the bus; a report when it is the FORCE of the last CONTACT. A FORCE of
-  /// another sequence number than that CONTACT's is none's and gives nothing.
+  /// Takes any frame in the order of the bus; a report when it completes what the last CONTACT began. What
+  /// follows a CONTACT may come in any order: a controller sends the lowest identifier first. Frames of
+  /// another sequence number than that CONTACT's are left out; a touch that lost a frame gives nothing.
   std::optional<TouchReport> take(const CanFrame& frame);
 
  private:
+  /// The frames of one sequence number so far.
+  struct Touch {
+    std::optional<ContactFrame> contact{};
+    std::optional<ForceFrame> force{};
+    std::optional<PatchFrame> patch{};
+    std::optional<Contact2Frame> contact2{};
+    std::optional<Force2Frame> force2{};
+    bool isComplete() const;
+    TouchReport report() const;
+  };
+  template <typename Frame>
+  bool keep(const CanFrame& frame, std::optional<Frame>& place) const;
+
   std::uint8_t node_;
-  std::optional<ContactFrame> contact_;  ///< without its FORCE so far
+  Touch touch_;
 };
 
 }  // namespace strainfinger::can

@@ -18,10 +18,8 @@ namespace {
 
 constexpr const char* kDecodeHelp =
     "What the frames in a candump text (stdin, any form) say.\n"
-    "CSV: time_s,interface,node,frame, then a column for each field of CONTACT, FORCE, HEARTBEAT and INFO, "
-    "empty "
-    "where "
-    "the frame has no such field or the value is not known; flags are names joined by '+'.\n"
+    "CSV: time_s,interface,node,frame, then a column for each field of any frame, empty where the frame has "
+    "no such field or the value is not known; flags are names joined by '+'.\n"
     "--json: one object a frame with its own fields, null where not known.\n"
     "A line that cannot be read is reported as stdin:LINE:COLUMN on stderr and makes the exit status 1.\n"
     "At the end stderr says what was read, skipped and lost.\n"
@@ -113,7 +111,7 @@ void summarise(const Tally& tally) {
   if (tally.dropped > 0) fmt::print(stderr, "decode: candump dropped {} frames\n", tally.dropped);
   for (const can::NodeCount& node : tally.losses.counts())
     fmt::print(stderr,
-               "decode: {} node {}: {} CONTACT and FORCE received, {} lost, {} repeated, {} restarts\n",
+               "decode: {} node {}: {} frames of touches received, {} lost, {} repeated, {} restarts\n",
                node.interface, node.node, node.received, node.lost, node.repeated, node.restarts);
 }
 

@@ -18,8 +18,9 @@ void printText(std::FILE* stream, double duration_s, const simulation::RunCounts
   const auto& finger = counts.finger;
   fmt::print(stream, "run: {:.3f} s: {} sample sets, {} lost to a late machine; {} fits\n", duration_s,
              finger.sampleSets, counts.overruns, finger.fits);
-  fmt::print(stream, "run: {} frames: {} CONTACT with their FORCE, {} HEARTBEAT; {} put off, {} FORCE lost\n",
-             counts.frames, finger.touchesSent, counts.heartbeats, finger.touchesBusy, finger.forcesLost);
+  fmt::print(stream, "run: {} frames: {} touches, {} HEARTBEAT; {} touches deferred, {} incomplete\n",
+             counts.frames, finger.touchesSent, counts.heartbeats, finger.touchesBusy,
+             finger.touchesIncomplete);
   if (errors.arc_m.count() > 0)
     fmt::print(stream,
                "run: off the truth (RMS, worst of {}): {:.4f}, {:.4f} mm of arc; normal {:.3f}, {:.3f} N/m; "
@@ -50,7 +51,7 @@ void printSummary(std::FILE* stream, TableFormat format, double duration_s,
                      "touches",
                      "heartbeats",
                      "touches_busy",
-                     "forces_lost",
+                     "touches_incomplete",
                      "compared",
                      "arc_rms_m",
                      "arc_worst_m",
@@ -71,7 +72,7 @@ void printSummary(std::FILE* stream, TableFormat format, double duration_s,
              number(finger.touchesSent),
              number(counts.heartbeats),
              number(finger.touchesBusy),
-             number(finger.forcesLost),
+             number(finger.touchesIncomplete),
              number(errors.arc_m.count()),
              errors.arc_m.rms(),
              errors.arc_m.worst(),

@@ -106,8 +106,8 @@ class SimulatedFinger {
                                  : FingerFlags{FingerFlag::kSimulated, FingerFlag::kUncalibrated}};
   }
 
-  /// As a receiver on the bus would. A CONTACT is compared with the truth of its own set, whenever its FORCE
-  /// follows.
+  /// As a receiver on the bus would. A touch is compared with the truth of the set that its CONTACT is of,
+  /// whenever its last frame follows.
   void listen(Moment& moment) {
     for (const CanFrame& frame : port_.fetchSent()) {
       ++frames_;

@@ -35,4 +35,13 @@ TEST(BitSet, SettingAndClearingLeavesTheOtherBits) {
   LONGS_EQUAL(0x71, lamps.raw());
 }
 
+TEST(BitSet, ASetOfMoreThanEightBitsHasAWiderInteger) {
+  enum class Key : std::uint8_t { kFirst = 0, kLast = 15 };
+  BitSet<Key, std::uint16_t> keys{Key::kLast};
+  LONGS_EQUAL(0x8000, keys.raw());
+  keys.set(Key::kFirst);
+  keys.set(Key::kLast, false);
+  LONGS_EQUAL(1, keys.raw());
+}
+
 TEST(BitSet, KeepsBitsWithoutAName) { LONGS_EQUAL(0x42, Lamps::fromRaw(0x42).raw()); }

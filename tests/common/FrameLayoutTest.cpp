@@ -36,6 +36,7 @@ struct NameBeyondWidth : Toy {};
 struct FlagBeyondWidth : Toy {};
 struct NoBits : Toy {};
 struct NineBytes : Toy {};
+struct SecondToy : Toy {};
 struct NoLayout {};
 
 constexpr ValueName kEight[] = {{8, "eight", ""}};
@@ -54,6 +55,15 @@ inline constexpr FrameLayout kLayout<Toy>{
     Field{&Toy::right, {.lsb = 19, .width = 5}, kPlain},
 };
 static_assert(WireFrame<Toy>);
+
+template <>
+inline constexpr auto kLayout<SecondToy> = kLayout<Toy>.sentAs({.name = "TOY2",
+                                                                .function = FunctionCode::kInfo,
+                                                                .length = 5,
+                                                                .period_ms = 2,
+                                                                .onChange = true,
+                                                                .comment = ""});
+static_assert(WireFrame<SecondToy>);
 
 // Each of these has one thing wrong; that none is a WireFrame is why a wrong layout doesn't compile.
 template <>
@@ -171,6 +181,17 @@ TEST(FrameLayout, FieldsOfThirtyTwoBitsKeepTheirSign) {
   CHECK(extractRaw(kSigned, insertRaw(kSigned, 2147483647LL)) == 2147483647LL);
 }
 
+TEST(FrameLayout, ALayoutSentAsAnotherFrameDiffersInItsIdentifierOnly) {
+  const Toy toy{5, -2, -618, 15};
+  const CanFrame first = encode(toy, 7), second = encode(SecondToy{toy}, 7);
+  LONGS_EQUAL(0x487, second.id);
+  LONGS_EQUAL(first.length, second.length);
+  CHECK(first.data == second.data);
+  CHECK(decode<SecondToy>(second).value() == toy);
+  CHECK_FALSE(decode<SecondToy>(first).has_value());
+  CHECK_FALSE(decode<Toy>(second).has_value());
+}
+
 TEST(FrameLayout, OtherLengthsAreOtherFrames) {
   for (const int length : {0, 4, 6, 8}) {
     CanFrame frame = encode(Toy{}, 1);
@@ -183,14 +204,14 @@ TEST(FrameLayout, OnlyNodesOneToSixtyThreeHaveFrames) {
   for (int id = 0; id <= kMaxCanId; ++id) {
     CanFrame frame = encode(Toy{}, 1);
     frame.id = static_cast<std::uint16_t>(id);
-    CHECK_EQUAL(id >= 0x381 && id <= 0x3BF, decode<Toy>(frame).has_value());
+    CHECK_EQUAL(id >= 0x401 && id <= 0x43F, decode<Toy>(frame).has_value());
   }
 }
 
 TEST(FrameLayout, IdentifiersAreFunctionPlusNode) {
-  LONGS_EQUAL(0x3BF, canId(FunctionCode::kRaw, 63));
-  LONGS_EQUAL(63, nodeOf(0x3BF, FunctionCode::kRaw).value());
-  CHECK_FALSE(nodeOf(0x380, FunctionCode::kRaw).has_value());
-  CHECK_FALSE(nodeOf(0x3C0, FunctionCode::kRaw).has_value());
+  LONGS_EQUAL(0x43F, canId(FunctionCode::kRaw, 63));
+  LONGS_EQUAL(63, nodeOf(0x43F, FunctionCode::kRaw).value());
+  CHECK_FALSE(nodeOf(0x400, FunctionCode::kRaw).has_value());
+  CHECK_FALSE(nodeOf(0x440, FunctionCode::kRaw).has_value());
   CHECK_FALSE(nodeOf(0x181, FunctionCode::kRaw).has_value());
 }

@@ -26,13 +26,21 @@ TEST_GROUP(Frames) {
       .flags = {FingerFlag::kContact, FingerFlag::kUncertain, FingerFlag::kSimulated},
       .sequence = 163,
   };
+  const PatchFrame patch_{
+      .width_um = 2040,
+      .sigma_width_um = 65534,
+      .chi_sixteenths = 19,
+      .contacts = 2,
+      .flags = {FingerFlag::kContact, FingerFlag::kUncertain, FingerFlag::kSimulated},
+      .sequence = 163,
+  };
   const HeartbeatFrame heartbeat_{
       .state = FingerState::kRun,
-      .faults = {FingerFault::kGauges, FingerFault::kWatchdogReset},
+      .faults = {FingerFault::kGauges, FingerFault::kWatchdogReset, FingerFault::kNoisy},
       .uptime_s = 3661,
       .temperature_degC = -5,
-      .tx_errors = 8,
-      .rx_errors = 0,
+      .tx_error_steps = 6,
+      .rx_error_steps = 1,
       .table_crc = 0xA7,
   };
 
@@ -79,24 +87,69 @@ TEST(Frames, HeartbeatHasTheseBytes) {
   const CanFrame frame = encode(heartbeat_, 63);
   LONGS_EQUAL(0x73F, frame.id);
   LONGS_EQUAL(8, frame.length);
-  CHECK(frame.data == (Bytes{0x12,         // protocol 1, state 2: run
-                             0b0010'0010,  // watchdog_reset, gauges
-                             0x4D, 0x0E,   // 3661 s
-                             0xFB,         // -5 degC
-                             8,            // transmit errors
-                             0,            // receive errors
-                             0xA7}));      // low byte of the tables' CRC-32
+  CHECK(frame.data == (Bytes{0x22,               // protocol 2, state 2: run
+                             0b0010'0010, 0x01,  // watchdog_reset, gauges; noisy
+                             0x4D, 0x0E,         // 3661 s
+                             0xFB,               // -5 degC
+                             0x16,               // receive errors 16 .. 31, transmit errors 96 .. 111
+                             0xA7}));            // low byte of the tables' CRC-32
+}
+
+TEST(Frames, PatchHasTheseBytes) {
+  const CanFrame frame = encode(patch_, 5);
+  LONGS_EQUAL(0x385, frame.id);
+  LONGS_EQUAL(8, frame.length);
+  CHECK(frame.data == (Bytes{0xF8, 0x07,   // 2040: 2.040 mm
+                             0xFE, 0xFF,   // sigma 65.534 mm or more
+                             19,           // chi 1.1875
+                             2,            // contacts
+                             0b1000'1001,  // simulated, uncertain, contact
+                             163}));       // sequence of the CONTACT
+}
+
+TEST(Frames, ASecondContactHasTheBytesOfTheFirst) {
+  const CanFrame contact = encode(Contact2Frame{contact_}, 5), force = encode(Force2Frame{force_}, 63);
+  LONGS_EQUAL(0x205, contact.id);
+  LONGS_EQUAL(0x33F, force.id);
+  CHECK(contact.data == encode(contact_, 5).data);
+  CHECK(force.data == encode(force_, 63).data);
+}
+
+// The limits of ISO 11898, warning from 96 and passive from 128, and the neighbours of each.
+TEST(Frames, ErrorCountersKeepTheirLimits) {
+  for (const auto& [errors, steps] : {std::pair{0, 0},
+                                      {15, 0},
+                                      {16, 1},
+                                      {95, 5},
+                                      {96, 6},
+                                      {127, 7},
+                                      {128, 8},
+                                      {223, 13},
+                                      {224, 14},
+                                      {239, 14},
+                                      {240, 14},
+                                      {255, 14}})
+    LONGS_EQUAL(steps, errorSteps(static_cast<std::uint8_t>(errors)));
+}
+
+// A receiver of any version finds the version where it has always been.
+TEST(Frames, TheProtocolIsInTheUpperHalfOfTheHeartbeatsFirstByte) {
+  LONGS_EQUAL(2, kProtocolVersion);
+  LONGS_EQUAL(2, encode(HeartbeatFrame{}, 1).data[0] >> 4);
+  LONGS_EQUAL(1, decode<HeartbeatFrame>({0x701, 8, {0x12, 0, 0x4D, 0x0E, 0x19, 0, 0, 0xA7}})->protocol);
 }
 
 TEST(Frames, WhatWasNotSetIsNotKnown) {
   CHECK(encode(ContactFrame{}, 1).data == (Bytes{0xFF, 0xFF, 0xFF, 0xFF, 0x80, 0, 0xFF, 0}));
   CHECK(encode(ForceFrame{}, 1).data == (Bytes{0x00, 0x80, 0x00, 0x80, 0xFF, 0xFF, 0, 0}));
-  CHECK(encode(HeartbeatFrame{}, 1).data == (Bytes{0x10, 0, 0xFF, 0xFF, 0x80, 0xFF, 0xFF, 0}));
+  CHECK(encode(PatchFrame{}, 1).data == (Bytes{0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0, 0, 0}));
+  CHECK(encode(HeartbeatFrame{}, 1).data == (Bytes{0x20, 0, 0, 0xFF, 0xFF, 0x80, 0xFF, 0}));
 }
 
 TEST(Frames, DecodingGivesBackWhatWasEncoded) {
   CHECK(decode<ContactFrame>(encode(contact_, 1)) == contact_);
   CHECK(decode<ForceFrame>(encode(force_, 1)) == force_);
+  CHECK(decode<PatchFrame>(encode(patch_, 1)) == patch_);
   CHECK(decode<HeartbeatFrame>(encode(heartbeat_, 1)) == heartbeat_);
 }
 
@@ -120,14 +173,23 @@ TEST(Frames, EveryValueOfForceSurvives) {
   checkEveryValue(&ForceFrame::sequence, 0, 255);
 }
 
+TEST(Frames, EveryValueOfPatchSurvives) {
+  checkEveryValue(&PatchFrame::width_um, 0, 0xFFFF);
+  checkEveryValue(&PatchFrame::sigma_width_um, 0, 0xFFFF);
+  checkEveryValue(&PatchFrame::chi_sixteenths, 0, 255);
+  checkEveryValue(&PatchFrame::contacts, 0, 255);
+  checkEveryValue(&PatchFrame::flags, 0, 255);
+  checkEveryValue(&PatchFrame::sequence, 0, 255);
+}
+
 TEST(Frames, EveryValueOfHeartbeatSurvives) {
   checkEveryValue(&HeartbeatFrame::state, 0, 15);
   checkEveryValue(&HeartbeatFrame::protocol, 0, 15);
-  checkEveryValue(&HeartbeatFrame::faults, 0, 255);
+  checkEveryValue(&HeartbeatFrame::faults, 0, 0xFFFF);
   checkEveryValue(&HeartbeatFrame::uptime_s, 0, 0xFFFF);
   checkEveryValue(&HeartbeatFrame::temperature_degC, -128, 127);
-  checkEveryValue(&HeartbeatFrame::tx_errors, 0, 255);
-  checkEveryValue(&HeartbeatFrame::rx_errors, 0, 255);
+  checkEveryValue(&HeartbeatFrame::tx_error_steps, 0, 15);
+  checkEveryValue(&HeartbeatFrame::rx_error_steps, 0, 15);
   checkEveryValue(&HeartbeatFrame::table_crc, 0, 255);
 }
 
@@ -151,6 +213,8 @@ TEST(Frames, FramesAreNotTakenForOneAnother) {
   CHECK_FALSE(decode<ForceFrame>(encode(contact_, 1)).has_value());
   CHECK_FALSE(decode<HeartbeatFrame>(encode(force_, 1)).has_value());
   CHECK_FALSE(decode<ContactFrame>(encode(heartbeat_, 1)).has_value());
+  CHECK_FALSE(decode<ContactFrame>(encode(Contact2Frame{contact_}, 1)).has_value());
+  CHECK_FALSE(decode<Force2Frame>(encode(force_, 1)).has_value());
 }
 
 TEST(Frames, ShortAndEmptyFramesAreRefused) {
@@ -164,8 +228,11 @@ TEST(Frames, ShortAndEmptyFramesAreRefused) {
 TEST(Frames, FunctionsAreThoseOfCanopensPredefinedSet) {
   LONGS_EQUAL(0x080, static_cast<int>(FunctionCode::kGauges));
   LONGS_EQUAL(0x180, static_cast<int>(FunctionCode::kContact));
+  LONGS_EQUAL(0x200, static_cast<int>(FunctionCode::kContact2));
   LONGS_EQUAL(0x280, static_cast<int>(FunctionCode::kForce));
-  LONGS_EQUAL(0x380, static_cast<int>(FunctionCode::kRaw));
+  LONGS_EQUAL(0x300, static_cast<int>(FunctionCode::kForce2));
+  LONGS_EQUAL(0x380, static_cast<int>(FunctionCode::kPatch));
+  LONGS_EQUAL(0x400, static_cast<int>(FunctionCode::kRaw));
   LONGS_EQUAL(0x480, static_cast<int>(FunctionCode::kInfo));
   LONGS_EQUAL(0x580, static_cast<int>(FunctionCode::kResponse));
   LONGS_EQUAL(0x600, static_cast<int>(FunctionCode::kRequest));

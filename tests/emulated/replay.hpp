@@ -31,6 +31,15 @@ inline void add(Hash& hash, const firmware::Placement& placement) {
   hash.add(placement.tangential);
 }
 
+inline void add(Hash& hash, const firmware::TouchFrames& frames) {
+  hash.add(encode(frames.contact, kFirstNode));
+  hash.add(encode(frames.force, kFirstNode));
+  hash.add(encode(frames.patch, kFirstNode));
+  if (!frames.second) return;
+  hash.add(encode(frames.second->contact, kFirstNode));
+  hash.add(encode(frames.second->force, kFirstNode));
+}
+
 /// Every number of a fit, and what becomes of it on the bus.
 inline void add(Hash& hash, const TableImage& tables, const firmware::Fit& fit, std::uint32_t sample) {
   add(hash, fit.best);
@@ -44,10 +53,8 @@ inline void add(Hash& hash, const TableImage& tables, const firmware::Fit& fit, 
   hash.add(fit.unexplained);
   hash.add(fit.windowEnergy);
   const TableConstants& constants = tables.constants;
-  const auto frames = firmware::touchFrames(constants, firmware::estimate(constants, fit),
-                                            {FingerFlag::kContact}, static_cast<std::uint8_t>(sample));
-  hash.add(encode(frames.contact, kFirstNode));
-  hash.add(encode(frames.force, kFirstNode));
+  add(hash, firmware::touchFrames(constants, firmware::estimate(constants, fit), std::nullopt,
+                                  {FingerFlag::kContact}, static_cast<std::uint8_t>(sample)));
 }
 
 /// What would be told of it, one sample set a millisecond, and when: every seventh time the port is busy.
@@ -58,8 +65,7 @@ inline void add(Hash& hash, const TableConstants& constants, firmware::TouchRepo
   if (!frames || sample % 7 == 0) return;
   reporter.sent(*frames, now_us);
   hash.add(sample);
-  hash.add(encode(frames->contact, kFirstNode));
-  hash.add(encode(frames->force, kFirstNode));
+  add(hash, *frames);
 }
 
 /// One block from a fresh start, both modes of the locator (every fourth sample set in three-point mode too).

@@ -1,6 +1,6 @@
 // touch_world CONFIG SCENARIO SECONDS TABLES RECORDS EXPECTED: a finger that a scenario touches.
 // Writes to RECORDS what an emulated board must be told of it (firmware/board/mps2/world_record.hpp), and to
-// EXPECTED what it must then say: a line for each CONTACT and FORCE, the frame as candump -L has it and what
+// EXPECTED what it must then say: a line for each frame of a touch, the frame as candump -L has it and what
 // really touched the finger then: 181#.., time_s, angle_deg, normal_n, tangential_n.
 #include <fmt/os.h>
 
@@ -69,7 +69,10 @@ std::string truthOf(const std::vector<simulation::Touch>& touches, double length
                      touch.tangential_n_per_m * length_m);
 }
 
-bool isTouch(const CanFrame& frame) { return decode<ContactFrame>(frame) || decode<ForceFrame>(frame); }
+bool isTouch(const CanFrame& frame) {
+  return decode<ContactFrame>(frame) || decode<ForceFrame>(frame) || decode<PatchFrame>(frame) ||
+         decode<Contact2Frame>(frame) || decode<Force2Frame>(frame);
+}
 
 }  // namespace
 

@@ -12,7 +12,8 @@ namespace strainfinger::stm32g431 {
 /// Touches never wait for anything else of this node.
 constexpr SendRule sendRule(std::uint16_t id) {
   const auto is = [id](FunctionCode function) { return nodeOf(id, function).has_value(); };
-  const bool touch = is(FunctionCode::kContact) || is(FunctionCode::kForce);
+  const bool touch = is(FunctionCode::kContact) || is(FunctionCode::kForce) || is(FunctionCode::kPatch) ||
+                     is(FunctionCode::kContact2) || is(FunctionCode::kForce2);
   return {.newestWins = touch || is(FunctionCode::kHeartbeat), .background = !touch};
 }
 

@@ -107,11 +107,13 @@ void stages(const InstructionCounter& counter, const hal::SampleSet& set, const 
   if (!gate.touched()) return;
   located(counter, firmware::FitMode::kThreePoint, strains, energy, threePoint);
   const firmware::Fit& fit = located(counter, firmware::FitMode::kRefined, strains, energy, refined);
-  CanFrame contactFrame, forceFrame;
+  CanFrame contactFrame, forceFrame, patchFrame;
   tell("report", counter.of([&] {
-    const auto frames = firmware::touchFrames(constants, estimate(constants, fit), {FingerFlag::kContact}, 1);
+    const auto frames =
+        firmware::touchFrames(constants, estimate(constants, fit), std::nullopt, {FingerFlag::kContact}, 1);
     contactFrame = encode(frames.contact, kFirstNode);
     forceFrame = encode(frames.force, kFirstNode);
+    patchFrame = encode(frames.patch, kFirstNode);
   }));
 }
 

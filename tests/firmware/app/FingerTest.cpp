@@ -209,7 +209,7 @@ TEST(Finger, BeatsTenTimesASecondInEveryState) {
   CHECK(lastHeartbeat().state == FingerState::kRun);
 }
 
-TEST(Finger, ATouchIsAContactAndItsForce) {
+TEST(Finger, ATouchIsAContactItsForceAndItsPatch) {
   runZeroed();
   run(1, kTouch);
   const auto contacts = sent<ContactFrame>();
@@ -218,10 +218,13 @@ TEST(Finger, ATouchIsAContactAndItsForce) {
   LONGS_EQUAL(1, forces.size());
   LONGS_EQUAL(0x185, can.sent[0].id);
   LONGS_EQUAL(0x285, can.sent[1].id);
+  LONGS_EQUAL(0x385, can.sent[2].id);
   DOUBLES_EQUAL(72, contacts[0].angle_cdeg / 100.0, 0.05);
   DOUBLES_EQUAL(400, forces[0].normal_mN, 2);
   DOUBLES_EQUAL(80, forces[0].tangential_mN, 2);
   LONGS_EQUAL(contacts[0].sequence, forces[0].sequence);
+  LONGS_EQUAL(contacts[0].sequence, sent<PatchFrame>()[0].sequence);
+  LONGS_EQUAL(1, sent<PatchFrame>()[0].contacts);
 }
 
 TEST(Finger, TheEndOfATouchIsSaidOnce) {
@@ -231,8 +234,11 @@ TEST(Finger, TheEndOfATouchIsSaidOnce) {
   run(500);
   LONGS_EQUAL(1, sent<ContactFrame>().size());
   LONGS_EQUAL(1, sent<ForceFrame>().size());
+  LONGS_EQUAL(1, sent<PatchFrame>().size());
   CHECK_FALSE(sent<ContactFrame>()[0].flags.has(FingerFlag::kContact));
   LONGS_EQUAL(kNotKnown<std::uint16_t>, sent<ContactFrame>()[0].angle_cdeg);
+  LONGS_EQUAL(0, sent<ForceFrame>()[0].normal_mN);
+  LONGS_EQUAL(0, sent<PatchFrame>()[0].contacts);
 }
 
 TEST(Finger, StandingFlagsAreInEveryFrame) {
@@ -317,14 +323,14 @@ TEST(Finger, SaysThatSampleSetsWereLost) {
 
 TEST(Finger, PassesOnWhatThePortKnows) {
   finger->step();
-  LONGS_EQUAL(kNotKnown<std::uint8_t>, lastHeartbeat().tx_errors);
-  LONGS_EQUAL(kNotKnown<std::uint8_t>, lastHeartbeat().rx_errors);
+  LONGS_EQUAL(kErrorStepsNotKnown, lastHeartbeat().tx_error_steps);
+  LONGS_EQUAL(kErrorStepsNotKnown, lastHeartbeat().rx_error_steps);
   can.bus.txErrors = 96;
-  can.bus.rxErrors = 3;
+  can.bus.rxErrors = 33;
   can.bus.dropped = 1;
   runSilent(100);
-  LONGS_EQUAL(96, lastHeartbeat().tx_errors);
-  LONGS_EQUAL(3, lastHeartbeat().rx_errors);
+  LONGS_EQUAL(96 / 16, lastHeartbeat().tx_error_steps);
+  LONGS_EQUAL(2, lastHeartbeat().rx_error_steps);
   CHECK_TRUE(lastHeartbeat().faults.has(FingerFault::kCan));
 }
 
@@ -336,7 +342,7 @@ TEST(Finger, CountsWhatItDid) {
   LONGS_EQUAL(100, finger->counters().fits);
   LONGS_EQUAL(sent<ForceFrame>().size(), finger->counters().touchesSent);
   LONGS_EQUAL(0, finger->counters().touchesBusy);
-  LONGS_EQUAL(0, finger->counters().forcesLost);
+  LONGS_EQUAL(0, finger->counters().touchesIncomplete);
 }
 
 TEST(Finger, ABusyPortGetsTheNewestTouch) {
@@ -405,33 +411,42 @@ TEST_GROUP(FingerOnAMoodyBus) {
       const auto contact = decode<ContactFrame>(can.sent[i].frame);
       if (!contact || !contact->flags.has(FingerFlag::kContact)) continue;
       const Contact now = estimate(ring.constants(), *finger.lastObservation().fit);
-      LONGS_EQUAL(touchFrames(ring.constants(), now, {}, 0).contact.angle_cdeg, contact->angle_cdeg);
+      LONGS_EQUAL(touchFrames(ring.constants(), now, {}, {}, 0).contact.angle_cdeg, contact->angle_cdeg);
     }
   }
 
-  /// Every CONTACT has its FORCE before the next one, within 50 ms, or is counted; returns how many.
-  std::uint32_t checkPairs() {
-    std::uint32_t contacts = 0, pairs = 0;
+  /// Every CONTACT has its FORCE and its PATCH before the next one, within 50 ms, or is counted; returns how
+  /// many.
+  std::uint32_t checkTouches() {
+    std::uint32_t contacts = 0, whole = 0;
     std::uint32_t contactAt_us = 0;
     std::optional<ContactFrame> open;
+    bool hasForce = false;
     for (const auto& [frame, at_us] : can.sent) {
       if (const auto contact = decode<ContactFrame>(frame)) {
         LONGS_EQUAL(contacts % 256, contact->sequence);
         ++contacts;
         open = contact;
+        hasForce = false;
         contactAt_us = at_us;
       } else if (const auto force = decode<ForceFrame>(frame)) {
         CHECK_TRUE(open.has_value());
         LONGS_EQUAL(open->sequence, force->sequence);
         CHECK(open->flags == force->flags);
         CHECK(at_us - contactAt_us < 50'000);
+        hasForce = true;
+      } else if (const auto patch = decode<PatchFrame>(frame)) {
+        CHECK_TRUE(open.has_value() && hasForce);
+        LONGS_EQUAL(open->sequence, patch->sequence);
+        CHECK(open->flags == patch->flags);
+        CHECK(at_us - contactAt_us < 50'000);
         open.reset();
-        ++pairs;
+        ++whole;
       }
     }
-    const std::uint32_t owed = contacts - pairs - finger.counters().forcesLost;
+    const std::uint32_t owed = contacts - whole - finger.counters().touchesIncomplete;
     CHECK(owed <= 1);
-    LONGS_EQUAL(pairs, finger.counters().touchesSent);
+    LONGS_EQUAL(whole, finger.counters().touchesSent);
     return contacts;
   }
 
@@ -451,36 +466,36 @@ TEST_GROUP(FingerOnAMoodyBus) {
   }
 };
 
-TEST(FingerOnAMoodyBus, EveryContactHasItsForceOrIsCounted) {
+TEST(FingerOnAMoodyBus, EveryContactHasItsOtherFramesOrIsCounted) {
   zeroed();
   for (const double refuses : {0.0, 0.1, 0.5, 0.9, 0.99, 0.3}) runFor(3000, refuses);
-  CHECK(checkPairs() > 1000);
-  CHECK(finger.counters().forcesLost > 0);
+  CHECK(checkTouches() > 1000);
+  CHECK(finger.counters().touchesIncomplete > 0);
   CHECK(finger.counters().touchesBusy > 0);
 }
 
-TEST(FingerOnAMoodyBus, AnOldForceIsDroppedEvenWhenThePortIsFree) {
+TEST(FingerOnAMoodyBus, OldFramesAreDroppedEvenWhenThePortIsFree) {
   zeroed();
-  while (checkPairs() == finger.counters().touchesSent) runFor(1, 0.5);  // until a FORCE is owed
-  clock.advance(10'000'000);                                             // the converter pauses
+  while (checkTouches() == finger.counters().touchesSent) runFor(1, 0.5);  // until frames are owed
+  clock.advance(10'000'000);                                               // the converter pauses
   runFor(50, 0);
-  checkPairs();
-  LONGS_EQUAL(1, finger.counters().forcesLost);
+  checkTouches();
+  LONGS_EQUAL(1, finger.counters().touchesIncomplete);
 }
 
-TEST(FingerOnAMoodyBus, AnOwedForceDoesNotWaitForTheNextSampleSet) {
+TEST(FingerOnAMoodyBus, OwedFramesDoNotWaitForTheNextSampleSet) {
   zeroed();
-  while (checkPairs() == finger.counters().touchesSent) runFor(1, 0.5);
-  const std::uint32_t pairs = finger.counters().touchesSent;
+  while (checkTouches() == finger.counters().touchesSent) runFor(1, 0.5);
+  const std::uint32_t whole = finger.counters().touchesSent;
   can.refuses = 0;
   clock.advance(100);
   CHECK_FALSE(finger.step());
-  LONGS_EQUAL(pairs + 1, finger.counters().touchesSent);
+  LONGS_EQUAL(whole + 1, finger.counters().touchesSent);
 }
 
-TEST(FingerOnAMoodyBus, LostForcesAreAFaultOfTheBus) {
+TEST(FingerOnAMoodyBus, IncompleteTouchesAreAFaultOfTheBus) {
   zeroed();
-  while (finger.counters().forcesLost == 0) runFor(1, 0.97);
+  while (finger.counters().touchesIncomplete == 0) runFor(1, 0.97);
   can.sent.clear();
   for (int i = 0; i < 200; ++i) {
     can.refuses = 0;

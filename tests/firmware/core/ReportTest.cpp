@@ -13,6 +13,7 @@ using namespace strainfinger::firmware;
 TEST_GROUP(TouchFrames) {
   TableConstants constants{};
   Contact contact;
+  std::optional<Contact> second;
   FingerFlags flags{FingerFlag::kContact};
   std::mt19937 random{41};
 
@@ -20,7 +21,7 @@ TEST_GROUP(TouchFrames) {
     std::printf("seed 41 ");
     constants.force_per_load_q16 = 20 << 16;  // 20 mm: 20 mN for 1 N/m
   }
-  TouchFrames frames() { return touchFrames(constants, contact, flags, 7); }
+  TouchFrames frames() { return touchFrames(constants, contact, second, flags, 7); }
   LineLoadQ12 anyLoad(std::int32_t limit) {
     return LineLoadQ12::fromRaw(std::uniform_int_distribution<std::int32_t>(-limit, limit)(random));
   }
@@ -96,13 +97,143 @@ TEST(TouchFrames, AlternativesAreRelativeTheShorterWayRoundAndSaturate) {
     }
 }
 
-TEST(TouchFrames, BothFramesHaveTheSameFlagsAndSequence) {
+TEST(TouchFrames, AllFramesHaveTheSameFlagsAndSequence) {
   contact.quality = 83;
+  second = contact;
+  const TouchFrames all = frames();
+  const auto labelled = [this](const auto& frame) { return frame.flags == flags && frame.sequence == 7; };
+  CHECK_TRUE(labelled(all.contact) && labelled(all.force) && labelled(all.patch));
+  CHECK_TRUE(labelled(all.second->contact) && labelled(all.second->force));
+  LONGS_EQUAL(83, all.contact.quality_percent);
+}
+
+TEST(TouchFrames, AWidthThatIsNotFittedIsNotKnown) {
+  LONGS_EQUAL(0xFFFF, frames().patch.width_um);
+  LONGS_EQUAL(0xFFFF, frames().patch.sigma_width_um);
+  LONGS_EQUAL(0xFF, frames().patch.chi_sixteenths);
+  contact.chi_q4 = 17;  // a fit of a line: chi without a width
+  LONGS_EQUAL(0xFFFF, frames().patch.width_um);
+  LONGS_EQUAL(17, frames().patch.chi_sixteenths);
+}
+
+TEST(TouchFrames, AFittedWidthIsInMicrometres) {
+  contact.width_um = 0;
+  contact.sigmaWidth_um = 130;
+  LONGS_EQUAL(0, frames().patch.width_um);
+  LONGS_EQUAL(130, frames().patch.sigma_width_um);
+  contact.width_um = 2040;
+  contact.sigmaWidth_um = 0;
+  LONGS_EQUAL(2040, frames().patch.width_um);
+  LONGS_EQUAL(1, frames().patch.sigma_width_um);  // an error is never 0
+}
+
+TEST(TouchFrames, ThePatchSaturatesShortOfNotKnown) {
+  for (const std::uint32_t beyond : {65'535u, 65'536u, 0xFFFF'FFFEu}) {
+    contact.width_um = contact.sigmaWidth_um = beyond;
+    LONGS_EQUAL(65'534, frames().patch.width_um);
+    LONGS_EQUAL(65'534, frames().patch.sigma_width_um);
+  }
+  for (const int beyond : {255, 256, 65'534}) {
+    contact.chi_q4 = static_cast<std::uint16_t>(beyond);
+    LONGS_EQUAL(254, frames().patch.chi_sixteenths);
+  }
+}
+
+TEST(TouchFrames, OneContactHasNoFramesOfASecond) {
+  CHECK_FALSE(frames().second.has_value());
+  LONGS_EQUAL(1, frames().patch.contacts);
+}
+
+TEST(TouchFrames, ASecondContactIsConvertedLikeTheFirst) {
+  contact.angle = fromReal<TurnQ32>(0.25);
+  second = Contact{};
+  second->angle = fromReal<TurnQ32>(0.75);
+  second->sigmaAngle = fromReal<TurnQ32>(0.001);
+  second->normal = fromReal<LineLoadQ12>(30);
+  second->tangential = fromReal<LineLoadQ12>(-4);
+  second->quality = 71;
   const TouchFrames both = frames();
-  CHECK(both.contact.flags == flags && both.force.flags == flags);
-  LONGS_EQUAL(7, both.contact.sequence);
-  LONGS_EQUAL(7, both.force.sequence);
-  LONGS_EQUAL(83, both.contact.quality_percent);
+  contact = *second;
+  second.reset();
+  const TouchFrames alone = frames();
+  LONGS_EQUAL(2, both.patch.contacts);
+  LONGS_EQUAL(9000, both.contact.angle_cdeg);
+  LONGS_EQUAL(27'000, both.second->contact.angle_cdeg);
+  LONGS_EQUAL(600, both.second->force.normal_mN);
+  LONGS_EQUAL(-80, both.second->force.tangential_mN);
+  CHECK_TRUE(both.second->contact == alone.contact);
+  CHECK_TRUE(both.second->force == alone.force);
+}
+
+TEST(TouchFrames, AReleaseIsNoForceInAPlaceThatIsNotKnown) {
+  const FingerFlags simulated{FingerFlag::kSimulated};
+  const TouchFrames released = releaseFrames(simulated, 9);
+  CHECK_TRUE(released.contact == (ContactFrame{.flags = simulated, .sequence = 9}));
+  CHECK_TRUE(released.force ==
+             (ForceFrame{.normal_mN = 0, .tangential_mN = 0, .flags = simulated, .sequence = 9}));
+  CHECK_TRUE(released.patch == (PatchFrame{.flags = simulated, .sequence = 9}));
+  CHECK_FALSE(released.second.has_value());
+}
+
+TEST_GROUP(News) {
+  TouchFrames last, frames;
+
+  void setup() override {
+    last.contact = {.angle_cdeg = 100, .sigma_angle_cdeg = 4, .quality_percent = 90};
+    last.force = {
+        .normal_mN = 500, .tangential_mN = -10, .sigma_normal_half_mN = 6, .sigma_tangential_half_mN = 8};
+    last.patch = {.width_um = 2000, .sigma_width_um = 150, .contacts = 2};
+    last.second = {{last.contact}, {last.force}};
+    frames = last;
+  }
+  bool areNews() const { return isNews(frames, last); }
+};
+
+TEST(News, NothingNewIsNone) { CHECK_FALSE(areNews()); }
+
+TEST(News, AWidthIsNewsBeyondItsError) {
+  frames.patch.width_um = 2150;
+  CHECK_FALSE(areNews());
+  frames.patch.width_um = 2151;
+  CHECK_TRUE(areNews());
+  frames.patch.width_um = 1849;
+  CHECK_TRUE(areNews());
+}
+
+TEST(News, AWidthThatGetsKnownOrLostIsNews) {
+  frames.patch.width_um = frames.patch.sigma_width_um = kNotKnown<std::uint16_t>;
+  CHECK_TRUE(areNews());
+  std::swap(frames, last);
+  CHECK_TRUE(areNews());
+  last = frames = TouchFrames{};
+  CHECK_FALSE(areNews());
+}
+
+TEST(News, ASecondContactIsNewsWhenItComesAndGoes) {
+  frames.second.reset();
+  CHECK_TRUE(areNews());
+  std::swap(frames, last);
+  CHECK_TRUE(areNews());
+}
+
+TEST(News, ASecondContactIsNewsBeyondItsErrors) {
+  frames.second->contact.angle_cdeg = 104;
+  frames.second->force.normal_mN = 503;
+  frames.second->force.tangential_mN = -14;
+  frames.second->contact.quality_percent = 81;
+  CHECK_FALSE(areNews());
+  const TouchFrames within = frames;
+  frames.second->contact.angle_cdeg = 105;
+  CHECK_TRUE(areNews());
+  frames = within;
+  frames.second->force.normal_mN = 504;
+  CHECK_TRUE(areNews());
+  frames = within;
+  frames.second->force.tangential_mN = -15;
+  CHECK_TRUE(areNews());
+  frames = within;
+  frames.second->contact.quality_percent = 80;
+  CHECK_TRUE(areNews());
 }
 
 TEST_GROUP(TouchReporter) {
@@ -256,20 +387,16 @@ TEST(TouchReporter, SaysOnceThatTheTouchEnded) {
   CHECK_TRUE(released.has_value());
   CHECK(released->contact.flags == FingerFlags{FingerFlag::kSimulated});
   LONGS_EQUAL(1, released->contact.sequence);
-  LONGS_EQUAL(1, released->force.sequence);
   for (int i = 0; i < 200; ++i, later(1000)) CHECK_FALSE(say(nothing).has_value());
 }
 
 TEST(TouchReporter, TheEndOfATouchHasNoOldValues) {
   say(touch);
   later(kPeriod_us);
-  const auto released = say(nothing);
-  ContactFrame contact;
-  ForceFrame force;
-  contact.flags = force.flags = {FingerFlag::kSimulated};
-  contact.sequence = force.sequence = 1;
-  CHECK(released->contact == contact);
-  CHECK(released->force == force);
+  const auto released = say(nothing), expected = std::optional(releaseFrames({FingerFlag::kSimulated}, 1));
+  CHECK_TRUE(released->contact == expected->contact);
+  CHECK_TRUE(released->force == expected->force);
+  CHECK_TRUE(released->patch == expected->patch);
 }
 
 TEST(TouchReporter, AReleaseThatIsNotSentIsOfferedAgain) {

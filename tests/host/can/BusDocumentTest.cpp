@@ -129,8 +129,8 @@ TEST(BusDocument, ItsExamplesAreWhatIsSent) {
   checkHas(line(HeartbeatFrame{.state = FingerState::kRun,
                                .uptime_s = 3661,
                                .temperature_degC = 25,
-                               .tx_errors = 0,
-                               .rx_errors = 0,
+                               .tx_error_steps = 0,
+                               .rx_error_steps = 0,
                                .table_crc = 0xA7}));
   checkHas(line(InfoFrame{.reset_cause = ResetCause::kWatchdog,
                           .crash = Crash::kHang,

@@ -72,15 +72,16 @@ TEST(Pinout, TheReadmesTableIsTheSame) {
 TEST_GROUP(SendRules){};
 
 TEST(SendRules, TouchesAndHeartbeatsGiveWayToNewerOnes) {
-  for (const std::uint16_t id : {std::uint16_t{0x181}, std::uint16_t{0x2BF}, std::uint16_t{0x701}})
-    CHECK_TRUE(sendRule(id).newestWins);
-  for (const std::uint16_t id : {std::uint16_t{0x481}, std::uint16_t{0x581}, std::uint16_t{0x180}})
-    CHECK_FALSE(sendRule(id).newestWins);
+  for (const int id : {0x181, 0x201, 0x2BF, 0x301, 0x381, 0x701})
+    CHECK_TRUE(sendRule(static_cast<std::uint16_t>(id)).newestWins);
+  for (const int id : {0x481, 0x581, 0x180}) CHECK_FALSE(sendRule(static_cast<std::uint16_t>(id)).newestWins);
 }
 
 TEST(SendRules, OnlyTouchesHaveBuffersOfTheirOwn) {
   for (std::uint16_t id = 0; id <= kMaxCanId; ++id) {
-    const bool touch = (id >= 0x181 && id <= 0x1BF) || (id >= 0x281 && id <= 0x2BF);
+    bool touch = false;
+    for (const int function : {0x180, 0x200, 0x280, 0x300, 0x380})
+      touch = touch || (id >= function + 1 && id <= function + 63);
     CHECK_EQUAL(touch, !sendRule(id).background);
   }
 }

@@ -148,7 +148,7 @@ template <typename Port, typename Wait, typename Afterwards>
 void runOn(Port& port, const RunOptions& options, Wait wait, Afterwards afterwards) {
   const config::FingerConfig config = options.common.config();
   config::FingerConfig known = config;
-  if (options.uncalibrated) known.calibration.gain.clear();
+  if (options.uncalibrated) known.calibration = {};
   const auto tables = options.firmware.tablesOf(known);
   const simulation::Scenario scenario = scenarioOf(options);
   const auto end_us = static_cast<std::uint64_t>(std::llround(durationOf(options, scenario) * 1e6));

@@ -10,7 +10,7 @@ constexpr double kTolerance = 1e-9;  ///< of the peak: four orders below a step 
 GaugeStrains::GaugeStrains(const config::FingerConfig& config)
     : gauges_(config.gauges),
       response_(config.finger.annulus(), gauges_.radius_m, gauges_.component, gauges_.arc_length_m,
-                config.contact.width_m, kTolerance) {}
+                config.contact.width_m.value_or(0), kTolerance) {}
 
 Strains GaugeStrains::under(std::span<const Touch> touches) const {
   Strains strains{};

@@ -19,7 +19,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 model::ImpulseResponse responseOf(const config::FingerConfig& config) {
   return {config.finger.annulus(), config.gauges.radius_m, config.gauges.component,
-          config.gauges.arc_length_m, config.contact.width_m};
+          config.gauges.arc_length_m, config.contact.width_m.value_or(0)};
 }
 
 /// What the model gives: a row a touch, a column a gauge.

@@ -34,7 +34,7 @@ constexpr const char* kRunHelp =
     "the same seed gives the same output.\n"
     "--can IFACE: a SocketCAN interface (vcan0, can0), in real time, a sample set every millisecond; "
     "prints nothing on stdout. It obeys `tare` and `config`.\n"
-    "The simulated gauges have the gains of the config's [calibration].\n"
+    "The simulated finger is as the config's [as_built] says or, without it, as drawn and calibrated.\n"
     "At the end stderr has a summary with the errors against the truth (--json: as one object). Ctrl-C "
     "ends a run as its duration would, with exit status 130.";
 
@@ -64,8 +64,7 @@ struct RunOptions {
                     "A gauge fails, at a second or from the start: dead, open, short, stuck or noisy, as in "
                     "stuck:5@2.5; may be given several times")
         ->type_name("KIND:GAUGE[@S]");
-    command.add_flag("--uncalibrated", uncalibrated,
-                     "The gauges have the gains of the config's [calibration], the tables don't");
+    command.add_flag("--uncalibrated", uncalibrated, "The tables don't know the config's [calibration]");
     command.add_flag("--truth", truth, "Truth beside estimate on stderr, four lines a second");
     command
         .add_option("--picture", pictures,
@@ -148,7 +147,7 @@ template <typename Port, typename Wait, typename Afterwards>
 void runOn(Port& port, const RunOptions& options, Wait wait, Afterwards afterwards) {
   const config::FingerConfig config = options.common.config();
   config::FingerConfig known = config;
-  if (options.uncalibrated) known.calibration.gain.clear();
+  if (options.uncalibrated) known.calibration = {};
   const auto tables = options.firmware.tablesOf(known);
   const simulation::Scenario scenario = scenarioOf(options);
   const auto end_us = static_cast<std::uint64_t>(std::llround(durationOf(options, scenario) * 1e6));

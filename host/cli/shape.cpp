@@ -175,7 +175,7 @@ void printPressures(const ShapeOptions& options, const shape::ShapeEstimator& es
     for (Eigen::Index i = 0; i < offsets_rad.size(); ++i) {
       const double band_pa = shape::kTwoSided95 * pressure.sigma_pa[i], value_pa = pressure.pressure_pa[i];
       const double ellipse_pa =
-          mean_pa * density(shape::Profile::kEllipse, shape::momentOfWidth(2 * half_rad), offsets_rad[i]);
+          mean_pa * density(model::Profile::kEllipse, model::momentOfWidth(2 * half_rad), offsets_rad[i]);
       table.row({sample, degrees(shape->angle_rad.value + offsets_rad[i]), value_pa, value_pa - band_pa,
                  value_pa + band_pa, ellipse_pa});
     }

@@ -3,7 +3,9 @@
 // Nicolson & Fearing (1993) compute with, and electronics that suit it.
 
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "common/quantities.hpp"
@@ -32,23 +34,41 @@ struct Gauges {
   double noise_strain = 6e-6;       ///< standard deviation of a conditioned reading, quantisation included
   double full_scale_strain = 0.03;  ///< the converter covers +- this; 65 N/m on the default finger
   int adc_bits = 12;
+  /// Standard deviation of what a reading may be off what the model says, as a fraction of the touch's
+  /// largest reading: build tolerances and rubber. 0.05 is for a finger that nobody calibrated.
+  double model_error = 0.05;
+  /// Where each gauge is, for a ring that is not even: 0 .. 360, counter-clockwise from gauge to gauge;
+  /// empty: the ring is even, from first_angle_deg on.
+  std::vector<double> angles_deg = {};
 
   /// One code of the converter.
   double step_strain() const { return 2 * std::ldexp(full_scale_strain, -adc_bits); }
   /// Standard deviation of what rounding to codes adds.
   double quantisation_strain() const { return step_strain() / std::sqrt(12.0); }
 
+  bool isEven() const { return angles_deg.empty(); }
   /// Of a gauge, 0 .. 360.
-  double angle_deg(int gauge) const { return std::fmod(first_angle_deg + gauge * 360.0 / count, 360); }
-  /// The same, not reduced.
+  double angle_deg(int gauge) const {
+    if (!isEven()) return angles_deg[static_cast<std::size_t>(gauge)];
+    return std::fmod(first_angle_deg + gauge * 360.0 / count, 360);
+  }
+  /// The same; of an even ring not reduced to one revolution.
   double angle_rad(int gauge) const {
+    if (!isEven()) return angle_deg(gauge) * std::numbers::pi / 180;
     return (first_angle_deg / 360 + static_cast<double>(gauge) / count) * 2 * std::numbers::pi;
+  }
+  /// Counter-clockwise from a gauge to the next, the last one's next being gauge 0: 0 .. 360.
+  double gap_deg(int gauge) const {
+    return std::fmod(angle_deg((gauge + 1) % count) - angle_deg(gauge) + 360, 360);
   }
 };
 
 struct Contact {
   double friction_coefficient = 1.0;
-  double width_m = 0;  ///< 0: line load
+  /// Width over which a contact presses, an arc of the surface; 0: a line load. Empty: unknown, fitted with
+  /// each touch.
+  std::optional<double> width_m = {};
+  double largest_width_m = 8e-3;  ///< what the tables cover
 };
 
 struct Can {
@@ -57,8 +77,35 @@ struct Can {
   double contact_rate_hz = 500;
 };
 
+/// What calibration found of each gauge, one number a gauge; an empty list: not calibrated.
 struct Calibration {
-  std::vector<double> gain;  ///< what each gauge reads over what it should; empty: not calibrated
+  std::vector<double> gain;              ///< what a gauge reads over what it should
+  std::vector<double> angle_offset_deg;  ///< its true angle less the drawing's, counter-clockwise positive
+  std::vector<double> depth_offset_m;    ///< deeper than the drawing: positive towards the core
+
+  bool isEmpty() const { return gain.empty() && angle_offset_deg.empty() && depth_offset_m.empty(); }
+};
+
+/// How a simulated finger differs from the drawing. The spreads are standard deviations over its gauges, each
+/// drawn by the seed.
+struct AsBuilt {
+  int seed = 1;
+  double angle_deg = 0;      ///< spread of the gauges' angles
+  double depth_m = 0;        ///< spread of their depths
+  double gain = 0;           ///< spread of their gains, relative
+  double core_radius_m = 0;  ///< true radius of the core less finger.core_radius_m
+  double poisson_ratio = 0;  ///< true ratio less finger.poisson_ratio
+
+  bool isAsDrawn() const {
+    return angle_deg == 0 && depth_m == 0 && gain == 0 && core_radius_m == 0 && poisson_ratio == 0;
+  }
+};
+
+/// Where a gauge is and what it reads over the strain that is there.
+struct PlacedGauge {
+  double angle_rad;
+  double radius_m;
+  double gain;
 };
 
 struct FingerConfig {
@@ -67,6 +114,22 @@ struct FingerConfig {
   Contact contact;
   Can can;
   Calibration calibration;
+  AsBuilt as_built;
+
+  /// A gauge by the drawing.
+  PlacedGauge drawn(int gauge) const { return {gauges.angle_rad(gauge), gauges.radius_m, 1}; }
+
+  /// A gauge by the drawing and what calibration found.
+  PlacedGauge calibrated(int gauge) const {
+    const auto found = [gauge](const std::vector<double>& list, double otherwise) {
+      return list.empty() ? otherwise : list[static_cast<std::size_t>(gauge)];
+    };
+    PlacedGauge placed = drawn(gauge);
+    placed.angle_rad += found(calibration.angle_offset_deg, 0) * std::numbers::pi / 180;
+    placed.radius_m -= found(calibration.depth_offset_m, 0);
+    placed.gain = found(calibration.gain, 1);
+    return placed;
+  }
 };
 
 }  // namespace strainfinger::config

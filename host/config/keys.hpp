@@ -2,6 +2,8 @@
 // The keys of finger.toml: one table, from which reading, messages and the documented file all come.
 
 #include <array>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,8 +25,9 @@ constexpr std::string_view componentName(StrainComponent component) {
 }
 
 /// Where a key's value lives in a FingerConfig; its type is the key's type.
-using Slot = std::variant<double& (*)(FingerConfig&), int& (*)(FingerConfig&),
-                          StrainComponent& (*)(FingerConfig&), std::vector<double>& (*)(FingerConfig&)>;
+using Slot =
+    std::variant<double& (*)(FingerConfig&), int& (*)(FingerConfig&), StrainComponent& (*)(FingerConfig&),
+                 std::vector<double>& (*)(FingerConfig&), std::optional<double>& (*)(FingerConfig&)>;
 
 struct Key {
   std::string_view section;
@@ -40,11 +43,12 @@ std::span<const Key> keys();
 
 /// A condition between keys. Its text names them all.
 struct Relation {
-  bool (*holds)(const FingerConfig&);
-  std::vector<std::string> keys;                  ///< dotted; a message points at the first the file has
-  std::string (*violation)(const FingerConfig&);  ///< names, values, and what would be right
+  std::function<bool(const FingerConfig&)> holds;
+  std::vector<std::string> keys;  ///< dotted; a message points at the first the file has
+  std::function<std::string(const FingerConfig&)> violation;  ///< names, values, and what would be right
 };
 
+/// In the order of checking: one may rely on those before it.
 std::span<const Relation> relations();
 
 }  // namespace strainfinger::config

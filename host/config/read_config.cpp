@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "host/base/read_file.hpp"
@@ -62,6 +63,10 @@ void readValue(const toml::node& node, const Key& key, StrainComponent& value) {
 
 void readValue(const toml::node& node, const Key& key, std::vector<double>& value) {
   value = realsIn(node, key.dotted(), key.domain);
+}
+
+void readValue(const toml::node& node, const Key& key, std::optional<double>& value) {
+  value = realIn(node, key.dotted(), key.domain);
 }
 
 /// Where a broken relation is reported: the defaults keep all of them, so the file has one of its keys.

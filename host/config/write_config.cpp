@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "host/config/keys.hpp"
 
 namespace strainfinger::config {
@@ -13,6 +15,15 @@ std::string valueText(const std::vector<double>& values) {
   return fmt::format("[{}]", fmt::join(values, ", "));
 }
 std::string valueText(StrainComponent value) { return fmt::format("\"{}\"", componentName(value)); }
+
+/// "key = value", or a comment for a value that is left out.
+template <typename Value>
+std::string lineOf(const Key& key, const Value& value) {
+  return fmt::format("{} = {}", key.name, valueText(value));
+}
+std::string lineOf(const Key& key, const std::optional<double>& value) {
+  return value ? lineOf(key, *value) : fmt::format("# {} is left out", key.name);
+}
 
 std::string domainText(const Key& key) {
   if (std::holds_alternative<StrainComponent& (*)(FingerConfig&)>(key.slot))
@@ -30,8 +41,8 @@ std::string writeConfig(const FingerConfig& config) {
   std::string_view section;
   for (const Key& key : keys()) {
     if (key.section != section) text += fmt::format("\n[{}]\n", section = key.section);
-    const auto value = std::visit([&](auto slot) { return valueText(slot(copy)); }, key.slot);
-    text += fmt::format("# {} [{}]\n{} = {}\n", key.doc, domainText(key), key.name, value);
+    const auto line = std::visit([&](auto slot) { return lineOf(key, slot(copy)); }, key.slot);
+    text += fmt::format("# {} [{}]\n{}\n", key.doc, domainText(key), line);
   }
   return text;
 }

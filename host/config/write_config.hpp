@@ -7,8 +7,8 @@
 
 namespace strainfinger::config {
 
-/// The config as a documented TOML file: every key, its value with enough digits to read back exactly, what
-/// it is and its domain. readConfig() of it gives `config` again.
+/// The config as a documented TOML file: every key, its value with enough digits to read back exactly (or
+/// that it is left out), what it is and its domain. readConfig() of it gives `config` again.
 std::string writeConfig(const FingerConfig& config);
 
 }  // namespace strainfinger::config

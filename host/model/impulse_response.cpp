@@ -59,4 +59,20 @@ ImpulseResponse::Value ImpulseResponse::at(double angle_rad) const {
                        : Value{all.odd, all.even, all.oddSlope, all.evenSlope};
 }
 
+ImpulseResponse::Strain ImpulseResponse::under(const LoadSpectrum& load, double angle_rad) const {
+  const Eigen::VectorXd& evenLoad = normalIsEven_ ? load.normal : load.tangential;
+  const Eigen::VectorXd& oddLoad = normalIsEven_ ? load.tangential : load.normal;
+  Strain all{}, block{};
+  visitMultiples(angle_rad, harmonics(), [&](int n, double c, double s) {
+    if (n % kBlock == 0) {
+      all = {all.strain + block.strain, all.slope + block.slope};
+      block = {};
+    }
+    const double even = evenLoad[n] * even_[n], odd = oddLoad[n] * odd_[n];
+    block.strain += even * c + odd * s;
+    block.slope += n * (odd * c - even * s);
+  });
+  return {all.strain + block.strain, all.slope + block.slope};
+}
+
 }  // namespace strainfinger::model

@@ -5,10 +5,12 @@
 
 #include "common/quantities.hpp"
 #include "host/model/annulus.hpp"
+#include "host/model/load_spectrum.hpp"
 
 namespace strainfinger::model {
 
-/// What a gauge reads per N/m of a normal (pressing) and of a tangential (towards +theta) load.
+/// What a gauge reads per N/m of a normal (pressing) and of a tangential (towards +theta) line load, and
+/// under loads that are spread.
 class ImpulseResponse {
  public:
   /// The gauge sits at radius_m and averages over gaugeArc_m, an arc at its radius; the load is spread
@@ -28,6 +30,15 @@ class ImpulseResponse {
   /// At the gauge's angle minus the contact's. Costs one sincos and four multiplications a harmonic, 0.4 us
   /// for the default finger; error below 5e-15 of the peak besides the tolerance, of 200,000 harmonics too.
   Value at(double angle_rad) const;
+
+  struct Strain {
+    double strain;
+    double slope;  ///< its derivative to the angle, per rad
+  };
+
+  /// Under loads that are spread, at the gauge's angle minus the contact's. Cost and error as at().
+  /// Domain: the spectrum has harmonics() or more, of which those beyond are not felt.
+  Strain under(const LoadSpectrum& load, double angle_rad) const;
 
   /// Number of the last harmonic.
   int harmonics() const { return static_cast<int>(even_.size()) - 1; }

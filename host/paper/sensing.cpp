@@ -72,7 +72,7 @@ WidthEffect widthEffect(const model::Annulus<double>& annulus, double radius_m, 
 
 double kindEffect(const model::Annulus<double>& annulus, double radius_m, double width_m) {
   const Eigen::VectorXd ellipse = normalProfile({annulus, radius_m, width_m});
-  const Eigen::VectorXd punch = normalProfile({annulus, radius_m, width_m, shape::Profile::kPunch});
+  const Eigen::VectorXd punch = normalProfile({annulus, radius_m, width_m, model::Profile::kPunch});
   return (punch - ellipse).cwiseAbs().maxCoeff() / ellipse.cwiseAbs().maxCoeff();
 }
 

@@ -8,7 +8,7 @@
 namespace strainfinger::paper {
 
 SpreadResponse::SpreadResponse(const model::Annulus<double>& annulus, double radius_m, double width_m,
-                               shape::Profile profile) {
+                               model::Profile profile) {
   constexpr std::array kRows{model::kErr};
   constexpr double kRelativeError = 1e-12;
   series_ = model::truncatedSeries(annulus, radius_m, kRows, {}, kRelativeError);
@@ -17,10 +17,10 @@ SpreadResponse::SpreadResponse(const model::Annulus<double>& annulus, double rad
   series_.col(model::kNormal) *= -1;
   perWidth_ = series_;
   const double width_rad = width_m / annulus.outer_radius_m;
-  const double moment_rad2 = shape::momentOfWidth(width_rad),
-               momentPerWidth = 2 * shape::momentOfWidth(1) * width_rad / annulus.outer_radius_m;
+  const double moment_rad2 = model::momentOfWidth(width_rad),
+               momentPerWidth = 2 * model::momentOfWidth(1) * width_rad / annulus.outer_radius_m;
   for (Eigen::Index n = 0; n < series_.rows(); ++n) {
-    const shape::SpreadFactor factor = shape::spreadFactor(profile, static_cast<int>(n), moment_rad2);
+    const model::SpreadFactor factor = model::spreadFactor(profile, static_cast<int>(n), moment_rad2);
     series_.row(n) *= factor.value;
     perWidth_.row(n) *= factor.slope * momentPerWidth;
   }

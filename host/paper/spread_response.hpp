@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "host/model/annulus.hpp"
-#include "host/shape/pressure_profile.hpp"
+#include "host/model/pressure_profile.hpp"
 
 namespace strainfinger::paper {
 
@@ -15,7 +15,7 @@ class SpreadResponse {
   /// The profile has the second moment of a semi-ellipse of that width, an arc of the surface, 0 to
   /// 2 pi outer_radius_m. Domain and errors besides as model::ImpulseResponse.
   SpreadResponse(const model::Annulus<double>& annulus, double radius_m, double width_m,
-                 shape::Profile profile = shape::Profile::kEllipse);
+                 model::Profile profile = model::Profile::kEllipse);
 
   struct Value {
     double normal, tangential;                  ///< strain per N/m

@@ -6,9 +6,17 @@
 
 #include "host/config/finger_config.hpp"
 #include "host/model/impulse_response.hpp"
-#include "host/shape/pressure_profile.hpp"
+#include "host/model/pressure_profile.hpp"
 
 namespace strainfinger::shape {
+
+using model::allProfiles;
+using model::equivalentWidth_rad;
+using model::halfWidth_rad;
+using model::momentOfWidth;
+using model::Profile;
+using model::SpreadFactor;
+using model::spreadFactor;
 
 /// A touch: normal and tangential load, both spread by the same profile.
 struct Touch {

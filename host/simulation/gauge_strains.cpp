@@ -1,5 +1,7 @@
 #include "host/simulation/gauge_strains.hpp"
 
+#include <algorithm>
+
 namespace strainfinger::simulation {
 namespace {
 
@@ -8,27 +10,44 @@ constexpr double kTolerance = 1e-9;  ///< of the peak: four orders below a step 
 }  // namespace
 
 GaugeStrains::GaugeStrains(const config::FingerConfig& config)
-    : gauges_(config.gauges),
-      response_(config.finger.annulus(), gauges_.radius_m, gauges_.component, gauges_.arc_length_m,
-                config.contact.width_m, kTolerance) {}
+    : contact_(config.contact),
+      built_(builtFinger(config)),
+      drawn_(responseAt(config.gauges.radius_m, config.gauges)),
+      harmonics_(drawn_.harmonics()) {
+  for (const config::PlacedGauge& gauge : built_.gauges) {
+    responses_.push_back(responseAt(gauge.radius_m, config.gauges));
+    harmonics_ = std::max(harmonics_, responses_.back().harmonics());
+  }
+}
+
+model::ImpulseResponse GaugeStrains::responseAt(double radius_m, const config::Gauges& gauges) const {
+  return {built_.annulus, radius_m, gauges.component, gauges.arc_length_m, 0, kTolerance};
+}
+
+model::TouchLoad GaugeStrains::loadOf(const Touch& touch) const {
+  const model::Profile profile = touch.width_m ? touch.profile : model::Profile::kUniform;
+  const double width_m = touch.width_m.value_or(contact_.width_m.value_or(0));
+  return {touch.normal_n_per_m, touch.tangential_n_per_m,
+          model::momentOf(profile, width_m / built_.annulus.outer_radius_m), profile,
+          contact_.friction_coefficient};
+}
 
 Strains GaugeStrains::under(std::span<const Touch> touches) const {
   Strains strains{};
-  if (touches.empty()) return strains;
-  for (int gauge = 0; gauge < gauges_.count; ++gauge)
-    strains[static_cast<std::size_t>(gauge)] = at(gaugeAngle_rad(gauge), touches);
+  for (const Touch& touch : touches) {
+    const model::LoadSpectrum spectrum = trueSpectrum(loadOf(touch), harmonics_);
+    for (std::size_t gauge = 0; gauge < responses_.size(); ++gauge)
+      strains[gauge] +=
+          responses_[gauge].under(spectrum, built_.gauges[gauge].angle_rad - touch.angle_rad).strain;
+  }
   return strains;
 }
 
 double GaugeStrains::at(double angle_rad, std::span<const Touch> touches) const {
   double strain = 0;
-  for (const Touch& touch : touches) {
-    const auto response = response_.at(angle_rad - touch.angle_rad);
-    strain += touch.normal_n_per_m * response.normal + touch.tangential_n_per_m * response.tangential;
-  }
+  for (const Touch& touch : touches)
+    strain += drawn_.under(trueSpectrum(loadOf(touch), harmonics_), angle_rad - touch.angle_rad).strain;
   return strain;
 }
-
-double GaugeStrains::gaugeAngle_rad(int gauge) const { return gauges_.angle_rad(gauge); }
 
 }  // namespace strainfinger::simulation

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "host/base/read_file.hpp"
 #include "host/config/toml_text.hpp"
@@ -35,14 +38,28 @@ const Domain& rubDomain() {
   return domain;
 }
 
+/// Up to the diameter of a fingertip.
+const Domain& widthDomain() {
+  static const Domain domain = Domain::between(0, 0.025);
+  return domain;
+}
+
+struct ProfileName {
+  std::string_view name;
+  model::Profile profile;
+};
+constexpr std::array kProfileNames{ProfileName{"hertz", model::Profile::kEllipse},
+                                   ProfileName{"uniform", model::Profile::kUniform}};
+
 const std::vector<std::string>& topKeys() {
   static const std::vector<std::string> names{"schema", "repeat_s", "touch"};
   return names;
 }
 
 const std::vector<std::string>& touchKeys() {
-  static const std::vector<std::string> names{"touch.start_s", "touch.end_s", "touch.angle_deg",
-                                              "touch.normal_n_per_m", "touch.tangential_n_per_m"};
+  static const std::vector<std::string> names{
+      "touch.start_s", "touch.end_s",  "touch.angle_deg", "touch.normal_n_per_m", "touch.tangential_n_per_m",
+      "touch.width_m", "touch.profile"};
   return names;
 }
 
@@ -86,6 +103,14 @@ Course readCourse(const toml::node& node, std::string_view key, const Domain& do
   return Course(readPoints(*node.as_array(), key, domain, duration_s));
 }
 
+model::Profile readProfile(const toml::node& node) {
+  const std::string name = config::textOf(node, "touch.profile");
+  for (const ProfileName& each : kProfileNames)
+    if (each.name == name) return each.profile;
+  failAt(node.source(),
+         fmt::format("touch.profile = \"{}\" is out of its domain; it must be one of hertz, uniform", name));
+}
+
 TouchCourse readTouch(const toml::node& node) {
   const toml::table& touch = config::sectionOf(node, "touch");
   config::checkKeys(touch, "touch.", touchKeys(), touchKeys());
@@ -98,9 +123,18 @@ TouchCourse readTouch(const toml::node& node) {
     return readCourse(value, key, domain, end_s - start_s);
   };
   const toml::node* rub = touch.get("tangential_n_per_m");
-  return {start_s, end_s, course(demand(touch, "touch.angle_deg"), "touch.angle_deg", angleDomain()),
-          course(demand(touch, "touch.normal_n_per_m"), "touch.normal_n_per_m", pressDomain()),
-          rub == nullptr ? Course({{0, 0}}) : course(*rub, "touch.tangential_n_per_m", rubDomain())};
+  TouchCourse read{start_s, end_s, course(demand(touch, "touch.angle_deg"), "touch.angle_deg", angleDomain()),
+                   course(demand(touch, "touch.normal_n_per_m"), "touch.normal_n_per_m", pressDomain()),
+                   rub == nullptr ? Course({{0, 0}}) : course(*rub, "touch.tangential_n_per_m", rubDomain())};
+  if (const toml::node* width = touch.get("width_m"))
+    read.width_m = course(*width, "touch.width_m", widthDomain());
+  if (const toml::node* profile = touch.get("profile")) {
+    if (!read.width_m)
+      failAt(profile->source(),
+             "touch.profile says how the load is spread over touch.width_m, which is missing");
+    read.profile = readProfile(*profile);
+  }
+  return read;
 }
 
 std::vector<TouchCourse> readTouches(const toml::table& root) {

@@ -11,8 +11,11 @@ namespace {
 
 Touch touchAt(const TouchCourse& touch, double time_s) {
   const double since_s = time_s - touch.start_s;
-  return {touch.angle_deg.at(since_s) * kRadPerDeg, touch.normal_n_per_m.at(since_s),
-          touch.tangential_n_per_m.at(since_s)};
+  Touch now{touch.angle_deg.at(since_s) * kRadPerDeg, touch.normal_n_per_m.at(since_s),
+            touch.tangential_n_per_m.at(since_s)};
+  if (touch.width_m) now.width_m = touch.width_m->at(since_s);
+  now.profile = touch.profile;
+  return now;
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "host/model/pressure_profile.hpp"
+
 namespace strainfinger::simulation {
 
 /// One contact at one moment. Angles counter-clockwise seen from the tip, not reduced to a revolution; the
@@ -12,6 +14,10 @@ struct Touch {
   double angle_rad = 0;
   double normal_n_per_m = 0;
   double tangential_n_per_m = 0;
+  /// Width of the contact, an arc of the surface; 0: a line load. Empty: contact.width_m of the finger's
+  /// config, pressed uniformly; where that is unknown too, a line load.
+  std::optional<double> width_m = {};
+  model::Profile profile = model::Profile::kEllipse;
   bool operator==(const Touch&) const = default;
 };
 
@@ -37,6 +43,8 @@ struct TouchCourse {
   Course angle_deg;
   Course normal_n_per_m;
   Course tangential_n_per_m;
+  std::optional<Course> width_m = {};  ///< empty: as Touch
+  model::Profile profile = model::Profile::kEllipse;
 };
 
 /// Touches over time, once or over and over again.

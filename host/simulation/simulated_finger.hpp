@@ -101,7 +101,7 @@ class SimulatedFinger {
     return {.node = static_cast<std::uint8_t>(config.can.node),
             .contactRate_hz = static_cast<std::uint16_t>(config.can.contact_rate_hz),
             .mode = mode,
-            .standingFlags = config.calibration.gain.empty()
+            .standingFlags = config.calibration.isEmpty()
                                  ? FingerFlags{FingerFlag::kSimulated}
                                  : FingerFlags{FingerFlag::kSimulated, FingerFlag::kUncalibrated}};
   }

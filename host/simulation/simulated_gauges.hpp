@@ -19,7 +19,7 @@ namespace strainfinger::simulation {
 struct RingOptions {
   std::uint64_t seed = 1;
   double zeroSpread_strain = 0;
-  double gainSpread = 0;  ///< relative, to the gains of the config
+  double gainSpread = 0;  ///< relative, to the gains of the finger as it was built
   std::vector<GaugeFault> faults = {};
 };
 

@@ -185,7 +185,7 @@ TableParameters tableParameters(const config::FingerConfig& config) {
           .arc_length_m = config.gauges.arc_length_m,
           .noise_strain = config.gauges.noise_strain,
           .full_scale_strain = config.gauges.full_scale_strain,
-          .contact_width_m = config.contact.width_m,
+          .contact_width_m = config.contact.width_m.value_or(0),
           .friction_coefficient = config.contact.friction_coefficient,
           .gauge_count = static_cast<std::uint16_t>(config.gauges.count),
           .component = config.gauges.component,
@@ -196,7 +196,7 @@ TableParameters tableParameters(const config::FingerConfig& config) {
 TableImage buildTableImage(const config::FingerConfig& config) {
   const model::ImpulseResponse response(config.finger.annulus(), config.gauges.radius_m,
                                         config.gauges.component, config.gauges.arc_length_m,
-                                        config.contact.width_m);
+                                        config.contact.width_m.value_or(0));
   const WindowResponses responses = windowResponses(response, config.gauges.count);
   const double peak = peakPerLoad(responses);
   requireFormats(config, peak);

@@ -52,7 +52,7 @@ class ModelRing {
         response_({config.finger.core_radius_m, config.finger.outer_radius_m, config.finger.shear_modulus_pa,
                    config.finger.poisson_ratio},
                   config.gauges.radius_m, config.gauges.component, config.gauges.arc_length_m,
-                  config.contact.width_m),
+                  config.contact.width_m.value_or(0)),
         tables_(std::make_unique<TableImage>(tables::buildTableImage(config))) {}
 
   static config::FingerConfig configOf(int gauges, StrainComponent component = StrainComponent::kRadial) {

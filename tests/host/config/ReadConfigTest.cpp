@@ -3,6 +3,8 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,10 +28,19 @@ struct DomainCase {
   std::vector<std::string> outside;
 };
 
-/// A list for the default ring, its last number `last`.
-std::string gains(const std::string& last) {
+/// A list for the default ring: fifteen times `others`, then `last`.
+std::string fifteenAnd(const std::string& others, const std::string& last) {
   std::string list = "[";
-  for (int i = 1; i < 16; ++i) list += "1.0, ";
+  for (int i = 1; i < 16; ++i) list += others + ", ";
+  return list + last + "]";
+}
+
+std::string gains(const std::string& last) { return fifteenAnd("1.0", last); }
+
+/// The default ring, its last gauge elsewhere.
+std::string angles(const std::string& last) {
+  std::string list = "[";
+  for (int i = 0; i < 15; ++i) list += fmt::format("{}, ", 22.5 * i);
   return list + last + "]";
 }
 
@@ -50,17 +61,29 @@ const std::vector<DomainCase>& domainCases() {
       {"gauges.noise_strain", {"4.3e-6", "0.1"}, {"0", "-6e-6", "0.11"}},
       {"gauges.full_scale_strain", {"1e-12", "0.0425"}, {"0", "-0.03", "0.11"}},
       {"gauges.adc_bits", {"12", "16"}, {"7", "17", "-12", "4294967304"}},
+      {"gauges.model_error", {"0", "1", "0.003"}, {"-0.001", "1.001"}},
+      {"gauges.angle_deg", {"[]", angles("337.5"), angles("326.25"), angles("348.75")}, {}},
       {"contact.friction_coefficient", {"0", "10"}, {"-0.001", "10.1"}},
-      {"contact.width_m", {"0", "0.0127"}, {"-1e-3", "1.1"}},
+      {"contact.width_m", {"0", "0.008"}, {"-1e-3", "1.1"}},
+      {"contact.largest_width_m", {"1e-9", "0.0127"}, {"0", "-1e-3", "1.1"}},
       {"can.node", {"1", "63"}, {"0", "64", "-1", "4294967297"}},
       {"can.bitrate", {"250000", "500000", "1000000"}, {"0", "999999", "125", "-1000000"}},
       {"can.contact_rate_hz", {"20", "1000", "333.3"}, {"19.99", "1001", "0", "-500"}},
       {"calibration.gain", {"[]", gains("0.5"), gains("2"), gains("1")}, {}},
+      {"calibration.angle_offset_deg", {"[]", fifteenAnd("0", "-2.5"), fifteenAnd("0", "2.5")}, {}},
+      {"calibration.depth_offset_m", {"[]", fifteenAnd("0", "-0.0032"), fifteenAnd("0", "0.0005")}, {}},
+      {"as_built.seed", {"0", "2147483647"}, {"-1", "2147483648"}},
+      {"as_built.angle_deg", {"0", "2.5"}, {"-0.1", "2.51"}},
+      {"as_built.depth_m", {"0", "1"}, {"-1e-6", "1.1"}},
+      {"as_built.gain", {"0", "0.2"}, {"-0.01", "0.21"}},
+      {"as_built.core_radius_m", {"-0.0088", "0.0005"}, {"-1.1", "1.1"}},
+      {"as_built.poisson_ratio", {"0", "-0.5"}, {"0.51", "-0.51"}},
   };
   return cases;
 }
 
 double numberOf(const std::vector<double>& values) { return values.empty() ? 0 : values.back(); }
+double numberOf(const std::optional<double>& value) { return value.value_or(-1); }
 template <typename Value>
 double numberOf(Value value) {
   return static_cast<double>(value);
@@ -119,7 +142,7 @@ TEST(ReadConfig, NotANumberAndTheInfinitiesAreInNoDomain) {
 TEST(ReadConfig, ValuesOfAnotherTypeNameTheKeyAndBothTypes) {
   for (const Key& key : keys()) {
     checkMention(settingOf(key.dotted(), "true"), key.dotted() + " is a boolean; it must be ");
-    if (key.section != "calibration")
+    if (!std::holds_alternative<std::vector<double>& (*)(FingerConfig&)>(key.slot))
       checkMention(settingOf(key.dotted(), "[1]"), key.dotted() + " is a list; it must be ");
     checkMention(settingOf(key.dotted(), "1979-05-27"), key.dotted() + " is a date or time; it must be ");
     checkMention(settingOf(key.dotted(), "{a = 1}"), key.dotted() + " is a section; it must be ");
@@ -142,7 +165,7 @@ TEST(ReadConfig, EachKeySetsItsOwnMemberAndNoOther) {
     for (std::size_t j = 0; j < keys().size(); ++j) {
       const double expected = i != j            ? number({}, keys()[j])
                               : value[0] == '"' ? 2
-                              : value[0] == '[' ? 1
+                              : value[0] == '[' ? std::stod(value.substr(value.rfind(' ')))
                                                 : std::stod(value);
       DOUBLES_EQUAL(expected, number(read, keys()[j]), 0);
     }
@@ -166,8 +189,9 @@ TEST(ReadConfig, AKeyInTheWrongSectionIsSentToTheRightOne) {
 
 TEST(ReadConfig, UnknownSectionsAreNamedWithWhatWasProbablyMeant) {
   checkMention("schema = 1\n[guages]\ncount = 16", "unknown key guages; did you mean gauges?");
-  checkMention("schema = 1\n[zzzzzzzz]",
-               "unknown key zzzzzzzz; known here: schema, finger, gauges, contact, can, calibration");
+  checkMention(
+      "schema = 1\n[zzzzzzzz]",
+      "unknown key zzzzzzzz; known here: schema, finger, gauges, contact, can, calibration, as_built");
 }
 
 TEST(ReadConfig, ASectionThatIsAValueIsAnError) {
@@ -201,7 +225,10 @@ TEST(ReadConfig, ConditionsBetweenKeysNameThemAllAndPointIntoTheFile) {
   checkMention(settingOf("finger.outer_radius_m", "0.0094"),
                "f.toml:3:18: gauges.radius_m = 0.0094 is outside");
   checkMention(settingOf("gauges.arc_length_m", "3.7e-3"), "gauges.count = 16");
-  checkMention(settingOf("contact.width_m", "0.0128"), "must be at most finger.outer_radius_m = 0.0127");
+  checkMention(settingOf("contact.width_m", "0.0128"), "must be at most contact.largest_width_m = 0.008");
+  checkMention(settingOf("contact.largest_width_m", "0.0128"),
+               "must be at most finger.outer_radius_m = 0.0127");
+  checkComplaint(settingOf("contact.width_m", "0.0127") + "largest_width_m = 0.0127", "accepted");
   checkMention(settingOf("can.bitrate", "125000"),
                "f.toml:3:11: can.contact_rate_hz = 500 needs up to 135000");
 }
@@ -240,6 +267,99 @@ TEST(ReadConfig, ThereIsAGainForEveryGaugeOrNone) {
   checkComplaint(settingOf("calibration.gain", "[1, 1]"),
                  "f.toml:3:8: calibration.gain has 2 numbers; it must have one a gauge, gauges.count = 16");
   checkMention("schema = 1\ngauges.count = 18\ncalibration.gain = " + gains("1"), "has 16 numbers");
+}
+
+TEST(ReadConfig, AWidthThatIsLeftOutIsUnknownNotALine) {
+  CHECK_FALSE(readConfig("schema = 1", "f.toml").contact.width_m.has_value());
+  DOUBLES_EQUAL(0, *readConfig(settingOf("contact.width_m", "0"), "f.toml").contact.width_m, 0);
+}
+
+TEST(ReadConfig, AnglesThatAreListedArePlacesOfTheGauges) {
+  const Gauges gauges = readConfig(settingOf("gauges.angle_deg", angles("330")), "f.toml").gauges;
+  DOUBLES_EQUAL(22.5, gauges.angle_deg(1), 0);
+  DOUBLES_EQUAL(330, gauges.angle_deg(15), 0);
+  DOUBLES_EQUAL(330 * std::numbers::pi / 180, gauges.angle_rad(15), 1e-15);
+  DOUBLES_EQUAL(15, gauges.gap_deg(14), 1e-12);
+  DOUBLES_EQUAL(30, gauges.gap_deg(15), 1e-12);
+}
+
+TEST(ReadConfig, AnglesMayBeginAnywhereOnTheRing) {
+  std::string list = "[348.75, ";
+  for (int i = 0; i < 14; ++i) list += fmt::format("{}, ", 11.25 + 22.5 * i);
+  checkComplaint(settingOf("gauges.angle_deg", list + "326.25]"), "accepted");
+}
+
+TEST(ReadConfig, AnglesThatAreNoRingAreNamed) {
+  checkComplaint(settingOf("gauges.angle_deg", "[0, 90]"),
+                 "f.toml:3:13: gauges.angle_deg has 2 numbers; it must have one a gauge, gauges.count = 16");
+  for (const char* last : {"300", "315", "326.24", "348.76", "0"})
+    checkMention(settingOf("gauges.angle_deg", angles(last)),
+                 fmt::format(", 315, {}] is no ring: the angles must ascend, once round, each 11.25 to 45 "
+                             "from the one before (gauges.count = 16)",
+                             last));
+  std::string clockwise = "[0";
+  for (int i = 15; i > 0; --i) clockwise += fmt::format(", {}", 22.5 * i);
+  checkMention(settingOf("gauges.angle_deg", clockwise + "]"), "is no ring");
+  checkMention(settingOf("gauges.angle_deg", angles("360")),
+               "gauges.angle_deg[15] = 360 is out of its domain");
+}
+
+TEST(ReadConfig, AnglesThatGoRoundTwiceAreNoRing) {
+  std::string twice = "[0";
+  for (int i = 1; i < 16; ++i) twice += fmt::format(", {}", i * 45 % 360);
+  checkMention(settingOf("gauges.angle_deg", twice + "]"), "is no ring");
+}
+
+TEST(ReadConfig, AnglesAreSaidInOneWay) {
+  checkMention(
+      settingOf("gauges.first_angle_deg", "5") + "angle_deg = " + angles("337.5"),
+      "f.toml:3:19: gauges.first_angle_deg = 5: gauges.angle_deg says where each gauge is; leave one");
+}
+
+TEST(ReadConfig, LongGaugesKeepApartWhereTheyAreNearest) {
+  const std::string near = "angle_deg = " + angles("326.25");
+  checkMention(settingOf("gauges.arc_length_m", "1.85e-3") + near, "neighbours overlap");
+  checkComplaint(settingOf("gauges.arc_length_m", "1.84e-3") + near, "accepted");
+}
+
+TEST(ReadConfig, OffsetsOfCalibrationPlaceTheGauges) {
+  const FingerConfig read =
+      readConfig("schema = 1\ncalibration.angle_offset_deg = " + fifteenAnd("0", "-1.5") +
+                     "\ncalibration.depth_offset_m = " + fifteenAnd("0", "1e-4") +
+                     "\ncalibration.gain = " + gains("1.25"),
+                 "f.toml");
+  const PlacedGauge found = read.calibrated(15), other = read.calibrated(0);
+  DOUBLES_EQUAL(336 * std::numbers::pi / 180, found.angle_rad, 1e-14);
+  DOUBLES_EQUAL(9.3e-3, found.radius_m, 1e-17);
+  DOUBLES_EQUAL(1.25, found.gain, 0);
+  DOUBLES_EQUAL(read.drawn(0).angle_rad, other.angle_rad, 0);
+  DOUBLES_EQUAL(read.drawn(0).radius_m, other.radius_m, 0);
+  CHECK_FALSE(read.calibration.isEmpty());
+}
+
+TEST(ReadConfig, OffsetsOutOfTheirDomainAreNamedWithTheirPlace) {
+  checkMention(settingOf("calibration.angle_offset_deg", fifteenAnd("0", "2.6")),
+               "calibration.angle_offset_deg[15] = 2.6 is out of its domain; it must be -2.5 to 2.5");
+  checkMention(settingOf("calibration.angle_offset_deg", "[0]"),
+               "f.toml:3:20: calibration.angle_offset_deg has 1 numbers; it must have one a gauge");
+  checkMention(settingOf("calibration.depth_offset_m", "[0]"),
+               "calibration.depth_offset_m has 1 numbers; it must have one a gauge");
+  for (const char* depth : {"0.00051", "-0.0033"})
+    checkMention(settingOf("calibration.depth_offset_m", fifteenAnd("0", depth)),
+                 fmt::format("calibration.depth_offset_m[15] = {} puts the gauge outside the rubber",
+                             std::stod(depth)));
+}
+
+TEST(ReadConfig, AFingerAsBuiltIsAFingerThatCanBe) {
+  for (const char* more_m : {"0.00051", "-0.0089"})
+    checkMention(
+        settingOf("as_built.core_radius_m", more_m),
+        "with finger.core_radius_m = 0.0089 it must be greater than 0, at most gauges.radius_m = 0.0094");
+  checkComplaint(
+      settingOf("as_built.poisson_ratio", "0.01"),
+      "f.toml:3:17: as_built.poisson_ratio = 0.01: with finger.poisson_ratio = 0.5 it must be 0 to "
+      "0.5");
+  checkMention("schema = 1\nfinger.poisson_ratio = 0.2\nas_built.poisson_ratio = -0.21", "must be 0 to 0.5");
 }
 
 TEST(ReadConfig, AnUnreadableFileIsNamedWithTheReason) {

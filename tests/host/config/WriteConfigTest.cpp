@@ -24,16 +24,38 @@ TEST_GROUP(WriteConfig) {
     any.gauges = {12 + 2 * static_cast<int>(random() % 11),
                   uniform(0.009, 0.0125),
                   StrainComponent::kShear,
-                  uniform(0, 359),
+                  0,
                   uniform(0, 1e-3),
                   uniform(1e-3, 0.1),
                   uniform(1e-9, 0.1),
                   9};
-    any.contact = {uniform(0, 10), uniform(0, 0.01)};
+    any.contact = {uniform(0, 10), {}, uniform(0.01, 0.0126)};
+    if (random() % 2 == 0) any.contact.width_m = uniform(0, 0.01);
     any.can = {1 + static_cast<int>(random() % 63), 500000, uniform(20, 1000)};
+    any.gauges.model_error = uniform(0, 1);
+    any.as_built = {7, uniform(0, 2), uniform(0, 1e-3), uniform(0, 0.2), 0, 0};
     if (random() % 2 == 0)
-      for (int i = 0; i < any.gauges.count; ++i) any.calibration.gain.push_back(uniform(0.5, 2));
+      any.gauges.first_angle_deg = uniform(0, 359);
+    else
+      any.gauges.angles_deg = listOf(any.gauges, 0);
+    if (random() % 2 == 0) {
+      any.calibration.gain = listOf(any.gauges, 1);
+      any.calibration.angle_offset_deg = listOf(any.gauges, 2);
+      any.calibration.depth_offset_m = listOf(any.gauges, 3);
+    }
     return any;
+  }
+
+  /// Angles all round, gains, angle offsets, depth offsets; random all.
+  std::vector<double> listOf(const Gauges& gauges, int which) {
+    std::vector<double> list;
+    for (int i = 0; i < gauges.count; ++i) {
+      const double pitch = 360.0 / gauges.count;
+      const double values[] = {(i + uniform(0, 0.4)) * pitch, uniform(0.5, 2), uniform(-1, 1),
+                               uniform(-1e-6, 1e-6)};
+      list.push_back(values[which]);
+    }
+    return list;
   }
 
   void checkSame(FingerConfig a, FingerConfig b) {
@@ -53,8 +75,10 @@ TEST(WriteConfig, RandomConfigsReadBackExactly) {
 TEST(WriteConfig, EveryKeyIsDocumentedWithItsDomain) {
   const std::string text = writeConfig({});
   for (const Key& key : keys()) STRCMP_CONTAINS(std::string(key.doc).c_str(), text.c_str());
-  STRCMP_CONTAINS("# gauges in the ring, evenly spaced [even, 12 to 32]\ncount = 16\n", text.c_str());
+  STRCMP_CONTAINS("# gauges in the ring [even, 12 to 32]\ncount = 16\n", text.c_str());
   STRCMP_CONTAINS("not calibrated [each 0.5 to 2]\ngain = []\n", text.c_str());
+  STRCMP_CONTAINS("left out: unknown, fitted with each touch [0 to 1]\n# width_m is left out\n",
+                  text.c_str());
   STRCMP_CONTAINS("# the strain the gauges read [one of radial, hoop, shear]\ncomponent = \"radial\"\n",
                   text.c_str());
 }

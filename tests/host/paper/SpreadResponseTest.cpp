@@ -13,7 +13,7 @@
 
 using namespace strainfinger;
 using namespace strainfinger::paper;
-using shape::Profile;
+using model::Profile;
 
 TEST_GROUP(SpreadResponse) {
   static constexpr double kGauge_m = 9.4e-3;

@@ -58,6 +58,31 @@ TEST(ReadScenario, TheTangentialLoadIsZeroWhenLeftOut) {
   CHECK_TRUE((touch == Touch{0, 20, 0}));
 }
 
+TEST(ReadScenario, ATouchMayHaveAWidthAndAProfile) {
+  const auto touchOf = [&](const std::string& more) {
+    return readScenario(withAngle("0") + more, "s").at(2).at(0);
+  };
+  DOUBLES_EQUAL(2e-3, *touchOf("width_m = 2e-3").width_m, 0);
+  CHECK_TRUE(model::Profile::kEllipse == touchOf("width_m = 2e-3").profile);
+  CHECK_TRUE(model::Profile::kEllipse == touchOf("width_m = 2e-3\nprofile = \"hertz\"").profile);
+  CHECK_TRUE(model::Profile::kUniform == touchOf("width_m = 2e-3\nprofile = \"uniform\"").profile);
+  DOUBLES_EQUAL(1e-3, *touchOf("width_m = [0, 2e-3]").width_m, 1e-18);
+  CHECK_FALSE(touchOf("").width_m.has_value());
+}
+
+TEST(ReadScenario, WidthsAndProfilesThatCantBeAreNamed) {
+  checkComplaint(withAngle("0") + "width_m = -1e-3",
+                 "s.toml:7:11: touch.width_m = -0.001 is out of its domain; it must be 0 to 0.025");
+  checkComplaint(
+      withAngle("0") + "width_m = 1e-3\nprofile = \"round\"",
+      "s.toml:8:11: touch.profile = \"round\" is out of its domain; it must be one of hertz, uniform");
+  checkComplaint(withAngle("0") + "width_m = 1e-3\nprofile = 1",
+                 "touch.profile is an integer; it must be a text");
+  checkComplaint(
+      withAngle("0") + "profile = \"hertz\"",
+      "s.toml:7:11: touch.profile says how the load is spread over touch.width_m, which is missing");
+}
+
 TEST(ReadScenario, AScenarioMayHaveNoTouch) {
   DOUBLES_EQUAL(0, readScenario("schema = 1", "s").duration_s(), 0);
 }

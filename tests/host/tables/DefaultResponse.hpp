@@ -13,7 +13,7 @@ namespace strainfinger::tables {
 
 inline model::ImpulseResponse responseOf(const config::FingerConfig& config) {
   return {config.finger.annulus(), config.gauges.radius_m, config.gauges.component,
-          config.gauges.arc_length_m, config.contact.width_m};
+          config.gauges.arc_length_m, config.contact.width_m.value_or(0)};
 }
 
 using OracleMatrix = Eigen::Matrix<double, kWindowGauges + 1, 2>;

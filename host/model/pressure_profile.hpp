@@ -3,7 +3,7 @@
 
 #include <span>
 
-namespace strainfinger::shape {
+namespace strainfinger::model {
 
 /// Pressures that are even about their centre, of half width h: in t = x / h
 enum class Profile {
@@ -21,10 +21,13 @@ const char* nameOf(Profile profile);
 /// The half width [rad] of a profile with this second moment about its centre [rad^2], at least 0.
 double halfWidth_rad(Profile profile, double moment_rad2);
 
+/// The other way around: the second moment [rad^2] of a profile of this width [rad].
+double momentOf(Profile profile, double width_rad);
+
 /// The second moment [rad^2] of the semi-ellipse of this width [rad]: what an equivalent width stands for.
 constexpr double momentOfWidth(double width_rad) { return width_rad * width_rad / 16; }
 
-/// The other way around; of a moment below 0: 0.
+/// The semi-ellipse's width of a moment; of a moment below 0: 0.
 double equivalentWidth_rad(double moment_rad2);
 
 /// What harmonic n of a line load is multiplied by when the load is spread, and its derivative to the moment.
@@ -42,4 +45,4 @@ SpreadFactor spreadFactor(Profile profile, int n, double moment_rad2);
 /// Domain: moment > 0.
 double density(Profile profile, double moment_rad2, double offset_rad);
 
-}  // namespace strainfinger::shape
+}  // namespace strainfinger::model

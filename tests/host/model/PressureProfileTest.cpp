@@ -1,4 +1,4 @@
-#include "host/shape/pressure_profile.hpp"
+#include "host/model/pressure_profile.hpp"
 
 #include <cmath>
 #include <cstring>
@@ -7,7 +7,7 @@
 // last: its macros redefine new
 #include <CppUTest/TestHarness.h>
 
-using namespace strainfinger::shape;
+using namespace strainfinger::model;
 
 namespace {
 
@@ -84,6 +84,14 @@ TEST(PressureProfile, IsContinuedBelowNoWidth) {
 TEST(PressureProfile, NothingPressesOutside) {
   for (const Profile profile : allProfiles())
     DOUBLES_EQUAL(0, density(profile, 0.01, 1.0001 * halfWidth_rad(profile, 0.01)), 0);
+}
+
+// Textbook second moments over the full width w: w^2 / 16, w^2 / 12.
+TEST(PressureProfile, MomentsOfAWidthAreTheTextbooks) {
+  DOUBLES_EQUAL(0.09 / 16, momentOf(Profile::kEllipse, 0.3), 1e-17);
+  DOUBLES_EQUAL(0.09 / 12, momentOf(Profile::kUniform, 0.3), 1e-17);
+  for (const Profile profile : allProfiles())
+    DOUBLES_EQUAL(0.15, halfWidth_rad(profile, momentOf(profile, 0.3)), 1e-16);
 }
 
 TEST(PressureProfile, EquivalentWidthsAreTheEllipses) {

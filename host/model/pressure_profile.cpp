@@ -1,11 +1,11 @@
-#include "host/shape/pressure_profile.hpp"
+#include "host/model/pressure_profile.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-namespace strainfinger::shape {
+namespace strainfinger::model {
 namespace {
 
 constexpr std::array kProfiles{Profile::kEllipse, Profile::kUniform, Profile::kWedge, Profile::kPunch};
@@ -111,6 +111,10 @@ double halfWidth_rad(Profile profile, double moment_rad2) {
   return std::sqrt(squareOverMoment(profile) * moment_rad2);
 }
 
+double momentOf(Profile profile, double width_rad) {
+  return width_rad * width_rad / 4 / squareOverMoment(profile);
+}
+
 double equivalentWidth_rad(double moment_rad2) { return 4 * std::sqrt(std::max(0.0, moment_rad2)); }
 
 SpreadFactor spreadFactor(Profile profile, int n, double moment_rad2) {
@@ -141,4 +145,4 @@ double density(Profile profile, double moment_rad2, double offset_rad) {
   return 1 / (std::numbers::pi * half_rad * root);
 }
 
-}  // namespace strainfinger::shape
+}  // namespace strainfinger::model

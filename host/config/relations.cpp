@@ -1,0 +1,239 @@
+// What has to hold between the keys of finger.toml.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+#include <vector>
+
+#include "host/config/keys.hpp"
+
+namespace strainfinger::config {
+namespace {
+
+using Config = const FingerConfig&;
+
+/// Bits on the bus of an 8-byte frame with an 11-bit identifier, stuffed at worst: 8 n + 44 fixed bits, 3 of
+/// interframe space, a stuff bit for every 4 of the 34 + 8 n - 1 that are subject to it.
+constexpr int kWorstFrame_bits = 8 * 8 + 44 + 3 + (34 + 8 * 8 - 1) / 4;
+constexpr int kFramesPerContact = 2;
+
+/// Gaps between neighbours, over that of an even ring. Gauges that are nearer tell the same twice; in a gap
+/// that is wider a touch is nearly out of sight.
+constexpr double kLeastGap = 0.5, kMostGap = 2;
+
+double contactLoad_bps(const Can& can) { return can.contact_rate_hz * kFramesPerContact * kWorstFrame_bits; }
+
+std::vector<double> gaps_deg(const Gauges& gauges) {
+  std::vector<double> gaps(static_cast<std::size_t>(gauges.count));
+  for (int gauge = 0; gauge < gauges.count; ++gauge)
+    gaps[static_cast<std::size_t>(gauge)] = gauges.gap_deg(gauge);
+  return gaps;
+}
+
+/// Arc between the two gauges that are nearest each other.
+double leastPitchArc_m(const Gauges& gauges) {
+  const auto gaps = gaps_deg(gauges);
+  return *std::min_element(gaps.begin(), gaps.end()) * std::numbers::pi / 180 * gauges.radius_m;
+}
+
+/// Whether all gaps are such as kLeastGap and kMostGap allow and go round the ring once.
+bool isRing(const Gauges& gauges) {
+  const auto gaps = gaps_deg(gauges);
+  const double even_deg = 360.0 / gauges.count;
+  const bool spaced = std::all_of(gaps.begin(), gaps.end(), [&](double gap) {
+    return gap >= kLeastGap * even_deg && gap <= kMostGap * even_deg;
+  });
+  return spaced && std::accumulate(gaps.begin(), gaps.end(), 0.0) < 1.5 * 360;
+}
+
+template <typename List>
+Relation onePerGauge(const char* key, List listOf) {
+  return {[=](Config c) {
+            return listOf(c).empty() || listOf(c).size() == static_cast<std::size_t>(c.gauges.count);
+          },
+          {key, "gauges.count"},
+          [=](Config c) {
+            return fmt::format("{} has {} numbers; it must have one a gauge, gauges.count = {}", key,
+                               listOf(c).size(), c.gauges.count);
+          }};
+}
+
+Relation coreInsideSurface() {
+  return {[](Config c) { return c.finger.core_radius_m < c.finger.outer_radius_m; },
+          {"finger.core_radius_m", "finger.outer_radius_m"},
+          [](Config c) {
+            return fmt::format("finger.core_radius_m = {} must be less than finger.outer_radius_m = {}",
+                               c.finger.core_radius_m, c.finger.outer_radius_m);
+          }};
+}
+
+Relation gaugesInRubber() {
+  return {[](Config c) {
+            return c.finger.core_radius_m <= c.gauges.radius_m && c.gauges.radius_m < c.finger.outer_radius_m;
+          },
+          {"gauges.radius_m", "finger.core_radius_m", "finger.outer_radius_m"},
+          [](Config c) {
+            return fmt::format(
+                "gauges.radius_m = {} is outside the rubber: it must be at least finger.core_radius_m = {}, "
+                "less than finger.outer_radius_m = {}",
+                c.gauges.radius_m, c.finger.core_radius_m, c.finger.outer_radius_m);
+          }};
+}
+
+Relation gaugesAroundTheRing() {
+  return {[](Config c) { return isRing(c.gauges); },
+          {"gauges.angle_deg", "gauges.count"},
+          [](Config c) {
+            const double even_deg = 360.0 / c.gauges.count;
+            return fmt::format(
+                "gauges.angle_deg = [{}] is no ring: the angles must ascend, once round, each {} to {} from "
+                "the one before (gauges.count = {})",
+                fmt::join(c.gauges.angles_deg, ", "), kLeastGap * even_deg, kMostGap * even_deg,
+                c.gauges.count);
+          }};
+}
+
+Relation oneSourceOfAngles() {
+  return {[](Config c) { return c.gauges.isEven() || c.gauges.first_angle_deg == 0; },
+          {"gauges.first_angle_deg", "gauges.angle_deg"},
+          [](Config c) {
+            return fmt::format(
+                "gauges.first_angle_deg = {}: gauges.angle_deg says where each gauge is; leave one of them "
+                "out",
+                c.gauges.first_angle_deg);
+          }};
+}
+
+Relation gaugesDontOverlap() {
+  return {[](Config c) { return c.gauges.arc_length_m <= leastPitchArc_m(c.gauges); },
+          {"gauges.arc_length_m", "gauges.count", "gauges.radius_m", "gauges.angle_deg"},
+          [](Config c) {
+            return fmt::format(
+                "gauges.arc_length_m = {}: neighbours overlap; it must be at most the pitch {} that "
+                "gauges.count = {} and gauges.radius_m = {} leave",
+                c.gauges.arc_length_m, leastPitchArc_m(c.gauges), c.gauges.count, c.gauges.radius_m);
+          }};
+}
+
+Relation noiseCoversQuantisation() {
+  return {[](Config c) { return c.gauges.noise_strain >= c.gauges.quantisation_strain(); },
+          {"gauges.noise_strain", "gauges.adc_bits", "gauges.full_scale_strain"},
+          [](Config c) {
+            return fmt::format(
+                "gauges.noise_strain = {} is less than the quantisation alone, {:.3g}, that gauges.adc_bits "
+                "= {} over +-gauges.full_scale_strain = {} leaves; use more bits, a smaller full scale or "
+                "more noise",
+                c.gauges.noise_strain, c.gauges.quantisation_strain(), c.gauges.adc_bits,
+                c.gauges.full_scale_strain);
+          }};
+}
+
+Relation widthsOnTheFinger() {
+  return {[](Config c) { return c.contact.largest_width_m <= c.finger.outer_radius_m; },
+          {"contact.largest_width_m", "finger.outer_radius_m"},
+          [](Config c) {
+            return fmt::format("contact.largest_width_m = {} must be at most finger.outer_radius_m = {}",
+                               c.contact.largest_width_m, c.finger.outer_radius_m);
+          }};
+}
+
+Relation widthCovered() {
+  return {[](Config c) { return c.contact.width_m.value_or(0) <= c.contact.largest_width_m; },
+          {"contact.width_m", "contact.largest_width_m"},
+          [](Config c) {
+            return fmt::format("contact.width_m = {} must be at most contact.largest_width_m = {}",
+                               c.contact.width_m.value_or(0), c.contact.largest_width_m);
+          }};
+}
+
+Relation contactsFitOnTheBus() {
+  return {[](Config c) { return contactLoad_bps(c.can) <= c.can.bitrate; },
+          {"can.contact_rate_hz", "can.bitrate"},
+          [](Config c) {
+            return fmt::format(
+                "can.contact_rate_hz = {} needs up to {} bit/s, more than can.bitrate = {}; it must be at "
+                "most {}",
+                c.can.contact_rate_hz, contactLoad_bps(c.can), c.can.bitrate,
+                c.can.bitrate / (kFramesPerContact * kWorstFrame_bits));
+          }};
+}
+
+/// The first gauge that calibration puts outside the rubber, or the count.
+int gaugeOutsideRubber(Config c) {
+  int gauge = 0;
+  while (gauge < c.gauges.count && c.calibrated(gauge).radius_m >= c.finger.core_radius_m &&
+         c.calibrated(gauge).radius_m < c.finger.outer_radius_m)
+    ++gauge;
+  return gauge;
+}
+
+Relation calibratedGaugesInRubber() {
+  return {[](Config c) { return gaugeOutsideRubber(c) == c.gauges.count; },
+          {"calibration.depth_offset_m"},
+          [](Config c) {
+            const int gauge = gaugeOutsideRubber(c);
+            return fmt::format(
+                "calibration.depth_offset_m[{}] = {} puts the gauge outside the rubber: gauges.radius_m less "
+                "it must be at least finger.core_radius_m = {}, less than finger.outer_radius_m = {}",
+                gauge, c.calibration.depth_offset_m[static_cast<std::size_t>(gauge)], c.finger.core_radius_m,
+                c.finger.outer_radius_m);
+          }};
+}
+
+Relation builtCoreBelowGauges() {
+  return {[](Config c) {
+            const double core_m = c.finger.core_radius_m + c.as_built.core_radius_m;
+            return core_m > 0 && core_m <= c.gauges.radius_m;
+          },
+          {"as_built.core_radius_m", "finger.core_radius_m", "gauges.radius_m"},
+          [](Config c) {
+            return fmt::format(
+                "as_built.core_radius_m = {}: with finger.core_radius_m = {} it must be greater than 0, at "
+                "most gauges.radius_m = {}",
+                c.as_built.core_radius_m, c.finger.core_radius_m, c.gauges.radius_m);
+          }};
+}
+
+Relation builtRubberPossible() {
+  return {[](Config c) {
+            const double ratio = c.finger.poisson_ratio + c.as_built.poisson_ratio;
+            return ratio >= 0 && ratio <= 0.5;
+          },
+          {"as_built.poisson_ratio", "finger.poisson_ratio"},
+          [](Config c) {
+            return fmt::format(
+                "as_built.poisson_ratio = {}: with finger.poisson_ratio = {} it must be 0 to 0.5",
+                c.as_built.poisson_ratio, c.finger.poisson_ratio);
+          }};
+}
+
+std::vector<Relation> makeRelations() {
+  return {
+      coreInsideSurface(),
+      gaugesInRubber(),
+      onePerGauge("gauges.angle_deg", [](Config c) { return c.gauges.angles_deg; }),
+      gaugesAroundTheRing(),
+      oneSourceOfAngles(),
+      gaugesDontOverlap(),
+      noiseCoversQuantisation(),
+      widthsOnTheFinger(),
+      widthCovered(),
+      contactsFitOnTheBus(),
+      onePerGauge("calibration.gain", [](Config c) { return c.calibration.gain; }),
+      onePerGauge("calibration.angle_offset_deg", [](Config c) { return c.calibration.angle_offset_deg; }),
+      onePerGauge("calibration.depth_offset_m", [](Config c) { return c.calibration.depth_offset_m; }),
+      calibratedGaugesInRubber(),
+      builtCoreBelowGauges(),
+      builtRubberPossible()};
+}
+
+}  // namespace
+
+std::span<const Relation> relations() {
+  static const std::vector<Relation> table = makeRelations();
+  return table;
+}
+
+}  // namespace strainfinger::config

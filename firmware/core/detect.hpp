@@ -48,13 +48,11 @@ inline std::int32_t readingNoise_q32(const TableConstants& constants) {
 class ContactGate {
  public:
   bool touched() const { return touched_; }
-  bool update(const TableConstants& constants, std::uint32_t energy) {
-    touched_ = passes(constants, energy);
+  /// `variance_q4`: of a reading, in configured ones [* 2^4], at least 1.
+  bool update(const TableConstants& constants, std::uint32_t energy, std::uint32_t variance_q4 = 1 << 4) {
+    const std::uint32_t gate = touched_ ? constants.gate_off : constants.gate_on;
+    touched_ = std::uint64_t{energy} << 4 >= std::uint64_t{gate} * variance_q4;
     return touched_;
-  }
-  /// What update() will say.
-  bool passes(const TableConstants& constants, std::uint32_t energy) const {
-    return energy >= (touched_ ? constants.gate_off : constants.gate_on);
   }
 
  private:

@@ -1,133 +1,130 @@
 #include "firmware/core/estimate.hpp"
 
 #include <algorithm>
+#include <bit>
 
-#include "firmware/core/error_products.hpp"
-#include "firmware/core/triple_fit.hpp"
+#include "firmware/core/integer_root.hpp"
+#include "firmware/core/response.hpp"
 #include "firmware/core/units.hpp"
 
 namespace strainfinger::firmware {
 namespace {
 
-constexpr std::uint8_t kUncertainQuality = 20;
-constexpr int kRoundingShift = 12;  ///< 1/4096 of the energy is lost in rounding
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// Variance of a reading, as an energy of the fit (a quarter of a squared scaled strain).
-Scaled noiseOf(const TableConstants& constants, const Fit& fit) {
-  return {constants.noise_variance, constants.noise_variance_exponent - 2 * (16 - fit.up) - 2};
-}
+/// A positive number: mantissa (16 bits) * 2^exponent.
+struct Scaled {
+  std::uint32_t mantissa = 0;
+  int exponent = 0;
 
-/// Standard errors of an answer's offset [pitches * 2^20] and amplitudes.
-struct Errors {
-  std::int32_t offset, normal, tangential;
+  /// * 2^up as an integer, at most `most`.
+  std::int64_t times2(int up, std::int64_t most) const {
+    const int shift = exponent + up;
+    if (shift <= 0) return static_cast<std::int64_t>(mantissa) >> std::min(-shift, 63);
+    return shift > 40 ? (mantissa == 0 ? 0 : most)
+                      : std::min<std::int64_t>(static_cast<std::int64_t>(mantissa) << shift, most);
+  }
 };
 
-Errors refinedErrors(Scaled noise, const Fit& fit) {
-  const AmplitudeSlopes slopes = amplitudeSlopes(*fit.row, fit.projection);
-  const auto& load = fit.row->load;
-  const std::int32_t offset = offsetSigma(noise, fit.information, fit.row->gradient_exponent);
-  return {offset, amplitudeSigma(noise, {load[0], load[1]}, slopes.normal, offset),
-          amplitudeSigma(noise, {0, load[2]}, slopes.tangential, offset)};
+/// sqrt(value * 2^exponent).
+Scaled rootOf(std::uint64_t value, int exponent) {
+  if (value == 0) return {};
+  const int up = (std::countl_zero(value) - 32) - ((exponent - (std::countl_zero(value) - 32)) & 1);
+  const std::uint64_t normal = up >= 0 ? value << up : value >> -up;
+  return {integerRoot(static_cast<std::uint32_t>(normal)), (exponent - up) / 2};
 }
 
-Errors reducedErrors(Scaled noise, const Fit& fit, PitchQ20 mostOffset) {
-  const AmplitudeSlopes slopes = amplitudeSlopes(*fit.row, fit.projection);
-  const auto& load = fit.row->load;
-  const std::int32_t offset =
-      std::min(offsetSigma(noise, fit.information, fit.row->gradient_exponent), mostOffset);
-  const auto sigma = [&](const Deviations& deviations) {
-    return reducedSigma(deviations, fit.covariance_q12);
-  };
-  return {sigma({0, 0, offset}), sigma(deviationsOf(noise, {load[0], load[1]}, slopes.normal, offset)),
-          sigma(deviationsOf(noise, {0, load[2]}, slopes.tangential, offset))};
+/// Standard deviation of an unknown [units of its column]; none: the readings don't determine it.
+Scaled sigmaOf(Wide variance, std::uint32_t variance_q4) {
+  const Scaled root = rootOf(static_cast<std::uint64_t>(variance), -50);
+  const Scaled noise = rootOf(variance_q4, -4);
+  return {(root.mantissa * noise.mantissa) >> 16, root.exponent + noise.exponent + 16};
 }
 
-Errors tripleErrors(Scaled noise, const Fit& fit) {
-  constexpr int kLowered = 20;
-  const TripleSystem system = systemOf(*fit.row, fit.triple, fit.projection);
-  const AmplitudeSlopes slopes = amplitudeSlopes(*fit.row, fit.projection);
-  const auto& load = fit.row->load;
-  // An amplitude changes with the projections, and per row spacing of offset.
-  const auto sigma = [&](std::int32_t load1, std::int32_t load2, std::int32_t slope) {
-    Vector3 weights;
-    for (std::size_t i = 0; i < weights.size(); ++i)
-      weights[i] = saturated(amplitudeWeight(*fit.row, system, i, {load1, load2}, slope) >> kLowered);
-    return weightedSigma(noise, weights, kLowered, system.volume);
-  };
-  return {weightedSigma(noise, system.forOffset, kPitchBits - fit.row->gradient_exponent, system.volume),
-          sigma(load[0], load[1], slopes.normal), sigma(0, load[2], slopes.tangential)};
+constexpr std::int64_t kHalfTurn_q32 = std::int64_t{1} << 31;
+
+/// Width [um] of the uniform pressure with this second moment [um^2].
+std::uint32_t widthOf_um(std::uint64_t moment_um2) {
+  return integerRoot(static_cast<std::uint32_t>(std::min<std::uint64_t>(12 * moment_um2, 0xFFFFFFFF)));
 }
 
-Errors errorsOf(Scaled noise, const Fit& fit, PitchQ20 mostOffset) {
-  if (fit.reduced) return reducedErrors(noise, fit, mostOffset);
-  return fit.readings == FitMode::kRefined ? refinedErrors(noise, fit) : tripleErrors(noise, fit);
+std::uint64_t moment_um2(const TableConstants& constants, std::int64_t moment_q20) {
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(moment_q20, 0)) * constants.largest_moment_um2 >>
+         kMomentBits;
 }
 
-LineLoadQ12 loadOf(const TableConstants& constants, const Fit& fit, std::int32_t amplitude) {
-  return LineLoadQ12::fromRaw(
-      lineLoad(amplitude, constants.load_scale, constants.load_exponent + 16 - fit.up));
+void setWidth(const TableConstants& constants, Number moment_q20, std::int64_t sigma_q20, Contact& contact) {
+  contact.width_um = widthOf_um(moment_um2(constants, moment_q20));
+  const std::uint32_t high = widthOf_um(moment_um2(constants, moment_q20 + sigma_q20));
+  const std::uint32_t low = widthOf_um(moment_um2(constants, moment_q20 - sigma_q20));
+  contact.sigmaWidth_um = std::max<std::uint32_t>((high - low) / 2, 1);
 }
 
-/// Angles wrap.
-std::uint32_t turnsOf(const TableConstants& constants, PitchQ20 pitches) {
-  return static_cast<std::uint32_t>(revolutions(constants.pitch_turn_q35, pitches));
+/// [Percent] of what is left, by what the gate allows.
+std::uint8_t qualityOf(const Answer& answer, std::int64_t chiSquared, int freedoms) {
+  constexpr int kMostUncertain = 20;
+  const std::int64_t allowed = threshold::kGatePerFreedom * freedoms + threshold::kGate;
+  const auto quality = chiSquared <= allowed ? 100 : std::max<std::int64_t>(100 * allowed / chiSquared, 1);
+  if (!answer.accepted) return static_cast<std::uint8_t>(std::min<std::int64_t>(quality, kMostUncertain));
+  return static_cast<std::uint8_t>(std::max<std::int64_t>(quality, kMostUncertain + 1));
 }
 
-TurnQ32 angleOf(const TableConstants& constants, PitchQ20 position) {
-  return TurnQ32::fromRaw(constants.first_angle_q32 + turnsOf(constants, position));
-}
-
-/// 100 % where noise and rounding explain what is left.
-std::uint8_t qualityOf(const TableConstants& constants, const Fit& fit) {
-  const std::int32_t expected = noiseEnergy(constants, fit.up) / 2 + (fit.windowEnergy >> kRoundingShift);
-  const std::int64_t percent =
-      100 * std::int64_t{expected} / std::max<std::int32_t>({expected, fit.unexplained, 1});
-  const bool doubt = fit.ambiguous || !fit.settled;
-  return static_cast<std::uint8_t>(std::min<std::int64_t>(percent, doubt ? kUncertainQuality : 100));
-}
-
-/// Standard errors that an alternative is away at least: three, or as many as noise needs to make it the
-/// better one; two below eight variances, which are a valley's, maybe longer (runners-up are ambiguous up to
-/// 12).
-int errorsAway(const TableConstants& constants, const Fit& fit) {
-  static_assert(kNoiseUnit == 32);
-  if (fit.ambiguous) return 3;
-  const std::int32_t eightVariances = noiseEnergy(constants, fit.up) / 4;
-  return 2 + (fit.deficit >= eightVariances) + (fit.deficit >= 2 * eightVariances) +
-         (fit.deficit >= 3 * eightVariances);
-}
-
-/// So that as many errors reach the alternative, and beyond it as far as its own error.
-std::int32_t covering(std::int32_t sigma, std::int64_t difference, int errors) {
-  const std::int64_t reach = (difference < 0 ? -difference : difference) + sigma;
-  return std::max(sigma, saturate<std::int32_t>(reach / errors));
+/// Errors reach a rival that the readings hardly tell from the answer in three of them. True: it is farther
+/// away than the answer's own errors reached.
+bool coverRival(const Answer& answer, Contact& estimated) {
+  if (answer.rivalEnergy < 0 || answer.solution.hypothesis.contacts > 1) return false;
+  if (answer.rivalEnergy >= energyOf(answer.gateVariance_q4, threshold::kAmbiguous)) return false;
+  const auto turned =
+      static_cast<std::int32_t>(answer.rival.angle_q32 - answer.solution.contact[0].angle_q32);
+  const std::uint32_t least = static_cast<std::uint32_t>(magnitude(Wide{turned})) / 3;
+  if (estimated.sigmaAngle.raw() >= least) return false;
+  estimated.sigmaAngle = TurnQ32::fromRaw(least);
+  return true;
 }
 
 }  // namespace
 
-Contact estimate(const TableConstants& constants, const Fit& fit) {
-  const PitchQ20 ring = constants.gauge_count * kOnePitch;
-  auto [offset, normal, tangential] = errorsOf(noiseOf(constants, fit), fit, ring / 2);
-  offset = std::min(offset, ring / 2);
-  if (fit.deficit != kNoRival) {
-    const int errors = errorsAway(constants, fit);
-    const PitchQ20 apart = std::abs(fit.best.position - fit.alternative.position);
-    offset = covering(offset, std::min(apart, ring - apart), errors);
-    normal = covering(normal, std::int64_t{fit.best.normal} - fit.alternative.normal, errors);
-    tangential = covering(tangential, std::int64_t{fit.best.tangential} - fit.alternative.tangential, errors);
+Contact estimate(const TableConstants& constants, const Answer& answer, const Linearisation& linearisation,
+                 int contact) {
+  const Hypothesis& hypothesis = answer.solution.hypothesis;
+  const ContactState& state = answer.solution.contact[at(contact)];
+  const auto variance = variances(linearisation.decomposition);
+  const auto sigma = [&](int unknown, int unitBits, std::int64_t most) {
+    if (!linearisation.decomposition.isDetermined(unknown)) return most;
+    return sigmaOf(variance[at(unknown)], answer.variance_q4)
+        .times2(unitBits - linearisation.exponent[at(unknown)], most);
+  };
+  const auto load = [&](std::int64_t amplitude) {
+    return LineLoadQ12::fromRaw(lineLoad(static_cast<Number>(amplitude), constants.load_scale,
+                                         constants.load_exponent + answer.shift));
+  };
+  const int contacts = hypothesis.contacts;
+  Contact estimated;
+  estimated.angle = TurnQ32::fromRaw(state.angle_q32);
+  const std::int64_t turn =
+      sigma(2 * contacts + contact, 15 + 8, std::int64_t{1} << 40) * halfNode_q32(constants) >> (15 + 8);
+  estimated.sigmaAngle = TurnQ32::fromRaw(static_cast<std::uint32_t>(std::min(turn, kHalfTurn_q32)));
+  estimated.normal = load(state.normal);
+  estimated.tangential = load(state.tangential);
+  estimated.sigmaNormal = load(sigma(2 * contact, 16, kMostLoad));
+  estimated.sigmaTangential = load(sigma(2 * contact + 1, 16, kMostLoad));
+  if (hypothesis.widthIsFree)
+    setWidth(constants, state.moment_q20, sigma(3 * contacts + contact, kMomentBits, 1 << kMomentBits),
+             estimated);
+  const int left = freedoms(hypothesis);
+  const std::int64_t chiSquared = (answer.solution.residualEnergy << 4) / answer.gateVariance_q4;
+  if (left > 0) {
+    const Scaled chi = rootOf(static_cast<std::uint64_t>((answer.solution.residualEnergy << 12) /
+                                                         (std::int64_t{answer.gateVariance_q4} * left)),
+                              0);
+    estimated.chi_q4 = static_cast<std::uint16_t>(chi.times2(0, kNoChi - 1));
   }
-  Contact contact;
-  contact.angle = angleOf(constants, fit.best.position);
-  contact.sigmaAngle = TurnQ32::fromRaw(turnsOf(constants, offset));
-  contact.normal = loadOf(constants, fit, fit.best.normal);
-  contact.sigmaNormal = loadOf(constants, fit, normal);
-  contact.tangential = loadOf(constants, fit, fit.best.tangential);
-  contact.sigmaTangential = loadOf(constants, fit, tangential);
-  contact.alternative = angleOf(constants, fit.alternative.position);
-  contact.quality = qualityOf(constants, fit);
-  contact.ambiguous = fit.ambiguous;
-  contact.uncertain = contact.quality <= kUncertainQuality;
-  return contact;
+  estimated.quality = qualityOf(answer, chiSquared, left);
+  estimated.ambiguous = coverRival(answer, estimated);
+  estimated.alternative = TurnQ32::fromRaw(answer.rival.angle_q32);
+  estimated.uncertain = estimated.ambiguous || !answer.accepted || answer.searching;
+  if (estimated.uncertain) estimated.quality = std::min<std::uint8_t>(estimated.quality, 20);
+  return estimated;
 }
 
 }  // namespace strainfinger::firmware

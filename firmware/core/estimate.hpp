@@ -1,14 +1,15 @@
 #pragma once
-// A fit as quantities with units, and how far to trust them.
+// An answer as quantities with units, and how far to trust them.
 
 #include "common/contact.hpp"
-#include "firmware/core/locate.hpp"
+#include "firmware/core/locator.hpp"
 
 namespace strainfinger::firmware {
 
-/// Angle, loads, standard errors, quality. The errors are the Cramer-Rao bound of the readings used, at the
-/// noise in the tables, widened to cover another place that noise may hide (Fit::deficit). Cost: three square
-/// roots, so only for fits that are reported.
-Contact estimate(const TableConstants& constants, const Fit& fit);
+/// Place, loads, width, their standard errors, and quality of one of the answer's contacts. The errors are
+/// the Cramer-Rao bound of the readings used at their variance (noise, rounding and model error), widened to
+/// cover a rival that is nearly as likely. Cost: some square roots, so only for what is reported.
+Contact estimate(const TableConstants& constants, const Answer& answer, const Linearisation& linearisation,
+                 int contact);
 
 }  // namespace strainfinger::firmware

@@ -111,9 +111,10 @@ bool isInReachOfAny(const TableImage& tables, const Hypothesis& hypothesis, cons
 
 void chooseRows(const TableImage& tables, Linearisation& linearisation) {
   const Hypothesis& hypothesis = linearisation.hypothesis;
+  const GaugeSet fittedGauges = hypothesis.exact != 0 ? hypothesis.exact : hypothesis.gauges;
   int rows = 0;
   for (int gauge = 0; gauge < tables.constants.gauge_count && rows < kMostRows; ++gauge) {
-    if (!contains(hypothesis.gauges, gauge)) continue;
+    if (!contains(fittedGauges, gauge)) continue;
     if (isInReachOfAny(tables, hypothesis, linearisation.at, tables.gauge_angle_q32[index(gauge)]))
       linearisation.gauge[index(rows++)] = static_cast<std::uint8_t>(gauge);
   }
@@ -216,7 +217,7 @@ void take(const TableConstants& constants, const Linearisation& linearisation, c
 bool isConverged(Wide reduction, const ScaledReadings& readings) {
   constexpr Wide kSquare = 512 / 16;
   return reduction < 64 ||
-         (reduction < Wide{1} << 31 && reduction * reduction <= kSquare * readings.variance_q4);
+         (reduction < Wide{1} << 31 && reduction * reduction <= kSquare * readings.gateVariance_q4);
 }
 
 }  // namespace

@@ -18,13 +18,14 @@ std::uint32_t noiseVariance_q4(const TableConstants& constants, int shift) {
 }  // namespace
 
 ScaledReadings scaledReadings(const TableConstants& constants, std::span<const std::int32_t> strains_q32,
-                              GaugeSet gauges) {
+                              GaugeSet gauges, std::uint32_t noise_q4, int shift) {
   std::uint32_t bits = 0;
   for (std::size_t i = 0; i < strains_q32.size(); ++i)
     if (contains(gauges, static_cast<int>(i)))
       bits |= static_cast<std::uint32_t>(strains_q32[i] < 0 ? ~strains_q32[i] : strains_q32[i]);
   ScaledReadings scaled;
-  scaled.shift = static_cast<std::int8_t>(std::max(17 - std::countl_zero(bits), 0));
+  const int own = std::max(17 - std::countl_zero(bits), 0);
+  scaled.shift = static_cast<std::int8_t>(shift == own + 1 ? shift : own);
   Number largest = 0;
   for (std::size_t i = 0; i < strains_q32.size(); ++i) {
     scaled.value[i] = saturate<std::int16_t>(strains_q32[i] >> scaled.shift);
@@ -32,9 +33,22 @@ ScaledReadings scaledReadings(const TableConstants& constants, std::span<const s
       largest = std::max(largest, magnitude(Number{scaled.value[i]}));
   }
   const auto modelError = static_cast<std::uint32_t>(largest) * constants.model_error_q16 >> 14;  // * 4
-  const std::uint32_t noise = noiseVariance_q4(constants, scaled.shift);
-  const std::uint64_t variance = std::uint64_t{modelError} * modelError + noise + kRoundingVariance_q4;
-  scaled.variance_q4 = static_cast<std::uint32_t>(std::min<std::uint64_t>(variance, kMostVariance_q4));
+  const std::uint64_t noise =
+      (std::uint64_t{noiseVariance_q4(constants, scaled.shift)} * noise_q4 >> 4) + kRoundingVariance_q4;
+  const auto withModelError = [&](std::uint64_t error) {
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(error * error + noise, kMostVariance_q4));
+  };
+  scaled.variance_q4 = withModelError(modelError);
+  scaled.gateVariance_q4 = withModelError(modelError >> kGateModelError);
+  return scaled;
+}
+
+ContactStates rescaled(const ContactStates& contacts, int from, int to) {
+  ContactStates scaled = contacts;
+  for (ContactState& contact : scaled) {
+    contact.normal = shifted(contact.normal, from - to, kMostLoad);
+    contact.tangential = shifted(contact.tangential, from - to, kMostLoad);
+  }
   return scaled;
 }
 

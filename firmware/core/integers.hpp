@@ -16,6 +16,7 @@ namespace strainfinger::firmware {
 
 using Number = std::int32_t;
 using Wide = std::int64_t;
+using Natural = std::uint64_t;
 
 constexpr Number magnitude(Number value) { return value < 0 ? -value : value; }
 constexpr Wide magnitude(Wide value) { return value < 0 ? -value : value; }
@@ -39,6 +40,18 @@ constexpr Number shifted(Wide value, int up, Number limit) {
   if (value > most) return limit;
   if (value < -most) return -limit;
   return static_cast<Number>(value << up);
+}
+
+/// value^2, exactly. Cores without long products make it of three short ones.
+constexpr Wide squareOf(Number value) {
+#if defined(__ARM_ARCH_6M__)
+  const std::int32_t upper = value >> 16;
+  const std::uint32_t lower = static_cast<std::uint32_t>(value) & 0xFFFF;
+  const std::int64_t cross = upper * static_cast<std::int32_t>(lower);
+  return (std::int64_t{upper * upper} << 32) + cross * (1 << 17) + lower * lower;
+#else
+  return Wide{value} * value;
+#endif
 }
 
 /// Sum of a[i] * b[i]; `count` is even, both start at multiples of 4 bytes. Two products an instruction where

@@ -33,6 +33,12 @@ bool isPromising(const TableConstants& constants, const Solution& solution) {
   return true;
 }
 
+Wide likelihoodEnergy(const TableConstants& constants, const Solution& solution,
+                      const ScaledReadings& readings) {
+  return solution.residualEnergy +
+         (isAdmissible(constants, solution) ? 0 : energyOf(readings, threshold::kInadmissible));
+}
+
 int freedoms(const Hypothesis& hypothesis) {
   return std::popcount(hypothesis.gauges) - hypothesis.unknowns();
 }

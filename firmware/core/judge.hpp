@@ -18,10 +18,10 @@ inline constexpr int kGate = 28;
 /// What no pressure profile of the tables has: part of the largest reading, as a power of two, by which each
 /// reading may be off besides [log2]. A uniform pressure read as a semi-ellipse: 0.07 % at 3 mm.
 inline constexpr int kProfileErrorBits = 10;
-/// Two answers are not told apart within this difference of chi-squared: four standard errors.
-inline constexpr int kAmbiguous = 16;
-/// Reported errors reach another answer up to this difference of chi-squared.
-inline constexpr int kCovered = 32;
+/// Two answers are not told apart within this difference of chi-squared: 4.5 standard errors.
+inline constexpr int kAmbiguous = 20;
+/// An inadmissible answer is believed only if it explains so much more: noise may have moved it there.
+inline constexpr int kInadmissible = 28;
 /// Largest reading over a standard deviation [squared] and second moment of contacts that have no second
 /// answer near by: the gap of chi-squared is 80 at 14 N/m and 2 mm on the default finger.
 inline constexpr int kFirmSignal = 1'200'000;
@@ -35,9 +35,12 @@ inline constexpr int kCulpritBits = 4;
 
 }  // namespace threshold
 
-/// Sum of squares that `deviations` of chi-squared are.
+/// Sum of squares that is so much of chi-squared.
+constexpr Wide energyOf(std::uint32_t gateVariance_q4, Wide chiSquared) {
+  return (chiSquared * gateVariance_q4) >> 4;
+}
 constexpr Wide energyOf(const ScaledReadings& readings, Wide chiSquared) {
-  return (chiSquared * readings.variance_q4) >> 4;
+  return energyOf(readings.gateVariance_q4, chiSquared);
 }
 
 /// The contact presses and stays within the friction cone.
@@ -46,6 +49,10 @@ bool isAdmissible(const TableConstants& constants, const Solution& solution);
 
 /// A fit from these contacts may lead to admissible ones: beside the right place loads are far off.
 bool isPromising(const TableConstants& constants, const Solution& solution);
+
+/// Residual energy, with threshold::kInadmissible added where the solution is not admissible.
+Wide likelihoodEnergy(const TableConstants& constants, const Solution& solution,
+                      const ScaledReadings& readings);
 
 /// Degrees of freedom that are left.
 int freedoms(const Hypothesis& hypothesis);

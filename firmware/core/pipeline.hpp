@@ -1,68 +1,65 @@
 #pragma once
 // One sample set through conditioning, detection and location.
 
-#include <optional>
-
 #include "firmware/core/condition.hpp"
 #include "firmware/core/detect.hpp"
 #include "firmware/core/gauge_watch.hpp"
-#include "firmware/core/locate.hpp"
+#include "firmware/core/locator.hpp"
+#include "firmware/core/noise_meter.hpp"
 #include "firmware/core/zero_tracker.hpp"
 
 namespace strainfinger::firmware {
 
 /// What one sample set shows.
 struct Observation {
-  std::optional<Fit> fit;  ///< nothing when nothing touches the finger
+  bool touched = false;
+  bool several = false;    ///< the readings are not those of one contact
+  bool staleZero = false;  ///< the finger has not been seen untouched for too long
+  bool noisy = false;      ///< the untouched ring is noisier than configured
   GaugeSet saturated = 0;  ///< at a rail
   GaugeSet outOfUse = 0;   ///< known not to work
-  GaugeSet leftOut = 0;    ///< of this fit: these, and what this sample set speaks against
-  bool several = false;    ///< the strains are not those of one contact
-  bool staleZero = false;  ///< the finger has not been seen untouched for too long
+  GaugeSet leftOut = 0;    ///< of the answer
 };
 
 class Pipeline {
  public:
   Pipeline(const TableImage& tables, FitMode mode)
-      : tables_(&tables), calibration_(tabledCalibration(tables)), jumps_(tables.constants), mode_(mode) {}
+      : tables_(&tables), calibration_(tabledCalibration(tables)), locator_(mode) {}
 
-  /// Costs conditioning and the gate when nothing touches; else a fit (see locate()).
+  /// Costs conditioning and the gate when nothing touches; else an update of the locator.
   const Observation& process(Codes codes);
 
-  /// What the last sample set showed.
+  /// What the last sample set showed, and the answer if it is touched.
   const Observation& observation() const { return observation_; }
+  const Answer& answer() const { return locator_.answer(); }
+  const Linearisation& linearisation() const { return locator_.linearisation(); }
 
   const TableConstants& constants() const { return tables_->constants; }
   Calibration& calibration() { return calibration_; }
   /// A new zero: what was learnt with the old one is forgotten, gauges out of use have another try.
   void takeZero(const ZeroAverage& zero);
   /// So few gauges work that nothing is said for sure.
-  bool tooFewGauges() const { return tooManyOut(watch_.outOfUse(), constants().gauge_count); }
+  bool tooFewGauges() const;
   const ZeroTracker& zeroTracker() const { return tracker_; }
-  /// Of the last sample set; gauges that are left out have what the others say they should read, or 0.
+  /// Of the last sample set.
   const Readings& readings() const { return readings_; }
 
  private:
-  std::span<std::int32_t> strains() { return std::span(readings_.strain_q32).first(constants().gauge_count); }
-  std::uint32_t energyAgain();
-  void look();
-  void lookWithout(GaugeSet gauges);
-  GaugeSet culprits(Codes codes);
-  void conclude(GaugeSet accused);
-  GaugeSet implausiblySaturated(Codes codes) const;
-  void reconsider(Codes codes);
-  void convictStuck(Codes codes);
+  std::span<const std::int32_t> strains() const { return readings_.strains(constants().gauge_count); }
+  void locate(GaugeSet gauges);
+  void watchGauges(Codes codes);
+  bool isDisturbance() const;
 
   const TableImage* tables_;
   Calibration calibration_;
   Readings readings_;
   Observation observation_;
   ContactGate gate_;
+  NoiseMeter noise_;
+  Locator locator_;
   GaugeWatch watch_;
-  JumpWatch jumps_;
   ZeroTracker tracker_;
-  std::uint32_t energy_ = 0;  ///< of the readings as the fit has them
-  FitMode mode_;
+  Linearisation scratch_;
 };
 
 }  // namespace strainfinger::firmware

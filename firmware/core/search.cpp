@@ -94,17 +94,21 @@ const Effort& effortOf(bool fine, const Hypothesis& hypothesis) {
 
 }  // namespace
 
-void Ranking::take(const TableConstants& constants, const Solution& solution) {
-  if (!isAdmissible(constants, solution)) return;
+void Ranking::take(const TableConstants& constants, const Solution& solution,
+                   const ScaledReadings& readings) {
+  if (!isPromising(constants, solution)) return;
+  const auto isLikelier = [&](const Solution& a, const Solution& b) {
+    return likelihoodEnergy(constants, a, readings) < likelihoodEnergy(constants, b, readings);
+  };
   const bool same = anyBest && isSame(constants, solution, best);
-  if (!anyBest || solution.residualEnergy < best.residualEnergy) {
+  if (!anyBest || isLikelier(solution, best)) {
     if (anyBest && !same) {
       second = best;
       anySecond = true;
     }
     best = solution;
     anyBest = true;
-  } else if (!same && (!anySecond || solution.residualEnergy < second.residualEnergy)) {
+  } else if (!same && (!anySecond || isLikelier(solution, second))) {
     second = solution;
     anySecond = true;
   }
@@ -159,12 +163,12 @@ ContactStates initialGuess(const TableImage& tables, const Hypothesis& hypothesi
   return any ? best.contact : grid.at(tables, grid.size() / 2);
 }
 
-void Search::begin(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges) {
+void Search::begin(const TableImage& tables, const ScaledReadings& readings, const Hypothesis& hypothesis) {
   readings_ = readings;
-  gauges_ = gauges;
+  all_ = hypothesis;
   single_ = withoutOne_ = pair_ = {};
   stage_ = Stage::kSingle;
-  beginTask(tables, {1, tables.constants.width_is_known == 0, gauges});
+  beginTask(tables, all_);
 }
 
 void Search::beginTask(const TableImage& tables, const Hypothesis& hypothesis) {
@@ -207,7 +211,7 @@ int Search::refineNext(const TableImage& tables, Linearisation& scratch) {
   const int steps = first ? kFirstSteps : kMostSteps;
   candidate = fit(tables, hypothesis_, candidate.contact, readings_, steps, scratch);
   if (refined_ == candidates_) std::sort(candidate_.begin(), candidate_.begin() + candidates_, isBetter);
-  if (!first) rankingOf(stage_).take(tables.constants, candidate);
+  if (!first) rankingOf(stage_).take(tables.constants, candidate, readings_);
   return (first ? kFirstSteps : kMostSteps / 2) * (hypothesis_.contacts == 1 ? kStepWork : kPairStepWork);
 }
 
@@ -221,13 +225,13 @@ Ranking& Search::rankingOf(Stage stage) {
 }
 
 void Search::withoutNext(const TableImage& tables) {
-  while (leftOut_ < tables.constants.gauge_count && !contains(gauges_, leftOut_)) ++leftOut_;
+  while (leftOut_ < tables.constants.gauge_count && !contains(all_.gauges, leftOut_)) ++leftOut_;
   if (leftOut_ < tables.constants.gauge_count) {
-    const GaugeSet others = gauges_ & ~(GaugeSet{1} << leftOut_++);
-    return beginTask(tables, {1, tables.constants.width_is_known == 0, others});
+    const GaugeSet others = all_.gauges & ~(GaugeSet{1} << leftOut_++);
+    return beginTask(tables, {1, all_.widthIsFree, others});
   }
   stage_ = Stage::kPair;
-  beginTask(tables, {2, tables.constants.width_is_known == 0, gauges_});
+  beginTask(tables, {2, all_.widthIsFree, all_.gauges});
 }
 
 void Search::finishTask(const TableImage& tables) {

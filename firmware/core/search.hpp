@@ -16,8 +16,8 @@ struct Ranking {
   bool anyBest = false;
   bool anySecond = false;
 
-  /// Takes a solution in, unless it is inadmissible.
-  void take(const TableConstants& constants, const Solution& solution);
+  /// Takes a solution in. One that is not admissible counts as if it left threshold::kInadmissible more.
+  void take(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings);
 };
 
 /// Where to look for the contacts of a hypothesis: places and widths around where the strains bend most, or
@@ -49,7 +49,8 @@ ContactStates initialGuess(const TableImage& tables, const Hypothesis& hypothesi
 /// of it that fits into a sample period.
 class Search {
  public:
-  void begin(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
+  /// `hypothesis`: one contact, read by all gauges that work.
+  void begin(const TableImage& tables, const ScaledReadings& readings, const Hypothesis& hypothesis);
   void stop() { stage_ = Stage::kIdle; }
   bool isRunning() const { return stage_ != Stage::kIdle; }
   /// Goes on for at most kWork units. Cost: 500 instructions of a Cortex-M4 each.
@@ -76,8 +77,8 @@ class Search {
   void withoutNext(const TableImage& tables);
 
   ScaledReadings readings_;
-  GaugeSet gauges_ = 0;
-  Hypothesis hypothesis_;
+  Hypothesis all_;         ///< one contact, all gauges
+  Hypothesis hypothesis_;  ///< that is looked at
   Grid grid_;
   Ranking single_, withoutOne_, pair_;
   std::array<Solution, kMostCandidates> candidate_;

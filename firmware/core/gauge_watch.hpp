@@ -1,0 +1,40 @@
+#pragma once
+// Which gauges are not to be trusted.
+
+#include <array>
+#include <cstdint>
+
+#include "firmware/core/hypothesis.hpp"
+
+namespace strainfinger::firmware {
+
+/// Takes a gauge out of use when it alone explains what is wrong with the readings at several places, or when
+/// it is at a rail where the others leave no doubt that it should not be. A second contact, a wide one or a
+/// finger that is not as drawn may look like a failing gauge at one place; at the next they look like
+/// another's failure.
+class GaugeWatch {
+ public:
+  GaugeSet outOfUse() const { return outOfUse_; }
+
+  /// Once a touched sample set: the gauge that it speaks against, if any, and where the contact is.
+  void suspect(GaugeSet gauge, std::uint32_t angle_q32);
+  /// Gauges at a rail that should be well within their range; two sets in a row convict them.
+  void implausiblyAtRail(GaugeSet gauges);
+  /// Gauges that touches which they should have felt speak for: of those in use it clears a suspicion, those
+  /// out of use come back after kConvincing of them.
+  void vindicate(GaugeSet gauges);
+  /// Gauges that feel a firm touch while the ring is untouched.
+  void convict(GaugeSet gauges) { outOfUse_ |= gauges; }
+
+  static constexpr int kPlaces = 3;       ///< that convict a gauge
+  static constexpr int kConvincing = 64;  ///< sample sets that bring one back
+
+ private:
+  std::array<std::uint8_t, kMaxGauges> places_{};
+  std::array<std::uint8_t, kMaxGauges> right_{};
+  std::array<std::uint32_t, kMaxGauges> lastPlace_q32_{};
+  GaugeSet outOfUse_ = 0;
+  GaugeSet atRail_ = 0;  ///< in the last set
+};
+
+}  // namespace strainfinger::firmware

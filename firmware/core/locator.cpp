@@ -1,0 +1,180 @@
+#include "firmware/core/locator.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+namespace strainfinger::firmware {
+namespace {
+
+constexpr int kMostSteps = 14;      ///< of a fit from the readings
+constexpr int kFollowingSteps = 3;  ///< of one from the last answer
+/// Sets of readings after which what is in doubt is looked into again.
+constexpr std::uint16_t kSearchAgainAfter = 64;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+Hypothesis oneContact(const TableImage& tables, FitMode mode, GaugeSet gauges) {
+  const bool widthIsFree = tables.constants.width_is_known == 0 && mode == FitMode::kRefined;
+  return {1, widthIsFree, gauges};
+}
+
+/// Both contacts of a pair press by more than noise, and by a 16th of the other.
+bool areBothContacts(const Solution& pair, const ScaledReadings& readings) {
+  const Number first = pair.contact[0].normal, second = pair.contact[1].normal;
+  const Wide least = std::min(first, second) / 2;  // reading over a contact
+  return std::min(first, second) >= std::max(first, second) >> 4 &&
+         least * least >= energyOf(readings, threshold::kFaint);
+}
+
+/// The reading of a gauge that was left out is far from what the others predict.
+bool isFarOff(const TableImage& tables, const Solution& solution, const ScaledReadings& readings,
+              GaugeSet leftOut, Linearisation& scratch) {
+  linearise(tables, solution.hypothesis, solution.contact, scratch);
+  const auto gauge = at(std::countr_zero(leftOut));
+  const Number off = magnitude(Number{readings.value[gauge]} - scratch.predicted[gauge]);
+  return off >= 1 << (15 - threshold::kCulpritBits);
+}
+
+}  // namespace
+
+void Locator::release() {
+  tracking_ = false;
+  search_.stop();
+  answer_ = {};
+}
+
+void Locator::believe(const TableImage& tables, const Solution& solution, const ScaledReadings& readings) {
+  answer_.solution = solution;
+  answer_.shift = readings.shift;
+  answer_.variance_q4 = readings.variance_q4;
+  answer_.gateVariance_q4 = readings.gateVariance_q4;
+  answer_.accepted = isAccepted(tables.constants, solution, readings);
+  tracking_ = true;
+}
+
+/// From the linear model around an earlier answer; anew around the answer where that is too far away.
+bool Locator::follow(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges) {
+  const Hypothesis& hypothesis = answer_.solution.hypothesis;
+  if ((hypothesis.gauges & ~gauges) != 0) return false;
+  if (readings.shift != answer_.shift)
+    linearise(tables, hypothesis, rescaled(answer_.solution.contact, answer_.shift, readings.shift),
+              linearisation_);
+  Solution solution = step(tables, linearisation_, readings);
+  for (int i = 1; i < kFollowingSteps && !solution.converged; ++i) {
+    linearise(tables, hypothesis, solution.contact, linearisation_);
+    solution = step(tables, linearisation_, readings);
+  }
+  const bool wasAccepted = answer_.accepted;
+  believe(tables, solution, readings);
+  return answer_.accepted || !wasAccepted;
+}
+
+void Locator::start(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges) {
+  answer_ = {};
+  const Hypothesis hypothesis = oneContact(tables, mode_, gauges);
+  const ContactStates guess = initialGuess(tables, hypothesis, readings);
+  believe(tables, fit(tables, hypothesis, guess, readings, kMostSteps, linearisation_), readings);
+  if (answer_.accepted && isFirm(tables.constants, answer_.solution, readings)) return;
+  search_.begin(tables, readings, hypothesis);
+  answer_.searching = true;
+  setsSinceSearch_ = 0;
+}
+
+/// The most likely hypothesis of those that were looked at.
+void Locator::conclude(const TableImage& tables) {
+  const ScaledReadings& readings = search_.readings();
+  const TableConstants& constants = tables.constants;
+  const Ranking& single = search_.single();
+  const Ranking& without = search_.withoutOne();
+  const Ranking& pair = search_.pair();
+  const auto explains = [&](const Ranking& ranking) {
+    return ranking.anyBest && isAccepted(constants, ranking.best, readings);
+  };
+  answer_.searching = false;
+  answer_.several = false;
+  answer_.suspect = 0;
+  answer_.rivalEnergy = -1;
+  const Ranking* best = &single;
+  if (!explains(single)) {
+    const bool two = explains(pair) && areBothContacts(pair.best, readings);
+    const bool faulty = explains(without);
+    if (pair.anyBest && (two || !faulty)) best = &pair;
+    if (faulty && (!two || without.best.residualEnergy < pair.best.residualEnergy)) best = &without;
+    answer_.several = !faulty || two;
+    if (faulty && !two) {
+      const GaugeSet leftOut = single.best.hypothesis.gauges & ~without.best.hypothesis.gauges;
+      const bool isOnlyOne =
+          !without.anySecond || without.second.residualEnergy - without.best.residualEnergy >=
+                                    energyOf(readings, threshold::kCulpritMargin);
+      if (isOnlyOne && isFarOff(tables, without.best, readings, leftOut, scratch_)) answer_.suspect = leftOut;
+    }
+  }
+  if (!best->anyBest) return;
+  believe(tables, best->best, readings);
+  if (!best->anySecond || best->second.hypothesis != best->best.hypothesis) return;
+  answer_.rival = best->second.contact[0];
+  answer_.rivalEnergy =
+      likelihoodEnergy(constants, best->second, readings) - likelihoodEnergy(constants, best->best, readings);
+}
+
+void Locator::goOn(const TableImage& tables, const ScaledReadings& readings) {
+  search_.advance(tables, scratch_);
+  if (search_.isRunning()) return;
+  conclude(tables);
+  // The touch may have changed since the search began.
+  const Hypothesis hypothesis = answer_.solution.hypothesis;
+  const ContactStates from = rescaled(answer_.solution.contact, answer_.shift, readings.shift);
+  believe(tables, fit(tables, hypothesis, from, readings, kMostSteps / 2, linearisation_), readings);
+}
+
+/// Three readings that see the place and both loads well, solved exactly.
+void Locator::solveExactly(const TableImage& tables, const ScaledReadings& readings) {
+  Hypothesis hypothesis = answer_.solution.hypothesis;
+  linearise(tables, {1, false, hypothesis.gauges}, answer_.solution.contact, linearisation_);
+  const auto& column = linearisation_.column;
+  Wide most = -1;
+  for (int a = 0; a < linearisation_.usedRows; ++a)
+    for (int b = a + 1; b < linearisation_.usedRows; ++b) {
+      const auto minor = [&](int i, int j) {
+        return column[at(i)][at(a)] * column[at(j)][at(b)] - column[at(j)][at(a)] * column[at(i)][at(b)];
+      };
+      const Number x = minor(1, 2), y = minor(2, 0), z = minor(0, 1);
+      for (int c = b + 1; c < linearisation_.usedRows; ++c) {
+        const Wide determinant =
+            magnitude(Wide{x} * column[0][at(c)] + Wide{y} * column[1][at(c)] + Wide{z} * column[2][at(c)]);
+        if (determinant <= most) continue;
+        most = determinant;
+        const auto bit = [&](int row) { return GaugeSet{1} << linearisation_.gauge[at(row)]; };
+        hypothesis.exact = bit(a) | bit(b) | bit(c);
+      }
+    }
+  believe(tables, fit(tables, hypothesis, answer_.solution.contact, readings, kMostSteps / 2, linearisation_),
+          readings);
+}
+
+void Locator::update(const TableImage& tables, std::span<const std::int32_t> strains_q32, GaugeSet gauges,
+                     std::uint32_t noise_q4) {
+  const ScaledReadings readings =
+      scaledReadings(tables.constants, strains_q32, gauges, noise_q4, tracking_ ? answer_.shift : -1);
+  if (!tracking_ || !follow(tables, readings, gauges)) start(tables, readings, gauges);
+  if (search_.isRunning()) {
+    goOn(tables, readings);
+  } else if (!answer_.accepted || answer_.rivalEnergy >= 0) {
+    if (++setsSinceSearch_ < kSearchAgainAfter) return;
+    setsSinceSearch_ = 0;
+    search_.begin(tables, readings, oneContact(tables, mode_, gauges));
+  }
+  if (mode_ == FitMode::kThreePoint && !search_.isRunning() && answer_.solution.hypothesis.contacts == 1 &&
+      answer_.solution.hypothesis.exact == 0)
+    solveExactly(tables, readings);
+}
+
+void locateOnce(const TableImage& tables, std::span<const std::int32_t> strains_q32, GaugeSet gauges,
+                Locator& locator) {
+  locator.release();
+  do locator.update(tables, strains_q32, gauges);
+  while (locator.answer().searching);
+}
+
+}  // namespace strainfinger::firmware

@@ -1,0 +1,72 @@
+#pragma once
+// Follows the contacts of a finger from one set of readings to the next.
+
+#include <cstdint>
+#include <span>
+
+#include "firmware/core/fit.hpp"
+#include "firmware/core/judge.hpp"
+#include "firmware/core/search.hpp"
+
+namespace strainfinger::firmware {
+
+/// How the contacts are fitted.
+enum class FitMode : std::uint8_t {
+  kThreePoint,  ///< the paper's: three readings are solved exactly, the others decide; the width is known
+  kRefined,     ///< all readings in reach
+};
+
+/// What the locator believes.
+struct Answer {
+  Solution solution;
+  std::int8_t shift = 0;              ///< of the readings
+  std::uint32_t variance_q4 = 0;      ///< of a reading
+  std::uint32_t gateVariance_q4 = 0;  ///< by which hypotheses are judged
+  ContactState rival;                 ///< another answer of the same hypothesis ..
+  Wide rivalEnergy = -1;   ///< .. and what it leaves more [residual energy]; negative: there is none
+  bool accepted = false;   ///< the hypothesis explains the readings
+  bool searching = false;  ///< the search for other hypotheses goes on
+  bool several = false;    ///< two contacts explain the readings as well as, or better than one
+  GaugeSet suspect = 0;  ///< the gauge without which one contact explains the readings, and nothing else does
+};
+
+/// Starts from the last answer where it still explains the readings, else from the readings; searches where
+/// that leaves doubt, over several sets of readings. Cost of an update: below a search's kWork and 16 steps.
+class Locator {
+ public:
+  explicit Locator(FitMode mode) : mode_(mode) {}
+
+  /// One set of strains of a touched ring. `gauges`: those that work and are within their range; `noise_q4`:
+  /// variance of a reading in configured ones [* 2^4].
+  void update(const TableImage& tables, std::span<const std::int32_t> strains_q32, GaugeSet gauges,
+              std::uint32_t noise_q4 = 1 << 4);
+  /// Nothing touches the finger any more.
+  void release();
+
+  const Answer& answer() const { return answer_; }
+  /// The linear model around the answer, of which its errors are.
+  const Linearisation& linearisation() const { return linearisation_; }
+
+ private:
+  bool follow(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
+  void start(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
+  void goOn(const TableImage& tables, const ScaledReadings& readings);
+  void conclude(const TableImage& tables);
+  void believe(const TableImage& tables, const Solution& solution, const ScaledReadings& readings);
+  void settle(const TableImage& tables, const ScaledReadings& readings);
+  void solveExactly(const TableImage& tables, const ScaledReadings& readings);
+
+  Search search_;
+  Linearisation linearisation_;
+  Linearisation scratch_;
+  Answer answer_;
+  FitMode mode_;
+  bool tracking_ = false;
+  std::uint16_t setsSinceSearch_ = 0;
+};
+
+/// The answer to one set of strains alone: an update and the whole search.
+void locateOnce(const TableImage& tables, std::span<const std::int32_t> strains_q32, GaugeSet gauges,
+                Locator& locator);
+
+}  // namespace strainfinger::firmware

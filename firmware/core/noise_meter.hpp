@@ -1,0 +1,55 @@
+#pragma once
+// How noisy the untouched ring is.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "common/table_image.hpp"
+#include "firmware/core/detect.hpp"
+
+namespace strainfinger::firmware {
+
+/// Compares readings kLag sample sets apart, once in kEvery: half a period of 50 Hz hum at 1 kHz, so that hum
+/// counts in full while drift and slow touches hardly do. What it finds raises the gate and the variance of
+/// the readings. Cost: two instructions a gauge and sample set.
+class NoiseMeter {
+ public:
+  static constexpr int kEvery = 16;
+  static constexpr int kLag = 10;
+  static constexpr int kMemory = 4;         ///< sixteen comparisons: a quarter of a second [log2]
+  static constexpr int kNoisy_q4 = 4 << 4;  ///< variance, in configured ones, from which the ring is noisy
+
+  /// One sample set of an untouched ring.
+  void take(const TableConstants& constants, std::span<const std::int32_t> strains_q32) {
+    if (phase_ == 0) std::copy(strains_q32.begin(), strains_q32.end(), before_q32_.begin());
+    if (phase_ == kLag) compare(constants, strains_q32);
+    phase_ = static_cast<std::uint8_t>((phase_ + 1) % kEvery);
+  }
+  /// The ring was touched in between: nothing to compare with.
+  void interrupt() { phase_ = 0; }
+
+  /// Variance of a reading in configured ones [* 2^4], at least 1.
+  std::uint32_t variance_q4() const { return std::max<std::uint32_t>(mean_q8_ >> 4, 1 << 4); }
+  bool isNoisy() const { return variance_q4() >= kNoisy_q4; }
+
+ private:
+  void compare(const TableConstants& constants, std::span<const std::int32_t> strains_q32) {
+    std::array<std::int32_t, kMaxGauges> change;
+    for (std::size_t i = 0; i < strains_q32.size(); ++i) change[i] = (strains_q32[i] - before_q32_[i]) / 2;
+    const std::uint32_t energy = gateEnergy(constants, std::span(change).first(strains_q32.size()));
+    // Of configured noise the changes' energy is half the ring's; gate_off is about twice that.
+    const std::uint64_t ratio_q8 =
+        (std::uint64_t{energy} << 10) / std::max<std::uint32_t>(constants.gate_off, 1);
+    const auto now_q8 = static_cast<std::int64_t>(std::min<std::uint64_t>(ratio_q8, 1u << 24));
+    mean_q8_ =
+        static_cast<std::uint32_t>(mean_q8_ + ((now_q8 - static_cast<std::int64_t>(mean_q8_)) >> kMemory));
+  }
+
+  std::array<std::int32_t, kMaxGauges> before_q32_{};
+  std::uint32_t mean_q8_ = 1 << 8;
+  std::uint8_t phase_ = 0;
+};
+
+}  // namespace strainfinger::firmware

@@ -22,9 +22,9 @@ step "2. A simulated finger, touched: 16 gauges with noise, a 12-bit converter, 
 echo "Press and rub, slide around, tap, hold something that slips; what is reported, with its own sigma, beside the truth:"
 "$program" run --can loopback --tables finger.tables --truth --picture touch.png --picture touch.svg >candump.log
 
-step "3. What it sent, as candump -L prints it, and what that says (CONTACT and FORCE of one moment)"
-grep -m1 -A1 ' 181#' <(sed -n '2000,$p' candump.log) | tee moment.log
-"$program" decode <moment.log 2>/dev/null | cut -d, -f1-13
+step "3. What it sent, as candump -L prints it, and what that says (CONTACT, FORCE and PATCH of one moment)"
+grep -m1 -A2 ' 181#' <(sed -n '2000,$p' candump.log) | tee moment.log
+"$program" decode <moment.log 2>/dev/null | cut -d, -f1-18
 
 if [ "$(cat /sys/class/net/vcan0/operstate 2>/dev/null || echo none)" = unknown ]; then   # there, and up
   step "4. The same on vcan0, in real time, for 3 s"

@@ -60,7 +60,7 @@ enum class FieldKind : std::uint8_t {
 struct FieldMeaning {
   const char* name;               ///< snake_case, unique in its frame, at most 32 characters
   std::int32_t stepsPerUnit = 1;  ///< physical = raw / stepsPerUnit: exact where a factor of 0.01 is not
-  std::int32_t unitsPerStep = 1;  ///< for steps larger than a unit: physical = raw * unitsPerStep
+  std::int32_t unitsPerStep = 1;  ///< above 1 where a step is more than a unit: physical = raw * unitsPerStep
   const char* unit = "";          ///< ASCII, SI; "" for a plain number
   bool openEnded = false;         ///< the largest valid value means "that or more"
   const char* comment;            ///< one sentence, ASCII, without quotation marks

@@ -1,7 +1,6 @@
 #include "host/can/loss_counter.hpp"
 
 namespace strainfinger::can {
-
 namespace {
 
 /// A second contact has frames only while there is one, so that their numbers have gaps.
@@ -36,22 +35,26 @@ bool LossCounter::countNumbered(const std::string& interface, const CanFrame& fr
   if (!values) return false;
   Stream& stream = streamOf(interface, *nodeOf(frame.id, kFunction));
   ++stream.seen.received;
-  const auto [last, isFirst] = stream.last.try_emplace(kFunction, values->sequence);
-  if (!isFirst && last->second == values->sequence)
+  const std::uint8_t number = values->sequence;
+  const auto [found, isFirst] = stream.numbers.try_emplace(kFunction, Numbers{number, std::nullopt});
+  if (isFirst) return true;
+  const std::uint8_t last = found->second.last;
+  if (number == last)
     ++stream.seen.repeated;
-  else if (!isFirst && isOfEveryTouch(kFunction))
-    stream.seen.lost += static_cast<std::uint8_t>(values->sequence - last->second - 1);
-  last->second = values->sequence;
+  else if (isOfEveryTouch(kFunction))
+    stream.seen.lost += static_cast<std::uint8_t>(number - last - 1);
+  found->second = {number, last};
   return true;
 }
 
-/// What the PATCH before this one announced must have come by now: a controller sends PATCH last.
+/// What the PATCH before this one announced must have come by now, as the last of its kind or, where a
+/// controller sends lower identifiers first, as the last but one.
 void LossCounter::countAnnounced(Stream& stream, const PatchFrame& patch) {
   if (stream.announced == patch.sequence) return;
   if (stream.announced)
     for (const FunctionCode function : {FunctionCode::kContact2, FunctionCode::kForce2}) {
-      const auto last = stream.last.find(function);
-      if (last == stream.last.end() || last->second != *stream.announced) ++stream.seen.lost;
+      const auto found = stream.numbers.find(function);
+      if (found == stream.numbers.end() || !found->second.has(*stream.announced)) ++stream.seen.lost;
     }
   stream.announced.reset();
   if (patch.contacts >= 2) stream.announced = patch.sequence;
@@ -62,7 +65,7 @@ void LossCounter::countHeartbeat(Stream& stream, const HeartbeatFrame& heartbeat
   if (heartbeat.uptime_s == kNotKnown<std::uint16_t>) return;
   if (heartbeat.uptime_s < stream.uptime_s) {
     ++stream.seen.restarts;
-    stream.last.clear();
+    stream.numbers.clear();
     stream.announced.reset();
   }
   stream.uptime_s = heartbeat.uptime_s;

@@ -33,10 +33,16 @@ class LossCounter {
   std::vector<NodeCount> counts() const;
 
  private:
+  /// Sequence numbers of the last two frames of a kind.
+  struct Numbers {
+    std::uint8_t last;
+    std::optional<std::uint8_t> before;
+    bool has(std::uint8_t number) const { return number == last || number == before; }
+  };
   struct Stream {
     NodeCount seen;
-    std::map<FunctionCode, std::uint8_t> last;  ///< sequence number of the last frame of each kind
-    std::optional<std::uint8_t> announced;      ///< of the last PATCH, if a second contact belongs to it
+    std::map<FunctionCode, Numbers> numbers;
+    std::optional<std::uint8_t> announced;  ///< of the last PATCH, if a second contact belongs to it
     std::uint16_t uptime_s = 0;
   };
   template <typename Frame>

@@ -10,7 +10,10 @@ using namespace strainfinger;
 TEST_GROUP(Decode) {
   const std::string contact_ = "(1609779922.655421) can0 185#E8032201808161A3\n";
   const std::string force_ = "(1609779922.655421) can0 285#22011EFF070981A3\n";
-  const std::string heartbeat_ = "(1609779922.655421) can0 705#12004D0E190000A7\n";
+  const std::string patch_ = "(1609779922.655421) can0 385#F8079600110281A3\n";
+  const std::string contact2_ = "(1609779922.655421) can0 205#0C4E360180815FA3\n";
+  const std::string force2_ = "(1609779922.655421) can0 305#9A012300090981A3\n";
+  const std::string heartbeat_ = "(1609779922.655421) can0 705#2200004D0E1900A7\n";
   const std::string other_ = "(1609779922.655421) can0 080#00\n";
 
   /// The rows below the header.
@@ -19,12 +22,18 @@ TEST_GROUP(Decode) {
 };
 
 TEST(Decode, PrintsARowAFrame) {
-  const Run run = runProgram("decode", contact_ + force_ + heartbeat_);
+  const Run run = runProgram("decode", contact_ + force_ + patch_ + contact2_ + force2_ + heartbeat_);
   LONGS_EQUAL(0, run.status);
   STRCMP_EQUAL(
-      "1609779922.655421,can0,5,CONTACT,10,2.9,,contact+simulated,97,163,,,,,,,,,,,,,,,,,,,,,,\n"
-      "1609779922.655421,can0,5,FORCE,,,,contact+simulated,,163,0.29,-0.226,0.0035,0.0045,,,,,,,,,,,,,,,,,,\n"
-      "1609779922.655421,can0,5,HEARTBEAT,,,,,,,,,,,run,1,,3661,25,0,0,167,,,,,,,,,,\n",
+      "1609779922.655421,can0,5,CONTACT,10,2.9,,contact+simulated,97,163,,,,,,,,,,,,,,,,,,,,,,,,,,\n"
+      "1609779922.655421,can0,5,FORCE,,,,contact+simulated,,163,0.29,-0.226,0.0035,0.0045,,,,,,,,,,,,,,,,,,,,"
+      ",,\n"
+      "1609779922.655421,can0,5,PATCH,,,,contact+simulated,,163,,,,,0.00204,0.00015,1.0625,2,,,,,,,,,,,,,,,,,"
+      ",\n"
+      "1609779922.655421,can0,5,CONTACT2,199.8,3.1,,contact+simulated,95,163,,,,,,,,,,,,,,,,,,,,,,,,,,\n"
+      "1609779922.655421,can0,5,FORCE2,,,,contact+simulated,,163,0.41,0.035,0.0045,0.0045,,,,,,,,,,,,,,,,,,,,"
+      ",,\n"
+      "1609779922.655421,can0,5,HEARTBEAT,,,,,,,,,,,,,,,run,2,,3661,25,0,0,167,,,,,,,,,,\n",
       rows(run).c_str());
 }
 
@@ -71,7 +80,7 @@ TEST(Decode, CountsWhatWasLost) {
   const Run run = runProgram("decode", "DROPCOUNT: dropped 4 CAN frames on 'can0' socket (total drops 4)\n" +
                                            contact_ + "(1609779922.655421) can0 185#E8032201808161A6\n");
   LONGS_EQUAL(0, run.status);
-  checkSays("can0 node 5: 2 CONTACT and FORCE received, 2 lost", run);
+  checkSays("can0 node 5: 2 frames of touches received, 2 lost", run);
   checkSays("candump dropped 4 frames", run);
 }
 
@@ -114,9 +123,15 @@ TEST(Decode, NothingInIsOnlyAHeader) {
 }
 
 TEST(Decode, RefusesAnotherProtocol) {
-  const Run run = runProgram("decode", "(1609779922.655421) can0 705#22004D0E190000A7\n");
+  const Run run = runProgram("decode", "(1609779922.655421) can0 705#3200004D0E1900A7\n");
   LONGS_EQUAL(5, run.status);
-  checkSays("node 5 speaks protocol 2, this program 1", run);
+  checkSays("node 5 speaks protocol 3, this program 2", run);
+}
+
+TEST(Decode, RefusesTheHeartbeatsOfTheFirstProtocol) {
+  const Run run = runProgram("decode", "(1609779922.655421) can0 705#12004D0E190000A7\n");
+  LONGS_EQUAL(5, run.status);
+  checkSays("node 5 speaks protocol 1, this program 2", run);
 }
 
 TEST(Decode, PrintsEachRowWhileItsInputIsStillOpen) {

@@ -33,16 +33,19 @@ TEST_GROUP(RunCommand) {
   }
 };
 
-TEST(RunCommand, SendsContactAndForceInPairs) {
+TEST(RunCommand, EachContactHasItsForceAndItsPatch) {
   const Run run = runProgram("run --can loopback --duration 2");
   LONGS_EQUAL(0, run.status);
-  const auto contacts = framesOf("181", run.out), forces = framesOf("281", run.out);
+  const auto contacts = framesOf("181", run.out), forces = framesOf("281", run.out),
+             patches = framesOf("381", run.out);
   LONGS_EQUAL(contacts.size(), forces.size());
+  LONGS_EQUAL(contacts.size(), patches.size());
   CHECK_TRUE(contacts.size() > 100);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const std::string sequence = contacts[i].substr(18);
     LONGS_EQUAL(i % 256, std::stoul(sequence, nullptr, 16));
     STRCMP_EQUAL(sequence.c_str(), forces[i].substr(18).c_str());
+    STRCMP_EQUAL(sequence.c_str(), patches[i].substr(18).c_str());
   }
 }
 
@@ -51,14 +54,14 @@ TEST(RunCommand, DecodeReadsWhatItSends) {
   LONGS_EQUAL(0, run.status);
   STRCMP_CONTAINS("(log, absolute time)", run.err.c_str());
   STRCMP_CONTAINS(", 0 others skipped", run.err.c_str());
-  STRCMP_CONTAINS(" CONTACT and FORCE received, 0 lost, 0 repeated, 0 restarts", run.err.c_str());
+  STRCMP_CONTAINS(" frames of touches received, 0 lost, 0 repeated, 0 restarts", run.err.c_str());
   STRCMP_CONTAINS(",loopback,1,CONTACT,", run.out.c_str());
 }
 
 TEST(RunCommand, PrintsLogLinesAsCandumpDoes) {
   const Run run = runProgram("run --duration 0.101");
   STRCMP_EQUAL("(0000000000.001000) loopback 701#", run.out.substr(0, 33).c_str());
-  STRCMP_CONTAINS("\n(0000000000.101000) loopback 701#12", run.out.c_str());
+  STRCMP_CONTAINS("\n(0000000000.101000) loopback 701#22", run.out.c_str());
   LONGS_EQUAL(2, std::count(run.out.begin(), run.out.end(), '\n'));
 }
 
@@ -72,7 +75,7 @@ TEST(RunCommand, TheSeedDecidesTheOutput) {
 TEST(RunCommand, SaysHowItWent) {
   const Run run = runProgram("run --duration 1");
   STRCMP_CONTAINS("run: 1.000 s: 1000 sample sets, 0 lost to a late machine; ", run.err.c_str());
-  STRCMP_CONTAINS(" 10 HEARTBEAT; 0 put off, 0 FORCE lost\n", run.err.c_str());
+  STRCMP_CONTAINS(" 10 HEARTBEAT; 0 touches deferred, 0 incomplete\n", run.err.c_str());
   STRCMP_CONTAINS("mm of arc; normal ", run.err.c_str());
 }
 
@@ -183,7 +186,7 @@ TEST(RunCommand, InterruptedItSumsUpAndSaysSo) {
         "until [ -s $out ]; do sleep 0.02; done; kill -" +
         signal + " $!; wait $!; status=$?; rm $out; exit $status");
     LONGS_EQUAL(130, run.status);
-    STRCMP_CONTAINS(" CONTACT with their FORCE", run.err.c_str());
+    STRCMP_CONTAINS(" touches, ", run.err.c_str());
     STRCMP_CONTAINS("strainfinger: run: interrupted after ", run.err.c_str());
   }
 }

@@ -22,23 +22,30 @@ logging.disable(logging.NOTSET)
 NODE = 5
 RANDOM_FRAMES = 2000
 FLAGS = ["contact", "saturated", "degraded", "uncertain", "several_contacts", "stale_zero", "uncalibrated", "simulated"]
-FAULTS = ["tables", "gauges", "converter", "can", "configuration", "watchdog_reset", "samples", "clock"]
+FAULTS = ["tables", "gauges", "converter", "can", "configuration", "watchdog_reset", "samples", "clock",
+          "noisy"]
 
 # The frames once more, by hand, from the bus's description and not from the code: the fields in their order, with
 # the raw values a sender may send as (lowest, highest, "not known"), and the step of the physical value.
+CONTACT = [
+    ("angle", 0, 35999, 65535, "0.01"), ("sigma_angle", 0, 65534, 65535, "0.01"), ("alternative", -127, 127, -128, "1"),
+    (FLAGS, 0, 255, None, "1"), ("quality", 0, 100, 255, "1"), ("sequence", 0, 255, None, "1")]
+FORCE = [
+    ("normal", -32767, 32767, -32768, "0.001"), ("tangential", -32767, 32767, -32768, "0.001"),
+    ("sigma_normal", 0, 254, 255, "0.0005"), ("sigma_tangential", 0, 254, 255, "0.0005"), (FLAGS, 0, 255, None, "1"),
+    ("sequence", 0, 255, None, "1")]
 FRAMES = {
-    "CONTACT": (0x180, [
-        ("angle", 0, 35999, 65535, "0.01"), ("sigma_angle", 0, 65534, 65535, "0.01"),
-        ("alternative", -127, 127, -128, "1"), (FLAGS, 0, 255, None, "1"), ("quality", 0, 100, 255, "1"),
-        ("sequence", 0, 255, None, "1")]),
-    "FORCE": (0x280, [
-        ("normal", -32767, 32767, -32768, "0.001"), ("tangential", -32767, 32767, -32768, "0.001"),
-        ("sigma_normal", 0, 254, 255, "0.0005"), ("sigma_tangential", 0, 254, 255, "0.0005"),
-        (FLAGS, 0, 255, None, "1"), ("sequence", 0, 255, None, "1")]),
+    "CONTACT": (0x180, CONTACT),
+    "FORCE": (0x280, FORCE),
+    "PATCH": (0x380, [
+        ("width", 0, 65534, 65535, "1e-6"), ("sigma_width", 0, 65534, 65535, "1e-6"), ("chi", 0, 254, 255, "0.0625"),
+        ("contacts", 0, 255, None, "1"), (FLAGS, 0, 255, None, "1"), ("sequence", 0, 255, None, "1")]),
+    "CONTACT2": (0x200, CONTACT),
+    "FORCE2": (0x300, FORCE),
     "HEARTBEAT": (0x700, [
-        ("state", 0, 15, None, "1"), ("protocol", 0, 15, None, "1"), (FAULTS, 0, 63, None, "1"),
-        ("uptime", 0, 65534, 65535, "1"), ("temperature", -127, 127, -128, "1"), ("tx_errors", 0, 254, 255, "1"),
-        ("rx_errors", 0, 254, 255, "1"), ("table_crc", 0, 255, None, "1")]),
+        ("state", 0, 15, None, "1"), ("protocol", 0, 15, None, "1"), (FAULTS, 0, 511, None, "1"),
+        ("uptime", 0, 65534, 65535, "1"), ("temperature", -127, 127, -128, "1"), ("tx_errors", 0, 14, 15, "16"),
+        ("rx_errors", 0, 14, 15, "16"), ("table_crc", 0, 255, None, "1")]),
     "INFO": (0x480, [
         ("reset_cause", 0, 15, None, "1"), ("crash", 0, 15, None, "1"), ("restarts", 0, 255, None, "1"),
         ("version_major", 0, 255, None, "1"), ("version_minor", 0, 255, None, "1"),
@@ -125,7 +132,7 @@ class Canmatrix(unittest.TestCase):
             sender = "HOST" if name == "REQUEST" else "FINGER_5"
             self.assertEqual((name, 8, [sender]), (frame.name, frame.size, frame.transmitters))
             self.assertFalse(frame.arbitration_id.extended)
-        self.assertEqual([50, 50, 100, 1000, 1000, 0, 0], [self.frame(name).cycle_time for name in FRAMES])
+        self.assertEqual([50, 50, 50, 50, 50, 100, 1000, 1000, 0, 0], [self.frame(name).cycle_time for name in FRAMES])
 
     def test_signals_have_unit_range_and_comment(self):
         for name, (_, fields) in FRAMES.items():
@@ -140,8 +147,8 @@ class Canmatrix(unittest.TestCase):
                 signal, step = frame.signal_by_name(field[0]), Decimal(field[4])
                 self.assertEqual((step, field[1] * step, field[2] * step), (signal.factor, signal.min, signal.max))
         units = {signal.name: signal.unit for frame in self.matrix.frames for signal in frame.signals}
-        self.assertEqual(("deg", "deg", "N", "N", "degC", "s", "percent"), tuple(units[name] for name in (
-            "angle", "alternative", "normal", "sigma_tangential", "temperature", "uptime", "quality")))
+        self.assertEqual(("deg", "deg", "N", "N", "m", "", "degC", "s", "percent"), tuple(units[name] for name in (
+            "angle", "alternative", "normal", "sigma_tangential", "sigma_width", "chi", "temperature", "uptime", "quality")))
 
     def test_values_are_named(self):
         state = self.frame("HEARTBEAT").signal_by_name("state")
@@ -192,7 +199,7 @@ class Canmatrix(unittest.TestCase):
                     self.assertEqual(bits, printed[field[0]])
                     continue
                 column, = (key for key in printed if key == field[0] or key in (
-                    f"{field[0]}_{unit}" for unit in ("deg", "n", "s", "percent", "degc", "per_s")))
+                    f"{field[0]}_{unit}" for unit in ("deg", "n", "m", "s", "percent", "degc", "per_s")))
                 self.assertEqual(decoded[field[0]].phys_value, Decimal(printed[column]), f"{sent} {column}")
 
     def test_reads_what_a_running_finger_sends(self):
@@ -205,12 +212,15 @@ class Canmatrix(unittest.TestCase):
             name = names[int(identifier, 16)]
             decoded = self.frame(name).decode(bytes.fromhex(data))
             seen[name].append({key: each.raw_value for key, each in decoded.items()})
-        contacts, forces = seen["CONTACT"], seen["FORCE"]
+        contacts, forces, patches = seen["CONTACT"], seen["FORCE"], seen["PATCH"]
         self.assertGreater(len(contacts), 100)
         self.assertEqual([number % 256 for number in range(len(contacts))], [each["sequence"] for each in contacts])
-        self.assertEqual([each["sequence"] for each in contacts], [each["sequence"] for each in forces])
-        self.assertEqual({1}, {each["simulated"] for each in contacts + forces})
-        self.assertEqual([each["contact"] for each in contacts], [each["contact"] for each in forces])
+        for others in (forces, patches):
+            for signal in ("sequence", *FLAGS):
+                self.assertEqual([each[signal] for each in contacts], [each[signal] for each in others], signal)
+        self.assertEqual({1}, {each["simulated"] for each in contacts})
+        self.assertEqual(sum(each["contacts"] == 2 for each in patches), len(seen["CONTACT2"]))
+        self.assertEqual([each["sequence"] for each in seen["CONTACT2"]], [each["sequence"] for each in seen["FORCE2"]])
         self.assertEqual(20, len(seen["HEARTBEAT"]))
 
 

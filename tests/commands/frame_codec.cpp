@@ -9,6 +9,8 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <tuple>
+#include <type_traits>
 #include <variant>
 
 #include "common/commands.hpp"
@@ -18,6 +20,8 @@
 namespace {
 
 using namespace strainfinger;
+
+constexpr std::type_identity<decltype(std::tuple_cat(FingerFrames{}, CommandFrames{}))> kAllFrames;
 
 std::string compact(const CanFrame& frame) {
   const std::string line = can::formatLogLine(0, "x", frame);
@@ -54,13 +58,11 @@ std::string decodeLine(const std::string& frameText) {
   const auto* line = std::get_if<can::LogLine>(&parsed);
   const std::optional<CanFrame> frame = line != nullptr ? can::classicFrame(*line) : std::nullopt;
   if (!frame) return "bad line";
-  if (const auto contact = decodeAs<ContactFrame>(*frame)) return *contact;
-  if (const auto force = decodeAs<ForceFrame>(*frame)) return *force;
-  if (const auto heartbeat = decodeAs<HeartbeatFrame>(*frame)) return *heartbeat;
-  if (const auto info = decodeAs<InfoFrame>(*frame)) return *info;
-  if (const auto gauges = decodeAs<GaugesFrame>(*frame)) return *gauges;
-  if (const auto request = decodeAs<RequestFrame>(*frame)) return *request;
-  return decodeAs<ResponseFrame>(*frame).value_or("none");
+  std::optional<std::string> text;
+  const auto is = [&]<typename... Frames>(std::type_identity<std::tuple<Frames...>>) {
+    return ((text = decodeAs<Frames>(*frame)) || ...);
+  };
+  return is(kAllFrames) ? *text : "none";
 }
 
 std::string answer(const std::string& line) {
@@ -68,13 +70,12 @@ std::string answer(const std::string& line) {
   std::string verb, what;
   words >> verb >> what;
   if (verb == "decode") return decodeLine(what);
-  if (what == "CONTACT") return encodeLine<ContactFrame>(words);
-  if (what == "FORCE") return encodeLine<ForceFrame>(words);
-  if (what == "INFO") return encodeLine<InfoFrame>(words);
-  if (what == "GAUGES") return encodeLine<GaugesFrame>(words);
-  if (what == "REQUEST") return encodeLine<RequestFrame>(words);
-  if (what == "RESPONSE") return encodeLine<ResponseFrame>(words);
-  return what == "HEARTBEAT" ? encodeLine<HeartbeatFrame>(words) : "bad line";
+  std::string text = "bad line";
+  const auto tryEach = [&]<typename... Frames>(std::type_identity<std::tuple<Frames...>>) {
+    return ((what == kLayout<Frames>.spec.name && (text = encodeLine<Frames>(words), true)) || ...);
+  };
+  tryEach(kAllFrames);
+  return text;
 }
 
 }  // namespace

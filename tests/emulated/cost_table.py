@@ -24,9 +24,9 @@ ROWS = {
     "locate_three_point": "locate, three points",
     "locate_any": "locate, all seven gauges, any load",
     "locate_three_point_any": "locate, three points, any load",
-    "report": "report: quantities, errors, two frames",
+    "report": "report: quantities, errors, frames",
     "update_idle": "**update, idle**: converter to nothing to say",
-    "update_sent": "**update, contact**: converter to both frames in the port",
+    "update_sent": "**update, contact**: converter to all frames in the port",
 }
 
 

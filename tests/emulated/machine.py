@@ -24,10 +24,10 @@ candump -r 8388608 -L {interface} >$TMPDIR/recording &
 echo $! >$TMPDIR/recorder
 until grep -q {interface} /proc/net/can/rcvlist_all; do sleep 0.02; done
 """
-# Until so many CONTACTs and FORCEs are there, and then a little longer, for those that should not come.
+# Until so many frames of touches are there, and then a little longer, for those that should not come.
 STOP = """
 for _ in $(seq 100); do
-  [ $(grep -cE ' (1[89AB]|2[89AB]).#' $TMPDIR/recording) -lt {touches} ] || break
+  [ $(grep -cE ' (1[89AB]|2[0-389AB]|3[0-389AB]).#' $TMPDIR/recording) -lt {touches} ] || break
   sleep 0.1
 done
 sleep 0.3
@@ -95,7 +95,7 @@ class Machine:
         self.run(RECORD.format(interface=interface))
 
     def recorded(self, touches):
-        """The log of candump -L, which must have so many CONTACTs and FORCEs."""
+        """The log of candump -L, which must have so many frames of touches."""
         return self.run(STOP.format(touches=touches))
 
     def end(self):

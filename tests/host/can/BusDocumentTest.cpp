@@ -47,9 +47,8 @@ std::string values(const FieldSpec& field) {
 std::string row(const FieldSpec& field) {
   const auto& [bits, meaning] = field;
   return fmt::format("| {} | {} | {}{} | {} {} | {} | {} | {} |\n", place(bits), meaning.name,
-                     bits.isSigned ? 'i' : 'u', bits.width, 1.0 / meaning.stepsPerUnit, meaning.unit,
-                     values(field), bits.unknowable ? fmt::format("{}", invalidRaw(bits)) : "",
-                     meaning.comment);
+                     bits.isSigned ? 'i' : 'u', bits.width, stepOf(meaning), meaning.unit, values(field),
+                     bits.unknowable ? fmt::format("{}", invalidRaw(bits)) : "", meaning.comment);
 }
 
 std::string tableOf(const FrameEntry& entry) {
@@ -74,12 +73,14 @@ constexpr int kBytes = 8;
 constexpr int kBitsUnstuffed = 47 + 8 * kBytes;
 constexpr int kBitsWorst = kBitsUnstuffed + (34 + 8 * kBytes - 1) / 4;
 
-std::string loadRow(double contactRate_hz, int fingers) {
+/// FORCE and PATCH with each CONTACT; CONTACT2 and FORCE2 while there is a second contact.
+std::string loadRow(int fingers, int contacts, double contactRate_hz) {
+  const int framesOfTouch = 1 + 2 * contacts;
   const double aliveRate_hz =
       1000.0 / kHeartbeatPeriod_ms + 1000.0 / kInfoPeriod_ms + 1000.0 / kGaugesPeriod_ms;
-  const double frames = fingers * (2 * contactRate_hz + aliveRate_hz);
-  return fmt::format("| {} | {} | {} | {:.1f} % | {:.1f} % |\n", fingers, contactRate_hz, frames,
-                     frames * kBitsUnstuffed / 1e6 * 100, frames * kBitsWorst / 1e6 * 100);
+  const double frames = fingers * (framesOfTouch * contactRate_hz + aliveRate_hz);
+  return fmt::format("| {} | {} | {} | {} | {:.1f} % | {:.1f} % |\n", fingers, contacts, contactRate_hz,
+                     frames, frames * kBitsUnstuffed / 1e6 * 100, frames * kBitsWorst / 1e6 * 100);
 }
 
 }  // namespace
@@ -126,6 +127,9 @@ TEST(BusDocument, ItsExamplesAreWhatIsSent) {
   };
   checkHas(line(ContactFrame{1000, 290, kNotKnown<std::int8_t>, flags, 97, 163}));
   checkHas(line(ForceFrame{290, -226, 7, 9, flags, 163}));
+  checkHas(line(PatchFrame{2040, 150, 17, 2, flags, 163}));
+  checkHas(line(Contact2Frame{{19'980, 310, kNotKnown<std::int8_t>, flags, 95, 163}}));
+  checkHas(line(Force2Frame{{410, 35, 9, 9, flags, 163}}));
   checkHas(line(HeartbeatFrame{.state = FingerState::kRun,
                                .uptime_s = 3661,
                                .temperature_degC = 25,
@@ -149,8 +153,10 @@ TEST(BusDocument, ItsExamplesAreWhatIsSent) {
 TEST(BusDocument, ItsBusLoadsAreComputed) {
   checkHas(fmt::format("{} bits", kBitsUnstuffed));
   checkHas(fmt::format("{} bits", kBitsWorst));
-  for (const int fingers : {1, 5}) checkHas(loadRow(500, fingers));
-  checkHas(loadRow(20, 5));
+  for (const int fingers : {1, 5}) checkHas(loadRow(fingers, 1, 500));
+  checkHas(loadRow(1, 2, 500));
+  checkHas(loadRow(5, 2, 250));
+  checkHas(loadRow(5, 1, 20));
 }
 
 TEST(BusDocument, NamesTheProtocolVersion) {

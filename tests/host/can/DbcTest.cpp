@@ -24,12 +24,27 @@ TEST(Dbc, HasSignalsWithUnitAndRange) {
   checkHas("\n SG_ angle : 0|16@1+ (0.01,0) [0|359.99] \"deg\" HOST\n");
   checkHas("\n SG_ normal : 0|16@1- (0.001,0) [-32.767|32.767] \"N\" HOST\n");
   checkHas("\n SG_ sigma_normal : 32|8@1+ (0.0005,0) [0|0.127] \"N\" HOST\n");
+  checkHas("\n SG_ width : 0|16@1+ (1e-06,0) [0|0.065534] \"m\" HOST\n");
+  checkHas("\n SG_ chi : 32|8@1+ (0.0625,0) [0|15.875] \"\" HOST\n");
+  checkHas("\n SG_ rx_errors : 52|4@1+ (16,0) [0|224] \"\" HOST\n");
   checkHas("\n SG_ alternative : 32|8@1- (1,0) [-127|127] \"deg\" HOST\n");
 }
 
 TEST(Dbc, HasASignalForEachFlag) {
   checkHas("\n SG_ simulated : 47|1@1+ (1,0) [0|1] \"\" HOST\n");
+  checkHas("\n SG_ noisy : 16|1@1+ (1,0) [0|1] \"\" HOST\n");
   checkHas("\n SG_ watchdog_reset : 13|1@1+ (1,0) [0|1] \"\" HOST\n");
+}
+
+TEST(Dbc, ASecondContactHasTheSignalsOfTheFirst) {
+  const auto signalsOf = [text = can::dbcText(5, 500)](const std::string& message) {
+    const std::size_t line = text.find("BO_ " + message + ": 8 FINGER_5\n");
+    CHECK_TRUE(line != std::string::npos);
+    const std::size_t first = text.find(" SG_", line);
+    return text.substr(first, text.find("\n\n", first) - first);
+  };
+  STRCMP_EQUAL(signalsOf("389 CONTACT").c_str(), signalsOf("517 CONTACT2").c_str());
+  STRCMP_EQUAL(signalsOf("645 FORCE").c_str(), signalsOf("773 FORCE2").c_str());
 }
 
 TEST(Dbc, BitsWithoutANameAreOneSignal) {
@@ -55,6 +70,8 @@ TEST(Dbc, ARequestGoesTheOtherWay) {
 TEST(Dbc, SaysHowOftenFramesCome) {
   checkHas("\nBA_ \"GenMsgCycleTime\" BO_ 389 50;\n");
   checkHas("\nBA_ \"GenMsgDelayTime\" BO_ 389 2;\n");
+  for (const char* touch : {"389", "517", "645", "773", "901"})
+    checkHas(std::string("\nBA_ \"GenMsgDelayTime\" BO_ ").append(touch).append(" 2;\n").c_str());
   checkHas("\nBA_ \"GenMsgCycleTime\" BO_ 1797 100;\n");
   checkHas("\nBA_ \"GenMsgDelayTime\" BO_ 645 10;\n", can::dbcText(5, 100));
 }

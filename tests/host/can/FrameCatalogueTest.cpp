@@ -43,6 +43,9 @@ static bool isPlainText(const std::string& text) {
 TEST(FrameCatalogue, FindsFramesByIdentifierAndLength) {
   STRCMP_EQUAL("CONTACT", findFrame({0x181, 8, {}})->spec.name);
   STRCMP_EQUAL("FORCE", findFrame({0x2BF, 8, {}})->spec.name);
+  STRCMP_EQUAL("PATCH", findFrame({0x381, 8, {}})->spec.name);
+  STRCMP_EQUAL("CONTACT2", findFrame({0x23F, 8, {}})->spec.name);
+  STRCMP_EQUAL("FORCE2", findFrame({0x301, 8, {}})->spec.name);
   STRCMP_EQUAL("HEARTBEAT", findFrame({0x701, 8, {}})->spec.name);
 }
 
@@ -50,7 +53,7 @@ TEST(FrameCatalogue, FindsNoOtherFrames) {
   CHECK(findFrame({0x181, 7, {}}) == nullptr);
   CHECK(findFrame({0x180, 8, {}}) == nullptr);
   CHECK(findFrame({0x1C0, 8, {}}) == nullptr);
-  CHECK(findFrame({0x381, 8, {}}) == nullptr);
+  CHECK(findFrame({0x401, 8, {}}) == nullptr);  // RAW is reserved
   CHECK(findFrame({0x701, 1, {}}) == nullptr);  // the heartbeat of a CANopen device
 }
 
@@ -79,6 +82,9 @@ TEST(FrameCatalogue, PhysicalValuesAreTheNearestToTheDecimal) {
   CHECK(toPhysical(field("FORCE", "normal"), -226) == -0.226);
   CHECK(toPhysical(field("FORCE", "sigma_normal"), 7) == 0.0035);
   CHECK(toPhysical(field("CONTACT", "alternative"), -127) == -127.0);
+  CHECK(toPhysical(field("PATCH", "width"), 2041) == 0.002041);
+  CHECK(toPhysical(field("PATCH", "chi"), 17) == 1.0625);
+  CHECK(toPhysical(field("HEARTBEAT", "tx_errors"), 6) == 96.0);
 }
 
 TEST(FrameCatalogue, WhatIsNotValidHasNoPhysicalValue) {
@@ -92,6 +98,7 @@ TEST(FrameCatalogue, PhysicalValuesAreRounded) {
   LONGS_EQUAL(291, fromPhysical(field("FORCE", "normal"), 0.2906));
   LONGS_EQUAL(-291, fromPhysical(field("FORCE", "normal"), -0.2906));
   LONGS_EQUAL(1, fromPhysical(field("FORCE", "sigma_normal"), 0.00025));
+  LONGS_EQUAL(6, fromPhysical(field("HEARTBEAT", "rx_errors"), 100.0));
 }
 
 TEST(FrameCatalogue, PhysicalValuesSaturate) {

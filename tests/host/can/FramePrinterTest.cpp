@@ -42,7 +42,8 @@ TEST(FramePrinter, TheTableHasAColumnForEachFieldOfAnyFrame) {
   FramePrinter printer(stream_, TableFormat::kCsv);
   STRCMP_EQUAL(
       "time_s,interface,node,frame,angle_deg,sigma_angle_deg,alternative_deg,flags,quality_percent,sequence,"
-      "normal_n,tangential_n,sigma_normal_n,sigma_tangential_n,state,protocol,faults,uptime_s,temperature_"
+      "normal_n,tangential_n,sigma_normal_n,sigma_tangential_n,width_m,sigma_width_m,chi,contacts,state,"
+      "protocol,faults,uptime_s,temperature_"
       "degc,"
       "tx_errors,rx_errors,table_crc,reset_cause,crash,restarts,version_major,version_minor,crash_address,"
       "board,out_of_use,zero_age_s,zero_rate_per_s\n",
@@ -51,21 +52,40 @@ TEST(FramePrinter, TheTableHasAColumnForEachFieldOfAnyFrame) {
 
 TEST(FramePrinter, PrintsContactAsARow) {
   print(TableFormat::kCsv, contact_);
-  STRCMP_EQUAL("0.001500,can0,5,CONTACT,35.73,,-90,contact+simulated,97,163,,,,,,,,,,,,,,,,,,,,,,\n",
+  STRCMP_EQUAL("0.001500,can0,5,CONTACT,35.73,,-90,contact+simulated,97,163,,,,,,,,,,,,,,,,,,,,,,,,,,\n",
                rows().c_str());
 }
 
 TEST(FramePrinter, PrintsForceAsARow) {
   print(TableFormat::kCsv, ForceFrame{.normal_mN = 290, .tangential_mN = -226, .sigma_normal_half_mN = 7});
-  STRCMP_EQUAL("0.001500,can0,5,FORCE,,,,,,0,0.29,-0.226,0.0035,,,,,,,,,,,,,,,,,,,\n", rows().c_str());
+  STRCMP_EQUAL("0.001500,can0,5,FORCE,,,,,,0,0.29,-0.226,0.0035,,,,,,,,,,,,,,,,,,,,,,,\n", rows().c_str());
+}
+
+TEST(FramePrinter, PrintsPatchAsARow) {
+  print(TableFormat::kCsv,
+        PatchFrame{.width_um = 2040, .chi_sixteenths = 17, .contacts = 1, .flags = {}, .sequence = 9});
+  STRCMP_EQUAL("0.001500,can0,5,PATCH,,,,,,9,,,,,0.00204,,1.0625,1,,,,,,,,,,,,,,,,,,\n", rows().c_str());
+}
+
+TEST(FramePrinter, PrintsASecondContactInTheColumnsOfTheFirst) {
+  print(TableFormat::kCsv, Contact2Frame{contact_});
+  STRCMP_EQUAL("0.001500,can0,5,CONTACT2,35.73,,-90,contact+simulated,97,163,,,,,,,,,,,,,,,,,,,,,,,,,,\n",
+               rows().c_str());
+}
+
+TEST(FramePrinter, StepsOfMoreThanAUnitAreWholeNumbers) {
+  print(TableFormat::kJson, HeartbeatFrame{.tx_error_steps = 8, .rx_error_steps = 0});
+  STRCMP_CONTAINS("\"tx_errors\":128,\"rx_errors\":0,", printed().c_str());
 }
 
 TEST(FramePrinter, PrintsHeartbeatAsARow) {
-  print(TableFormat::kCsv, HeartbeatFrame{.state = FingerState::kFault,
-                                          .faults = {FingerFault::kTables, FingerFault::kCan},
-                                          .uptime_s = 12,
-                                          .table_crc = 167});
-  STRCMP_EQUAL("0.001500,can0,5,HEARTBEAT,,,,,,,,,,,fault,1,tables+can,12,,,,167,,,,,,,,,,\n",
+  print(TableFormat::kCsv,
+        HeartbeatFrame{.state = FingerState::kFault,
+                       .faults = {FingerFault::kTables, FingerFault::kCan, FingerFault::kNoisy},
+                       .uptime_s = 12,
+                       .tx_error_steps = 6,
+                       .table_crc = 167});
+  STRCMP_EQUAL("0.001500,can0,5,HEARTBEAT,,,,,,,,,,,,,,,fault,2,tables+can+noisy,12,,96,,167,,,,,,,,,,\n",
                rows().c_str());
 }
 
@@ -75,7 +95,7 @@ TEST(FramePrinter, PrintsInfoAsARow) {
                                      .restarts = 2,
                                      .crash_address = 4096,
                                      .board = 77});
-  STRCMP_EQUAL("0.001500,can0,5,INFO,,,,,,,,,,,,,,,,,,,software,assertion,2,0,0,4096,77,,,\n",
+  STRCMP_EQUAL("0.001500,can0,5,INFO,,,,,,,,,,,,,,,,,,,,,,,software,assertion,2,0,0,4096,77,,,\n",
                rows().c_str());
 }
 

@@ -16,6 +16,17 @@ TEST_GROUP(LossCounter) {
   void force(int sequence) {
     counter_.count("can0", encode(ForceFrame{.sequence = static_cast<std::uint8_t>(sequence)}, 1));
   }
+  void patch(int sequence, int contacts = 1) {
+    counter_.count("can0", encode(PatchFrame{.contacts = static_cast<std::uint8_t>(contacts),
+                                             .sequence = static_cast<std::uint8_t>(sequence)},
+                                  1));
+  }
+  void contact2(int sequence) {
+    counter_.count("can0", encode(Contact2Frame{{.sequence = static_cast<std::uint8_t>(sequence)}}, 1));
+  }
+  void force2(int sequence) {
+    counter_.count("can0", encode(Force2Frame{{.sequence = static_cast<std::uint8_t>(sequence)}}, 1));
+  }
   void heartbeat(int uptime_s) {
     counter_.count("can0", encode(HeartbeatFrame{.uptime_s = static_cast<std::uint16_t>(uptime_s)}, 1));
   }
@@ -28,8 +39,8 @@ TEST_GROUP(LossCounter) {
 TEST(LossCounter, CountsNothingAtFirst) { CHECK(counter_.counts().empty()); }
 
 TEST(LossCounter, SequencesWithoutGapsLoseNothing) {
-  for (int i = 250; i < 1000; ++i) contact(i), force(i);
-  LONGS_EQUAL(1500, only().received);
+  for (int i = 250; i < 1000; ++i) contact(i), force(i), patch(i);
+  LONGS_EQUAL(2250, only().received);
   LONGS_EQUAL(0, only().lost);
 }
 
@@ -38,8 +49,43 @@ TEST(LossCounter, GapsAreLostFrames) {
   contact(2);  // 255, 0 and 1 are missing
   force(254);
   force(0);  // 255 is missing
-  LONGS_EQUAL(4, only().received);
+  patch(254);
+  patch(1);  // 255 and 0 are missing
+  LONGS_EQUAL(6, only().received);
+  LONGS_EQUAL(6, only().lost);
+}
+
+TEST(LossCounter, ASecondContactThatComesAndGoesIsNoLoss) {
+  for (int i = 0; i < 300; ++i) {
+    const bool two = i % 3 == 0;
+    contact(i), force(i), patch(i, two ? 2 : 1);
+    if (two) contact2(i), force2(i);
+  }
+  LONGS_EQUAL(1100, only().received);
+  LONGS_EQUAL(0, only().lost);
+}
+
+TEST(LossCounter, ASecondContactMayComeBeforeItsPatch) {
+  for (int i = 0; i < 300; ++i) contact(i), contact2(i), force(i), force2(i), patch(i, 2);
+  LONGS_EQUAL(0, only().lost);
+}
+
+TEST(LossCounter, AFrameOfASecondContactThatWasAnnouncedAndDidNotComeIsLost) {
+  patch(0, 2);
+  force2(0);
+  patch(1, 2);  // CONTACT2 of 0 is missing
+  contact2(1);
+  patch(2, 2);  // FORCE2 of 1 is missing
+  patch(3, 1);  // both of 2 are missing
+  patch(4, 1);
   LONGS_EQUAL(4, only().lost);
+}
+
+TEST(LossCounter, ARepeatedPatchAnnouncesNothingNew) {
+  patch(0, 2);
+  patch(0, 2);
+  LONGS_EQUAL(0, only().lost);
+  LONGS_EQUAL(1, only().repeated);
 }
 
 TEST(LossCounter, TheSameNumberAgainIsARepetition) {
@@ -51,9 +97,9 @@ TEST(LossCounter, TheSameNumberAgainIsARepetition) {
 
 TEST(LossCounter, ARestartIsNoLoss) {
   heartbeat(100);
-  contact(50);
+  contact(50), patch(50, 2);
   heartbeat(0);
-  contact(0);
+  contact(0), patch(0);
   LONGS_EQUAL(0, only().lost);
   LONGS_EQUAL(1, only().restarts);
 }

@@ -48,7 +48,7 @@ TEST(Request, NobodyThereIsToldFromAFingerThatDoesNotAnswer) {
 }
 
 TEST(Request, AnotherProtocolIsAMismatch) {
-  checkFails(alive({.protocol = 2}), ExitCode::kMismatch, "speaks protocol 2, this program 1");
+  checkFails(alive({.protocol = 1}), ExitCode::kMismatch, "speaks protocol 1, this program 2");
 }
 
 TEST(Request, AnInterfaceThatTakesNothingIsNamed) { checkFails({}, ExitCode::kNoInterface, "took no frame"); }

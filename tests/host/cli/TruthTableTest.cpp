@@ -33,7 +33,8 @@ TEST_GROUP(TruthTable) {
   }
   void reported(double time_s, FingerFlags flags, const std::vector<simulation::Touch>& truth) {
     simulation::Moment moment{time_s, truth, std::nullopt};
-    moment.compared = {time_s, truth, {40.1, 0.02, 0.41, 0.001, -0.1, 0.002, 100, flags, 0}};
+    moment.compared = {time_s, truth, {{40.1, 0.02, 0.41, 0.001, -0.1, 0.002, 100}}};
+    moment.compared->report.flags = flags;
     table->add(moment);
   }
   /// Below the heading.

@@ -13,13 +13,14 @@ TEST_GROUP(TouchErrors) {
   static constexpr double kRad = std::numbers::pi / 180;
 
   static can::TouchReport report(double angle_deg, FingerFlags flags = {FingerFlag::kContact}) {
-    return {.angle_deg = angle_deg,
-            .sigmaAngle_deg = 1,
-            .normal_n = 0.4,
-            .sigmaNormal_n = 0.002,
-            .tangential_n = -0.1,
-            .sigmaTangential_n = 0.001,
-            .flags = flags};
+    can::TouchReport touch{{.angle_deg = angle_deg,
+                            .sigmaAngle_deg = 1,
+                            .normal_n = 0.4,
+                            .sigmaNormal_n = 0.002,
+                            .tangential_n = -0.1,
+                            .sigmaTangential_n = 0.001}};
+    touch.flags = flags;
+    return touch;
   }
   TouchErrors of(const std::vector<Touch>& truth, FingerFlags flags) const {
     TouchErrors errors;

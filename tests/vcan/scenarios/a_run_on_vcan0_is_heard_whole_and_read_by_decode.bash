@@ -16,5 +16,6 @@ rows() { awk -F, -v frame="$1" '$4 == frame' "$TMPDIR/frames" | cut -d, -f"$2"; 
 [ "$touches" -gt 20 ] && [ "$touches" -ge $(($(summed_up fits) / 4)) ] || fail "only $touches touches were sent"
 expect "CONTACT heard" "$touches" "$(rows CONTACT 10 | wc -l)"
 expect "sequence numbers of FORCE" "$(rows CONTACT 10)" "$(rows FORCE 10)"
+expect "sequence numbers of PATCH" "$(rows CONTACT 10)" "$(rows PATCH 10)"
 expect "what is no finger's" "" "$(grep -v ',vcan0,1,' "$TMPDIR/frames" | sed 1d)"
 grep -q " 0 lost, 0 repeated, 0 restarts" "$TMPDIR/decode"

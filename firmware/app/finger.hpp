@@ -128,14 +128,15 @@ class Finger {
   }
 
   void observe(std::uint32_t now_us) {
-    if (pipeline_.process(codes()).fit) ++counters_.fits;
+    if (pipeline_.process(codes()).touched) ++counters_.fits;
     report(now_us);
   }
 
   /// Not inlined, so that its frames aren't on the stack while the locator, which needs it most, runs.
   [[gnu::noinline]] void report(std::uint32_t now_us) {
     if (owed_.any()) return;
-    const auto frames = reporter_.frames(pipeline_.constants(), pipeline_.observation(), now_us);
+    const auto frames = reporter_.frames(pipeline_.constants(), pipeline_.observation(), pipeline_.answer(),
+                                         pipeline_.linearisation(), now_us);
     if (!frames) return;
     if (!can_.send(encode(frames->contact, settings_.node))) {
       ++counters_.touchesBusy;
@@ -163,6 +164,7 @@ class Finger {
     frame.state = state_;
     frame.faults = settings_.standingFaults;
     frame.faults.set(FingerFault::kGauges, pipeline_.tooFewGauges());
+    frame.faults.set(FingerFault::kNoisy, pipeline_.observation().noisy);
     frame.faults.set(FingerFault::kConverter, isConverterSilent(now_us));
     frame.faults.set(FingerFault::kCan,
                      status.dropped != 0 || status.missed != 0 || counters_.touchesIncomplete != 0);
@@ -242,7 +244,7 @@ class Finger {
 
   std::optional<CommandStatus> tare(bool evenWhileTouched, std::uint32_t now_us) {
     if (state_ != FingerState::kRun || isConverterSilent(now_us)) return CommandStatus::kBusy;
-    const bool touched = pipeline_.observation().fit.has_value();
+    const bool touched = pipeline_.observation().touched;
     if (touched && !evenWhileTouched) return CommandStatus::kTouched;
     tareStatus_ = touched ? CommandStatus::kDoneTouched : CommandStatus::kDone;
     zero_ = {};

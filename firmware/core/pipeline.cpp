@@ -89,6 +89,7 @@ const Observation& Pipeline::process(Codes codes) {
                 calibration_, scratch_);
   observation_.staleZero = tracker_.stale();
   observation_.noisy = noise_.isNoisy();
+  observation_.uncertain = tooFewGauges();
   observation_.outOfUse = watch_.outOfUse();
   return observation_;
 }

@@ -15,6 +15,7 @@ struct Observation {
   bool touched = false;
   bool several = false;    ///< the readings are not those of one contact
   bool staleZero = false;  ///< the finger has not been seen untouched for too long
+  bool uncertain = false;  ///< too few gauges work for what is said to be sure
   bool noisy = false;      ///< the untouched ring is noisier than configured
   GaugeSet saturated = 0;  ///< at a rail
   GaugeSet outOfUse = 0;   ///< known not to work

@@ -68,16 +68,6 @@ bool moved(const SecondContactFrames& second, const SecondContactFrames& last) {
   return moved(second.contact, last.contact) || moved(second.force, last.force);
 }
 
-/// Bit i: gauge i takes part in the fit; every gauge of the ring when there is none.
-std::uint32_t gaugesUsed(const TableConstants& constants, const Observation& observation) {
-  if (!observation.fit) return ~std::uint32_t{0} >> (kMaxGauges - constants.gauge_count);
-  std::uint32_t used = 0;
-  const int reach = fitReach(constants.gauge_count);
-  for (int offset = -reach; offset <= reach; ++offset)
-    used |= 1u << wrapped(observation.fit->centre + offset, constants.gauge_count);
-  return used;
-}
-
 ContactFrame contactFrame(const Contact& contact) {
   ContactFrame frame;
   frame.angle_cdeg = static_cast<std::uint16_t>(centidegreesOf(contact.angle) % 36000);
@@ -166,24 +156,33 @@ bool TouchReporter::worthSaying(const TouchFrames& frames, std::uint32_t now_us)
   return isNews(frames, last_);
 }
 
-std::optional<TouchFrames> TouchReporter::frames(const TableConstants& constants,
-                                                 const Observation& observation, std::uint32_t now_us) {
-  if (!due(now_us)) return std::nullopt;
-  const auto next = static_cast<std::uint8_t>(last_.contact.sequence + (any_ ? 1 : 0));
+FingerFlags TouchReporter::flagsOf(const Observation& observation) const {
   FingerFlags flags = standing_;
   const GaugeSet saturated = observation.saturated & ~observation.outOfUse;
-  flags.set(FingerFlag::kSaturated, (saturated & gaugesUsed(constants, observation)) != 0);
+  flags.set(FingerFlag::kContact, observation.touched);
+  flags.set(FingerFlag::kSaturated, saturated != 0);
   flags.set(FingerFlag::kDegraded, ((observation.outOfUse | observation.leftOut) & ~saturated) != 0);
   flags.set(FingerFlag::kSeveralContacts, observation.several);
   flags.set(FingerFlag::kStaleZero, observation.staleZero);
-  if (!observation.fit) {
+  return flags;
+}
+
+std::optional<TouchFrames> TouchReporter::frames(const TableConstants& constants,
+                                                 const Observation& observation, const Answer& answer,
+                                                 const Linearisation& linearisation, std::uint32_t now_us) {
+  if (!due(now_us)) return std::nullopt;
+  const auto next = static_cast<std::uint8_t>(last_.contact.sequence + (any_ ? 1 : 0));
+  FingerFlags flags = flagsOf(observation);
+  if (!observation.touched) {
     if (!any_ || !last_.contact.flags.has(FingerFlag::kContact)) return std::nullopt;
     return releaseFrames(flags, next);
   }
-  const Contact contact = estimate(constants, *observation.fit);
-  flags.set(FingerFlag::kContact);
-  flags.set(FingerFlag::kUncertain, contact.uncertain);
-  const TouchFrames frames = touchFrames(constants, contact, std::nullopt, flags, next);
+  const Contact contact = estimate(constants, answer, linearisation, 0);
+  std::optional<Contact> second;
+  if (answer.solution.hypothesis.contacts > 1) second = estimate(constants, answer, linearisation, 1);
+  flags.set(FingerFlag::kUncertain,
+            contact.uncertain || observation.uncertain || (second && second->uncertain));
+  const TouchFrames frames = touchFrames(constants, contact, second, flags, next);
   if (!worthSaying(frames, now_us)) return std::nullopt;
   return frames;
 }

@@ -53,11 +53,13 @@ class TouchReporter {
   /// The frames to send for an observation, if any. The caller says with sent() that they went out;
   /// otherwise the next observation replaces them, so that nothing old is ever sent.
   std::optional<TouchFrames> frames(const TableConstants& constants, const Observation& observation,
+                                    const Answer& answer, const Linearisation& linearisation,
                                     std::uint32_t now_us);
   void sent(const TouchFrames& frames, std::uint32_t now_us);
   void setShortestPeriod(std::uint32_t period_us) { shortestPeriod_us_ = period_us; }
 
  private:
+  FingerFlags flagsOf(const Observation& observation) const;
   bool due(std::uint32_t now_us) const { return !any_ || now_us - sentAt_us_ >= shortestPeriod_us_; }
   bool worthSaying(const TouchFrames& frames, std::uint32_t now_us) const;
 

@@ -8,8 +8,8 @@
 namespace strainfinger::firmware {
 namespace {
 
-/// A step turns a contact by at most three half nodes, where the responses are still nearly linear.
-constexpr Number kMostTurn = 3;
+/// A step turns a contact by at most 2.8 degrees, where the responses are still nearly linear.
+constexpr Number kMostTurn_q32 = 1 << 25;
 /// A step changes the second moment by at most 1/16 + 5/16 of it.
 constexpr Number kMostWidening_q20 = 1 << (kMomentBits - 4);
 
@@ -172,13 +172,14 @@ Number stepOf(Wide units, int exponent, int unitBits) {
   return shifted(units, exponent + kStepBits - unitBits, 1 << 28);
 }
 
-void setLimits(const Linearisation& linearisation, Vector& low, Vector& high) {
+void setLimits(const TableConstants& constants, const Linearisation& linearisation, Vector& low, Vector& high) {
   const Hypothesis& hypothesis = linearisation.hypothesis;
   low.fill(-(1 << 28));
   high.fill(1 << 28);
   for (int k = 0; k < hypothesis.contacts; ++k) {
     const int angle = angleOf(hypothesis, k);
-    high[index(angle)] = stepOf(kMostTurn << 15, linearisation.exponent[index(angle)], 15);
+    high[index(angle)] = stepOf((Wide{kMostTurn_q32} << 15) / halfNode_q32(constants),
+                                 linearisation.exponent[index(angle)], 15);
     low[index(angle)] = -high[index(angle)];
     if (!hypothesis.widthIsFree) continue;
     const int moment = momentOf(hypothesis, k), exponent = linearisation.exponent[index(moment)];
@@ -248,7 +249,7 @@ Solution step(const TableImage& tables, const Linearisation& linearisation, cons
       residual[index(row++)] = rest;
   }
   Vector low, high;
-  setLimits(linearisation, low, high);
+  setLimits(tables.constants, linearisation, low, high);
   const Step best =
       solve(linearisation.decomposition, linearisation.column, linearisation.rows, residual, low, high);
   Solution solution{hypothesis, linearisation.at, std::max<Wide>(energy - best.reduction, 0),

@@ -13,8 +13,11 @@ constexpr std::array<Number, 5> kFineMoments_q20{40'000, 160'000, 340'000, 600'0
 constexpr std::array<Number, 2> kCoarseMoments_q20{60'000, 400'000};
 constexpr Number kPairMoment_q20 = 60'000;
 
-constexpr int kFinePlaces = 33, kCoarsePlaces = 15, kPairPlaces = 5;
-constexpr int kFineStep = 1, kCoarseStep = 2, kPairStep = 4;  ///< eighths of a pitch
+constexpr int kFinePlaces = 33, kCoarsePlaces = 15;
+constexpr int kFineStep = 1, kCoarseStep = 2, kRingStep = 2;  ///< eighths of a pitch
+constexpr int kRingPlacesPerGauge = 8 / kRingStep;
+
+constexpr int kMostRounds = 2;  ///< of looking for each contact of a pair again
 
 constexpr int kFirstSteps = 2;  ///< Gauss-Newton steps of every candidate, before the best are chosen
 constexpr int kMostSteps = 14;  ///< of these
@@ -22,11 +25,23 @@ constexpr int kMostSteps = 14;  ///< of these
 /// Units of work: a look at a point, one at a pair of places, a Gauss-Newton step of one or two contacts.
 constexpr int kPointWork = 1, kPairWork = 3, kStepWork = 4, kPairStepWork = 12;
 
-/// How many candidates a hypothesis has, and how many of them are refined.
+/// How many candidates a grid leaves, and how many of them are refined to the end.
 struct Effort {
   int candidates, refined;
 };
-constexpr Effort kFineEffort{12, 4}, kCoarseEffort{3, 1}, kPairEffort{6, 2};
+constexpr Effort effortOf(Grid::Kind kind) {
+  switch (kind) {
+    case Grid::Kind::kFine:
+      return {12, 4};
+    case Grid::Kind::kRing:
+      return {Grid::kMostFirsts, 0};
+    case Grid::Kind::kPairs:
+      return {8, 2};
+    case Grid::Kind::kCoarse:
+      break;
+  }
+  return {3, 1};
+}
 
 std::uint32_t pitch_q32(const TableConstants& constants) {
   return static_cast<std::uint32_t>((std::uint64_t{1} << 32) / constants.gauge_count);
@@ -87,11 +102,6 @@ bool isNeighbour(const TableConstants& constants, const Solution& a, const Solut
 
 bool isBetter(const Solution& a, const Solution& b) { return a.residualEnergy < b.residualEnergy; }
 
-const Effort& effortOf(bool fine, const Hypothesis& hypothesis) {
-  if (hypothesis.contacts == 2) return kPairEffort;
-  return fine ? kFineEffort : kCoarseEffort;
-}
-
 }  // namespace
 
 void Ranking::take(const TableConstants& constants, const Solution& solution,
@@ -114,43 +124,50 @@ void Ranking::take(const TableConstants& constants, const Solution& solution,
   }
 }
 
-Grid::Grid(const TableImage& tables, const Hypothesis& hypothesis, const ScaledReadings& readings, bool fine)
-    : anchor_q32_(anchor_q32(tables, readings, hypothesis.gauges)),
-      pairs_(hypothesis.contacts == 2),
-      fine_(fine) {
-  if (pairs_) {
-    places_ = kPairPlaces;
-    others_ = static_cast<std::int16_t>(2 * tables.constants.gauge_count);
-    step_ = kPairStep;
-    return;
+Grid::Grid(const TableImage& tables, const Hypothesis& hypothesis, const ScaledReadings& readings, Kind kind)
+    : kind_(kind) {
+  const int ring = kRingPlacesPerGauge * tables.constants.gauge_count;
+  const std::uint32_t eighth_q32 = pitch_q32(tables.constants) / 8;
+  const bool fine = kind == Kind::kFine, around = fine || kind == Kind::kCoarse;
+  places_ = static_cast<std::int16_t>(fine ? kFinePlaces : around ? kCoarsePlaces : ring);
+  step_q32_ = eighth_q32 * static_cast<std::uint32_t>(fine ? kFineStep : around ? kCoarseStep : kRingStep);
+  if (around) {
+    first_q32_ =
+        anchor_q32(tables, readings, hypothesis.gauges) - static_cast<std::uint32_t>(places_ / 2) * step_q32_;
+    if (hypothesis.widthIsFree)
+      others_ = static_cast<std::int16_t>(fine ? kFineMoments_q20.size() : kCoarseMoments_q20.size());
   }
-  places_ = fine ? kFinePlaces : kCoarsePlaces;
-  step_ = fine ? kFineStep : kCoarseStep;
-  others_ = !hypothesis.widthIsFree
-                ? 1
-                : static_cast<std::int16_t>(fine ? kFineMoments_q20.size() : kCoarseMoments_q20.size());
+}
+
+Grid::Grid(const Grid& ring, std::span<const Solution> firsts) : Grid(ring) {
+  kind_ = Kind::kPairs;
+  others_ = static_cast<std::int16_t>(firsts.size());
+  for (std::size_t i = 0; i < firsts.size(); ++i) firsts_q32_[i] = firsts[i].contact[0].angle_q32;
 }
 
 ContactStates Grid::at(const TableImage& tables, int index) const {
-  const std::uint32_t eighth_q32 = pitch_q32(tables.constants) / 8;
-  const int place = index / others_, other = index % others_;
-  const auto away = static_cast<std::uint32_t>((place - places_ / 2) * step_);
-  ContactStates contacts{};
-  contacts[0].angle_q32 = anchor_q32_ + away * eighth_q32;
-  if (pairs_) {
-    contacts[1].angle_q32 =
-        contacts[0].angle_q32 + static_cast<std::uint32_t>(other * kPairStep) * eighth_q32;
-    contacts[0].moment_q20 = contacts[1].moment_q20 = momentOf(tables.constants, kPairMoment_q20);
-  } else {
-    const auto i = static_cast<std::size_t>(other);
-    contacts[0].moment_q20 = momentOf(tables.constants, fine_ ? kFineMoments_q20[i] : kCoarseMoments_q20[i]);
+  const int place = index / others_;
+  const auto other = firmware::at(index % others_);
+  const std::uint32_t place_q32 = first_q32_ + static_cast<std::uint32_t>(place) * step_q32_;
+  const auto contact = [&](std::uint32_t angle_q32, Number moment_q20) {
+    return ContactState{angle_q32, 0, 0, momentOf(tables.constants, moment_q20)};
+  };
+  switch (kind_) {
+    case Kind::kFine:
+      return {contact(place_q32, kFineMoments_q20[other])};
+    case Kind::kCoarse:
+      return {contact(place_q32, kCoarseMoments_q20[other])};
+    case Kind::kRing:
+      return {contact(place_q32, kPairMoment_q20)};
+    case Kind::kPairs:
+      break;
   }
-  return contacts;
+  return {contact(firsts_q32_[other], kPairMoment_q20), contact(place_q32, kPairMoment_q20)};
 }
 
 ContactStates initialGuess(const TableImage& tables, const Hypothesis& hypothesis,
                            const ScaledReadings& readings) {
-  const Grid grid(tables, hypothesis, readings, false);
+  const Grid grid(tables, hypothesis, readings, Grid::Kind::kCoarse);
   Solution best;
   bool any = false;
   for (int i = 0; i < grid.size(); ++i) {
@@ -164,16 +181,17 @@ ContactStates initialGuess(const TableImage& tables, const Hypothesis& hypothesi
 }
 
 void Search::begin(const TableImage& tables, const ScaledReadings& readings, const Hypothesis& hypothesis) {
-  readings_ = readings;
+  readings_ = looked_ = readings;
   all_ = hypothesis;
   single_ = withoutOne_ = pair_ = {};
   stage_ = Stage::kSingle;
-  beginTask(tables, all_);
+  rounds_ = 0;
+  beginTask(all_, Grid(tables, all_, readings_, Grid::Kind::kFine));
 }
 
-void Search::beginTask(const TableImage& tables, const Hypothesis& hypothesis) {
+void Search::beginTask(const Hypothesis& hypothesis, const Grid& grid) {
   hypothesis_ = hypothesis;
-  grid_ = Grid(tables, hypothesis, readings_, stage_ == Stage::kSingle);
+  grid_ = grid;
   point_ = 0;
   candidates_ = refined_ = 0;
 }
@@ -186,16 +204,17 @@ void Search::consider(const TableConstants& constants, const Solution& point) {
   const auto place = std::upper_bound(first, last, point, isBetter);
   if (std::any_of(first, place, neighbours)) return;
   last = std::remove_if(place, last, neighbours);
-  if (place - first == effortOf(stage_ == Stage::kSingle, hypothesis_).candidates) return;
-  if (last - first == effortOf(stage_ == Stage::kSingle, hypothesis_).candidates) --last;
+  if (place - first == effortOf(grid_.kind()).candidates) return;
+  if (last - first == effortOf(grid_.kind()).candidates) --last;
   std::move_backward(place, last, last + 1);
   *place = point;
   candidates_ = static_cast<std::uint8_t>(last + 1 - first);
 }
 
 int Search::lookAtPoint(const TableImage& tables) {
-  const Solution point = fitLoads(tables, hypothesis_, grid_.at(tables, point_++), readings_);
-  if (isPromising(tables.constants, point)) consider(tables.constants, point);
+  const Solution point = fitLoads(tables, hypothesis_, grid_.at(tables, point_++), looked_);
+  if (stage_ == Stage::kFirstOfPair || isPromising(tables.constants, point))
+    consider(tables.constants, point);
   return hypothesis_.contacts == 1 ? kPointWork : kPairWork;
 }
 
@@ -209,39 +228,74 @@ int Search::refineNext(const TableImage& tables, Linearisation& scratch) {
     for (int better = 0; better < i; ++better)
       if (isSame(tables.constants, candidate, candidate_[at(better)])) return 0;
   const int steps = first ? kFirstSteps : kMostSteps;
-  candidate = fit(tables, hypothesis_, candidate.contact, readings_, steps, scratch);
+  candidate = fit(tables, hypothesis_, candidate.contact, looked_, steps, scratch);
   if (refined_ == candidates_) std::sort(candidate_.begin(), candidate_.begin() + candidates_, isBetter);
-  if (!first) rankingOf(stage_).take(tables.constants, candidate, readings_);
-  return (first ? kFirstSteps : kMostSteps / 2) * (hypothesis_.contacts == 1 ? kStepWork : kPairStepWork);
+  if (!first && isLookingAgain()) {
+    const Hypothesis both{2, all_.widthIsFree, all_.gauges};
+    candidate = fit(tables, both, {candidate.contact[0], other_}, readings_, kMostSteps, scratch);
+  }
+  if (!first) ranking().take(tables.constants, candidate, readings_);
+  const bool pair = hypothesis_.contacts == 2 || (!first && isLookingAgain());
+  return (first ? kFirstSteps : kMostSteps / 2) * (pair ? kPairStepWork : kStepWork);
 }
 
 int Search::refinements() const {
-  return candidates_ + std::min<int>(candidates_, effortOf(stage_ == Stage::kSingle, hypothesis_).refined);
+  const int refined = effortOf(grid_.kind()).refined;
+  return refined == 0 ? 0 : candidates_ + std::min<int>(candidates_, refined);
 }
 
-Ranking& Search::rankingOf(Stage stage) {
-  if (stage == Stage::kSingle) return single_;
-  return stage == Stage::kPair ? pair_ : withoutOne_;
+Ranking& Search::ranking() {
+  if (stage_ == Stage::kSingle) return single_;
+  return stage_ == Stage::kWithoutOne ? withoutOne_ : pair_;
 }
 
 void Search::withoutNext(const TableImage& tables) {
   while (leftOut_ < tables.constants.gauge_count && !contains(all_.gauges, leftOut_)) ++leftOut_;
   if (leftOut_ < tables.constants.gauge_count) {
-    const GaugeSet others = all_.gauges & ~(GaugeSet{1} << leftOut_++);
-    return beginTask(tables, {1, all_.widthIsFree, others});
+    const Hypothesis without{1, all_.widthIsFree, all_.gauges & ~(GaugeSet{1} << leftOut_++)};
+    return beginTask(without, Grid(tables, without, readings_, Grid::Kind::kCoarse));
   }
-  stage_ = Stage::kPair;
-  beginTask(tables, {2, all_.widthIsFree, all_.gauges});
+  stage_ = Stage::kFirstOfPair;
+  beginTask(all_, Grid(tables, all_, readings_, Grid::Kind::kRing));
 }
 
-void Search::finishTask(const TableImage& tables) {
-  if (stage_ == Stage::kPair) return stop();
-  if (stage_ == Stage::kSingle) {
-    if (single_.anyBest && isAccepted(tables.constants, single_.best, readings_)) return stop();
-    stage_ = Stage::kWithoutOne;
-    leftOut_ = 0;
+/// One contact of the pair is sought anew in what the other leaves of the readings: near every contact there
+/// is a second answer, of another width.
+void Search::lookAgain(const TableImage& tables, int contact, Linearisation& scratch) {
+  if (!pair_.anyBest) return stop();
+  other_ = pair_.best.contact[at(1 - contact)];
+  linearise(tables, {1, all_.widthIsFree, all_.gauges}, {other_}, scratch);
+  for (int i = 0; i < tables.constants.gauge_count; ++i)
+    looked_.value[at(i)] = saturate<std::int16_t>(readings_.value[at(i)] - Number{scratch.predicted[at(i)]});
+  beginTask(all_, Grid(tables, all_, looked_, Grid::Kind::kFine));
+}
+
+void Search::finishTask(const TableImage& tables, Linearisation& scratch) {
+  switch (stage_) {
+    case Stage::kSingle:
+      if (single_.anyBest && isAccepted(tables.constants, single_.best, readings_)) return stop();
+      stage_ = Stage::kWithoutOne;
+      leftOut_ = 0;
+      return withoutNext(tables);
+    case Stage::kWithoutOne:
+      return withoutNext(tables);
+    case Stage::kFirstOfPair:
+      stage_ = Stage::kPair;
+      return beginTask({2, all_.widthIsFree, all_.gauges},
+                       Grid(grid_, std::span(candidate_).first(candidates_)));
+    case Stage::kPair:
+      stage_ = Stage::kFirstAgain;
+      return lookAgain(tables, 0, scratch);
+    case Stage::kFirstAgain:
+      stage_ = Stage::kSecondAgain;
+      return lookAgain(tables, 1, scratch);
+    case Stage::kSecondAgain:
+      if (isAccepted(tables.constants, pair_.best, readings_) || ++rounds_ == kMostRounds) return stop();
+      stage_ = Stage::kFirstAgain;
+      return lookAgain(tables, 0, scratch);
+    case Stage::kIdle:
+      return;
   }
-  withoutNext(tables);
 }
 
 void Search::advance(const TableImage& tables, Linearisation& scratch) {
@@ -251,7 +305,7 @@ void Search::advance(const TableImage& tables, Linearisation& scratch) {
     } else if (refined_ < refinements()) {
       work += refineNext(tables, scratch);
     } else {
-      finishTask(tables);
+      finishTask(tables, scratch);
     }
   }
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "firmware/core/fit.hpp"
 #include "firmware/core/judge.hpp"
@@ -20,24 +21,33 @@ struct Ranking {
   void take(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings);
 };
 
-/// Where to look for the contacts of a hypothesis: places and widths around where the strains bend most, or
-/// pairs of places.
+/// Where to look for the contacts of a hypothesis.
 class Grid {
  public:
-  Grid() = default;
-  /// `fine`: an eighth of a pitch and five widths instead of a quarter and two.
-  Grid(const TableImage& tables, const Hypothesis& hypothesis, const ScaledReadings& readings, bool fine);
+  enum class Kind : std::uint8_t {
+    kCoarse,  ///< two pitches around where the ring reads most, by quarters of a pitch, two widths
+    kFine,    ///< by eighths, five widths
+    kRing,    ///< all round the ring by quarters of a pitch
+    kPairs,   ///< the same for a second contact beside each of some first ones
+  };
+  static constexpr int kMostFirsts = 6;
 
+  Grid() = default;
+  Grid(const TableImage& tables, const Hypothesis& hypothesis, const ScaledReadings& readings, Kind kind);
+  /// Pairs: one of `firsts`, at most kMostFirsts, and a place of a `ring`.
+  Grid(const Grid& ring, std::span<const Solution> firsts);
+
+  Kind kind() const { return kind_; }
   int size() const { return places_ * others_; }
   ContactStates at(const TableImage& tables, int index) const;
 
  private:
-  std::uint32_t anchor_q32_ = 0;  ///< the middle of the places
-  std::int16_t places_ = 0;       ///< of the first contact
-  std::int16_t others_ = 0;       ///< widths, or places of the second contact
-  std::uint8_t step_ = 0;         ///< between places [eighths of a pitch]
-  bool pairs_ = false;
-  bool fine_ = false;
+  std::uint32_t first_q32_ = 0;  ///< the first place
+  std::uint32_t step_q32_ = 0;
+  std::array<std::uint32_t, kMostFirsts> firsts_q32_{};
+  std::int16_t places_ = 0;
+  std::int16_t others_ = 1;  ///< widths, or first contacts
+  Kind kind_ = Kind::kCoarse;
 };
 
 /// Where to start without knowing anything: the best point of a coarse grid.
@@ -45,7 +55,8 @@ ContactStates initialGuess(const TableImage& tables, const Hypothesis& hypothesi
                            const ScaledReadings& readings);
 
 /// One contact; if that does not explain the readings, one contact without one of the gauges, and two
-/// contacts. Of each hypothesis a grid is looked at, and its best points are refined. advance() does a part
+/// contacts, of which each is looked for anew in what the other leaves. Of each hypothesis a grid is looked
+/// at, and its best points are refined. advance() does a part
 /// of it that fits into a sample period.
 class Search {
  public:
@@ -64,19 +75,32 @@ class Search {
   static constexpr int kWork = 100;
 
  private:
-  enum class Stage : std::uint8_t { kIdle, kSingle, kWithoutOne, kPair };
+  enum class Stage : std::uint8_t {
+    kIdle,
+    kSingle,
+    kWithoutOne,
+    kFirstOfPair,
+    kPair,
+    kFirstAgain,
+    kSecondAgain
+  };
   static constexpr int kMostCandidates = 12;
 
-  void beginTask(const TableImage& tables, const Hypothesis& hypothesis);
+  void beginTask(const Hypothesis& hypothesis, const Grid& grid);
   int lookAtPoint(const TableImage& tables);
   void consider(const TableConstants& constants, const Solution& point);
   int refineNext(const TableImage& tables, Linearisation& scratch);
   int refinements() const;
-  Ranking& rankingOf(Stage stage);
-  void finishTask(const TableImage& tables);
+  Ranking& ranking();
+  void finishTask(const TableImage& tables, Linearisation& scratch);
   void withoutNext(const TableImage& tables);
+  void lookAgain(const TableImage& tables, int contact, Linearisation& scratch);
+  bool isLookingAgain() const { return stage_ == Stage::kFirstAgain || stage_ == Stage::kSecondAgain; }
 
   ScaledReadings readings_;
+  ScaledReadings
+      looked_;  ///< what the stage looks at: the readings, or what a contact of the pair leaves of them
+  ContactState other_;     ///< that contact
   Hypothesis all_;         ///< one contact, all gauges
   Hypothesis hypothesis_;  ///< that is looked at
   Grid grid_;
@@ -86,6 +110,7 @@ class Search {
   std::uint8_t candidates_ = 0;
   std::uint8_t refined_ = 0;  ///< refinements made: first steps of all candidates, then all of the best
   std::uint8_t leftOut_ = 0;  ///< gauge
+  std::uint8_t rounds_ = 0;   ///< of looking for each contact of a pair again
   Stage stage_ = Stage::kIdle;
 };
 

@@ -58,13 +58,13 @@ inline constexpr int kMomentBits = 20;
 
 /// Integers the firmware works with, all derived from TableParameters and the calibration.
 struct TableConstants {
-  std::uint32_t noise_variance;      ///< of a reading: sigma^2 = this (24 bits) * 2^noise_variance_exponent
-                                     ///< [(strain * 2^32)^2]
-  std::uint32_t gate_on;             ///< energy (see gate_shift) at which a contact begins
-  std::uint32_t gate_off;            ///< energy below which it ends
-  std::int32_t load_scale;           ///< LineLoadQ12 per strain * 2^32 of a load's largest response = this *
-                                     ///< 2^load_exponent
-  std::int32_t reading_gain;         ///< strain * 2^32 = ((code << 15) - zero) * reading_gain >> 32
+  std::uint32_t noise_variance;  ///< of a reading: sigma^2 = this (24 bits) * 2^noise_variance_exponent
+                                 ///< [(strain * 2^32)^2]
+  std::uint32_t gate_on;         ///< energy (see gate_shift) at which a contact begins
+  std::uint32_t gate_off;        ///< energy below which it ends
+  std::int32_t load_scale;    ///< LineLoadQ12 per unit of a fitted load = this * 2^load_exponent; two units
+                              ///< make a largest reading of 1 (strain * 2^32)
+  std::int32_t reading_gain;  ///< strain * 2^32 = ((code << 15) - zero) * reading_gain >> 32
   std::uint32_t force_per_load_q16;  ///< mN per N/m [* 2^16]
   std::uint32_t reach_q32;           ///< gauges within this angle of a contact take part in its fit, TurnQ32
   std::uint32_t largest_moment_um2;  ///< second moment of the widest pressure [um^2]
@@ -116,6 +116,9 @@ struct GaugeGains {
 inline constexpr int kLeastGainExponent = 6;  ///< corrections up to 127/64, for gains down to 1/2
 inline constexpr int kMostGainExponent = 15;
 
+/// Where each gauge of a ring is, TurnQ32, ascending from the first one round the ring; then 0.
+using GaugeAngles = std::array<std::uint32_t, kMaxGauges>;
+
 struct TableImage {
   std::uint32_t magic;
   std::uint16_t format;
@@ -124,7 +127,7 @@ struct TableImage {
   std::uint32_t crc32;        ///< of everything behind this field
   TableParameters parameters;
   TableConstants constants;
-  std::array<std::uint32_t, kMaxGauges> gauge_angle_q32;  ///< TurnQ32, ascending round the ring; then 0
+  GaugeAngles gauge_angle_q32;
   GaugeGains gains;
   std::array<PatchPair, kMostPatches> patches;  ///< node by node; of each, cell by cell
 
@@ -220,7 +223,7 @@ constexpr bool usable(const TableParameters& parameters, const TableConstants& c
 }
 
 /// Gauges of the ring ascend within one revolution from the first one.
-constexpr bool usable(const std::array<std::uint32_t, kMaxGauges>& angles_q32, int gauges) {
+constexpr bool usable(const GaugeAngles& angles_q32, int gauges) {
   for (int i = 1; i < gauges; ++i)
     if (angles_q32[static_cast<std::size_t>(i)] - angles_q32[0] <=
         angles_q32[static_cast<std::size_t>(i - 1)] - angles_q32[0])

@@ -1,122 +1,206 @@
 #include "host/tables/response_table.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "host/model/impulse_response.hpp"
+#include "host/model/pressure_profile.hpp"
+#include "host/model/series.hpp"
 
 namespace strainfinger::tables {
 namespace {
 
-constexpr int kPoints = 4;  ///< Chebyshev points a patch has in each direction
+using Eigen::Index, Eigen::MatrixXd;
+using std::numbers::pi;
 
-double chebyshev(int i) { return std::cos((2 * i + 1) * std::numbers::pi / (2 * kPoints)); }
+/// Of the elastic model, relative to the peak: a patch's weights are rounded to 3e-5 of it.
+constexpr double kTolerance = 1e-7;
 
-/// Basis of a patch at (s, t), in the order of ResponsePatch.
-Eigen::RowVectorXd basis(double s, double t) {
-  Eigen::RowVectorXd row(6);
-  row << 1, s, t, t * t, s * t, s * s;
-  return row;
+/// Chebyshev points that a patch is fitted to in each direction.
+constexpr int kPoints = 4;
+constexpr int kWeights = static_cast<int>(std::tuple_size_v<ResponsePatch>);
+
+using Samples = Eigen::Matrix<double, kPoints, kPoints>;  ///< at (angle, second moment)
+using Design = Eigen::Matrix<double, kPoints * kPoints, kWeights>;
+
+double chebyshev(int i) { return std::cos((2 * i + 1) * pi / (2 * kPoints)); }
+
+/// A patch's polynomial at the samples, in the order of ResponsePatch.
+Design makeDesign() {
+  Design design;
+  for (int j = 0; j < kPoints; ++j)
+    for (int i = 0; i < kPoints; ++i) {
+      const double s = chebyshev(j), t = chebyshev(i);
+      design.row(j * kPoints + i) << 1, s, t, t * t, s * t, s * s;
+    }
+  return design;
 }
 
-/// Weights from values at the Chebyshev points, t fastest.
-Eigen::MatrixXd fitMatrix(bool wide) {
-  const int columns = wide ? kPoints : 1;
-  Eigen::MatrixXd design(kPoints * columns, 6);
-  for (int j = 0; j < columns; ++j)
-    for (int i = 0; i < kPoints; ++i)
-      design.row(j * kPoints + i) = basis(wide ? chebyshev(j) : 0, chebyshev(i));
-  return design.completeOrthogonalDecomposition().pseudoInverse();
+/// Edges of the cells of the second moment [* 2^15]. Of an unknown width they are even steps of the width. Of
+/// a known one they divide what the shear's moment can be, from half of the largest to all of it.
+std::vector<int> cellEdges_q15(const config::Contact& contact) {
+  if (contact.width_m)
+    return *contact.width_m == 0 ? std::vector{0, 1 << 15} : std::vector{0, 1 << 14, 3 << 13, 1 << 15};
+  std::vector<int> edges;
+  for (int k = 0; k <= kMostCells; ++k) edges.push_back(k * k * (1 << 15) / (kMostCells * kMostCells));
+  return edges;
 }
 
-/// What a semi-elliptic traction of half width a makes of harmonic n: 2 J1(n a) / (n a).
-double semiEllipse(double x) { return x < 1e-4 ? 1 - x * x / 8 : 2 * std::cyl_bessel_j(1.0, x) / x; }
+/// What is below half of a known width's moment is in the table, but never looked up.
+bool isUsed(const config::Contact& contact, int cell) { return contact.width_m.value_or(0) == 0 || cell > 0; }
 
-/// Responses (rows: angles; columns: moments) of the harmonics' sums.
-Eigen::MatrixXd values(const Eigen::VectorXd& harmonics, const Eigen::MatrixXd& waves,
-                       const std::vector<double>& halfWidths_rad) {
-  Eigen::MatrixXd windowed(harmonics.size(), static_cast<Eigen::Index>(halfWidths_rad.size()));
-  for (Eigen::Index j = 0; j < windowed.cols(); ++j)
-    for (Eigen::Index n = 0; n < windowed.rows(); ++n)
-      windowed(n, j) =
-          harmonics[n] * semiEllipse(static_cast<double>(n) * halfWidths_rad[static_cast<std::size_t>(j)]);
-  return waves * windowed;
+/// Nodes with which the patches of a line load, whose response is the narrowest, are off by half a step of
+/// their weights at most: a cubic term c t^3 / 6 leaves c / 24 at Chebyshev points, and c is at most
+/// sum n^3 |h_n| times the cube of half the angle between nodes.
+int enoughNodes(const model::ImpulseResponse& response) {
+  double cubic = 0, peak = 0;
+  for (int n = 0; n <= response.harmonics(); ++n) {
+    const double harmonic = std::max(std::abs(response.even()[n]), std::abs(response.odd()[n]));
+    cubic += harmonic * n * n * n;
+    peak += harmonic;
+  }
+  const double halfNode_rad = std::cbrt(24 * std::ldexp(peak, -16) / cubic);
+  return static_cast<int>(std::ceil(std::min<double>(pi / 2 / halfNode_rad, kMostPatches)));
+}
+
+/// A load's harmonics under the moments at which the patches are sampled, a column each, cell by cell.
+MatrixXd spreadHarmonics(const Eigen::VectorXd& harmonics, const std::vector<int>& edges_q15,
+                         double largestMoment_rad2) {
+  const Index cells = static_cast<Index>(edges_q15.size()) - 1;
+  MatrixXd columns(harmonics.size(), cells * kPoints);
+  for (Index cell = 0; cell < cells; ++cell)
+    for (int j = 0; j < kPoints; ++j) {
+      const double low = edges_q15[static_cast<std::size_t>(cell)],
+                   high = edges_q15[static_cast<std::size_t>(cell) + 1];
+      const double part = std::ldexp(low + high + chebyshev(j) * (high - low), -16);
+      for (Index n = 0; n < harmonics.size(); ++n)
+        columns(n, cell * kPoints + j) =
+            harmonics[n] *
+            model::spreadFactor(model::Profile::kEllipse, static_cast<int>(n), part * largestMoment_rad2)
+                .value;
+    }
+  return columns;
+}
+
+/// Nodes whose responses are summed in one product of matrices.
+constexpr int kBatch = 8;
+
+/// Cosines and sines of the harmonics, a row for each angle at which a batch of nodes is sampled.
+struct Waves {
+  MatrixXd cosines, sines;
+
+  Waves(int firstNode, int nodes, Index harmonics)
+      : cosines(kBatch * kPoints, harmonics), sines(kBatch * kPoints, harmonics) {
+    for (int row = 0; row < kBatch * kPoints; ++row) {
+      const double node = firstNode + row / kPoints + 0.5 + chebyshev(row % kPoints) / 2;
+      model::visitMultiples(node * pi / nodes, static_cast<int>(harmonics) - 1,
+                            [&](int n, double c, double s) {
+                              cosines(row, n) = c;
+                              sines(row, n) = s;
+                            });
+    }
+  }
+};
+
+/// Patches to a load, as real numbers.
+struct Patches {
+  Eigen::Matrix<double, kWeights, Eigen::Dynamic> weights;
+  Eigen::VectorXd residual;  ///< the largest of each patch
+
+  explicit Patches(int count) : weights(kWeights, count), residual(count) {}
+};
+
+/// The least-squares fit to a patch's samples.
+class PatchFit {
+ public:
+  PatchFit() : design_(makeDesign()) {
+    projection_ = (design_.transpose() * design_).inverse() * design_.transpose();
+  }
+
+  void operator()(const Samples& samples, int patch, Patches& patches) const {
+    const Eigen::Vector<double, kWeights> weights = projection_ * samples.reshaped();
+    patches.weights.col(patch) = weights;
+    patches.residual[patch] = (design_ * weights - samples.reshaped()).cwiseAbs().maxCoeff();
+  }
+
+ private:
+  Design design_;
+  Eigen::Matrix<double, kWeights, kPoints * kPoints> projection_;
+};
+
+/// Fits a batch of nodes; `columns` as spreadHarmonics() makes them.
+void fitBatch(const MatrixXd& waves, const MatrixXd& columns, int firstNode, int nodes, Patches& patches) {
+  static const PatchFit fit;
+  const MatrixXd samples = waves * columns;
+  const int cells = static_cast<int>(columns.cols()) / kPoints;
+  for (int node = firstNode; node < std::min(firstNode + kBatch, nodes); ++node)
+    for (int cell = 0; cell < cells; ++cell)
+      fit(samples.block<kPoints, kPoints>((node - firstNode) * kPoints, cell * kPoints), node * cells + cell,
+          patches);
+}
+
+ResponsePatch rounded(const Eigen::Vector<double, kWeights>& weights, double unit) {
+  ResponsePatch patch;
+  for (int i = 0; i < kWeights; ++i)
+    patch[static_cast<std::size_t>(i)] =
+        static_cast<std::int16_t>(std::lround(std::ldexp(weights[i] / unit, 15)));
+  return patch;
+}
+
+double largestSum(const Patches& patches) { return patches.weights.cwiseAbs().colwise().sum().maxCoeff(); }
+
+int signOfLargest(const Patches& patches) {
+  Index patch;
+  patches.weights.row(0).cwiseAbs().maxCoeff(&patch);
+  return patches.weights(0, patch) < 0 ? -1 : 1;
+}
+
+/// Weights' sizes add up to less than 2^15 after rounding, which may add 1/2 to each of them.
+constexpr double kLargestSum = 32768 - 8;
+
+void roundPatches(const config::Contact& contact, const Patches& normal, const Patches& tangential,
+                  ResponseTable& table) {
+  table.peakSign = signOfLargest(normal);
+  table.strainPerUnit = std::max(largestSum(normal), largestSum(tangential)) * (32768 / kLargestSum);
+  table.interpolationError = 0;
+  for (int patch = 0; patch < table.nodes * table.cells; ++patch) {
+    table.patches.push_back({rounded(normal.weights.col(patch), table.strainPerUnit),
+                             rounded(tangential.weights.col(patch), table.strainPerUnit)});
+    if (!isUsed(contact, patch % table.cells)) continue;
+    table.interpolationError =
+        std::max(table.interpolationError,
+                 std::max(normal.residual[patch], tangential.residual[patch]) / table.strainPerUnit);
+  }
 }
 
 }  // namespace
 
 ResponseTable responseTable(const config::FingerConfig& config) {
-  const bool wide = !std::getenv("KNOWN");
-  ResponseTable table;
-  table.nodes = wide ? 96 : 384;
-  table.cells = wide ? 8 : 1;
-  const double largest = 8e-3;
-  table.largestMoment_m2 = largest * largest / 12;
-  for (int k = 0; k <= table.cells; ++k)
-    table.cell_edge_q15[static_cast<std::size_t>(k)] =
-        static_cast<std::uint16_t>(std::lround(32768 * std::pow(double(k) / table.cells, 1.5)));
-  for (int k = 0; k < table.cells; ++k)
-    table.cell_rate_q8[static_cast<std::size_t>(k)] =
-        static_cast<std::uint16_t>(2.0 * 256 * 32768 /
-                                   (table.cell_edge_q15[static_cast<std::size_t>(k + 1)] -
-                                    table.cell_edge_q15[static_cast<std::size_t>(k)]));
   const model::ImpulseResponse response(config.finger.annulus(), config.gauges.radius_m,
-                                        config.gauges.component, config.gauges.arc_length_m, 0, 1e-9);
-  table.peakSign = response.at(0).normal < 0 ? -1 : 1;
-  const Eigen::Index harmonics = response.harmonics() + 1;
-  // Cosines and sines at the Chebyshev angles of every node.
-  Eigen::MatrixXd cosines(table.nodes * kPoints, harmonics), sines(table.nodes * kPoints, harmonics);
-  for (int node = 0; node < table.nodes; ++node)
-    for (int i = 0; i < kPoints; ++i) {
-      const double angle = (node + 0.5 + chebyshev(i) / 2) * std::numbers::pi / table.nodes;
-      const double c1 = std::cos(angle), s1 = std::sin(angle);
-      double c = 1, s = 0;
-      for (Eigen::Index n = 0; n < harmonics; ++n) {
-        cosines(node * kPoints + i, n) = c;
-        sines(node * kPoints + i, n) = s;
-        const double next = c * c1 - s * s1;
-        s = s * c1 + c * s1;
-        c = next;
-      }
-    }
-  const int columns = wide ? kPoints : 1;
-  std::vector<double> normalHalf, tangentialHalf;
-  for (int k = 0; k < table.cells; ++k)
-    for (int j = 0; j < columns; ++j) {
-      const double low = table.cell_edge_q15[static_cast<std::size_t>(k)] / 32768.0,
-                   high = table.cell_edge_q15[static_cast<std::size_t>(k + 1)] / 32768.0;
-      const double u = wide ? (low + high) / 2 + chebyshev(j) * (high - low) / 2 : 0;
-      normalHalf.push_back(2 * std::sqrt(u * table.largestMoment_m2) / config.finger.outer_radius_m);
-      tangentialHalf.push_back(std::numbers::sqrt2 * normalHalf.back());
-    }
+                                        config.gauges.component, config.gauges.arc_length_m, 0, kTolerance);
+  const std::vector<int> edges_q15 = cellEdges_q15(config.contact);
+  const double width_rad =
+      config.contact.width_m.value_or(config.contact.largest_width_m) / config.finger.outer_radius_m;
+  const double largest_rad2 = model::momentOf(model::Profile::kUniform, width_rad);
+  ResponseTable table{};
+  table.cells = static_cast<int>(edges_q15.size()) - 1;
+  table.nodes = std::clamp(enoughNodes(response), kLeastNodes, kMostPatches / table.cells);
+  std::copy(edges_q15.begin(), edges_q15.end(), table.cell_edge_q15.begin());
+  table.largestMoment_m2 = largest_rad2 * std::pow(config.finger.outer_radius_m, 2);
   const bool even = response.isEvenInNormal();
-  const Eigen::MatrixXd normal =
-      values(even ? response.even() : response.odd(), even ? cosines : sines, normalHalf);
-  const Eigen::MatrixXd tangential =
-      values(even ? response.odd() : response.even(), even ? sines : cosines, tangentialHalf);
-  const Eigen::MatrixXd fit = fitMatrix(wide);
-  Eigen::MatrixXd weights(6, table.nodes * table.cells * 2);
-  for (int node = 0; node < table.nodes; ++node)
-    for (int cell = 0; cell < table.cells; ++cell)
-      for (int load = 0; load < 2; ++load) {
-        const Eigen::MatrixXd block =
-            (load == 0 ? normal : tangential).block(node * kPoints, cell * columns, kPoints, columns);
-        weights.col((node * table.cells + cell) * 2 + load) = fit * block.reshaped();
-      }
-  const double largestSum = weights.cwiseAbs().colwise().sum().maxCoeff();
-  table.strainPerUnit = largestSum * 32768 / 32760;
-  table.patches.resize(static_cast<std::size_t>(table.nodes * table.cells));
-  for (std::size_t p = 0; p < table.patches.size(); ++p)
-    for (std::size_t i = 0; i < 6; ++i) {
-      const auto at = [&](int load) {
-        return static_cast<std::int16_t>(
-            std::lround(weights(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(2 * p) + load) /
-                        table.strainPerUnit * 32768));
-      };
-      table.patches[p].normal[i] = at(0);
-      table.patches[p].tangential[i] = at(1);
-    }
+  const MatrixXd normalColumns =
+      spreadHarmonics(even ? response.even() : response.odd(), edges_q15, largest_rad2);
+  const MatrixXd tangentialColumns =
+      spreadHarmonics(even ? response.odd() : response.even(), edges_q15, 2 * largest_rad2);
+  Patches normal(table.nodes * table.cells), tangential(table.nodes * table.cells);
+  for (int node = 0; node < table.nodes; node += kBatch) {
+    const Waves waves(node, table.nodes, response.harmonics() + 1);
+    fitBatch(even ? waves.cosines : waves.sines, normalColumns, node, table.nodes, normal);
+    fitBatch(even ? waves.sines : waves.cosines, tangentialColumns, node, table.nodes, tangential);
+  }
+  roundPatches(config.contact, normal, tangential, table);
   return table;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// The responses of a gauge to unit loads, as patches over angle and width.
+// What a gauge reads of unit loads, as quadratic patches over the angle to the contact and the second moment
+// of its pressure.
 
 #include <array>
 #include <vector>
@@ -12,17 +13,19 @@ namespace strainfinger::tables {
 struct ResponseTable {
   int nodes;
   int cells;
-  std::array<std::uint16_t, kMostCells + 1> cell_edge_q15{};
-  std::array<std::uint16_t, kMostCells> cell_rate_q8{};
-  double strainPerUnit;     ///< strain per N/m of response 2^15
-  double largestMoment_m2;  ///< second moment of the widest pressure
-  int peakSign;             ///< of what a pressing load makes the gauge under it read
+  std::array<std::uint16_t, kMostCells + 1> cell_edge_q15{};  ///< as in TableConstants
+  double largestMoment_m2;    ///< second moment of the widest pressure, of which the edges are fractions
+  double strainPerUnit;       ///< strain per N/m of a response of 2^15
+  int peakSign;               ///< of the largest reading that a pressing load makes
+  double interpolationError;  ///< largest error of a patch before rounding, of a response of 2^15
   std::vector<PatchPair> patches;
 };
 
-/// Least-squares fits to the elastic model at Chebyshev points of each patch. The pressure is a semi-ellipse,
-/// so is the tangential traction, up to twice as large in second moment (Mindlin). Throws what
-/// ImpulseResponse throws.
+/// Least-squares fits to the elastic model. The pressure is a semi-ellipse with the second moment of a
+/// uniform pressure of the contact's width, and so is the shear, up to twice as large in second moment
+/// (Mindlin, see model::shearMoment_rad2()). Where contact.width_m is known, the patches that hold that
+/// pressure, at the largest moment, and its shear are exact enough; those for less than half that moment are
+/// not used. Throws what ImpulseResponse throws. Cost: 2 ms for the default finger, 10 ms for 300 harmonics.
 ResponseTable responseTable(const config::FingerConfig& config);
 
 }  // namespace strainfinger::tables

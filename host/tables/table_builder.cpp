@@ -4,19 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 #include "common/fixed_real.hpp"
+#include "firmware/core/judge.hpp"
+#include "firmware/core/normal_equations.hpp"
 #include "host/base/failure.hpp"
 #include "host/config/keys.hpp"
-#include "host/model/impulse_response.hpp"
-#include "host/tables/elsewhere.hpp"
-#include "host/tables/fit_table.hpp"
 #include "host/tables/gauge_gains.hpp"
-#include "host/tables/near_table.hpp"
-#include "host/tables/pressed_ring.hpp"
-#include "host/tables/scan_spans.hpp"
-#include "host/tables/start_weights.hpp"
-#include "host/tables/tail_energy.hpp"
+#include "host/tables/response_table.hpp"
 
 namespace strainfinger::tables {
 namespace {
@@ -37,9 +34,6 @@ double chiSquareQuantile(int count, double z) {
   return count * std::pow(1 - spread + z * std::sqrt(spread), 3);
 }
 
-/// Steps of load that a full scale must have at least, for errors of a few per thousand.
-constexpr double kLeastFullScale = 1024;
-
 struct MantissaExponent {
   double mantissa;  ///< in [2^(bits-1), 2^bits)
   int exponent;
@@ -50,7 +44,15 @@ MantissaExponent normalised(double value, int bits) {
   return {std::ldexp(fraction, bits), exponent - bits};
 }
 
-std::uint32_t rounded(double value) { return saturate<std::uint32_t>(std::llround(value)); }
+template <typename Integer>
+Integer rounded(double value) {
+  return saturate<Integer>(std::llround(value));
+}
+
+std::uint32_t turnOf(double angle_rad) {
+  const double turns = angle_rad / (2 * std::numbers::pi);
+  return fromReal<TurnQ32>(turns - std::floor(turns)).raw();
+}
 
 /// The gate's strains are rounded down: that adds up to one of its steps to a reading, with a mean square of
 /// 1/3, and of 1/2 where the noise is much smaller than a step.
@@ -61,37 +63,22 @@ void fillNoise(TableConstants& constants, double noise_q32, double fullScale_q32
   constants.gate_shift =
       static_cast<std::uint8_t>(std::max(0.0, std::ceil(std::log2(4 * fullScale_q32 + 3)) - 16));
   const auto variance = normalised(noise_q32 * noise_q32, 24);
-  constants.noise_variance = rounded(variance.mantissa);
+  constants.noise_variance = rounded<std::uint32_t>(variance.mantissa);
   constants.noise_variance_exponent = static_cast<std::int8_t>(variance.exponent);
   const double noiseInGate = std::ldexp(noise_q32, -constants.gate_shift);
   const double gateVariance = noiseInGate * noiseInGate + kGateRounding;
   const auto gate = [&](double z) {
-    return rounded(chiSquareQuantile(constants.gauge_count, z) * gateVariance);
+    return rounded<std::uint32_t>(chiSquareQuantile(constants.gauge_count, z) * gateVariance);
   };
   constants.gate_on = gate(6.0);
   constants.gate_off = gate(3.09);
 }
 
-/// A fit's amplitudes are strains at the peak * 2^32 * 2^(amplitude_exponent - 1).
-void fillLoads(TableConstants& constants, double peak, int amplitudeExponent) {
-  const auto load =
-      normalised(std::ldexp(1 / peak, LineLoadQ12::kFracBits - 32 - (amplitudeExponent - 1)), 31);
-  constants.load_scale = saturate<std::int32_t>(std::llround(load.mantissa));
+/// An amplitude of 2 is a reading of the largest response: firmware::ContactState.
+void fillLoads(TableConstants& constants, double strainPerLoad) {
+  const auto load = normalised(std::ldexp(1 / strainPerLoad, LineLoadQ12::kFracBits - 32 - 1), 31);
+  constants.load_scale = rounded<std::int32_t>(load.mantissa);
   constants.load_exponent = static_cast<std::int16_t>(load.exponent);
-  constants.amplitude_exponent = static_cast<std::int8_t>(amplitudeExponent);
-}
-
-/// Where fits don't see the exact place, and gains are off by a few percent.
-constexpr double kTailMargin = 1.25;
-
-std::uint16_t tail_q16(double tail) {
-  return saturate<std::uint16_t>(std::llround(std::ldexp(kTailMargin * tail, 16)));
-}
-
-/// Rings of 16 and more see a single peak over the contact, about a pitch wide. Coarser rings, and shear,
-/// whose response has two, are searched everywhere and twice as finely.
-bool hasOnePeak(const config::Gauges& gauges) {
-  return gauges.count >= 16 && gauges.component != StrainComponent::kShear;
 }
 
 /// What correcting gains makes of the noise, as an RMS, and of the largest full scale.
@@ -111,41 +98,70 @@ Corrected corrected(const config::FingerConfig& config) {
           config.gauges.full_scale_strain * largest};
 }
 
-TableConstants tableConstants(const config::FingerConfig& config, bool peakIsNegative) {
+constexpr int kLeastInReach = 7;          ///< gauges; of seven 1.7 % of the information is lost
+constexpr double kUsualReach = 4.5 / 16;  ///< turns: nine gauges of sixteen
+
+/// Within reach of a contact, wherever it is, are kLeastInReach gauges and at most what a fit can use.
+std::uint32_t reach_q32(const std::vector<double>& gaps_turn) {
+  const auto count = gaps_turn.size();
+  const auto spans = [&](std::size_t gauges) {  // from a gauge to the one `gauges` further
+    std::vector<double> spans_turn(count, 0);
+    for (std::size_t first = 0; first < count; ++first)
+      for (std::size_t i = 0; i < gauges; ++i) spans_turn[first] += gaps_turn[(first + i) % count];
+    return spans_turn;
+  };
+  const auto wide = spans(kLeastInReach), narrow = spans(firmware::kMostRows);
+  const double least_turn = *std::max_element(wide.begin(), wide.end()) / 2;
+  const double most_turn = *std::min_element(narrow.begin(), narrow.end()) / 2;
+  return fromReal<TurnQ32>(std::clamp(kUsualReach, least_turn, std::max(least_turn, most_turn))).raw();
+}
+
+TableConstants tableConstants(const config::FingerConfig& config, const ResponseTable& responses) {
   TableConstants constants{};
   constants.gauge_count = static_cast<std::uint8_t>(config.gauges.count);
-  constants.pitch_turn_q35 = rounded(powerOfTwo(35) / config.gauges.count);
-  const double turns = config.gauges.first_angle_deg / 360;
-  constants.first_angle_q32 = fromReal<TurnQ32>(turns - std::floor(turns)).raw();
   const Corrected ring = corrected(config);
   fillNoise(constants, ring.noise_strain * powerOfTwo(32), ring.full_scale_strain * powerOfTwo(32));
-  constants.reading_gain =
-      static_cast<std::int32_t>(rounded(config.gauges.full_scale_strain * powerOfTwo(34)));
-  constants.force_per_load_q16 = rounded(config.finger.length_m * 1000 * powerOfTwo(16));
-  constants.friction_cone_q8 = saturate<std::uint16_t>(std::llround(frictionCone(config.contact) * 256));
+  fillLoads(constants, responses.strainPerUnit);
+  constants.reading_gain = rounded<std::int32_t>(config.gauges.full_scale_strain * powerOfTwo(34));
+  constants.force_per_load_q16 = rounded<std::uint32_t>(config.finger.length_m * 1000 * powerOfTwo(16));
+  constants.friction_q8 = rounded<std::uint16_t>(config.contact.friction_coefficient * 256);
+  constants.cone_q8 = rounded<std::uint16_t>(frictionCone(config.contact) * 256);
+  constants.model_error_q16 = rounded<std::uint16_t>(std::ldexp(config.gauges.model_error, 16));
   constants.adc_rail = static_cast<std::uint16_t>(0xFFFF << (16 - config.gauges.adc_bits));
   constants.mirror_sign = config.gauges.component == StrainComponent::kShear ? -1 : 1;
-  constants.anchor_sign = peakIsNegative ? 1 : -1;
-  constants.anchor_rule = AnchorRule::kSecondDifference;
-  constants.scan_step = kMaxScanStep;
-  constants.firm_exponent = kMostFirmExponent;
+  constants.peak_sign = static_cast<std::int8_t>(responses.peakSign);
   return constants;
 }
 
-/// No start is told where however firm a contact another place explains it.
-void fillStart(TableImage& image, const model::ImpulseResponse& response, int gaugeCount, double cone) {
-  const int exponent = firmExponent(leastElsewhere(response, gaugeCount, cone));
-  if (exponent > kMostFirmExponent) return;
-  image.constants.firm_exponent = static_cast<std::uint8_t>(std::max(exponent, kLeastFirmExponent));
-  image.start = startWeights(response, gaugeCount, cone);
+void fillMoments(TableConstants& constants, const config::Contact& contact, const ResponseTable& responses) {
+  constants.node_count = static_cast<std::uint16_t>(responses.nodes);
+  constants.cell_count = static_cast<std::uint8_t>(responses.cells);
+  constants.cell_edge_q15 = responses.cell_edge_q15;
+  for (std::size_t k = 0; k < constants.cell_count; ++k)
+    constants.cell_rate_q8[k] = saturate<std::uint16_t>(
+        (2 << (15 + 8)) / (constants.cell_edge_q15[k + 1] - constants.cell_edge_q15[k]));
+  constants.largest_moment_um2 = rounded<std::uint32_t>(responses.largestMoment_m2 * 1e12);
+  constants.width_is_known = contact.width_m ? 1 : 0;
+  constants.known_moment_q20 = contact.width_m.value_or(0) > 0 ? 1u << kMomentBits : 0;
+}
+
+/// From each gauge to the next, in turns.
+std::vector<double> gapsOf(const GaugeAngles& angles_q32, std::size_t count) {
+  std::vector<double> gaps_turn;
+  for (std::size_t i = 0; i < count; ++i)
+    gaps_turn.push_back(toReal(TurnQ32::fromRaw(angles_q32[(i + 1) % count] - angles_q32[i])));
+  return gaps_turn;
 }
 
 /// Of the strain at the gauges to load / (shear modulus * radius): that of usual gauges is about one, what
 /// rounding leaves of none at all 1e-16.
 constexpr double kLeastResponse = 1e-12;
 
+/// Steps of load that a full scale must have at least, for errors of a few per thousand.
+constexpr double kLeastFullScale = 1024;
+
 /// Readings and loads must fit the firmware's integers.
-void requireFormats(const config::FingerConfig& config, double peak) {
+void requireFormats(const config::FingerConfig& config, double strainPerLoad) {
   const config::Gauges& gauges = config.gauges;
   const double step = powerOfTwo(-StrainQ32::kFracBits);
   if (gauges.noise_strain < step)
@@ -154,14 +170,14 @@ void requireFormats(const config::FingerConfig& config, double peak) {
         fmt::format("gauges.noise_strain = {} is below the firmware's step of strain; it must be at "
                     "least {:.3g}",
                     gauges.noise_strain, step));
-  if (peak * config.finger.shear_modulus_pa * config.finger.outer_radius_m < kLeastResponse)
+  if (strainPerLoad * config.finger.shear_modulus_pa * config.finger.outer_radius_m < kLeastResponse)
     throw Failure(
         ExitCode::kUsage,
         fmt::format("gauges.radius_m = {} is where the rubber has no {} strain, on the core "
                     "(finger.core_radius_m = {}): move the gauges outwards, or read another "
                     "gauges.component",
                     gauges.radius_m, config::componentName(gauges.component), config.finger.core_radius_m));
-  const double fullScale_n_per_m = gauges.full_scale_strain / peak;
+  const double fullScale_n_per_m = gauges.full_scale_strain / strainPerLoad;
   const double largest = toReal(LineLoadQ12::max()),
                least = kLeastFullScale * powerOfTwo(-LineLoadQ12::kFracBits);
   if (!(fullScale_n_per_m >= least && fullScale_n_per_m <= largest))
@@ -172,9 +188,46 @@ void requireFormats(const config::FingerConfig& config, double peak) {
                               gauges.full_scale_strain, fullScale_n_per_m, least, largest));
 }
 
+/// Second moments are whole um^2 and squares of widths 32 bits: widths are told from 0.1 to 65 mm.
+constexpr double kNarrowest_m = 1e-4, kWidest_m = 65e-3;
+
+void requireWidths(const config::Contact& contact) {
+  if (contact.width_m) return;
+  if (contact.largest_width_m >= kNarrowest_m && contact.largest_width_m <= kWidest_m) return;
+  throw Failure(
+      ExitCode::kUsage,
+      fmt::format("contact.largest_width_m = {}: the firmware fits widths when it is from {} to {}; change "
+                  "it, or say how wide contacts are in contact.width_m",
+                  contact.largest_width_m, kNarrowest_m, kWidest_m));
+}
+
+/// Patches may be off the model by as much as readings are taken to be: by the model's error, by noise at
+/// half of full scale, or by what the firmware's gates leave for the pressure's profile.
+void requirePrecision(const config::FingerConfig& config, double interpolationError) {
+  const double noise = 2 * config.gauges.noise_strain / config.gauges.full_scale_strain;
+  const double profile = powerOfTwo(-firmware::threshold::kProfileErrorBits);
+  const double allowed = std::hypot(config.gauges.model_error, noise, profile);
+  if (interpolationError <= allowed) return;
+  const config::Contact& contact = config.contact;
+  const std::string width = contact.width_m
+                                ? fmt::format("contact.width_m = {}", *contact.width_m)
+                                : fmt::format("contact.width_m unknown up to contact.largest_width_m = {}",
+                                              contact.largest_width_m);
+  throw Failure(
+      ExitCode::kUsage,
+      fmt::format(
+          "gauges.radius_m = {} is so near the surface at finger.outer_radius_m = {} that the tables are off "
+          "by {:.2g} of a reading, with {}; noise and gauges.model_error = {} leave {:.2g}: move the gauges "
+          "inwards, {}, or admit a larger gauges.model_error",
+          config.gauges.radius_m, config.finger.outer_radius_m, interpolationError, width,
+          config.gauges.model_error, allowed,
+          contact.width_m ? "take contacts for narrower ones" : "cover less width or say what it is"));
+}
+
 }  // namespace
 
 TableParameters tableParameters(const config::FingerConfig& config) {
+  constexpr double kUnknown = -1;
   return {.core_radius_m = config.finger.core_radius_m,
           .outer_radius_m = config.finger.outer_radius_m,
           .length_m = config.finger.length_m,
@@ -185,7 +238,9 @@ TableParameters tableParameters(const config::FingerConfig& config) {
           .arc_length_m = config.gauges.arc_length_m,
           .noise_strain = config.gauges.noise_strain,
           .full_scale_strain = config.gauges.full_scale_strain,
-          .contact_width_m = config.contact.width_m.value_or(0),
+          .model_error = config.gauges.model_error,
+          .contact_width_m = config.contact.width_m.value_or(kUnknown),
+          .largest_width_m = config.contact.largest_width_m,
           .friction_coefficient = config.contact.friction_coefficient,
           .gauge_count = static_cast<std::uint16_t>(config.gauges.count),
           .component = config.gauges.component,
@@ -193,41 +248,31 @@ TableParameters tableParameters(const config::FingerConfig& config) {
           .reserved = 0};
 }
 
+GaugeAngles gaugeAngles_q32(const config::FingerConfig& config) {
+  GaugeAngles angles_q32{};
+  for (int gauge = 0; gauge < config.gauges.count; ++gauge)
+    angles_q32[static_cast<std::size_t>(gauge)] = turnOf(config.calibrated(gauge).angle_rad);
+  return angles_q32;
+}
+
 TableImage buildTableImage(const config::FingerConfig& config) {
-  const model::ImpulseResponse response(config.finger.annulus(), config.gauges.radius_m,
-                                        config.gauges.component, config.gauges.arc_length_m,
-                                        config.contact.width_m.value_or(0));
-  const WindowResponses responses = windowResponses(response, config.gauges.count);
-  const double peak = peakPerLoad(responses);
-  requireFormats(config, peak);
-  const double cone = frictionCone(config.contact);
-  const WindowFits fits = windowFits(responses, peak, cone);
+  requireWidths(config.contact);
+  const ResponseTable responses = responseTable(config);
+  requireFormats(config, responses.strainPerUnit);
+  requirePrecision(config, responses.interpolationError);
   TableImage image{};
   image.magic = kTableMagic;
   image.format = kTableFormat;
   image.image_bytes = sizeof(TableImage);
   image.parameters = tableParameters(config);
-  image.constants = tableConstants(config, peakSign(response) < 0);
-  const int exponent = amplitudeExponent(fits);
-  fillLoads(image.constants, peak, exponent);
-  image.constants.tail_q16 = tail_q16(tailEnergy(response, config.gauges.count, cone));
-  image.constants.scan_span = scanSpans(response, config.gauges.count, cone);
-  if (hasOnePeak(config.gauges)) fillStart(image, response, config.gauges.count, cone);
-  image.rows = fitTable(fits, exponent);
-  const double pole_pitch = nearPole(response, config.gauges.count);
-  image.constants.near_pole_q15 = saturate<std::uint16_t>(std::llround(std::ldexp(pole_pitch, 15)));
-  image.near = nearTable(responses, peak, exponent, pole_pitch);
+  image.constants = tableConstants(config, responses);
+  fillMoments(image.constants, config.contact, responses);
+  image.gauge_angle_q32 = gaugeAngles_q32(config);
+  image.constants.reach_q32 = reach_q32(gapsOf(image.gauge_angle_q32, image.constants.gauge_count));
   image.gains = gaugeGains(config);
+  std::copy(responses.patches.begin(), responses.patches.end(), image.patches.begin());
   image.crc32 = crc32(checkedBytes(image));
-  if (!hasOnePeak(config.gauges)) searchEverywhere(image);
   return image;
-}
-
-void searchEverywhere(TableImage& image) {
-  image.constants.anchor_rule = AnchorRule::kExhaustive;
-  image.constants.scan_step = kMinScanStep;
-  image.start = {};
-  image.crc32 = crc32(checkedBytes(image));
 }
 
 }  // namespace strainfinger::tables

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <memory>
 
+#include "common/fixed_real.hpp"
 #include "host/base/read_file.hpp"
 #include "host/config/keys.hpp"
 #include "host/tables/gauge_gains.hpp"
@@ -78,8 +79,17 @@ std::vector<Parameter> parametersOf(const TableParameters& p) {
           {"gauges.noise_strain", p.noise_strain},
           {"gauges.full_scale_strain", p.full_scale_strain},
           {"gauges.adc_bits", std::int64_t{p.adc_bits}},
+          {"gauges.model_error", p.model_error},
           {"contact.friction_coefficient", p.friction_coefficient},
-          {"contact.width_m", p.contact_width_m}};
+          {"contact.width_m", p.contact_width_m < 0 ? Cell("unknown") : Cell(p.contact_width_m)},
+          {"contact.largest_width_m", p.largest_width_m}};
+}
+
+Parameter anglesOf(const GaugeAngles& angles_q32, int count) {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+    texts.push_back(fmt::format("{:.6g}", 360 * toReal(TurnQ32::fromRaw(angles_q32[i]))));
+  return {"gauges.angle_deg", fmt::format("[{}]", fmt::join(texts, ", "))};
 }
 
 Parameter gainsOf(const GaugeGains& gains, int count) {
@@ -90,20 +100,31 @@ Parameter gainsOf(const GaugeGains& gains, int count) {
   return {"calibration.gain", fmt::format("[{}]", fmt::join(texts, ", "))};
 }
 
+namespace {
+
+std::string differenceOf(const Parameter& has, const Parameter& wants) {
+  return fmt::format("\n  {} is {}, the config has {}", has.key, textOf(has.value), textOf(wants.value));
+}
+
+/// Angles that differ because the ring begins elsewhere or has other gauges are told by those parameters.
+bool isSameRing(const TableParameters& a, const TableParameters& b) {
+  return a.gauge_count == b.gauge_count && a.first_angle_deg == b.first_angle_deg;
+}
+
+}  // namespace
+
 void requireTablesOf(const TableImage& image, const config::FingerConfig& config, const std::string& path) {
-  const auto has = parametersOf(image.parameters);
-  const auto wants = parametersOf(tableParameters(config));
+  const TableParameters wantedParameters = tableParameters(config);
+  const auto has = parametersOf(image.parameters), wants = parametersOf(wantedParameters);
   std::string differences;
-  for (std::size_t i = 0; i < has.size(); ++i) {
-    if (has[i].value == wants[i].value) continue;
-    fmt::format_to(std::back_inserter(differences), "\n  {} is {}, the config has {}", has[i].key,
-                   textOf(has[i].value), textOf(wants[i].value));
-  }
-  if (const GaugeGains wanted = gaugeGains(config); image.gains != wanted) {
-    const Parameter gains = gainsOf(image.gains, image.constants.gauge_count);
-    fmt::format_to(std::back_inserter(differences), "\n  {} is {}, the config has {}", gains.key,
-                   textOf(gains.value), textOf(gainsOf(wanted, config.gauges.count).value));
-  }
+  for (std::size_t i = 0; i < has.size(); ++i)
+    if (has[i].value != wants[i].value) differences += differenceOf(has[i], wants[i]);
+  const int count = image.parameters.gauge_count;
+  const GaugeAngles wantedAngles_q32 = gaugeAngles_q32(config);
+  if (isSameRing(image.parameters, wantedParameters) && image.gauge_angle_q32 != wantedAngles_q32)
+    differences += differenceOf(anglesOf(image.gauge_angle_q32, count), anglesOf(wantedAngles_q32, count));
+  if (const GaugeGains wanted = gaugeGains(config); image.gains != wanted)
+    differences += differenceOf(gainsOf(image.gains, count), gainsOf(wanted, config.gauges.count));
   if (differences.empty()) return;
   throw Failure(ExitCode::kMismatch,
                 fmt::format("{}: made for another finger than the config's:{}\nmake it anew with: "
@@ -124,8 +145,9 @@ std::string imageHeader(const TableImage& image) {
       "anew.\n";
   for (const Parameter& parameter : parametersOf(image.parameters))
     fmt::format_to(std::back_inserter(text), "//   {} = {}\n", parameter.key, textOf(parameter.value));
-  const Parameter gains = gainsOf(image.gains, image.constants.gauge_count);
-  fmt::format_to(std::back_inserter(text), "//   {} = {}\n", gains.key, textOf(gains.value));
+  for (const Parameter& parameter : {anglesOf(image.gauge_angle_q32, image.constants.gauge_count),
+                                     gainsOf(image.gains, image.constants.gauge_count)})
+    fmt::format_to(std::back_inserter(text), "//   {} = {}\n", parameter.key, textOf(parameter.value));
   fmt::format_to(std::back_inserter(text),
                  "// CRC-32 0x{:08X}\n\n#include <cstdint>\n\nnamespace strainfinger {{\n\n"
                  "alignas(8) inline constexpr std::uint8_t kDefaultTableBytes[{}] = {{",

@@ -25,6 +25,8 @@ struct Parameter {
   Cell value;
 };
 std::vector<Parameter> parametersOf(const TableParameters& parameters);
+/// Where the gauges are, as calibrated, to 6 digits: "[0, 22.5, ..]".
+Parameter anglesOf(const GaugeAngles& angles_q32, int count);
 /// The gains as the image has them, to 4 digits: "[0.9501, 1.02, ..]", "[]" if not calibrated.
 Parameter gainsOf(const GaugeGains& gains, int count);
 

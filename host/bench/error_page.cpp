@@ -29,9 +29,9 @@ constexpr std::string_view kColumns =
 
 std::string columnsOf(const ErrorStatistics& s) {
   return fmt::format(" {} / {} / {} | {} / {} | {} / {} | {} | {} | {} |\n", number(s.arc_mm.rms(), 4),
-                     number(s.arc_mm.most95(), 4), number(s.arc_mm.worst(), 3),
-                     number(s.normal_n_per_m.rms(), 3), number(s.normal_n_per_m.most95(), 3),
-                     number(s.tangential_n_per_m.rms(), 3), number(s.tangential_n_per_m.most95(), 3),
+                     number(s.arc_mm.quantile(0.95), 4), number(s.arc_mm.worst(), 3),
+                     number(s.normal_n_per_m.rms(), 3), number(s.normal_n_per_m.quantile(0.95), 3),
+                     number(s.tangential_n_per_m.rms(), 3), number(s.tangential_n_per_m.quantile(0.95), 3),
                      share(s.unnoticed, s.contacts), share(s.uncertain, s.contacts),
                      share(s.wrong, s.contacts));
 }
@@ -60,7 +60,7 @@ std::string sweepTable(const std::vector<ErrorCell>& cells, const char* sweep, c
 /// The worst first, by the place that 95 % of the answers keep to; of settings that leave answers.
 std::vector<ErrorCell> worstOf(std::vector<ErrorCell> cells, std::size_t count) {
   const auto worse = [](const ErrorCell& a, const ErrorCell& b) {
-    return a.statistics.arc_mm.most95() > b.statistics.arc_mm.most95();
+    return a.statistics.arc_mm.quantile(0.95) > b.statistics.arc_mm.quantile(0.95);
   };
   std::erase_if(cells, [](const ErrorCell& c) { return !isMostlyCertain(c.statistics); });
   std::sort(cells.begin(), cells.end(), worse);
@@ -154,8 +154,8 @@ std::string inShort(const std::vector<ErrorCell>& cells) {
       "* **What it cannot do**: tell two contacts apart, or where along the finger a contact is.\n",
       firm.arc_mm.rms(), light.arc_mm.rms(), light.normal_n_per_m.rms(), light.tangential_n_per_m.rms(),
       firm.normal_n_per_m.rms(), firm.tangential_n_per_m.rms(), surelyNoticed_n_per_m(cells), worst.setting,
-      worst.direction_deg, worst.statistics.arc_mm.most95(), firm.arc_mm.most95(), wideTold.arc_mm.rms(),
-      share(wide.uncertain, wide.contacts), wide.arc_mm.rms());
+      worst.direction_deg, worst.statistics.arc_mm.quantile(0.95), firm.arc_mm.quantile(0.95),
+      wideTold.arc_mm.rms(), share(wide.uncertain, wide.contacts), wide.arc_mm.rms());
 }
 
 }  // namespace

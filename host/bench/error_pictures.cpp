@@ -72,9 +72,9 @@ plot::DataFile lineData(const std::vector<ErrorCell>& cells, const Panel& panel,
   for (const ErrorCell& cell : cellsOf(cells, panel.sweep)) {
     if (cell.told != line.told || (line.load_n_per_m != kAnyLoad && cell.load_n_per_m != line.load_n_per_m))
       continue;
-    const Spread& arc = cell.statistics.arc_mm;
+    const evidence::Errors& arc = cell.statistics.arc_mm;
     const bool tells = isMostlyCertain(cell.statistics);
-    data.rows.push_back({cell.setting, tells ? arc.rms() : kNoValue, tells ? arc.most95() : kNoValue});
+    data.rows.push_back({cell.setting, tells ? arc.rms() : kNoValue, tells ? arc.quantile(0.95) : kNoValue});
   }
   return data;
 }

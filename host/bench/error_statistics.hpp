@@ -6,23 +6,11 @@
 
 #include "common/table_image.hpp"
 #include "host/config/finger_config.hpp"
-#include "host/simulation/converter.hpp"
-#include "host/simulation/gauge_strains.hpp"
-#include "host/simulation/noise.hpp"
+#include "host/evidence/accuracy.hpp"
+#include "host/evidence/touched_ring.hpp"
+#include "host/simulation/scenario.hpp"
 
 namespace strainfinger::bench {
-
-/// Of errors, by magnitude. NaN without any.
-class Spread {
- public:
-  void add(double error) { magnitudes_.push_back(error < 0 ? -error : error); }
-  double rms() const;
-  double most95() const;  ///< 95 % are not larger
-  double worst() const;
-
- private:
-  std::vector<double> magnitudes_;
-};
 
 /// The errors are those of answers that the firmware gave as certain.
 struct ErrorStatistics {
@@ -30,7 +18,7 @@ struct ErrorStatistics {
   int unnoticed = 0;  ///< the gate stayed closed
   int uncertain = 0;  ///< flagged so
   int wrong = 0;      ///< given as certain, and more than half a pitch off
-  Spread arc_mm, normal_n_per_m, tangential_n_per_m;
+  evidence::Errors arc_mm, normal_n_per_m, tangential_n_per_m;
 
   int certain() const { return contacts - unnoticed - uncertain; }
 };
@@ -59,10 +47,8 @@ class Trial {
 
   config::FingerConfig actual_;
   TableImage tables_;
-  simulation::GaugeStrains strains_;
-  simulation::Converter converter_;
-  double analogNoise_strain_;
-  simulation::Noise noise_;
+  evidence::TouchedRing ring_;
+  std::uint64_t seed_;
   std::uint64_t sample_ = 0;
 };
 

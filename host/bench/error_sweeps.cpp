@@ -124,8 +124,8 @@ void writeErrorCsv(std::FILE* stream, const std::vector<ErrorCell>& cells) {
                           std::int64_t{s.unnoticed},
                           std::int64_t{s.uncertain},
                           std::int64_t{s.wrong}};
-    for (const Spread* spread : {&s.arc_mm, &s.normal_n_per_m, &s.tangential_n_per_m})
-      row.insert(row.end(), {spread->rms(), spread->most95(), spread->worst()});
+    for (const evidence::Errors* spread : {&s.arc_mm, &s.normal_n_per_m, &s.tangential_n_per_m})
+      row.insert(row.end(), {spread->rms(), spread->quantile(0.95), spread->worst()});
     table.row(row);
   }
 }

@@ -1,26 +1,27 @@
 #include "host/bench/readings.hpp"
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <numbers>
 
 #include "common/fixed_real.hpp"
-#include "host/bench/uniform.hpp"
+#include "host/evidence/bound.hpp"
+#include "host/evidence/uniform.hpp"
 #include "host/simulation/noise.hpp"
 
 namespace strainfinger::bench {
 namespace {
 
 Place<double> drawPlace(const simulation::Noise& noise, std::uint64_t number) {
-  const double position = (uniform(noise, number, kGauges) + 0.5) * kGauges;
-  const double direction = uniform(noise, number, kGauges + 2) * std::numbers::pi / 2;
+  const double position = (evidence::uniform(noise, number, kGauges) + 0.5) * kGauges;
+  const double direction = evidence::uniform(noise, number, kGauges + 2) * std::numbers::pi / 2;
   return {position, kBenchLoad_n_per_m * std::cos(direction), kBenchLoad_n_per_m * std::sin(direction)};
 }
 
 }  // namespace
 
 BenchFinger::BenchFinger()
-    : response_(config_.finger.annulus(), config_.gauges.radius_m, config_.gauges.component) {}
+    : response_(config_.finger.annulus(), config_.gauges.radius_m, config_.gauges.component),
+      model_(config_) {}
 
 double BenchFinger::pitch_rad() { return 2 * std::numbers::pi / kGauges; }
 
@@ -38,14 +39,10 @@ model::ImpulseResponse::Value BenchFinger::response(double pitches) const {
 }
 
 Eigen::Vector3d BenchFinger::bound(const Place<double>& place, double noise_strain) const {
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  for (int gauge = 0; gauge < kGauges; ++gauge) {
-    const auto value = response(gauge - place.position_pitch);
-    const Eigen::Vector3d row(-(place.normal * value.normalSlope + place.tangential * value.tangentialSlope),
-                              value.normal, value.tangential);
-    information += row * row.transpose();
-  }
-  return noise_strain * information.inverse().diagonal().cwiseSqrt();
+  const evidence::FittedContact contact{place.position_pitch * pitch_rad(), {place.normal, place.tangential}};
+  const evidence::Parameters bound =
+      evidence::cramerRaoBound(model_, contact, evidence::kWidthKnown, noise_strain);
+  return {bound[evidence::kAngle] / pitch_rad(), bound[evidence::kNormal], bound[evidence::kTangential]};
 }
 
 Reading readingOf(const BenchFinger& finger, std::uint64_t seed, std::uint64_t number, double relativeNoise) {

@@ -7,6 +7,7 @@
 
 #include "host/bench/methods/sample.hpp"
 #include "host/config/finger_config.hpp"
+#include "host/evidence/fit_model.hpp"
 #include "host/model/impulse_response.hpp"
 
 namespace strainfinger::bench {
@@ -37,6 +38,7 @@ class BenchFinger {
  private:
   config::FingerConfig config_;
   model::ImpulseResponse response_;
+  evidence::FitModel model_;
 };
 
 inline constexpr double kBenchLoad_n_per_m = 30;  ///< length of (normal, tangential)

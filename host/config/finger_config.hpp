@@ -10,6 +10,7 @@
 
 #include "common/quantities.hpp"
 #include "host/model/annulus.hpp"
+#include "host/model/placed_gauge.hpp"
 
 namespace strainfinger::config {
 
@@ -101,13 +102,6 @@ struct AsBuilt {
   }
 };
 
-/// Where a gauge is and what it reads over the strain that is there.
-struct PlacedGauge {
-  double angle_rad;
-  double radius_m;
-  double gain;
-};
-
 struct FingerConfig {
   Finger finger;
   Gauges gauges;
@@ -117,14 +111,14 @@ struct FingerConfig {
   AsBuilt as_built;
 
   /// A gauge by the drawing.
-  PlacedGauge drawn(int gauge) const { return {gauges.angle_rad(gauge), gauges.radius_m, 1}; }
+  model::PlacedGauge drawn(int gauge) const { return {gauges.angle_rad(gauge), gauges.radius_m, 1}; }
 
   /// A gauge by the drawing and what calibration found.
-  PlacedGauge calibrated(int gauge) const {
+  model::PlacedGauge calibrated(int gauge) const {
     const auto found = [gauge](const std::vector<double>& list, double otherwise) {
       return list.empty() ? otherwise : list[static_cast<std::size_t>(gauge)];
     };
-    PlacedGauge placed = drawn(gauge);
+    model::PlacedGauge placed = drawn(gauge);
     placed.angle_rad += found(calibration.angle_offset_deg, 0) * std::numbers::pi / 180;
     placed.radius_m -= found(calibration.depth_offset_m, 0);
     placed.gain = found(calibration.gain, 1);

@@ -28,7 +28,7 @@ BuiltFinger builtFinger(const config::FingerConfig& config) {
       continue;
     }
     const auto draw = [&](Draw which) { return draws.at(which, static_cast<std::uint32_t>(i)); };
-    config::PlacedGauge gauge = config.drawn(i);
+    model::PlacedGauge gauge = config.drawn(i);
     gauge.angle_rad += differs.angle_deg * kRadPerDeg * draw(kAngle);
     gauge.radius_m =
         std::clamp(gauge.radius_m - differs.depth_m * draw(kDepth), built.annulus.core_radius_m, outermost_m);

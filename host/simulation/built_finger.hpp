@@ -11,7 +11,7 @@ namespace strainfinger::simulation {
 /// What there really is, whatever the drawing and the calibration say.
 struct BuiltFinger {
   model::Annulus<double> annulus;
-  std::vector<config::PlacedGauge> gauges;
+  std::vector<model::PlacedGauge> gauges;
 };
 
 /// Without [as_built] the finger is exactly as configured: the drawing and what calibration found. With it,

@@ -1,12 +1,13 @@
 #pragma once
 // Touches to the strains the gauges really have.
 
+#include <Eigen/Core>
 #include <array>
 #include <span>
-#include <vector>
 
 #include "common/quantities.hpp"
 #include "host/config/finger_config.hpp"
+#include "host/model/gauge_ring.hpp"
 #include "host/model/impulse_response.hpp"
 #include "host/model/touch_load.hpp"
 #include "host/simulation/built_finger.hpp"
@@ -29,23 +30,22 @@ class GaugeStrains {
   /// Strain at any angle of the ring, as a gauge there would have it that is as deep as drawn.
   double at(double angle_rad, std::span<const Touch> touches) const;
 
-  double gaugeAngle_rad(int gauge) const { return placed(gauge).angle_rad; }
+  /// What every gauge reads: its strain times its gain.
+  Eigen::VectorXd readings(std::span<const Touch> touches) const;
+
+  double gaugeAngle_rad(int gauge) const { return ring_.gauge(gauge).angle_rad; }
   /// What a gauge reads over the strain that it has.
-  double gain(int gauge) const { return placed(gauge).gain; }
-  int count() const { return static_cast<int>(built_.gauges.size()); }
+  double gain(int gauge) const { return ring_.gauge(gauge).gain; }
+  int count() const { return ring_.count(); }
 
  private:
-  const config::PlacedGauge& placed(int gauge) const {
-    return built_.gauges[static_cast<std::size_t>(gauge)];
-  }
-  model::TouchLoad loadOf(const Touch& touch) const;
-  model::ImpulseResponse responseAt(double radius_m, const config::Gauges& gauges) const;
+  GaugeStrains(const config::FingerConfig& config, const BuiltFinger& built);
+  model::LoadSpectrum spectrumOf(const Touch& touch) const;
 
   config::Contact contact_;
-  BuiltFinger built_;
+  double outerRadius_m_;
+  model::GaugeRing ring_;
   model::ImpulseResponse drawn_;
-  std::vector<model::ImpulseResponse> responses_;  ///< of each gauge
-  int harmonics_;                                  ///< that all of them need
 };
 
 }  // namespace strainfinger::simulation

@@ -2,9 +2,9 @@
 //
 // The budgets are multiples of the Cramer-Rao bound: what no unbiased estimate from all gauges can beat, at
 // the config's noise (quantisation by the converter included), plus the quantisation of the frames' fields
-// (step^2/12). It is computed here, from the model alone, and knows nothing of the firmware.
+// (step^2/12). It comes from the model alone and knows nothing of the firmware.
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <cstdlib>
 #include <memory>
@@ -12,6 +12,7 @@
 #include <random>
 
 #include "host/can/loopback_port.hpp"
+#include "host/evidence/bound.hpp"
 #include "host/simulation/read_scenario.hpp"
 #include "host/simulation/simulated_finger.hpp"
 #include "host/simulation/touch_errors.hpp"
@@ -39,25 +40,13 @@ using Triple = Eigen::Array3d;
 
 class Bound {
  public:
-  explicit Bound(const config::FingerConfig& config)
-      : config_(config),
-        response_({config.finger.core_radius_m, config.finger.outer_radius_m, config.finger.shear_modulus_pa,
-                   config.finger.poisson_ratio},
-                  config.gauges.radius_m, config.gauges.component) {}
+  explicit Bound(const config::FingerConfig& config) : config_(config), model_(config) {}
 
   /// Least standard deviation of arc [m] and loads [N/m].
   Triple at(const Touch& touch) const {
-    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-    for (int gauge = 0; gauge < config_.gauges.count; ++gauge) {
-      const auto reading =
-          response_.at(gauge * 2 * std::numbers::pi / config_.gauges.count - touch.angle_rad);
-      const Eigen::Vector3d gradient(
-          -touch.normal_n_per_m * reading.normalSlope - touch.tangential_n_per_m * reading.tangentialSlope,
-          reading.normal, reading.tangential);
-      information += gradient * gradient.transpose();
-    }
-    const double noise = config_.gauges.noise_strain;
-    const Triple variance = information.inverse().diagonal().array() * (noise * noise);
+    const evidence::Parameters sigmas =
+        cramerRaoBound(model_, model_.describe(touch), evidence::kWidthKnown, model_.noise_strain());
+    const Triple variance = sigmas.head<3>().array().square();
     return (variance + frameVariance()).sqrt() * unit();
   }
 
@@ -78,7 +67,7 @@ class Bound {
   }
 
   config::FingerConfig config_;
-  model::ImpulseResponse response_;
+  evidence::FitModel model_;
 };
 
 /// Statistics of one run.

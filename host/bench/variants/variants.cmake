@@ -18,7 +18,7 @@ endfunction()
 # strainfinger_bench_variant(TARGET NAME RULE [flag...]): RULE is empty or a list as above.
 function(strainfinger_bench_variant target name rule)
   set(folder ${PROJECT_SOURCE_DIR}/host/bench/variants)
-  set(sources scan whole_scan answer near_fit triple_fit doubt locate)
+  set(sources scan whole_scan answer near_fit triple_fit doubt tangent locate)
   list(TRANSFORM sources PREPEND ${PROJECT_SOURCE_DIR}/firmware/core/)
   list(TRANSFORM sources APPEND .cpp)
   add_library(${target} STATIC EXCLUDE_FROM_ALL ${folder}/locate_into.cpp ${sources})

@@ -17,18 +17,6 @@ return statistics;
 }
 ;
 
-TEST(ErrorStatistics, ASpreadIsOfMagnitudes) {
-  Spread spread;
-  for (int i = -100; i < 0; ++i) spread.add(i);
-  DOUBLES_EQUAL(95, spread.most95(), 1);
-  DOUBLES_EQUAL(100, spread.worst(), 0);
-  DOUBLES_EQUAL(std::sqrt(101.0 * 201 / 6), spread.rms(), 1e-9);  // squares of 1 .. 100
-}
-
-TEST(ErrorStatistics, ASpreadOfNothingIsNotKnown) {
-  CHECK(std::isnan(Spread().rms()) && std::isnan(Spread().most95()) && std::isnan(Spread().worst()));
-}
-
 // The bound at 30 N/m and the default noise is 5 um RMS of arc; three times that is broken.
 TEST(ErrorStatistics, AFirmTouchIsSeenAndFoundToTheBound) {
   const ErrorStatistics firm = touched({}, {}, 30);

@@ -328,7 +328,7 @@ TEST(ReadConfig, OffsetsOfCalibrationPlaceTheGauges) {
                      "\ncalibration.depth_offset_m = " + fifteenAnd("0", "1e-4") +
                      "\ncalibration.gain = " + gains("1.25"),
                  "f.toml");
-  const PlacedGauge found = read.calibrated(15), other = read.calibrated(0);
+  const model::PlacedGauge found = read.calibrated(15), other = read.calibrated(0);
   DOUBLES_EQUAL(336 * std::numbers::pi / 180, found.angle_rad, 1e-14);
   DOUBLES_EQUAL(9.3e-3, found.radius_m, 1e-17);
   DOUBLES_EQUAL(1.25, found.gain, 0);

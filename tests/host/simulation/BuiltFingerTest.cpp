@@ -16,7 +16,7 @@ TEST_GROUP(BuiltFinger) {
   config::FingerConfig config;
 
   /// RMS over 2,000 fingers of 16 gauges: 0.4 % of a standard deviation.
-  double spreadOf(const std::function<double(const config::PlacedGauge&, int)>& difference) {
+  double spreadOf(const std::function<double(const model::PlacedGauge&, int)>& difference) {
     double sum = 0;
     for (config.as_built.seed = 0; config.as_built.seed < 2000; ++config.as_built.seed) {
       const BuiltFinger built = builtFinger(config);
@@ -73,7 +73,7 @@ TEST(BuiltFinger, TheSeedMakesTheFinger) {
 TEST(BuiltFinger, NoGaugeLeavesTheRubber) {
   config.as_built.depth_m = 0.1;
   const BuiltFinger built = builtFinger(config);
-  for (const config::PlacedGauge& gauge : built.gauges) {
+  for (const model::PlacedGauge& gauge : built.gauges) {
     CHECK_TRUE(gauge.radius_m >= 8.9e-3 && gauge.radius_m <= (9.4e-3 + 12.7e-3) / 2);
     CHECK_TRUE(gauge.radius_m == 8.9e-3 || gauge.radius_m > 11e-3);
   }

@@ -172,14 +172,15 @@ Number stepOf(Wide units, int exponent, int unitBits) {
   return shifted(units, exponent + kStepBits - unitBits, 1 << 28);
 }
 
-void setLimits(const TableConstants& constants, const Linearisation& linearisation, Vector& low, Vector& high) {
+void setLimits(const TableConstants& constants, const Linearisation& linearisation, Vector& low,
+               Vector& high) {
   const Hypothesis& hypothesis = linearisation.hypothesis;
   low.fill(-(1 << 28));
   high.fill(1 << 28);
   for (int k = 0; k < hypothesis.contacts; ++k) {
     const int angle = angleOf(hypothesis, k);
     high[index(angle)] = stepOf((Wide{kMostTurn_q32} << 15) / halfNode_q32(constants),
-                                 linearisation.exponent[index(angle)], 15);
+                                linearisation.exponent[index(angle)], 15);
     low[index(angle)] = -high[index(angle)];
     if (!hypothesis.widthIsFree) continue;
     const int moment = momentOf(hypothesis, k), exponent = linearisation.exponent[index(moment)];

@@ -29,69 +29,72 @@ Number slip_q15(const TableConstants& constants, const ContactState& contact) {
 
 /// A contact with what its lookups share. The pressure's second moment is m, that of the tangential traction
 /// m (2 - slip), here as a fraction of twice the largest m.
-struct ContactModel {
+class ContactModel {
+ public:
   ContactModel(const TableImage& tables, const ContactState& contact, Number slip_q15)
-      : tables(tables), contact(contact), normalCell(momentCell(tables.constants, contact.moment_q20)) {
+      : tables_(tables), contact_(contact), normalCell_(momentCell(tables.constants, contact.moment_q20)) {
     const Number part_q16 = (1 << 16) - slip_q15;
-    tangentialCell = momentCell(tables.constants, scaled<16>(contact.moment_q20, part_q16));
-    tangentialRate_q8 = scaled<16>(tangentialCell.rate_q8, part_q16);
+    tangentialCell_ = momentCell(tables.constants, scaled<16>(contact.moment_q20, part_q16));
+    tangentialRate_q8_ = scaled<16>(tangentialCell_.rate_q8, part_q16);
   }
-
-  struct Reading {
-    Number normal, tangential;  ///< responses
-    Number angle, moment;       ///< slopes: readings per half node and per unit of second moment
-    Number predicted;
-  };
 
   struct Loads {
     Number normal, tangential;  ///< responses
   };
+  struct Reading {
+    Loads loads;
+    Number angle, moment;  ///< slopes: readings per half node and per unit of second moment
+    Number predicted;
+  };
 
   Loads loadsAt(std::uint32_t gaugeAngle_q32) const {
-    const AngleNode node = angleNode(tables.constants, gaugeAngle_q32 - contact.angle_q32);
-    const Number normal =
-        valueOf(tables.patch(node.node, normalCell.cell).normal, normalCell.s_q15, node.t_q15);
-    const Number tangential =
-        valueOf(tables.patch(node.node, tangentialCell.cell).tangential, tangentialCell.s_q15, node.t_q15);
-    return {oddSign(node, normal, tables.constants.mirror_sign),
-            oddSign(node, tangential, -tables.constants.mirror_sign)};
+    const AngleNode node = nodeOf(gaugeAngle_q32);
+    return signedLoads(node, valueOf(normalPatch(node), normalCell_.s_q15, node.t_q15),
+                       valueOf(tangentialPatch(node), tangentialCell_.s_q15, node.t_q15));
   }
-  Number predictedAt(std::uint32_t gaugeAngle_q32) const {
-    const Loads loads = loadsAt(gaugeAngle_q32);
-    return readingOf(loads.normal, loads.tangential);
-  }
+  Number predictedAt(std::uint32_t gaugeAngle_q32) const { return readingOf(loadsAt(gaugeAngle_q32)); }
 
   Reading at(std::uint32_t gaugeAngle_q32) const {
-    const TableConstants& constants = tables.constants;
-    const AngleNode node = angleNode(constants, gaugeAngle_q32 - contact.angle_q32);
-    const Response normal =
-        responseOf(tables.patch(node.node, normalCell.cell).normal, normalCell.s_q15, node.t_q15);
-    const Response tangential =
-        responseOf(tables.patch(node.node, tangentialCell.cell).tangential, tangentialCell.s_q15, node.t_q15);
-    const int sign = constants.mirror_sign;
+    const AngleNode node = nodeOf(gaugeAngle_q32);
+    const Response normal = responseOf(normalPatch(node), normalCell_.s_q15, node.t_q15);
+    const Response tangential = responseOf(tangentialPatch(node), tangentialCell_.s_q15, node.t_q15);
     Reading reading;
-    reading.normal = oddSign(node, normal.value, sign);
-    reading.tangential = oddSign(node, tangential.value, -sign);
-    reading.predicted = readingOf(reading.normal, reading.tangential);
-    // Turning the contact forward brings a gauge beyond it nearer, one behind it farther away.
-    reading.angle = -readingOf(oddSign(node, normal.slope, -sign), oddSign(node, tangential.slope, sign));
-    reading.moment = readingOf(oddSign(node, scaled<8>(normal.widening, normalCell.rate_q8), sign),
-                               oddSign(node, scaled<8>(tangential.widening, tangentialRate_q8), -sign));
+    reading.loads = signedLoads(node, normal.value, tangential.value);
+    reading.predicted = readingOf(reading.loads);
+    // Turning the contact forward brings a gauge beyond it nearer, one behind it farther away: slopes are odd
+    // where values are even.
+    const Loads slopes = signedLoads(node, normal.slope, tangential.slope);
+    reading.angle = node.mirrored ? readingOf(slopes) : -readingOf(slopes);
+    reading.moment = readingOf(signedLoads(node, scaled<8>(normal.widening, normalCell_.rate_q8),
+                                           scaled<8>(tangential.widening, tangentialRate_q8_)));
     return reading;
   }
 
-  static Number oddSign(const AngleNode& node, Number value, int sign) {
-    return node.mirrored && sign < 0 ? -value : value;
+ private:
+  AngleNode nodeOf(std::uint32_t gaugeAngle_q32) const {
+    return angleNode(tables_.constants, gaugeAngle_q32 - contact_.angle_q32);
   }
-  Number readingOf(Number normal, Number tangential) const {
-    return static_cast<Number>((Wide{contact.normal} * normal + Wide{contact.tangential} * tangential) >> 16);
+  const ResponsePatch& normalPatch(const AngleNode& node) const {
+    return tables_.patch(node.node, normalCell_.cell).normal;
+  }
+  const ResponsePatch& tangentialPatch(const AngleNode& node) const {
+    return tables_.patch(node.node, tangentialCell_.cell).tangential;
+  }
+  /// On the mirrored side one of the two responses has the other sign.
+  Loads signedLoads(const AngleNode& node, Number normal, Number tangential) const {
+    if (!node.mirrored) return {normal, tangential};
+    return tables_.constants.mirror_sign > 0 ? Loads{normal, -tangential} : Loads{-normal, tangential};
+  }
+  Number readingOf(const Loads& loads) const {
+    return static_cast<Number>(
+        (Wide{contact_.normal} * loads.normal + Wide{contact_.tangential} * loads.tangential) >> 16);
   }
 
-  const TableImage& tables;
-  const ContactState& contact;
-  MomentCell normalCell;
-  MomentCell tangentialCell;
-  Number tangentialRate_q8;
+  const TableImage& tables_;
+  const ContactState& contact_;
+  MomentCell normalCell_;
+  MomentCell tangentialCell_;
+  Number tangentialRate_q8_;
 };
 
 int loadsOf(int contact) { return 2 * contact; }
@@ -154,8 +157,8 @@ void lineariseContact(const TableImage& tables, int contact, Linearisation& line
       continue;
     }
     const ContactModel::Reading reading = model.at(angle_q32);
-    normal[index(row)] = static_cast<std::int16_t>(reading.normal >> kLoadExponent);
-    tangential[index(row)] = static_cast<std::int16_t>(reading.tangential >> kLoadExponent);
+    normal[index(row)] = static_cast<std::int16_t>(reading.loads.normal >> kLoadExponent);
+    tangential[index(row)] = static_cast<std::int16_t>(reading.loads.tangential >> kLoadExponent);
     angle[index(row)] = reading.angle;
     moment[index(row)] = reading.moment;
     predicted[index(gauge)] += reading.predicted;

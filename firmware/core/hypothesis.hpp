@@ -57,11 +57,14 @@ struct ScaledReadings {
   std::int8_t shift = 0;
 };
 
+/// Variance of a reading as configured [in configured ones * 2^4].
+inline constexpr std::uint32_t kConfiguredNoise_q4 = 1 << 4;
+
 /// `gauges`: those that count when the scale and the model's error are chosen; others may saturate.
 /// `noise_q4`: variance of a reading in configured ones [* 2^4].
 /// `shift`: the one to keep while the largest reading stays in [2^13, 2^15); negative: none.
 ScaledReadings scaledReadings(const TableConstants& constants, std::span<const std::int32_t> strains_q32,
-                              GaugeSet gauges, std::uint32_t noise_q4 = 1 << 4, int shift = -1);
+                              GaugeSet gauges, std::uint32_t noise_q4 = kConfiguredNoise_q4, int shift = -1);
 
 /// The same contacts where readings are divided by 2^to instead of 2^from.
 ContactStates rescaled(const ContactStates& contacts, int from, int to);

@@ -67,7 +67,8 @@ bool Locator::follow(const TableImage& tables, const ScaledReadings& readings, G
   }
   const bool wasAccepted = answer_.accepted;
   believe(tables, solution, readings);
-  return answer_.accepted || !wasAccepted;
+  return answer_.accepted || !wasAccepted ||
+         solution.residualEnergy <= energyOf(readings, threshold::kLost * threshold::kGate);
 }
 
 void Locator::start(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges) {
@@ -128,9 +129,12 @@ void Locator::goOn(const TableImage& tables, const ScaledReadings& readings) {
   believe(tables, fit(tables, hypothesis, from, readings, kMostSteps / 2, linearisation_), readings);
 }
 
-/// Three readings that see the place and both loads well, solved exactly.
+/// Three readings that see the place and both loads well, solved exactly, unless they lead elsewhere than all
+/// of them do.
 void Locator::solveExactly(const TableImage& tables, const ScaledReadings& readings) {
   Hypothesis hypothesis = answer_.solution.hypothesis;
+  if (hypothesis.contacts > 1 || hypothesis.exact != 0 || !answer_.accepted) return;
+  const Solution byAll = answer_.solution;
   linearise(tables, {1, false, hypothesis.gauges}, answer_.solution.contact, linearisation_);
   const auto& column = linearisation_.column;
   Wide most = -1;
@@ -149,8 +153,21 @@ void Locator::solveExactly(const TableImage& tables, const ScaledReadings& readi
         hypothesis.exact = bit(a) | bit(b) | bit(c);
       }
     }
-  believe(tables, fit(tables, hypothesis, answer_.solution.contact, readings, kMostSteps / 2, linearisation_),
-          readings);
+  const Solution byThree = fit(tables, hypothesis, byAll.contact, readings, kMostSteps / 2, linearisation_);
+  const std::uint32_t apart = byThree.contact[0].angle_q32 - byAll.contact[0].angle_q32;
+  const std::uint32_t near_q32 =
+      static_cast<std::uint32_t>((std::uint64_t{1} << 28) / tables.constants.gauge_count);
+  if (apart + near_q32 <= 2 * near_q32 && isAdmissible(tables.constants, byThree))
+    return believe(tables, byThree, readings);
+  linearise(tables, byAll.hypothesis, byAll.contact, linearisation_);
+}
+
+void Locator::finishSearch(const TableImage& tables, std::span<const std::int32_t> strains_q32,
+                           GaugeSet gauges) {
+  const ScaledReadings readings =
+      scaledReadings(tables.constants, strains_q32, gauges, kConfiguredNoise_q4, answer_.shift);
+  while (search_.isRunning()) goOn(tables, readings);
+  if (mode_ == FitMode::kThreePoint) solveExactly(tables, readings);
 }
 
 void Locator::update(const TableImage& tables, std::span<const std::int32_t> strains_q32, GaugeSet gauges,
@@ -165,16 +182,14 @@ void Locator::update(const TableImage& tables, std::span<const std::int32_t> str
     setsSinceSearch_ = 0;
     search_.begin(tables, readings, oneContact(tables, mode_, gauges));
   }
-  if (mode_ == FitMode::kThreePoint && !search_.isRunning() && answer_.solution.hypothesis.contacts == 1 &&
-      answer_.solution.hypothesis.exact == 0)
-    solveExactly(tables, readings);
+  if (mode_ == FitMode::kThreePoint && !search_.isRunning()) solveExactly(tables, readings);
 }
 
 void locateOnce(const TableImage& tables, std::span<const std::int32_t> strains_q32, GaugeSet gauges,
                 Locator& locator) {
   locator.release();
-  do locator.update(tables, strains_q32, gauges);
-  while (locator.answer().searching);
+  locator.update(tables, strains_q32, gauges);
+  locator.finishSearch(tables, strains_q32, gauges);
 }
 
 }  // namespace strainfinger::firmware

@@ -39,7 +39,9 @@ class Locator {
   /// One set of strains of a touched ring. `gauges`: those that work and are within their range; `noise_q4`:
   /// variance of a reading in configured ones [* 2^4].
   void update(const TableImage& tables, std::span<const std::int32_t> strains_q32, GaugeSet gauges,
-              std::uint32_t noise_q4 = 1 << 4);
+              std::uint32_t noise_q4 = kConfiguredNoise_q4);
+  /// The whole of a search that update() began, with the same strains.
+  void finishSearch(const TableImage& tables, std::span<const std::int32_t> strains_q32, GaugeSet gauges);
   /// Nothing touches the finger any more.
   void release();
 

@@ -1,20 +1,20 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <bit>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "common/contact.hpp"
 #include "common/fixed_real.hpp"
+#include "common/frames.hpp"
 #include "firmware/core/condition.hpp"
 #include "firmware/core/detect.hpp"
 #include "firmware/core/estimate.hpp"
-#include "firmware/core/left_out.hpp"
-#include "firmware/core/locate.hpp"
+#include "firmware/core/locator.hpp"
 #include "host/base/no_value.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
@@ -27,8 +27,7 @@
 namespace strainfinger::cli {
 namespace {
 
-using firmware::Fit;
-using firmware::FitMode;
+using firmware::Answer;
 using firmware::GaugeSet;
 
 constexpr const char* kLocateHelp =
@@ -43,7 +42,26 @@ constexpr const char* kLocateHelp =
     "  angle_deg: degrees, 0 to 360\n"
     "  normal_n_per_m, tangential_n_per_m: N/m\n"
     "  sigma_angle_deg, sigma_normal_n_per_m, sigma_tangential_n_per_m: standard errors, in the same units\n"
-    "  quality: percent, 20 or less when the answer is uncertain (another angle fits as well, or none fits)";
+    "  quality: percent, 20 or less when the answer is uncertain (another angle fits as well, or none fits)\n"
+    "  width_m, sigma_width_m: of the uniform pressure with the same second moment; empty where the width is "
+    "known (contact.width_m)\n"
+    "  flags: as in CONTACT, joined by +\n"
+    "  angle2_deg, normal2_n_per_m, tangential2_n_per_m: of a second contact; empty where there is none";
+
+constexpr std::array kColumns{"contact",
+                              "angle_deg",
+                              "normal_n_per_m",
+                              "tangential_n_per_m",
+                              "sigma_angle_deg",
+                              "sigma_normal_n_per_m",
+                              "sigma_tangential_n_per_m",
+                              "quality",
+                              "width_m",
+                              "sigma_width_m",
+                              "flags",
+                              "angle2_deg",
+                              "normal2_n_per_m",
+                              "tangential2_n_per_m"};
 
 struct LocateOptions {
   explicit LocateOptions(CLI::App& command) : common(command), firmware(command) {}
@@ -58,19 +76,57 @@ std::unique_ptr<TableImage> tablesFor(const LocateOptions& options) {
 
 double degrees(TurnQ32 angle) { return toReal(angle) * 360; }
 
-std::vector<Cell> cellsOf(const Contact& contact) {
-  return {std::int64_t{1},
-          degrees(contact.angle),
-          toReal(contact.normal),
-          toReal(contact.tangential),
-          degrees(contact.sigmaAngle),
-          toReal(contact.sigmaNormal),
-          toReal(contact.sigmaTangential),
-          std::int64_t{contact.quality}};
+Cell widthCell(std::uint32_t width_um) {
+  return width_um == kWidthNotFitted ? kNoValue : Cell{1e-6 * width_um};
+}
+
+/// As the names of CONTACT's flags, joined by +.
+std::string flagNames(FingerFlags flags) {
+  std::string names;
+  for (const ValueName& flag : kFingerFlagNames)
+    if (flags.has(static_cast<FingerFlag>(flag.value)))
+      names += (names.empty() ? "" : "+") + std::string(flag.name);
+  return names;
+}
+
+FingerFlags flagsOf(const Answer& answer, const std::vector<Contact>& contacts, GaugeSet saturated,
+                    GaugeSet all) {
+  FingerFlags flags{FingerFlag::kContact};
+  for (const Contact& contact : contacts)
+    if (contact.uncertain) flags.set(FingerFlag::kUncertain);
+  flags.set(FingerFlag::kSaturated, saturated != 0);
+  flags.set(FingerFlag::kDegraded, (all & ~answer.solution.hypothesis.gauges & ~saturated) != 0);
+  flags.set(FingerFlag::kSeveralContacts, answer.several || contacts.size() > 1);
+  return flags;
+}
+
+std::vector<Cell> cellsOf(const std::vector<Contact>& contacts, FingerFlags flags) {
+  const Contact& contact = contacts.front();
+  std::vector<Cell> cells{std::int64_t{1},
+                          degrees(contact.angle),
+                          toReal(contact.normal),
+                          toReal(contact.tangential),
+                          degrees(contact.sigmaAngle),
+                          toReal(contact.sigmaNormal),
+                          toReal(contact.sigmaTangential),
+                          std::int64_t{contact.quality},
+                          widthCell(contact.width_um),
+                          widthCell(contact.sigmaWidth_um),
+                          flagNames(flags)};
+  if (contacts.size() > 1) {
+    for (const double value :
+         {degrees(contacts[1].angle), toReal(contacts[1].normal), toReal(contacts[1].tangential)})
+      cells.emplace_back(value);
+  } else {
+    cells.insert(cells.end(), 3, kNoValue);
+  }
+  return cells;
 }
 
 std::vector<Cell> nothingBut(bool contact) {
-  return {std::int64_t{contact}, kNoValue, kNoValue, kNoValue, kNoValue, kNoValue, kNoValue, kNoValue};
+  std::vector<Cell> cells(kColumns.size(), kNoValue);
+  cells.front() = std::int64_t{contact};
+  return cells;
 }
 
 /// The gauges that the finger's converter has at a rail, where they may read anything beyond.
@@ -97,36 +153,35 @@ class Rails {
   simulation::Converter converter_;
 };
 
-/// Nothing when what is left of the readings could be noise. `energy`: gateEnergy() of all of them.
-std::optional<Fit> fitTo(const TableImage& image, FitMode mode, GaugeSet leftOut,
-                         std::span<std::int32_t> strains_q32, std::uint32_t energy) {
-  if (leftOut == 0) return firmware::locate(image, mode, strains_q32, energy);
-  for (std::size_t i = 0; i < strains_q32.size(); ++i)
-    if (firmware::contains(leftOut, static_cast<int>(i))) strains_q32[i] = 0;
-  const std::uint32_t energyLeft = firmware::gateEnergy(image.constants, strains_q32);
-  if (!firmware::ContactGate{}.passes(image.constants, energyLeft)) return std::nullopt;
-  return firmware::locateWithout(image, leftOut, strains_q32, energyLeft);
+/// The row of what the firmware finds.
+std::vector<Cell> located(const TableImage& image, firmware::Locator& locator,
+                          std::span<const std::int32_t> strains_q32, GaugeSet saturated) {
+  const GaugeSet all = firmware::allGauges(image.constants.gauge_count);
+  firmware::locateOnce(image, strains_q32, all & ~saturated, locator);
+  const Answer& answer = locator.answer();
+  std::vector<Contact> contacts;
+  for (int i = 0; i < answer.solution.hypothesis.contacts; ++i)
+    contacts.push_back(firmware::estimate(image.constants, answer, locator.linearisation(), i));
+  return cellsOf(contacts, flagsOf(answer, contacts, saturated, all));
 }
 
 void runLocate(const LocateOptions& options) {
   const auto image = tablesFor(options);
   const TableConstants& constants = image->constants;
   NumberRowReader rows(std::cin, "stdin", constants.gauge_count, strainLimit());
-  TableWriter table(stdout, options.common.format(),
-                    {"contact", "angle_deg", "normal_n_per_m", "tangential_n_per_m", "sigma_angle_deg",
-                     "sigma_normal_n_per_m", "sigma_tangential_n_per_m", "quality"});
+  TableWriter table(stdout, options.common.format(), {kColumns.begin(), kColumns.end()});
   const Rails rails(*image);
   firmware::ContactGate gate;
+  firmware::Locator locator(options.firmware.mode());
   std::vector<std::int32_t> strains(constants.gauge_count);
   const auto factors = tables::correctionFactors(image->gains, constants.gauge_count);
   for (std::vector<double> row; rows.next(row);) {
     for (std::size_t i = 0; i < row.size(); ++i)
       strains[i] = tables::readingOf(constants, factors[i] * row[i]);
-    const std::uint32_t energy = firmware::gateEnergy(constants, strains);
-    const bool touched = gate.update(constants, energy);
-    std::optional<Fit> fit;
-    if (touched) fit = fitTo(*image, options.firmware.mode(), rails.of(row), strains, energy);
-    table.row(fit ? cellsOf(firmware::estimate(constants, *fit)) : nothingBut(touched));
+    const bool touched = gate.update(constants, firmware::gateEnergy(constants, strains));
+    const GaugeSet saturated = touched ? rails.of(row) : 0;
+    const bool enough = std::popcount(saturated) * 2 <= constants.gauge_count;
+    table.row(touched && enough ? located(*image, locator, strains, saturated) : nothingBut(touched));
   }
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "common/table_image.hpp"
-#include "firmware/core/locate.hpp"
+#include "firmware/core/locator.hpp"
 #include "host/config/finger_config.hpp"
 
 namespace strainfinger::cli {

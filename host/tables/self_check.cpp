@@ -10,6 +10,7 @@
 #include "firmware/core/detect.hpp"
 #include "firmware/core/estimate.hpp"
 #include "host/model/impulse_response.hpp"
+#include "host/model/touch_load.hpp"
 #include "host/tables/readings.hpp"
 #include "host/tables/table_builder.hpp"
 
@@ -18,85 +19,101 @@ namespace {
 
 using firmware::FitMode;
 
-constexpr int kOffsets = 48;              ///< over a pitch; few of them coincide with the tables' rows
-constexpr int kDirections = 16;           ///< over the friction cone
-constexpr double kWrongBranch = 1.0 / 8;  ///< [pitches] right answers are a hundred times nearer
+constexpr int kOffsets = 16;              ///< over a pitch; few of them coincide with the tables' nodes
+constexpr int kDirections = 8;            ///< over the friction cone
+constexpr double kWrong_pitch = 1.0 / 8;  ///< right answers are a hundred times nearer
 constexpr double kTolerance = 1e-9;       ///< of the model: below a step of StrainQ32 at half of full scale
 /// Loads, of half of full scale: weak contacts are judged with more doubt, so the locator goes other ways.
-constexpr std::array kLoads{1.0, 1.0 / 4, 1.0 / 16};
+constexpr std::array kLoads{1.0, 1.0 / 8};
+/// Widths that are fitted, of the largest. Wider contacts have rivals that full scale does not tell apart.
+constexpr std::array kWidths{0.0, 1.0 / 4, 1.0 / 2};
 
-model::ImpulseResponse responseOf(const TableParameters& p) {
-  const model::Annulus<double> annulus{p.core_radius_m, p.outer_radius_m, p.shear_modulus_pa,
-                                       p.poisson_ratio};
-  return {annulus, p.gauge_radius_m, p.component, p.arc_length_m, p.contact_width_m, kTolerance};
-}
+/// The gauge around which contacts are tried, away from where angles wrap.
+std::size_t middleOf(const TableImage& image) { return image.constants.gauge_count / 2u; }
 
-/// A ring's responses to contacts around the gauge half way round, away from where angles wrap.
+/// Strains of a ring under loads of 1 N/m.
 class Ring {
  public:
-  explicit Ring(const TableParameters& parameters) : gauges_(parameters.gauge_count) {
-    const model::ImpulseResponse response = responseOf(parameters);
-    const double pitch_rad = 2 * std::numbers::pi / gauges_;
-    for (int k = 0; k <= kOffsets; ++k) {
-      for (int gauge = 0; gauge < gauges_; ++gauge) {
-        const auto value = response.at((gauge - middle() - offset_pitch(k)) * pitch_rad);
-        responses_.push_back({value.normal, value.tangential});
-        peak_ = std::max(peak_, std::abs(value.normal));
-      }
+  explicit Ring(const TableImage& image) : image_(image), response_(responseOf(image.parameters)) {
+    for (int i = -180; i <= 180; ++i) {
+      const double angle_rad = i * std::numbers::pi / 180;
+      peak_ = std::max(peak_, std::abs(response_.at(angle_rad).normal));
     }
   }
 
-  static double offset_pitch(int k) { return static_cast<double>(k) / kOffsets - 0.5; }
-  int middle() const { return gauges_ / 2; }
-  double peak() const { return peak_; }  ///< strain per N/m
+  double pitch_rad() const { return 2 * std::numbers::pi / image_.constants.gauge_count; }
+  double peak() const { return peak_; }  ///< of a line load: strain per N/m
 
-  /// The strains of a load of 1 N/m, and `direction` times that sideways, at the k-th offset.
-  std::vector<double> strains(int k, double direction) const {
-    const auto begin = responses_.begin() + std::ptrdiff_t{k} * gauges_;
+  /// The strains of a load of 1 N/m, and `direction` times that sideways, at an offset from the middle gauge.
+  std::vector<double> strains(double offset_pitch, double direction, double width_m) const {
+    const TableParameters& p = image_.parameters;
+    const double moment_rad2 = model::momentOf(model::Profile::kUniform, width_m / p.outer_radius_m);
+    const model::TouchLoad touch{1, direction, moment_rad2, model::Profile::kEllipse, p.friction_coefficient};
+    const model::LoadSpectrum spectrum = model::fittedSpectrum(touch, response_.harmonics());
     std::vector<double> strains;
-    std::transform(begin, begin + gauges_, std::back_inserter(strains),
-                   [&](const Response& r) { return r.normal + direction * r.tangential; });
+    for (std::size_t gauge = 0; gauge < image_.constants.gauge_count; ++gauge)
+      strains.push_back(response_.under(spectrum, fromMiddle_rad(gauge) - offset_pitch * pitch_rad()).strain);
     return strains;
   }
 
  private:
-  struct Response {
-    double normal, tangential;
-  };
-  int gauges_;
+  static model::ImpulseResponse responseOf(const TableParameters& p) {
+    const model::Annulus<double> annulus{p.core_radius_m, p.outer_radius_m, p.shear_modulus_pa,
+                                         p.poisson_ratio};
+    return {annulus, p.gauge_radius_m, p.component, p.arc_length_m, 0, kTolerance};
+  }
+  double fromMiddle_rad(std::size_t gauge) const {
+    const std::uint32_t turned_q32 = image_.gauge_angle_q32[gauge] - image_.gauge_angle_q32[middleOf(image_)];
+    return toReal(TurnQ32::fromRaw(turned_q32)) * 2 * std::numbers::pi;
+  }
+
+  const TableImage& image_;
+  model::ImpulseResponse response_;
   double peak_ = 0;
-  std::vector<Response> responses_;
 };
 
 /// Tries the contacts one by one and keeps what the check tells.
 class Trials {
  public:
   explicit Trials(const TableImage& image)
-      : image_(image), ring_(image.parameters), readings_(image.parameters.gauge_count) {
+      : image_(image), ring_(image), readings_(image.parameters.gauge_count) {
     check_.halfScale_n_per_m = image.parameters.full_scale_strain / 2 / ring_.peak();
   }
 
   SelfCheck run() {
     const double friction = image_.parameters.friction_coefficient;
-    for (int k = 0; k <= kOffsets; ++k) {
-      for (int i = 0; i <= kDirections; ++i) tryContact(k, friction * (2.0 * i / kDirections - 1));
-    }
+    for (const double width_m : widths_m())
+      for (int k = 0; k <= kOffsets; ++k)
+        for (int i = 0; i <= kDirections; ++i)
+          tryContact(static_cast<double>(k) / kOffsets - 0.5, friction * (2.0 * i / kDirections - 1),
+                     width_m);
     return check_;
   }
 
  private:
-  void tryContact(int k, double direction) {
-    const std::vector<double> strains = ring_.strains(k, direction);
+  bool widthIsKnown() const { return image_.constants.width_is_known != 0; }
+
+  std::vector<double> widths_m() const {
+    if (widthIsKnown()) return {image_.parameters.contact_width_m};
+    std::vector<double> widths;
+    for (const double part : kWidths) widths.push_back(part * image_.parameters.largest_width_m);
+    return widths;
+  }
+
+  std::vector<FitMode> modes() const {
+    if (widthIsKnown()) return {FitMode::kThreePoint, FitMode::kRefined};
+    return {FitMode::kRefined};
+  }
+
+  void tryContact(double offset_pitch, double direction, double width_m) {
+    const std::vector<double> strains = ring_.strains(offset_pitch, direction, width_m);
     noteGate(strains);
     for (const double part : kLoads) {
       const double load = part * check_.halfScale_n_per_m;
       std::transform(strains.begin(), strains.end(), readings_.begin(),
                      [&](double strain) { return readingOf(image_.constants, load * strain); });
-      const std::uint32_t energy = firmware::gateEnergy(image_.constants, readings_);
-      if (energy < image_.constants.gate_on) continue;
-      for (const FitMode mode : {FitMode::kThreePoint, FitMode::kRefined})
-        judge(firmware::locate(image_, mode, readings_, energy),
-              {mode, load, direction, Ring::offset_pitch(k), 0});
+      if (firmware::gateEnergy(image_.constants, readings_) < image_.constants.gate_on) continue;
+      for (const FitMode mode : modes()) locate({mode, load, direction, width_m, offset_pitch, 0});
     }
   }
 
@@ -108,16 +125,20 @@ class Trials {
     check_.detected_n_per_m = std::max(check_.detected_n_per_m, gate / norm);
   }
 
-  void judge(const firmware::Fit& fit, Misplaced trial) {
+  void locate(Misplaced trial) {
+    firmware::Locator locator(trial.mode);
+    firmware::locateOnce(image_, readings_, firmware::allGauges(image_.constants.gauge_count), locator);
     ++check_.contacts;
-    if (firmware::estimate(image_.constants, fit).uncertain) {
+    const firmware::Answer& answer = locator.answer();
+    const Contact found = firmware::estimate(image_.constants, answer, locator.linearisation(), 0);
+    if (found.uncertain || answer.several || answer.suspect != 0) {
       ++check_.uncertain;
       return;
     }
-    const double found = static_cast<double>(fit.best.position) / firmware::kOnePitch;
-    trial.error_pitch =
-        std::remainder(found - ring_.middle() - trial.offset_pitch, image_.constants.gauge_count);
-    const double worst = check_.misplaced ? std::abs(check_.misplaced->error_pitch) : kWrongBranch;
+    const std::uint32_t turned_q32 = found.angle.raw() - image_.gauge_angle_q32[middleOf(image_)];
+    const double turned_pitch = toReal(TurnQ32::fromRaw(turned_q32)) * image_.constants.gauge_count;
+    trial.error_pitch = std::remainder(turned_pitch - trial.offset_pitch, image_.constants.gauge_count);
+    const double worst = check_.misplaced ? std::abs(check_.misplaced->error_pitch) : kWrong_pitch;
     if (std::abs(trial.error_pitch) > worst) check_.misplaced = trial;
   }
 
@@ -131,24 +152,9 @@ class Trials {
 
 SelfCheck selfCheck(const TableImage& image) { return Trials(image).run(); }
 
-namespace {
-
-/// Contacts that are not firm are scanned for: firm ones are here, too.
-bool scanMisplaces(TableImage image) {
-  image.start = {};
-  return selfCheck(image).misplaced.has_value();
-}
-
-}  // namespace
-
 CheckedTables buildCheckedTables(const config::FingerConfig& config) {
   CheckedTables tables{buildTableImage(config), {}};
   tables.check = selfCheck(tables.image);
-  if (tables.image.constants.anchor_rule != AnchorRule::kExhaustive &&
-      (tables.check.misplaced || scanMisplaces(tables.image))) {
-    searchEverywhere(tables.image);
-    tables.check = selfCheck(tables.image);
-  }
   requireLocatable(tables.image, tables.check);
   return tables;
 }

@@ -4,34 +4,35 @@
 #include <optional>
 
 #include "common/table_image.hpp"
-#include "firmware/core/locate.hpp"
+#include "firmware/core/locator.hpp"
 #include "host/config/finger_config.hpp"
 
 namespace strainfinger::tables {
 
-/// A noise-free line contact that the firmware puts in a wrong place.
+/// A noise-free contact that the firmware puts in a wrong place.
 struct Misplaced {
   firmware::FitMode mode;
   double load_n_per_m;  ///< normal
   double direction;     ///< tangential / normal load
+  double width_m;
   double offset_pitch;  ///< from the nearest gauge towards +theta, -1/2 .. 1/2
   double error_pitch;   ///< found - true
 };
 
-/// What became of noise-free contacts over one pitch: load directions within the friction cone, loads from
-/// half of full scale down to 1/32, both modes.
+/// What became of noise-free contacts around one gauge: load directions within the friction cone, loads from
+/// half of full scale down to 1/16, widths up to half of the largest where the width is fitted, and both
+/// modes where it is known.
 struct SelfCheck {
   int contacts = 0;                    ///< that opened the gate
   int uncertain = 0;                   ///< flagged so by the firmware
-  std::optional<Misplaced> misplaced;  ///< the worst answer on a wrong branch that was given as certain
+  std::optional<Misplaced> misplaced;  ///< the worst wrong answer that was given as certain
   double halfScale_n_per_m = 0;        ///< normal load whose largest strain is half of full scale
-  double detected_n_per_m = 0;         ///< from this normal load on a contact opens the gate wherever it is
+  double detected_n_per_m = 0;         ///< from this normal load on a line contact opens the gate anywhere
 };
 
-/// Runs firmware::locate() on every contact. A wrong branch is more than 1/8 of a pitch off. The grid meets
-/// any ambiguity wider than 1/48 of a pitch in offset and 1/8 of the friction coefficient in direction;
-/// narrower ones it may miss. Cost: 5000 fits; 5 ms for the default finger, ten times that where every window
-/// is looked at.
+/// Has the firmware locate every contact, each from nothing but its readings. Wrong is more than 1/8 of a
+/// pitch off. The grid meets any ambiguity wider than 1/16 of a pitch in place and 1/4 of the friction
+/// coefficient in direction; narrower ones it may miss. Cost: 400 searches; 20 ms for the default finger.
 SelfCheck selfCheck(const TableImage& image);
 
 /// Throws Failure(kUsage) with the reason, the finger's figures and what to change: where a contact is
@@ -44,9 +45,7 @@ struct CheckedTables {
   SelfCheck check;
 };
 
-/// buildTableImage(), checked. Where a quick way to find the nearest gauge, a start that is told or a scan,
-/// misplaces a contact, the image has the firmware look at every window; where that doesn't help either,
-/// throws as requireLocatable() does.
+/// buildTableImage(), checked. Throws as that and requireLocatable() do.
 CheckedTables buildCheckedTables(const config::FingerConfig& config);
 
 }  // namespace strainfinger::tables

@@ -1,0 +1,74 @@
+// What a user is told of a finger that cannot be located with.
+
+#include <fmt/format.h>
+
+#include <numbers>
+#include <string>
+
+#include "host/base/failure.hpp"
+#include "host/tables/self_check.hpp"
+
+namespace strainfinger::tables {
+namespace {
+
+constexpr double kMostUncertain = 0.5;  ///< of the contacts
+
+/// Gauges shallower than this part of their spacing see a contact too sharply for the next one to see it too;
+/// deeper ones see it too broadly.
+constexpr double kSuitableDepth = 0.8;
+
+std::string adviceFor(const TableParameters& p, double depth_m, double pitch_m) {
+  if (depth_m >= kSuitableDepth * pitch_m)
+    return "too deep for their spacing; use shallower gauges (a larger gauges.radius_m) or fewer";
+  std::string advice =
+      "too shallow for their spacing; use more gauges, or deeper ones (a smaller gauges.radius_m, and if "
+      "need "
+      "be finger.core_radius_m)";
+  if (p.component == StrainComponent::kShear) advice += ", or gauges.component = \"radial\"";
+  return advice;
+}
+
+std::string figuresOf(const TableParameters& p) {
+  const double depth_m = p.outer_radius_m - p.gauge_radius_m;
+  const double pitch_m = 2 * std::numbers::pi * p.outer_radius_m / p.gauge_count;
+  return fmt::format(
+      "the gauges lie {:.3g} m below the surface (gauges.radius_m = {}), where they are {:.3g} m apart "
+      "(gauges.count = {}): {}",
+      depth_m, p.gauge_radius_m, pitch_m, p.gauge_count, adviceFor(p, depth_m, pitch_m));
+}
+
+[[noreturn]] void refuse(const TableImage& image, const std::string& reason) {
+  throw Failure(ExitCode::kUsage, fmt::format("contacts cannot be located with these gauges: {};\n{}", reason,
+                                              figuresOf(image.parameters)));
+}
+
+/// Wherever the gauges are, and however many.
+[[noreturn]] void refuseNoise(const TableParameters& p, const SelfCheck& check) {
+  throw Failure(
+      ExitCode::kUsage,
+      fmt::format("contacts cannot be located with this noise: where the gauges see it worst a "
+                  "contact drowns in noise up to {:.3g} N/m, beyond half of full scale ({:.3g} N/m); "
+                  "gauges.noise_strain = {} is too large for gauges.full_scale_strain = {}",
+                  check.detected_n_per_m, check.halfScale_n_per_m, p.noise_strain, p.full_scale_strain));
+}
+
+std::string placeOf(const TableParameters& p, const Misplaced& m) {
+  const double pitch_deg = 360.0 / p.gauge_count;
+  return fmt::format(
+      "{:.3g} N/m pressing at {:.3g} deg from a gauge over {:.3g} m, with {:.3g} times that sideways, are "
+      "found "
+      "{:.3g} deg away ({} fit), and nothing in the readings tells",
+      m.load_n_per_m, m.offset_pitch * pitch_deg, m.width_m, m.direction, m.error_pitch * pitch_deg,
+      m.mode == firmware::FitMode::kRefined ? "refined" : "three-point");
+}
+
+}  // namespace
+
+void requireLocatable(const TableImage& image, const SelfCheck& check) {
+  if (check.misplaced) refuse(image, placeOf(image.parameters, *check.misplaced));
+  if (!(check.detected_n_per_m <= check.halfScale_n_per_m)) refuseNoise(image.parameters, check);
+  if (check.uncertain > kMostUncertain * check.contacts)
+    refuse(image, fmt::format("{} of {} contacts have no certain answer", check.uncertain, check.contacts));
+}
+
+}  // namespace strainfinger::tables

@@ -5,6 +5,7 @@
 #include "firmware/board/cortex_m/crash.hpp"
 #include "firmware/board/cortex_m/linked_tables.hpp"
 #include "firmware/board/cortex_m/startup.hpp"
+#include "firmware/board/cortex_m/system_control.hpp"
 #include "firmware/board/stm32g431/can_rates.hpp"
 #include "firmware/board/stm32g431/clock_tree.hpp"
 #include "firmware/board/stm32g431/fdcan_port.hpp"
@@ -81,9 +82,7 @@ bool ramSurvived() {
 /// If the controller doesn't answer, or the clock that started is too far off for the bit rate, there is
 /// nobody to tell: the port stays down.
 [[gnu::noinline]] Can& startCan(const Clock& clock, ClockSource source, std::uint8_t node) {
-  modify(kBus, Rcc::Ahb2Enr::gpioA(1));
-  makeAlternate(kBus, kCanRx, kCanFunction, Gpio::kUp);  // an unconnected bus is a silent one
-  makeAlternate(kBus, kCanTx, kCanFunction, Gpio::kNone);
+  connectCan(kBus);
   static Can can(kBus, clock);
   const auto listensTo = identifiersFor(node);
   const std::optional<BitTiming> timing = canTiming(source, STRAINFINGER_BITRATE);
@@ -107,6 +106,7 @@ bool ramSurvived() {
 }
 
 [[noreturn]] void run() {
+  board::maskInterrupts();  // the bootloader in ROM may have left some of its own
   static Clock clock(kBus);
   const ResetCause flagged = takeResetCause(kBus, ramSurvived());
   const firmware::LastRun last = lastRun(flagged);

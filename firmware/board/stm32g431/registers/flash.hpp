@@ -42,7 +42,7 @@ struct Flash {
     static constexpr Field<Cr, 31> lock{};
   };
   struct EccR : Register<base + 0x18> {
-    static constexpr Field<EccR, 0, 19> offset{};  ///< of the double word, from kFlashBegin
+    static constexpr Field<EccR, 0, 18> offset{};  ///< of the double word, from kFlashBegin; may be wrong
     static constexpr Field<EccR, 22> inSystemMemory{};
     static constexpr Field<EccR, 30> corrected{};  ///< ECCC; cleared by writing 1
     static constexpr Field<EccR, 31> detected{};   ///< ECCD: two bits wrong, raises NMI; cleared by writing 1

@@ -37,8 +37,7 @@ constexpr bool kCanFd = STRAINFINGER_CAN_FD;
 static_assert(samplingAt(STRAINFINGER_SAMPLE_RATE), "not a rate of sampling.hpp");
 
 constexpr MemoryBus kBus;
-EccFaults eccFaults;
-volatile bool tablesInUse = false;
+EccErrors eccErrors;
 
 /// RAM keeps its contents over any reset but that of its supply.
 bool ramSurvived() {
@@ -51,12 +50,11 @@ bool ramSurvived() {
 
 // Not inlined, these: what they need on the stack would be there for ever.
 
-/// Tables that are not whole are returned too: the finger refuses them, and says so.
-[[gnu::noinline]] const TableImage& tables() {
-  const TableImage& chosen =
-      tablesOf(*reinterpret_cast<const TableImage*>(kTablePages.address()), board::kLinkedTables);
-  tablesInUse = firmware::areWhole(chosen);
-  return chosen;
+[[gnu::noinline]] const TableImage* tables() {
+  return readableTables(kBus, eccErrors, [] {
+    return firmware::ifWhole(
+        tablesOf(*reinterpret_cast<const TableImage*>(kTablePages.address()), board::kLinkedTables));
+  });
 }
 
 /// A watchdog that resets leaves no record: what it ended hung, nobody knows where.
@@ -92,7 +90,8 @@ bool ramSurvived() {
 }
 
 [[gnu::noinline]] firmware::FingerSettings settingsWith(Store& store, ClockSource source) {
-  firmware::FingerSettings settings = firmware::startedWith(kSettings, firmware::SettingsStore(store).load());
+  firmware::FingerSettings settings =
+      firmware::startedWith(kSettings, firmware::SettingsStore(store).found());
   settings.standingFaults.set(FingerFault::kClock, source == ClockSource::kInternal);
   settings.board = shortNumber(uniqueId(kBus));
   return settings;
@@ -112,20 +111,21 @@ bool ramSurvived() {
   const firmware::LastRun last = lastRun(flagged);
   const ClockSource source = startClocks(clock);
   Watchdog& watchdog = startWatchdog(clock, last, flagged);
-  static Store store(kBus, eccFaults, kConfigurationPages.first, kConfigurationPages.count);
+  static Store store(kBus, eccErrors, kConfigurationPages.first, kConfigurationPages.count);
   const firmware::FingerSettings settings = settingsWith(store, source);
   Can& can = startCan(clock, source, settings.node);
   firmware::runFinger(tables(), settings, last, startAdc(), can, clock, watchdog, store, [&] {
     can.poll();
+    noteEccErrors(kBus, eccErrors);
     if (watchdog.isStarved()) board::crash(Crash::kStarved, 0);
   });
 }
 
-/// Raised by the flash for a double ECC error; otherwise by nothing that is known.
+/// Raised by the flash for words that it cannot read; otherwise by nothing that is known.
 extern "C" void nonMaskableHandler() {
-  if (!takeEccFault(kBus, eccFaults)) board::crash(Crash::kHardFault, 0);
-  if (!isHandled(eccFaults.lastOffset, tablesInUse))
-    board::crash(Crash::kHardFault, kFlashBegin + eccFaults.lastOffset);
+  const std::uint32_t before = eccErrors.unreadable;
+  if (survivesNmi(kBus, eccErrors)) return;
+  board::crash(Crash::kHardFault, eccErrors.unreadable == before ? 0 : kFlashBegin + eccErrors.lastOffset);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ struct Flash {
   struct Cr : Register<base + 0x14> {
     static constexpr Field<Cr, 0> program{};
     static constexpr Field<Cr, 1> pageErase{};
-    static constexpr Field<Cr, 3, 7> page{};
+    static constexpr Field<Cr, 3, 6> page{};
     static constexpr Field<Cr, 16> start{};
     static constexpr Field<Cr, 31> lock{};
   };

@@ -121,12 +121,13 @@ class FakeFlash {
     const std::uint32_t page = st::FLASH_BASE + number * st::FLASH_PAGE_SIZE;
     FakeRegisters::require(isInside(page), "a page erased that is none of these", page);
     const Torn torn = operate();
-    if (!isInside(page) || torn == Torn::kUntouched) return begin(0);
+    if (!isInside(page) || torn == Torn::kUntouched) return begin(st::FLASH_SR_OPERR);
     for (std::uint32_t offset = 0; offset < st::FLASH_PAGE_SIZE; offset += 4) {
       registers.at(page + offset) = weak && offset == 64 ? 0xFFFF'FFFE : 0xFFFF'FFFF;
       forget((page - begin_ + offset) / 8);
-      if (torn == Torn::kUnreadable && offset % 64 == 0) damage(page - begin_ + offset);
     }
+    for (std::uint32_t offset = 0; torn == Torn::kUnreadable && offset < st::FLASH_PAGE_SIZE; offset += 64)
+      damage(page - begin_ + offset);
     begin(0);
   }
 
@@ -206,7 +207,7 @@ class FakeFlash {
     if (word != 0xFFFF'FFFF || registers.at(address - 4) != 0xFFFF'FFFF) return begin(st::FLASH_SR_PROGERR);
     const Torn torn = operate();
     if (torn == Torn::kUnreadable) damage(address - begin_);
-    if (torn == Torn::kUntouched) return begin(0);
+    if (torn == Torn::kUntouched) return begin(st::FLASH_SR_OPERR);
     word = weak ? written | 1 : written;
     registers.at(address - 4) = half_;
     begin(0);

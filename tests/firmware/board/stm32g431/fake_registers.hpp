@@ -67,7 +67,7 @@ class FakeRegisters {
     words_[Reg::address] = value;
   }
   void addRange(std::uint32_t first, std::uint32_t bytes, std::uint32_t value = 0) {
-    for (std::uint32_t offset = 0; offset < bytes; offset += 4) words_[first + offset] = value;
+    memories_.push_back({first, std::vector(bytes / 4, value)});
   }
   template <typename Reg>
   void onRead(Read behaviour) {
@@ -85,6 +85,9 @@ class FakeRegisters {
   }
 
   std::uint32_t& at(std::uint32_t address) {
+    for (Memory& each : memories_)
+      if (address >= each.first && (address - each.first) / 4 < each.words.size())
+        return each.words[(address - each.first) / 4];
     const auto word = words_.find(address);
     if (word != words_.end()) return word->second;
     violate("there is no register", address);
@@ -121,7 +124,7 @@ class FakeRegisters {
   std::uint32_t read(std::uint32_t address) {
     ++accesses;
     checkClock(address);
-    readBack_.insert(address);
+    if (isEnableRegister(address)) readBack_.insert(address);
     std::uint32_t& stored = at(address);
     if (onData && onData(false, address, stored, 0)) return stored;
     const auto behaviour = reads_.find(address);
@@ -131,7 +134,7 @@ class FakeRegisters {
   void write(std::uint32_t address, std::uint32_t value) {
     ++accesses;
     checkClock(address);
-    readBack_.erase(address);
+    if (isEnableRegister(address)) readBack_.erase(address);
     writes.push_back({address, value});
     std::uint32_t& stored = at(address);
     if (onData && onData(true, address, stored, value)) return;
@@ -161,6 +164,10 @@ class FakeRegisters {
   }
 
  private:
+  static bool isEnableRegister(std::uint32_t address) {
+    return address >= st::RCC_AHB1ENR && address <= st::RCC_APB2ENR;
+  }
+
   void checkClock(std::uint32_t address) {
     for (const ClockGate& gate : kClockGates) {
       if (address < gate.first || address - gate.first >= gate.bytes) continue;
@@ -170,6 +177,12 @@ class FakeRegisters {
   }
 
   std::set<std::uint32_t> readBack_{st::RCC_AHB1ENR};  ///< read since they were written
+  /// Words that follow each other.
+  struct Memory {
+    std::uint32_t first;
+    std::vector<std::uint32_t> words;
+  };
+  std::vector<Memory> memories_;
   std::uint32_t nowhere_ = 0;
   std::map<std::uint32_t, std::uint32_t> words_;
   std::map<std::uint32_t, Read> reads_;

@@ -13,9 +13,8 @@ enum AdcTrigger : std::uint32_t { kTim1Trgo = 9 };
 template <std::uint32_t kBase>
 struct Adc {
   struct Isr : Register<kBase + 0x00> {
-    static constexpr Field<Isr, 0> ready{};  ///< ADRDY; cleared by writing 1
-    static constexpr Field<Isr, 4>
-        overrun{};  ///< OVR: a result came before DMA had taken the last; by 1, too
+    static constexpr Field<Isr, 0> ready{};    ///< ADRDY; cleared by writing 1
+    static constexpr Field<Isr, 4> overrun{};  ///< OVR: a result came before DMA had taken the last; so, too
   };
   struct Cr : Register<kBase + 0x08> {
     static constexpr Field<Cr, 0> enable{};

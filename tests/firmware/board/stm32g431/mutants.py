@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
 """Wrong drivers, and whether the tests beside this script notice.
 
-usage: mutants.py --root SOURCES --build DIR [--compiler G++] [--library FILE]... [--part N SEED]
+usage: mutants.py --root SOURCES --build DIR [--compiler G++] [--part N SEED]
 
 Each mutant is a driver with one mistake: a text of a file replaced by another. The test programs that see the file are compiled
-with it (in DIR) and run; a mutant is killed if one of them fails, or does not compile. With --part only every N-th mutant is
-tried, of an order shuffled by SEED. Exit status: 1 if less than 95 % are killed, or if one survives that is not excused.
+with it (in DIR) and run; a mutant is killed if one of them fails, or does not compile. With --part only one in N is tried,
+chosen by SEED. Exit status: 1 if less than 95 % are killed, or if one survives that is not excused.
 """
 import argparse
 import pathlib
 import random
+import re
 import subprocess
 import sys
 
@@ -95,7 +96,7 @@ MUTANTS = [
     ("gauge_converter.hpp", "!enable<Adc1>() || !enable<Adc2>()", "!enable<Adc1>()"),
     ("gauge_converter.hpp", "Ccr::dual(Adc12::kRegularSimultaneous) | ", ""),
     ("gauge_converter.hpp", "Ccr::dmaCircular(1) | ", ""),
-    ("gauge_converter.hpp", " | Ccr::prescaler(Adc12::kDivideBy8)", ""),
+    ("gauge_converter.hpp", " |\n               Ccr::prescaler(Adc12::kDivideBy8)", ""),
     ("gauge_converter.hpp", " | Cfgr::triggerEdge(trigger != kSlave)", ""),
     ("gauge_converter.hpp", "Cfgr::overwrite(1)", "Cfgr::overwrite(0)"),
     ("gauge_converter.hpp", "Cfgr2::ratio(plan.oversamplingLog2 - 1)", "Cfgr2::ratio(plan.oversamplingLog2)"),
@@ -120,7 +121,7 @@ MUTANTS = [
     ("gauge_converter.hpp", "    write(bus_, regulated<Adc1>() | Adc1::Cr::stop(1));\n", ""),
     ("gauge_converter.hpp", "    write(bus_, Adc2::Isr::overrun(1));\n", ""),
     ("gauge_converter.hpp", "    write(bus_, Dma1::Ccr1::enable(0));\n", ""),
-    ("gauge_converter.hpp", "    isFirst_ = true;\n", ""),
+    ("gauge_converter.hpp", "    taken_ = 0;\n    isFirst_ = true;\n", "    taken_ = 0;\n"),
     ("gauge_converter.hpp", "(sets & 1) != 0 ? 0 : kPairs", "(sets & 1) != 0 ? kPairs : 0"),
     ("gauge_converter.hpp", "    static_cast<void>(bus_.read(Adc12::Cdr::address));\n", "",
      "an old result in the data register does no harm once the DMA mode is off: the read is for the flags' sake"),
@@ -178,10 +179,18 @@ def tests_of(file):
     raise KeyError(file)
 
 
+def compiler(options):
+    return [options.compiler, "-std=c++20", "-O1", "-w", "-DCPPUTEST_USE_MEM_LEAK_DETECTION=0"]
+
+
+def build_main(options):
+    subprocess.run([*compiler(options), "-c", options.root / "tests/main.cpp", "-o", options.build / "main.o"], check=True)
+
+
 def build(options, test, overlay, program):
-    command = [options.compiler, "-std=c++20", "-O1", "-w", "-DCPPUTEST_USE_MEM_LEAK_DETECTION=0", f'-DSTRAINFINGER_ROOT="{options.root}"',
-               *([f"-I{overlay}"] if overlay else []), f"-I{options.root}", f"{options.root}/{TESTS}/{test}.cpp",
-               f"{options.root}/tests/main.cpp", "-lCppUTest", "-o", str(program)]
+    """The test with the overlay's files in place of the project's."""
+    command = [*compiler(options), f'-DSTRAINFINGER_ROOT="{options.root}"', *([f"-I{overlay}"] if overlay else []),
+               f"-I{options.root}", f"{options.root}/{TESTS}/{test}.cpp", options.build / "main.o", "-lCppUTest", "-o", program]
     return subprocess.run(command, capture_output=True, text=True)
 
 
@@ -189,12 +198,10 @@ def verdict(options, mutant, number):
     """What the tests make of a mutant: "killed by ..." or "survived"."""
     file, before, after = mutant[:3]
     source = (options.root / BOARD / file).read_text(encoding="utf-8")
-    if source.count(before) != 1:
-        sys.exit(f"mutants.py: {file} has {source.count(before)} times what mutant {number} replaces: {before!r}. Mend MUTANTS.")
     overlay = options.build / f"mutant_{number}"
     copy = overlay / BOARD / file
     copy.parent.mkdir(parents=True, exist_ok=True)
-    copy.write_text(source.replace(before, after), encoding="utf-8")
+    copy.write_text(re.sub(pattern_of(before), lambda _: after, source), encoding="utf-8")
     for test in tests_of(file):
         program = overlay / test
         if build(options, test, overlay, program).returncode != 0:
@@ -207,6 +214,19 @@ def verdict(options, mutant, number):
         finally:
             program.unlink()
     return "survived"
+
+
+def pattern_of(text):
+    """The text, however it is broken into lines."""
+    return r"\s+".join(re.escape(word) for word in text.split())
+
+
+def check_mutants(options):
+    """Each replaces one text."""
+    for number, mutant in enumerate(MUTANTS):
+        found = len(re.findall(pattern_of(mutant[1]), (options.root / BOARD / mutant[0]).read_text(encoding="utf-8")))
+        if found != 1:
+            sys.exit(f"mutants.py: {mutant[0]} has {found} times what mutant {number} replaces: {mutant[1]!r}. Mend MUTANTS.")
 
 
 def check_unchanged(options):
@@ -227,6 +247,8 @@ def main():
     options = parser.parse_args()
     options.root, options.build = options.root.resolve(), options.build.resolve()
     options.build.mkdir(parents=True, exist_ok=True)
+    check_mutants(options)
+    build_main(options)
     parts, seed = options.part
     chosen = list(enumerate(MUTANTS))
     if parts > 1:

@@ -12,9 +12,8 @@ namespace strainfinger::stm32g431 {
 struct EccErrors {
   volatile std::uint32_t corrected = 0;
   volatile std::uint32_t unreadable = 0;
-  /// Of the last unreadable double word, from kFlashBegin. For the report only: after a reset during
-  /// programming it can be that of another (errata ES0431, "FLASH_ECCR corrupted upon reset or power-down
-  /// occurring during flash memory program or erase operation").
+  /// Of the last unreadable double word, from kFlashBegin. For the report only: a reset while the memory is
+  /// programmed or erased can leave another address in ECCR (an erratum of the family).
   volatile std::uint32_t lastOffset = 0;
   /// What is being read may be damaged, and whoever reads it will ask.
   volatile bool isExpected = false;

@@ -70,10 +70,9 @@ bool ramSurvived() {
   return *source;
 }
 
-[[gnu::noinline]] Watchdog& startWatchdog(const Clock& clock, const firmware::LastRun& last,
-                                          ResetCause flagged) {
+[[gnu::noinline]] Watchdog& watchdogAfter(const firmware::LastRun& last, ResetCause flagged,
+                                          const Clock& clock) {
   static Watchdog watchdog(kBus, clock, last.crash == Crash::kNone ? flagged : firmware::resetCause(last));
-  static_cast<void>(watchdog.start());
   return watchdog;
 }
 
@@ -89,10 +88,11 @@ bool ramSurvived() {
   return can;
 }
 
-[[gnu::noinline]] firmware::FingerSettings settingsWith(Store& store, ClockSource source) {
+/// `areClocksRight`: the crystal's, and the watchdog's of its own.
+[[gnu::noinline]] firmware::FingerSettings settingsWith(Store& store, bool areClocksRight) {
   firmware::FingerSettings settings =
       firmware::startedWith(kSettings, firmware::SettingsStore(store).found());
-  settings.standingFaults.set(FingerFault::kClock, source == ClockSource::kInternal);
+  settings.standingFaults.set(FingerFault::kClock, !areClocksRight);
   settings.board = shortNumber(uniqueId(kBus));
   return settings;
 }
@@ -110,9 +110,10 @@ bool ramSurvived() {
   const ResetCause flagged = takeResetCause(kBus, ramSurvived());
   const firmware::LastRun last = lastRun(flagged);
   const ClockSource source = startClocks(clock);
-  Watchdog& watchdog = startWatchdog(clock, last, flagged);
+  Watchdog& watchdog = watchdogAfter(last, flagged, clock);
+  const bool isWatched = watchdog.start();
   static Store store(kBus, eccErrors, kConfigurationPages.first, kConfigurationPages.count);
-  const firmware::FingerSettings settings = settingsWith(store, source);
+  const firmware::FingerSettings settings = settingsWith(store, isWatched && source == ClockSource::kCrystal);
   Can& can = startCan(clock, source, settings.node);
   firmware::runFinger(tables(), settings, last, startAdc(), can, clock, watchdog, store, [&] {
     can.poll();

@@ -9,7 +9,7 @@
 
 namespace strainfinger::doubles {
 
-/// What FLASH_ECCR says of the place of an error: after a reset during programming anything (errata ES0431).
+/// What FLASH_ECCR says of the place of an error: after a reset during programming it may be anything.
 enum class EccAddress { kRight, kWrong, kStale };
 
 /// What the double word in work, or the page, is after the power went.

@@ -1,6 +1,7 @@
 // What a finger does when it is told to; FingerTest.cpp has what it does by itself.
 #include <algorithm>
 #include <initializer_list>
+#include <random>
 
 #include "firmware/app/finger.hpp"
 #include "host/simulation/converter.hpp"
@@ -273,6 +274,37 @@ TEST(FingerRequests, TellsItsCounts) {
   store.found({.corrected = 3, .unreadable = 4});
   LONGS_EQUAL(3, countOf(Count::kCorrected));
   LONGS_EQUAL(4, countOf(Count::kUnreadable));
+}
+
+// An hour of requests of every kind, 50 a second in no order.
+TEST(FingerRequests, NoSequenceOfRequestsErasesMoreThanTheBudgetAllows) {
+  std::mt19937 random(18);
+  const auto any = [&random](int first, int last) {
+    return std::uniform_int_distribution<>(first, last)(random);
+  };
+  const auto request = [&]() -> RequestFrame {
+    switch (any(0, 4)) {
+      case 0:
+        return nodeRequest(static_cast<std::uint8_t>(any(1, 63)), any(0, 1) != 0);
+      case 1:
+        return keepRequest(any(0, 1) != 0);
+      case 2:
+        return contactRateRequest(static_cast<std::uint16_t>(any(20, 1000)));
+      case 3:
+        return tareRequest(true);
+      default:
+        return countRequest(Count::kErases);
+    }
+  };
+  for (int i = 0; i < 60 * 60 * 50; ++i) {
+    clock.advance(20'000);
+    can.deliver(encode(request(), kNode));
+    finger.step();
+    can.sent.clear();
+  }
+  const int erases = store.erases(0) + store.erases(1);
+  CHECK_TRUE(erases >= 60 && erases <= 4 + 60);
+  LONGS_EQUAL(erases, SettingsStore(store).erases());
 }
 
 TEST(FingerRequests, OthersFramesAreNotItsBusiness) {

@@ -33,8 +33,8 @@ struct FakeWatchdog {
     registers.add<Iwdg::Rlr>(0xFFF);
     registers.add<Iwdg::Sr>();
     registers.onWrite<Iwdg::Kr>([this](std::uint32_t, std::uint32_t key) {
-      started |= key == Iwdg::kStart;
-      feeds += key == Iwdg::kFeed;
+      started |= key == st::IWDG_KEY_ENABLE;
+      feeds += key == st::IWDG_KEY_RELOAD;
       return key;
     });
     registers.onWrite<Iwdg::Pr>(
@@ -46,7 +46,7 @@ struct FakeWatchdog {
   }
 
   std::uint32_t set(std::uint32_t before, std::uint32_t value) {
-    if (registers.word<Iwdg::Kr>() != Iwdg::kUnlock) return before;
+    if (registers.word<Iwdg::Kr>() != st::IWDG_KEY_WRITE_ACCESS_ENABLE) return before;
     registers.word<Iwdg::Sr>() = 3;
     readsLeft = updateReads;
     return value;

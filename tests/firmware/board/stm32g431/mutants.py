@@ -36,6 +36,9 @@ SEEN_BY = {
     "registers/register.hpp": ["ClockTreeTest", "SystemTest"],
 }
 
+COMMON_HEADERS = ["algorithm", "array", "cstdint", "cstring", "deque", "functional", "map", "optional", "set", "span", "string",
+                  "utility", "vector", "CppUTest/TestHarness.h"]
+
 # file, what is there, what the mistake puts there; a fourth: why no test can notice.
 MUTANTS = [
     # Clocks that are not enabled, or the wrong ones.
@@ -180,16 +183,20 @@ def tests_of(file):
 
 
 def compiler(options):
-    return [options.compiler, "-std=c++20", "-O1", "-w", "-DCPPUTEST_USE_MEM_LEAK_DETECTION=0"]
+    return [options.compiler, "-std=c++20", "-O0", "-w", "-DCPPUTEST_USE_MEM_LEAK_DETECTION=0"]
 
 
-def build_main(options):
+def build_common(options):
+    """What every test needs, once: its main(), and the libraries' headers as a precompiled one."""
     subprocess.run([*compiler(options), "-c", options.root / "tests/main.cpp", "-o", options.build / "main.o"], check=True)
+    headers = options.build / "common.hpp"
+    headers.write_text("".join(f"#include <{name}>\n" for name in COMMON_HEADERS), encoding="utf-8")
+    subprocess.run([*compiler(options), "-x", "c++-header", headers, "-o", f"{headers}.gch"], check=True)
 
 
 def build(options, test, overlay, program):
     """The test with the overlay's files in place of the project's."""
-    command = [*compiler(options), f'-DSTRAINFINGER_ROOT="{options.root}"', *([f"-I{overlay}"] if overlay else []),
+    command = [*compiler(options), "-include", options.build / "common.hpp", f'-DSTRAINFINGER_ROOT="{options.root}"', *([f"-I{overlay}"] if overlay else []),
                f"-I{options.root}", f"{options.root}/{TESTS}/{test}.cpp", options.build / "main.o", "-lCppUTest", "-o", program]
     return subprocess.run(command, capture_output=True, text=True)
 
@@ -207,7 +214,7 @@ def verdict(options, mutant, number):
         if build(options, test, overlay, program).returncode != 0:
             return "killed by the compiler"
         try:
-            if subprocess.run([program], capture_output=True, timeout=60).returncode != 0:
+            if subprocess.run([program, "-f"], capture_output=True, timeout=60).returncode != 0:  # ends at the first failure
                 return f"killed by {test}"
         except subprocess.TimeoutExpired:
             return f"killed by {test}: it does not end"
@@ -249,7 +256,7 @@ def main():
     options.root, options.build = options.root.resolve(), options.build.resolve()
     options.build.mkdir(parents=True, exist_ok=True)
     check_mutants(options)
-    build_main(options)
+    build_common(options)
     parts, seed = options.part
     chosen = list(enumerate(MUTANTS))
     if options.only:

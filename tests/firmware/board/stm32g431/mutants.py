@@ -144,7 +144,8 @@ MUTANTS = [
     ("fdcan_port.hpp", "    modify(bus_, Cccr::configurable(1));\n    const bool fd", "    const bool fd"),
     ("fdcan_port.hpp", "Fdcan::Nbtp::prescaler(timing.prescaler - 1U)", "Fdcan::Nbtp::prescaler(timing.prescaler)"),
     ("fdcan_port.hpp", "    write(bus_, Fdcan::Txbc::queue(1));\n", ""),
-    ("fdcan_port.hpp", "Rxgfc::otherStandard(ids.empty() ? Fdcan::kToFifo0 : Fdcan::kReject)", "Rxgfc::otherStandard(Fdcan::kToFifo0)"),
+    ("fdcan_port.hpp", "Rxgfc::otherStandard(ids.empty() ? Fdcan::kToFifo0 : Fdcan::kReject)",
+     "Rxgfc::otherStandard(Fdcan::kToFifo0)"),
     ("fdcan_port.hpp", "      write(bus_, Fdcan::Rxf0a::index(index));\n", ""),
     ("fdcan_port.hpp", "    write(bus_, Fdcan::Ir::fifo0Lost(1));\n", ""),
     ("fdcan_port.hpp", "bus_.write(element + 4, Element1::length(frame.length).value)", "bus_.write(element + 4, 0)"),
@@ -196,8 +197,9 @@ def build_common(options):
 
 def build(options, test, overlay, program):
     """The test with the overlay's files in place of the project's."""
-    command = [*compiler(options), "-include", options.build / "common.hpp", f'-DSTRAINFINGER_ROOT="{options.root}"', *([f"-I{overlay}"] if overlay else []),
-               f"-I{options.root}", f"{options.root}/{TESTS}/{test}.cpp", options.build / "main.o", "-lCppUTest", "-o", program]
+    command = [*compiler(options), "-include", options.build / "common.hpp", f'-DSTRAINFINGER_ROOT="{options.root}"',
+               *([f"-I{overlay}"] if overlay else []), f"-I{options.root}", f"{options.root}/{TESTS}/{test}.cpp",
+               options.build / "main.o", "-lCppUTest", "-o", program]
     return subprocess.run(command, capture_output=True, text=True)
 
 

@@ -23,13 +23,24 @@ inline constexpr std::uint16_t kSlowestContactRate_hz = 1000 / kContactPeriod_ms
 inline constexpr std::uint16_t kFastestContactRate_hz = 1000;
 
 /// Never reuse a number; 1 .. 127.
-enum class Command : std::uint8_t { kTare = 1, kContactRate = 2, kKeep = 3, kNode = 4 };
+enum class Command : std::uint8_t { kTare = 1, kContactRate = 2, kKeep = 3, kNode = 4, kCount = 5 };
 
 inline constexpr std::array kCommandNames{
     ValueName{1, "tare", "Take the zero of the gauges now; argument 1: even while touched"},
     ValueName{2, "contact_rate", "Send at most so many CONTACT a second, until the next start"},
-    ValueName{3, "keep", "Keep the contact rate for the next starts"},
-    ValueName{4, "node", "Be this node from the next start on"},
+    ValueName{3, "keep", "Keep the contact rate for the next starts; argument 1: even while touched"},
+    ValueName{4, "node", "Be this node from the next start on; with 256 added: even while touched"},
+    ValueName{5, "count", "Tell one of the finger's counts"},
+};
+
+/// What a finger counts and tells when it is asked. Never reuse a number.
+enum class Count : std::uint8_t { kErases = 0, kCorrected = 1, kUnreadable = 2 };
+inline constexpr std::uint16_t kLastCount = 2;
+
+inline constexpr std::array kCountNames{
+    ValueName{0, "erases", "Pages of the settings' memory erased in its life; each lasts 10,000 times"},
+    ValueName{1, "corrected", "Words of the memory that had a wrong bit and were put right, since the start"},
+    ValueName{2, "unreadable", "Words of the memory that had more wrong bits, since the start"},
 };
 
 /// What a command's argument may be. One that is absent is 0.
@@ -37,12 +48,15 @@ struct ArgumentSpec {
   Command command;
   std::uint8_t leastBytes, mostBytes;
   std::uint16_t least, most;
+  std::uint16_t even = 0;  ///< may be added to it: even while touched
 };
+inline constexpr std::uint16_t kNodeEvenWhileTouched = 0x100;
 inline constexpr std::array kArguments{
     ArgumentSpec{Command::kTare, 0, 1, 0, 1},
     ArgumentSpec{Command::kContactRate, 2, 2, kSlowestContactRate_hz, kFastestContactRate_hz},
-    ArgumentSpec{Command::kKeep, 0, 0, 0, 0},
-    ArgumentSpec{Command::kNode, 1, 1, kFirstNode, kLastNode},
+    ArgumentSpec{Command::kKeep, 0, 1, 0, 1},
+    ArgumentSpec{Command::kNode, 1, 2, kFirstNode, kLastNode, kNodeEvenWhileTouched},
+    ArgumentSpec{Command::kCount, 1, 1, 0, kLastCount},
 };
 
 /// What became of a request. Never reuse a number.
@@ -54,6 +68,7 @@ enum class CommandStatus : std::uint8_t {
   kTouched = 4,
   kDoneTouched = 5,
   kNotKept = 6,
+  kWait = 7,
 };
 
 inline constexpr std::array kCommandStatusNames{
@@ -61,9 +76,12 @@ inline constexpr std::array kCommandStatusNames{
     ValueName{1, "busy", "Not now: the zero is being taken already, or there are no samples"},
     ValueName{2, "unknown_command", "This firmware has no such command"},
     ValueName{3, "bad_argument", "The argument is absent, too long or outside its range"},
-    ValueName{4, "touched", "Refused: something touches the finger and would become its zero"},
+    ValueName{4, "touched",
+              "Refused: something touches the finger; the request can say that it is meant even so"},
     ValueName{5, "done_touched", "Done as forced: what touched the finger is now part of its zero"},
     ValueName{6, "not_kept", "The board has no memory for it, or its memory failed"},
+    ValueName{7, "wait",
+              "Not yet: the memory would wear out, or the zero was taken just now; in value seconds"},
 };
 
 /// To a finger.
@@ -83,6 +101,7 @@ struct ResponseFrame {
   Command command{};
   bool answer = true;
   CommandStatus status = CommandStatus::kDone;
+  std::uint32_t value = 0;
   bool operator==(const ResponseFrame&) const = default;
 };
 
@@ -136,6 +155,9 @@ inline constexpr FrameLayout kLayout<ResponseFrame>{
            .comment = "What became of it",
            .kind = FieldKind::kChoice,
            .names = kCommandStatusNames}},
+    Field{&ResponseFrame::value,
+          {.lsb = 24, .width = 32},
+          {.name = "value", .comment = "What was counted; seconds to wait; what length leaves out is 0"}},
 };
 static_assert(WireFrame<ResponseFrame>);
 
@@ -148,12 +170,24 @@ constexpr RequestFrame tareRequest(bool evenWhileTouched) {
 constexpr RequestFrame contactRateRequest(std::uint16_t rate_hz) {
   return {.length = 3, .command = Command::kContactRate, .argument = rate_hz};
 }
-constexpr RequestFrame keepRequest() { return {.length = 1, .command = Command::kKeep}; }
-constexpr RequestFrame nodeRequest(std::uint8_t node) {
-  return {.length = 2, .command = Command::kNode, .argument = node};
+constexpr RequestFrame keepRequest(bool evenWhileTouched = false) {
+  if (!evenWhileTouched) return {.length = 1, .command = Command::kKeep};
+  return {.length = 2, .command = Command::kKeep, .argument = 1};
+}
+constexpr RequestFrame nodeRequest(std::uint8_t node, bool evenWhileTouched = false) {
+  if (!evenWhileTouched) return {.length = 2, .command = Command::kNode, .argument = node};
+  return {.length = 3,
+          .command = Command::kNode,
+          .argument = static_cast<std::uint16_t>(node + kNodeEvenWhileTouched)};
+}
+constexpr RequestFrame countRequest(Count count) {
+  return {.length = 2, .command = Command::kCount, .argument = static_cast<std::uint16_t>(count)};
 }
 constexpr ResponseFrame responseTo(Command command, CommandStatus status) {
   return {.command = command, .status = status};
+}
+constexpr ResponseFrame responseTo(Command command, CommandStatus status, std::uint32_t value) {
+  return {.length = 6, .command = command, .status = status, .value = value};
 }
 
 /// A request to (response of) this node; nothing if the frame is none: another identifier, not a whole
@@ -181,7 +215,8 @@ constexpr CommandStatus checkRequest(const RequestFrame& request) {
   for (const ArgumentSpec& spec : kArguments) {
     if (spec.command != request.command) continue;
     const bool fits = bytes >= spec.leastBytes && bytes <= spec.mostBytes;
-    const bool inRange = request.argument >= spec.least && request.argument <= spec.most;
+    const int argument = request.argument & ~spec.even;
+    const bool inRange = argument >= spec.least && argument <= spec.most;
     return fits && inRange ? CommandStatus::kDone : CommandStatus::kBadArgument;
   }
   return CommandStatus::kUnknownCommand;

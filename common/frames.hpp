@@ -72,7 +72,7 @@ inline constexpr std::array kFingerFaultNames{
     ValueName{1, "gauges", "Too few gauges work"},
     ValueName{2, "converter", "The converter gives no new samples"},
     ValueName{3, "can", "Frames were lost on their way to the bus, or from it"},
-    ValueName{4, "configuration", "The stored configuration cannot be used"},
+    ValueName{4, "configuration", "A change of the stored configuration, or all of it, was lost"},
     ValueName{5, "watchdog_reset", "The last reset was the watchdog's"},
     ValueName{6, "samples", "Sample sets were lost since the start: the finger was not back in time"},
     ValueName{7, "clock", "The clock is the inaccurate one of two: the bit rate may be off"},

@@ -18,6 +18,12 @@ enum class [[nodiscard]] StoreResult : std::uint8_t {
 };
 // clang-format on
 
+/// Units of the memory, counted at each read since the start, that were not as they were written.
+struct StoreErrors {
+  std::uint32_t corrected = 0;   ///< but could be put right
+  std::uint32_t unreadable = 0;  ///< and could not
+};
+
 /// Contract of a store of `size()` bytes in pages of `pageSize()`:
 ///  - `erase(page)` sets a whole page, counted from 0, to 0xFF. Interrupted by a power cut, the page may read
 ///    as anything or not at all until it is erased again.
@@ -25,6 +31,7 @@ enum class [[nodiscard]] StoreResult : std::uint8_t {
 ///    Interrupted by a power cut, any multiple of 8 bytes from the start may have been written, the next 8
 ///    may be unreadable.
 ///  - `read(offset, bytes)` reads any range.
+///  - `errors()` only grow.
 // clang-format off
 template <typename T>
 concept NonVolatile = requires(T store, const T constStore, std::size_t position,
@@ -34,6 +41,7 @@ concept NonVolatile = requires(T store, const T constStore, std::size_t position
   { constStore.read(position, to) } noexcept -> std::same_as<StoreResult>;
   { store.write(position, from) } noexcept -> std::same_as<StoreResult>;
   { store.erase(position) } noexcept -> std::same_as<StoreResult>;
+  { constStore.errors() } noexcept -> std::same_as<StoreErrors>;
 };
 // clang-format on
 
@@ -44,6 +52,7 @@ struct NoStore {
   StoreResult read(std::size_t, std::span<std::byte>) const noexcept { return StoreResult::kOutOfRange; }
   StoreResult write(std::size_t, std::span<const std::byte>) noexcept { return StoreResult::kOutOfRange; }
   StoreResult erase(std::size_t) noexcept { return StoreResult::kOutOfRange; }
+  StoreErrors errors() const noexcept { return {}; }
 };
 static_assert(NonVolatile<NoStore>);
 inline NoStore noStore;

@@ -1,6 +1,7 @@
 #pragma once
 // The finger: the stages run against a board's converter, CAN port, clock and watchdog.
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -45,6 +46,7 @@ class Finger {
          Watchdog& watchdog, Store& store = hal::noStore)
       : settings_(settings),
         kept_{settings.node, settings.contactRate_hz},
+        settingsStore_(store),
         pipeline_(tables, settings.mode),
         reporter_(periodOf(settings.contactRate_hz), standingFlagsOf(settings, tables)),
         adc_(adc),
@@ -92,13 +94,16 @@ class Finger {
   static constexpr std::uint32_t kHeartbeatPeriod_us = std::uint32_t{kHeartbeatPeriod_ms} * 1000;
   static constexpr std::uint32_t kGaugesPeriod_us = std::uint32_t{kGaugesPeriod_ms} * 1000;
   static constexpr std::uint32_t kSilentConverter_us = 100'000;
+  static constexpr std::uint32_t kTarePeriod_us = 1'000'000;  ///< a zero is taken at most so often
   static constexpr std::uint32_t kAnswerWithin_us = std::uint32_t{kAnswerWithin_ms} * 1000;
   static constexpr std::uint32_t kLongestUptime_s = kNotKnown<std::uint16_t> - 1;
 
   Codes codes() const { return Codes(codes_).first(pipeline_.constants().gauge_count); }
 
   void countUptime(std::uint32_t now_us) {
-    sinceSecond_us_ += now_us - steppedAt_us_;
+    const std::uint32_t passed_us = now_us - steppedAt_us_;
+    tareWait_us_ -= std::min(tareWait_us_, passed_us);
+    sinceSecond_us_ += passed_us;
     steppedAt_us_ = now_us;
     for (; sinceSecond_us_ >= 1'000'000; sinceSecond_us_ -= 1'000'000) {
       ++uptime_s_;
@@ -212,41 +217,65 @@ class Finger {
     const auto request = readSingleFrame<RequestFrame>(*frame, settings_.node);
     if (!request) return std::nullopt;
     requestedAt_us_ = now_us;
-    const auto status = obey(*request, now_us);
-    if (!status) return std::nullopt;
-    return responseTo(request->command, *status);
+    return obey(*request, now_us);
   }
 
   /// Nothing: it will be answered when it is done.
-  std::optional<CommandStatus> obey(const RequestFrame& request, std::uint32_t now_us) {
+  std::optional<ResponseFrame> obey(const RequestFrame& request, std::uint32_t now_us) {
+    const Command command = request.command;
     const CommandStatus fault = checkRequest(request);
-    if (fault != CommandStatus::kDone) return fault;
-    switch (request.command) {
+    if (fault != CommandStatus::kDone) return responseTo(command, fault);
+    switch (command) {
       case Command::kTare:
         return tare(request.argument != 0, now_us);
       case Command::kContactRate:
         settings_.contactRate_hz = request.argument;
         reporter_.setShortestPeriod(periodOf(request.argument));
-        return CommandStatus::kDone;
+        return responseTo(command, CommandStatus::kDone);
       case Command::kKeep:
-        return keep({kept_.node, settings_.contactRate_hz});
+        return keep(command, {kept_.node, settings_.contactRate_hz}, request.argument != 0);
       case Command::kNode:
-        return keep({static_cast<std::uint8_t>(request.argument), kept_.contactRate_hz});
+        return keep(command, {static_cast<std::uint8_t>(request.argument), kept_.contactRate_hz},
+                    (request.argument & kNodeEvenWhileTouched) != 0);
+      case Command::kCount:
+        return responseTo(command, CommandStatus::kDone, countOf(static_cast<Count>(request.argument)));
     }
-    return CommandStatus::kUnknownCommand;
+    return responseTo(command, CommandStatus::kUnknownCommand);
   }
 
-  CommandStatus keep(const StoredSettings& settings) {
-    if (SettingsStore(store_).save(settings) != hal::StoreResult::kOk) return CommandStatus::kNotKept;
+  bool isTouched() const { return pipeline_.observation().touched; }
+
+  /// Memory that is erased stops the board, and with it the touch: only untouched, or if that is meant.
+  ResponseFrame keep(Command command, const StoredSettings& settings, bool evenWhileTouched) {
+    if (isTouched() && !evenWhileTouched && !settingsStore_.has(settings))
+      return responseTo(command, CommandStatus::kTouched);
+    const SaveResult result = settingsStore_.save(settings, eraseBudget_, uptime_s_);
+    if (result == SaveResult::kWait)
+      return responseTo(command, CommandStatus::kWait, eraseBudget_.wait_s(uptime_s_));
+    if (result == SaveResult::kFailed) return responseTo(command, CommandStatus::kNotKept);
     kept_ = settings;
-    return CommandStatus::kDone;
+    return responseTo(command, CommandStatus::kDone);
   }
 
-  std::optional<CommandStatus> tare(bool evenWhileTouched, std::uint32_t now_us) {
-    if (state_ != FingerState::kRun || isConverterSilent(now_us)) return CommandStatus::kBusy;
-    const bool touched = pipeline_.observation().touched;
-    if (touched && !evenWhileTouched) return CommandStatus::kTouched;
-    tareStatus_ = touched ? CommandStatus::kDoneTouched : CommandStatus::kDone;
+  std::uint32_t countOf(Count count) const {
+    switch (count) {
+      case Count::kErases:
+        return settingsStore_.erases();
+      case Count::kCorrected:
+        return store_.errors().corrected;
+      case Count::kUnreadable:
+        return store_.errors().unreadable;
+    }
+    return 0;
+  }
+
+  std::optional<ResponseFrame> tare(bool evenWhileTouched, std::uint32_t now_us) {
+    const auto refused = [](CommandStatus status) { return responseTo(Command::kTare, status); };
+    if (state_ != FingerState::kRun || isConverterSilent(now_us)) return refused(CommandStatus::kBusy);
+    if (tareWait_us_ != 0) return responseTo(Command::kTare, CommandStatus::kWait, 1);
+    if (isTouched() && !evenWhileTouched) return refused(CommandStatus::kTouched);
+    tareStatus_ = isTouched() ? CommandStatus::kDoneTouched : CommandStatus::kDone;
+    tareWait_us_ = kTarePeriod_us;
     zero_ = {};
     state_ = FingerState::kZeroing;
     return std::nullopt;
@@ -254,6 +283,8 @@ class Finger {
 
   FingerSettings settings_;
   StoredSettings kept_;  ///< for the next start
+  SettingsStore<Store> settingsStore_;
+  EraseBudget eraseBudget_;
   Pipeline pipeline_;
   TouchReporter reporter_;
   ZeroAverage zero_;
@@ -279,6 +310,7 @@ class Finger {
   std::uint32_t setsAtSecond_ = 0;
   GaugeSet saidOutOfUse_ = 0;
   std::uint32_t requestedAt_us_ = 0;
+  std::uint32_t tareWait_us_ = 0;  ///< until the zero may be taken again
 };
 
 }  // namespace strainfinger::firmware

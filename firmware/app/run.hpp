@@ -3,7 +3,6 @@
 
 #include "firmware/app/announce.hpp"
 #include "firmware/app/finger.hpp"
-#include "firmware/app/whole_tables.hpp"
 
 namespace strainfinger::firmware {
 
@@ -27,19 +26,19 @@ template <hal::GaugeAdc Adc, hal::CanPort Can, hal::Clock Clock, hal::Watchdog W
   }
 }
 
-/// Runs the finger on these tables, for ever. Tables that are not whole are refused: the finger then says so
-/// in its heartbeats and does nothing else. `wait` is called when there is nothing to do: it may sleep until
+/// Runs the finger on these tables, which are whole, for ever. Without tables (nullptr) it says so in its
+/// heartbeats and does nothing else. `wait` is called when there is nothing to do: it may sleep until
 /// the next interrupt.
 template <hal::GaugeAdc Adc, hal::CanPort Can, hal::Clock Clock, hal::Watchdog Watchdog,
           hal::NonVolatile Store, typename Wait>
-[[noreturn]] void runFinger(const TableImage& tables, const FingerSettings& settings, const LastRun& last,
+[[noreturn]] void runFinger(const TableImage* tables, const FingerSettings& settings, const LastRun& last,
                             Adc& adc, Can& can, const Clock& clock, Watchdog& watchdog, Store& store,
                             Wait wait) {
   static Announcement<InfoFrame> info(
       infoFrame(watchdog.resetCause(), last, kFirmwareVersion, settings.board), settings.node,
       clock.now_us());
-  if (!areWhole(tables)) runWithoutTables(settings.node, info, adc, can, clock, watchdog, wait);
-  static Finger finger(tables, settings, adc, can, clock, watchdog, store);
+  if (tables == nullptr) runWithoutTables(settings.node, info, adc, can, clock, watchdog, wait);
+  static Finger finger(*tables, settings, adc, can, clock, watchdog, store);
   for (;;) {
     if (!finger.step()) wait();
     info.step(can, clock.now_us());

@@ -2,6 +2,8 @@
 
 namespace strainfinger::firmware {
 
-bool areWhole(const TableImage& tables) { return checkTableImage(tables) == TableFault::kNone; }
+const TableImage* ifWhole(const TableImage& tables) {
+  return checkTableImage(tables) == TableFault::kNone ? &tables : nullptr;
+}
 
 }  // namespace strainfinger::firmware

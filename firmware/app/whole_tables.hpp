@@ -5,7 +5,8 @@
 
 namespace strainfinger::firmware {
 
-/// checkTableImage() finds no fault. Boards compile it for size: it is needed once, at the start.
-bool areWhole(const TableImage& tables);
+/// `tables` if checkTableImage() finds no fault, else nullptr. Boards compile it for size: it is needed once,
+/// at the start.
+const TableImage* ifWhole(const TableImage& tables);
 
 }  // namespace strainfinger::firmware

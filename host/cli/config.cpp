@@ -23,19 +23,21 @@ struct ConfigOptions {
     command.add_option("--set-node", node, "Be this node from the next start on")
         ->type_name("NODE")
         ->check(CLI::Range(int{kFirstNode}, int{kLastNode}));
+    command.add_flag("--force", force, "Keep it even while something touches the finger: it stops for 25 ms");
   }
   RequestOptions request;
   std::optional<int> contactRate_hz;
   bool keep = false;
   std::optional<int> node;
+  bool force = false;
 };
 
 void runConfig(const ConfigOptions& options) {
   std::vector<RequestFrame> requests;
   if (options.contactRate_hz)
     requests.push_back(contactRateRequest(static_cast<std::uint16_t>(*options.contactRate_hz)));
-  if (options.keep) requests.push_back(keepRequest());
-  if (options.node) requests.push_back(nodeRequest(static_cast<std::uint8_t>(*options.node)));
+  if (options.keep) requests.push_back(keepRequest(options.force));
+  if (options.node) requests.push_back(nodeRequest(static_cast<std::uint8_t>(*options.node), options.force));
   if (requests.empty())
     throw Failure(ExitCode::kUsage,
                   "config: nothing to change: give --contact-rate-hz, --keep or --set-node");

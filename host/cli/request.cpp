@@ -28,14 +28,20 @@ std::string meaningOf(CommandStatus status) {
 const char* remedyFor(CommandStatus status) {
   switch (status) {
     case CommandStatus::kTouched:
-      return "let go of it; if nothing touches it, its old zero is off: --force takes the new one anyway";
+      return "let go of it; if nothing touches it, its old zero is off: --force does it anyway";
     case CommandStatus::kBusy:
       return "try again in a second; `candump` its HEARTBEAT into `strainfinger decode` to see what it does";
+    case CommandStatus::kWait:
+      return "try again then; what it has kept already stays";
     case CommandStatus::kNotKept:
       return "it goes on as before; an emulated or simulated finger has no memory to keep it in";
     default:
       return "use the strainfinger of its firmware";
   }
+}
+
+std::string waitOf(const ResponseFrame& response) {
+  return response.status == CommandStatus::kWait ? fmt::format(" {} s", response.value) : "";
 }
 
 Failure silence(const can::Reply& reply, const std::string& where) {
@@ -78,8 +84,9 @@ void requireDone(const can::Reply& reply, Command command, const std::string& wh
   if (status == CommandStatus::kDoneTouched)
     fmt::print(stderr, "strainfinger: {}: {}: {}\n", where, commandName(command), meaningOf(status));
   else if (status != CommandStatus::kDone)
-    throw Failure(ExitCode::kFailure, fmt::format("{}: {}: {} ({}): {}", where, commandName(command),
-                                                  meaningOf(status), statusName(status), remedyFor(status)));
+    throw Failure(ExitCode::kFailure,
+                  fmt::format("{}: {}: {} ({}{}): {}", where, commandName(command), meaningOf(status),
+                              statusName(status), waitOf(*reply.response), remedyFor(status)));
 }
 
 void request(const RequestOptions& options, const std::vector<RequestFrame>& requests) {

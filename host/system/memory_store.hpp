@@ -44,6 +44,8 @@ class MemoryStore {
     return result;
   }
 
+  hal::StoreErrors errors() const noexcept { return {}; }
+
   hal::StoreResult erase(std::size_t page) noexcept {
     if (page >= size() / pageSize_) return hal::StoreResult::kOutOfRange;
     std::ranges::fill(std::span(bytes_).subspan(page * pageSize_, pageSize_), kErased);

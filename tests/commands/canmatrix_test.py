@@ -58,7 +58,7 @@ FRAMES = {
         ("argument", 0, 0xFFFF, None, "1")]),
     "RESPONSE": (0x580, [
         ("length", 0, 7, None, "1"), ("command", 0, 127, None, "1"), ("answer", 0, 1, None, "1"),
-        ("status", 0, 255, None, "1")]),
+        ("status", 0, 255, None, "1"), ("value", 0, 0xFFFFFFFF, None, "1")]),
 }
 COMMANDS = ("REQUEST", "RESPONSE")  # not what `decode` prints
 

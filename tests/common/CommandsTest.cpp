@@ -30,6 +30,11 @@ TEST_GROUP(Commands) {
 TEST(Commands, RequestsHaveTheseBytes) {
   CHECK_TRUE(encode(tareRequest(false), kNode) == frameOf(0x605, {2, 1, 0, 0, 0, 0, 0, 0}));
   CHECK_TRUE(encode(tareRequest(true), kNode) == frameOf(0x605, {2, 1, 1, 0, 0, 0, 0, 0}));
+  CHECK_TRUE(encode(keepRequest(), kNode) == frameOf(0x605, {1, 3, 0, 0, 0, 0, 0, 0}));
+  CHECK_TRUE(encode(keepRequest(true), kNode) == frameOf(0x605, {2, 3, 1, 0, 0, 0, 0, 0}));
+  CHECK_TRUE(encode(nodeRequest(7), kNode) == frameOf(0x605, {2, 4, 7, 0, 0, 0, 0, 0}));
+  CHECK_TRUE(encode(nodeRequest(7, true), kNode) == frameOf(0x605, {3, 4, 7, 1, 0, 0, 0, 0}));
+  CHECK_TRUE(encode(countRequest(Count::kUnreadable), kNode) == frameOf(0x605, {2, 5, 2, 0, 0, 0, 0, 0}));
   CHECK_TRUE(encode(contactRateRequest(500), 63) == frameOf(0x63F, {3, 2, 0xF4, 0x01, 0, 0, 0, 0}));
 }
 
@@ -38,6 +43,8 @@ TEST(Commands, ResponsesHaveTheseBytes) {
              frameOf(0x585, {2, 0x81, 4, 0, 0, 0, 0, 0}));
   CHECK_TRUE(encode(responseTo(static_cast<Command>(0x7F), CommandStatus::kUnknownCommand), kNode) ==
              frameOf(0x585, {2, 0xFF, 2, 0, 0, 0, 0, 0}));
+  CHECK_TRUE(encode(responseTo(Command::kCount, CommandStatus::kDone, 0x12345678), kNode) ==
+             frameOf(0x585, {6, 0x85, 0, 0x78, 0x56, 0x34, 0x12, 0}));
 }
 
 TEST(Commands, WhatIsSentIsRead) {
@@ -47,6 +54,8 @@ TEST(Commands, WhatIsSentIsRead) {
     const ResponseFrame response = responseTo(Command::kContactRate, static_cast<CommandStatus>(status));
     CHECK_TRUE(readSingleFrame<ResponseFrame>(encode(response, kNode), kNode) == response);
   }
+  const ResponseFrame counted = responseTo(Command::kCount, CommandStatus::kDone, 0xFFFF'FFFF);
+  CHECK_TRUE(readSingleFrame<ResponseFrame>(encode(counted, kNode), kNode) == counted);
 }
 
 TEST(Commands, UnusedBytesNeedNotBeSent) {
@@ -99,10 +108,14 @@ TEST(Commands, EveryCommandAndArgumentIsCheckedAgainstItsOwn) {
           expected = length == 3 && argument >= 20 && argument <= 1000 ? CommandStatus::kDone
                                                                        : CommandStatus::kBadArgument;
         if (command == 3)
-          expected = length == 1 && argument == 0 ? CommandStatus::kDone : CommandStatus::kBadArgument;
-        if (command == 4)
-          expected = length == 2 && argument >= 1 && argument <= 63 ? CommandStatus::kDone
-                                                                    : CommandStatus::kBadArgument;
+          expected = length <= 2 && argument <= 1 ? CommandStatus::kDone : CommandStatus::kBadArgument;
+        if (command == 4) {
+          const bool isNode = (argument >= 1 && argument <= 63) || (argument >= 0x101 && argument <= 0x13F);
+          expected =
+              length >= 2 && length <= 3 && isNode ? CommandStatus::kDone : CommandStatus::kBadArgument;
+        }
+        if (command == 5)
+          expected = length == 2 && argument <= 2 ? CommandStatus::kDone : CommandStatus::kBadArgument;
         if (check(static_cast<std::uint8_t>(command), static_cast<std::uint8_t>(length),
                   static_cast<std::uint16_t>(argument)) != expected)
           FAIL("checked against another's");

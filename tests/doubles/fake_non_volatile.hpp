@@ -1,6 +1,7 @@
 #pragma once
 // A store with faults: power cuts at any point, bytes that cannot be read.
 
+#include <map>
 #include <optional>
 #include <set>
 
@@ -26,6 +27,13 @@ class FakeNonVolatile {
   void restorePower() { stepsLeft_.reset(); }
   bool hasPower() const { return !stepsLeft_ || *stepsLeft_ >= 0; }
   int steps() const { return steps_; }  ///< done so far
+  int erases(std::size_t page) const { return erases_.contains(page) ? erases_.at(page) : 0; }  ///< so far
+
+  /// As if reading had found so many.
+  void found(hal::StoreErrors errors) { errors_ = errors; }
+
+  /// The page no longer takes what is erased or written.
+  void wearOut(std::size_t page) { worn_.insert(page); }
 
   /// The unit that holds `offset` can't be read until its page is erased.
   void damage(std::size_t offset) { unreadable_.insert(offset / kUnit_bytes); }
@@ -37,8 +45,11 @@ class FakeNonVolatile {
     if (!hasPower()) return hal::StoreResult::kFailed;
     const auto result = store_.read(offset, to);
     const bool damaged = result == hal::StoreResult::kOk && touchesDamage(offset, to.size());
+    errors_.unreadable += damaged;
     return damaged ? hal::StoreResult::kUnreadable : result;
   }
+
+  hal::StoreErrors errors() const noexcept { return errors_; }
 
   hal::StoreResult write(std::size_t offset, std::span<const std::byte> from) noexcept {
     if (!hasPower()) return hal::StoreResult::kFailed;
@@ -57,6 +68,8 @@ class FakeNonVolatile {
     if (page >= size() / pageSize()) return hal::StoreResult::kOutOfRange;
     const std::size_t units = pageSize() / kUnit_bytes;
     const bool cut = !step();
+    ++erases_[page];
+    if (worn_.contains(page)) return hal::StoreResult::kFailed;
     for (std::size_t unit = page * units; unit < (page + 1) * units; ++unit)
       cut ? void(unreadable_.insert(unit)) : void(unreadable_.erase(unit));
     return cut ? hal::StoreResult::kFailed : store_.erase(page);
@@ -83,9 +96,12 @@ class FakeNonVolatile {
 
   system::MemoryStore store_;
   std::set<std::size_t> unreadable_;  ///< units
+  std::set<std::size_t> worn_;        ///< pages
   std::optional<int> stepsLeft_;      ///< -1: the power is gone
   CutUnit cutUnit_ = CutUnit::kUnreadable;
   int steps_ = 0;
+  std::map<std::size_t, int> erases_;  ///< by page
+  mutable hal::StoreErrors errors_{};
 };
 
 static_assert(hal::NonVolatile<FakeNonVolatile>);

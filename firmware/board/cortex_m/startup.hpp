@@ -7,8 +7,8 @@
 
 namespace strainfinger::board {
 
-/// Where execution starts: guards the stack, sets up initialised and cleared memory,
-/// then runs the board.
+/// Where execution starts: takes over the exceptions, guards the stack, sets up initialised and cleared
+/// memory, then runs the board.
 extern "C" [[noreturn]] void resetHandler();
 
 /// Each board's own.

@@ -13,6 +13,13 @@ namespace strainfinger::board {
   for (;;) asm volatile("dsb");
 }
 
+/// Exceptions go through the table at `address`, a multiple of 512, wherever a bootloader left them. A
+/// processor without the register has its table at 0 and ignores the write.
+inline void useVectors(std::uint32_t address) {
+  *reinterpret_cast<std::uint32_t volatile*>(0xE000ED08) = address;  // VTOR
+  asm volatile("dsb\n isb" ::: "memory");
+}
+
 /// Makes the 16 KiB below `address`, which is a multiple of that, a place where every access is a fault; all
 /// else stays as it is (memory protection unit, Armv7-M ARM, B3.5; region 0).
 inline void forbidBelow(std::uint32_t address) {

@@ -2,6 +2,7 @@
 
 #include "firmware/app/run.hpp"
 #include "firmware/app/slcan_port.hpp"
+#include "firmware/app/whole_tables.hpp"
 #include "firmware/board/cortex_m/crash.hpp"
 #include "firmware/board/cortex_m/linked_tables.hpp"
 #include "firmware/board/cortex_m/startup.hpp"
@@ -113,7 +114,8 @@ Timer timer;
     if (watchdog.starved()) board::crash(Crash::kStarved, 0);
   };
   watchdog.run();
-  firmware::runFinger(board::kLinkedTables, settings, last, world, can, world, watchdog, hal::noStore, wait);
+  firmware::runFinger(firmware::ifWhole(board::kLinkedTables), settings, last, world, can, world, watchdog,
+                      hal::noStore, wait);
 }
 
 }  // namespace strainfinger::mps2

@@ -50,10 +50,11 @@ class ClockTree {
  public:
   explicit ClockTree(Bus bus) : bus_(bus) {}
 
-  /// To be called once, after reset, when the internal oscillator runs. None: the PLL doesn't lock or the
-  /// supply doesn't settle; the processor then still runs at 16 MHz.
+  /// Whatever clock runs when it is called: after a reset the internal oscillator, after the bootloader in
+  /// ROM the PLL. None: a clock doesn't start or the supply doesn't settle; the processor then still runs.
   [[nodiscard]] std::optional<ClockSource> start() noexcept {
-    modify(bus_, Rcc::Apb1Enr1::pwr(1));
+    if (!returnToInternal()) return std::nullopt;
+    enableClock(bus_, Rcc::Apb1Enr1::pwr(1));
     modify(bus_, Pwr::Cr1::voltageRange(1));
     if (!waitFor(bus_, Pwr::Sr2::voltageChanging, 0, kClockPolls)) return std::nullopt;
     const ClockSource source = startCrystal() ? ClockSource::kCrystal : ClockSource::kInternal;
@@ -65,6 +66,14 @@ class ClockTree {
   }
 
  private:
+  /// A PLL that feeds the processor can be neither stopped nor set (RM0440 section 7.4.4).
+  bool returnToInternal() noexcept {
+    modify(bus_, Rcc::Cr::hsiOn(1));
+    if (!waitFor(bus_, Rcc::Cr::hsiReady, 1, kClockPolls)) return false;
+    modify(bus_, Rcc::Cfgr::systemClock(Rcc::kHsi));
+    return waitFor(bus_, Rcc::Cfgr::systemClockStatus, Rcc::kHsi, kClockPolls);
+  }
+
   bool startCrystal() noexcept {
     modify(bus_, Rcc::Cr::hseOn(1));
     if (waitFor(bus_, Rcc::Cr::hseReady, 1, kCrystalPolls)) return true;
@@ -85,7 +94,7 @@ class ClockTree {
 
   /// The order of RM0440 section 6.1.5 for going above 150 MHz: half speed for at least 1 us on the way.
   bool switchToPll() noexcept {
-    modify(bus_, Rcc::Cfgr::ahbPrescaler(kHalf));
+    modify(bus_, Rcc::Cfgr::ahbPrescaler(Rcc::kHalf));
     modify(bus_, Pwr::Cr5::normalMode(0));
     modify(bus_, Flash::Acr::latency(kWaitStates) | Flash::Acr::prefetch(1) |
                      Flash::Acr::instructionCache(1) | Flash::Acr::dataCache(1));
@@ -94,7 +103,7 @@ class ClockTree {
            Rcc::Cfgr::systemClock(Rcc::kPll) | Rcc::Cfgr::apb1Prescaler(0) | Rcc::Cfgr::apb2Prescaler(0));
     if (!waitFor(bus_, Rcc::Cfgr::systemClockStatus, Rcc::kPll, kClockPolls)) return false;
     waitCycles<Rcc::Cfgr>(bus_, kCore_hz / 1'000'000);
-    modify(bus_, Rcc::Cfgr::ahbPrescaler(0));
+    modify(bus_, Rcc::Cfgr::ahbPrescaler(Rcc::kWhole));
     return true;
   }
 
@@ -103,8 +112,6 @@ class ClockTree {
     const auto fdcan = source == ClockSource::kCrystal ? Rcc::kFdcanFromHse : Rcc::kFdcanFromPclk1;
     modify(bus_, Rcc::Ccipr::fdcanClock(fdcan) | Rcc::Ccipr::adc12Clock(Rcc::kAdc12FromSystemClock));
   }
-
-  static constexpr std::uint32_t kHalf = 8;
 
   [[no_unique_address]] Bus bus_;
 };

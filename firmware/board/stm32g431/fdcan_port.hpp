@@ -46,7 +46,7 @@ class FdcanPort {
 
   /// RM0440 section 44.3.2, software initialization. False: the controller doesn't answer.
   [[nodiscard]] bool start(const FdcanSettings& settings) noexcept {
-    modify(bus_, Rcc::Apb1Enr1::fdcan(1));
+    enableClock(bus_, Rcc::Apb1Enr1::fdcan(1));
     modify(bus_, Cccr::init(1));
     if (!waitFor(bus_, Cccr::init, 1, kSyncPolls)) return false;
     configure(settings);
@@ -125,13 +125,15 @@ class FdcanPort {
     std::uint32_t filters = 0;
     for (std::size_t i = 0; i < ids.size() && filters < MessageRam::standardFilters; i += 2, ++filters) {
       const std::uint16_t second = ids[std::min(i + 1, ids.size() - 1)];
-      bus_.write(MessageRam::filter(filters), (StandardFilter::type(1) | StandardFilter::action(1) |
+      bus_.write(MessageRam::filter(filters), (StandardFilter::type(StandardFilter::kEither) |
+                                               StandardFilter::action(StandardFilter::kToFifo0) |
                                                StandardFilter::id1(ids[i]) | StandardFilter::id2(second))
                                                   .value);
     }
     using Rxgfc = Fdcan::Rxgfc;
     write(bus_, Rxgfc::rejectExtendedRemote(1) | Rxgfc::rejectStandardRemote(1) |
-                    Rxgfc::otherExtended(kReject) | Rxgfc::otherStandard(ids.empty() ? kToFifo0 : kReject) |
+                    Rxgfc::otherExtended(Fdcan::kReject) |
+                    Rxgfc::otherStandard(ids.empty() ? Fdcan::kToFifo0 : Fdcan::kReject) |
                     Rxgfc::standardCount(filters));
   }
 
@@ -237,9 +239,6 @@ class FdcanPort {
     if (attempt_ + 1U < kBackOff_us.size()) ++attempt_;
     isWaiting_ = !goOnBus();
   }
-
-  static constexpr std::uint32_t kToFifo0 = 0;
-  static constexpr std::uint32_t kReject = 2;
 
   [[no_unique_address]] Bus bus_;
   const Clock& clock_;

@@ -4,28 +4,10 @@
 #include <algorithm>
 #include <cstring>
 
-#include "firmware/board/stm32g431/registers/flash.hpp"
+#include "firmware/board/stm32g431/flash_ecc.hpp"
 #include "hal/non_volatile.hpp"
 
 namespace strainfinger::stm32g431 {
-
-/// Double ECC errors met so far. The flash raises NMI while it is being read, so they come from the NMI's
-/// handler.
-struct EccFaults {
-  volatile std::uint32_t count = 0;
-  volatile std::uint32_t lastOffset = 0;  ///< from kFlashBegin
-};
-
-/// To be called by the NMI's handler. True: it was a double ECC error; it is noted, the flag is cleared, and
-/// the handler can return. The read then goes on with bytes that mean nothing.
-inline bool takeEccFault(const RegisterBus auto& bus, EccFaults& faults) noexcept {
-  const std::uint32_t status = bus.read(Flash::EccR::address);
-  if (Flash::EccR::detected.in(status) == 0) return false;
-  faults.lastOffset = Flash::EccR::offset.in(status);
-  faults.count = faults.count + 1;
-  modify(bus, Flash::EccR::detected(1) | Flash::EccR::corrected(0));
-  return true;
-}
 
 /// Contract: hal/non_volatile.hpp. The processor stands still while the memory is written (0.1 ms for each 8
 /// bytes) or erased (25 ms a page): there is one bank, and the code is in it. Samples of that time are lost
@@ -34,18 +16,23 @@ template <RegisterBus Bus>
 class FlashStore {
  public:
   /// The store is `pages` pages from number `firstPage` of the memory on.
-  FlashStore(Bus bus, const EccFaults& faults, std::uint32_t firstPage, std::uint32_t pages)
-      : bus_(bus), faults_(faults), firstPage_(firstPage), pages_(pages) {}
+  FlashStore(Bus bus, EccErrors& errors, std::uint32_t firstPage, std::uint32_t pages)
+      : bus_(bus), errors_(errors), firstPage_(firstPage), pages_(pages) {}
 
   std::size_t size() const noexcept { return pages_ * pageSize(); }
   std::size_t pageSize() const noexcept { return kFlashPageBytes; }
 
   hal::StoreResult read(std::size_t offset, std::span<std::byte> to) const noexcept {
     if (!isInside(offset, to.size())) return hal::StoreResult::kOutOfRange;
-    const std::uint32_t before = faults_.count;
+    const EccWatch watch(bus_, errors_);
     for (std::size_t i = 0; i < to.size(); ++i)
       to[i] = static_cast<std::byte>(wordAt((offset + i) & ~std::size_t{3}) >> (8 * ((offset + i) & 3)));
-    return faults_.count == before ? hal::StoreResult::kOk : hal::StoreResult::kUnreadable;
+    return watch.isClean() ? hal::StoreResult::kOk : hal::StoreResult::kUnreadable;
+  }
+
+  /// Of the whole flash memory.
+  hal::StoreErrors errors() const noexcept {
+    return {.corrected = errors_.corrected, .unreadable = errors_.unreadable};
   }
 
   hal::StoreResult write(std::size_t offset, std::span<const std::byte> from) noexcept {
@@ -92,17 +79,17 @@ class FlashStore {
 
   /// False for what can't be read, too: programming would fail or make it worse.
   bool isErased(std::size_t offset, std::size_t length) const noexcept {
-    const std::uint32_t before = faults_.count;
+    const EccWatch watch(bus_, errors_);
     std::uint32_t all = 0xFFFF'FFFF;
     for (std::size_t i = 0; i < length; i += 4) all &= wordAt(offset + i);
-    return all == 0xFFFF'FFFF && faults_.count == before;
+    return watch.isClean() && all == 0xFFFF'FFFF;
   }
 
   bool holds(std::size_t offset, std::span<const std::byte> bytes) const noexcept {
-    const std::uint32_t before = faults_.count;
+    const EccWatch watch(bus_, errors_);
     bool same = true;
     for (std::size_t i = 0; i < bytes.size(); i += 4) same &= wordAt(offset + i) == wordOf(bytes.subspan(i));
-    return same && faults_.count == before;
+    return watch.isClean() && same;
   }
 
   static std::uint32_t wordOf(std::span<const std::byte> bytes) noexcept {
@@ -122,13 +109,9 @@ class FlashStore {
     return get(bus_, Flash::Cr::lock) == 0;
   }
 
-  /// Locks, and forgets what the data cache has of the old contents (RM0440 section 5.3.4).
   void lock() noexcept {
     modify(bus_, Flash::Cr::lock(1));
-    modify(bus_, Flash::Acr::dataCache(0));
-    modify(bus_, Flash::Acr::resetDataCache(1));
-    modify(bus_, Flash::Acr::resetDataCache(0));
-    modify(bus_, Flash::Acr::dataCache(1));
+    refreshDataCache(bus_);
   }
 
   /// RM0440 section 5.3.7: both words of a unit, the lower first.
@@ -147,7 +130,7 @@ class FlashStore {
   }
 
   [[no_unique_address]] Bus bus_;
-  const EccFaults& faults_;
+  EccErrors& errors_;
   std::uint32_t firstPage_;
   std::uint32_t pages_;
 };

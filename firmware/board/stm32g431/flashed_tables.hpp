@@ -1,12 +1,12 @@
 #pragma once
-// Which tables this board works with, and what a double ECC error then means.
+// Which tables this board works with, if any.
 
 #include <algorithm>
+#include <concepts>
 #include <cstdint>
 
 #include "common/table_image.hpp"
-#include "firmware/board/stm32g431/flash_layout.hpp"
-#include "firmware/board/stm32g431/flash_store.hpp"
+#include "firmware/board/stm32g431/flash_ecc.hpp"
 
 namespace strainfinger::stm32g431 {
 
@@ -18,14 +18,13 @@ inline const TableImage& tablesOf(const TableImage& flashed, const TableImage& l
   return erased ? linked : flashed;
 }
 
-/// Whether the firmware can go on after a double ECC error. In the configuration that is FlashStore's to
-/// tell, in tables that are not in use yet checkTableImage()'s; anywhere else the processor works with bytes
-/// that mean nothing.
-constexpr bool isHandled(std::uint32_t offset, bool tablesInUse) {
-  const auto isIn = [&](const PageRange& pages) {
-    return offset - pages.first * kFlashPageBytes < pages.bytes();
-  };
-  return isIn(kConfigurationPages) || (isIn(kTablePages) && !tablesInUse);
+/// The tables that `choose()` finds whole, if it finds some, and if every word that it read to find out was
+/// readable: a checksum may be right by a word that is not.
+template <RegisterBus Bus, std::invocable Choose>
+const TableImage* readableTables(Bus bus, EccErrors& errors, Choose choose) noexcept {
+  const EccWatch watch(bus, errors);
+  const TableImage* const tables = choose();
+  return watch.isClean() ? tables : nullptr;
 }
 
 }  // namespace strainfinger::stm32g431

@@ -6,6 +6,11 @@
 //
 // No interrupt: what DMA has filled is seen from its flags and its count, and TIM3 tells how many sets there
 // were while nobody looked, even while the processor stood still for an erasing flash page.
+//
+// A word that DMA misses shifts all that follow to other gauges, and one of a pair alone puts the second
+// converter's results beside the first's of another gauge. So both converters overwrite (an overrun then
+// leaves their pairs together), their overrun flags are looked at with each set, and after one everything
+// begins anew with the first gauge.
 
 #include <array>
 #include <cstdint>
@@ -20,7 +25,11 @@
 namespace strainfinger::stm32g431 {
 
 /// Contract: hal/gauge_adc.hpp. Holds one complete set while the next is converted. read() must come at least
-/// every 65,535 sets for overruns() to be right. 12-bit conversions: the upper rail is code 0xFFF0.
+/// every 32,767 sets for overruns() to be right. 12-bit conversions: the upper rail is code 0xFFF0.
+///
+/// The first set after the converters have stood still is never handed out: their first conversion may be
+/// wrong (errata ES0431, "wrong ADC result if conversion done late after calibration or previous
+/// conversion").
 template <RegisterBus Bus>
 class GaugeConverter {
  public:
@@ -38,29 +47,30 @@ class GaugeConverter {
     if (!enable<Adc1>() || !enable<Adc2>()) return false;
     configure<Adc1>(plan, kEvenGauges, kTim1Trgo);
     configure<Adc2>(plan, kOddGauges, kSlave);
-    startDma();
-    write(bus_, regulated<Adc1>() | Adc1::Cr::start(1));
-    startTimers(plan);
+    prepareTimers(plan);
+    prepareDma();
+    run();
     return true;
   }
 
   bool read(hal::SampleSet& set) noexcept {
-    if (get(bus_, Dma1::Isr::halves1) == 0) return false;
+    if (get(bus_, Dma1::Isr::halves1) == 0) return keepInStep();
     write(bus_, Dma1::Ifcr::halves1(Dma1::Ifcr::halves1.max));
     for (int attempt = 0; attempt < 2; ++attempt) {
       const std::uint16_t sets = completed();
-      if (sets == taken_) return false;
+      if (sets == taken_) return keepInStep();
       const auto pairs = copyOf(sets);
       if (completed() != sets) continue;  // DMA may be about to write over it
-      unpack(pairs, set);
-      overruns_ += static_cast<std::uint16_t>(sets - taken_ - 1);
-      taken_ = sets;
-      return true;
+      if (isOutOfStep(sets)) return keepInStep();
+      return take(sets, pairs, set);
     }
     return false;
   }
 
   std::uint32_t overruns() const noexcept { return overruns_; }
+
+  /// How often the converters had to begin anew, since start. The sets that it cost are among overruns().
+  std::uint32_t resynchronisations() const noexcept { return resynchronisations_; }
 
  private:
   using Pairs = std::array<std::uint32_t, kPairs>;
@@ -71,16 +81,17 @@ class GaugeConverter {
   static constexpr std::uint32_t kCalibrationPolls =
       10'000;                                           ///< takes 116 of the converter's cycles, 928 of ours
   static constexpr std::uint32_t kReadyPolls = 10'000;  ///< takes about 1 us
-  static constexpr std::uint32_t kTim1Trgo = 9;
-  static constexpr std::uint32_t kSlave = 0;
+  static constexpr std::uint32_t kStopPolls = 10'000;   ///< takes a few of the converter's cycles
+  /// A trigger that comes too soon after the start isn't seen: 16 of the converter's cycles are plenty.
+  static constexpr std::uint32_t kAfterStart_cycles = 16 * (kCore_hz / kAdc_hz);
+  static constexpr std::uint32_t kSlave = 0;  ///< no trigger of its own
 
   void enableClocks() noexcept {
-    modify(bus_, Rcc::Ahb1Enr::dma1(1) | Rcc::Ahb1Enr::dmamux(1));
-    modify(bus_,
-           Rcc::Ahb2Enr::adc12(1) | Rcc::Ahb2Enr::gpioA(1) | Rcc::Ahb2Enr::gpioB(1) | Rcc::Ahb2Enr::gpioC(1));
-    modify(bus_, Rcc::Apb1Enr1::tim3(1));
-    modify(bus_, Rcc::Apb2Enr::tim1(1));
-    waitCycles<Rcc::Ahb2Enr>(bus_, 2);  // RM0440 section 7.2.17
+    enableClock(bus_, Rcc::Ahb1Enr::dma1(1) | Rcc::Ahb1Enr::dmamux(1));
+    enableClock(bus_, Rcc::Ahb2Enr::adc12(1) | Rcc::Ahb2Enr::gpioA(1) | Rcc::Ahb2Enr::gpioB(1) |
+                          Rcc::Ahb2Enr::gpioC(1));
+    enableClock(bus_, Rcc::Apb1Enr1::tim3(1));
+    enableClock(bus_, Rcc::Apb2Enr::tim1(1));
   }
 
   void connectPins() noexcept {
@@ -98,7 +109,8 @@ class GaugeConverter {
     write(bus_, regulated<Adc1>());
     write(bus_, regulated<Adc2>());
     waitCycles<Adc1::Isr>(bus_, kRegulator_cycles);
-    write(bus_, Ccr::dual(6) | Ccr::dmaCircular(1) | Ccr::dmaMode(2) | Ccr::clockMode(0) | Ccr::prescaler(4));
+    write(bus_, Ccr::dual(Adc12::kRegularSimultaneous) | Ccr::dmaCircular(1) | Ccr::clockMode(0) |
+                    Ccr::prescaler(Adc12::kDivideBy8));
   }
 
   /// Control bits are set by writing 1 and ignore 0: this writes them all with 0 and keeps the regulator on.
@@ -125,7 +137,8 @@ class GaugeConverter {
                  std::uint32_t trigger) noexcept {
     using Cfgr = typename Converter::Cfgr;
     using Cfgr2 = typename Converter::Cfgr2;
-    write(bus_, Cfgr::trigger(trigger) | Cfgr::triggerEdge(trigger != kSlave) | Cfgr::injectedQueueOff(1));
+    write(bus_, Cfgr::trigger(trigger) | Cfgr::triggerEdge(trigger != kSlave) | Cfgr::overwrite(1) |
+                    Cfgr::injectedQueueOff(1));
     write(bus_, Cfgr2::oversample(1) | Cfgr2::ratio(plan.oversamplingLog2 - 1) |
                     Cfgr2::shift(plan.oversamplingLog2 - 4));  // 12 + log2 bits become 16
     const std::uint32_t time =
@@ -145,27 +158,83 @@ class GaugeConverter {
     return bits;
   }
 
-  void startDma() noexcept {
-    using Ccr = Dma1::Ccr1;
-    write(bus_, Dmamux::C0cr::request(5));
-    bus_.write(Dma1::Cpar1::address, Adc12::Cdr::address);
-    bus_.write(Dma1::Cmar1::address, bus_.addressOf(const_cast<std::uint32_t*>(&words_[0])));
-    write(bus_, Dma1::Cndtr1::left(kWords));
-    write(bus_, Ccr::circular(1) | Ccr::incrementMemory(1) | Ccr::peripheralSize(2) | Ccr::memorySize(2) |
-                    Ccr::priority(3) | Ccr::enable(1));
-  }
-
-  /// TIM3 before TIM1, so that it counts from the first trigger on. The update that loads TIM1's prescaler is
-  /// that trigger: the converters don't idle after their calibration.
-  void startTimers(const SamplingPlan& plan) noexcept {
-    write(bus_, Tim3::Smcr::slaveMode(7) | Tim3::Smcr::triggerInput(0));
+  /// The update loads TIM1's prescaler. It is a trigger, too, but nobody listens yet.
+  void prepareTimers(const SamplingPlan& plan) noexcept {
+    write(bus_, Tim3::Smcr::slaveMode(kCountInput) | Tim3::Smcr::triggerInput(kItr0));
     bus_.write(Tim3::Arr::address, 0xFFFF);
-    write(bus_, Tim3::Cr1::enable(1));
     bus_.write(Tim1::Psc::address, kCore_hz / 1'000'000 - 1);
     bus_.write(Tim1::Arr::address, plan.period_us() - 1);
-    write(bus_, Tim1::Cr2::triggerOutput(2));
+    write(bus_, Tim1::Cr2::triggerOutput(kAtUpdate));
     write(bus_, Tim1::Egr::update(1));
+  }
+
+  void prepareDma() noexcept {
+    write(bus_, Dmamux::C0cr::request(Dmamux::kAdc1));
+    bus_.write(Dma1::Cpar1::address, Adc12::Cdr::address);
+    bus_.write(Dma1::Cmar1::address, bus_.addressOf(const_cast<std::uint32_t*>(&words_[0])));
+  }
+
+  /// From a standstill: memory waits for the first gauge, then the converters for the trigger, then TIM3
+  /// counts, and TIM1, which gives the triggers, is last.
+  void run() noexcept {
+    using Ccr = Dma1::Ccr1;
+    write(bus_, Dma1::Cndtr1::left(kWords));
+    write(bus_, Ccr::circular(1) | Ccr::incrementMemory(1) | Ccr::peripheralSize(Dma1::kWord) |
+                    Ccr::memorySize(Dma1::kWord) | Ccr::priority(Dma1::kHighest) | Ccr::enable(1));
+    modify(bus_, Adc12::Ccr::dmaMode(Adc12::kBothInAWord));
+    write(bus_, regulated<Adc1>() | Adc1::Cr::start(1));
+    waitCycles<Adc1::Isr>(bus_, kAfterStart_cycles);
+    write(bus_, Tim3::Cnt::count16(0));
+    write(bus_, Tim3::Cr1::enable(1));
+    write(bus_, Tim1::Cnt::count16(0));
     write(bus_, Tim1::Cr1::enable(1));
+    taken_ = 0;
+    isFirst_ = true;
+  }
+
+  /// Ends run(). The master's stop is both converters' (RM0440 section 21.7.3), and without a DMA mode no
+  /// request of theirs is left to carry an old result to the first gauge's place.
+  bool stop() noexcept {
+    write(bus_, Tim1::Cr1::enable(0));
+    write(bus_, Tim3::Cr1::enable(0));
+    write(bus_, regulated<Adc1>() | Adc1::Cr::stop(1));
+    if (!waitFor(bus_, Adc1::Cr::start, 0, kStopPolls) || !waitFor(bus_, Adc2::Cr::start, 0, kStopPolls))
+      return false;
+    modify(bus_, Adc12::Ccr::dmaMode(Adc12::kNoDma));
+    write(bus_, Dma1::Ccr1::enable(0));
+    static_cast<void>(bus_.read(Adc12::Cdr::address));
+    write(bus_, Dma1::Ifcr::halves1(Dma1::Ifcr::halves1.max) | Dma1::Ifcr::error1(1));
+    write(bus_, Adc1::Isr::overrun(1));
+    write(bus_, Adc2::Isr::overrun(1));
+    return true;
+  }
+
+  /// Words may lie in other gauges' places: a converter's result was not carried away in time, DMA has
+  /// given up, or there are fewer sets than were taken.
+  bool isOutOfStep(std::uint16_t sets) const noexcept {
+    return get(bus_, Adc1::Isr::overrun) != 0 || get(bus_, Adc2::Isr::overrun) != 0 ||
+           get(bus_, Dma1::Isr::error1) != 0 || static_cast<std::int16_t>(sets - taken_) < 0;
+  }
+
+  /// Begins anew if that is needed, and counts what it costs: all sets begun and not taken. False, for there
+  /// is no set to hand out.
+  bool keepInStep() noexcept {
+    if (!isOutOfStep(completed()) || !stop()) return false;
+    overruns_ += static_cast<std::uint16_t>(get(bus_, Tim3::Cnt::count16) - taken_);
+    ++resynchronisations_;
+    run();
+    return false;
+  }
+
+  bool take(std::uint16_t sets, const Pairs& pairs, hal::SampleSet& set) noexcept {
+    overruns_ += static_cast<std::uint16_t>(sets - taken_ - 1);
+    taken_ = sets;
+    if (isFirst_) {
+      isFirst_ = false;
+      return false;
+    }
+    unpack(pairs, set);
+    return true;
   }
 
   /// Half of the memory that DMA is writing: 0, 1, 0, 1 .. set by set.
@@ -203,6 +272,8 @@ class GaugeConverter {
   volatile std::uint32_t words_[kWords] = {};  ///< written by DMA
   std::uint16_t taken_ = 0;                    ///< completed() when a set was handed out last
   std::uint32_t overruns_ = 0;
+  std::uint32_t resynchronisations_ = 0;
+  bool isFirst_ = true;  ///< the next set is the first since the converters stood still
 };
 
 }  // namespace strainfinger::stm32g431

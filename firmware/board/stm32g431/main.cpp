@@ -5,6 +5,7 @@
 #include "firmware/board/cortex_m/crash.hpp"
 #include "firmware/board/cortex_m/linked_tables.hpp"
 #include "firmware/board/cortex_m/startup.hpp"
+#include "firmware/board/cortex_m/system_control.hpp"
 #include "firmware/board/stm32g431/can_rates.hpp"
 #include "firmware/board/stm32g431/clock_tree.hpp"
 #include "firmware/board/stm32g431/fdcan_port.hpp"
@@ -36,8 +37,7 @@ constexpr bool kCanFd = STRAINFINGER_CAN_FD;
 static_assert(samplingAt(STRAINFINGER_SAMPLE_RATE), "not a rate of sampling.hpp");
 
 constexpr MemoryBus kBus;
-EccFaults eccFaults;
-volatile bool tablesInUse = false;
+EccErrors eccErrors;
 
 /// RAM keeps its contents over any reset but that of its supply.
 bool ramSurvived() {
@@ -50,12 +50,11 @@ bool ramSurvived() {
 
 // Not inlined, these: what they need on the stack would be there for ever.
 
-/// Tables that are not whole are returned too: the finger refuses them, and says so.
-[[gnu::noinline]] const TableImage& tables() {
-  const TableImage& chosen =
-      tablesOf(*reinterpret_cast<const TableImage*>(kTablePages.address()), board::kLinkedTables);
-  tablesInUse = firmware::areWhole(chosen);
-  return chosen;
+[[gnu::noinline]] const TableImage* tables() {
+  return readableTables(kBus, eccErrors, [] {
+    return firmware::ifWhole(
+        tablesOf(*reinterpret_cast<const TableImage*>(kTablePages.address()), board::kLinkedTables));
+  });
 }
 
 /// A watchdog that resets leaves no record: what it ended hung, nobody knows where.
@@ -71,19 +70,16 @@ bool ramSurvived() {
   return *source;
 }
 
-[[gnu::noinline]] Watchdog& startWatchdog(const Clock& clock, const firmware::LastRun& last,
-                                          ResetCause flagged) {
+[[gnu::noinline]] Watchdog& watchdogAfter(const firmware::LastRun& last, ResetCause flagged,
+                                          const Clock& clock) {
   static Watchdog watchdog(kBus, clock, last.crash == Crash::kNone ? flagged : firmware::resetCause(last));
-  static_cast<void>(watchdog.start());
   return watchdog;
 }
 
 /// If the controller doesn't answer, or the clock that started is too far off for the bit rate, there is
 /// nobody to tell: the port stays down.
 [[gnu::noinline]] Can& startCan(const Clock& clock, ClockSource source, std::uint8_t node) {
-  modify(kBus, Rcc::Ahb2Enr::gpioA(1));
-  makeAlternate(kBus, kCanRx, kCanFunction, Gpio::kUp);  // an unconnected bus is a silent one
-  makeAlternate(kBus, kCanTx, kCanFunction, Gpio::kNone);
+  connectCan(kBus);
   static Can can(kBus, clock);
   const auto listensTo = identifiersFor(node);
   const std::optional<BitTiming> timing = canTiming(source, STRAINFINGER_BITRATE);
@@ -92,9 +88,11 @@ bool ramSurvived() {
   return can;
 }
 
-[[gnu::noinline]] firmware::FingerSettings settingsWith(Store& store, ClockSource source) {
-  firmware::FingerSettings settings = firmware::startedWith(kSettings, firmware::SettingsStore(store).load());
-  settings.standingFaults.set(FingerFault::kClock, source == ClockSource::kInternal);
+/// `areClocksRight`: the crystal's, and the watchdog's of its own.
+[[gnu::noinline]] firmware::FingerSettings settingsWith(Store& store, bool areClocksRight) {
+  firmware::FingerSettings settings =
+      firmware::startedWith(kSettings, firmware::SettingsStore(store).found());
+  settings.standingFaults.set(FingerFault::kClock, !areClocksRight);
   settings.board = shortNumber(uniqueId(kBus));
   return settings;
 }
@@ -107,25 +105,28 @@ bool ramSurvived() {
 }
 
 [[noreturn]] void run() {
+  board::maskInterrupts();  // the bootloader in ROM may have left some of its own
   static Clock clock(kBus);
   const ResetCause flagged = takeResetCause(kBus, ramSurvived());
   const firmware::LastRun last = lastRun(flagged);
   const ClockSource source = startClocks(clock);
-  Watchdog& watchdog = startWatchdog(clock, last, flagged);
-  static Store store(kBus, eccFaults, kConfigurationPages.first, kConfigurationPages.count);
-  const firmware::FingerSettings settings = settingsWith(store, source);
+  Watchdog& watchdog = watchdogAfter(last, flagged, clock);
+  const bool isWatched = watchdog.start();
+  static Store store(kBus, eccErrors, kConfigurationPages.first, kConfigurationPages.count);
+  const firmware::FingerSettings settings = settingsWith(store, isWatched && source == ClockSource::kCrystal);
   Can& can = startCan(clock, source, settings.node);
   firmware::runFinger(tables(), settings, last, startAdc(), can, clock, watchdog, store, [&] {
     can.poll();
+    noteEccErrors(kBus, eccErrors);
     if (watchdog.isStarved()) board::crash(Crash::kStarved, 0);
   });
 }
 
-/// Raised by the flash for a double ECC error; otherwise by nothing that is known.
+/// Raised by the flash for words that it cannot read; otherwise by nothing that is known.
 extern "C" void nonMaskableHandler() {
-  if (!takeEccFault(kBus, eccFaults)) board::crash(Crash::kHardFault, 0);
-  if (!isHandled(eccFaults.lastOffset, tablesInUse))
-    board::crash(Crash::kHardFault, kFlashBegin + eccFaults.lastOffset);
+  const std::uint32_t before = eccErrors.unreadable;
+  if (survivesNmi(kBus, eccErrors)) return;
+  board::crash(Crash::kHardFault, eccErrors.unreadable == before ? 0 : kFlashBegin + eccErrors.lastOffset);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ class MicrosecondClock {
   explicit MicrosecondClock(Bus bus) : bus_(bus) {}
 
   void start() noexcept {
-    modify(bus_, Rcc::Apb1Enr1::tim2(1));
+    enableClock(bus_, Rcc::Apb1Enr1::tim2(1));
     bus_.write(Tim2::Psc::address, kCore_hz / 1'000'000 - 1);
     bus_.write(Tim2::Arr::address, 0xFFFF'FFFF);
     write(bus_, Tim2::Egr::update(1));  // the prescaler counts from the next update on: this one

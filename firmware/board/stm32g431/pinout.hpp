@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "firmware/board/stm32g431/registers/clocks.hpp"
 #include "firmware/board/stm32g431/registers/gpio.hpp"
 #include "firmware/board/stm32g431/sampling.hpp"
 
@@ -38,6 +39,13 @@ inline constexpr std::array<Input, kPairs> kOddGauges{{{{Port::kA, 4}, 17},
 /// high.
 inline constexpr Pin kCanRx{Port::kA, 11};
 inline constexpr Pin kCanTx{Port::kA, 12};
-inline constexpr std::uint32_t kCanFunction = 9;  ///< alternate function of both
+inline constexpr std::uint32_t kCanFunction = 9;  ///< alternate function of both, GPIO_AF9_FDCAN1
+
+/// The receiver is pulled up, so that an unconnected bus is a silent one.
+void connectCan(const RegisterBus auto& bus) noexcept {
+  enableClock(bus, Rcc::Ahb2Enr::gpioA(1));
+  makeAlternate(bus, kCanRx, kCanFunction, Gpio::kUp);
+  makeAlternate(bus, kCanTx, kCanFunction, Gpio::kNone);
+}
 
 }  // namespace strainfinger::stm32g431

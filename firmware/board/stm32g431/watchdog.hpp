@@ -1,7 +1,7 @@
 #pragma once
 // hal::Watchdog on IWDG (RM0440 chapter 42) and what RCC says of the last reset (section 7.4.28).
 
-#include "firmware/board/stm32g431/registers/clocks.hpp"
+#include "firmware/board/stm32g431/clock_tree.hpp"
 #include "firmware/board/stm32g431/registers/system.hpp"
 #include "hal/clock.hpp"
 #include "hal/watchdog.hpp"
@@ -38,7 +38,8 @@ class IndependentWatchdog {
   IndependentWatchdog(Bus bus, const Clock& clock, hal::ResetCause cause)
       : bus_(bus), clock_(clock), cause_(cause), fedAt_us_(clock.now_us()) {}
 
-  /// RM0440 section 42.3.2. False: the settings didn't take; it then runs with 512 ms, the reset value.
+  /// RM0440 section 42.3.2. False: the settings didn't take, as when its oscillator doesn't run; what then
+  /// watches over the firmware is isStarved().
   [[nodiscard]] bool start() noexcept {
     modify(bus_, Dbgmcu::Apb1Fzr1::stopWatchdog(1));
     write(Iwdg::kStart);
@@ -62,8 +63,10 @@ class IndependentWatchdog {
   static constexpr std::uint32_t kTicksPerMs = 32 / 16;
   static_assert(kPeriod_ms * kTicksPerMs <= 4096);
   static_assert(kStarved_ms * 100 < kPeriod_ms * 92);
-  /// An update takes 6 cycles of 32 kHz, 190 us; a poll at least 6 of 170 MHz: 0.7 ms.
-  static constexpr std::uint32_t kUpdatePolls = 20'000;
+  /// ST's driver allows an update six cycles of the slow clock after the largest prescaler, 256: 52 ms where
+  /// it is slowest, 29.5 kHz. A poll takes 6 cycles of the processor's clock at least.
+  static constexpr std::uint32_t kUpdate_ms = 6 * 256 * 10 / 295 + 1;
+  static constexpr std::uint32_t kUpdatePolls = kCore_hz / 1000 / 6 * kUpdate_ms;
 
   void write(Iwdg::Key key) noexcept { bus_.write(Iwdg::Kr::address, key); }
 

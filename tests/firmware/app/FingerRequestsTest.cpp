@@ -1,6 +1,7 @@
 // What a finger does when it is told to; FingerTest.cpp has what it does by itself.
 #include <algorithm>
 #include <initializer_list>
+#include <random>
 
 #include "firmware/app/finger.hpp"
 #include "host/simulation/converter.hpp"
@@ -196,14 +197,14 @@ TEST(FingerRequests, WhatCannotBeDoneChangesNothing) {
 
 TEST(FingerRequests, KeepsItsRateAndItsNextNode) {
   checkAnswered(contactRateRequest(100), CommandStatus::kDone);
-  CHECK_FALSE(SettingsStore(store).load().settings.has_value());
+  CHECK_FALSE(SettingsStore(store).found().settings.has_value());
   checkAnswered(keepRequest(), CommandStatus::kDone);
-  CHECK_TRUE(*SettingsStore(store).load().settings == (StoredSettings{kNode, 100}));
+  CHECK_TRUE(*SettingsStore(store).found().settings == (StoredSettings{kNode, 100}));
   checkAnswered(contactRateRequest(1000), CommandStatus::kDone);  // not kept
   checkAnswered(nodeRequest(63), CommandStatus::kDone);           // still answered as node 5
-  CHECK_TRUE(*SettingsStore(store).load().settings == (StoredSettings{63, 100}));
+  CHECK_TRUE(*SettingsStore(store).found().settings == (StoredSettings{63, 100}));
   checkAnswered(keepRequest(), CommandStatus::kDone);
-  CHECK_TRUE(*SettingsStore(store).load().settings == (StoredSettings{63, 1000}));
+  CHECK_TRUE(*SettingsStore(store).found().settings == (StoredSettings{63, 1000}));
 }
 
 TEST(FingerRequests, WhatCannotBeKeptIsSaidAndTheOldStays) {
@@ -211,9 +212,99 @@ TEST(FingerRequests, WhatCannotBeKeptIsSaidAndTheOldStays) {
   store.cutPowerAfter(0);
   checkAnswered(nodeRequest(8), CommandStatus::kNotKept);
   store.restorePower();
-  LONGS_EQUAL(7, SettingsStore(store).load().settings->node);
+  LONGS_EQUAL(7, SettingsStore(store).found().settings->node);
   checkAnswered(nodeRequest(0), CommandStatus::kBadArgument);
   checkAnswered(nodeRequest(64), CommandStatus::kBadArgument);
+}
+
+TEST(FingerRequests, AfterAFewChangesTheNextIsToldWhenToCome) {
+  for (std::uint8_t node = 10; node < 14; ++node) checkAnswered(nodeRequest(node), CommandStatus::kDone);
+  ask(nodeRequest(14));
+  const auto found = responses();
+  LONGS_EQUAL(1, found.size());
+  CHECK_TRUE(found[0] == responseTo(Command::kNode, CommandStatus::kWait, 60));
+  checkAnswered(nodeRequest(13), CommandStatus::kDone);  // it is kept already
+  for (int second = 0; second < 61; ++second) {
+    clock.advance(1'000'000);
+    finger.step();
+  }
+  checkAnswered(nodeRequest(14), CommandStatus::kDone);
+}
+
+TEST(FingerRequests, NoMemoryIsErasedWhileTouchedUnlessThatIsMeant) {
+  run(10, kTouch);
+  checkAnswered(nodeRequest(7), CommandStatus::kTouched);
+  checkAnswered(keepRequest(), CommandStatus::kTouched);
+  LONGS_EQUAL(0, store.steps());
+  checkAnswered(nodeRequest(7, true), CommandStatus::kDone);
+  checkAnswered(nodeRequest(7), CommandStatus::kDone);  // nothing to erase
+  checkAnswered(contactRateRequest(100), CommandStatus::kDone);
+  checkAnswered(keepRequest(true), CommandStatus::kDone);
+  CHECK_TRUE(*SettingsStore(store).found().settings == (StoredSettings{7, 100}));
+}
+
+TEST(FingerRequests, TheZeroIsTakenAtMostOnceASecond) {
+  ask(tareRequest(false));
+  run(64);
+  checkAnswer(Command::kTare, CommandStatus::kDone);
+  run(900);
+  responses();
+  ask(tareRequest(false));
+  CHECK_TRUE(responses().at(0) == responseTo(Command::kTare, CommandStatus::kWait, 1));
+  CHECK_TRUE(finger.state() == FingerState::kRun);
+  run(100);
+  responses();
+  ask(tareRequest(false));
+  CHECK_TRUE(finger.state() == FingerState::kZeroing);
+}
+
+TEST(FingerRequests, TellsItsCounts) {
+  const auto countOf = [this](Count count) {
+    responses();
+    ask(countRequest(count));
+    const auto found = responses();
+    LONGS_EQUAL(1, found.size());
+    CHECK_TRUE(found[0].command == Command::kCount && found[0].status == CommandStatus::kDone);
+    return found[0].value;
+  };
+  LONGS_EQUAL(0, countOf(Count::kErases));
+  checkAnswered(nodeRequest(7), CommandStatus::kDone);
+  checkAnswered(nodeRequest(8), CommandStatus::kDone);
+  LONGS_EQUAL(2, countOf(Count::kErases));
+  store.found({.corrected = 3, .unreadable = 4});
+  LONGS_EQUAL(3, countOf(Count::kCorrected));
+  LONGS_EQUAL(4, countOf(Count::kUnreadable));
+}
+
+// An hour of requests of every kind, 50 a second in no order.
+TEST(FingerRequests, NoSequenceOfRequestsErasesMoreThanTheBudgetAllows) {
+  std::mt19937 random(18);
+  const auto any = [&random](int first, int last) {
+    return std::uniform_int_distribution<>(first, last)(random);
+  };
+  const auto request = [&]() -> RequestFrame {
+    switch (any(0, 4)) {
+      case 0:
+        return nodeRequest(static_cast<std::uint8_t>(any(1, 63)), any(0, 1) != 0);
+      case 1:
+        return keepRequest(any(0, 1) != 0);
+      case 2:
+        return contactRateRequest(static_cast<std::uint16_t>(any(20, 1000)));
+      case 3:
+        return tareRequest(true);
+      default:
+        return countRequest(Count::kErases);
+    }
+  };
+  for (int i = 0; i < 60 * 60 * 50; ++i) {
+    clock.advance(20'000);
+    can.deliver(encode(request(), kNode));
+    finger.step();
+    can.sent.clear();
+  }
+  const int erases = store.erases(0) + store.erases(1);
+  CHECK_TRUE(erases >= 60 && erases <= 4 + 60);
+  LONGS_EQUAL(erases, SettingsStore(store).erases());
 }
 
 TEST(FingerRequests, OthersFramesAreNotItsBusiness) {

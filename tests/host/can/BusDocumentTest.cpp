@@ -117,6 +117,7 @@ TEST(BusDocument, ExplainsTheCommands) {
   }
   checkHas(table);
   checkHas(fmt::format("| value{}", tableOf(kCommandStatusNames).substr(5)));
+  checkHas(fmt::format("| value{}", tableOf(kCountNames).substr(5)));
   checkHas(fmt::format("within {} ms", kAnswerWithin_ms));
 }
 
@@ -148,6 +149,7 @@ TEST(BusDocument, ItsExamplesAreWhatIsSent) {
   checkHas(line(responseTo(Command::kContactRate, CommandStatus::kDone)));
   checkHas(line(tareRequest(true)));
   checkHas(line(responseTo(Command::kTare, CommandStatus::kTouched)));
+  checkHas(line(responseTo(Command::kKeep, CommandStatus::kWait, 45)));
 }
 
 TEST(BusDocument, ItsBusLoadsAreComputed) {

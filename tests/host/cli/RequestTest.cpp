@@ -34,11 +34,14 @@ TEST(Request, WhatIsDoneIsDone) {
 
 TEST(Request, ARefusalNamesItsReasonAndTheRemedy) {
   checkFails(answered(CommandStatus::kTouched), ExitCode::kFailure,
-             "tare: Refused: something touches the finger and would become its zero (touched): let go of it");
+             "tare: Refused: something touches the finger; the request can say that it is meant even so "
+             "(touched): let go of it");
   checkFails(answered(CommandStatus::kTouched), ExitCode::kFailure, "--force");
   checkFails(answered(CommandStatus::kBusy), ExitCode::kFailure, "(busy): try again");
   checkFails(answered(CommandStatus::kUnknownCommand), ExitCode::kFailure, "firmware");
   checkFails(answered(CommandStatus::kBadArgument), ExitCode::kFailure, "(bad_argument)");
+  checkFails({.sent = true, .response = responseTo(Command::kKeep, CommandStatus::kWait, 45)},
+             ExitCode::kFailure, "(wait 45 s): try again then");
   checkFails(answered(static_cast<CommandStatus>(99)), ExitCode::kFailure, "(99)");
 }
 

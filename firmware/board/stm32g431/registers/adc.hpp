@@ -6,23 +6,28 @@
 
 namespace strainfinger::stm32g431 {
 
+/// What starts a conversion, RM0440 table of section 21.4.18.
+enum AdcTrigger : std::uint32_t { kTim1Trgo = 9 };
+
 /// One converter, RM0440 section 21.7.
 template <std::uint32_t kBase>
 struct Adc {
   struct Isr : Register<kBase + 0x00> {
-    static constexpr Field<Isr, 0> ready{};  ///< cleared by writing 1
+    static constexpr Field<Isr, 0> ready{};    ///< ADRDY; cleared by writing 1
+    static constexpr Field<Isr, 4> overrun{};  ///< OVR: a result came before DMA had taken the last; so, too
   };
   struct Cr : Register<kBase + 0x08> {
     static constexpr Field<Cr, 0> enable{};
     static constexpr Field<Cr, 2> start{};
+    static constexpr Field<Cr, 4> stop{};  ///< ADSTP; falls back to 0, with start, when nothing converts
     static constexpr Field<Cr, 28> regulatorOn{};
     static constexpr Field<Cr, 29> deepPowerDown{};  ///< 1 after reset
     static constexpr Field<Cr, 31> calibrate{};      ///< falls back to 0 when done
   };
   struct Cfgr : Register<kBase + 0x0C> {
-    static constexpr Field<Cfgr, 5, 5> trigger{};       ///< EXTSEL; 9: TIM1's TRGO (table of section 21.4.18)
-    static constexpr Field<Cfgr, 10, 2> triggerEdge{};  ///< EXTEN; 1: rising
-    static constexpr Field<Cfgr, 12> overwrite{};       ///< OVRMOD; 0: keeps the old result, stops DMA
+    static constexpr Field<Cfgr, 5, 5> trigger{};         ///< EXTSEL: AdcTrigger
+    static constexpr Field<Cfgr, 10, 2> triggerEdge{};    ///< EXTEN; 1: rising
+    static constexpr Field<Cfgr, 12> overwrite{};         ///< OVRMOD; 1: a new result replaces one not taken
     static constexpr Field<Cfgr, 31> injectedQueueOff{};  ///< JQDIS
   };
   struct Cfgr2 : Register<kBase + 0x10> {
@@ -44,12 +49,16 @@ struct Adc12 {
   static constexpr std::uint32_t base = 0x5000'0300;
 
   struct Ccr : Register<base + 0x08> {
-    static constexpr Field<Ccr, 0, 5> dual{};        ///< 6: regular simultaneous
+    static constexpr Field<Ccr, 0, 5> dual{};        ///< Dual
     static constexpr Field<Ccr, 13> dmaCircular{};   ///< DMACFG
-    static constexpr Field<Ccr, 14, 2> dmaMode{};    ///< MDMA; 2: both results in one word
+    static constexpr Field<Ccr, 14, 2> dmaMode{};    ///< MDMA: DmaMode
     static constexpr Field<Ccr, 16, 2> clockMode{};  ///< 0: from the kernel clock, through the prescaler
-    static constexpr Field<Ccr, 18, 4> prescaler{};  ///< PRESC; 4: 8
+    static constexpr Field<Ccr, 18, 4> prescaler{};  ///< PRESC: Prescaler
   };
+  enum Dual : std::uint32_t { kRegularSimultaneous = 6 };
+  enum DmaMode : std::uint32_t { kNoDma = 0, kBothInAWord = 2 };
+  enum Prescaler : std::uint32_t { kDivideBy8 = 4 };
+
   struct Cdr : Register<base + 0x0C> {};  ///< ADC1's result below, ADC2's above
 };
 
@@ -63,15 +72,19 @@ struct Dma1 {
   };
   struct Ifcr : Register<base + 0x04> {
     static constexpr Field<Ifcr, 1, 2> halves1{};
+    static constexpr Field<Ifcr, 3> error1{};
   };
   struct Ccr1 : Register<base + 0x08> {
     static constexpr Field<Ccr1, 0> enable{};
     static constexpr Field<Ccr1, 5> circular{};
     static constexpr Field<Ccr1, 7> incrementMemory{};
-    static constexpr Field<Ccr1, 8, 2> peripheralSize{};  ///< 2: 32 bits
-    static constexpr Field<Ccr1, 10, 2> memorySize{};     ///< 2: 32 bits
-    static constexpr Field<Ccr1, 12, 2> priority{};       ///< 3: highest
+    static constexpr Field<Ccr1, 8, 2> peripheralSize{};
+    static constexpr Field<Ccr1, 10, 2> memorySize{};
+    static constexpr Field<Ccr1, 12, 2> priority{};
   };
+  enum Size : std::uint32_t { kWord = 2 };
+  enum Priority : std::uint32_t { kHighest = 3 };
+
   struct Cndtr1 : Register<base + 0x0C> {
     static constexpr Field<Cndtr1, 0, 16> left{};  ///< transfers to go until it starts again
   };
@@ -82,8 +95,9 @@ struct Dma1 {
 /// Which request drives DMA1's channel 1, RM0440 section 13.6; requests: section 13.3.2.
 struct Dmamux {
   struct C0cr : Register<0x4002'0800> {
-    static constexpr Field<C0cr, 0, 7> request{};  ///< 5: ADC1
+    static constexpr Field<C0cr, 0, 8> request{};
   };
+  enum Request : std::uint32_t { kAdc1 = 5 };
 };
 
 }  // namespace strainfinger::stm32g431

@@ -20,11 +20,12 @@ struct Rcc {
   struct Cfgr : Register<base + 0x08> {
     static constexpr Field<Cfgr, 0, 2> systemClock{};        ///< SystemClock: wanted
     static constexpr Field<Cfgr, 2, 2> systemClockStatus{};  ///< SystemClock: in use
-    static constexpr Field<Cfgr, 4, 4> ahbPrescaler{};       ///< 0: 1, 8: 2
+    static constexpr Field<Cfgr, 4, 4> ahbPrescaler{};       ///< AhbPrescaler
     static constexpr Field<Cfgr, 8, 3> apb1Prescaler{};      ///< 0: 1
     static constexpr Field<Cfgr, 11, 3> apb2Prescaler{};     ///< 0: 1
   };
   enum SystemClock : std::uint32_t { kHsi = 1, kHse = 2, kPll = 3 };
+  enum AhbPrescaler : std::uint32_t { kWhole = 0, kHalf = 8 };
 
   struct PllCfgr : Register<base + 0x0C> {
     static constexpr Field<PllCfgr, 0, 2> source{};      ///< PllSource
@@ -75,6 +76,14 @@ struct Rcc {
     static constexpr Field<Csr, 31> lowPower{};
   };
 };
+
+/// Gives peripherals their clock. It runs two cycles after the enable bit is set, and until then their
+/// registers ignore what is written: reading the bit back takes that long (RM0440 section 7.2.17).
+template <typename EnableRegister>
+void enableClock(const RegisterBus auto& bus, Bits<EnableRegister> peripherals) noexcept {
+  modify(bus, peripherals);
+  static_cast<void>(bus.read(EnableRegister::address));
+}
 
 /// Power control, RM0440 section 6.4.
 struct Pwr {

@@ -47,12 +47,12 @@ struct Fdcan {
   struct Rxgfc : Register<base + 0x80> {
     static constexpr Field<Rxgfc, 0> rejectExtendedRemote{};
     static constexpr Field<Rxgfc, 1> rejectStandardRemote{};
-    static constexpr Field<Rxgfc, 2, 2>
-        otherExtended{};  ///< frames no filter takes. 0: to FIFO 0; 2: rejected
+    static constexpr Field<Rxgfc, 2, 2> otherExtended{};   ///< frames that no filter takes: Others
     static constexpr Field<Rxgfc, 4, 2> otherStandard{};   ///< the same
     static constexpr Field<Rxgfc, 9> overwrite{};          ///< F0OM; 0: a full FIFO keeps what it has
     static constexpr Field<Rxgfc, 16, 5> standardCount{};  ///< filters in use
   };
+  enum Others : std::uint32_t { kToFifo0 = 0, kReject = 2 };
   struct Rxf0s : Register<base + 0x90> {
     static constexpr Field<Rxf0s, 0, 4> level{};
     static constexpr Field<Rxf0s, 8, 2> getIndex{};
@@ -100,8 +100,10 @@ struct Element1 : Register<4> {  ///< second word of a frame; data follow, lowes
 struct StandardFilter : Register<0> {
   static constexpr Field<StandardFilter, 0, 11> id2{};
   static constexpr Field<StandardFilter, 16, 11> id1{};
-  static constexpr Field<StandardFilter, 27, 3> action{};  ///< 1: to FIFO 0
-  static constexpr Field<StandardFilter, 30, 2> type{};    ///< 1: either identifier
+  static constexpr Field<StandardFilter, 27, 3> action{};
+  static constexpr Field<StandardFilter, 30, 2> type{};
+  static constexpr std::uint32_t kToFifo0 = 1;
+  static constexpr std::uint32_t kEither = 1;  ///< id1 or id2
 };
 
 }  // namespace strainfinger::stm32g431

@@ -37,12 +37,12 @@ struct Flash {
   struct Cr : Register<base + 0x14> {
     static constexpr Field<Cr, 0> program{};
     static constexpr Field<Cr, 1> pageErase{};
-    static constexpr Field<Cr, 3, 7> page{};
+    static constexpr Field<Cr, 3, 6> page{};
     static constexpr Field<Cr, 16> start{};
     static constexpr Field<Cr, 31> lock{};
   };
   struct EccR : Register<base + 0x18> {
-    static constexpr Field<EccR, 0, 19> offset{};  ///< of the double word, from kFlashBegin
+    static constexpr Field<EccR, 0, 18> offset{};  ///< of the double word, from kFlashBegin; may be wrong
     static constexpr Field<EccR, 22> inSystemMemory{};
     static constexpr Field<EccR, 30> corrected{};  ///< ECCC; cleared by writing 1
     static constexpr Field<EccR, 31> detected{};   ///< ECCD: two bits wrong, raises NMI; cleared by writing 1

@@ -19,12 +19,13 @@ struct Gpio {
   static constexpr std::uint32_t base = 0x4800'0000;
   static constexpr std::uint32_t portStride = 0x400;
   static constexpr std::uint32_t mode = 0x00;       ///< MODER, 2 bits a pin: Mode
-  static constexpr std::uint32_t speed = 0x08;      ///< OSPEEDR, 2 bits a pin: 2 is high
+  static constexpr std::uint32_t speed = 0x08;      ///< OSPEEDR, 2 bits a pin: Speed
   static constexpr std::uint32_t pull = 0x0C;       ///< PUPDR, 2 bits a pin: Pull
   static constexpr std::uint32_t alternate = 0x20;  ///< AFRL and AFRH, 4 bits a pin
 
   enum Mode : std::uint32_t { kInput = 0, kOutput = 1, kAlternate = 2, kAnalog = 3 };
   enum Pull : std::uint32_t { kNone = 0, kUp = 1 };
+  enum Speed : std::uint32_t { kHighSpeed = 2 };
 };
 
 /// Sets the field of `width` bits that belongs to `pin`, in the register at `offset` or those after it.
@@ -48,7 +49,7 @@ void makeAnalog(const RegisterBus auto& bus, Pin pin) noexcept {
 /// meanwhile.
 void makeAlternate(const RegisterBus auto& bus, Pin pin, std::uint32_t function, Gpio::Pull pull) noexcept {
   setPinField(bus, pin, Gpio::alternate, 4, function);
-  setPinField(bus, pin, Gpio::speed, 2, 2);
+  setPinField(bus, pin, Gpio::speed, 2, Gpio::kHighSpeed);
   setPinField(bus, pin, Gpio::pull, 2, pull);
   setPinField(bus, pin, Gpio::mode, 2, Gpio::kAlternate);
 }

@@ -5,6 +5,10 @@
 
 namespace strainfinger::stm32g431 {
 
+enum TimerOutput : std::uint32_t { kAtUpdate = 2 };
+enum TimerSlaveMode : std::uint32_t { kCountInput = 7 };  ///< counts the edges of the trigger input
+enum TimerInput : std::uint32_t { kItr0 = 0 };            ///< TIM1's TRGO for TIM2 and TIM3
+
 /// What these timers have in common, RM0440 sections 29.6 and 30.5.
 template <std::uint32_t kBase>
 struct Timer {
@@ -12,12 +16,11 @@ struct Timer {
     static constexpr Field<Cr1, 0> enable{};
   };
   struct Cr2 : Register<kBase + 0x04> {
-    static constexpr Field<Cr2, 4, 3> triggerOutput{};  ///< MMS; 2: TRGO at each update
+    static constexpr Field<Cr2, 4, 3> triggerOutput{};  ///< MMS: TimerOutput
   };
   struct Smcr : Register<kBase + 0x08> {
-    static constexpr Field<Smcr, 0, 3> slaveMode{};  ///< SMS; 7: counts the edges of the trigger input
-    static constexpr Field<Smcr, 4, 3>
-        triggerInput{};  ///< TS; 0: ITR0, which is TIM1's TRGO for TIM2 and TIM3
+    static constexpr Field<Smcr, 0, 3> slaveMode{};     ///< SMS: TimerSlaveMode
+    static constexpr Field<Smcr, 4, 3> triggerInput{};  ///< TS: TimerInput
   };
   struct Egr : Register<kBase + 0x14> {
     static constexpr Field<Egr, 0>

@@ -3,10 +3,9 @@
 #include <cstring>
 #include <memory>
 
-#include <CppUTest/TestHarness.h>
-
 #include "host/config/finger_config.hpp"
 #include "host/tables/table_builder.hpp"
+#include "tests/firmware/board/stm32g431/fake_flash.hpp"
 
 using namespace strainfinger;
 using namespace strainfinger::stm32g431;
@@ -44,17 +43,41 @@ TEST(FlashedTables, HalfWrittenOnesAreRefused) {
   CHECK_TRUE(checkTableImage(*chosen()) != TableFault::kNone);
 }
 
-// Pages of 2 KiB: the image's 0 to 47, tables 48 to 53, configuration 54 to 63.
-TEST(FlashedTables, DoubleErrorsAreHandledWhereSomebodyLooksForThem) {
-  for (const bool inUse : {false, true}) {
-    CHECK_FALSE(isHandled(0, inUse));
-    CHECK_FALSE(isHandled(48 * 2048 - 8, inUse));
-    CHECK_TRUE(isHandled(54 * 2048, inUse));
-    CHECK_TRUE(isHandled(64 * 2048 - 8, inUse));
-    CHECK_FALSE(isHandled(64 * 2048, inUse));
+TEST_GROUP(ReadableTables) {
+  doubles::FakeFlash flash{48, 6};
+  doubles::FakeBus bus{flash.registers};
+  EccErrors errors;
+  TableImage whole{};
+
+  void setup() override {
+    flash.nonMaskable = [this] { CHECK_TRUE(survivesNmi(bus, errors)); };
   }
-  for (const std::uint32_t offset : {48u * 2048, 54u * 2048 - 8}) {
-    CHECK_TRUE(isHandled(offset, false));
-    CHECK_FALSE(isHandled(offset, true));
+  const TableImage* read() {
+    return readableTables(bus, errors, [this] {
+      bus.read(st::FLASH_BASE + 48 * st::FLASH_PAGE_SIZE);
+      return &whole;
+    });
   }
+};
+
+TEST(ReadableTables, TablesWithoutAnErrorAreUsed) { POINTERS_EQUAL(&whole, read()); }
+
+TEST(ReadableTables, TablesWithACorrectedBitAreUsed) {
+  flash.weaken(0);
+  POINTERS_EQUAL(&whole, read());
+  LONGS_EQUAL(1, errors.corrected);
+}
+
+TEST(ReadableTables, TablesWithAnUnreadableWordAreRefusedThoughTheirChecksumIsRight) {
+  flash.damage(0);
+  POINTERS_EQUAL(nullptr, read());
+}
+
+TEST(ReadableTables, AnErrorOfBeforeIsNotTheTables) {
+  errors.unreadable = 3;
+  POINTERS_EQUAL(&whole, read());
+}
+
+TEST(ReadableTables, NoneAreNone) {
+  POINTERS_EQUAL(nullptr, readableTables(bus, errors, []() -> const TableImage* { return nullptr; }));
 }

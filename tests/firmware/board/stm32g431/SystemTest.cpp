@@ -1,6 +1,5 @@
-#include <CppUTest/TestHarness.h>
-
 #include "firmware/board/stm32g431/microsecond_clock.hpp"
+#include "firmware/board/stm32g431/pinout.hpp"
 #include "firmware/board/stm32g431/registers/gpio.hpp"
 #include "firmware/board/stm32g431/unique_id.hpp"
 #include "firmware/board/stm32g431/watchdog.hpp"
@@ -24,6 +23,7 @@ struct FakeWatchdog {
   doubles::FakeRegisters registers;
   bool started = false;
   bool updates = true;
+  int updateReads = 100;  ///< of the status, until the settings are taken
   int feeds = 0;
 
   FakeWatchdog() {
@@ -33,8 +33,8 @@ struct FakeWatchdog {
     registers.add<Iwdg::Rlr>(0xFFF);
     registers.add<Iwdg::Sr>();
     registers.onWrite<Iwdg::Kr>([this](std::uint32_t, std::uint32_t key) {
-      started |= key == Iwdg::kStart;
-      feeds += key == Iwdg::kFeed;
+      started |= key == st::IWDG_KEY_ENABLE;
+      feeds += key == st::IWDG_KEY_RELOAD;
       return key;
     });
     registers.onWrite<Iwdg::Pr>(
@@ -46,9 +46,9 @@ struct FakeWatchdog {
   }
 
   std::uint32_t set(std::uint32_t before, std::uint32_t value) {
-    if (registers.word<Iwdg::Kr>() != Iwdg::kUnlock) return before;
+    if (registers.word<Iwdg::Kr>() != st::IWDG_KEY_WRITE_ACCESS_ENABLE) return before;
     registers.word<Iwdg::Sr>() = 3;
-    readsLeft = 100;
+    readsLeft = updateReads;
     return value;
   }
 
@@ -65,23 +65,27 @@ struct WatchdogBench {
 class ClockBench {
  public:
   ClockBench() {
-    registers_.add<Rcc::Apb1Enr1>();
     registers_.add<Tim2::Psc>();
-    registers_.add<Tim2::Arr>();
+    registers_.add<Tim2::Arr>(0xFFFF'FFFF);
     registers_.add<Tim2::Egr>();
     registers_.add<Tim2::Cr1>();
     registers_.add<Tim2::Cnt>(0xFFFF'FF00);
+    registers_.onWrite<Tim2::Egr>([this](std::uint32_t, std::uint32_t written) {
+      if (written & st::TIM_EGR_UG) prescaler_ = registers_.word<Tim2::Psc>();
+      return 0;
+    });
     clock_.start();
   }
   MicrosecondClock<doubles::FakeBus>& clock() { return clock_; }
-  /// TIM2 counts what its prescaler lets through of 170 MHz.
+  /// TIM2 counts what its prescaler, as the last update loaded it, lets through of 170 MHz.
   void pass(std::uint32_t time_us) {
-    const bool enabled = registers_.field(Tim2::Cr1::enable) != 0;
-    if (enabled) registers_.word<Tim2::Cnt>() += 170 * time_us / (registers_.word<Tim2::Psc>() + 1);
+    const bool enabled = (registers_.word<Tim2::Cr1>() & st::TIM_CR1_CEN) != 0;
+    if (enabled) registers_.word<Tim2::Cnt>() += 170 * time_us / (prescaler_ + 1);
   }
 
  private:
   doubles::FakeRegisters registers_;
+  std::uint32_t prescaler_ = 0;
   MicrosecondClock<doubles::FakeBus> clock_{doubles::FakeBus(registers_)};
 };
 
@@ -117,6 +121,13 @@ TEST(IndependentWatchdog, SaysWhenItsSettingsDidNotTake) {
   bench.fake.updates = false;
   CHECK_FALSE(bench.dog.start());
   CHECK_TRUE(bench.fake.started);
+}
+
+// Six cycles of the slow clock after its largest prescaler, where it is slowest: 6 * 256 / 29.5 kHz. 170 MHz
+// make at most a poll in 6 cycles.
+TEST(IndependentWatchdog, WaitsAsLongAsItsSlowClockMayTake) {
+  bench.fake.updateReads = static_cast<int>(6 * 256 / 29.5e3 * 170e6 / 6);
+  CHECK_TRUE(bench.dog.start());
 }
 
 TEST(IndependentWatchdog, FeedsWithTheKey) {
@@ -175,8 +186,20 @@ TEST(UniqueId, ItsShortNumberIsNeverThatOfNoNumber) {
 
 TEST_GROUP(Pins) {
   doubles::FakeRegisters registers;
-  void setup() override { registers.addRange(0x4800'0000, 0x28); }
+  void setup() override {
+    registers.addRange(0x4800'0000, 0x28);
+    registers.giveClock(Rcc::Ahb2Enr::gpioA(1));
+  }
 };
+
+TEST(Pins, CanHasItsClockItsFunctionAndAPullUpAtTheReceiver) {
+  doubles::FakeRegisters fresh;
+  fresh.addRange(st::GPIOA_BASE, 0x28, 0xFFFF'FFFF);
+  connectCan(doubles::FakeBus(fresh));  // PA11 and PA12
+  LONGS_EQUAL(0xFEBF'FFFF, fresh.at(st::GPIOA_MODER));
+  LONGS_EQUAL(0xFC7F'FFFF, fresh.at(st::GPIOA_PUPDR));
+  LONGS_EQUAL(0xFFF9'9FFF, fresh.at(st::GPIOA_AFR + 4));
+}
 
 TEST(Pins, AnAlternateFunctionIsSetBeforeTheMode) {
   makeAlternate(doubles::FakeBus(registers), {Port::kA, 11}, 9, Gpio::kUp);

@@ -18,7 +18,6 @@ class FakeFdcan {
   bool busy = false;           ///< others have the bus, or nobody acknowledges
   bool answers = true;         ///< init follows what is written to it
   std::deque<CanFrame> heard;  ///< what went out, in order
-  int violations = 0;          ///< writes to registers that were protected at that time
 
   FakeFdcan() {
     addRegisters();
@@ -97,7 +96,6 @@ class FakeFdcan {
   static constexpr std::uint32_t kNone = MessageRam::elements;
 
   void addRegisters() {
-    registers.add<stm32g431::Rcc::Apb1Enr1>();
     registers.add<Fdcan::Dbtp>(0x0A33);
     registers.add<Cccr>(Cccr::init(1).value);
     registers.add<Fdcan::Nbtp>(0x0600'0A03);
@@ -121,7 +119,7 @@ class FakeFdcan {
   void protect() {
     registers.onWrite<Reg>([this](std::uint32_t before, std::uint32_t written) {
       if (isConfigurable()) return written;
-      ++violations;
+      FakeRegisters::violate("written while it is protected", Reg::address);
       return before;
     });
   }
@@ -133,9 +131,12 @@ class FakeFdcan {
   /// CCE holds only while init does, and clears the buffers and the FIFO; init shows a few reads later.
   std::uint32_t control(std::uint32_t before, std::uint32_t written) {
     const bool mayConfigure = Cccr::init.in(before) != 0 && Cccr::init.in(written) != 0;
-    if (Cccr::configurable.in(written) != 0 && !mayConfigure) ++violations;
-    if (((before ^ written) & (Cccr::fd.mask | Cccr::bitRateSwitch.mask)) != 0 && !isConfigurable())
-      ++violations;
+    const auto require = [](bool isAllowed, const char* what) {
+      FakeRegisters::require(isAllowed, what, Cccr::address);
+    };
+    require(Cccr::configurable.in(written) == 0 || mayConfigure, "CCE set outside of INIT");
+    require(((before ^ written) & (st::FDCAN_CCCR_FDOE | st::FDCAN_CCCR_BRSE)) == 0 || isConfigurable(),
+            "CAN FD switched while it is protected");
     wanted_ = Cccr::init.in(written);
     readsLeft_ = 3;
     if (Cccr::configurable.in(written) != 0 && mayConfigure && Cccr::configurable.in(before) == 0) clear();
@@ -160,6 +161,8 @@ class FakeFdcan {
   }
 
   std::uint32_t request(std::uint32_t buffers) {
+    FakeRegisters::require((pending() & buffers) == 0, "a buffer requested that still waits",
+                           Fdcan::Txbar::address);
     registers.word<Fdcan::Txbrp>() |= buffers;
     registers.word<Fdcan::Txbto>() &= ~buffers;
     registers.word<Fdcan::Txbcf>() &= ~buffers;

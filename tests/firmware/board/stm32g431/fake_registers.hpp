@@ -1,20 +1,47 @@
 #pragma once
 // Registers in ordinary memory, each of which may behave: what a peripheral's fake is made of.
+//
+// Which bit gives which peripheral its clock comes from ST's headers (st_literals.hpp), not from the
+// drivers'.
 
-#include <CppUTest/TestHarness.h>
-
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "firmware/board/stm32g431/registers/register.hpp"
+#include "tests/firmware/board/stm32g431/st_literals.hpp"
+
+#include <CppUTest/TestHarness.h>
 
 namespace strainfinger::doubles {
 
-/// Knows only the registers it was told of; using another one fails the test. Counts accesses, as a clock
-/// does.
+/// Registers that ignore accesses, or worse, until a bit of RCC is set and has been read back (RM0440 section
+/// 7.2.17).
+struct ClockGate {
+  std::uint32_t first, bytes;
+  std::uint32_t enableRegister, bit;
+};
+inline constexpr std::array kClockGates{
+    ClockGate{st::DMA1_BASE, 0x400, st::RCC_AHB1ENR, st::RCC_AHB1ENR_DMA1EN},
+    ClockGate{st::DMAMUX1_BASE, 0x400, st::RCC_AHB1ENR, st::RCC_AHB1ENR_DMAMUX1EN},
+    ClockGate{st::GPIOA_BASE, 0x400, st::RCC_AHB2ENR, st::RCC_AHB2ENR_GPIOAEN},
+    ClockGate{st::GPIOB_BASE, 0x400, st::RCC_AHB2ENR, st::RCC_AHB2ENR_GPIOBEN},
+    ClockGate{st::GPIOC_BASE, 0x400, st::RCC_AHB2ENR, st::RCC_AHB2ENR_GPIOCEN},
+    ClockGate{st::ADC1_BASE, 0x400, st::RCC_AHB2ENR, st::RCC_AHB2ENR_ADC12EN},
+    ClockGate{st::TIM1_BASE, 0x400, st::RCC_APB2ENR, st::RCC_APB2ENR_TIM1EN},
+    ClockGate{st::TIM2_BASE, 0x400, st::RCC_APB1ENR1, st::RCC_APB1ENR1_TIM2EN},
+    ClockGate{st::TIM3_BASE, 0x400, st::RCC_APB1ENR1, st::RCC_APB1ENR1_TIM3EN},
+    ClockGate{st::FDCAN1_BASE, 0x400, st::RCC_APB1ENR1, st::RCC_APB1ENR1_FDCANEN},
+    ClockGate{st::SRAMCAN_BASE, 0x400, st::RCC_APB1ENR1, st::RCC_APB1ENR1_FDCANEN},
+    ClockGate{st::PWR_BASE, 0x400, st::RCC_APB1ENR1, st::RCC_APB1ENR1_PWREN},
+};
+
+/// Knows only the registers it was told of. Using another one fails the test, as does using one without its
+/// clock. Counts accesses, as a clock does.
 class FakeRegisters {
  public:
   using Read = std::function<std::uint32_t(std::uint32_t stored)>;
@@ -40,7 +67,7 @@ class FakeRegisters {
     words_[Reg::address] = value;
   }
   void addRange(std::uint32_t first, std::uint32_t bytes, std::uint32_t value = 0) {
-    for (std::uint32_t offset = 0; offset < bytes; offset += 4) words_[first + offset] = value;
+    memories_.push_back({first, std::vector(bytes / 4, value)});
   }
   template <typename Reg>
   void onRead(Read behaviour) {
@@ -51,10 +78,33 @@ class FakeRegisters {
     writeBehaviours_[Reg::address] = std::move(behaviour);
   }
 
+  FakeRegisters() {
+    for (const std::uint32_t enable : {st::RCC_AHB2ENR, st::RCC_APB1ENR1, st::RCC_APB2ENR})
+      words_[enable] = 0;
+    words_[st::RCC_AHB1ENR] = st::RCC_AHB1ENR_FLASHEN;  // its reset value
+  }
+
   std::uint32_t& at(std::uint32_t address) {
+    for (Memory& each : memories_)
+      if (address >= each.first && (address - each.first) / 4 < each.words.size())
+        return each.words[(address - each.first) / 4];
     const auto word = words_.find(address);
-    if (word == words_.end()) FAIL(StringFromFormat("no register at 0x%08X", address).asCharString());
-    return word->second;
+    if (word != words_.end()) return word->second;
+    violate("there is no register", address);
+    return nowhere_;
+  }
+
+  /// Something that the manual forbids: the test fails, and goes on, for drivers can't throw.
+  static void violate(const char* what, std::uint32_t address) {
+    struct GoOn : TestTerminator {
+      void exitCurrentTest() const override {}
+    };
+    UtestShell& test = *UtestShell::getCurrent();
+    if (!test.hasFailed())
+      test.fail(StringFromFormat("0x%08X: %s", address, what).asCharString(), __FILE__, __LINE__, GoOn());
+  }
+  static void require(bool isAllowed, const char* what, std::uint32_t address) {
+    if (!isAllowed) violate(what, address);
   }
   /// As the hardware sees it: no behaviour, no count.
   template <typename Reg>
@@ -73,6 +123,8 @@ class FakeRegisters {
 
   std::uint32_t read(std::uint32_t address) {
     ++accesses;
+    checkClock(address);
+    if (isEnableRegister(address)) readBack_.insert(address);
     std::uint32_t& stored = at(address);
     if (onData && onData(false, address, stored, 0)) return stored;
     const auto behaviour = reads_.find(address);
@@ -81,6 +133,8 @@ class FakeRegisters {
   }
   void write(std::uint32_t address, std::uint32_t value) {
     ++accesses;
+    checkClock(address);
+    if (isEnableRegister(address)) readBack_.erase(address);
     writes.push_back({address, value});
     std::uint32_t& stored = at(address);
     if (onData && onData(true, address, stored, value)) return;
@@ -102,7 +156,34 @@ class FakeRegisters {
     return index;
   }
 
+  /// As if the driver's start() had been called, for tests that don't.
+  template <typename Reg>
+  void giveClock(stm32g431::Bits<Reg> peripherals) {
+    word<Reg>() |= peripherals.value;
+    readBack_.insert(Reg::address);
+  }
+
  private:
+  static bool isEnableRegister(std::uint32_t address) {
+    return address >= st::RCC_AHB1ENR && address <= st::RCC_APB2ENR;
+  }
+
+  void checkClock(std::uint32_t address) {
+    for (const ClockGate& gate : kClockGates) {
+      if (address < gate.first || address - gate.first >= gate.bytes) continue;
+      require((at(gate.enableRegister) & gate.bit) != 0, "accessed without its clock", address);
+      require(readBack_.contains(gate.enableRegister), "accessed before its clock runs", address);
+    }
+  }
+
+  std::set<std::uint32_t> readBack_{st::RCC_AHB1ENR};  ///< read since they were written
+  /// Words that follow each other.
+  struct Memory {
+    std::uint32_t first;
+    std::vector<std::uint32_t> words;
+  };
+  std::vector<Memory> memories_;
+  std::uint32_t nowhere_ = 0;
   std::map<std::uint32_t, std::uint32_t> words_;
   std::map<std::uint32_t, Read> reads_;
   std::map<std::uint32_t, Write> writeBehaviours_;

@@ -1,0 +1,29 @@
+#pragma once
+// How often memory may be erased, so that no sequence of requests wears it out.
+
+#include <algorithm>
+#include <cstdint>
+
+namespace strainfinger::firmware {
+
+/// A few erases at once, then one a minute. A page of flash lasts 10,000 erases (DS12589): a bus that asks
+/// for one whenever it may takes 1,440 a day, and they are spread over all pages of the settings. Seconds
+/// count from the start.
+class EraseBudget {
+ public:
+  static constexpr std::uint32_t kBurst = 4;
+  static constexpr std::uint32_t kPeriod_s = 60;
+
+  /// Until the next erase is allowed; 0: now.
+  constexpr std::uint32_t wait_s(std::uint32_t now_s) const {
+    const std::uint32_t latest_s = now_s + (kBurst - 1) * kPeriod_s;
+    return paidUntil_s_ > latest_s ? paidUntil_s_ - latest_s : 0;
+  }
+
+  constexpr void spend(std::uint32_t now_s) { paidUntil_s_ = std::max(paidUntil_s_, now_s) + kPeriod_s; }
+
+ private:
+  std::uint32_t paidUntil_s_ = 0;  ///< as if each erase took a whole period, one after the other
+};
+
+}  // namespace strainfinger::firmware

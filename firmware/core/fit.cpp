@@ -30,10 +30,10 @@ Number slip_q15(const TableConstants& constants, const ContactState& contact) {
 /// A contact with what its lookups share. The pressure's second moment is m, that of the tangential traction
 /// m (2 - slip), here as a fraction of twice the largest m.
 struct ContactModel {
-  ContactModel(const TableImage& tables, const ContactState& contact, Number slip_q15)
-      : tables(tables), contact(contact), normalCell(momentCell(tables.constants, contact.moment_q20)) {
+  ContactModel(const TableImage& image, const ContactState& state, Number slip_q15)
+      : tables(image), contact(state), normalCell(momentCell(image.constants, state.moment_q20)) {
     const Number part_q16 = (1 << 16) - slip_q15;
-    tangentialCell = momentCell(tables.constants, scaled<16>(contact.moment_q20, part_q16));
+    tangentialCell = momentCell(tables.constants, scaled<16>(state.moment_q20, part_q16));
     tangentialRate_q8 = scaled<16>(tangentialCell.rate_q8, part_q16);
   }
 
@@ -209,8 +209,8 @@ void take(const TableConstants& constants, const Linearisation& linearisation, c
     contact.angle_q32 +=
         static_cast<std::uint32_t>(scaled<15>(units(angleOf(hypothesis, k), 15), halfNode_q32(constants)));
     if (hypothesis.widthIsFree)
-      contact.moment_q20 =
-          std::clamp(contact.moment_q20 + units(momentOf(hypothesis, k), kMomentBits), 0, 1 << kMomentBits);
+      contact.moment_q20 = std::clamp<Number>(
+          contact.moment_q20 + units(momentOf(hypothesis, k), kMomentBits), 0, 1 << kMomentBits);
   }
 }
 
@@ -260,9 +260,9 @@ Solution step(const TableImage& tables, const Linearisation& linearisation, cons
 }
 
 Solution fitLoads(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,
-                  const ScaledReadings& readings) {
+                  const ScaledReadings& readings, Linearisation& scratch) {
   constexpr Number kHalfSlips_q15 = 1 << 14;
-  alignas(4) std::array<Rows, kMostUnknowns> columns;
+  auto& columns = scratch.column;
   alignas(4) Rows residual;
   int rows = 0;
   Wide energy = 0;
@@ -287,12 +287,11 @@ Solution fitLoads(const TableImage& tables, const Hypothesis& hypothesis, const 
     for (int i = 0; i < unknowns; ++i) columns[index(i)][index(rows)] = 0;
     residual[index(rows++)] = 0;
   }
-  Decomposition decomposition;
-  decompose(columns, rows, unknowns, decomposition);
+  decompose(columns, rows, unknowns, scratch.decomposition);
   Vector low, high;
   low.fill(-kMostLoad);
   high.fill(kMostLoad);
-  const Step best = solve(decomposition, columns, rows, residual, low, high);
+  const Step best = solve(scratch.decomposition, columns, rows, residual, low, high);
   Solution solution{hypothesis, contacts, std::max<Wide>(energy - best.reduction, 0)};
   for (int k = 0; k < hypothesis.contacts; ++k) {
     solution.contact[index(k)].normal = best.x_q14[index(loadsOf(k))];

@@ -35,6 +35,8 @@ struct ContactModel {
     const Number part_q16 = (1 << 16) - slip_q15;
     tangentialCell = momentCell(tables.constants, scaled<16>(state.moment_q20, part_q16));
     tangentialRate_q8 = scaled<16>(tangentialCell.rate_q8, part_q16);
+    const Loads loads{state.normal, state.tangential};
+    seen = {loads, mirrored(loads)};
   }
 
   struct Reading {
@@ -44,47 +46,59 @@ struct ContactModel {
   };
 
   struct Loads {
-    Number normal, tangential;  ///< responses
+    Number normal, tangential;
   };
 
+  /// Responses.
   Loads loadsAt(std::uint32_t gaugeAngle_q32) const {
     const AngleNode node = angleNode(tables.constants, gaugeAngle_q32 - contact.angle_q32);
-    const Number normal =
-        valueOf(tables.patch(node.node, normalCell.cell).normal, normalCell.s_q15, node.t_q15);
-    const Number tangential =
-        valueOf(tables.patch(node.node, tangentialCell.cell).tangential, tangentialCell.s_q15, node.t_q15);
-    return {oddSign(node, normal, tables.constants.mirror_sign),
-            oddSign(node, tangential, -tables.constants.mirror_sign)};
+    return oriented(node, {valueOf(normalPatch(node), normalCell.s_q15, node.t_q15),
+                           valueOf(tangentialPatch(node), tangentialCell.s_q15, node.t_q15)});
   }
   Number predictedAt(std::uint32_t gaugeAngle_q32) const {
-    const Loads loads = loadsAt(gaugeAngle_q32);
-    return readingOf(loads.normal, loads.tangential);
+    const AngleNode node = angleNode(tables.constants, gaugeAngle_q32 - contact.angle_q32);
+    return static_cast<Number>(readingOf(node, valueOf(normalPatch(node), normalCell.s_q15, node.t_q15),
+                                         valueOf(tangentialPatch(node), tangentialCell.s_q15, node.t_q15)) >>
+                               16);
   }
 
   Reading at(std::uint32_t gaugeAngle_q32) const {
-    const TableConstants& constants = tables.constants;
-    const AngleNode node = angleNode(constants, gaugeAngle_q32 - contact.angle_q32);
-    const Response normal =
-        responseOf(tables.patch(node.node, normalCell.cell).normal, normalCell.s_q15, node.t_q15);
-    const Response tangential =
-        responseOf(tables.patch(node.node, tangentialCell.cell).tangential, tangentialCell.s_q15, node.t_q15);
-    const int sign = constants.mirror_sign;
-    Reading reading;
-    reading.normal = oddSign(node, normal.value, sign);
-    reading.tangential = oddSign(node, tangential.value, -sign);
-    reading.predicted = readingOf(reading.normal, reading.tangential);
+    const AngleNode node = angleNode(tables.constants, gaugeAngle_q32 - contact.angle_q32);
+    const Response normal = responseOf(normalPatch(node), normalCell.s_q15, node.t_q15);
+    const Response tangential = responseOf(tangentialPatch(node), tangentialCell.s_q15, node.t_q15);
+    const Loads responses = oriented(node, {normal.value, tangential.value});
     // Turning the contact forward brings a gauge beyond it nearer, one behind it farther away.
-    reading.angle = -readingOf(oddSign(node, normal.slope, -sign), oddSign(node, tangential.slope, sign));
-    reading.moment = readingOf(oddSign(node, scaled<8>(normal.widening, normalCell.rate_q8), sign),
-                               oddSign(node, scaled<8>(tangential.widening, tangentialRate_q8), -sign));
+    const Wide farther = readingOf(node, normal.slope, tangential.slope);
+    const Wide widening = readingOf(node, mulHigh(normal.widening << 12, normalCell.rate_q8 << 12),
+                                    mulHigh(tangential.widening << 12, tangentialRate_q8 << 12));
+    Reading reading;
+    reading.normal = responses.normal;
+    reading.tangential = responses.tangential;
+    reading.angle = -static_cast<Number>((node.mirrored ? -farther : farther) >> 16);
+    reading.moment = static_cast<Number>(widening >> 16);
+    reading.predicted = static_cast<Number>(readingOf(node, normal.value, tangential.value) >> 16);
     return reading;
   }
 
-  static Number oddSign(const AngleNode& node, Number value, int sign) {
-    return node.mirrored && sign < 0 ? -value : value;
+  const ResponsePatch& normalPatch(const AngleNode& node) const {
+    return tables.patch(node.node, normalCell.cell).normal;
   }
-  Number readingOf(Number normal, Number tangential) const {
-    return static_cast<Number>((Wide{contact.normal} * normal + Wide{contact.tangential} * tangential) >> 16);
+  const ResponsePatch& tangentialPatch(const AngleNode& node) const {
+    return tables.patch(node.node, tangentialCell.cell).tangential;
+  }
+
+  /// As a gauge on the contact's clockwise side sees them.
+  Loads mirrored(const Loads& loads) const {
+    const int sign = tables.constants.mirror_sign;
+    return {sign * loads.normal, -sign * loads.tangential};
+  }
+  Loads oriented(const AngleNode& node, const Loads& loads) const {
+    return node.mirrored ? mirrored(loads) : loads;
+  }
+  /// [* 2^16]
+  Wide readingOf(const AngleNode& node, Number normal, Number tangential) const {
+    const Loads& loads = seen[node.mirrored ? 1 : 0];
+    return Wide{loads.normal} * normal + Wide{loads.tangential} * tangential;
   }
 
   const TableImage& tables;
@@ -92,6 +106,7 @@ struct ContactModel {
   MomentCell normalCell;
   MomentCell tangentialCell;
   Number tangentialRate_q8;
+  std::array<Loads, 2> seen;  ///< the contact's loads from its either side
 };
 
 int loadsOf(int contact) { return 2 * contact; }
@@ -102,25 +117,27 @@ bool isInReach(const TableConstants& constants, std::uint32_t distance_q32) {
   return distance_q32 + constants.reach_q32 <= 2 * constants.reach_q32;
 }
 
-bool isInReachOfAny(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,
-                    std::uint32_t gaugeAngle_q32) {
+/// Gauges of the hypothesis whose readings change with a contact.
+GaugeSet gaugesInReach(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,
+                       GaugeSet gauges) {
+  GaugeSet inReach = 0;
   for (int k = 0; k < hypothesis.contacts; ++k)
-    if (isInReach(tables.constants, gaugeAngle_q32 - contacts[index(k)].angle_q32)) return true;
-  return false;
+    for (int gauge = 0; gauge < tables.constants.gauge_count; ++gauge)
+      if (isInReach(tables.constants, tables.gauge_angle_q32[index(gauge)] - contacts[index(k)].angle_q32))
+        inReach |= GaugeSet{1} << gauge;
+  return inReach & gauges;
 }
 
 void chooseRows(const TableImage& tables, Linearisation& linearisation) {
   const Hypothesis& hypothesis = linearisation.hypothesis;
-  const GaugeSet fittedGauges = hypothesis.exact != 0 ? hypothesis.exact : hypothesis.gauges;
+  GaugeSet left = gaugesInReach(tables, hypothesis, linearisation.at,
+                                hypothesis.exact != 0 ? hypothesis.exact : hypothesis.gauges);
   int rows = 0;
-  for (int gauge = 0; gauge < tables.constants.gauge_count && rows < kMostRows; ++gauge) {
-    if (!contains(fittedGauges, gauge)) continue;
-    if (isInReachOfAny(tables, hypothesis, linearisation.at, tables.gauge_angle_q32[index(gauge)]))
-      linearisation.gauge[index(rows++)] = static_cast<std::uint8_t>(gauge);
-  }
+  for (; left != 0 && rows < kMostRows; left &= left - 1)
+    linearisation.gauge[index(rows++)] = static_cast<std::uint8_t>(std::countr_zero(left));
   linearisation.usedRows = static_cast<std::uint8_t>(rows);
   if (rows % 2 != 0)
-    for (Rows& column : linearisation.column) column[index(rows)] = 0;
+    for (int i = 0; i < hypothesis.unknowns(); ++i) linearisation.column[index(i)][index(rows)] = 0;
   linearisation.rows = static_cast<std::uint8_t>((rows + 1) & ~1);
 }
 
@@ -168,19 +185,21 @@ void lineariseContact(const TableImage& tables, int contact, Linearisation& line
 }
 
 /// [units of an unknown] as a step of its column.
-Number stepOf(Wide units, int exponent, int unitBits) {
+Number stepOf(Number units, int exponent, int unitBits) {
   return shifted(units, exponent + kStepBits - unitBits, 1 << 28);
 }
 
 void setLimits(const TableConstants& constants, const Linearisation& linearisation, Vector& low,
                Vector& high) {
   const Hypothesis& hypothesis = linearisation.hypothesis;
-  low.fill(-(1 << 28));
-  high.fill(1 << 28);
+  for (int i = 0; i < angleOf(hypothesis, 0); ++i) {
+    low[index(i)] = -(1 << 28);
+    high[index(i)] = 1 << 28;
+  }
   for (int k = 0; k < hypothesis.contacts; ++k) {
     const int angle = angleOf(hypothesis, k);
-    high[index(angle)] = stepOf((Wide{kMostTurn_q32} << 15) / halfNode_q32(constants),
-                                linearisation.exponent[index(angle)], 15);
+    high[index(angle)] =
+        stepOf((kMostTurn_q32 >> 15) * constants.node_count, linearisation.exponent[index(angle)], 15);
     low[index(angle)] = -high[index(angle)];
     if (!hypothesis.widthIsFree) continue;
     const int moment = momentOf(hypothesis, k), exponent = linearisation.exponent[index(moment)];
@@ -232,7 +251,7 @@ void linearise(const TableImage& tables, const Hypothesis& hypothesis, const Con
   std::array<Number, kMaxGauges> predicted{};
   for (int k = 0; k < hypothesis.contacts; ++k) lineariseContact(tables, k, linearisation, predicted);
   for (int gauge = 0; gauge < tables.constants.gauge_count; ++gauge)
-    linearisation.predicted[index(gauge)] = saturate<std::int16_t>(predicted[index(gauge)]);
+    linearisation.predicted[index(gauge)] = shortened(predicted[index(gauge)]);
   decompose(linearisation.column, linearisation.rows, hypothesis.unknowns(), linearisation.decomposition);
 }
 
@@ -241,14 +260,15 @@ Solution step(const TableImage& tables, const Linearisation& linearisation, cons
   Rows residual;
   residual[index(linearisation.rows - (linearisation.rows > 0 ? 1 : 0))] = 0;
   Wide energy = 0;
-  for (int gauge = 0, row = 0; gauge < tables.constants.gauge_count; ++gauge) {
-    if (!contains(hypothesis.gauges, gauge)) continue;
-    const auto rest =
-        saturate<std::int16_t>(readings.value[index(gauge)] - Number{linearisation.predicted[index(gauge)]});
-    energy += Wide{rest} * rest;
-    if (row < linearisation.usedRows && linearisation.gauge[index(row)] == gauge)
-      residual[index(row++)] = rest;
+  std::array<std::int16_t, kMaxGauges> rest;
+  for (int gauge = 0; gauge < tables.constants.gauge_count; ++gauge) {
+    const std::int16_t each =
+        shortened(readings.value[index(gauge)] - Number{linearisation.predicted[index(gauge)]});
+    rest[index(gauge)] = each;
+    if (contains(hypothesis.gauges, gauge)) energy += Wide{each} * each;
   }
+  for (int row = 0; row < linearisation.usedRows; ++row)
+    residual[index(row)] = rest[linearisation.gauge[index(row)]];
   Vector low, high;
   setLimits(tables.constants, linearisation, low, high);
   const Step best =
@@ -264,6 +284,7 @@ Solution fitLoads(const TableImage& tables, const Hypothesis& hypothesis, const 
   constexpr Number kHalfSlips_q15 = 1 << 14;
   auto& columns = scratch.column;
   alignas(4) Rows residual;
+  const GaugeSet inReach = gaugesInReach(tables, hypothesis, contacts, hypothesis.gauges);
   int rows = 0;
   Wide energy = 0;
   for (int k = 0; k < hypothesis.contacts; ++k) {
@@ -274,7 +295,7 @@ Solution fitLoads(const TableImage& tables, const Hypothesis& hypothesis, const 
       const Number reading = readings.value[index(gauge)];
       if (k == 0) energy += Wide{reading} * reading;
       const std::uint32_t angle_q32 = tables.gauge_angle_q32[index(gauge)];
-      if (!isInReachOfAny(tables, hypothesis, contacts, angle_q32)) continue;
+      if (!contains(inReach, gauge)) continue;
       const ContactModel::Loads loads = model.loadsAt(angle_q32);
       columns[index(loadsOf(k))][index(rows)] = static_cast<std::int16_t>(loads.normal >> kLoadExponent);
       columns[index(loadsOf(k) + 1)][index(rows)] =

@@ -34,10 +34,10 @@ Scaled rootOf(std::uint64_t value, int exponent) {
   return {integerRoot(static_cast<std::uint32_t>(normal)), (exponent - up) / 2};
 }
 
-/// Standard deviation of an unknown [units of its column]; none: the readings don't determine it.
-Scaled sigmaOf(Wide variance, std::uint32_t variance_q4) {
+/// Standard deviation of an unknown [units of its column], its variance for readings of variance 1 and the
+/// readings' noise given.
+Scaled sigmaOf(Wide variance, const Scaled& noise) {
   const Scaled root = rootOf(static_cast<std::uint64_t>(variance), -50);
-  const Scaled noise = rootOf(variance_q4, -4);
   return {(root.mantissa * noise.mantissa) >> 16, root.exponent + noise.exponent + 16};
 }
 
@@ -89,10 +89,10 @@ Contact estimate(const TableConstants& constants, const Answer& answer, const Li
   const Hypothesis& hypothesis = answer.solution.hypothesis;
   const ContactState& state = answer.solution.contact[at(contact)];
   const auto variance = variances(linearisation.decomposition);
+  const Scaled noise = rootOf(answer.variance_q4, -4);
   const auto sigma = [&](int unknown, int unitBits, std::int64_t most) {
     if (!linearisation.decomposition.isDetermined(unknown)) return most;
-    return sigmaOf(variance[at(unknown)], answer.variance_q4)
-        .times2(unitBits - linearisation.exponent[at(unknown)], most);
+    return sigmaOf(variance[at(unknown)], noise).times2(unitBits - linearisation.exponent[at(unknown)], most);
   };
   const auto load = [&](std::int64_t amplitude) {
     return LineLoadQ12::fromRaw(lineLoad(static_cast<Number>(amplitude), constants.load_scale,

@@ -29,72 +29,84 @@ Number slip_q15(const TableConstants& constants, const ContactState& contact) {
 
 /// A contact with what its lookups share. The pressure's second moment is m, that of the tangential traction
 /// m (2 - slip), here as a fraction of twice the largest m.
-class ContactModel {
- public:
-  ContactModel(const TableImage& tables, const ContactState& contact, Number slip_q15)
-      : tables_(tables), contact_(contact), normalCell_(momentCell(tables.constants, contact.moment_q20)) {
+struct ContactModel {
+  ContactModel(const TableImage& image, const ContactState& state, Number slip_q15)
+      : tables(image), contact(state), normalCell(momentCell(image.constants, state.moment_q20)) {
     const Number part_q16 = (1 << 16) - slip_q15;
-    tangentialCell_ = momentCell(tables.constants, scaled<16>(contact.moment_q20, part_q16));
-    tangentialRate_q8_ = scaled<16>(tangentialCell_.rate_q8, part_q16);
+    tangentialCell = momentCell(tables.constants, scaled<16>(state.moment_q20, part_q16));
+    tangentialRate_q8 = scaled<16>(tangentialCell.rate_q8, part_q16);
+    const Loads loads{state.normal, state.tangential};
+    seen = {loads, mirrored(loads)};
   }
 
-  struct Loads {
-    Number normal, tangential;  ///< responses
-  };
   struct Reading {
-    Loads loads;
-    Number angle, moment;  ///< slopes: readings per half node and per unit of second moment
+    Number normal, tangential;  ///< responses
+    Number angle, moment;       ///< slopes: readings per half node and per unit of second moment
     Number predicted;
   };
 
+  struct Loads {
+    Number normal, tangential;
+  };
+
+  /// Responses.
   Loads loadsAt(std::uint32_t gaugeAngle_q32) const {
-    const AngleNode node = nodeOf(gaugeAngle_q32);
-    return signedLoads(node, valueOf(normalPatch(node), normalCell_.s_q15, node.t_q15),
-                       valueOf(tangentialPatch(node), tangentialCell_.s_q15, node.t_q15));
+    const AngleNode node = angleNode(tables.constants, gaugeAngle_q32 - contact.angle_q32);
+    return oriented(node, {valueOf(normalPatch(node), normalCell.s_q15, node.t_q15),
+                           valueOf(tangentialPatch(node), tangentialCell.s_q15, node.t_q15)});
   }
-  Number predictedAt(std::uint32_t gaugeAngle_q32) const { return readingOf(loadsAt(gaugeAngle_q32)); }
+  Number predictedAt(std::uint32_t gaugeAngle_q32) const {
+    const AngleNode node = angleNode(tables.constants, gaugeAngle_q32 - contact.angle_q32);
+    return static_cast<Number>(readingOf(node, valueOf(normalPatch(node), normalCell.s_q15, node.t_q15),
+                                         valueOf(tangentialPatch(node), tangentialCell.s_q15, node.t_q15)) >>
+                               16);
+  }
 
   Reading at(std::uint32_t gaugeAngle_q32) const {
-    const AngleNode node = nodeOf(gaugeAngle_q32);
-    const Response normal = responseOf(normalPatch(node), normalCell_.s_q15, node.t_q15);
-    const Response tangential = responseOf(tangentialPatch(node), tangentialCell_.s_q15, node.t_q15);
+    const AngleNode node = angleNode(tables.constants, gaugeAngle_q32 - contact.angle_q32);
+    const Response normal = responseOf(normalPatch(node), normalCell.s_q15, node.t_q15);
+    const Response tangential = responseOf(tangentialPatch(node), tangentialCell.s_q15, node.t_q15);
+    const Loads responses = oriented(node, {normal.value, tangential.value});
+    // Turning the contact forward brings a gauge beyond it nearer, one behind it farther away.
+    const Wide farther = readingOf(node, normal.slope, tangential.slope);
+    const Wide widening = readingOf(node, mulHigh(normal.widening << 12, normalCell.rate_q8 << 12),
+                                    mulHigh(tangential.widening << 12, tangentialRate_q8 << 12));
     Reading reading;
-    reading.loads = signedLoads(node, normal.value, tangential.value);
-    reading.predicted = readingOf(reading.loads);
-    // Turning the contact forward brings a gauge beyond it nearer, one behind it farther away: slopes are odd
-    // where values are even.
-    const Loads slopes = signedLoads(node, normal.slope, tangential.slope);
-    reading.angle = node.mirrored ? readingOf(slopes) : -readingOf(slopes);
-    reading.moment = readingOf(signedLoads(node, scaled<8>(normal.widening, normalCell_.rate_q8),
-                                           scaled<8>(tangential.widening, tangentialRate_q8_)));
+    reading.normal = responses.normal;
+    reading.tangential = responses.tangential;
+    reading.angle = -static_cast<Number>((node.mirrored ? -farther : farther) >> 16);
+    reading.moment = static_cast<Number>(widening >> 16);
+    reading.predicted = static_cast<Number>(readingOf(node, normal.value, tangential.value) >> 16);
     return reading;
   }
 
- private:
-  AngleNode nodeOf(std::uint32_t gaugeAngle_q32) const {
-    return angleNode(tables_.constants, gaugeAngle_q32 - contact_.angle_q32);
-  }
   const ResponsePatch& normalPatch(const AngleNode& node) const {
-    return tables_.patch(node.node, normalCell_.cell).normal;
+    return tables.patch(node.node, normalCell.cell).normal;
   }
   const ResponsePatch& tangentialPatch(const AngleNode& node) const {
-    return tables_.patch(node.node, tangentialCell_.cell).tangential;
-  }
-  /// On the mirrored side one of the two responses has the other sign.
-  Loads signedLoads(const AngleNode& node, Number normal, Number tangential) const {
-    if (!node.mirrored) return {normal, tangential};
-    return tables_.constants.mirror_sign > 0 ? Loads{normal, -tangential} : Loads{-normal, tangential};
-  }
-  Number readingOf(const Loads& loads) const {
-    return static_cast<Number>(
-        (Wide{contact_.normal} * loads.normal + Wide{contact_.tangential} * loads.tangential) >> 16);
+    return tables.patch(node.node, tangentialCell.cell).tangential;
   }
 
-  const TableImage& tables_;
-  const ContactState& contact_;
-  MomentCell normalCell_;
-  MomentCell tangentialCell_;
-  Number tangentialRate_q8_;
+  /// As a gauge on the contact's clockwise side sees them.
+  Loads mirrored(const Loads& loads) const {
+    const int sign = tables.constants.mirror_sign;
+    return {sign * loads.normal, -sign * loads.tangential};
+  }
+  Loads oriented(const AngleNode& node, const Loads& loads) const {
+    return node.mirrored ? mirrored(loads) : loads;
+  }
+  /// [* 2^16]
+  Wide readingOf(const AngleNode& node, Number normal, Number tangential) const {
+    const Loads& loads = seen[node.mirrored ? 1 : 0];
+    return Wide{loads.normal} * normal + Wide{loads.tangential} * tangential;
+  }
+
+  const TableImage& tables;
+  const ContactState& contact;
+  MomentCell normalCell;
+  MomentCell tangentialCell;
+  Number tangentialRate_q8;
+  std::array<Loads, 2> seen;  ///< the contact's loads from its either side
 };
 
 int loadsOf(int contact) { return 2 * contact; }
@@ -105,25 +117,27 @@ bool isInReach(const TableConstants& constants, std::uint32_t distance_q32) {
   return distance_q32 + constants.reach_q32 <= 2 * constants.reach_q32;
 }
 
-bool isInReachOfAny(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,
-                    std::uint32_t gaugeAngle_q32) {
+/// Gauges of the hypothesis whose readings change with a contact.
+GaugeSet gaugesInReach(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,
+                       GaugeSet gauges) {
+  GaugeSet inReach = 0;
   for (int k = 0; k < hypothesis.contacts; ++k)
-    if (isInReach(tables.constants, gaugeAngle_q32 - contacts[index(k)].angle_q32)) return true;
-  return false;
+    for (int gauge = 0; gauge < tables.constants.gauge_count; ++gauge)
+      if (isInReach(tables.constants, tables.gauge_angle_q32[index(gauge)] - contacts[index(k)].angle_q32))
+        inReach |= GaugeSet{1} << gauge;
+  return inReach & gauges;
 }
 
 void chooseRows(const TableImage& tables, Linearisation& linearisation) {
   const Hypothesis& hypothesis = linearisation.hypothesis;
-  const GaugeSet fittedGauges = hypothesis.exact != 0 ? hypothesis.exact : hypothesis.gauges;
+  GaugeSet left = gaugesInReach(tables, hypothesis, linearisation.at,
+                                hypothesis.exact != 0 ? hypothesis.exact : hypothesis.gauges);
   int rows = 0;
-  for (int gauge = 0; gauge < tables.constants.gauge_count && rows < kMostRows; ++gauge) {
-    if (!contains(fittedGauges, gauge)) continue;
-    if (isInReachOfAny(tables, hypothesis, linearisation.at, tables.gauge_angle_q32[index(gauge)]))
-      linearisation.gauge[index(rows++)] = static_cast<std::uint8_t>(gauge);
-  }
+  for (; left != 0 && rows < kMostRows; left &= left - 1)
+    linearisation.gauge[index(rows++)] = static_cast<std::uint8_t>(std::countr_zero(left));
   linearisation.usedRows = static_cast<std::uint8_t>(rows);
   if (rows % 2 != 0)
-    for (Rows& column : linearisation.column) column[index(rows)] = 0;
+    for (int i = 0; i < hypothesis.unknowns(); ++i) linearisation.column[index(i)][index(rows)] = 0;
   linearisation.rows = static_cast<std::uint8_t>((rows + 1) & ~1);
 }
 
@@ -157,8 +171,8 @@ void lineariseContact(const TableImage& tables, int contact, Linearisation& line
       continue;
     }
     const ContactModel::Reading reading = model.at(angle_q32);
-    normal[index(row)] = static_cast<std::int16_t>(reading.loads.normal >> kLoadExponent);
-    tangential[index(row)] = static_cast<std::int16_t>(reading.loads.tangential >> kLoadExponent);
+    normal[index(row)] = static_cast<std::int16_t>(reading.normal >> kLoadExponent);
+    tangential[index(row)] = static_cast<std::int16_t>(reading.tangential >> kLoadExponent);
     angle[index(row)] = reading.angle;
     moment[index(row)] = reading.moment;
     predicted[index(gauge)] += reading.predicted;
@@ -171,19 +185,21 @@ void lineariseContact(const TableImage& tables, int contact, Linearisation& line
 }
 
 /// [units of an unknown] as a step of its column.
-Number stepOf(Wide units, int exponent, int unitBits) {
+Number stepOf(Number units, int exponent, int unitBits) {
   return shifted(units, exponent + kStepBits - unitBits, 1 << 28);
 }
 
 void setLimits(const TableConstants& constants, const Linearisation& linearisation, Vector& low,
                Vector& high) {
   const Hypothesis& hypothesis = linearisation.hypothesis;
-  low.fill(-(1 << 28));
-  high.fill(1 << 28);
+  for (int i = 0; i < angleOf(hypothesis, 0); ++i) {
+    low[index(i)] = -(1 << 28);
+    high[index(i)] = 1 << 28;
+  }
   for (int k = 0; k < hypothesis.contacts; ++k) {
     const int angle = angleOf(hypothesis, k);
-    high[index(angle)] = stepOf((Wide{kMostTurn_q32} << 15) / halfNode_q32(constants),
-                                linearisation.exponent[index(angle)], 15);
+    high[index(angle)] =
+        stepOf((kMostTurn_q32 >> 15) * constants.node_count, linearisation.exponent[index(angle)], 15);
     low[index(angle)] = -high[index(angle)];
     if (!hypothesis.widthIsFree) continue;
     const int moment = momentOf(hypothesis, k), exponent = linearisation.exponent[index(moment)];
@@ -212,8 +228,8 @@ void take(const TableConstants& constants, const Linearisation& linearisation, c
     contact.angle_q32 +=
         static_cast<std::uint32_t>(scaled<15>(units(angleOf(hypothesis, k), 15), halfNode_q32(constants)));
     if (hypothesis.widthIsFree)
-      contact.moment_q20 =
-          std::clamp(contact.moment_q20 + units(momentOf(hypothesis, k), kMomentBits), 0, 1 << kMomentBits);
+      contact.moment_q20 = std::clamp<Number>(
+          contact.moment_q20 + units(momentOf(hypothesis, k), kMomentBits), 0, 1 << kMomentBits);
   }
 }
 
@@ -235,7 +251,7 @@ void linearise(const TableImage& tables, const Hypothesis& hypothesis, const Con
   std::array<Number, kMaxGauges> predicted{};
   for (int k = 0; k < hypothesis.contacts; ++k) lineariseContact(tables, k, linearisation, predicted);
   for (int gauge = 0; gauge < tables.constants.gauge_count; ++gauge)
-    linearisation.predicted[index(gauge)] = saturate<std::int16_t>(predicted[index(gauge)]);
+    linearisation.predicted[index(gauge)] = shortened(predicted[index(gauge)]);
   decompose(linearisation.column, linearisation.rows, hypothesis.unknowns(), linearisation.decomposition);
 }
 
@@ -244,14 +260,15 @@ Solution step(const TableImage& tables, const Linearisation& linearisation, cons
   Rows residual;
   residual[index(linearisation.rows - (linearisation.rows > 0 ? 1 : 0))] = 0;
   Wide energy = 0;
-  for (int gauge = 0, row = 0; gauge < tables.constants.gauge_count; ++gauge) {
-    if (!contains(hypothesis.gauges, gauge)) continue;
-    const auto rest =
-        saturate<std::int16_t>(readings.value[index(gauge)] - Number{linearisation.predicted[index(gauge)]});
-    energy += Wide{rest} * rest;
-    if (row < linearisation.usedRows && linearisation.gauge[index(row)] == gauge)
-      residual[index(row++)] = rest;
+  std::array<std::int16_t, kMaxGauges> rest;
+  for (int gauge = 0; gauge < tables.constants.gauge_count; ++gauge) {
+    const std::int16_t each =
+        shortened(readings.value[index(gauge)] - Number{linearisation.predicted[index(gauge)]});
+    rest[index(gauge)] = each;
+    if (contains(hypothesis.gauges, gauge)) energy += Wide{each} * each;
   }
+  for (int row = 0; row < linearisation.usedRows; ++row)
+    residual[index(row)] = rest[linearisation.gauge[index(row)]];
   Vector low, high;
   setLimits(tables.constants, linearisation, low, high);
   const Step best =
@@ -263,10 +280,11 @@ Solution step(const TableImage& tables, const Linearisation& linearisation, cons
 }
 
 Solution fitLoads(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,
-                  const ScaledReadings& readings) {
+                  const ScaledReadings& readings, Linearisation& scratch) {
   constexpr Number kHalfSlips_q15 = 1 << 14;
-  alignas(4) std::array<Rows, kMostUnknowns> columns;
+  auto& columns = scratch.column;
   alignas(4) Rows residual;
+  const GaugeSet inReach = gaugesInReach(tables, hypothesis, contacts, hypothesis.gauges);
   int rows = 0;
   Wide energy = 0;
   for (int k = 0; k < hypothesis.contacts; ++k) {
@@ -277,7 +295,7 @@ Solution fitLoads(const TableImage& tables, const Hypothesis& hypothesis, const 
       const Number reading = readings.value[index(gauge)];
       if (k == 0) energy += Wide{reading} * reading;
       const std::uint32_t angle_q32 = tables.gauge_angle_q32[index(gauge)];
-      if (!isInReachOfAny(tables, hypothesis, contacts, angle_q32)) continue;
+      if (!contains(inReach, gauge)) continue;
       const ContactModel::Loads loads = model.loadsAt(angle_q32);
       columns[index(loadsOf(k))][index(rows)] = static_cast<std::int16_t>(loads.normal >> kLoadExponent);
       columns[index(loadsOf(k) + 1)][index(rows)] =
@@ -290,12 +308,11 @@ Solution fitLoads(const TableImage& tables, const Hypothesis& hypothesis, const 
     for (int i = 0; i < unknowns; ++i) columns[index(i)][index(rows)] = 0;
     residual[index(rows++)] = 0;
   }
-  Decomposition decomposition;
-  decompose(columns, rows, unknowns, decomposition);
+  decompose(columns, rows, unknowns, scratch.decomposition);
   Vector low, high;
   low.fill(-kMostLoad);
   high.fill(kMostLoad);
-  const Step best = solve(decomposition, columns, rows, residual, low, high);
+  const Step best = solve(scratch.decomposition, columns, rows, residual, low, high);
   Solution solution{hypothesis, contacts, std::max<Wide>(energy - best.reduction, 0)};
   for (int k = 0; k < hypothesis.contacts; ++k) {
     solution.contact[index(k)].normal = best.x_q14[index(loadsOf(k))];

@@ -43,9 +43,10 @@ void linearise(const TableImage& tables, const Hypothesis& hypothesis, const Con
 Solution step(const TableImage& tables, const Linearisation& linearisation, const ScaledReadings& readings);
 
 /// The best loads of contacts at these places and of these widths; their residual energy. Half of each
-/// contact is taken to slip. Cost: a table lookup a gauge in reach and load, without slopes.
+/// contact is taken to slip. `scratch` is overwritten. Cost: a table lookup a gauge in reach and load,
+/// without slopes.
 Solution fitLoads(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,
-                  const ScaledReadings& readings);
+                  const ScaledReadings& readings, Linearisation& scratch);
 
 /// Steps until they converge, `mostSteps` at most.
 Solution fit(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& start,

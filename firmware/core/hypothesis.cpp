@@ -28,7 +28,7 @@ ScaledReadings scaledReadings(const TableConstants& constants, std::span<const s
   scaled.shift = static_cast<std::int8_t>(shift == own + 1 ? shift : own);
   Number largest = 0;
   for (std::size_t i = 0; i < strains_q32.size(); ++i) {
-    scaled.value[i] = saturate<std::int16_t>(strains_q32[i] >> scaled.shift);
+    scaled.value[i] = shortened(strains_q32[i] >> scaled.shift);
     if (contains(gauges, static_cast<int>(i)))
       largest = std::max(largest, magnitude(Number{scaled.value[i]}));
   }

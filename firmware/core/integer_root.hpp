@@ -1,17 +1,19 @@
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 namespace strainfinger::firmware {
 
-/// Square root, rounded down. Sixteen rounds.
+/// Square root, rounded down: Newton's steps from above, five of them at most.
 constexpr std::uint32_t integerRoot(std::uint32_t value) {
-  std::uint32_t root = 0;
-  for (std::uint32_t bit = 1u << 15; bit != 0; bit >>= 1) {
-    const std::uint32_t trial = root | bit;
-    if (trial * trial <= value) root = trial;
+  if (value == 0) return 0;
+  std::uint32_t root = 1u << ((33 - std::countl_zero(value)) / 2);
+  while (true) {
+    const std::uint32_t next = (root + value / root) / 2;
+    if (next >= root) return root;
+    root = next;
   }
-  return root;
 }
 
 }  // namespace strainfinger::firmware

@@ -33,6 +33,22 @@ constexpr Number scaled(Number value, Number factor) {
   return static_cast<Number>((Wide{value} * factor) >> bits);
 }
 
+/// value / 2^bits, rounded down and to the nearest within +-2^limitBits.
+template <int bits, int limitBits>
+constexpr Number narrowed(Wide value) {
+  static_assert(bits <= 32 && bits + limitBits >= 32 && limitBits < 31);
+  constexpr Number most = Number{1} << (bits + limitBits - 32);
+  const auto upper = static_cast<Number>(value >> 32);
+  if (upper >= most) return Number{1} << limitBits;
+  if (upper < -most) return -(Number{1} << limitBits);
+  return static_cast<Number>(value >> bits);
+}
+
+/// To the nearest that 16 bits hold.
+constexpr std::int16_t shortened(Number value) {
+  return static_cast<std::int16_t>(std::clamp<Number>(value, -0x8000, 0x7FFF));
+}
+
 /// value * 2^up for any sign of `up`, rounded down and to the nearest within +-limit.
 constexpr Number shifted(Wide value, int up, Number limit) {
   if (up <= 0) return limited(value >> std::min(-up, 63), limit);
@@ -40,6 +56,14 @@ constexpr Number shifted(Wide value, int up, Number limit) {
   if (value > most) return limit;
   if (value < -most) return -limit;
   return static_cast<Number>(value << up);
+}
+
+constexpr Number shifted(Number value, int up, Number limit) {
+  if (up <= 0) return limited(value >> std::min(-up, 31), limit);
+  const Number most = limit >> std::min(up, 31);
+  if (value > most) return limit;
+  if (value < -most) return -limit;
+  return value << up;
 }
 
 /// value^2, exactly. Cores without long products make it of three short ones.

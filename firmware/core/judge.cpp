@@ -46,10 +46,11 @@ int freedoms(const Hypothesis& hypothesis) {
 bool isAccepted(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings) {
   const int left = freedoms(solution.hypothesis);
   if (left < 1 || !isAdmissible(constants, solution)) return false;
+  const Wide allowed = energyOf(readings, threshold::kGatePerFreedom * left + threshold::kGate);
+  if (solution.residualEnergy <= allowed) return true;
   const Number off = largestReading(readings, solution.hypothesis.gauges) >> 5;
   const Wide profile = (Wide{off} * off * left) >> (2 * (threshold::kProfileErrorBits - 5));
-  return solution.residualEnergy <=
-         energyOf(readings, threshold::kGatePerFreedom * left + threshold::kGate) + profile;
+  return solution.residualEnergy <= allowed + profile;
 }
 
 bool isFirm(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings) {

@@ -74,7 +74,7 @@ bool Locator::follow(const TableImage& tables, const ScaledReadings& readings, G
 void Locator::start(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges) {
   answer_ = {};
   const Hypothesis hypothesis = oneContact(tables, mode_, gauges);
-  const ContactStates guess = initialGuess(tables, hypothesis, readings);
+  const ContactStates guess = initialGuess(tables, hypothesis, readings, linearisation_);
   believe(tables, fit(tables, hypothesis, guess, readings, kMostSteps, linearisation_), readings);
   if (answer_.accepted && isFirm(tables.constants, answer_.solution, readings)) return;
   search_.begin(tables, readings, hypothesis);

@@ -48,6 +48,8 @@ class Locator {
   const Answer& answer() const { return answer_; }
   /// The linear model around the answer, of which its errors are.
   const Linearisation& linearisation() const { return linearisation_; }
+  /// Work space between updates, so that who else fits needs none of its own.
+  Linearisation& scratch() { return scratch_; }
 
  private:
   bool follow(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);

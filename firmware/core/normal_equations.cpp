@@ -7,15 +7,25 @@ namespace strainfinger::firmware {
 namespace {
 
 constexpr int kUndeterminedBits = 12;
-constexpr Number kMostLower = (1 << 30) - 1;
-constexpr Number kMostStep = 1 << 28;
-constexpr Number kMostGradient = 1 << 30;
+constexpr int kLowerLimitBits = 30;
+constexpr int kStepLimitBits = 28;
+constexpr int kGradientLimitBits = 30;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// value / pivot * 2^bits, limited.
-Number divided(Wide value, Decomposition::Reciprocal by, int bits, Number limit) {
-  return shifted(value * by.mantissa, by.exponent + bits, limit);
+Number divided(Number value, Decomposition::Reciprocal by, int bits, Number limit) {
+  const Wide product = Wide{value} * static_cast<Number>(by.mantissa);
+  const int up = by.exponent + bits;
+  if (up <= -32) return shifted(static_cast<Number>(product >> 32), up + 32, limit);
+  return shifted(product, up, limit);
+}
+
+/// Sum of L's row and a vector, first .. last - 1 [* 2^kLowerBits]: seven products below 2^60.
+Wide product(const Vector& lower_q20, const Vector& vector, int last) {
+  Wide sum = 0;
+  for (int m = 0; m < last; ++m) sum += Wide{lower_q20[at(m)]} * vector[at(m)];
+  return sum;
 }
 
 }  // namespace
@@ -36,15 +46,16 @@ void decompose(const std::array<Rows, kMostUnknowns>& columns, int rows, int unk
     Vector& lower = decomposition.lower_q20[at(i)];
     Vector scaledRow;  // L D
     const Number square = dot(columns[at(i)].data(), columns[at(i)].data(), rows);
-    Wide pivot = square;
+    Wide pivot_q20 = Wide{square} << kLowerBits;
     for (int j = 0; j < i; ++j) {
-      Wide rest = dot(columns[at(i)].data(), columns[at(j)].data(), rows);
-      for (int m = 0; m < j; ++m)
-        rest -= (Wide{decomposition.lower_q20[at(j)][at(m)]} * scaledRow[at(m)]) >> kLowerBits;
-      scaledRow[at(j)] = limited(rest, kMostGradient);
-      lower[at(j)] = divided(scaledRow[at(j)], decomposition.reciprocal[at(j)], kLowerBits, kMostLower);
-      pivot -= (Wide{lower[at(j)]} * scaledRow[at(j)]) >> kLowerBits;
+      const Wide entry_q20 = Wide{dot(columns[at(i)].data(), columns[at(j)].data(), rows)} << kLowerBits;
+      const Wide rest_q20 = entry_q20 - product(decomposition.lower_q20[at(j)], scaledRow, j);
+      scaledRow[at(j)] = narrowed<kLowerBits, kGradientLimitBits>(rest_q20);
+      lower[at(j)] =
+          divided(scaledRow[at(j)], decomposition.reciprocal[at(j)], kLowerBits, 1 << kLowerLimitBits);
+      pivot_q20 -= Wide{lower[at(j)]} * scaledRow[at(j)];
     }
+    const Wide pivot = pivot_q20 >> kLowerBits;
     const bool isDetermined = pivot > square >> kUndeterminedBits && pivot > 0;
     decomposition.pivot[at(i)] = isDetermined ? static_cast<Number>(pivot) : 0;
     decomposition.reciprocal[at(i)] =
@@ -62,24 +73,24 @@ Step solve(const Decomposition& decomposition, const std::array<Rows, kMostUnkno
     bits |= static_cast<std::uint64_t>(magnitude(gradient[at(i)]));
   }
   const int down = std::max(34 - std::countl_zero(bits), 0);  // to below 2^30
-  Step step{};
+  Step step;
   Vector z;
   Wide reduction = 0;  // [* 2^(14 - down)]
   Vector y;
   for (int i = 0; i < unknowns; ++i) {
-    Wide rest = gradient[at(i)] >> down;
-    for (int m = 0; m < i; ++m)
-      rest -= (Wide{decomposition.lower_q20[at(i)][at(m)]} * y[at(m)]) >> kLowerBits;
-    y[at(i)] = limited(rest, kMostGradient);
-    z[at(i)] = divided(y[at(i)], decomposition.reciprocal[at(i)], kStepBits + down, kMostStep);
+    const Wide given_q20 = (gradient[at(i)] >> down) << kLowerBits;
+    const Wide rest_q20 = given_q20 - product(decomposition.lower_q20[at(i)], y, i);
+    y[at(i)] = narrowed<kLowerBits, kGradientLimitBits>(rest_q20);
+    z[at(i)] = divided(y[at(i)], decomposition.reciprocal[at(i)], kStepBits + down, 1 << kStepLimitBits);
     if (decomposition.isDetermined(i)) reduction += Wide{y[at(i)]} * z[at(i)];
   }
   for (int i = unknowns - 1; i >= 0; --i) {
-    Wide best = z[at(i)];
-    for (int j = i + 1; j < unknowns; ++j)
-      best -= (Wide{decomposition.lower_q20[at(j)][at(i)]} * step.x_q14[at(j)]) >> kLowerBits;
+    step.x_q14[at(i)] = 0;
     if (!decomposition.isDetermined(i)) continue;
-    const Number wanted = limited(best, kMostStep);
+    Wide best_q20 = Wide{z[at(i)]} << kLowerBits;
+    for (int j = i + 1; j < unknowns; ++j)
+      best_q20 -= Wide{decomposition.lower_q20[at(j)][at(i)]} * step.x_q14[at(j)];
+    const Number wanted = narrowed<kLowerBits, kStepLimitBits>(best_q20);
     const Number taken = std::clamp(wanted, low_q14[at(i)], high_q14[at(i)]);
     step.x_q14[at(i)] = taken;
     if (taken == wanted) continue;
@@ -99,13 +110,12 @@ std::array<Wide, kMostUnknowns> variances(const Decomposition& decomposition) {
   for (int i = 0; i < unknowns; ++i) {
     if (!decomposition.isDetermined(i)) continue;
     // Column i of L^-1, below its 1 in row i.
-    Vector inverse{};
+    Vector inverse;
     inverse[at(i)] = 1 << kLowerBits;
     for (int k = i; k < unknowns; ++k) {
-      Wide rest = 0;
-      for (int m = i; m < k; ++m)
-        rest -= (Wide{decomposition.lower_q20[at(k)][at(m)]} * inverse[at(m)]) >> kLowerBits;
-      if (k > i) inverse[at(k)] = limited(rest, kMostLower);
+      Wide rest_q20 = 0;
+      for (int m = i; m < k; ++m) rest_q20 -= Wide{decomposition.lower_q20[at(k)][at(m)]} * inverse[at(m)];
+      if (k > i) inverse[at(k)] = narrowed<kLowerBits, kLowerLimitBits>(rest_q20);
       if (!decomposition.isDetermined(k)) continue;
       const Wide square = (Wide{inverse[at(k)]} * inverse[at(k)]) >> kLowerBits;  // below 2^40, * 2^20
       const auto reciprocal = decomposition.reciprocal[at(k)];

@@ -86,7 +86,7 @@ const Observation& Pipeline::process(Codes codes) {
   }
   tracker_.take(*tables_, strains(), observation_.touched ? &locator_.answer() : nullptr,
                 locator_.linearisation(), observation_.leftOut | observation_.saturated | watch_.outOfUse(),
-                calibration_, scratch_);
+                calibration_, locator_.scratch());
   observation_.staleZero = tracker_.stale();
   observation_.noisy = noise_.isNoisy();
   observation_.uncertain = tooFewGauges();

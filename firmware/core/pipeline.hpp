@@ -60,7 +60,6 @@ class Pipeline {
   Locator locator_;
   GaugeWatch watch_;
   ZeroTracker tracker_;
-  Linearisation scratch_;
 };
 
 }  // namespace strainfinger::firmware

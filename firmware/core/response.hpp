@@ -57,8 +57,8 @@ struct Response {
 
 /// Of a patch whose weights' sizes add up to less than 2^15 (usable()): each sum stays below 2^31.
 inline Number valueOf(const ResponsePatch& patch, Number s, Number t) {
-  return ((patch[0] << 15) + (1 << 14) + patch[1] * s + patch[2] * t + patch[3] * scaled<15>(t, t) +
-          patch[4] * scaled<15>(s, t) + patch[5] * scaled<15>(s, s)) >>
+  return ((patch[0] << 15) + (1 << 14) + patch[1] * s + patch[2] * t + patch[3] * (t * t >> 15) +
+          patch[4] * (s * t >> 15) + patch[5] * (s * s >> 15)) >>
          15;
 }
 inline Response responseOf(const ResponsePatch& patch, Number s, Number t) {

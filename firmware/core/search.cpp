@@ -100,7 +100,15 @@ bool isNeighbour(const TableConstants& constants, const Solution& a, const Solut
   return true;
 }
 
-bool isBetter(const Solution& a, const Solution& b) { return a.residualEnergy < b.residualEnergy; }
+constexpr auto isBetter = [](const Solution& a, const Solution& b) {
+  return a.residualEnergy < b.residualEnergy;
+};
+
+/// By insertion: std::sort recurses, and the depth of the stack must be known.
+void sortByEnergy(std::span<Solution> solutions) {
+  for (auto each = solutions.begin(); each != solutions.end(); ++each)
+    std::rotate(std::upper_bound(solutions.begin(), each, *each, isBetter), each, each + 1);
+}
 
 }  // namespace
 
@@ -166,12 +174,12 @@ ContactStates Grid::at(const TableImage& tables, int index) const {
 }
 
 ContactStates initialGuess(const TableImage& tables, const Hypothesis& hypothesis,
-                           const ScaledReadings& readings) {
+                           const ScaledReadings& readings, Linearisation& scratch) {
   const Grid grid(tables, hypothesis, readings, Grid::Kind::kCoarse);
   Solution best;
   bool any = false;
   for (int i = 0; i < grid.size(); ++i) {
-    const Solution point = fitLoads(tables, hypothesis, grid.at(tables, i), readings);
+    const Solution point = fitLoads(tables, hypothesis, grid.at(tables, i), readings, scratch);
     if (!isPromising(tables.constants, point)) continue;
     if (any && point.residualEnergy >= best.residualEnergy) continue;
     best = point;
@@ -211,8 +219,8 @@ void Search::consider(const TableConstants& constants, const Solution& point) {
   candidates_ = static_cast<std::uint8_t>(last + 1 - first);
 }
 
-int Search::lookAtPoint(const TableImage& tables) {
-  const Solution point = fitLoads(tables, hypothesis_, grid_.at(tables, point_++), looked_);
+int Search::lookAtPoint(const TableImage& tables, Linearisation& scratch) {
+  const Solution point = fitLoads(tables, hypothesis_, grid_.at(tables, point_++), looked_, scratch);
   if (stage_ == Stage::kFirstOfPair || isPromising(tables.constants, point))
     consider(tables.constants, point);
   return hypothesis_.contacts == 1 ? kPointWork : kPairWork;
@@ -229,7 +237,7 @@ int Search::refineNext(const TableImage& tables, Linearisation& scratch) {
       if (isSame(tables.constants, candidate, candidate_[at(better)])) return 0;
   const int steps = first ? kFirstSteps : kMostSteps;
   candidate = fit(tables, hypothesis_, candidate.contact, looked_, steps, scratch);
-  if (refined_ == candidates_) std::sort(candidate_.begin(), candidate_.begin() + candidates_, isBetter);
+  if (refined_ == candidates_) sortByEnergy(std::span(candidate_).first(candidates_));
   if (!first && isLookingAgain()) {
     const Hypothesis both{2, all_.widthIsFree, all_.gauges};
     candidate = fit(tables, both, {candidate.contact[0], other_}, readings_, kMostSteps, scratch);
@@ -301,7 +309,7 @@ void Search::finishTask(const TableImage& tables, Linearisation& scratch) {
 void Search::advance(const TableImage& tables, Linearisation& scratch) {
   for (int work = 0; isRunning() && work < kWork;) {
     if (point_ < grid_.size()) {
-      work += lookAtPoint(tables);
+      work += lookAtPoint(tables, scratch);
     } else if (refined_ < refinements()) {
       work += refineNext(tables, scratch);
     } else {

@@ -52,7 +52,7 @@ class Grid {
 
 /// Where to start without knowing anything: the best point of a coarse grid.
 ContactStates initialGuess(const TableImage& tables, const Hypothesis& hypothesis,
-                           const ScaledReadings& readings);
+                           const ScaledReadings& readings, Linearisation& scratch);
 
 /// One contact; if that does not explain the readings, one contact without one of the gauges, and two
 /// contacts, of which each is looked for anew in what the other leaves. Of each hypothesis a grid is looked
@@ -87,7 +87,7 @@ class Search {
   static constexpr int kMostCandidates = 12;
 
   void beginTask(const Hypothesis& hypothesis, const Grid& grid);
-  int lookAtPoint(const TableImage& tables);
+  int lookAtPoint(const TableImage& tables, Linearisation& scratch);
   void consider(const TableConstants& constants, const Solution& point);
   int refineNext(const TableImage& tables, Linearisation& scratch);
   int refinements() const;

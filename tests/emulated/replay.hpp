@@ -25,10 +25,16 @@ class Hash {
   std::uint32_t value_ = 2166136261u;
 };
 
-inline void add(Hash& hash, const firmware::Placement& placement) {
-  hash.add(placement.position);
-  hash.add(placement.normal);
-  hash.add(placement.tangential);
+inline void add(Hash& hash, firmware::Wide number) {
+  hash.add(static_cast<std::uint32_t>(number));
+  hash.add(static_cast<std::uint32_t>(number >> 32));
+}
+
+inline void add(Hash& hash, const firmware::ContactState& contact) {
+  hash.add(contact.angle_q32);
+  hash.add(contact.normal);
+  hash.add(contact.tangential);
+  hash.add(contact.moment_q20);
 }
 
 inline void add(Hash& hash, const firmware::TouchFrames& frames) {
@@ -40,28 +46,36 @@ inline void add(Hash& hash, const firmware::TouchFrames& frames) {
   hash.add(encode(frames.second->force, kFirstNode));
 }
 
-/// Every number of a fit, and what becomes of it on the bus.
-inline void add(Hash& hash, const TableImage& tables, const firmware::Fit& fit, std::uint32_t sample) {
-  add(hash, fit.best);
-  add(hash, fit.alternative);
-  hash.add(fit.deficit);
-  hash.add(std::int32_t{fit.ambiguous} + 2 * std::int32_t{fit.settled} + 256 * fit.centre);
-  for (const std::int32_t projection : fit.projection) hash.add(projection);
-  hash.add(static_cast<std::int32_t>(fit.row - tables.rows.data()) * 256 + fit.up);
-  hash.add(fit.information);
-  hash.add(static_cast<std::int32_t>(fit.readings));
-  hash.add(fit.unexplained);
-  hash.add(fit.windowEnergy);
-  const TableConstants& constants = tables.constants;
-  add(hash, firmware::touchFrames(constants, firmware::estimate(constants, fit), std::nullopt,
-                                  {FingerFlag::kContact}, static_cast<std::uint8_t>(sample)));
+/// Every number of an answer, and what becomes of it on the bus.
+inline void add(Hash& hash, const firmware::Pipeline& pipeline, std::uint32_t sample) {
+  const firmware::Answer& answer = pipeline.answer();
+  const firmware::Hypothesis& hypothesis = answer.solution.hypothesis;
+  for (const firmware::ContactState& contact : answer.solution.contacts()) add(hash, contact);
+  add(hash, answer.rival);
+  add(hash, answer.solution.residualEnergy);
+  add(hash, answer.rivalEnergy);
+  hash.add(hypothesis.gauges);
+  hash.add(hypothesis.exact);
+  hash.add(answer.suspect);
+  hash.add(answer.variance_q4);
+  hash.add(answer.gateVariance_q4);
+  hash.add(std::int32_t{answer.solution.converged} + 2 * std::int32_t{answer.accepted} +
+           4 * std::int32_t{answer.searching} + 8 * std::int32_t{answer.several} + 256 * answer.shift);
+  const auto contact = [&](int i) {
+    return firmware::estimate(pipeline.constants(), answer, pipeline.linearisation(), i);
+  };
+  std::optional<Contact> second;
+  if (hypothesis.contacts > 1) second = contact(1);
+  add(hash, firmware::touchFrames(pipeline.constants(), contact(0), second, {FingerFlag::kContact},
+                                  static_cast<std::uint8_t>(sample)));
 }
 
 /// What would be told of it, one sample set a millisecond, and when: every seventh time the port is busy.
-inline void add(Hash& hash, const TableConstants& constants, firmware::TouchReporter& reporter,
-                const firmware::Observation& observation, std::uint32_t sample) {
+inline void add(Hash& hash, const firmware::Pipeline& pipeline, firmware::TouchReporter& reporter,
+                std::uint32_t sample) {
   const std::uint32_t now_us = sample * 1000;
-  const auto frames = reporter.frames(constants, observation, now_us);
+  const auto frames = reporter.frames(pipeline.constants(), pipeline.observation(), pipeline.answer(),
+                                      pipeline.linearisation(), now_us);
   if (!frames || sample % 7 == 0) return;
   reporter.sent(*frames, now_us);
   hash.add(sample);
@@ -79,13 +93,16 @@ std::uint32_t replayBlock(const TableImage& tables, std::uint32_t first, std::ui
   for (std::uint32_t sample = first; sample < first + count; ++sample) {
     const hal::SampleSet set = generatedSamples(sample);
     const auto codes = firmware::Codes(set).first(kGauges);
-    const auto look = [&](const firmware::Observation& observation) {
+    const auto look = [&](firmware::Pipeline& pipeline) {
+      const firmware::Observation& observation = pipeline.process(codes);
       hash.add(observation.saturated);
-      if (observation.fit) add(hash, tables, *observation.fit, sample);
+      hash.add(observation.outOfUse);
+      hash.add(std::int32_t{observation.noisy} + 2 * std::int32_t{observation.uncertain});
+      if (observation.touched) add(hash, pipeline, sample);
     };
-    look(refined.process(codes));
-    add(hash, tables.constants, reporter, refined.observation(), sample);
-    if (sample % 4 == 0) look(threePoint.process(codes));
+    look(refined);
+    add(hash, refined, reporter, sample);
+    if (sample % 4 == 0) look(threePoint);
     tell(sample, hash.value());
   }
   return hash.value();

@@ -34,21 +34,25 @@ class Draws {
   std::uint32_t count_ = 0;
 };
 
-/// A contact: where [turns * 2^32] and how hard [codes at the response's peak].
+/// How wide a contact is, as impulse_table.hpp has them.
+enum Width : std::uint8_t { kLine, kTwoMillimetres };
+
+/// A contact: where [turns * 2^32], how hard [codes at the response's peak] and how wide.
 struct GeneratedContact {
   std::uint32_t angle;
   std::int32_t normal;
   std::int32_t tangential;
+  Width width = kLine;
 };
 
 /// Any angle; loads up to twice `range`, over thirteen octaves, large ones more often, as the faintest cost
-/// ten times as much; tangential load within 1.25 times the normal one either way.
+/// ten times as much; tangential load within 1.25 times the normal one either way; lines and wide ones.
 constexpr GeneratedContact drawContact(Draws& draws, std::uint32_t range) {
   const std::uint32_t angle = draws.next();
   const auto normal =
       static_cast<std::int32_t>((range + draws.below(range)) >> draws.below(draws.below(13) + 1));
   const auto percent = static_cast<std::int32_t>(draws.below(251)) - 125;
-  return {angle, normal, normal * percent / 100};
+  return {angle, normal, normal * percent / 100, draws.below(2) == 0 ? kLine : kTwoMillimetres};
 }
 
 constexpr std::int32_t interpolated(const std::int16_t* table, std::uint32_t turn) {
@@ -63,9 +67,10 @@ using Deflections = std::array<std::int32_t, kGauges>;  ///< codes from mid-scal
 constexpr void press(Deflections& codes, const GeneratedContact& contact) {
   for (std::uint32_t gauge = 0; gauge < kGauges; ++gauge) {
     const std::uint32_t away = (gauge << 28) - contact.angle;
-    const std::int64_t normal = std::int64_t{contact.normal} * interpolated(kNormalResponse, away);
+    const std::int64_t normal =
+        std::int64_t{contact.normal} * interpolated(kNormalResponse[contact.width], away);
     const std::int64_t tangential =
-        std::int64_t{contact.tangential} * interpolated(kTangentialResponse, away);
+        std::int64_t{contact.tangential} * interpolated(kTangentialResponse[contact.width], away);
     codes[gauge] += static_cast<std::int32_t>((normal + tangential) >> 14);
   }
 }
@@ -105,13 +110,25 @@ constexpr hal::SampleSet strange(Draws& draws) {
   return set;
 }
 
-/// One contact or none, with no more noise than the tables expect: what a finger feels day in, day out. Loads
-/// to twice `range`.
-constexpr hal::SampleSet ordinary(Draws& draws, std::uint32_t range) {
+/// Sample sets that a generated touch lasts.
+inline constexpr std::uint32_t kTouch = 64;
+
+/// One contact, two or none, held or sliding by up to 16 um a sample set, with no more noise than the tables
+/// expect: what a finger feels day in, day out. Loads to twice `range`.
+constexpr hal::SampleSet ordinary(std::uint32_t sample, std::uint32_t range) {
+  Draws touch(sample / kTouch), draws(sample);
   Deflections codes{};
-  if (draws.below(4) != 0) press(codes, drawContact(draws, range));
-  addNoise(codes, draws, 4 + static_cast<int>(draws.below(4)));
-  return converted(codes, draws.below(2) == 0);
+  const std::uint32_t kind = touch.below(16);
+  const std::uint32_t moved = sample % kTouch * touch.below(kTurn_q32Of50_um / 3);
+  for (std::uint32_t i = 0; i < (kind == 0 ? 2u : kind < 12 ? 1u : 0u); ++i) {
+    GeneratedContact contact = drawContact(touch, range);
+    contact.angle += moved;
+    press(codes, contact);
+  }
+  const int down = 4 + static_cast<int>(touch.below(4));
+  const bool fine = touch.below(2) == 0;
+  addNoise(codes, draws, down);
+  return converted(codes, fine);
 }
 
 /// Of 32, 24 show one contact, 3 two, 3 none but noise, 2 are strange; loads to beyond the converter's range.
@@ -130,12 +147,13 @@ constexpr hal::SampleSet wild(Draws& draws) {
 inline constexpr std::uint32_t kBlock = 1024;
 
 /// Sample set number `sample`. What takes many times the time is rarer than the rest: every sixteenth block
-/// presses gauges to the ends of the converter's range, and the last 96 of every sixteenth are wild ones.
+/// presses gauges to the ends of the converter's range, and the last 96 of every sixteenth are wild ones,
+/// each of them another touch.
 constexpr hal::SampleSet generatedSamples(std::uint32_t sample) {
   constexpr std::uint32_t kCycle = 16 * kBlock, kWild = 96;
   Draws draws(sample);
   if (sample % kCycle >= kCycle - kWild) return wild(draws);
-  return ordinary(draws, sample / kBlock % 16 == 5 ? 1u << 14 : 1u << 13);
+  return ordinary(sample, sample / kBlock % 16 == 5 ? 1u << 14 : 1u << 13);
 }
 
 }  // namespace strainfinger::emulated

@@ -14,8 +14,8 @@ struct PageRange {
 
 inline constexpr PageRange kImagePages{0, 48};
 inline constexpr PageRange kTablePages{
-    48, 6};  ///< tables of a finger, used instead of the image's if they are whole
-inline constexpr PageRange kConfigurationPages{54, 10};
+    48, 12};  ///< tables of a finger, used instead of the image's if they are whole
+inline constexpr PageRange kConfigurationPages{60, 4};
 
 static_assert(kTablePages.first == kImagePages.first + kImagePages.count);
 static_assert(kConfigurationPages.first == kTablePages.first + kTablePages.count);

@@ -1,8 +1,9 @@
-// What a sample set costs, in instructions, stage by stage (see instruction_counter.hpp for how to run it).
-// Writes CSV to UART0: what was measured, instructions.
+// What an update costs, in instructions, scene by scene (see instruction_counter.hpp for how to run it).
+// Writes CSV to UART0: the scene, instructions of one update. Command line (semihosting): how many updates
+// the scenes of any kind have together.
 #include <algorithm>
 #include <cstddef>
-#include <new>
+#include <optional>
 
 #include "firmware/app/finger.hpp"
 #include "firmware/board/cortex_m/linked_tables.hpp"
@@ -10,7 +11,7 @@
 #include "firmware/board/mps2/console.hpp"
 #include "firmware/board/mps2/instruction_counter.hpp"
 #include "firmware/board/mps2/semihosting.hpp"
-#include "tests/emulated/replay.hpp"
+#include "tests/emulated/sample_generator.hpp"
 #include "tests/emulated/target/test_image.hpp"
 
 extern "C" std::uint32_t stack_bottom[];
@@ -21,8 +22,7 @@ namespace {
 using namespace emulated;
 using mps2::InstructionCounter;
 
-constexpr std::uint32_t kSamples = 2000;
-constexpr std::uint32_t kFirmSamples = 40'000;  ///< of which the worst is a bar
+constexpr std::uint32_t kUpdates = 2000;  ///< of a scene
 constexpr std::uint32_t kPaint = 0x57ACC57A;
 
 struct Adc {
@@ -34,11 +34,7 @@ struct Adc {
   std::uint32_t overruns() const noexcept { return 0; }
 };
 struct Can {
-  std::uint32_t sent = 0;
-  bool send(const CanFrame&) noexcept {
-    ++sent;
-    return true;
-  }
+  bool send(const CanFrame&) noexcept { return true; }
   std::optional<CanFrame> receive() noexcept { return std::nullopt; }
   hal::CanStatus status() const noexcept { return {.state = hal::CanState::kActive}; }
 };
@@ -54,89 +50,172 @@ struct Watchdog {
 mps2::Console* console;
 void tell(const char* what, std::uint32_t instructions) { *console << what << "," << instructions << "\n"; }
 
-/// A contact of 1/64 to all of the converter's range, or none; noise of about the default finger's.
-hal::SampleSet samplesOf(std::uint32_t sample, bool touched) {
-  Draws draws(sample);
-  Deflections codes{};
-  if (touched) {
-    const std::uint32_t angle = draws.next();
-    const auto normal = static_cast<std::int32_t>(((1u << 14) + draws.below(1u << 14)) >> draws.below(7));
-    press(codes, {angle, normal, normal * (static_cast<std::int32_t>(draws.below(201)) - 100) / 100});
-  }
-  addNoise(codes, draws, 3);
-  return converted(codes, false);
-}
-
-/// A firm contact: the noise is that of the default finger's tables, 6e-6 or 6.55 codes, and 0.1 % of the
-/// contact's peak; load directions are within +-45 degrees.
-hal::SampleSet firmSamplesOf(std::uint32_t sample) {
-  Draws draws(sample);
-  Deflections codes{}, noise{};
-  constexpr std::int32_t kNormal = 6550;
-  press(codes, {draws.next(), kNormal, kNormal * (static_cast<std::int32_t>(draws.below(201)) - 100) / 100});
+/// Noise of the default finger's tables, 6e-6 or 6.55 codes.
+void addConfiguredNoise(Deflections& codes, Draws& draws) {
+  Deflections noise{};
   addNoise(noise, draws, 0);  // 74 codes
   for (std::size_t gauge = 0; gauge < kGauges; ++gauge) codes[gauge] += noise[gauge] * 91 / 1024;
+}
+
+/// What touches the finger, before noise.
+Deflections pressed(const GeneratedContact& contact) {
+  Deflections codes{};
+  press(codes, contact);
+  return codes;
+}
+
+hal::SampleSet noisy(Deflections codes, std::uint32_t sample) {
+  Draws draws(sample);
+  addConfiguredNoise(codes, draws);
   return converted(codes, true);
 }
 
-/// A fit, made where it stays, as in Pipeline::look().
-const firmware::Fit& located(const InstructionCounter& counter, firmware::FitMode mode,
-                             std::span<const std::int32_t> strains, std::uint32_t energy, const char* what) {
-  alignas(firmware::Fit) static std::byte place[sizeof(firmware::Fit)];
-  const firmware::Fit* fit = nullptr;
-  tell(what,
-       counter.of([&] { fit = new (place) firmware::Fit(locate(kLinkedTables, mode, strains, energy)); }));
-  return *fit;
+constexpr Deflections kUntouched{};
+
+/// 30 N/m, pulled by half as much.
+GeneratedContact firmContact(std::uint32_t angle, Width width) {
+  return {angle, kPeakCodesAt30_n_per_m, kPeakCodesAt30_n_per_m / 2, width};
 }
 
-/// The stages one by one, as Pipeline::process() and TouchReporter::frames() run them.
-void stages(const InstructionCounter& counter, const hal::SampleSet& set, const char* refined,
-            const char* threePoint) {
-  const TableConstants& constants = kLinkedTables.constants;
-  static const firmware::Calibration calibration = firmware::nominalCalibration(constants);
-  firmware::Readings readings;
-  firmware::ContactGate gate;
-  std::uint32_t energy = 0;
-  tell("condition",
-       counter.of([&] { condition(calibration, firmware::Codes(set).first(kGauges), readings); }));
-  const auto strains = readings.strains(kGauges);
-  tell("gate", counter.of([&] {
-    energy = firmware::gateEnergy(constants, strains);
-    gate.update(constants, energy);
-  }));
-  if (!gate.touched()) return;
-  located(counter, firmware::FitMode::kThreePoint, strains, energy, threePoint);
-  const firmware::Fit& fit = located(counter, firmware::FitMode::kRefined, strains, energy, refined);
-  CanFrame contactFrame, forceFrame, patchFrame;
-  tell("report", counter.of([&] {
-    const auto frames =
-        firmware::touchFrames(constants, estimate(constants, fit), std::nullopt, {FingerFlag::kContact}, 1);
-    contactFrame = encode(frames.contact, kFirstNode);
-    forceFrame = encode(frames.force, kFirstNode);
-    patchFrame = encode(frames.patch, kFirstNode);
-  }));
-}
-
-/// Sample sets through the whole finger, from converter to port. Of every 64, 32 are touched.
-[[gnu::noinline]] void updates(const InstructionCounter& counter) {
-  static Adc adc;
-  static Can can;
-  static Clock clock;
-  static Watchdog watchdog;
-  static firmware::Finger finger(kLinkedTables, {.contactRate_hz = 1000}, adc, can, clock, watchdog);
-  for (std::uint32_t sample = 0; sample < kSamples + firmware::ZeroAverage::kSamples; ++sample) {
-    const bool zeroing = sample < firmware::ZeroAverage::kSamples;
-    const bool touched = !zeroing && sample % 64 < 32;
-    adc.next = samplesOf(sample, touched);
-    const bool beats = clock.time_us % 100'000 == 0;
-    clock.time_us += 1000;
-    const std::uint32_t before = can.sent;
-    const std::uint32_t instructions = counter.of([&] { finger.step(); });
-    const std::uint32_t sent = can.sent - before;
-    if (zeroing || beats) continue;
-    if (touched && sent == 2) tell("update_sent", instructions);
-    if (!touched && sent == 0) tell("update_idle", instructions);
+/// A finger from converter to port, its updates counted. A set a millisecond, and frames as often.
+class CountedFinger {
+ public:
+  CountedFinger(const TableImage& tables, const InstructionCounter& counter)
+      : counter_(counter), finger_(tables, {.contactRate_hz = 1000}, adc_, can_, clock_, watchdog_) {
+    for (std::uint32_t sample = 0; sample <= firmware::ZeroAverage::kSamples; ++sample)
+      update(noisy(kUntouched, sample));
   }
+
+  std::uint32_t update(const hal::SampleSet& set) {
+    adc_.next = set;
+    clock_.time_us += 1000;
+    return counter_.of([&] { finger_.step(); });
+  }
+  bool isSearching() const { return finger_.lastAnswer().searching; }
+
+ private:
+  const InstructionCounter& counter_;
+  Adc adc_;
+  Can can_;
+  Clock clock_;
+  Watchdog watchdog_;
+  firmware::Finger<Adc, Can, Clock, Watchdog> finger_;
+};
+
+/// A new finger that has found its zero. There is room for one.
+CountedFinger& newFinger(const TableImage& tables, const InstructionCounter& counter) {
+  static std::optional<CountedFinger> finger;
+  return finger.emplace(tables, counter);
+}
+
+void idle(const InstructionCounter& counter) {
+  CountedFinger& finger = newFinger(kLinkedTables, counter);
+  for (std::uint32_t sample = 0; sample < kUpdates; ++sample)
+    tell("idle", finger.update(noisy(kUntouched, sample)));
+}
+
+/// A contact held where it is once it is found: the same codes, and with noise.
+void held(const InstructionCounter& counter, Width width, const char* same, const char* withNoise) {
+  constexpr std::uint32_t kUntilFound = 100;
+  CountedFinger& finger = newFinger(kLinkedTables, counter);
+  const Deflections contact = pressed(firmContact(0x12345678, width));
+  for (std::uint32_t sample = 0; sample < kUntilFound + 2 * kUpdates; ++sample) {
+    const bool unchanged = sample < kUntilFound + kUpdates;
+    const std::uint32_t instructions = finger.update(noisy(contact, unchanged ? 0 : sample));
+    if (sample >= kUntilFound) tell(unchanged ? same : withNoise, instructions);
+  }
+}
+
+/// A contact that slides by 50 um a set.
+void sliding(const InstructionCounter& counter, const TableImage& tables, Width width, const char* what) {
+  constexpr std::uint32_t kUntilFound = 100;
+  CountedFinger& finger = newFinger(tables, counter);
+  for (std::uint32_t sample = 0; sample < kUntilFound + kUpdates; ++sample) {
+    const std::uint32_t instructions =
+        finger.update(noisy(pressed(firmContact(sample * kTurn_q32Of50_um, width)), sample));
+    if (sample >= kUntilFound) tell(what, instructions);
+  }
+}
+
+/// New contacts anywhere, from an eighth of 30 N/m to all of it: the first set of each, and those during
+/// which the search for other answers goes on.
+void newTouches(const InstructionCounter& counter) {
+  constexpr int kBetween = 3, kMostSets = 64;
+  CountedFinger& finger = newFinger(kLinkedTables, counter);
+  for (std::uint32_t touch = 0; touch < kUpdates; ++touch) {
+    Draws draws(touch);
+    GeneratedContact contact = firmContact(draws.next(), touch % 2 == 0 ? kLine : kTwoMillimetres);
+    contact.normal >>= draws.below(4);
+    contact.tangential = contact.normal * (static_cast<std::int32_t>(draws.below(101)) - 50) / 100;
+    const Deflections codes = pressed(contact);
+    tell("new", finger.update(noisy(codes, draws.next())));
+    for (int i = 0; i < kMostSets && finger.isSearching(); ++i)
+      tell("search", finger.update(noisy(codes, draws.next())));
+    for (int i = 0; i < kBetween; ++i) finger.update(noisy(kUntouched, draws.next()));
+  }
+}
+
+/// What a finger may be given besides one contact, held for kTouch sets each.
+enum class Kind : std::uint8_t { kFaint, kPair, kDeadGauge, kHum, kAnyCodes, kEveryKind, kCount };
+constexpr const char* kKindNames[] = {"any_faint", "any_pair",  "any_dead",
+                                      "any_hum",   "any_codes", "any_wild"};
+
+/// Of 50 Hz, alike on all gauges, up to 300 microstrain.
+Deflections hum(std::uint32_t sample, Draws& touch) {
+  constexpr std::int32_t kSine[20] = {0, 316,  601,  828,  973,  1024,  973,  828,  601,  316,
+                                      0, -316, -601, -828, -973, -1024, -973, -828, -601, -316};
+  const auto amplitude = static_cast<std::int32_t>(touch.below(330));
+  Deflections codes;
+  codes.fill(amplitude * kSine[sample % 20] / 1024);
+  return codes;
+}
+
+hal::SampleSet setOf(Kind kind, std::uint32_t sample) {
+  Draws touch(sample / kTouch), draws(sample);
+  Deflections codes{};
+  switch (kind) {
+    case Kind::kFaint: {
+      GeneratedContact contact = drawContact(touch, 1u << 10);
+      contact.angle += sample % kTouch * kTurn_q32Of50_um;
+      press(codes, contact);
+      break;
+    }
+    case Kind::kPair:
+      press(codes, drawContact(touch, 1u << 12));
+      press(codes, drawContact(touch, 1u << 12));
+      break;
+    case Kind::kDeadGauge:
+      press(codes, firmContact(touch.next() + sample % kTouch * kTurn_q32Of50_um, kTwoMillimetres));
+      codes[touch.below(kGauges)] = 0;
+      break;
+    case Kind::kHum:
+      codes = hum(sample, touch);
+      if (touch.below(2) == 0) press(codes, firmContact(touch.next(), kLine));
+      break;
+    case Kind::kAnyCodes:
+      return strange(touch.below(2) == 0 ? touch : draws);
+    case Kind::kEveryKind:
+    case Kind::kCount:
+      return wild(draws);
+  }
+  return noisy(codes, sample);
+}
+
+void anyKind(const InstructionCounter& counter, std::uint32_t updates) {
+  constexpr auto kKinds = static_cast<std::uint32_t>(Kind::kCount);
+  for (std::uint32_t kind = 0; kind < kKinds; ++kind) {
+    CountedFinger& finger = newFinger(kLinkedTables, counter);
+    for (std::uint32_t sample = 0; sample < updates / kKinds; ++sample)
+      tell(kKindNames[kind], finger.update(setOf(static_cast<Kind>(kind), sample)));
+  }
+}
+
+/// The default finger's tables for who says that contacts are lines.
+const TableImage& lineTables() {
+  static TableImage tables = kLinkedTables;
+  tables.constants.width_is_known = 1;
+  tables.constants.known_moment_q20 = 0;
+  return tables;
 }
 
 }  // namespace
@@ -146,11 +225,14 @@ void runBoard() {
   mps2::Console line;
   console = &line;
   const InstructionCounter counter;
-  for (std::uint32_t sample = 0; sample < kFirmSamples; ++sample)
-    stages(counter, firmSamplesOf(sample), "locate", "locate_three_point");
-  for (std::uint32_t sample = 0; sample < kSamples; ++sample)
-    stages(counter, samplesOf(sample, true), "locate_any", "locate_three_point_any");
-  updates(counter);
+  const std::uint32_t ofAnyKind = Words().number();
+  idle(counter);
+  held(counter, kLine, "held_line", "held_line_noise");
+  held(counter, kTwoMillimetres, "held_wide", "held_wide_noise");
+  sliding(counter, lineTables(), kLine, "known_line");
+  sliding(counter, kLinkedTables, kTwoMillimetres, "wide");
+  newTouches(counter);
+  anyKind(counter, ofAnyKind);
   const auto* const touched = std::find_if(stack_bottom, const_cast<std::uint32_t*>(stack_top),
                                            [](std::uint32_t word) { return word != kPaint; });
   tell("stack_bytes", 4 * static_cast<std::uint32_t>(stack_top - touched));

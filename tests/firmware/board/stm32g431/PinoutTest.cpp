@@ -94,6 +94,6 @@ TEST_GROUP(FlashLayout){};
 
 TEST(FlashLayout, TablesAndConfigurationAreBehindTheImage) {
   LONGS_EQUAL(0x0801'8000, kTablePages.address());
-  LONGS_EQUAL(0x0801'B000, kConfigurationPages.address());
+  LONGS_EQUAL(0x0801'E000, kConfigurationPages.address());
   LONGS_EQUAL(96 * 1024, kImagePages.bytes());
 }

@@ -10,13 +10,20 @@
 #include "host/tables/table_builder.hpp"
 
 namespace strainfinger::bench {
+namespace {
+
+/// The touch's first sample set, and as many more as the search for an answer goes on. Sample sets of one
+/// touch are numbered one after the other.
+constexpr std::uint64_t kSetsPerTouch = 256;
+
+}  // namespace
+
 Trial::Trial(const config::FingerConfig& actual, const config::FingerConfig& told, std::uint64_t seed)
     : actual_(actual), tables_(tables::buildTableImage(told)), ring_(actual, seed), seed_(seed) {}
 
 void Trial::touch(const simulation::Touch& touch, int repeats, ErrorStatistics& statistics) {
   const Eigen::VectorXd exact = ring_.exact(touch);
-  for (int repeat = 0; repeat < repeats; ++repeat, ++sample_)
-    judge(ring_.codes(exact, sample_), touch, statistics);
+  for (int repeat = 0; repeat < repeats; ++repeat, ++touch_) judge(exact, touch, statistics);
 }
 
 void Trial::touchAnywhere(double load_n_per_m, int contacts, ErrorStatistics& statistics) {
@@ -24,23 +31,26 @@ void Trial::touchAnywhere(double load_n_per_m, int contacts, ErrorStatistics& st
   ranges.load_n_per_m = {load_n_per_m, load_n_per_m};
   const evidence::TouchDraws draws(actual_.gauges, ranges, seed_);
   for (int contact = 0; contact < contacts; ++contact) {
-    simulation::Touch touched = draws.at(sample_);
+    simulation::Touch touched = draws.at(touch_);
     touched.width_m.reset();  // that of the finger's config
     touch(touched, 1, statistics);
   }
 }
 
-void Trial::judge(const std::vector<std::uint16_t>& codes, const simulation::Touch& touch,
+void Trial::judge(const Eigen::VectorXd& exact, const simulation::Touch& touch,
                   ErrorStatistics& statistics) const {
   ++statistics.contacts;
   firmware::Pipeline pipeline(tables_, firmware::FitMode::kRefined);
-  const auto& fit = pipeline.process(codes).fit;
-  if (!fit) {
+  std::uint64_t set = touch_ * kSetsPerTouch;
+  do pipeline.process(ring_.codes(exact, set));
+  while (pipeline.observation().touched && pipeline.answer().searching && ++set % kSetsPerTouch != 0);
+  if (!pipeline.observation().touched) {
     ++statistics.unnoticed;
     return;
   }
-  const Contact contact = firmware::estimate(tables_.constants, *fit);
-  if (contact.uncertain) {
+  const Contact contact =
+      firmware::estimate(tables_.constants, pipeline.answer(), pipeline.linearisation(), 0);
+  if (contact.uncertain || pipeline.observation().several) {
     ++statistics.uncertain;
     return;
   }

@@ -42,14 +42,13 @@ class Trial {
   void touchAnywhere(double load_n_per_m, int contacts, ErrorStatistics& statistics);
 
  private:
-  void judge(const std::vector<std::uint16_t>& codes, const simulation::Touch& touch,
-             ErrorStatistics& statistics) const;
+  void judge(const Eigen::VectorXd& exact, const simulation::Touch& touch, ErrorStatistics& statistics) const;
 
   config::FingerConfig actual_;
   TableImage tables_;
   evidence::TouchedRing ring_;
   std::uint64_t seed_;
-  std::uint64_t sample_ = 0;
+  std::uint64_t touch_ = 0;
 };
 
 }  // namespace strainfinger::bench

@@ -6,6 +6,7 @@
 
 #include "host/base/angles.hpp"
 #include "host/base/table_writer.hpp"
+#include "host/bench/fingers.hpp"
 
 namespace strainfinger::bench {
 namespace {
@@ -27,7 +28,7 @@ class Sweeps {
 
   void map(double load_n_per_m) {
     constexpr int kOffsets = 40, kDirections = 30;
-    Trial trial({}, {}, settings_.seed);
+    Trial trial(perfectFinger(), perfectFinger(), settings_.seed);
     const double pitch_rad = 2 * std::numbers::pi / config::Gauges{}.count;
     for (int i = 0; i <= kOffsets; ++i) {
       for (int k = 0; k <= kDirections; ++k) {
@@ -44,7 +45,7 @@ class Sweeps {
   }
   void load() {
     for (const double load : {0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 30.0, 60.0})
-      add(kLoadSweep, load, "N/m", load, {}, {});
+      add(kLoadSweep, load, "N/m", load, perfectFinger(), perfectFinger());
   }
   void noise() {
     constexpr int kFineBits = 16;
@@ -57,14 +58,14 @@ class Sweeps {
   }
   void width() {
     for (const double width_mm : {0.0, 0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 8.0}) {
-      config::FingerConfig finger;
+      config::FingerConfig finger = perfectFinger();
       finger.contact.width_m = width_mm * 1e-3;
       toldAndNot(kWidthSweep, width_mm, finger);
     }
   }
   void length() {
     for (const double length_mm : {0.0, 0.2, 0.5, 1.0, 1.5, 2.0, 3.0}) {
-      config::FingerConfig finger;
+      config::FingerConfig finger = perfectFinger();
       finger.gauges.arc_length_m = length_mm * 1e-3;
       toldAndNot(kLengthSweep, length_mm, finger);
     }
@@ -73,13 +74,13 @@ class Sweeps {
 
  private:
   void withElectronics(const char* sweep, double setting, const char* unit, int bits, double analog_strain) {
-    config::FingerConfig finger;
+    config::FingerConfig finger = perfectFinger();
     setElectronics(finger.gauges, bits, analog_strain);
     for (const double load : {kLight_n_per_m, kFirm_n_per_m}) add(sweep, setting, unit, load, finger, finger);
   }
   void toldAndNot(const char* sweep, double setting, const config::FingerConfig& finger) {
     add(sweep, setting, "mm", kFirm_n_per_m, finger, finger);
-    add(sweep, setting, "mm", kFirm_n_per_m, finger, {});
+    add(sweep, setting, "mm", kFirm_n_per_m, finger, perfectFinger());
     cells_.back().told = false;
   }
   void add(const char* sweep, double setting, const char* unit, double load_n_per_m,

@@ -30,7 +30,7 @@ class Contest {
     const auto& [readings, tables] = levels_[level];
     std::vector<Place<double>> answers;
     for (const Reading& reading : readings)
-      answers.push_back(placeOf(tables->usual.constants, fit(reading.sample)));
+      answers.push_back(placeOf(tables->line, fit(reading.sample)));
     result.score[level] = scoreOf(finger_, readings, answers);
     if (level == kTimedLevel) result.time_ns = timeOf(fit);
   }

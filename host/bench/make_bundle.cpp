@@ -18,12 +18,12 @@ std::vector<Reading> readingsOf(const BenchFinger& finger, const LevelSettings& 
 }
 
 NoiseTables tablesFor(const BenchFinger& finger, const LevelSettings& level) {
-  config::FingerConfig config = finger.config();
+  config::FingerConfig anyWidth = finger.config();
   if (level.relativeNoise > 0)
-    config.gauges.noise_strain = level.relativeNoise * finger.peakPerLoad() * kBenchLoad_n_per_m;
-  NoiseTables result{tables::buildTableImage(config), tables::buildTableImage(config)};
-  tables::searchEverywhere(result.everyWindow);
-  return result;
+    anyWidth.gauges.noise_strain = level.relativeNoise * finger.peakPerLoad() * kBenchLoad_n_per_m;
+  config::FingerConfig line = anyWidth;
+  line.contact.width_m = 0;
+  return {tables::buildTableImage(line), tables::buildTableImage(anyWidth)};
 }
 
 std::unique_ptr<Bundle> makeBundle(const BenchFinger& finger) {

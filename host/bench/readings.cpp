@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "common/fixed_real.hpp"
+#include "host/bench/fingers.hpp"
 #include "host/evidence/bound.hpp"
 #include "host/evidence/uniform.hpp"
 #include "host/simulation/noise.hpp"
@@ -20,7 +21,8 @@ Place<double> drawPlace(const simulation::Noise& noise, std::uint64_t number) {
 }  // namespace
 
 BenchFinger::BenchFinger()
-    : response_(config_.finger.annulus(), config_.gauges.radius_m, config_.gauges.component),
+    : config_(perfectFinger()),
+      response_(config_.finger.annulus(), config_.gauges.radius_m, config_.gauges.component),
       model_(config_) {}
 
 double BenchFinger::pitch_rad() { return 2 * std::numbers::pi / kGauges; }

@@ -19,7 +19,7 @@ struct Reading {
   Eigen::Vector3d bound;  ///< Cramer-Rao, standard deviations: pitches, N/m, N/m; 0 without noise
 };
 
-/// The default finger as the benchmark sees it.
+/// The default finger as the benchmark sees it: exactly as drawn.
 class BenchFinger {
  public:
   BenchFinger();

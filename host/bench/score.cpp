@@ -18,21 +18,21 @@ Eigen::Vector3d errorOf(const Place<double>& answer, const Place<double>& truth)
 
 }  // namespace
 
-Place<double> placeOf(const TableConstants& constants, const Contact& contact) {
-  const double turn = toReal(
-      TurnDifferenceQ32::fromRaw(static_cast<std::int32_t>(contact.angle.raw() - constants.first_angle_q32)));
+Place<double> placeOf(const TableImage& tables, const Contact& contact) {
+  const std::uint32_t beyond_q32 = contact.angle.raw() - tables.gauge_angle_q32[0];
+  const double turn = toReal(TurnDifferenceQ32::fromRaw(static_cast<std::int32_t>(beyond_q32)));
   return {turn * kGauges, toReal(contact.normal), toReal(contact.tangential)};
 }
 
-Place<double> placeOf(const TableConstants& constants, const firmware::Fit& fit) {
-  return placeOf(constants, firmware::estimate(constants, fit));
+Place<double> placeOf(const TableImage& tables, const firmware::Locator& locator) {
+  return placeOf(tables, estimate(tables.constants, locator.answer(), locator.linearisation(), 0));
 }
 
-Place<double> placeOf(const TableConstants&, const Place<float>& place) {
+Place<double> placeOf(const TableImage&, const Place<float>& place) {
   return {double{place.position_pitch}, double{place.normal}, double{place.tangential}};
 }
 
-Place<double> placeOf(const TableConstants&, const Place<double>& place) { return place; }
+Place<double> placeOf(const TableImage&, const Place<double>& place) { return place; }
 
 Score scoreOf(const BenchFinger& finger, std::span<const Reading> readings,
               std::span<const Place<double>> answers) {

@@ -7,15 +7,15 @@
 
 #include "common/table_image.hpp"
 #include "firmware/core/estimate.hpp"
-#include "firmware/core/locate.hpp"
+#include "firmware/core/locator.hpp"
 #include "host/bench/readings.hpp"
 
 namespace strainfinger::bench {
 
-Place<double> placeOf(const TableConstants& constants, const Contact& contact);
-Place<double> placeOf(const TableConstants& constants, const firmware::Fit& fit);
-Place<double> placeOf(const TableConstants& constants, const Place<float>& place);
-Place<double> placeOf(const TableConstants& constants, const Place<double>& place);
+Place<double> placeOf(const TableImage& tables, const Contact& contact);
+Place<double> placeOf(const TableImage& tables, const firmware::Locator& locator);
+Place<double> placeOf(const TableImage& tables, const Place<float>& place);
+Place<double> placeOf(const TableImage& tables, const Place<double>& place);
 
 /// Over many readings. An answer more than half a pitch off is gross; the figures of errors are of the
 /// others, but for arcOfAll_um. NaN: not told by the method, or not defined without noise.

@@ -11,10 +11,10 @@
 
 namespace strainfinger::bench {
 
-/// The firmware's tables for one level of noise, in the variants that the builder offers.
+/// The firmware's tables for one level of noise.
 struct NoiseTables {
-  TableImage usual;
-  TableImage everyWindow;
+  TableImage line;      ///< contacts are known to be lines
+  TableImage anyWidth;  ///< the width is fitted with each touch
 };
 
 inline constexpr int kCountedSamples = 256;  ///< the first ones of each level of noise

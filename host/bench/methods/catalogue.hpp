@@ -3,13 +3,11 @@
 
 #include <string_view>
 
-#include "firmware/core/detect.hpp"
 #include "firmware/core/estimate.hpp"
-#include "firmware/core/locate.hpp"
+#include "firmware/core/locator.hpp"
 #include "host/bench/methods/bundle.hpp"
 #include "host/bench/methods/levenberg_marquardt.hpp"
 #include "host/bench/methods/scan_and_step.hpp"
-#include "host/bench/variants/variants.hpp"
 
 namespace strainfinger::bench {
 
@@ -20,25 +18,43 @@ struct Method {
   int stride;
 };
 
-/// The firmware's locator, from conditioned strains: gate and fit.
-inline firmware::Fit fitOf(const TableImage& tables, firmware::FitMode mode, const Sample& sample) {
-  return firmware::locate(tables, mode, sample.strain_q32,
-                          firmware::gateEnergy(tables.constants, sample.strain_q32));
-}
+/// The firmware's locator with tables of one kind. It is large and lives where it is made, as in a pipeline.
+class OwnLocator {
+ public:
+  OwnLocator(const TableImage& tables, firmware::FitMode mode) : tables_(tables), locator_(mode) {}
 
-/// Calls visit(Method, f) for each of ours; f(sample) gives a firmware::Fit or a Contact.
+  /// From conditioned strains of a touch of which nothing is known yet, to the end of the search.
+  const firmware::Locator& locate(const Sample& sample) {
+    firmware::locateOnce(tables_, sample.strain_q32, firmware::allGauges(kGauges), locator_);
+    return locator_;
+  }
+  /// The same with the answer in units and its standard errors.
+  Contact estimate(const Sample& sample) {
+    locate(sample);
+    return firmware::estimate(tables_.constants, locator_.answer(), locator_.linearisation(), 0);
+  }
+
+ private:
+  const TableImage& tables_;
+  firmware::Locator locator_;
+};
+
+/// Calls visit(Method, f) for each of ours; f(sample) gives a firmware::Locator that has the answer, or a
+/// Contact.
 template <typename Visit>
 void visitOurs(const NoiseTables& tables, Visit&& visit) {
   using enum firmware::FitMode;
-  const TableImage& usual = tables.usual;
-  visit(Method{"ours: refined", false, 1}, [&](const Sample& s) { return fitOf(usual, kRefined, s); });
-  visit(Method{"ours: refined with sigmas", false, 1},
-        [&](const Sample& s) { return firmware::estimate(usual.constants, fitOf(usual, kRefined, s)); });
-  visit(Method{"ours: three-point", false, 1}, [&](const Sample& s) { return fitOf(usual, kThreePoint, s); });
-  visit(Method{"ours: refined in every window", false, 4},
-        [&](const Sample& s) { return fitOf(tables.everyWindow, kRefined, s); });
-  for (const Variant& variant : kVariants)
-    visit(Method{variant.name, false, 1}, [&](const Sample& s) { return variant.fitOf(usual, s); });
+  OwnLocator line(tables.line, kRefined), three(tables.line, kThreePoint),
+      anyWidth(tables.anyWidth, kRefined);
+  visit(Method{"ours: width known", false, 1},
+        [&](const Sample& s) -> const auto& { return line.locate(s); });
+  visit(Method{"ours: width known, with sigmas", false, 1},
+        [&](const Sample& s) { return line.estimate(s); });
+  visit(Method{"ours: three-point", false, 1}, [&](const Sample& s) -> const auto& { return three.locate(s); });
+  visit(Method{"ours: width fitted", false, 1},
+        [&](const Sample& s) -> const auto& { return anyWidth.locate(s); });
+  visit(Method{"ours: width fitted, with sigmas", false, 1},
+        [&](const Sample& s) { return anyWidth.estimate(s); });
 }
 
 /// Likewise for the others, all in float; f(sample) gives a Place<float>.

@@ -17,6 +17,7 @@ using namespace strainfinger::bench;
 TEST_GROUP(Bundle) {
   const plot::TemporaryFolder folder;
   const std::string path = folder.file("bundle.bin");
+  const BenchFinger finger;
 };
 
 TEST(Bundle, ReadsBackByteForByte) {
@@ -36,11 +37,15 @@ TEST(Bundle, AnotherFileIsRefused) {
 }
 
 TEST(Bundle, TheTablesKnowTheNoise) {
-  const BenchFinger finger;
   const double peak = finger.peakPerLoad() * kBenchLoad_n_per_m;
-  DOUBLES_EQUAL(1e-3 * peak, tablesFor(finger, kLevelSettings[1]).usual.parameters.noise_strain, 1e-12);
-  DOUBLES_EQUAL(1e-2 * peak, tablesFor(finger, kLevelSettings[2]).usual.parameters.noise_strain, 1e-12);
-  const auto clean = tablesFor(finger, kLevelSettings[0]);
-  DOUBLES_EQUAL(6e-6, clean.usual.parameters.noise_strain, 1e-12);
-  CHECK(clean.everyWindow.constants.anchor_rule == AnchorRule::kExhaustive);
+  DOUBLES_EQUAL(1e-3 * peak, tablesFor(finger, kLevelSettings[1]).line.parameters.noise_strain, 1e-12);
+  DOUBLES_EQUAL(1e-2 * peak, tablesFor(finger, kLevelSettings[2]).line.parameters.noise_strain, 1e-12);
+  DOUBLES_EQUAL(6e-6, tablesFor(finger, kLevelSettings[0]).line.parameters.noise_strain, 1e-12);
+}
+
+TEST(Bundle, OneTableIsForLinesTheOtherForAnyWidth) {
+  const NoiseTables tables = tablesFor(finger, kLevelSettings[1]);
+  DOUBLES_EQUAL(0, tables.line.parameters.contact_width_m, 0);
+  LONGS_EQUAL(1, tables.line.constants.width_is_known);
+  LONGS_EQUAL(0, tables.anyWidth.constants.width_is_known);
 }

@@ -59,11 +59,11 @@ TEST(Score, WithoutNoiseThereIsNoRatio) {
 TEST(Score, AContactOfTheFirmwareIsAPlaceInPitches) {
   config::FingerConfig config;
   config.gauges.first_angle_deg = 10;
-  const auto constants = tables::buildTableImage(config).constants;
+  const TableImage tables = tables::buildTableImage(config);
   Contact contact;
-  contact.angle = TurnQ32::fromRaw(constants.first_angle_q32 + (3u << 28));
+  contact.angle = TurnQ32::fromRaw(tables.gauge_angle_q32[0] + (3u << 28));
   contact.normal = LineLoadQ12::fromRaw(5 << 12);
-  const Place<double> place = placeOf(constants, contact);
+  const Place<double> place = placeOf(tables, contact);
   DOUBLES_EQUAL(3, place.position_pitch, 1e-9);
   DOUBLES_EQUAL(5, place.normal, 1e-9);
 }

@@ -42,6 +42,10 @@ Scaled sigmaOf(Wide variance, const Scaled& noise) {
 }
 
 constexpr std::int64_t kHalfTurn_q32 = std::int64_t{1} << 31;
+/// Half nodes [* 2^kAngleBits] that are half a turn or more, whatever the number of nodes.
+constexpr int kAngleBits = 15 + 8;
+constexpr std::int64_t kMostHalfNodes = std::int64_t{1} << (kAngleBits + 11);
+static_assert(kMostPatches <= 1 << 10);
 
 /// Width [um] of the uniform pressure with this second moment [um^2].
 std::uint32_t widthOf_um(std::uint64_t moment_um2) {
@@ -102,7 +106,7 @@ Contact estimate(const TableConstants& constants, const Answer& answer, const Li
   Contact estimated;
   estimated.angle = TurnQ32::fromRaw(state.angle_q32);
   const std::int64_t turn =
-      sigma(2 * contacts + contact, 15 + 8, std::int64_t{1} << 40) * halfNode_q32(constants) >> (15 + 8);
+      sigma(2 * contacts + contact, kAngleBits, kMostHalfNodes) * halfNode_q32(constants) >> kAngleBits;
   estimated.sigmaAngle = TurnQ32::fromRaw(static_cast<std::uint32_t>(std::min(turn, kHalfTurn_q32)));
   estimated.normal = load(state.normal);
   estimated.tangential = load(state.tangential);

@@ -211,8 +211,8 @@ constexpr bool usableCells(const TableConstants& constants) {
 /// What the firmware's loops and shifts rely on, and names that have a meaning.
 constexpr bool usable(const TableParameters& parameters, const TableConstants& constants) {
   return parameters.component <= StrainComponent::kShear && constants.gauge_count >= kMinGauges &&
-         constants.gauge_count <= kMaxGauges && constants.gate_shift <= kMostGateShift &&
-         usableGain(constants.reading_gain, constants.gate_shift) &&
+         constants.gauge_count <= kMaxGauges && constants.gauge_count % 2 == 0 &&
+         constants.gate_shift <= kMostGateShift && usableGain(constants.reading_gain, constants.gate_shift) &&
          usableNoise(constants.noise_variance, constants.noise_variance_exponent) &&
          usableLoads(constants.load_exponent, constants.gate_shift) &&
          (constants.mirror_sign == 1 || constants.mirror_sign == -1) &&

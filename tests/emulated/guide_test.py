@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""guide_test.py README.md finger.txt tables.bin strainfinger: what firmware/README.md says was captured comes out today."""
+"""guide_test.py README.md finger.txt tables.bin strainfinger: what firmware/bring_up.md says was captured comes out today."""
 import re
 import subprocess
 import sys

@@ -19,14 +19,14 @@ namespace {
 
 using firmware::FitMode;
 
-constexpr int kOffsets = 16;              ///< over a pitch; few of them coincide with the tables' nodes
-constexpr int kDirections = 8;            ///< over the friction cone
+constexpr int kOffsets = 8;              ///< over a pitch; few of them coincide with the tables' nodes
+constexpr int kDirections = 4;            ///< over the friction cone
 constexpr double kWrong_pitch = 1.0 / 8;  ///< right answers are a hundred times nearer
 constexpr double kTolerance = 1e-9;       ///< of the model: below a step of StrainQ32 at half of full scale
 /// Loads, of half of full scale: weak contacts are judged with more doubt, so the locator goes other ways.
 constexpr std::array kLoads{1.0, 1.0 / 8};
 /// Widths that are fitted, of the largest. Wider contacts have rivals that full scale does not tell apart.
-constexpr std::array kWidths{0.0, 1.0 / 4, 1.0 / 2};
+constexpr std::array kWidths{0.0, 3.0 / 8};
 
 /// The gauge around which contacts are tried, away from where angles wrap.
 std::size_t middleOf(const TableImage& image) { return image.constants.gauge_count / 2u; }

@@ -3,7 +3,6 @@
 
 #include "common/table_image.hpp"
 #include "default_tables.hpp"
-#include "host/tables/self_check.hpp"
 #include "host/tables/table_builder.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -26,9 +25,4 @@ TEST(DefaultTables, AreAWholeImage) {
 TEST(DefaultTables, AreWhatTheBuilderMakesOfTheDefaultFinger) {
   const TableImage built = tables::buildTableImage({});
   MEMCMP_EQUAL(&built, &kLinked, sizeof(TableImage));
-}
-
-TEST(DefaultTables, NeedNoHelpFromTheSelfCheck) {
-  const auto checked = tables::buildCheckedTables({});
-  MEMCMP_EQUAL(&checked.image, &kLinked, sizeof(TableImage));
 }

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "common/fixed_real.hpp"
+#include "firmware/core/response.hpp"
 #include "host/base/failure.hpp"
 #include "host/config/keys.hpp"
-#include "tests/host/tables/DefaultResponse.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -60,6 +60,10 @@ TEST_GROUP(TableBuilder) {
     LONGS_EQUAL(static_cast<int>(TableFault::kNone),
                 static_cast<int>(checkTableImage(buildTableImage(config_))));
   }
+  /// To a step of TurnQ32.
+  static void checkAngle(double expected_deg, std::uint32_t angle_q32) {
+    DOUBLES_EQUAL(0, std::remainder(angle_q32 * (360 / 0x1p32) - expected_deg, 360), 1e-7);
+  }
   void checkClose(long double expected, long double actual, double relative) {
     DOUBLES_EQUAL(1, static_cast<double>(actual / expected), relative);
   }
@@ -75,17 +79,32 @@ TEST(TableBuilder, SameConfigGivesTheSameBytes) {
 
 TEST(TableBuilder, ParametersAreTheConfigs) {
   config_.finger = {0.01, 0.02, 0.03, 1e5, 0.4};
-  config_.gauges = {20, 0.0125, StrainComponent::kHoop, 70, 1e-4, 5e-6, 0.04, 14};
-  config_.contact = {0.7, 1e-3};
+  config_.gauges = {20, 0.0125, StrainComponent::kHoop, 70, 1e-4, 5e-6, 0.04, 14, 0.02};
+  config_.contact = {0.7, 1e-3, 9e-3};
   const TableParameters p = buildTableImage(config_).parameters;
-  const std::vector<std::pair<double, double>> pairs{
-      {0.01, p.core_radius_m},       {0.02, p.outer_radius_m},    {0.03, p.length_m},
-      {1e5, p.shear_modulus_pa},     {0.4, p.poisson_ratio},      {20, p.gauge_count},
-      {0.0125, p.gauge_radius_m},    {70, p.first_angle_deg},     {1e-4, p.arc_length_m},
-      {5e-6, p.noise_strain},        {0.04, p.full_scale_strain}, {14, p.adc_bits},
-      {0.7, p.friction_coefficient}, {1e-3, p.contact_width_m},   {0, p.reserved}};
+  const std::vector<std::pair<double, double>> pairs{{0.01, p.core_radius_m},
+                                                     {0.02, p.outer_radius_m},
+                                                     {0.03, p.length_m},
+                                                     {1e5, p.shear_modulus_pa},
+                                                     {0.4, p.poisson_ratio},
+                                                     {20, p.gauge_count},
+                                                     {0.0125, p.gauge_radius_m},
+                                                     {70, p.first_angle_deg},
+                                                     {1e-4, p.arc_length_m},
+                                                     {5e-6, p.noise_strain},
+                                                     {0.04, p.full_scale_strain},
+                                                     {14, p.adc_bits},
+                                                     {0.7, p.friction_coefficient},
+                                                     {1e-3, p.contact_width_m},
+                                                     {9e-3, p.largest_width_m},
+                                                     {0.02, p.model_error},
+                                                     {0, p.reserved}};
   for (const auto& [expected, actual] : pairs) DOUBLES_EQUAL(expected, actual, 0);
   CHECK(p.component == StrainComponent::kHoop);
+}
+
+TEST(TableBuilder, AnUnknownWidthIsANegativeOne) {
+  CHECK(buildTableImage(config_).parameters.contact_width_m < 0);
 }
 
 TEST(TableBuilder, TheNoiseVarianceKeepsItsTwentyFourBits) {
@@ -131,29 +150,86 @@ TEST(TableBuilder, TheGateHoldsTwoFullScalesInSixteenBits) {
   }
 }
 
-// Oracle: the strain under 1 N/m right over a gauge from a 60-digit solution, 460.6030 microstrain.
-TEST(TableBuilder, TheLoadScaleTurnsAmplitudesIntoLoads) {
-  const TableConstants c = constants();
-  const long double strainOfOneUnit = power2(-32 - (c.amplitude_exponent - 1));
-  const long double load = strainOfOneUnit / 460.6030e-6L * power2(12);
-  checkClose(load, c.load_scale * power2(c.load_exponent), 2e-7);
-  CHECK(c.load_scale >= 1 << 30);
+// Oracle: the strain under 1 N/m right over a gauge from a 60-digit solution, 460.6030 microstrain. A line's
+// largest patch is that at the node of the gauge, and two units of load make the reading of its value / 2^15.
+TEST(TableBuilder, TheLoadScaleTurnsFittedLoadsIntoLineLoads) {
+  config_.contact.width_m = 0;
+  const TableImage image = buildTableImage(config_);
+  const firmware::AngleNode node = firmware::angleNode(image.constants, 0);
+  const long double response =
+      firmware::valueOf(image.patch(node.node, 0).normal, 0, node.t_q15) / -power2(15);
+  const long double strainPerUnit = power2(-33) * response;
+  const long double load = strainPerUnit / 460.6030e-6L * power2(12);
+  checkClose(load, image.constants.load_scale * power2(image.constants.load_exponent), 2e-5);
+  CHECK(image.constants.load_scale >= 1 << 30);
 }
 
-TEST(TableBuilder, APitchTimesTheCountIsARevolution) {
-  for (int count = kMinGauges; count <= kMaxGauges; count += 2) {
-    config_.gauges.count = count;
-    DOUBLES_EQUAL(0x1p35, static_cast<double>(constants().pitch_turn_q35) * count, count / 2.0);
-    LONGS_EQUAL(count, constants().gauge_count);
-  }
-}
-
-TEST(TableBuilder, TheFirstAngleIsAFractionOfARevolution) {
+TEST(TableBuilder, GaugesAreWhereTheConfigSays) {
   for (const double degrees : {0.0, 22.5, 90.0, 180.0, 359.0, 359.9999999999}) {
     config_.gauges.first_angle_deg = degrees;
-    const double difference = constants().first_angle_q32 - degrees / 360 * 0x1p32;
-    CHECK(std::abs(difference) <= 1 || std::abs(difference + 0x1p32) <= 1);
+    const GaugeAngles angles_q32 = buildTableImage(config_).gauge_angle_q32;
+    for (int i = 0; i < 16; ++i) checkAngle(degrees + 22.5 * i, angles_q32[static_cast<std::size_t>(i)]);
+    LONGS_EQUAL(0, angles_q32[16]);
   }
+}
+
+TEST(TableBuilder, GaugesOfARingThatIsNotEvenAreWhereTheyWereGluedAndCalibrated) {
+  config_.gauges.angles_deg = {1, 22, 46, 68, 90, 112, 134, 158, 180, 202, 224, 248, 270, 292, 314, 338};
+  config_.calibration.angle_offset_deg.assign(16, 0.25);
+  config_.calibration.angle_offset_deg[0] = -1.5;
+  const GaugeAngles angles_q32 = buildTableImage(config_).gauge_angle_q32;
+  checkAngle(359.5, angles_q32[0]);
+  checkAngle(46.25, angles_q32[2]);
+  checkTaken();
+}
+
+// 4.5 of 16 pitches; 3.5 of 12, for seven gauges.
+TEST(TableBuilder, SevenGaugesOrMoreAreInReachWhereverAContactIs) {
+  for (const auto& [count, reach_deg] : {std::pair{12, 105.0}, {14, 101.25}, {16, 101.25}, {32, 101.25}}) {
+    config_.gauges.count = count;
+    DOUBLES_EQUAL(reach_deg, constants().reach_q32 * (360 / 0x1p32), 1e-6);
+  }
+  config_.gauges = {};
+  config_.gauges.count = 12;
+  config_.gauges.angles_deg = {0, 50, 100, 150, 200, 220, 240, 260, 280, 300, 320, 340};
+  DOUBLES_EQUAL((4 * 50 + 3 * 20) / 2.0, constants().reach_q32 * (360 / 0x1p32), 1e-6);
+}
+
+TEST(TableBuilder, NoMoreGaugesAreInReachThanAFitCanUse) {
+  config_.gauges.count = 32;
+  for (int i = 0; i < 32; ++i) config_.gauges.angles_deg.push_back(i < 26 ? 6 * i : 150 + (i - 25) * 30);
+  DOUBLES_EQUAL(6 * 24 / 2.0, constants().reach_q32 * (360 / 0x1p32), 1e-6);
+  checkTaken();
+}
+
+TEST(TableBuilder, WidthsAreFittedUnlessTheyAreKnown) {
+  LONGS_EQUAL(0, constants().width_is_known);
+  LONGS_EQUAL(64'000'000 / 12, constants().largest_moment_um2);
+  config_.contact.width_m = 3e-3;
+  LONGS_EQUAL(1, constants().width_is_known);
+  LONGS_EQUAL(9'000'000 / 12, constants().largest_moment_um2);
+  LONGS_EQUAL(1 << kMomentBits, constants().known_moment_q20);
+  config_.contact.width_m = 0;
+  LONGS_EQUAL(1, constants().width_is_known);
+  LONGS_EQUAL(0, constants().known_moment_q20);
+}
+
+TEST(TableBuilder, ACellsRateIsTwoOverItsWidth) {
+  for (const bool known : {false, true}) {
+    if (known) config_.contact.width_m = 3e-3;
+    const TableConstants c = constants();
+    for (std::size_t k = 0; k < c.cell_count; ++k)
+      checkClose(2 / ((c.cell_edge_q15[k + 1] - c.cell_edge_q15[k]) * power2(-15)),
+                 c.cell_rate_q8[k] * power2(-8), 1e-4);
+  }
+}
+
+TEST(TableBuilder, TheModelErrorIsAFractionOfTheReading) {
+  LONGS_EQUAL(3277, constants().model_error_q16);
+  config_.gauges.model_error = 0;
+  LONGS_EQUAL(0, constants().model_error_q16);
+  config_.gauges.model_error = 1;
+  LONGS_EQUAL(65535, constants().model_error_q16);
 }
 
 TEST(TableBuilder, TheRailIsTheConvertersLastCode) {
@@ -185,37 +261,21 @@ TEST(TableBuilder, TheConeHasRoomForNoise) {
   const std::vector<std::pair<double, int>> cones{{0, 26}, {0.05, 26}, {0.5, 160}, {1, 320}, {10, 3200}};
   for (const auto& [friction, cone] : cones) {
     config_.contact.friction_coefficient = friction;
-    LONGS_EQUAL(cone, constants().friction_cone_q8);
+    LONGS_EQUAL(cone, constants().cone_q8);
+    LONGS_EQUAL(std::lround(friction * 256), constants().friction_q8);
   }
 }
 
 TEST(TableBuilder, SignsFollowTheComponent) {
   const std::vector<std::pair<StrainComponent, std::pair<int, int>>> signs{
-      {StrainComponent::kRadial, {1, 1}},
-      {StrainComponent::kHoop, {1, -1}},
-      {StrainComponent::kShear, {-1, -1}}};
+      {StrainComponent::kRadial, {1, -1}},
+      {StrainComponent::kHoop, {1, 1}},
+      {StrainComponent::kShear, {-1, 1}}};
   for (const auto& [component, expected] : signs) {
     config_.gauges.component = component;
     LONGS_EQUAL(expected.first, constants().mirror_sign);
-    if (component != StrainComponent::kShear) LONGS_EQUAL(expected.second, constants().anchor_sign);
+    LONGS_EQUAL(expected.second, constants().peak_sign);
   }
-}
-
-TEST(TableBuilder, CoarseRingsAndShearAreSearchedEverywhere) {
-  CHECK(constants().anchor_rule == AnchorRule::kSecondDifference);
-  config_.gauges.count = 14;
-  CHECK(constants().anchor_rule == AnchorRule::kExhaustive);
-  LONGS_EQUAL(kMinScanStep, constants().scan_step);
-  config_.gauges = {};
-  config_.gauges.component = StrainComponent::kShear;
-  CHECK(constants().anchor_rule == AnchorRule::kExhaustive);
-}
-
-TEST(TableBuilder, SearchingEverywhereKeepsTheImageWhole) {
-  TableImage image = buildTableImage({});
-  searchEverywhere(image);
-  CHECK(image.constants.anchor_rule == AnchorRule::kExhaustive);
-  LONGS_EQUAL(static_cast<int>(TableFault::kNone), static_cast<int>(checkTableImage(image)));
 }
 
 TEST(TableBuilder, NoiseBelowTheStepOfStrainIsRefused) {
@@ -268,4 +328,44 @@ TEST(TableBuilder, EveryRingComponentAndPlaceGivesAWholeImage) {
       }
     }
   }
+}
+
+TEST(TableBuilder, TablesTooCoarseForThinRubberAreRefusedWithWhatToChange) {
+  config_.gauges.radius_m = 11.5e-3;
+  config_.gauges.model_error = 0;
+  checkRefusal(
+      "gauges.radius_m = 0.0115 is so near the surface at finger.outer_radius_m = 0.0127 that the tables "
+      "are off by 0.0066 of a reading, with contact.width_m unknown up to contact.largest_width_m = 0.008");
+  checkRefusal(
+      "noise and gauges.model_error = 0 leave 0.0011: move the gauges inwards, cover less width or say what "
+      "it is, or admit a larger gauges.model_error");
+  config_.gauges.model_error = 0.01;
+  checkTaken();
+  config_.gauges.model_error = 0;
+  config_.contact.width_m = 0;
+  checkTaken();
+}
+
+TEST(TableBuilder, KnownWidthsThatTheTablesAreTooCoarseForAreRefused) {
+  config_.gauges.radius_m = 12.3e-3;
+  config_.gauges.model_error = 0;
+  config_.contact.width_m = 4e-3;
+  checkRefusal(
+      "with contact.width_m = 0.004; noise and gauges.model_error = 0 leave 0.0011: move the gauges inwards, "
+      "take contacts for narrower ones, or admit");
+}
+
+TEST(TableBuilder, WidthsThatTheFirmwareCannotTellAreRefused) {
+  config_.contact.largest_width_m = 5e-5;
+  checkRefusal(
+      "contact.largest_width_m = 5e-05: the firmware fits widths when it is from 0.0001 to 0.065; change it, "
+      "or say how wide contacts are in contact.width_m");
+  config_.contact.width_m = 1e-5;
+  checkTaken();
+  config_.finger = {0.06, 0.1, 0.1, 8.3e4, 0.5};
+  config_.gauges.radius_m = 0.07;
+  config_.contact = {1, {}, 0.07};
+  checkRefusal("contact.largest_width_m = 0.07");
+  config_.contact.largest_width_m = 0.065;
+  checkTaken();
 }

@@ -60,17 +60,17 @@ TEST(TableFile, AWholeImageReadsBackAsItWas) {
 TEST(TableFile, FlippedBitsOfTheHeaderAreNamedByTheirField) {
   checkFlips(0, 4, damaged("not a table image"));
   checkFlips(4, 8, fmt::format("5: {}: a table image of format ", path_));
-  checkFlips(8, 12, damaged("4088 bytes, and "));
+  checkFlips(8, 12, damaged("18832 bytes, and "));
   checkFlips(12, 16, damaged("damaged, its CRC-32 does not match"));
 }
 
 TEST(TableFile, EveryFlippedBitOfParametersAndConstantsIsFound) {
-  checkFlips(kTableHeaderBytes, offsetof(TableImage, rows), damaged("damaged, its CRC-32"));
+  checkFlips(kTableHeaderBytes, offsetof(TableImage, gains), damaged("damaged, its CRC-32"));
 }
 
-// Every 61st bit here; TableImageTest and Crc32Test have them all.
-TEST(TableFile, FlippedBitsOfTheRowsAreFound) {
-  checkFlips(offsetof(TableImage, rows), sizeof(TableImage), damaged("damaged, its CRC-32"), 61);
+// Every 307th bit here; TableImageTest and Crc32Test have them all.
+TEST(TableFile, FlippedBitsOfThePatchesAreFound) {
+  checkFlips(offsetof(TableImage, gains), sizeof(TableImage), damaged("damaged, its CRC-32"), 307);
 }
 
 TEST(TableFile, AFileCutAnywhereIsRefused) {
@@ -78,14 +78,14 @@ TEST(TableFile, AFileCutAnywhereIsRefused) {
     checkVerdict(bytes_.substr(0, length),
                  damaged(fmt::format("{} bytes, too short for a table image", length)));
   for (std::size_t length = kTableHeaderBytes; length < bytes_.size();
-       length += length < 200 || length > bytes_.size() - 100 ? 1u : 23u)
+       length += length < 200 || length > bytes_.size() - 100 ? 1u : 113u)
     checkVerdict(bytes_.substr(0, length),
-                 damaged(fmt::format("{} bytes, and 4088 by its header, where an image has 4088", length)));
+                 damaged(fmt::format("{} bytes, and 18832 by its header, where an image has 18832", length)));
 }
 
 TEST(TableFile, ALongerFileIsRefused) {
-  checkVerdict(bytes_ + '\0', damaged("4089 bytes, and 4088 by its header"));
-  checkVerdict(bytes_ + bytes_, damaged("8176 bytes, and 4088 by its header"));
+  checkVerdict(bytes_ + '\0', damaged("18833 bytes, and 18832 by its header"));
+  checkVerdict(bytes_ + bytes_, damaged("37664 bytes, and 18832 by its header"));
 }
 
 TEST(TableFile, SomethingElseIsNoTableImage) {
@@ -113,7 +113,7 @@ TEST(TableFile, AnotherFormatIsAMismatchWhateverFollows) {
 }
 
 TEST(TableFile, ConstantsOutOfTheirDomainAreRefusedUnderARightChecksum) {
-  image_->constants.scan_step = 0;
+  image_->constants.node_count = 0;
   image_->crc32 = crc32(checkedBytes(*image_));
   checkVerdict(imageBytes(*image_), damaged("its constants are none that the firmware can work with"));
 }
@@ -126,7 +126,7 @@ TEST(TableFile, WhatCannotBeReadIsNamedWithTheReason) {
 
 TEST(TableFile, ParametersAreNamedAndWrittenAsInTheConfig) {
   const auto parameters = parametersOf(image_->parameters);
-  LONGS_EQUAL(15, parameters.size());
+  LONGS_EQUAL(17, parameters.size());
   for (const Parameter& parameter : parameters) {
     bool known = false;
     for (const config::Key& key : config::keys()) known = known || key.dotted() == parameter.key;
@@ -171,7 +171,12 @@ const Change kChanges[] = {
     {[](config::FingerConfig& c) { c.gauges.adc_bits = 14; }, "gauges.adc_bits is 12, the config has 14"},
     {[](config::FingerConfig& c) { c.contact.friction_coefficient = 0.5; },
      "contact.friction_coefficient is 1, the config has 0.5"},
-    {[](config::FingerConfig& c) { c.contact.width_m = 1e-3; }, "contact.width_m is 0, the config has 0.001"},
+    {[](config::FingerConfig& c) { c.gauges.model_error = 0.02; },
+     "gauges.model_error is 0.05, the config has 0.02"},
+    {[](config::FingerConfig& c) { c.contact.width_m = 1e-3; },
+     "contact.width_m is unknown, the config has 0.001"},
+    {[](config::FingerConfig& c) { c.contact.largest_width_m = 6e-3; },
+     "contact.largest_width_m is 0.008, the config has 0.006"},
 };
 
 std::string mismatch(const TableImage& image, const config::FingerConfig& config) {
@@ -204,6 +209,15 @@ TEST(TableFile, AllDifferencesAreNamedAtOnce) {
   for (const Change& change : kChanges) STRCMP_CONTAINS(change.words, mismatch(*image_, other).c_str());
 }
 
+TEST(TableFile, GaugesThatWereFoundElsewhereAreNamed) {
+  config::FingerConfig other;
+  other.calibration.angle_offset_deg.assign(16, 0);
+  STRCMP_EQUAL("belongs", mismatch(*image_, other).c_str());
+  other.calibration.angle_offset_deg[1] = 0.25;
+  STRCMP_CONTAINS("gauges.angle_deg is [0, 22.5, 45, ", mismatch(*image_, other).c_str());
+  STRCMP_CONTAINS("the config has [0, 22.75, 45, ", mismatch(*image_, other).c_str());
+}
+
 TEST(TableFile, KeysThatTablesDontDependOnMayDiffer) {
   config::FingerConfig other;
   other.can = {5, 500000, 100};
@@ -214,6 +228,8 @@ TEST(TableFile, TheHeaderSaysWhatItIsOf) {
   const std::string header = imageHeader(*image_);
   STRCMP_CONTAINS("//   gauges.radius_m = 0.0094\n", header.c_str());
   STRCMP_CONTAINS("//   gauges.component = radial\n", header.c_str());
+  STRCMP_CONTAINS("//   contact.width_m = unknown\n", header.c_str());
+  STRCMP_CONTAINS("//   gauges.angle_deg = [0, 22.5, ", header.c_str());
   STRCMP_CONTAINS(fmt::format("// CRC-32 0x{:08X}\n", image_->crc32).c_str(), header.c_str());
-  STRCMP_CONTAINS("kDefaultTableBytes[4088] = {\n    83, 70, 84, 66, 6, 0,", header.c_str());
+  STRCMP_CONTAINS("kDefaultTableBytes[18832] = {\n    83, 70, 84, 66, 7, 0,", header.c_str());
 }

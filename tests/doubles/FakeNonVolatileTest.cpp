@@ -82,22 +82,21 @@ TEST(FakeNonVolatile, EveryUnitAndEveryEraseIsAStep) {
 }
 
 TEST(FakeNonVolatile, AWornPageTakesNoEraseAndTheOthersDo) {
-  FakeNonVolatile store(3);
-  store.wearOut(1);
-  CHECK_TRUE(store.erase(0) == hal::StoreResult::kOk);
-  CHECK_TRUE(store.erase(1) == hal::StoreResult::kFailed);
+  FakeNonVolatile three(3);
+  three.wearOut(1);
+  CHECK_TRUE(three.erase(0) == hal::StoreResult::kOk);
+  CHECK_TRUE(three.erase(1) == hal::StoreResult::kFailed);
 }
 
 TEST(FakeNonVolatile, CountsTheErasesOfEachPage) {
-  FakeNonVolatile store(3);
-  CHECK_TRUE(store.erase(2) == hal::StoreResult::kOk);
-  CHECK_TRUE(store.erase(2) == hal::StoreResult::kOk);
-  LONGS_EQUAL(2, store.erases(2));
-  LONGS_EQUAL(0, store.erases(0));
+  FakeNonVolatile three(3);
+  CHECK_TRUE(three.erase(2) == hal::StoreResult::kOk);
+  CHECK_TRUE(three.erase(2) == hal::StoreResult::kOk);
+  LONGS_EQUAL(2, three.erases(2));
+  LONGS_EQUAL(0, three.erases(0));
 }
 
 TEST(FakeNonVolatile, CountsTheReadsThatFoundDamage) {
-  FakeNonVolatile store;
   std::array<std::byte, 8> bytes{};
   store.damage(8);
   CHECK_TRUE(store.read(0, bytes) == hal::StoreResult::kOk);

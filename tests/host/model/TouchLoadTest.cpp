@@ -18,7 +18,7 @@ using namespace strainfinger::testing;
 
 namespace {
 
-constexpr double kSurface_m = 12.7e-3;
+constexpr double kLoadedRadius_m = 12.7e-3;
 
 /// A traction over the contact [N/m and rad] at an offset [rad] from its centre.
 using Traction = std::function<double(double)>;
@@ -59,10 +59,10 @@ TouchLoad ellipse(double normal, double tangential, double width_rad, double fri
   return {normal, tangential, momentOf(Profile::kEllipse, width_rad), Profile::kEllipse, friction};
 }
 
-const std::vector<StrainComponent> kComponents{StrainComponent::kRadial, StrainComponent::kHoop,
-                                               StrainComponent::kShear};
-const std::vector<double> kWidths_m{0.5e-3, 2e-3, 6e-3};
-const std::vector<double> kAngles_rad{-0.4, 0.0, 0.13, 1.0};
+const std::vector<StrainComponent> kEachComponent{StrainComponent::kRadial, StrainComponent::kHoop,
+                                                  StrainComponent::kShear};
+const std::vector<double> kContactWidths_m{0.5e-3, 2e-3, 6e-3};
+const std::vector<double> kFromContact_rad{-0.4, 0.0, 0.13, 1.0};
 
 }  // namespace
 
@@ -100,9 +100,9 @@ TEST_GROUP(TouchLoad) {
 };
 
 TEST(TouchLoad, LineLoadsGiveTheImpulseResponse) {
-  for (const StrainComponent component : kComponents) {
+  for (const StrainComponent component : kEachComponent) {
     const ImpulseResponse response = point(component);
-    for (const double angle_rad : kAngles_rad) {
+    for (const double angle_rad : kFromContact_rad) {
       const auto line = response.at(angle_rad);
       const double found = under(response, trueSpectrum({3, -2, 0}, response.harmonics()), angle_rad);
       DOUBLES_EQUAL(3 * line.normal - 2 * line.tangential, found, 1e-14 * kUnit);
@@ -111,11 +111,11 @@ TEST(TouchLoad, LineLoadsGiveTheImpulseResponse) {
 }
 
 TEST(TouchLoad, PressuresAreSumsOfLineLoads) {
-  for (const StrainComponent component : kComponents)
-    for (const double width_m : kWidths_m)
-      for (const double angle_rad : kAngles_rad) {
+  for (const StrainComponent component : kEachComponent)
+    for (const double width_m : kContactWidths_m)
+      for (const double angle_rad : kFromContact_rad) {
         const ImpulseResponse response = point(component);
-        const double half = width_m / kSurface_m / 2;
+        const double half = width_m / kLoadedRadius_m / 2;
         const auto pressed = [&](double x) { return hertz(20, half, x) * response.at(angle_rad - x).normal; };
         const auto level = [&](double x) { return 20 / (2 * half) * response.at(angle_rad - x).normal; };
         const TouchLoad uniform{20, 0, momentOf(Profile::kUniform, 2 * half), Profile::kUniform};
@@ -130,10 +130,10 @@ TEST(TouchLoad, PressuresAreSumsOfLineLoads) {
 
 TEST(TouchLoad, ShearsInPartialSlipAreSumsOfLineLoads) {
   const ImpulseResponse response = point(StrainComponent::kRadial);
-  for (const double width_m : kWidths_m)
+  for (const double width_m : kContactWidths_m)
     for (const double tangential : {0.1, -4.0, 12.0, 15.9})
-      for (const double angle_rad : kAngles_rad) {
-        const double half = width_m / kSurface_m / 2;
+      for (const double angle_rad : kFromContact_rad) {
+        const double half = width_m / kLoadedRadius_m / 2;
         const Mindlin shear{20, tangential, 0.8, half};
         LoadSpectrum spectrum = trueSpectrum(ellipse(20, tangential, 2 * half), response.harmonics());
         spectrum.normal.setZero();

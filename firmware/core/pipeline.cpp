@@ -12,6 +12,8 @@ constexpr int kGaugesPerOut = 8;
 constexpr std::int32_t kDisturbance = 64;
 /// A reading speaks for its gauge where it should be at least this part of the largest [log2].
 constexpr int kFelt = 3;
+/// Predictions end here.
+constexpr std::int32_t kMostPredicted = (1 << 15) - 1;
 
 }  // namespace
 
@@ -55,8 +57,8 @@ void Pipeline::watchGauges(Codes codes) {
     const std::int32_t predicted = std::int32_t{fit.predicted[i]};
     const std::int32_t measured = readings_.strain_q32[i] >> answer.shift;
     if ((observation_.saturated & gauge) != 0) {
-      const bool beyond =
-          measured < 0 ? predicted <= measured - measured / 4 : predicted >= measured - measured / 4;
+      const bool beyond = magnitude(predicted) >= kMostPredicted ||
+                          (measured < 0 ? predicted <= measured - measured / 4 : predicted >= measured - measured / 4);
       if (!beyond) atRail |= gauge;
     } else if (magnitude(predicted) >= 1 << (14 - kFelt) &&
                magnitude(measured - predicted) <= magnitude(predicted) / 4) {

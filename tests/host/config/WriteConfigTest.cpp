@@ -31,7 +31,7 @@ TEST_GROUP(WriteConfig) {
                   9};
     any.contact = {uniform(0, 10), {}, uniform(0.01, 0.0126)};
     if (random() % 2 == 0) any.contact.width_m = uniform(0, 0.01);
-    any.can = {1 + static_cast<int>(random() % 63), 500000, uniform(20, 1000)};
+    any.can = {1 + static_cast<int>(random() % 63), 1000000, uniform(20, 1000)};
     any.gauges.model_error = uniform(0, 1);
     any.as_built = {7, uniform(0, 2), uniform(0, 1e-3), uniform(0, 0.2), 0, 0};
     if (random() % 2 == 0)

@@ -71,6 +71,8 @@ std::vector<double> gaps(const std::vector<double>& times) {
 TEST_GROUP(SimulatedFinger) {
   config::FingerConfig config;
 
+  void setup() override { config.gauges.model_error = 0; }
+
   /// Held still from 0.2 s on.
   static Scenario hold(double angle_deg, double normal = 20, double tangential = 5) {
     return Scenario({{0.2, 100, Course({{0, angle_deg}}), Course({{0, normal}}), Course({{0, tangential}})}});

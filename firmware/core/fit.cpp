@@ -29,84 +29,92 @@ Number slip_q15(const TableConstants& constants, const ContactState& contact) {
 
 /// A contact with what its lookups share. The pressure's second moment is m, that of the tangential traction
 /// m (2 - slip), here as a fraction of twice the largest m.
-struct ContactModel {
-  ContactModel(const TableImage& image, const ContactState& state, Number slip_q15)
-      : tables(image), contact(state), normalCell(momentCell(image.constants, state.moment_q20)) {
-    const Number part_q16 = (1 << 16) - slip_q15;
-    tangentialCell = momentCell(tables.constants, scaled<16>(state.moment_q20, part_q16));
-    tangentialRate_q8 = scaled<16>(tangentialCell.rate_q8, part_q16);
-    const Loads loads{state.normal, state.tangential};
-    seen = {loads, mirrored(loads)};
-  }
-
-  struct Reading {
-    Number normal, tangential;  ///< responses
-    Number angle, moment;       ///< slopes: readings per half node and per unit of second moment
-    Number predicted;
-  };
-
+class ContactModel {
+ public:
   struct Loads {
     Number normal, tangential;
   };
+  struct Reading {
+    Loads loads;           ///< responses
+    Number angle, moment;  ///< slopes: readings per half node and per unit of second moment
+    Number predicted;
+  };
+
+  ContactModel(const TableImage& tables, const ContactState& contact, Number slip_q15)
+      : tables_(tables), contact_(contact), normalCell_(momentCell(tables.constants, contact.moment_q20)) {
+    const Number part_q16 = (1 << 16) - slip_q15;
+    tangentialCell_ = momentCell(tables.constants, scaled<16>(contact.moment_q20, part_q16));
+    tangentialRate_q8_ = scaled<16>(tangentialCell_.rate_q8, part_q16);
+    const Loads loads{contact.normal, contact.tangential};
+    seen_ = {loads, mirrored(loads)};
+  }
 
   /// Responses.
   Loads loadsAt(std::uint32_t gaugeAngle_q32) const {
-    const AngleNode node = angleNode(tables.constants, gaugeAngle_q32 - contact.angle_q32);
-    return oriented(node, {valueOf(normalPatch(node), normalCell.s_q15, node.t_q15),
-                           valueOf(tangentialPatch(node), tangentialCell.s_q15, node.t_q15)});
+    const AngleNode node = nodeOf(gaugeAngle_q32);
+    return oriented(node, valuesAt(node));
   }
   Number predictedAt(std::uint32_t gaugeAngle_q32) const {
-    const AngleNode node = angleNode(tables.constants, gaugeAngle_q32 - contact.angle_q32);
-    return static_cast<Number>(readingOf(node, valueOf(normalPatch(node), normalCell.s_q15, node.t_q15),
-                                         valueOf(tangentialPatch(node), tangentialCell.s_q15, node.t_q15)) >>
-                               16);
+    const AngleNode node = nodeOf(gaugeAngle_q32);
+    return static_cast<Number>(readingOf(node, valuesAt(node)) >> kReadingBits);
   }
 
   Reading at(std::uint32_t gaugeAngle_q32) const {
-    const AngleNode node = angleNode(tables.constants, gaugeAngle_q32 - contact.angle_q32);
-    const Response normal = responseOf(normalPatch(node), normalCell.s_q15, node.t_q15);
-    const Response tangential = responseOf(tangentialPatch(node), tangentialCell.s_q15, node.t_q15);
-    const Loads responses = oriented(node, {normal.value, tangential.value});
+    const AngleNode node = nodeOf(gaugeAngle_q32);
+    const Response normal = responseOf(normalPatch(node), normalCell_.s_q15, node.t_q15);
+    const Response tangential = responseOf(tangentialPatch(node), tangentialCell_.s_q15, node.t_q15);
+    const Loads values{normal.value, tangential.value};
     // Turning the contact forward brings a gauge beyond it nearer, one behind it farther away.
-    const Wide farther = readingOf(node, normal.slope, tangential.slope);
-    const Wide widening = readingOf(node, mulHigh(normal.widening << 12, normalCell.rate_q8 << 12),
-                                    mulHigh(tangential.widening << 12, tangentialRate_q8 << 12));
-    Reading reading;
-    reading.normal = responses.normal;
-    reading.tangential = responses.tangential;
-    reading.angle = -static_cast<Number>((node.mirrored ? -farther : farther) >> 16);
-    reading.moment = static_cast<Number>(widening >> 16);
-    reading.predicted = static_cast<Number>(readingOf(node, normal.value, tangential.value) >> 16);
-    return reading;
+    const Wide farther = readingOf(node, {normal.slope, tangential.slope});
+    const Wide wider = readingOf(node, {widening(normal.widening, normalCell_.rate_q8),
+                                        widening(tangential.widening, tangentialRate_q8_)});
+    return {oriented(node, values),
+            -static_cast<Number>((node.mirrored ? -farther : farther) >> kReadingBits),
+            static_cast<Number>(wider >> kReadingBits),
+            static_cast<Number>(readingOf(node, values) >> kReadingBits)};
   }
 
+ private:
+  static constexpr int kReadingBits = 16;
+
+  AngleNode nodeOf(std::uint32_t gaugeAngle_q32) const {
+    return angleNode(tables_.constants, gaugeAngle_q32 - contact_.angle_q32);
+  }
   const ResponsePatch& normalPatch(const AngleNode& node) const {
-    return tables.patch(node.node, normalCell.cell).normal;
+    return tables_.patch(node.node, normalCell_.cell).normal;
   }
   const ResponsePatch& tangentialPatch(const AngleNode& node) const {
-    return tables.patch(node.node, tangentialCell.cell).tangential;
+    return tables_.patch(node.node, tangentialCell_.cell).tangential;
+  }
+  Loads valuesAt(const AngleNode& node) const {
+    return {valueOf(normalPatch(node), normalCell_.s_q15, node.t_q15),
+            valueOf(tangentialPatch(node), tangentialCell_.s_q15, node.t_q15)};
+  }
+  /// value * rate / 2^8, of which both have less than 18 bits.
+  static Number widening(Number value, Number rate_q8) {
+    return mulHigh(value * (1 << 12), rate_q8 * (1 << 12));
   }
 
-  /// As a gauge on the contact's clockwise side sees them.
+  /// On the mirrored side one of the two has the other sign.
   Loads mirrored(const Loads& loads) const {
-    const int sign = tables.constants.mirror_sign;
+    const int sign = tables_.constants.mirror_sign;
     return {sign * loads.normal, -sign * loads.tangential};
   }
-  Loads oriented(const AngleNode& node, const Loads& loads) const {
-    return node.mirrored ? mirrored(loads) : loads;
+  Loads oriented(const AngleNode& node, const Loads& responses) const {
+    return node.mirrored ? mirrored(responses) : responses;
   }
-  /// [* 2^16]
-  Wide readingOf(const AngleNode& node, Number normal, Number tangential) const {
-    const Loads& loads = seen[node.mirrored ? 1 : 0];
-    return Wide{loads.normal} * normal + Wide{loads.tangential} * tangential;
+  /// [* 2^kReadingBits] of responses as they are on the side that isn't mirrored.
+  Wide readingOf(const AngleNode& node, const Loads& responses) const {
+    const Loads& loads = seen_[node.mirrored ? 1 : 0];
+    return Wide{loads.normal} * responses.normal + Wide{loads.tangential} * responses.tangential;
   }
 
-  const TableImage& tables;
-  const ContactState& contact;
-  MomentCell normalCell;
-  MomentCell tangentialCell;
-  Number tangentialRate_q8;
-  std::array<Loads, 2> seen;  ///< the contact's loads from its either side
+  const TableImage& tables_;
+  const ContactState& contact_;
+  MomentCell normalCell_;
+  MomentCell tangentialCell_;
+  Number tangentialRate_q8_;
+  std::array<Loads, 2> seen_;  ///< the contact's loads from its either side
 };
 
 int loadsOf(int contact) { return 2 * contact; }
@@ -171,8 +179,8 @@ void lineariseContact(const TableImage& tables, int contact, Linearisation& line
       continue;
     }
     const ContactModel::Reading reading = model.at(angle_q32);
-    normal[index(row)] = static_cast<std::int16_t>(reading.normal >> kLoadExponent);
-    tangential[index(row)] = static_cast<std::int16_t>(reading.tangential >> kLoadExponent);
+    normal[index(row)] = static_cast<std::int16_t>(reading.loads.normal >> kLoadExponent);
+    tangential[index(row)] = static_cast<std::int16_t>(reading.loads.tangential >> kLoadExponent);
     angle[index(row)] = reading.angle;
     moment[index(row)] = reading.moment;
     predicted[index(gauge)] += reading.predicted;

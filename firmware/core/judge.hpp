@@ -16,7 +16,8 @@ namespace threshold {
 inline constexpr int kGatePerFreedom = 2;
 inline constexpr int kGate = 28;
 /// What no pressure profile of the tables has: part of the largest reading, as a power of two, by which each
-/// reading may be off besides [log2]. Uniform pressures read as semi-ellipses, partial slip as a wider ellipse.
+/// reading may be off besides [log2]. Uniform pressures read as semi-ellipses, partial slip as a wider
+/// ellipse.
 inline constexpr int kProfileErrorBits = 9;
 /// An answer that was followed is given up where it leaves so many times kGate: hysteresis.
 inline constexpr int kLost = 4;

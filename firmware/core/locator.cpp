@@ -39,6 +39,7 @@ bool isFarOff(const TableImage& tables, const Solution& solution, const ScaledRe
 }  // namespace
 
 void Locator::release() {
+  if (!tracking_) return;
   tracking_ = false;
   search_.stop();
   answer_ = {};

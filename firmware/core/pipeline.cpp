@@ -18,7 +18,7 @@ constexpr std::int32_t kMostPredicted = (1 << 15) - 1;
 }  // namespace
 
 bool Pipeline::tooFewGauges() const {
-  return std::popcount(watch_.outOfUse()) * kGaugesPerOut > constants().gauge_count;
+  return watch_.outOfUse() != 0 && std::popcount(watch_.outOfUse()) * kGaugesPerOut > constants().gauge_count;
 }
 
 void Pipeline::takeZero(const ZeroAverage& zero) {
@@ -55,13 +55,15 @@ void Pipeline::watchGauges(Codes codes) {
   for (std::size_t i = 0; i < codes.size(); ++i) {
     const GaugeSet gauge = GaugeSet{1} << i;
     const std::int32_t predicted = std::int32_t{fit.predicted[i]};
+    const bool saturated = (observation_.saturated & gauge) != 0;
+    if (!saturated && magnitude(predicted) < 1 << (14 - kFelt)) continue;
     const std::int32_t measured = readings_.strain_q32[i] >> answer.shift;
-    if ((observation_.saturated & gauge) != 0) {
-      const bool beyond = magnitude(predicted) >= kMostPredicted ||
-                          (measured < 0 ? predicted <= measured - measured / 4 : predicted >= measured - measured / 4);
+    if (saturated) {
+      const bool beyond =
+          magnitude(predicted) >= kMostPredicted ||
+          (measured < 0 ? predicted <= measured - measured / 4 : predicted >= measured - measured / 4);
       if (!beyond) atRail |= gauge;
-    } else if (magnitude(predicted) >= 1 << (14 - kFelt) &&
-               magnitude(measured - predicted) <= magnitude(predicted) / 4) {
+    } else if (magnitude(measured - predicted) <= magnitude(predicted) / 4) {
       right |= gauge;
     }
   }
@@ -69,7 +71,35 @@ void Pipeline::watchGauges(Codes codes) {
   watch_.vindicate(right & ~answer.suspect);
 }
 
+/// The codes are those of the last set, and the answer to them is found.
+bool Pipeline::isKnown(Codes codes) const {
+  const Answer& answer = locator_.answer();
+  if (!observation_.touched || !answer.accepted || answer.searching || answer.rivalEnergy >= 0) return false;
+  return !areZerosNew_ && std::equal(codes.begin(), codes.end(), codes_.begin());
+}
+
 const Observation& Pipeline::process(Codes codes) {
+  if (isKnown(codes)) {
+    observation_.unchanged = true;
+  } else {
+    observe(codes);
+  }
+  if (!observation_.touched) {
+    noise_.take(constants(), strains());
+  } else {
+    noise_.interrupt();
+  }
+  areZerosNew_ = tracker_.take(
+      *tables_, strains(), observation_.touched ? &locator_.answer() : nullptr, locator_.linearisation(),
+      observation_.leftOut | observation_.saturated | watch_.outOfUse(), calibration_, locator_.scratch());
+  observation_.staleZero = tracker_.stale();
+  observation_.noisy = noise_.isNoisy();
+  observation_.uncertain = tooFewGauges();
+  observation_.outOfUse = watch_.outOfUse();
+  return observation_;
+}
+
+void Pipeline::observe(Codes codes) {
   condition(calibration_, codes, readings_);
   const std::uint32_t energy = gateEnergy(constants(), strains());
   observation_ = {};
@@ -77,23 +107,12 @@ const Observation& Pipeline::process(Codes codes) {
   if (gate_.update(constants(), energy, noise_.variance_q4())) {
     observation_.saturated = saturatedGauges(constants(), codes);
     locate(allGauges(constants().gauge_count) & ~watch_.outOfUse() & ~observation_.saturated);
-    if (observation_.touched) watchGauges(codes);
+    if (!observation_.touched) return;
+    watchGauges(codes);
+    std::copy(codes.begin(), codes.end(), codes_.begin());
   } else {
     locator_.release();
   }
-  if (!observation_.touched) {
-    noise_.take(constants(), strains());
-  } else {
-    noise_.interrupt();
-  }
-  tracker_.take(*tables_, strains(), observation_.touched ? &locator_.answer() : nullptr,
-                locator_.linearisation(), observation_.leftOut | observation_.saturated | watch_.outOfUse(),
-                calibration_, locator_.scratch());
-  observation_.staleZero = tracker_.stale();
-  observation_.noisy = noise_.isNoisy();
-  observation_.uncertain = tooFewGauges();
-  observation_.outOfUse = watch_.outOfUse();
-  return observation_;
 }
 
 }  // namespace strainfinger::firmware

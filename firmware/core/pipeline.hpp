@@ -13,6 +13,7 @@ namespace strainfinger::firmware {
 /// What one sample set shows.
 struct Observation {
   bool touched = false;
+  bool unchanged = false;  ///< the codes are those of the set before, of which all is said
   bool several = false;    ///< the readings are not those of one contact
   bool staleZero = false;  ///< the finger has not been seen untouched for too long
   bool uncertain = false;  ///< too few gauges work for what is said to be sure
@@ -49,11 +50,15 @@ class Pipeline {
   std::span<const std::int32_t> strains() const { return readings_.strains(constants().gauge_count); }
   void locate(GaugeSet gauges);
   void watchGauges(Codes codes);
+  bool isKnown(Codes codes) const;
+  void observe(Codes codes);
   bool isDisturbance() const;
 
   const TableImage* tables_;
   Calibration calibration_;
   Readings readings_;
+  std::array<std::uint16_t, kMaxGauges> codes_{};  ///< the last of a touch
+  bool areZerosNew_ = false;                       ///< since then
   Observation observation_;
   ContactGate gate_;
   NoiseMeter noise_;

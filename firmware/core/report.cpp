@@ -151,9 +151,12 @@ bool isNews(const TouchFrames& frames, const TouchFrames& last) {
          moved(frames.patch, last.patch) || (frames.second && moved(*frames.second, *last.second));
 }
 
+bool TouchReporter::mustBeRepeated(std::uint32_t now_us) const {
+  return !any_ || now_us - sentAt_us_ >= std::uint32_t{kContactPeriod_ms} * 1000;
+}
+
 bool TouchReporter::worthSaying(const TouchFrames& frames, std::uint32_t now_us) const {
-  if (!any_ || now_us - sentAt_us_ >= std::uint32_t{kContactPeriod_ms} * 1000) return true;
-  return isNews(frames, last_);
+  return mustBeRepeated(now_us) || isNews(frames, last_);
 }
 
 FingerFlags TouchReporter::flagsOf(const Observation& observation) const {
@@ -172,11 +175,10 @@ std::optional<TouchFrames> TouchReporter::frames(const TableConstants& constants
                                                  const Linearisation& linearisation, std::uint32_t now_us) {
   if (!due(now_us)) return std::nullopt;
   const auto next = static_cast<std::uint8_t>(last_.contact.sequence + (any_ ? 1 : 0));
+  if (!observation.touched && (!any_ || !last_.contact.flags.has(FingerFlag::kContact))) return std::nullopt;
+  if (observation.unchanged && !mustBeRepeated(now_us)) return std::nullopt;
   FingerFlags flags = flagsOf(observation);
-  if (!observation.touched) {
-    if (!any_ || !last_.contact.flags.has(FingerFlag::kContact)) return std::nullopt;
-    return releaseFrames(flags, next);
-  }
+  if (!observation.touched) return releaseFrames(flags, next);
   const Contact contact = estimate(constants, answer, linearisation, 0);
   std::optional<Contact> second;
   if (answer.solution.hypothesis.contacts > 1) second = estimate(constants, answer, linearisation, 1);

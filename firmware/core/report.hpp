@@ -61,6 +61,7 @@ class TouchReporter {
  private:
   FingerFlags flagsOf(const Observation& observation) const;
   bool due(std::uint32_t now_us) const { return !any_ || now_us - sentAt_us_ >= shortestPeriod_us_; }
+  bool mustBeRepeated(std::uint32_t now_us) const;
   bool worthSaying(const TouchFrames& frames, std::uint32_t now_us) const;
 
   std::uint32_t shortestPeriod_us_;

@@ -7,8 +7,8 @@
 namespace strainfinger::firmware {
 namespace {
 
-constexpr int kIntervalBits = 10;
-static_assert(ZeroTracker::kInterval == 1 << kIntervalBits);
+constexpr int kTakenBits = 8;  ///< of an interval, sample sets that are averaged [log2]
+static_assert(ZeroTracker::kInterval == ZeroTracker::kEvery << kTakenBits);
 
 /// What one contact leaves of a contact's averages: less than this part [log2] of their energy.
 constexpr int kContactBits = 4;
@@ -64,22 +64,28 @@ void ZeroTracker::finish(const TableImage& tables, GaugeSet leftOut, Calibration
   }
 }
 
-void ZeroTracker::take(const TableImage& tables, std::span<const std::int32_t> strains_q32,
+bool ZeroTracker::take(const TableImage& tables, std::span<const std::int32_t> strains_q32,
                        const Answer* answer, const Linearisation& fit, GaugeSet leftOut,
                        Calibration& calibration, Linearisation& scratch) {
   if (age_sets_ != std::numeric_limits<std::uint32_t>::max()) ++age_sets_;
   const bool touched = answer != nullptr;
-  if (touched != touched_ || (touched && (!answer->accepted || answer->searching))) return begin(touched);
-  leftOut_ |= leftOut;
-  const Wide scale = touched ? Wide{1} << answer->shift : 0;
-  for (std::size_t i = 0; i < strains_q32.size(); ++i) {
-    const std::int32_t rest =
-        saturate<std::int32_t>(strains_q32[i] - (touched ? fit.predicted[i] * scale : 0));
-    sum_[i] += rest >> kIntervalBits;
+  if (touched != touched_ || (touched && (!answer->accepted || answer->searching))) {
+    begin(touched);
+    return false;
   }
-  if (++sets_ < kInterval) return;
+  leftOut_ |= leftOut;
+  if (++sets_ % kEvery != 0) return false;
+  if (touched) {
+    const std::int32_t unit = std::int32_t{1} << answer->shift;  // at most 2^(kMostGateShift + 1)
+    for (std::size_t i = 0; i < strains_q32.size(); ++i)
+      sum_[i] += (strains_q32[i] - fit.predicted[i] * unit) >> kTakenBits;
+  } else {
+    for (std::size_t i = 0; i < strains_q32.size(); ++i) sum_[i] += strains_q32[i] >> kTakenBits;
+  }
+  if (sets_ < kInterval) return false;
   finish(tables, leftOut_, calibration, scratch);
   begin(touched);
+  return true;
 }
 
 }  // namespace strainfinger::firmware

@@ -19,12 +19,14 @@ namespace strainfinger::firmware {
 /// Whatever the fit takes for the contact is not followed; how old the zeros are is told (stale()).
 class ZeroTracker {
  public:
-  static constexpr int kInterval = 1024;                ///< sample sets averaged: a second at 1 kHz
+  static constexpr int kInterval = 1024;                ///< sample sets: a second at 1 kHz
+  static constexpr int kEvery = 4;                      ///< which of them are averaged: each so many
   static constexpr std::uint32_t kStaleSets = 600'000;  ///< ten minutes
 
   /// One sample set. `answer`: what explains it; nothing where nothing touches the finger. Gauges in
   /// `leftOut` learn nothing. `scratch` is overwritten at the end of an interval.
-  void take(const TableImage& tables, std::span<const std::int32_t> strains_q32, const Answer* answer,
+  /// True: the zeros may have changed.
+  bool take(const TableImage& tables, std::span<const std::int32_t> strains_q32, const Answer* answer,
             const Linearisation& fit, GaugeSet leftOut, Calibration& calibration, Linearisation& scratch);
 
   /// Forgets everything: the zeros are new.
@@ -42,7 +44,7 @@ class ZeroTracker {
   void finish(const TableImage& tables, GaugeSet leftOut, Calibration& calibration, Linearisation& scratch);
   bool looksLikeAContact(const TableImage& tables, GaugeSet gauges, Linearisation& scratch) const;
 
-  std::array<std::int32_t, kMaxGauges> sum_{};  ///< of strain * 2^32 / kInterval
+  std::array<std::int32_t, kMaxGauges> sum_{};  ///< of strain * 2^32 * kEvery / kInterval
   std::uint32_t age_sets_ = 0;
   std::optional<std::int32_t> lastChange_q32_;
   std::uint16_t sets_ = 0;

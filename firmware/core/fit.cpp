@@ -164,8 +164,7 @@ void setColumn(Linearisation& linearisation, int unknown, const WideColumn& entr
                                                                  : entries[index(row)] << -exponent);
 }
 
-void lineariseContact(const TableImage& tables, int contact, Linearisation& linearisation,
-                      std::array<Number, kMaxGauges>& predicted) {
+void lineariseContact(const TableImage& tables, int contact, Linearisation& linearisation) {
   const Hypothesis& hypothesis = linearisation.hypothesis;
   const ContactState& state = linearisation.at[index(contact)];
   const ContactModel model(tables, state, slip_q15(tables.constants, state));
@@ -175,7 +174,7 @@ void lineariseContact(const TableImage& tables, int contact, Linearisation& line
   for (int gauge = 0, row = 0; gauge < tables.constants.gauge_count; ++gauge) {
     const std::uint32_t angle_q32 = tables.gauge_angle_q32[index(gauge)];
     if (row >= linearisation.usedRows || linearisation.gauge[index(row)] != gauge) {
-      predicted[index(gauge)] += model.predictedAt(angle_q32);
+      linearisation.predicted[index(gauge)] += model.predictedAt(angle_q32);
       continue;
     }
     const ContactModel::Reading reading = model.at(angle_q32);
@@ -183,7 +182,7 @@ void lineariseContact(const TableImage& tables, int contact, Linearisation& line
     tangential[index(row)] = static_cast<std::int16_t>(reading.loads.tangential >> kLoadExponent);
     angle[index(row)] = reading.angle;
     moment[index(row)] = reading.moment;
-    predicted[index(gauge)] += reading.predicted;
+    linearisation.predicted[index(gauge)] += reading.predicted;
     ++row;
   }
   linearisation.exponent[index(loadsOf(contact))] = linearisation.exponent[index(loadsOf(contact) + 1)] =
@@ -256,10 +255,8 @@ void linearise(const TableImage& tables, const Hypothesis& hypothesis, const Con
   linearisation.hypothesis = hypothesis;
   linearisation.at = contacts;
   chooseRows(tables, linearisation);
-  std::array<Number, kMaxGauges> predicted{};
-  for (int k = 0; k < hypothesis.contacts; ++k) lineariseContact(tables, k, linearisation, predicted);
-  for (int gauge = 0; gauge < tables.constants.gauge_count; ++gauge)
-    linearisation.predicted[index(gauge)] = shortened(predicted[index(gauge)]);
+  linearisation.predicted = {};
+  for (int k = 0; k < hypothesis.contacts; ++k) lineariseContact(tables, k, linearisation);
   decompose(linearisation.column, linearisation.rows, hypothesis.unknowns(), linearisation.decomposition);
 }
 
@@ -270,8 +267,7 @@ Solution step(const TableImage& tables, const Linearisation& linearisation, cons
   Wide energy = 0;
   std::array<std::int16_t, kMaxGauges> rest;
   for (int gauge = 0; gauge < tables.constants.gauge_count; ++gauge) {
-    const std::int16_t each =
-        shortened(readings.value[index(gauge)] - Number{linearisation.predicted[index(gauge)]});
+    const std::int16_t each = shortened(readings.value[index(gauge)] - linearisation.predicted[index(gauge)]);
     rest[index(gauge)] = each;
     if (contains(hypothesis.gauges, gauge)) energy += Wide{each} * each;
   }

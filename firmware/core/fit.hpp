@@ -21,7 +21,7 @@ struct Linearisation {
   std::array<std::uint8_t, kMostRows> gauge;  ///< whose readings the rows are
   std::uint8_t rows;                          ///< even: the last may be empty
   std::uint8_t usedRows;
-  std::array<std::int16_t, kMaxGauges> predicted;  ///< of every gauge of the ring
+  std::array<Number, kMaxGauges> predicted;  ///< of every gauge of the ring, not limited to what can be read
   Decomposition decomposition;
 };
 

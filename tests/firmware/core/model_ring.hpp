@@ -1,58 +1,69 @@
 #pragma once
 // A finger as the elastic model has it, in double precision, and the tables made for it.
 
+#include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
+#include <initializer_list>
 #include <memory>
 #include <numbers>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "common/table_image.hpp"
-#include "host/model/impulse_response.hpp"
+#include "firmware/core/hypothesis.hpp"
+#include "host/evidence/bound.hpp"
+#include "host/evidence/fit_model.hpp"
 #include "host/tables/table_builder.hpp"
 
 namespace strainfinger {
 
-/// A line contact: position in pitches from gauge 0, loads in N/m.
+/// A contact: position in pitches from gauge 0, loads in N/m, width of the uniform pressure that has the same
+/// second moment.
 struct Press {
   double position_pitch;
   double normal;
   double tangential;
+  double width_mm = 0;
 };
 
-/// Random contacts: uniform round the ring, load directions uniform within +-45 degrees.
+constexpr double momentOf_mm2(double width_mm) { return width_mm * width_mm / 12; }
+inline double widthOf_mm(double moment_mm2) { return std::sqrt(12 * std::max(moment_mm2, 0.0)); }
+
+/// Random contacts: uniform round the ring, load directions uniform within +-45 degrees, widths uniform.
 class Presses {
  public:
-  Presses(int gauges, double load, std::uint64_t seed) : gauges_(gauges), load_(load), random_(seed) {
+  Presses(int gauges, double load, std::uint64_t seed, double leastWidth_mm = 0, double mostWidth_mm = 0)
+      : gauges_(gauges), load_(load), random_(seed), width_mm_(leastWidth_mm, mostWidth_mm) {
     std::printf("seed %llu ", static_cast<unsigned long long>(seed));
   }
   Press next() {
     const double direction = (uniform_(random_) - 0.5) * std::numbers::pi / 2;
-    return {uniform_(random_) * gauges_, load_ * std::cos(direction), load_ * std::sin(direction)};
+    const double position = uniform_(random_) * gauges_;
+    return {position, load_ * std::cos(direction), load_ * std::sin(direction), width_mm_(random_)};
   }
   double noise(double sigma) { return sigma * normal_(random_); }
+  std::vector<double> noisy(std::vector<double> strains, double sigma) {
+    for (double& strain : strains) strain += noise(sigma);
+    return strains;
+  }
 
  private:
   double gauges_;
   double load_;
   std::mt19937_64 random_;
   std::uniform_real_distribution<> uniform_{0, 1};
+  std::uniform_real_distribution<> width_mm_;
   std::normal_distribution<> normal_;
 };
 
 class ModelRing {
  public:
   explicit ModelRing(const config::FingerConfig& config = {})
-      : gauges_(config.gauges.count),
-        outerRadius_m_(config.finger.outer_radius_m),
-        noise_(config.gauges.noise_strain),
-        response_({config.finger.core_radius_m, config.finger.outer_radius_m, config.finger.shear_modulus_pa,
-                   config.finger.poisson_ratio},
-                  config.gauges.radius_m, config.gauges.component, config.gauges.arc_length_m,
-                  config.contact.width_m.value_or(0)),
+      : config_(config),
+        model_(config),
         tables_(std::make_unique<TableImage>(tables::buildTableImage(config))) {}
 
   static config::FingerConfig configOf(int gauges, StrainComponent component = StrainComponent::kRadial) {
@@ -61,29 +72,50 @@ class ModelRing {
     config.gauges.component = component;
     return config;
   }
+  /// A finger that is as drawn: nothing but noise is between it and the model.
+  static config::FingerConfig asDrawn(int gauges = 16, StrainComponent component = StrainComponent::kRadial) {
+    config::FingerConfig config = configOf(gauges, component);
+    config.gauges.model_error = 0;
+    return config;
+  }
+  /// The same, touched by contacts of one width.
+  static config::FingerConfig ofKnownWidth(double width_mm) {
+    config::FingerConfig config = asDrawn();
+    config.contact.width_m = width_mm * 1e-3;
+    return config;
+  }
 
   const TableImage& tables() const { return *tables_; }
   const TableConstants& constants() const { return tables_->constants; }
-  int gauges() const { return gauges_; }
-  double noise_strain() const { return noise_; }
-  double arc_um(double pitches) const { return pitches * pitch_rad() * outerRadius_m_ * 1e6; }
-  double pitch_rad() const { return 2 * std::numbers::pi / gauges_; }
+  int gauges() const { return config_.gauges.count; }
+  firmware::GaugeSet allGauges() const { return firmware::allGauges(gauges()); }
+  double noise_strain() const { return config_.gauges.noise_strain; }
+  double arc_um(double pitches) const { return pitches * pitch_rad() * config_.finger.outer_radius_m * 1e6; }
+  double pitch_rad() const { return 2 * std::numbers::pi / gauges(); }
 
-  model::ImpulseResponse::Value response(double pitches) const { return response_.at(pitches * pitch_rad()); }
-  double peakPerLoad() const {
-    double peak = 0;
-    for (int step = 0; step < 1000; ++step)
-      peak = std::max(peak, std::abs(response_.at(step * std::numbers::pi / 1000).normal));
-    return peak;
+  std::vector<double> strains(std::span<const Press> presses) const {
+    const Eigen::VectorXd readings = model_.readings(contactsOf(presses));
+    return {readings.begin(), readings.end()};
   }
+  std::vector<double> strains(std::initializer_list<Press> presses) const {
+    return strains(std::span(presses.begin(), presses.size()));
+  }
+  std::vector<double> strains(const Press& press) const { return strains({press}); }
 
-  std::vector<double> strains(const Press& press) const {
-    std::vector<double> result;
-    for (int gauge = 0; gauge < gauges_; ++gauge) {
-      const auto value = response(gauge - press.position_pitch);
-      result.push_back(press.normal * value.normal + press.tangential * value.tangential);
-    }
-    return result;
+  /// Derivatives of the strains to position [pitch], normal and tangential load [N/m], second moment [mm^2].
+  Eigen::MatrixX4d slopes(const Press& press) const {
+    return model_.slopes(contactOf(press)) * unitsOfModel().asDiagonal();
+  }
+  /// The Cramer-Rao bound of each press, all found together, in the same units.
+  std::vector<Eigen::Vector4d> bounds(std::span<const Press> presses, bool isWidthFree = true,
+                                      std::span<const int> leftOut = {}) const {
+    const auto& unknowns = isWidthFree ? evidence::kWidthUnknown : evidence::kWidthKnown;
+    auto bounds = evidence::cramerRaoBound(model_, contactsOf(presses), unknowns, noise_strain(), leftOut);
+    for (Eigen::Vector4d& bound : bounds) bound = bound.cwiseQuotient(unitsOfModel());
+    return bounds;
+  }
+  Eigen::Vector4d bound(const Press& press, bool isWidthFree = true) const {
+    return bounds({&press, 1}, isWidthFree).front();
   }
 
   /// As conditioning would hand them on: rounded, within the locator's range.
@@ -97,17 +129,64 @@ class ModelRing {
   }
   std::vector<std::int32_t> raw(const Press& press) const { return raw(strains(press)); }
 
+  /// Readings as a fit takes them, of all gauges.
+  firmware::ScaledReadings scaled(const std::vector<double>& strains) const {
+    return firmware::scaledReadings(constants(), raw(strains), allGauges());
+  }
+
+  /// A contact in the firmware's units, of readings that were divided by 2^shift.
+  firmware::ContactState stateOf(const Press& press, int shift) const {
+    const double turns = angleOf_turn(press.position_pitch), load = loadOfOne(shift);
+    const double part = constants().largest_moment_um2 == 0
+                            ? 0
+                            : momentOf_mm2(press.width_mm) * 1e6 / constants().largest_moment_um2;
+    const auto nearest = [](double value) { return static_cast<std::int64_t>(std::llround(value)); };
+    return {static_cast<std::uint32_t>(nearest(std::ldexp(turns, 32))),
+            static_cast<firmware::Number>(nearest(press.normal / load)),
+            static_cast<firmware::Number>(nearest(press.tangential / load)),
+            static_cast<firmware::Number>(nearest(std::ldexp(part, kMomentBits)))};
+  }
+  Press pressOf(const firmware::ContactState& state, int shift) const {
+    const double turns = std::ldexp(state.angle_q32, -32) - config_.gauges.first_angle_deg / 360;
+    const double moment_mm2 =
+        std::ldexp(state.moment_q20, -kMomentBits) * constants().largest_moment_um2 * 1e-6;
+    return {(turns - std::floor(turns)) * gauges(), state.normal * loadOfOne(shift),
+            state.tangential * loadOfOne(shift), widthOf_mm(moment_mm2)};
+  }
+
   /// The shorter way round from one position to another [pitches].
   double between(double from_pitch, double to_pitch) const {
     const double apart = to_pitch - from_pitch;
-    return apart - gauges_ * std::round(apart / gauges_);
+    return apart - gauges() * std::round(apart / gauges());
   }
+  /// Largest |tangential| / normal that friction allows.
+  double friction() const { return config_.contact.friction_coefficient; }
 
  private:
-  int gauges_;
-  double outerRadius_m_;
-  double noise_;
-  model::ImpulseResponse response_;
+  double perRadian_mm() const { return config_.finger.outer_radius_m * 1e3; }
+  /// A pitch, N/m, N/m and a square millimetre in units of the model's parameters.
+  Eigen::Vector4d unitsOfModel() const { return {pitch_rad(), 1, 1, 1 / (perRadian_mm() * perRadian_mm())}; }
+  evidence::FittedContact contactOf(const Press& press) const {
+    const double moment_rad2 = momentOf_mm2(press.width_mm) * unitsOfModel()[evidence::kMoment];
+    return {2 * std::numbers::pi * angleOf_turn(press.position_pitch),
+            {press.normal, press.tangential, moment_rad2, model::Profile::kEllipse, friction()}};
+  }
+  std::vector<evidence::FittedContact> contactsOf(std::span<const Press> presses) const {
+    std::vector<evidence::FittedContact> contacts;
+    for (const Press& press : presses) contacts.push_back(contactOf(press));
+    return contacts;
+  }
+  double angleOf_turn(double position_pitch) const {
+    const double turns = position_pitch / gauges() + config_.gauges.first_angle_deg / 360;
+    return turns - std::floor(turns);
+  }
+  /// [N/m] of an amplitude of 1.
+  double loadOfOne(int shift) const {
+    return std::ldexp(constants().load_scale, constants().load_exponent + shift - 12);
+  }
+
+  config::FingerConfig config_;
+  evidence::FitModel model_;
   std::unique_ptr<TableImage> tables_;
 };
 

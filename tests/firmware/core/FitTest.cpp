@@ -1,0 +1,205 @@
+#include "firmware/core/fit.hpp"
+
+#include "tests/firmware/core/exact_fit.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::firmware;
+
+TEST_GROUP(Fit) {
+  static constexpr int kMostSteps = 14;
+  const ModelRing ring{ModelRing::asDrawn()};
+  Hypothesis hypothesis{1, true, allGauges(16)};
+  Linearisation linearisation;
+
+  Solution fitted(const ModelRing& of, const std::vector<double>& strains, const std::vector<Press>& start,
+                  int steps = kMostSteps) {
+    const ScaledReadings readings = scaledReadings(of.constants(), of.raw(strains), hypothesis.gauges);
+    ContactStates contacts{};
+    for (std::size_t k = 0; k < start.size(); ++k) contacts[k] = of.stateOf(start[k], readings.shift);
+    return fit(of.tables(), hypothesis, contacts, readings, steps, linearisation);
+  }
+  Press pressOf(const ModelRing& of, const Solution& solution, const std::vector<double>& strains,
+                int k = 0) {
+    const auto shift = scaledReadings(of.constants(), of.raw(strains), hypothesis.gauges).shift;
+    return of.pressOf(solution.contact[static_cast<std::size_t>(k)], shift);
+  }
+  static Press beside(Press press, double pitches, double wider_mm) {
+    press.position_pitch += pitches;
+    press.width_mm = std::max(press.width_mm + wider_mm, 0.0);
+    return press;
+  }
+  static Wide energyOf(const ScaledReadings& readings) {
+    Wide energy = 0;
+    for (const int value : readings.value) energy += Wide{value} * value;
+    return energy;
+  }
+  /// Largest difference of a place, a load or a second moment, over its Cramer-Rao bound.
+  static double sigmasBetween(const ModelRing& of, const Press& a, const Press& b,
+                              const Eigen::Vector4d& bound) {
+    const Eigen::Vector4d apart{of.between(a.position_pitch, b.position_pitch), b.normal - a.normal,
+                                b.tangential - a.tangential,
+                                momentOf_mm2(b.width_mm) - momentOf_mm2(a.width_mm)};
+    double most = 0;
+    for (Eigen::Index i = 0; i < 4; ++i)
+      if (bound[i] > 0) most = std::max(most, std::abs(apart[i]) / bound[i]);
+    return most;
+  }
+  /// Noisy touches: the fit ends where the exact one does, from the same start.
+  void checkAgainstExactFit(double load, double leastWidth_mm, double mostWidth_mm, double rms_sigma) {
+    constexpr int kTouches = 100;
+    Presses presses(16, load, 201, leastWidth_mm, mostWidth_mm);
+    double squares = 0;
+    for (int i = 0; i < kTouches; ++i) {
+      const Press press = presses.next(), start = beside(press, presses.noise(0.03), 0.1);
+      const auto strains = presses.noisy(ring.strains(press), ring.noise_strain());
+      const Press exact = ExactFit(ring, strains).from({start}).presses[0];
+      const Press found = pressOf(ring, fitted(ring, strains, {start}), strains);
+      const double apart = sigmasBetween(ring, exact, found, ring.bound(press));
+      CHECK(apart < 5 * rms_sigma);
+      squares += apart * apart;
+    }
+    CHECK(std::sqrt(squares / kTouches) < rms_sigma);
+  }
+};
+
+TEST(Fit, StepsReachTheOptimumOfTheElasticModel) { checkAgainstExactFit(10, 0.5, 3, 0.2); }
+
+TEST(Fit, SoTheyDoForFirmTouchesWithinTheTablesError) { checkAgainstExactFit(30, 0.5, 3, 0.4); }
+
+TEST(Fit, WidthsThatNoiseMakesNegativeAre0AndTheRestIsFittedAnew) {
+  Presses presses(16, 10, 202);
+  int clamped = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Press press = presses.next();
+    const auto strains = presses.noisy(ring.strains(press), ring.noise_strain());
+    const Press exact = ExactFit(ring, strains).from({press}).presses[0];
+    const Press found = pressOf(ring, fitted(ring, strains, {press}), strains);
+    if (found.width_mm == 0) ++clamped;
+    DOUBLES_EQUAL(0, sigmasBetween(ring, exact, found, ring.bound(press)), 0.3);
+  }
+  CHECK(clamped > 30 && clamped < 70);
+}
+
+TEST(Fit, StepsConvergeAndLeaveTheResidualsOfTheLastContacts) {
+  Presses presses(16, 20, 203, 0.5, 3);
+  for (int i = 0; i < 100; ++i) {
+    const Press press = presses.next();
+    const auto strains = presses.noisy(ring.strains(press), ring.noise_strain());
+    const Solution solution = fitted(ring, strains, {beside(press, 0.05, 0.2)});
+    CHECK_TRUE(solution.converged);
+    const ScaledReadings readings = ring.scaled(strains);
+    linearise(ring.tables(), hypothesis, solution.contact, linearisation);
+    double energy = 0;
+    for (std::size_t k = 0; k < 16; ++k) {
+      const double left = readings.value[k] - linearisation.predicted[k];
+      energy += left * left;
+    }
+    // Rounding of sixteen residuals, and a step's gain that is left to be had.
+    DOUBLES_EQUAL(energy, static_cast<double>(solution.residualEnergy), 0.05 * energy + 64);
+  }
+}
+
+TEST(Fit, AWidthThatIsKnownStays) {
+  const ModelRing known{ModelRing::ofKnownWidth(2)};
+  hypothesis.widthIsFree = false;
+  Presses presses(16, 20, 204, 2, 2);
+  for (int i = 0; i < 100; ++i) {
+    const Press press = presses.next();
+    const auto strains = presses.noisy(known.strains(press), known.noise_strain());
+    const Press exact = ExactFit(known, strains).from({press}).presses[0];
+    const Press found = pressOf(known, fitted(known, strains, {beside(press, 0.05, 0)}), strains);
+    DOUBLES_EQUAL(2, found.width_mm, 1e-3);
+    DOUBLES_EQUAL(0, sigmasBetween(known, exact, found, known.bound(press, false)), 0.4);
+  }
+}
+
+TEST(Fit, TwoContactsAreFittedTogether) {
+  hypothesis.contacts = 2;
+  Presses presses(16, 20, 205, 0.5, 2);
+  for (int i = 0; i < 50; ++i) {
+    const Press one = presses.next();
+    const Press other{one.position_pitch + 5 + i % 3, 15, 4, 1};
+    const auto strains = presses.noisy(ring.strains({one, other}), ring.noise_strain());
+    const auto exact = ExactFit(ring, strains).from({one, other}).presses;
+    const Solution solution = fitted(ring, strains, {beside(one, 0.03, 0.1), beside(other, -0.03, 0.1)});
+    const auto bounds = ring.bounds(std::array{one, other});
+    for (const int k : {0, 1})
+      DOUBLES_EQUAL(0,
+                    sigmasBetween(ring, exact[static_cast<std::size_t>(k)],
+                                  pressOf(ring, solution, strains, k), bounds[static_cast<std::size_t>(k)]),
+                    0.5);
+  }
+}
+
+TEST(Fit, GaugesThatAreLeftOutMayReadAnything) {
+  Presses presses(16, 20, 206, 0.5, 2);
+  for (int gauge = 0; gauge < 16; ++gauge) {
+    hypothesis.gauges = allGauges(16) & ~(GaugeSet{1} << gauge);
+    const Press press{gauge + 0.7, 20, 5, 1};
+    auto strains = presses.noisy(ring.strains(press), ring.noise_strain());
+    strains[static_cast<std::size_t>(gauge)] = gauge % 2 == 0 ? 0.02 : -0.02;
+    const Press exact = ExactFit(ring, strains, hypothesis.gauges, true).from({press}).presses[0];
+    const Press found = pressOf(ring, fitted(ring, strains, {beside(press, 0.05, 0.1)}), strains);
+    const Eigen::Vector4d bound = ring.bounds({&press, 1}, true, std::array{gauge}).front();
+    DOUBLES_EQUAL(0, sigmasBetween(ring, exact, found, bound), 1);
+  }
+}
+
+TEST(Fit, ThreeReadingsAreSolvedExactly) {
+  const ModelRing line{ModelRing::ofKnownWidth(0)};
+  hypothesis = {1, false, allGauges(16), 0b0111 << 4};
+  Presses presses(16, 20, 207);
+  for (int i = 0; i < 50; ++i) {
+    const Press press{4.6 + i / 100.0, 20, (i % 5 - 2) * 4.0};
+    const auto strains = presses.noisy(line.strains(press), line.noise_strain());
+    const Solution solution = fitted(line, strains, {press});
+    linearise(line.tables(), hypothesis, solution.contact, linearisation);
+    const ScaledReadings readings = line.scaled(strains);
+    for (std::size_t gauge = 4; gauge < 7; ++gauge)
+      DOUBLES_EQUAL(readings.value[gauge], linearisation.predicted[gauge], 8);
+  }
+}
+
+TEST(Fit, TheLinearisationPredictsEveryGauge) {
+  Presses presses(16, 30, 208, 0, 7);
+  for (int i = 0; i < 200; ++i) {
+    const Press press = presses.next();
+    const auto strains = ring.strains(press);
+    const ScaledReadings readings = ring.scaled(strains);
+    linearise(ring.tables(), hypothesis, {ring.stateOf(press, readings.shift)}, linearisation);
+    // The tables are off by 5.2e-4 of the largest response to either load, which between two gauges is twice
+    // what any of them reads.
+    for (std::size_t gauge = 0; gauge < 16; ++gauge)
+      DOUBLES_EQUAL(readings.value[gauge], linearisation.predicted[gauge], 64);
+  }
+}
+
+TEST(Fit, GaugesInReachAreItsRows) {
+  linearise(ring.tables(), hypothesis, {ring.stateOf({3.25, 20, 0, 1}, 5)}, linearisation);
+  const double reach = std::ldexp(ring.constants().reach_q32, -32) * 16;
+  int rows = 0;
+  for (int gauge = 0; gauge < 16; ++gauge)
+    if (std::abs(ring.between(3.25, gauge)) <= reach)
+      LONGS_EQUAL(gauge, linearisation.gauge[static_cast<std::size_t>(rows++)]);
+  LONGS_EQUAL(rows, linearisation.usedRows);
+  LONGS_EQUAL(0, linearisation.rows % 2);
+}
+
+TEST(Fit, TheBestLoadsOfAPlaceAreThoseOfLeastSquares) {
+  Presses presses(16, 20, 209, 0.5, 4);
+  for (int i = 0; i < 100; ++i) {
+    const Press press = presses.next(), slid{press.position_pitch, 20, 10, press.width_mm};  // half slips
+    const ScaledReadings readings = ring.scaled(ring.strains(slid));
+    const ContactState state = ring.stateOf(slid, readings.shift);
+    ContactState place = state;
+    place.normal = place.tangential = 0;
+    const Solution solution = fitLoads(ring.tables(), hypothesis, {place}, readings, linearisation);
+    DOUBLES_EQUAL(state.normal, solution.contact[0].normal, 0.002 * state.normal);
+    DOUBLES_EQUAL(state.tangential, solution.contact[0].tangential, 0.002 * state.normal);
+    LONGS_EQUAL(state.angle_q32, solution.contact[0].angle_q32);
+    // Gauges out of reach read 2 % of the energy at most.
+    CHECK(solution.residualEnergy < energyOf(readings) / 50);
+  }
+}

@@ -8,12 +8,6 @@ config::FingerConfig perfectFinger() {
   return config;
 }
 
-config::FingerConfig calibratedFinger() {
-  config::FingerConfig config;
-  config.gauges.model_error = 0.003;
-  return config;
-}
-
 config::FingerConfig fingerAsBuilt(int seed) {
   config::FingerConfig config;
   config.as_built = {.seed = seed,

@@ -1,0 +1,81 @@
+#include "host/bench/matrix/matrix_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <tuple>
+
+#include "host/base/table_writer.hpp"
+#include "host/bench/cells.hpp"
+
+namespace strainfinger::bench {
+namespace {
+
+constexpr std::string_view kIntroduction = R"(# What disturbs the finger
+
+Touches of a default finger, one disturbance a row, through the firmware's own pipeline from the converter's codes on; the
+worst rows first. Unless a row says otherwise: line contacts of 2 to 40 N/m, anywhere, pushed within 45 degrees of the
+normal, on a finger exactly as drawn; tables without model error, the width unknown. A finger is switched on, left alone
+for 0.3 s, and touched six times for 120 sample sets, 40 apart; a gauge that fails does so all the time, and touches are
+within two pitches of it. Answers count in the last sample set of a touch.
+
+| column | of all touches, how many end with |
+|--|--|
+| silent | a contact told more than half a pitch (2.5 mm) from every true one, and no flag |
+| beyond 6 sigma | place or a load off by more than six reported standard errors, and no flag |
+| flagged | a flag: uncertain, or more contacts than the one that is told |
+| blamed | a healthy gauge out of use |
+| missed | nothing told |
+| located | every contact told within half a pitch, none besides, no flag |
+| ghosts | a contact told while nothing touched the finger, in the time before |
+
+"As built": gauges glued 0.5 degrees and 0.05 mm off, gains off by 3 % (standard deviations), the core 0.1 mm thicker,
+Poisson's ratio 0.49; another finger for every six touches.
+
+)";
+
+double part(int count, const Tally& tally) { return static_cast<double>(count) / std::max(tally.touches, 1); }
+
+auto badness(const Tally& tally) {
+  return std::tuple(part(tally.silent, tally), part(tally.beyond, tally), part(tally.blamed, tally),
+                    part(tally.ghosts, tally), part(tally.missed, tally), part(tally.flagged, tally));
+}
+
+std::string rowText(const MatrixRow& row) {
+  const Tally& tally = row.tally;
+  std::string text = "| " + row.name + " |";
+  for (const int count :
+       {tally.silent, tally.beyond, tally.flagged, tally.blamed, tally.missed, tally.located, tally.ghosts})
+    text.append(" ").append(share(count, tally.touches)).append(" |");
+  return text + fmt::format(" {} |\n", tally.touches);
+}
+
+}  // namespace
+
+std::string matrixPage(std::vector<MatrixRow> rows, int touches, std::uint64_t seed) {
+  std::stable_sort(rows.begin(), rows.end(), [](const MatrixRow& a, const MatrixRow& b) {
+    return badness(a.tally) > badness(b.tally);
+  });
+  std::string text(kIntroduction);
+  text +=
+      "| disturbance | silent | beyond 6 sigma | flagged | blamed | missed | located | ghosts | touches |\n"
+      "|--|--|--|--|--|--|--|--|--|\n";
+  for (const MatrixRow& row : rows) text += rowText(row);
+  return text + fmt::format(
+                    "\n{} touches a row, fewer where they take seconds; seed {}. Made by "
+                    "`cmake --workflow --preset bench`.\n",
+                    touches, seed);
+}
+
+void writeMatrixCsv(std::FILE* stream, const std::vector<MatrixRow>& rows) {
+  TableWriter table(stream, TableFormat::kCsv,
+                    {"disturbance", "touches", "silent", "beyond_6_sigma", "flagged", "blamed", "missed",
+                     "located", "ghosts"});
+  for (const auto& [name, tally] : rows)
+    table.row({name, std::int64_t{tally.touches}, std::int64_t{tally.silent}, std::int64_t{tally.beyond},
+               std::int64_t{tally.flagged}, std::int64_t{tally.blamed}, std::int64_t{tally.missed},
+               std::int64_t{tally.located}, std::int64_t{tally.ghosts}});
+}
+
+}  // namespace strainfinger::bench

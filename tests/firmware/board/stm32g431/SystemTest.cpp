@@ -94,6 +94,14 @@ class ClockBench {
 WATCHDOG_CONTRACT(Independent, WatchdogBench)
 CLOCK_CONTRACT(Microsecond, ClockBench)
 
+TEST_GROUP(MicrosecondClock) { ClockBench bench; };
+
+TEST(MicrosecondClock, CountsMicrosecondsFromTheFirstOn) {
+  const std::uint32_t before_us = bench.clock().now_us();
+  bench.pass(1000);
+  LONGS_EQUAL(1000, bench.clock().now_us() - before_us);
+}
+
 TEST_GROUP(IndependentWatchdog) {
   WatchdogBench bench;
   doubles::FakeRegisters csr;

@@ -17,7 +17,7 @@ using Config = const FingerConfig&;
 /// Bits on the bus of an 8-byte frame with an 11-bit identifier, stuffed at worst: 8 n + 44 fixed bits, 3 of
 /// interframe space, a stuff bit for every 4 of the 34 + 8 n - 1 that are subject to it.
 constexpr int kWorstFrame_bits = 8 * 8 + 44 + 3 + (34 + 8 * 8 - 1) / 4;
-constexpr int kFramesPerContact = 5;  ///< CONTACT, FORCE and PATCH, and those of a second contact
+constexpr int kFramesPerContact = 3;  ///< CONTACT, FORCE and PATCH; those of a second contact may wait
 
 /// Gaps between neighbours, over that of an even ring. Gauges that are nearer tell the same twice; in a gap
 /// that is wider a touch is nearly out of sight.

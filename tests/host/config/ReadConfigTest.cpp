@@ -230,7 +230,7 @@ TEST(ReadConfig, ConditionsBetweenKeysNameThemAllAndPointIntoTheFile) {
                "must be at most finger.outer_radius_m = 0.0127");
   checkComplaint(settingOf("contact.width_m", "0.0127") + "largest_width_m = 0.0127", "accepted");
   checkMention(settingOf("can.bitrate", "125000"),
-               "f.toml:3:11: can.contact_rate_hz = 500 needs up to 337500");
+               "f.toml:3:11: can.contact_rate_hz = 500 needs up to 202500");
 }
 
 // Of 12 bits over +-0.03: 0.06 / 2^12 / sqrt(12) = 4.2286e-6.

@@ -9,6 +9,7 @@ namespace {
 
 constexpr int kMostSteps = 14;      ///< of a fit from the readings
 constexpr int kFollowingSteps = 3;  ///< of one from the last answer
+constexpr int kStepsWhileSearching = 2;
 /// Sets of readings after which what is in doubt is looked into again.
 constexpr std::uint16_t kSearchAgainAfter = 64;
 
@@ -39,8 +40,8 @@ bool isFarOff(const TableImage& tables, const Solution& solution, const ScaledRe
 }  // namespace
 
 void Locator::release() {
-  if (!tracking_) return;
-  tracking_ = false;
+  if (!tracking_ && !answer_.searching) return;
+  tracking_ = guessed_ = false;
   search_.stop();
   answer_ = {};
 }
@@ -62,7 +63,8 @@ bool Locator::follow(const TableImage& tables, const ScaledReadings& readings, G
     linearise(tables, hypothesis, rescaled(answer_.solution.contact, answer_.shift, readings.shift),
               linearisation_);
   Solution solution = step(tables, linearisation_, readings);
-  for (int i = 1; i < kFollowingSteps && !solution.converged; ++i) {
+  const int most = search_.isRunning() ? kStepsWhileSearching : kFollowingSteps;
+  for (int i = 1; i < most && !solution.converged; ++i) {
     linearise(tables, hypothesis, solution.contact, linearisation_);
     solution = step(tables, linearisation_, readings);
   }
@@ -74,12 +76,22 @@ bool Locator::follow(const TableImage& tables, const ScaledReadings& readings, G
 
 void Locator::start(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges) {
   answer_ = {};
+  search_.stop();
   const Hypothesis hypothesis = oneContact(tables, mode_, gauges);
   const ContactStates guess = initialGuess(tables, hypothesis, readings, linearisation_);
-  believe(tables, fit(tables, hypothesis, guess, readings, kMostSteps, linearisation_), readings);
-  if (answer_.accepted && isFirm(tables.constants, answer_.solution, readings)) return;
+  believe(tables, fit(tables, hypothesis, guess, readings, 1, linearisation_), readings);
+  guessed_ = answer_.searching = true;
+}
+
+/// The fit that start() began; a search where it leaves doubt.
+void Locator::settle(const TableImage& tables, const ScaledReadings& readings) {
+  guessed_ = false;
+  const Hypothesis hypothesis = answer_.solution.hypothesis;
+  const ContactStates from = rescaled(answer_.solution.contact, answer_.shift, readings.shift);
+  believe(tables, fit(tables, hypothesis, from, readings, kMostSteps, linearisation_), readings);
+  answer_.searching = !answer_.accepted || !isFirm(tables.constants, answer_.solution, readings);
+  if (!answer_.searching) return;
   search_.begin(tables, readings, hypothesis);
-  answer_.searching = true;
   setsSinceSearch_ = 0;
 }
 
@@ -127,7 +139,7 @@ void Locator::goOn(const TableImage& tables, const ScaledReadings& readings) {
   // The touch may have changed since the search began.
   const Hypothesis hypothesis = answer_.solution.hypothesis;
   const ContactStates from = rescaled(answer_.solution.contact, answer_.shift, readings.shift);
-  believe(tables, fit(tables, hypothesis, from, readings, kMostSteps / 2, linearisation_), readings);
+  believe(tables, fit(tables, hypothesis, from, readings, kFollowingSteps, linearisation_), readings);
 }
 
 /// Three readings that see the place and both loads well, solved exactly, unless they lead elsewhere than all
@@ -167,7 +179,13 @@ void Locator::finishSearch(const TableImage& tables, std::span<const std::int32_
                            GaugeSet gauges) {
   const ScaledReadings readings =
       scaledReadings(tables.constants, strains_q32, gauges, kConfiguredNoise_q4, answer_.shift);
+  if (guessed_) settle(tables, readings);
   while (search_.isRunning()) goOn(tables, readings);
+  const Solution found = answer_.solution;
+  if (!found.converged)
+    believe(tables,
+            fit(tables, found.hypothesis, found.contact, readings, kFollowingSteps + 1, linearisation_),
+            readings);
   if (mode_ == FitMode::kThreePoint) solveExactly(tables, readings);
 }
 
@@ -175,7 +193,15 @@ void Locator::update(const TableImage& tables, std::span<const std::int32_t> str
                      std::uint32_t noise_q4) {
   const ScaledReadings readings =
       scaledReadings(tables.constants, strains_q32, gauges, noise_q4, tracking_ ? answer_.shift : -1);
-  if (!tracking_ || !follow(tables, readings, gauges)) start(tables, readings, gauges);
+  if (!tracking_ || (guessed_ && (answer_.solution.hypothesis.gauges & ~gauges) != 0))
+    return start(tables, readings, gauges);
+  if (guessed_) return settle(tables, readings);
+  if (!follow(tables, readings, gauges)) {
+    tracking_ = false;  // with the next set
+    search_.stop();
+    answer_.searching = true;
+    return;
+  }
   if (search_.isRunning()) {
     goOn(tables, readings);
   } else if (!answer_.accepted || answer_.rivalEnergy >= 0) {

@@ -54,10 +54,10 @@ class Locator {
  private:
   bool follow(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
   void start(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
+  void settle(const TableImage& tables, const ScaledReadings& readings);
   void goOn(const TableImage& tables, const ScaledReadings& readings);
   void conclude(const TableImage& tables);
   void believe(const TableImage& tables, const Solution& solution, const ScaledReadings& readings);
-  void settle(const TableImage& tables, const ScaledReadings& readings);
   void solveExactly(const TableImage& tables, const ScaledReadings& readings);
 
   Search search_;
@@ -66,6 +66,7 @@ class Locator {
   Answer answer_;
   FitMode mode_;
   bool tracking_ = false;
+  bool guessed_ = false;  ///< the answer is where a fit starts
   std::uint16_t setsSinceSearch_ = 0;
 };
 

@@ -23,7 +23,7 @@ constexpr int kFirstSteps = 2;  ///< Gauss-Newton steps of every candidate, befo
 constexpr int kMostSteps = 14;  ///< of these
 
 /// Units of work: a look at a point, one at a pair of places, a Gauss-Newton step of one or two contacts.
-constexpr int kPointWork = 1, kPairWork = 3, kStepWork = 4, kPairStepWork = 12;
+constexpr int kPointWork = 5, kPairWork = 9, kStepWork = 10, kPairStepWork = 22;
 
 /// How many candidates a grid leaves, and how many of them are refined to the end.
 struct Effort {
@@ -44,7 +44,8 @@ constexpr Effort effortOf(Grid::Kind kind) {
 }
 
 std::uint32_t pitch_q32(const TableConstants& constants) {
-  return static_cast<std::uint32_t>((std::uint64_t{1} << 32) / constants.gauge_count);
+  const std::uint32_t count = constants.gauge_count;
+  return (0 - count) / count + 1;  // 2^32 / count
 }
 
 /// The middle of the two neighbouring gauges that read most energy: a contact is within two pitches of it,
@@ -201,7 +202,7 @@ void Search::beginTask(const Hypothesis& hypothesis, const Grid& grid) {
   hypothesis_ = hypothesis;
   grid_ = grid;
   point_ = 0;
-  candidates_ = refined_ = 0;
+  candidates_ = refined_ = steps_ = 0;
 }
 
 /// Keeps the best points that are not neighbours of better ones, best first.
@@ -226,25 +227,36 @@ int Search::lookAtPoint(const TableImage& tables, Linearisation& scratch) {
   return hypothesis_.contacts == 1 ? kPointWork : kPairWork;
 }
 
-/// The first steps of the next candidate, or all of them where one of the best is next.
+/// A Gauss-Newton step of the next candidate: each has kFirstSteps, then the best have as many as they need.
 int Search::refineNext(const TableImage& tables, Linearisation& scratch) {
   const bool first = refined_ < candidates_;
   const int i = first ? refined_ : refined_ - candidates_;
-  ++refined_;
   Solution& candidate = candidate_[at(i)];
-  if (!first)
-    for (int better = 0; better < i; ++better)
-      if (isSame(tables.constants, candidate, candidate_[at(better)])) return 0;
-  const int steps = first ? kFirstSteps : kMostSteps;
-  candidate = fit(tables, hypothesis_, candidate.contact, looked_, steps, scratch);
-  if (refined_ == candidates_) sortByEnergy(std::span(candidate_).first(candidates_));
-  if (!first && isLookingAgain()) {
-    const Hypothesis both{2, all_.widthIsFree, all_.gauges};
-    candidate = fit(tables, both, {candidate.contact[0], other_}, readings_, kMostSteps, scratch);
+  if (!first && steps_ == 0 && candidate.hypothesis == hypothesis_ && isWorseTwin(tables.constants, i)) {
+    ++refined_;
+    return 0;
   }
-  if (!first) ranking().take(tables.constants, candidate, readings_);
-  const bool pair = hypothesis_.contacts == 2 || (!first && isLookingAgain());
-  return (first ? kFirstSteps : kMostSteps / 2) * (pair ? kPairStepWork : kStepWork);
+  const bool pair = candidate.hypothesis.contacts == 2;
+  linearise(tables, candidate.hypothesis, candidate.contact, scratch);
+  candidate = step(tables, scratch, pair ? readings_ : looked_);
+  if (candidate.converged || ++steps_ == (first ? kFirstSteps : kMostSteps)) {
+    steps_ = 0;
+    if (!first && isLookingAgain() && !pair) {
+      candidate = {{2, all_.widthIsFree, all_.gauges}, {candidate.contact[0], other_}};
+    } else {
+      ++refined_;
+      if (refined_ == candidates_) sortByEnergy(std::span(candidate_).first(candidates_));
+      if (!first) ranking().take(tables.constants, candidate, readings_);
+    }
+  }
+  return pair ? kPairStepWork : kStepWork;
+}
+
+/// A better candidate went to the same place.
+bool Search::isWorseTwin(const TableConstants& constants, int candidate) const {
+  for (int better = 0; better < candidate; ++better)
+    if (isSame(constants, candidate_[at(candidate)], candidate_[at(better)])) return true;
+  return false;
 }
 
 int Search::refinements() const {

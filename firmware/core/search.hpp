@@ -72,7 +72,7 @@ class Search {
   const Ranking& withoutOne() const { return withoutOne_; }
   const Ranking& pair() const { return pair_; }
 
-  static constexpr int kWork = 100;
+  static constexpr int kWork = 70;
 
  private:
   enum class Stage : std::uint8_t {
@@ -90,6 +90,7 @@ class Search {
   int lookAtPoint(const TableImage& tables, Linearisation& scratch);
   void consider(const TableConstants& constants, const Solution& point);
   int refineNext(const TableImage& tables, Linearisation& scratch);
+  bool isWorseTwin(const TableConstants& constants, int candidate) const;
   int refinements() const;
   Ranking& ranking();
   void finishTask(const TableImage& tables, Linearisation& scratch);
@@ -109,6 +110,7 @@ class Search {
   std::int16_t point_ = 0;  ///< of the grid, the next to be looked at
   std::uint8_t candidates_ = 0;
   std::uint8_t refined_ = 0;  ///< refinements made: first steps of all candidates, then all of the best
+  std::uint8_t steps_ = 0;    ///< of the refinement that is under way
   std::uint8_t leftOut_ = 0;  ///< gauge
   std::uint8_t rounds_ = 0;   ///< of looking for each contact of a pair again
   Stage stage_ = Stage::kIdle;

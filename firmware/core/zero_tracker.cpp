@@ -40,7 +40,7 @@ bool ZeroTracker::looksLikeAContact(const TableImage& tables, GaugeSet gauges, L
   if (energy <= Wide{readings.gateVariance_q4} >> (4 + kQuietBits)) return false;
   const Hypothesis hypothesis{1, tables.constants.width_is_known == 0, gauges};
   const Solution solution =
-      fit(tables, hypothesis, initialGuess(tables, hypothesis, readings, scratch), readings, 6, scratch);
+      fit(tables, hypothesis, initialGuess(tables, hypothesis, readings, scratch), readings, 3, scratch);
   return isAdmissible(tables.constants, solution) && solution.residualEnergy < energy >> kContactBits;
 }
 

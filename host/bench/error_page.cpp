@@ -14,11 +14,15 @@ namespace {
 constexpr std::string_view kIntroduction = R"(# What the finger can and cannot do
 
 The default finger: 25.4 mm in diameter, 3.8 mm of rubber, 16 gauges of negligible length, 6 microstrain of noise (12-bit
-converter included), touched along a line. One sample set, no averaging. "Place" is arc of the surface. Errors are
+converter included). One sample set, no averaging; a search takes more of them. "Place" is arc of the surface. Errors are
 against the truth, of the answers that the finger itself calls certain; the others are counted. Unless said otherwise:
-any place, load directions within 45 degrees of the normal, "load" is the length of (normal, tangential).
+touched along a line, a finger exactly as drawn and tables without model error, the width not known and fitted with each
+touch, any place, load directions within 45 degrees of the normal, "load" is the length of (normal, tangential). Contacts
+that have a width press as something round does; the width is that of the uniform pressure with the same second moment.
 
 A line load in N/m times the length of the contact is a force: 30 N/m on 20 mm are 0.6 N.
+
+What disturbs it, and what it says then: [disturbances.md](disturbances.md).
 
 )";
 
@@ -133,6 +137,7 @@ double surelyNoticed_n_per_m(const std::vector<ErrorCell>& cells) {
 std::string inShort(const std::vector<ErrorCell>& cells) {
   const auto &firm = rowOf(cells, kLoadSweep, 30, true), &light = rowOf(cells, kLoadSweep, 5, true);
   const auto &wide = rowOf(cells, kWidthSweep, 2, false), &wideTold = rowOf(cells, kWidthSweep, 2, true);
+  const auto& built = rowOf(cells, kBuiltSweep, 2, false);
   const ErrorCell worst = worstOf(cellsOf(cells, kMapSweep), 1).front();
   return fmt::format(
       "## In short\n\n"
@@ -144,18 +149,20 @@ std::string inShort(const std::vector<ErrorCell>& cells) {
       "* **Weakest spot**: {:+.3f} pitches from a gauge, pulled {:.0f} deg sideways: {:.3f} mm at 30 N/m (95 "
       "%), against "
       "{:.3f} mm anywhere. Over a gauge a small shift and a small tangential load look alike.\n"
-      "* **What the config says of contact width and gauge length matters**: a flat pressed with 30 N/m "
-      "touches "
-      "along some 2 mm "
-      "(`strainfinger contact --indenter flat --load-n-per-m 30 --summary`). Such a contact is known to "
-      "{:.3f} "
-      "mm RMS when the tables know the width; when they take it for a line {} of the answers are flagged "
-      "uncertain, and the others are {:.3f} mm RMS off.\n"
-      "* **What it cannot do**: tell two contacts apart, or where along the finger a contact is.\n",
+      "* **Width**: a contact 2 mm wide, as 30 N/m make it, is known to {:.3f} mm RMS, to {:.3f} mm where "
+      "the "
+      "tables know the width; wide contacts are harder: {:.3f} mm at 4 mm.\n"
+      "* **As built**: gauges glued 0.5 degrees and 0.05 mm off, gains off by 3 %, the core 0.1 mm thicker, "
+      "Poisson's ratio 0.49, nothing calibrated: {:.2f} mm RMS at 2 mm of width, {} of the answers flagged "
+      "uncertain. `strainfinger calibrate` brings most of it back.\n"
+      "* **What it cannot do**: tell contacts apart that are nearer than 2.5 pitches, or where along the "
+      "finger a "
+      "contact is.\n",
       firm.arc_mm.rms(), light.arc_mm.rms(), light.normal_n_per_m.rms(), light.tangential_n_per_m.rms(),
       firm.normal_n_per_m.rms(), firm.tangential_n_per_m.rms(), surelyNoticed_n_per_m(cells), worst.setting,
       worst.direction_deg, worst.statistics.arc_mm.quantile(0.95), firm.arc_mm.quantile(0.95),
-      wideTold.arc_mm.rms(), share(wide.uncertain, wide.contacts), wide.arc_mm.rms());
+      wide.arc_mm.rms(), wideTold.arc_mm.rms(), rowOf(cells, kWidthSweep, 4, false).arc_mm.rms(),
+      built.arc_mm.rms(), share(built.uncertain, built.contacts));
 }
 
 }  // namespace
@@ -172,6 +179,8 @@ std::string errorPage(const std::vector<ErrorCell>& cells, const SweepSettings& 
   text += sweepTable(cells, kNoiseSweep, "Noise of a gauge (16-bit converter)", "microstrain", true, false);
   text += sweepTable(cells, kBitsSweep, "Bits of the converter", "bits", true, false);
   text += sweepTable(cells, kWidthSweep, "Width of the contact", "mm", false, true);
+  text += sweepTable(cells, kBuiltSweep, "Width of the contact on fingers as built, not calibrated", "mm",
+                     false, false);
   text += sweepTable(cells, kLengthSweep, "Length of a gauge", "mm", false, true);
   return text + fmt::format(
                     "\n{} contacts a row, {} a cell of the map, seed {}. Made by "

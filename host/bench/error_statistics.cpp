@@ -16,6 +16,9 @@ namespace {
 /// touch are numbered one after the other.
 constexpr std::uint64_t kSetsPerTouch = 256;
 
+/// Width of the semi-ellipse, as something round presses, with the second moment of a uniform pressure.
+double roundWidth_m(double uniformWidth_m) { return uniformWidth_m * std::sqrt(16.0 / 12); }
+
 }  // namespace
 
 Trial::Trial(const config::FingerConfig& actual, const config::FingerConfig& told, std::uint64_t seed)
@@ -32,7 +35,7 @@ void Trial::touchAnywhere(double load_n_per_m, int contacts, ErrorStatistics& st
   const evidence::TouchDraws draws(actual_.gauges, ranges, seed_);
   for (int contact = 0; contact < contacts; ++contact) {
     simulation::Touch touched = draws.at(touch_);
-    touched.width_m.reset();  // that of the finger's config
+    touched.width_m = roundWidth_m(actual_.contact.width_m.value_or(0));
     touch(touched, 1, statistics);
   }
 }

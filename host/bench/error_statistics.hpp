@@ -38,7 +38,7 @@ class Trial {
   /// Touches the finger, whose last touch was long ago, `repeats` times, each with other noise.
   void touch(const simulation::Touch& touch, int repeats, ErrorStatistics& statistics);
 
-  /// Any place, load directions within +-45 degrees.
+  /// Any place, load directions within +-45 degrees, as wide as the actual finger's config has contacts.
   void touchAnywhere(double load_n_per_m, int contacts, ErrorStatistics& statistics);
 
  private:

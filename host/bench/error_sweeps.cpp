@@ -63,6 +63,20 @@ class Sweeps {
       toldAndNot(kWidthSweep, width_mm, finger);
     }
   }
+  /// Some fingers, each touched as often; tables of the drawing, the default model error.
+  void asBuilt() {
+    constexpr int kFingers = 10;
+    for (const double width_mm : {0.0, 1.0, 2.0, 4.0}) {
+      ErrorCell cell{kBuiltSweep, width_mm, "mm", kAnyDirection, kFirm_n_per_m, false, {}};
+      for (int seed = 1; seed <= kFingers; ++seed) {
+        config::FingerConfig finger = fingerAsBuilt(seed);
+        finger.contact.width_m = width_mm * 1e-3;
+        Trial(finger, {}, settings_.seed)
+            .touchAnywhere(kFirm_n_per_m, (settings_.contacts + kFingers - 1) / kFingers, cell.statistics);
+      }
+      cells_.push_back(std::move(cell));
+    }
+  }
   void length() {
     for (const double length_mm : {0.0, 0.2, 0.5, 1.0, 1.5, 2.0, 3.0}) {
       config::FingerConfig finger = perfectFinger();
@@ -102,6 +116,7 @@ std::vector<ErrorCell> errorSweeps(const SweepSettings& settings) {
   sweeps.load();
   sweeps.noise();
   sweeps.width();
+  sweeps.asBuilt();
   sweeps.length();
   sweeps.bits();
   return sweeps.take();

@@ -15,6 +15,7 @@ inline constexpr const char* kMapSweep = "position and direction";
 inline constexpr const char* kLoadSweep = "load";
 inline constexpr const char* kNoiseSweep = "noise";
 inline constexpr const char* kWidthSweep = "contact width";
+inline constexpr const char* kBuiltSweep = "contact width, finger as built";
 inline constexpr const char* kLengthSweep = "gauge length";
 inline constexpr const char* kBitsSweep = "adc bits";
 
@@ -24,7 +25,7 @@ struct ErrorCell {
   std::string unit;
   double direction_deg;  ///< atan(tangential / normal); NaN: all within +-45
   double load_n_per_m;   ///< length of (normal, tangential)
-  bool told;             ///< the tables were made for what is swept
+  bool told;             ///< the tables were made for what is swept; a width that they don't know is fitted
   ErrorStatistics statistics;
 };
 

@@ -18,7 +18,7 @@ set key off
 set style line 1 linecolor rgb blue pointtype 7 pointsize 1.4
 set style line 2 linecolor rgb vermilion pointtype 6 pointsize 1.2 linewidth 1.6
 set style line 3 linecolor rgb faint linewidth 1.4 dashtype 2
-set multiplot layout 2,2 margins 0.055,0.80,0.06,0.96 spacing 0.065,0.09
+set multiplot layout 2,3 margins 0.04,0.845,0.06,0.96 spacing 0.045,0.09
 )";
 constexpr const char* kErrorAxis = "set ylabel 'error of place, RMS of all answers (um of arc)'\n";
 
@@ -43,8 +43,8 @@ Area around(const Point& point) {
   return {point.cost / 1.25, point.cost * 2.6, point.arc_um / 1.4, point.arc_um * 4.6};
 }
 
-/// What is drawn of one level of noise.
-struct NoisePanel {
+/// What is drawn of one level.
+struct LevelPanel {
   std::size_t number;
   std::vector<Point> points;
   double bound_um;
@@ -61,7 +61,7 @@ std::string label(const Point& point) {
                      colourOf(point.ours));
 }
 
-std::string labels(const NoisePanel& panel, bool ofCloseUp) {
+std::string labels(const LevelPanel& panel, bool ofCloseUp) {
   std::string script;
   for (const Point& point : panel.points)
     if (panel.closeUp.holds(point) == ofCloseUp) script += label(point);
@@ -75,7 +75,7 @@ std::string legend(const std::vector<MethodResult>& results, const std::vector<P
   double height = kTop;
   for (const Point& point : points) {
     script +=
-        fmt::format("set label \"{} {}\" at screen 0.81,screen {:.3f} left font ',10' textcolor rgb {}\n",
+        fmt::format("set label \"{} {}\" at screen 0.855,screen {:.3f} left font ',10' textcolor rgb {}\n",
                     point.number, results[point.number - 1].name, height, colourOf(point.ours));
     height -= line;
   }
@@ -93,7 +93,15 @@ std::vector<Point> pointsOf(const std::vector<MethodResult>& results, const Coun
   return points;
 }
 
-std::string plotOf(const NoisePanel& panel) {
+/// The first of ours that has the least error; of others where there is none.
+const Point& bestOfOurs(const std::vector<Point>& points) {
+  return *std::min_element(points.begin(), points.end(), [](const Point& a, const Point& b) {
+    if (a.ours != b.ours) return a.ours;
+    return a.ours && a.arc_um < b.arc_um;
+  });
+}
+
+std::string plotOf(const LevelPanel& panel) {
   return fmt::format(
       "plot {0} with lines linestyle 3, data('level{1}') using 2:($4==0 ? $3 : NaN) every ::1 with points "
       "linestyle 2, '' using 2:($4==1 ? $3 : NaN) every ::1 with points linestyle 1\n"
@@ -102,10 +110,10 @@ std::string plotOf(const NoisePanel& panel) {
 }
 
 /// Everything, with a frame around what the close-up shows.
-std::string overview(const NoisePanel& panel) {
+std::string overview(const LevelPanel& panel) {
   const Area& area = panel.closeUp;
   return fmt::format(
-             "set title 'noise {} of the peak strain'\nset xrange [*:*]\nset yrange [{}:*]\n"
+             "set title 'noise {}'\nset xrange [*:*]\nset yrange [{}:*]\n"
              "set format x '10^{{%L}}'; set format y '%g'\n"
              "set object 1 rectangle from {},{} to {},{} fillstyle empty border linecolor '#555555'\n"
              "set label \"Cramer-Rao bound\" at graph 0.99,first {} right offset 0,-0.7 font ',10' textcolor "
@@ -126,7 +134,7 @@ std::string range(const char* axis, double least, double most) {
   return fmt::format("set {0}tics ({1})\nset {0}range [{2}:{3}]\n", axis, tics, least, most);
 }
 
-std::string closeUp(const NoisePanel& panel, bool counted) {
+std::string closeUp(const LevelPanel& panel, bool counted) {
   const Area& area = panel.closeUp;
   return fmt::format("set title 'noise {}: the frame above'\nset xlabel '{}'\nset format x '%g'\n",
                      kLevelSettings[panel.number].name,
@@ -139,13 +147,14 @@ std::string closeUp(const NoisePanel& panel, bool counted) {
 }  // namespace
 
 plot::Picture locatorPicture(const std::vector<MethodResult>& results, const Counts& counts) {
-  plot::Picture picture{1600, 1240, std::string(plot::kStyle) + kPanels, {}};
+  plot::Picture picture{2200, 1240, std::string(plot::kStyle) + kPanels, {}};
   std::string closeUps;
   picture.script += kErrorAxis + legend(results, pointsOf(results, counts, kTimedLevel));
-  for (const std::size_t number : {std::size_t{1}, std::size_t{2}}) {
+  for (const std::size_t number : {kTimedLevel, kNoisyLevel, kWideLevel}) {
     const auto points = pointsOf(results, counts, number);
     if (points.empty()) continue;
-    const NoisePanel panel{number, points, results.back().score[number].arcBound_um, around(points.front())};
+    const LevelPanel panel{number, points, results.back().score[number].arcBound_um,
+                           around(bestOfOurs(points))};
     plot::DataFile data{fmt::format("level{}", number), {"number", "cost", "arc_rms_of_all_um", "ours"}, {}};
     for (const Point& point : points)
       data.rows.push_back(

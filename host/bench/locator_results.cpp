@@ -29,8 +29,7 @@ class Contest {
   void enter(std::size_t level, MethodResult& result, Fit fit) {
     const auto& [readings, tables] = levels_[level];
     std::vector<Place<double>> answers;
-    for (const Reading& reading : readings)
-      answers.push_back(placeOf(tables->line, fit(reading.sample)));
+    for (const Reading& reading : readings) answers.push_back(placeOf(tables->line, fit(reading.sample)));
     result.score[level] = scoreOf(finger_, readings, answers);
     if (level == kTimedLevel) result.time_ns = timeOf(fit);
   }
@@ -56,15 +55,30 @@ MethodResult& resultAt(std::vector<MethodResult>& results, std::size_t place, co
   return results[place];
 }
 
+/// What a search in double makes of a sample.
+template <typename Search>
+auto inDouble(Search& search) {
+  return [&search](const Sample& sample) {
+    Ring<double> strain;
+    std::copy(sample.strain.begin(), sample.strain.end(), strain.begin());
+    return search(strain);
+  };
+}
+
+/// Knows that touches are lines.
 void enterReference(Contest& contest, std::size_t level, const BenchFinger& finger, MethodResult& result) {
   const auto response = makeResponse<double>(finger);
   const auto bank = makeGlobalBank<double>(finger);
   GlobalSearch<double> search(response, bank);
-  contest.enter(level, result, [&](const Sample& sample) {
-    Ring<double> strain;
-    std::copy(sample.strain.begin(), sample.strain.end(), strain.begin());
-    return search(strain);
-  });
+  contest.enter(level, result, inDouble(search));
+}
+
+void enterWideReference(Contest& contest, std::size_t level, const BenchFinger& finger,
+                        MethodResult& result) {
+  const auto patches = makePatches<double>(finger);
+  const auto bank = makeWidthBank(patches);
+  GlobalWidthSearch<double> search(patches, bank);
+  contest.enter(level, result, inDouble(search));
 }
 
 }  // namespace
@@ -76,6 +90,7 @@ std::vector<MethodResult> locatorResults(const BenchFinger& finger, const Bundle
   Contest contest(finger, std::move(levels));
   std::vector<MethodResult> results;
   MethodResult reference{"global search in double", true, true, {}, 0};
+  MethodResult wideReference{"global search with the width in double", true, true, {}, 0};
   for (std::size_t level = 0; level < kLevels; ++level) {
     std::size_t place = 0;
     const auto enter = [&](const Method& method, auto fit) {
@@ -84,8 +99,10 @@ std::vector<MethodResult> locatorResults(const BenchFinger& finger, const Bundle
     visitOurs(contest.tables(level), enter);
     visitOthers(bundle.knowledge, enter);
     enterReference(contest, level, finger, reference);
+    enterWideReference(contest, level, finger, wideReference);
   }
   results.push_back(reference);
+  results.push_back(wideReference);
   return results;
 }
 

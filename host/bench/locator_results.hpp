@@ -1,5 +1,5 @@
 #pragma once
-// Every method on every level of noise: errors, time on this machine, instructions on the emulated ones.
+// Every method on every level: errors, time on this machine, instructions on the emulated ones.
 
 #include <array>
 #include <map>
@@ -20,9 +20,11 @@ struct MethodResult {
 };
 
 inline constexpr std::size_t kTimedLevel = 1;  ///< 0.1 %: the level that tables and pictures are about
+inline constexpr std::size_t kNoisyLevel = 2;
+inline constexpr std::size_t kWideLevel = 3;  ///< touches of any width
 
-/// Runs all methods on `contacts` readings of each level. The last one is the global search in double: the
-/// reference.
+/// Runs all methods on `contacts` readings of each level. The last two are global searches in double, for
+/// lines and with the width: the references.
 std::vector<MethodResult> locatorResults(const BenchFinger& finger, const Bundle& bundle, int contacts);
 
 /// Instructions of a fit.

@@ -13,7 +13,8 @@ namespace strainfinger::bench {
 std::vector<Reading> readingsOf(const BenchFinger& finger, const LevelSettings& level, int count) {
   std::vector<Reading> readings;
   for (int i = 0; i < count; ++i)
-    readings.push_back(readingOf(finger, level.seed, static_cast<std::uint64_t>(i), level.relativeNoise));
+    readings.push_back(
+        readingOf(finger, level.seed, static_cast<std::uint64_t>(i), level.relativeNoise, level.width_m));
   return readings;
 }
 

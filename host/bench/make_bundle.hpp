@@ -10,14 +10,21 @@
 
 namespace strainfinger::bench {
 
-/// Noise of a reading over the load's peak strain. The seeds are the benchmark's: printed with its results.
+/// What is drawn, and noise of a reading over the peak strain that the load makes as a line. The seeds are
+/// the benchmark's: printed with its results.
 struct LevelSettings {
   const char* name;
   double relativeNoise;
   std::uint64_t seed;
+  evidence::Range width_m = {0, 0};
+
+  bool isOfLines() const { return width_m.most == 0; }
 };
 inline constexpr std::array<LevelSettings, kLevels> kLevelSettings{
-    {{"clean", 0, 1001}, {"0.1 %", 1e-3, 1002}, {"1 %", 1e-2, 1003}}};
+    {{"clean", 0, 1001},
+     {"0.1 %", 1e-3, 1002},
+     {"1 %", 1e-2, 1003},
+     {"0.1 %, 0.5 to 4 mm wide", 1e-3, 1004, {0.5e-3, 4e-3}}}};
 
 std::vector<Reading> readingsOf(const BenchFinger& finger, const LevelSettings& level, int count);
 

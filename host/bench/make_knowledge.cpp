@@ -1,6 +1,10 @@
 #include "host/bench/make_knowledge.hpp"
 
 #include <Eigen/Dense>
+#include <cmath>
+#include <stdexcept>
+
+#include "host/tables/response_table.hpp"
 
 namespace strainfinger::bench {
 namespace {
@@ -76,13 +80,61 @@ GlobalBank<Real> makeGlobalBank(const BenchFinger& finger) {
   return bank;
 }
 
+template <typename Real>
+PatchTable<Real> makePatches(const BenchFinger& finger) {
+  const tables::ResponseTable table = tables::responseTable(finger.config());
+  PatchTable<Real> patches{};
+  if (table.nodes != PatchTable<Real>::kNodes || table.cells != PatchTable<Real>::kCells)
+    throw std::logic_error("the benchmark's patches are laid out for another table");
+  for (std::size_t i = 0; i < patches.edge.size(); ++i)
+    patches.edge[i] = static_cast<Real>(std::ldexp(table.cell_edge_q15[i], -15));
+  const auto strains = [&](const ResponsePatch& weights) {
+    typename PatchTable<Real>::Patch patch;
+    // The firmware's order is 1, s, t, t^2, s t, s^2, too.
+    for (std::size_t k = 0; k < patch.size(); ++k)
+      patch[k] = static_cast<Real>(std::ldexp(weights[k], -15) * table.strainPerUnit);
+    return patch;
+  };
+  for (std::size_t i = 0; i < patches.patch.size(); ++i)
+    patches.patch[i] = {strains(table.patches[i].normal), strains(table.patches[i].tangential)};
+  return patches;
+}
+
+template <typename Real>
+WidthBank<Real> makeWidthBank(const PatchTable<Real>& patches) {
+  constexpr Place<Real> kHalfSlips{0, 1, Real{0.5}};
+  WidthBank<Real> bank{};
+  for (std::size_t place = 0; place < bank.rows.size(); ++place)
+    for (std::size_t width = 0; width < bank.rows[place].size(); ++width) {
+      const WidePlace<Real> contact{kHalfSlips, bank.momentOf(width)};
+      Eigen::Matrix<double, kGauges, 2> both;
+      for (int gauge = 0; gauge < kGauges; ++gauge) {
+        const Real beyond = static_cast<Real>(gauge) - static_cast<Real>(place) / bank.kPerPitch;
+        const auto at = patches.at(beyond, contact);
+        both.row(gauge) << static_cast<double>(at.normal.value), static_cast<double>(at.tangential.value);
+      }
+      bank.rows[place][width] = projectionOf<Real, kGauges>(both);
+    }
+  return bank;
+}
+
 template RingResponse<float> makeResponse(const BenchFinger&);
 template RingResponse<double> makeResponse(const BenchFinger&);
 template GlobalBank<float> makeGlobalBank(const BenchFinger&);
 template GlobalBank<double> makeGlobalBank(const BenchFinger&);
+template PatchTable<float> makePatches(const BenchFinger&);
+template PatchTable<double> makePatches(const BenchFinger&);
+template WidthBank<float> makeWidthBank(const PatchTable<float>&);
+template WidthBank<double> makeWidthBank(const PatchTable<double>&);
 
 Knowledge makeKnowledge(const BenchFinger& finger, const Training& training) {
-  return {makeResponse<float>(finger), makeTemplates(finger), makeScan(finger), makeGlobalBank<float>(finger),
+  const auto patches = makePatches<float>(finger);
+  return {makeResponse<float>(finger),
+          makeTemplates(finger),
+          makeScan(finger),
+          makeGlobalBank<float>(finger),
+          patches,
+          makeWidthBank(patches),
           trainedPerceptron(finger, training)};
 }
 

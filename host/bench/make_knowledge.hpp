@@ -13,6 +13,13 @@ RingResponse<Real> makeResponse(const BenchFinger& finger);
 template <typename Real>
 GlobalBank<Real> makeGlobalBank(const BenchFinger& finger);
 
+/// The firmware's patches for any width.
+template <typename Real>
+PatchTable<Real> makePatches(const BenchFinger& finger);
+
+template <typename Real>
+WidthBank<Real> makeWidthBank(const PatchTable<Real>& patches);
+
 /// Trains the perceptron too: ten seconds by default, and the same weights on every run of one machine.
 Knowledge makeKnowledge(const BenchFinger& finger, const Training& training = {});
 

@@ -18,12 +18,22 @@ Place<double> drawPlace(const simulation::Noise& noise, std::uint64_t number) {
   return {position, kBenchLoad_n_per_m * std::cos(direction), kBenchLoad_n_per_m * std::sin(direction)};
 }
 
+simulation::Touch drawTouch(const simulation::Noise& noise, std::uint64_t number, const Place<double>& place,
+                            const evidence::Range& width_m) {
+  const double share = evidence::uniform(noise, number, kGauges + 4) + 0.5;
+  return {.angle_rad = place.position_pitch * BenchFinger::pitch_rad(),
+          .normal_n_per_m = place.normal,
+          .tangential_n_per_m = place.tangential,
+          .width_m = width_m.least + (width_m.most - width_m.least) * share};
+}
+
 }  // namespace
 
 BenchFinger::BenchFinger()
     : config_(perfectFinger()),
       response_(config_.finger.annulus(), config_.gauges.radius_m, config_.gauges.component),
-      model_(config_) {}
+      model_(config_),
+      strains_(config_) {}
 
 double BenchFinger::pitch_rad() { return 2 * std::numbers::pi / kGauges; }
 
@@ -40,23 +50,27 @@ model::ImpulseResponse::Value BenchFinger::response(double pitches) const {
   return value;
 }
 
-Eigen::Vector3d BenchFinger::bound(const Place<double>& place, double noise_strain) const {
-  const evidence::FittedContact contact{place.position_pitch * pitch_rad(), {place.normal, place.tangential}};
+Eigen::VectorXd BenchFinger::readings(const simulation::Touch& touch) const {
+  return strains_.readings({&touch, 1});
+}
+
+Eigen::Vector3d BenchFinger::bound(const simulation::Touch& touch, double noise_strain) const {
+  const evidence::Unknowns& unknowns = touch.width_m > 0 ? evidence::kWidthUnknown : evidence::kWidthKnown;
   const evidence::Parameters bound =
-      evidence::cramerRaoBound(model_, contact, evidence::kWidthKnown, noise_strain);
+      evidence::cramerRaoBound(model_, model_.describe(touch), unknowns, noise_strain);
   return {bound[evidence::kAngle] / pitch_rad(), bound[evidence::kNormal], bound[evidence::kTangential]};
 }
 
-Reading readingOf(const BenchFinger& finger, std::uint64_t seed, std::uint64_t number, double relativeNoise) {
+Reading readingOf(const BenchFinger& finger, std::uint64_t seed, std::uint64_t number, double relativeNoise,
+                  const evidence::Range& width_m) {
   const double noise_strain = relativeNoise * finger.peakPerLoad() * kBenchLoad_n_per_m;
   const simulation::Noise noise(seed);
   Reading reading{drawPlace(noise, number), {}, {}};
-  reading.bound = finger.bound(reading.truth, noise_strain);
+  const simulation::Touch touch = drawTouch(noise, number, reading.truth, width_m);
+  reading.bound = finger.bound(touch, noise_strain);
+  const Eigen::VectorXd exact = finger.readings(touch);
   for (std::uint32_t gauge = 0; gauge < kGauges; ++gauge) {
-    const auto value = finger.response(gauge - reading.truth.position_pitch);
-    const double strain = reading.truth.normal * value.normal + reading.truth.tangential * value.tangential +
-                          noise_strain * noise.at(number, gauge);
-    const StrainQ32 rounded = fromReal<StrainQ32>(strain);
+    const StrainQ32 rounded = fromReal<StrainQ32>(exact[gauge] + noise_strain * noise.at(number, gauge));
     reading.sample.strain_q32[gauge] = rounded.raw();
     reading.sample.strain[gauge] = static_cast<float>(toReal(rounded));
   }

@@ -8,7 +8,9 @@
 #include "host/bench/methods/sample.hpp"
 #include "host/config/finger_config.hpp"
 #include "host/evidence/fit_model.hpp"
+#include "host/evidence/touches.hpp"
 #include "host/model/impulse_response.hpp"
+#include "host/simulation/gauge_strains.hpp"
 
 namespace strainfinger::bench {
 
@@ -31,20 +33,27 @@ class BenchFinger {
   static double pitch_rad();
   double arc_um(double pitches) const;
 
-  /// Standard deviations of the errors of the best unbiased estimator that reads all gauges.
-  Eigen::Vector3d bound(const Place<double>& place, double noise_strain) const;
+  /// Readings of a touch, one a gauge.
+  Eigen::VectorXd readings(const simulation::Touch& touch) const;
+
+  /// Standard deviations of the errors of the best unbiased estimator that reads all gauges: of a line known
+  /// to be one, of a wide touch whose width it doesn't know.
+  Eigen::Vector3d bound(const simulation::Touch& touch, double noise_strain) const;
   const config::FingerConfig& config() const { return config_; }
 
  private:
   config::FingerConfig config_;
   model::ImpulseResponse response_;
   evidence::FitModel model_;
+  simulation::GaugeStrains strains_;
 };
 
 inline constexpr double kBenchLoad_n_per_m = 30;  ///< length of (normal, tangential)
 
-/// Reading number `number` of a seed: any angle, load directions within +-45 degrees, white noise of
-/// relativeNoise * the peak strain of the load. The same on every machine.
-Reading readingOf(const BenchFinger& finger, std::uint64_t seed, std::uint64_t number, double relativeNoise);
+/// Reading number `number` of a seed: any angle, load directions within +-45 degrees, semi-elliptic pressures
+/// of any width in the range, white noise of relativeNoise * the peak strain of a line load. The same on
+/// every machine.
+Reading readingOf(const BenchFinger& finger, std::uint64_t seed, std::uint64_t number, double relativeNoise,
+                  const evidence::Range& width_m = {0, 0});
 
 }  // namespace strainfinger::bench

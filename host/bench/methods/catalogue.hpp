@@ -46,14 +46,16 @@ void visitOurs(const NoiseTables& tables, Visit&& visit) {
   using enum firmware::FitMode;
   OwnLocator line(tables.line, kRefined), three(tables.line, kThreePoint),
       anyWidth(tables.anyWidth, kRefined);
-  visit(Method{"ours: width known", false, 1},
-        [&](const Sample& s) -> const auto& { return line.locate(s); });
-  visit(Method{"ours: width known, with sigmas", false, 1},
-        [&](const Sample& s) { return line.estimate(s); });
-  visit(Method{"ours: three-point", false, 1}, [&](const Sample& s) -> const auto& { return three.locate(s); });
-  visit(Method{"ours: width fitted", false, 1},
-        [&](const Sample& s) -> const auto& { return anyWidth.locate(s); });
-  visit(Method{"ours: width fitted, with sigmas", false, 1},
+  visit(
+      Method{"ours: width known", false, 1}, [&](const Sample& s) -> const auto& { return line.locate(s); });
+  visit(Method{"ours: width known with sigmas", false, 1}, [&](const Sample& s) { return line.estimate(s); });
+  visit(
+      Method{"ours: three-point", false, 1}, [&](const Sample& s) -> const auto& { return three.locate(s); });
+  visit(
+      Method{"ours: width fitted", false, 1}, [&](const Sample& s) -> const auto& {
+        return anyWidth.locate(s);
+      });
+  visit(Method{"ours: width fitted with sigmas", false, 1},
         [&](const Sample& s) { return anyWidth.estimate(s); });
 }
 
@@ -86,6 +88,13 @@ void visitOthers(const Knowledge& known, Visit&& visit) {
   });
   visit(Method{"global search", true, 32},
         [&](const Sample& s) { return GlobalSearch(known.response, known.global)(s.strain); });
+  visit(Method{"scan + Gauss-Newton with the width", true, 1},
+        [&](const Sample& s) { return scanAndFitWidth(known.patches, known.scan, s.strain); });
+  visit(Method{"scan + Levenberg-Marquardt with the width", true, 16}, [&](const Sample& s) {
+    return levenbergMarquardtOfWidth(known.patches, s.strain, startsOfScan(known.scan, s.strain)[0]);
+  });
+  visit(Method{"global search with the width", true, 32},
+        [&](const Sample& s) { return GlobalWidthSearch(known.patches, known.widths)(s.strain); });
 }
 
 }  // namespace strainfinger::bench

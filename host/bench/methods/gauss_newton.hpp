@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "host/bench/methods/ring_response.hpp"
 
@@ -11,30 +12,70 @@ namespace strainfinger::bench {
 /// About the firmware's (1/102): steps that are smaller do not matter.
 inline constexpr double kSettled_pitch = 1.0 / 128;
 
-/// J^T J and J^T r of a least-squares step, J's columns place, normal, tangential.
-template <typename Real>
+/// J^T J and J^T r of a least-squares step, J's columns place, normal, tangential and, with four unknowns,
+/// moment.
+template <typename Real, std::size_t Unknowns = 3>
 struct NormalEquations {
-  std::array<Real, 6> matrix{};  ///< 00, 10, 11, 20, 21, 22
-  std::array<Real, 3> right{};
+  using Vector = std::array<Real, Unknowns>;
+  std::array<Vector, Unknowns> matrix{};  ///< its lower triangle
+  Vector right{};
   Real residual{};  ///< sum of squares
 
-  void add(const std::array<Real, 3>& row, Real rest) {
-    for (std::size_t i = 0, at = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j <= i; ++j) matrix[at++] += row[i] * row[j];
+  void add(const Vector& row, Real rest) {
+    for (std::size_t i = 0; i < Unknowns; ++i) {
+      for (std::size_t j = 0; j <= i; ++j) matrix[i][j] += row[i] * row[j];
       right[i] += row[i] * rest;
     }
     residual += rest * rest;
   }
 
   /// By L D L^T. Not finite where the matrix is singular.
-  std::array<Real, 3> solution() const {
-    const auto& m = matrix;
-    const Real l10 = m[1] / m[0], l20 = m[3] / m[0];
-    const Real d1 = m[2] - l10 * m[1], v21 = m[4] - l20 * m[1], l21 = v21 / d1;
-    const Real d2 = m[5] - l20 * m[3] - l21 * v21;
-    const Real y1 = right[1] - l10 * right[0], y2 = right[2] - l20 * right[0] - l21 * y1;
-    const Real x2 = y2 / d2, x1 = y1 / d1 - l21 * x2;
-    return {right[0] / m[0] - l10 * x1 - l20 * x2, x1, x2};
+  Vector solution() const {
+    const Factors factors = decomposed();
+    return substituted(factors, factors.forward[Unknowns - 1] / factors.diagonal[Unknowns - 1]);
+  }
+  /// The others' solution where the last unknown is given.
+  Vector solutionWith(Real last) const { return substituted(decomposed(), last); }
+
+  /// Sum of squares that the linear model leaves after a step.
+  Real residualAfter(const Vector& step) const {
+    Real rest = residual;
+    for (std::size_t i = 0; i < Unknowns; ++i) {
+      rest += step[i] * (step[i] * matrix[i][i] - 2 * right[i]);
+      for (std::size_t j = 0; j < i; ++j) rest += 2 * step[i] * step[j] * matrix[i][j];
+    }
+    return rest;
+  }
+
+ private:
+  struct Factors {
+    std::array<Vector, Unknowns> lower{};
+    Vector diagonal{}, forward{};  ///< of D; L^-1 of the right-hand side
+  };
+
+  Factors decomposed() const {
+    Factors f;
+    for (std::size_t i = 0; i < Unknowns; ++i) {
+      f.diagonal[i] = matrix[i][i];
+      f.forward[i] = right[i];
+      for (std::size_t j = 0; j < i; ++j) {
+        Real product = matrix[i][j];
+        for (std::size_t k = 0; k < j; ++k) product -= f.lower[i][k] * f.diagonal[k] * f.lower[j][k];
+        f.lower[i][j] = product / f.diagonal[j];
+        f.diagonal[i] -= f.lower[i][j] * product;
+        f.forward[i] -= f.lower[i][j] * f.forward[j];
+      }
+    }
+    return f;
+  }
+  static Vector substituted(const Factors& f, Real last) {
+    Vector x;
+    x[Unknowns - 1] = last;
+    for (std::size_t i = Unknowns - 1; i-- > 0;) {
+      x[i] = f.forward[i] / f.diagonal[i];
+      for (std::size_t j = i + 1; j < Unknowns; ++j) x[i] -= f.lower[j][i] * x[j];
+    }
+    return x;
   }
 };
 

@@ -4,8 +4,16 @@
 #include <unsupported/Eigen/NonLinearOptimization>
 
 #include "host/bench/methods/gauss_newton.hpp"
+#include "host/bench/methods/patch_table.hpp"
 
 namespace strainfinger::bench {
+
+/// The solver may try any position, of any size.
+inline float roundTheRing(float position) {
+  constexpr float kFarAway = 1e6f;
+  if (!(std::abs(position) < kFarAway)) return 0;
+  return position - static_cast<float>(static_cast<int>(position) / kGauges * kGauges);
+}
 
 /// Over all gauges; the unknowns are the members of Place.
 class RingResiduals {
@@ -33,30 +41,76 @@ class RingResiduals {
   }
 
  private:
-  /// The solver may try any number, of any size.
-  static float roundTheRing(float position) {
-    constexpr float kFarAway = 1e6f;
-    if (!(std::abs(position) < kFarAway)) return 0;
-    return position - static_cast<float>(static_cast<int>(position) / kGauges * kGauges);
+  const RingResponse<float>& response_;
+  const Ring<float>& strain_;
+};
+
+/// The same of a contact of some width, whose moment is the fourth unknown; beyond the table it counts as the
+/// nearest that is in it.
+class WideRingResiduals {
+ public:
+  WideRingResiduals(const PatchTable<float>& table, const Ring<float>& strain)
+      : table_(table), strain_(strain) {}
+
+  int values() const { return kGauges; }
+  int operator()(const Eigen::VectorXf& at, Eigen::VectorXf& residuals) const {
+    const auto contact = contactAt(at);
+    for (int gauge = 0; gauge < kGauges; ++gauge) {
+      const auto value = table_.at(static_cast<float>(gauge) - contact.place.position_pitch, contact);
+      residuals[gauge] =
+          at[1] * value.normal.value + at[2] * value.tangential.value - strain_[gaugeOf(gauge)];
+    }
+    return 0;
+  }
+  int df(const Eigen::VectorXf& at, Eigen::MatrixXf& jacobian) const {
+    const auto contact = contactAt(at);
+    for (int gauge = 0; gauge < kGauges; ++gauge) {
+      const auto value = table_.at(static_cast<float>(gauge) - contact.place.position_pitch, contact);
+      jacobian.row(gauge) << -(at[1] * value.normal.slope + at[2] * value.tangential.slope),
+          value.normal.value, value.tangential.value,
+          at[1] * value.normal.widening + at[2] * value.tangential.widening;
+    }
+    return 0;
   }
 
-  const RingResponse<float>& response_;
+ private:
+  static WidePlace<float> contactAt(const Eigen::VectorXf& at) {
+    return {{roundTheRing(at[0]), at[1], at[2]}, at[3] > 0 ? std::min(at[3], 1.0f) : 0.0f};
+  }
+
+  const PatchTable<float>& table_;
   const Ring<float>& strain_;
 };
 
 /// Eigen's own stopping rules; with a relative tolerance of 1e-4 places are as exact as a float needs. Uses
 /// the heap, as the library does.
-inline Place<float> levenbergMarquardt(const RingResponse<float>& response, const Ring<float>& strain,
-                                       const Place<float>& start) {
+template <typename Residuals>
+Place<float> minimumOf(Residuals& residuals, Eigen::VectorXf& at) {
   constexpr int kEvaluations = 50;
-  RingResiduals residuals(response, strain);
-  Eigen::LevenbergMarquardt<RingResiduals, float> solver(residuals);
+  Eigen::LevenbergMarquardt<Residuals, float> solver(residuals);
   solver.parameters.xtol = 1e-4f;
   solver.parameters.ftol = 1e-5f;
   solver.parameters.maxfev = kEvaluations;
-  Eigen::VectorXf at = Eigen::Vector3f(start.position_pitch, start.normal, start.tangential);
   solver.minimize(at);
   return {at[0], at[1], at[2]};
+}
+
+inline Place<float> levenbergMarquardt(const RingResponse<float>& response, const Ring<float>& strain,
+                                       const Place<float>& start) {
+  RingResiduals residuals(response, strain);
+  Eigen::VectorXf at(3);
+  at << start.position_pitch, start.normal, start.tangential;
+  return minimumOf(residuals, at);
+}
+
+/// From a narrow contact.
+inline Place<float> levenbergMarquardtOfWidth(const PatchTable<float>& table, const Ring<float>& strain,
+                                              const Place<float>& start) {
+  constexpr float kNarrow = 0.05f;
+  WideRingResiduals residuals(table, strain);
+  Eigen::VectorXf at(4);
+  at << start.position_pitch, start.normal, start.tangential, kNarrow;
+  return minimumOf(residuals, at);
 }
 
 }  // namespace strainfinger::bench

@@ -43,6 +43,7 @@ TEST(ErrorSweeps, EverySweepIsThere) {
   LONGS_EQUAL(41 * 31, cellsOf(cells, kMapSweep).size());
   for (const char* sweep : {kLoadSweep, kNoiseSweep, kWidthSweep, kLengthSweep, kBitsSweep})
     CHECK_TRUE_TEXT(cellsOf(cells, sweep).size() >= 7, sweep);
+  LONGS_EQUAL(4, cellsOf(cells, kBuiltSweep).size());
 }
 
 TEST(ErrorSweeps, ASecondRunIsTheSame) {

@@ -26,7 +26,7 @@ TEST_GROUP(LocatorReport) {
     score.overBound = {1.01, 1.02, 1.03};
     score.arc_um = score.arcOfAll_um = arc_um;
     score.arcBound_um = 10;
-    return {name, usesFloat, false, {score, score, score}, 12'345};
+    return {name, usesFloat, false, {score, score, score, score}, 12'345};
   }
   const std::vector<MethodResult> results{result("ours: refined", false, 0, 12),
                                           result("rough", true, 90, 900), result("fine", true, 0, 12.1),
@@ -37,7 +37,8 @@ TEST_GROUP(LocatorReport) {
     return Counts(folder.file("counts.json"));
   }
   Counts someCounts() const {
-    return counts(R"({"Cortex-M4": {"ours: refined": {"0.1 %": [700, 900, 1500], "1 %": [800, 901, 1501]}},
+    return counts(R"({"Cortex-M4": {"ours: refined": {"0.1 %": [700, 900, 1500], "1 %": [800, 901, 1501],
+                        "0.1 %, 0.5 to 4 mm wide": [950, 960, 970]}},
       "Cortex-M4 with FPU": {"rough": {"0.1 %": [100, 100, 100]}, "fine": {"0.1 %": [2100, 2200, 2300]},
                              "finer": {"0.1 %": [7000, 8000, 9000]}}})");
   }
@@ -52,13 +53,13 @@ TEST_GROUP(LocatorReport) {
 
 TEST(LocatorReport, ARowOfTheTableHasErrorsTimeAndInstructions) {
   checkHas(locatorMarkdown(results, someCounts()),
-           "| ours: refined | 1.01 / 1.02 / 1.03 | 0 | 12.00 (0) | 1.01 / 1.02 / 1.03 | 0 | 12,345 | 700 "
-           "(900) | - | - | 800 (901) | - |");
+           "| ours: refined | 1.01 / 1.02 / 1.03 | 0 | 12.00 (0) | 1.01 / 1.02 / 1.03 | 0 | 1.01 / 1.02 / "
+           "1.03 | 0 | 12,345 | 700 (900) | - | - | 800 (901) | - | 950 (960) |");
   checkHas(locatorMarkdown(results, someCounts()), "| rough | 1.01 / 1.02 / 1.03 | 9 % |");
 }
 
 TEST(LocatorReport, WhatWasNotCountedIsADash) {
-  checkHas(locatorMarkdown(results, Counts()), "| 12,345 | - | - | - | - | - |");
+  checkHas(locatorMarkdown(results, Counts()), "| 12,345 | - | - | - | - | - | - |");
   CHECK(Counts().empty());
   STRCMP_EQUAL("", locatorVerdict(results, Counts()).c_str());
 }
@@ -71,13 +72,15 @@ TEST(LocatorReport, TheVerdictIsAboutTheCheapestThatIsAsGood) {
 TEST(LocatorReport, TheCsvHasTheseColumnsAndARowForEachLevel) {
   const std::string text = csv(someCounts());
   STRCMP_EQUAL(
-      "method,noise,seed,contacts,gross,angle_over_bound,normal_over_bound,tangential_over_bound,arc_rms_um,"
+      "method,noise,least_width_mm,most_width_mm,seed,contacts,gross,angle_over_bound,normal_over_bound,"
+      "tangential_over_bound,arc_rms_um,"
       "arc_worst_um,arc_rms_of_all_um,normal_rms_n_per_m,tangential_rms_n_per_m,time_ns,m4_median_counted,"
       "m4_95_counted,m4_most_counted,m4_fpu_median_counted,m4_fpu_95_counted,m4_fpu_most_counted,"
       "m0plus_median_counted,m0plus_95_counted,m0plus_most_counted",
       text.substr(0, text.find('\n')).c_str());
   LONGS_EQUAL(1 + 4 * kLevels, std::count(text.begin(), text.end(), '\n'));
   checkHas(text, ",12345,800,901,1501,,,,,,\n");
+  checkHas(text, "ours: refined,0.001,0.5,4,1004,");
 }
 
 TEST(LocatorReport, CountsThatAreNoneAreRefused) {

@@ -49,6 +49,22 @@ TEST_GROUP(Methods) {
     DOUBLES_EQUAL(truth.tangential, double{found.tangential}, load_n_per_m);
   }
 
+  static simulation::Touch wideTouch(const Place<double>& place, double width_m) {
+    return {.angle_rad = place.position_pitch * BenchFinger::pitch_rad(),
+            .normal_n_per_m = place.normal,
+            .tangential_n_per_m = place.tangential,
+            .width_m = width_m};
+  }
+  /// Of a semi-ellipse, as a fraction of that of a uniform pressure 8 mm wide, the config's largest.
+  static double momentOf(double width_m) { return width_m * width_m / 16 / (8e-3 * 8e-3 / 12); }
+  Sample wideSample(const Place<double>& place, double width_m) const {
+    const Eigen::VectorXd strains = finger.readings(wideTouch(place, width_m));
+    Sample sample{};
+    for (int gauge = 0; gauge < kGauges; ++gauge)
+      sample.strain[gaugeOf(gauge)] = static_cast<float>(strains[gauge]);
+    return sample;
+  }
+
   /// The benchmark's clean readings, all of them right.
   template <typename Fit>
   void checkEveryReading(Fit fit, double pitches) const {
@@ -146,6 +162,64 @@ TEST(Methods, TheReferenceIsRightToATenThousandthOfAPitch) {
   GlobalSearch<double> search(response, bank);
   const Place<double> truth{12.61, 21, 21};
   checkPlace(truth, search(strainsOf<double>(finger, truth)), 1e-4, 2e-3);
+}
+
+// The firmware's tables are within 6e-4 of the largest response.
+TEST(Methods, ThePatchesAreAsGoodAsTheModelForEveryWidth) {
+  const auto patches = makePatches<double>(finger);
+  for (const double width_m : {0.0, 1e-3, 3.3e-3, 7.5e-3}) {
+    const simulation::Touch touch = wideTouch({5.37, 25, -11}, width_m);
+    const Eigen::VectorXd model = finger.readings(touch);
+    for (int gauge = 0; gauge < kGauges; ++gauge) {
+      const auto at = patches.at(gauge - 5.37, {{5.37, 25, -11}, momentOf(width_m)});
+      DOUBLES_EQUAL(model[gauge], 25 * at.normal.value - 11 * at.tangential.value,
+                    1e-3 * 36 * finger.peakPerLoad());
+    }
+  }
+}
+
+TEST(Methods, ThePatchesSlopesAreTheirDerivatives) {
+  const auto patches = makePatches<double>(finger);
+  const Place<double> place{0, 25, -11};
+  for (const double pitches : {-2.31, -0.41, 0.17, 1.68}) {
+    const auto before = patches.at(pitches - 1e-5, {place, 0.2 - 1e-5});
+    const auto at = patches.at(pitches, {place, 0.2});
+    const auto after = patches.at(pitches + 1e-5, {place, 0.2 + 1e-5});
+    const auto check = [&](const auto& low, const auto& middle, const auto& high) {
+      DOUBLES_EQUAL((high.value - low.value) / 2e-5, middle.slope + middle.widening,
+                    1e-4 * finger.peakPerLoad());
+    };
+    check(before.normal, at.normal, after.normal);
+    check(before.tangential, at.tangential, after.tangential);
+  }
+}
+
+TEST(Methods, FitsOfTheWidthFindTheTruthFromNearby) {
+  for (const double width_m : {1e-3, 2.5e-3, 4e-3}) {
+    const Place<double> truth{7.37, 28, -8};
+    const Sample sample = wideSample(truth, width_m);
+    const Place<float> start{7.45f, 25, 0};
+    const auto end = fitWidth<9, float>(known->patches, sample.strain, {start, 0.1f}, 20);
+    checkPlace(truth, end.contact.place, 0.01, 0.3);
+    checkPlace(truth, levenbergMarquardtOfWidth(known->patches, sample.strain, start), 0.01, 0.3);
+  }
+}
+
+TEST(Methods, SearchesOfTheWidthFindTheTruth) {
+  const Place<double> truth{12.61, 24, 17};
+  for (const double width_m : {1e-3, 2.5e-3}) {
+    const Sample sample = wideSample(truth, width_m);
+    checkPlace(truth, scanAndFitWidth(known->patches, known->scan, sample.strain), 0.01, 0.3);
+    checkPlace(truth, GlobalWidthSearch(known->patches, known->widths)(sample.strain), 0.01, 0.3);
+  }
+}
+
+TEST(Methods, AWidthStaysWithinTheTableAndTheOthersAreSolvedForIt) {
+  const Place<double> truth{3.2, 30, 5};
+  const Sample line = wideSample(truth, 0);
+  const auto end = fitWidth<9, float>(known->patches, line.strain, {{3.25f, 30, 0}, 0.01f}, 20);
+  CHECK(end.contact.moment >= 0 && end.contact.moment < 0.01f);
+  checkPlace(truth, end.contact.place, 0.01, 0.3);
 }
 
 TEST(Methods, NoStrainIsNoPlace) {

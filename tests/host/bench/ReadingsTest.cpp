@@ -67,7 +67,10 @@ TEST(Readings, BothFormatsHoldTheSameStrain) {
 
 // The bound's own definition, by differences of the readings themselves.
 TEST(Readings, WithoutNoiseTheBoundIsZeroAndItGrowsInProportion) {
-  const Place<double> place{3.2, 25, 10};
+  const simulation::Touch place{.angle_rad = 3.2 * BenchFinger::pitch_rad(),
+                                .normal_n_per_m = 25,
+                                .tangential_n_per_m = 10,
+                                .width_m = 0};
   DOUBLES_EQUAL(0, finger.bound(place, 0).norm(), 1e-15);
   DOUBLES_EQUAL(10, finger.bound(place, 1e-4).norm() / finger.bound(place, 1e-5).norm(), 1e-9);
 }

@@ -69,8 +69,10 @@ void showInfo(const TablesOptions& options) {
   table.row({"crc32", fmt::format("{:08X}", image->crc32)});
   for (const tables::Parameter& parameter : tables::parametersOf(image->parameters))
     table.row({parameter.key, parameter.value});
-  const tables::Parameter gains = tables::gainsOf(image->gains, image->constants.gauge_count);
-  table.row({gains.key, gains.value});
+  const int count = image->constants.gauge_count;
+  for (const tables::Parameter& list :
+       {tables::anglesOf(image->gauge_angle_q32, count), tables::gainsOf(image->gains, count)})
+    table.row({list.key, list.value});
 }
 
 void verify(const TablesOptions& options) {

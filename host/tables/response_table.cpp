@@ -22,19 +22,21 @@ constexpr double kTolerance = 1e-7;
 constexpr int kPoints = 4;
 constexpr int kWeights = static_cast<int>(std::tuple_size_v<ResponsePatch>);
 
-using Samples = Eigen::Matrix<double, kPoints, kPoints>;  ///< at (angle, second moment)
+using Samples = Eigen::Matrix<double, kPoints, kPoints>;  ///< at (second moment, angle)
 using Design = Eigen::Matrix<double, kPoints * kPoints, kWeights>;
+using Weights = Eigen::Vector<double, kWeights>;
 
 double chebyshev(int i) { return std::cos((2 * i + 1) * pi / (2 * kPoints)); }
 
-/// A patch's polynomial at the samples, in the order of ResponsePatch.
+/// A patch's polynomial, in the order of ResponsePatch.
+Eigen::RowVector<double, kWeights> basis(double s, double t) {
+  return Eigen::RowVector<double, kWeights>{1, s, t, t * t, s * t, s * s};
+}
+
 Design makeDesign() {
   Design design;
-  for (int j = 0; j < kPoints; ++j)
-    for (int i = 0; i < kPoints; ++i) {
-      const double s = chebyshev(j), t = chebyshev(i);
-      design.row(j * kPoints + i) << 1, s, t, t * t, s * t, s * s;
-    }
+  for (int i = 0; i < kPoints; ++i)
+    for (int j = 0; j < kPoints; ++j) design.row(i * kPoints + j) = basis(chebyshev(j), chebyshev(i));
   return design;
 }
 
@@ -87,18 +89,20 @@ MatrixXd spreadHarmonics(const Eigen::VectorXd& harmonics, const std::vector<int
 /// Nodes whose responses are summed in one product of matrices.
 constexpr int kBatch = 8;
 
-/// Cosines and sines of the harmonics, a row for each angle at which a batch of nodes is sampled.
+/// Cosines and sines of the harmonics, a column for each angle at which a batch of nodes is sampled.
 struct Waves {
   MatrixXd cosines, sines;
 
   Waves(int firstNode, int nodes, Index harmonics)
-      : cosines(kBatch * kPoints, harmonics), sines(kBatch * kPoints, harmonics) {
-    for (int row = 0; row < kBatch * kPoints; ++row) {
-      const double node = firstNode + row / kPoints + 0.5 + chebyshev(row % kPoints) / 2;
+      : cosines(harmonics, kBatch * kPoints), sines(harmonics, kBatch * kPoints) {
+    for (int column = 0; column < kBatch * kPoints; ++column) {
+      const double node = firstNode + column / kPoints + 0.5 + chebyshev(column % kPoints) / 2;
+      double* cosine = cosines.col(column).data();
+      double* sine = sines.col(column).data();
       model::visitMultiples(node * pi / nodes, static_cast<int>(harmonics) - 1,
                             [&](int n, double c, double s) {
-                              cosines(row, n) = c;
-                              sines(row, n) = s;
+                              cosine[n] = c;
+                              sine[n] = s;
                             });
     }
   }
@@ -107,41 +111,60 @@ struct Waves {
 /// Patches to a load, as real numbers.
 struct Patches {
   Eigen::Matrix<double, kWeights, Eigen::Dynamic> weights;
-  Eigen::VectorXd residual;  ///< the largest of each patch
+  Eigen::VectorXd error;  ///< the largest of each patch
 
-  explicit Patches(int count) : weights(kWeights, count), residual(count) {}
+  explicit Patches(int count) : weights(kWeights, count), error(count) {}
 };
 
-/// The least-squares fit to a patch's samples.
+/// Lagrange's polynomial of a Chebyshev point.
+double lagrange(int point, double x) {
+  double product = 1;
+  for (int i = 0; i < kPoints; ++i)
+    if (i != point) product *= (x - chebyshev(i)) / (chebyshev(point) - chebyshev(i));
+  return product;
+}
+
+/// The least-squares fit to a patch's samples. Its error is that to the cubic through the samples, which is
+/// largest at the patch's corners and edges.
 class PatchFit {
  public:
-  PatchFit() : design_(makeDesign()) {
-    projection_ = (design_.transpose() * design_).inverse() * design_.transpose();
+  PatchFit() {
+    const Design design = makeDesign();
+    projection_ = (design.transpose() * design).inverse() * design.transpose();
+    for (int j = 0; j < kChecks; ++j)
+      for (int i = 0; i < kChecks; ++i) setCheck(j * kChecks + i, checkAt(j), checkAt(i));
   }
 
   void operator()(const Samples& samples, int patch, Patches& patches) const {
-    const Eigen::Vector<double, kWeights> weights = projection_ * samples.reshaped();
-    patches.weights.col(patch) = weights;
-    patches.residual[patch] = (design_ * weights - samples.reshaped()).cwiseAbs().maxCoeff();
+    patches.weights.col(patch) = projection_ * samples.reshaped();
+    patches.error[patch] = (check_ * samples.reshaped()).cwiseAbs().maxCoeff();
   }
 
  private:
-  Design design_;
+  static constexpr int kChecks = 5;
+  static double checkAt(int i) { return 2.0 * i / (kChecks - 1) - 1; }
+  void setCheck(int row, double s, double t) {
+    check_.row(row) = basis(s, t) * projection_;
+    for (int i = 0; i < kPoints; ++i)
+      for (int j = 0; j < kPoints; ++j) check_(row, i * kPoints + j) -= lagrange(j, s) * lagrange(i, t);
+  }
+
   Eigen::Matrix<double, kWeights, kPoints * kPoints> projection_;
+  Eigen::Matrix<double, kChecks * kChecks, kPoints * kPoints> check_;
 };
 
 /// Fits a batch of nodes; `columns` as spreadHarmonics() makes them.
 void fitBatch(const MatrixXd& waves, const MatrixXd& columns, int firstNode, int nodes, Patches& patches) {
   static const PatchFit fit;
-  const MatrixXd samples = waves * columns;
+  const MatrixXd samples = columns.transpose() * waves;
   const int cells = static_cast<int>(columns.cols()) / kPoints;
   for (int node = firstNode; node < std::min(firstNode + kBatch, nodes); ++node)
     for (int cell = 0; cell < cells; ++cell)
-      fit(samples.block<kPoints, kPoints>((node - firstNode) * kPoints, cell * kPoints), node * cells + cell,
+      fit(samples.block<kPoints, kPoints>(cell * kPoints, (node - firstNode) * kPoints), node * cells + cell,
           patches);
 }
 
-ResponsePatch rounded(const Eigen::Vector<double, kWeights>& weights, double unit) {
+ResponsePatch rounded(const Weights& weights, double unit) {
   ResponsePatch patch;
   for (int i = 0; i < kWeights; ++i)
     patch[static_cast<std::size_t>(i)] =
@@ -171,7 +194,7 @@ void roundPatches(const config::Contact& contact, const Patches& normal, const P
     if (!isUsed(contact, patch % table.cells)) continue;
     table.interpolationError =
         std::max(table.interpolationError,
-                 std::max(normal.residual[patch], tangential.residual[patch]) / table.strainPerUnit);
+                 std::max(normal.error[patch], tangential.error[patch]) / table.strainPerUnit);
   }
 }
 

@@ -23,9 +23,9 @@ struct ResponseTable {
 
 /// Least-squares fits to the elastic model. The pressure is a semi-ellipse with the second moment of a
 /// uniform pressure of the contact's width, and so is the shear, up to twice as large in second moment
-/// (Mindlin, see model::shearMoment_rad2()). Where contact.width_m is known, the patches that hold that
-/// pressure, at the largest moment, and its shear are exact enough; those for less than half that moment are
-/// not used. Throws what ImpulseResponse throws. Cost: 2 ms for the default finger, 10 ms for 300 harmonics.
+/// (Mindlin, see model::shearMoment_rad2()). Where contact.width_m is known its pressure has the largest
+/// moment, and patches for less than half of that, which no load has, don't count in the error. Throws what
+/// ImpulseResponse throws. Cost: 1 ms for the default finger, 9 ms for 300 harmonics.
 ResponseTable responseTable(const config::FingerConfig& config);
 
 }  // namespace strainfinger::tables

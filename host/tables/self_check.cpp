@@ -19,8 +19,13 @@ namespace {
 
 using firmware::FitMode;
 
-constexpr int kOffsets = 8;              ///< over a pitch; few of them coincide with the tables' nodes
-constexpr int kDirections = 4;            ///< over the friction cone
+/// Steps over a pitch, few of which coincide with the tables' nodes, and over the friction cone. Where the
+/// width is fitted each search costs five times as much.
+struct Grid {
+  int offsets, directions;
+};
+constexpr Grid kFitted{8, 4}, kKnown{16, 8};
+
 constexpr double kWrong_pitch = 1.0 / 8;  ///< right answers are a hundred times nearer
 constexpr double kTolerance = 1e-9;       ///< of the model: below a step of StrainQ32 at half of full scale
 /// Loads, of half of full scale: weak contacts are judged with more doubt, so the locator goes other ways.
@@ -82,10 +87,11 @@ class Trials {
 
   SelfCheck run() {
     const double friction = image_.parameters.friction_coefficient;
+    const Grid& grid = widthIsKnown() ? kKnown : kFitted;
     for (const double width_m : widths_m())
-      for (int k = 0; k <= kOffsets; ++k)
-        for (int i = 0; i <= kDirections; ++i)
-          tryContact(static_cast<double>(k) / kOffsets - 0.5, friction * (2.0 * i / kDirections - 1),
+      for (int k = 0; k <= grid.offsets; ++k)
+        for (int i = 0; i <= grid.directions; ++i)
+          tryContact(static_cast<double>(k) / grid.offsets - 0.5, friction * (2.0 * i / grid.directions - 1),
                      width_m);
     return check_;
   }

@@ -12,18 +12,21 @@ using namespace strainfinger;
 TEST_GROUP(TableImage) {
   std::unique_ptr<TableImage> image_ = std::make_unique<TableImage>();
 
-  /// The least an image needs to be taken, whatever its rows hold.
+  /// The least an image needs to be taken, whatever its patches hold.
   void setup() override {
     image_->magic = kTableMagic;
     image_->format = kTableFormat;
     image_->image_bytes = sizeof(TableImage);
-    image_->constants.gauge_count = 16;
-    image_->constants.mirror_sign = image_->constants.anchor_sign = 1;
-    image_->constants.scan_step = kMaxScanStep;
-    image_->constants.load_exponent = -50;
-    image_->constants.firm_exponent = 16;
-    image_->constants.near_pole_q15 = 15'000;
-    image_->constants.scan_span.fill(ScanSpan::of(kFirstScanRow, kLastScanRow));
+    TableConstants& constants = image_->constants;
+    constants.gauge_count = 16;
+    constants.mirror_sign = constants.peak_sign = 1;
+    constants.load_exponent = -50;
+    constants.cone_q8 = 320;
+    constants.node_count = 96;
+    constants.cell_count = 8;
+    for (std::uint16_t k = 0; k <= 8; ++k) constants.cell_edge_q15[k] = static_cast<std::uint16_t>(k << 12);
+    constants.cell_rate_q8.fill(8 << 8);
+    for (std::uint32_t i = 0; i < kMaxGauges; ++i) image_->gauge_angle_q32[i] = i << 27;
     sign();
   }
   void sign() { image_->crc32 = crc32(checkedBytes(*image_)); }
@@ -56,7 +59,7 @@ TEST(TableImage, TheChecksumIsOfEverythingBehindTheHeader) {
 }
 
 TEST(TableImage, WhatIsWrongFirstIsNamed) {
-  image_->rows[0].reserved = 1;
+  image_->constants.reserved = 1;
   checkFault(TableFault::kChecksum);
   image_->image_bytes -= 1;
   checkFault(TableFault::kLength);
@@ -72,7 +75,7 @@ TEST(TableImage, AReservedBitIsAnotherFormat) {
 }
 
 TEST(TableImage, AFlippedBitBehindTheHeaderIsFound) {
-  for (std::size_t i = kTableHeaderBytes; i < sizeof(TableImage); i += 5) {
+  for (std::size_t i = kTableHeaderBytes; i < sizeof(TableImage); i += 23) {
     flip(i, i % 8);
     checkFault(TableFault::kChecksum);
     flip(i, i % 8);
@@ -98,16 +101,39 @@ TEST(TableImage, ConstantsThatLoopsAndShiftsRelyOnStayInTheirDomain) {
   checkDomain(constants.reading_gain, {0, 1, (1 << 29) - 2},
               {-1, (1 << 29) - 1, std::numeric_limits<int>::max()});
   checkDomain(constants.mirror_sign, {1, -1}, {0, 2, -128});
-  checkDomain(constants.anchor_sign, {1, -1}, {0, 2, -128});
-  checkDomain(constants.anchor_rule, {0, 1}, {2, 255});
-  checkDomain(constants.scan_step, {4, 8}, {0, 3, 5, 9, 255});
-  checkDomain(constants.scan_span[15].packed, {0x01, 0x09, 0x11, 0x73, 0x91},
-              {0x00, 0x02, 0x10, 0x21, 0x37, 0xB1, 0xFF});
-  checkDomain(constants.firm_exponent, {13, 31}, {0, 12, 32, 255});
-  checkDomain(constants.near_pole_q15, {13312, 65535}, {0, 13311});
-  checkDomain(image_->rows[39].gradient_exponent, {-3, 12}, {-4, 13, -128, 127});
-  checkDomain(image_->rows[39].triple[1], {0, 34}, {35, 255});
+  checkDomain(constants.peak_sign, {1, -1}, {0, 2, -128});
+  checkDomain(constants.width_is_known, {1, 0}, {2, 255});
+  checkDomain(constants.known_moment_q20, {1 << 20, 0}, {(1 << 20) + 1, -1});
+  checkDomain(constants.cone_q8, {1, 65535}, {0});
+  checkDomain(constants.reach_q32, {0, std::numeric_limits<int>::max()},
+              {-1, std::numeric_limits<int>::min()});
   checkDomain(image_->parameters.component, {0, 1, 2}, {3, 255});
+}
+
+TEST(TableImage, NodesAndCellsArePatchesThatAreThere) {
+  TableConstants& constants = image_->constants;
+  checkDomain(constants.node_count, {8, 96}, {0, 7, 97, 65535});
+  checkDomain(constants.cell_count, {8}, {0, 7, 9, 255});  // the last edge is not where seven cells end
+}
+
+TEST(TableImage, CellsAscendFromNoWidthToTheLargest) {
+  auto& edge_q15 = image_->constants.cell_edge_q15;
+  checkDomain(edge_q15[0], {0}, {1, 65535});
+  checkDomain(edge_q15[8], {32768}, {32767, 32769, 0});
+  checkDomain(edge_q15[4], {12289, 20479}, {12288, 20480, 0, 65535});
+}
+
+// 2 over 1/8 is 16; a step more is what rounding up makes of it.
+TEST(TableImage, ACellsRateIsNoLargerThanItsWidthHas) {
+  checkDomain(image_->constants.cell_rate_q8[7], {0, 4096, 4097}, {4098, 65535});
+}
+
+TEST(TableImage, GaugesAscendRoundTheRingFromAnyAngle) {
+  auto& angle_q32 = image_->gauge_angle_q32;
+  checkDomain(angle_q32[1], {1, (1 << 28) - 1}, {0, 1 << 28, -1});
+  angle_q32[1] = 1 << 27;
+  for (std::uint32_t& angle : angle_q32) angle -= 1 << 27;  // the second is at 0, the 16th at 14 << 27
+  checkDomain(angle_q32[0], {-1 << 27, -1, (14 << 27) + 1}, {0, 1, 14 << 27});
 }
 
 TEST(TableImage, TheNoiseThatStandardErrorsAreMadeOfStaysInItsDomain) {
@@ -145,33 +171,10 @@ TEST(TableImage, FaultsKeepTheirNumbers) {
   LONGS_EQUAL(6, static_cast<int>(TableFault::kConstants));
 }
 
-TEST(TableImage, WeightsLongerThanOneAreRefused) {
-  image_->rows[7].gradient[1][0] = 32767;
-  checkDomain(image_->rows[7].gradient[1][6], {0, 300, -300}, {500, -500});
-  image_->rows[7].gradient[1] = {};
-  checkDomain(image_->rows[9].basis[0][2], {23170, -23170}, {23180, 32767, -32768});
-}
-
-TEST(TableImage, StartWeightsWhoseSumWouldNotFitAreRefused) {
-  checkDomain(image_->start[15][0], {23170, -23170}, {23180, 32767, -32768});
-  image_->start[3] = {{16384, 16384}};
-  checkDomain(image_->start[3][3], {0, 300, -300}, {500, -500});
-}
-
-TEST(TableImage, NearRowsWhoseDifferencesWouldNotFitAreRefused) {
-  NearRow& row = image_->near[12];
-  checkDomain(row.normal[0], {16384, -16384, 0}, {16390, 32767, -32768});
-  checkDomain(row.normal[2], {11585, -11585, 0}, {11600, -32768});
-  checkDomain(row.normal[3], {0}, {1, -1});
-  checkDomain(row.normal_load[0], {16384, -16384, 0}, {16390, -32768});
-  checkDomain(row.normal_load[1], {11585, 0}, {11600, 32767});
-  checkDomain(row.tangential_load[1], {-11585, 0}, {-11600, -32768});
-  checkDomain(row.tangential_load[0], {16384}, {16390});
-}
-
-TEST(TableImage, WhereEveryWindowIsLookedAtNoStartIsTold) {
-  image_->constants.anchor_rule = AnchorRule::kExhaustive;
-  checkDomain(image_->start[7][0], {0}, {1, -1});
-  image_->constants.anchor_rule = AnchorRule::kSecondDifference;
-  checkDomain(image_->start[7][0], {1, -1}, {});
+TEST(TableImage, PatchesWhoseSumsWouldNotFitAreRefused) {
+  PatchPair& pair = image_->patches[kMostPatches - 1];
+  checkDomain(pair.normal[0], {32767, -32767, 0}, {-32768});
+  pair.normal = {32767 - 5000, 1000, -1000, 1000, -1000, 1000};
+  checkDomain(pair.normal[4], {1000, -1000, 0}, {1001, -1001, 32767, -32768});
+  checkDomain(pair.tangential[5], {32767, -32767, 0}, {-32768});
 }

@@ -104,7 +104,7 @@ TEST_GROUP(ResponseTable) {
 // A step of the patches is 0.07 standard deviations.
 TEST(ResponseTable, OfUnknownWidthsIsTheModelWithinAReadingsNoise) {
   const Errors all = errors(0);
-  CHECK_COMPARE(all.largest, <, 1.5);
+  CHECK_COMPARE(all.largest, <, 2);
   CHECK_COMPARE(all.rms(), <, 0.25);
 }
 
@@ -126,7 +126,7 @@ TEST(ResponseTable, OfAKnownWidthIsTheModelForItsPressureAndEveryShear) {
 TEST(ResponseTable, IsTheModelForEveryComponentAndCount) {
   for (const StrainComponent component : {StrainComponent::kHoop, StrainComponent::kShear}) {
     config_.gauges.component = component;
-    CHECK_COMPARE(errors(0).largest, <, 1.5);
+    CHECK_COMPARE(errors(0).largest, <, 2);
   }
 }
 
@@ -134,7 +134,7 @@ TEST(ResponseTable, AGaugeAveragesOverItsArc) {
   const double point = responseTable(config_).strainPerUnit;
   config_.gauges.arc_length_m = 3e-3;
   CHECK_COMPARE(responseTable(config_).strainPerUnit, <, 0.98 * point);
-  CHECK_COMPARE(errors(0).largest, <, 1.5);
+  CHECK_COMPARE(errors(0).largest, <, 2);
 }
 
 // Rounding adds up to half a step of each of a patch's six weights.

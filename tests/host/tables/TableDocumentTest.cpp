@@ -31,20 +31,10 @@ struct TypeName {
                        8 * sizeof(Number));
   }
 };
-template <>
-struct TypeName<ScanSpan> : TypeName<std::uint8_t> {};
 template <typename Number, std::size_t Count>
 struct TypeName<std::array<Number, Count>> {
   static std::string text() { return fmt::format("{}[{}]", TypeName<Number>::text(), Count); }
 };
-template <std::size_t Count>
-struct TypeName<std::array<FoldedWeights, Count>> : TypeName<std::array<std::int16_t, 8 * Count>> {};
-template <std::size_t Count>
-struct TypeName<std::array<StartWeights, Count>> : TypeName<std::array<std::int16_t, 4 * Count>> {};
-template <typename Number, std::size_t Inner, std::size_t Count>
-struct TypeName<std::array<std::array<Number, Inner>, Count>> : TypeName<std::array<Number, Inner * Count>> {
-};
-
 /// The fields of a part in order, as rows of its table: their offsets follow from their types, because there
 /// is no padding.
 class Rows {
@@ -85,7 +75,9 @@ Rows parameterRows(const TableParameters& p) {
   rows.add("arc_length_m", p.arc_length_m);
   rows.add("noise_strain", p.noise_strain);
   rows.add("full_scale_strain", p.full_scale_strain);
+  rows.add("model_error", p.model_error);
   rows.add("contact_width_m", p.contact_width_m);
+  rows.add("largest_width_m", p.largest_width_m);
   rows.add("friction_coefficient", p.friction_coefficient);
   rows.add("gauge_count", p.gauge_count);
   rows.add("component", p.component);
@@ -96,58 +88,45 @@ Rows parameterRows(const TableParameters& p) {
 
 Rows constantRows(const TableConstants& c) {
   Rows rows(offsetof(TableImage, constants));
-  rows.add("pitch_turn_q35", c.pitch_turn_q35);
-  rows.add("first_angle_q32", c.first_angle_q32);
   rows.add("noise_variance", c.noise_variance);
   rows.add("gate_on", c.gate_on);
   rows.add("gate_off", c.gate_off);
   rows.add("load_scale", c.load_scale);
   rows.add("reading_gain", c.reading_gain);
   rows.add("force_per_load_q16", c.force_per_load_q16);
+  rows.add("reach_q32", c.reach_q32);
+  rows.add("largest_moment_um2", c.largest_moment_um2);
+  rows.add("known_moment_q20", c.known_moment_q20);
   rows.add("load_exponent", c.load_exponent);
-  rows.add("friction_cone_q8", c.friction_cone_q8);
+  rows.add("friction_q8", c.friction_q8);
+  rows.add("cone_q8", c.cone_q8);
+  rows.add("model_error_q16", c.model_error_q16);
   rows.add("adc_rail", c.adc_rail);
-  rows.add("tail_q16", c.tail_q16);
+  rows.add("node_count", c.node_count);
   rows.add("noise_variance_exponent", c.noise_variance_exponent);
-  rows.add("amplitude_exponent", c.amplitude_exponent);
   rows.add("mirror_sign", c.mirror_sign);
-  rows.add("anchor_sign", c.anchor_sign);
+  rows.add("peak_sign", c.peak_sign);
   rows.add("gauge_count", c.gauge_count);
+  rows.add("cell_count", c.cell_count);
+  rows.add("width_is_known", c.width_is_known);
   rows.add("gate_shift", c.gate_shift);
-  rows.add("anchor_rule", c.anchor_rule);
-  rows.add("scan_step", c.scan_step);
-  rows.add("scan_span", c.scan_span);
-  rows.add("near_pole_q15", c.near_pole_q15);
-  rows.add("firm_exponent", c.firm_exponent);
   rows.add("reserved", c.reserved);
+  rows.add("cell_edge_q15", c.cell_edge_q15);
+  rows.add("cell_rate_q8", c.cell_rate_q8);
+  rows.add("reserved2", c.reserved2);
   return rows;
 }
 
-Rows startRows(const TableImage& image) {
-  Rows rows(offsetof(TableImage, start));
-  rows.add("start", image.start);
+Rows angleRows(const TableImage& image) {
+  Rows rows(offsetof(TableImage, gauge_angle_q32));
+  rows.add("gauge_angle_q32", image.gauge_angle_q32);
   return rows;
 }
 
-Rows fitRows(const FitRow& row) {
+Rows patchRows(const PatchPair& pair) {
   Rows rows(0);
-  rows.add("basis", row.basis);
-  rows.add("gradient", row.gradient);
-  rows.add("gradient_length", row.gradient_length);
-  rows.add("gradient_cosine", row.gradient_cosine);
-  rows.add("gradient_exponent", row.gradient_exponent);
-  rows.add("reserved", row.reserved);
-  rows.add("load", row.load);
-  rows.add("triple", row.triple);
-  rows.add("load_slope", row.load_slope);
-  return rows;
-}
-
-Rows nearRows(const NearRow& row) {
-  Rows rows(0);
-  rows.add("normal", row.normal);
-  rows.add("normal_load", row.normal_load);
-  rows.add("tangential_load", row.tangential_load);
+  rows.add("normal", pair.normal);
+  rows.add("tangential", pair.tangential);
   return rows;
 }
 
@@ -202,41 +181,39 @@ TEST(TableDocument, HasEveryFieldAtItsOffset) {
   checkTable("## Header", headerRows(image_));
   checkTable("## Parameters", parameterRows(image_.parameters));
   checkTable("## Constants", constantRows(image_.constants));
-  checkTable("## Start", startRows(image_));
-  checkTable("## Rows", fitRows(image_.rows[0]));
-  checkTable("## Near rows", nearRows(image_.near[0]));
+  checkTable("## Angles", angleRows(image_));
   checkTable("## Gains", gainRows(image_.gains));
+}
+
+TEST(TableDocument, APatchHasEveryFieldAtItsOffset) {
+  const Rows rows = patchRows(image_.patches[0]);
+  for (const std::string& row : rows.rows()) checkHas("\n" + row);
+  LONGS_EQUAL(sizeof(PatchPair), rows.end());
 }
 
 TEST(TableDocument, ItsFieldsLeaveNoGaps) {
   LONGS_EQUAL(kTableHeaderBytes, headerRows(image_).end());
   LONGS_EQUAL(offsetof(TableImage, constants), parameterRows(image_.parameters).end());
-  LONGS_EQUAL(offsetof(TableImage, start), constantRows(image_.constants).end());
-  LONGS_EQUAL(offsetof(TableImage, rows), startRows(image_).end());
-  LONGS_EQUAL(sizeof(FitRow), fitRows(image_.rows[0]).end());
-  LONGS_EQUAL(sizeof(NearRow), nearRows(image_.near[0]).end());
-  LONGS_EQUAL(sizeof(TableImage), gainRows(image_.gains).end());
+  LONGS_EQUAL(offsetof(TableImage, gauge_angle_q32), constantRows(image_.constants).end());
+  LONGS_EQUAL(offsetof(TableImage, gains), angleRows(image_).end());
+  LONGS_EQUAL(offsetof(TableImage, patches), gainRows(image_.gains).end());
 }
 
 TEST(TableDocument, OffsetsThatDependOnAlignmentAreThoseOfTheCompiler) {
-  LONGS_EQUAL(112, offsetof(TableImage, parameters) + offsetof(TableParameters, gauge_count));
-  LONGS_EQUAL(152, offsetof(TableImage, constants) + offsetof(TableConstants, load_exponent));
-  LONGS_EQUAL(160, offsetof(TableImage, constants) + offsetof(TableConstants, noise_variance_exponent));
-  LONGS_EQUAL(72, offsetof(FitRow, load));
-  LONGS_EQUAL(80, offsetof(FitRow, load_slope));
+  LONGS_EQUAL(128, offsetof(TableImage, parameters) + offsetof(TableParameters, gauge_count));
+  LONGS_EQUAL(172, offsetof(TableImage, constants) + offsetof(TableConstants, load_exponent));
+  LONGS_EQUAL(184, offsetof(TableImage, constants) + offsetof(TableConstants, noise_variance_exponent));
+  LONGS_EQUAL(192, offsetof(TableImage, constants) + offsetof(TableConstants, cell_edge_q15));
 }
 
 TEST(TableDocument, HasThePartsAtTheirOffsets) {
   checkPart(0, kTableHeaderBytes);
   checkPart(offsetof(TableImage, parameters), sizeof(TableParameters));
   checkPart(offsetof(TableImage, constants), sizeof(TableConstants));
-  checkPart(offsetof(TableImage, start), sizeof(TableImage::start));
-  checkPart(offsetof(TableImage, rows), sizeof(FitTable));
-  checkPart(offsetof(TableImage, near), sizeof(NearTable));
+  checkPart(offsetof(TableImage, gauge_angle_q32), sizeof(GaugeAngles));
   checkPart(offsetof(TableImage, gains), sizeof(GaugeGains));
-  checkHas(fmt::format("{} weights of {} bytes", kShares, sizeof(StartWeights)));
-  checkHas(fmt::format("{} of {} bytes", kFitRows, sizeof(FitRow)));
-  checkHas(fmt::format("{} of {} bytes", kNearRows, sizeof(NearRow)));
+  checkPart(offsetof(TableImage, patches), sizeof(TableImage::patches));
+  checkHas(fmt::format("up to {} pairs of {} bytes", kMostPatches, sizeof(PatchPair)));
 }
 
 TEST(TableDocument, NamesFormatMagicAndLength) {
@@ -249,10 +226,11 @@ TEST(TableDocument, ItsExampleIsTheDefaultFinger) {
   const std::string bytes = tables::imageBytes(image_);
   checkHas(dumpLine(bytes, 0) + dumpLine(bytes, 16));
   const std::size_t constants = offsetof(TableImage, constants);
-  checkHas(
-      dumpLine(bytes, constants) + dumpLine(bytes, constants + 16) + dumpLine(bytes, constants + 32) +
-      dumpLine(bytes, constants + 48) +
-      dumpLine(bytes, constants + 64).substr(0, std::string("    00000000  00 00 00 00 00 00 00 00").size()));
+  std::string dump;
+  for (std::size_t line = 0; line < sizeof(TableConstants); line += 16)
+    dump += dumpLine(bytes, constants + line);
+  checkHas(dump);
+  checkHas(dumpLine(bytes, offsetof(TableImage, patches)));
   checkHas(fmt::format("CRC-32 {:08X}\n", image_.crc32));
   checkHas(fmt::format("{} * 2^{}: (6e-6", image_.constants.noise_variance,
                        image_.constants.noise_variance_exponent));

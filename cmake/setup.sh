@@ -12,6 +12,7 @@ packages=(
   libcpputest-dev python3-canmatrix                       # tests: framework, DBC oracle
   can-utils iproute2                                      # candump, ip link
   qemu-system-arm clang                                   # tests: emulated boards, a second compiler
+  libclang-rt-14-dev                                      # tests: fuzzing
   qemu-system-x86 busybox-static python3                  # tests: a real vcan where this kernel has none
 )
 

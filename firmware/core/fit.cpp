@@ -21,10 +21,9 @@ std::size_t index(int i) { return static_cast<std::size_t>(i); }
 Number slip_q15(const TableConstants& constants, const ContactState& contact) {
   const Number most = contact.normal > 0 ? scaled<8>(contact.normal, constants.friction_q8) : 0;
   const Number pull = magnitude(contact.tangential);
+  const int down = std::max(bitWidth(most) - 15, 0);
   if (pull >= most) return 1 << 15;
-  const int down = std::max(17 - std::countl_zero(static_cast<std::uint32_t>(most)), 0);
-  return static_cast<Number>((static_cast<std::uint32_t>(pull >> down) << 15) /
-                             static_cast<std::uint32_t>(most >> down));
+  return ((pull >> down) << 15) / (most >> down);
 }
 
 /// A contact with what its lookups share. The pressure's second moment is m, that of the tangential traction
@@ -153,15 +152,14 @@ using WideColumn = std::array<Number, kMostRows>;
 
 /// A column as numbers below 2^13, scaled by a power of two.
 void setColumn(Linearisation& linearisation, int unknown, const WideColumn& entries) {
-  std::uint32_t bits = 1;
-  for (int row = 0; row < linearisation.usedRows; ++row)
-    bits |= static_cast<std::uint32_t>(magnitude(entries[index(row)]));
-  const int exponent = std::max(32 - kColumnBits - std::countl_zero(bits), -8);
+  Number bits = 1;
+  for (int row = 0; row < linearisation.usedRows; ++row) bits |= magnitude(entries[index(row)]);
+  const int exponent = std::max(bitWidth(bits) - kColumnBits, -8);
   linearisation.exponent[index(unknown)] = static_cast<std::int8_t>(exponent);
   Rows& column = linearisation.column[index(unknown)];
   for (int row = 0; row < linearisation.usedRows; ++row)
-    column[index(row)] = static_cast<std::int16_t>(exponent >= 0 ? entries[index(row)] >> exponent
-                                                                 : entries[index(row)] << -exponent);
+    column[index(row)] = static_cast<Short>(exponent >= 0 ? entries[index(row)] >> exponent
+                                                          : entries[index(row)] << -exponent);
 }
 
 void lineariseContact(const TableImage& tables, int contact, Linearisation& linearisation) {
@@ -178,8 +176,8 @@ void lineariseContact(const TableImage& tables, int contact, Linearisation& line
       continue;
     }
     const ContactModel::Reading reading = model.at(angle_q32);
-    normal[index(row)] = static_cast<std::int16_t>(reading.loads.normal >> kLoadExponent);
-    tangential[index(row)] = static_cast<std::int16_t>(reading.loads.tangential >> kLoadExponent);
+    normal[index(row)] = static_cast<Short>(reading.loads.normal >> kLoadExponent);
+    tangential[index(row)] = static_cast<Short>(reading.loads.tangential >> kLoadExponent);
     angle[index(row)] = reading.angle;
     moment[index(row)] = reading.moment;
     linearisation.predicted[index(gauge)] += reading.predicted;
@@ -212,7 +210,7 @@ void setLimits(const TableConstants& constants, const Linearisation& linearisati
     const int moment = momentOf(hypothesis, k), exponent = linearisation.exponent[index(moment)];
     const Number now = linearisation.at[index(k)].moment_q20;
     const Number most = kMostWidening_q20 + 5 * (now >> 4);
-    high[index(moment)] = stepOf(std::min(most, (1 << kMomentBits) - now), exponent, kMomentBits);
+    high[index(moment)] = stepOf(std::min<Number>(most, (1 << kMomentBits) - now), exponent, kMomentBits);
     low[index(moment)] = stepOf(-std::min(most, now), exponent, kMomentBits);
   }
 }
@@ -232,11 +230,10 @@ void take(const TableConstants& constants, const Linearisation& linearisation, c
     ContactState& contact = contacts[index(k)];
     contact.normal = limited(contact.normal + units(loadsOf(k), 16), kMostLoad);
     contact.tangential = limited(contact.tangential + units(loadsOf(k) + 1, 16), kMostLoad);
-    contact.angle_q32 +=
-        static_cast<std::uint32_t>(scaled<15>(units(angleOf(hypothesis, k), 15), halfNode_q32(constants)));
+    contact.angle_q32 += wrapped(scaled<15>(units(angleOf(hypothesis, k), 15), halfNode_q32(constants)));
     if (hypothesis.widthIsFree)
-      contact.moment_q20 = std::clamp<Number>(
-          contact.moment_q20 + units(momentOf(hypothesis, k), kMomentBits), 0, 1 << kMomentBits);
+      contact.moment_q20 =
+          clamped(contact.moment_q20 + units(momentOf(hypothesis, k), kMomentBits), 0, 1 << kMomentBits);
   }
 }
 
@@ -265,9 +262,9 @@ Solution step(const TableImage& tables, const Linearisation& linearisation, cons
   Rows residual;
   residual[index(linearisation.rows - (linearisation.rows > 0 ? 1 : 0))] = 0;
   Wide energy = 0;
-  std::array<std::int16_t, kMaxGauges> rest;
+  std::array<Short, kMaxGauges> rest;
   for (int gauge = 0; gauge < tables.constants.gauge_count; ++gauge) {
-    const std::int16_t each = shortened(readings.value[index(gauge)] - linearisation.predicted[index(gauge)]);
+    const Short each = shortened(readings.value[index(gauge)] - linearisation.predicted[index(gauge)]);
     rest[index(gauge)] = each;
     if (contains(hypothesis.gauges, gauge)) energy += Wide{each} * each;
   }
@@ -301,10 +298,9 @@ Solution fitLoads(const TableImage& tables, const Hypothesis& hypothesis, const 
       const std::uint32_t angle_q32 = tables.gauge_angle_q32[index(gauge)];
       if (!contains(inReach, gauge)) continue;
       const ContactModel::Loads loads = model.loadsAt(angle_q32);
-      columns[index(loadsOf(k))][index(rows)] = static_cast<std::int16_t>(loads.normal >> kLoadExponent);
-      columns[index(loadsOf(k) + 1)][index(rows)] =
-          static_cast<std::int16_t>(loads.tangential >> kLoadExponent);
-      residual[index(rows++)] = static_cast<std::int16_t>(reading);
+      columns[index(loadsOf(k))][index(rows)] = static_cast<Short>(loads.normal >> kLoadExponent);
+      columns[index(loadsOf(k) + 1)][index(rows)] = static_cast<Short>(loads.tangential >> kLoadExponent);
+      residual[index(rows++)] = static_cast<Short>(reading);
     }
   }
   const int unknowns = 2 * hypothesis.contacts;

@@ -17,26 +17,24 @@ std::uint32_t noiseVariance_q4(const TableConstants& constants, int shift) {
 
 }  // namespace
 
-ScaledReadings scaledReadings(const TableConstants& constants, std::span<const std::int32_t> strains_q32,
+ScaledReadings scaledReadings(const TableConstants& constants, std::span<const Number> strains_q32,
                               GaugeSet gauges, std::uint32_t noise_q4, int shift) {
-  std::uint32_t bits = 0;
+  Number bits = 0;
   for (std::size_t i = 0; i < strains_q32.size(); ++i)
-    if (contains(gauges, static_cast<int>(i)))
-      bits |= static_cast<std::uint32_t>(strains_q32[i] < 0 ? ~strains_q32[i] : strains_q32[i]);
+    if (contains(gauges, static_cast<int>(i))) bits |= signlessBits(strains_q32[i]);
   ScaledReadings scaled;
-  const int own = std::max(17 - std::countl_zero(bits), 0);
+  const int own = std::max(bitWidth(bits) - 15, 0);
   scaled.shift = static_cast<std::int8_t>(shift == own + 1 ? shift : own);
   Number largest = 0;
   for (std::size_t i = 0; i < strains_q32.size(); ++i) {
     scaled.value[i] = shortened(strains_q32[i] >> scaled.shift);
-    if (contains(gauges, static_cast<int>(i)))
-      largest = std::max(largest, magnitude(Number{scaled.value[i]}));
+    if (contains(gauges, static_cast<int>(i))) largest = larger(largest, magnitude(Number{scaled.value[i]}));
   }
-  const auto modelError = static_cast<std::uint32_t>(largest) * constants.model_error_q16 >> 14;  // * 4
-  const std::uint64_t noise =
-      (std::uint64_t{noiseVariance_q4(constants, scaled.shift)} * noise_q4 >> 4) + kRoundingVariance_q4;
-  const auto withModelError = [&](std::uint64_t error) {
-    return static_cast<std::uint32_t>(std::min<std::uint64_t>(error * error + noise, kMostVariance_q4));
+  const Natural modelError = static_cast<Natural>(largest) * constants.model_error_q16 >> 14;  // * 4
+  const Natural noise =
+      (Natural{noiseVariance_q4(constants, scaled.shift)} * noise_q4 >> 4) + kRoundingVariance_q4;
+  const auto withModelError = [&](Natural error) {
+    return static_cast<std::uint32_t>(std::min<Natural>(error * error + noise, kMostVariance_q4));
   };
   scaled.variance_q4 = withModelError(modelError);
   scaled.gateVariance_q4 = withModelError(modelError >> kGateModelError);

@@ -51,7 +51,7 @@ inline constexpr int kGateModelError = 2;
 /// The readings of a ring as 16-bit numbers: strain * 2^32 / 2^shift, the largest in [2^14, 2^15) unless all
 /// are tiny. Half a step of rounding is part of the variance.
 struct ScaledReadings {
-  std::array<std::int16_t, kMaxGauges> value{};
+  std::array<Short, kMaxGauges> value{};
   std::uint32_t variance_q4 = 0;      ///< of a reading: noise, rounding and the model's error [* 2^4]
   std::uint32_t gateVariance_q4 = 0;  ///< the same by which hypotheses are judged, see kGateModelError
   std::int8_t shift = 0;
@@ -63,7 +63,7 @@ inline constexpr std::uint32_t kConfiguredNoise_q4 = 1 << 4;
 /// `gauges`: those that count when the scale and the model's error are chosen; others may saturate.
 /// `noise_q4`: variance of a reading in configured ones [* 2^4].
 /// `shift`: the one to keep while the largest reading stays in [2^13, 2^15); negative: none.
-ScaledReadings scaledReadings(const TableConstants& constants, std::span<const std::int32_t> strains_q32,
+ScaledReadings scaledReadings(const TableConstants& constants, std::span<const Number> strains_q32,
                               GaugeSet gauges, std::uint32_t noise_q4 = kConfiguredNoise_q4, int shift = -1);
 
 /// The same contacts where readings are divided by 2^to instead of 2^from.

@@ -14,6 +14,7 @@
 
 namespace strainfinger::firmware {
 
+using Short = std::int16_t;  ///< kept, not computed with
 using Number = std::int32_t;
 using Wide = std::int64_t;
 using Natural = std::uint64_t;
@@ -21,6 +22,24 @@ using Natural = std::uint64_t;
 constexpr Number magnitude(Number value) { return value < 0 ? -value : value; }
 constexpr Wide magnitude(Wide value) { return value < 0 ? -value : value; }
 
+/// An angle's change [turns * 2^32] as its bits: angles wrap.
+constexpr std::uint32_t wrapped(Number turns_q32) { return static_cast<std::uint32_t>(turns_q32); }
+
+/// How many bits a number that is not negative has.
+constexpr int bitWidth(Number value) {
+  return static_cast<int>(std::bit_width(static_cast<std::uint32_t>(value)));
+}
+constexpr int bitWidth(Wide value) {
+  return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(value)));
+}
+
+/// The bits of a number that its sign does not tell.
+constexpr Number signlessBits(Number value) { return value < 0 ? ~value : value; }
+
+constexpr Wide lesser(Wide a, Wide b) { return std::min(a, b); }
+constexpr Number larger(Number a, Number b) { return std::max(a, b); }
+/// To the nearest within low .. high.
+constexpr Number clamped(Number value, Number low, Number high) { return std::clamp(value, low, high); }
 /// To the nearest within +-limit.
 constexpr Number limited(Number value, Number limit) { return std::clamp(value, -limit, limit); }
 constexpr Number limited(Wide value, Number limit) {
@@ -45,8 +64,8 @@ constexpr Number narrowed(Wide value) {
 }
 
 /// To the nearest that 16 bits hold.
-constexpr std::int16_t shortened(Number value) {
-  return static_cast<std::int16_t>(std::clamp<Number>(value, -0x8000, 0x7FFF));
+constexpr Short shortened(Number value) {
+  return static_cast<Short>(std::clamp<Number>(value, -0x8000, 0x7FFF));
 }
 
 /// value * 2^up for any sign of `up`, rounded down and to the nearest within +-limit.
@@ -66,6 +85,11 @@ constexpr Number shifted(Number value, int up, Number limit) {
   return value << up;
 }
 
+/// value * 2^up for any sign of `up`, rounded down; by 2^most where `up` is more.
+constexpr Wide shiftedAtMost(Wide value, int up, int most) {
+  return up >= 0 ? value << std::min(up, most) : value >> std::min(-up, 63);
+}
+
 /// value^2, exactly. Cores without long products make it of three short ones.
 constexpr Wide squareOf(Number value) {
 #if defined(__ARM_ARCH_6M__)
@@ -80,7 +104,7 @@ constexpr Wide squareOf(Number value) {
 
 /// Sum of a[i] * b[i]; `count` is even, both start at multiples of 4 bytes. Two products an instruction where
 /// the core has Arm's DSP extension. The caller keeps the sum within 32 bits.
-inline Number dot(const std::int16_t* a, const std::int16_t* b, int count) {
+inline Number dot(const Short* a, const Short* b, int count) {
   Number sum = 0;
 #if defined(__ARM_FEATURE_DSP)
   for (int i = 0; i < count; i += 2) {
@@ -96,7 +120,7 @@ inline Number dot(const std::int16_t* a, const std::int16_t* b, int count) {
 }
 
 /// The same for sums that need more than 32 bits.
-inline Wide wideDot(const std::int16_t* a, const std::int16_t* b, int count) {
+inline Wide wideDot(const Short* a, const Short* b, int count) {
   Wide sum = 0;
 #if defined(__ARM_FEATURE_DSP)
   for (int i = 0; i < count; i += 2) {

@@ -9,7 +9,7 @@ Number largestReading(const ScaledReadings& readings, GaugeSet gauges) {
   Number largest = 0;
   for (int i = 0; i < kMaxGauges; ++i)
     if (contains(gauges, i))
-      largest = std::max(largest, magnitude(Number{readings.value[static_cast<std::size_t>(i)]}));
+      largest = larger(largest, magnitude(Number{readings.value[static_cast<std::size_t>(i)]}));
   return largest;
 }
 

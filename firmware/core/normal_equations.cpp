@@ -13,14 +13,6 @@ constexpr int kGradientLimitBits = 30;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// value / pivot * 2^bits, limited.
-Number divided(Number value, Decomposition::Reciprocal by, int bits, Number limit) {
-  const Wide product = Wide{value} * static_cast<Number>(by.mantissa);
-  const int up = by.exponent + bits;
-  if (up <= -32) return shifted(static_cast<Number>(product >> 32), up + 32, limit);
-  return shifted(product, up, limit);
-}
-
 /// Sum of L's row and a vector, first .. last - 1 [* 2^kLowerBits]: seven products below 2^60.
 Wide product(const Vector& lower_q20, const Vector& vector, int last) {
   Wide sum = 0;
@@ -29,15 +21,6 @@ Wide product(const Vector& lower_q20, const Vector& vector, int last) {
 }
 
 }  // namespace
-
-Decomposition::Reciprocal reciprocalOf(Number value) {
-  const int up = std::countl_zero(static_cast<std::uint32_t>(value)) - 1;
-  const auto normal = static_cast<std::uint32_t>(value) << up;             // in [2^30, 2^31)
-  const std::uint32_t guess = (~std::uint32_t{0} / (normal >> 15)) << 14;  // 2^61 / normal, to 2^-15
-  const std::uint64_t twice = (std::uint64_t{1} << 62) - std::uint64_t{normal} * guess;
-  const auto mantissa = static_cast<std::uint32_t>((guess * (twice >> 31)) >> 30);  // one Newton step
-  return {mantissa >> 1, static_cast<std::int8_t>(up - 60)};
-}
 
 void decompose(const std::array<Rows, kMostUnknowns>& columns, int rows, int unknowns,
                Decomposition& decomposition) {
@@ -57,9 +40,8 @@ void decompose(const std::array<Rows, kMostUnknowns>& columns, int rows, int unk
     }
     const Wide pivot = pivot_q20 >> kLowerBits;
     const bool isDetermined = pivot > square >> kUndeterminedBits && pivot > 0;
-    decomposition.pivot[at(i)] = isDetermined ? static_cast<Number>(pivot) : 0;
-    decomposition.reciprocal[at(i)] =
-        isDetermined ? reciprocalOf(decomposition.pivot[at(i)]) : Decomposition::Reciprocal{};
+    decomposition.pivot[at(i)] = isDetermined ? limited(pivot, square) : 0;
+    decomposition.reciprocal[at(i)] = isDetermined ? reciprocalOf(decomposition.pivot[at(i)]) : Reciprocal{};
   }
 }
 
@@ -67,12 +49,12 @@ Step solve(const Decomposition& decomposition, const std::array<Rows, kMostUnkno
            const Rows& residual, const Vector& low_q14, const Vector& high_q14) {
   const int unknowns = decomposition.unknowns;
   std::array<Wide, kMostUnknowns> gradient;
-  std::uint64_t bits = 0;
+  Wide bits = 0;
   for (int i = 0; i < unknowns; ++i) {
     gradient[at(i)] = wideDot(columns[at(i)].data(), residual.data(), rows);
-    bits |= static_cast<std::uint64_t>(magnitude(gradient[at(i)]));
+    bits |= magnitude(gradient[at(i)]);
   }
-  const int down = std::max(34 - std::countl_zero(bits), 0);  // to below 2^30
+  const int down = std::max(bitWidth(bits) - 30, 0);  // to below 2^30
   Step step;
   Vector z;
   Wide reduction = 0;  // [* 2^(14 - down)]
@@ -91,12 +73,11 @@ Step solve(const Decomposition& decomposition, const std::array<Rows, kMostUnkno
     for (int j = i + 1; j < unknowns; ++j)
       best_q20 -= Wide{decomposition.lower_q20[at(j)][at(i)]} * step.x_q14[at(j)];
     const Number wanted = narrowed<kLowerBits, kStepLimitBits>(best_q20);
-    const Number taken = std::clamp(wanted, low_q14[at(i)], high_q14[at(i)]);
+    const Number taken = clamped(wanted, low_q14[at(i)], high_q14[at(i)]);
     step.x_q14[at(i)] = taken;
     if (taken == wanted) continue;
     const Wide missed = limited(Wide{wanted} - taken, 1 << 24);
-    const Wide lost =
-        std::min<Wide>((magnitude(missed) * decomposition.pivot[at(i)]) >> kStepBits, Wide{1} << 34);
+    const Wide lost = lesser((magnitude(missed) * decomposition.pivot[at(i)]) >> kStepBits, Wide{1} << 34);
     reduction -= (lost * magnitude(missed)) >> down;
   }
   step.reduction = shifted(reduction, down - kStepBits, 0x7FFFFFFF);
@@ -117,12 +98,11 @@ std::array<Wide, kMostUnknowns> variances(const Decomposition& decomposition) {
       for (int m = i; m < k; ++m) rest_q20 -= Wide{decomposition.lower_q20[at(k)][at(m)]} * inverse[at(m)];
       if (k > i) inverse[at(k)] = narrowed<kLowerBits, kLowerLimitBits>(rest_q20);
       if (!decomposition.isDetermined(k)) continue;
-      const Wide square = (Wide{inverse[at(k)]} * inverse[at(k)]) >> kLowerBits;  // below 2^40, * 2^20
+      const Wide square = squareOf(inverse[at(k)]) >> kLowerBits;  // below 2^40, * 2^20
       const auto reciprocal = decomposition.reciprocal[at(k)];
-      const int up = reciprocal.exponent + kVarianceBits - kLowerBits + 17;
+      const Number up = reciprocal.exponent + kVarianceBits - kLowerBits + 17;
       const Wide product = square * (reciprocal.mantissa >> 17);  // below 2^54
-      variance[at(i)] +=
-          up >= 0 ? std::min(product, Wide{1} << 54) << std::min(up, 4) : product >> std::min(-up, 63);
+      variance[at(i)] += shiftedAtMost(product, up, 4);
     }
   }
   return variance;

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "firmware/core/hypothesis.hpp"
+#include "firmware/core/reciprocal.hpp"
 
 namespace strainfinger::firmware {
 
@@ -13,7 +14,7 @@ inline constexpr int kMostUnknowns = 4 * kMostContacts;
 inline constexpr int kMostRows = 24;
 
 using Vector = std::array<Number, kMostUnknowns>;
-using Rows = std::array<std::int16_t, kMostRows>;
+using Rows = std::array<Short, kMostRows>;
 
 /// Columns are scaled so that each entry is below 2^13: sums of 24 products of two fit 31 bits.
 inline constexpr int kColumnBits = 13;
@@ -23,20 +24,13 @@ inline constexpr int kStepBits = 14;
 /// N = L D L^T. An unknown of which the others leave less than 2^-12 of its column's square is taken for
 /// undetermined: its pivot is 0 and it keeps its value.
 struct Decomposition {
-  struct Reciprocal {
-    std::uint32_t mantissa = 0;  ///< 0: of an undetermined unknown
-    std::int8_t exponent = 0;    ///< 1 / pivot = mantissa * 2^exponent
-  };
   std::array<Vector, kMostUnknowns> lower_q20;  ///< L below its diagonal of ones
   Vector pivot;
-  std::array<Reciprocal, kMostUnknowns> reciprocal;
+  std::array<Reciprocal, kMostUnknowns> reciprocal;  ///< of the pivots; 0 of an undetermined unknown's
   std::uint8_t unknowns;
 
   bool isDetermined(int unknown) const { return reciprocal[static_cast<std::size_t>(unknown)].mantissa != 0; }
 };
-
-/// 1 / value for value in [1, 2^31), relative error below 2^-28.
-Decomposition::Reciprocal reciprocalOf(Number value);
 
 /// `columns`: of the unknowns, `rows` (even) entries each. Cost: unknowns^2 / 2 scalar products.
 void decompose(const std::array<Rows, kMostUnknowns>& columns, int rows, int unknowns,

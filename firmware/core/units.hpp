@@ -9,7 +9,7 @@ namespace strainfinger::firmware {
 /// usableLoads().
 inline Number lineLoad(Number amplitude, Number scale, int exponent) {
   if (exponent <= -63) return 0;
-  return saturate<std::int32_t>((Wide{amplitude} * scale + (Wide{1} << (-exponent - 1))) >> -exponent);
+  return saturate<Number>((Wide{amplitude} * scale + (Wide{1} << (-exponent - 1))) >> -exponent);
 }
 
 /// Pitches * 2^20, not negative, in revolutions * 2^32, rounded to nearest; `pitch_q35` of 32 bits.

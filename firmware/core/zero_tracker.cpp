@@ -78,7 +78,7 @@ bool ZeroTracker::take(const TableImage& tables, std::span<const std::int32_t> s
   if (touched) {
     const std::int32_t unit = std::int32_t{1} << answer->shift;  // at most 2^(kMostGateShift + 1)
     for (std::size_t i = 0; i < strains_q32.size(); ++i)
-      sum_[i] += (strains_q32[i] - fit.predicted[i] * unit) >> kTakenBits;
+      sum_[i] += (strains_q32[i] - shortened(fit.predicted[i]) * unit) >> kTakenBits;
   } else {
     for (std::size_t i = 0; i < strains_q32.size(); ++i) sum_[i] += strains_q32[i] >> kTakenBits;
   }

@@ -1,19 +1,13 @@
 #pragma once
-// What the proofs of ranges share: bounds of all that a type holds, and that no result has left its word.
+// What the proofs of ranges share: nothing has left its word, and no way through the code is forgotten.
 
-#include <cmath>
 #include <cstdint>
 
-#include "firmware/core/packed.hpp"
+#include "firmware/core/integers.hpp"
 
 #include <CppUTest/TestHarness.h>
 
 namespace strainfinger::firmware {
-
-/// Eight readings of a ring, the last of them the outer pair's difference over sqrt(2): see ProblemTest.
-inline const double kReadingsLength = std::exp2(14.6);
-/// All readings of a ring.
-inline const double kRingLength = std::exp2(15.5) + 3;  // rounded: 32 of them, by half a step each
 
 struct RangesGroup : Utest {
   void setup() override {
@@ -21,9 +15,18 @@ struct RangesGroup : Utest {
     choices = {};  // a test that failed left them where it was
   }
   static void checkNone() { LONGS_EQUAL(0, overflows); }
+  /// That the proof watches: what ran last was beyond the domain.
+  static void checkSome() {
+    CHECK_TRUE_TEXT(overflows > 0, "beyond its domain, and no overflow was noted");
+    overflows = 0;
+  }
+  static void checkWithin(const auto& number, std::int64_t least, std::int64_t most) {
+    CHECK_TRUE(number.least() >= least && number.most() <= most);
+  }
 
-  static Number anyOf(int bits) {
-    return {-(std::int64_t{1} << (bits - 1)), (std::int64_t{1} << (bits - 1)) - 1};
+  template <typename T = Number>
+  static T within(std::int64_t size) {
+    return {-Exact{size}, Exact{size}};
   }
 };
 

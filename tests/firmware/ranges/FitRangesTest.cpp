@@ -1,0 +1,186 @@
+// The fit's own code with bounds for numbers: any tables, contacts and readings of their formats.
+#include "firmware/core/fit.cpp"  // NOLINT: its arithmetic is what is proved
+
+#include "tests/firmware/ranges/any_tables.hpp"
+#include "tests/firmware/ranges/ranges_group.hpp"
+
+using namespace strainfinger;
+using namespace strainfinger::firmware;
+
+TEST_GROUP_BASE(FitRanges, RangesGroup) {
+  static constexpr std::int64_t kMostResponse = (1 << 15) - 1;
+  static constexpr std::int64_t kMostMoment = 1 << kMomentBits;
+  static constexpr std::int64_t kMostPredicted = 1 << 20;  ///< of one contact
+  static constexpr std::int64_t kMostSlope = 1 << 29;  ///< of a prediction with an angle or a second moment
+  static constexpr int kLeastExponent = -8, kMostExponent = 30 - kColumnBits;
+
+  static ContactState anyContact(std::int64_t load = 1 << 20) {
+    return {0, within(load), within(load), {0, kMostMoment}};
+  }
+  /// Bounds forget that less is pulled than would slip: twice as much as there is.
+  static Number anySlip() { return {0, 1 << 16}; }
+  /// Calls visit for tables of which each response is as large as it may be at some place.
+  template <typename Visit>
+  static void forEachTables(Visit visit) {
+    forEachPatch([&](const ResponsePatch& normal) {
+      forEachPatch([&](const ResponsePatch& tangential) {
+        const auto tables = tablesOf({normal, tangential});
+        CHECK_TRUE(checkTableImage(*tables) == TableFault::kNone);
+        visit(*tables);
+      });
+    });
+  }
+  /// Calls visit for gauges on either side of a contact at 0, at both ends of a node's angles and at the node
+  /// itself: between these a response only grows or falls where the patch has one weight.
+  template <typename Visit>
+  static void forEachDistance(const TableImage& tables, Visit visit) {
+    const auto half_q32 = static_cast<std::uint32_t>(halfNode_q32(tables.constants).least());
+    for (const std::uint32_t distance_q32 : {0u, half_q32, 2 * half_q32 - 1}) {
+      visit(distance_q32);
+      visit(0 - distance_q32);
+    }
+  }
+  static void checkReading(const ContactModel& model, std::uint32_t distance_q32) {
+    const ContactModel::Reading reading = model.at(distance_q32);
+    checkWithin(reading.normal, -kMostResponse, kMostResponse);
+    checkWithin(reading.tangential, -kMostResponse, kMostResponse);
+    checkWithin(reading.predicted, -kMostPredicted, kMostPredicted);
+    checkWithin(model.predictedAt(distance_q32), -kMostPredicted, kMostPredicted);
+    checkWithin(reading.angle, -kMostSlope, kMostSlope);
+    checkWithin(reading.moment, -kMostSlope, kMostSlope);
+  }
+  /// Both contacts, of any width, with columns of any entries at these exponents.
+  static Linearisation anyLinearisation(int exponent) {
+    Linearisation any;
+    any.hypothesis = {kMostContacts, true, 0xFFFFFFFF};
+    any.at.fill(anyContact());
+    any.exponent.fill(static_cast<std::int8_t>(exponent));
+    for (int k = 0; k < kMostContacts; ++k)
+      any.exponent[index(loadsOf(k))] = any.exponent[index(loadsOf(k) + 1)] = kLoadExponent;
+    return any;
+  }
+  /// Any that setLimits() lets through.
+  static void takeAnyStep(const TableConstants& constants, const Linearisation& linearisation) {
+    Vector low, high;
+    setLimits(constants, linearisation, low, high);
+    Step any;
+    for (std::size_t i = 0; i < kMostUnknowns; ++i) any.x_q14[i] = {low[i].least(), high[i].most()};
+    ContactStates contacts = linearisation.at;
+    take(constants, linearisation, any, contacts);
+    for (const ContactState& contact : contacts) {
+      checkWithin(contact.normal, -(1 << 20), 1 << 20);
+      checkWithin(contact.tangential, -(1 << 20), 1 << 20);
+      checkWithin(contact.moment_q20, 0, kMostMoment);
+    }
+  }
+  static ScaledReadings anyReadings() {
+    ScaledReadings any;
+    any.value.fill(Short::any());
+    any.variance_q4 = any.gateVariance_q4 = 0x7FFFFFFF;
+    return any;
+  }
+};
+
+TEST(FitRanges, SlipOverflowsNothing) {
+  TableConstants constants{};
+  for (const int friction_q8 : {0, 1, 256, 0xFFFF}) {
+    constants.friction_q8 = static_cast<std::uint16_t>(friction_q8);
+    forEachWay([&] {
+      const Number slip = slip_q15(constants, anyContact());
+      checkWithin(slip, anySlip().least(), anySlip().most());
+    });
+  }
+  checkNone();
+}
+
+TEST(FitRanges, ReadingsOfAContactOverflowNothing) {
+  const ContactState contact = anyContact();
+  forEachTables([&](const TableImage& tables) {
+    forEachDistance(tables, [&](std::uint32_t distance_q32) {
+      forEachWay([&] { checkReading(ContactModel(tables, contact, anySlip()), distance_q32); });
+    });
+  });
+  checkNone();
+}
+
+TEST(FitRanges, ReadingsOfLoadsBeyondTheLimitWouldOverflow) {
+  const auto tables = tablesOf({{0, 32767}, {0, 32767}});
+  const ContactState contact = anyContact(std::int64_t{1} << 24);
+  forEachWay([&] { ContactModel(*tables, contact, anySlip()).at(0); });
+  checkSome();
+}
+
+TEST(FitRanges, AColumnOfAnySlopesOverflowsNothing) {
+  const auto ways = forEachWay([] {
+    Linearisation linearisation;
+    linearisation.usedRows = 3;
+    WideColumn entries;
+    entries.fill(within(kMostSlope));
+    setColumn(linearisation, 0, entries);
+    CHECK_TRUE(linearisation.exponent[0] >= kLeastExponent && linearisation.exponent[0] <= kMostExponent);
+    for (const Short& entry : std::span(linearisation.column[0]).first(3))
+      checkWithin(entry, -(1 << kColumnBits), 1 << kColumnBits);
+  });
+  CHECK_TRUE(ways > 20);
+  checkNone();
+}
+
+TEST(FitRanges, LimitsOfAStepOverflowNothing) {
+  for (const int nodes : {kLeastNodes, kMostPatches})
+    for (int exponent = kLeastExponent; exponent <= kMostExponent; ++exponent) {
+      TableConstants constants{};
+      constants.node_count = static_cast<std::uint16_t>(nodes);
+      forEachWay([&] {
+        Vector low, high;
+        setLimits(constants, anyLinearisation(exponent), low, high);
+        for (const Number& most : high) checkWithin(most, 0, 1 << 28);
+        for (const Number& least : low) checkWithin(least, -(1 << 28), 0);
+      });
+    }
+  checkNone();
+}
+
+TEST(FitRanges, AStepThatIsTakenOverflowsNothing) {
+  for (const int nodes : {kLeastNodes, kMostPatches})
+    for (int exponent = kLeastExponent; exponent <= kMostExponent; ++exponent) {
+      TableConstants constants{};
+      constants.node_count = static_cast<std::uint16_t>(nodes);
+      forEachWay([&] { takeAnyStep(constants, anyLinearisation(exponent)); });
+    }
+  checkNone();
+}
+
+TEST(FitRanges, ConvergenceOfAnyReductionOverflowsNothing) {
+  forEachWay([] { isConverged(Wide(-0x7FFFFFFF, 0x7FFFFFFF), anyReadings()); });
+  checkNone();
+}
+
+TEST(FitRanges, AWholeStepOverflowsNothing) {
+  const auto tables = tablesOf({});
+  Linearisation linearisation = anyLinearisation(0);
+  linearisation.hypothesis = {1, false, 0xFFFFFFFF};
+  linearisation.usedRows = linearisation.rows = kMostRows;
+  for (std::size_t row = 0; row < kMostRows; ++row) linearisation.gauge[row] = static_cast<std::uint8_t>(row);
+  linearisation.predicted.fill(Short::any());
+  for (Rows& column : linearisation.column) column.fill(within<Short>(1 << kColumnBits));
+  forEachWay([&] {
+    decompose(linearisation.column, kMostRows, linearisation.hypothesis.unknowns(),
+              linearisation.decomposition);
+    const Solution solution = step(*tables, linearisation, anyReadings());
+    checkWithin(solution.residualEnergy, 0, std::int64_t{1} << 36);
+  });
+  checkNone();
+}
+
+TEST(FitRanges, LoadsOfTwoContactsOverflowNothing) {
+  const auto tables = tablesOf({{0, 0, 32767, 0, 0, 0}, {0, 0, 0, 0, 0, 32767}});
+  const ContactStates contacts{ContactState{0, 0, 0, 300'000}, ContactState{1u << 30, 0, 0, 20}};
+  const ScaledReadings readings = anyReadings();
+  Linearisation scratch;
+  forEachWay([&] {
+    const Solution solution = fitLoads(*tables, {2, false, 0xFFFFFFFF}, contacts, readings, scratch);
+    for (const ContactState& contact : solution.contact) checkWithin(contact.normal, -(1 << 20), 1 << 20);
+    checkWithin(solution.residualEnergy, 0, std::int64_t{1} << 36);
+  });
+  checkNone();
+}

@@ -1,0 +1,86 @@
+// The normal equations' own code with bounds for numbers: any columns and residuals of their formats.
+#include "firmware/core/normal_equations.cpp"  // NOLINT: its arithmetic is what is proved
+
+#include "tests/firmware/ranges/ranges_group.hpp"
+
+using namespace strainfinger::firmware;
+
+TEST_GROUP_BASE(NormalEquationsRanges, RangesGroup) {
+  static constexpr int kEntry = 1 << kColumnBits;
+  using Columns = std::array<Rows, kMostUnknowns>;
+
+  static Columns anyColumns(int entry = kEntry) {
+    Columns columns;
+    for (Rows& column : columns) column.fill(within<Short>(entry));
+    return columns;
+  }
+  /// As decompose() leaves it, see ADecompositionOverflowsNothing; the mantissa is 0 of undetermined ones.
+  static Decomposition anyDecomposition(int unknowns, int leastMantissa = 0) {
+    Decomposition any;
+    any.unknowns = static_cast<std::uint8_t>(unknowns);
+    for (Vector& lower : any.lower_q20) lower.fill(within(1 << kLowerLimitBits));
+    any.pivot.fill({0, Number::kMost});
+    any.reciprocal.fill({{leastMantissa, 1 << 30}, {-60, 0}});
+    return any;
+  }
+  static void solveAny(const Decomposition& decomposition) {
+    constexpr std::int64_t kLimit = 1 << 28;
+    Rows residual;
+    residual.fill(Short::any());
+    Vector high, low;
+    high.fill({0, kLimit});
+    low.fill({-kLimit, 0});
+    const Step step = solve(decomposition, anyColumns(), kMostRows, residual, low, high);
+    for (const Number& x : step.x_q14) checkWithin(x, -kLimit, kLimit);
+    checkWithin(step.reduction, -0x7FFFFFFF, 0x7FFFFFFF);
+  }
+};
+
+TEST(NormalEquationsRanges, ADecompositionOverflowsNothing) {
+  const Columns columns = anyColumns();
+  const int ways = forEachWay([&] {
+    Decomposition decomposition;
+    decompose(columns, kMostRows, kMostUnknowns, decomposition);
+    for (std::size_t i = 0; i < kMostUnknowns; ++i) {
+      checkWithin(decomposition.pivot[i], 0, 24 << 26);
+      checkWithin(decomposition.reciprocal[i].mantissa, 0, 1 << 30);
+      checkWithin(decomposition.reciprocal[i].exponent, -60, 0);
+      for (std::size_t j = 0; j < i; ++j)
+        checkWithin(decomposition.lower_q20[i][j], -(1 << kLowerLimitBits), 1 << kLowerLimitBits);
+    }
+  });
+  LONGS_EQUAL(1 << kMostUnknowns, ways);
+  checkNone();
+}
+
+TEST(NormalEquationsRanges, EntriesOfABitMoreWouldOverflowADecomposition) {
+  const Columns columns = anyColumns(2 * kEntry);
+  forEachWay([&] {
+    Decomposition decomposition;
+    decompose(columns, kMostRows, 1, decomposition);
+  });
+  checkSome();
+}
+
+TEST(NormalEquationsRanges, AStepOfDeterminedUnknownsOverflowsNothing) {
+  const int ways = forEachWay([] { solveAny(anyDecomposition(kMostUnknowns, 1 << 29)); });
+  CHECK_TRUE(ways > 1 << kMostUnknowns);
+  checkNone();
+}
+
+// In a step of eight the undetermined ones only add zeros, which the bounds of determined ones hold.
+TEST(NormalEquationsRanges, AStepOfSomeUnknownsThatAreUndeterminedOverflowsNothing) {
+  constexpr int kUnknowns = 3;
+  const int ways = forEachWay([] { solveAny(anyDecomposition(kUnknowns)); });
+  CHECK_TRUE(ways > 1 << kUnknowns);
+  checkNone();
+}
+
+TEST(NormalEquationsRanges, VariancesOverflowNothing) {
+  const int ways = forEachWay([] {
+    for (const Wide& variance : variances(anyDecomposition(kMostUnknowns)))
+      checkWithin(variance, 0, std::int64_t{1} << 61);
+  });
+  LONGS_EQUAL(1 << kMostUnknowns, ways);
+  checkNone();
+}

@@ -8,8 +8,10 @@ namespace {
 
 /// More gauges out than one in eight: too few work.
 constexpr int kGaugesPerOut = 8;
-/// Unexplained readings up to so many standard deviations are no touch but a disturbance.
+/// Readings up to so many standard deviations are a touch only if contacts explain so many sets of them in a
+/// row, a period of 50 Hz hum at 1 kHz and a bit: else they are a disturbance.
 constexpr std::int32_t kDisturbance = 64;
+constexpr int kSettled = 24;
 /// A reading speaks for its gauge where it should be at least this part of the largest [log2].
 constexpr int kFelt = 3;
 /// Predictions end here.
@@ -28,13 +30,20 @@ void Pipeline::takeZero(const ZeroAverage& zero) {
   locator_.release();
 }
 
-/// The readings are not those of any contact, and small: hum or drift.
-bool Pipeline::isDisturbance() const {
-  if (locator_.answer().accepted) return false;
+/// The readings are small, and not for long those of contacts: hum or drift.
+bool Pipeline::isDisturbance() {
   const std::int32_t most = kDisturbance * readingNoise_q32(constants());
   const auto readings = strains();
-  return std::none_of(readings.begin(), readings.end(),
-                      [&](std::int32_t strain) { return strain > most || strain < -most; });
+  const bool weak = std::none_of(readings.begin(), readings.end(),
+                                 [&](std::int32_t strain) { return strain > most || strain < -most; });
+  if (!weak) {
+    settledSets_ = kSettled;
+  } else if (!locator_.answer().accepted) {
+    settledSets_ = 0;
+  } else {
+    settledSets_ = static_cast<std::uint8_t>(std::min(settledSets_ + 1, kSettled));
+  }
+  return settledSets_ < kSettled;
 }
 
 void Pipeline::locate(GaugeSet gauges) {
@@ -84,14 +93,14 @@ const Observation& Pipeline::process(Codes codes) {
   } else {
     observe(codes);
   }
-  if (!observation_.touched) {
-    noise_.take(constants(), strains());
-  } else {
+  if (observation_.touched) {
     noise_.interrupt();
+  } else if (settledSets_ == 0) {
+    noise_.take(constants(), strains());
   }
-  areZerosNew_ = tracker_.take(
-      *tables_, strains(), observation_.touched ? &locator_.answer() : nullptr, locator_.linearisation(),
-      observation_.leftOut | observation_.saturated | watch_.outOfUse(), calibration_, locator_.scratch());
+  areZerosNew_ = tracker_.take(*tables_, strains(), observation_.touched ? &locator_.answer() : nullptr,
+                               observation_.leftOut | observation_.saturated | watch_.outOfUse(),
+                               calibration_, locator_.scratch());
   observation_.staleZero = tracker_.stale();
   observation_.noisy = noise_.isNoisy();
   observation_.uncertain = tooFewGauges();
@@ -112,6 +121,7 @@ void Pipeline::observe(Codes codes) {
     std::copy(codes.begin(), codes.end(), codes_.begin());
   } else {
     locator_.release();
+    settledSets_ = 0;
   }
 }
 

@@ -52,7 +52,7 @@ class Pipeline {
   void watchGauges(Codes codes);
   bool isKnown(Codes codes) const;
   void observe(Codes codes);
-  bool isDisturbance() const;
+  bool isDisturbance();
 
   const TableImage* tables_;
   Calibration calibration_;
@@ -61,6 +61,7 @@ class Pipeline {
   bool areZerosNew_ = false;                       ///< since then
   Observation observation_;
   ContactGate gate_;
+  std::uint8_t settledSets_ = 0;  ///< in a row that contacts explain; firm readings count at once
   NoiseMeter noise_;
   Locator locator_;
   GaugeWatch watch_;

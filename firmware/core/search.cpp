@@ -13,7 +13,7 @@ constexpr std::array<Number, 5> kFineMoments_q20{40'000, 160'000, 340'000, 600'0
 constexpr std::array<Number, 2> kCoarseMoments_q20{60'000, 400'000};
 constexpr Number kPairMoment_q20 = 60'000;
 
-constexpr int kFinePlaces = 33, kCoarsePlaces = 15;
+constexpr int kFinePlaces = 33, kCoarsePlaces = 17;
 constexpr int kFineStep = 1, kCoarseStep = 2, kRingStep = 2;  ///< eighths of a pitch
 constexpr int kRingPlacesPerGauge = 8 / kRingStep;
 

@@ -1,6 +1,7 @@
 #include "firmware/core/zero_tracker.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "firmware/core/detect.hpp"
 
@@ -12,8 +13,18 @@ static_assert(ZeroTracker::kInterval == ZeroTracker::kEvery << kTakenBits);
 
 /// What one contact leaves of a contact's averages: less than this part [log2] of their energy.
 constexpr int kContactBits = 4;
-/// Averages below this part of a reading's variance teach nothing [log2].
-constexpr int kQuietBits = 6;
+/// Averages whose energy is below so many of a reading's variances are left alone: their shape says too
+/// little.
+constexpr int kWorthFollowing = 2;
+/// Contacts rest that turn by less than this part of a pitch, and whose loads change by less than this part
+/// of the normal load [log2].
+constexpr int kTurnBits = 4;
+constexpr int kLoadBits = 3;
+
+/// Fewer far gauges don't say what all have in common.
+constexpr int kLeastFar = 4;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// The code * 2^15 by which a strain is more than another.
 std::int32_t codeOf(std::int32_t strain_q32, std::int32_t gain) {
@@ -29,33 +40,76 @@ void ZeroTracker::begin(bool touched) {
   touched_ = touched;
 }
 
+bool ZeroTracker::rests(const TableConstants& constants, const Answer& answer) const {
+  if (answer.solution.hypothesis.contacts != rest_.contacts) return false;
+  const std::uint32_t near_q32 = (~std::uint32_t{0} / constants.gauge_count) >> kTurnBits;
+  const ContactStates before = rescaled(rest_.contact, rest_.shift, answer.shift);
+  for (int k = 0; k < rest_.contacts; ++k) {
+    const ContactState &was = before[at(k)], &is = answer.solution.contact[at(k)];
+    if (is.angle_q32 - was.angle_q32 + near_q32 > 2 * near_q32) return false;
+    const Number most = was.normal >> kLoadBits;
+    if (magnitude(is.normal - was.normal) > most || magnitude(is.tangential - was.tangential) > most)
+      return false;
+  }
+  return true;
+}
+
+/// The averages have so much energy that their shape says where it comes from.
+bool ZeroTracker::isWorthFollowing(const TableConstants& constants, GaugeSet gauges) const {
+  constexpr int kDown = 4;  // keeps the sum below 2^63
+  const Number noise = readingNoise_q32(constants) >> kDown;
+  Wide energy = 0;
+  for (int i = 0; i < constants.gauge_count; ++i)
+    if (contains(gauges, i)) energy += squareOf(sum_[at(i)] >> kDown);
+  return energy > kWorthFollowing * squareOf(noise);
+}
+
 bool ZeroTracker::looksLikeAContact(const TableImage& tables, GaugeSet gauges, Linearisation& scratch) const {
   const auto averages = std::span(sum_).first(tables.constants.gauge_count);
   const ScaledReadings readings = scaledReadings(tables.constants, averages, gauges);
   Wide energy = 0;
   for (int i = 0; i < tables.constants.gauge_count; ++i)
-    if (contains(gauges, i))
-      energy +=
-          Wide{readings.value[static_cast<std::size_t>(i)]} * readings.value[static_cast<std::size_t>(i)];
-  if (energy <= Wide{readings.gateVariance_q4} >> (4 + kQuietBits)) return false;
+    if (contains(gauges, i)) energy += squareOf(readings.value[at(i)]);
   const Hypothesis hypothesis{1, tables.constants.width_is_known == 0, gauges};
-  const Solution solution =
-      fit(tables, hypothesis, initialGuess(tables, hypothesis, readings, scratch), readings, 3, scratch);
+  const Solution solution = fit(tables, hypothesis, initialGuess(tables, hypothesis, readings, scratch),
+                                readings, kMostSteps, scratch);
   return isAdmissible(tables.constants, solution) && solution.residualEnergy < energy >> kContactBits;
 }
 
-void ZeroTracker::finish(const TableImage& tables, GaugeSet leftOut, Calibration& calibration,
-                         Linearisation& scratch) {
-  const GaugeSet gauges = allGauges(tables.constants.gauge_count) & ~leftOut;
-  if (!touched_) {
-    if (looksLikeAContact(tables, gauges, scratch)) return;
-    age_sets_ = 0;
+/// Gauges that no contact reaches.
+GaugeSet ZeroTracker::farGauges(const TableImage& tables) const {
+  const TableConstants& constants = tables.constants;
+  GaugeSet far = 0;
+  for (int i = 0; i < constants.gauge_count; ++i) {
+    const bool isReached =
+        std::any_of(rest_.contact.begin(), rest_.contact.begin() + rest_.contacts, [&](const auto& contact) {
+          return tables.gauge_angle_q32[at(i)] - contact.angle_q32 + constants.reach_q32 <=
+                 2 * constants.reach_q32;
+        });
+    if (!isReached) far |= GaugeSet{1} << i;
   }
+  return far;
+}
+
+/// By how much the averages of far gauges changed, in the mean, since the contacts came to rest.
+std::int32_t ZeroTracker::commonChange_q32(GaugeSet far) {
+  const GaugeSet both = far & known_;
+  Wide sum = 0;
+  for (int i = 0; i < kMaxGauges; ++i) {
+    if (contains(both, i)) sum += Wide{sum_[at(i)]} - before_[at(i)];
+    if (contains(far & ~known_, i)) before_[at(i)] = sum_[at(i)];
+  }
+  known_ |= far;
+  return std::popcount(both) < kLeastFar ? 0 : saturate<std::int32_t>(sum / std::popcount(both));
+}
+
+void ZeroTracker::follow(const TableConstants& constants, const Strains& changes_q32, GaugeSet gauges,
+                         Calibration& calibration) {
   lastChange_q32_ = 0;
-  const std::int32_t limit = readingNoise_q32(tables.constants) / 2;
-  for (std::size_t i = 0; i < tables.constants.gauge_count; ++i) {
+  const std::int32_t limit = readingNoise_q32(constants) * 2;
+  for (std::size_t i = 0; i < constants.gauge_count; ++i) {
     if (!contains(gauges, static_cast<int>(i))) continue;
-    const std::int32_t change = std::clamp(sum_[i], -limit, limit);
+    const std::int32_t change = std::clamp(changes_q32[i], -limit, limit);
     std::int32_t& zero = calibration.zero_q15[i];
     zero = static_cast<std::int32_t>(
         std::clamp<std::int64_t>(std::int64_t{zero} + codeOf(change, calibration.gain[i]), 0,
@@ -64,26 +118,42 @@ void ZeroTracker::finish(const TableImage& tables, GaugeSet leftOut, Calibration
   }
 }
 
+void ZeroTracker::finish(const TableImage& tables, bool touched, Calibration& calibration,
+                         Linearisation& scratch) {
+  const GaugeSet gauges = allGauges(tables.constants.gauge_count) & ~leftOut_;
+  if (touched) {
+    Strains changes;
+    changes.fill(commonChange_q32(farGauges(tables) & gauges));
+    return follow(tables.constants, changes, allGauges(tables.constants.gauge_count), calibration);
+  }
+  const bool isWorthIt = isWorthFollowing(tables.constants, gauges);
+  if (isWorthIt && looksLikeAContact(tables, gauges, scratch)) return;
+  age_sets_ = 0;
+  if (isWorthIt) follow(tables.constants, sum_, gauges, calibration);
+}
+
 bool ZeroTracker::take(const TableImage& tables, std::span<const std::int32_t> strains_q32,
-                       const Answer* answer, const Linearisation& fit, GaugeSet leftOut,
-                       Calibration& calibration, Linearisation& scratch) {
+                       const Answer* answer, GaugeSet leftOut, Calibration& calibration,
+                       Linearisation& scratch) {
   if (age_sets_ != std::numeric_limits<std::uint32_t>::max()) ++age_sets_;
   const bool touched = answer != nullptr;
   if (touched != touched_ || (touched && (!answer->accepted || answer->searching))) {
     begin(touched);
+    rest_ = {};
     return false;
   }
   leftOut_ |= leftOut;
   if (++sets_ % kEvery != 0) return false;
-  if (touched) {
-    const std::int32_t unit = std::int32_t{1} << answer->shift;  // at most 2^(kMostGateShift + 1)
-    for (std::size_t i = 0; i < strains_q32.size(); ++i)
-      sum_[i] += (strains_q32[i] - shortened(fit.predicted[i]) * unit) >> kTakenBits;
-  } else {
-    for (std::size_t i = 0; i < strains_q32.size(); ++i) sum_[i] += strains_q32[i] >> kTakenBits;
+  if (touched && !rests(tables.constants, *answer)) {
+    begin(touched);
+    known_ = 0;
+    rest_ = {answer->solution.hypothesis.contacts, answer->shift, answer->solution.contact};
+    return false;
   }
+  constexpr std::int32_t kHalf = 1 << (kTakenBits - 1);
+  for (std::size_t i = 0; i < strains_q32.size(); ++i) sum_[i] += (strains_q32[i] + kHalf) >> kTakenBits;
   if (sets_ < kInterval) return false;
-  finish(tables, leftOut_, calibration, scratch);
+  finish(tables, touched, calibration, scratch);
   begin(touched);
   return true;
 }

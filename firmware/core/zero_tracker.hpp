@@ -12,11 +12,12 @@
 
 namespace strainfinger::firmware {
 
-/// Zeros follow what no contact can explain, by half a standard deviation of a reading an interval at most.
-///   - Untouched: the averages of all gauges, unless one contact explains nearly all of them: a touch that
-///     grows over minutes looks like that, drift does not.
-///   - Touched and explained: what the fit leaves, once the touch has rested for an interval.
-/// Whatever the fit takes for the contact is not followed; how old the zeros are is told (stale()).
+/// Zeros follow what no contact can explain, by two standard deviations of a reading an interval at most.
+///   - Untouched: the averages of all gauges, once they are worth it, unless one contact explains nearly all
+///     of them: a touch that grows over minutes looks like that, drift does not.
+///   - Touched: while the contacts rest, what the gauges that they don't reach change by in common, as warmth
+///     does it. What each gauge drifts by on its own is not told from the touch.
+/// How old the zeros are is told (stale()).
 class ZeroTracker {
  public:
   static constexpr int kInterval = 1024;                ///< sample sets: a second at 1 kHz
@@ -25,9 +26,10 @@ class ZeroTracker {
 
   /// One sample set. `answer`: what explains it; nothing where nothing touches the finger. Gauges in
   /// `leftOut` learn nothing. `scratch` is overwritten at the end of an interval.
-  /// True: the zeros may have changed.
+  /// True: the zeros may have changed. Cost: two instructions a gauge in one of kEvery sets; at the end of an
+  /// untouched interval at most kMostSteps steps of a fit from the readings.
   bool take(const TableImage& tables, std::span<const std::int32_t> strains_q32, const Answer* answer,
-            const Linearisation& fit, GaugeSet leftOut, Calibration& calibration, Linearisation& scratch);
+            GaugeSet leftOut, Calibration& calibration, Linearisation& scratch);
 
   /// Forgets everything: the zeros are new.
   void restart() { *this = {}; }
@@ -40,11 +42,30 @@ class ZeroTracker {
   std::optional<std::int32_t> lastChange_q32() const { return lastChange_q32_; }
 
  private:
-  void begin(bool touched);
-  void finish(const TableImage& tables, GaugeSet leftOut, Calibration& calibration, Linearisation& scratch);
-  bool looksLikeAContact(const TableImage& tables, GaugeSet gauges, Linearisation& scratch) const;
+  static constexpr int kMostSteps = 6;
+  using Strains = std::array<std::int32_t, kMaxGauges>;  ///< [strain * 2^32]
 
-  std::array<std::int32_t, kMaxGauges> sum_{};  ///< of strain * 2^32 * kEvery / kInterval
+  /// Contacts as they were when they came to rest.
+  struct Rest {
+    std::uint8_t contacts = 0;  ///< 0: they don't rest
+    std::int8_t shift = 0;
+    ContactStates contact{};
+  };
+
+  void begin(bool touched);
+  bool rests(const TableConstants& constants, const Answer& answer) const;
+  void finish(const TableImage& tables, bool touched, Calibration& calibration, Linearisation& scratch);
+  GaugeSet farGauges(const TableImage& tables) const;
+  std::int32_t commonChange_q32(GaugeSet far);
+  bool isWorthFollowing(const TableConstants& constants, GaugeSet gauges) const;
+  bool looksLikeAContact(const TableImage& tables, GaugeSet gauges, Linearisation& scratch) const;
+  void follow(const TableConstants& constants, const Strains& changes_q32, GaugeSet gauges,
+              Calibration& calibration);
+
+  Strains sum_{};       ///< of strains * kEvery / kInterval
+  Strains before_{};    ///< averages of the first interval of a rest ..
+  GaugeSet known_ = 0;  ///< .. of these gauges
+  Rest rest_;
   std::uint32_t age_sets_ = 0;
   std::optional<std::int32_t> lastChange_q32_;
   std::uint16_t sets_ = 0;

@@ -10,7 +10,7 @@ namespace {
 constexpr int kGaugesPerOut = 8;
 /// Readings up to so many standard deviations are a touch only if contacts explain so many sets of them in a
 /// row, a period of 50 Hz hum at 1 kHz and a bit: else they are a disturbance.
-constexpr std::int32_t kDisturbance = 64;
+constexpr Wide kDisturbance = 64;
 constexpr int kSettled = 24;
 /// A reading speaks for its gauge where it should be at least this part of the largest [log2].
 constexpr int kFelt = 3;
@@ -32,7 +32,7 @@ void Pipeline::takeZero(const ZeroAverage& zero) {
 
 /// The readings are small, and not for long those of contacts: hum or drift.
 bool Pipeline::isDisturbance() {
-  const std::int32_t most = kDisturbance * readingNoise_q32(constants());
+  const Wide most = kDisturbance * readingNoise_q32(constants());
   const auto readings = strains();
   const bool weak = std::none_of(readings.begin(), readings.end(),
                                  [&](std::int32_t strain) { return strain > most || strain < -most; });

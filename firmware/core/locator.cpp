@@ -139,7 +139,7 @@ void Locator::goOn(const TableImage& tables, const ScaledReadings& readings) {
   // The touch may have changed since the search began.
   const Hypothesis hypothesis = answer_.solution.hypothesis;
   const ContactStates from = rescaled(answer_.solution.contact, answer_.shift, readings.shift);
-  believe(tables, fit(tables, hypothesis, from, readings, kFollowingSteps, linearisation_), readings);
+  believe(tables, fit(tables, hypothesis, from, readings, kStepsWhileSearching, linearisation_), readings);
 }
 
 /// Three readings that see the place and both loads well, solved exactly, unless they lead elsewhere than all
@@ -184,7 +184,8 @@ void Locator::finishSearch(const TableImage& tables, std::span<const std::int32_
   const Solution found = answer_.solution;
   if (!found.converged)
     believe(tables,
-            fit(tables, found.hypothesis, found.contact, readings, kFollowingSteps + 1, linearisation_),
+            fit(tables, found.hypothesis, found.contact, readings, kMostSteps / 2 - kStepsWhileSearching,
+                linearisation_),
             readings);
   if (mode_ == FitMode::kThreePoint) solveExactly(tables, readings);
 }

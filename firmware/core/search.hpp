@@ -72,7 +72,7 @@ class Search {
   const Ranking& withoutOne() const { return withoutOne_; }
   const Ranking& pair() const { return pair_; }
 
-  static constexpr int kWork = 70;
+  static constexpr int kWork = 50;
 
  private:
   enum class Stage : std::uint8_t {

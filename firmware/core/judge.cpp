@@ -54,6 +54,7 @@ bool isAccepted(const TableConstants& constants, const Solution& solution, const
 }
 
 bool isFirm(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings) {
+  if (solution.hypothesis.gauges != allGauges(constants.gauge_count)) return false;
   const Number largest = largestReading(readings, solution.hypothesis.gauges);
   if (Wide{largest} * largest < energyOf(readings, threshold::kFirmSignal)) return false;
   for (const ContactState& contact : solution.contacts())

@@ -63,7 +63,7 @@ int freedoms(const Hypothesis& hypothesis);
 /// The hypothesis explains the readings within noise and model error, by admissible contacts.
 bool isAccepted(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings);
 
-/// So much signal and so narrow a contact that no other answer explains the readings.
+/// So much signal and so narrow a contact, read by all gauges, that no other answer explains the readings.
 bool isFirm(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings);
 
 }  // namespace strainfinger::firmware

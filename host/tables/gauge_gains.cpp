@@ -1,13 +1,21 @@
 #include "host/tables/gauge_gains.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "host/base/failure.hpp"
+#include "host/model/impulse_response.hpp"
 
 namespace strainfinger::tables {
 namespace {
 
 constexpr double kMostCorrection = std::numeric_limits<std::int8_t>::max();
+
+/// What 1 / gain - 1 <= kMostCorrection / 2^kLeastGainExponent leaves.
+const double kLeastGain = 1 / (1 + std::ldexp(kMostCorrection, -kLeastGainExponent));
 
 int exponentFor(double largest) {
   int exponent = kMostGainExponent;
@@ -15,17 +23,62 @@ int exponentFor(double largest) {
   return exponent;
 }
 
+constexpr double kTolerance = 1e-6;  ///< of the responses; gains are rounded to 3e-5 at best
+
+model::ImpulseResponse responseAt(const config::FingerConfig& config, double radius_m) {
+  return {config.finger.annulus(),    radius_m, config.gauges.component,
+          config.gauges.arc_length_m, 0,        kTolerance};
+}
+
+/// Integral over a revolution of the products of two gauges' responses to a normal and to a tangential line
+/// load (Parseval), but for a factor.
+double product(const model::ImpulseResponse& a, const model::ImpulseResponse& b) {
+  const Eigen::Index count = std::min(a.even().size(), b.even().size());
+  return a.even().head(count).dot(b.even().head(count)) + a.even()[0] * b.even()[0] +
+         a.odd().head(count).dot(b.odd().head(count));
+}
+
+/// The factor between the readings of gauges at their own depths and at the drawing's that fits best over all
+/// angles. What it leaves of a response that is also wider or narrower is part of the model's error.
+std::vector<double> depthGains(const config::FingerConfig& config) {
+  const auto count = static_cast<std::size_t>(config.gauges.count);
+  if (config.calibration.depth_offset_m.empty()) return std::vector<double>(count, 1);
+  const model::ImpulseResponse drawn = responseAt(config, config.gauges.radius_m);
+  std::vector<double> gains;
+  for (int gauge = 0; gauge < config.gauges.count; ++gauge)
+    gains.push_back(product(responseAt(config, config.calibrated(gauge).radius_m), drawn) /
+                    product(drawn, drawn));
+  return gains;
+}
+
+/// What each gauge reads over what the tables say it does.
+std::vector<double> totalGains(const config::FingerConfig& config) {
+  std::vector<double> gains = depthGains(config);
+  for (std::size_t i = 0; i < gains.size(); ++i) {
+    gains[i] *= config.calibrated(static_cast<int>(i)).gain;
+    if (!(gains[i] >= kLeastGain))
+      throw Failure(
+          ExitCode::kUsage,
+          fmt::format("calibration.depth_offset_m[{}] = {}: so deep, and with its calibration.gain, the "
+                      "gauge reads {:.3g} of what the others do; the tables correct {:.3g} and more: "
+                      "calibrate anew, or leave that gauge's depth out",
+                      i, config.calibration.depth_offset_m.empty() ? 0 : config.calibration.depth_offset_m[i],
+                      gains[i], kLeastGain));
+  }
+  return gains;
+}
+
 }  // namespace
 
 GaugeGains gaugeGains(const config::FingerConfig& config) {
   GaugeGains gains{};
-  const std::vector<double>& gain = config.calibration.gain;
-  if (gain.empty()) return gains;
+  if (config.calibration.gain.empty() && config.calibration.depth_offset_m.empty()) return gains;
+  const std::vector<double> total = totalGains(config);
   double largest = 0;
-  for (const double each : gain) largest = std::max(largest, std::abs(1 / each - 1));
+  for (const double each : total) largest = std::max(largest, std::abs(1 / each - 1));
   const int exponent = exponentFor(largest);
   gains.exponent = static_cast<std::uint8_t>(exponent);
-  std::transform(gain.begin(), gain.end(), gains.correction.begin(), [&](double each) {
+  std::transform(total.begin(), total.end(), gains.correction.begin(), [&](double each) {
     return static_cast<std::int8_t>(std::lround(std::ldexp(1 / each - 1, exponent)));
   });
   return gains;

@@ -8,8 +8,11 @@
 
 namespace strainfinger::tables {
 
-/// The corrections 1 / gain - 1 of calibration.gain, at the finest exponent that holds them all: rounded to
-/// 2^-10 if all are within 12 %, to 2^-8 within 49 %. All 0 without a calibration.
+/// The corrections 1 / gain - 1, at the finest exponent that holds them all: rounded to 2^-10 if all are
+/// within 12 %, to 2^-8 within 49 %. The gain is that of calibration.gain times what
+/// calibration.depth_offset_m makes of a gauge's readings. All 0 without either. Throws Failure(kUsage)
+/// naming a gauge that lies so deep that no correction helps, and what ImpulseResponse throws. Cost: of
+/// depths, an impulse response a gauge.
 GaugeGains gaugeGains(const config::FingerConfig& config);
 
 /// What the firmware multiplies the reading of each of `count` gauges with, 1 without a calibration.

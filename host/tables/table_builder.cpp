@@ -87,8 +87,8 @@ struct Corrected {
   double full_scale_strain;
 };
 
-Corrected corrected(const config::FingerConfig& config) {
-  const auto factors = correctionFactors(gaugeGains(config), config.gauges.count);
+Corrected corrected(const config::FingerConfig& config, const GaugeGains& gains) {
+  const auto factors = correctionFactors(gains, config.gauges.count);
   double squares = 0, largest = 1;  // gauges beyond the ring have a factor of 1
   for (const double factor : factors) {
     squares += factor * factor;
@@ -116,10 +116,11 @@ std::uint32_t reach_q32(const std::vector<double>& gaps_turn) {
   return fromReal<TurnQ32>(std::clamp(kUsualReach, least_turn, std::max(least_turn, most_turn))).raw();
 }
 
-TableConstants tableConstants(const config::FingerConfig& config, const ResponseTable& responses) {
+TableConstants tableConstants(const config::FingerConfig& config, const GaugeGains& gains,
+                              const ResponseTable& responses) {
   TableConstants constants{};
   constants.gauge_count = static_cast<std::uint8_t>(config.gauges.count);
-  const Corrected ring = corrected(config);
+  const Corrected ring = corrected(config, gains);
   fillNoise(constants, ring.noise_strain * powerOfTwo(32), ring.full_scale_strain * powerOfTwo(32));
   fillLoads(constants, responses.strainPerUnit);
   constants.reading_gain = rounded<std::int32_t>(config.gauges.full_scale_strain * powerOfTwo(34));
@@ -265,11 +266,11 @@ TableImage buildTableImage(const config::FingerConfig& config) {
   image.format = kTableFormat;
   image.image_bytes = sizeof(TableImage);
   image.parameters = tableParameters(config);
-  image.constants = tableConstants(config, responses);
+  image.gains = gaugeGains(config);
+  image.constants = tableConstants(config, image.gains, responses);
   fillMoments(image.constants, config.contact, responses);
   image.gauge_angle_q32 = gaugeAngles_q32(config);
   image.constants.reach_q32 = reach_q32(gapsOf(image.gauge_angle_q32, image.constants.gauge_count));
-  image.gains = gaugeGains(config);
   std::copy(responses.patches.begin(), responses.patches.end(), image.patches.begin());
   image.crc32 = crc32(checkedBytes(image));
   return image;

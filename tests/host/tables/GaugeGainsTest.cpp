@@ -1,10 +1,14 @@
 #include "host/tables/gauge_gains.hpp"
 
+#include <Eigen/Core>
 #include <memory>
+#include <numbers>
 #include <string>
+#include <vector>
 
 #include "firmware/core/condition.hpp"
 #include "host/base/failure.hpp"
+#include "host/model/impulse_response.hpp"
 #include "host/tables/table_builder.hpp"
 #include "host/tables/table_file.hpp"
 
@@ -59,6 +63,43 @@ TEST(GaugeGains, AFullScaleThatIsAPowerOfTwoMakesTablesThatTheFirmwareTakes) {
   CHECK(checkTableImage(buildTableImage(config)) == TableFault::kNone);
   config.calibration.gain.clear();
   CHECK(checkTableImage(buildTableImage(config)) == TableFault::kNone);
+}
+
+// Oracle: least squares over angles and both loads, of strains computed one by one.
+TEST(GaugeGains, FollowTheDepthOfEachGauge) {
+  config::FingerConfig config = configWith(1, 1);
+  config.calibration.depth_offset_m.assign(16, 0);
+  config.calibration.depth_offset_m[3] = 1e-4;
+  const auto strains = [&](double radius_m) {
+    const model::ImpulseResponse response(config.finger.annulus(), radius_m, config.gauges.component);
+    std::vector<double> values;
+    for (int i = 0; i < 360; ++i) {
+      const auto value = response.at(i * std::numbers::pi / 180);
+      values.insert(values.end(), {value.normal, value.tangential});
+    }
+    return Eigen::VectorXd(Eigen::Map<Eigen::VectorXd>(values.data(), 720));
+  };
+  const Eigen::VectorXd drawn = strains(9.4e-3), deeper = strains(9.3e-3);
+  const double gain = deeper.dot(drawn) / drawn.squaredNorm();
+  CHECK(gain > 0.7 && gain < 0.95);
+  DOUBLES_EQUAL(1 / gain, correctionFactors(gaugeGains(config), 16)[3], 0x1p-9);
+  DOUBLES_EQUAL(1, correctionFactors(gaugeGains(config), 16)[4], 0);
+  config.calibration.gain.clear();
+  DOUBLES_EQUAL(1 / gain, correctionFactors(gaugeGains(config), 16)[3], 0x1p-9);
+}
+
+TEST(GaugeGains, AGaugeThatLiesTooDeepToReadAnythingIsNamed) {
+  config::FingerConfig config = configWith(1, 1);
+  config.calibration.depth_offset_m.assign(16, 0);
+  config.calibration.depth_offset_m[7] = 5e-4;  // on the core
+  try {
+    gaugeGains(config);
+    FAIL("accepted");
+  } catch (const Failure& failure) {
+    LONGS_EQUAL(static_cast<int>(ExitCode::kUsage), static_cast<int>(failure.code()));
+    STRCMP_CONTAINS("calibration.depth_offset_m[7] = 0.0005: so deep", failure.what());
+    STRCMP_CONTAINS("the tables correct 0.335 and more", failure.what());
+  }
 }
 
 TEST(GaugeGains, ReachTheFirmwaresCalibration) {

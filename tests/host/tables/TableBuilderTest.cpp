@@ -334,11 +334,12 @@ TEST(TableBuilder, TablesTooCoarseForThinRubberAreRefusedWithWhatToChange) {
   config_.gauges.radius_m = 11.5e-3;
   config_.gauges.model_error = 0;
   checkRefusal(
-      "gauges.radius_m = 0.0115 is so near the surface at finger.outer_radius_m = 0.0127 that the tables "
-      "are off by 0.0091 of a reading, with contact.width_m unknown up to contact.largest_width_m = 0.008");
+      "gauges.radius_m = 0.0115 is so near the surface at finger.outer_radius_m = 0.0127 that the tables are "
+      "off by "
+      "0.0091 of a reading, with contact.width_m unknown up to contact.largest_width_m = 0.008; noise and "
+      "gauges.model_error = 0 leave ");
   checkRefusal(
-      "noise and gauges.model_error = 0 leave 0.0011: move the gauges inwards, cover less width or say what "
-      "it is, or admit a larger gauges.model_error");
+      ": move the gauges inwards, cover less width or say what it is, or admit a larger gauges.model_error");
   config_.gauges.model_error = 0.01;
   checkTaken();
   config_.gauges.model_error = 0;
@@ -350,9 +351,16 @@ TEST(TableBuilder, KnownWidthsThatTheTablesAreTooCoarseForAreRefused) {
   config_.gauges.radius_m = 12.3e-3;
   config_.gauges.model_error = 0;
   config_.contact.width_m = 4e-3;
-  checkRefusal(
-      "with contact.width_m = 0.004; noise and gauges.model_error = 0 leave 0.0011: move the gauges inwards, "
-      "take contacts for narrower ones, or admit");
+  checkRefusal("0.0044 of a reading, with contact.width_m = 0.004; noise and");
+  checkRefusal(": move the gauges inwards, take contacts for narrower ones, or admit");
+}
+
+// Noise at half of full scale is 3 % of a reading there.
+TEST(TableBuilder, TablesMayBeAsCoarseAsReadingsAreNoisy) {
+  config_.gauges.radius_m = 11.5e-3;
+  config_.gauges.model_error = 0;
+  config_.gauges.noise_strain = 4.5e-4;
+  checkTaken();
 }
 
 TEST(TableBuilder, WidthsThatTheFirmwareCannotTellAreRefused) {

@@ -12,9 +12,10 @@
 namespace strainfinger::bench {
 namespace {
 
-/// The touch's first sample set, and as many more as the search for an answer goes on. Sample sets of one
-/// touch are numbered one after the other.
-constexpr std::uint64_t kSetsPerTouch = 256;
+/// An answer counts as soon as there is one that no search goes on for, or after so many sample sets: a weak
+/// touch is one only once contacts explain some sets in a row. Sets of one touch are numbered one after the
+/// other.
+constexpr std::uint64_t kMostSets = 128;
 
 /// Width of the semi-ellipse, as something round presses, with the second moment of a uniform pressure.
 double roundWidth_m(double uniformWidth_m) { return uniformWidth_m * std::sqrt(16.0 / 12); }
@@ -44,9 +45,10 @@ void Trial::judge(const Eigen::VectorXd& exact, const simulation::Touch& touch,
                   ErrorStatistics& statistics) const {
   ++statistics.contacts;
   firmware::Pipeline pipeline(tables_, firmware::FitMode::kRefined);
-  std::uint64_t set = touch_ * kSetsPerTouch;
-  do pipeline.process(ring_.codes(exact, set));
-  while (pipeline.observation().touched && pipeline.answer().searching && ++set % kSetsPerTouch != 0);
+  for (std::uint64_t set = 0; set < kMostSets; ++set)
+    if (pipeline.process(ring_.codes(exact, touch_ * kMostSets + set)).touched &&
+        !pipeline.answer().searching)
+      break;
   if (!pipeline.observation().touched) {
     ++statistics.unnoticed;
     return;

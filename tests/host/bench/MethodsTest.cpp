@@ -167,9 +167,10 @@ TEST(Methods, TheReferenceIsRightToATenThousandthOfAPitch) {
 // The firmware's tables are within 6e-4 of the largest response.
 TEST(Methods, ThePatchesAreAsGoodAsTheModelForEveryWidth) {
   const auto patches = makePatches<double>(finger);
+  const evidence::FitModel fit(finger.config());
   for (const double width_m : {0.0, 1e-3, 3.3e-3, 7.5e-3}) {
-    const simulation::Touch touch = wideTouch({5.37, 25, -11}, width_m);
-    const Eigen::VectorXd model = finger.readings(touch);
+    const evidence::FittedContact contact = fit.describe(wideTouch({5.37, 25, -11}, width_m));
+    const Eigen::VectorXd model = fit.readings({&contact, 1});
     for (int gauge = 0; gauge < kGauges; ++gauge) {
       const auto at = patches.at(gauge - 5.37, {{5.37, 25, -11}, momentOf(width_m)});
       DOUBLES_EQUAL(model[gauge], 25 * at.normal.value - 11 * at.tangential.value,

@@ -46,8 +46,7 @@ TEST(NormalEquationsRanges, ADecompositionOverflowsNothing) {
       checkWithin(decomposition.pivot[i], 0, Number::kMost);
       checkWithin(decomposition.reciprocal[i].mantissa, 0, 1 << 30);
       checkWithin(decomposition.reciprocal[i].exponent, -60, 0);
-      for (std::size_t j = 0; j < i; ++j)
-        checkWithin(decomposition.lower_q20[i][j], -kMostLower, kMostLower);
+      for (std::size_t j = 0; j < i; ++j) checkWithin(decomposition.lower_q20[i][j], -kMostLower, kMostLower);
     }
   });
   LONGS_EQUAL(1 << kMostUnknowns, ways);

@@ -40,7 +40,7 @@ PROVED = [
     Seed("Fit", "fit.cpp", "bitWidth(most) - 15", "bitWidth(most) - 17", "SlipOverflowsNothing"),
     Seed("Fit", "fit.cpp", "bitWidth(bits) - kColumnBits", "bitWidth(bits) - kColumnBits - 3",
          "AColumnOfAnySlopesOverflowsNothing"),
-    Seed("Fit", "fit.cpp", "value << 12", "value << 16", "ReadingsOfAContactOverflowNothing"),
+    Seed("Fit", "fit.cpp", "value * (1 << 12)", "value * (1 << 16)", "ReadingsOfAContactOverflowNothing"),
     Seed("Fit", "fit.cpp", "kMostTurn_q32 >> 15", "kMostTurn_q32 >> 7", "AStepThatIsTakenOverflowsNothing"),
     Seed("Fit", "fit.cpp", "limited(contact.normal + units(loadsOf(k), 16), kMostLoad)",
          "limited(contact.normal + 8 * units(loadsOf(k), 16), kMostLoad)", "AStepThatIsTakenOverflowsNothing"),

@@ -233,8 +233,10 @@ inline std::uint32_t wrapped(const Number&) { return 0; }  // every angle is pro
 template <int kBits, bool kSigned>
 int bitWidth(const Bounds<kBits, kSigned>& value) {
   if (value.least() < 0) ++overflows;
-  const int least = std::bit_width(static_cast<std::uint64_t>(std::max<Exact>(value.least(), 0))),
-            most = std::bit_width(static_cast<std::uint64_t>(value.most()));
+  const auto widthOf = [](Exact number) {
+    return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(std::max<Exact>(number, 0))));
+  };
+  const int least = widthOf(value.least()), most = widthOf(value.most());
   const int width = least + choices.of(most - least + 1);
   const Exact end = Exact{1} << width;
   value.narrow(end / 2, end - 1);

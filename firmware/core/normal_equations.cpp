@@ -40,7 +40,7 @@ void decompose(const std::array<Rows, kMostUnknowns>& columns, int rows, int unk
     }
     const Wide pivot = pivot_q20 >> kLowerBits;
     const bool isDetermined = pivot > square >> kUndeterminedBits && pivot > 0;
-    decomposition.pivot[at(i)] = isDetermined ? limited(pivot, square) : 0;
+    decomposition.pivot[at(i)] = isDetermined ? saturate<Number>(pivot) : 0;
     decomposition.reciprocal[at(i)] = isDetermined ? reciprocalOf(decomposition.pivot[at(i)]) : Reciprocal{};
   }
 }

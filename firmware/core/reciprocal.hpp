@@ -8,7 +8,7 @@
 
 namespace strainfinger::firmware {
 
-/// mantissa * 2^exponent: 0, or a mantissa in [2^29, 2^30] and an exponent in [-60, -30].
+/// mantissa * 2^exponent: 0, or a mantissa in [2^29 - 4, 2^30] and an exponent in [-60, -30].
 struct Reciprocal {
   Number mantissa = 0;
   Number exponent = 0;

@@ -42,8 +42,8 @@ TEST_GROUP_BASE(FitRanges, RangesGroup) {
   }
   static void checkReading(const ContactModel& model, std::uint32_t distance_q32) {
     const ContactModel::Reading reading = model.at(distance_q32);
-    checkWithin(reading.normal, -kMostResponse, kMostResponse);
-    checkWithin(reading.tangential, -kMostResponse, kMostResponse);
+    checkWithin(reading.loads.normal, -kMostResponse, kMostResponse);
+    checkWithin(reading.loads.tangential, -kMostResponse, kMostResponse);
     checkWithin(reading.predicted, -kMostPredicted, kMostPredicted);
     checkWithin(model.predictedAt(distance_q32), -kMostPredicted, kMostPredicted);
     checkWithin(reading.angle, -kMostSlope, kMostSlope);
@@ -161,7 +161,7 @@ TEST(FitRanges, AWholeStepOverflowsNothing) {
   linearisation.hypothesis = {1, false, 0xFFFFFFFF};
   linearisation.usedRows = linearisation.rows = kMostRows;
   for (std::size_t row = 0; row < kMostRows; ++row) linearisation.gauge[row] = static_cast<std::uint8_t>(row);
-  linearisation.predicted.fill(Short::any());
+  linearisation.predicted.fill(within(2 * kMostPredicted));
   for (Rows& column : linearisation.column) column.fill(within<Short>(1 << kColumnBits));
   forEachWay([&] {
     decompose(linearisation.column, kMostRows, linearisation.hypothesis.unknowns(),

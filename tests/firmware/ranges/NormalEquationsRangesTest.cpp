@@ -7,6 +7,7 @@ using namespace strainfinger::firmware;
 
 TEST_GROUP_BASE(NormalEquationsRanges, RangesGroup) {
   static constexpr int kEntry = 1 << kColumnBits;
+  static constexpr std::int64_t kMostLower = std::int64_t{1} << kLowerLimitBits;
   using Columns = std::array<Rows, kMostUnknowns>;
 
   static Columns anyColumns(int entry = kEntry) {
@@ -18,7 +19,7 @@ TEST_GROUP_BASE(NormalEquationsRanges, RangesGroup) {
   static Decomposition anyDecomposition(int unknowns, int leastMantissa = 0) {
     Decomposition any;
     any.unknowns = static_cast<std::uint8_t>(unknowns);
-    for (Vector& lower : any.lower_q20) lower.fill(within(1 << kLowerLimitBits));
+    for (Vector& lower : any.lower_q20) lower.fill(within(kMostLower));
     any.pivot.fill({0, Number::kMost});
     any.reciprocal.fill({{leastMantissa, 1 << 30}, {-60, 0}});
     return any;
@@ -42,11 +43,10 @@ TEST(NormalEquationsRanges, ADecompositionOverflowsNothing) {
     Decomposition decomposition;
     decompose(columns, kMostRows, kMostUnknowns, decomposition);
     for (std::size_t i = 0; i < kMostUnknowns; ++i) {
-      checkWithin(decomposition.pivot[i], 0, 24 << 26);
+      checkWithin(decomposition.pivot[i], 0, Number::kMost);
       checkWithin(decomposition.reciprocal[i].mantissa, 0, 1 << 30);
       checkWithin(decomposition.reciprocal[i].exponent, -60, 0);
-      for (std::size_t j = 0; j < i; ++j)
-        checkWithin(decomposition.lower_q20[i][j], -(1 << kLowerLimitBits), 1 << kLowerLimitBits);
+      for (std::size_t j = 0; j < i; ++j) checkWithin(decomposition.lower_q20[i][j], -kMostLower, kMostLower);
     }
   });
   LONGS_EQUAL(1 << kMostUnknowns, ways);
@@ -63,7 +63,7 @@ TEST(NormalEquationsRanges, EntriesOfABitMoreWouldOverflowADecomposition) {
 }
 
 TEST(NormalEquationsRanges, AStepOfDeterminedUnknownsOverflowsNothing) {
-  const int ways = forEachWay([] { solveAny(anyDecomposition(kMostUnknowns, 1 << 29)); });
+  const int ways = forEachWay([] { solveAny(anyDecomposition(kMostUnknowns, 1 << 28)); });
   CHECK_TRUE(ways > 1 << kMostUnknowns);
   checkNone();
 }

@@ -20,7 +20,7 @@ struct RangesGroup : Utest {
     CHECK_TRUE_TEXT(overflows > 0, "beyond its domain, and no overflow was noted");
     overflows = 0;
   }
-  static void checkWithin(const auto& number, std::int64_t least, std::int64_t most) {
+  static void checkWithin(const auto& number, Exact least, Exact most) {
     CHECK_TRUE(number.least() >= least && number.most() <= most);
   }
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """seeded_overflows_test.py COMPILER FOLDER LINKED...: the proof of ranges fails for the firmware with an overflow in it.
 
-Each seed changes a copy of one header, which stands before the firmware's. LINKED: what CppUTest is linked with."""
+Each seed changes a copy of one of the firmware's files, which stands before it. LINKED: what CppUTest is linked with."""
 import subprocess
 import sys
 import unittest
@@ -15,28 +15,48 @@ FOLDER = Path(FOLDER)
 
 
 class Seed(NamedTuple):
-    header: str  # of firmware/core
+    proof: str  # the proof that finds it
+    file: str  # of firmware/core
     text: str
     instead: str
     test: str
 
 
-# Headers that are compiled with bounds: the proof's own tests fail ..
+# Files that are compiled with bounds: the proof's own tests fail ..
 PROVED = [
-    Seed("vector3", ">> 15", ">> 5", "AStepOfThreeReadingsAndItsAmplitudesOverflowNothing"),
-    Seed("vector3", ">> 13", ">> 3", "AStepOfThreeReadingsAndItsAmplitudesOverflowNothing"),
-    Seed("triple_step", "kLeastVolume = 1 << 16", "kLeastVolume = 1 << 14",
-         "WhatThreeReadingsWeighInAnErrorOverflowsNothing"),
-    Seed("told_start", "nonZero(low(even[0]))", "low(even[0])", "AToldStartOverflowsNothing"),
-    Seed("near_triple", "nonZero(fall >> 8)", "fall >> 8", "TheThreeNearestReadingsBetweenNearRowsOverflowNothing"),
-    Seed("quotients", "divisor <= 0 ? Number{0} : ", "", "AStepOverflowsNothing"),
-    Seed("fit_step", "clipped<28>(slope)", "slope", "AStepOverflowsNothing"),
-    Seed("error_products", "Wide{slope} * offset_sigma", "Wide{slope * offset_sigma}", "ErrorsOfLoadsOverflowNothing"),
+    Seed("NormalEquations", "normal_equations.hpp", "kColumnBits = 13", "kColumnBits = 14", "ADecompositionOverflowsNothing"),
+    Seed("NormalEquations", "normal_equations.hpp", "kMostRows = 24", "kMostRows = 34", "ADecompositionOverflowsNothing"),
+    Seed("NormalEquations", "normal_equations.cpp", "kLowerLimitBits = 30", "kLowerLimitBits = 31",
+         "VariancesOverflowNothing"),
+    Seed("NormalEquations", "normal_equations.cpp", "limited(Wide{wanted} - taken, 1 << 24)",
+         "limited(Wide{wanted} - taken, 1 << 29)", "AStepOfDeterminedUnknownsOverflowsNothing"),
+    Seed("NormalEquations", "normal_equations.cpp", "Wide{1} << 34", "Wide{1} << 40",
+         "AStepOfDeterminedUnknownsOverflowsNothing"),
+    Seed("NormalEquations", "normal_equations.cpp", "shiftedAtMost(product, up, 4)", "shiftedAtMost(product, up, 9)",
+         "VariancesOverflowNothing"),
+    Seed("Response", "response.hpp", "patch[2] * t +", "2 * patch[2] * t +", "APatchOverflowsNothing"),
+    Seed("Response", "response.hpp", "(2 * patch[3] * t", "(3 * patch[3] * t", "APatchOverflowsNothing"),
+    Seed("Response", "response.hpp", "moment_q20 - middle", "4096 * moment_q20 - middle", "CellsOfAnyWidthOverflowNothing"),
+    Seed("Fit", "fit.cpp", "bitWidth(most) - 15", "bitWidth(most) - 17", "SlipOverflowsNothing"),
+    Seed("Fit", "fit.cpp", "bitWidth(bits) - kColumnBits", "bitWidth(bits) - kColumnBits - 3",
+         "AColumnOfAnySlopesOverflowsNothing"),
+    Seed("Fit", "fit.cpp", "value * (1 << 12)", "value * (1 << 16)", "ReadingsOfAContactOverflowNothing"),
+    Seed("Fit", "fit.cpp", "kMostTurn_q32 >> 15", "kMostTurn_q32 >> 7", "AStepThatIsTakenOverflowsNothing"),
+    Seed("Fit", "fit.cpp", "limited(contact.normal + units(loadsOf(k), 16), kMostLoad)",
+         "limited(contact.normal + 8 * units(loadsOf(k), 16), kMostLoad)", "AStepThatIsTakenOverflowsNothing"),
+    Seed("Fit", "fit.cpp", "reduction * reduction", "reduction * reduction * 4",
+         "ConvergenceOfAnyReductionOverflowsNothing"),
+    Seed("Readings", "hypothesis.cpp", "error * error + noise", "error * error * error * error + noise",
+         "AnyStrainsNoiseAndShiftOverflowNothing"),
+    Seed("Readings", "condition.hpp", "code * (1 << kCodeBits) - zero", "code * (1 << kCodeBits) - 2 * zero",
+         "AnyCodesZerosAndGainsOverflowNothing"),
+    Seed("Readings", "units.hpp", "saturate<Number>((", "static_cast<Number>((", "UnitsOverflowNothing"),
 ]
 # .. and those of which it has a model: that is no longer what they do.
 MODELLED = [
-    Seed("packed", "sum + dot(a, b)", "sum + dot(a, b) * 4", "AreWhatTheFirmwareDoesAtEveryCorner"),
-    Seed("wide", "(value * value); }\nconstexpr Natural squared", "(value * value * 64); }\nconstexpr Natural squared",
+    Seed("", "integers.hpp", "sum += a[i] * b[i];\n#endif\n  return sum;\n}\n\n/// The same",
+         "sum += 4 * a[i] * b[i];\n#endif\n  return sum;\n}\n\n/// The same", "AreWhatTheFirmwareDoesAtEveryCorner"),
+    Seed("", "reciprocal.hpp", "return {static_cast<std::int32_t>(mantissa >> 1)", "return {static_cast<std::int32_t>(mantissa)",
          "AreWhatTheFirmwareDoesAtEveryCorner"),
 ]
 
@@ -49,9 +69,9 @@ def compiled(source, name, *options):
     return done
 
 
-def proof_of(*folders):
-    """The proof with headers of these folders before the firmware's."""
-    return compiled(RANGES / "RangesTest.cpp", "ranges", f"-I{RANGES}", *(f"-I{folder}" for folder in folders))
+def proof_of(proof, *folders):
+    """A proof with the files of these folders before the firmware's."""
+    return compiled(RANGES / f"{proof}RangesTest.cpp", proof, *(f"-I{folder}" for folder in folders), f"-I{RANGES}")
 
 
 def shipped(*folders):
@@ -65,19 +85,24 @@ class SeededOverflows(unittest.TestCase):
         FOLDER.mkdir(parents=True, exist_ok=True)
         cls.main = compiled("tests/main.cpp", "main")
         cls.models = compiled(RANGES / "primitives/PrimitivesTest.cpp", "models", f"-I{RANGES}")
+        cls.equations = compiled("firmware/core/normal_equations.cpp", "equations", f"-I{RANGES}")
 
     def seeded(self, seed):
-        """A folder with the changed header in it."""
-        name = f"firmware/core/{seed.header}.hpp"
+        """A folder with the changed file in it."""
+        name = f"firmware/core/{seed.file}"
         text = (ROOT / name).read_text()
         if seed.text not in text:
             self.fail(f"no `{seed.text}` in {name} any more: say here what to change in it now")
-        header = FOLDER / "seeded" / name
-        header.parent.mkdir(parents=True, exist_ok=True)
-        for other in header.parent.iterdir():
+        file = FOLDER / "seeded" / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        for other in file.parent.iterdir():
             other.unlink()
-        header.write_text(text.replace(seed.text, seed.instead))
+        file.write_text(text.replace(seed.text, seed.instead))
         return FOLDER / "seeded"
+
+    def needed(self, proof):
+        """What a proof is linked with: the fit calls the normal equations."""
+        return [self.equations] if proof == "Fit" else []
 
     def said(self, group, test, *objects):
         """What a test says; that it is there and ran."""
@@ -90,23 +115,24 @@ class SeededOverflows(unittest.TestCase):
     def fails(self, seed, group, *objects):
         said = self.said(group, seed.test, *objects)
         self.assertIn(f"Failure in TEST({group}, {seed.test})", said,
-                      f"passes with `{seed.instead}` for `{seed.text}` in {seed.header}.hpp")
+                      f"passes with `{seed.instead}` for `{seed.text}` in {seed.file}")
 
     def test_none_is_found_where_none_is(self):
-        proof, primitives = proof_of(), shipped()
-        for seed in PROVED:
-            self.assertIn("\nOK (", self.said("Ranges", seed.test, proof))
+        for proof in sorted({seed.proof for seed in PROVED}):
+            unchanged = proof_of(proof)
+            for test in sorted({seed.test for seed in PROVED if seed.proof == proof}):
+                self.assertIn("\nOK (", self.said(f"{proof}Ranges", test, unchanged, *self.needed(proof)))
         for seed in MODELLED:
-            self.assertIn("\nOK (", self.said("Primitives", seed.test, self.models, primitives))
+            self.assertIn("\nOK (", self.said("Primitives", seed.test, self.models, shipped()))
 
     def test_those_of_what_is_proved_are_found(self):
         for seed in PROVED:
-            with self.subTest(seed.header, instead=seed.instead):
-                self.fails(seed, "Ranges", proof_of(self.seeded(seed)))
+            with self.subTest(seed.file, instead=seed.instead):
+                self.fails(seed, f"{seed.proof}Ranges", proof_of(seed.proof, self.seeded(seed)), *self.needed(seed.proof))
 
     def test_those_of_what_the_proof_has_a_model_of_are_found(self):
         for seed in MODELLED:
-            with self.subTest(seed.header, instead=seed.instead):
+            with self.subTest(seed.file, instead=seed.instead):
                 self.fails(seed, "Primitives", self.models, shipped(self.seeded(seed)))
 
 

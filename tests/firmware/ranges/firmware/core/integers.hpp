@@ -233,8 +233,10 @@ inline std::uint32_t wrapped(const Number&) { return 0; }  // every angle is pro
 template <int kBits, bool kSigned>
 int bitWidth(const Bounds<kBits, kSigned>& value) {
   if (value.least() < 0) ++overflows;
-  const int least = std::bit_width(static_cast<std::uint64_t>(std::max<Exact>(value.least(), 0))),
-            most = std::bit_width(static_cast<std::uint64_t>(value.most()));
+  const auto widthOf = [](Exact number) {
+    return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(std::max<Exact>(number, 0))));
+  };
+  const int least = widthOf(value.least()), most = widthOf(value.most());
   const int width = least + choices.of(most - least + 1);
   const Exact end = Exact{1} << width;
   value.narrow(end / 2, end - 1);
@@ -275,11 +277,16 @@ Number clamped(const T& value, const Number& low, const Number& high) {
   };
   return {within(leastOf(value), low.least(), high.least()), within(mostOf(value), low.most(), high.most())};
 }
+/// Both grow with the value; a larger limit lets through more of either sign.
+inline Number boundedBy(Exact least, Exact most, const Number& limit) {
+  if (limit.least() < 0) ++overflows;
+  const auto bounded = [](Exact number, Exact size) { return std::clamp(number, -size, size); };
+  return {bounded(least, least < 0 ? limit.most() : limit.least()),
+          bounded(most, most < 0 ? limit.least() : limit.most())};
+}
 template <typename T>
 Number limited(const T& value, const Number& limit) {
-  if (limit.least() < 0) ++overflows;
-  return {std::clamp(leastOf(value), -limit.most(), limit.most()),
-          std::clamp(mostOf(value), -limit.most(), limit.most())};
+  return boundedBy(leastOf(value), mostOf(value), limit);
 }
 template <int bits>
 Number scaled(const Number& value, const Number& factor) {
@@ -294,13 +301,12 @@ inline Short shortened(const Number& value) {
           std::clamp(value.most(), Short::kLeast, Short::kMost)};
 }
 inline Number shifted(const Wide& value, const Number& up, const Number& limit) {
-  const Exact most = limit.most();
-  const auto by = [most](Exact number, Exact bits) {
-    const int by = std::clamp<int>(static_cast<int>(bits), -126, 63);
-    return std::clamp(by >= 0 ? number * (Exact{1} << by) : number >> -by, -most, most);
+  const auto by = [](Exact number, Exact bits) {
+    return bits >= 0 ? number * (Exact{1} << std::min<int>(static_cast<int>(bits), 63))
+                     : number >> std::min(-static_cast<int>(bits), 126);
   };
-  return {std::min(by(value.least(), up.least()), by(value.least(), up.most())),
-          std::max(by(value.most(), up.least()), by(value.most(), up.most()))};
+  return boundedBy(std::min(by(value.least(), up.least()), by(value.least(), up.most())),
+                   std::max(by(value.most(), up.least()), by(value.most(), up.most())), limit);
 }
 inline Wide shiftedAtMost(const Wide& value, const Number& up, int most) {
   const auto by = [most](Exact number, Exact bits) {

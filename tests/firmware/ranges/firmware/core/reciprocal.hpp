@@ -13,7 +13,7 @@ struct Reciprocal {
 
 inline Reciprocal reciprocalOf(const Number& value) {
   if (value.least() < 1) ++overflows;
-  return {{1 << 29, 1 << 30}, {-60, -30}};
+  return {{(1 << 29) - 4, 1 << 30}, {-60, -30}};
 }
 
 inline Number divided(const Number& value, const Reciprocal& by, int bits, const Number& limit) {

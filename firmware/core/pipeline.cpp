@@ -31,11 +31,13 @@ void Pipeline::takeZero(const ZeroAverage& zero) {
 }
 
 /// The readings are small, and not for long those of contacts: hum or drift.
-bool Pipeline::isDisturbance() {
+bool Pipeline::isDisturbance(GaugeSet gauges) {
   const Wide most = kDisturbance * readingNoise_q32(constants());
-  const auto readings = strains();
-  const bool weak = std::none_of(readings.begin(), readings.end(),
-                                 [&](std::int32_t strain) { return strain > most || strain < -most; });
+  bool weak = true;
+  for (int i = 0; i < constants().gauge_count; ++i) {
+    const std::int32_t strain = readings_.strain_q32[static_cast<std::size_t>(i)];
+    if (contains(gauges, i) && (strain > most || strain < -most)) weak = false;
+  }
   if (!weak) {
     settledSets_ = kSettled;
   } else if (!locator_.answer().accepted) {
@@ -48,7 +50,7 @@ bool Pipeline::isDisturbance() {
 
 void Pipeline::locate(GaugeSet gauges) {
   locator_.update(*tables_, strains(), gauges, noise_.variance_q4());
-  observation_.touched = !isDisturbance();
+  observation_.touched = !isDisturbance(gauges);
   const Answer& answer = locator_.answer();
   observation_.leftOut = allGauges(constants().gauge_count) & ~answer.solution.hypothesis.gauges;
   observation_.several = answer.several || answer.solution.hypothesis.contacts > 1;
@@ -108,18 +110,34 @@ const Observation& Pipeline::process(Codes codes) {
   return observation_;
 }
 
+/// Gate energy of some gauges.
+std::uint32_t Pipeline::energyOf(GaugeSet gauges) const {
+  std::array<std::int32_t, kMaxGauges> counted{};
+  for (int i = 0; i < constants().gauge_count; ++i)
+    if (contains(gauges, i))
+      counted[static_cast<std::size_t>(i)] = readings_.strain_q32[static_cast<std::size_t>(i)];
+  return gateEnergy(constants(), std::span(counted).first(constants().gauge_count));
+}
+
 void Pipeline::observe(Codes codes) {
   condition(calibration_, codes, readings_);
-  const std::uint32_t energy = gateEnergy(constants(), strains());
   observation_ = {};
   observation_.outOfUse = watch_.outOfUse();
-  if (gate_.update(constants(), energy, noise_.variance_q4())) {
+  const GaugeSet working = allGauges(constants().gauge_count) & ~watch_.outOfUse();
+  GaugeSet gauges = working;
+  std::uint32_t energy = gateEnergy(constants(), strains());
+  if (energy >= constants().gate_off) {
     observation_.saturated = saturatedGauges(constants(), codes);
-    locate(allGauges(constants().gauge_count) & ~watch_.outOfUse() & ~observation_.saturated);
+    gauges &= ~observation_.saturated;
+    if (gauges != allGauges(constants().gauge_count)) energy = energyOf(gauges);
+  }
+  if (gate_.update(constants(), energy, noise_.variance_q4())) {
+    locate(gauges);
     if (!observation_.touched) return;
     watchGauges(codes);
     std::copy(codes.begin(), codes.end(), codes_.begin());
   } else {
+    watch_.implausiblyAtRail(observation_.saturated & working);
     locator_.release();
     settledSets_ = 0;
   }

@@ -52,7 +52,8 @@ class Pipeline {
   void watchGauges(Codes codes);
   bool isKnown(Codes codes) const;
   void observe(Codes codes);
-  bool isDisturbance();
+  bool isDisturbance(GaugeSet gauges);
+  std::uint32_t energyOf(GaugeSet gauges) const;
 
   const TableImage* tables_;
   Calibration calibration_;

@@ -80,7 +80,7 @@ Step solve(const Decomposition& decomposition, const std::array<Rows, kMostUnkno
     const Wide lost = lesser((magnitude(missed) * decomposition.pivot[at(i)]) >> kStepBits, Wide{1} << 34);
     reduction -= (lost * magnitude(missed)) >> down;
   }
-  step.reduction = shifted(reduction, down - kStepBits, 0x7FFFFFFF);
+  step.reduction = reduction >> (kStepBits - down);  // gradients have 34 bits at most: down <= 4
   return step;
 }
 

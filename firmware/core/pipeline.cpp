@@ -14,8 +14,6 @@ constexpr Wide kDisturbance = 64;
 constexpr int kSettled = 24;
 /// A reading speaks for its gauge where it should be at least this part of the largest [log2].
 constexpr int kFelt = 3;
-/// Predictions end here.
-constexpr std::int32_t kMostPredicted = (1 << 15) - 1;
 
 }  // namespace
 
@@ -65,14 +63,13 @@ void Pipeline::watchGauges(Codes codes) {
   GaugeSet atRail = 0, right = 0;
   for (std::size_t i = 0; i < codes.size(); ++i) {
     const GaugeSet gauge = GaugeSet{1} << i;
-    const std::int32_t predicted = std::int32_t{fit.predicted[i]};
+    const std::int32_t predicted = fit.predicted[i];
     const bool saturated = (observation_.saturated & gauge) != 0;
     if (!saturated && magnitude(predicted) < 1 << (14 - kFelt)) continue;
     const std::int32_t measured = readings_.strain_q32[i] >> answer.shift;
     if (saturated) {
       const bool beyond =
-          magnitude(predicted) >= kMostPredicted ||
-          (measured < 0 ? predicted <= measured - measured / 4 : predicted >= measured - measured / 4);
+          measured < 0 ? predicted <= measured - measured / 4 : predicted >= measured - measured / 4;
       if (!beyond) atRail |= gauge;
     } else if (magnitude(measured - predicted) <= magnitude(predicted) / 4) {
       right |= gauge;

@@ -106,7 +106,7 @@ std::int32_t ZeroTracker::commonChange_q32(GaugeSet far) {
 void ZeroTracker::follow(const TableConstants& constants, const Strains& changes_q32, GaugeSet gauges,
                          Calibration& calibration) {
   lastChange_q32_ = 0;
-  const std::int32_t limit = readingNoise_q32(constants) * 2;
+  const Number limit = limited(Wide{readingNoise_q32(constants)} * 2, std::numeric_limits<Number>::max());
   for (std::size_t i = 0; i < constants.gauge_count; ++i) {
     if (!contains(gauges, static_cast<int>(i))) continue;
     const std::int32_t change = std::clamp(changes_q32[i], -limit, limit);

@@ -89,8 +89,7 @@ void DrivenPipeline::process() {
   const Observation& observation = pipeline_.process(codes());
   report(observation);
   now_us_ += 1000;
-  searchedSets_ = observation.touched && pipeline_.answer().searching ? searchedSets_ + 1 : 0;
-  require(searchedSets_ < kMostSearchedSets);
+  searching_ = observation.touched && pipeline_.answer().searching;
 }
 
 void DrivenPipeline::run() {
@@ -103,7 +102,7 @@ void DrivenPipeline::run() {
     for (int i = 0; i < repetitions; ++i) process();
     sets += repetitions;
   }
-  while (searchedSets_ > 0) process();
+  for (int sets = 0; searching_ && sets < kMostSearchedSets; ++sets) process();
 }
 
 }  // namespace strainfinger::fuzz

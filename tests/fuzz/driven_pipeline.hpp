@@ -24,8 +24,9 @@ class DrivenPipeline {
  public:
   /// `tables` passed checkTableImage().
   DrivenPipeline(const TableImage& tables, Input& input);
-  /// All of the input, and then the last set until the search for a hypothesis ends.
+  /// All of the input, and then the last set until the search for a hypothesis ends, or should have.
   void run();
+  bool isSearching() const { return searching_; }
 
  private:
   std::span<const std::uint16_t> codes() const;
@@ -43,7 +44,7 @@ class DrivenPipeline {
   firmware::TouchReporter reporter_{0, {}};
   std::array<std::uint16_t, kMaxGauges> codes_{};
   std::uint32_t now_us_ = 0;
-  int searchedSets_ = 0;
+  bool searching_ = false;
 };
 
 }  // namespace strainfinger::fuzz

@@ -18,11 +18,11 @@ constexpr int kContactBits = 4;
 constexpr int kWorthFollowing = 2;
 /// Contacts rest that turn by less than this part of a pitch, and whose loads change by less than this part
 /// of the normal load [log2].
-constexpr int kTurnBits = 4;
-constexpr int kLoadBits = 3;
+constexpr int kTurnBits = 2;
+constexpr int kLoadBits = 2;
 
 /// Fewer far gauges don't say what all have in common.
-constexpr int kLeastFar = 4;
+constexpr int kLeastFar = 3;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -91,13 +91,22 @@ GaugeSet ZeroTracker::farGauges(const TableImage& tables) const {
   return far;
 }
 
-/// By how much the averages of far gauges changed, in the mean, since the contacts came to rest.
-std::int32_t ZeroTracker::commonChange_q32(GaugeSet far) {
+/// By how much far gauges changed, in the mean, since the contacts came to rest, but for what the contacts do
+/// even there.
+std::int32_t ZeroTracker::commonChange_q32(const TableImage& tables, const Answer& answer, GaugeSet far,
+                                           Linearisation& scratch) {
+  linearise(tables, answer.solution.hypothesis, answer.solution.contact, scratch);
   const GaugeSet both = far & known_;
   Wide sum = 0;
   for (int i = 0; i < kMaxGauges; ++i) {
-    if (contains(both, i)) sum += Wide{sum_[at(i)]} - before_[at(i)];
-    if (contains(far & ~known_, i)) before_[at(i)] = sum_[at(i)];
+    if (!contains(far, i)) continue;
+    const Wide predicted_q32 = Wide{scratch.predicted[at(i)]} << answer.shift;
+    const std::int32_t left = saturate<std::int32_t>(sum_[at(i)] - predicted_q32);
+    if (contains(known_, i)) {
+      sum += Wide{left} - before_[at(i)];
+    } else {
+      before_[at(i)] = left;
+    }
   }
   known_ |= far;
   return std::popcount(both) < kLeastFar ? 0 : saturate<std::int32_t>(sum / std::popcount(both));
@@ -118,12 +127,12 @@ void ZeroTracker::follow(const TableConstants& constants, const Strains& changes
   }
 }
 
-void ZeroTracker::finish(const TableImage& tables, bool touched, Calibration& calibration,
+void ZeroTracker::finish(const TableImage& tables, const Answer* answer, Calibration& calibration,
                          Linearisation& scratch) {
   const GaugeSet gauges = allGauges(tables.constants.gauge_count) & ~leftOut_;
-  if (touched) {
+  if (answer != nullptr) {
     Strains changes;
-    changes.fill(commonChange_q32(farGauges(tables) & gauges));
+    changes.fill(commonChange_q32(tables, *answer, farGauges(tables) & gauges, scratch));
     return follow(tables.constants, changes, allGauges(tables.constants.gauge_count), calibration);
   }
   const bool isWorthIt = isWorthFollowing(tables.constants, gauges);
@@ -153,7 +162,7 @@ bool ZeroTracker::take(const TableImage& tables, std::span<const std::int32_t> s
   constexpr std::int32_t kHalf = 1 << (kTakenBits - 1);
   for (std::size_t i = 0; i < strains_q32.size(); ++i) sum_[i] += (strains_q32[i] + kHalf) >> kTakenBits;
   if (sets_ < kInterval) return false;
-  finish(tables, touched, calibration, scratch);
+  finish(tables, answer, calibration, scratch);
   begin(touched);
   return true;
 }

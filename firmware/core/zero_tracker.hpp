@@ -54,16 +54,18 @@ class ZeroTracker {
 
   void begin(bool touched);
   bool rests(const TableConstants& constants, const Answer& answer) const;
-  void finish(const TableImage& tables, bool touched, Calibration& calibration, Linearisation& scratch);
+  void finish(const TableImage& tables, const Answer* answer, Calibration& calibration,
+              Linearisation& scratch);
   GaugeSet farGauges(const TableImage& tables) const;
-  std::int32_t commonChange_q32(GaugeSet far);
+  std::int32_t commonChange_q32(const TableImage& tables, const Answer& answer, GaugeSet far,
+                                Linearisation& scratch);
   bool isWorthFollowing(const TableConstants& constants, GaugeSet gauges) const;
   bool looksLikeAContact(const TableImage& tables, GaugeSet gauges, Linearisation& scratch) const;
   void follow(const TableConstants& constants, const Strains& changes_q32, GaugeSet gauges,
               Calibration& calibration);
 
   Strains sum_{};       ///< of strains * kEvery / kInterval
-  Strains before_{};    ///< averages of the first interval of a rest ..
+  Strains before_{};    ///< what the contacts left in the first interval of a rest ..
   GaugeSet known_ = 0;  ///< .. of these gauges
   Rest rest_;
   std::uint32_t age_sets_ = 0;

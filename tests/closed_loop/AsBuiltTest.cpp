@@ -1,0 +1,112 @@
+// Fingers as they are built: gauges glued by hand, a core and a rubber that are not the drawing's. Nobody
+// calibrated them, and model_error is the default.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <numbers>
+
+#include "host/evidence/touches.hpp"
+#include "host/evidence/uniform.hpp"
+#include "tests/closed_loop/sampled_finger.hpp"
+#include "tests/closed_loop/touch_count.hpp"
+
+// last: its macros redefine new
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+
+namespace {
+
+constexpr int kFingers = 40;
+constexpr int kRest = 30;
+constexpr int kTouch = 100;  ///< sample sets
+
+/// Gauges off by these standard deviations, a core up to 0.1 mm thicker or thinner, a Poisson ratio from 0.49
+/// on.
+config::FingerConfig builtBy(int seed) {
+  const simulation::Noise draws(static_cast<std::uint64_t>(seed));
+  config::FingerConfig config;
+  config.as_built = {.seed = seed,
+                     .angle_deg = 0.5,
+                     .depth_m = 0.05e-3,
+                     .gain = 0.03,
+                     .core_radius_m = 0.2e-3 * evidence::uniform(draws, 0, 0),
+                     .poisson_ratio = 0.01 * (evidence::uniform(draws, 0, 2) - 0.5)};
+  return config;
+}
+
+struct Outcome {
+  int touches = 0;
+  int told = 0;
+  int beyond = 0;  ///< off by more than six of their sigmas, and not flagged
+  int silent = 0;  ///< more than half a pitch off, and not flagged
+  int flagged = 0;
+  int blamed = 0;   ///< touches with a gauge out of use
+  int several = 0;  ///< taken for two
+};
+
+}  // namespace
+
+TEST_GROUP(AsBuilt) {
+  const std::unique_ptr<TableImage> tables =
+      std::make_unique<TableImage>(tables::buildTableImage(config::FingerConfig{}));
+
+  /// Touches of one finger, one after the other.
+  void touch(int seed, const evidence::TouchRanges& ranges, int count, Outcome& outcome) {
+    const config::FingerConfig config = builtBy(seed);
+    const evidence::TouchedRing ring(config, static_cast<std::uint64_t>(seed));
+    const evidence::TouchDraws draws(config.gauges, ranges, static_cast<std::uint64_t>(seed));
+    SampledFinger finger(*tables, ring);
+    for (int i = 0; i < count; ++i) {
+      const simulation::Touch touch = draws.at(static_cast<std::uint64_t>(i));
+      finger.rest(kRest);
+      finger.hold(ring.exact(touch), kTouch);
+      ++outcome.touches;
+      outcome.blamed += finger.observation().outOfUse != 0;
+      outcome.several += finger.observation().several;
+      const auto answers = finger.answers();
+      if (answers.empty()) continue;
+      ++outcome.told;
+      const evidence::Answer& answer = answers.front();
+      const evidence::Parameters truth{touch.angle_rad, touch.normal_n_per_m, touch.tangential_n_per_m, 0};
+      evidence::Parameters error = answer.values - truth;
+      error[evidence::kAngle] = evidence::apart_rad(answer.values[evidence::kAngle], touch.angle_rad);
+      const bool isFar = ((error.array() / answer.sigmas.array()).head<3>().abs() > 6).any();
+      outcome.flagged += answer.isFlagged;
+      outcome.beyond += isFar && !answer.isFlagged;
+      outcome.silent += !answer.isFlagged && std::abs(error[evidence::kAngle]) > std::numbers::pi / 16;
+    }
+  }
+
+  Outcome run(const evidence::TouchRanges& ranges, int count) {
+    Outcome outcome;
+    for (int seed = 1; seed <= kFingers; ++seed) touch(seed, ranges, count / kFingers, outcome);
+    std::printf(
+        "\n%d touches of %g to %g N/m, %g to %g mm, on %d fingers: told %d, beyond six sigma %d, silent %d, "
+        "flagged %d, blamed %d, several %d ",
+        outcome.touches, ranges.load_n_per_m.least, ranges.load_n_per_m.most, ranges.width_m.least * 1e3,
+        ranges.width_m.most * 1e3, kFingers, outcome.told, outcome.beyond, outcome.silent, outcome.flagged,
+        outcome.blamed, outcome.several);
+    return outcome;
+  }
+
+  static void check(const Outcome& outcome) {
+    CHECK_COMPARE(outcome.beyond, <=, allowedCount(0.01, outcome.touches));
+    CHECK_COMPARE(outcome.silent, <=, allowedCount(2e-4, outcome.touches));
+    const int untold = outcome.touches - outcome.told;
+    CHECK_COMPARE(outcome.flagged + untold, <=, allowedCount(0.05, outcome.touches));
+    LONGS_EQUAL(0, outcome.blamed);
+  }
+};
+
+TEST(AsBuilt, LinesAreToldWithTrueSigmas) { check(run({.load_n_per_m = {2, 40}}, touchCount(2000))); }
+
+TEST(AsBuilt, NarrowTouchesAreToldWithTrueSigmas) {
+  check(run({.load_n_per_m = {2, 40}, .width_m = {0, 3e-3}}, touchCount(2000)));
+}
+
+TEST(AsBuilt, WideTouchesAreToldWithTrueSigmas) {
+  check(run({.load_n_per_m = {2, 40}, .width_m = {3e-3, 6e-3}}, touchCount(2000)));
+}

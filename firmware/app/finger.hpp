@@ -82,7 +82,7 @@ class Finger {
   FingerState state() const { return state_; }
   const FingerCounters& counters() const { return counters_; }
   const Observation& lastObservation() const { return pipeline_.observation(); }
-  const Answer& lastAnswer() const { return pipeline_.answer(); }  ///< while it is touched
+  const Answer& lastAnswer() const { return pipeline_.answer(); }    ///< while it is touched
   const Readings& readings() const { return pipeline_.readings(); }  ///< of the last observation
 
  private:

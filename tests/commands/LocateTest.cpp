@@ -61,10 +61,21 @@ TEST_GROUP(LocateCommand) {
     for (const Firm& touch : touches) input += touch.row;
     return runProgram("locate --mode " + mode, input).out;
   }
+  /// The columns that are numbers: all up to the quality.
+  static std::string numbers(const std::string& out) {
+    std::string cut;
+    for (const std::string& line : lines(out)) {
+      std::size_t end = 0;
+      for (int column = 0; column < 8 && end != std::string::npos; ++column)
+        end = line.find(',', end == 0 ? 0 : end + 1);
+      cut += line.substr(0, end) + "\n";
+    }
+    return cut;
+  }
   /// Every touch is found within 3 of its sigma, or is uncertain; the number of those that are not.
   static std::size_t checkFirmTouches(double peak, Range range, const char* mode) {
     const std::vector<Firm> touches = firmTouches(peak, range);
-    const auto rows = tableOf(located(touches, mode));
+    const auto rows = tableOf(numbers(located(touches, mode)));
     LONGS_EQUAL(touches.size(), rows.size());
     std::size_t certain = 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -94,7 +105,8 @@ TEST(LocateCommand, FindsWhatTheModelSays) {
     LONGS_EQUAL(2, out.size());
     STRCMP_EQUAL(
         "contact,angle_deg,normal_n_per_m,tangential_n_per_m,sigma_angle_deg,sigma_normal_n_per_m,"
-        "sigma_tangential_n_per_m,quality",
+        "sigma_tangential_n_per_m,quality,width_m,sigma_width_m,flags,angle2_deg,normal2_n_per_m,"
+        "tangential2_n_per_m",
         out[0].c_str());
     double contact = 0, angle = 0, normal = 0, tangential = 0;
     LONGS_EQUAL(4, std::sscanf(out[1].c_str(), "%lf,%lf,%lf,%lf", &contact, &angle, &normal, &tangential));
@@ -146,7 +158,7 @@ TEST(LocateCommand, ATouchWithNoReadingLeftIsStillATouch) {
   clipped.back() = '\n';
   const auto out = lines(runProgram("locate", clipped).out);
   LONGS_EQUAL(2, out.size());
-  STRCMP_EQUAL("1,,,,,,,", out[1].c_str());
+  STRCMP_EQUAL("1,,,,,,,,,,,,,", out[1].c_str());
 }
 
 TEST(LocateCommand, TablesOfAnotherFingerAreAMismatch) {

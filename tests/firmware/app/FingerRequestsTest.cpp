@@ -22,7 +22,7 @@ TEST_GROUP(FingerRequests) {
   static constexpr std::uint8_t kNode = 5;
   static constexpr Press kUntouched{0, 0, 0};
   static constexpr Press kTouch{3.2, 20, 4};
-  const ModelRing ring;
+  const ModelRing ring{ModelRing::asDrawn()};
   const simulation::Converter converter{config::Gauges{}};
   FakeGaugeAdc adc;
   FakeCanPort can;

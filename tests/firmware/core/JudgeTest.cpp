@@ -13,6 +13,7 @@ TEST_GROUP(Judge) {
   Solution solution;
 
   void setup() override {
+    constants.gauge_count = 16;
     constants.cone_q8 = 320;  // 1.25
     constants.largest_moment_um2 = 4'000'000;
     readings.variance_q4 = readings.gateVariance_q4 = 100 << 4;
@@ -91,8 +92,8 @@ TEST(Judge, TheGateFollowsTheVariance) {
 }
 
 TEST(Judge, TheGateHasRoomForOtherProfiles) {
-  readings.value[2] = -32'000;  // a thousandth of it, squared, for each of 12 degrees of freedom
-  const double room = 12 * std::ldexp(32'000.0 * 32'000, -20);
+  readings.value[2] = -32'000;  // a part of it, squared, for each of 12 degrees of freedom
+  const double room = 12 * std::ldexp(32'000.0 * 32'000, -2 * threshold::kProfileErrorBits);
   CHECK_TRUE(isAcceptedAt(5200 + static_cast<Wide>(0.95 * room)));
   CHECK_FALSE(isAcceptedAt(5201 + static_cast<Wide>(1.05 * room)));
 }
@@ -129,4 +130,11 @@ TEST(Judge, WideTouchesAreNotFirmUnlessTheirWidthIsKnown) {
   CHECK_FALSE(isFirmWith(20'000, 361'000));
   solution.hypothesis.widthIsFree = false;
   CHECK_TRUE(isFirmWith(20'000, 361'000));
+}
+
+TEST(Judge, ATouchThatNotAllGaugesReadIsNotFirm) {
+  readings.gateVariance_q4 = 16;
+  CHECK_TRUE(isFirmWith(20'000, 0));
+  solution.hypothesis.gauges &= ~GaugeSet{1 << 9};
+  CHECK_FALSE(isFirmWith(20'000, 0));
 }

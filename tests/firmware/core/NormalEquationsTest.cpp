@@ -147,6 +147,14 @@ TEST(NormalEquations, TinyAndHugeResidualsAreSolvedAlike) {
   }
 }
 
+TEST(NormalEquations, ReductionsOfTheLargestResidualsAreToldApart) {
+  for (std::size_t row = 0; row < kRows; ++row) {
+    columns[0][row] = 8191;
+    residual[row] = row < 12 ? 32'000 : 0;
+  }
+  checkReduction(1, 1e-3);  // 9.2e9: more than 32 bits
+}
+
 TEST(NormalEquations, AnUndeterminedUnknownKeepsItsValue) {
   for (int same = 1; same < 4; ++same) {
     fill(4);

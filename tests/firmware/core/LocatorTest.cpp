@@ -1,0 +1,260 @@
+#include "firmware/core/locator.hpp"
+
+#include <bit>
+
+#include "tests/firmware/core/model_ring.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::firmware;
+
+TEST_GROUP(Locator) {
+  const ModelRing ring{ModelRing::asDrawn()};
+  Locator locator{FitMode::kRefined};
+  static constexpr int kLongestSearch = 400;  ///< sample sets
+
+  void update(const ModelRing& of, const std::vector<double>& strains, GaugeSet gauges) {
+    locator.update(of.tables(), of.raw(strains), gauges);
+  }
+  void update(const std::vector<double>& strains) { update(ring, strains, ring.allGauges()); }
+  /// Until the search, if there is one, is over; returns the updates that it took.
+  int settle(const std::vector<double>& strains) { return settle(strains, ring.allGauges()); }
+  int settle(const std::vector<double>& strains, GaugeSet gauges) {
+    int updates = 0;
+    do update(ring, strains, gauges);
+    while (locator.answer().searching && ++updates < kLongestSearch);
+    return updates;
+  }
+  Press found(int contact = 0) const { return foundBy(locator, ring, contact); }
+  static Press foundBy(const Locator& by, const ModelRing& of, int contact = 0) {
+    return of.pressOf(by.answer().solution.contact[static_cast<std::size_t>(contact)], by.answer().shift);
+  }
+  /// Largest difference of place and loads, over the Cramer-Rao bound.
+  double sigmasBetween(const Press& a, const Press& b, const Eigen::Vector4d& bound) const {
+    return std::max({std::abs(ring.between(a.position_pitch, b.position_pitch)) / bound[0],
+                     std::abs(a.normal - b.normal) / bound[1],
+                     std::abs(a.tangential - b.tangential) / bound[2]});
+  }
+  double off_pitch(const Press& press, int contact = 0) const {
+    return std::abs(ring.between(press.position_pitch, found(contact).position_pitch));
+  }
+  bool areBothFound(const Press& one, const Press& other, double within_pitch) const {
+    if (locator.answer().solution.hypothesis.contacts != 2) return false;
+    return (off_pitch(one, 0) < within_pitch && off_pitch(other, 1) < within_pitch) ||
+           (off_pitch(one, 1) < within_pitch && off_pitch(other, 0) < within_pitch);
+  }
+  bool isAccepted(const std::vector<std::int32_t>& strains_q32, std::uint32_t noise_q4) {
+    locator.release();
+    do locator.update(ring.tables(), strains_q32, ring.allGauges(), noise_q4);
+    while (locator.answer().searching);
+    return locator.answer().accepted && locator.answer().solution.hypothesis.contacts == 1;
+  }
+};
+
+TEST(Locator, AnswersFirmTouchesWithTheSecondSetOrSaysThatItSearches) {
+  Presses presses(16, 45, 401, 0, 1.9);
+  int searched = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Press press = presses.next();
+    locator.release();
+    for (int set = 0; set < 2; ++set) update(presses.noisy(ring.strains(press), ring.noise_strain()));
+    if (locator.answer().searching) {
+      ++searched;
+      continue;
+    }
+    CHECK_TRUE(locator.answer().accepted);
+    DOUBLES_EQUAL(0, off_pitch(press), 6 * ring.bound(press)[0]);
+  }
+  CHECK(searched < 90);  // with much shear between two gauges all read little
+}
+
+TEST(Locator, FollowsAMovingTouchWithTheAnswersOfOneSetAlone) {
+  Presses noise(16, 0, 402);
+  Locator alone(FitMode::kRefined);
+  double squares = 0;
+  for (int set = 0; set < 300; ++set) {
+    const Press press{3 + set * 0.01, 25, 8 * std::sin(set / 20.0), 1.5};  // 50 um a set
+    const auto strains = noise.noisy(ring.strains(press), ring.noise_strain());
+    settle(strains);
+    locateOnce(ring.tables(), ring.raw(strains), ring.allGauges(), alone);
+    const double apart = sigmasBetween(found(), foundBy(alone, ring), ring.bound(press));
+    CHECK(apart < 1);
+    squares += apart * apart;
+  }
+  CHECK(std::sqrt(squares / 300) < 0.15);
+}
+
+TEST(Locator, FollowsATouchThatGrowsAndFades) {
+  Presses noise(16, 0, 403);
+  for (int set = 0; set < 400; ++set) {
+    const double load = 1 + 0.2 * std::min(set, 400 - set);
+    const Press press{7.3, load, load / 3, 1};
+    settle(noise.noisy(ring.strains(press), ring.noise_strain()));
+    DOUBLES_EQUAL(load, found().normal, 6 * ring.bound(press)[1] + 0.002 * load);
+    DOUBLES_EQUAL(0, off_pitch(press), 6 * ring.bound(press)[0] + 0.01);
+  }
+}
+
+TEST(Locator, ATouchThatJumpsIsFoundAnew) {
+  for (int set = 0; set < 50; ++set) {
+    const Press press{set * 5.3, 20, 0, 1};
+    settle(ring.strains(press));
+    DOUBLES_EQUAL(0, off_pitch(press), 0.02);
+  }
+}
+
+TEST(Locator, AfterAReleaseNothingIsLeft) {
+  update(ring.strains({{2.2, 20, 0, 1}, {9.7, 20, 0, 1}}));
+  locator.release();
+  CHECK_FALSE(locator.answer().searching);
+  CHECK_FALSE(locator.answer().accepted);
+  settle(ring.strains({5.5, 20, 0, 1}));
+  DOUBLES_EQUAL(5.5, found().position_pitch, 0.01);
+}
+
+TEST(Locator, ASearchTakesSeveralUpdatesAndSaysSo) {
+  update(ring.strains({{2.2, 20, 0, 1}, {9.7, 20, 0, 1}}));
+  CHECK_TRUE(locator.answer().searching);
+  const int updates = settle(ring.strains({{2.2, 20, 0, 1}, {9.7, 20, 0, 1}}));
+  CHECK(updates > 2 && updates < kLongestSearch);
+  CHECK_FALSE(locator.answer().searching);
+}
+
+TEST(Locator, ASecondContactIsLocatedFrom4PitchesOn) {
+  Presses presses(16, 30, 404, 0, 1);
+  int wrong = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Press one = presses.next(), other{one.position_pitch + 4 + i % 5, 8 + i % 4 * 7.0, i % 3 * 2.0, 1};
+    locator.release();
+    settle(presses.noisy(ring.strains({one, other}), ring.noise_strain()));
+    if (!areBothFound(one, other, 0.1)) ++wrong;
+  }
+  LONGS_EQUAL(0, wrong);
+}
+
+TEST(Locator, ASecondContactIsMostlyLocatedFrom2AndAHalfPitchesOn) {
+  Presses presses(16, 30, 405, 0, 1);
+  int wrong = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Press one = presses.next(), other{one.position_pitch + 2.5, 15 + i % 2 * 15.0, 2, 1};
+    locator.release();
+    settle(presses.noisy(ring.strains({one, other}), ring.noise_strain()));
+    if (!areBothFound(one, other, 0.25)) ++wrong;
+  }
+  CHECK(wrong <= 4);
+}
+
+TEST(Locator, ASecondContactThatJoinsIsLocated) {
+  const Press first{3.4, 20, 4, 1};
+  for (int set = 0; set < 400; ++set) {
+    const Press joining{9.8, set / 20.0, 0, 1};
+    update(ring.strains({first, joining}));
+  }
+  settle(ring.strains({first, {9.8, 20, 0, 1}}));
+  CHECK_TRUE(areBothFound(first, {9.8, 20, 0, 1}, 0.05));
+  CHECK_TRUE(locator.answer().several || locator.answer().solution.hypothesis.contacts == 2);
+}
+
+TEST(Locator, WhenOneOfTwoLeavesTheOtherIsFollowed) {
+  const Press first{3.4, 20, 4, 1};
+  Presses noise(16, 0, 412);
+  settle(ring.strains({first, {9.8, 20, 0, 1}}));
+  for (int set = 0; set < 200; ++set) settle(noise.noisy(ring.strains(first), ring.noise_strain()));
+  LONGS_EQUAL(1, locator.answer().solution.hypothesis.contacts);
+  DOUBLES_EQUAL(0, off_pitch(first), 0.02);
+}
+
+TEST(Locator, TwoContactsAreNeverBlamedOnAGauge) {
+  Presses presses(16, 20, 406, 0, 2);
+  for (int i = 0; i < 60; ++i) {
+    const Press one = presses.next(), other{one.position_pitch + 1 + i % 12 * 0.5, 6 + i % 5 * 4.0, 0, 1};
+    locator.release();
+    settle(presses.noisy(ring.strains({one, other}), ring.noise_strain()));
+    LONGS_EQUAL(0, locator.answer().suspect);
+  }
+}
+
+TEST(Locator, AWideContactIsNeverBlamedOnAGauge) {
+  Presses presses(16, 20, 407, 1, 7);
+  for (int i = 0; i < 100; ++i) {
+    locator.release();
+    settle(presses.noisy(ring.strains(presses.next()), ring.noise_strain()));
+    LONGS_EQUAL(0, locator.answer().suspect);
+    LONGS_EQUAL(1, locator.answer().solution.hypothesis.contacts);
+  }
+}
+
+TEST(Locator, AGaugeThatIsFarOffIsSuspectedAndLeftOut) {
+  Presses presses(16, 30, 408, 0, 2);
+  int found = 0;
+  for (int i = 0; i < 50; ++i) {
+    const Press press = presses.next();
+    const auto gauge = static_cast<std::size_t>(std::lround(press.position_pitch)) % 16;
+    auto strains = presses.noisy(ring.strains(press), ring.noise_strain());
+    strains[gauge] += i % 2 == 0 ? 6e-3 : -6e-3;
+    locator.release();
+    settle(strains);
+    if (locator.answer().suspect != GaugeSet{1} << gauge) continue;
+    ++found;
+    DOUBLES_EQUAL(0, off_pitch(press), 0.1);
+  }
+  CHECK(found >= 44);
+}
+
+TEST(Locator, AGaugeThatStopsCountingChangesNothing) {
+  const Press press{6.3, 25, 5, 1};
+  settle(ring.strains(press));
+  for (int gauge = 0; gauge < 16; ++gauge) {
+    settle(ring.strains(press), ring.allGauges() & ~(GaugeSet{1} << gauge));
+    settle(ring.strains(press), ring.allGauges() & ~(GaugeSet{1} << gauge));
+    CHECK_FALSE(contains(locator.answer().solution.hypothesis.gauges, gauge));
+    DOUBLES_EQUAL(0, off_pitch(press), 0.01);
+  }
+}
+
+TEST(Locator, ARivalThatIsNearlyAsLikelyIsTold) {
+  Presses presses(16, 3, 409, 5, 6);
+  int rivals = 0;
+  for (int i = 0; i < 50; ++i) {
+    locator.release();
+    settle(presses.noisy(ring.strains(presses.next()), ring.noise_strain()));
+    if (locator.answer().rivalEnergy < 0) continue;
+    ++rivals;
+    CHECK(locator.answer().rival.angle_q32 != locator.answer().solution.contact[0].angle_q32);
+  }
+  CHECK(rivals > 10);
+}
+
+TEST(Locator, NoiseThatIsMeasuredWidensTheGate) {
+  Presses presses(16, 10, 410);
+  int accepted = 0, acceptedAsConfigured = 0;
+  for (int i = 0; i < 50; ++i) {
+    const auto strains = ring.raw(presses.noisy(ring.strains(presses.next()), 5 * ring.noise_strain()));
+    if (isAccepted(strains, 25 * kConfiguredNoise_q4)) ++accepted;
+    if (isAccepted(strains, kConfiguredNoise_q4)) ++acceptedAsConfigured;
+  }
+  CHECK(accepted >= 48 && acceptedAsConfigured <= 5);
+}
+
+TEST_GROUP(ThreePointLocator) {
+  const ModelRing ring{ModelRing::ofKnownWidth(0)};
+  Locator locator{FitMode::kThreePoint};
+};
+
+TEST(ThreePointLocator, SolvesThreeReadingsExactlyWithinTwiceTheBound) {
+  Presses presses(16, 30, 411);
+  double squares = 0, bounds = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Press press = presses.next();
+    const auto strains = presses.noisy(ring.strains(press), ring.noise_strain());
+    locateOnce(ring.tables(), ring.raw(strains), ring.allGauges(), locator);
+    const Solution& solution = locator.answer().solution;
+    LONGS_EQUAL(3, std::popcount(solution.hypothesis.exact));
+    const double off = ring.between(press.position_pitch,
+                                    ring.pressOf(solution.contact[0], locator.answer().shift).position_pitch);
+    squares += off * off;
+    bounds += std::pow(ring.bound(press, false)[0], 2);
+  }
+  CHECK(std::sqrt(squares / bounds) < 2);
+}

@@ -1,0 +1,81 @@
+#include "firmware/core/noise_meter.hpp"
+
+#include "tests/firmware/core/model_ring.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::firmware;
+
+TEST_GROUP(NoiseMeter) {
+  const ModelRing ring{ModelRing::asDrawn()};
+  NoiseMeter meter;
+  Presses random{16, 1, 501};
+
+  void take(const std::vector<double>& strains) { meter.take(ring.constants(), ring.raw(strains)); }
+  /// A second of white noise, so many times the configured one.
+  void takeNoise(double times) {
+    for (int set = 0; set < 1000; ++set)
+      take(random.noisy(std::vector<double>(16, 0.0), times * ring.noise_strain()));
+  }
+  double found() const { return meter.variance_q4() / 16.0; }
+};
+
+TEST(NoiseMeter, StartsAtTheConfiguredNoise) {
+  LONGS_EQUAL(kConfiguredNoise_q4, meter.variance_q4());
+  CHECK_FALSE(meter.isNoisy());
+}
+
+TEST(NoiseMeter, ConfiguredNoiseIsNotNoisy) {
+  for (int second = 0; second < 60; ++second) {
+    takeNoise(1);
+    CHECK(found() < 1.6);
+    CHECK_FALSE(meter.isNoisy());
+  }
+}
+
+TEST(NoiseMeter, MeasuresTheVarianceOfMoreNoise) {
+  for (const double times : {3.0, 5.0, 10.0}) {
+    meter = {};
+    takeNoise(times);
+    // Sixteen comparisons of 16 gauges: 6 % of spread; the gate's scale is good to a fifth.
+    DOUBLES_EQUAL(1, found() / (times * times), 0.4);
+    CHECK_TRUE(meter.isNoisy());
+  }
+}
+
+TEST(NoiseMeter, CalmsDownWithTheRing) {
+  takeNoise(10);
+  takeNoise(1);
+  CHECK_FALSE(meter.isNoisy());
+}
+
+TEST(NoiseMeter, HumCountsInFull) {
+  const double amplitude = 60e-6;
+  for (int set = 0; set < 1000; ++set)
+    take(std::vector<double>(16, amplitude * std::sin(2 * std::numbers::pi * set / 20 + 0.3)));
+  CHECK_TRUE(meter.isNoisy());
+  const double ratio = amplitude / ring.noise_strain();
+  CHECK(found() > 0.2 * ratio * ratio && found() < 2 * ratio * ratio);
+}
+
+TEST(NoiseMeter, DriftIsNoNoise) {
+  // 20 microstrain in 10 s.
+  for (int set = 0; set < 10'000; ++set)
+    take(random.noisy(std::vector<double>(16, 2e-9 * set), ring.noise_strain()));
+  CHECK_FALSE(meter.isNoisy());
+}
+
+TEST(NoiseMeter, WhatWasBeforeATouchIsNotComparedWithWhatIsAfter) {
+  for (int round = 0; round < 100; ++round) {
+    for (int set = 0; set < 5; ++set) take(std::vector<double>(16, round % 2 * 1e-3));
+    meter.interrupt();
+  }
+  CHECK_FALSE(meter.isNoisy());
+}
+
+TEST(NoiseMeter, TheLoudestNoiseThereCanBeSaturates) {
+  for (int set = 0; set < 1000; ++set)
+    take(std::vector<double>(16, set / NoiseMeter::kLag % 2 == 0 ? 0.06 : -0.06));
+  CHECK_TRUE(meter.isNoisy());
+}

@@ -1,0 +1,195 @@
+#include "firmware/core/search.hpp"
+
+#include "tests/firmware/core/exact_fit.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::firmware;
+
+TEST_GROUP(Search) {
+  const ModelRing ring{ModelRing::asDrawn()};
+  Search search;
+  Linearisation scratch;
+  int advances = 0;
+
+  void searchOn(const ModelRing& of, const std::vector<double>& strains) {
+    const bool isWidthFree = of.constants().width_is_known == 0;
+    search.begin(of.tables(), of.scaled(strains), {1, isWidthFree, of.allGauges()});
+    for (advances = 0; search.isRunning(); ++advances) search.advance(of.tables(), scratch);
+  }
+  Press found(const ModelRing& of, const Solution& solution, int contact = 0) const {
+    return of.pressOf(solution.contact[static_cast<std::size_t>(contact)], search.readings().shift);
+  }
+  /// How many of these touches the search puts elsewhere than the most likely contact is, by so much of
+  /// chi-squared that rounding and the tables' errors don't explain it.
+  int missed(const ModelRing& of, double load, double leastWidth_mm, double mostWidth_mm, int touches) {
+    const ExactSearch everywhere(of);
+    Presses presses(of.gauges(), load, 301, leastWidth_mm, mostWidth_mm);
+    int missed = 0;
+    for (int i = 0; i < touches; ++i) {
+      const auto strains = presses.noisy(of.strains(presses.next()), of.noise_strain());
+      searchOn(of, strains);
+      const double best = everywhere.best(strains).chiSquared;
+      const Press answer = found(of, search.single().best);
+      if (!search.single().anyBest || ExactFit(of, strains).chiSquared(answer) > 1.1 * best + 2) ++missed;
+    }
+    return missed;
+  }
+  /// Is one of the solution's contacts there?
+  bool isAt(const Solution& solution, const Press& press, double within_pitch) const {
+    for (int k = 0; k < solution.hypothesis.contacts; ++k)
+      if (std::abs(ring.between(found(ring, solution, k).position_pitch, press.position_pitch)) <
+          within_pitch)
+        return true;
+    return false;
+  }
+};
+
+TEST(Search, FindsTheMostLikelyContactWhateverItsWidth) {
+  LONGS_EQUAL(0, missed(ring, 20, 0, 3, 40));
+  CHECK(missed(ring, 20, 3, 6, 40) <= 1);
+}
+
+TEST(Search, FindsTheMostLikelyContactHoweverFaint) {
+  CHECK(missed(ring, 2, 0, 6, 40) <= 2);
+  CHECK(missed(ring, 5, 0, 6, 40) <= 2);
+}
+
+TEST(Search, FindsTheMostLikelyContactHoweverFirm) { CHECK(missed(ring, 60, 0, 3, 40) <= 1); }
+
+TEST(Search, FindsContactsOfAKnownWidth) {
+  for (const double width_mm : {0.0, 2.0}) {
+    const ModelRing known(ModelRing::ofKnownWidth(width_mm));
+    LONGS_EQUAL(0, missed(known, 5, width_mm, width_mm, 30));
+    LONGS_EQUAL(0, missed(known, 30, width_mm, width_mm, 30));
+  }
+}
+
+TEST(Search, FindsContactsOnOtherRings) {
+  const ModelRing fine(ModelRing::asDrawn(24)), shear(ModelRing::asDrawn(16, StrainComponent::kShear));
+  CHECK(missed(fine, 20, 0, 4, 20) <= 1);
+  CHECK(missed(shear, 20, 0, 3, 20) <= 1);
+}
+
+TEST(Search, ATouchThatOneContactExplainsIsNotLookedIntoFurther) {
+  Presses presses(16, 20, 302, 0, 2);
+  for (int i = 0; i < 20; ++i) {
+    searchOn(ring, presses.noisy(ring.strains(presses.next()), ring.noise_strain()));
+    CHECK_TRUE(search.single().anyBest);
+    CHECK_FALSE(search.withoutOne().anyBest);
+    CHECK_FALSE(search.pair().anyBest);
+  }
+}
+
+TEST(Search, TellsTheSecondBestAnswerThatLiesElsewhere) {
+  // Between two gauges a wide contact has a rival that is hardly less likely.
+  Presses presses(16, 3, 303, 4, 6);
+  int seconds = 0;
+  for (int i = 0; i < 30; ++i) {
+    searchOn(ring, presses.noisy(ring.strains(presses.next()), ring.noise_strain()));
+    const Ranking& single = search.single();
+    if (!single.anySecond) continue;
+    ++seconds;
+    CHECK(likelihoodEnergy(ring.constants(), single.best, search.readings()) <=
+          likelihoodEnergy(ring.constants(), single.second, search.readings()));
+    CHECK(single.best.contact[0].angle_q32 != single.second.contact[0].angle_q32);
+  }
+  CHECK(seconds > 10);
+}
+
+TEST(Search, FindsTheGaugeWithoutWhichOneContactExplainsAll) {
+  for (int gauge = 0; gauge < 16; gauge += 3) {
+    auto strains = ring.strains({gauge + 1.3, 20, 5, 1});
+    strains[static_cast<std::size_t>(gauge)] += 4e-3;
+    searchOn(ring, strains);
+    const Ranking& without = search.withoutOne();
+    CHECK_TRUE(without.anyBest && isAccepted(ring.constants(), without.best, search.readings()));
+    UNSIGNED_LONGS_EQUAL(GaugeSet{1} << gauge, ring.allGauges() & ~without.best.hypothesis.gauges);
+    CHECK_TRUE(isAt(without.best, {gauge + 1.3, 20, 5, 1}, 0.05));
+  }
+}
+
+TEST(Search, FindsTwoContacts) {
+  Presses presses(16, 30, 304, 0, 1);
+  int wrong = 0;
+  for (int i = 0; i < 20; ++i) {
+    const Press one = presses.next(), other{one.position_pitch + 4 + i % 5, 10.0 + i, i % 3 * 3.0, 1};
+    searchOn(ring, presses.noisy(ring.strains({one, other}), ring.noise_strain()));
+    const Ranking& pair = search.pair();
+    if (!pair.anyBest || !isAt(pair.best, one, 0.1) || !isAt(pair.best, other, 0.1)) ++wrong;
+  }
+  CHECK(wrong <= 1);
+}
+
+TEST(Search, TakesItsTimeInParts) {
+  searchOn(ring, ring.strains({{2.2, 20, 0, 1}, {9.7, 20, 0, 1}}));
+  CHECK(advances > 5 && advances < 400);
+}
+
+TEST(Search, CanBeStopped) {
+  search.begin(ring.tables(), ring.scaled(ring.strains({3, 20, 0})), {1, true, ring.allGauges()});
+  CHECK_TRUE(search.isRunning());
+  search.stop();
+  CHECK_FALSE(search.isRunning());
+}
+
+TEST(Search, OfReadingsOfNothingAnyAnswerWillDo) {
+  searchOn(ring, std::vector<double>(16, 0.0));
+  CHECK_FALSE(search.isRunning());
+}
+
+TEST_GROUP(Ranking) {
+  TableConstants constants{};
+  ScaledReadings readings;
+  Ranking ranking;
+
+  void setup() override {
+    constants.gauge_count = 16;
+    constants.cone_q8 = 256;
+    readings.gateVariance_q4 = 16;
+  }
+  void take(int degrees, Wide energy, Number tangential = 0) {
+    Solution solution{{1, true, allGauges(16)}, {}};
+    solution.contact[0] = {static_cast<std::uint32_t>(degrees) * 11'930'465u, 1000, tangential, 0};
+    solution.residualEnergy = energy;
+    ranking.take(constants, solution, readings);
+  }
+  static int degreesOf(const Solution& solution) {
+    return static_cast<int>((solution.contact[0].angle_q32 + 5'000'000u) / 11'930'465u);
+  }
+};
+
+TEST(Ranking, KeepsTheTwoMostLikely) {
+  CHECK_FALSE(ranking.anyBest);
+  take(10, 500);
+  CHECK_TRUE(ranking.anyBest);
+  CHECK_FALSE(ranking.anySecond);
+  take(50, 100);
+  take(90, 300);
+  take(130, 900);
+  LONGS_EQUAL(50, degreesOf(ranking.best));
+  LONGS_EQUAL(90, degreesOf(ranking.second));
+}
+
+TEST(Ranking, TheSameAnswerIsNoSecond) {
+  take(10, 500);
+  take(11, 600);
+  CHECK_FALSE(ranking.anySecond);
+  take(11, 400);
+  CHECK_FALSE(ranking.anySecond);
+  LONGS_EQUAL(400, ranking.best.residualEnergy);
+}
+
+TEST(Ranking, AnswersBeyondTheFrictionConeAreLessLikely) {
+  take(10, 100, 2000);
+  take(50, 120);
+  LONGS_EQUAL(50, degreesOf(ranking.best));
+  take(90, 95, 2000);
+  LONGS_EQUAL(50, degreesOf(ranking.best));
+}
+
+TEST(Ranking, AnswersThatCannotBeAreNotTaken) {
+  take(10, 0, 1'000'000);
+  CHECK_FALSE(ranking.anyBest);
+}

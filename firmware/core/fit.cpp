@@ -242,7 +242,7 @@ void take(const TableConstants& constants, const Linearisation& linearisation, c
 bool isConverged(Wide reduction, const ScaledReadings& readings) {
   constexpr Wide kSquare = 512 / 16;
   return reduction < 64 ||
-         (reduction < Wide{1} << 31 && reduction * reduction <= kSquare * readings.gateVariance_q4);
+         (reduction < Wide{1} << 31 && reduction * reduction <= kSquare * readings.noiseVariance_q4);
 }
 
 }  // namespace

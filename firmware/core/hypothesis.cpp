@@ -38,6 +38,7 @@ ScaledReadings scaledReadings(const TableConstants& constants, std::span<const N
   };
   scaled.variance_q4 = withModelError(modelError);
   scaled.gateVariance_q4 = withModelError(modelError >> kGateModelError);
+  scaled.noiseVariance_q4 = withModelError(0);
   return scaled;
 }
 

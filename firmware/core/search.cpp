@@ -69,10 +69,6 @@ std::uint32_t anchor_q32(const TableImage& tables, const ScaledReadings& reading
   return anchor;
 }
 
-Number momentOf(const TableConstants& constants, Number moment_q20) {
-  return constants.width_is_known != 0 ? static_cast<Number>(constants.known_moment_q20) : moment_q20;
-}
-
 std::uint32_t apart_q32(const ContactState& a, const ContactState& b) {
   const std::uint32_t difference = a.angle_q32 - b.angle_q32;
   return std::min(difference, 0 - difference);
@@ -134,7 +130,7 @@ void Ranking::take(const TableConstants& constants, const Solution& solution,
 }
 
 Grid::Grid(const TableImage& tables, const Hypothesis& hypothesis, const ScaledReadings& readings, Kind kind)
-    : kind_(kind) {
+    : kind_(kind), widthIsFree_(hypothesis.widthIsFree) {
   const int ring = kRingPlacesPerGauge * tables.constants.gauge_count;
   const std::uint32_t eighth_q32 = pitch_q32(tables.constants) / 8;
   const bool fine = kind == Kind::kFine, around = fine || kind == Kind::kCoarse;
@@ -159,7 +155,8 @@ ContactStates Grid::at(const TableImage& tables, int index) const {
   const auto other = firmware::at(index % others_);
   const std::uint32_t place_q32 = first_q32_ + static_cast<std::uint32_t>(place) * step_q32_;
   const auto contact = [&](std::uint32_t angle_q32, Number moment_q20) {
-    return ContactState{angle_q32, 0, 0, momentOf(tables.constants, moment_q20)};
+    return ContactState{angle_q32, 0, 0,
+                        widthIsFree_ ? moment_q20 : static_cast<Number>(tables.constants.known_moment_q20)};
   };
   switch (kind_) {
     case Kind::kFine:

@@ -48,6 +48,7 @@ class Grid {
   std::int16_t places_ = 0;
   std::int16_t others_ = 1;  ///< widths, or first contacts
   Kind kind_ = Kind::kCoarse;
+  bool widthIsFree_ = true;
 };
 
 /// Where to start without knowing anything: the best point of a coarse grid.

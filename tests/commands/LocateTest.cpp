@@ -120,9 +120,9 @@ TEST(LocateCommand, FindsWhatTheModelSays) {
 TEST(LocateCommand, ASampleWithoutContactHasEmptyColumns) {
   const auto out = lines(runProgram("locate", nothing() + touchAt("10") + nothing()).out);
   LONGS_EQUAL(4, out.size());
-  STRCMP_EQUAL("0,,,,,,,", out[1].c_str());
+  STRCMP_EQUAL("0,,,,,,,,,,,,,", out[1].c_str());
   STRCMP_CONTAINS("1,", out[2].c_str());
-  STRCMP_EQUAL("0,,,,,,,", out[3].c_str());
+  STRCMP_EQUAL("0,,,,,,,,,,,,,", out[3].c_str());
 }
 
 TEST(LocateCommand, JsonHasAnObjectALine) {

@@ -151,7 +151,7 @@ TEST(FitRanges, AStepThatIsTakenOverflowsNothing) {
 }
 
 TEST(FitRanges, ConvergenceOfAnyReductionOverflowsNothing) {
-  forEachWay([] { isConverged(Wide(-0x7FFFFFFF, 0x7FFFFFFF), anyReadings()); });
+  forEachWay([] { isConverged(Wide(-kMostReduction, kMostReduction), anyReadings()); });
   checkNone();
 }
 
@@ -167,7 +167,7 @@ TEST(FitRanges, AWholeStepOverflowsNothing) {
     decompose(linearisation.column, kMostRows, linearisation.hypothesis.unknowns(),
               linearisation.decomposition);
     const Solution solution = step(*tables, linearisation, anyReadings());
-    checkWithin(solution.residualEnergy, 0, std::int64_t{1} << 36);
+    checkWithin(solution.residualEnergy, 0, 2 * kMostReduction);
   });
   checkNone();
 }
@@ -180,7 +180,7 @@ TEST(FitRanges, LoadsOfTwoContactsOverflowNothing) {
   forEachWay([&] {
     const Solution solution = fitLoads(*tables, {2, false, 0xFFFFFFFF}, contacts, readings, scratch);
     for (const ContactState& contact : solution.contact) checkWithin(contact.normal, -(1 << 20), 1 << 20);
-    checkWithin(solution.residualEnergy, 0, std::int64_t{1} << 36);
+    checkWithin(solution.residualEnergy, 0, 2 * kMostReduction);
   });
   checkNone();
 }

@@ -33,7 +33,7 @@ TEST_GROUP_BASE(NormalEquationsRanges, RangesGroup) {
     low.fill({-kLimit, 0});
     const Step step = solve(decomposition, anyColumns(), kMostRows, residual, low, high);
     for (const Number& x : step.x_q14) checkWithin(x, -kLimit, kLimit);
-    checkWithin(step.reduction, -0x7FFFFFFF, 0x7FFFFFFF);
+    checkWithin(step.reduction, -kMostReduction, kMostReduction);
   }
 };
 

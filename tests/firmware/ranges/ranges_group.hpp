@@ -9,6 +9,9 @@
 
 namespace strainfinger::firmware {
 
+/// Of a sum of squared residuals by one step; and what it leaves, where a limit made it worse.
+inline constexpr Exact kMostReduction = Exact{1} << 52;
+
 struct RangesGroup : Utest {
   void setup() override {
     overflows = 0;

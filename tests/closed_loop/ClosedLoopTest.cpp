@@ -44,8 +44,10 @@ class Bound {
 
   /// Least standard deviation of arc [m] and loads [N/m].
   Triple at(const Touch& touch) const {
+    const bool isWidthKnown = config_.contact.width_m.has_value();
     const evidence::Parameters sigmas =
-        cramerRaoBound(model_, model_.describe(touch), evidence::kWidthKnown, model_.noise_strain());
+        cramerRaoBound(model_, model_.describe(touch),
+                       isWidthKnown ? evidence::kWidthKnown : evidence::kWidthUnknown, model_.noise_strain());
     const Triple variance = sigmas.head<3>().array().square();
     return (variance + frameVariance()).sqrt() * unit();
   }
@@ -81,7 +83,13 @@ struct Result {
 }  // namespace
 
 TEST_GROUP(ClosedLoop) {
-  const config::FingerConfig config;
+  /// Exactly as drawn; every contact is known to be a line.
+  const config::FingerConfig config = [] {
+    config::FingerConfig perfect;
+    perfect.gauges.model_error = 0;
+    perfect.contact.width_m = 0;
+    return perfect;
+  }();
   const Bound bound{config};
   const std::unique_ptr<TableImage> tables = std::make_unique<TableImage>(tables::buildTableImage(config));
 

@@ -100,11 +100,17 @@ class Trip {
 }  // namespace
 
 TEST_GROUP(CalibrationLoop) {
-  const config::FingerConfig nominal_;
+  /// Exactly as drawn; every contact is known to be a line.
+  const config::FingerConfig nominal_ = [] {
+    config::FingerConfig perfect;
+    perfect.gauges.model_error = 0;
+    perfect.contact.width_m = 0;
+    return perfect;
+  }();
 
   /// Gains 5 % off, as an RMS.
   config::FingerConfig scattered() {
-    config::FingerConfig config;
+    config::FingerConfig config = nominal_;
     std::mt19937_64 random(kSeed);
     std::normal_distribution<double> gain(1, 0.05);
     for (int i = 0; i < config.gauges.count; ++i) config.calibration.gain.push_back(gain(random));

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <iostream>
@@ -153,6 +154,18 @@ class Rails {
   simulation::Converter converter_;
 };
 
+/// Every gauge at a rail should read as much as it does, or more.
+bool areRailsPlausible(const firmware::Locator& locator, std::span<const std::int32_t> strains_q32,
+                       GaugeSet saturated) {
+  for (std::size_t i = 0; i < strains_q32.size(); ++i) {
+    if (!firmware::contains(saturated, static_cast<int>(i))) continue;
+    const std::int32_t measured = strains_q32[i] >> locator.answer().shift;
+    const std::int32_t predicted = locator.linearisation().predicted[i], least = measured - measured / 4;
+    if (measured < 0 ? predicted > least : predicted < least) return false;
+  }
+  return true;
+}
+
 /// The row of what the firmware finds.
 std::vector<Cell> located(const TableImage& image, firmware::Locator& locator,
                           std::span<const std::int32_t> strains_q32, GaugeSet saturated) {
@@ -162,6 +175,11 @@ std::vector<Cell> located(const TableImage& image, firmware::Locator& locator,
   std::vector<Contact> contacts;
   for (int i = 0; i < answer.solution.hypothesis.contacts; ++i)
     contacts.push_back(firmware::estimate(image.constants, answer, locator.linearisation(), i));
+  if (!areRailsPlausible(locator, strains_q32, saturated))
+    for (Contact& contact : contacts) {
+      contact.uncertain = true;
+      contact.quality = std::min<std::uint8_t>(contact.quality, 20);
+    }
   return cellsOf(contacts, flagsOf(answer, contacts, saturated, all));
 }
 

@@ -89,7 +89,7 @@ bool isSame(const TableConstants& constants, const Solution& a, const Solution& 
 
 /// Points of a grid next to each other in place, of the same width: the worse is on the way to the better.
 bool isNeighbour(const TableConstants& constants, const Solution& a, const Solution& b) {
-  const std::uint32_t near_q32 = pitch_q32(constants) / 16 * (a.hypothesis.contacts == 1 ? 3 : 9);
+  const std::uint32_t near_q32 = pitch_q32(constants) / 16 * (a.hypothesis.contacts == 1 ? 5 : 9);
   for (int k = 0; k < a.hypothesis.contacts; ++k)
     if (apart_q32(a.contact[at(k)], b.contact[at(k)]) > near_q32 ||
         a.contact[at(k)].moment_q20 != b.contact[at(k)].moment_q20)

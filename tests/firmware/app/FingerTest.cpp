@@ -185,9 +185,10 @@ TEST(Finger, ANewZeroGivesGaugesAnotherTry) {
   runZeroed();
   hal::SampleSet set = codesOf(kTouch);
   set[3] = 0xFFF0;
-  runSets(60, set);
+  runSets(1500, set);
+  CHECK(sent<GaugesFrame>().back().out_of_use != 0);
   can.deliver(encode(tareRequest(true), kNode));
-  run(ZeroAverage::kSamples + 2);
+  run(ZeroAverage::kSamples + 1100);
   LONGS_EQUAL(0, sent<GaugesFrame>().back().out_of_use);
 }
 

@@ -25,24 +25,6 @@ constexpr int kMostSteps = 14;  ///< of these
 /// Units of work: a look at a point, one at a pair of places, a Gauss-Newton step of one or two contacts.
 constexpr int kPointWork = 5, kPairWork = 9, kStepWork = 10, kPairStepWork = 22;
 
-/// How many candidates a grid leaves, and how many of them are refined to the end.
-struct Effort {
-  int candidates, refined;
-};
-constexpr Effort effortOf(Grid::Kind kind) {
-  switch (kind) {
-    case Grid::Kind::kFine:
-      return {12, 4};
-    case Grid::Kind::kRing:
-      return {Grid::kMostFirsts, 0};
-    case Grid::Kind::kPairs:
-      return {8, 2};
-    case Grid::Kind::kCoarse:
-      break;
-  }
-  return {3, 1};
-}
-
 std::uint32_t pitch_q32(const TableConstants& constants) {
   const std::uint32_t count = constants.gauge_count;
   return (0 - count) / count + 1;  // 2^32 / count
@@ -89,7 +71,10 @@ bool isSame(const TableConstants& constants, const Solution& a, const Solution& 
 
 /// Points of a grid next to each other in place, of the same width: the worse is on the way to the better.
 bool isNeighbour(const TableConstants& constants, const Solution& a, const Solution& b) {
-  const std::uint32_t near_q32 = pitch_q32(constants) / 16 * (a.hypothesis.contacts == 1 ? 5 : 9);
+  const std::uint32_t near_q32 = pitch_q32(constants) / 16 *
+                                 (a.hypothesis.contacts == 2 ? 9
+                                  : a.hypothesis.widthIsFree ? 5
+                                                             : 1);
   for (int k = 0; k < a.hypothesis.contacts; ++k)
     if (apart_q32(a.contact[at(k)], b.contact[at(k)]) > near_q32 ||
         a.contact[at(k)].moment_q20 != b.contact[at(k)].moment_q20)
@@ -195,6 +180,20 @@ void Search::begin(const TableImage& tables, const ScaledReadings& readings, con
   beginTask(all_, Grid(tables, all_, readings_, Grid::Kind::kFine));
 }
 
+Search::Effort Search::effort() const {
+  switch (grid_.kind()) {
+    case Grid::Kind::kFine:
+      return stage_ == Stage::kSingle ? Effort{kMostCandidates, 8} : Effort{12, 4};
+    case Grid::Kind::kRing:
+      return {Grid::kMostFirsts, 0};
+    case Grid::Kind::kPairs:
+      return {8, 2};
+    case Grid::Kind::kCoarse:
+      break;
+  }
+  return {3, 1};
+}
+
 void Search::beginTask(const Hypothesis& hypothesis, const Grid& grid) {
   hypothesis_ = hypothesis;
   grid_ = grid;
@@ -210,8 +209,8 @@ void Search::consider(const TableConstants& constants, const Solution& point) {
   const auto place = std::upper_bound(first, last, point, isBetter);
   if (std::any_of(first, place, neighbours)) return;
   last = std::remove_if(place, last, neighbours);
-  if (place - first == effortOf(grid_.kind()).candidates) return;
-  if (last - first == effortOf(grid_.kind()).candidates) --last;
+  if (place - first == effort().candidates) return;
+  if (last - first == effort().candidates) --last;
   std::move_backward(place, last, last + 1);
   *place = point;
   candidates_ = static_cast<std::uint8_t>(last + 1 - first);
@@ -257,7 +256,7 @@ bool Search::isWorseTwin(const TableConstants& constants, int candidate) const {
 }
 
 int Search::refinements() const {
-  const int refined = effortOf(grid_.kind()).refined;
+  const int refined = effort().refined;
   return refined == 0 ? 0 : candidates_ + std::min<int>(candidates_, refined);
 }
 

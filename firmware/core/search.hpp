@@ -85,7 +85,13 @@ class Search {
     kFirstAgain,
     kSecondAgain
   };
-  static constexpr int kMostCandidates = 12;
+  static constexpr int kMostCandidates = 20;
+
+  /// How many candidates a grid leaves, and how many of them are refined to the end.
+  struct Effort {
+    int candidates, refined;
+  };
+  Effort effort() const;
 
   void beginTask(const Hypothesis& hypothesis, const Grid& grid);
   int lookAtPoint(const TableImage& tables, Linearisation& scratch);

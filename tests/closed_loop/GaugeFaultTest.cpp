@@ -27,8 +27,8 @@ constexpr std::array kKindNames{"healthy", "dead", "open", "short", "stuck"};
 constexpr std::size_t kFaulty = 5;
 constexpr GaugeSet kFaultySet = 1u << kFaulty;
 
-constexpr int kRest = 30;                   ///< sample sets between touches
-constexpr int kTouch = kSetsPerSecond / 2;  ///< and of a touch that is long enough for any search
+constexpr int kRest = 30;               ///< sample sets between touches
+constexpr int kTouch = kSetsPerSecond;  ///< and of a touch that is long enough for any search
 
 /// Changes the codes as a failed gauge does; stuck at, or dead at, this code.
 std::function<void(SampledFinger::Codes&)> fault(Kind kind, std::uint16_t held) {
@@ -122,7 +122,7 @@ TEST_GROUP(GaugeFault) {
       if (i % 20 == 0) finger = this->finger(i);
       const simulation::Touch touch = draws.at(static_cast<std::uint64_t>(i));
       finger->rest(kRest);
-      finger->hold(ring.exact(touch), kTouch / 5);
+      finger->hold(ring.exact(touch), kTouch / 10);
       blamed += finger->observation().outOfUse != 0;
       const Told said = told(*finger, {&touch, 1});
       silent += !said.right && !said.flagged && finger->observation().touched;
@@ -148,7 +148,7 @@ TEST_GROUP(GaugeFault) {
       const Eigen::VectorXd one = ring.exact(pair[0]), other = ring.exact(pair[1]);
       const auto finger = this->finger(i);
       finger->rest(kRest);
-      if (isSecondLater) finger->hold(one, kTouch / 5);
+      if (isSecondLater) finger->hold(one, kTouch / 10);
       for (int set = 0; set < rise; ++set) {
         const double part = static_cast<double>(set) / rise;
         finger->hold((isSecondLater ? 1 : part) * one + part * other, 1);
@@ -194,7 +194,7 @@ TEST(GaugeFault, AGaugeThatOpensUnderATouchIsNamedWhenItEndsAtTheLatest) {
     const auto finger = this->finger(trial);
     const Eigen::VectorXd strains = ring.exact(touches.at(static_cast<std::uint64_t>(trial)));
     finger->rest(kRest);
-    finger->hold(strains, kTouch / 5);
+    finger->hold(strains, kTouch / 10);
     finger->hold(strains, kTouch, fault(Kind::kOpen, 0));
     const GaugeSet out = finger->rest(2, fault(Kind::kOpen, 0)).outOfUse;
     named += out == kFaultySet;
@@ -256,7 +256,7 @@ TEST(GaugeFault, BeyondItsRangeTheFingerGoesOnWithTheOtherGauges) {
     const simulation::Touch touch = heavy.at(static_cast<std::uint64_t>(trial));
     const auto finger = this->finger(trial);
     finger->rest(kRest);
-    const firmware::Observation& seen = finger->hold(ring.exact(touch), kTouch / 5);
+    const firmware::Observation& seen = finger->hold(ring.exact(touch), kTouch / 10);
     LONGS_EQUAL(seen.saturated, seen.saturated & seen.leftOut);
     LONGS_EQUAL(0, seen.outOfUse);
     saturated += seen.saturated != 0;

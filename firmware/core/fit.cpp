@@ -274,8 +274,8 @@ Solution step(const TableImage& tables, const Linearisation& linearisation, cons
   setLimits(tables.constants, linearisation, low, high);
   const Step best =
       solve(linearisation.decomposition, linearisation.column, linearisation.rows, residual, low, high);
-  Solution solution{hypothesis, linearisation.at, std::max<Wide>(energy - best.reduction, 0),
-                    isConverged(best.reduction, readings)};
+  Solution solution{hypothesis, linearisation.at, isConverged(best.reduction, readings),
+                    std::max<Wide>(energy - best.reduction, 0)};
   take(tables.constants, linearisation, best, solution.contact);
   return solution;
 }
@@ -313,7 +313,7 @@ Solution fitLoads(const TableImage& tables, const Hypothesis& hypothesis, const 
   low.fill(-kMostLoad);
   high.fill(kMostLoad);
   const Step best = solve(scratch.decomposition, columns, rows, residual, low, high);
-  Solution solution{hypothesis, contacts, std::max<Wide>(energy - best.reduction, 0)};
+  Solution solution{hypothesis, contacts, false, std::max<Wide>(energy - best.reduction, 0)};
   for (int k = 0; k < hypothesis.contacts; ++k) {
     solution.contact[index(k)].normal = best.x_q14[index(loadsOf(k))];
     solution.contact[index(k)].tangential = best.x_q14[index(loadsOf(k) + 1)];

@@ -29,8 +29,8 @@ struct Linearisation {
 struct Solution {
   Hypothesis hypothesis;
   ContactStates contact;
-  Wide residualEnergy = 0;  ///< sum of squared residuals of all gauges that count
   bool converged = false;
+  Wide residualEnergy = 0;  ///< sum of squared residuals of all gauges that count
 
   std::span<const ContactState> contacts() const { return std::span(contact).first(hypothesis.contacts); }
 };

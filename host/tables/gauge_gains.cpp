@@ -23,11 +23,11 @@ int exponentFor(double largest) {
   return exponent;
 }
 
-constexpr double kTolerance = 1e-6;  ///< of the responses; gains are rounded to 3e-5 at best
+constexpr double kGainTolerance = 1e-6;  ///< of the responses; gains are rounded to 3e-5 at best
 
 model::ImpulseResponse responseAt(const config::FingerConfig& config, double radius_m) {
   return {config.finger.annulus(),    radius_m, config.gauges.component,
-          config.gauges.arc_length_m, 0,        kTolerance};
+          config.gauges.arc_length_m, 0,        kGainTolerance};
 }
 
 /// Integral over a revolution of the products of two gauges' responses to a normal and to a tangential line

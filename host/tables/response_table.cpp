@@ -16,7 +16,7 @@ using Eigen::Index, Eigen::MatrixXd;
 using std::numbers::pi;
 
 /// Of the elastic model, relative to the peak: a patch's weights are rounded to 3e-5 of it.
-constexpr double kTolerance = 1e-7;
+constexpr double kPatchTolerance = 1e-7;
 
 /// Chebyshev points that a patch is fitted to in each direction.
 constexpr int kPoints = 4;
@@ -202,7 +202,7 @@ void roundPatches(const config::Contact& contact, const Patches& normal, const P
 
 ResponseTable responseTable(const config::FingerConfig& config) {
   const model::ImpulseResponse response(config.finger.annulus(), config.gauges.radius_m,
-                                        config.gauges.component, config.gauges.arc_length_m, 0, kTolerance);
+                                        config.gauges.component, config.gauges.arc_length_m, 0, kPatchTolerance);
   const std::vector<int> edges_q15 = cellEdges_q15(config.contact);
   const double width_rad =
       config.contact.width_m.value_or(config.contact.largest_width_m) / config.finger.outer_radius_m;

@@ -27,7 +27,7 @@ struct Grid {
 constexpr Grid kFitted{8, 4}, kKnown{16, 8};
 
 constexpr double kWrong_pitch = 1.0 / 8;  ///< right answers are a hundred times nearer
-constexpr double kTolerance = 1e-9;       ///< of the model: below a step of StrainQ32 at half of full scale
+constexpr double kModelTolerance = 1e-9;       ///< of the model: below a step of StrainQ32 at half of full scale
 /// Loads, of half of full scale: weak contacts are judged with more doubt, so the locator goes other ways.
 constexpr std::array kLoads{1.0, 1.0 / 8};
 /// Widths that are fitted, of the largest. Wider contacts have rivals that full scale does not tell apart.
@@ -65,7 +65,7 @@ class Ring {
   static model::ImpulseResponse responseOf(const TableParameters& p) {
     const model::Annulus<double> annulus{p.core_radius_m, p.outer_radius_m, p.shear_modulus_pa,
                                          p.poisson_ratio};
-    return {annulus, p.gauge_radius_m, p.component, p.arc_length_m, 0, kTolerance};
+    return {annulus, p.gauge_radius_m, p.component, p.arc_length_m, 0, kModelTolerance};
   }
   double fromMiddle_rad(std::size_t gauge) const {
     const std::uint32_t turned_q32 = image_.gauge_angle_q32[gauge] - image_.gauge_angle_q32[middleOf(image_)];

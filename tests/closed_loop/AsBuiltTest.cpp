@@ -20,8 +20,8 @@ using namespace strainfinger;
 namespace {
 
 constexpr int kFingers = 40;
-constexpr int kRest = 30;
-constexpr int kTouch = 100;  ///< sample sets
+constexpr int kRestSets = 30;
+constexpr int kTouchSets = 100;  ///< sample sets
 
 /// Gauges off by these standard deviations, a core up to 0.1 mm thicker or thinner, a Poisson ratio from 0.49
 /// on.
@@ -61,8 +61,8 @@ TEST_GROUP(AsBuilt) {
     SampledFinger finger(*tables, ring);
     for (int i = 0; i < count; ++i) {
       const simulation::Touch touch = draws.at(static_cast<std::uint64_t>(i));
-      finger.rest(kRest);
-      finger.hold(ring.exact(touch), kTouch);
+      finger.rest(kRestSets);
+      finger.hold(ring.exact(touch), kTouchSets);
       ++outcome.touches;
       outcome.blamed += finger.observation().outOfUse != 0;
       outcome.several += finger.observation().several;

@@ -12,7 +12,7 @@
 namespace strainfinger::bench {
 namespace {
 
-constexpr std::string_view kIntroduction = R"(# What disturbs the finger
+constexpr std::string_view kMatrixIntroduction = R"(# What disturbs the finger
 
 Touches of a default finger, one disturbance a row, through the firmware's own pipeline from the converter's codes on; the
 worst rows first. Unless a row says otherwise: line contacts of 2 to 40 N/m, anywhere, pushed within 45 degrees of the
@@ -57,7 +57,7 @@ std::string matrixPage(std::vector<MatrixRow> rows, int touches, std::uint64_t s
   std::stable_sort(rows.begin(), rows.end(), [](const MatrixRow& a, const MatrixRow& b) {
     return badness(a.tally) > badness(b.tally);
   });
-  std::string text(kIntroduction);
+  std::string text(kMatrixIntroduction);
   text +=
       "| disturbance | silent | beyond 6 sigma | flagged | blamed | missed | located | ghosts | touches |\n"
       "|--|--|--|--|--|--|--|--|--|\n";

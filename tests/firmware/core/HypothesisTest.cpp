@@ -13,8 +13,8 @@ using namespace strainfinger;
 using namespace strainfinger::firmware;
 
 namespace {
-constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
-constexpr std::int32_t kLeast = std::numeric_limits<std::int32_t>::min();
+constexpr std::int32_t kMostStrain = std::numeric_limits<std::int32_t>::max();
+constexpr std::int32_t kLeastStrain = std::numeric_limits<std::int32_t>::min();
 }  // namespace
 
 TEST_GROUP(ScaledReadings) {
@@ -49,8 +49,8 @@ TEST(ScaledReadings, TheLargestHas15Bits) {
 }
 
 TEST(ScaledReadings, TheEndsOfTheirWordAreReadings) {
-  strains[0] = kLeast;
-  strains[1] = kMost;
+  strains[0] = kLeastStrain;
+  strains[1] = kMostStrain;
   const ScaledReadings readings = scaled();
   LONGS_EQUAL(16, readings.shift);
   LONGS_EQUAL(-32768, readings.value[0]);
@@ -66,8 +66,8 @@ TEST(ScaledReadings, NothingIsNothing) {
 
 TEST(ScaledReadings, GaugesThatDoNotCountSaturate) {
   strains[3] = 20'000;
-  strains[4] = kMost;
-  strains[5] = kLeast;
+  strains[4] = kMostStrain;
+  strains[5] = kLeastStrain;
   gauges &= ~(GaugeSet{3} << 4);
   const ScaledReadings readings = scaled();
   LONGS_EQUAL(0, readings.shift);
@@ -117,7 +117,7 @@ TEST(ScaledReadings, VariancesSaturateForAnyConstants) {
   constants.model_error_q16 = 0xFFFF;
   for (const std::uint32_t variance : {std::uint32_t{0}, std::uint32_t{1}, kMostNoiseVariance})
     for (int exponent = kLeastNoiseExponent; exponent <= kMostNoiseExponent; ++exponent)
-      for (const std::int32_t strain : {0, 1, 40'000, kMost, kLeast}) {
+      for (const std::int32_t strain : {0, 1, 40'000, kMostStrain, kLeastStrain}) {
         constants.noise_variance = variance;
         constants.noise_variance_exponent = static_cast<std::int8_t>(exponent);
         strains[0] = strain;

@@ -76,7 +76,7 @@ TEST(Matrix, BothContactsOfAPairHaveToBeLocated) {
 
 TEST(Matrix, AFailedGaugeDisturbsAndIsNotCountedAsBlamed) {
   Disturbance atRail = firmTouches();
-  atRail.failure = Failure::kOpen;
+  atRail.failure = bench::Failure::kOpen;
   const Tally failed = tally(atRail);
   LONGS_EQUAL(0, failed.blamed);
   LONGS_EQUAL(kTouches, failed.touches);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 #include "firmware/core/integer_root.hpp"
 #include "firmware/core/response.hpp"
@@ -73,13 +74,30 @@ std::uint8_t qualityOf(const Answer& answer, std::int64_t chiSquared, int freedo
   return static_cast<std::uint8_t>(std::max<std::int64_t>(quality, kMostUncertain + 1));
 }
 
+/// A load's standard error with that of the scale of all loads.
+LineLoadQ12 withScaleError(const TableConstants& constants, LineLoadQ12 sigma, LineLoadQ12 load) {
+  const Wide scale = load.raw() * Wide{constants.model_error_q16} >> (16 - threshold::kScaleErrorBits);
+  const Wide own = sigma.raw();
+  if (scale == 0) return sigma;
+  const Scaled both = rootOf(static_cast<std::uint64_t>(own * own + scale * scale), 0);
+  return LineLoadQ12::fromRaw(static_cast<Number>(both.times2(0, std::numeric_limits<Number>::max())));
+}
+
+/// Two contacts nearer than they can be told apart.
+bool areTooNear(const TableConstants& constants, const Solution& solution) {
+  if (solution.hypothesis.contacts < 2) return false;
+  const std::uint32_t apart_q32 = solution.contact[0].angle_q32 - solution.contact[1].angle_q32;
+  const std::uint32_t sixteenth_q32 = (std::uint32_t{1} << 28) / constants.gauge_count;
+  return std::min(apart_q32, 0 - apart_q32) < threshold::kApart_16 * sixteenth_q32;
+}
+
 /// Errors reach a rival that the readings hardly tell from the answer in three of them. True: it is farther
 /// away than the answer's own errors reached.
-bool coverRival(const Answer& answer, Contact& estimated) {
-  if (answer.rivalEnergy < 0 || answer.solution.hypothesis.contacts > 1) return false;
+bool coverRival(const Answer& answer, int contact, Contact& estimated) {
+  if (answer.rivalEnergy < 0) return false;
   if (answer.rivalEnergy >= energyOf(answer.gateVariance_q4, threshold::kAmbiguous)) return false;
   const auto turned =
-      static_cast<std::int32_t>(answer.rival.angle_q32 - answer.solution.contact[0].angle_q32);
+      static_cast<std::int32_t>(answer.rival[at(contact)].angle_q32 - answer.solution.contact[at(contact)].angle_q32);
   const std::uint32_t least = static_cast<std::uint32_t>(magnitude(Wide{turned})) / 3;
   if (estimated.sigmaAngle.raw() >= least) return false;
   estimated.sigmaAngle = TurnQ32::fromRaw(least);
@@ -112,9 +130,16 @@ Contact estimate(const TableConstants& constants, const Answer& answer, const Li
   estimated.tangential = load(state.tangential);
   estimated.sigmaNormal = load(sigma(2 * contact, 16, kMostLoad));
   estimated.sigmaTangential = load(sigma(2 * contact + 1, 16, kMostLoad));
-  if (hypothesis.widthIsFree)
-    setWidth(constants, state.moment_q20, sigma(3 * contacts + contact, kMomentBits, 1 << kMomentBits),
-             estimated);
+  bool tooWide = false;
+  if (hypothesis.widthIsFree) {
+    const std::int64_t sigma_q20 = sigma(3 * contacts + contact, kMomentBits, 1 << kMomentBits);
+    setWidth(constants, state.moment_q20, sigma_q20, estimated);
+    tooWide = state.moment_q20 > (1 << kMomentBits) - (1 << kMomentBits) / 64;
+  }
+  const bool faint = contacts > 1 && estimated.normal.raw() <
+                                         threshold::kFewestSigmas * std::int64_t{estimated.sigmaNormal.raw()};
+  estimated.sigmaNormal = withScaleError(constants, estimated.sigmaNormal, estimated.normal);
+  estimated.sigmaTangential = withScaleError(constants, estimated.sigmaTangential, estimated.tangential);
   const int left = freedoms(hypothesis);
   const std::int64_t chiSquared = (answer.solution.residualEnergy << 4) / answer.gateVariance_q4;
   if (left > 0) {
@@ -124,9 +149,10 @@ Contact estimate(const TableConstants& constants, const Answer& answer, const Li
     estimated.chi_q4 = static_cast<std::uint16_t>(chi.times2(0, kNoChi - 1));
   }
   estimated.quality = qualityOf(answer, chiSquared, left);
-  estimated.ambiguous = coverRival(answer, estimated);
-  estimated.alternative = TurnQ32::fromRaw(answer.rival.angle_q32);
-  estimated.uncertain = estimated.ambiguous || !answer.accepted || answer.searching;
+  estimated.ambiguous = coverRival(answer, contact, estimated);
+  estimated.alternative = TurnQ32::fromRaw(answer.rival[at(contact)].angle_q32);
+  estimated.uncertain = estimated.ambiguous || !answer.accepted || answer.searching || answer.doubtful ||
+                        areTooNear(constants, answer.solution) || tooWide || faint;
   if (estimated.uncertain) estimated.quality = std::min<std::uint8_t>(estimated.quality, 20);
   return estimated;
 }

@@ -43,14 +43,30 @@ int freedoms(const Hypothesis& hypothesis) {
   return std::popcount(hypothesis.gauges) - hypothesis.unknowns();
 }
 
-bool isAccepted(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings) {
+namespace {
+
+bool explains(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings,
+              int chiSquared) {
   const int left = freedoms(solution.hypothesis);
   if (left < 1 || !isAdmissible(constants, solution)) return false;
-  const Wide allowed = energyOf(readings, threshold::kGatePerFreedom * left + threshold::kGate);
+  const Wide allowed = energyOf(readings, chiSquared);
   if (solution.residualEnergy <= allowed) return true;
   const Number off = largestReading(readings, solution.hypothesis.gauges) >> 5;
   const Wide profile = (Wide{off} * off * left) >> (2 * (threshold::kProfileErrorBits - 5));
   return solution.residualEnergy <= allowed + profile;
+}
+
+}  // namespace
+
+bool isAccepted(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings) {
+  const int left = freedoms(solution.hypothesis);
+  return explains(constants, solution, readings, threshold::kGatePerFreedom * left + threshold::kGate);
+}
+
+bool isPlain(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings) {
+  const int left = freedoms(solution.hypothesis);
+  return explains(constants, solution, readings,
+                  (threshold::kDoubtPerFreedom_q2 * left >> 2) + threshold::kDoubt);
 }
 
 bool isFirm(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings) {

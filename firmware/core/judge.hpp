@@ -15,14 +15,23 @@ namespace threshold {
 /// normal deviates for 12 degrees of freedom (Wilson & Hilferty 1931).
 inline constexpr int kGatePerFreedom = 2;
 inline constexpr int kGate = 28;
+/// Above kDoubtPerFreedom_q2 / 4 * freedoms + kDoubt the other hypotheses are looked at as well, although
+/// this one is accepted: one touch in 250 by noise alone, for 12 degrees of freedom.
+inline constexpr int kDoubtPerFreedom_q2 = 7;
+inline constexpr int kDoubt = 8;
+/// What a second contact, or a gauge that is left out, must take off chi-squared to be believed: four more
+/// unknowns at the best of hundreds of places; one of sixteen gauges.
+inline constexpr int kSecondContact = 28;
+inline constexpr int kLeftOut = 16;
 /// What no pressure profile of the tables has: part of the largest reading, as a power of two, by which each
 /// reading may be off besides [log2]. Uniform pressures read as semi-ellipses, partial slip as a wider
 /// ellipse.
 inline constexpr int kProfileErrorBits = 9;
 /// An answer that was followed is given up where it leaves so many times kGate: hysteresis.
 inline constexpr int kLost = 4;
-/// Two answers are not told apart within this difference of chi-squared: 4.5 standard errors.
-inline constexpr int kAmbiguous = 20;
+/// Two answers are not told apart within this difference of chi-squared: the wrong one of two is told unflagged
+/// at most once in 11,000, however far apart they are.
+inline constexpr int kAmbiguous = 14;
 /// An inadmissible answer is believed only if it explains so much more: noise may have moved it there.
 inline constexpr int kInadmissible = 28;
 /// Largest reading over a standard deviation [squared] and second moment of contacts that have no second
@@ -31,6 +40,13 @@ inline constexpr int kFirmSignal = 1'200'000;
 inline constexpr int kFirmMoment_um2 = 360'000;
 /// A contact of a pair whose loads explain less than this much of chi-squared is none.
 inline constexpr int kFaint = 36;
+/// The scale of all loads is off by so many times the model error [log2]: a Poisson's ratio of 0.48 instead
+/// of 0.5 makes the loads of the default finger a fifth smaller, and leaves no residuals.
+inline constexpr int kScaleErrorBits = 2;
+/// A contact of a pair is sure from so many of its load's standard errors on.
+inline constexpr int kFewestSigmas = 5;
+/// Two contacts are told apart from so many sixteenths of a pitch on; nearer ones are flagged.
+inline constexpr int kApart_16 = 37;
 /// A gauge is a suspect only if leaving it out takes this much more off chi-squared than any other gauge.
 inline constexpr int kCulpritMargin = 12;
 /// A suspect's reading is off by at least this part of the largest reading, 1/16.
@@ -62,6 +78,9 @@ int freedoms(const Hypothesis& hypothesis);
 
 /// The hypothesis explains the readings within noise and model error, by admissible contacts.
 bool isAccepted(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings);
+
+/// The same within what leaves no doubt: noise alone seldom leaves more.
+bool isPlain(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings);
 
 /// So much signal and so narrow a contact, read by all gauges, that no other answer explains the readings.
 bool isFirm(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 #include <utility>
 
 namespace strainfinger::firmware {
@@ -9,11 +10,16 @@ namespace {
 
 constexpr int kMostSteps = 14;      ///< of a fit from the readings
 constexpr int kFollowingSteps = 3;  ///< of one from the last answer
-constexpr int kStepsWhileSearching = 2;
-/// Sets of readings after which what is in doubt is looked into again.
+constexpr int kStepsWhileSearching = 1;
+/// Sets of readings after which what is in doubt is looked into again ..
 constexpr std::uint16_t kSearchAgainAfter = 64;
+/// .. and, if that is new, after so many sets in a row that leave doubt: noise alone does that once in 10^7.
+constexpr std::uint8_t kNewDoubt = 3;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Kinds of hypotheses that a search compares.
+enum Kind : std::size_t { kSingle, kWithoutOne, kPair };
 
 Hypothesis oneContact(const TableImage& tables, FitMode mode, GaugeSet gauges) {
   const bool widthIsFree = tables.constants.width_is_known == 0 && mode == FitMode::kRefined;
@@ -52,7 +58,15 @@ void Locator::believe(const TableImage& tables, const Solution& solution, const 
   answer_.variance_q4 = readings.variance_q4;
   answer_.gateVariance_q4 = readings.gateVariance_q4;
   answer_.accepted = isAccepted(tables.constants, solution, readings);
+  setsInDoubt_ = isPlain(tables.constants, solution, readings)
+                     ? 0
+                     : static_cast<std::uint8_t>(std::min<int>(setsInDoubt_ + 1, kNewDoubt));
   tracking_ = true;
+}
+
+void Locator::search(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges) {
+  search_.begin(tables, readings, oneContact(tables, mode_, gauges));
+  setsSinceSearch_ = 0;
 }
 
 /// From the linear model around an earlier answer; anew around the answer where that is too far away.
@@ -89,47 +103,72 @@ void Locator::settle(const TableImage& tables, const ScaledReadings& readings) {
   const Hypothesis hypothesis = answer_.solution.hypothesis;
   const ContactStates from = rescaled(answer_.solution.contact, answer_.shift, readings.shift);
   believe(tables, fit(tables, hypothesis, from, readings, kMostSteps, linearisation_), readings);
-  answer_.searching = !answer_.accepted || !isFirm(tables.constants, answer_.solution, readings);
-  if (!answer_.searching) return;
-  search_.begin(tables, readings, hypothesis);
-  setsSinceSearch_ = 0;
+  answer_.searching = !isPlain(tables.constants, answer_.solution, readings) ||
+                      !isFirm(tables.constants, answer_.solution, readings);
+  if (answer_.searching) search(tables, readings, hypothesis.gauges);
 }
 
-/// The most likely hypothesis of those that were looked at.
+/// The most likely hypothesis of those that were looked at: each must take more off chi-squared than its
+/// additional unknowns would by chance.
 void Locator::conclude(const TableImage& tables) {
   const ScaledReadings& readings = search_.readings();
-  const TableConstants& constants = tables.constants;
-  const Ranking& single = search_.single();
-  const Ranking& without = search_.withoutOne();
-  const Ranking& pair = search_.pair();
-  const auto explains = [&](const Ranking& ranking) {
-    return ranking.anyBest && isAccepted(constants, ranking.best, readings);
+  const std::array rankings{&search_.single(), &search_.withoutOne(), &search_.pair()};
+  constexpr std::array<int, 3> kPrice{0, threshold::kLeftOut, threshold::kSecondContact};
+  const auto costOf = [&](std::size_t i) {
+    return rankings[i]->best.residualEnergy + energyOf(readings, kPrice[i]);
   };
-  answer_.searching = false;
-  answer_.several = false;
-  answer_.suspect = 0;
-  answer_.rivalEnergy = -1;
-  const Ranking* best = &single;
-  if (!explains(single)) {
-    const bool two = explains(pair) && areBothContacts(pair.best, readings);
-    const bool faulty = explains(without);
-    if (pair.anyBest && (two || !faulty)) best = &pair;
-    if (faulty && (!two || without.best.residualEnergy < pair.best.residualEnergy)) best = &without;
-    answer_.several = !faulty || two;
-    if (faulty && !two) {
-      const GaugeSet leftOut = single.best.hypothesis.gauges & ~without.best.hypothesis.gauges;
-      const bool isOnlyOne =
-          !without.anySecond || without.second.residualEnergy - without.best.residualEnergy >=
-                                    energyOf(readings, threshold::kCulpritMargin);
-      if (isOnlyOne && isFarOff(tables, without.best, readings, leftOut, scratch_)) answer_.suspect = leftOut;
+  std::array<bool, 3> explains{};
+  std::optional<std::size_t> best, next;
+  for (std::size_t i = 0; i < rankings.size(); ++i) {
+    if (!rankings[i]->anyBest) continue;
+    explains[i] = isAccepted(tables.constants, rankings[i]->best, readings) &&
+                  (i != kPair || areBothContacts(rankings[i]->best, readings));
+    const auto isBetter = [&](const std::optional<std::size_t>& other) {
+      return !other || explains[i] > explains[*other] ||
+             (explains[i] == explains[*other] && costOf(i) < costOf(*other));
+    };
+    if (isBetter(best)) {
+      next = std::exchange(best, i);
+    } else if (isBetter(next)) {
+      next = i;
     }
   }
-  if (!best->anyBest) return;
-  believe(tables, best->best, readings);
-  if (!best->anySecond || best->second.hypothesis != best->best.hypothesis) return;
-  answer_.rival = best->second.contact[0];
-  answer_.rivalEnergy =
-      likelihoodEnergy(constants, best->second, readings) - likelihoodEnergy(constants, best->best, readings);
+  answer_.searching = answer_.doubtful = answer_.several = false;
+  answer_.suspect = 0;
+  answer_.rivalEnergy = -1;
+  if (!best) return;
+  const bool faulty = explains[kWithoutOne], two = explains[kPair];
+  answer_.doubtful = !isPlain(tables.constants, rankings[*best]->best, readings) ||
+                     (next && explains[*next] &&
+                      costOf(*next) - costOf(*best) < energyOf(readings, threshold::kAmbiguous));
+  answer_.several = *best == kPair || (!faulty && *best != kSingle);
+  if (*best == kWithoutOne && !(two && answer_.doubtful)) answer_.suspect = culprit(tables);
+  believe(tables, rankings[*best]->best, readings);
+  rememberRival(tables, *rankings[*best], readings);
+}
+
+/// The gauge that the best answer leaves out, if no other one would do and its reading is far off.
+GaugeSet Locator::culprit(const TableImage& tables) {
+  const Ranking& without = search_.withoutOne();
+  const GaugeSet leftOut = search_.single().best.hypothesis.gauges & ~without.best.hypothesis.gauges;
+  const bool isOnlyOne =
+      !without.anySecond || without.second.residualEnergy - without.best.residualEnergy >=
+                                energyOf(search_.readings(), threshold::kCulpritMargin);
+  return isOnlyOne && isFarOff(tables, without.best, search_.readings(), leftOut, scratch_) ? leftOut : 0;
+}
+
+void Locator::rememberRival(const TableImage& tables, const Ranking& ranking,
+                            const ScaledReadings& readings) {
+  if (!ranking.anySecond || ranking.second.hypothesis != ranking.best.hypothesis) return;
+  answer_.rival = ranking.second.contact;
+  const auto apart = [&](int i, int j) {
+    const std::uint32_t turned = ranking.best.contact[at(i)].angle_q32 - answer_.rival[at(j)].angle_q32;
+    return magnitude(Wide{static_cast<std::int32_t>(turned)});
+  };
+  if (ranking.best.hypothesis.contacts == 2 && apart(0, 1) + apart(1, 0) < apart(0, 0) + apart(1, 1))
+    std::swap(answer_.rival[0], answer_.rival[1]);
+  answer_.rivalEnergy = likelihoodEnergy(tables.constants, ranking.second, readings) -
+                        likelihoodEnergy(tables.constants, ranking.best, readings);
 }
 
 void Locator::goOn(const TableImage& tables, const ScaledReadings& readings) {
@@ -204,11 +243,13 @@ void Locator::update(const TableImage& tables, std::span<const std::int32_t> str
     return;
   }
   if (search_.isRunning()) {
+    if (readings.shift > search_.readings().shift) search(tables, readings, gauges);  // a firmer touch tells more
     goOn(tables, readings);
-  } else if (!answer_.accepted || answer_.rivalEnergy >= 0) {
-    if (++setsSinceSearch_ < kSearchAgainAfter) return;
-    setsSinceSearch_ = 0;
-    search_.begin(tables, readings, oneContact(tables, mode_, gauges));
+  } else if (setsInDoubt_ == kNewDoubt && !answer_.doubtful) {
+    answer_.searching = true;
+    search(tables, readings, gauges);
+  } else if (!answer_.accepted || answer_.doubtful || answer_.rivalEnergy >= 0) {
+    if (++setsSinceSearch_ >= kSearchAgainAfter) search(tables, readings, gauges);
   }
   if (mode_ == FitMode::kThreePoint && !search_.isRunning()) solveExactly(tables, readings);
 }

@@ -22,8 +22,9 @@ struct Answer {
   std::int8_t shift = 0;              ///< of the readings
   std::uint32_t variance_q4 = 0;      ///< of a reading
   std::uint32_t gateVariance_q4 = 0;  ///< by which hypotheses are judged
-  ContactState rival;                 ///< another answer of the same hypothesis ..
+  ContactStates rival;                ///< another answer of the same hypothesis ..
   Wide rivalEnergy = -1;   ///< .. and what it leaves more [residual energy]; negative: there is none
+  bool doubtful = false;   ///< another hypothesis explains the readings nearly as well
   bool accepted = false;   ///< the hypothesis explains the readings
   bool searching = false;  ///< the search for other hypotheses goes on
   bool several = false;    ///< two contacts explain the readings as well as, or better than one
@@ -56,7 +57,10 @@ class Locator {
   void start(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
   void settle(const TableImage& tables, const ScaledReadings& readings);
   void goOn(const TableImage& tables, const ScaledReadings& readings);
+  void search(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
   void conclude(const TableImage& tables);
+  GaugeSet culprit(const TableImage& tables);
+  void rememberRival(const TableImage& tables, const Ranking& ranking, const ScaledReadings& readings);
   void believe(const TableImage& tables, const Solution& solution, const ScaledReadings& readings);
   void solveExactly(const TableImage& tables, const ScaledReadings& readings);
 
@@ -67,6 +71,7 @@ class Locator {
   FitMode mode_;
   bool tracking_ = false;
   bool guessed_ = false;  ///< the answer is where a fit starts
+  std::uint8_t setsInDoubt_ = 0;  ///< in a row, up to where a search begins
   std::uint16_t setsSinceSearch_ = 0;
 };
 

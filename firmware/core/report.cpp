@@ -53,9 +53,15 @@ bool moved(const ContactFrame& contact, const ContactFrame& last) {
          magnitude(contact.quality_percent - last.quality_percent) >= kQualityStep;
 }
 
+/// Of a force's error most may be the scale of all forces, which changes are not hidden by.
+constexpr int kForceChange = 32;
+bool movedForce(std::int32_t now, std::int32_t last, std::int32_t sigma) {
+  return moved(magnitude(now - last), std::min(sigma, magnitude(last) / kForceChange));
+}
+
 bool moved(const ForceFrame& force, const ForceFrame& last) {
-  return moved(magnitude(force.normal_mN - last.normal_mN), force.sigma_normal_half_mN / 2) ||
-         moved(magnitude(force.tangential_mN - last.tangential_mN), force.sigma_tangential_half_mN / 2);
+  return movedForce(force.normal_mN, last.normal_mN, force.sigma_normal_half_mN / 2) ||
+         movedForce(force.tangential_mN, last.tangential_mN, force.sigma_tangential_half_mN / 2);
 }
 
 bool moved(const PatchFrame& patch, const PatchFrame& last) {

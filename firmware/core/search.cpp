@@ -17,6 +17,9 @@ constexpr int kFinePlaces = 33, kCoarsePlaces = 17;
 constexpr int kFineStep = 1, kCoarseStep = 2, kRingStep = 2;  ///< eighths of a pitch
 constexpr int kRingPlacesPerGauge = 8 / kRingStep;
 
+/// Leaving out a gauge further away from the contact changes nothing but what that gauge itself leaves.
+constexpr std::uint32_t kSuspectPitches = 3;
+
 constexpr int kMostRounds = 2;  ///< of looking for each contact of a pair again
 
 constexpr int kFirstSteps = 2;  ///< Gauss-Newton steps of every candidate, before the best are chosen
@@ -69,12 +72,13 @@ bool isSame(const TableConstants& constants, const Solution& a, const Solution& 
   return (match(0, 0) && match(1, 1)) || (match(0, 1) && match(1, 0));
 }
 
-/// Points of a grid next to each other in place, of the same width: the worse is on the way to the better.
-bool isNeighbour(const TableConstants& constants, const Solution& a, const Solution& b) {
-  const std::uint32_t near_q32 = pitch_q32(constants) / 16 *
-                                 (a.hypothesis.contacts == 2 ? 9
-                                  : a.hypothesis.widthIsFree ? 5
-                                                             : 1);
+/// Points of a grid nearer than so many sixteenths of a pitch, of the same width: the worse is on the way to
+/// the better.
+constexpr std::uint32_t kNearFirsts_16 = 9, kNearWide_16 = 5, kNearLines_16 = 1;
+
+bool areNeighbours(const TableConstants& constants, const Solution& a, const Solution& b,
+                   std::uint32_t near_16) {
+  const std::uint32_t near_q32 = pitch_q32(constants) / 16 * near_16;
   for (int k = 0; k < a.hypothesis.contacts; ++k)
     if (apart_q32(a.contact[at(k)], b.contact[at(k)]) > near_q32 ||
         a.contact[at(k)].moment_q20 != b.contact[at(k)].moment_q20)
@@ -181,14 +185,20 @@ void Search::begin(const TableImage& tables, const ScaledReadings& readings, con
 }
 
 Search::Effort Search::effort() const {
-  switch (grid_.kind()) {
-    case Grid::Kind::kFine:
-      return stage_ == Stage::kSingle ? Effort{kMostCandidates, 8} : Effort{12, 4};
-    case Grid::Kind::kRing:
+  switch (stage_) {
+    case Stage::kSingle:
+      return {kMostCandidates, 8};
+    case Stage::kFirstOfPair:
       return {Grid::kMostFirsts, 0};
-    case Grid::Kind::kPairs:
-      return {8, 2};
-    case Grid::Kind::kCoarse:
+    case Stage::kPair:
+      return {12, 5};
+    case Stage::kFirstAgain:
+    case Stage::kSecondAgain:
+      return {12, kMostAnswers};
+    case Stage::kTogether:
+      return {kMostAnswers * kMostAnswers, 4};
+    case Stage::kWithoutOne:
+    case Stage::kIdle:
       break;
   }
   return {3, 1};
@@ -205,7 +215,11 @@ void Search::beginTask(const Hypothesis& hypothesis, const Grid& grid) {
 void Search::consider(const TableConstants& constants, const Solution& point) {
   const auto first = candidate_.begin();
   auto last = first + candidates_;
-  const auto neighbours = [&](const Solution& other) { return isNeighbour(constants, point, other); };
+  const bool isFirst = stage_ == Stage::kFirstOfPair || stage_ == Stage::kPair;
+  const std::uint32_t near_16 = isFirst ? kNearFirsts_16 : all_.widthIsFree ? kNearWide_16 : kNearLines_16;
+  const auto neighbours = [&](const Solution& other) {
+    return areNeighbours(constants, point, other, near_16);
+  };
   const auto place = std::upper_bound(first, last, point, isBetter);
   if (std::any_of(first, place, neighbours)) return;
   last = std::remove_if(place, last, neighbours);
@@ -228,24 +242,28 @@ int Search::refineNext(const TableImage& tables, Linearisation& scratch) {
   const bool first = refined_ < candidates_;
   const int i = first ? refined_ : refined_ - candidates_;
   Solution& candidate = candidate_[at(i)];
-  if (!first && steps_ == 0 && candidate.hypothesis == hypothesis_ && isWorseTwin(tables.constants, i)) {
+  if (!first && steps_ == 0 && isWorseTwin(tables.constants, i)) {
     ++refined_;
     return 0;
   }
-  const bool pair = candidate.hypothesis.contacts == 2;
-  linearise(tables, candidate.hypothesis, candidate.contact, scratch);
-  candidate = step(tables, scratch, pair ? readings_ : looked_);
+  linearise(tables, hypothesis_, candidate.contact, scratch);
+  candidate = step(tables, scratch, looked_);
   if (candidate.converged || ++steps_ == (first ? kFirstSteps : kMostSteps)) {
     steps_ = 0;
-    if (!first && isLookingAgain() && !pair) {
-      candidate = {{2, all_.widthIsFree, all_.gauges}, {candidate.contact[0], other_}};
-    } else {
-      ++refined_;
-      if (refined_ == candidates_) sortByEnergy(std::span(candidate_).first(candidates_));
-      if (!first) ranking().take(tables.constants, candidate, readings_);
-    }
+    ++refined_;
+    if (refined_ == candidates_) sortByEnergy(std::span(candidate_).first(candidates_));
+    if (!first) keep(tables.constants, candidate);
   }
-  return pair ? kPairStepWork : kStepWork;
+  return hypothesis_.contacts == 2 ? kPairStepWork : kStepWork;
+}
+
+void Search::keep(const TableConstants& constants, const Solution& solution) {
+  if (isLookingAgain()) {
+    const auto contact = at(stage_ == Stage::kFirstAgain ? 0 : 1);
+    if (answers_[contact] < kMostAnswers) again_[contact][answers_[contact]++] = solution.contact[0];
+  } else {
+    ranking().take(constants, solution, readings_);
+  }
 }
 
 /// A better candidate went to the same place.
@@ -265,8 +283,24 @@ Ranking& Search::ranking() {
   return stage_ == Stage::kWithoutOne ? withoutOne_ : pair_;
 }
 
+/// Gauges near the best single contact, and those that have most of what it leaves.
+void Search::findSuspects(const TableImage& tables, Linearisation& scratch) {
+  suspects_ = all_.gauges;
+  leftOut_ = 0;
+  if (!single_.anyBest) return;
+  const Solution& best = single_.best;
+  linearise(tables, best.hypothesis, best.contact, scratch);
+  for (int i = 0; i < tables.constants.gauge_count; ++i) {
+    const ContactState gauge{tables.gauge_angle_q32[at(i)]};
+    const Wide left = Wide{readings_.value[at(i)]} - scratch.predicted[at(i)];
+    if (apart_q32(best.contact[0], gauge) > kSuspectPitches * pitch_q32(tables.constants) &&
+        left * left < best.residualEnergy / 4)
+      suspects_ &= ~(GaugeSet{1} << i);
+  }
+}
+
 void Search::withoutNext(const TableImage& tables) {
-  while (leftOut_ < tables.constants.gauge_count && !contains(all_.gauges, leftOut_)) ++leftOut_;
+  while (leftOut_ < tables.constants.gauge_count && !contains(suspects_, leftOut_)) ++leftOut_;
   if (leftOut_ < tables.constants.gauge_count) {
     const Hypothesis without{1, all_.widthIsFree, all_.gauges & ~(GaugeSet{1} << leftOut_++)};
     return beginTask(without, Grid(tables, without, readings_, Grid::Kind::kCoarse));
@@ -279,19 +313,29 @@ void Search::withoutNext(const TableImage& tables) {
 /// is a second answer, of another width.
 void Search::lookAgain(const TableImage& tables, int contact, Linearisation& scratch) {
   if (!pair_.anyBest) return stop();
-  other_ = pair_.best.contact[at(1 - contact)];
-  linearise(tables, {1, all_.widthIsFree, all_.gauges}, {other_}, scratch);
+  linearise(tables, all_, {pair_.best.contact[at(1 - contact)]}, scratch);
   for (int i = 0; i < tables.constants.gauge_count; ++i)
     looked_.value[at(i)] = saturate<std::int16_t>(readings_.value[at(i)] - Number{scratch.predicted[at(i)]});
+  answers_[at(contact)] = 0;
   beginTask(all_, Grid(tables, all_, looked_, Grid::Kind::kFine));
+}
+
+/// Each answer of one contact with each of the other: both may have been in their second answers.
+void Search::tryTogether() {
+  stage_ = Stage::kTogether;
+  looked_ = readings_;
+  beginTask({2, all_.widthIsFree, all_.gauges}, {});
+  for (int i = 0; i < answers_[0]; ++i)
+    for (int j = 0; j < answers_[1]; ++j)
+      candidate_[candidates_++] = {hypothesis_, {again_[0][at(i)], again_[1][at(j)]}};
 }
 
 void Search::finishTask(const TableImage& tables, Linearisation& scratch) {
   switch (stage_) {
     case Stage::kSingle:
-      if (single_.anyBest && isAccepted(tables.constants, single_.best, readings_)) return stop();
+      if (single_.anyBest && isPlain(tables.constants, single_.best, readings_)) return stop();
       stage_ = Stage::kWithoutOne;
-      leftOut_ = 0;
+      findSuspects(tables, scratch);
       return withoutNext(tables);
     case Stage::kWithoutOne:
       return withoutNext(tables);
@@ -306,7 +350,9 @@ void Search::finishTask(const TableImage& tables, Linearisation& scratch) {
       stage_ = Stage::kSecondAgain;
       return lookAgain(tables, 1, scratch);
     case Stage::kSecondAgain:
-      if (isAccepted(tables.constants, pair_.best, readings_) || ++rounds_ == kMostRounds) return stop();
+      return tryTogether();
+    case Stage::kTogether:
+      if (isPlain(tables.constants, pair_.best, readings_) || ++rounds_ == kMostRounds) return stop();
       stage_ = Stage::kFirstAgain;
       return lookAgain(tables, 0, scratch);
     case Stage::kIdle:

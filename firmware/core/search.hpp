@@ -55,10 +55,9 @@ class Grid {
 ContactStates initialGuess(const TableImage& tables, const Hypothesis& hypothesis,
                            const ScaledReadings& readings, Linearisation& scratch);
 
-/// One contact; if that does not explain the readings, one contact without one of the gauges, and two
-/// contacts, of which each is looked for anew in what the other leaves. Of each hypothesis a grid is looked
-/// at, and its best points are refined. advance() does a part
-/// of it that fits into a sample period.
+/// One contact; if that leaves doubt, one contact without one of the gauges, and two contacts, of which each
+/// is looked for anew in what the other leaves, then both together. Of each hypothesis a grid is looked at,
+/// and its best points are refined. advance() does a part of it that fits into a sample period.
 class Search {
  public:
   /// `hypothesis`: one contact, read by all gauges that work.
@@ -73,7 +72,7 @@ class Search {
   const Ranking& withoutOne() const { return withoutOne_; }
   const Ranking& pair() const { return pair_; }
 
-  static constexpr int kWork = 50;
+  static constexpr int kWork = 150;
 
  private:
   enum class Stage : std::uint8_t {
@@ -83,9 +82,11 @@ class Search {
     kFirstOfPair,
     kPair,
     kFirstAgain,
-    kSecondAgain
+    kSecondAgain,
+    kTogether
   };
   static constexpr int kMostCandidates = 20;
+  static constexpr int kMostAnswers = 4;  ///< of one contact in what the other leaves, that are kept
 
   /// How many candidates a grid leaves, and how many of them are refined to the end.
   struct Effort {
@@ -101,19 +102,23 @@ class Search {
   int refinements() const;
   Ranking& ranking();
   void finishTask(const TableImage& tables, Linearisation& scratch);
+  void findSuspects(const TableImage& tables, Linearisation& scratch);
   void withoutNext(const TableImage& tables);
   void lookAgain(const TableImage& tables, int contact, Linearisation& scratch);
+  void tryTogether();
+  void keep(const TableConstants& constants, const Solution& solution);
   bool isLookingAgain() const { return stage_ == Stage::kFirstAgain || stage_ == Stage::kSecondAgain; }
 
   ScaledReadings readings_;
-  ScaledReadings
-      looked_;  ///< what the stage looks at: the readings, or what a contact of the pair leaves of them
-  ContactState other_;     ///< that contact
+  ScaledReadings looked_;  ///< by the stage: the readings, or what a contact of the pair leaves of them
   Hypothesis all_;         ///< one contact, all gauges
   Hypothesis hypothesis_;  ///< that is looked at
+  GaugeSet suspects_ = 0;  ///< gauges that are left out, one by one
   Grid grid_;
   Ranking single_, withoutOne_, pair_;
   std::array<Solution, kMostCandidates> candidate_;
+  std::array<std::array<ContactState, kMostAnswers>, kMostContacts> again_;  ///< answers of each contact
+  std::array<std::uint8_t, kMostContacts> answers_{};
   std::int16_t point_ = 0;  ///< of the grid, the next to be looked at
   std::uint8_t candidates_ = 0;
   std::uint8_t refined_ = 0;  ///< refinements made: first steps of all candidates, then all of the best

@@ -8,7 +8,7 @@
 namespace strainfinger::firmware {
 namespace {
 
-constexpr int kMostSteps = 14;      ///< of a fit from the readings
+constexpr int kMostSteps = 9;       ///< of a fit from the readings
 constexpr int kFollowingSteps = 3;  ///< of one from the last answer
 constexpr int kStepsWhileSearching = 1;
 /// Sets of readings after which what is in doubt is looked into again ..

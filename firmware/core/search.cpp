@@ -20,7 +20,8 @@ constexpr int kRingPlacesPerGauge = 8 / kRingStep;
 /// Leaving out a gauge further away from the contact changes nothing but what that gauge itself leaves.
 constexpr std::uint32_t kSuspectPitches = 3;
 
-constexpr int kMostRounds = 2;  ///< of looking for each contact of a pair again
+constexpr int kRingFirsts = 6;  ///< first contacts of a pair from a grid, besides the best single ones
+constexpr int kMostRounds = 4;  ///< of looking for each contact of a pair again
 
 constexpr int kFirstSteps = 2;  ///< Gauss-Newton steps of every candidate, before the best are chosen
 constexpr int kMostSteps = 14;  ///< of these
@@ -74,7 +75,7 @@ bool isSame(const TableConstants& constants, const Solution& a, const Solution& 
 
 /// Points of a grid nearer than so many sixteenths of a pitch, of the same width: the worse is on the way to
 /// the better.
-constexpr std::uint32_t kNearFirsts_16 = 9, kNearWide_16 = 5, kNearLines_16 = 1;
+constexpr std::uint32_t kNearFirsts_16 = 6, kNearWide_16 = 5, kNearLines_16 = 1;
 
 bool areNeighbours(const TableConstants& constants, const Solution& a, const Solution& b,
                    std::uint32_t near_16) {
@@ -136,7 +137,7 @@ Grid::Grid(const TableImage& tables, const Hypothesis& hypothesis, const ScaledR
 Grid::Grid(const Grid& ring, std::span<const Solution> firsts) : Grid(ring) {
   kind_ = Kind::kPairs;
   others_ = static_cast<std::int16_t>(firsts.size());
-  for (std::size_t i = 0; i < firsts.size(); ++i) firsts_q32_[i] = firsts[i].contact[0].angle_q32;
+  for (std::size_t i = 0; i < firsts.size(); ++i) firsts_[i] = {firsts[i].contact[0].angle_q32, firsts[i].contact[0].moment_q20};
 }
 
 ContactStates Grid::at(const TableImage& tables, int index) const {
@@ -157,7 +158,7 @@ ContactStates Grid::at(const TableImage& tables, int index) const {
     case Kind::kPairs:
       break;
   }
-  return {contact(firsts_q32_[other], kPairMoment_q20), contact(place_q32, kPairMoment_q20)};
+  return {contact(firsts_[other].angle_q32, firsts_[other].moment_q20), contact(place_q32, kPairMoment_q20)};
 }
 
 ContactStates initialGuess(const TableImage& tables, const Hypothesis& hypothesis,
@@ -189,9 +190,9 @@ Search::Effort Search::effort() const {
     case Stage::kSingle:
       return {kMostCandidates, 8};
     case Stage::kFirstOfPair:
-      return {Grid::kMostFirsts, 0};
+      return {kRingFirsts, 0};
     case Stage::kPair:
-      return {12, 5};
+      return {20, 8};
     case Stage::kFirstAgain:
     case Stage::kSecondAgain:
       return {12, kMostAnswers};
@@ -340,11 +341,14 @@ void Search::finishTask(const TableImage& tables, Linearisation& scratch) {
     case Stage::kWithoutOne:
       return withoutNext(tables);
     case Stage::kFirstOfPair:
+      if (single_.anyBest) candidate_[candidates_++] = single_.best;
+      if (single_.anySecond) candidate_[candidates_++] = single_.second;
       stage_ = Stage::kPair;
       return beginTask({2, all_.widthIsFree, all_.gauges},
                        Grid(grid_, std::span(candidate_).first(candidates_)));
     case Stage::kPair:
       stage_ = Stage::kFirstAgain;
+      leftBefore_ = pair_.best.residualEnergy;
       return lookAgain(tables, 0, scratch);
     case Stage::kFirstAgain:
       stage_ = Stage::kSecondAgain;
@@ -352,8 +356,9 @@ void Search::finishTask(const TableImage& tables, Linearisation& scratch) {
     case Stage::kSecondAgain:
       return tryTogether();
     case Stage::kTogether:
-      if (isPlain(tables.constants, pair_.best, readings_) || ++rounds_ == kMostRounds) return stop();
+      if (pair_.best.residualEnergy + energyOf(readings_, 1) >= leftBefore_ || ++rounds_ == kMostRounds) return stop();
       stage_ = Stage::kFirstAgain;
+      leftBefore_ = pair_.best.residualEnergy;
       return lookAgain(tables, 0, scratch);
     case Stage::kIdle:
       return;

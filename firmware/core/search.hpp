@@ -30,7 +30,7 @@ class Grid {
     kRing,    ///< all round the ring by quarters of a pitch
     kPairs,   ///< the same for a second contact beside each of some first ones
   };
-  static constexpr int kMostFirsts = 6;
+  static constexpr int kMostFirsts = 8;
 
   Grid() = default;
   Grid(const TableImage& tables, const Hypothesis& hypothesis, const ScaledReadings& readings, Kind kind);
@@ -44,7 +44,11 @@ class Grid {
  private:
   std::uint32_t first_q32_ = 0;  ///< the first place
   std::uint32_t step_q32_ = 0;
-  std::array<std::uint32_t, kMostFirsts> firsts_q32_{};
+  struct First {
+    std::uint32_t angle_q32;
+    Number moment_q20;
+  };
+  std::array<First, kMostFirsts> firsts_{};
   std::int16_t places_ = 0;
   std::int16_t others_ = 1;  ///< widths, or first contacts
   Kind kind_ = Kind::kCoarse;
@@ -119,6 +123,7 @@ class Search {
   std::array<Solution, kMostCandidates> candidate_;
   std::array<std::array<ContactState, kMostAnswers>, kMostContacts> again_;  ///< answers of each contact
   std::array<std::uint8_t, kMostContacts> answers_{};
+  Wide leftBefore_ = 0;  ///< by the pair, before its contacts were looked for again
   std::int16_t point_ = 0;  ///< of the grid, the next to be looked at
   std::uint8_t candidates_ = 0;
   std::uint8_t refined_ = 0;  ///< refinements made: first steps of all candidates, then all of the best

@@ -96,8 +96,8 @@ bool areTooNear(const TableConstants& constants, const Solution& solution) {
 bool coverRival(const Answer& answer, int contact, Contact& estimated) {
   if (answer.rivalEnergy < 0) return false;
   if (answer.rivalEnergy >= energyOf(answer.gateVariance_q4, threshold::kAmbiguous)) return false;
-  const auto turned =
-      static_cast<std::int32_t>(answer.rival[at(contact)].angle_q32 - answer.solution.contact[at(contact)].angle_q32);
+  const auto turned = static_cast<std::int32_t>(answer.rival[at(contact)].angle_q32 -
+                                                answer.solution.contact[at(contact)].angle_q32);
   const std::uint32_t least = static_cast<std::uint32_t>(magnitude(Wide{turned})) / 3;
   if (estimated.sigmaAngle.raw() >= least) return false;
   estimated.sigmaAngle = TurnQ32::fromRaw(least);

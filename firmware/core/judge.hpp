@@ -29,8 +29,8 @@ inline constexpr int kLeftOut = 16;
 inline constexpr int kProfileErrorBits = 9;
 /// An answer that was followed is given up where it leaves so many times kGate: hysteresis.
 inline constexpr int kLost = 4;
-/// Two answers are not told apart within this difference of chi-squared: the wrong one of two is told unflagged
-/// at most once in 11,000, however far apart they are.
+/// Two answers are not told apart within this difference of chi-squared: the wrong one of two is told
+/// unflagged at most once in 11,000, however far apart they are.
 inline constexpr int kAmbiguous = 14;
 /// An inadmissible answer is believed only if it explains so much more: noise may have moved it there.
 inline constexpr int kInadmissible = 28;

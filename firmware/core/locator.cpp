@@ -138,9 +138,9 @@ void Locator::conclude(const TableImage& tables) {
   answer_.rivalEnergy = -1;
   if (!best) return;
   const bool faulty = explains[kWithoutOne], two = explains[kPair];
-  answer_.doubtful = !isPlain(tables.constants, rankings[*best]->best, readings) ||
-                     (next && explains[*next] &&
-                      costOf(*next) - costOf(*best) < energyOf(readings, threshold::kAmbiguous));
+  answer_.doubtful =
+      !isPlain(tables.constants, rankings[*best]->best, readings) ||
+      (next && explains[*next] && costOf(*next) - costOf(*best) < energyOf(readings, threshold::kAmbiguous));
   answer_.several = *best == kPair || (!faulty && *best != kSingle);
   if (*best == kWithoutOne && !(two && answer_.doubtful)) answer_.suspect = culprit(tables);
   believe(tables, rankings[*best]->best, readings);
@@ -151,9 +151,8 @@ void Locator::conclude(const TableImage& tables) {
 GaugeSet Locator::culprit(const TableImage& tables) {
   const Ranking& without = search_.withoutOne();
   const GaugeSet leftOut = search_.single().best.hypothesis.gauges & ~without.best.hypothesis.gauges;
-  const bool isOnlyOne =
-      !without.anySecond || without.second.residualEnergy - without.best.residualEnergy >=
-                                energyOf(search_.readings(), threshold::kCulpritMargin);
+  const bool isOnlyOne = !without.anySecond || without.second.residualEnergy - without.best.residualEnergy >=
+                                                   energyOf(search_.readings(), threshold::kCulpritMargin);
   return isOnlyOne && isFarOff(tables, without.best, search_.readings(), leftOut, scratch_) ? leftOut : 0;
 }
 
@@ -172,9 +171,9 @@ void Locator::rememberRival(const TableImage& tables, const Ranking& ranking,
 }
 
 void Locator::goOn(const TableImage& tables, const ScaledReadings& readings) {
-  search_.advance(tables, scratch_);
-  if (search_.isRunning()) return;
+  if (!search_.isDone()) return search_.advance(tables, scratch_);
   conclude(tables);
+  search_.stop();
   // The touch may have changed since the search began.
   const Hypothesis hypothesis = answer_.solution.hypothesis;
   const ContactStates from = rescaled(answer_.solution.contact, answer_.shift, readings.shift);
@@ -243,7 +242,8 @@ void Locator::update(const TableImage& tables, std::span<const std::int32_t> str
     return;
   }
   if (search_.isRunning()) {
-    if (readings.shift > search_.readings().shift) search(tables, readings, gauges);  // a firmer touch tells more
+    if (readings.shift > search_.readings().shift)
+      search(tables, readings, gauges);  // a firmer touch tells more
     goOn(tables, readings);
   } else if (setsInDoubt_ == kNewDoubt && !answer_.doubtful) {
     answer_.searching = true;

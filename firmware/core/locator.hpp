@@ -70,7 +70,7 @@ class Locator {
   Answer answer_;
   FitMode mode_;
   bool tracking_ = false;
-  bool guessed_ = false;  ///< the answer is where a fit starts
+  bool guessed_ = false;          ///< the answer is where a fit starts
   std::uint8_t setsInDoubt_ = 0;  ///< in a row, up to where a search begins
   std::uint16_t setsSinceSearch_ = 0;
 };

@@ -82,7 +82,7 @@ void Pipeline::watchGauges(Codes codes) {
 /// The codes are those of the last set, and the answer to them is found.
 bool Pipeline::isKnown(Codes codes) const {
   const Answer& answer = locator_.answer();
-  if (!observation_.touched || !answer.accepted || answer.searching || answer.rivalEnergy >= 0) return false;
+  if (!observation_.touched || !answer.accepted || answer.searching) return false;
   if (observation_.saturated != 0) return false;  // a second set may convict a gauge at a rail
   return !areZerosNew_ && std::equal(codes.begin(), codes.end(), codes_.begin());
 }

@@ -14,20 +14,19 @@ constexpr std::array<Number, 2> kCoarseMoments_q20{60'000, 400'000};
 constexpr Number kPairMoment_q20 = 60'000;
 
 constexpr int kFinePlaces = 33, kCoarsePlaces = 17;
-constexpr int kFineStep = 1, kCoarseStep = 2, kRingStep = 2;  ///< eighths of a pitch
-constexpr int kRingPlacesPerGauge = 8 / kRingStep;
+constexpr int kFineStep = 1, kCoarseStep = 2, kRingStep = 3;  ///< eighths of a pitch
 
 /// Leaving out a gauge further away from the contact changes nothing but what that gauge itself leaves.
-constexpr std::uint32_t kSuspectPitches = 3;
+constexpr std::uint32_t kSuspectPitches = 2;
 
-constexpr int kRingFirsts = 6;  ///< first contacts of a pair from a grid, besides the best single ones
+constexpr int kRingFirsts = 4;  ///< first contacts of a pair from a grid, besides the best single ones
 constexpr int kMostRounds = 4;  ///< of looking for each contact of a pair again
 
 constexpr int kFirstSteps = 2;  ///< Gauss-Newton steps of every candidate, before the best are chosen
 constexpr int kMostSteps = 14;  ///< of these
 
 /// Units of work: a look at a point, one at a pair of places, a Gauss-Newton step of one or two contacts.
-constexpr int kPointWork = 5, kPairWork = 9, kStepWork = 10, kPairStepWork = 22;
+constexpr int kPointWork = 5, kPairWork = 12, kStepWork = 12, kPairStepWork = 31;
 
 std::uint32_t pitch_q32(const TableConstants& constants) {
   const std::uint32_t count = constants.gauge_count;
@@ -87,16 +86,6 @@ bool areNeighbours(const TableConstants& constants, const Solution& a, const Sol
   return true;
 }
 
-constexpr auto isBetter = [](const Solution& a, const Solution& b) {
-  return a.residualEnergy < b.residualEnergy;
-};
-
-/// By insertion: std::sort recurses, and the depth of the stack must be known.
-void sortByEnergy(std::span<Solution> solutions) {
-  for (auto each = solutions.begin(); each != solutions.end(); ++each)
-    std::rotate(std::upper_bound(solutions.begin(), each, *each, isBetter), each, each + 1);
-}
-
 }  // namespace
 
 void Ranking::take(const TableConstants& constants, const Solution& solution,
@@ -121,7 +110,7 @@ void Ranking::take(const TableConstants& constants, const Solution& solution,
 
 Grid::Grid(const TableImage& tables, const Hypothesis& hypothesis, const ScaledReadings& readings, Kind kind)
     : kind_(kind), widthIsFree_(hypothesis.widthIsFree) {
-  const int ring = kRingPlacesPerGauge * tables.constants.gauge_count;
+  const int ring = (8 * tables.constants.gauge_count + kRingStep - 1) / kRingStep;
   const std::uint32_t eighth_q32 = pitch_q32(tables.constants) / 8;
   const bool fine = kind == Kind::kFine, around = fine || kind == Kind::kCoarse;
   places_ = static_cast<std::int16_t>(fine ? kFinePlaces : around ? kCoarsePlaces : ring);
@@ -134,10 +123,50 @@ Grid::Grid(const TableImage& tables, const Hypothesis& hypothesis, const ScaledR
   }
 }
 
-Grid::Grid(const Grid& ring, std::span<const Solution> firsts) : Grid(ring) {
+void Candidates::clear() {
+  count_ = 0;
+  for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<std::uint8_t>(i);
+}
+
+void Candidates::move(int from, int to) {
+  const std::uint8_t slot = order_[at(from)];
+  for (; from < to; ++from) order_[at(from)] = order_[at(from + 1)];
+  for (; from > to; --from) order_[at(from)] = order_[at(from - 1)];
+  order_[at(to)] = slot;
+}
+
+template <typename IsNeighbour>
+void Candidates::insert(const Solution& solution, int most, IsNeighbour isNeighbour) {
+  int place = 0;
+  for (; place < count_ && !isBetter(solution, place); ++place)
+    if (isNeighbour((*this)[place])) return;
+  for (int i = place; i < count_;) {
+    if (isNeighbour((*this)[i])) {
+      move(i, --count_);
+    } else {
+      ++i;
+    }
+  }
+  if (place == most) return;
+  if (count_ == most) --count_;
+  add(solution);
+  move(count_ - 1, place);
+}
+
+/// By insertion: std::sort recurses, and the depth of the stack must be known.
+void Candidates::sort() {
+  for (int i = 1; i < count_; ++i) {
+    int place = i;
+    while (place > 0 && isBetter((*this)[i], place - 1)) --place;
+    move(i, place);
+  }
+}
+
+Grid::Grid(const Grid& ring, const Candidates& firsts) : Grid(ring) {
   kind_ = Kind::kPairs;
   others_ = static_cast<std::int16_t>(firsts.size());
-  for (std::size_t i = 0; i < firsts.size(); ++i) firsts_[i] = {firsts[i].contact[0].angle_q32, firsts[i].contact[0].moment_q20};
+  for (int i = 0; i < firsts.size(); ++i)
+    firsts_[firmware::at(i)] = {firsts[i].contact[0].angle_q32, firsts[i].contact[0].moment_q20};
 }
 
 ContactStates Grid::at(const TableImage& tables, int index) const {
@@ -188,7 +217,7 @@ void Search::begin(const TableImage& tables, const ScaledReadings& readings, con
 Search::Effort Search::effort() const {
   switch (stage_) {
     case Stage::kSingle:
-      return {kMostCandidates, 8};
+      return {Candidates::kMost, 8};
     case Stage::kFirstOfPair:
       return {kRingFirsts, 0};
     case Stage::kPair:
@@ -199,6 +228,7 @@ Search::Effort Search::effort() const {
     case Stage::kTogether:
       return {kMostAnswers * kMostAnswers, 4};
     case Stage::kWithoutOne:
+    case Stage::kDone:
     case Stage::kIdle:
       break;
   }
@@ -209,26 +239,18 @@ void Search::beginTask(const Hypothesis& hypothesis, const Grid& grid) {
   hypothesis_ = hypothesis;
   grid_ = grid;
   point_ = 0;
-  candidates_ = refined_ = steps_ = 0;
+  candidates_.clear();
+  refined_ = steps_ = 0;
 }
 
 /// Keeps the best points that are not neighbours of better ones, best first.
 void Search::consider(const TableConstants& constants, const Solution& point) {
-  const auto first = candidate_.begin();
-  auto last = first + candidates_;
   const bool isFirst = stage_ == Stage::kFirstOfPair || stage_ == Stage::kPair;
   const std::uint32_t near_16 = isFirst ? kNearFirsts_16 : all_.widthIsFree ? kNearWide_16 : kNearLines_16;
   const auto neighbours = [&](const Solution& other) {
     return areNeighbours(constants, point, other, near_16);
   };
-  const auto place = std::upper_bound(first, last, point, isBetter);
-  if (std::any_of(first, place, neighbours)) return;
-  last = std::remove_if(place, last, neighbours);
-  if (place - first == effort().candidates) return;
-  if (last - first == effort().candidates) --last;
-  std::move_backward(place, last, last + 1);
-  *place = point;
-  candidates_ = static_cast<std::uint8_t>(last + 1 - first);
+  candidates_.insert(point, effort().candidates, neighbours);
 }
 
 int Search::lookAtPoint(const TableImage& tables, Linearisation& scratch) {
@@ -240,9 +262,9 @@ int Search::lookAtPoint(const TableImage& tables, Linearisation& scratch) {
 
 /// A Gauss-Newton step of the next candidate: each has kFirstSteps, then the best have as many as they need.
 int Search::refineNext(const TableImage& tables, Linearisation& scratch) {
-  const bool first = refined_ < candidates_;
-  const int i = first ? refined_ : refined_ - candidates_;
-  Solution& candidate = candidate_[at(i)];
+  const bool first = refined_ < candidates_.size();
+  const int i = first ? refined_ : refined_ - candidates_.size();
+  Solution& candidate = candidates_[i];
   if (!first && steps_ == 0 && isWorseTwin(tables.constants, i)) {
     ++refined_;
     return 0;
@@ -252,7 +274,7 @@ int Search::refineNext(const TableImage& tables, Linearisation& scratch) {
   if (candidate.converged || ++steps_ == (first ? kFirstSteps : kMostSteps)) {
     steps_ = 0;
     ++refined_;
-    if (refined_ == candidates_) sortByEnergy(std::span(candidate_).first(candidates_));
+    if (refined_ == candidates_.size()) candidates_.sort();
     if (!first) keep(tables.constants, candidate);
   }
   return hypothesis_.contacts == 2 ? kPairStepWork : kStepWork;
@@ -270,13 +292,13 @@ void Search::keep(const TableConstants& constants, const Solution& solution) {
 /// A better candidate went to the same place.
 bool Search::isWorseTwin(const TableConstants& constants, int candidate) const {
   for (int better = 0; better < candidate; ++better)
-    if (isSame(constants, candidate_[at(candidate)], candidate_[at(better)])) return true;
+    if (isSame(constants, candidates_[candidate], candidates_[better])) return true;
   return false;
 }
 
 int Search::refinements() const {
   const int refined = effort().refined;
-  return refined == 0 ? 0 : candidates_ + std::min<int>(candidates_, refined);
+  return refined == 0 ? 0 : candidates_.size() + std::min(candidates_.size(), refined);
 }
 
 Ranking& Search::ranking() {
@@ -313,7 +335,7 @@ void Search::withoutNext(const TableImage& tables) {
 /// One contact of the pair is sought anew in what the other leaves of the readings: near every contact there
 /// is a second answer, of another width.
 void Search::lookAgain(const TableImage& tables, int contact, Linearisation& scratch) {
-  if (!pair_.anyBest) return stop();
+  if (!pair_.anyBest) return finish();
   linearise(tables, all_, {pair_.best.contact[at(1 - contact)]}, scratch);
   for (int i = 0; i < tables.constants.gauge_count; ++i)
     looked_.value[at(i)] = saturate<std::int16_t>(readings_.value[at(i)] - Number{scratch.predicted[at(i)]});
@@ -328,24 +350,23 @@ void Search::tryTogether() {
   beginTask({2, all_.widthIsFree, all_.gauges}, {});
   for (int i = 0; i < answers_[0]; ++i)
     for (int j = 0; j < answers_[1]; ++j)
-      candidate_[candidates_++] = {hypothesis_, {again_[0][at(i)], again_[1][at(j)]}};
+      candidates_.add({hypothesis_, {again_[0][at(i)], again_[1][at(j)]}});
 }
 
 void Search::finishTask(const TableImage& tables, Linearisation& scratch) {
   switch (stage_) {
     case Stage::kSingle:
-      if (single_.anyBest && isPlain(tables.constants, single_.best, readings_)) return stop();
+      if (single_.anyBest && isPlain(tables.constants, single_.best, readings_)) return finish();
       stage_ = Stage::kWithoutOne;
       findSuspects(tables, scratch);
       return withoutNext(tables);
     case Stage::kWithoutOne:
       return withoutNext(tables);
     case Stage::kFirstOfPair:
-      if (single_.anyBest) candidate_[candidates_++] = single_.best;
-      if (single_.anySecond) candidate_[candidates_++] = single_.second;
+      if (single_.anyBest) candidates_.add(single_.best);
+      if (single_.anySecond) candidates_.add(single_.second);
       stage_ = Stage::kPair;
-      return beginTask({2, all_.widthIsFree, all_.gauges},
-                       Grid(grid_, std::span(candidate_).first(candidates_)));
+      return beginTask({2, all_.widthIsFree, all_.gauges}, Grid(grid_, candidates_));
     case Stage::kPair:
       stage_ = Stage::kFirstAgain;
       leftBefore_ = pair_.best.residualEnergy;
@@ -356,17 +377,19 @@ void Search::finishTask(const TableImage& tables, Linearisation& scratch) {
     case Stage::kSecondAgain:
       return tryTogether();
     case Stage::kTogether:
-      if (pair_.best.residualEnergy + energyOf(readings_, 1) >= leftBefore_ || ++rounds_ == kMostRounds) return stop();
+      if (pair_.best.residualEnergy + energyOf(readings_, 1) >= leftBefore_ || ++rounds_ == kMostRounds)
+        return finish();
       stage_ = Stage::kFirstAgain;
       leftBefore_ = pair_.best.residualEnergy;
       return lookAgain(tables, 0, scratch);
+    case Stage::kDone:
     case Stage::kIdle:
       return;
   }
 }
 
 void Search::advance(const TableImage& tables, Linearisation& scratch) {
-  for (int work = 0; isRunning() && work < kWork;) {
+  for (int work = 0; isRunning() && !isDone() && work < kWork;) {
     if (point_ < grid_.size()) {
       work += lookAtPoint(tables, scratch);
     } else if (refined_ < refinements()) {

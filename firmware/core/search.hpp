@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 
 #include "firmware/core/fit.hpp"
 #include "firmware/core/judge.hpp"
@@ -21,6 +20,34 @@ struct Ranking {
   void take(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings);
 };
 
+/// Solutions worth refining, the likeliest first. Their order is kept apart from them, so that sorting moves
+/// bytes.
+class Candidates {
+ public:
+  static constexpr int kMost = 20;
+
+  int size() const { return count_; }
+  Solution& operator[](int i) { return solution_[order_[static_cast<std::size_t>(i)]]; }
+  const Solution& operator[](int i) const { return solution_[order_[static_cast<std::size_t>(i)]]; }
+  void clear();
+  /// Behind the others; at most kMost in all.
+  void add(const Solution& solution) { (*this)[count_++] = solution; }
+  /// At its place, instead of worse ones that are its neighbours, unless a better one is; `most` in all.
+  template <typename IsNeighbour>
+  void insert(const Solution& solution, int most, IsNeighbour isNeighbour);
+  void sort();
+
+ private:
+  bool isBetter(const Solution& solution, int i) const {
+    return solution.residualEnergy < (*this)[i].residualEnergy;
+  }
+  void move(int from, int to);
+
+  std::array<Solution, kMost> solution_;
+  std::array<std::uint8_t, kMost> order_{};  ///< slots of solution_: those in use, then the free ones
+  std::uint8_t count_ = 0;
+};
+
 /// Where to look for the contacts of a hypothesis.
 class Grid {
  public:
@@ -35,7 +62,7 @@ class Grid {
   Grid() = default;
   Grid(const TableImage& tables, const Hypothesis& hypothesis, const ScaledReadings& readings, Kind kind);
   /// Pairs: one of `firsts`, at most kMostFirsts, and a place of a `ring`.
-  Grid(const Grid& ring, std::span<const Solution> firsts);
+  Grid(const Grid& ring, const Candidates& firsts);
 
   Kind kind() const { return kind_; }
   int size() const { return places_ * others_; }
@@ -68,7 +95,10 @@ class Search {
   void begin(const TableImage& tables, const ScaledReadings& readings, const Hypothesis& hypothesis);
   void stop() { stage_ = Stage::kIdle; }
   bool isRunning() const { return stage_ != Stage::kIdle; }
-  /// Goes on for at most kWork units. Cost: 500 instructions of a Cortex-M4 each.
+  /// All was looked at; its rankings hold until stop().
+  bool isDone() const { return stage_ == Stage::kDone; }
+  /// Goes on for kWork units and a piece of work, which has 31 at most. Cost: 510 instructions of a Cortex-M4
+  /// each.
   void advance(const TableImage& tables, Linearisation& scratch);
 
   const ScaledReadings& readings() const { return readings_; }
@@ -76,7 +106,7 @@ class Search {
   const Ranking& withoutOne() const { return withoutOne_; }
   const Ranking& pair() const { return pair_; }
 
-  static constexpr int kWork = 150;
+  static constexpr int kWork = 112;
 
  private:
   enum class Stage : std::uint8_t {
@@ -87,9 +117,9 @@ class Search {
     kPair,
     kFirstAgain,
     kSecondAgain,
-    kTogether
+    kTogether,
+    kDone
   };
-  static constexpr int kMostCandidates = 20;
   static constexpr int kMostAnswers = 4;  ///< of one contact in what the other leaves, that are kept
 
   /// How many candidates a grid leaves, and how many of them are refined to the end.
@@ -110,6 +140,7 @@ class Search {
   void withoutNext(const TableImage& tables);
   void lookAgain(const TableImage& tables, int contact, Linearisation& scratch);
   void tryTogether();
+  void finish() { stage_ = Stage::kDone; }
   void keep(const TableConstants& constants, const Solution& solution);
   bool isLookingAgain() const { return stage_ == Stage::kFirstAgain || stage_ == Stage::kSecondAgain; }
 
@@ -120,12 +151,11 @@ class Search {
   GaugeSet suspects_ = 0;  ///< gauges that are left out, one by one
   Grid grid_;
   Ranking single_, withoutOne_, pair_;
-  std::array<Solution, kMostCandidates> candidate_;
+  Candidates candidates_;
   std::array<std::array<ContactState, kMostAnswers>, kMostContacts> again_;  ///< answers of each contact
   std::array<std::uint8_t, kMostContacts> answers_{};
-  Wide leftBefore_ = 0;  ///< by the pair, before its contacts were looked for again
-  std::int16_t point_ = 0;  ///< of the grid, the next to be looked at
-  std::uint8_t candidates_ = 0;
+  Wide leftBefore_ = 0;       ///< by the pair, before its contacts were looked for again
+  std::int16_t point_ = 0;    ///< of the grid, the next to be looked at
   std::uint8_t refined_ = 0;  ///< refinements made: first steps of all candidates, then all of the best
   std::uint8_t steps_ = 0;    ///< of the refinement that is under way
   std::uint8_t leftOut_ = 0;  ///< gauge

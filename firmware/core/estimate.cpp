@@ -151,8 +151,9 @@ Contact estimate(const TableConstants& constants, const Answer& answer, const Li
   estimated.quality = qualityOf(answer, chiSquared, left);
   estimated.ambiguous = coverRival(answer, contact, estimated);
   estimated.alternative = TurnQ32::fromRaw(answer.rival[at(contact)].angle_q32);
-  estimated.uncertain = estimated.ambiguous || !answer.accepted || answer.searching || answer.doubtful ||
-                        areTooNear(constants, answer.solution) || tooWide || faint;
+  estimated.uncertain = estimated.ambiguous || !answer.accepted ||
+                        answer.searching || answer.doubtful || areTooNear(constants, answer.solution) ||
+                        tooWide || faint;
   if (estimated.uncertain) estimated.quality = std::min<std::uint8_t>(estimated.quality, 20);
   return estimated;
 }

@@ -237,10 +237,10 @@ void take(const TableConstants& constants, const Linearisation& linearisation, c
   }
 }
 
-/// Largest reduction of the residuals' squares by a step after which another would not matter: what the
-/// curvature of the responses adds to the residuals is then below a fifth of a standard deviation.
+/// Largest reduction of the residuals' squares by a step after which another would not matter: its square
+/// over a reading's variance. A 64th of it makes no answer better.
 bool isConverged(Wide reduction, const ScaledReadings& readings) {
-  constexpr Wide kSquare = 512 / 16;
+  constexpr Wide kSquare = 2048;
   return reduction < 64 ||
          (reduction < Wide{1} << 31 && reduction * reduction <= kSquare * readings.noiseVariance_q4);
 }

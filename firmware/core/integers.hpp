@@ -74,7 +74,7 @@ constexpr Number shifted(Wide value, int up, Number limit) {
   const Wide most = Wide{limit} >> std::min(up, 62);
   if (value > most) return limit;
   if (value < -most) return -limit;
-  return static_cast<Number>(value << up);
+  return static_cast<Number>(value << std::min(up, 62));  // by more only 0
 }
 
 constexpr Number shifted(Number value, int up, Number limit) {
@@ -82,7 +82,7 @@ constexpr Number shifted(Number value, int up, Number limit) {
   const Number most = limit >> std::min(up, 31);
   if (value > most) return limit;
   if (value < -most) return -limit;
-  return value << up;
+  return value << std::min(up, 31);  // by more only 0
 }
 
 /// value * 2^up for any sign of `up`, rounded down; by 2^most where `up` is more.

@@ -9,8 +9,8 @@ namespace strainfinger::firmware {
 namespace {
 
 constexpr int kMostSteps = 9;       ///< of a fit from the readings
-constexpr int kFollowingSteps = 3;  ///< of one from the last answer
-constexpr int kStepsWhileSearching = 1;
+constexpr int kFollowingSteps = 2;  ///< of one from the last answer
+constexpr int kStepsWhileSearching = 1, kStepsAfterSearch = 3;
 /// Sets of readings after which what is in doubt is looked into again ..
 constexpr std::uint16_t kSearchAgainAfter = 64;
 /// .. and, if that is new, after so many sets in a row that leave doubt: noise alone does that once in 10^7.
@@ -57,6 +57,7 @@ void Locator::believe(const TableImage& tables, const Solution& solution, const 
   answer_.shift = readings.shift;
   answer_.variance_q4 = readings.variance_q4;
   answer_.gateVariance_q4 = readings.gateVariance_q4;
+  answer_.noiseVariance_q4 = readings.noiseVariance_q4;
   answer_.accepted = isAccepted(tables.constants, solution, readings);
   setsInDoubt_ = isPlain(tables.constants, solution, readings)
                      ? 0
@@ -66,6 +67,7 @@ void Locator::believe(const TableImage& tables, const Solution& solution, const 
 
 void Locator::search(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges) {
   search_.begin(tables, readings, oneContact(tables, mode_, gauges));
+  searchedAt_q32_ = answer_.solution.contact[0].angle_q32;
   setsSinceSearch_ = 0;
 }
 
@@ -84,7 +86,7 @@ bool Locator::follow(const TableImage& tables, const ScaledReadings& readings, G
   }
   const bool wasAccepted = answer_.accepted;
   believe(tables, solution, readings);
-  return answer_.accepted || !wasAccepted ||
+  return answer_.accepted || !wasAccepted || search_.isRunning() ||
          solution.residualEnergy <= energyOf(readings, threshold::kLost * threshold::kGate);
 }
 
@@ -172,12 +174,17 @@ void Locator::rememberRival(const TableImage& tables, const Ranking& ranking,
 
 void Locator::goOn(const TableImage& tables, const ScaledReadings& readings) {
   if (!search_.isDone()) return search_.advance(tables, scratch_);
+  const Solution followed = answer_.solution;
   conclude(tables);
   search_.stop();
-  // The touch may have changed since the search began.
+  // The touch has gone on since the search began: what was found has moved as the answer that was followed.
   const Hypothesis hypothesis = answer_.solution.hypothesis;
-  const ContactStates from = rescaled(answer_.solution.contact, answer_.shift, readings.shift);
-  believe(tables, fit(tables, hypothesis, from, readings, kStepsWhileSearching, linearisation_), readings);
+  ContactStates from = rescaled(answer_.solution.contact, answer_.shift, readings.shift);
+  for (ContactState& contact : from) contact.angle_q32 += followed.contact[0].angle_q32 - searchedAt_q32_;
+  Solution now = fit(tables, hypothesis, from, readings, kStepsAfterSearch, linearisation_);
+  if (followed.hypothesis == hypothesis && followed.residualEnergy <= now.residualEnergy)
+    now = fit(tables, hypothesis, followed.contact, readings, 1, linearisation_);
+  believe(tables, now, readings);
 }
 
 /// Three readings that see the place and both loads well, solved exactly, unless they lead elsewhere than all

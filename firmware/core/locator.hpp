@@ -19,10 +19,11 @@ enum class FitMode : std::uint8_t {
 /// What the locator believes.
 struct Answer {
   Solution solution;
-  std::int8_t shift = 0;              ///< of the readings
-  std::uint32_t variance_q4 = 0;      ///< of a reading
-  std::uint32_t gateVariance_q4 = 0;  ///< by which hypotheses are judged
-  ContactStates rival;                ///< another answer of the same hypothesis ..
+  std::int8_t shift = 0;               ///< of the readings
+  std::uint32_t variance_q4 = 0;       ///< of a reading
+  std::uint32_t gateVariance_q4 = 0;   ///< by which hypotheses are judged
+  std::uint32_t noiseVariance_q4 = 0;  ///< of a reading, that jitters from set to set
+  ContactStates rival;                 ///< another answer of the same hypothesis ..
   Wide rivalEnergy = -1;   ///< .. and what it leaves more [residual energy]; negative: there is none
   bool doubtful = false;   ///< another hypothesis explains the readings nearly as well
   bool accepted = false;   ///< the hypothesis explains the readings
@@ -73,6 +74,7 @@ class Locator {
   bool guessed_ = false;          ///< the answer is where a fit starts
   std::uint8_t setsInDoubt_ = 0;  ///< in a row, up to where a search begins
   std::uint16_t setsSinceSearch_ = 0;
+  std::uint32_t searchedAt_q32_ = 0;  ///< where the answer was when the search began
 };
 
 /// The answer to one set of strains alone: an update and the whole search.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "firmware/core/estimate.hpp"
+#include "firmware/core/integer_root.hpp"
 #include "firmware/core/units.hpp"
 
 namespace strainfinger::firmware {
@@ -45,34 +46,33 @@ std::int32_t angleBetween_cdeg(std::uint16_t a, std::uint16_t b) {
   return apart > 18000 ? 36000 - apart : apart;
 }
 
-/// Moved by more than its own error, in units of the value.
-bool moved(std::int32_t by, std::int32_t sigma) { return by > 0 && by > sigma; }
+/// What a value has moved by is news beyond the part of its error that jitters.
+class News {
+ public:
+  explicit News(std::uint32_t noiseShare_q8) : noiseShare_q8_(static_cast<std::int32_t>(noiseShare_q8)) {}
 
-bool moved(const ContactFrame& contact, const ContactFrame& last) {
-  return moved(angleBetween_cdeg(contact.angle_cdeg, last.angle_cdeg), contact.sigma_angle_cdeg) ||
-         magnitude(contact.quality_percent - last.quality_percent) >= kQualityStep;
-}
+  bool in(const ContactFrame& contact, const ContactFrame& last) const {
+    return moved(angleBetween_cdeg(contact.angle_cdeg, last.angle_cdeg), contact.sigma_angle_cdeg) ||
+           magnitude(contact.quality_percent - last.quality_percent) >= kQualityStep;
+  }
+  bool in(const ForceFrame& force, const ForceFrame& last) const {
+    return moved(magnitude(force.normal_mN - last.normal_mN), force.sigma_normal_half_mN / 2) ||
+           moved(magnitude(force.tangential_mN - last.tangential_mN), force.sigma_tangential_half_mN / 2);
+  }
+  bool in(const PatchFrame& patch, const PatchFrame& last) const {
+    constexpr std::uint16_t kUnknown = kNotKnown<std::uint16_t>;
+    if ((patch.width_um == kUnknown) != (last.width_um == kUnknown)) return true;
+    return moved(magnitude(patch.width_um - last.width_um), patch.sigma_width_um);
+  }
+  bool in(const SecondContactFrames& second, const SecondContactFrames& last) const {
+    return in(second.contact, last.contact) || in(second.force, last.force);
+  }
 
-/// Of a force's error most may be the scale of all forces, which changes are not hidden by.
-constexpr int kForceChange = 32;
-bool movedForce(std::int32_t now, std::int32_t last, std::int32_t sigma) {
-  return moved(magnitude(now - last), std::min(sigma, magnitude(last) / kForceChange));
-}
+ private:
+  bool moved(std::int32_t by, std::int32_t sigma) const { return by > 0 && by > sigma * noiseShare_q8_ >> 8; }
 
-bool moved(const ForceFrame& force, const ForceFrame& last) {
-  return movedForce(force.normal_mN, last.normal_mN, force.sigma_normal_half_mN / 2) ||
-         movedForce(force.tangential_mN, last.tangential_mN, force.sigma_tangential_half_mN / 2);
-}
-
-bool moved(const PatchFrame& patch, const PatchFrame& last) {
-  constexpr std::uint16_t kUnknown = kNotKnown<std::uint16_t>;
-  if ((patch.width_um == kUnknown) != (last.width_um == kUnknown)) return true;
-  return moved(magnitude(patch.width_um - last.width_um), patch.sigma_width_um);
-}
-
-bool moved(const SecondContactFrames& second, const SecondContactFrames& last) {
-  return moved(second.contact, last.contact) || moved(second.force, last.force);
-}
+  std::int32_t noiseShare_q8_;
+};
 
 ContactFrame contactFrame(const Contact& contact) {
   ContactFrame frame;
@@ -150,19 +150,22 @@ GaugesFrame gaugesFrame(GaugeSet outOfUse, const ZeroTracker& tracker, std::uint
   return frame;
 }
 
-bool isNews(const TouchFrames& frames, const TouchFrames& last) {
+bool isNews(const TouchFrames& frames, const TouchFrames& last, std::uint32_t noiseShare_q8) {
   if (frames.contact.flags != last.contact.flags) return true;
   if (frames.second.has_value() != last.second.has_value()) return true;
-  return moved(frames.contact, last.contact) || moved(frames.force, last.force) ||
-         moved(frames.patch, last.patch) || (frames.second && moved(*frames.second, *last.second));
+  const News news(noiseShare_q8);
+  return news.in(frames.contact, last.contact) || news.in(frames.force, last.force) ||
+         news.in(frames.patch, last.patch) || (frames.second && news.in(*frames.second, *last.second));
+}
+
+/// Standard deviation of the noise over that of all that a reading may be off [* 2^8].
+std::uint32_t noiseShare_q8(const Answer& answer) {
+  const std::uint64_t square_q16 = (std::uint64_t{answer.noiseVariance_q4} << 16) / answer.variance_q4;
+  return integerRoot(static_cast<std::uint32_t>(square_q16));
 }
 
 bool TouchReporter::mustBeRepeated(std::uint32_t now_us) const {
   return !any_ || now_us - sentAt_us_ >= std::uint32_t{kContactPeriod_ms} * 1000;
-}
-
-bool TouchReporter::worthSaying(const TouchFrames& frames, std::uint32_t now_us) const {
-  return mustBeRepeated(now_us) || isNews(frames, last_);
 }
 
 FingerFlags TouchReporter::flagsOf(const Observation& observation) const {
@@ -191,7 +194,7 @@ std::optional<TouchFrames> TouchReporter::frames(const TableConstants& constants
   flags.set(FingerFlag::kUncertain,
             contact.uncertain || observation.uncertain || (second && second->uncertain));
   const TouchFrames frames = touchFrames(constants, contact, second, flags, next);
-  if (!worthSaying(frames, now_us)) return std::nullopt;
+  if (!mustBeRepeated(now_us) && !isNews(frames, last_, noiseShare_q8(answer))) return std::nullopt;
   return frames;
 }
 

@@ -38,9 +38,12 @@ TouchFrames releaseFrames(FingerFlags flags, std::uint8_t sequence);
 /// What a GAUGES frame says; age and rate are not known before there are sample sets by the second.
 GaugesFrame gaugesFrame(GaugeSet outOfUse, const ZeroTracker& tracker, std::uint32_t setsPerSecond);
 
-/// Whether something changed by more than its own error, a quality by ten percent, or a flag, the number of
-/// contacts or whether the width is known at all.
-bool isNews(const TouchFrames& frames, const TouchFrames& last);
+/// All of a value's error is noise.
+inline constexpr std::uint32_t kOnlyNoise_q8 = 1 << 8;
+
+/// Whether something changed by more than its own error's part that is noise, a quality by ten percent, or a
+/// flag, the number of contacts or whether the width is known at all.
+bool isNews(const TouchFrames& frames, const TouchFrames& last, std::uint32_t noiseShare_q8 = kOnlyNoise_q8);
 
 /// When to say something: at most at the contact rate; when there is news; at least every kContactPeriod_ms
 /// in contact; once when contact ends. Otherwise never.
@@ -62,7 +65,6 @@ class TouchReporter {
   FingerFlags flagsOf(const Observation& observation) const;
   bool due(std::uint32_t now_us) const { return !any_ || now_us - sentAt_us_ >= shortestPeriod_us_; }
   bool mustBeRepeated(std::uint32_t now_us) const;
-  bool worthSaying(const TouchFrames& frames, std::uint32_t now_us) const;
 
   std::uint32_t shortestPeriod_us_;
   FingerFlags standing_;

@@ -14,12 +14,12 @@ constexpr std::array<Number, 2> kCoarseMoments_q20{60'000, 400'000};
 constexpr Number kPairMoment_q20 = 60'000;
 
 constexpr int kFinePlaces = 33, kCoarsePlaces = 17;
-constexpr int kFineStep = 1, kCoarseStep = 2, kRingStep = 3;  ///< eighths of a pitch
+constexpr int kFineStep = 1, kCoarseStep = 2, kRingStep = 2;  ///< eighths of a pitch
 
 /// Leaving out a gauge further away from the contact changes nothing but what that gauge itself leaves.
 constexpr std::uint32_t kSuspectPitches = 2;
 
-constexpr int kRingFirsts = 4;  ///< first contacts of a pair from a grid, besides the best single ones
+constexpr int kRingFirsts = 6;  ///< first contacts of a pair from a grid, besides the best single ones
 constexpr int kMostRounds = 4;  ///< of looking for each contact of a pair again
 
 constexpr int kFirstSteps = 2;  ///< Gauss-Newton steps of every candidate, before the best are chosen
@@ -65,10 +65,9 @@ bool isSame(const TableConstants& constants, const ContactState& a, const Contac
          magnitude(a.moment_q20 - b.moment_q20) < (1 << 15) + (a.moment_q20 + b.moment_q20) / 16;
 }
 
-bool isSame(const TableConstants& constants, const Solution& a, const Solution& b) {
-  if (a.hypothesis != b.hypothesis) return false;
-  const auto match = [&](int i, int j) { return isSame(constants, a.contact[at(i)], b.contact[at(j)]); };
-  if (a.hypothesis.contacts == 1) return match(0, 0);
+bool areSame(const TableConstants& constants, int contacts, const ContactStates& a, const ContactStates& b) {
+  const auto match = [&](int i, int j) { return isSame(constants, a[at(i)], b[at(j)]); };
+  if (contacts == 1) return match(0, 0);
   return (match(0, 0) && match(1, 1)) || (match(0, 1) && match(1, 0));
 }
 
@@ -76,13 +75,11 @@ bool isSame(const TableConstants& constants, const Solution& a, const Solution& 
 /// the better.
 constexpr std::uint32_t kNearFirsts_16 = 6, kNearWide_16 = 5, kNearLines_16 = 1;
 
-bool areNeighbours(const TableConstants& constants, const Solution& a, const Solution& b,
-                   std::uint32_t near_16) {
+bool areNeighbours(const TableConstants& constants, int contacts, const ContactStates& a,
+                   const ContactStates& b, std::uint32_t near_16) {
   const std::uint32_t near_q32 = pitch_q32(constants) / 16 * near_16;
-  for (int k = 0; k < a.hypothesis.contacts; ++k)
-    if (apart_q32(a.contact[at(k)], b.contact[at(k)]) > near_q32 ||
-        a.contact[at(k)].moment_q20 != b.contact[at(k)].moment_q20)
-      return false;
+  for (int k = 0; k < contacts; ++k)
+    if (apart_q32(a[at(k)], b[at(k)]) > near_q32 || a[at(k)].moment_q20 != b[at(k)].moment_q20) return false;
   return true;
 }
 
@@ -94,7 +91,8 @@ void Ranking::take(const TableConstants& constants, const Solution& solution,
   const auto isLikelier = [&](const Solution& a, const Solution& b) {
     return likelihoodEnergy(constants, a, readings) < likelihoodEnergy(constants, b, readings);
   };
-  const bool same = anyBest && isSame(constants, solution, best);
+  const bool same = anyBest && solution.hypothesis == best.hypothesis &&
+                    areSame(constants, solution.hypothesis.contacts, solution.contact, best.contact);
   if (!anyBest || isLikelier(solution, best)) {
     if (anyBest && !same) {
       second = best;
@@ -138,7 +136,7 @@ void Candidates::move(int from, int to) {
 template <typename IsNeighbour>
 void Candidates::insert(const Solution& solution, int most, IsNeighbour isNeighbour) {
   int place = 0;
-  for (; place < count_ && !isBetter(solution, place); ++place)
+  for (; place < count_ && (*this)[place].residualEnergy <= solution.residualEnergy; ++place)
     if (isNeighbour((*this)[place])) return;
   for (int i = place; i < count_;) {
     if (isNeighbour((*this)[i])) {
@@ -149,7 +147,7 @@ void Candidates::insert(const Solution& solution, int most, IsNeighbour isNeighb
   }
   if (place == most) return;
   if (count_ == most) --count_;
-  add(solution);
+  add(solution.contact, solution.residualEnergy);
   move(count_ - 1, place);
 }
 
@@ -157,7 +155,7 @@ void Candidates::insert(const Solution& solution, int most, IsNeighbour isNeighb
 void Candidates::sort() {
   for (int i = 1; i < count_; ++i) {
     int place = i;
-    while (place > 0 && isBetter((*this)[i], place - 1)) --place;
+    while (place > 0 && (*this)[i].residualEnergy < (*this)[place - 1].residualEnergy) --place;
     move(i, place);
   }
 }
@@ -247,8 +245,8 @@ void Search::beginTask(const Hypothesis& hypothesis, const Grid& grid) {
 void Search::consider(const TableConstants& constants, const Solution& point) {
   const bool isFirst = stage_ == Stage::kFirstOfPair || stage_ == Stage::kPair;
   const std::uint32_t near_16 = isFirst ? kNearFirsts_16 : all_.widthIsFree ? kNearWide_16 : kNearLines_16;
-  const auto neighbours = [&](const Solution& other) {
-    return areNeighbours(constants, point, other, near_16);
+  const auto neighbours = [&](const Candidate& other) {
+    return areNeighbours(constants, hypothesis_.contacts, point.contact, other.contact, near_16);
   };
   candidates_.insert(point, effort().candidates, neighbours);
 }
@@ -264,18 +262,19 @@ int Search::lookAtPoint(const TableImage& tables, Linearisation& scratch) {
 int Search::refineNext(const TableImage& tables, Linearisation& scratch) {
   const bool first = refined_ < candidates_.size();
   const int i = first ? refined_ : refined_ - candidates_.size();
-  Solution& candidate = candidates_[i];
+  Candidate& candidate = candidates_[i];
   if (!first && steps_ == 0 && isWorseTwin(tables.constants, i)) {
     ++refined_;
     return 0;
   }
   linearise(tables, hypothesis_, candidate.contact, scratch);
-  candidate = step(tables, scratch, looked_);
-  if (candidate.converged || ++steps_ == (first ? kFirstSteps : kMostSteps)) {
+  const Solution solution = step(tables, scratch, looked_);
+  candidate = {solution.contact, solution.residualEnergy};
+  if (solution.converged || ++steps_ == (first ? kFirstSteps : kMostSteps)) {
     steps_ = 0;
     ++refined_;
     if (refined_ == candidates_.size()) candidates_.sort();
-    if (!first) keep(tables.constants, candidate);
+    if (!first) keep(tables.constants, solution);
   }
   return hypothesis_.contacts == 2 ? kPairStepWork : kStepWork;
 }
@@ -292,7 +291,8 @@ void Search::keep(const TableConstants& constants, const Solution& solution) {
 /// A better candidate went to the same place.
 bool Search::isWorseTwin(const TableConstants& constants, int candidate) const {
   for (int better = 0; better < candidate; ++better)
-    if (isSame(constants, candidates_[candidate], candidates_[better])) return true;
+    if (areSame(constants, hypothesis_.contacts, candidates_[candidate].contact, candidates_[better].contact))
+      return true;
   return false;
 }
 
@@ -349,8 +349,7 @@ void Search::tryTogether() {
   looked_ = readings_;
   beginTask({2, all_.widthIsFree, all_.gauges}, {});
   for (int i = 0; i < answers_[0]; ++i)
-    for (int j = 0; j < answers_[1]; ++j)
-      candidates_.add({hypothesis_, {again_[0][at(i)], again_[1][at(j)]}});
+    for (int j = 0; j < answers_[1]; ++j) candidates_.add({again_[0][at(i)], again_[1][at(j)]});
 }
 
 void Search::finishTask(const TableImage& tables, Linearisation& scratch) {
@@ -363,8 +362,8 @@ void Search::finishTask(const TableImage& tables, Linearisation& scratch) {
     case Stage::kWithoutOne:
       return withoutNext(tables);
     case Stage::kFirstOfPair:
-      if (single_.anyBest) candidates_.add(single_.best);
-      if (single_.anySecond) candidates_.add(single_.second);
+      if (single_.anyBest) candidates_.add(single_.best.contact);
+      if (single_.anySecond) candidates_.add(single_.second.contact);
       stage_ = Stage::kPair;
       return beginTask({2, all_.widthIsFree, all_.gauges}, Grid(grid_, candidates_));
     case Stage::kPair:

@@ -20,30 +20,33 @@ struct Ranking {
   void take(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings);
 };
 
-/// Solutions worth refining, the likeliest first. Their order is kept apart from them, so that sorting moves
+/// Contacts worth refining, the likeliest first. Their order is kept apart from them, so that sorting moves
 /// bytes.
+struct Candidate {
+  ContactStates contact;
+  Wide residualEnergy;
+};
 class Candidates {
  public:
   static constexpr int kMost = 20;
 
   int size() const { return count_; }
-  Solution& operator[](int i) { return solution_[order_[static_cast<std::size_t>(i)]]; }
-  const Solution& operator[](int i) const { return solution_[order_[static_cast<std::size_t>(i)]]; }
+  Candidate& operator[](int i) { return candidate_[order_[static_cast<std::size_t>(i)]]; }
+  const Candidate& operator[](int i) const { return candidate_[order_[static_cast<std::size_t>(i)]]; }
   void clear();
   /// Behind the others; at most kMost in all.
-  void add(const Solution& solution) { (*this)[count_++] = solution; }
+  void add(const ContactStates& contact, Wide residualEnergy = 0) {
+    (*this)[count_++] = {contact, residualEnergy};
+  }
   /// At its place, instead of worse ones that are its neighbours, unless a better one is; `most` in all.
   template <typename IsNeighbour>
   void insert(const Solution& solution, int most, IsNeighbour isNeighbour);
   void sort();
 
  private:
-  bool isBetter(const Solution& solution, int i) const {
-    return solution.residualEnergy < (*this)[i].residualEnergy;
-  }
   void move(int from, int to);
 
-  std::array<Solution, kMost> solution_;
+  std::array<Candidate, kMost> candidate_;
   std::array<std::uint8_t, kMost> order_{};  ///< slots of solution_: those in use, then the free ones
   std::uint8_t count_ = 0;
 };
@@ -106,7 +109,7 @@ class Search {
   const Ranking& withoutOne() const { return withoutOne_; }
   const Ranking& pair() const { return pair_; }
 
-  static constexpr int kWork = 112;
+  static constexpr int kWork = 124;
 
  private:
   enum class Stage : std::uint8_t {

@@ -202,7 +202,8 @@ void roundPatches(const config::Contact& contact, const Patches& normal, const P
 
 ResponseTable responseTable(const config::FingerConfig& config) {
   const model::ImpulseResponse response(config.finger.annulus(), config.gauges.radius_m,
-                                        config.gauges.component, config.gauges.arc_length_m, 0, kPatchTolerance);
+                                        config.gauges.component, config.gauges.arc_length_m, 0,
+                                        kPatchTolerance);
   const std::vector<int> edges_q15 = cellEdges_q15(config.contact);
   const double width_rad =
       config.contact.width_m.value_or(config.contact.largest_width_m) / config.finger.outer_radius_m;

@@ -27,7 +27,7 @@ struct Grid {
 constexpr Grid kFitted{8, 4}, kKnown{16, 8};
 
 constexpr double kWrong_pitch = 1.0 / 8;  ///< right answers are a hundred times nearer
-constexpr double kModelTolerance = 1e-9;       ///< of the model: below a step of StrainQ32 at half of full scale
+constexpr double kModelTolerance = 1e-9;  ///< of the model: below a step of StrainQ32 at half of full scale
 /// Loads, of half of full scale: weak contacts are judged with more doubt, so the locator goes other ways.
 constexpr std::array kLoads{1.0, 1.0 / 8};
 /// Widths that are fitted, of the largest. Wider contacts have rivals that full scale does not tell apart.

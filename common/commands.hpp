@@ -34,13 +34,22 @@ inline constexpr std::array kCommandNames{
 };
 
 /// What a finger counts and tells when it is asked. Never reuse a number.
-enum class Count : std::uint8_t { kErases = 0, kCorrected = 1, kUnreadable = 2 };
-inline constexpr std::uint16_t kLastCount = 2;
+enum class Count : std::uint8_t {
+  kErases = 0,
+  kCorrected = 1,
+  kUnreadable = 2,
+  kLostSets = 3,
+  kResynchronised = 4
+};
+inline constexpr std::uint16_t kLastCount = 4;
 
 inline constexpr std::array kCountNames{
     ValueName{0, "erases", "Pages of the settings' memory erased in its life; each lasts 10,000 times"},
     ValueName{1, "corrected", "Words of the memory that had a wrong bit and were put right, since the start"},
     ValueName{2, "unreadable", "Words of the memory that had more wrong bits, since the start"},
+    ValueName{3, "lost_sets", "Sample sets that were lost, since the start"},
+    ValueName{4, "resynchronised",
+              "Times that the converters lost track of the gauges and began anew, since the start"},
 };
 
 /// What a command's argument may be. One that is absent is 0.

@@ -19,12 +19,16 @@ using SampleSet = std::array<std::uint16_t, kMaxGauges>;
 ///    in the same conversion period. False: nothing new; `set` is untouched.
 ///  - A set is handed out once. Sets the caller was too slow for are dropped, oldest first, and counted in
 ///    `overruns()`, which only grows.
+///  - A converter that lost track of which code is which gauge's begins anew by itself; how often is
+///    `resynchronisations()`, which only grows. No code is handed out as another gauge's.
 // clang-format off
 template <typename T>
 concept GaugeAdc = requires(T adc, const T constAdc, SampleSet& set) {
   { adc.read(set) }
   noexcept->std::same_as<bool>;
   { constAdc.overruns() }
+  noexcept->std::same_as<std::uint32_t>;
+  { constAdc.resynchronisations() }
   noexcept->std::same_as<std::uint32_t>;
 };
 // clang-format on

@@ -266,6 +266,10 @@ class Finger {
         return store_.errors().corrected;
       case Count::kUnreadable:
         return store_.errors().unreadable;
+      case Count::kLostSets:
+        return adc_.overruns();
+      case Count::kResynchronised:
+        return adc_.resynchronisations();
     }
     return 0;
   }

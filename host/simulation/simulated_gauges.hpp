@@ -38,6 +38,7 @@ class SimulatedGauges {
 
   bool read(hal::SampleSet& set) noexcept;
   std::uint32_t overruns() const noexcept { return static_cast<std::uint32_t>(overruns_ + missed()); }
+  std::uint32_t resynchronisations() const noexcept { return 0; }
 
   /// When the last set read was converted, and what touched the ring then.
   double sampleTime_s() const;

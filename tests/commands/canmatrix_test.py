@@ -204,7 +204,8 @@ class Canmatrix(unittest.TestCase):
 
     def test_reads_what_a_running_finger_sends(self):
         run = subprocess.run([STRAINFINGER, "run", "--can", "loopback", "--duration", "2", "-c", "/dev/stdin"],
-                             input=f"schema = 1\n[can]\nnode = {NODE}\n", capture_output=True, text=True, check=True)
+                             input=f"schema = 1\n[gauges]\nmodel_error = 0\n[can]\nnode = {NODE}\n",
+                             capture_output=True, text=True, check=True)
         seen = {name: [] for name in FRAMES}
         names = {identifier + NODE: name for name, (identifier, _) in FRAMES.items()}
         for line in run.stdout.splitlines():

@@ -20,6 +20,13 @@ class FakeGaugeAdc {
     waiting_.push_back(set);
   }
 
+  /// It lost track and begins anew: what waits is lost.
+  void resynchronise() {
+    overruns_ += static_cast<std::uint32_t>(waiting_.size());
+    waiting_.clear();
+    ++resynchronisations_;
+  }
+
   bool read(hal::SampleSet& set) noexcept {
     if (waiting_.empty()) return false;
     set = waiting_.front();
@@ -28,10 +35,12 @@ class FakeGaugeAdc {
   }
 
   std::uint32_t overruns() const noexcept { return overruns_; }
+  std::uint32_t resynchronisations() const noexcept { return resynchronisations_; }
 
  private:
   std::deque<hal::SampleSet> waiting_;
   std::uint32_t overruns_ = 0;
+  std::uint32_t resynchronisations_ = 0;
 };
 
 static_assert(hal::GaugeAdc<FakeGaugeAdc>);

@@ -8,7 +8,9 @@ import unittest
 import emulator
 
 MIDDLE = [0x8000] * 16
-BUMP = (0, 500, 2000, 5000, 2000, 500, 0)  # codes of a touch's strains around it: no real one, but seen
+# Codes of a touch over a gauge, by the pitches between the two: `strainfinger strain --radius-m 9.4e-3 --normal-n-per-m 30
+# --tangential-n-per-m 0 --contact-deg 0 --width-m 0.002 --points 16`, column err, in steps of 2 * 0.03 / 2^16.
+TOUCH = (-13624, 3844, 614, 239, 113, 50, 23, 12, 8)
 CONTACT, RESPONSE = "t1818", "t5818"
 TARE, FORCED_TARE, TARE_OF_ANOTHER = "t60120101", "t6013020101", "t60220101"
 ZERO_SETS = 64
@@ -21,11 +23,8 @@ def response(command, status):
     return bytes((2, 0x80 | command, status, 0, 0, 0, 0, 0))
 
 
-def touched_at(gauge):
-    codes = list(MIDDLE)
-    for offset, bump in enumerate(BUMP):
-        codes[(gauge + offset - 3) % 16] += bump
-    return codes
+def touched_at(gauge, load=1):
+    return [0x8000 + round(load * TOUCH[min((i - gauge) % 16, (gauge - i) % 16)]) for i in range(16)]
 
 
 class Commands(unittest.TestCase):
@@ -82,7 +81,7 @@ class Commands(unittest.TestCase):
         self.assertEqual([response(TARE_COMMAND, status)], self.responses())
 
     def test_a_rate_holds_at_once(self):
-        moving = touched_at(3), touched_at(9), touched_at(14)  # news at every rate
+        moving = [touched_at(3, load) for load in (0.5, 0.75, 1)]  # news at every rate
         self.assertAlmostEqual(500, len(self.contacts(1000, *moving)), delta=1)
         for rate_hz in (100, 1000, 20):
             request = f"t60140302{rate_hz & 255:02X}{rate_hz >> 8:02X}"

@@ -43,6 +43,12 @@ def output_of(elf, arguments=(), options=(), timeout_s=300):
     return done.stdout
 
 
+def with_tables(elf, tables, image):
+    """An image with these tables in place of its own, as firmware/board/README.md says."""
+    subprocess.run(["arm-none-eabi-objcopy", "--update-section", f".tables={tables}", elf, image], check=True)
+    return image
+
+
 def record(kind, payload=b""):
     return kind + bytes([len(payload)]) + payload
 

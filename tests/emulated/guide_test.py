@@ -19,27 +19,41 @@ def printed(*arguments, text=None):
     return done.stdout + done.stderr
 
 
+HEARTBEATS = re.findall(r"\((\S+)\)  can0  701   \[8\]  ((?:[0-9A-F]{2} ?){8})", GUIDE)
+
+
 class Guide(unittest.TestCase):
     maxDiff = None
 
     def setUp(self):
         self.crc = int(re.search(r"CRC-32 ([0-9A-F]{8})", printed("tables", "verify", TABLES))[1], 16)
 
+    def check_captured(self, lines, pattern):
+        """The guide's lines of this pattern are these and no others."""
+        self.assertEqual(lines, re.findall(pattern, GUIDE, re.MULTILINE), f"paste into {sys.argv[1]}:\n" + "\n".join(lines))
+
     def test_the_images_size(self):
-        self.assertIn(f"    {SIZES.stem}: {SIZES.read_text().strip()} bytes\n", GUIDE)
+        self.check_captured([f"    {SIZES.stem}: {SIZES.read_text().strip()} bytes"], rf"^    {SIZES.stem}: .*")
 
     def test_the_default_tables(self):
-        self.assertEqual({f"{self.crc:08X}"}, set(re.findall(r"CRC-32 ([0-9A-F]{8})", GUIDE)))
+        said = printed("tables", "-o", "/dev/null").splitlines()
+        self.assertIn(f"CRC-32 {self.crc:08X}", said[0])
+        self.check_captured([f"    {line}" for line in said], r"^    tables: .*")
+
+    def test_no_page_tells_another_number_of_the_tables(self):
+        for page in Path(sys.argv[1]).parent.glob("board/**/*.md"):
+            for told in re.findall(r"CRC-32 ([0-9A-F]{8})|erased again: ([0-9A-F]{2})", page.read_text()):
+                self.assertTrue(f"{self.crc:08X}".endswith("".join(told)), f"{page}: {''.join(told)} is now {self.crc:08X}")
 
     def test_heartbeats_have_the_tables_number(self):
-        heartbeats = re.findall(r"can0  701   \[8\]  ((?:[0-9A-F]{2} ?){8})", GUIDE)
-        self.assertEqual(2, len(heartbeats))
-        self.assertEqual({f"{self.crc & 0xFF:02X}"}, {bytes.split()[7] for bytes in heartbeats})
+        beats = [bytes.fromhex(beat) for _, beat in HEARTBEATS]
+        self.assertEqual(2, len(beats))
+        self.assertEqual({self.crc & 0xFF}, {beat[7] for beat in beats}, f"make it {self.crc & 0xFF:02X} in {sys.argv[1]}")
 
     def test_a_frame_decoded(self):
-        time, frame = re.findall(r"\((\S+)\)  can0  701   \[8\]  ((?:[0-9A-F]{2} ?){8})", GUIDE)[1]
+        time, frame = HEARTBEATS[1]
         line = f"({float(time):.6f}) can0 701#{frame.replace(' ', '')}\n"
-        self.assertIn(printed("decode", "--json", text=line).splitlines()[0], GUIDE)
+        self.check_captured([f"    {printed('decode', '--json', text=line).splitlines()[0]}"], r"^    \{.*")
 
 
 if __name__ == "__main__":

@@ -35,6 +35,7 @@ class GaugeAdcContract {
     CHECK_TRUE(sameCodes(converted, set));
     CHECK_FALSE(bench_.adc().read(set));
     LONGS_EQUAL(0, bench_.adc().overruns());
+    LONGS_EQUAL(0, bench_.adc().resynchronisations());
   }
 
   void aSlowReaderGetsTheNewestSetsInOrderAndTheRestIsCounted() {

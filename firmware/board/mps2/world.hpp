@@ -29,6 +29,7 @@ class World {
     return true;
   }
   std::uint32_t overruns() const noexcept { return 0; }
+  std::uint32_t resynchronisations() const noexcept { return 0; }
   std::uint32_t now_us() const noexcept { return timer_ != nullptr ? timer_->now_us() : now_us_; }
 
   /// The next record, if it is there and nothing is left to do with the last. `act` gets those that are

@@ -35,6 +35,9 @@ struct Hum {
   bool isEven = true;  ///< the same in all gauges; else each gauge has an even draw from 0 to the amplitude
 };
 
+/// The firmware's search for two contacts takes so long at most; until it ends their answers are flagged.
+inline constexpr int kLongestSearch_sets = 600;
+
 struct Disturbance {
   std::string name;
   config::FingerConfig actual = perfectFinger();

@@ -138,7 +138,8 @@ class Rows {
     Disturbance& row = add(name);
     row.second = SecondContact{apart, ratio, later_sets};
     row.rise_sets = rise_sets;
-    row.touched_sets = 120 + rise_sets + (later_sets != 0 ? kJoins_sets : 0);
+    row.touched_sets = kLongestSearch_sets + rise_sets + (later_sets != 0 ? kJoins_sets : 0);
+    row.rarer = 4;
     return row;
   }
   Disturbance& built(double width_mm) {

@@ -32,6 +32,7 @@ struct Adc {
     return true;
   }
   std::uint32_t overruns() const noexcept { return 0; }
+  std::uint32_t resynchronisations() const noexcept { return 0; }
 };
 struct Can {
   bool send(const CanFrame&) noexcept { return true; }

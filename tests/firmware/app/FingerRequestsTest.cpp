@@ -274,6 +274,12 @@ TEST(FingerRequests, TellsItsCounts) {
   store.found({.corrected = 3, .unreadable = 4});
   LONGS_EQUAL(3, countOf(Count::kCorrected));
   LONGS_EQUAL(4, countOf(Count::kUnreadable));
+  LONGS_EQUAL(0, countOf(Count::kResynchronised));
+  adc.convert({});
+  adc.convert({});
+  adc.resynchronise();
+  LONGS_EQUAL(2, countOf(Count::kLostSets));
+  LONGS_EQUAL(1, countOf(Count::kResynchronised));
 }
 
 // An hour of requests of every kind, 50 a second in no order.

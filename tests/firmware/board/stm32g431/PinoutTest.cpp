@@ -96,4 +96,5 @@ TEST(FlashLayout, TablesAndConfigurationAreBehindTheImage) {
   LONGS_EQUAL(0x0801'8000, kTablePages.address());
   LONGS_EQUAL(0x0801'E000, kConfigurationPages.address());
   LONGS_EQUAL(96 * 1024, kImagePages.bytes());
+  LONGS_EQUAL(4, kConfigurationPages.count);  // as many as StoredSettingsTest lets a year wear out
 }

@@ -2,7 +2,7 @@
 // The flash memory and its controller as registers: locks, double words, ECC, caches. RM0440 chapter 5.
 
 #include <functional>
-#include <set>
+#include <vector>
 
 #include "firmware/board/stm32g431/registers/flash.hpp"
 #include "tests/firmware/board/stm32g431/fake_registers.hpp"
@@ -29,7 +29,11 @@ class FakeFlash {
   int cacheResets = 0;
 
   FakeFlash(std::uint32_t firstPage, std::uint32_t pages)
-      : begin_(st::FLASH_BASE + firstPage * st::FLASH_PAGE_SIZE), bytes_(pages * st::FLASH_PAGE_SIZE) {
+      : begin_(st::FLASH_BASE + firstPage * st::FLASH_PAGE_SIZE),
+        bytes_(pages * st::FLASH_PAGE_SIZE),
+        damaged_(bytes_ / 8),
+        weakened_(bytes_ / 8),
+        cached_(bytes_ / 8) {
     registers.add<Flash::Acr>(st::FLASH_ACR_DCEN | st::FLASH_ACR_LATENCY_4WS);
     registers.add<Flash::KeyR>();
     registers.add<Flash::Sr>();
@@ -57,8 +61,8 @@ class FakeFlash {
   }
 
   /// Two bits of the double word that holds `offset` are wrong; one bit is.
-  void damage(std::size_t offset) { damaged_.insert(static_cast<std::uint32_t>(offset) / 8); }
-  void weaken(std::size_t offset) { weakened_.insert(static_cast<std::uint32_t>(offset) / 8); }
+  void damage(std::size_t offset) { damaged_[offset / 8] = true; }
+  void weaken(std::size_t offset) { weakened_[offset / 8] = true; }
 
   /// The power goes at the operation (a page erased, a double word programmed) after so many others.
   void cutPowerAfter(int operations, Torn torn) {
@@ -75,7 +79,7 @@ class FakeFlash {
     registers.word<Flash::Cr>() = st::FLASH_CR_LOCK | st::FLASH_CR_OPTLOCK;
     registers.word<Flash::EccR>() &= ~kEccFlags;
     keys_ = 0;
-    cached_.clear();
+    cached_.assign(cached_.size(), false);
   }
 
   std::uint32_t& wordAt(std::size_t offset) {
@@ -132,8 +136,8 @@ class FakeFlash {
   }
 
   void forget(std::uint32_t unit) {
-    damaged_.erase(unit);
-    weakened_.erase(unit);
+    damaged_[unit] = false;
+    weakened_[unit] = false;
   }
 
   /// Counts an operation. Whether it is done, by the power.
@@ -159,7 +163,7 @@ class FakeFlash {
   std::uint32_t access(std::uint32_t before, std::uint32_t written) {
     if (written & st::FLASH_ACR_DCRST) {
       ++cacheResets;
-      cached_.clear();
+      cached_.assign(cached_.size(), false);
       FakeRegisters::require((before & st::FLASH_ACR_DCEN) == 0, "cache reset while it is on",
                              Flash::Acr::address);
     }
@@ -170,11 +174,10 @@ class FakeFlash {
   /// stays.
   void load(std::uint32_t address) {
     const std::uint32_t unit = (address - begin_) / 8;
-    const bool isBad = damaged_.contains(unit);
-    const bool isCached =
-        !cached_.insert(unit).second && (registers.word<Flash::Acr>() & st::FLASH_ACR_DCEN) != 0;
-    if ((!isBad && !weakened_.contains(unit)) || isCached || (registers.word<Flash::EccR>() & kEccFlags) != 0)
-      return;
+    const bool isBad = damaged_[unit];
+    const bool isCached = cached_[unit] && (registers.word<Flash::Acr>() & st::FLASH_ACR_DCEN) != 0;
+    cached_[unit] = true;
+    if ((!isBad && !weakened_[unit]) || isCached || (registers.word<Flash::EccR>() & kEccFlags) != 0) return;
     registers.word<Flash::EccR>() = (isBad ? st::FLASH_ECCR_ECCD : st::FLASH_ECCR_ECCC) | toldAddress(unit);
     if (isBad) nonMaskable();
   }
@@ -215,7 +218,7 @@ class FakeFlash {
 
   std::uint32_t begin_;
   std::uint32_t bytes_;
-  std::set<std::uint32_t> damaged_, weakened_, cached_;  ///< double words
+  std::vector<bool> damaged_, weakened_, cached_;  ///< of each double word
   int keys_ = 0;
   int readsLeft_ = 0;
   int operations_ = 0;

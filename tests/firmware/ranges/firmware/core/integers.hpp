@@ -147,7 +147,9 @@ requires Computable<Number, By>
 constexpr auto operator>>(const Bounds<kBits, kSigned>& a, const By& by) {
   using Shifted = Result<Bounds<kBits, kSigned>, int>;
   if (leastOf(by) < 0 || mostOf(by) >= kWidth<Shifted>) ++overflows;
-  const auto down = [](Exact value, Exact bits) { return value >> static_cast<int>(bits); };
+  const auto down = [](Exact value, Exact bits) {
+    return value >> static_cast<int>(std::clamp<Exact>(bits, 0, kWidth<Shifted> - 1));  // or this would, too
+  };
   return Shifted(std::min(down(a.least(), leastOf(by)), down(a.least(), mostOf(by))),
                  std::max(down(a.most(), leastOf(by)), down(a.most(), mostOf(by))));
 }
@@ -155,7 +157,8 @@ template <int kBits, bool kSigned>
 constexpr auto operator<<(const Bounds<kBits, kSigned>& a, int by) {
   using Shifted = Result<Bounds<kBits, kSigned>, int>;
   if (by < 0 || by >= kWidth<Shifted>) ++overflows;
-  return Shifted(a.least() * (Exact{1} << by), a.most() * (Exact{1} << by));
+  const Exact factor = Exact{1} << std::clamp(by, 0, kWidth<Shifted> - 1);  // or this would overflow, too
+  return Shifted(a.least() * factor, a.most() * factor);
 }
 template <int kBits, bool kSigned, typename B>
 constexpr Bounds<kBits, kSigned>& operator+=(Bounds<kBits, kSigned>& a, const B& b) {

@@ -47,9 +47,9 @@ struct TableParameters {
 };
 
 /// Cells of the second moment that a table can have. Their edges are closer where it is small.
-inline constexpr int kMostCells = 8;
+inline constexpr int kMostCells = 10;
 /// Patches of a table: angle nodes times cells of the second moment.
-inline constexpr int kMostPatches = 768;
+inline constexpr int kMostPatches = 1000;
 inline constexpr int kLeastNodes = 8;
 
 /// Second moment of the pressure over the contact's arc, as a fraction of TableConstants::largest_moment_um2
@@ -137,9 +137,9 @@ struct TableImage {
 };
 
 static_assert(std::is_trivially_copyable_v<TableImage>);
-static_assert(sizeof(TableParameters) == 120 && sizeof(TableConstants) == 96 && sizeof(PatchPair) == 24 &&
+static_assert(sizeof(TableParameters) == 120 && sizeof(TableConstants) == 104 && sizeof(PatchPair) == 24 &&
               sizeof(GaugeGains) == 40);
-static_assert(sizeof(TableImage) == 16 + 120 + 96 + 4 * kMaxGauges + 40 + 24 * kMostPatches,
+static_assert(sizeof(TableImage) == 16 + 120 + 104 + 4 * kMaxGauges + 40 + 24 * kMostPatches,
               "no padding anywhere");
 
 /// Why an image was refused. The numbers go on the bus and into exit statuses: never reuse one.

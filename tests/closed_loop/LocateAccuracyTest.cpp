@@ -146,7 +146,8 @@ struct Pairs {
   int count = 0;
   int located = 0;  ///< both within half a pitch
   int silent = 0;   ///< not both located, and not told: neither uncertain nor several contacts of one place
-  evidence::Errors overBound;  ///< arcs of both, where both are located
+  int flagged = 0;
+  evidence::Errors overBound;  ///< arcs of both, where both are located and nothing is flagged
 };
 
 /// 30 N/m, and another 1 to 4 times lighter so many pitches away; each of a width up to 3 mm.
@@ -180,14 +181,16 @@ Pairs locatePairs(double apart_pitch, std::uint64_t seed, int count) {
                          std::abs(off_rad[1]) <= pitch_rad / 2;
     pairs.located += located;
     pairs.silent += !located && !isFlagged;
-    if (!located) continue;
+    pairs.flagged += isFlagged;
+    if (!located || isFlagged) continue;
     const auto bounds = cramerRaoBound(model, truth, evidence::kWidthUnknown, model.noise_strain());
     for (std::size_t i = 0; i < truth.size(); ++i) pairs.overBound.add(off_rad[i] / bounds[i][kAngle]);
   }
   std::printf(
-      "\n%d pairs %g pitches apart, seed %d: located %d, silent %d; arcs over bound %.3f, median %.3f ",
-      pairs.count, apart_pitch, static_cast<int>(seed), pairs.located, pairs.silent, pairs.overBound.rms(),
-      pairs.overBound.quantile(0.5));
+      "\n%d pairs %g pitches apart, seed %d: located %d, silent %d, flagged %d; arcs over bound %.3f, median "
+      "%.3f ",
+      pairs.count, apart_pitch, static_cast<int>(seed), pairs.located, pairs.silent, pairs.flagged,
+      pairs.overBound.rms(), pairs.overBound.quantile(0.5));
   std::fflush(stdout);
   return pairs;
 }
@@ -326,7 +329,7 @@ TEST(LocateAccuracy, TwentyFourGaugesAtAHundredthOfNoiseAreAtTheBound) {
 
 TEST(LocateAccuracy, ADeadGaugeThatIsKnownCostsWhatItsReadingIsWorth) {
   const auto result = Trial(lineFinger()).dead(5).run(touches(30, 0), 214, touchCount(5000));
-  checkNoGrossError(result);
+  checkRarelyWrong(2e-4, result);
   checkBound(1.1, result);
 }
 

@@ -152,9 +152,9 @@ TEST(ResponseTable, SaysItsLargestErrorItself) {
 
 TEST(ResponseTable, CellsOfUnknownWidthsAreEvenStepsOfTheWidth) {
   const ResponseTable table = responseTable(config_);
-  LONGS_EQUAL(8, table.cells);
-  for (int k = 0; k <= 8; ++k)
-    DOUBLES_EQUAL(k / 8.0, std::sqrt(table.cell_edge_q15[static_cast<std::size_t>(k)] / 32768.0), 1e-12);
+  LONGS_EQUAL(10, table.cells);
+  for (int k = 0; k <= 10; ++k)
+    DOUBLES_EQUAL(k * k / 100.0, table.cell_edge_q15[static_cast<std::size_t>(k)] / 32768.0, 1.0 / 32768);
 }
 
 // The variance of a uniform distribution.
@@ -174,7 +174,7 @@ TEST(ResponseTable, ANarrowerResponseHasMoreNodesAsFarAsTheyFit) {
   config_.gauges.radius_m = 12e-3;
   LONGS_EQUAL(kMostPatches, responseTable(config_).nodes);
   config_.contact.width_m.reset();
-  LONGS_EQUAL(kMostPatches, 8 * responseTable(config_).nodes);
+  LONGS_EQUAL(kMostPatches, 10 * responseTable(config_).nodes);
 }
 
 TEST(ResponseTable, UsesAllOfTheWeightsBits) {

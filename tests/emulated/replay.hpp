@@ -51,7 +51,7 @@ inline void add(Hash& hash, const firmware::Pipeline& pipeline, std::uint32_t sa
   const firmware::Answer& answer = pipeline.answer();
   const firmware::Hypothesis& hypothesis = answer.solution.hypothesis;
   for (const firmware::ContactState& contact : answer.solution.contacts()) add(hash, contact);
-  add(hash, answer.rival);
+  for (const firmware::ContactState& contact : answer.rival) add(hash, contact);
   add(hash, answer.solution.residualEnergy);
   add(hash, answer.rivalEnergy);
   hash.add(hypothesis.gauges);
@@ -60,7 +60,8 @@ inline void add(Hash& hash, const firmware::Pipeline& pipeline, std::uint32_t sa
   hash.add(answer.variance_q4);
   hash.add(answer.gateVariance_q4);
   hash.add(std::int32_t{answer.solution.converged} + 2 * std::int32_t{answer.accepted} +
-           4 * std::int32_t{answer.searching} + 8 * std::int32_t{answer.several} + 256 * answer.shift);
+           4 * std::int32_t{answer.searching} + 8 * std::int32_t{answer.several} +
+           16 * std::int32_t{answer.doubtful} + 256 * answer.shift);
   const auto contact = [&](int i) {
     return firmware::estimate(pipeline.constants(), answer, pipeline.linearisation(), i);
   };

@@ -221,7 +221,7 @@ TEST(Locator, ARivalThatIsNearlyAsLikelyIsTold) {
     settle(presses.noisy(ring.strains(presses.next()), ring.noise_strain()));
     if (locator.answer().rivalEnergy < 0) continue;
     ++rivals;
-    CHECK(locator.answer().rival.angle_q32 != locator.answer().solution.contact[0].angle_q32);
+    CHECK(locator.answer().rival[0].angle_q32 != locator.answer().solution.contact[0].angle_q32);
   }
   CHECK(rivals > 10);
 }

@@ -7,7 +7,8 @@
 #include "host/base/failure.hpp"
 #include "host/base/table_writer.hpp"
 #include "host/can/frame_catalogue.hpp"
-#include "host/can/socketcan_port.hpp"
+#include "host/can/open_bus.hpp"
+#include "host/cli/bus_option.hpp"
 
 namespace strainfinger::cli {
 namespace {
@@ -71,9 +72,7 @@ Failure silence(const can::Reply& reply, const std::string& where) {
 }  // namespace
 
 RequestOptions::RequestOptions(CLI::App& command) : common(command) {
-  command.add_option("--can", interface, "SocketCAN interface: can0, vcan0, slcan0")
-      ->type_name("IFACE")
-      ->required();
+  addBusOption(command, bus)->required();
   command.add_option("-n,--node", node, "Node number in place of the config's")
       ->check(CLI::Range(int{kFirstNode}, int{kLastNode}));
 }
@@ -92,16 +91,16 @@ void requireDone(const can::Reply& reply, Command command, const std::string& wh
 void request(const RequestOptions& options, const std::vector<RequestFrame>& requests) {
   const config::Can can = options.common.config().can;
   const auto node = static_cast<std::uint8_t>(options.node != 0 ? options.node : can.node);
-  can::SocketCanPort port(options.interface, can.bitrate);
+  const auto port = can::openBus(options.bus, can.bitrate);
   std::optional<TableWriter> table;  // nothing is printed before there is a row
   for (const RequestFrame& request : requests) {
-    const can::Reply reply = can::ask(port, node, request);
-    requireDone(reply, request.command, fmt::format("{} node {}", options.interface, node));
+    const can::Reply reply = can::ask(*port, node, request);
+    requireDone(reply, request.command, fmt::format("{} node {}", options.bus, node));
     if (!table)
       table.emplace(stdout, options.common.format(),
                     std::vector<std::string>{"interface", "node", "command", "status"});
-    table->row({options.interface, std::int64_t{node}, commandName(request.command),
-                statusName(reply.response->status)});
+    table->row(
+        {options.bus, std::int64_t{node}, commandName(request.command), statusName(reply.response->status)});
   }
 }
 

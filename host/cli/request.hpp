@@ -13,7 +13,7 @@ namespace strainfinger::cli {
 struct RequestOptions {
   explicit RequestOptions(CLI::App& command);
   CommonOptions common;
-  std::string interface;
+  std::string bus;
   int node = 0;  ///< 0: the config's
 };
 

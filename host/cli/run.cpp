@@ -11,7 +11,8 @@
 #include "host/base/failure.hpp"
 #include "host/can/candump_text.hpp"
 #include "host/can/loopback_port.hpp"
-#include "host/can/socketcan_port.hpp"
+#include "host/can/open_bus.hpp"
+#include "host/cli/bus_option.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/firmware_options.hpp"
@@ -30,10 +31,10 @@ constexpr const char* kLoopback = "loopback";
 
 constexpr const char* kRunHelp =
     "The finger itself on this machine: the firmware's own code, simulated gauges, frames on CAN.\n"
-    "--can loopback: needs no kernel support, runs as fast as it can and prints what `candump -L` would; "
-    "the same seed gives the same output.\n"
-    "--can IFACE: a SocketCAN interface (vcan0, can0), in real time, a sample set every millisecond; "
-    "prints nothing on stdout. It obeys `tare` and `config`.\n"
+    "--can loopback (default): a bus that no other program hears, as fast as it can; prints what `candump "
+    "-L` would, and the same seed gives the same output.\n"
+    "--can BUS: for other programs, in real time, a sample set every millisecond; prints nothing on stdout. "
+    "It obeys `tare` and `config`.\n"
     "The simulated finger is as the config's [as_built] says or, without it, as drawn and calibrated.\n"
     "At the end stderr has a summary with the errors against the truth (--json: as one object). Ctrl-C "
     "ends a run as its duration would, with exit status 130.";
@@ -48,7 +49,7 @@ std::string complaintAboutSeed(const std::string& text) {
 
 struct RunOptions {
   explicit RunOptions(CLI::App& command) : common(command), firmware(command) {
-    command.add_option("--can", interface, "Interface, or loopback (default)")->type_name("IFACE");
+    addBusOption(command, bus);
     command
         .add_option("--scenario", scenarioPath,
                     "What touches the finger (TOML); the built-in scenario without it")
@@ -57,7 +58,7 @@ struct RunOptions {
         ->check(complaintAboutSeed);
     command
         .add_option("--duration", duration_s,
-                    "Seconds; without it the loopback runs the scenario once, an interface until Ctrl-C")
+                    "Seconds; without it the loopback runs the scenario once, a bus until Ctrl-C")
         ->type_name("S");
     command
         .add_option("--fault", faults,
@@ -74,11 +75,11 @@ struct RunOptions {
   static constexpr double kShortest_s = 0.001;
   static constexpr double kLongest_s = 1e6;
 
-  bool isLoopback() const { return interface == kLoopback; }
+  bool isLoopback() const { return bus == kLoopback; }
 
   CommonOptions common;
   FirmwareOptions firmware;
-  std::string interface = kLoopback;
+  std::string bus = kLoopback;
   std::string scenarioPath;
   std::uint64_t seed = 1;
   std::optional<double> duration_s;
@@ -192,20 +193,24 @@ void runOnLoopback(const RunOptions& options) {
       [&candump](std::uint64_t time_us) { candump.print(time_us); });
 }
 
-void runOnInterface(const RunOptions& options) {
-  can::SocketCanPort port(options.interface, options.common.config().can.bitrate);
+/// What is said to a node: a finger needs to hear no more.
+can::BusFilter requestsTo(int node) {
+  return {.id = canId(FunctionCode::kRequest, static_cast<std::uint8_t>(node)), .mask = kMaxCanId};
+}
+
+void runOnBus(const RunOptions& options) {
+  const config::Can can = options.common.config().can;
+  const auto port = can::openBus(options.bus, can.bitrate, requestsTo(can.node));
   std::optional<system::Metronome> metronome;  // starts with the first wait, not while tables are made
   const auto wait = [&metronome] {
     if (!metronome)
       metronome.emplace(std::chrono::microseconds(simulation::SimulatedGauges::kSamplePeriod_us));
     return metronome->wait();
   };
-  runOn(port, options, wait, [](std::uint64_t) {});
+  runOn(*port, options, wait, [](std::uint64_t) {});
 }
 
-void runRun(const RunOptions& options) {
-  options.isLoopback() ? runOnLoopback(options) : runOnInterface(options);
-}
+void runRun(const RunOptions& options) { options.isLoopback() ? runOnLoopback(options) : runOnBus(options); }
 
 }  // namespace
 

@@ -22,7 +22,7 @@ TEST_GROUP(SocketCanPort) {
   std::unique_ptr<SocketCanPort> port;
 
   void open(const std::string& interface = "can0") {
-    port = std::make_unique<SocketCanPort>(interface, 500'000, calls);
+    port = std::make_unique<SocketCanPort>(interface, 500'000, can::BusFilter{}, calls);
   }
 
   /// The message opening fails with; its status is checked here.
@@ -172,6 +172,22 @@ TEST(SocketCanPort, TheKernelIsAskedForStandardDataFramesOnly) {
   LONGS_EQUAL(1, calls.filters.size());
   CHECK_TRUE(passes(0) && passes(0x7FF));
   CHECK_FALSE(passes(0x123 | CAN_EFF_FLAG) || passes(0x123 | CAN_RTR_FLAG));
+}
+
+TEST(SocketCanPort, TheKernelIsAskedForTheIdentifiersOfTheFilterOnly) {
+  SocketCanPort filtered("can0", 500'000, can::BusFilter{.id = 0x601, .mask = 0x7FF}, calls);
+  LONGS_EQUAL(0x601, calls.filters.at(0).can_id);
+  LONGS_EQUAL(0x7FF | CAN_EFF_FLAG | CAN_RTR_FLAG, calls.filters.at(0).can_mask);
+}
+
+TEST(SocketCanPort, AFrameComesWithTheTimeOfItsArrival) {
+  open();
+  auto read = dataFrame(0x222);
+  read.time_ns = 1'609'779'922'655'421'000;
+  calls.frames = {read};
+  const auto timed = port->receiveTimed();
+  LONGS_EQUAL(0x222, timed->frame.id);
+  CHECK_TRUE(timed->time_ns == 1'609'779'922'655'421'000);
 }
 
 TEST(SocketCanPort, AFrameIsWrittenAsItIs) {

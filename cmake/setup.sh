@@ -9,7 +9,7 @@ packages=(
   gnuplot-nox                                             # pictures
   libbenchmark-dev                                        # benchmarks
   gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib   # firmware
-  libcpputest-dev python3-canmatrix                       # tests: framework, DBC oracle
+  libcpputest-dev python3-canmatrix python3-can            # tests: framework, DBC oracle, a user's plot
   can-utils iproute2                                      # candump, ip link
   qemu-system-arm clang                                   # tests: emulated boards, a second compiler
   libclang-rt-14-dev                                      # tests: fuzzing

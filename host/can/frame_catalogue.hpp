@@ -18,7 +18,7 @@ struct FrameEntry {
 /// Every frame a finger sends by itself.
 std::span<const FrameEntry> frameCatalogue();
 
-/// Requests to a finger, and its responses.
+/// Requests to a finger, its responses, and RAW.
 std::span<const FrameEntry> commandCatalogue();
 
 /// Which of frameCatalogue() the frame is, by identifier and length; null if none.

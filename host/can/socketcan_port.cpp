@@ -244,6 +244,7 @@ void SocketCanPort::noteErrorFrame(const can_frame& frame) noexcept {
   if (frame.can_id & CAN_ERR_TX_TIMEOUT) ++status_.dropped;
   if ((frame.can_id & CAN_ERR_CRTL) && (frame.data[1] & CAN_ERR_CRTL_RX_OVERFLOW)) ++lostElsewhere_;
   if (status_.state == CanState::kDown) return;  // said before the interface went down
+  if (frame.can_id & CAN_ERR_BUSOFF) ++status_.busOffs;
   status_.state = stateAfter(frame, status_.state);
   if (frame.can_id & CAN_ERR_CNT) {
     status_.txErrors = frame.data[6];
@@ -252,6 +253,7 @@ void SocketCanPort::noteErrorFrame(const can_frame& frame) noexcept {
 }
 
 void SocketCanPort::noteDown() noexcept {
+  if (status_.state != CanState::kDown) ++status_.busOffs;
   status_.state = CanState::kDown;
   status_.txErrors.reset();
   status_.rxErrors.reset();

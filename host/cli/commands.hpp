@@ -17,6 +17,7 @@ void addLocate(CLI::App& app);
 void addRun(CLI::App& app);
 void addDecode(CLI::App& app);
 void addDbc(CLI::App& app);
+void addStrains(CLI::App& app);
 void addTare(CLI::App& app);
 void addConfig(CLI::App& app);
 void addFigures(CLI::App& app);

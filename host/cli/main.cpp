@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
   strainfinger::cli::addRun(app);
   strainfinger::cli::addDecode(app);
   strainfinger::cli::addDbc(app);
+  strainfinger::cli::addStrains(app);
   strainfinger::cli::addTare(app);
   strainfinger::cli::addConfig(app);
   strainfinger::cli::addFigures(app);

@@ -36,12 +36,15 @@ const char* remedyFor(CommandStatus status) {
       return "try again then; what it has kept already stays";
     case CommandStatus::kNotKept:
       return "it goes on as before; an emulated or simulated finger has no memory to keep it in";
+    case CommandStatus::kTooFast:
+      return "ask for less, or use a bus with a higher bit rate";
     default:
       return "use the strainfinger of its firmware";
   }
 }
 
-std::string waitOf(const ResponseFrame& response) {
+std::string valueOf(const ResponseFrame& response) {
+  if (response.status == CommandStatus::kTooFast) return fmt::format(": {} Hz", response.value);
   return response.status == CommandStatus::kWait ? fmt::format(" {} s", response.value) : "";
 }
 
@@ -77,6 +80,10 @@ RequestOptions::RequestOptions(CLI::App& command) : common(command) {
       ->check(CLI::Range(int{kFirstNode}, int{kLastNode}));
 }
 
+std::uint8_t nodeOf(const RequestOptions& options) {
+  return static_cast<std::uint8_t>(options.node != 0 ? options.node : options.common.config().can.node);
+}
+
 void requireDone(const can::Reply& reply, Command command, const std::string& where) {
   if (!reply.response) throw silence(reply, where);
   const CommandStatus status = reply.response->status;
@@ -85,12 +92,12 @@ void requireDone(const can::Reply& reply, Command command, const std::string& wh
   else if (status != CommandStatus::kDone)
     throw Failure(ExitCode::kFailure,
                   fmt::format("{}: {}: {} ({}{}): {}", where, commandName(command), meaningOf(status),
-                              statusName(status), waitOf(*reply.response), remedyFor(status)));
+                              statusName(status), valueOf(*reply.response), remedyFor(status)));
 }
 
 void request(const RequestOptions& options, const std::vector<RequestFrame>& requests) {
   const config::Can can = options.common.config().can;
-  const auto node = static_cast<std::uint8_t>(options.node != 0 ? options.node : can.node);
+  const std::uint8_t node = nodeOf(options);
   const auto port = can::openBus(options.bus, can.bitrate);
   std::optional<TableWriter> table;  // nothing is printed before there is a row
   for (const RequestFrame& request : requests) {

@@ -23,6 +23,9 @@ struct RequestOptions {
 /// (kNoInterface), or the finger speaks another protocol (kMismatch).
 void request(const RequestOptions& options, const std::vector<RequestFrame>& requests);
 
+/// Node of -n, else of the config.
+std::uint8_t nodeOf(const RequestOptions& options);
+
 /// What request() says of a reply, without the printing; `where`: "can0 node 1".
 void requireDone(const can::Reply& reply, Command command, const std::string& where);
 

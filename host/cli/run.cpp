@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "host/base/atomic_file.hpp"
 #include "host/base/failure.hpp"
 #include "host/can/candump_text.hpp"
 #include "host/can/loopback_port.hpp"
@@ -17,12 +18,14 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/firmware_options.hpp"
 #include "host/cli/run_summary.hpp"
+#include "host/cli/strain_recorder.hpp"
 #include "host/cli/touch_recorder.hpp"
 #include "host/cli/truth_table.hpp"
 #include "host/simulation/read_scenario.hpp"
 #include "host/simulation/simulated_finger.hpp"
 #include "host/system/metronome.hpp"
 #include "host/system/stop_signal.hpp"
+#include "host/tables/gauge_gains.hpp"
 
 namespace strainfinger::cli {
 namespace {
@@ -68,6 +71,17 @@ struct RunOptions {
     command.add_flag("--uncalibrated", uncalibrated, "The tables don't know the config's [calibration]");
     command.add_flag("--truth", truth, "Truth beside estimate on stderr, four lines a second");
     command
+        .add_option("--strains", strainsPath,
+                    "At the end, what the gauges read, as `calibrate`, `shape` and `locate` take it (CSV)")
+        ->type_name("FILE");
+    command
+        .add_option("--touches", touchesPath,
+                    "At the end, what touched the finger, a row for each row of --strains (CSV)")
+        ->type_name("FILE");
+    command.add_option("--rows-hz", rows_hz, "Rows of --strains and --touches a second (default 100)")
+        ->type_name("HZ")
+        ->check(CLI::Range(1, 1000));
+    command
         .add_option("--picture", pictures,
                     "Draws the run (needs gnuplot); ends in .svg or .png, may be given twice")
         ->type_name("FILE");
@@ -85,6 +99,9 @@ struct RunOptions {
   std::optional<double> duration_s;
   bool uncalibrated = false;
   bool truth = false;
+  std::string strainsPath;
+  std::string touchesPath;
+  int rows_hz = 100;
   std::vector<std::string> pictures;
   std::vector<std::string> faults;
 };
@@ -118,7 +135,10 @@ double durationOf(const RunOptions& options, const simulation::Scenario& scenari
 /// What watches a run: the table, the picture, the statistics.
 class Watchers {
  public:
-  Watchers(const RunOptions& options, const config::FingerConfig& config) : config_(config) {
+  Watchers(const RunOptions& options, const config::FingerConfig& config, const TableImage& tables)
+      : config_(config), strainsPath_(options.strainsPath), touchesPath_(options.touchesPath) {
+    if (!strainsPath_.empty() || !touchesPath_.empty())
+      strains_.emplace(tables::correctionFactors(tables.gains, config.gauges.count), options.rows_hz);
     if (options.truth) table_.emplace(stderr, config.finger);
     if (!options.pictures.empty()) recorder_.emplace(config);
   }
@@ -126,7 +146,13 @@ class Watchers {
   void watch(const simulation::Moment& moment, const firmware::Readings& readings) {
     if (table_) table_->add(moment);
     if (recorder_) recorder_->add(moment, readings);
+    if (strains_ && !moment.isZeroing) strains_->add(moment, readings.strain_q32);
     if (moment.compared) errors_.add(*moment.compared, config_.finger);
+  }
+
+  void write() const {
+    if (!strainsPath_.empty()) writeFileAtomically(strainsPath_, strains_->strains());
+    if (!touchesPath_.empty()) writeFileAtomically(touchesPath_, strains_->touches());
   }
 
   void draw(const std::vector<std::string>& paths, const simulation::GaugeStrains& strains) const {
@@ -139,6 +165,9 @@ class Watchers {
   config::FingerConfig config_;
   std::optional<TruthTable> table_;
   std::optional<TouchRecorder> recorder_;
+  std::optional<StrainRecorder> strains_;
+  std::string strainsPath_;
+  std::string touchesPath_;
   simulation::TouchErrors errors_;
 };
 
@@ -154,7 +183,7 @@ void runOn(Port& port, const RunOptions& options, Wait wait, Afterwards afterwar
   const auto end_us = static_cast<std::uint64_t>(std::llround(durationOf(options, scenario) * 1e6));
   simulation::SimulatedFinger finger(config, scenario, *tables, options.firmware.mode(), options.seed, port,
                                      faultsOf(options));
-  Watchers watchers(options, config);
+  Watchers watchers(options, config, *tables);
   for (const std::string& path : options.pictures) plot::requirePicturePath(path);
   const system::StopSignal stop;
   while (finger.elapsed_us() < end_us && !stop.asked()) {
@@ -162,6 +191,7 @@ void runOn(Port& port, const RunOptions& options, Wait wait, Afterwards afterwar
     afterwards(finger.elapsed_us());
   }
   printSummary(stderr, options.common.format(), finger.elapsed_s(), finger.counts(), watchers.errors());
+  watchers.write();
   watchers.draw(options.pictures, finger.strains());
   if (stop.asked())
     throw Failure(ExitCode::kInterrupted, fmt::format("run: interrupted after {:.3f} s", finger.elapsed_s()));

@@ -230,6 +230,16 @@ TEST(SocketCanPort, BusOffRefusesFramesUntilTheControllerRestarts) {
   CHECK_TRUE(port->send(kFrame));
 }
 
+TEST(SocketCanPort, WhatItHadTakenIsKnownToBeLostThenEvenIfItIsBack) {
+  open();
+  const std::uint32_t before = port->status().busOffs;
+  calls.errors = {errorFrame(CAN_ERR_BUSOFF), errorFrame(CAN_ERR_RESTARTED)};
+  CHECK_TRUE(port->status().state == CanState::kActive);
+  LONGS_EQUAL(before + 1, port->status().busOffs);
+  interfaceGoesDown();
+  LONGS_EQUAL(before + 2, port->status().busOffs);
+}
+
 TEST(SocketCanPort, AnInterfaceWithoutCarrierIsBusOff) {
   calls.flags = IFF_UP;
   open();

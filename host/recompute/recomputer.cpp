@@ -40,6 +40,7 @@ struct RecordedAdc {
     return true;
   }
   std::uint32_t overruns() const noexcept { return 0; }
+  std::uint32_t resynchronisations() const noexcept { return 0; }
 };
 
 /// A bus that is always free.

@@ -115,7 +115,7 @@ TEST(Commands, EveryCommandAndArgumentIsCheckedAgainstItsOwn) {
               length >= 2 && length <= 3 && isNode ? CommandStatus::kDone : CommandStatus::kBadArgument;
         }
         if (command == 5)
-          expected = length == 2 && argument <= 2 ? CommandStatus::kDone : CommandStatus::kBadArgument;
+          expected = length == 2 && argument <= 4 ? CommandStatus::kDone : CommandStatus::kBadArgument;
         if (command == 6)
           expected = length == 3 && argument <= 1000 ? CommandStatus::kDone : CommandStatus::kBadArgument;
         if (check(static_cast<std::uint8_t>(command), static_cast<std::uint8_t>(length),

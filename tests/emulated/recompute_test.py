@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""recompute_test.py FINGER.elf TABLES TOUCH_WORLD RECOMPUTE_LOG: what an emulated Cortex-M4 says of touches is, bit for
+"""recompute_test.py FINGER.elf STRAINFINGER TOUCH_WORLD RECOMPUTE_LOG: what an emulated Cortex-M4 says of touches is, bit for
 bit, what this machine computes from the RAW that it sends at the sampling rate."""
 import re
 import subprocess
@@ -21,19 +21,19 @@ FRAME = re.compile(r"t([0-9A-F]{3})([0-8])([0-9A-F]*)")
 class Recompute(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.folder.cleanup)
-        config = Path(cls.folder.name) / "finger.toml"
-        config.write_text(f"schema = 1\n[can]\nnode = {NODE}\n")
-        finger = TouchedFinger(TOUCH_WORLD, str(config), TABLES, 1)
-        cls.log = cls.recorded(finger.records)
+        folder = Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
+        config, cls.tables = folder / "finger.toml", folder / "tables"
+        config.write_text(f"schema = 1\n[gauges]\nmodel_error = 0\n[can]\nnode = {NODE}\n")
+        subprocess.run([STRAINFINGER, "tables", "-c", config, "-o", cls.tables], check=True, capture_output=True)
+        image = emulator.with_tables(ELF, cls.tables, folder / "an386.elf")
+        cls.log = cls.recorded(str(image), TouchedFinger(TOUCH_WORLD, config, cls.tables, 1).records)
 
     @classmethod
-    def recorded(cls, records):
+    def recorded(cls, image, records):
         """candump's log of a finger that is told to send RAW and to take its zero anew, and is then touched: its world
         goes on untouched until it has done so."""
         untouched = records[:SETS_BEFORE]
-        with emulator.Board(ELF, node=NODE) as board:
+        with emulator.Board(image, node=NODE) as board:
             board.wait_ready()
             board.bus.sendall(b"O\r")
             cls.tell(board, untouched)
@@ -59,7 +59,7 @@ class Recompute(unittest.TestCase):
             time.sleep(0.005)
 
     def recomputed(self, log):
-        return subprocess.run([RECOMPUTE_LOG, str(NODE), TABLES], input=log, capture_output=True, text=True, check=False)
+        return subprocess.run([RECOMPUTE_LOG, str(NODE), self.tables], input=log, capture_output=True, text=True, check=False)
 
     def test_the_readings_give_the_frames_bit_for_bit(self):
         done = self.recomputed(self.log)
@@ -84,6 +84,6 @@ class Recompute(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    ELF, TABLES, TOUCH_WORLD, RECOMPUTE_LOG = sys.argv[1:5]
+    ELF, STRAINFINGER, TOUCH_WORLD, RECOMPUTE_LOG = sys.argv[1:5]
     emulator.require(ELF)
     unittest.main(argv=sys.argv[:1], verbosity=2)

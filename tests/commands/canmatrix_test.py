@@ -63,7 +63,7 @@ FRAMES = {
         ("page", 0, 15, None, "1"), ("kind", 0, 15, None, "1"), ("sample", 0, 255, None, "1"),
         ("code_0", 0, 0xFFFF, None, "1"), ("code_1", 0, 0xFFFF, None, "1"), ("code_2", 0, 0xFFFF, None, "1")]),
 }
-COMMANDS = ("REQUEST", "RESPONSE", "RAW")  # not what `decode` prints
+COMMANDS = ("REQUEST", "RESPONSE", "RAW")  # not what a finger sends by itself
 
 
 def codec(lines):

@@ -34,9 +34,6 @@ constexpr const char* kDecodeHelp =
     "Other devices can use the same identifiers (CANopen drives do): --node says which nodes are fingers.\n"
     "Live: candump vcan0 | strainfinger decode --touches";
 
-/// How long a Ctrl-C may wait.
-constexpr std::chrono::milliseconds kPatience{100};
-
 /// How often a file that is followed is looked at.
 constexpr std::chrono::milliseconds kFollowPeriod{50};
 
@@ -77,7 +74,7 @@ class Decoder {
     while (!stop_.asked()) {
       while (const auto text = lines.next()) decodeLine(*text);
       output_.flush();  // before more is waited for: candump may be live
-      if (lines.read(kPatience) != LineReader::Got::kEnd) continue;
+      if (lines.read(system::StopSignal::kLookEvery) != LineReader::Got::kEnd) continue;
       if (!follow_) break;
       std::this_thread::sleep_for(kFollowPeriod);
     }

@@ -38,7 +38,10 @@ int main(int argc, char** argv) {
   strainfinger::cli::addTables(app);
   strainfinger::cli::addLocate(app);
   strainfinger::cli::addRun(app);
+  strainfinger::cli::addRecord(app);
+  strainfinger::cli::addReplay(app);
   strainfinger::cli::addDecode(app);
+  strainfinger::cli::addPlot(app);
   strainfinger::cli::addDbc(app);
   strainfinger::cli::addStrains(app);
   strainfinger::cli::addTare(app);

@@ -1,9 +1,12 @@
 #pragma once
-// The subcommands, one file each; main() adds them in this order.
+// The subcommands, one file each.
 
 #include <CLI/CLI.hpp>
 
 namespace strainfinger::cli {
+
+/// Adds those of the program that is linked: all_commands.cpp or demo_commands.cpp.
+void addCommands(CLI::App& app);
 
 void addResponse(CLI::App& app);
 void addStrain(CLI::App& app);

@@ -20,6 +20,7 @@ constexpr std::array kSkipNames{"with identifiers that are no finger's",
                                 "remote requests",
                                 "of CAN FD",
                                 "error frames (reports of the CAN controller)"};
+static_assert(kSkipNames.size() == static_cast<std::size_t>(SkipReason::kError) + 1);
 
 void summariseNode(const can::NodeCount& node) {
   if (node.twoSenders)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,6 +14,8 @@
 #include "host/cli/bus_option.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/firmware_options.hpp"
+#include "host/cli/recompute.hpp"
 #include "host/system/stop_signal.hpp"
 
 namespace strainfinger::cli {
@@ -25,7 +28,10 @@ constexpr const char* kReplayHelp =
     "Sends the frames of a log (any candump text with times) on a bus, each in its time.\n"
     "Nothing is sent if a line of it cannot be read. Frames that are not classic data frames with 11-bit "
     "identifiers "
-    "are left out and counted.";
+    "are left out and counted.\n"
+    "--recompute: sends nothing, but puts the RAW of a recording of -c's finger through the firmware's code, "
+    "and compares "
+    "the frames of touches, bit for bit. Exit status 6: they differ.";
 
 constexpr auto kTryAgain = 1ms;
 constexpr auto kGiveUp = 1s;
@@ -35,15 +41,19 @@ constexpr auto kGiveUp = 1s;
 constexpr can::BusFilter kHearNothing{.id = kMaxCanId, .mask = kMaxCanId};
 
 struct ReplayOptions {
-  explicit ReplayOptions(CLI::App& command) : common(command) {
+  explicit ReplayOptions(CLI::App& command) : common(command), firmware(command) {
     command.add_option("log", path, "The log")->type_name("FILE")->required();
-    addBusOption(command, bus)->required();
+    addBusOption(command, bus);
+    command.add_flag("--recompute", recompute,
+                     "Compute what the finger must have said from its RAW, and compare");
     command.add_option("--speed", speed, "So many times as fast as it was (default 1)")
         ->check(CLI::Range(1e-3, 1e6));
   }
   CommonOptions common;
+  FirmwareOptions firmware;
   std::string path;
-  std::string bus;
+  std::string bus;  ///< empty: none
+  bool recompute = false;
   double speed = 1;
 };
 
@@ -98,7 +108,26 @@ std::uint64_t sendAll(const ReplayOptions& options, can::BusPort& port, const sy
   return sent;
 }
 
+void recomputeLog(const ReplayOptions& options) {
+  can::LogReader log(options.path);
+  const auto next = [&log]() -> std::optional<can::TimedFrame> {
+    const auto text = log.next();
+    if (!text) return std::nullopt;
+    return can::TimedFrame{*text->time_ns, text->frame};
+  };
+  const config::FingerConfig config = options.common.config();
+  const recompute::RecordedFinger finger{
+      .node = static_cast<std::uint8_t>(config.can.node),
+      .contactRate_hz = static_cast<std::uint16_t>(std::lround(config.can.contact_rate_hz)),
+      .mode = options.firmware.mode()};
+  recompute(next, *options.firmware.tablesOf(config), finger, options.common.format());
+}
+
 void runReplay(const ReplayOptions& options) {
+  if (options.bus.empty() == !options.recompute)
+    throw Failure(ExitCode::kUsage,
+                  "replay: give either --can, to send the log, or --recompute, to check it");
+  if (options.recompute) return recomputeLog(options);
   const LogExtent extent = measure(options.path);
   const system::StopSignal stop;
   const auto port = can::openBus(options.bus, options.common.config().can.bitrate, kHearNothing);

@@ -126,6 +126,8 @@ TEST(Record, ReplaySendsNothingOfALogItCannotRead) {
 
 TEST(Record, ReplayRefusesWhatCannotBe) {
   checkRefused("replay - --can udp", "the log must be a file");
+  checkRefused("replay x.log", "give either --can");
+  checkRefused("replay x.log --can udp --recompute", "give either --can");
   checkRefused("replay x.log --can udp --speed 0", "--speed");
   LONGS_EQUAL(1, runProgram("replay /nonexistent --can udp").status);
 }

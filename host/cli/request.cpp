@@ -80,8 +80,8 @@ RequestOptions::RequestOptions(CLI::App& command) : common(command) {
       ->check(CLI::Range(int{kFirstNode}, int{kLastNode}));
 }
 
-std::uint8_t nodeOf(const RequestOptions& options) {
-  return static_cast<std::uint8_t>(options.node != 0 ? options.node : options.common.config().can.node);
+std::uint8_t nodeOf(const RequestOptions& options, const config::Can& can) {
+  return static_cast<std::uint8_t>(options.node != 0 ? options.node : can.node);
 }
 
 void requireDone(const can::Reply& reply, Command command, const std::string& where) {
@@ -97,7 +97,7 @@ void requireDone(const can::Reply& reply, Command command, const std::string& wh
 
 void request(const RequestOptions& options, const std::vector<RequestFrame>& requests) {
   const config::Can can = options.common.config().can;
-  const std::uint8_t node = nodeOf(options);
+  const std::uint8_t node = nodeOf(options, can);
   const auto port = can::openBus(options.bus, can.bitrate);
   std::optional<TableWriter> table;  // nothing is printed before there is a row
   for (const RequestFrame& request : requests) {

@@ -24,7 +24,7 @@ struct RequestOptions {
 void request(const RequestOptions& options, const std::vector<RequestFrame>& requests);
 
 /// Node of -n, else of the config.
-std::uint8_t nodeOf(const RequestOptions& options);
+std::uint8_t nodeOf(const RequestOptions& options, const config::Can& can);
 
 /// What request() says of a reply, without the printing; `where`: "can0 node 1".
 void requireDone(const can::Reply& reply, Command command, const std::string& where);

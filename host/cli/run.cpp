@@ -174,8 +174,8 @@ class Watchers {
 /// Runs a finger on `port` to its end. wait() lets a sample period pass and says how many really did;
 /// afterwards(time_us) comes after the work of each.
 template <typename Port, typename Wait, typename Afterwards>
-void runOn(Port& port, const RunOptions& options, Wait wait, Afterwards afterwards) {
-  const config::FingerConfig config = options.common.config();
+void runOn(Port& port, const config::FingerConfig& config, const RunOptions& options, Wait wait,
+           Afterwards afterwards) {
   config::FingerConfig known = config;
   if (options.uncalibrated) known.calibration = {};
   const auto tables = options.firmware.tablesOf(known);
@@ -214,12 +214,12 @@ class Candump {
   can::LoopbackPort port_;
 };
 
-void runOnLoopback(const RunOptions& options) {
+void runOnLoopback(const config::FingerConfig& config, const RunOptions& options) {
   can::LoopbackBus bus;
   can::LoopbackPort port(bus);
   Candump candump(bus);
   runOn(
-      port, options, [] { return std::uint64_t{1}; },
+      port, config, options, [] { return std::uint64_t{1}; },
       [&candump](std::uint64_t time_us) { candump.print(time_us); });
 }
 
@@ -228,19 +228,21 @@ can::BusFilter requestsTo(int node) {
   return {.id = canId(FunctionCode::kRequest, static_cast<std::uint8_t>(node)), .mask = kMaxCanId};
 }
 
-void runOnBus(const RunOptions& options) {
-  const config::Can can = options.common.config().can;
-  const auto port = can::openBus(options.bus, can.bitrate, requestsTo(can.node));
+void runOnBus(const config::FingerConfig& config, const RunOptions& options) {
+  const auto port = can::openBus(options.bus, config.can.bitrate, requestsTo(config.can.node));
   std::optional<system::Metronome> metronome;  // starts with the first wait, not while tables are made
   const auto wait = [&metronome] {
     if (!metronome)
       metronome.emplace(std::chrono::microseconds(simulation::SimulatedGauges::kSamplePeriod_us));
     return metronome->wait();
   };
-  runOn(*port, options, wait, [](std::uint64_t) {});
+  runOn(*port, config, options, wait, [](std::uint64_t) {});
 }
 
-void runRun(const RunOptions& options) { options.isLoopback() ? runOnLoopback(options) : runOnBus(options); }
+void runRun(const RunOptions& options) {
+  const config::FingerConfig config = options.common.config();
+  options.isLoopback() ? runOnLoopback(config, options) : runOnBus(config, options);
+}
 
 }  // namespace
 

@@ -101,7 +101,7 @@ StrainClock::time_point endOf(const StrainsOptions& options) {
 
 void runStrains(const StrainsOptions& options) {
   const config::FingerConfig config = options.request.common.config();
-  const std::uint8_t node = nodeOf(options.request);
+  const std::uint8_t node = nodeOf(options.request, config.can);
   const std::string where = fmt::format("{} node {}", options.request.bus, node);
   const auto end = endOf(options);
   const auto bus = can::openBus(options.request.bus, config.can.bitrate);

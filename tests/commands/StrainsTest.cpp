@@ -15,8 +15,9 @@ TEST_GROUP(StrainsCommand){
         const std::string bus = "udp:" + std::to_string(20'000 + getpid() % 40'000);
 return "BUS=" + bus + "\n\"$STRAINFINGER\" run --can $BUS --duration 30 " + options +
        " 2>/dev/null & finger=$!\n"
-       "until \"$STRAINFINGER\" config --can $BUS --contact-rate-hz 100 >/dev/null 2>&1; do sleep 0.1; "
-       "done\n" +
+       "for _ in $(seq 100); do \"$STRAINFINGER\" config --can $BUS --contact-rate-hz 100 >/dev/null 2>&1 && "
+       "break; "
+       "sleep 0.1; done\n" +
        script + "\nstatus=$?; kill -INT $finger; wait $finger; exit $status\n";
 }
 }
@@ -55,8 +56,9 @@ END)"));
 }
 
 TEST(StrainsCommand, ARateBeyondTheBusIsRefusedWithTheFastest) {
-  const Run run = runShell(withFinger("-c <(echo -e 'schema = 1\n[can]\nbitrate = 125000')",
-                                      R"("$STRAINFINGER" strains --can $BUS --rate 1000 --duration 1)"));
+  const Run run =
+      runShell(withFinger("-c <(echo -e 'schema = 1\n[can]\nbitrate = 125000\ncontact_rate_hz = 200')",
+                          R"("$STRAINFINGER" strains --can $BUS --rate 1000 --duration 1)"));
   LONGS_EQUAL(1, run.status);
   STRCMP_CONTAINS("too_fast: 125 Hz", run.err.c_str());
   STRCMP_EQUAL("", run.out.c_str());

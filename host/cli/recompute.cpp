@@ -21,10 +21,10 @@ void judgeRecomputed(const recompute::RecomputeTally& tally, int node) {
     throw Failure(
         ExitCode::kFailure,
         fmt::format(
-            "recompute: nothing to compare: the recording needs RAW of every sample set of node {} from "
-            "before a tare on, and a touch behind it: `strainfinger strains --rate 1000 > /dev/null`, "
-            "then `strainfinger tare` while it records",
-            node));
+            "recompute: nothing to compare: the recording needs RAW of every sample set of node {} "
+            "({} gaps) from before a tare on, and a touch behind it: `strainfinger strains --rate 1000 "
+            "> /dev/null`, then `strainfinger tare` while it records",
+            node, tally.gaps));
 }
 
 }  // namespace

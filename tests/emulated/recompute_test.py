@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""recompute_test.py FINGER.elf STRAINFINGER TOUCH_WORLD RECOMPUTE_LOG: what an emulated Cortex-M4 says of touches is, bit for
+"""recompute_test.py FINGER.elf STRAINFINGER TOUCH_WORLD: what an emulated Cortex-M4 says of touches is, bit for
 bit, what this machine computes from the RAW that it sends at the sampling rate."""
 import re
 import subprocess
@@ -22,11 +22,12 @@ class Recompute(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         folder = Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
-        config, cls.tables = folder / "finger.toml", folder / "tables"
+        cls.folder, tables = folder, folder / "tables"
+        config = folder / "finger.toml"
         config.write_text(f"schema = 1\n[gauges]\nmodel_error = 0\n[can]\nnode = {NODE}\n")
-        subprocess.run([STRAINFINGER, "tables", "-c", config, "-o", cls.tables], check=True, capture_output=True)
-        image = emulator.with_tables(ELF, cls.tables, folder / "an386.elf")
-        cls.log = cls.recorded(str(image), TouchedFinger(TOUCH_WORLD, config, cls.tables, 1).records)
+        subprocess.run([STRAINFINGER, "tables", "-c", config, "-o", tables], check=True, capture_output=True)
+        image = emulator.with_tables(ELF, tables, folder / "an386.elf")
+        cls.log = cls.recorded(str(image), TouchedFinger(TOUCH_WORLD, config, tables, 1).records)
 
     @classmethod
     def recorded(cls, image, records):
@@ -59,7 +60,15 @@ class Recompute(unittest.TestCase):
             time.sleep(0.005)
 
     def recomputed(self, log):
-        return subprocess.run([RECOMPUTE_LOG, str(NODE), self.tables], input=log, capture_output=True, text=True, check=False)
+        path = self.folder / "touch.log"
+        path.write_text(log)
+        return subprocess.run([STRAINFINGER, "replay", "--recompute", "-c", self.folder / "finger.toml", path],
+                              capture_output=True, text=True, check=False)
+
+    def test_without_the_readings_there_is_nothing_to_compare(self):
+        done = self.recomputed("".join(line + "\n" for line in self.log.splitlines() if "can0 401#" not in line))
+        self.assertEqual(1, done.returncode)
+        self.assertIn("nothing to compare", done.stderr)
 
     def test_the_readings_give_the_frames_bit_for_bit(self):
         done = self.recomputed(self.log)
@@ -84,6 +93,6 @@ class Recompute(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    ELF, STRAINFINGER, TOUCH_WORLD, RECOMPUTE_LOG = sys.argv[1:5]
+    ELF, STRAINFINGER, TOUCH_WORLD = sys.argv[1:4]
     emulator.require(ELF)
     unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -7,9 +7,11 @@ packages=(
   cmake ninja-build g++ pkg-config clang-format           # build
   libeigen3-dev libboost-dev libfmt-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev   # host tools
   gnuplot-nox                                             # pictures
+  libcpp-httplib-dev                                      # the live page
   libbenchmark-dev                                        # benchmarks
   gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib   # firmware
   libcpputest-dev python3-canmatrix python3-can            # tests: framework, DBC oracle, a user's plot
+  tmux chromium python3-websockets                        # tests: a terminal, a browser and its DevTools protocol
   can-utils iproute2                                      # candump, ip link
   qemu-system-arm clang                                   # tests: emulated boards, a second compiler
   libclang-rt-14-dev                                      # tests: fuzzing

@@ -42,6 +42,8 @@ int main(int argc, char** argv) {
   strainfinger::cli::addReplay(app);
   strainfinger::cli::addDecode(app);
   strainfinger::cli::addPlot(app);
+  strainfinger::cli::addMonitor(app);
+  strainfinger::cli::addServe(app);
   strainfinger::cli::addDbc(app);
   strainfinger::cli::addStrains(app);
   strainfinger::cli::addTare(app);

@@ -27,7 +27,7 @@ double jitterOf(std::span<const std::int64_t> intervals_us) {
   std::int64_t worst_us = 0;
   for (const std::int64_t interval_us : intervals_us)
     worst_us = std::max(worst_us, std::abs(interval_us - 1'000 * std::int64_t{kHeartbeatPeriod_ms}));
-  return static_cast<double>(worst_us) * 1e-6;
+  return static_cast<double>(worst_us) / 1e6;
 }
 
 }  // namespace
@@ -57,6 +57,9 @@ void Fleet::takeHeartbeat(Node& node, std::int64_t time_us, const HeartbeatFrame
 }
 
 void Fleet::takeTouch(Node& node, std::int64_t time_us, const can::TouchReport& touch) {
+  const bool isNews =
+      !node.touch || node.touch->flags.has(FingerFlag::kContact) != touch.flags.has(FingerFlag::kContact);
+  if (isNews) node.since_us = time_us;
   node.touch = touch;
   node.touched_us = time_us;
   widen(node.span.leastNormal_n, node.span.mostNormal_n, touch.normal_n);
@@ -89,6 +92,8 @@ FingerView Fleet::viewOf(std::uint8_t number, Node& node) {
                   .info = node.info,
                   .gauges = node.gauges,
                   .touch = node.touch,
+                  .touched_us = node.touched_us,
+                  .since_us = node.since_us,
                   .span = std::exchange(node.span, {}),
                   .strongest_n = node.strongest_n,
                   .contactsPerSecond = node.contacts.perSecond(now_us_),

@@ -38,6 +38,7 @@ class Fleet {
     std::optional<can::TouchReport> touch{};
     std::int64_t heard_us = 0;    ///< when its last HEARTBEAT came
     std::int64_t touched_us = 0;  ///< when its last touch was complete
+    std::int64_t since_us = 0;    ///< when the first of its kind was
     ForceSpan span{};
     double strongest_n = 0;
     RateMeter contacts{};

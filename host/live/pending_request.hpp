@@ -10,6 +10,13 @@
 
 namespace strainfinger::live {
 
+/// What became of a request.
+struct Outcome {
+  std::uint8_t node = 0;
+  bool isDone = false;  ///< it did what it was told to
+  std::string text;     ///< for people
+};
+
 class PendingRequest {
  public:
   /// `now_us`: when it was made, on the clock of take() and expire().
@@ -23,13 +30,13 @@ class PendingRequest {
   bool isSent() const { return sent_; }
   void markSent() { sent_ = true; }
 
-  /// What to tell people once it is known: of the frame that answers it.
-  std::optional<std::string> take(const CanFrame& frame) const;
-  /// And when no answer came within twice the time that a finger has for it.
-  std::optional<std::string> expire(std::int64_t now_us) const;
+  /// The outcome, of the frame that answers it.
+  std::optional<Outcome> take(const CanFrame& frame) const;
+  /// The outcome when no answer came within twice the time that a finger has for it.
+  std::optional<Outcome> expire(std::int64_t now_us) const;
 
  private:
-  std::string told(const std::string& what) const;
+  Outcome outcome(bool isDone, const std::string& what) const;
 
   std::uint8_t node_;
   RequestFrame request_;

@@ -27,8 +27,11 @@ Json contactJson(const can::ContactReport& contact) {
           {"quality_percent", numberOrNull(contact.quality_percent)}};
 }
 
-Json touchJson(const can::TouchReport& touch) {
+Json touchJson(const FingerView& finger) {
+  const can::TouchReport& touch = *finger.touch;
   Json json = contactJson(touch);
+  json["time_s"] = static_cast<double>(finger.touched_us) / 1e6;
+  json["since_s"] = static_cast<double>(finger.since_us) / 1e6;
   json["width_m"] = numberOrNull(touch.width_m);
   json["sigma_width_m"] = numberOrNull(touch.sigmaWidth_m);
   json["chi"] = numberOrNull(touch.chi);
@@ -63,7 +66,7 @@ Json infoJson(const InfoFrame& info) {
 Json fingerJson(const FingerView& finger) {
   const HeartbeatFrame& heartbeat = finger.heartbeat;
   return {{"node", finger.node},
-          {"silence_s", static_cast<double>(finger.silence_us) * 1e-6},
+          {"silence_s", static_cast<double>(finger.silence_us) / 1e6},
           {"silent", finger.isSilent()},
           {"protocol", heartbeat.protocol},
           {"foreign", finger.isForeign()},
@@ -77,7 +80,7 @@ Json fingerJson(const FingerView& finger) {
           {"lost", finger.lost},
           {"restarts", finger.restarts},
           {"strongest_n", finger.strongest_n},
-          {"touch", finger.touch ? touchJson(*finger.touch) : Json()},
+          {"touch", finger.touch ? touchJson(finger) : Json()},
           {"span", spanJson(finger.span)},
           {"gauges", finger.gauges ? gaugesJson(*finger.gauges) : Json()},
           {"info", finger.info ? infoJson(*finger.info) : Json()}};
@@ -89,9 +92,10 @@ Json toJson(const BusView& bus) {
   Json fingers = Json::array();
   for (const FingerView& finger : bus.fingers) fingers.push_back(fingerJson(finger));
   return {{"bus", bus.name},
-          {"time_s", static_cast<double>(bus.time_us) * 1e-6},
+          {"time_s", static_cast<double>(bus.time_us) / 1e6},
           {"frames_per_s", bus.framesPerSecond},
           {"load", bus.load},
+          {"missed", bus.missed},
           {"fingers", std::move(fingers)}};
 }
 

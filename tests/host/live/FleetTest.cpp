@@ -72,6 +72,20 @@ TEST(Fleet, ATouchIsShown) {
   DOUBLES_EQUAL(0.282, finger.strongest_n, 1e-12);
 }
 
+TEST(Fleet, ATouchIsOneSinceItsFirstFrame) {
+  heartbeat();
+  touch(0, 0, {});
+  now_us_ = 2'000'000;
+  touch(100, 1);
+  now_us_ = 2'050'000;
+  touch(120, 2);
+  LONGS_EQUAL(2'000'000, only().since_us);
+  LONGS_EQUAL(2'050'000, only().touched_us);
+  now_us_ = 3'000'000;
+  touch(0, 3, {});
+  LONGS_EQUAL(3'000'000, only().since_us);
+}
+
 TEST(Fleet, AReleaseIsShownForEver) {
   heartbeat();
   touch(0, 1, {});

@@ -1,0 +1,107 @@
+"""Simulated fingers on a bus of their own, and the program under test beside them."""
+import contextlib
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import time
+import urllib.request
+
+# Slid around, and pressed harder and softer ten times a second: there is news in every sample set.
+SCENARIO = f"""schema = 1
+repeat_s = 20
+[[touch]]
+start_s = 0.3
+end_s = 19.9
+angle_deg = [20, 340]
+normal_n_per_m = {[15, 32] * 196}
+tangential_n_per_m = {[-8, 3, 9] * 130}
+"""
+
+# The same at leisure, to look at.
+SLIDE = """schema = 1
+repeat_s = 20
+[[touch]]
+start_s = 0.3
+end_s = 19.9
+angle_deg = [20, 340]
+normal_n_per_m = [10, 14, 30, 18, 36, 22, 30, 12, 10]
+tangential_n_per_m = [0, 5, 9, -4, -12, 6, 10, 3, 0]
+"""
+
+UNTOUCHED = "schema = 1\n"
+
+
+def free_bus():
+    """A udp bus that no other test uses at the same time: tests have process numbers of their own."""
+    return f"udp:{20000 + os.getpid() % 20000}"
+
+
+def cpu_s(process):
+    """Processor time that a process has used so far."""
+    fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+class Bench(contextlib.ExitStack):
+    """What was started ends with it."""
+
+    def __init__(self, program):
+        super().__init__()
+        self.program = program
+        self.bus = free_bus()
+        self.folder = pathlib.Path(self.enter_context(tempfile.TemporaryDirectory()))
+
+    def start(self, *arguments, **options):
+        process = subprocess.Popen([self.program, *arguments], **options)
+        self.callback(self._end, process)
+        return process
+
+    @staticmethod
+    def _end(process):
+        if process.poll() is None:
+            process.send_signal(signal.SIGINT)
+        try:
+            process.wait(20)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+            raise
+        finally:
+            if process.stderr:
+                process.stderr.close()
+
+    def finger(self, node=1, scenario=SCENARIO):
+        config = self.folder / f"finger_{node}.toml"
+        config.write_text(f"schema = 1\n[can]\nnode = {node}\n[gauges]\nmodel_error = 0.003\n")
+        touches = self.folder / f"touches_{node}.toml"
+        touches.write_text(scenario)
+        return self.start("run", "-c", str(config), "--can", self.bus, "--scenario", str(touches),
+                          stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def serve(self, *arguments):
+        """The process, and the address that it prints."""
+        process = self.start("serve", "--can", self.bus, "--port", "0", *arguments, stderr=subprocess.PIPE, text=True)
+        line = process.stderr.readline()
+        assert line.startswith("serve: http://"), line
+        return process, line.split()[1]
+
+    @staticmethod
+    def state(url):
+        return json.load(urllib.request.urlopen(url + "state", timeout=5))
+
+    def wait_for(self, url, holds, longest_s=30):
+        """The first state of which `holds` is true."""
+        end = time.monotonic() + longest_s
+        while time.monotonic() < end:
+            state = self.state(url)
+            if holds(state):
+                return state
+            time.sleep(0.05)
+        raise AssertionError(f"not within {longest_s} s; the last state: {state}")
+
+
+def touched(state):
+    return state["fingers"] and all(finger["touch"] and finger["touch"]["touched"] for finger in state["fingers"])

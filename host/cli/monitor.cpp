@@ -118,9 +118,9 @@ void printLive(live::BusWatch& watch, const MonitorOptions& options) {
 }
 
 void monitorBus(const MonitorOptions& options) {
-  const int bitrate = options.common.config().can.bitrate;
-  const auto port = can::openBus(options.bus, bitrate);
-  live::BusWatch watch(*port, bitrate);
+  const config::FingerConfig config = options.common.config();
+  const auto port = can::openBus(options.bus, config.can.bitrate);
+  live::BusWatch watch(*port, config);
   options.wantsScreen() ? LiveScreen(watch).run() : printLive(watch, options);
 }
 
@@ -159,7 +159,7 @@ class StdinLines {
 class LogMonitor {
  public:
   explicit LogMonitor(const MonitorOptions& options)
-      : watch_(options.common.config().can.bitrate),
+      : watch_(options.common.config()),
         report_(stdout, options.common.format(), options.every_s),
         screen_(options.wantsScreen()) {}
 

@@ -12,6 +12,7 @@
 #include "host/cli/commands.hpp"
 #include "host/live/bus_watch.hpp"
 #include "host/live/page_server.hpp"
+#include "host/live/strain_fit.hpp"
 #include "host/live/view_json.hpp"
 #include "host/live/words.hpp"
 #include "host/system/stop_signal.hpp"
@@ -78,25 +79,33 @@ std::string urlOf(const live::PageServerOptions& server, int port) {
                      server.token.empty() ? "" : "#", server.token);
 }
 
-void serve(live::BusWatch& watch, live::PageServer& server) {
+/// The newest view as JSON.
+std::string viewJson(live::BusWatch& watch, const live::StrainFit& fit) {
+  live::BusView view = watch.view();
+  for (live::FingerView& finger : view.fingers)
+    if (!finger.strains.empty() && finger.isTouched()) finger.fitted = fit.readings(*finger.touch);
+  return live::toJson(view).dump();
+}
+
+void serve(live::BusWatch& watch, live::PageServer& server, const live::StrainFit& fit) {
   const system::StopSignal stop;
   while (!stop.asked()) {
     for (const std::uint8_t node : server.takeTares()) watch.request(node, tareRequest(false));
     watch.listen(kPublishEvery);
     for (const live::Outcome& outcome : watch.outcomes()) server.answer(outcome);
-    if (server.isRead()) server.publish(live::toJson(watch.view()).dump());
+    if (server.isRead()) server.publish(viewJson(watch, fit));
   }
 }
 
 void runServe(const ServeOptions& options) {
-  const int bitrate = options.common.config().can.bitrate;
-  const auto port = can::openBus(options.bus, bitrate);
-  live::BusWatch watch(*port, bitrate);
+  const config::FingerConfig config = options.common.config();
+  const auto port = can::openBus(options.bus, config.can.bitrate);
+  live::BusWatch watch(*port, config);
   const live::PageServerOptions serverOptionsNow = serverOptions(options);
   live::PageServer server(serverOptionsNow);
   fmt::print(stderr, "serve: {} shows {}; Ctrl-C ends\n", urlOf(serverOptionsNow, server.port()),
              options.bus);
-  serve(watch, server);
+  serve(watch, server, live::StrainFit(config));
   throw Failure(ExitCode::kInterrupted, "serve: interrupted");
 }
 

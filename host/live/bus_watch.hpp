@@ -17,8 +17,9 @@ class BusWatch {
  public:
   using Tap = std::function<void(const can::TimedFrame&)>;
 
-  /// `port` must outlive it. `bitrate` [bit/s] is for the load only.
-  BusWatch(can::BusPort& port, int bitrate) : port_(port), fleet_(port.name(), bitrate) {}
+  /// `port` must outlive it. The config is for a Fleet.
+  BusWatch(can::BusPort& port, const config::FingerConfig& config)
+      : port_(port), fleet_(port.name(), config) {}
 
   /// Takes what comes for so long. Frames are fetched a few milliseconds' worth at a time: a wake-up for each
   /// would cost more than they do. Their times are those of their arrival all the same.

@@ -30,6 +30,9 @@ struct FingerView {
   std::optional<can::TouchReport> touch{};
   std::int64_t touched_us = 0;  ///< when that was complete, on the clock of the frames
   std::int64_t since_us = 0;    ///< when the first was that says "touched" as that one does, or doesn't
+  /// What its gauges read by its newest RAW, less their zeros; empty where none came in the last 1.5 s.
+  std::vector<double> strains{};
+  std::vector<double> fitted{};  ///< what they should read under that touch; empty: not worked out
   ForceSpan span{};
   double strongest_n = 0;               ///< largest force so far, of either direction: to scale a bar by
   std::uint64_t contactsPerSecond = 0;  ///< CONTACT frames over the last second

@@ -11,6 +11,9 @@ namespace {
 /// In contact a finger sends every 50 ms at least: after four times that it says nothing more of it.
 constexpr std::int64_t kTouchLasts_us = 4'000 * std::int64_t{kContactPeriod_ms};
 
+/// Of RAW there is one set a second at least.
+constexpr std::int64_t kRawLasts_us = 1'500'000;
+
 /// A classic frame with an 11-bit identifier and the space to the next one, stuff bits apart (ISO 11898-1).
 std::uint64_t bitsOf(const CanFrame& frame) { return 47U + 8U * frame.length; }
 
@@ -32,7 +35,9 @@ double jitterOf(std::span<const std::int64_t> intervals_us) {
 
 }  // namespace
 
-Fleet::Node& Fleet::nodeAt(std::uint8_t number) { return nodes_.try_emplace(number, number).first->second; }
+Fleet::Node& Fleet::nodeAt(std::uint8_t number) {
+  return nodes_.try_emplace(number, number, gauges_.count).first->second;
+}
 
 void Fleet::take(std::int64_t time_us, const CanFrame& frame) {
   now_us_ = std::max(now_us_, time_us);
@@ -44,6 +49,7 @@ void Fleet::take(std::int64_t time_us, const CanFrame& frame) {
   Node& node = nodeAt(number);
   if (decode<ContactFrame>(frame)) node.contacts.add(now_us_);
   if (const auto touch = node.receiver.take(frame)) takeTouch(node, now_us_, *touch);
+  if (const auto set = node.raw.take(frame)) takeRaw(node, *set);
   if (const auto heartbeat = decode<HeartbeatFrame>(frame)) takeHeartbeat(node, now_us_, *heartbeat);
   if (const auto info = decode<InfoFrame>(frame)) node.info = info;
   if (const auto gauges = decode<GaugesFrame>(frame)) node.gauges = gauges;
@@ -54,6 +60,16 @@ void Fleet::takeHeartbeat(Node& node, std::int64_t time_us, const HeartbeatFrame
     node.intervals_us[node.intervals++ % node.intervals_us.size()] = time_us - node.heard_us;
   node.heartbeat = heartbeat;
   node.heard_us = time_us;
+}
+
+void Fleet::takeRaw(Node& node, const can::RawSet& set) const {
+  const std::vector<std::uint16_t>& zeros = node.raw.zeros();
+  if (zeros.size() != set.codes.size()) return;  // not known yet
+  const double strain = can::strainPerCode(gauges_.full_scale_strain);
+  node.strains.clear();
+  for (std::size_t i = 0; i < zeros.size(); ++i)
+    node.strains.push_back(strain * (int{set.codes[i]} - int{zeros[i]}));
+  node.strained_us = now_us_;
 }
 
 void Fleet::takeTouch(Node& node, std::int64_t time_us, const can::TouchReport& touch) {
@@ -100,6 +116,7 @@ FingerView Fleet::viewOf(std::uint8_t number, Node& node) {
                   .jitter_s = jitterOf(std::span(node.intervals_us).first(intervals))};
   const bool isOld = view.isTouched() && now_us_ - node.touched_us > kTouchLasts_us;
   if (view.isSilent() || view.isForeign() || isOld) view.touch.reset();
+  if (!view.isForeign() && now_us_ - node.strained_us <= kRawLasts_us) view.strains = node.strains;
   return view;
 }
 

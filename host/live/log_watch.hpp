@@ -15,8 +15,8 @@ namespace strainfinger::live {
 
 class LogWatch {
  public:
-  /// `bitrate` [bit/s] of all its buses, for their loads only.
-  explicit LogWatch(int bitrate) : bitrate_(bitrate) {}
+  /// The config is for the Fleets of all its buses.
+  explicit LogWatch(const config::FingerConfig& config) : config_(config) {}
 
   /// Takes a line of any of candump's text forms. A frame without a time comes when the one before it came.
   std::optional<can::LogError> take(std::string_view line);
@@ -28,7 +28,7 @@ class LogWatch {
   std::vector<BusView> views(std::int64_t now_us);
 
  private:
-  int bitrate_;
+  config::FingerConfig config_;
   std::optional<std::int64_t> time_us_;
   std::map<std::string, Fleet> buses_;
 };

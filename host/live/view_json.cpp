@@ -11,6 +11,8 @@ using Json = nlohmann::ordered_json;
 
 Json numberOrNull(double value) { return std::isnan(value) ? Json() : Json(value); }
 
+Json listOrNull(const std::vector<double>& values) { return values.empty() ? Json() : Json(values); }
+
 template <typename Raw>
 Json knownOrNull(Raw raw) {
   return raw == kNotKnown<Raw> ? Json() : Json(raw);
@@ -82,6 +84,8 @@ Json fingerJson(const FingerView& finger) {
           {"strongest_n", finger.strongest_n},
           {"touch", finger.touch ? touchJson(finger) : Json()},
           {"span", spanJson(finger.span)},
+          {"strains", listOrNull(finger.strains)},
+          {"fitted", listOrNull(finger.fitted)},
           {"gauges", finger.gauges ? gaugesJson(*finger.gauges) : Json()},
           {"info", finger.info ? infoJson(*finger.info) : Json()}};
 }

@@ -1,9 +1,11 @@
 """Simulated fingers on a bus of their own, and the program under test beside them."""
 import contextlib
 import json
+import multiprocessing
 import os
 import pathlib
 import signal
+import socket
 import subprocess
 import tempfile
 import time
@@ -81,6 +83,13 @@ class Bench(contextlib.ExitStack):
         return self.start("run", "-c", str(config), "--can", self.bus, "--scenario", str(touches),
                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
+    def chatter(self, nodes=(1, 2, 3), rate_hz=500, time_s=60):
+        """So many touches a second of each, however slow this machine is at simulating fingers."""
+        process = multiprocessing.Process(target=chatter, args=(self.bus, nodes, rate_hz, time_s), daemon=True)
+        process.start()
+        self.callback(process.join)
+        self.callback(process.terminate)
+
     def serve(self, *arguments):
         """The process, and the address that it prints."""
         process = self.start("serve", "--can", self.bus, "--port", "0", *arguments, stderr=subprocess.PIPE, text=True)
@@ -105,3 +114,30 @@ class Bench(contextlib.ExitStack):
 
 def touched(state):
     return state["fingers"] and all(finger["touch"] and finger["touch"]["touched"] for finger in state["fingers"])
+
+
+GROUP = "239.255.67.65"
+
+
+def chatter(bus, nodes, rate_hz, time_s):
+    """Fingers that are all talk: CONTACT, FORCE and PATCH at an exact rate, HEARTBEATs ten times a second. The bytes are those of
+    common/BUS.md's examples, the datagrams those of host/can/UDP_BUS.md."""
+    speaks = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    speaks.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, socket.inet_aton("127.0.0.1"))
+    speaks.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, 0)
+    speaks.bind(("127.0.0.1", 0))
+    to = (GROUP, int(bus.partition(":")[2]))
+
+    def send(identifier, data):
+        speaks.sendto(bytes([1, identifier >> 8, identifier & 255, 8]) + data, to)
+
+    began = time.monotonic()
+    for count in range(int(rate_hz * time_s)):
+        time.sleep(max(0.0, began + count / rate_hz - time.monotonic()))
+        number = bytes([count % 256])
+        for node in nodes:
+            if count % (rate_hz // 10) == 0:
+                send(0x700 + node, bytes.fromhex("2200004D0E1900A7"))
+            send(0x180 + node, (count * 7 % 36000).to_bytes(2, "little") + bytes.fromhex("2201808161") + number)
+            send(0x280 + node, (count % 900).to_bytes(2, "little") + bytes.fromhex("1EFF070981") + number)
+            send(0x380 + node, bytes.fromhex("F80796001101") + b"\x81" + number)

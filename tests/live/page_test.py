@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """page_test.py PROGRAM [PICTURE]: the live page in headless Chromium. With PICTURE, a screenshot of it is left there."""
+import subprocess
 import sys
 import unittest
 
@@ -159,6 +160,25 @@ class InTime(unittest.TestCase):
                 late_ms = page.wait_for("window.lateness_ms.length >= 10 && window.lateness_ms", 60)
         print("a press is on the page after ms:", sorted(round(ms) for ms in late_ms), file=sys.stderr)
         self.assertLess(sorted(late_ms)[len(late_ms) // 2], 100)
+
+
+class Strains(unittest.TestCase):
+    def test_strains_are_drawn_beside_the_fit_while_they_stream(self):
+        with Bench(PROGRAM) as bench:
+            bench.finger(1)
+            _, url = bench.serve()
+            with browser.Page(url) as page:
+                page.wait_for("document.querySelector('#finger-1 .raw')?.hidden")
+                strains = bench.start("strains", "--can", bench.bus, "--rate", "50", stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                page.wait_for("!document.querySelector('#finger-1 .raw').hidden && newest.fingers[0].fitted !== null")
+                strain, fit = page.value("[newest.fingers[0].strains, newest.fingers[0].fitted]")
+                self.assertEqual((16, 16), (len(strain), len(fit)))
+                deepest = min(range(16), key=strain.__getitem__)
+                off = abs(deepest - min(range(16), key=fit.__getitem__))
+                self.assertLessEqual(min(off, 16 - off), 1)  # a state and its set may be some milliseconds apart
+                self.assertLess(fit[deepest], 0)
+                Bench._end(strains)
+                page.wait_for("document.querySelector('#finger-1 .raw').hidden")
 
 
 class Ending(unittest.TestCase):

@@ -52,7 +52,7 @@ class FakeBusPort final : public can::BusPort {
 
 TEST_GROUP(BusWatch) {
   FakeBusPort port_;
-  BusWatch watch_{port_, 1'000'000};
+  BusWatch watch_{port_, config::FingerConfig{}};
 };
 
 TEST(BusWatch, ShowsWhatItHears) {

@@ -8,7 +8,7 @@ using namespace strainfinger;
 using namespace strainfinger::live;
 
 TEST_GROUP(Fleet) {
-  Fleet fleet_{"can0", 1'000'000};
+  Fleet fleet_{"can0", config::FingerConfig{}};
   std::int64_t now_us_ = 1'000'000;
 
   void take(const CanFrame& frame) { fleet_.take(now_us_, frame); }
@@ -20,6 +20,13 @@ TEST_GROUP(Fleet) {
     take(encode(
         ForceFrame{.normal_mN = normal_mN, .tangential_mN = -50, .flags = flags, .sequence = sequence}, 1));
     take(encode(PatchFrame{.width_um = 2000, .contacts = 1, .flags = flags, .sequence = sequence}, 1));
+  }
+  /// All pages of a set whose 16 gauges read the same.
+  void rawSet(RawKind kind, std::uint16_t code) {
+    for (std::uint8_t page = 0; page < 6; ++page)
+      take(encode(
+          RawFrame{.page = page, .kind = kind, .sample = 7, .code_0 = code, .code_1 = code, .code_2 = code},
+          1));
   }
   BusView view() { return fleet_.view(now_us_); }
   FingerView only() {
@@ -179,6 +186,26 @@ TEST(Fleet, GaugesAndInfoAreThoseLastSaid) {
   take(encode(GaugesFrame{.out_of_use = 0x20, .zero_age_s = 61}, 1));
   LONGS_EQUAL(0x5C, only().info.value().board);
   LONGS_EQUAL(0x20, only().gauges.value().out_of_use);
+}
+
+TEST(Fleet, StrainsAreCodesLessTheirZeros) {
+  heartbeat();
+  rawSet(RawKind::kReadings, 1000);
+  CHECK_TRUE(only().strains.empty());  // before the zeros are known
+  rawSet(RawKind::kZeros, 900);
+  rawSet(RawKind::kReadings, 1000);
+  const FingerView finger = only();
+  LONGS_EQUAL(16, finger.strains.size());
+  for (const double strain : finger.strains) DOUBLES_EQUAL(100 * 0.03 / 32768, strain, 1e-12);
+}
+
+TEST(Fleet, StrainsThatNoMoreComeOfAreNotShown) {
+  heartbeat();
+  rawSet(RawKind::kZeros, 900), rawSet(RawKind::kReadings, 1000);
+  now_us_ += 1'500'000;
+  LONGS_EQUAL(16, only().strains.size());
+  now_us_ += 1;
+  CHECK_TRUE(only().strains.empty());
 }
 
 TEST(Fleet, ATimeThatGoesBackIsTakenForTheLast) {

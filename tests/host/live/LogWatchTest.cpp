@@ -6,7 +6,7 @@ using namespace strainfinger;
 using namespace strainfinger::live;
 
 TEST_GROUP(LogWatch) {
-  LogWatch watch_{1'000'000};
+  LogWatch watch_{config::FingerConfig{}};
 
   void take(const char* line) { CHECK_FALSE(watch_.take(line).has_value()); }
 };

@@ -1,3 +1,4 @@
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
@@ -17,6 +18,7 @@
 #include "host/live/bus_watch.hpp"
 #include "host/live/log_watch.hpp"
 #include "host/live/plain_report.hpp"
+#include "host/live/recording.hpp"
 #include "host/live/screen.hpp"
 #include "host/live/terminal.hpp"
 #include "host/system/stop_signal.hpp"
@@ -30,7 +32,8 @@ constexpr const char* kMonitorHelp =
     "--can BUS: live. Without it, a log on stdin (any candump text): candump can0 | strainfinger monitor\n"
     "In a terminal a screen, drawn at most ten times a second. Keys: t zeroes the gauges of the finger that "
     "is "
-    "marked (do not touch it), up and down mark another, q ends. NO_COLOR=1: no colours.\n"
+    "marked (do not touch it), up and down mark another, r begins and ends a log in this folder, q ends. "
+    "NO_COLOR=1: no colours.\n"
     "Elsewhere, and with --plain, a line for each finger every second (--every), or with --json an object "
     "for "
     "each bus.\n"
@@ -69,9 +72,7 @@ void endIfStopped(const system::StopSignal& stop) {
 /// A live bus on the terminal, until q is pressed.
 class LiveScreen {
  public:
-  explicit LiveScreen(live::BusWatch& watch) : watch_(watch) {
-    content_.keys = "t tare  up/down mark  q quit";
-  }
+  explicit LiveScreen(live::BusWatch& watch) : watch_(watch) {}
 
   void run() {
     const system::StopSignal stop;
@@ -79,8 +80,11 @@ class LiveScreen {
     while (!stop.asked() && !quit_) {
       watch_.listen(kRedraw);
       content_.buses = {watch_.view()};
+      saveRecording();
       for (const live::Outcome& outcome : watch_.outcomes()) content_.message = outcome.text;
       while (const auto key = terminal.key()) press(*key);
+      content_.keys = fmt::format("t tare  up/down mark  r {}  q quit",
+                                  recording_ ? "stop recording " + recording_->path() : "record");
       terminal.show(live::drawScreen(content_, live::terminalForm()));
     }
     endIfStopped(stop);
@@ -93,7 +97,36 @@ class LiveScreen {
     if (key == 'q') quit_ = true;
     if (key == live::kKeyDown && selected + 1 < fingers.size()) ++selected;
     if (key == live::kKeyUp && selected > 0) --selected;
+    if (key == 'r') orSay([this] { recording_ ? stopRecording() : startRecording(); });
     if (key == 't' && selected < fingers.size()) tare(fingers[selected].node);
+  }
+
+  /// What goes wrong with a recording is said, and ends it: the fingers are still to be seen.
+  template <typename Step>
+  void orSay(Step step) {
+    try {
+      step();
+    } catch (const Failure& failure) {
+      recording_.reset();
+      content_.message = failure.what();
+    }
+  }
+
+  void startRecording() {
+    const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    const std::string path = fmt::format("strainfinger-{:%Y%m%d-%H%M%S}.log", fmt::gmtime(now));
+    recording_.emplace(watch_, content_.buses.front().name, path);
+    content_.message.clear();
+  }
+
+  void stopRecording() {
+    recording_->flush();
+    content_.message = fmt::format("{}: {} frames", recording_->path(), recording_->frames());
+    recording_.reset();
+  }
+
+  void saveRecording() {
+    if (recording_) orSay([this] { recording_->flush(); });
   }
 
   void tare(std::uint8_t node) {
@@ -103,6 +136,7 @@ class LiveScreen {
 
   live::BusWatch& watch_;
   live::ScreenContent content_;
+  std::optional<live::Recording> recording_;
   bool quit_ = false;
 };
 

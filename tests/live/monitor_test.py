@@ -101,6 +101,26 @@ class Live(unittest.TestCase):
             terminal.press("t")
             terminal.wait_for(r"node 2: tare: Done")
 
+    def test_r_records(self):
+        with Terminal(f"cd {self.bench.folder}; {self.command}") as terminal:
+            terminal.wait_for(r"r record  q quit")
+            terminal.press("r")
+            name = re.search(r"r stop recording (strainfinger-\d{8}-\d{6}\.log)", terminal.wait_for(r"r stop recording \S+log")).group(1)
+            time.sleep(1)
+            terminal.press("r")
+            frames = int(re.search(r"log: (\d+) frames", terminal.wait_for(r"log: \d+ frames")).group(1))
+            log = (self.bench.folder / name).read_text().splitlines()
+            self.assertEqual(frames, len(log))
+            self.assertGreater(frames, 20)
+            for line in log:
+                self.assertRegex(line, r"^\(\d{10}\.\d{6}\) udp:\d+ [0-9A-F]{3}#([0-9A-F]{2})*$")
+
+    def test_a_recording_that_cannot_be_made_is_said_to_be(self):
+        with Terminal(f"cd /proc; {self.command}") as terminal:  # no file can be made there
+            terminal.wait_for(r"r record")
+            terminal.press("r")
+            self.assertIn("contacts/s", terminal.wait_for(r"cannot make the file"))
+
     def test_q_ends_it_and_gives_the_terminal_back(self):
         with Terminal(self.command) as terminal:
             terminal.wait_for(r"contacts/s")

@@ -96,6 +96,7 @@ BusView Fleet::view(std::int64_t now_us) {
     finger->received = count.received;
     finger->lost = count.lost;
     finger->restarts = count.restarts;
+    finger->hasTwin = count.twoSenders;
   }
   return view;
 }

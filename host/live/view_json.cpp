@@ -81,6 +81,7 @@ Json fingerJson(const FingerView& finger) {
           {"received", finger.received},
           {"lost", finger.lost},
           {"restarts", finger.restarts},
+          {"has_twin", finger.hasTwin},
           {"strongest_n", finger.strongest_n},
           {"touch", finger.touch ? touchJson(finger) : Json()},
           {"span", spanJson(finger.span)},

@@ -162,6 +162,14 @@ TEST(Fleet, LostFramesAreCounted) {
   LONGS_EQUAL(6, only().lost);
 }
 
+TEST(Fleet, TwoFingersOfOneNumberAreNoticed) {
+  heartbeat();
+  CHECK_FALSE(only().hasTwin);
+  for (int i = 0; i < 40; ++i, now_us_ += 2'000)
+    touch(100, static_cast<std::uint8_t>(i)), touch(100, static_cast<std::uint8_t>(i + 100));
+  CHECK_TRUE(only().hasTwin);
+}
+
 TEST(Fleet, TheLoadIsThatOfTheBusDocument) {
   // BUS.md: 1512 frames of 8 bytes a second are 16.8 % of 1 Mbit/s without stuff bits.
   for (int i = 0; i < 1512; ++i) fleet_.take(1'000'000 + i * 1'000'000 / 1512, {0x181, 8, {}});

@@ -107,6 +107,12 @@ TEST(Screen, FaultsAndGaugesStandInWords) {
   STRCMP_CONTAINS("faults: gauges, watchdog reset; gauges out of use: 5, 7", textOf(finger).c_str());
 }
 
+TEST(Screen, ATwinIsSaidToBeThere) {
+  FingerView finger = touchedFinger();
+  finger.hasTwin = true;
+  STRCMP_CONTAINS("another finger has this node number", textOf(finger).c_str());
+}
+
 TEST(Screen, ASilentFingerIsSaidToBeSilent) {
   FingerView finger = touchedFinger();
   finger.touch.reset();

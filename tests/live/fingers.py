@@ -22,17 +22,6 @@ normal_n_per_m = {[15, 32] * 196}
 tangential_n_per_m = {[-8, 3, 9] * 130}
 """
 
-# The same at leisure, to look at.
-SLIDE = """schema = 1
-repeat_s = 20
-[[touch]]
-start_s = 0.3
-end_s = 19.9
-angle_deg = [20, 340]
-normal_n_per_m = [10, 14, 30, 18, 36, 22, 30, 12, 10]
-tangential_n_per_m = [0, 5, 9, -4, -12, 6, 10, 3, 0]
-"""
-
 UNTOUCHED = "schema = 1\n"
 
 
@@ -82,6 +71,16 @@ class Bench(contextlib.ExitStack):
         touches.write_text(scenario)
         return self.start("run", "-c", str(config), "--can", self.bus, "--scenario", str(touches),
                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def replayed(self, node, scenario, time_s):
+        """A finger simulated beforehand, in its own time."""
+        config, touches, log = (self.folder / f"{name}_{node}" for name in ("config", "touches", "log"))
+        config.write_text(f"schema = 1\n[can]\nnode = {node}\n[gauges]\nmodel_error = 0.003\n")
+        touches.write_text(scenario)
+        with log.open("w") as out:
+            subprocess.run([self.program, "run", "-c", config, "--scenario", touches, "--duration", str(time_s)], stdout=out,
+                           stderr=subprocess.DEVNULL, check=True)
+        return self.start("replay", str(log), "--can", self.bus, stderr=subprocess.DEVNULL)
 
     def chatter(self, nodes=(1, 2, 3), rate_hz=500, time_s=60):
         """So many touches a second of each, however slow this machine is at simulating fingers."""

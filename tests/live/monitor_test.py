@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """monitor_test.py PROGRAM: the monitor in a terminal, by what its screen holds, and in a pipe."""
+import itertools
 import json
 import os
 import re
@@ -19,10 +20,11 @@ PROGRAM = os.path.abspath(sys.argv.pop(1))
 
 
 class Terminal:
-    """A window of tmux, in a server of its own."""
+    """A window of tmux, in a server of its own: the name of one that is ending is not to be had at once."""
+    numbers = itertools.count()
 
     def __init__(self, command, columns=100, rows=30, locale="C.UTF-8"):
-        self.name = f"strainfinger_{os.getpid()}_{id(self)}"
+        self.name = f"strainfinger_{os.getpid()}_{next(self.numbers)}"
         environment = dict(os.environ, LC_ALL=locale, TERM="xterm-256color")
         environment.pop("NO_COLOR", None)
         self.tmux("-f", "/dev/null", "new-session", "-d", "-x", str(columns), "-y", str(rows), command + "; echo ended: $?; sleep 60",

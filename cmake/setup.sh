@@ -9,16 +9,19 @@ demo=(
   gnuplot-nox                                             # pictures
 )
 firmware=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib)
+whole=(libcpp-httplib-dev)                                # the whole program: the live page
 emulator=(qemu-system-arm)                                # its boards
 test=(
-  "${demo[@]}" "${firmware[@]}" "${emulator[@]}"
+  "${demo[@]}" "${whole[@]}" "${firmware[@]}" "${emulator[@]}"
   libbenchmark-dev clang-format                           # what the tests build, and its format
   libcpputest-dev python3-canmatrix python3-can            # framework, DBC oracle, a user's plot
+  tmux chromium python3-websockets                        # a terminal, a browser and its DevTools protocol
   can-utils iproute2                                      # candump, ip link
+  openocd stlink-tools dfu-util                           # that the commands for flashing are ones they know
   clang libclang-rt-14-dev                                # a second compiler, fuzzing
   qemu-system-x86 busybox-static python3                  # a real vcan where this kernel has none
 )
-bench=("${demo[@]}" "${firmware[@]}" "${emulator[@]}" libbenchmark-dev clang python3)
+bench=("${demo[@]}" "${whole[@]}" "${firmware[@]}" "${emulator[@]}" libbenchmark-dev clang python3)
 
 case ${1-all} in
   demo) packages=("${demo[@]}") ;;

@@ -1,6 +1,7 @@
 #pragma once
 // A finger's sample sets, put together again from the pages of RAW.
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -9,6 +10,9 @@
 #include "common/frames.hpp"
 
 namespace strainfinger::can {
+
+/// Strain a step of a code: 2^15 of them are the gauges' full scale, whatever the converter's bits.
+inline double strainPerCode(double fullScale_strain) { return std::ldexp(fullScale_strain, -15); }
 
 /// A sample set, a code a gauge.
 struct RawSet {

@@ -19,6 +19,8 @@ void addCommands(CLI::App& app) {
   addReplay(app);
   addDecode(app);
   addPlot(app);
+  addMonitor(app);
+  addServe(app);
   addDbc(app);
   addStrains(app);
   addTare(app);

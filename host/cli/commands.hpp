@@ -22,6 +22,8 @@ void addRecord(CLI::App& app);
 void addReplay(CLI::App& app);
 void addDecode(CLI::App& app);
 void addPlot(CLI::App& app);
+void addMonitor(CLI::App& app);
+void addServe(CLI::App& app);
 void addDbc(CLI::App& app);
 void addStrains(CLI::App& app);
 void addTare(CLI::App& app);

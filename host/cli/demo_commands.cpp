@@ -1,5 +1,5 @@
 // What a demo needs: the finger, its tables and its bus. The commands about the elastic model, which take
-// most of the time to compile, are left to the whole program.
+// most of the time to compile, and those that show fingers live are left to the whole program.
 
 #include "host/cli/commands.hpp"
 

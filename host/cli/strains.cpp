@@ -65,7 +65,8 @@ class RawStream {
 class StrainPrinter {
  public:
   StrainPrinter(const config::Gauges& gauges, TableFormat format)
-      : strainOfCode_(std::ldexp(gauges.full_scale_strain, -15)), table_(stdout, format, columnsOf(gauges)) {}
+      : strainOfCode_(can::strainPerCode(gauges.full_scale_strain)),
+        table_(stdout, format, columnsOf(gauges)) {}
 
   void print(std::int64_t time_ns, const can::RawSet& set, const std::vector<std::uint16_t>& zeros) {
     std::vector<Cell> cells{fmt::format("{}.{:06}", time_ns / 1'000'000'000, time_ns % 1'000'000'000 / 1000)};

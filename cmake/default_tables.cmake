@@ -5,7 +5,10 @@ set(STRAINFINGER_PROGRAM "" CACHE FILEPATH "The strainfinger program that makes 
 
 set(program ${STRAINFINGER_PROGRAM})
 if(NOT CMAKE_CROSSCOMPILING)
-  set(program strainfinger)
+  set(program strainfinger_demo)
+  if(STRAINFINGER_WHOLE)
+    set(program strainfinger)
+  endif()
 elseif(NOT program)
   set(host ${PROJECT_BINARY_DIR}/host)
   set(program ${host}/strainfinger)

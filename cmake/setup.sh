@@ -1,20 +1,37 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that building, testing and the demo need. Safe to run again: says nothing
-# when there is nothing to do. Needs root, or sudo.
+# setup.sh [demo|test|bench]: installs the Debian packages that the workflow of that name needs; without a word, those
+# of all. Safe to run again: says nothing when there is nothing to do. Needs root, or sudo.
 set -euo pipefail
 
-packages=(
-  cmake ninja-build g++ pkg-config clang-format           # build
+demo=(
+  cmake ninja-build g++ pkg-config                        # build
   libeigen3-dev libboost-dev libfmt-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev   # host tools
   gnuplot-nox                                             # pictures
-  libbenchmark-dev                                        # benchmarks
-  gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib   # firmware
-  libcpputest-dev python3-canmatrix                       # tests: framework, DBC oracle
-  can-utils iproute2                                      # candump, ip link
-  qemu-system-arm clang                                   # tests: emulated boards, a second compiler
-  libclang-rt-14-dev                                      # tests: fuzzing
-  qemu-system-x86 busybox-static python3                  # tests: a real vcan where this kernel has none
 )
+firmware=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib)
+whole=(libcpp-httplib-dev)                                # the whole program: the live page
+emulator=(qemu-system-arm)                                # its boards
+test=(
+  "${demo[@]}" "${whole[@]}" "${firmware[@]}" "${emulator[@]}"
+  libbenchmark-dev clang-format                           # what the tests build, and its format
+  libcpputest-dev python3-canmatrix python3-can            # framework, DBC oracle, a user's plot
+  tmux chromium python3-websockets                        # a terminal, a browser and its DevTools protocol
+  can-utils iproute2                                      # candump, ip link
+  openocd stlink-tools dfu-util                           # that the commands for flashing are ones they know
+  clang libclang-rt-14-dev                                # a second compiler, fuzzing
+  qemu-system-x86 busybox-static python3                  # a real vcan where this kernel has none
+)
+bench=("${demo[@]}" "${whole[@]}" "${firmware[@]}" "${emulator[@]}" libbenchmark-dev clang python3)
+
+case ${1-all} in
+  demo) packages=("${demo[@]}") ;;
+  test | all) packages=("${test[@]}") ;;  # the tests need all there is
+  bench) packages=("${bench[@]}") ;;
+  *)
+    echo "setup.sh: no workflow $1: demo, test, bench, or nothing for all" >&2
+    exit 2
+    ;;
+esac
 
 missing=()
 for package in "${packages[@]}"; do

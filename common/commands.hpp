@@ -22,8 +22,10 @@ inline constexpr std::uint16_t kAnswerWithin_ms = 500;
 inline constexpr std::uint16_t kSlowestContactRate_hz = 1000 / kContactPeriod_ms;
 inline constexpr std::uint16_t kFastestContactRate_hz = 1000;
 
+inline constexpr std::uint16_t kFastestRaw_hz = 1000;
+
 /// Never reuse a number; 1 .. 127.
-enum class Command : std::uint8_t { kTare = 1, kContactRate = 2, kKeep = 3, kNode = 4, kCount = 5 };
+enum class Command : std::uint8_t { kTare = 1, kContactRate = 2, kKeep = 3, kNode = 4, kCount = 5, kRaw = 6 };
 
 inline constexpr std::array kCommandNames{
     ValueName{1, "tare", "Take the zero of the gauges now; argument 1: even while touched"},
@@ -31,6 +33,7 @@ inline constexpr std::array kCommandNames{
     ValueName{3, "keep", "Keep the contact rate for the next starts; argument 1: even while touched"},
     ValueName{4, "node", "Be this node from the next start on; with 256 added: even while touched"},
     ValueName{5, "count", "Tell one of the finger's counts"},
+    ValueName{6, "raw", "Send so many sets of RAW a second, until the next start; 0: no more"},
 };
 
 /// What a finger counts and tells when it is asked. Never reuse a number.
@@ -66,6 +69,7 @@ inline constexpr std::array kArguments{
     ArgumentSpec{Command::kKeep, 0, 1, 0, 1},
     ArgumentSpec{Command::kNode, 1, 2, kFirstNode, kLastNode, kNodeEvenWhileTouched},
     ArgumentSpec{Command::kCount, 1, 1, 0, kLastCount},
+    ArgumentSpec{Command::kRaw, 2, 2, 0, kFastestRaw_hz},
 };
 
 /// What became of a request. Never reuse a number.
@@ -78,6 +82,7 @@ enum class CommandStatus : std::uint8_t {
   kDoneTouched = 5,
   kNotKept = 6,
   kWait = 7,
+  kTooFast = 8,
 };
 
 inline constexpr std::array kCommandStatusNames{
@@ -91,6 +96,7 @@ inline constexpr std::array kCommandStatusNames{
     ValueName{6, "not_kept", "The board has no memory for it, or its memory failed"},
     ValueName{7, "wait",
               "Not yet: the memory would wear out, or the zero was taken just now; in value seconds"},
+    ValueName{8, "too_fast", "Refused: more than RAW's share of the bus; in value the fastest rate"},
 };
 
 /// To a finger.
@@ -166,12 +172,13 @@ inline constexpr FrameLayout kLayout<ResponseFrame>{
            .names = kCommandStatusNames}},
     Field{&ResponseFrame::value,
           {.lsb = 24, .width = 32},
-          {.name = "value", .comment = "What was counted; seconds to wait; what length leaves out is 0"}},
+          {.name = "value",
+           .comment = "What was counted; seconds to wait; fastest rate; what length leaves out is 0"}},
 };
 static_assert(WireFrame<ResponseFrame>);
 
-/// What is said when a command is given; FingerFrames is what a finger says by itself.
-using CommandFrames = std::tuple<RequestFrame, ResponseFrame>;
+/// What is said when a command is given, and because of it; FingerFrames is what a finger says by itself.
+using CommandFrames = std::tuple<RequestFrame, ResponseFrame, RawFrame>;
 
 constexpr RequestFrame tareRequest(bool evenWhileTouched) {
   return {.length = 2, .command = Command::kTare, .argument = evenWhileTouched};
@@ -191,6 +198,9 @@ constexpr RequestFrame nodeRequest(std::uint8_t node, bool evenWhileTouched = fa
 }
 constexpr RequestFrame countRequest(Count count) {
   return {.length = 2, .command = Command::kCount, .argument = static_cast<std::uint16_t>(count)};
+}
+constexpr RequestFrame rawRequest(std::uint16_t rate_hz) {
+  return {.length = 3, .command = Command::kRaw, .argument = rate_hz};
 }
 constexpr ResponseFrame responseTo(Command command, CommandStatus status) {
   return {.command = command, .status = status};

@@ -118,6 +118,15 @@ inline constexpr std::array kCrashNames{
     ValueName{5, "starved", "The converter gave no samples for too long"},
 };
 
+/// What a page of RAW is of. Never reuse a number.
+enum class RawKind : std::uint8_t { kReadings = 0, kZeroing = 1, kZeros = 2 };
+
+inline constexpr std::array kRawKindNames{
+    ValueName{0, "readings", "A sample set"},
+    ValueName{1, "zeroing", "A sample set that goes into the zero"},
+    ValueName{2, "zeros", "What the gauges read untouched, as far as the finger knows"},
+};
+
 /// Where the finger is touched.
 struct ContactFrame {
   std::uint16_t angle_cdeg = kNotKnown<std::uint16_t>;
@@ -197,6 +206,17 @@ struct GaugesFrame {
   std::uint16_t zero_age_s = kNotKnown<std::uint16_t>;
   std::uint16_t zero_rate_nano_per_s = kNotKnown<std::uint16_t>;
   bool operator==(const GaugesFrame&) const = default;
+};
+
+/// Some gauges of a sample set.
+struct RawFrame {
+  std::uint8_t page = 0;
+  RawKind kind = RawKind::kReadings;
+  std::uint8_t sample = 0;
+  std::uint16_t code_0 = 0;
+  std::uint16_t code_1 = 0;
+  std::uint16_t code_2 = 0;
+  bool operator==(const RawFrame&) const = default;
 };
 
 template <>
@@ -471,7 +491,39 @@ inline constexpr FrameLayout kLayout<GaugesFrame>{
 };
 static_assert(WireFrame<GaugesFrame>);
 
-/// Every frame a finger sends.
+template <>
+inline constexpr FrameLayout kLayout<RawFrame>{
+    FrameSpec{
+        .name = "RAW",
+        .function = FunctionCode::kRaw,
+        .length = 8,
+        .period_ms = 0,
+        .onChange = false,
+        .comment = "What the gauges read, three a page, on request: all pages of a set are of one sample"},
+    Field{&RawFrame::page,
+          {.lsb = 0, .width = 4},
+          {.name = "page", .comment = "Its codes are those of gauges 3 page, 3 page + 1 and 3 page + 2"}},
+    Field{&RawFrame::kind,
+          {.lsb = 4, .width = 4},
+          {.name = "kind",
+           .comment = "What the codes are",
+           .kind = FieldKind::kChoice,
+           .names = kRawKindNames}},
+    Field{&RawFrame::sample,
+          {.lsb = 8, .width = 8},
+          {.name = "sample",
+           .comment = "Number of the sample set: goes up by one a sampling period, 255 is followed by 0"}},
+    Field{&RawFrame::code_0, {.lsb = 16, .width = 16}, {.name = "code_0", .comment = "Code of gauge 3 page"}},
+    Field{&RawFrame::code_1,
+          {.lsb = 32, .width = 16},
+          {.name = "code_1", .comment = "Code of gauge 3 page + 1; 0 beyond the last gauge"}},
+    Field{&RawFrame::code_2,
+          {.lsb = 48, .width = 16},
+          {.name = "code_2", .comment = "Code of gauge 3 page + 2; 0 beyond the last gauge"}},
+};
+static_assert(WireFrame<RawFrame>);
+
+/// Every frame a finger sends by itself.
 using FingerFrames = std::tuple<ContactFrame, ForceFrame, PatchFrame, Contact2Frame, Force2Frame,
                                 HeartbeatFrame, InfoFrame, GaugesFrame>;
 

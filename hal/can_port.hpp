@@ -18,6 +18,8 @@ struct CanStatus {
   std::optional<std::uint8_t> rxErrors{};
   std::uint32_t dropped = 0;  ///< frames taken by send() that never reached the bus, since start
   std::uint32_t missed = 0;   ///< frames that arrived and were lost before receive(), since start
+  /// Times the node left the bus since start. What send() had taken then and was not out yet is lost.
+  std::uint32_t busOffs = 0;
 };
 
 /// Contract of a CAN port:

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <utility>
 
 #include "common/commands.hpp"
 #include "common/frames.hpp"
+#include "common/raw_share.hpp"
 #include "firmware/app/owed_frames.hpp"
+#include "firmware/app/raw_sender.hpp"
 #include "firmware/app/stored_settings.hpp"
 #include "firmware/core/pipeline.hpp"
 #include "firmware/core/report.hpp"
@@ -22,6 +25,8 @@ namespace strainfinger::firmware {
 struct FingerSettings {
   std::uint8_t node = 1;               ///< 1 .. 63
   std::uint16_t contactRate_hz = 500;  ///< kSlowestContactRate_hz .. kFastestContactRate_hz
+  std::uint16_t samplePeriod_us = 1000;
+  std::uint32_t bitrate = 1'000'000;  ///< [bit/s]
   FitMode mode = FitMode::kRefined;
   FingerFlags standingFlags{};    ///< simulated, uncalibrated: that one unless the tables have gains
   FingerFaults standingFaults{};  ///< configuration, clock
@@ -47,6 +52,7 @@ class Finger {
       : settings_(settings),
         kept_{settings.node, settings.contactRate_hz},
         settingsStore_(store),
+        tables_(tables),
         pipeline_(tables, settings.mode),
         reporter_(periodOf(settings.contactRate_hz), standingFlagsOf(settings, tables)),
         adc_(adc),
@@ -54,7 +60,6 @@ class Finger {
         clock_(clock),
         watchdog_(watchdog),
         store_(store),
-        tableCrc_(static_cast<std::uint8_t>(tables.crc32)),
         steppedAt_us_(clock.now_us()),
         sampledAt_us_(steppedAt_us_),
         heartbeatAt_us_(steppedAt_us_ - kHeartbeatPeriod_us),
@@ -76,6 +81,7 @@ class Finger {
     beat(now_us);
     if (areGaugesNews(now_us)) sayGauges(now_us);
     serve(now_us);
+    if (raw_.any()) raw_.send(can_, settings_.node, pipeline_.calibration());
     return sampled;
   }
 
@@ -120,8 +126,10 @@ class Finger {
     ++counters_.sampleSets;
     if (state_ == FingerState::kRun) {
       observe(now_us);
+      sayRaw(RawKind::kReadings);
     } else {
       zero();
+      sayRaw(RawKind::kZeroing);
     }
     watchdog_.feed();
   }
@@ -129,9 +137,24 @@ class Finger {
   void zero() {
     state_ = FingerState::kZeroing;
     if (!zero_.add(codes())) return;
-    pipeline_.takeZero(zero_);
+    beginAnew();
     state_ = FingerState::kRun;
   }
+
+  /// With this zero, as after a start: what is said from here on follows from the sample sets alone.
+  [[gnu::noinline]] void beginAnew() {
+    std::construct_at(&pipeline_, tables_, settings_.mode);
+    pipeline_.takeZero(zero_);
+    raw_.sayZeros();
+  }
+
+  void sayRaw(RawKind kind) { raw_.take(codes(), kind, sampleNumber(), settings_.samplePeriod_us); }
+
+  /// Sample sets since the start, those that were lost included.
+  std::uint32_t sampleNumber() const { return counters_.sampleSets + adc_.overruns(); }
+
+  /// Time by the converter's clock: what is reported when doesn't depend on how late a set is fetched.
+  std::uint32_t sampleTime_us() const { return sampleNumber() * settings_.samplePeriod_us; }
 
   void observe(std::uint32_t now_us) {
     if (pipeline_.process(codes()).touched) ++counters_.fits;
@@ -141,22 +164,34 @@ class Finger {
   /// Not inlined, so that its frames aren't on the stack while the locator, which needs it most, runs.
   [[gnu::noinline]] void report(std::uint32_t now_us) {
     if (owed_.any()) return;
-    const auto frames = reporter_.frames(pipeline_.constants(), pipeline_.observation(), pipeline_.answer(),
-                                         pipeline_.linearisation(), now_us);
+    auto frames = reporter_.frames(pipeline_.constants(), pipeline_.observation(), pipeline_.answer(),
+                                   pipeline_.linearisation(), sampleTime_us());
     if (!frames) return;
+    const std::uint32_t busOffs = can_.status().busOffs;
     if (!can_.send(encode(frames->contact, settings_.node))) {
       ++counters_.touchesBusy;
       return;
     }
-    reporter_.sent(*frames, now_us);
-    owed_.owe(*frames, settings_.node, now_us);
+    reporter_.sent(*frames, sampleTime_us());
+    releaseSecond(*frames);
+    owed_.owe(*frames, settings_.node, now_us, busOffs);
     sendOwed(now_us);
+  }
+
+  /// A second contact that ends is said once more as well, without contact and with no force.
+  void releaseSecond(TouchFrames& frames) {
+    const bool wasSecond = std::exchange(wasSecond_, frames.second.has_value());
+    if (!wasSecond || frames.second) return;
+    FingerFlags flags = frames.contact.flags;
+    flags.set(FingerFlag::kContact, false);
+    const TouchFrames released = releaseFrames(flags, frames.contact.sequence);
+    frames.second = {{released.contact}, {released.force}};
   }
 
   void sendOwed(std::uint32_t now_us) {
     const OwedFrames::Outcome outcome = owed_.send(can_, now_us);
     if (outcome == OwedFrames::Outcome::kAllSent) ++counters_.touchesSent;
-    if (outcome == OwedFrames::Outcome::kTooOld) ++counters_.touchesIncomplete;
+    if (outcome == OwedFrames::Outcome::kDropped) ++counters_.touchesIncomplete;
   }
 
   void beat(std::uint32_t now_us) {
@@ -179,7 +214,7 @@ class Finger {
     frame.uptime_s = saturate<std::uint16_t>(uptime_s_ < kLongestUptime_s ? uptime_s_ : kLongestUptime_s);
     if (status.txErrors) frame.tx_error_steps = errorSteps(*status.txErrors);
     if (status.rxErrors) frame.rx_error_steps = errorSteps(*status.rxErrors);
-    frame.table_crc = tableCrc_;
+    frame.table_crc = static_cast<std::uint8_t>(tables_.crc32);
     return frame;
   }
 
@@ -240,6 +275,8 @@ class Finger {
                     (request.argument & kNodeEvenWhileTouched) != 0);
       case Command::kCount:
         return responseTo(command, CommandStatus::kDone, countOf(static_cast<Count>(request.argument)));
+      case Command::kRaw:
+        return startRaw(request.argument);
     }
     return responseTo(command, CommandStatus::kUnknownCommand);
   }
@@ -256,6 +293,13 @@ class Finger {
     if (result == SaveResult::kFailed) return responseTo(command, CommandStatus::kNotKept);
     kept_ = settings;
     return responseTo(command, CommandStatus::kDone);
+  }
+
+  ResponseFrame startRaw(std::uint16_t rate_hz) {
+    const std::uint16_t fastest_hz = fastestRaw_hz(pipeline_.constants().gauge_count, settings_.bitrate);
+    if (rate_hz > fastest_hz) return responseTo(Command::kRaw, CommandStatus::kTooFast, fastest_hz);
+    raw_.setRate(rate_hz);
+    return responseTo(Command::kRaw, CommandStatus::kDone);
   }
 
   std::uint32_t countOf(Count count) const {
@@ -290,6 +334,7 @@ class Finger {
   StoredSettings kept_;  ///< for the next start
   SettingsStore<Store> settingsStore_;
   EraseBudget eraseBudget_;
+  const TableImage& tables_;
   Pipeline pipeline_;
   TouchReporter reporter_;
   ZeroAverage zero_;
@@ -298,10 +343,11 @@ class Finger {
   const Clock& clock_;
   Watchdog& watchdog_;
   Store& store_;
-  std::uint8_t tableCrc_;
   FingerState state_ = FingerState::kBoot;
   hal::SampleSet codes_{};
   OwedFrames owed_;
+  bool wasSecond_ = false;  ///< in the last touch that was said
+  RawSender raw_;
   std::optional<CommandStatus> tareStatus_;  ///< to answer when the zero is taken
   std::optional<ResponseFrame> response_;    ///< that the port hasn't taken yet
   FingerCounters counters_{};

@@ -11,14 +11,17 @@
 namespace strainfinger::firmware {
 
 /// What belongs to a CONTACT that went out, in the order of sending: FORCE, PATCH, then a second contact's
-/// CONTACT2 and FORCE2. What the port can't take waits for its CONTACT's sake, but never until it is old.
+/// CONTACT2 and FORCE2. What the port can't take waits for its CONTACT's sake, but never until it is old, nor
+/// when the node has left the bus since: the CONTACT may be lost.
 class OwedFrames {
  public:
-  enum class Outcome : std::uint8_t { kWaiting, kAllSent, kTooOld };
+  enum class Outcome : std::uint8_t { kWaiting, kAllSent, kDropped };
 
-  void owe(const TouchFrames& frames, std::uint8_t node, std::uint32_t now_us) {
+  /// `busOffs`: the port's, before it took the CONTACT.
+  void owe(const TouchFrames& frames, std::uint8_t node, std::uint32_t now_us, std::uint32_t busOffs) {
     count_ = sent_ = 0;
     contactAt_us_ = now_us;
+    busOffs_ = busOffs;
     add(frames.force, node);
     add(frames.patch, node);
     if (!frames.second) return;
@@ -31,9 +34,10 @@ class OwedFrames {
   /// Sends what the port takes. Nothing is owed any more unless the outcome is kWaiting.
   template <hal::CanPort Can>
   Outcome send(Can& can, std::uint32_t now_us) {
-    if (now_us - contactAt_us_ >= std::uint32_t{kContactPeriod_ms} * 1000) {
+    const bool isOld = now_us - contactAt_us_ >= std::uint32_t{kContactPeriod_ms} * 1000;
+    if (isOld || can.status().busOffs != busOffs_) {
       sent_ = count_;
-      return Outcome::kTooOld;
+      return Outcome::kDropped;
     }
     while (any() && can.send(frames_[sent_])) ++sent_;
     return any() ? Outcome::kWaiting : Outcome::kAllSent;
@@ -49,6 +53,7 @@ class OwedFrames {
   std::uint8_t count_ = 0;
   std::uint8_t sent_ = 0;  ///< of these
   std::uint32_t contactAt_us_ = 0;
+  std::uint32_t busOffs_ = 0;  ///< of the port, then
 };
 
 }  // namespace strainfinger::firmware

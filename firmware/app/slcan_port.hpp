@@ -52,7 +52,10 @@ class SlcanPort {
 
   /// The bus behind the line is now like this: told to the host, and send() acts on it.
   void setBus(const hal::CanStatus& bus) noexcept {
+    const bool leaves = bus.state == hal::CanState::kBusOff && bus_.state != bus.state;
+    const std::uint32_t busOffs = bus_.busOffs + (leaves ? 1 : 0);
     bus_ = bus;
+    bus_.busOffs = busOffs;
     if (open_ && room() >= SlcanText::kLongest) queue(slcanState(bus).view());
   }
 

@@ -50,6 +50,11 @@ std::string_view unquoted(std::string_view field) {
   return isQuoted ? field.substr(1, field.size() - 2) : field;
 }
 
+/// Of a field in its line, from 1.
+std::size_t columnOf(std::string_view field, const std::string& line) {
+  return static_cast<std::size_t>(field.data() - line.data()) + 1;
+}
+
 bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
 bool isNoNumberOf(std::string_view field, const char* word) {
@@ -97,33 +102,57 @@ bool NumberRowReader::next(std::vector<double>& row) {
   return false;
 }
 
-void NumberRowReader::takeHeader(const std::string& line) const {
+void NumberRowReader::takeHeader(const std::string& line) {
   std::string names = line;
   std::erase_if(names, [](char c) { return c == '"' || kBlanks.find(c) != std::string_view::npos; });
+  if (!limit_.columns.empty()) return chooseColumns(names);
   if (!limit_.header.empty() && names != limit_.header)
     fail(1, fmt::format("the header is \"{}\", not \"{}\"", names, limit_.header));
   if (const std::size_t count = fieldsOf(line).size(); count != columns_)
     fail(1, fmt::format("the header has {} columns where {} are needed", count, columns_));
 }
 
-void NumberRowReader::parse(const std::string& line, std::vector<double>& row) const {
-  row.clear();
-  for (const std::string_view untrimmed : fieldsOf(line)) {
-    const std::string_view field = trimmed(untrimmed);
-    const auto column = static_cast<std::size_t>(untrimmed.data() - line.data()) + 1;
-    double value = 0;
-    for (const auto& [separator, name] : kOtherSeparators)
-      if (field.find(separator) != std::string_view::npos)
-        fail(column, fmt::format("\"{}\" has {}: separate columns by commas", field, name));
-    if (!parseNumber(field, value)) fail(column, fmt::format("\"{}\" is no number", field));
-    if (!std::isfinite(value)) fail(column, fmt::format("{} is no finite number", field));
-    if (std::abs(value) > limit_.most)
-      fail(column, fmt::format("{} is beyond +-{}: {}", field, limit_.most, limit_.hint));
-    if (row.size() == columns_) fail(column, fmt::format("more than {} columns", columns_));
-    row.push_back(value);
+void NumberRowReader::chooseColumns(const std::string& names) {
+  const auto& wanted = limit_.columns;
+  for (const std::string_view name : fieldsOf(names)) {
+    const auto place =
+        static_cast<std::size_t>(std::find(wanted.begin(), wanted.end(), name) - wanted.begin());
+    if (place == wanted.size()) otherNames_.emplace_back(name);
+    places_.push_back(place);
   }
-  if (row.size() < columns_)
-    fail(line.size() + 1, fmt::format("{} columns where {} are needed", row.size(), columns_));
+  for (std::size_t place = 0; place < wanted.size(); ++place)
+    if (const auto count = std::count(places_.begin(), places_.end(), place); count != 1)
+      fail(1, fmt::format("the header has {} column {}: name them {} to {}, or leave the header out",
+                          count == 0 ? "no" : "more than one", wanted[place], wanted.front(), wanted.back()));
+}
+
+void NumberRowReader::parse(const std::string& line, std::vector<double>& row) {
+  row.assign(columns_, 0);
+  others_.clear();
+  const std::size_t needed = columns_ + otherNames_.size();
+  const auto fields = fieldsOf(line);
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (i == needed) fail(columnOf(fields[i], line), fmt::format("more than {} columns", needed));
+    const std::size_t place = places_.empty() ? i : places_[i];
+    if (place == columns_)
+      others_.emplace_back(unquoted(trimmed(fields[i])));
+    else
+      row[place] = numberOf(trimmed(fields[i]), columnOf(fields[i], line));
+  }
+  if (fields.size() < needed)
+    fail(line.size() + 1, fmt::format("{} columns where {} are needed", fields.size(), needed));
+}
+
+double NumberRowReader::numberOf(std::string_view field, std::size_t column) const {
+  double value = 0;
+  for (const auto& [separator, name] : kOtherSeparators)
+    if (field.find(separator) != std::string_view::npos)
+      fail(column, fmt::format("\"{}\" has {}: separate columns by commas", field, name));
+  if (!parseNumber(field, value)) fail(column, fmt::format("\"{}\" is no number", field));
+  if (!std::isfinite(value)) fail(column, fmt::format("{} is no finite number", field));
+  if (std::abs(value) > limit_.most)
+    fail(column, fmt::format("{} is beyond +-{}: {}", field, limit_.most, limit_.hint));
+  return value;
 }
 
 void NumberRowReader::fail(std::size_t column, const std::string& what) const {

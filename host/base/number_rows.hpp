@@ -5,6 +5,7 @@
 #include <istream>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -17,11 +18,13 @@ namespace strainfinger {
 class NumberRowReader {
  public:
   /// What may be there: numbers of at most `most` in size (`hint` says what a larger one may have been meant
-  /// to be); as a header, if there is one, just `header` (blanks apart), or any where that is empty.
+  /// to be); as a header, if there is one, just `header` (blanks apart), or one that has these `columns`
+  /// among others in any order, or any where both are empty.
   struct Limit {
     double most = std::numeric_limits<double>::max();
     std::string hint = {};
     std::string header = {};
+    std::vector<std::string> columns = {};
   };
 
   /// `name` stands for the stream in messages ("stdin").
@@ -34,9 +37,15 @@ class NumberRowReader {
   /// row of another length and for another header.
   bool next(std::vector<double>& row);
 
+  /// The columns beside Limit::columns: their names, known with the first row, and the last row's texts.
+  const std::vector<std::string>& otherNames() const { return otherNames_; }
+  const std::vector<std::string>& others() const { return others_; }
+
  private:
-  void takeHeader(const std::string& line) const;
-  void parse(const std::string& line, std::vector<double>& row) const;
+  void takeHeader(const std::string& line);
+  void chooseColumns(const std::string& names);
+  void parse(const std::string& line, std::vector<double>& row);
+  double numberOf(std::string_view field, std::size_t column) const;
   [[noreturn]] void fail(std::size_t column, const std::string& what) const;
 
   std::istream& stream_;
@@ -45,6 +54,9 @@ class NumberRowReader {
   Limit limit_;
   std::size_t line_ = 0;
   bool mayBeHeader_ = true;
+  std::vector<std::size_t> places_;  ///< in the row, of the header's columns; empty: as they are
+  std::vector<std::string> otherNames_;
+  std::vector<std::string> others_;
 };
 
 }  // namespace strainfinger

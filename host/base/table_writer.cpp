@@ -11,19 +11,15 @@
 namespace strainfinger {
 namespace {
 
-std::string csvQuoted(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
-  quoted.push_back('"');
-  return quoted;
+std::string dump(const nlohmann::ordered_json& value) {
+  return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 std::string csvText(const Cell& cell) {
   if (const auto* real = std::get_if<double>(&cell))
     return std::isnan(*real) ? "" : fmt::format("{:.17g}", *real);
   if (const auto* integer = std::get_if<std::int64_t>(&cell)) return fmt::format("{}", *integer);
-  return csvQuoted(std::get<std::string>(cell));
+  return csvField(std::get<std::string>(cell));
 }
 
 nlohmann::ordered_json jsonValue(const Cell& cell) {
@@ -31,6 +27,16 @@ nlohmann::ordered_json jsonValue(const Cell& cell) {
 }
 
 }  // namespace
+
+std::string csvField(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+  quoted.push_back('"');
+  return quoted;
+}
+
+std::string jsonString(const std::string& text) { return dump(text); }
 
 TableWriter::TableWriter(std::FILE* stream, TableFormat format, std::vector<std::string> columns)
     : stream_(stream), format_(format), columns_(std::move(columns)) {
@@ -43,7 +49,7 @@ void TableWriter::row(const std::vector<Cell>& cells) {
   if (format_ == TableFormat::kJson) {
     nlohmann::ordered_json object;
     for (std::size_t i = 0; i < cells.size(); ++i) object[columns_[i]] = jsonValue(cells[i]);
-    line = object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    line = dump(object);
   } else {
     for (std::size_t i = 0; i < cells.size(); ++i) {
       if (i > 0) line.push_back(',');

@@ -16,6 +16,12 @@ enum class TableFormat { kCsv, kJson };
 /// A value of a table. A NaN is an empty CSV field and a JSON null: "not known".
 using Cell = std::variant<double, std::int64_t, std::string>;
 
+/// A text as a CSV field: quoted where it has to be.
+std::string csvField(const std::string& text);
+
+/// A text as a JSON string; what is no UTF-8 becomes U+FFFD.
+std::string jsonString(const std::string& text);
+
 /// Writes the header at once and a row a call. Real numbers have 17 digits, so they read back exactly.
 /// Throws Failure(kFailure) when the stream refuses (disk full, closed pipe).
 class TableWriter {

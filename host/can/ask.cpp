@@ -17,8 +17,7 @@ void take(const CanFrame& frame, std::uint8_t node, Command command, Reply& repl
 
 }  // namespace
 
-Reply ask(SocketCanPort& port, std::uint8_t node, const RequestFrame& request,
-          std::chrono::milliseconds longest) {
+Reply ask(BusPort& port, std::uint8_t node, const RequestFrame& request, std::chrono::milliseconds longest) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point end = Clock::now() + longest;
   const CanFrame frame = encode(request, node);

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "common/commands.hpp"
-#include "host/can/socketcan_port.hpp"
+#include "host/can/bus_port.hpp"
 
 namespace strainfinger::can {
 
@@ -21,7 +21,7 @@ struct Reply {
 
 /// Sends the request to node 1 .. 63 and waits for its response, at most so long. Fingers tell callers apart
 /// by nothing: one at a time asks a node. Frames of others meanwhile are read and gone.
-Reply ask(SocketCanPort& port, std::uint8_t node, const RequestFrame& request,
+Reply ask(BusPort& port, std::uint8_t node, const RequestFrame& request,
           std::chrono::milliseconds longest = kAskFor);
 
 }  // namespace strainfinger::can

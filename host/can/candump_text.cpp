@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <limits>
 #include <utility>
 
 #include "host/can/line_cursor.hpp"
@@ -40,7 +41,10 @@ class LineParser : private LineCursor {
   bool parseDropCount() {
     result_.kind = LineKind::kDropped;
     std::int64_t count = 0;
-    if (digits(count, 1, 10) == 0) return fail("the number of dropped frames is missing");
+    const std::size_t length = digits(count, 1, 18);
+    if (length == 0) return fail("the number of dropped frames is missing");
+    if (count > std::numeric_limits<std::uint32_t>::max())
+      return failBack(length, "no such number of dropped frames: the largest is 4294967295");
     result_.dropped = static_cast<std::uint32_t>(count);
     const std::size_t open = line_.find('\'', at_);
     const std::size_t close = open == line_.npos ? open : line_.find('\'', open + 1);
@@ -52,7 +56,7 @@ class LineParser : private LineCursor {
   bool parseTime() {
     if (peek() != '(') return true;
     ++at_;
-    const bool date = line_.substr(at_).find_first_of(" )") == 10 && line_.substr(at_, 10).find('-') == 4;
+    const bool date = peek(4) == '-' && peek(10) == ' ';
     const std::size_t start = at_;
     std::int64_t seconds = 0;
     if (!(date ? parseDate(seconds) : parseSeconds(seconds))) return false;
@@ -80,7 +84,9 @@ class LineParser : private LineCursor {
     const char* end = strptime(text.c_str(), "%Y-%m-%d %H:%M:%S", &date);
     if (end != text.c_str() + 19) return fail("expected a date and a time of day");
     date.tm_isdst = -1;
+    const int day = date.tm_mday;
     seconds = std::mktime(&date);
+    if (date.tm_mday != day) return fail("no such date: that month is shorter");
     result_.timeForm = TimeForm::kDate;
     at_ += text.size();
     return true;
@@ -265,6 +271,43 @@ class LineParser : private LineCursor {
   std::string reason_;
 };
 
+/// The number that a text of nothing but digits to the base 10 or 16 stands for, or -1.
+template <int kBase>
+std::int64_t wholeNumber(std::string_view text) {
+  std::int64_t value = 0;
+  for (const char c : text) {
+    const int digit = hexValue(c);
+    if (digit < 0 || digit >= kBase) return -1;
+    value = value * kBase + digit;
+  }
+  return value;
+}
+
+/// "(1609779922.655421) " at the start of the line [us], or -1.
+std::int64_t plainTime_us(std::string_view line) {
+  if (line[0] != '(' || line[11] != '.' || line[18] != ')' || line[19] != ' ') return -1;
+  const std::int64_t seconds = wholeNumber<10>(line.substr(1, 10));
+  const std::int64_t fraction_us = wholeNumber<10>(line.substr(12, 6));
+  return seconds < 0 || fraction_us < 0 || seconds > kLastSecond ? -1 : seconds * 1'000'000 + fraction_us;
+}
+
+/// "185#E803", or nothing.
+std::optional<CanFrame> plainFrame(std::string_view text) {
+  const std::size_t length = text.size() < 4 ? 0 : (text.size() - 4) / 2;
+  if (text.size() != 4 + 2 * length || length > kClassicBytes || text[3] != '#') return std::nullopt;
+  const std::int64_t id = wholeNumber<16>(text.substr(0, 3));
+  if (id < 0 || id > kMaxCanId) return std::nullopt;
+  CanFrame frame{static_cast<std::uint16_t>(id), static_cast<std::uint8_t>(length), {}};
+  int wrong = 0;
+  for (std::size_t i = 0; i < length; ++i) {
+    const int byte = hexValue(text[4 + 2 * i]) * 16 | hexValue(text[5 + 2 * i]);
+    frame.data[i] = static_cast<std::uint8_t>(byte);
+    wrong |= byte;  // a negative digit makes it negative
+  }
+  if (wrong < 0) return std::nullopt;
+  return frame;
+}
+
 }  // namespace
 
 std::string formatLogLine(std::int64_t time_us, std::string_view interface, const CanFrame& frame) {
@@ -276,6 +319,18 @@ std::string formatLogLine(std::int64_t time_us, std::string_view interface, cons
 }
 
 std::variant<LogLine, LogError> parseLogLine(std::string_view line) { return LineParser(line).parse(); }
+
+std::optional<TextFrame> parsePlainLine(std::string_view line) {
+  constexpr std::size_t kInterface = 20;
+  if (line.size() <= kInterface) return std::nullopt;
+  const std::int64_t time_us = plainTime_us(line);
+  std::size_t end = kInterface;
+  while (end < line.size() && line[end] > ' ') ++end;
+  if (time_us < 0 || end == kInterface || end == line.size() || line[end] != ' ') return std::nullopt;
+  const std::optional<CanFrame> frame = plainFrame(line.substr(end + 1));
+  if (!frame) return std::nullopt;
+  return TextFrame{time_us * 1000, line.substr(kInterface, end - kInterface), *frame};
+}
 
 std::optional<CanFrame> classicFrame(const LogLine& line) {
   const LoggedFrame& logged = line.frame;

@@ -70,6 +70,18 @@ struct LogError {
 /// refused: a single byte looks the same in both orders.
 std::variant<LogLine, LogError> parseLogLine(std::string_view line);
 
+/// A classic data frame of an 11-bit identifier, the only ones fingers send, as a line has it.
+struct TextFrame {
+  std::optional<std::int64_t> time_ns;
+  std::string_view interface;  ///< within the line
+  CanFrame frame;
+};
+
+/// The same as parseLogLine() and classicFrame() give, but only of lines just as formatLogLine() writes them,
+/// and in a fifth of the time: most lines of most logs. Nothing for any other line, whether it is good or
+/// not.
+std::optional<TextFrame> parsePlainLine(std::string_view line);
+
 /// The line's frame if it is a classic data frame with an 11-bit identifier: the only ones fingers send.
 std::optional<CanFrame> classicFrame(const LogLine& line);
 

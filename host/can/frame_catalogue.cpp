@@ -23,14 +23,39 @@ constexpr auto catalogueOf(std::type_identity<std::tuple<Frames...>>) {
 constexpr auto kCatalogue = catalogueOf(std::type_identity<FingerFrames>{});
 constexpr auto kCommandCatalogue = catalogueOf(std::type_identity<CommandFrames>{});
 
+/// The entry of each function code; null where fingers send nothing by themselves.
+constexpr auto kByFunction = [] {
+  std::array<const FrameEntry*, (kMaxCanId + 1) / kIdsPerFunction> entries{};
+  for (const FrameEntry& entry : kCatalogue)
+    entries[static_cast<std::uint16_t>(entry.spec.function) / kIdsPerFunction] = &entry;
+  return entries;
+}();
+
 }  // namespace
 
 std::span<const FrameEntry> frameCatalogue() { return kCatalogue; }
 std::span<const FrameEntry> commandCatalogue() { return kCommandCatalogue; }
 
+const FrameEntry* findFunction(std::uint16_t id) {
+  const FrameEntry* const entry = kByFunction[(id & kMaxCanId) / kIdsPerFunction];
+  return entry != nullptr && nodeOf(id, entry->spec.function) ? entry : nullptr;
+}
+
 const FrameEntry* findFrame(const CanFrame& frame) {
-  for (const FrameEntry& entry : frameCatalogue())
-    if (nodeOf(frame.id, entry.spec.function) && frame.length == entry.spec.length) return &entry;
+  const FrameEntry* const entry = findFunction(frame.id);
+  return entry != nullptr && frame.length == entry->spec.length ? entry : nullptr;
+}
+
+const FrameEntry* findCommand(const CanFrame& frame) {
+  for (const FrameEntry& entry : commandCatalogue()) {
+    const auto node = nodeOf(frame.id, entry.spec.function);
+    if (!node) continue;
+    const auto request = readSingleFrame<RequestFrame>(frame, *node);
+    const auto response = readSingleFrame<ResponseFrame>(frame, *node);
+    if (!request && !response) return nullptr;
+    const Command command = request ? request->command : response->command;
+    return findName(kCommandNames, static_cast<std::int64_t>(command)) != nullptr ? &entry : nullptr;
+  }
   return nullptr;
 }
 

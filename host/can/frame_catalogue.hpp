@@ -10,6 +10,9 @@
 
 namespace strainfinger::can {
 
+/// Function codes are multiples of this.
+inline constexpr std::uint16_t kIdsPerFunction = 0x80;
+
 struct FrameEntry {
   FrameSpec spec;
   std::span<const FieldSpec> fields;  ///< in the order of their bits
@@ -18,11 +21,18 @@ struct FrameEntry {
 /// Every frame a finger sends by itself.
 std::span<const FrameEntry> frameCatalogue();
 
-/// Requests to a finger, and its responses.
+/// Requests to a finger, its responses, and RAW.
 std::span<const FrameEntry> commandCatalogue();
+
+/// Which of frameCatalogue() has this identifier, whatever the length; null if none.
+const FrameEntry* findFunction(std::uint16_t id);
 
 /// Which of frameCatalogue() the frame is, by identifier and length; null if none.
 const FrameEntry* findFrame(const CanFrame& frame);
+
+/// Which of commandCatalogue() the frame is: a whole request or response with a command that there is. Other
+/// devices' frames of the same identifiers (CANopen's SDO) hardly ever look like one. Null if none.
+const FrameEntry* findCommand(const CanFrame& frame);
 
 /// The name of a value, or of a bit; null if it has none.
 const ValueName* findName(std::span<const ValueName> names, std::int64_t value);

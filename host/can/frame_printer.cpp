@@ -5,59 +5,70 @@
 #include <algorithm>
 #include <cctype>
 
-#include "host/base/no_value.hpp"
+#include "common/commands.hpp"
 
 namespace strainfinger::can {
 namespace {
 
-std::string nameOrNumber(const FieldMeaning& meaning, std::int64_t value) {
-  const ValueName* name = findName(meaning.names, value);
-  return name != nullptr ? name->name : fmt::format("{}", value);
+void appendName(std::string& out, const FieldMeaning& meaning, std::int64_t value) {
+  const ValueName* const name = findName(meaning.names, value);
+  out.append(name != nullptr ? name->name : fmt::format("{}", value));
 }
 
-std::string flagNames(const FieldSpec& field, std::int64_t raw) {
-  std::string text;
+void appendFlags(std::string& out, const FieldSpec& field, std::int64_t raw) {
+  const std::size_t start = out.size();
   for (int bit = 0; bit < field.bits.width; ++bit) {
     if ((raw >> bit & 1) == 0) continue;
-    if (!text.empty()) text.push_back('+');
-    text += nameOrNumber(field.meaning, bit);
+    if (out.size() > start) out.push_back('+');
+    appendName(out, field.meaning, bit);
   }
-  return text;
 }
 
-/// The shortest text that reads back as `value`: 35.73, where 17 digits would say 35.729999999999997.
-Cell decimal(double value) { return fmt::format("{}", value); }
-
-Cell fieldCell(const FieldSpec& field, std::int64_t raw, bool csv) {
-  if (field.meaning.kind != FieldKind::kNumber) return valueText(field, raw);
-  const std::optional<double> value = toPhysical(field, raw);
-  if (!value) return kNoValue;
-  if (field.meaning.stepsPerUnit == 1) return raw * field.meaning.unitsPerStep;
-  return csv ? decimal(*value) : Cell(*value);
+void appendText(std::string& out, const FieldSpec& field, std::int64_t raw) {
+  if (field.meaning.kind == FieldKind::kFlags)
+    appendFlags(out, field, raw);
+  else
+    appendName(out, field.meaning, raw);
 }
 
-Cell timeCell(std::optional<std::int64_t> time_ns, bool csv) {
-  if (!time_ns) return kNoValue;
-  constexpr std::int64_t kSecond = 1'000'000'000;
-  if (!csv) return static_cast<double>(*time_ns) / kSecond;
-  if (*time_ns % 1000 == 0) return fmt::format("{}.{:06}", *time_ns / kSecond, *time_ns % kSecond / 1000);
-  return fmt::format("{}.{:09}", *time_ns / kSecond, *time_ns % kSecond);
+/// How a request is carried says nothing to a reader of the table.
+bool isShown(const FieldSpec& field) {
+  const std::string_view name = field.meaning.name;
+  return name != kLengthMeaning.name && name != kAnswerMeaning.name;
 }
 
-std::vector<std::string> leadingColumns() { return {"time_s", "interface", "node", "frame"}; }
+/// RAW has readers of its own: a row a page would say nothing.
+bool isPrinted(const FrameEntry& entry) { return entry.spec.function != FunctionCode::kRaw; }
 
-std::vector<std::string> columnsOf(const FrameEntry& entry) {
-  std::vector<std::string> columns = leadingColumns();
-  for (const FieldSpec& field : entry.fields) columns.push_back(columnName(field.meaning));
-  return columns;
-}
-
-std::vector<std::string> columnsOfAll() {
-  std::vector<std::string> all = leadingColumns();
-  for (const FrameEntry& entry : frameCatalogue())
-    for (const std::string& column : columnsOf(entry))
-      if (std::find(all.begin(), all.end(), column) == all.end()) all.push_back(column);
+std::vector<std::string> columnNames() {
+  std::vector<std::string> all;
+  for (const auto& catalogue : {frameCatalogue(), commandCatalogue()})
+    for (const FrameEntry& entry : catalogue)
+      for (const FieldSpec& field : entry.fields) {
+        const std::string name = columnName(field.meaning);
+        if (isPrinted(entry) && isShown(field) && std::ranges::find(all, name) == all.end())
+          all.push_back(name);
+      }
   return all;
+}
+
+/// Bits that were sent: a command counts the bytes behind its first one that matter.
+int sentBits(const CanFrame& frame, const FrameEntry& entry) {
+  const bool counts = std::string_view(entry.fields.front().meaning.name) == kLengthMeaning.name;
+  return 8 * (counts ? 1 + frame.data[0] : frame.length);
+}
+
+/// Of fields of a byte at most, which are in most frames.
+std::vector<std::string> valueTexts(const FieldSpec& field) {
+  std::vector<std::string> texts;
+  if (field.meaning.kind == FieldKind::kNumber || field.bits.width > 8) return texts;
+  for (int raw = 0; raw < 1 << field.bits.width; ++raw) texts.push_back(valueText(field, raw));
+  return texts;
+}
+
+bool isKnown(const FieldSpec& field, std::int64_t raw, int sentBits) {
+  return field.bits.lsb < sentBits &&
+         (field.meaning.kind != FieldKind::kNumber || isValidRaw(field.bits, raw));
 }
 
 }  // namespace
@@ -71,39 +82,98 @@ std::string columnName(const FieldMeaning& meaning) {
 }
 
 std::string valueText(const FieldSpec& field, std::int64_t raw) {
-  return field.meaning.kind == FieldKind::kFlags ? flagNames(field, raw) : nameOrNumber(field.meaning, raw);
+  std::string text;
+  appendText(text, field, raw);
+  return text;
 }
 
-FramePrinter::FramePrinter(std::FILE* stream, TableFormat format) : stream_(stream) {
-  if (format == TableFormat::kJson) return;
-  columns_ = columnsOfAll();
-  csv_.emplace(stream, format, columns_);
+FramePrinter::FramePrinter(std::string& out, TableFormat format)
+    : out_(out), format_(format), start_(format) {
+  const std::vector<std::string> names = columnNames();
+  columns_ = names.size();
+  for (const FrameEntry& entry : frameCatalogue()) rows_.push_back(rowOf(entry, names));
+  for (const FrameEntry& entry : commandCatalogue()) commands_.push_back(rowOf(entry, names));
+  if (format == TableFormat::kCsv)
+    out.append(RowStart::kColumns).append(fmt::format(",frame,{}\n", fmt::join(names, ",")));
+}
+
+FramePrinter::Row FramePrinter::rowOf(const FrameEntry& entry, const std::vector<std::string>& names) const {
+  Row row{&entry, entry.spec.name, {}};
+  for (const FieldSpec& field : entry.fields) {
+    if (!isShown(field)) continue;
+    const std::string name = columnName(field.meaning);
+    const auto number = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+    row.columns.push_back({&field, number, decimalScale(field.meaning.stepsPerUnit).value(),
+                           fmt::format(",\"{}\":", name), valueTexts(field)});
+  }
+  if (format_ == TableFormat::kCsv) std::ranges::sort(row.columns, {}, &Column::number);
+  return row;
+}
+
+const FramePrinter::Row* FramePrinter::findRow(const CanFrame& frame) const {
+  if (const FrameEntry* const entry = findFrame(frame))
+    return &rows_[static_cast<std::size_t>(entry - frameCatalogue().data())];
+  if (const FrameEntry* const entry = findCommand(frame))
+    return &commands_[static_cast<std::size_t>(entry - commandCatalogue().data())];
+  return nullptr;
 }
 
 bool FramePrinter::print(std::optional<std::int64_t> time_ns, std::string_view interface,
                          const CanFrame& frame) {
-  const FrameEntry* entry = findFrame(frame);
-  if (entry == nullptr) return false;
-  const bool csv = csv_.has_value();
-  std::vector<Cell> cells{timeCell(time_ns, csv), std::string(interface),
-                          std::int64_t{*nodeOf(frame.id, entry->spec.function)},
-                          std::string(entry->spec.name)};
-  for (const FieldSpec& field : entry->fields)
-    cells.push_back(fieldCell(field, extractRaw(field.bits, toWord(frame)), csv));
-  if (csv)
-    printCsv(columnsOf(*entry), cells);
+  const Row* const row = findRow(frame);
+  if (row == nullptr) return false;
+  const FrameSpec& spec = row->entry->spec;
+  start_.append(out_, time_ns, interface, *nodeOf(frame.id, spec.function));
+  const int bits = sentBits(frame, *row->entry);
+  const std::uint64_t word = toWord(frame) & ~std::uint64_t{0} >> (64 - bits);
+  if (format_ == TableFormat::kCsv)
+    appendCsv(*row, word, bits);
   else
-    TableWriter(stream_, TableFormat::kJson, columnsOf(*entry)).row(cells);
+    appendJson(*row, word, bits);
+  endRow(out_, format_);
   return true;
 }
 
-void FramePrinter::printCsv(const std::vector<std::string>& names, const std::vector<Cell>& cells) {
-  std::vector<Cell> row(columns_.size(), kNoValue);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto column = std::find(columns_.begin(), columns_.end(), names[i]);
-    row[static_cast<std::size_t>(column - columns_.begin())] = cells[i];
+void FramePrinter::appendCsv(const Row& row, std::uint64_t word, int bits) {
+  out_.append(",").append(row.name);
+  std::size_t written = 0;
+  for (const Column& column : row.columns) {
+    out_.append(column.number + 1 - written, ',');
+    written = column.number + 1;
+    const std::int64_t raw = extractRaw(column.field->bits, word);
+    if (isKnown(*column.field, raw, bits)) appendValue(column, raw);
   }
-  csv_->row(row);
+  out_.append(columns_ - written, ',');
+}
+
+void FramePrinter::appendJson(const Row& row, std::uint64_t word, int bits) {
+  out_.append(",\"frame\":\"").append(row.name).append("\"");
+  for (const Column& column : row.columns) {
+    out_.append(column.key);
+    const std::int64_t raw = extractRaw(column.field->bits, word);
+    if (isKnown(*column.field, raw, bits))
+      appendValue(column, raw);
+    else
+      out_.append("null");
+  }
+}
+
+/// JSON shows what is text, and which numbers could have a fraction.
+void FramePrinter::appendValue(const Column& column, std::int64_t raw) {
+  const FieldMeaning& meaning = column.field->meaning;
+  const bool json = format_ == TableFormat::kJson;
+  if (meaning.kind == FieldKind::kNumber) {
+    const bool pointed = json && meaning.stepsPerUnit != 1;
+    appendDecimal(out_, raw * meaning.unitsPerStep, column.scale,
+                  pointed ? WholeNumber::kWithPoint : WholeNumber::kPlain);
+    return;
+  }
+  if (json) out_.push_back('"');
+  if (column.texts.empty())
+    appendText(out_, *column.field, raw);
+  else
+    out_.append(column.texts[static_cast<std::size_t>(raw)]);
+  if (json) out_.push_back('"');
 }
 
 }  // namespace strainfinger::can

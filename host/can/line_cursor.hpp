@@ -2,18 +2,26 @@
 // A place in a line of text, and the small steps that read from it.
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
 
 namespace strainfinger::can {
 
+/// hexValue() of each character: most of what is in a log is looked up here.
+inline constexpr auto kHexValues = [] {
+  std::array<std::int8_t, 256> values{};
+  values.fill(-1);
+  for (int digit = 0; digit < 16; ++digit) {
+    values[static_cast<unsigned char>("0123456789ABCDEF"[digit])] = static_cast<std::int8_t>(digit);
+    values[static_cast<unsigned char>("0123456789abcdef"[digit])] = static_cast<std::int8_t>(digit);
+  }
+  return values;
+}();
+
 /// The value of a hexadecimal digit, or -1.
-constexpr int hexValue(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
-}
+constexpr int hexValue(char c) { return kHexValues[static_cast<unsigned char>(c)]; }
 
 constexpr bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
@@ -34,8 +42,9 @@ class LineCursor {
 
   /// What stands here up to the next blank or colour.
   std::string_view token() const {
-    const std::string_view rest = line_.substr(std::min(at_, line_.size()));
-    return rest.substr(0, rest.find_first_of(" \t\r\n\033"));
+    std::size_t end = at_;
+    while (end < line_.size() && !isBlank(line_[end]) && line_[end] != '\033') ++end;
+    return {line_.data() + std::min(at_, line_.size()), end - at_};
   }
 
   /// Steps over up to `most` decimal digits (at most 18); returns how many, 0 (and no step) if fewer than

@@ -1,50 +1,98 @@
 #include "host/can/loss_counter.hpp"
 
+#include "host/can/frame_catalogue.hpp"
+
 namespace strainfinger::can {
 namespace {
+
+/// So many returns to where a gap began, and so many for each gap, are no chance: lost frames look like one
+/// return in 256 gaps.
+constexpr std::uint64_t kFewestReturns = 3;
+constexpr std::uint64_t kGapsPerReturn = 4;
+
+/// A finger sends ten or eleven heartbeats in a second of its uptime.
+constexpr int kHeartbeatsOfTwo = 1000 / kHeartbeatPeriod_ms * 3 / 2;
+
+/// Uptimes go on by a second at a time, two where heartbeats were lost.
+constexpr int kUptimeStep_s = 2;
+
+constexpr std::uint16_t kLongestUptime_s = kNotKnown<std::uint16_t> - 1;  ///< or more
 
 /// A second contact has frames only while there is one, so that their numbers have gaps.
 bool isOfEveryTouch(FunctionCode function) {
   return function != FunctionCode::kContact2 && function != FunctionCode::kForce2;
 }
 
+std::size_t indexOf(FunctionCode function) { return static_cast<std::uint16_t>(function) / kIdsPerFunction; }
+
 }  // namespace
 
-void LossCounter::count(const std::string& interface, const CanFrame& frame) {
-  if (countNumbered<ContactFrame>(interface, frame) || countNumbered<ForceFrame>(interface, frame) ||
-      countNumbered<Contact2Frame>(interface, frame) || countNumbered<Force2Frame>(interface, frame))
-    return;
-  if (countNumbered<PatchFrame>(interface, frame))
-    countAnnounced(streamOf(interface, *nodeOf(frame.id, FunctionCode::kPatch)), *decode<PatchFrame>(frame));
-  if (const auto heartbeat = decode<HeartbeatFrame>(frame))
-    countHeartbeat(streamOf(interface, *nodeOf(frame.id, FunctionCode::kHeartbeat)), *heartbeat);
+bool LossCounter::Evidence::isOfTwo() const {
+  return returns >= kFewestReturns && returns * kGapsPerReturn >= gaps;
 }
 
-LossCounter::Stream& LossCounter::streamOf(const std::string& interface, std::uint8_t node) {
-  Stream& stream = streams_[{interface, node}];
-  stream.seen.interface = interface;
-  stream.seen.node = node;
-  return stream;
+void LossCounter::count(std::string_view interface, const CanFrame& frame) {
+  const FrameEntry* const entry = findFrame(frame);
+  if (entry == nullptr) return;
+  const FunctionCode function = entry->spec.function;
+  Stream& stream = streams_.at(interface, *nodeOf(frame.id, function));
+  const auto countSequence = [&](const auto& values) {
+    countNumber(stream, function, values->sequence, toWord(frame));
+  };
+  switch (function) {
+    case FunctionCode::kContact:
+      return countSequence(decode<ContactFrame>(frame));
+    case FunctionCode::kForce:
+      return countSequence(decode<ForceFrame>(frame));
+    case FunctionCode::kContact2:
+      return countSequence(decode<Contact2Frame>(frame));
+    case FunctionCode::kForce2:
+      return countSequence(decode<Force2Frame>(frame));
+    case FunctionCode::kPatch:
+      countSequence(decode<PatchFrame>(frame));
+      return countAnnounced(stream, *decode<PatchFrame>(frame));
+    case FunctionCode::kHeartbeat:
+      return countHeartbeat(stream, *decode<HeartbeatFrame>(frame));
+    case FunctionCode::kInfo:
+      return countBoard(stream, decode<InfoFrame>(frame)->board);
+    default:
+      return;
+  }
 }
 
-/// False: it is another frame.
-template <typename Frame>
-bool LossCounter::countNumbered(const std::string& interface, const CanFrame& frame) {
-  constexpr FunctionCode kFunction = kLayout<Frame>.spec.function;
-  const auto values = decode<Frame>(frame);
-  if (!values) return false;
-  Stream& stream = streamOf(interface, *nodeOf(frame.id, kFunction));
+void LossCounter::countNumber(Stream& stream, FunctionCode function, std::uint8_t number,
+                              std::uint64_t data) {
   ++stream.seen.received;
-  const std::uint8_t number = values->sequence;
-  const auto [found, isFirst] = stream.numbers.try_emplace(kFunction, Numbers{number, std::nullopt});
-  if (isFirst) return true;
-  const std::uint8_t last = found->second.last;
-  if (number == last)
+  std::optional<Numbers>& numbers = stream.numbers[indexOf(function)];
+  if (!numbers) {
+    numbers = Numbers{number, data};
+    return;
+  }
+  if (number == numbers->last) {
     ++stream.seen.repeated;
-  else if (isOfEveryTouch(kFunction))
-    stream.seen.lost += static_cast<std::uint8_t>(number - last - 1);
-  found->second = {number, last};
-  return true;
+    if (data != numbers->data) ++stream.evidence.returns;  // two senders in step
+  } else if (isOfEveryTouch(function)) {
+    countGap(stream, *numbers, number);
+  }
+  numbers->before = numbers->last;
+  numbers->last = number;
+  numbers->data = data;
+}
+
+/// A number that goes on where a gap began is another sender's, and that gap was none.
+void LossCounter::countGap(Stream& stream, Numbers& numbers, std::uint8_t number) {
+  const auto gap = static_cast<std::uint8_t>(number - numbers.last - 1);
+  if (gap == 0) return;
+  const bool returns = numbers.left && number == static_cast<std::uint8_t>(*numbers.left + 1);
+  if (returns) {
+    ++stream.evidence.returns;
+    stream.seen.lost -= numbers.gap;
+  } else {
+    ++stream.evidence.gaps;
+    stream.seen.lost += gap;
+  }
+  numbers.left = numbers.last;
+  numbers.gap = returns ? std::uint8_t{0} : gap;
 }
 
 /// What the PATCH before this one announced must have come by now, as the last of its kind or, where a
@@ -53,8 +101,8 @@ void LossCounter::countAnnounced(Stream& stream, const PatchFrame& patch) {
   if (stream.announced == patch.sequence) return;
   if (stream.announced)
     for (const FunctionCode function : {FunctionCode::kContact2, FunctionCode::kForce2}) {
-      const auto found = stream.numbers.find(function);
-      if (found == stream.numbers.end() || !found->second.has(*stream.announced)) ++stream.seen.lost;
+      const std::optional<Numbers>& numbers = stream.numbers[indexOf(function)];
+      if (!numbers || !numbers->has(*stream.announced)) ++stream.seen.lost;
     }
   stream.announced.reset();
   if (patch.contacts >= 2) stream.announced = patch.sequence;
@@ -62,18 +110,42 @@ void LossCounter::countAnnounced(Stream& stream, const PatchFrame& patch) {
 
 void LossCounter::countHeartbeat(Stream& stream, const HeartbeatFrame& heartbeat) {
   stream.seen.protocol = heartbeat.protocol;
-  if (heartbeat.uptime_s == kNotKnown<std::uint16_t>) return;
-  if (heartbeat.uptime_s < stream.uptime_s) {
+  if (heartbeat.uptime_s != kNotKnown<std::uint16_t>) countUptime(stream, heartbeat.uptime_s);
+}
+
+void LossCounter::countUptime(Stream& stream, std::uint16_t uptime_s) {
+  const int last_s = stream.uptime_s.value_or(uptime_s);
+  stream.uptime_s = uptime_s;
+  stream.sameUptime = uptime_s == last_s ? stream.sameUptime + 1 : 1;
+  if (stream.sameUptime == kHeartbeatsOfTwo && uptime_s != kLongestUptime_s) ++stream.evidence.returns;
+  if (uptime_s >= last_s && uptime_s <= last_s + kUptimeStep_s) return;
+  const bool returns = stream.leftUptime_s && uptime_s >= *stream.leftUptime_s &&
+                       uptime_s <= *stream.leftUptime_s + kUptimeStep_s;
+  stream.leftUptime_s = static_cast<std::uint16_t>(last_s);
+  if (returns) {
+    ++stream.evidence.returns;
+  } else if (uptime_s < last_s) {
     ++stream.seen.restarts;
-    stream.numbers.clear();
+    stream.numbers = {};
     stream.announced.reset();
   }
-  stream.uptime_s = heartbeat.uptime_s;
+}
+
+void LossCounter::countBoard(Stream& stream, std::uint8_t board) {
+  if (board == 0 || board == stream.board) return;
+  if (board == stream.leftBoard) ++stream.evidence.returns;
+  stream.leftBoard = stream.board;
+  stream.board = board;
 }
 
 std::vector<NodeCount> LossCounter::counts() const {
   std::vector<NodeCount> result;
-  for (const auto& [key, stream] : streams_) result.push_back(stream.seen);
+  streams_.forEach([&result](const std::string& interface, std::uint8_t node, const Stream& stream) {
+    NodeCount& count = result.emplace_back(stream.seen);
+    count.interface = interface;
+    count.node = node;
+    count.twoSenders = stream.evidence.isOfTwo();
+  });
   return result;
 }
 

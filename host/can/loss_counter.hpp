@@ -1,15 +1,18 @@
 #pragma once
-// How many frames of each finger were lost on the way, from their sequence numbers.
+// How many frames of each finger were lost on the way, from their sequence numbers; and whether two fingers
+// have one node number.
 
+#include <array>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "common/can_frame.hpp"
 #include "common/frames.hpp"
+#include "host/can/frame_catalogue.hpp"
+#include "host/can/per_node.hpp"
 
 namespace strainfinger::can {
 
@@ -22,36 +25,53 @@ struct NodeCount {
   std::uint64_t repeated = 0;            ///< the same number twice in a row
   std::optional<std::uint8_t> protocol;  ///< of its last HEARTBEAT
   std::uint64_t restarts = 0;  ///< the uptime went back; frames lost across a restart cannot be counted
+  bool twoSenders = false;     ///< two fingers are this node: the other counts mean nothing then
 };
 
 class LossCounter {
  public:
   /// Takes any frame; those that are no finger's are ignored.
-  void count(const std::string& interface, const CanFrame& frame);
+  void count(std::string_view interface, const CanFrame& frame);
 
   /// By interface, then node.
   std::vector<NodeCount> counts() const;
 
  private:
-  /// Sequence numbers of the last two frames of a kind.
+  /// Sequence numbers of a kind of frame.
   struct Numbers {
     std::uint8_t last;
-    std::optional<std::uint8_t> before;
+    std::uint64_t data;                    ///< of the last frame
+    std::optional<std::uint8_t> before{};  ///< the number before the last
+    std::optional<std::uint8_t> left{};    ///< the number before the last gap
+    std::uint8_t gap = 0;                  ///< frames counted as lost there
     bool has(std::uint8_t number) const { return number == last || number == before; }
+  };
+  /// Two senders give themselves away again and again by going on where a gap began: in their sequence
+  /// numbers, uptimes or boards.
+  struct Evidence {
+    std::uint64_t gaps = 0;  ///< that one sender can leave as well
+    std::uint64_t returns = 0;
+    bool isOfTwo() const;
   };
   struct Stream {
     NodeCount seen;
-    std::map<FunctionCode, Numbers> numbers;
+    Evidence evidence;
+    std::array<std::optional<Numbers>, (kMaxCanId + 1) / kIdsPerFunction> numbers;
     std::optional<std::uint8_t> announced;  ///< of the last PATCH, if a second contact belongs to it
-    std::uint16_t uptime_s = 0;
+    std::optional<std::uint16_t> uptime_s;
+    std::optional<std::uint16_t> leftUptime_s;  ///< the one before it last jumped
+    int sameUptime = 0;                         ///< heartbeats
+    std::uint8_t board = 0;
+    std::uint8_t leftBoard = 0;
   };
-  template <typename Frame>
-  bool countNumbered(const std::string& interface, const CanFrame& frame);
-  Stream& streamOf(const std::string& interface, std::uint8_t node);
+  static void countNumber(Stream& stream, FunctionCode function, std::uint8_t number, std::uint64_t data);
+  static void countGap(Stream& stream, Numbers& numbers, std::uint8_t number);
   static void countAnnounced(Stream& stream, const PatchFrame& patch);
   static void countHeartbeat(Stream& stream, const HeartbeatFrame& heartbeat);
+  static void countUptime(Stream& stream, std::uint16_t uptime_s);
+  static void countBoard(Stream& stream, std::uint8_t board);
 
-  std::map<std::pair<std::string, std::uint8_t>, Stream> streams_;
+  PerNode<Stream> streams_;
 };
 
 }  // namespace strainfinger::can

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 
 namespace strainfinger::can {
 namespace {
@@ -21,12 +20,6 @@ ifreq requestFor(const std::string& interface) {
   ifreq request{};
   std::copy_n(interface.data(), std::min<std::size_t>(interface.size(), IFNAMSIZ - 1), request.ifr_name);
   return request;
-}
-
-void findLost(msghdr& message, std::uint32_t& lost) {
-  for (cmsghdr* item = CMSG_FIRSTHDR(&message); item != nullptr; item = CMSG_NXTHDR(&message, item))
-    if (item->cmsg_level == SOL_SOCKET && item->cmsg_type == SO_RXQ_OVFL)
-      std::memcpy(&lost, CMSG_DATA(item), sizeof lost);
 }
 
 class LinuxSocketCalls final : public SocketCalls {
@@ -64,17 +57,8 @@ class LinuxSocketCalls final : public SocketCalls {
     return orErrno(::write(socket, &frame, sizeof frame));
   }
 
-  int read(int socket, can_frame& frame, std::uint32_t& lost) noexcept override {
-    iovec part{&frame, sizeof frame};
-    alignas(cmsghdr) std::byte control[CMSG_SPACE(sizeof lost)];
-    msghdr message{};
-    message.msg_iov = &part;
-    message.msg_iovlen = 1;
-    message.msg_control = control;
-    message.msg_controllen = sizeof control;
-    const int size = orErrno(::recvmsg(socket, &message, 0));
-    if (size >= 0) findLost(message, lost);
-    return size;
+  int read(int socket, can_frame& frame, ReceiveNotes& notes) noexcept override {
+    return receiveWithNotes(socket, &frame, sizeof frame, notes);
   }
 
   int poll(int socket, int timeout_ms) noexcept override {

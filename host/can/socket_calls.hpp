@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <string>
 
+#include "host/can/receive_notes.hpp"
+
 namespace strainfinger::can {
 
 /// A seam, so that tests can make each call fail. Results are the calls' own; failures are -errno.
@@ -21,8 +23,7 @@ class SocketCalls {
   virtual int interfaceFlags(int socket, const std::string& interface) noexcept = 0;  ///< IFF_... bits
   virtual int bind(int socket, int interfaceIndex) noexcept = 0;
   virtual int write(int socket, const can_frame& frame) noexcept = 0;
-  /// `lost` is set to the frames this socket has lost so far where the kernel says so, else left alone.
-  virtual int read(int socket, can_frame& frame, std::uint32_t& lost) noexcept = 0;
+  virtual int read(int socket, can_frame& frame, ReceiveNotes& notes) noexcept = 0;
   /// 1: something to read, or an error to fetch. 0: nothing within the time.
   virtual int poll(int socket, int timeout_ms) noexcept = 0;
 };

@@ -27,7 +27,12 @@ constexpr int kMaxReads = 64;
 constexpr int kSendBuffer_bytes = 0;
 
 constexpr int kOn = 1;
-constexpr can_filter kStandardDataFrames{.can_id = 0, .can_mask = CAN_EFF_FLAG | CAN_RTR_FLAG};
+
+/// Standard data frames, of these identifiers.
+constexpr can_filter kernelFilter(BusFilter filter) {
+  return {.can_id = filter.id, .can_mask = filter.mask | CAN_EFF_FLAG | CAN_RTR_FLAG};
+}
+
 constexpr can_err_mask_t kStateAndCounters =
     CAN_ERR_TX_TIMEOUT | CAN_ERR_CRTL | CAN_ERR_BUSOFF | CAN_ERR_RESTARTED | CAN_ERR_CNT;
 
@@ -43,6 +48,7 @@ int setUp(SocketCalls& calls, int socket, std::span<const can_filter> filters, c
   int result = calls.setOption(socket, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(), filterSize);
   if (result >= 0) result = calls.setOption(socket, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, &errors, sizeof errors);
   if (result >= 0) result = calls.setOption(socket, SOL_SOCKET, SO_RXQ_OVFL, &kOn, sizeof kOn);
+  if (result >= 0) result = calls.setOption(socket, SOL_SOCKET, SO_TIMESTAMPNS, &kOn, sizeof kOn);
   if (result >= 0)
     result = calls.setOption(socket, SOL_SOCKET, SO_SNDBUF, &kSendBuffer_bytes, sizeof kSendBuffer_bytes);
   return result;
@@ -137,8 +143,8 @@ std::optional<CanFrame> fromKernel(const can_frame& raw) {
 
 }  // namespace
 
-SocketCanPort::SocketCanPort(std::string interface, int bitrate, SocketCalls& calls)
-    : interface_(std::move(interface)), calls_(calls) {
+SocketCanPort::SocketCanPort(std::string interface, int bitrate, BusFilter filter, SocketCalls& calls)
+    : interface_(std::move(interface)), filter_(filter), calls_(calls) {
   if (interface_.empty() || interface_.size() >= IFNAMSIZ)
     throw Failure(ExitCode::kNoInterface, fmt::format("no CAN interface '{}': a name has 1 to {} characters",
                                                       interface_, IFNAMSIZ - 1));
@@ -166,18 +172,20 @@ bool SocketCanPort::send(const CanFrame& frame) noexcept {
   return taken;
 }
 
-std::optional<CanFrame> SocketCanPort::receive() noexcept {
+std::optional<TimedFrame> SocketCanPort::receiveTimed() noexcept {
   if (frames_ < 0) refresh();
   for (int reads = 0; reads < kMaxReads; ++reads) {
     can_frame raw{};
-    const int size = calls_.read(frames_, raw, lostInQueue_);
+    ReceiveNotes notes{lostInQueue_};
+    const int size = calls_.read(frames_, raw, notes);
     if (size == -EINTR) continue;
     if (size < 0) {
       if (size != -EAGAIN) refresh();
       return std::nullopt;
     }
+    lostInQueue_ = notes.lost;
     const auto frame = fromKernel(raw);
-    if (size == sizeof raw && frame) return frame;
+    if (size == sizeof raw && frame) return TimedFrame{notes.time_ns, *frame};
     ++lostElsewhere_;
   }
   return std::nullopt;
@@ -194,7 +202,8 @@ bool SocketCanPort::waitReadable(std::chrono::milliseconds timeout) noexcept {
 }
 
 int SocketCanPort::open() noexcept {
-  frames_ = openSocket(calls_, interface_, {&kStandardDataFrames, 1}, 0);
+  const can_filter wanted = kernelFilter(filter_);
+  frames_ = openSocket(calls_, interface_, {&wanted, 1}, 0);
   if (frames_ < 0) return std::exchange(frames_, -1);
   errors_ = openSocket(calls_, interface_, {}, kStateAndCounters);
   if (errors_ < 0) {
@@ -220,10 +229,10 @@ void SocketCanPort::refresh() noexcept {
 }
 
 void SocketCanPort::readErrorFrames() noexcept {
-  std::uint32_t lost = 0;
+  ReceiveNotes notes;
   for (int reads = 0; reads < kMaxReads; ++reads) {
     can_frame frame{};
-    const int size = calls_.read(errors_, frame, lost);
+    const int size = calls_.read(errors_, frame, notes);
     if (size == sizeof frame && frame.len == CAN_ERR_DLC) noteErrorFrame(frame);
     if (size == -ENETDOWN) noteDown();
     if (size == -EAGAIN) return;
@@ -235,6 +244,7 @@ void SocketCanPort::noteErrorFrame(const can_frame& frame) noexcept {
   if (frame.can_id & CAN_ERR_TX_TIMEOUT) ++status_.dropped;
   if ((frame.can_id & CAN_ERR_CRTL) && (frame.data[1] & CAN_ERR_CRTL_RX_OVERFLOW)) ++lostElsewhere_;
   if (status_.state == CanState::kDown) return;  // said before the interface went down
+  if (frame.can_id & CAN_ERR_BUSOFF) ++status_.busOffs;
   status_.state = stateAfter(frame, status_.state);
   if (frame.can_id & CAN_ERR_CNT) {
     status_.txErrors = frame.data[6];
@@ -243,6 +253,7 @@ void SocketCanPort::noteErrorFrame(const can_frame& frame) noexcept {
 }
 
 void SocketCanPort::noteDown() noexcept {
+  if (status_.state != CanState::kDown) ++status_.busOffs;
   status_.state = CanState::kDown;
   status_.txErrors.reset();
   status_.rxErrors.reset();

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "hal/can_port.hpp"
+#include "host/can/bus_port.hpp"
 #include "host/can/socket_calls.hpp"
 
 namespace strainfinger::can {
@@ -20,24 +20,21 @@ namespace strainfinger::can {
 /// `dropped`: it doesn't tell. The kernel's queue keeps the order of all frames, and holds only a handful of
 /// this port's, so that what a blocked bus lets out later is not old. Costs two system calls a frame sent,
 /// one a frame received.
-class SocketCanPort {
+class SocketCanPort final : public BusPort {
  public:
   /// Throws Failure(kNoInterface) with the command that would help when there is no such CAN interface, it is
   /// down, or the kernel has no CAN. `bitrate` [bit/s] is for that command only: the interface's own is left
   /// alone.
-  explicit SocketCanPort(std::string interface, int bitrate = 1'000'000,
+  explicit SocketCanPort(std::string interface, int bitrate = 1'000'000, BusFilter filter = {},
                          SocketCalls& calls = linuxSocketCalls());
-  ~SocketCanPort();
-  SocketCanPort(const SocketCanPort&) = delete;
-  SocketCanPort& operator=(const SocketCanPort&) = delete;
+  ~SocketCanPort() override;
 
-  bool send(const CanFrame& frame) noexcept;
-  std::optional<CanFrame> receive() noexcept;
-  hal::CanStatus status() noexcept;
-
-  /// Sleeps until a frame has arrived (or the interface's state has changed), at most so long; false: nothing
-  /// came.
-  bool waitReadable(std::chrono::milliseconds timeout) noexcept;
+  bool send(const CanFrame& frame) noexcept override;
+  std::optional<TimedFrame> receiveTimed() noexcept override;
+  hal::CanStatus status() noexcept override;
+  bool waitReadable(std::chrono::milliseconds timeout) noexcept override;
+  int descriptor() const noexcept override { return frames_; }
+  const std::string& name() const noexcept override { return interface_; }
 
   std::uint32_t refused() const { return refused_; }  ///< frames send() did not take, since start
 
@@ -51,6 +48,7 @@ class SocketCanPort {
   void noteFlags() noexcept;
 
   std::string interface_;
+  BusFilter filter_;
   SocketCalls& calls_;
   int frames_ = -1;  ///< socket of the data frames; -1 while the interface is gone
   int errors_ = -1;  ///< socket of the error frames

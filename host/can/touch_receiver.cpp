@@ -29,7 +29,8 @@ ContactReport reportOf(const ContactFrame& contact, const ForceFrame& force) {
           .sigmaNormal_n = physical(force, &ForceFrame::sigma_normal_half_mN),
           .tangential_n = physical(force, &ForceFrame::tangential_mN),
           .sigmaTangential_n = physical(force, &ForceFrame::sigma_tangential_half_mN),
-          .quality_percent = physical(contact, &ContactFrame::quality_percent)};
+          .quality_percent = physical(contact, &ContactFrame::quality_percent),
+          .alternative_deg = physical(contact, &ContactFrame::alternative_deg)};
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ struct ContactReport {
   double tangential_n = kNoValue;
   double sigmaTangential_n = kNoValue;
   double quality_percent = kNoValue;
+  double alternative_deg = kNoValue;  ///< another angle that fits as well, relative to angle_deg
 };
 
 /// All frames of one sequence number.

@@ -71,7 +71,7 @@ std::vector<calibration::KnownTouch> readTouches(const std::string& path) {
 }
 
 Eigen::MatrixXd readStrains(const std::string& path, int gauges) {
-  const Rows rows = readRows(path, static_cast<std::size_t>(gauges), strainLimit());
+  const Rows rows = readRows(path, static_cast<std::size_t>(gauges), strainLimit(gauges));
   Eigen::MatrixXd strains(static_cast<Eigen::Index>(rows.size()), gauges);
   for (std::size_t i = 0; i < rows.size(); ++i)
     strains.row(static_cast<Eigen::Index>(i)) = Eigen::Map<const Eigen::RowVectorXd>(rows[i].data(), gauges);

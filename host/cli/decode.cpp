@@ -1,61 +1,106 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iostream>
+#include <chrono>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <thread>
 #include <vector>
 
 #include "common/frames.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/line_reader.hpp"
+#include "host/base/text_output.hpp"
 #include "host/can/candump_text.hpp"
 #include "host/can/frame_printer.hpp"
-#include "host/can/loss_counter.hpp"
+#include "host/can/touch_printer.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/decode_tally.hpp"
+#include "host/system/stop_signal.hpp"
 
 namespace strainfinger::cli {
 namespace {
 
 constexpr const char* kDecodeHelp =
-    "What the frames in a candump text (stdin, any form) say.\n"
+    "What the frames in candump texts say: of files, or of stdin, in any form of candump.\n"
     "CSV: time_s,interface,node,frame, then a column for each field of any frame, empty where the frame has "
     "no such field or the value is not known; flags are names joined by '+'.\n"
     "--json: one object a frame with its own fields, null where not known.\n"
-    "A line that cannot be read is reported as stdin:LINE:COLUMN on stderr and makes the exit status 1.\n"
-    "At the end stderr says what was read, skipped and lost.\n"
+    "--touches: a row for each touch sample in place of its frames: where, how hard, how wide, how sure.\n"
+    "A line that cannot be read is reported as FILE:LINE:COLUMN on stderr and makes the exit status 1.\n"
+    "At the end, or at Ctrl-C, stderr says what was read, skipped and lost.\n"
     "Other devices can use the same identifiers (CANopen drives do): --node says which nodes are fingers.\n"
-    "Live: candump vcan0 | strainfinger decode";
+    "Live: candump vcan0 | strainfinger decode --touches";
+
+/// How often a file that is followed is looked at.
+constexpr std::chrono::milliseconds kFollowPeriod{50};
 
 struct DecodeOptions {
   explicit DecodeOptions(CLI::App& command) : common(command) {
+    command.add_option("files", paths, "candump texts, read in this order; stdin without any, or as -")
+        ->type_name("FILE");
     command.add_option("-n,--node", nodes, "Only these nodes, as in 1,2,5")
         ->delimiter(',')
         ->check(CLI::Range(int{kFirstNode}, int{kLastNode}));
+    command.add_flag("--touches", touches, "A row a touch sample, not a row a frame");
+    command.add_flag("--follow", follow, "Wait for what is yet to be written to FILE, until Ctrl-C");
     command.add_flag("--strict", strict, "Stop at the first line that cannot be read");
   }
   CommonOptions common;
+  std::vector<std::string> paths;
   std::vector<int> nodes;  ///< empty: all
+  bool touches = false;
+  bool follow = false;
   bool strict = false;
-};
-
-/// What became of the lines.
-struct Tally {
-  std::uint64_t lines = 0;
-  std::uint64_t decoded = 0;
-  std::uint64_t skipped = 0;  ///< frames that are none of a finger's
-  std::uint64_t dropped = 0;  ///< by candump, as it says
-  std::uint64_t unreadable = 0;
-  std::string form;  ///< of the first line with a frame
-  can::LossCounter losses;
 };
 
 class Decoder {
  public:
   explicit Decoder(const DecodeOptions& options)
-      : printer_(stdout, options.common.format()), nodes_(options.nodes), strict_(options.strict) {}
+      : follow_(options.follow), strict_(options.strict), nodes_(options.nodes) {
+    if (options.touches)
+      touches_.emplace(output_.text(), options.common.format());
+    else
+      frames_.emplace(output_.text(), options.common.format());
+  }
 
-  void decodeLine(const std::string& text) {
-    ++tally_.lines;
+  /// Returns early when it is asked to stop.
+  void decodeAll(const std::string& path) {
+    LineReader lines(path);
+    name_ = lines.name();
+    line_ = 0;
+    while (!stop_.asked()) {
+      while (const auto text = lines.next()) decodeLine(*text);
+      output_.flush();  // before more is waited for: candump may be live
+      if (lines.read(system::StopSignal::kLookEvery) != LineReader::Got::kEnd) continue;
+      if (!follow_) break;
+      std::this_thread::sleep_for(kFollowPeriod);
+    }
+    const auto last = stopped() ? std::nullopt : lines.rest();
+    if (last) decodeLine(*last);
+    output_.flush();
+  }
+
+  bool stopped() const { return stop_.asked(); }
+  const DecodeTally& tally() const { return tally_; }
+
+ private:
+  std::string place() const { return fmt::format("{}:{}", name_, line_); }
+
+  void decodeLine(std::string_view text) {
+    ++line_;
+    tally_.countLine();
+    const auto plain = tally_.knowsForm() ? can::parsePlainLine(text) : std::nullopt;
+    if (plain)
+      take(*plain);
+    else
+      decodeAnyLine(text);
+    output_.flushIfLarge();
+  }
+
+  void decodeAnyLine(std::string_view text) {
     const auto parsed = can::parseLogLine(text);
     if (const auto* error = std::get_if<can::LogError>(&parsed))
       complain(*error);
@@ -63,78 +108,72 @@ class Decoder {
       take(std::get<can::LogLine>(parsed));
   }
 
-  const Tally& tally() const { return tally_; }
-
- private:
   void complain(const can::LogError& error) {
-    const std::string message = fmt::format("stdin:{}:{}: {}", tally_.lines, error.column, error.reason);
+    const std::string message = fmt::format("{}:{}: {}", place(), error.column, error.reason);
+    output_.flush();  // what stands before it
     if (strict_) throw Failure(ExitCode::kFailure, message);
-    ++tally_.unreadable;
+    tally_.countUnreadable();
     fmt::print(stderr, "{}\n", message);
   }
 
   void take(const can::LogLine& line) {
-    if (line.kind == can::LineKind::kNothing) return;
-    tally_.dropped += line.dropped;
-    if (line.kind == can::LineKind::kDropped) return;
-    if (tally_.form.empty()) tally_.form = can::describeForm(line);
-    const std::optional<CanFrame> frame = can::classicFrame(line);
-    if (!frame || !isWanted(*frame) || !printer_.print(line.time_ns, line.interface, *frame)) {
-      ++tally_.skipped;
-      return;
-    }
-    ++tally_.decoded;
-    tally_.losses.count(line.interface, *frame);
-    flush();
+    tally_.countDropped(line.dropped);
+    if (line.kind == can::LineKind::kNothing || line.kind == can::LineKind::kDropped) return;
+    tally_.noteForm(line);
+    if (line.kind == can::LineKind::kError) return tally_.countSkipped(SkipReason::kError);
+    if (line.kind == can::LineKind::kRemote) return tally_.countSkipped(SkipReason::kRemote);
+    if (line.frame.fd) return tally_.countSkipped(SkipReason::kFd);
+    if (line.frame.extended) return tally_.countSkipped(SkipReason::kExtended);
+    take({line.time_ns, line.interface, *can::classicFrame(line)});
   }
 
-  /// The low seven bits of an identifier are the node, whatever the function.
+  void take(const can::TextFrame& text) {
+    const CanFrame& frame = text.frame;
+    const can::FrameEntry* const entry = can::findFunction(frame.id);
+    if (entry == nullptr && can::findCommand(frame) == nullptr)
+      return tally_.countSkipped(decode<RawFrame>(frame) ? SkipReason::kRaw : SkipReason::kOtherIdentifier);
+    if (!isWanted(frame)) return tally_.countSkipped(SkipReason::kOtherNode);
+    if (entry != nullptr && frame.length != entry->spec.length)
+      return tally_.countWrongLength(place(), frame);
+    tally_.countDecoded(text.interface, frame);
+    if (touches_)
+      touches_->print(text.time_ns, text.interface, frame);
+    else
+      frames_->print(text.time_ns, text.interface, frame);
+  }
+
+  /// The low seven bits of a finger's identifier are the node, whatever the function.
   bool isWanted(const CanFrame& frame) const {
     return nodes_.empty() || std::find(nodes_.begin(), nodes_.end(), frame.id & 0x7F) != nodes_.end();
   }
 
-  /// A row is out before the next line is waited for: candump may be live.
-  static void flush() {
-    if (std::fflush(stdout) != 0)
-      throw Failure(ExitCode::kFailure, "cannot write the output: disk full or reader gone");
-  }
-
-  can::FramePrinter printer_;
-  std::vector<int> nodes_;
+  system::StopSignal stop_;
+  TextOutput output_{stdout};
+  std::optional<can::FramePrinter> frames_;   ///< or
+  std::optional<can::TouchPrinter> touches_;  ///< one of these
+  bool follow_;
   bool strict_;
-  Tally tally_;
+  std::vector<int> nodes_;
+  std::string name_;        ///< of the file that is read
+  std::uint64_t line_ = 0;  ///< of it
+  DecodeTally tally_;
 };
 
-void summarise(const Tally& tally) {
-  fmt::print(stderr, "decode: {} lines ({}), {} frames decoded, {} others skipped\n", tally.lines,
-             tally.form.empty() ? "no frames" : tally.form, tally.decoded, tally.skipped);
-  if (tally.dropped > 0) fmt::print(stderr, "decode: candump dropped {} frames\n", tally.dropped);
-  for (const can::NodeCount& node : tally.losses.counts())
-    fmt::print(stderr,
-               "decode: {} node {}: {} frames of touches received, {} lost, {} repeated, {} restarts\n",
-               node.interface, node.node, node.received, node.lost, node.repeated, node.restarts);
-}
-
-void checkProtocol(const Tally& tally) {
-  for (const can::NodeCount& node : tally.losses.counts())
-    if (node.protocol && *node.protocol != kProtocolVersion)
-      throw Failure(
-          ExitCode::kMismatch,
-          fmt::format("{} node {} speaks protocol {}, this program {}: its frames mean something else; use "
-                      "the strainfinger of its firmware",
-                      node.interface, node.node, *node.protocol, kProtocolVersion));
+void requireGoodPaths(const DecodeOptions& options) {
+  if (options.follow && (options.paths.size() != 1 || options.paths.front() == "-"))
+    throw Failure(ExitCode::kUsage, "decode: --follow needs one FILE: stdin is followed to its end anyway");
+  for (const std::string& path : options.paths) LineReader{path};  // nothing is printed if one is not there
 }
 
 void runDecode(const DecodeOptions& options) {
+  requireGoodPaths(options);
   Decoder decoder(options);
-  std::cin.tie(nullptr);  // what is out is flushed above, and checked
-  for (std::string line; std::getline(std::cin, line);) decoder.decodeLine(line);
-  const Tally& tally = decoder.tally();
-  summarise(tally);
-  if (tally.unreadable > 0)
-    throw Failure(ExitCode::kFailure, fmt::format("{} of {} lines could not be read; the others are decoded",
-                                                  tally.unreadable, tally.lines));
-  checkProtocol(tally);
+  const auto paths = options.paths.empty() ? std::vector<std::string>{"-"} : options.paths;
+  for (const std::string& path : paths)
+    if (!decoder.stopped()) decoder.decodeAll(path);
+  decoder.tally().summarise();
+  decoder.tally().requireGood();
+  if (decoder.stopped()) throw Failure(ExitCode::kInterrupted, "decode: interrupted");
 }
 
 }  // namespace

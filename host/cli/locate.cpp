@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
 #include <iostream>
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/contact.hpp"
@@ -34,8 +36,10 @@ using firmware::GaugeSet;
 constexpr const char* kLocateHelp =
     "Where a finger is touched and how hard, from rows of gauge strains on stdin, by the firmware's own "
     "code.\n"
-    "stdin: CSV, one strain a gauge in a row, a row a sample; a header row, blank lines and # comments "
-    "are passed over. Gains that the tables have from a calibration are applied to them. A reading at the "
+    "stdin: CSV, one strain a gauge in a row, a row a sample; blank lines and # comments are passed over. "
+    "With a header row the gauges' columns are strain_0, strain_1 .., and other columns, such as time_s, are "
+    "passed through: they come first. Gains that the tables have from a calibration are applied to them. A "
+    "reading at the "
     "end of the converter's range (gauges.full_scale_strain) or beyond is left out and the contact found by "
     "the others, as the firmware does.\n"
     "stdout: one row a sample, of\n"
@@ -183,23 +187,46 @@ std::vector<Cell> located(const TableImage& image, firmware::Locator& locator,
   return cellsOf(contacts, flagsOf(answer, contacts, saturated, all));
 }
 
+/// As they were; numbers are numbers in JSON.
+std::vector<Cell> passedThrough(const std::vector<std::string>& texts, TableFormat format) {
+  std::vector<Cell> cells(texts.begin(), texts.end());
+  for (Cell& cell : cells) {
+    const std::string& text = std::get<std::string>(cell);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool isNumber = error == std::errc{} && end == text.data() + text.size();
+    if (format == TableFormat::kJson && isNumber) cell = value;
+  }
+  return cells;
+}
+
+std::vector<std::string> columnsBehind(std::vector<std::string> columns) {
+  columns.insert(columns.end(), kColumns.begin(), kColumns.end());
+  return columns;
+}
+
 void runLocate(const LocateOptions& options) {
   const auto image = tablesFor(options);
   const TableConstants& constants = image->constants;
-  NumberRowReader rows(std::cin, "stdin", constants.gauge_count, strainLimit());
-  TableWriter table(stdout, options.common.format(), {kColumns.begin(), kColumns.end()});
+  NumberRowReader rows(std::cin, "stdin", constants.gauge_count, strainLimit(constants.gauge_count));
   const Rails rails(*image);
   firmware::ContactGate gate;
   firmware::Locator locator(options.firmware.mode());
   std::vector<std::int32_t> strains(constants.gauge_count);
   const auto factors = tables::correctionFactors(image->gains, constants.gauge_count);
-  for (std::vector<double> row; rows.next(row);) {
+  std::vector<double> row;
+  bool more = rows.next(row);
+  TableWriter table(stdout, options.common.format(), columnsBehind(rows.otherNames()));
+  for (; more; more = rows.next(row)) {
     for (std::size_t i = 0; i < row.size(); ++i)
       strains[i] = tables::readingOf(constants, factors[i] * row[i]);
     const bool touched = gate.update(constants, firmware::gateEnergy(constants, strains));
     const GaugeSet saturated = touched ? rails.of(row) : 0;
     const bool enough = std::popcount(saturated) * 2 <= constants.gauge_count;
-    table.row(touched && enough ? located(*image, locator, strains, saturated) : nothingBut(touched));
+    std::vector<Cell> cells = passedThrough(rows.others(), options.common.format());
+    for (Cell& cell : touched&& enough ? located(*image, locator, strains, saturated) : nothingBut(touched))
+      cells.push_back(std::move(cell));
+    table.row(cells);
   }
 }
 

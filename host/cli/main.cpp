@@ -28,21 +28,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Firmware tables, simulation and tools for strain-gauge tactile fingers", "strainfinger"};
   app.set_version_flag("--version", STRAINFINGER_VERSION);
   app.require_subcommand(1);
-  strainfinger::cli::addResponse(app);
-  strainfinger::cli::addStrain(app);
-  strainfinger::cli::addContact(app);
-  strainfinger::cli::addSvd(app);
-  strainfinger::cli::addField(app);
-  strainfinger::cli::addShape(app);
-  strainfinger::cli::addCalibrate(app);
-  strainfinger::cli::addTables(app);
-  strainfinger::cli::addLocate(app);
-  strainfinger::cli::addRun(app);
-  strainfinger::cli::addDecode(app);
-  strainfinger::cli::addDbc(app);
-  strainfinger::cli::addTare(app);
-  strainfinger::cli::addConfig(app);
-  strainfinger::cli::addFigures(app);
+  strainfinger::cli::addCommands(app);
   try {
     app.parse(argc, argv);
     if (std::fflush(stdout) != 0) return complain(ExitCode::kFailure, "cannot write the output");

@@ -7,7 +7,8 @@
 #include "host/base/failure.hpp"
 #include "host/base/table_writer.hpp"
 #include "host/can/frame_catalogue.hpp"
-#include "host/can/socketcan_port.hpp"
+#include "host/can/open_bus.hpp"
+#include "host/cli/bus_option.hpp"
 
 namespace strainfinger::cli {
 namespace {
@@ -35,12 +36,15 @@ const char* remedyFor(CommandStatus status) {
       return "try again then; what it has kept already stays";
     case CommandStatus::kNotKept:
       return "it goes on as before; an emulated or simulated finger has no memory to keep it in";
+    case CommandStatus::kTooFast:
+      return "ask for less, or use a bus with a higher bit rate";
     default:
       return "use the strainfinger of its firmware";
   }
 }
 
-std::string waitOf(const ResponseFrame& response) {
+std::string valueOf(const ResponseFrame& response) {
+  if (response.status == CommandStatus::kTooFast) return fmt::format(": {} Hz", response.value);
   return response.status == CommandStatus::kWait ? fmt::format(" {} s", response.value) : "";
 }
 
@@ -71,11 +75,13 @@ Failure silence(const can::Reply& reply, const std::string& where) {
 }  // namespace
 
 RequestOptions::RequestOptions(CLI::App& command) : common(command) {
-  command.add_option("--can", interface, "SocketCAN interface: can0, vcan0, slcan0")
-      ->type_name("IFACE")
-      ->required();
+  addBusOption(command, bus)->required();
   command.add_option("-n,--node", node, "Node number in place of the config's")
       ->check(CLI::Range(int{kFirstNode}, int{kLastNode}));
+}
+
+std::uint8_t nodeOf(const RequestOptions& options, const config::Can& can) {
+  return static_cast<std::uint8_t>(options.node != 0 ? options.node : can.node);
 }
 
 void requireDone(const can::Reply& reply, Command command, const std::string& where) {
@@ -86,22 +92,22 @@ void requireDone(const can::Reply& reply, Command command, const std::string& wh
   else if (status != CommandStatus::kDone)
     throw Failure(ExitCode::kFailure,
                   fmt::format("{}: {}: {} ({}{}): {}", where, commandName(command), meaningOf(status),
-                              statusName(status), waitOf(*reply.response), remedyFor(status)));
+                              statusName(status), valueOf(*reply.response), remedyFor(status)));
 }
 
 void request(const RequestOptions& options, const std::vector<RequestFrame>& requests) {
   const config::Can can = options.common.config().can;
-  const auto node = static_cast<std::uint8_t>(options.node != 0 ? options.node : can.node);
-  can::SocketCanPort port(options.interface, can.bitrate);
+  const std::uint8_t node = nodeOf(options, can);
+  const auto port = can::openBus(options.bus, can.bitrate);
   std::optional<TableWriter> table;  // nothing is printed before there is a row
   for (const RequestFrame& request : requests) {
-    const can::Reply reply = can::ask(port, node, request);
-    requireDone(reply, request.command, fmt::format("{} node {}", options.interface, node));
+    const can::Reply reply = can::ask(*port, node, request);
+    requireDone(reply, request.command, fmt::format("{} node {}", options.bus, node));
     if (!table)
       table.emplace(stdout, options.common.format(),
                     std::vector<std::string>{"interface", "node", "command", "status"});
-    table->row({options.interface, std::int64_t{node}, commandName(request.command),
-                statusName(reply.response->status)});
+    table->row(
+        {options.bus, std::int64_t{node}, commandName(request.command), statusName(reply.response->status)});
   }
 }
 

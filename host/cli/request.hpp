@@ -13,7 +13,7 @@ namespace strainfinger::cli {
 struct RequestOptions {
   explicit RequestOptions(CLI::App& command);
   CommonOptions common;
-  std::string interface;
+  std::string bus;
   int node = 0;  ///< 0: the config's
 };
 
@@ -22,6 +22,9 @@ struct RequestOptions {
 /// when it was refused (kFailure), nobody answered (kNoNode), the interface is none or takes nothing
 /// (kNoInterface), or the finger speaks another protocol (kMismatch).
 void request(const RequestOptions& options, const std::vector<RequestFrame>& requests);
+
+/// Node of -n, else of the config.
+std::uint8_t nodeOf(const RequestOptions& options, const config::Can& can);
 
 /// What request() says of a reply, without the printing; `where`: "can0 node 1".
 void requireDone(const can::Reply& reply, Command command, const std::string& where);

@@ -16,7 +16,7 @@ constexpr const char* kResponseHelp =
     "former turn to cosines, the latter to minus sines, and for q_n^s the reverse.\n"
     "Numbers below 1e-307 lose digits and end as 0.";
 
-constexpr int kMostHarmonics = 1'000'000;
+constexpr int kMostResponseHarmonics = 1'000'000;
 
 struct ResponseOptions {
   explicit ResponseOptions(CLI::App& command) : common(command) {
@@ -24,7 +24,7 @@ struct ResponseOptions {
     command.add_option("--harmonics", harmonics, "Last n to print")
         ->required()
         ->type_name("N")
-        ->check(CLI::Range(0, kMostHarmonics));
+        ->check(CLI::Range(0, kMostResponseHarmonics));
   }
   CommonOptions common;
   double radius_m = 0;

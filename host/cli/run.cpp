@@ -8,20 +8,24 @@
 #include <string>
 #include <vector>
 
+#include "host/base/atomic_file.hpp"
 #include "host/base/failure.hpp"
 #include "host/can/candump_text.hpp"
 #include "host/can/loopback_port.hpp"
-#include "host/can/socketcan_port.hpp"
+#include "host/can/open_bus.hpp"
+#include "host/cli/bus_option.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/firmware_options.hpp"
 #include "host/cli/run_summary.hpp"
+#include "host/cli/strain_recorder.hpp"
 #include "host/cli/touch_recorder.hpp"
 #include "host/cli/truth_table.hpp"
 #include "host/simulation/read_scenario.hpp"
 #include "host/simulation/simulated_finger.hpp"
 #include "host/system/metronome.hpp"
 #include "host/system/stop_signal.hpp"
+#include "host/tables/gauge_gains.hpp"
 
 namespace strainfinger::cli {
 namespace {
@@ -30,10 +34,10 @@ constexpr const char* kLoopback = "loopback";
 
 constexpr const char* kRunHelp =
     "The finger itself on this machine: the firmware's own code, simulated gauges, frames on CAN.\n"
-    "--can loopback: needs no kernel support, runs as fast as it can and prints what `candump -L` would; "
-    "the same seed gives the same output.\n"
-    "--can IFACE: a SocketCAN interface (vcan0, can0), in real time, a sample set every millisecond; "
-    "prints nothing on stdout. It obeys `tare` and `config`.\n"
+    "--can loopback (default): a bus that no other program hears, as fast as it can; prints what `candump "
+    "-L` would, and the same seed gives the same output.\n"
+    "--can BUS: for other programs, in real time, a sample set every millisecond; prints nothing on stdout. "
+    "It obeys `tare` and `config`.\n"
     "The simulated finger is as the config's [as_built] says or, without it, as drawn and calibrated.\n"
     "At the end stderr has a summary with the errors against the truth (--json: as one object). Ctrl-C "
     "ends a run as its duration would, with exit status 130.";
@@ -48,7 +52,7 @@ std::string complaintAboutSeed(const std::string& text) {
 
 struct RunOptions {
   explicit RunOptions(CLI::App& command) : common(command), firmware(command) {
-    command.add_option("--can", interface, "Interface, or loopback (default)")->type_name("IFACE");
+    addBusOption(command, bus);
     command
         .add_option("--scenario", scenarioPath,
                     "What touches the finger (TOML); the built-in scenario without it")
@@ -57,7 +61,7 @@ struct RunOptions {
         ->check(complaintAboutSeed);
     command
         .add_option("--duration", duration_s,
-                    "Seconds; without it the loopback runs the scenario once, an interface until Ctrl-C")
+                    "Seconds; without it the loopback runs the scenario once, a bus until Ctrl-C")
         ->type_name("S");
     command
         .add_option("--fault", faults,
@@ -67,6 +71,17 @@ struct RunOptions {
     command.add_flag("--uncalibrated", uncalibrated, "The tables don't know the config's [calibration]");
     command.add_flag("--truth", truth, "Truth beside estimate on stderr, four lines a second");
     command
+        .add_option("--strains", strainsPath,
+                    "At the end, what the gauges read, as `calibrate`, `shape` and `locate` take it (CSV)")
+        ->type_name("FILE");
+    command
+        .add_option("--touches", touchesPath,
+                    "At the end, what touched the finger, a row for each row of --strains (CSV)")
+        ->type_name("FILE");
+    command.add_option("--rows-hz", rows_hz, "Rows of --strains and --touches a second (default 100)")
+        ->type_name("HZ")
+        ->check(CLI::Range(1, 1000));
+    command
         .add_option("--picture", pictures,
                     "Draws the run (needs gnuplot); ends in .svg or .png, may be given twice")
         ->type_name("FILE");
@@ -74,16 +89,19 @@ struct RunOptions {
   static constexpr double kShortest_s = 0.001;
   static constexpr double kLongest_s = 1e6;
 
-  bool isLoopback() const { return interface == kLoopback; }
+  bool isLoopback() const { return bus == kLoopback; }
 
   CommonOptions common;
   FirmwareOptions firmware;
-  std::string interface = kLoopback;
+  std::string bus = kLoopback;
   std::string scenarioPath;
   std::uint64_t seed = 1;
   std::optional<double> duration_s;
   bool uncalibrated = false;
   bool truth = false;
+  std::string strainsPath;
+  std::string touchesPath;
+  int rows_hz = 100;
   std::vector<std::string> pictures;
   std::vector<std::string> faults;
 };
@@ -117,7 +135,10 @@ double durationOf(const RunOptions& options, const simulation::Scenario& scenari
 /// What watches a run: the table, the picture, the statistics.
 class Watchers {
  public:
-  Watchers(const RunOptions& options, const config::FingerConfig& config) : config_(config) {
+  Watchers(const RunOptions& options, const config::FingerConfig& config, const TableImage& tables)
+      : config_(config), strainsPath_(options.strainsPath), touchesPath_(options.touchesPath) {
+    if (!strainsPath_.empty() || !touchesPath_.empty())
+      strains_.emplace(tables::correctionFactors(tables.gains, config.gauges.count), options.rows_hz);
     if (options.truth) table_.emplace(stderr, config.finger);
     if (!options.pictures.empty()) recorder_.emplace(config);
   }
@@ -125,7 +146,13 @@ class Watchers {
   void watch(const simulation::Moment& moment, const firmware::Readings& readings) {
     if (table_) table_->add(moment);
     if (recorder_) recorder_->add(moment, readings);
+    if (strains_ && !moment.isZeroing) strains_->add(moment, readings.strain_q32);
     if (moment.compared) errors_.add(*moment.compared, config_.finger);
+  }
+
+  void write() const {
+    if (!strainsPath_.empty()) writeFileAtomically(strainsPath_, strains_->strains());
+    if (!touchesPath_.empty()) writeFileAtomically(touchesPath_, strains_->touches());
   }
 
   void draw(const std::vector<std::string>& paths, const simulation::GaugeStrains& strains) const {
@@ -138,14 +165,17 @@ class Watchers {
   config::FingerConfig config_;
   std::optional<TruthTable> table_;
   std::optional<TouchRecorder> recorder_;
+  std::optional<StrainRecorder> strains_;
+  std::string strainsPath_;
+  std::string touchesPath_;
   simulation::TouchErrors errors_;
 };
 
 /// Runs a finger on `port` to its end. wait() lets a sample period pass and says how many really did;
 /// afterwards(time_us) comes after the work of each.
 template <typename Port, typename Wait, typename Afterwards>
-void runOn(Port& port, const RunOptions& options, Wait wait, Afterwards afterwards) {
-  const config::FingerConfig config = options.common.config();
+void runOn(Port& port, const config::FingerConfig& config, const RunOptions& options, Wait wait,
+           Afterwards afterwards) {
   config::FingerConfig known = config;
   if (options.uncalibrated) known.calibration = {};
   const auto tables = options.firmware.tablesOf(known);
@@ -153,7 +183,7 @@ void runOn(Port& port, const RunOptions& options, Wait wait, Afterwards afterwar
   const auto end_us = static_cast<std::uint64_t>(std::llround(durationOf(options, scenario) * 1e6));
   simulation::SimulatedFinger finger(config, scenario, *tables, options.firmware.mode(), options.seed, port,
                                      faultsOf(options));
-  Watchers watchers(options, config);
+  Watchers watchers(options, config, *tables);
   for (const std::string& path : options.pictures) plot::requirePicturePath(path);
   const system::StopSignal stop;
   while (finger.elapsed_us() < end_us && !stop.asked()) {
@@ -161,6 +191,7 @@ void runOn(Port& port, const RunOptions& options, Wait wait, Afterwards afterwar
     afterwards(finger.elapsed_us());
   }
   printSummary(stderr, options.common.format(), finger.elapsed_s(), finger.counts(), watchers.errors());
+  watchers.write();
   watchers.draw(options.pictures, finger.strains());
   if (stop.asked())
     throw Failure(ExitCode::kInterrupted, fmt::format("run: interrupted after {:.3f} s", finger.elapsed_s()));
@@ -183,28 +214,34 @@ class Candump {
   can::LoopbackPort port_;
 };
 
-void runOnLoopback(const RunOptions& options) {
+void runOnLoopback(const config::FingerConfig& config, const RunOptions& options) {
   can::LoopbackBus bus;
   can::LoopbackPort port(bus);
   Candump candump(bus);
   runOn(
-      port, options, [] { return std::uint64_t{1}; },
+      port, config, options, [] { return std::uint64_t{1}; },
       [&candump](std::uint64_t time_us) { candump.print(time_us); });
 }
 
-void runOnInterface(const RunOptions& options) {
-  can::SocketCanPort port(options.interface, options.common.config().can.bitrate);
+/// What is said to a node: a finger needs to hear no more.
+can::BusFilter requestsTo(int node) {
+  return {.id = canId(FunctionCode::kRequest, static_cast<std::uint8_t>(node)), .mask = kMaxCanId};
+}
+
+void runOnBus(const config::FingerConfig& config, const RunOptions& options) {
+  const auto port = can::openBus(options.bus, config.can.bitrate, requestsTo(config.can.node));
   std::optional<system::Metronome> metronome;  // starts with the first wait, not while tables are made
   const auto wait = [&metronome] {
     if (!metronome)
       metronome.emplace(std::chrono::microseconds(simulation::SimulatedGauges::kSamplePeriod_us));
     return metronome->wait();
   };
-  runOn(port, options, wait, [](std::uint64_t) {});
+  runOn(*port, config, options, wait, [](std::uint64_t) {});
 }
 
 void runRun(const RunOptions& options) {
-  options.isLoopback() ? runOnLoopback(options) : runOnInterface(options);
+  const config::FingerConfig config = options.common.config();
+  options.isLoopback() ? runOnLoopback(config, options) : runOnBus(config, options);
 }
 
 }  // namespace

@@ -122,7 +122,8 @@ std::vector<Cell> noTouch() {
 /// Calls print(sample, strains), samples from 1.
 template <typename Print>
 void forEachRow(const config::FingerConfig& config, Print print) {
-  NumberRowReader rows(std::cin, "stdin", static_cast<std::size_t>(config.gauges.count), strainLimit());
+  NumberRowReader rows(std::cin, "stdin", static_cast<std::size_t>(config.gauges.count),
+                       strainLimit(config.gauges.count));
   Eigen::VectorXd gains = Eigen::VectorXd::Ones(config.gauges.count);
   for (std::size_t i = 0; i < config.calibration.gain.size(); ++i)
     gains[static_cast<Eigen::Index>(i)] = config.calibration.gain[i];

@@ -18,6 +18,9 @@ const toml::node* find(const toml::table& root, std::string_view section, std::s
   return table == nullptr ? nullptr : sectionOf(*table, section).get(name);
 }
 
+/// What `record` notes beside a config: not a finger's.
+constexpr std::string_view kRecordingSection = "recording";
+
 std::vector<std::string> dottedKeys(std::string_view section = {}) {
   std::vector<std::string> names;
   for (const Key& key : keys())
@@ -29,6 +32,7 @@ std::vector<std::string> sections() {
   std::vector<std::string> names{"schema"};
   for (const Key& key : keys())
     if (names.back() != key.section) names.emplace_back(key.section);
+  names.emplace_back(kRecordingSection);
   return names;
 }
 
@@ -38,7 +42,7 @@ void checkAllKeys(const toml::table& root) {
   suggestions.insert(suggestions.end(), all.begin(), all.end());
   checkKeys(root, "", top, suggestions);
   for (const auto& [name, node] : root) {
-    if (name.str() == "schema") continue;
+    if (name.str() == "schema" || name.str() == kRecordingSection) continue;
     const auto& section = sectionOf(node, name.str());
     checkKeys(section, fmt::format("{}.", name.str()), dottedKeys(name.str()), all);
   }

@@ -43,7 +43,11 @@ void writeText(const fs::path& path, const std::string& text) {
 void writeData(const fs::path& path, const DataFile& data) {
   File file = create(path);
   TableWriter table(file.get(), TableFormat::kCsv, data.columns);
-  for (const auto& row : data.rows) table.row({row.begin(), row.end()});
+  for (const auto& row : data.rows)
+    if (row.empty())
+      std::fputc('\n', file.get());
+    else
+      table.row({row.begin(), row.end()});
   close(std::move(file), path);
 }
 

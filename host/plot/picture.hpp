@@ -7,11 +7,12 @@
 
 namespace strainfinger::plot {
 
-/// Columns of numbers. A NaN is a gap in a curve.
+/// Columns of numbers. A NaN is a gap in a curve; an empty row, a blank line in the file, also ends a filled
+/// area.
 struct DataFile {
   std::string name;
   std::vector<std::string> columns;
-  std::vector<std::vector<double>> rows;  ///< one number a column
+  std::vector<std::vector<double>> rows;  ///< one number a column, or none
 };
 
 /// The script names a data file `data('name')` and a column that may have gaps `(gap(n))`; terminal, output

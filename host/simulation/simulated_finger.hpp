@@ -38,6 +38,7 @@ struct Moment {
   double time_s = 0;
   std::vector<Touch> truth;
   std::optional<ComparedTouch> compared;  ///< a report that was complete on the bus with this set
+  bool isZeroing = false;                 ///< the set went into the zero: there are no readings of it
 };
 
 struct RunCounts {
@@ -75,8 +76,9 @@ class SimulatedFinger {
   void pass(std::uint64_t periods, Visit visit) {
     clock_.advance_us(periods * SimulatedGauges::kSamplePeriod_us);
     for (bool sampled = true; sampled;) {
+      const bool isZeroing = finger_.state() != FingerState::kRun;
       sampled = finger_.step();
-      Moment moment{gauges_.sampleTime_s(), gauges_.truth(), std::nullopt};
+      Moment moment{gauges_.sampleTime_s(), gauges_.truth(), std::nullopt, isZeroing};
       listen(moment);
       if (sampled) visit(std::as_const(moment));
     }
@@ -100,6 +102,8 @@ class SimulatedFinger {
   static firmware::FingerSettings settingsOf(const config::FingerConfig& config, firmware::FitMode mode) {
     return {.node = static_cast<std::uint8_t>(config.can.node),
             .contactRate_hz = static_cast<std::uint16_t>(config.can.contact_rate_hz),
+            .samplePeriod_us = SimulatedGauges::kSamplePeriod_us,
+            .bitrate = static_cast<std::uint32_t>(config.can.bitrate),
             .mode = mode,
             .standingFlags = config.calibration.isEmpty()
                                  ? FingerFlags{FingerFlag::kSimulated}

@@ -1,6 +1,7 @@
 #pragma once
 // Being asked to stop.
 
+#include <chrono>
 #include <csignal>
 
 namespace strainfinger::system {
@@ -19,6 +20,10 @@ class StopSignal {
   }
   StopSignal(const StopSignal&) = delete;
   StopSignal& operator=(const StopSignal&) = delete;
+
+  /// How often to look at asked() while waiting for something else: nobody notices that a Ctrl-C takes so
+  /// long.
+  static constexpr std::chrono::milliseconds kLookEvery{100};
 
   bool asked() const { return asked_ != 0; }
 

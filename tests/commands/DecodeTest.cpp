@@ -25,15 +25,15 @@ TEST(Decode, PrintsARowAFrame) {
   const Run run = runProgram("decode", contact_ + force_ + patch_ + contact2_ + force2_ + heartbeat_);
   LONGS_EQUAL(0, run.status);
   STRCMP_EQUAL(
-      "1609779922.655421,can0,5,CONTACT,10,2.9,,contact+simulated,97,163,,,,,,,,,,,,,,,,,,,,,,,,,,\n"
+      "1609779922.655421,can0,5,CONTACT,10,2.9,,contact+simulated,97,163,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,\n"
       "1609779922.655421,can0,5,FORCE,,,,contact+simulated,,163,0.29,-0.226,0.0035,0.0045,,,,,,,,,,,,,,,,,,,,"
-      ",,\n"
+      ",,,,,,\n"
       "1609779922.655421,can0,5,PATCH,,,,contact+simulated,,163,,,,,0.00204,0.00015,1.0625,2,,,,,,,,,,,,,,,,,"
-      ",\n"
-      "1609779922.655421,can0,5,CONTACT2,199.8,3.1,,contact+simulated,95,163,,,,,,,,,,,,,,,,,,,,,,,,,,\n"
+      ",,,,,\n"
+      "1609779922.655421,can0,5,CONTACT2,199.8,3.1,,contact+simulated,95,163,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,\n"
       "1609779922.655421,can0,5,FORCE2,,,,contact+simulated,,163,0.41,0.035,0.0045,0.0045,,,,,,,,,,,,,,,,,,,,"
-      ",,\n"
-      "1609779922.655421,can0,5,HEARTBEAT,,,,,,,,,,,,,,,run,2,,3661,25,0,0,167,,,,,,,,,,\n",
+      ",,,,,,\n"
+      "1609779922.655421,can0,5,HEARTBEAT,,,,,,,,,,,,,,,run,2,,3661,25,0,0,167,,,,,,,,,,,,,,\n",
       rows(run).c_str());
 }
 
@@ -74,6 +74,117 @@ TEST(Decode, CountsWhatIsNoFingers) {
   const Run run = runProgram("decode", other_ + contact_ + other_);
   LONGS_EQUAL(0, run.status);
   checkSays("3 lines (log, absolute time), 1 frames decoded, 2 others skipped", run);
+  checkSays("skipped 2 with identifiers that are no finger's", run);
+}
+
+TEST(Decode, NamesWhatItSkips) {
+  const std::string t = "(1609779922.655421) can0 ";
+  const Run run =
+      runProgram("decode --node 5", t + "12345678#11\n" + t + "185#R8\n" + t + "20000080#0000000000000000\n" +
+                                        t + "185##311\n" + t + "186#E8032201808161A3\n" + contact_ + t +
+                                        "185#E803\n" + t + "285#\n");
+  LONGS_EQUAL(0, run.status);
+  checkSays("8 lines (log, absolute time), 1 frames decoded, 7 others skipped", run);
+  for (const char* text : {"skipped 1 of other nodes\n", "skipped 1 with extended (29-bit) identifiers\n",
+                           "skipped 1 remote requests\n", "skipped 1 of CAN FD\n", "skipped 1 error frames",
+                           "skipped 2 malformed: not the length of such a frame\n",
+                           "stdin:7: CONTACT of node 5 has 2 bytes, not 8\n"})
+    checkSays(text, run);
+}
+
+TEST(Decode, ShowsResponses) {
+  const Run run = runProgram("decode", "(1609779922.655421) can0 585#0281040000000000\n");
+  LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS("can0,5,RESPONSE,", run.out.c_str());
+  STRCMP_CONTAINS(",tare,,touched,\n", run.out.c_str());
+  checkSays("1 frames decoded, 0 others skipped", run);
+}
+
+TEST(Decode, PrintsARowATouch) {
+  const Run run =
+      runProgram("decode --touches", contact_ + force_ + patch_ + contact2_ + force2_ + heartbeat_);
+  LONGS_EQUAL(0, run.status);
+  STRCMP_EQUAL(
+      "time_s,interface,node,angle_deg,normal_n,tangential_n,width_m,sigma_angle_deg,sigma_normal_n,"
+      "sigma_tangential_n,sigma_width_m,quality_percent,chi,flags,sequence,angle2_deg,normal2_n,tangential2_"
+      "n\n"
+      "1609779922.655421,can0,5,10,0.29,-0.226,0.00204,2.9,0.0035,0.0045,0.00015,97,1.0625,contact+simulated,"
+      "163,"
+      "199.8,0.41,0.035\n",
+      run.out.c_str());
+}
+
+TEST(Decode, TellsTwoFingersOfOneNumberFromLosses) {
+  const Run run = runShell(
+      "\"$STRAINFINGER\" run --duration 2 >a; \"$STRAINFINGER\" run --seed 2 --duration 2 | tail -n +2 >b\n"
+      "paste -d '\\n' a b | grep . | \"$STRAINFINGER\" decode; rm a b");
+  checkSays("two fingers send as this node", run);
+  CHECK(run.err.find(" lost, ") == std::string::npos);
+}
+
+TEST(Decode, ReadsFilesInTheirOrder) {
+  const Run run = runShell(
+      "cd $(mktemp -d); cat >b; echo '(1.000000) can1 185#E8032201808161A3' >a\n"
+      "\"$STRAINFINGER\" decode a b - b <a; rm a b",
+      force_ + "rubbish\n");
+  LONGS_EQUAL(0, run.status);
+  checkSays("b:2:8: ", run);
+  checkSays("6 lines", run);
+  const std::size_t first = run.out.find("can1,5,CONTACT"), second = run.out.find("can0,5,FORCE");
+  CHECK(first < second && second < run.out.find("can1,5,CONTACT", second));
+}
+
+TEST(Decode, RefusesFilesThatAreNotThereBeforeItPrints) {
+  const Run run = runShell("\"$STRAINFINGER\" decode /dev/stdin /nonexistent", contact_);
+  LONGS_EQUAL(1, run.status);
+  STRCMP_EQUAL("", run.out.c_str());
+  checkSays("/nonexistent: cannot read: No such file or directory", run);
+}
+
+TEST(Decode, AnUnreadableStdinIsAFailure) {
+  for (const char* stdin : {"</", "<&-"}) {
+    const Run run = runProgram(std::string("decode ") + stdin);
+    LONGS_EQUAL(1, run.status);
+    checkSays("strainfinger: stdin: cannot read: ", run);
+  }
+}
+
+TEST(Decode, CtrlCStillPrintsTheSummary) {
+  const Run run = runShell(
+      "pipe=$(mktemp -u); mkfifo $pipe; exec 3<>$pipe; cat >&3\n"
+      "\"$STRAINFINGER\" decode <$pipe & sleep 0.5; kill -INT $!; wait $!; status=$?; rm $pipe; exit $status",
+      contact_);
+  LONGS_EQUAL(130, run.status);
+  STRCMP_CONTAINS("CONTACT", run.out.c_str());
+  checkSays("1 frames decoded", run);
+}
+
+TEST(Decode, FollowsAFileThatGrows) {
+  const Run run = runShell(
+      "log=$(mktemp); \"$STRAINFINGER\" decode --follow $log & sleep 0.3; head -c 20 >>$log; sleep 0.2; cat "
+      ">>$log\n"
+      "sleep 0.3; kill -INT $!; wait $!; status=$?; rm $log; exit $status",
+      contact_ + force_);
+  LONGS_EQUAL(130, run.status);
+  STRCMP_CONTAINS("FORCE", run.out.c_str());
+  checkSays("2 frames decoded", run);
+}
+
+TEST(Decode, FollowsOneFile) {
+  checkRefused("decode --follow", "--follow needs one FILE");
+  checkRefused("decode --follow -", "--follow needs one FILE");
+  checkRefused("decode --follow a b", "--follow needs one FILE");
+}
+
+TEST(Decode, NumbersThatCannotBeAreErrors) {
+  const Run run =
+      runProgram("decode",
+                 "DROPCOUNT: dropped 4294967296 CAN frames on 'can0' socket (total drops 4)\n"
+                 "(16097799229.655421) can0 185#\n (2021-02-31 18:05:22.655421)  can0  185   [0]\n"
+                 "(1609779922.655421) can0 800#\n");
+  LONGS_EQUAL(1, run.status);
+  checkSays("4 of 4 lines could not be read", run);
+  checkSays("stdin:3:3: no such date", run);
 }
 
 TEST(Decode, CountsWhatWasLost) {

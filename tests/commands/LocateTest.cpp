@@ -177,3 +177,25 @@ TEST(LocateCommand, AnUnknownModeIsToldOfTheKnownOnes) {
                  ("--mode: " + mode + " is not one of refined, three-point\n").c_str());
   STRCMP_CONTAINS("--mode MODE ", runProgram("locate --help").out.c_str());
 }
+
+TEST(LocateCommand, OtherColumnsArePassedThroughAndTheGaugesFoundByName) {
+  std::string header = "time_s,note", row = "0.10,left";
+  for (int gauge = 15; gauge >= 0; --gauge) {
+    header += ",strain_" + std::to_string(gauge);
+    row += ",0";
+  }
+  const Run run = runProgram("locate", header + "\n" + row + "\n");
+  STRCMP_CONTAINS("time_s,note,contact,angle_deg", run.out.c_str());
+  STRCMP_CONTAINS("\n0.10,left,0,,", run.out.c_str());
+  const Run json = runProgram("locate --json", header + "\n" + row + "\n");
+  STRCMP_CONTAINS("{\"time_s\":0.1,\"note\":\"left\",\"contact\":0", json.out.c_str());
+}
+
+TEST(LocateCommand, AHeaderWithoutTheGaugesIsRefused) {
+  std::string header = "g0";
+  for (int gauge = 1; gauge < 16; ++gauge) header += ",g" + std::to_string(gauge);
+  const Run run = runProgram("locate", header + "\n");
+  LONGS_EQUAL(1, run.status);
+  STRCMP_CONTAINS("stdin:1:1: the header has no column strain_0: name them strain_0 to strain_15",
+                  run.err.c_str());
+}

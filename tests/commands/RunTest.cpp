@@ -115,6 +115,35 @@ TEST(RunCommand, DrawsPictures) {
   STRCMP_EQUAL("PNG1\n", run.out.c_str());
 }
 
+TEST(RunCommand, KeepsTimeOnABusAndObeys) {
+  const Run run = runShell(R"(
+"$STRAINFINGER" run --can udp:19997 --duration 4 & finger=$!
+for _ in $(seq 10); do "$STRAINFINGER" config --can udp:19997 --contact-rate-hz 200 && break; done; wait $finger)");
+  STRCMP_EQUAL("interface,node,command,status\nudp:19997,1,contact_rate,done\n", run.out.c_str());
+  STRCMP_CONTAINS("run: 4.0", run.err.c_str());
+  LONGS_EQUAL(0, run.status);
+}
+
+TEST(RunCommand, WritesWhatCalibrateShapeAndLocateRead) {
+  const Run run = runShell(R"(
+d=$(mktemp -d); cd $d
+"$STRAINFINGER" run --strains s.csv --touches k.csv >/dev/null 2>&1
+head -1 s.csv; head -1 k.csv; wc -l <s.csv; wc -l <k.csv
+"$STRAINFINGER" calibrate --strains s.csv --touches k.csv | cut -d, -f3 | tail -n +2 | tr '\n' ' '
+"$STRAINFINGER" locate <s.csv | cut -d, -f1-2 | head -1
+rm -r $d)");
+  STRCMP_CONTAINS("time_s,strain_0,", run.out.c_str());
+  STRCMP_CONTAINS("\nangle_deg,normal_n_per_m,tangential_n_per_m\n", run.out.c_str());
+  STRCMP_CONTAINS(" time_s,contact\n", run.out.c_str());
+  STRCMP_CONTAINS("1.00", run.out.c_str());
+}
+
+TEST(RunCommand, AFileThatCannotBeWrittenIsAFailure) {
+  const Run run = runProgram("run --duration 0.2 --strains /nowhere/s.csv");
+  LONGS_EQUAL(1, run.status);
+  STRCMP_CONTAINS("/nowhere/s.csv", run.err.c_str());
+}
+
 TEST(RunCommand, TheNodeIsTheConfigs) {
   const Run run = runProgram("run --duration 1 -c /dev/stdin", "schema = 1\n[can]\nnode = 9\n");
   LONGS_EQUAL(0, framesOf("181", run.out).size());

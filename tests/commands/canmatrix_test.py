@@ -59,8 +59,11 @@ FRAMES = {
     "RESPONSE": (0x580, [
         ("length", 0, 7, None, "1"), ("command", 0, 127, None, "1"), ("answer", 0, 1, None, "1"),
         ("status", 0, 255, None, "1"), ("value", 0, 0xFFFFFFFF, None, "1")]),
+    "RAW": (0x400, [
+        ("page", 0, 15, None, "1"), ("kind", 0, 15, None, "1"), ("sample", 0, 255, None, "1"),
+        ("code_0", 0, 0xFFFF, None, "1"), ("code_1", 0, 0xFFFF, None, "1"), ("code_2", 0, 0xFFFF, None, "1")]),
 }
-COMMANDS = ("REQUEST", "RESPONSE")  # not what `decode` prints
+COMMANDS = ("REQUEST", "RESPONSE", "RAW")  # not what a finger sends by itself
 
 
 def codec(lines):
@@ -132,7 +135,7 @@ class Canmatrix(unittest.TestCase):
             sender = "HOST" if name == "REQUEST" else "FINGER_5"
             self.assertEqual((name, 8, [sender]), (frame.name, frame.size, frame.transmitters))
             self.assertFalse(frame.arbitration_id.extended)
-        self.assertEqual([50, 50, 50, 50, 50, 100, 1000, 1000, 0, 0], [self.frame(name).cycle_time for name in FRAMES])
+        self.assertEqual([50, 50, 50, 50, 50, 100, 1000, 1000, 0, 0, 0], [self.frame(name).cycle_time for name in FRAMES])
 
     def test_signals_have_unit_range_and_comment(self):
         for name, (_, fields) in FRAMES.items():
@@ -220,7 +223,7 @@ class Canmatrix(unittest.TestCase):
             for signal in ("sequence", *FLAGS):
                 self.assertEqual([each[signal] for each in contacts], [each[signal] for each in others], signal)
         self.assertEqual({1}, {each["simulated"] for each in contacts})
-        self.assertEqual(sum(each["contacts"] == 2 for each in patches), len(seen["CONTACT2"]))
+        self.assertEqual(sum(each["contacts"] == 2 for each in patches), sum(each["contact"] for each in seen["CONTACT2"]))
         self.assertEqual([each["sequence"] for each in seen["CONTACT2"]], [each["sequence"] for each in seen["FORCE2"]])
         self.assertEqual(20, len(seen["HEARTBEAT"]))
 

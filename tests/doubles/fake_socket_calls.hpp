@@ -22,6 +22,7 @@ class FakeSocketCalls final : public can::SocketCalls {
     int result = sizeof(can_frame);
     can_frame frame{};
     std::optional<std::uint32_t> lost{};
+    std::int64_t time_ns = 0;
   };
 
   int openResult = 0;        ///< these four: 0, or the -errno to fail with
@@ -75,14 +76,15 @@ class FakeSocketCalls final : public can::SocketCalls {
     return result;
   }
 
-  int read(int socket, can_frame& frame, std::uint32_t& lost) noexcept override {
+  int read(int socket, can_frame& frame, can::ReceiveNotes& notes) noexcept override {
     if (!hearsErrors_.contains(socket)) return -EBADF;
     auto& waiting = hearsErrors_[socket] ? errors : frames;
     if (waiting.empty()) return -EAGAIN;
     const Read next = waiting.front();
     waiting.pop_front();
     frame = next.frame;
-    lost = next.lost.value_or(lost);
+    notes.lost = next.lost.value_or(notes.lost);
+    notes.time_ns = next.time_ns;
     return next.result;
   }
 

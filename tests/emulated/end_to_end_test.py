@@ -102,6 +102,10 @@ class Told:
         machine.run(f"({program.format('tare')} &>$TMPDIR/tare || true; touch $JOB/tared) &")
         untouched_until(machine, board, machine.job / "tared")  # a zero takes 64 sets; the program takes its time to start
         self.tare = machine.run("cat $TMPDIR/tare")
+        machine.run(f"({program.format('strains')} --rate 50 --duration 2 >$TMPDIR/strains 2>$TMPDIR/said || true; touch $JOB/strained) &")
+        untouched_until(machine, board, machine.job / "strained")
+        self.strains = machine.run("cat $TMPDIR/strains")
+        self.said_of_strains = machine.run("cat $TMPDIR/said")
         self.rate = machine.run(f"{program.format('config')} --contact-rate-hz {self.RATE_HZ} 2>&1")
         machine.record()
         play([(board, finger.records[300:300 + self.TOUCHED_MS])])
@@ -187,6 +191,13 @@ class Commands(unittest.TestCase):
 
     def test_a_tare_from_linux_is_done_and_answered(self):
         self.assertEqual(told.tare, self.ANSWER.format("tare"))
+
+    def test_its_strains_come_to_linux(self):
+        names, *rows = (line.split(",") for line in told.strains.splitlines())
+        self.assertEqual(["time_s", *(f"strain_{gauge}" for gauge in range(16))], names)
+        self.assertGreater(len(rows), 50, told.said_of_strains)
+        self.assertEqual({0}, {float(strain) for row in rows for strain in row[1:]}, "untouched, of the finger's zero")
+        self.assertIn(" sets, 0 incomplete", told.said_of_strains)
 
     def test_a_contact_rate_from_linux_is_done_and_answered(self):
         self.assertEqual(told.rate, self.ANSWER.format("contact_rate"))

@@ -6,12 +6,15 @@
 #include <string_view>
 
 #include "firmware/app/finger.hpp"
+#include "firmware/board/mps2/world_record.hpp"
 
 namespace strainfinger::mps2 {
 
 /// Of node `node`; domain: kFirstNode .. kLastNode.
 constexpr firmware::FingerSettings settingsOf(std::uint8_t node) {
-  return {.node = node, .standingFlags = {FingerFlag::kUncalibrated, FingerFlag::kSimulated}};
+  return {.node = node,
+          .samplePeriod_us = kRecordPeriod_us,
+          .standingFlags = {FingerFlag::kUncalibrated, FingerFlag::kSimulated}};
 }
 
 /// N of "node=N" at the end of the emulator's command line, so that one image serves every finger of a bus;

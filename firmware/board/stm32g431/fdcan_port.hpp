@@ -80,7 +80,8 @@ class FdcanPort {
             .txErrors = static_cast<std::uint8_t>(Fdcan::Ecr::txErrors.in(errors)),
             .rxErrors = static_cast<std::uint8_t>(rxPassive ? 128 : Fdcan::Ecr::rxErrors.in(errors)),
             .dropped = dropped_,
-            .missed = missed_};
+            .missed = missed_,
+            .busOffs = busOffs_};
   }
 
   /// Takes what has arrived out of the controller, notes what has been sent, sees to bus-off.
@@ -90,8 +91,6 @@ class FdcanPort {
     retire();
     recover();
   }
-
-  std::uint32_t busOffs() const noexcept { return busOffs_; }  ///< since start
 
  private:
   using Cccr = Fdcan::Cccr;

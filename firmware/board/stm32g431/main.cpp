@@ -30,6 +30,8 @@ using Watchdog = IndependentWatchdog<MemoryBus, Clock>;
 
 /// Of the image; settings that were kept take their place.
 constexpr firmware::FingerSettings kSettings{.node = STRAINFINGER_NODE,
+                                             .samplePeriod_us = 1'000'000 / STRAINFINGER_SAMPLE_RATE,
+                                             .bitrate = STRAINFINGER_BITRATE,
                                              .standingFlags = {FingerFlag::kUncalibrated}};
 static_assert(kSettings.node >= kFirstNode && kSettings.node <= kLastNode);
 static_assert(canTiming(ClockSource::kCrystal, STRAINFINGER_BITRATE), "not a bit rate of can_rates.hpp");

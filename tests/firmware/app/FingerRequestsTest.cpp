@@ -364,3 +364,50 @@ TEST(FingerRequests, AnOldAnswerIsNeverSent) {
   LONGS_EQUAL(0, responses().size());
   LONGS_EQUAL(100, contactsOf(1000));
 }
+
+TEST(FingerRequests, RawIsSentAtTheRateAskedForUntilItIsEnded) {
+  const auto sets = [this] {
+    int count = 0;
+    for (const CanFrame& frame : can.sent)
+      if (const auto page = decode<RawFrame>(frame))
+        count += page->page == 0 && page->kind == RawKind::kReadings;
+    return count;
+  };
+  run(10);
+  LONGS_EQUAL(0, sets());
+  ask(rawRequest(250));
+  checkAnswer(Command::kRaw, CommandStatus::kDone);
+  run(100);
+  LONGS_EQUAL(25, sets());
+  can.sent.clear();
+  ask(rawRequest(0));
+  checkAnswer(Command::kRaw, CommandStatus::kDone);
+  run(100);
+  LONGS_EQUAL(0, sets());
+}
+
+TEST(FingerRequests, RawTellsWhichSetsGoIntoTheZero) {
+  ask(rawRequest(1000));
+  ask(tareRequest(false));
+  run(100);
+  int zeroing = 0;
+  for (const CanFrame& frame : can.sent)
+    if (const auto page = decode<RawFrame>(frame))
+      zeroing += page->page == 0 && page->kind == RawKind::kZeroing;
+  LONGS_EQUAL(ZeroAverage::kSamples, zeroing);
+}
+
+TEST(FingerRequests, RawBeyondItsShareOfTheBusIsRefusedWithTheFastestRate) {
+  Finger<FakeGaugeAdc, FakeCanPort, FakeClock, SpyWatchdog, FakeNonVolatile> slow{
+      ring.tables(), {.node = kNode, .bitrate = 125'000}, adc, can, clock, watchdog, store};
+  can.sent.clear();
+  const auto askSlow = [&](std::uint16_t rate_hz) {
+    can.deliver(encode(rawRequest(rate_hz), kNode));
+    slow.step();
+    return responses().at(0);
+  };
+  CHECK_TRUE(askSlow(1000) ==
+             responseTo(Command::kRaw, CommandStatus::kTooFast, 125));  // 67 % / (6 * 111 bits)
+  CHECK_TRUE(askSlow(126) == responseTo(Command::kRaw, CommandStatus::kTooFast, 125));
+  CHECK_TRUE(askSlow(125) == responseTo(Command::kRaw, CommandStatus::kDone));
+}

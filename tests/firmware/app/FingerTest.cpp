@@ -61,9 +61,9 @@ TEST_GROUP(Finger) {
     finger = std::make_unique<Fingers>(ring.tables(), settings, adc, can, clock, watchdog);
   }
 
-  hal::SampleSet codesOf(const Press& press) {
+  hal::SampleSet codesOf(const Press& press) { return codesOfStrains(ring.strains(press)); }
+  hal::SampleSet codesOfStrains(const std::vector<double>& strains) {
     hal::SampleSet set{};
-    const auto strains = ring.strains(press);
     std::transform(strains.begin(), strains.end(), set.begin(),
                    [&](double strain) { return converter.codeOf(strain); });
     return set;
@@ -127,6 +127,65 @@ TEST(Finger, AZeroAwayFromMidScaleIsNoTouch) {
   run(300, kTouch);
   LONGS_EQUAL(0, finger->counters().fits);
   LONGS_EQUAL(0, sent<ContactFrame>().size());
+}
+
+TEST(Finger, WhenSomethingIsSaidDependsOnTheSetsAndNotOnWhenTheyAreFetched) {
+  const auto framesWith = [this](std::uint32_t lateness_us) {
+    can.sent.clear();
+    start({.node = kNode, .contactRate_hz = 400});
+    runZeroed();
+    for (int i = 0; i < 200; ++i) {
+      const std::uint32_t late_us = i % 3 == 0 ? lateness_us : 0;
+      clock.advance(kSample_us + late_us);
+      adc.convert(codesOf({3.2 + 0.002 * i, 20, 4}));
+      finger->step();
+      clock.advance(0u - late_us);
+    }
+    return sent<ContactFrame>();
+  };
+  const auto punctual = framesWith(0);
+  CHECK_TRUE(punctual.size() > 20);
+  CHECK_TRUE(punctual == framesWith(700));
+}
+
+TEST(Finger, ASecondContactThatEndsIsSaidOnceMoreWithoutForce) {
+  runZeroed();
+  const hal::SampleSet both = codesOfStrains(ring.strains({{0.5, 25, 0}, {8.2, 20, 3}}));
+  runSets(400, both);
+  CHECK_FALSE(sent<Force2Frame>().empty());
+  LONGS_EQUAL(2, sent<PatchFrame>().back().contacts);
+  can.sent.clear();
+  for (int i = 0; i < 400; ++i) run(1, {0.5 + 0.01 * (i % 2), 25, 0});
+  const auto forces = sent<Force2Frame>();
+  LONGS_EQUAL(1, std::ranges::count_if(forces, [](const Force2Frame& force) {
+                return !force.flags.has(FingerFlag::kContact);
+              }));
+  LONGS_EQUAL(0, forces.back().normal_mN);
+  LONGS_EQUAL(0, forces.back().tangential_mN);
+  CHECK_FALSE(forces.back().flags.has(FingerFlag::kContact));
+  CHECK_FALSE(sent<Contact2Frame>().back().flags.has(FingerFlag::kContact));
+  LONGS_EQUAL(kNotKnown<std::uint16_t>, sent<Contact2Frame>().back().angle_cdeg);
+  CHECK_TRUE(sent<ForceFrame>().back().flags.has(FingerFlag::kContact));
+  runSets(400, both);
+  can.sent.clear();
+  run(200);
+  LONGS_EQUAL(0, sent<ForceFrame>().back().normal_mN);
+  CHECK_FALSE(sent<Force2Frame>().empty());
+  LONGS_EQUAL(0, sent<Force2Frame>().back().normal_mN);
+  LONGS_EQUAL(sent<ContactFrame>().back().sequence, sent<Force2Frame>().back().sequence);
+}
+
+TEST(Finger, AForceWhoseContactWasLostToBusOffIsDropped) {
+  runZeroed();
+  can.room = 1;  // the CONTACT alone
+  run(1, kTouch);
+  LONGS_EQUAL(1, sent<ContactFrame>().size());
+  LONGS_EQUAL(0, sent<ForceFrame>().size());
+  ++can.bus.busOffs;
+  can.room = SIZE_MAX;
+  finger->step();
+  LONGS_EQUAL(0, sent<ForceFrame>().size());
+  LONGS_EQUAL(1, finger->counters().touchesIncomplete);
 }
 
 TEST(Finger, SendsNothingButHeartbeatsUntouched) {

@@ -148,9 +148,11 @@ TEST(SlcanPort, TheStateOfTheBusIsTold) {
 TEST(SlcanPort, NothingIsSentWhileTheBusIsOff) {
   answerTo("O\r");
   port.setBus({.state = hal::CanState::kBusOff, .txErrors = 255, .rxErrors = 0});
+  port.setBus({.state = hal::CanState::kBusOff, .txErrors = 255, .rxErrors = 0});
   CHECK_FALSE(port.send(kFrame));
   port.setBus({.state = hal::CanState::kActive, .txErrors = 0, .rxErrors = 0});
+  LONGS_EQUAL(1, port.status().busOffs);
   CHECK_TRUE(port.send(kFrame));
   port.poll();
-  STRCMP_EQUAL("sb000255\rsa000000\rt18115A\r", line.read().c_str());
+  STRCMP_EQUAL("sb000255\rsb000255\rsa000000\rt18115A\r", line.read().c_str());
 }

@@ -47,6 +47,54 @@ TEST(NumberRows, AFirstRowWithANumberInItIsNoHeader) {
   STRCMP_EQUAL("stdin:1:1: \"foo\" is no number", complaintAbout("foo,2\n").c_str());
 }
 
+TEST(NumberRows, NamedColumnsAreFoundAmongOthers) {
+  std::istringstream stream("time_s, b,\"note\",a\n0.100,2,\"x y\",1\n0.2,4,,3\n");
+  NumberRowReader reader(stream, "stdin", 2, {.columns = {"a", "b"}});
+  std::vector<double> row;
+  CHECK_TRUE(reader.next(row));
+  CHECK_TRUE(row == (std::vector<double>{1, 2}));
+  CHECK_TRUE(reader.otherNames() == (std::vector<std::string>{"time_s", "note"}));
+  CHECK_TRUE(reader.others() == (std::vector<std::string>{"0.100", "x y"}));
+  CHECK_TRUE(reader.next(row));
+  CHECK_TRUE(row == (std::vector<double>{3, 4}));
+  CHECK_TRUE(reader.others() == (std::vector<std::string>{"0.2", ""}));
+}
+
+TEST(NumberRows, WithoutAHeaderNamedColumnsAreAllThereIs) {
+  std::istringstream stream("1,2\n");
+  NumberRowReader reader(stream, "stdin", 2, {.columns = {"a", "b"}});
+  std::vector<double> row;
+  CHECK_TRUE(reader.next(row));
+  CHECK_TRUE(row == (std::vector<double>{1, 2}));
+  CHECK_TRUE(reader.otherNames().empty());
+}
+
+TEST(NumberRows, AHeaderWithoutTheNamedColumnsIsRefused) {
+  const std::pair<const char*, const char*> complaints[] = {
+      {"a,c\n1,2\n", "stdin:1:1: the header has no column b: name them a to b, or leave the header out"},
+      {"a,b,a\n1,2,3\n", "stdin:1:1: the header has more than one column a"}};
+  for (const auto& [text, complaint] : complaints) {
+    std::istringstream stream(text);
+    NumberRowReader reader(stream, "stdin", 2, {.columns = {"a", "b"}});
+    std::vector<double> row;
+    try {
+      reader.next(row);
+      FAIL("read");
+    } catch (const Failure& failure) {
+      STRCMP_CONTAINS(complaint, failure.what());
+    }
+  }
+}
+
+TEST(NumberRows, ARowIsAsLongAsItsHeader) {
+  for (const char* row : {"1,2\n", "1,2,3,4\n"}) {
+    std::istringstream stream(std::string("a,b,c\n") + row);
+    NumberRowReader reader(stream, "stdin", 2, {.columns = {"a", "b"}});
+    std::vector<double> values;
+    CHECK_THROWS(Failure, reader.next(values));
+  }
+}
+
 TEST(NumberRows, NamesMayBeQuoted) { LONGS_EQUAL(1, read("\"g0\", \"gauge 1\"\n1,2\n").size()); }
 
 TEST(NumberRows, AByteOrderMarkIsPassedOver) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 
+#include "host/can/socketcan_port.hpp"
 #include "tests/doubles/fake_socket_calls.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -15,7 +16,7 @@ TEST_GROUP(Ask) {
   static constexpr std::uint8_t kNode = 5;
   static constexpr std::chrono::milliseconds kShort{20};
   FakeSocketCalls calls;
-  SocketCanPort port{"can0", 500'000, calls};
+  SocketCanPort port{"can0", 500'000, {}, calls};
 
   void arrives(const CanFrame& frame) {
     can_frame raw{};

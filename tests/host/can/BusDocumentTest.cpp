@@ -11,6 +11,7 @@
 
 #include "common/commands.hpp"
 #include "common/frames.hpp"
+#include "common/raw_share.hpp"
 #include "host/can/candump_text.hpp"
 #include "host/can/frame_catalogue.hpp"
 
@@ -83,6 +84,13 @@ std::string loadRow(int fingers, int contacts, double contactRate_hz) {
                      frames, frames * kBitsUnstuffed / 1e6 * 100, frames * kBitsWorst / 1e6 * 100);
 }
 
+/// The pages of each set, and of the zeros once a second.
+std::string rawRow(int gauges, int rate_hz) {
+  const double frames = (gauges + 2) / 3 * (rate_hz + 1);
+  return fmt::format("| {} | {} | {} | {:.1f} % | {:.1f} % |\n", gauges, rate_hz, frames,
+                     frames * kBitsUnstuffed / 1e6 * 100, frames * kBitsWorst / 1e6 * 100);
+}
+
 }  // namespace
 
 TEST_GROUP(BusDocument) {
@@ -103,6 +111,7 @@ TEST(BusDocument, ExplainsTheFlags) {
   checkHas(tableOf(kFingerFlagNames));
   checkHas(tableOf(kFingerFaultNames));
   checkHas(fmt::format("| value{}", tableOf(kCrashNames).substr(5)));
+  checkHas(fmt::format("| value{}", tableOf(kRawKindNames).substr(5)));
 }
 
 TEST(BusDocument, ExplainsTheCommands) {
@@ -145,6 +154,7 @@ TEST(BusDocument, ItsExamplesAreWhatIsSent) {
                           .crash_address = 0x2AB6,
                           .board = 0x5C}));
   checkHas(line(GaugesFrame{.out_of_use = 1u << 5, .zero_age_s = 61, .zero_rate_nano_per_s = 510}));
+  checkHas(line(RawFrame{2, RawKind::kReadings, 42, 32752, 33072, 32352}));
   checkHas(line(contactRateRequest(200)));
   checkHas(line(responseTo(Command::kContactRate, CommandStatus::kDone)));
   checkHas(line(tareRequest(true)));
@@ -159,6 +169,10 @@ TEST(BusDocument, ItsBusLoadsAreComputed) {
   checkHas(loadRow(1, 2, 500));
   checkHas(loadRow(5, 2, 250));
   checkHas(loadRow(5, 1, 20));
+  for (const int rate_hz : {10, 100, 1000}) checkHas(rawRow(16, rate_hz));
+  checkHas(rawRow(32, fastestRaw_hz(32, 1'000'000)));
+  checkHas(fmt::format("RAW may take {} %", kRawShare_percent));
+  LONGS_EQUAL(kBitsUnstuffed, kFrameBits);
 }
 
 TEST(BusDocument, NamesTheProtocolVersion) {

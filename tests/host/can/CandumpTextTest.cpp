@@ -220,6 +220,7 @@ TEST(CandumpText, SaysWhereATimeIsWrong) {
   checkError(6, "6 or 9 digits", "(160.12345) can0 185#");
   checkError(6, "6 or 9 digits", "(160.1234567) can0 185#");
   checkError(12, "')'", "(160.123456 can0 185#");
+  checkError(2, "that month is shorter", "(2021-02-31 18:05:22.655421)  can0  185   [0]");
   checkError(2, "a date", "(2021-13-04 18:05:22.655421)  can0  185   [0]");
 }
 
@@ -263,6 +264,7 @@ TEST(CandumpText, SaysWhereTheScreenFormIsWrong) {
 
 TEST(CandumpText, SaysWhereADropCountIsWrong) {
   checkError(20, "number", "DROPCOUNT: dropped CAN frames");
+  checkError(20, "4294967295", "DROPCOUNT: dropped 4294967296 CAN frames on 'can0' socket");
   checkError(21, "interface", "DROPCOUNT: dropped 1 CAN frame on 'can0");
 }
 
@@ -278,6 +280,26 @@ TEST(CandumpText, WhatIsWrittenReadsBack) {
     CHECK(classicFrame(line) == frame);
     CHECK(line.time_ns == time_us * 1000);
   }
+}
+
+TEST(CandumpText, WhatIsWrittenIsPlain) {
+  const auto plain = parsePlainLine("(1609779922.655421) can0 185#E80322011EFF01A3");
+  CHECK(plain->frame == frame_);
+  CHECK(plain->time_ns == 1609779922655421000);
+  CHECK(plain->interface == "can0");
+  CHECK(parsePlainLine(formatLogLine(0, "c", {0x001, 1, {0x0A}})).has_value());
+  CHECK(parsePlainLine(formatLogLine(1000002, "vcan0", {0x7FF, 0, {}})).has_value());
+}
+
+TEST(CandumpText, OtherLinesAreNotPlain) {
+  for (const char* line :
+       {"", "(", "(1609779922.655421) ", "(1609779922.655421) can0", "(1609779922.655421) can0 ",
+        "(1609779922.655421) can0 185", "(1609779922.655421) can0 185#E", "(1609779922.655421) can0 185#E8x3",
+        "(1609779922.655421) can0 185##1E8", "(1609779922.655421) can0 185#R8",
+        "(1609779922.655421) can0 00000185#", "(1609779922.655421) can0 800#00",
+        "(1609779922.655421) can0 185#E80322011EFF01A300", "(1609779922.655421)  can0 185#00",
+        "(9223372036.000000) can0 185#", "  can0  185   [2]  E8 03"})
+    CHECK_FALSE_TEXT(parsePlainLine(line).has_value(), line);
 }
 
 // Bytes of the alphabet that the forms are made of, so that the parser gets deep, spliced into good lines: it
@@ -302,6 +324,11 @@ TEST(CandumpText, AnyBytesAreReadOrRefused) {
       if (random() % 3 == 0) line.erase(random() % line.size(), random() % 9);
     }
     const auto parsed = parseLogLine(line);
+    if (const auto plain = parsePlainLine(line)) {
+      const LogLine whole = std::get<LogLine>(parsed);
+      CHECK(plain->frame == classicFrame(whole) && plain->time_ns == whole.time_ns);
+      CHECK(plain->interface == whole.interface);
+    }
     if (const auto* error = std::get_if<LogError>(&parsed))
       CHECK(error->column >= 1 && error->column <= line.size() + 1 && !error->reason.empty());
     else

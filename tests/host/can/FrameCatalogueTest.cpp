@@ -3,6 +3,7 @@
 #include <CppUTest/TestHarness.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -125,4 +126,26 @@ TEST(FrameCatalogue, EveryValidRawValueSurvivesThePhysicalOne) {
       CHECK(fromPhysical(each, toPhysical(each, raw)) == raw);
     CHECK(fromPhysical(each, toPhysical(each, most)) == most);
   });
+}
+
+TEST(FrameCatalogue, FindsFramesOfAWrongLengthByTheirFunction) {
+  STRCMP_EQUAL("CONTACT", findFunction(0x185)->spec.name);
+  for (const std::uint16_t id : std::array<std::uint16_t, 5>{0x180, 0x1C0, 0x605, 0x7FF, 0x000})
+    POINTERS_EQUAL(nullptr, findFunction(id));
+}
+
+TEST(FrameCatalogue, FindsRequestsAndResponses) {
+  STRCMP_EQUAL("REQUEST", findCommand({0x605, 2, {0x01, 0x01}})->spec.name);
+  STRCMP_EQUAL("RESPONSE", findCommand({0x585, 8, {0x02, 0x82}})->spec.name);
+}
+
+// What a CANopen drive's SDO server and its client say (CiA 301): 1000h, 1018h:1, a whole segment, an abort.
+TEST(FrameCatalogue, DrivesSdoFramesAreNoCommands) {
+  for (const CanFrame& frame : {CanFrame{0x605, 8, {0x40, 0x00, 0x10, 0x00}},
+                                CanFrame{0x585, 8, {0x43, 0x00, 0x10, 0x00, 0x92, 0x01}},
+                                CanFrame{0x585, 8, {0x4F, 0x18, 0x10, 0x01, 0x11}},
+                                CanFrame{0x585, 8, {0x00, 'd', 'r', 'i', 'v', 'e'}},
+                                CanFrame{0x585, 8, {0x80, 0x00, 0x10, 0x00, 0x00, 0x00, 0x02, 0x06}},
+                                CanFrame{0x585, 8, {0x02, 0xFF}}, CanFrame{0x185, 8, {0x02, 0x82}}})
+    POINTERS_EQUAL(nullptr, findCommand(frame));
 }

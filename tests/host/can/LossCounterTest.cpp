@@ -2,6 +2,11 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include <array>
+#include <cstdlib>
+#include <random>
+#include <utility>
+
 #include "common/frames.hpp"
 
 using namespace strainfinger;
@@ -130,4 +135,76 @@ TEST(LossCounter, OtherFramesAreNobodys) {
   counter_.count("can0", {0x80, 8, {}});
   counter_.count("can0", {0x181, 4, {}});
   CHECK(counter_.counts().empty());
+}
+
+TEST(LossCounter, TwoFingersOfOneNumberAreToldApartFromLosses) {
+  for (int i = 0; i < 300; ++i) contact(i), contact(i + 100);
+  CHECK_TRUE(only().twoSenders);
+  LONGS_EQUAL(0, only().lost);
+}
+
+TEST(LossCounter, TwoFingersAreNoticedWhateverTheirRates) {
+  for (int i = 0; i < 40; ++i) {
+    for (int k = 0; k < 5; ++k) contact(5 * i + k);
+    contact(i + 17);
+  }
+  CHECK_TRUE(only().twoSenders);
+}
+
+TEST(LossCounter, TwoFingersInStepAreNoticedByWhatTheySay) {
+  for (int i = 0; i < 9; ++i) {
+    contact(i);
+    counter_.count("can0",
+                   encode(ContactFrame{.angle_cdeg = 7, .sequence = static_cast<std::uint8_t>(i)}, 1));
+  }
+  CHECK_TRUE(only().twoSenders);
+}
+
+TEST(LossCounter, TwoSilentFingersAreNoticedByTheirUptimes) {
+  for (int i = 0; i < 9; ++i) heartbeat(100), heartbeat(5);
+  CHECK_TRUE(only().twoSenders);
+}
+
+TEST(LossCounter, TwoFingersThatStartedTogetherBeatTwiceAsOften) {
+  for (int second = 0; second < 5; ++second)
+    for (int i = 0; i < 20; ++i) heartbeat(second);
+  CHECK_TRUE(only().twoSenders);
+}
+
+TEST(LossCounter, OneFingerThatRunsForDaysIsOne) {
+  for (int i = 0; i < 1000; ++i) heartbeat(0xFFFE);
+  for (int second = 0; second < 100; ++second)
+    for (int i = 0; i < 11; ++i) heartbeat(second);
+  CHECK_FALSE(only().twoSenders);
+}
+
+TEST(LossCounter, TwoBoardsOfOneNumberAreNoticed) {
+  for (int i = 0; i < 9; ++i)
+    counter_.count("can0", encode(InfoFrame{.board = static_cast<std::uint8_t>(i % 2 == 0 ? 7 : 9)}, 1));
+  CHECK_TRUE(only().twoSenders);
+}
+
+TEST(LossCounter, AFingerThatWasReplacedIsOne) {
+  for (const std::uint8_t board : std::array<std::uint8_t, 5>{7, 7, 0, 9, 9})
+    counter_.count("can0", encode(InfoFrame{.board = board}, 1));
+  CHECK_FALSE(only().twoSenders);
+}
+
+// A tenth of the frames lost at random, for an hour at 500 a second: each gap looks like another sender's
+// return with a chance of 1 in 256.
+TEST(LossCounter, ManyLossesAreNoSecondSender) {
+  std::mt19937 random(1);
+  std::uint64_t lost = 0;
+  std::uint64_t gap = 0;
+  contact(0);
+  for (int i = 1; i < 1'800'000; ++i) {
+    if (random() % 10 != 0) {
+      contact(i);
+      lost += std::exchange(gap, 0);
+    } else {
+      ++gap;
+    }
+  }
+  CHECK_FALSE(only().twoSenders);
+  CHECK(std::llabs(static_cast<long long>(lost - only().lost)) < static_cast<long long>(lost / 100));
 }

@@ -22,7 +22,7 @@ TEST_GROUP(SocketCanPort) {
   std::unique_ptr<SocketCanPort> port;
 
   void open(const std::string& interface = "can0") {
-    port = std::make_unique<SocketCanPort>(interface, 500'000, calls);
+    port = std::make_unique<SocketCanPort>(interface, 500'000, can::BusFilter{}, calls);
   }
 
   /// The message opening fails with; its status is checked here.
@@ -174,6 +174,22 @@ TEST(SocketCanPort, TheKernelIsAskedForStandardDataFramesOnly) {
   CHECK_FALSE(passes(0x123 | CAN_EFF_FLAG) || passes(0x123 | CAN_RTR_FLAG));
 }
 
+TEST(SocketCanPort, TheKernelIsAskedForTheIdentifiersOfTheFilterOnly) {
+  SocketCanPort filtered("can0", 500'000, can::BusFilter{.id = 0x601, .mask = 0x7FF}, calls);
+  LONGS_EQUAL(0x601, calls.filters.at(0).can_id);
+  LONGS_EQUAL(0x7FF | CAN_EFF_FLAG | CAN_RTR_FLAG, calls.filters.at(0).can_mask);
+}
+
+TEST(SocketCanPort, AFrameComesWithTheTimeOfItsArrival) {
+  open();
+  auto read = dataFrame(0x222);
+  read.time_ns = 1'609'779'922'655'421'000;
+  calls.frames = {read};
+  const auto timed = port->receiveTimed();
+  LONGS_EQUAL(0x222, timed->frame.id);
+  CHECK_TRUE(timed->time_ns == 1'609'779'922'655'421'000);
+}
+
 TEST(SocketCanPort, AFrameIsWrittenAsItIs) {
   open();
   CHECK_TRUE(port->send({.id = 0x7FF, .length = 1, .data = {0x5A, 0xFF}}));
@@ -212,6 +228,16 @@ TEST(SocketCanPort, BusOffRefusesFramesUntilTheControllerRestarts) {
   CHECK_TRUE(port->status().state == CanState::kBusOff);
   calls.errors = {errorFrame(CAN_ERR_RESTARTED)};
   CHECK_TRUE(port->send(kFrame));
+}
+
+TEST(SocketCanPort, WhatItHadTakenIsKnownToBeLostThenEvenIfItIsBack) {
+  open();
+  const std::uint32_t before = port->status().busOffs;
+  calls.errors = {errorFrame(CAN_ERR_BUSOFF), errorFrame(CAN_ERR_RESTARTED)};
+  CHECK_TRUE(port->status().state == CanState::kActive);
+  LONGS_EQUAL(before + 1, port->status().busOffs);
+  interfaceGoesDown();
+  LONGS_EQUAL(before + 2, port->status().busOffs);
 }
 
 TEST(SocketCanPort, AnInterfaceWithoutCarrierIsBusOff) {

@@ -43,6 +43,14 @@ TEST(TouchReceiver, GivesAllFramesInPhysicalUnits) {
   CHECK_FALSE(report->second.has_value());
   CHECK_TRUE(report->flags == (FingerFlags{FingerFlag::kContact, FingerFlag::kSimulated}));
   LONGS_EQUAL(0xA3, report->sequence);
+  CHECK_TRUE(std::isnan(report->alternative_deg));
+}
+
+TEST(TouchReceiver, AnotherAngleThatFitsIsToldRelativeToTheFirst) {
+  CanFrame ambiguous = contact;
+  ambiguous.data[4] = 0xE9;  // -23
+  takes(ambiguous), takes(force);
+  DOUBLES_EQUAL(-23, receiver.take(patch)->alternative_deg, 0);
 }
 
 TEST(TouchReceiver, WhatTheFingerDoesNotKnowIsUnknown) {

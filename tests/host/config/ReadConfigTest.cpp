@@ -191,7 +191,8 @@ TEST(ReadConfig, UnknownSectionsAreNamedWithWhatWasProbablyMeant) {
   checkMention("schema = 1\n[guages]\ncount = 16", "unknown key guages; did you mean gauges?");
   checkMention(
       "schema = 1\n[zzzzzzzz]",
-      "unknown key zzzzzzzz; known here: schema, finger, gauges, contact, can, calibration, as_built");
+      "unknown key zzzzzzzz; known here: schema, finger, gauges, contact, can, calibration, as_built, "
+      "recording");
 }
 
 TEST(ReadConfig, ASectionThatIsAValueIsAnError) {
@@ -383,4 +384,11 @@ TEST(ReadConfig, AFileReadsLikeItsText) {
   std::fclose(file);
   LONGS_EQUAL(7, readConfigFile(path).can.node);
   std::remove(path.c_str());
+}
+
+TEST(ReadConfig, WhatRecordNotesBesideAConfigIsPassedOver) {
+  LONGS_EQUAL(9, readConfig("schema = 1\n[can]\nnode = 9\n[recording]\nbus = \"can0\"\n"
+                            "[[recording.finger]]\nnode = 5\n",
+                            "x.toml")
+                     .can.node);
 }

@@ -310,14 +310,14 @@ TEST(FdcanPort, AfterBusOffNothingStaleGoesOut) {
   CHECK_TRUE(port.send(frame(1, 3)));
   hears({frame(1, 3)});
   LONGS_EQUAL(1, port.status().dropped);
-  LONGS_EQUAL(1, port.busOffs());
+  LONGS_EQUAL(1, port.status().busOffs);
 }
 
 TEST(FdcanPort, WaitsLongerAfterEachBusOff) {
   start();
   for (const std::uint32_t expected_ms : {0U, 10U, 100U, 1000U, 1000U})
     LONGS_EQUAL(expected_ms, backOff_ms());
-  LONGS_EQUAL(5, port.busOffs());
+  LONGS_EQUAL(5, port.status().busOffs);
 }
 
 TEST(FdcanPort, AFrameThatGotThroughEndsTheWaiting) {

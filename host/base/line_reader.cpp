@@ -1,0 +1,94 @@
+#include "host/base/line_reader.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "host/base/failure.hpp"
+
+namespace strainfinger {
+namespace {
+
+/// Room for many lines, so that reading takes few calls; small enough to stay in a cache.
+constexpr std::size_t kReadBuffer_bytes = 4 * LineReader::kLongestLine_bytes;
+
+constexpr const char* kStdinPath = "-";
+
+}  // namespace
+
+LineReader::LineReader(const std::string& path)
+    : name_(path == kStdinPath ? "stdin" : path),
+      descriptor_(path == kStdinPath ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)),
+      buffer_(kReadBuffer_bytes) {
+  if (descriptor_ < 0) fail(errno);
+}
+
+LineReader::~LineReader() {
+  if (descriptor_ != STDIN_FILENO) ::close(descriptor_);
+}
+
+std::optional<std::string_view> LineReader::next() {
+  for (;;) {
+    const char* const start = buffer_.data() + begin_;
+    const void* const found = std::memchr(buffer_.data() + searched_, '\n', end_ - searched_);
+    if (found == nullptr) break;
+    const auto length = static_cast<std::size_t>(static_cast<const char*>(found) - start);
+    begin_ += length + 1;
+    searched_ = begin_;
+    if (!std::exchange(skippingLine_, false))
+      return std::string_view(start, std::min(length, kLongestLine_bytes));
+  }
+  searched_ = end_;
+  return end_ - begin_ > kLongestLine_bytes ? rest() : std::nullopt;
+}
+
+std::optional<std::string_view> LineReader::rest() {
+  const std::string_view text(buffer_.data() + begin_, std::min(end_ - begin_, kLongestLine_bytes));
+  begin_ = searched_ = end_;
+  if (text.empty() || std::exchange(skippingLine_, true)) return std::nullopt;
+  return text;
+}
+
+LineReader::Got LineReader::read(std::chrono::milliseconds longest) {
+  if (!waitReadable(longest)) return Got::kNothing;
+  makeRoom();
+  const ssize_t count = ::read(descriptor_, buffer_.data() + end_, buffer_.size() - end_);
+  if (count < 0 && errno != EINTR && errno != EAGAIN) fail(errno);
+  if (count < 0) return Got::kNothing;
+  end_ += static_cast<std::size_t>(count);
+  if (count > 0) return Got::kMore;
+  rewindIfShrunk();
+  return Got::kEnd;
+}
+
+bool LineReader::waitReadable(std::chrono::milliseconds longest) const {
+  pollfd waiting{descriptor_, POLLIN, 0};
+  return ::poll(&waiting, 1, static_cast<int>(longest.count())) > 0;
+}
+
+void LineReader::makeRoom() {
+  std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+  end_ -= begin_;
+  searched_ -= begin_;
+  begin_ = 0;
+}
+
+void LineReader::rewindIfShrunk() const {
+  struct stat file {};
+  const off_t at = ::lseek(descriptor_, 0, SEEK_CUR);
+  if (at > 0 && ::fstat(descriptor_, &file) == 0 && S_ISREG(file.st_mode) && file.st_size < at)
+    ::lseek(descriptor_, 0, SEEK_SET);
+}
+
+void LineReader::fail(int error) const {
+  throw Failure(ExitCode::kFailure, fmt::format("{}: cannot read: {}", name_, std::strerror(error)));
+}
+
+}  // namespace strainfinger

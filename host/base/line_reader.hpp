@@ -1,0 +1,59 @@
+#pragma once
+// Lines of text from a file, a pipe or a terminal, whatever their number, in memory that doesn't grow.
+
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace strainfinger {
+
+class LineReader {
+ public:
+  /// A longer line is cut to so many bytes.
+  static constexpr std::size_t kLongestLine_bytes = 64 * 1024;
+
+  enum class Got {
+    kMore,     ///< next() may have lines
+    kNothing,  ///< within the time, or a signal came
+    kEnd,      ///< of the file, for now: it may grow
+  };
+
+  /// Reads `path`, or stdin where that is "-". Throws Failure(kFailure) with the path and the system's
+  /// reason.
+  explicit LineReader(const std::string& path);
+  ~LineReader();
+  LineReader(const LineReader&) = delete;
+  LineReader& operator=(const LineReader&) = delete;
+
+  /// The path, or "stdin".
+  const std::string& name() const { return name_; }
+
+  /// The next whole line that has been read, without its "\n"; nothing: read() first. It holds until read().
+  std::optional<std::string_view> next();
+
+  /// What was read behind the last line end, which is a line too where the file ends without one.
+  std::optional<std::string_view> rest();
+
+  /// Waits for more, at most so long. Throws Failure(kFailure) when reading fails. A file that has shrunk is
+  /// read from its start.
+  Got read(std::chrono::milliseconds longest);
+
+ private:
+  bool waitReadable(std::chrono::milliseconds longest) const;
+  void makeRoom();
+  void rewindIfShrunk() const;
+  [[noreturn]] void fail(int error) const;
+
+  std::string name_;
+  int descriptor_;
+  std::vector<char> buffer_;
+  std::size_t begin_ = 0;  ///< of what was read and not handed out
+  std::size_t end_ = 0;
+  std::size_t searched_ = 0;   ///< there is no line end from begin_ to here
+  bool skippingLine_ = false;  ///< its beginning has been handed out
+};
+
+}  // namespace strainfinger

@@ -1,0 +1,55 @@
+#include "host/can/log_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "host/base/failure.hpp"
+
+namespace strainfinger::can {
+namespace {
+
+constexpr std::chrono::milliseconds kAtATime{1000};
+
+bool hasFrame(const LogLine& line) {
+  return line.kind != LineKind::kNothing && line.kind != LineKind::kDropped;
+}
+
+}  // namespace
+
+std::optional<TextFrame> LogReader::next() {
+  while (const auto line = nextLine()) {
+    ++line_;
+    const auto frame = frameOf(*line);
+    if (!frame) continue;
+    if (!frame->time_ns)
+      throw Failure(
+          ExitCode::kFailure,
+          fmt::format("{}: a frame without a time: log with `candump -L`, or `candump -ta`", place()));
+    return frame;
+  }
+  return std::nullopt;
+}
+
+std::optional<TextFrame> LogReader::frameOf(std::string_view line) {
+  if (const auto plain = parsePlainLine(line)) return plain;
+  auto parsed = parseLogLine(line);
+  if (const auto* error = std::get_if<LogError>(&parsed))
+    throw Failure(ExitCode::kFailure, fmt::format("{}:{}: {}", place(), error->column, error->reason));
+  parsed_ = std::move(std::get<LogLine>(parsed));
+  const auto frame = classicFrame(parsed_);
+  if (frame) return TextFrame{parsed_.time_ns, parsed_.interface, *frame};
+  if (hasFrame(parsed_)) ++skipped_;
+  return std::nullopt;
+}
+
+std::optional<std::string_view> LogReader::nextLine() {
+  for (;;) {
+    if (const auto line = lines_.next()) return line;
+    if (lines_.read(kAtATime) == LineReader::Got::kEnd) return lines_.rest();
+  }
+}
+
+std::string LogReader::place() const { return fmt::format("{}:{}", lines_.name(), line_); }
+
+}  // namespace strainfinger::can

@@ -1,0 +1,39 @@
+#pragma once
+// The frames of a log, for who needs every one of them.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "host/base/line_reader.hpp"
+#include "host/can/candump_text.hpp"
+
+namespace strainfinger::can {
+
+class LogReader {
+ public:
+  /// Reads `path`, in any text form of candump; "-" is stdin. Throws Failure(kFailure) if it cannot be
+  /// opened.
+  explicit LogReader(const std::string& path) : lines_(path) {}
+
+  /// The next classic data frame of an 11-bit identifier; nothing at the end. Throws Failure(kFailure) with
+  /// file:line:column for a line that cannot be read, and for a frame without a time.
+  std::optional<TextFrame> next();
+
+  /// Frames of other kinds so far.
+  std::uint64_t skipped() const { return skipped_; }
+
+  /// "x.log:3", of the last line.
+  std::string place() const;
+
+ private:
+  std::optional<std::string_view> nextLine();
+  std::optional<TextFrame> frameOf(std::string_view line);
+
+  LineReader lines_;
+  LogLine parsed_;  ///< what the last frame points into where its line was not plain
+  std::uint64_t line_ = 0;
+  std::uint64_t skipped_ = 0;
+};
+
+}  // namespace strainfinger::can

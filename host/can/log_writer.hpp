@@ -1,0 +1,37 @@
+#pragma once
+// A log as `candump -L` writes it, which stays readable whatever ends this program.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "common/can_frame.hpp"
+
+namespace strainfinger::can {
+
+/// Writes whole lines. What flush() has handed to the system is in the file even if the program is killed
+/// next.
+class LogWriter {
+ public:
+  /// Makes the file. Throws Failure(kFailure) if there is one of that name already, or it cannot be made.
+  explicit LogWriter(const std::string& path);
+  ~LogWriter();
+  LogWriter(const LogWriter&) = delete;
+  LogWriter& operator=(const LogWriter&) = delete;
+
+  void add(std::int64_t time_ns, std::string_view interface, const CanFrame& frame);
+
+  /// Throws Failure(kFailure) when the disk is full or broken; then the file ends with the last whole line
+  /// that it took, and the rest of what has been added is lost.
+  void flush();
+
+ private:
+  [[noreturn]] void giveUp(int error, std::size_t done);
+
+  std::string path_;
+  int descriptor_;
+  std::string text_;          ///< not written yet
+  std::int64_t written_ = 0;  ///< bytes, up to the end of a line
+};
+
+}  // namespace strainfinger::can

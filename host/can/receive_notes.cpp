@@ -1,0 +1,46 @@
+#include "host/can/receive_notes.hpp"
+
+#include <sys/socket.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <ctime>
+
+namespace strainfinger::can {
+namespace {
+
+std::int64_t nowSince1970_ns() {
+  using namespace std::chrono;
+  return duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count();
+}
+
+void readNote(cmsghdr& note, ReceiveNotes& notes) {
+  if (note.cmsg_level != SOL_SOCKET) return;
+  if (note.cmsg_type == SO_RXQ_OVFL) std::memcpy(&notes.lost, CMSG_DATA(&note), sizeof notes.lost);
+  if (note.cmsg_type != SCM_TIMESTAMPNS) return;
+  std::timespec time{};
+  std::memcpy(&time, CMSG_DATA(&note), sizeof time);
+  notes.time_ns = time.tv_sec * std::int64_t{1'000'000'000} + time.tv_nsec;
+}
+
+}  // namespace
+
+int receiveWithNotes(int socket, void* data, std::size_t size, ReceiveNotes& notes) noexcept {
+  iovec part{data, size};
+  alignas(cmsghdr) std::byte control[CMSG_SPACE(sizeof notes.lost) + CMSG_SPACE(sizeof(std::timespec))];
+  msghdr message{};
+  message.msg_iov = &part;
+  message.msg_iovlen = 1;
+  message.msg_control = control;
+  message.msg_controllen = sizeof control;
+  const auto read = ::recvmsg(socket, &message, 0);
+  if (read < 0) return -errno;
+  notes.time_ns = 0;
+  for (cmsghdr* note = CMSG_FIRSTHDR(&message); note != nullptr; note = CMSG_NXTHDR(&message, note))
+    readNote(*note, notes);
+  if (notes.time_ns == 0) notes.time_ns = nowSince1970_ns();
+  return static_cast<int>(read);
+}
+
+}  // namespace strainfinger::can

@@ -1,0 +1,45 @@
+#pragma once
+// Touches as rows of a table, one for all frames of a sequence number: what `strainfinger decode --touches`
+// prints.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "common/can_frame.hpp"
+#include "host/base/table_writer.hpp"
+#include "host/can/per_node.hpp"
+#include "host/can/row_start.hpp"
+#include "host/can/touch_receiver.hpp"
+
+namespace strainfinger::can {
+
+/// Prints time_s,interface,node,angle_deg,normal_n,tangential_n,width_m, their sigmas,
+/// quality_percent,chi,flags, sequence,angle2_deg,normal2_n,tangential2_n; empty or null where the finger
+/// says nothing. The time is that of CONTACT. The last row of a touch has no flag `contact` and forces of 0.
+/// A touch that lost a frame has no row.
+class TouchPrinter {
+ public:
+  /// Appends to `out`: at once the header, if the format has one.
+  TouchPrinter(std::string& out, TableFormat format);
+
+  /// Takes any frame; appends a row when it is the last one of a touch.
+  void print(std::optional<std::int64_t> time_ns, std::string_view interface, const CanFrame& frame);
+
+ private:
+  struct Listener {
+    std::optional<TouchReceiver> receiver;  ///< there from its first frame on
+    std::optional<std::int64_t> contactTime_ns;
+  };
+  void append(const TouchReport& touch);
+  void appendNumber(std::string_view name, double value);
+  void appendKey(std::string_view name);
+
+  std::string& out_;
+  TableFormat format_;
+  RowStart start_;
+  PerNode<Listener> listeners_;
+};
+
+}  // namespace strainfinger::can

@@ -1,0 +1,86 @@
+#include "host/cli/decode_tally.hpp"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+#include "common/frames.hpp"
+#include "host/base/failure.hpp"
+#include "host/can/frame_catalogue.hpp"
+
+namespace strainfinger::cli {
+namespace {
+
+/// In the order of SkipReason.
+constexpr std::array kSkipNames{"with identifiers that are no finger's",
+                                "of other nodes",
+                                "RAW (`strains` and `replay --recompute` read it)",
+                                "malformed: not the length of such a frame",
+                                "with extended (29-bit) identifiers",
+                                "remote requests",
+                                "of CAN FD",
+                                "error frames (reports of the CAN controller)"};
+static_assert(kSkipNames.size() == static_cast<std::size_t>(SkipReason::kError) + 1);
+
+void summariseNode(const can::NodeCount& node) {
+  if (node.twoSenders)
+    fmt::print(
+        stderr,
+        "decode: {} node {}: two fingers send as this node: {} frames of touches received, what was lost "
+        "cannot be told; give one of them another number with `strainfinger config --set-node`\n",
+        node.interface, node.node, node.received);
+  else
+    fmt::print(stderr,
+               "decode: {} node {}: {} frames of touches received, {} lost, {} repeated, {} restarts\n",
+               node.interface, node.node, node.received, node.lost, node.repeated, node.restarts);
+}
+
+}  // namespace
+
+void DecodeTally::noteForm(const can::LogLine& line) {
+  if (form_.empty()) form_ = can::describeForm(line);
+}
+
+void DecodeTally::countDecoded(std::string_view interface, const CanFrame& frame) {
+  ++decoded_;
+  losses_.count(interface, frame);
+}
+
+void DecodeTally::countWrongLength(const std::string& place, const CanFrame& frame) {
+  countSkipped(SkipReason::kWrongLength);
+  if (!firstWrongLength_.empty()) return;
+  const FrameSpec& spec = can::findFunction(frame.id)->spec;
+  firstWrongLength_ = fmt::format("{}: {} of node {} has {} bytes, not {}", place, spec.name,
+                                  *nodeOf(frame.id, spec.function), frame.length, spec.length);
+}
+
+void DecodeTally::summarise() const {
+  const std::uint64_t skipped = std::accumulate(skipped_.begin(), skipped_.end(), std::uint64_t{0});
+  fmt::print(stderr, "decode: {} lines ({}), {} frames decoded, {} others skipped\n", lines_,
+             form_.empty() ? "no frames" : form_, decoded_, skipped);
+  summariseSkipped();
+  if (dropped_ > 0) fmt::print(stderr, "decode: candump dropped {} frames\n", dropped_);
+  for (const can::NodeCount& node : losses_.counts()) summariseNode(node);
+}
+
+void DecodeTally::summariseSkipped() const {
+  for (std::size_t reason = 0; reason < skipped_.size(); ++reason)
+    if (skipped_[reason] > 0)
+      fmt::print(stderr, "decode: skipped {} {}\n", skipped_[reason], kSkipNames[reason]);
+  if (!firstWrongLength_.empty()) fmt::print(stderr, "decode: {}\n", firstWrongLength_);
+}
+
+void DecodeTally::requireGood() const {
+  if (unreadable_ > 0)
+    throw Failure(ExitCode::kFailure, fmt::format("{} of {} lines could not be read; the others are decoded",
+                                                  unreadable_, lines_));
+  for (const can::NodeCount& node : losses_.counts())
+    if (node.protocol && *node.protocol != kProtocolVersion)
+      throw Failure(
+          ExitCode::kMismatch,
+          fmt::format("{} node {} speaks protocol {}, this program {}: its frames mean something else; use "
+                      "the strainfinger of its firmware",
+                      node.interface, node.node, *node.protocol, kProtocolVersion));
+}
+
+}  // namespace strainfinger::cli

@@ -1,0 +1,268 @@
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <optional>
+#include <string>
+
+#include "host/base/failure.hpp"
+#include "host/can/open_bus.hpp"
+#include "host/cli/bus_option.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/commands.hpp"
+#include "host/live/bus_watch.hpp"
+#include "host/live/log_watch.hpp"
+#include "host/live/plain_report.hpp"
+#include "host/live/recording.hpp"
+#include "host/live/screen.hpp"
+#include "host/live/terminal.hpp"
+#include "host/system/stop_signal.hpp"
+
+namespace strainfinger::cli {
+namespace {
+
+constexpr const char* kMonitorHelp =
+    "The fingers of a bus, live: where and how hard each is touched, with sigmas; flags and faults in words; "
+    "contacts a second, jitter, lost frames, bus load.\n"
+    "--can BUS: live. Without it, a log on stdin (any candump text): candump can0 | strainfinger monitor\n"
+    "In a terminal a screen, drawn at most ten times a second. Keys: t zeroes the gauges of the finger that "
+    "is "
+    "marked (do not touch it), up and down mark another, r begins and ends a log in this folder, q ends. "
+    "NO_COLOR=1: no colours.\n"
+    "Elsewhere, and with --plain, a line for each finger every second (--every), or with --json an object "
+    "for "
+    "each bus.\n"
+    "Ctrl-C ends it too, with exit status 130.";
+
+constexpr std::chrono::milliseconds kRedraw{100};
+
+struct MonitorOptions {
+  explicit MonitorOptions(CLI::App& command) : common(command) {
+    addBusOption(command, bus);
+    command.add_flag("--plain", plain, "Lines, even in a terminal");
+    command.add_option("--every", every_s, "Seconds between lines (default 1)")->type_name("S");
+  }
+  static constexpr double kShortest_s = 0.01;
+  static constexpr double kLongest_s = 86'400;
+
+  bool wantsScreen() const { return !plain && common.format() == TableFormat::kCsv && live::hasTerminal(); }
+
+  CommonOptions common;
+  std::string bus;  ///< empty: a log on stdin
+  bool plain = false;
+  double every_s = 1;
+};
+
+void requireEvery(const MonitorOptions& options) {
+  // CLI11's ranges let NaN through.
+  if (!(options.every_s >= MonitorOptions::kShortest_s && options.every_s <= MonitorOptions::kLongest_s))
+    throw Failure(ExitCode::kUsage, fmt::format("--every: {} s is not from {} to {}", options.every_s,
+                                                MonitorOptions::kShortest_s, MonitorOptions::kLongest_s));
+}
+
+void endIfStopped(const system::StopSignal& stop) {
+  if (stop.asked()) throw Failure(ExitCode::kInterrupted, "monitor: interrupted");
+}
+
+/// A live bus on the terminal, until q is pressed.
+class LiveScreen {
+ public:
+  explicit LiveScreen(live::BusWatch& watch) : watch_(watch) {}
+
+  void run() {
+    const system::StopSignal stop;
+    live::Terminal terminal;
+    while (!stop.asked() && !quit_) {
+      watch_.listen(kRedraw);
+      content_.buses = {watch_.view()};
+      saveRecording();
+      for (const live::Outcome& outcome : watch_.outcomes()) content_.message = outcome.text;
+      while (const auto key = terminal.key()) press(*key);
+      content_.keys = fmt::format("t tare  up/down mark  r {}  q quit",
+                                  recording_ ? "stop recording " + recording_->path() : "record");
+      terminal.show(live::drawScreen(content_, live::terminalForm()));
+    }
+    endIfStopped(stop);
+  }
+
+ private:
+  void press(unsigned char key) {
+    const auto& fingers = content_.buses.front().fingers;
+    std::size_t& selected = content_.selected;
+    if (key == 'q') quit_ = true;
+    if (key == live::kKeyDown && selected + 1 < fingers.size()) ++selected;
+    if (key == live::kKeyUp && selected > 0) --selected;
+    if (key == 'r') orSay([this] { recording_ ? stopRecording() : startRecording(); });
+    if (key == 't' && selected < fingers.size()) tare(fingers[selected].node);
+  }
+
+  /// What goes wrong with a recording is said, and ends it: the fingers are still to be seen.
+  template <typename Step>
+  void orSay(Step step) {
+    try {
+      step();
+    } catch (const Failure& failure) {
+      recording_.reset();
+      content_.message = failure.what();
+    }
+  }
+
+  void startRecording() {
+    const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    const std::string path = fmt::format("strainfinger-{:%Y%m%d-%H%M%S}.log", fmt::gmtime(now));
+    recording_.emplace(watch_, content_.buses.front().name, path);
+    content_.message.clear();
+  }
+
+  void stopRecording() {
+    recording_->flush();
+    content_.message = fmt::format("{}: {} frames", recording_->path(), recording_->frames());
+    recording_.reset();
+  }
+
+  void saveRecording() {
+    if (recording_) orSay([this] { recording_->flush(); });
+  }
+
+  void tare(std::uint8_t node) {
+    content_.message = fmt::format("node {}: tare: do not touch it", node);
+    watch_.request(node, tareRequest(false));
+  }
+
+  live::BusWatch& watch_;
+  live::ScreenContent content_;
+  std::optional<live::Recording> recording_;
+  bool quit_ = false;
+};
+
+void printLive(live::BusWatch& watch, const MonitorOptions& options) {
+  const system::StopSignal stop;
+  live::PlainReport report(stdout, options.common.format(), options.every_s);
+  while (!stop.asked()) {
+    watch.listen(kRedraw);
+    const live::BusView view = watch.view();
+    if (report.due(view.time_us)) report.print({&view, 1});
+  }
+  endIfStopped(stop);
+}
+
+void monitorBus(const MonitorOptions& options) {
+  const config::FingerConfig config = options.common.config();
+  const auto port = can::openBus(options.bus, config.can.bitrate);
+  live::BusWatch watch(*port, config);
+  options.wantsScreen() ? LiveScreen(watch).run() : printLive(watch, options);
+}
+
+/// The lines that come on stdin, as they come.
+class StdinLines {
+ public:
+  /// Waits for more, at most so long, and gives each whole line to take(line); false at the end. Throws
+  /// Failure(kFailure) when stdin cannot be read.
+  template <typename Take>
+  bool read(std::chrono::milliseconds longest, Take take) {
+    pollfd waiting{STDIN_FILENO, POLLIN, 0};
+    if (::poll(&waiting, 1, static_cast<int>(longest.count())) <= 0) return true;
+    std::array<char, 65536> block;
+    const ssize_t size = ::read(STDIN_FILENO, block.data(), block.size());
+    if (size < 0 && errno != EINTR)
+      throw Failure(ExitCode::kFailure, fmt::format("cannot read stdin: {}", std::strerror(errno)));
+    if (size > 0) rest_.append(block.data(), static_cast<std::size_t>(size));
+    if (size == 0 && !rest_.empty()) rest_.push_back('\n');  // the last line may lack its end
+    takeWhole(take);
+    return size != 0;
+  }
+
+ private:
+  template <typename Take>
+  void takeWhole(Take take) {
+    std::size_t begin = 0;
+    for (std::size_t end; (end = rest_.find('\n', begin)) != rest_.npos; begin = end + 1)
+      take(std::string_view(rest_).substr(begin, end - begin));
+    rest_.erase(0, begin);
+  }
+
+  std::string rest_;  ///< of a line whose end is yet to come
+};
+
+/// A log on stdin.
+class LogMonitor {
+ public:
+  explicit LogMonitor(const MonitorOptions& options)
+      : watch_(options.common.config()),
+        report_(stdout, options.common.format(), options.every_s),
+        screen_(options.wantsScreen()) {}
+
+  void run() {
+    const system::StopSignal stop;
+    screen_ ? show(stop) : print(stop);
+    if (watch_.time_us()) report_.print(watch_.views(*watch_.time_us()));
+    endIfStopped(stop);
+    if (unreadable_ > 0)
+      throw Failure(ExitCode::kFailure, fmt::format("{} of {} lines could not be read; the first: {}",
+                                                    unreadable_, lines_, firstError_));
+  }
+
+ private:
+  void print(const system::StopSignal& stop) {
+    const auto takeAndPrint = [this](std::string_view line) {
+      take(line);
+      const auto due_us = watch_.time_us() ? report_.due(*watch_.time_us()) : std::nullopt;
+      if (due_us) report_.print(watch_.views(*due_us));
+    };
+    while (!stop.asked() && stdin_.read(kRedraw, takeAndPrint)) {
+    }
+  }
+
+  void show(const system::StopSignal& stop) {
+    using Clock = std::chrono::steady_clock;
+    live::Terminal terminal;
+    live::ScreenContent content;
+    content.keys = "a log on stdin  q quit";
+    Clock::time_point drawn, heard = Clock::now();
+    for (bool more = true, quit = false; more && !quit && !stop.asked();) {
+      const auto takeAndNote = [&](std::string_view line) {
+        take(line);
+        heard = Clock::now();
+      };
+      more = stdin_.read(kRedraw, takeAndNote);
+      while (const auto key = terminal.key()) quit = quit || key == 'q';
+      if (Clock::now() - drawn < kRedraw) continue;
+      drawn = Clock::now();
+      content.buses =
+          watch_.views(watch_.time_us().value_or(0) +
+                       std::chrono::duration_cast<std::chrono::microseconds>(drawn - heard).count());
+      terminal.show(live::drawScreen(content, live::terminalForm()));
+    }
+  }
+
+  void take(std::string_view line) {
+    ++lines_;
+    const auto error = watch_.take(line);
+    if (!error) return;
+    if (++unreadable_ == 1)
+      firstError_ = fmt::format("stdin:{}:{}: {}", lines_, error->column, error->reason);
+  }
+
+  StdinLines stdin_;
+  live::LogWatch watch_;
+  live::PlainReport report_;
+  bool screen_;
+  std::uint64_t lines_ = 0, unreadable_ = 0;
+  std::string firstError_;
+};
+
+void runMonitor(const MonitorOptions& options) {
+  requireEvery(options);
+  options.bus.empty() ? LogMonitor(options).run() : monitorBus(options);
+}
+
+}  // namespace
+
+void addMonitor(CLI::App& app) { addCommand<MonitorOptions>(app, "monitor", kMonitorHelp, runMonitor); }
+
+}  // namespace strainfinger::cli

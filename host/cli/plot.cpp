@@ -1,0 +1,142 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/frames.hpp"
+#include "host/base/failure.hpp"
+#include "host/can/frame_catalogue.hpp"
+#include "host/can/log_reader.hpp"
+#include "host/can/touch_receiver.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/commands.hpp"
+#include "host/plot/log_picture.hpp"
+
+namespace strainfinger::cli {
+namespace {
+
+constexpr const char* kPlotHelp =
+    "Draws what a finger said in a log (any candump text with times): angle, forces and width with bands of "
+    "one sigma, "
+    "and the flags, over time. Needs gnuplot.\n"
+    "Beside the picture stay its data (CSV) and the script that draws it.\n"
+    "Of a long log some of the touches are drawn, evenly over its time.";
+
+/// More make a larger file, not another picture.
+constexpr std::size_t kMostPoints = 4000;
+
+struct PlotOptions {
+  explicit PlotOptions(CLI::App& command) : common(command) {
+    command.add_option("log", path, "The log; - is stdin")->type_name("FILE")->required();
+    command.add_option("-o,--output", output, "The picture; ends in .svg or .png")
+        ->type_name("FILE")
+        ->required();
+    command.add_option("-n,--node", node, "Of this node, where the log has several")
+        ->check(CLI::Range(int{kFirstNode}, int{kLastNode}));
+  }
+  CommonOptions common;
+  std::string path;
+  std::string output;
+  std::optional<int> node;
+};
+
+plot::LogPoint pointOf(double time_s, const can::TouchReport& touch) {
+  return {.time_s = time_s,
+          .angle_deg = touch.angle_deg,
+          .sigmaAngle_deg = touch.sigmaAngle_deg,
+          .normal_n = touch.normal_n,
+          .sigmaNormal_n = touch.sigmaNormal_n,
+          .tangential_n = touch.tangential_n,
+          .sigmaTangential_n = touch.sigmaTangential_n,
+          .width_m = touch.width_m,
+          .sigmaWidth_m = touch.sigmaWidth_m,
+          .secondAngle_deg = touch.second ? touch.second->angle_deg : kNoValue,
+          .flags = touch.flags.raw()};
+}
+
+/// What one finger said. Keeps every touch up to twice kMostPoints, then every second of them, and so on.
+class Track {
+ public:
+  explicit Track(std::uint8_t node) : receiver_(node) {}
+
+  void take(double time_s, const CanFrame& frame) {
+    const auto touch = receiver_.take(frame);
+    if (!touch || count_++ % stride_ != 0) return;
+    points_.push_back(pointOf(time_s, *touch));
+    if (points_.size() >= 2 * kMostPoints) halve();
+  }
+
+  const std::vector<plot::LogPoint>& points() const { return points_; }
+
+ private:
+  void halve() {
+    for (std::size_t i = 0; 2 * i < points_.size(); ++i) points_[i] = points_[2 * i];
+    points_.resize((points_.size() + 1) / 2);
+    stride_ *= 2;
+  }
+
+  can::TouchReceiver receiver_;
+  std::uint64_t count_ = 0;
+  std::uint64_t stride_ = 1;
+  std::vector<plot::LogPoint> points_;
+};
+
+/// By interface and node.
+using Tracks = std::map<std::pair<std::string, int>, Track>;
+
+Tracks readTracks(const PlotOptions& options) {
+  can::LogReader log(options.path);
+  Tracks tracks;
+  std::optional<std::int64_t> first_ns;
+  while (const auto text = log.next()) {
+    if (!first_ns) first_ns = text->time_ns;
+    const can::FrameEntry* const entry = can::findFrame(text->frame);
+    if (entry == nullptr) continue;
+    const std::uint8_t node = *nodeOf(text->frame.id, entry->spec.function);
+    if (options.node && node != *options.node) continue;
+    Track& track = tracks.try_emplace({std::string(text->interface), node}, node).first->second;
+    track.take(static_cast<double>(*text->time_ns - *first_ns) * 1e-9, text->frame);
+  }
+  std::erase_if(tracks, [](const auto& track) { return track.second.points().empty(); });
+  return tracks;
+}
+
+void requireOne(const PlotOptions& options, const Tracks& tracks) {
+  if (tracks.empty())
+    throw Failure(ExitCode::kFailure, fmt::format("{}: no touch in it to draw", options.path));
+  if (tracks.size() == 1) return;
+  std::vector<std::string> names;
+  for (const auto& [name, track] : tracks)
+    names.push_back(fmt::format("{} node {}", name.first, name.second));
+  throw Failure(ExitCode::kUsage, fmt::format("{}: several fingers ({}): choose one with --node",
+                                              options.path, fmt::join(names, ", ")));
+}
+
+/// Of bit 0, of bit 1, and so on.
+std::vector<std::string> flagNames() {
+  std::vector<std::string> names;
+  for (const ValueName& name : kFingerFlagNames) names.emplace_back(name.name);
+  return names;
+}
+
+void runPlot(const PlotOptions& options) {
+  plot::requirePicturePath(options.output);
+  const Tracks tracks = readTracks(options);
+  requireOne(options, tracks);
+  const auto& [name, track] = *tracks.begin();
+  plot::draw(plot::logPicture({.heading = fmt::format("{}, node {}", name.first, name.second),
+                               .points = track.points(),
+                               .flagNames = flagNames()}),
+             options.output);
+}
+
+}  // namespace
+
+void addPlot(CLI::App& app) { addCommand<PlotOptions>(app, "plot", kPlotHelp, runPlot); }
+
+}  // namespace strainfinger::cli

@@ -1,0 +1,78 @@
+#include "host/cli/recording_notes.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <span>
+#include <utility>
+
+#include "common/crc32.hpp"
+#include "host/config/write_config.hpp"
+
+namespace strainfinger::cli {
+namespace {
+
+std::string utcText(std::int64_t time_ns) {
+  using namespace std::chrono;
+  const auto time = sys_time<nanoseconds>(nanoseconds(time_ns));
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(system_clock::to_time_t(floor<seconds>(time))));
+}
+
+/// A TOML string that holds any bytes but control characters, which a bus' name hasn't.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) result.append(c == '"' || c == '\\' ? "\\" : "").push_back(c);
+  return result + "\"";
+}
+
+bool sameBoard(const InfoFrame& a, const InfoFrame& b) {
+  return a.board == b.board && a.version_major == b.version_major && a.version_minor == b.version_minor;
+}
+
+bool sameFirmware(const HeartbeatFrame& a, const HeartbeatFrame& b) {
+  return a.protocol == b.protocol && a.table_crc == b.table_crc;
+}
+
+}  // namespace
+
+RecordingNotes::RecordingNotes(std::string bus, const config::FingerConfig& config)
+    : bus_(std::move(bus)), config_(config::writeConfig(config)) {}
+
+bool RecordingNotes::note(const CanFrame& frame) {
+  if (const auto info = decode<InfoFrame>(frame)) {
+    std::optional<InfoFrame>& known = fingers_[*nodeOf(frame.id, FunctionCode::kInfo)].info;
+    const auto before = std::exchange(known, info);
+    return !before || !sameBoard(*before, *info);
+  }
+  if (const auto heartbeat = decode<HeartbeatFrame>(frame)) {
+    std::optional<HeartbeatFrame>& known = fingers_[*nodeOf(frame.id, FunctionCode::kHeartbeat)].heartbeat;
+    const auto before = std::exchange(known, heartbeat);
+    return !before || !sameFirmware(*before, *heartbeat);
+  }
+  return false;
+}
+
+std::string RecordingNotes::toml(const RecordingProgress& progress) const {
+  std::string text = config_ + "\n[recording]\n";
+  text += fmt::format("program = \"{}\"\nprotocol = {}\nbus = {}\nstart = {}\n", STRAINFINGER_VERSION,
+                      kProtocolVersion, quoted(bus_), utcText(progress.start_ns));
+  if (progress.end_ns != 0)
+    text += fmt::format("end = {}\nframes = {}\nmissed = {}\n", utcText(progress.end_ns), progress.frames,
+                        progress.missed);
+  text += fmt::format("# of the text above [recording]\nconfig_crc32 = \"{:08X}\"\n",
+                      crc32(std::as_bytes(std::span(config_))));
+  for (const auto& [node, finger] : fingers_) {
+    text += fmt::format("\n[[recording.finger]]\nnode = {}\n", node);
+    if (finger.info)
+      text += fmt::format("version = \"{}.{}\"\nboard = {}\n", finger.info->version_major,
+                          finger.info->version_minor, finger.info->board);
+    if (finger.heartbeat)
+      text +=
+          fmt::format("protocol = {}\n# lowest byte of the CRC-32 of its tables\ntable_crc = \"{:02X}\"\n",
+                      finger.heartbeat->protocol, finger.heartbeat->table_crc);
+  }
+  return text;
+}
+
+}  // namespace strainfinger::cli

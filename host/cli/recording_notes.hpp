@@ -1,0 +1,43 @@
+#pragma once
+// What is written down beside a recorded log: the config, versions, and the fingers that were heard.
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "common/can_frame.hpp"
+#include "common/frames.hpp"
+#include "host/config/finger_config.hpp"
+
+namespace strainfinger::cli {
+
+/// How far a recording has come.
+struct RecordingProgress {
+  std::int64_t start_ns = 0;  ///< since 1970
+  std::int64_t end_ns = 0;    ///< 0: it goes on, or was cut off
+  std::uint64_t frames = 0;
+  std::uint64_t missed = 0;  ///< frames that this machine was too slow for
+};
+
+class RecordingNotes {
+ public:
+  RecordingNotes(std::string bus, const config::FingerConfig& config);
+
+  /// Takes any frame; true: something is known now that was not.
+  bool note(const CanFrame& frame);
+
+  /// A finger.toml with a section [recording], which readers of configs pass over: it can be given to -c.
+  std::string toml(const RecordingProgress& progress) const;
+
+ private:
+  struct Finger {
+    std::optional<InfoFrame> info;
+    std::optional<HeartbeatFrame> heartbeat;
+  };
+  std::string bus_;
+  std::string config_;  ///< as text
+  std::map<std::uint8_t, Finger> fingers_;
+};
+
+}  // namespace strainfinger::cli

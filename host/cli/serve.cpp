@@ -1,0 +1,116 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <random>
+#include <string>
+
+#include "common/frames.hpp"
+#include "host/base/failure.hpp"
+#include "host/can/open_bus.hpp"
+#include "host/cli/bus_option.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/commands.hpp"
+#include "host/live/bus_watch.hpp"
+#include "host/live/page_server.hpp"
+#include "host/live/strain_fit.hpp"
+#include "host/live/view_json.hpp"
+#include "host/live/words.hpp"
+#include "host/system/stop_signal.hpp"
+
+namespace strainfinger::cli {
+namespace {
+
+constexpr const char* kServeHelp =
+    "The fingers of a bus, live in a browser: strainfinger serve --can can0, then open the address that it "
+    "prints.\n"
+    "Only this machine reaches it unless --address says otherwise (0.0.0.0: every interface); commands then "
+    "need a token, which is part of the printed address. The page itself has no password: who reaches it "
+    "reads it.\n"
+    "From another machine without opening a port: ssh -L 8080:localhost:8080 HOST\n"
+    "For programs: GET /state is one JSON object, GET /events a stream of them (server-sent events), "
+    "POST /fingers/NODE/tare with header X-Strainfinger zeroes gauges.\n"
+    "Ctrl-C ends it, with exit status 130.";
+
+/// A touch is on the page within two of these and what a browser takes to draw.
+constexpr std::chrono::milliseconds kPublishEvery{40};
+
+struct ServeOptions {
+  explicit ServeOptions(CLI::App& command) : common(command) {
+    addBusOption(command, bus)->required();
+    command.add_option("--port", server.port, "TCP port (default 8080); 0: any that is free")
+        ->check(CLI::Range(0, 65535));
+    command.add_option("--address", server.address, "To listen on (default 127.0.0.1: this machine only)");
+    command.add_option("--token", server.token, "What commands need (default: none here, else a random one)");
+  }
+  CommonOptions common;
+  std::string bus;
+  live::PageServerOptions server;
+};
+
+std::string randomToken() {
+  std::random_device random;  // the kernel's
+  std::string token;
+  for (int i = 0; i < 4; ++i) token += fmt::format("{:08x}", random());
+  return token;
+}
+
+/// What the page has to know beforehand.
+std::string shapeJson(const config::FingerConfig& config, bool needsToken) {
+  auto json = live::toJson(config);
+  json["needs_token"] = needsToken;
+  const auto explain = [&json](const auto& names) {
+    for (const ValueName& name : names) json["words"][live::wordFor(names, name.value)] = name.comment;
+  };
+  explain(kFingerFlagNames);
+  explain(kFingerFaultNames);
+  return json.dump();
+}
+
+live::PageServerOptions serverOptions(const ServeOptions& options) {
+  live::PageServerOptions server = options.server;
+  if (server.token.empty() && !live::isLocalAddress(server.address)) server.token = randomToken();
+  server.shapeJson = shapeJson(options.common.config(), !server.token.empty());
+  return server;
+}
+
+std::string urlOf(const live::PageServerOptions& server, int port) {
+  const bool isIpv6 = server.address.find(':') != std::string::npos;
+  return fmt::format("http://{}{}{}:{}/{}{}", isIpv6 ? "[" : "", server.address, isIpv6 ? "]" : "", port,
+                     server.token.empty() ? "" : "#", server.token);
+}
+
+/// The newest view as JSON.
+std::string viewJson(live::BusWatch& watch, const live::StrainFit& fit) {
+  live::BusView view = watch.view();
+  for (live::FingerView& finger : view.fingers)
+    if (!finger.strains.empty() && finger.isTouched()) finger.fitted = fit.readings(*finger.touch);
+  return live::toJson(view).dump();
+}
+
+void serve(live::BusWatch& watch, live::PageServer& server, const live::StrainFit& fit) {
+  const system::StopSignal stop;
+  while (!stop.asked()) {
+    for (const std::uint8_t node : server.takeTares()) watch.request(node, tareRequest(false));
+    watch.listen(kPublishEvery);
+    for (const live::Outcome& outcome : watch.outcomes()) server.answer(outcome);
+    if (server.isRead()) server.publish(viewJson(watch, fit));
+  }
+}
+
+void runServe(const ServeOptions& options) {
+  const config::FingerConfig config = options.common.config();
+  const auto port = can::openBus(options.bus, config.can.bitrate);
+  live::BusWatch watch(*port, config);
+  const live::PageServerOptions serverOptionsNow = serverOptions(options);
+  live::PageServer server(serverOptionsNow);
+  fmt::print(stderr, "serve: {} shows {}; Ctrl-C ends\n", urlOf(serverOptionsNow, server.port()),
+             options.bus);
+  serve(watch, server, live::StrainFit(config));
+  throw Failure(ExitCode::kInterrupted, "serve: interrupted");
+}
+
+}  // namespace
+
+void addServe(CLI::App& app) { addCommand<ServeOptions>(app, "serve", kServeHelp, runServe); }
+
+}  // namespace strainfinger::cli

@@ -1,0 +1,48 @@
+#include "host/cli/strain_recorder.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+#include "common/fixed_real.hpp"
+#include "common/quantities.hpp"
+#include "host/cli/strain_rows.hpp"
+
+namespace strainfinger::cli {
+namespace {
+
+double degreesRoundTheFinger(double angle_rad) {
+  const double turns = angle_rad / (2 * std::numbers::pi);
+  return 360 * (turns - std::floor(turns));
+}
+
+}  // namespace
+
+void StrainRecorder::add(const simulation::Moment& moment, std::span<const std::int32_t> strains_q32) {
+  if (moment.time_s < static_cast<double>(taken_) * period_s_ || moment.truth.size() > 1) return;
+  taken_ = static_cast<std::uint64_t>(moment.time_s / period_s_) + 1;
+  Row row{moment.time_s, {}, moment.truth.empty() ? simulation::Touch{} : moment.truth.front()};
+  for (std::size_t i = 0; i < factors_.size(); ++i)
+    row.strains.push_back(toReal(StrainQ32::fromRaw(strains_q32[i])) / factors_[i]);
+  rows_.push_back(std::move(row));
+}
+
+std::string StrainRecorder::strains() const {
+  std::string text =
+      fmt::format("time_s,{}\n", fmt::join(strainColumns(static_cast<int>(factors_.size())), ","));
+  for (const Row& row : rows_)
+    fmt::format_to(std::back_inserter(text), "{:.6f},{}\n", row.time_s, fmt::join(row.strains, ","));
+  return text;
+}
+
+std::string StrainRecorder::touches() const {
+  std::string text = "angle_deg,normal_n_per_m,tangential_n_per_m\n";
+  for (const auto& [time_s, strains, touch] : rows_)
+    fmt::format_to(std::back_inserter(text), "{},{},{}\n", degreesRoundTheFinger(touch.angle_rad),
+                   touch.normal_n_per_m, touch.tangential_n_per_m);
+  return text;
+}
+
+}  // namespace strainfinger::cli

@@ -1,0 +1,137 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "host/base/failure.hpp"
+#include "host/can/open_bus.hpp"
+#include "host/can/raw_receiver.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/request.hpp"
+#include "host/cli/strain_rows.hpp"
+#include "host/system/stop_signal.hpp"
+
+namespace strainfinger::cli {
+namespace {
+
+constexpr const char* kStrainsHelp =
+    "Asks a finger for its gauges' readings (RAW) and prints them as strains, a row a sample set, until its "
+    "duration is over or Ctrl-C; then the finger is told to stop.\n"
+    "stdout: time_s (since 1970, of arrival), strain_0, strain_1 ..: as `locate`, `shape` and `calibrate` "
+    "read "
+    "them, at nominal gain and less the finger's zero.\n"
+    "The config's gauges must be those of the finger. At the end stderr says how many sets came whole. Exit "
+    "status: 1 refused, 3 no interface, 4 no such node or no readings.";
+
+constexpr std::chrono::milliseconds kSilence{3000};  ///< longer than the slowest rate's period
+constexpr double kLongestStrains_s = 1e6;
+
+struct StrainsOptions {
+  explicit StrainsOptions(CLI::App& command) : request(command) {
+    command.add_option("--rate", rate_hz, "Sample sets a second (default 100)")
+        ->type_name("HZ")
+        ->check(CLI::Range(1, int{kFastestRaw_hz}));
+    command.add_option("--duration", duration_s, "Seconds; without it until Ctrl-C")->type_name("S");
+  }
+  RequestOptions request;
+  int rate_hz = 100;
+  std::optional<double> duration_s;
+};
+
+/// RAW of one finger, from its request to its end.
+class RawStream {
+ public:
+  RawStream(can::BusPort& bus, std::uint8_t node, int rate_hz, std::string where)
+      : bus_(bus), node_(node), where_(std::move(where)) {
+    requireDone(ask(rate_hz), Command::kRaw, where_);
+  }
+  /// Best effort: whoever ends it by force leaves the finger sending until its next start.
+  ~RawStream() { ask(0); }
+  RawStream(const RawStream&) = delete;
+  RawStream& operator=(const RawStream&) = delete;
+
+ private:
+  can::Reply ask(int rate_hz) {
+    return can::ask(bus_, node_, rawRequest(static_cast<std::uint16_t>(rate_hz)));
+  }
+
+  can::BusPort& bus_;
+  std::uint8_t node_;
+  std::string where_;
+};
+
+class StrainPrinter {
+ public:
+  StrainPrinter(const config::Gauges& gauges, TableFormat format)
+      : strainOfCode_(can::strainPerCode(gauges.full_scale_strain)),
+        table_(stdout, format, columnsOf(gauges)) {}
+
+  void print(std::int64_t time_ns, const can::RawSet& set, const std::vector<std::uint16_t>& zeros) {
+    std::vector<Cell> cells{fmt::format("{}.{:06}", time_ns / 1'000'000'000, time_ns % 1'000'000'000 / 1000)};
+    for (std::size_t i = 0; i < set.codes.size(); ++i)
+      cells.emplace_back(strainOfCode_ * (int{set.codes[i]} - zeros[i]));
+    table_.row(cells);
+    ++sets_;
+  }
+
+  std::uint64_t sets() const { return sets_; }
+
+ private:
+  static std::vector<std::string> columnsOf(const config::Gauges& gauges) {
+    std::vector<std::string> columns = strainColumns(gauges.count);
+    columns.insert(columns.begin(), "time_s");
+    return columns;
+  }
+
+  double strainOfCode_;
+  TableWriter table_;
+  std::uint64_t sets_ = 0;
+};
+
+using StrainClock = std::chrono::steady_clock;
+
+StrainClock::time_point endOf(const StrainsOptions& options) {
+  const double duration_s = options.duration_s.value_or(kLongestStrains_s);
+  if (!(duration_s > 0 && duration_s <= kLongestStrains_s))  // CLI11's ranges let NaN through
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("--duration: {} s is not above 0 and up to {}", duration_s, kLongestStrains_s));
+  return StrainClock::now() + std::chrono::microseconds(std::llround(duration_s * 1e6));
+}
+
+void runStrains(const StrainsOptions& options) {
+  const config::FingerConfig config = options.request.common.config();
+  const std::uint8_t node = nodeOf(options.request, config.can);
+  const std::string where = fmt::format("{} node {}", options.request.bus, node);
+  const auto end = endOf(options);
+  const auto bus = can::openBus(options.request.bus, config.can.bitrate);
+  const system::StopSignal stop;
+  RawStream stream(*bus, node, options.rate_hz, where);
+  can::RawReceiver receiver(node, config.gauges.count);
+  StrainPrinter printer(config.gauges, options.request.common.format());
+  for (auto heard = StrainClock::now(); !stop.asked() && StrainClock::now() < end;) {
+    bus->waitReadable(std::chrono::milliseconds(50));
+    while (const auto arrived = bus->receiveTimed()) {
+      const auto set = receiver.take(arrived->frame);
+      if (set) heard = StrainClock::now();
+      if (set && !receiver.zeros().empty()) printer.print(arrived->time_ns, *set, receiver.zeros());
+    }
+    if (StrainClock::now() - heard > kSilence)
+      throw Failure(
+          ExitCode::kNoNode,
+          fmt::format(
+              "{}: no whole set of readings for {} s: has it gauges.count = {}, as the config, and is "
+              "the bus free enough? A lower --rate may help",
+              where, kSilence.count() / 1000, config.gauges.count));
+  }
+  std::fflush(stdout);
+  fmt::print(stderr, "strains: {} sets, {} incomplete\n", printer.sets(), receiver.incomplete());
+  if (stop.asked()) throw Failure(ExitCode::kInterrupted, "strains: interrupted");
+}
+
+}  // namespace
+
+void addStrains(CLI::App& app) { addCommand<StrainsOptions>(app, "strains", kStrainsHelp, runStrains); }
+
+}  // namespace strainfinger::cli

@@ -1,0 +1,69 @@
+#include "host/live/bus_watch.hpp"
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+namespace strainfinger::live {
+namespace {
+
+/// How many milliseconds' frames are fetched at once: at 8,000 frames a second, the most that 1 Mbit/s has,
+/// 40 of the hundreds that a socket holds.
+constexpr std::chrono::milliseconds kGather{5};
+
+/// The clock of TimedFrame.
+std::int64_t now_us() {
+  using namespace std::chrono;
+  return duration_cast<microseconds>(system_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+void BusWatch::listen(std::chrono::milliseconds time) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point end = Clock::now() + time;
+  const auto left = [end] {
+    return std::chrono::ceil<std::chrono::milliseconds>(
+        std::max(end - Clock::now(), Clock::duration::zero()));
+  };
+  do {
+    sendRequests();
+    if (port_.waitReadable(left())) std::this_thread::sleep_for(std::min(kGather, left()));
+    fetch();
+  } while (Clock::now() < end);
+}
+
+void BusWatch::fetch() {
+  while (const auto timed = port_.receiveTimed()) {
+    fleet_.take(timed->time_ns / 1000, timed->frame);
+    std::erase_if(requests_, [&](const PendingRequest& request) {
+      const auto outcome = request.take(timed->frame);
+      if (outcome) outcomes_.push_back(*outcome);
+      return outcome.has_value();
+    });
+    if (tap_) tap_(*timed);
+  }
+}
+
+void BusWatch::sendRequests() {
+  for (PendingRequest& request : requests_)
+    if (!request.isSent() && port_.send(request.frame())) request.markSent();
+  std::erase_if(requests_, [&](const PendingRequest& request) {
+    const auto outcome = request.expire(now_us());
+    if (outcome) outcomes_.push_back(*outcome);
+    return outcome.has_value();
+  });
+}
+
+BusView BusWatch::view() {
+  BusView view = fleet_.view(now_us());
+  view.missed = port_.status().missed;
+  return view;
+}
+
+void BusWatch::request(std::uint8_t node, const RequestFrame& request) {
+  if (std::ranges::find(requests_, node, &PendingRequest::node) == requests_.end())
+    requests_.emplace_back(node, request, now_us());
+}
+
+}  // namespace strainfinger::live

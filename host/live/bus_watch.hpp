@@ -1,0 +1,50 @@
+#pragma once
+// A live bus, watched: what is heard goes to a Fleet, requests go out beside it.
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "host/can/bus_port.hpp"
+#include "host/live/fleet.hpp"
+#include "host/live/pending_request.hpp"
+
+namespace strainfinger::live {
+
+class BusWatch {
+ public:
+  using Tap = std::function<void(const can::TimedFrame&)>;
+
+  /// `port` must outlive it. The config is for a Fleet.
+  BusWatch(can::BusPort& port, const config::FingerConfig& config)
+      : port_(port), fleet_(port.name(), config) {}
+
+  /// Takes what comes for so long. Frames are fetched a few milliseconds' worth at a time: a wake-up for each
+  /// would cost more than they do. Their times are those of their arrival all the same.
+  void listen(std::chrono::milliseconds time);
+
+  /// How things are now.
+  BusView view();
+
+  /// Asks a finger for something. A node has one request at a time: another of one that waits is dropped.
+  void request(std::uint8_t node, const RequestFrame& request);
+  /// What became of requests since the last call.
+  std::vector<Outcome> outcomes() { return std::exchange(outcomes_, {}); }
+
+  /// Also gets every frame; an empty one ends that.
+  void setTap(Tap tap) { tap_ = std::move(tap); }
+
+ private:
+  void fetch();
+  void sendRequests();
+
+  can::BusPort& port_;
+  Fleet fleet_;
+  std::vector<PendingRequest> requests_;
+  std::vector<Outcome> outcomes_;
+  Tap tap_;
+};
+
+}  // namespace strainfinger::live

@@ -1,0 +1,69 @@
+#pragma once
+// Follows the fingers of one bus by their frames.
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "common/can_frame.hpp"
+#include "host/can/loss_counter.hpp"
+#include "host/can/raw_receiver.hpp"
+#include "host/can/touch_receiver.hpp"
+#include "host/config/finger_config.hpp"
+#include "host/live/finger_view.hpp"
+#include "host/live/rate_meter.hpp"
+
+namespace strainfinger::live {
+
+class Fleet {
+ public:
+  /// Of the config, the bit rate is for the load and the gauges are for RAW.
+  Fleet(std::string busName, const config::FingerConfig& config)
+      : name_(std::move(busName)), bitrate_(config.can.bitrate), gauges_(config.gauges) {}
+
+  /// Takes any frame, in the order of the bus. Times have any origin; one before the last is taken for that.
+  void take(std::int64_t time_us, const CanFrame& frame);
+
+  /// How things are now; spans of force begin anew.
+  BusView view(std::int64_t now_us);
+
+ private:
+  /// Of one node, which may turn out to be no finger.
+  struct Node {
+    Node(std::uint8_t number, int gaugeCount) : receiver(number), raw(number, gaugeCount) {}
+    can::TouchReceiver receiver;
+    can::RawReceiver raw;
+    std::optional<HeartbeatFrame> heartbeat{};
+    std::optional<InfoFrame> info{};
+    std::optional<GaugesFrame> gauges{};
+    std::optional<can::TouchReport> touch{};
+    std::int64_t heard_us = 0;    ///< when its last HEARTBEAT came
+    std::int64_t touched_us = 0;  ///< when its last touch was complete
+    std::int64_t since_us = 0;    ///< when the first of its kind was
+    std::vector<double> strains{};
+    std::int64_t strained_us = 0;  ///< when these came
+    ForceSpan span{};
+    double strongest_n = 0;
+    RateMeter contacts{};
+    std::array<std::int64_t, 10> intervals_us{};  ///< between HEARTBEATs
+    std::size_t intervals = 0;                    ///< so many so far
+  };
+  Node& nodeAt(std::uint8_t number);
+  static void takeHeartbeat(Node& node, std::int64_t time_us, const HeartbeatFrame& heartbeat);
+  void takeRaw(Node& node, const can::RawSet& set) const;
+  static void takeTouch(Node& node, std::int64_t time_us, const can::TouchReport& touch);
+  FingerView viewOf(std::uint8_t number, Node& node);
+
+  std::string name_;
+  int bitrate_;
+  config::Gauges gauges_;
+  std::int64_t now_us_ = 0;
+  std::map<std::uint8_t, Node> nodes_;
+  can::LossCounter losses_;
+  RateMeter frames_, bits_;
+};
+
+}  // namespace strainfinger::live

@@ -1,0 +1,36 @@
+#pragma once
+// A log of one or more buses, watched as if it were live.
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/can/candump_text.hpp"
+#include "host/live/fleet.hpp"
+
+namespace strainfinger::live {
+
+class LogWatch {
+ public:
+  /// The config is for the Fleets of all its buses.
+  explicit LogWatch(const config::FingerConfig& config) : config_(config) {}
+
+  /// Takes a line of any of candump's text forms. A frame without a time comes when the one before it came.
+  std::optional<can::LogError> take(std::string_view line);
+
+  /// Of the last frame [us]; nothing before the first.
+  std::optional<std::int64_t> time_us() const { return time_us_; }
+
+  /// The buses by name, as they are then.
+  std::vector<BusView> views(std::int64_t now_us);
+
+ private:
+  config::FingerConfig config_;
+  std::optional<std::int64_t> time_us_;
+  std::map<std::string, Fleet> buses_;
+};
+
+}  // namespace strainfinger::live

@@ -1,0 +1,231 @@
+#include "host/live/page_server.hpp"
+
+#include <fmt/format.h>
+#include <httplib.h>
+
+#include <array>
+#include <atomic>
+#include <charconv>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "common/frame_layout.hpp"
+#include "host/base/failure.hpp"
+#include "host/live/command_desk.hpp"
+#include "host/live/event_hub.hpp"
+
+namespace strainfinger::live {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Beside the readers of events there are threads for short requests.
+constexpr int kThreads = PageServer::kMostReaders + 32;
+/// A client that is silent in the middle of its request, or takes nothing of its answer, is left.
+constexpr auto kPatience = 2s;
+constexpr std::size_t kLargestBody_bytes = 1024;
+/// A reader that stalls finds this much of old events at most when it goes on.
+constexpr int kSendBuffer_bytes = 32768;
+/// How often a reader's thread looks whether it is to end.
+constexpr auto kLookUp = 250ms;
+/// Longer than a PendingRequest waits.
+constexpr auto kAnswerWithin = 2s;
+
+/// Other pages cannot send this header here: browsers ask for leave first, and get none.
+constexpr const char* kCommandHeader = "X-Strainfinger";
+
+void setSocketOptions(socket_t socket) {
+  const int on = 1;
+  // Not the library's default, SO_REUSEPORT: with that two programs share a port and each gets half the
+  // readers.
+  ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  ::setsockopt(socket, SOL_SOCKET, SO_SNDBUF, &kSendBuffer_bytes, sizeof kSendBuffer_bytes);
+}
+
+/// "127.0.0.1" of "127.0.0.1:8080", "[::1]" of "[::1]:8080".
+std::string hostName(const std::string& host) {
+  const std::size_t end = host.starts_with('[') ? host.find(']') + 1 : host.find(':');
+  return host.substr(0, end);
+}
+
+/// A page of somebody else whose name was made to mean this machine sends its own name as Host.
+bool isLocalHost(const std::string& host) {
+  const std::string name = hostName(host);
+  return name == "localhost" || name == "[::1]" || isLocalAddress(name);
+}
+
+/// Takes as long for any text of the same length.
+bool areSame(const std::string& one, const std::string& other) {
+  if (one.size() != other.size()) return false;
+  bool differ = false;
+  for (std::size_t i = 0; i < one.size(); ++i) differ |= one[i] != other[i];
+  return !differ;
+}
+
+void say(httplib::Response& response, int status, const std::string& text) {
+  response.status = status;
+  response.set_content(nlohmann::json{{"text", text}}.dump() + "\n", "application/json");
+}
+
+}  // namespace
+
+bool isLocalAddress(std::string_view address) {
+  const bool isNumbers =
+      address.find_first_not_of("0123456789.") == address.npos;  // not 127.somebody.example
+  return address == "localhost" || address == "::1" || (isNumbers && address.starts_with("127."));
+}
+
+class PageServer::Impl {
+ public:
+  explicit Impl(const PageServerOptions& options) : options_(options) {
+    setUp();
+    addPages();
+    addEvents();
+    addCommands();
+    bind();
+    thread_ = std::thread([this] { server_.listen_after_bind(); });
+    while (!server_.is_running()) std::this_thread::sleep_for(1ms);
+  }
+
+  ~Impl() {
+    hub_.close();
+    server_.stop();
+    thread_.join();
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  int port() const { return port_; }
+  bool isRead() { return readers_ > 0 || wanted_.exchange(false); }
+  EventHub& hub() { return hub_; }
+  CommandDesk& tares() { return tares_; }
+
+ private:
+  void setUp() {
+    server_.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+    server_.set_read_timeout(kPatience);
+    server_.set_write_timeout(kPatience);
+    server_.set_keep_alive_max_count(1);  // no thread waits for what a client may yet want
+    server_.set_payload_max_length(kLargestBody_bytes);
+    server_.set_tcp_nodelay(true);
+    server_.set_socket_options(setSocketOptions);
+    server_.set_default_headers(
+        {{"Cache-Control", "no-store"},
+         {"X-Content-Type-Options", "nosniff"},
+         {"Referrer-Policy", "no-referrer"},
+         {"Content-Security-Policy",
+          "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
+          "connect-src 'self'; img-src data:; frame-ancestors 'none'; base-uri 'none'"}});
+    if (isLocalAddress(options_.address))
+      server_.set_pre_routing_handler([](const httplib::Request& request, httplib::Response& response) {
+        if (isLocalHost(request.get_header_value("Host"))) return httplib::Server::HandlerResponse::Unhandled;
+        say(response, 403, "Only by the address that `serve` printed.");
+        return httplib::Server::HandlerResponse::Handled;
+      });
+  }
+
+  void addPages() {
+    server_.Get("/", [](const httplib::Request&, httplib::Response& response) {
+      response.set_content(builtInPage().data(), builtInPage().size(), "text/html; charset=utf-8");
+    });
+    server_.Get("/finger", [this](const httplib::Request&, httplib::Response& response) {
+      response.set_content(options_.shapeJson, "application/json");
+    });
+    server_.Get("/state", [this](const httplib::Request&, httplib::Response& response) {
+      const EventHub::Event before = hub_.next(0, 0ms);
+      wanted_ = true;
+      const EventHub::Event event = hub_.next(before.number, kAnswerWithin);
+      if (event.text)
+        response.set_content(*event.text + "\n", "application/json");
+      else
+        say(response, 503, "The program is ending.");
+    });
+  }
+
+  void addEvents() {
+    server_.Get("/events", [this](const httplib::Request&, httplib::Response& response) {
+      if (++readers_ > kMostReaders) {
+        --readers_;
+        response.set_header("Retry-After", "5");
+        return say(response, 503, "Too many readers: come again later.");
+      }
+      auto last = std::make_shared<std::uint64_t>(hub_.next(0, 0ms).number);
+      response.set_chunked_content_provider(
+          "text/event-stream",
+          [this, last](std::size_t, httplib::DataSink& sink) { return sendNext(*last, sink); },
+          [this](bool) { --readers_; });
+    });
+  }
+
+  /// False ends the stream.
+  bool sendNext(std::uint64_t& last, httplib::DataSink& sink) {
+    const EventHub::Event event = hub_.next(last, kLookUp);
+    if (hub_.isClosed()) return false;
+    if (!event.text) return true;
+    last = event.number;
+    const std::string text = fmt::format("id: {}\ndata: {}\n\n", event.number, *event.text);
+    return sink.write(text.data(), text.size());
+  }
+
+  void addCommands() {
+    server_.Post(
+        R"(/fingers/(\d{1,2})/tare)", [this](const httplib::Request& request, httplib::Response& response) {
+          if (!mayCommand(request)) return say(response, 403, forbidden());
+          const std::string number = request.matches[1];
+          int node = 0;
+          std::from_chars(number.data(), number.data() + number.size(), node);
+          if (node < kFirstNode || node > kLastNode)
+            return say(response, 404,
+                       fmt::format("There is no node {}: they are {} to {}.", node, kFirstNode, kLastNode));
+          const auto outcome = tares_.ask(static_cast<std::uint8_t>(node), kAnswerWithin);
+          if (!outcome) return say(response, 503, "The program is ending.");
+          say(response, outcome->isDone ? 200 : 409, outcome->text);
+        });
+  }
+
+  bool mayCommand(const httplib::Request& request) const {
+    if (!request.has_header(kCommandHeader)) return false;
+    return options_.token.empty() || areSame(request.get_header_value(kCommandHeader), options_.token);
+  }
+
+  std::string forbidden() const {
+    return fmt::format("A command needs the header {}: {}.", kCommandHeader,
+                       options_.token.empty() ? "anything" : "the token that `serve` printed");
+  }
+
+  void bind() {
+    const std::string& address = options_.address;
+    port_ = options_.port;
+    if (port_ == 0)
+      port_ = server_.bind_to_any_port(address);
+    else if (!server_.bind_to_port(address, port_))
+      port_ = -1;
+    if (port_ < 0)
+      throw Failure(
+          ExitCode::kNoInterface,
+          fmt::format("cannot listen on {} port {}: another program does (--port takes another, `ss -ltnp` "
+                      "shows which), or this machine has no such address",
+                      address, options_.port));
+  }
+
+  PageServerOptions options_;
+  EventHub hub_;
+  CommandDesk tares_;
+  std::atomic<int> readers_ = 0;
+  std::atomic<bool> wanted_ = false;
+  httplib::Server server_;
+  int port_ = 0;
+  std::thread thread_;
+};
+
+PageServer::PageServer(const PageServerOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+PageServer::~PageServer() = default;
+
+int PageServer::port() const { return impl_->port(); }
+bool PageServer::isRead() { return impl_->isRead(); }
+void PageServer::publish(const std::string& json) { impl_->hub().publish(json); }
+std::vector<std::uint8_t> PageServer::takeTares() { return impl_->tares().takeAsked(); }
+void PageServer::answer(const Outcome& outcome) { impl_->tares().answer(outcome); }
+
+}  // namespace strainfinger::live

@@ -1,0 +1,31 @@
+#include "host/live/plain_report.hpp"
+
+#include <string>
+
+#include "host/base/failure.hpp"
+#include "host/live/value_text.hpp"
+#include "host/live/view_json.hpp"
+
+namespace strainfinger::live {
+
+std::optional<std::int64_t> PlainReport::due(std::int64_t time_us) {
+  if (!next_us_) next_us_ = time_us + every_us_;
+  if (time_us < *next_us_) return std::nullopt;
+  const std::int64_t last_us = time_us - (time_us - *next_us_) % every_us_;
+  next_us_ = last_us + every_us_;
+  return last_us;
+}
+
+void PlainReport::print(std::span<const BusView> buses) const {
+  std::string text;
+  for (const BusView& bus : buses) {
+    if (format_ == TableFormat::kJson)
+      text += toJson(bus).dump() + "\n";
+    else
+      for (const FingerView& finger : bus.fingers) text += plainLine(bus, finger) + "\n";
+  }
+  if (std::fwrite(text.data(), 1, text.size(), stream_) != text.size() || std::fflush(stream_) != 0)
+    throw Failure(ExitCode::kFailure, "cannot write the output: disk full or reader gone");
+}
+
+}  // namespace strainfinger::live

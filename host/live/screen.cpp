@@ -1,0 +1,261 @@
+#include "host/live/screen.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/live/value_text.hpp"
+#include "host/live/words.hpp"
+
+namespace strainfinger::live {
+namespace {
+
+constexpr int kBlockRows = 9;    ///< of a finger with its dial, the empty row behind it included
+constexpr int kHeadingRows = 2;  ///< of a bus, the empty row below it included
+constexpr int kDialRows = 3, kDialColumns = 6;  ///< its radii: a character is twice as high as wide
+constexpr int kTextColumn = 19, kBarColumn = 50;
+constexpr int kNarrowestBar = 8;
+
+struct Glyphs {
+  char32_t ring, spread, contact, centre, full, uncertain, empty, zero;
+  const char* pick;
+};
+constexpr Glyphs kUnicode{U'·', U'○', U'●', U'+', U'█', U'▒', U'·', U'│', "▸"};
+constexpr Glyphs kAscii{'.', 'o', '@', '+', '#', '~', '.', '|', ">"};
+
+/// 1, 2 or 5 times a power of ten, not below `value` nor 0.1 N.
+double barEnd_n(double value_n) {
+  double end_n = 0.1;
+  for (const double factor : {1.0, 2.0, 5.0, 10.0}) {
+    end_n = factor * std::pow(10, std::floor(std::log10(std::max(value_n, 0.1))));
+    if (end_n >= value_n) break;
+  }
+  return end_n;
+}
+
+/// Places of the dial, counter-clockwise from the right, as the finger is seen from its tip.
+class Dial {
+ public:
+  Dial(Canvas& canvas, int row, int column) : canvas_(canvas), row_(row), column_(column) {}
+
+  void put(double angle_deg, char32_t glyph, Style style) {
+    const double angle_rad = angle_deg * std::numbers::pi / 180;
+    canvas_.put(row_ + kDialRows - static_cast<int>(std::lround(kDialRows * std::sin(angle_rad))),
+                column_ + kDialColumns + static_cast<int>(std::lround(kDialColumns * std::cos(angle_rad))),
+                glyph, style);
+  }
+  /// An arc; all the ring where it is more than that.
+  void arc(double middle_deg, double half_deg, char32_t glyph, Style style) {
+    const double most_deg = std::min(half_deg, 180.0);
+    for (double off_deg = -most_deg; off_deg <= most_deg; off_deg += 5)
+      put(middle_deg + off_deg, glyph, style);
+  }
+  void centre(char32_t glyph) { canvas_.put(row_ + kDialRows, column_ + kDialColumns, glyph, Style::kFaint); }
+
+ private:
+  Canvas& canvas_;
+  int row_, column_;
+};
+
+/// Numbers from `low` to `high` along a row.
+class Bar {
+ public:
+  Bar(Canvas& canvas, int row, double low, double high)
+      : canvas_(canvas), row_(row), low_(low), high_(high), width_(canvas.columns() - kBarColumn - 10) {}
+
+  bool hasRoom() const { return width_ >= kNarrowestBar; }
+  void fill(double from, double to, char32_t glyph, Style style) {
+    if (std::isnan(from) || std::isnan(to)) return;
+    const int last = place(std::max(from, to));
+    for (int i = place(std::min(from, to)); i <= last; ++i) canvas_.put(row_, kBarColumn + i, glyph, style);
+  }
+  void caption(const std::string& text) { canvas_.text(row_, kBarColumn + width_ + 1, text, Style::kFaint); }
+
+ private:
+  int place(double value) const {
+    const double share = std::clamp((value - low_) / (high_ - low_), 0.0, 1.0);
+    return static_cast<int>(std::lround(share * (width_ - 1)));
+  }
+  Canvas& canvas_;
+  int row_;
+  double low_, high_;
+  int width_;
+};
+
+class Painter {
+ public:
+  Painter(const ScreenContent& content, const ScreenForm& form)
+      : content_(content),
+        isUnicode_(form.unicode),
+        glyphs_(form.unicode ? kUnicode : kAscii),
+        canvas_(form.rows, form.columns) {}
+
+  Canvas paint() {
+    for (const BusView& bus : content_.buses)
+      for (const FingerView& finger : bus.fingers) fingers_.push_back(&finger);
+    const bool blocksFit = rowsWith(kBlockRows) <= canvas_.rows() && canvas_.columns() >= kBarColumn;
+    int row = 0;
+    std::size_t index = 0;
+    for (const BusView& bus : content_.buses) {
+      heading(row, bus);
+      row += kHeadingRows;
+      for (std::size_t i = 0; i < bus.fingers.size(); ++i, ++index) {
+        if (row < canvas_.rows() - 1) blocksFit ? block(row, index) : line(row, index);
+        row += blocksFit ? kBlockRows : 1;
+      }
+    }
+    foot(row - (canvas_.rows() - 1));
+    return canvas_;
+  }
+
+ private:
+  /// Rows of everything, where a finger has so many.
+  int rowsWith(int fingerRows) const {
+    return kHeadingRows * static_cast<int>(content_.buses.size()) +
+           fingerRows * static_cast<int>(fingers_.size()) + 1;
+  }
+
+  /// Canvas::text(), in ASCII where nothing else is to be had.
+  int say(int row, int column, std::string text, Style style = Style::kPlain) {
+    constexpr std::string_view kPlusMinus = "±";
+    for (std::size_t at = 0; !isUnicode_ && (at = text.find(kPlusMinus, at)) != text.npos;)
+      text.replace(at, kPlusMinus.size(), "+-");
+    return canvas_.text(row, column, text, style);
+  }
+
+  void heading(int row, const BusView& bus) {
+    if (row >= canvas_.rows() - 1) return;
+    int column = say(row, 0, bus.name, Style::kStrong);
+    column =
+        say(row, column + 2, fmt::format("{} frames/s  load {:.1f} %", bus.framesPerSecond, bus.load * 100));
+    if (bus.missed > 0)
+      say(row, column + 2, fmt::format("{} frames not read in time", bus.missed), Style::kBad);
+    if (bus.fingers.empty())
+      say(row + 1, 0, "no finger heard yet: each sends a HEARTBEAT ten times a second");
+  }
+
+  void foot(int hiddenRows) {
+    const std::string more =
+        hiddenRows > 0 ? fmt::format("{} more rows: make the window higher  ", hiddenRows) : "";
+    const int column = say(canvas_.rows() - 1, 0, more + content_.keys, Style::kFaint);
+    say(canvas_.rows() - 1, column + 2, content_.message, Style::kStrong);
+  }
+
+  int name(int row, std::size_t index) {
+    const FingerView& finger = *fingers_[index];
+    const bool isPicked = index == content_.selected && fingers_.size() > 1;
+    say(row, 0, isPicked ? glyphs_.pick : " ", Style::kAccent);
+    int column = say(row, 2, fmt::format("node {}", finger.node), Style::kStrong);
+    const std::string state = wordFor(kFingerStateNames, static_cast<int>(finger.heartbeat.state));
+    const bool runs = finger.heartbeat.state == FingerState::kRun && !finger.isSilent();
+    return say(row, column + 2, state, runs ? Style::kGood : Style::kBad);
+  }
+
+  /// A finger in one row.
+  void line(int row, std::size_t index) {
+    const FingerView& finger = *fingers_[index];
+    int column = name(row, index);
+    const std::string warnings = warningsText(finger);
+    if (!warnings.empty()) column = say(row, column + 2, warnings, Style::kBad);
+    if (!finger.isTouched()) {
+      say(row, column + 2, "no touch", Style::kFaint);
+      return;
+    }
+    column = say(row, column + 2, angleText(*finger.touch), Style::kAccent);
+    column = say(row, column + 2, "normal " + normalText(*finger.touch));
+    column = say(row, column + 2, "tangential " + tangentialText(*finger.touch));
+    say(row, column + 2, flagsText(finger), Style::kFaint);
+  }
+
+  /// A finger with all that is known of it.
+  void block(int top, std::size_t index) {
+    const FingerView& finger = *fingers_[index];
+    int column = name(top, index);
+    column = say(top, column + 2, "up " + durationText(finger.heartbeat.uptime_s), Style::kFaint);
+    if (finger.heartbeat.temperature_degC != kNotKnown<std::int8_t>)
+      column = say(top, column + 2, fmt::format("{} degC", finger.heartbeat.temperature_degC), Style::kFaint);
+    say(top, column + 2, flagsText(finger));
+    dial(top + 1, finger);
+    if (finger.isTouched())
+      numbers(top + 1, finger);
+    else
+      say(top + 1, kTextColumn, finger.touch ? "nothing touches it" : "no touch known", Style::kFaint);
+    say(top + 6, kTextColumn, warningsText(finger), Style::kBad);
+    say(top + 7, kTextColumn, statistics(finger), Style::kFaint);
+  }
+
+  static std::string statistics(const FingerView& finger) {
+    std::string text = fmt::format("{} contacts/s", finger.contactsPerSecond);
+    if (!std::isnan(finger.jitter_s)) text += fmt::format("  jitter {:.1f} ms", finger.jitter_s * 1e3);
+    text += fmt::format("  {} lost", finger.lost);
+    if (finger.restarts > 0) text += fmt::format("  {} restarts", finger.restarts);
+    return finger.gauges ? text + "  zero " + durationText(finger.gauges->zero_age_s) + " old" : text;
+  }
+
+  void numbers(int top, const FingerView& finger) {
+    const can::TouchReport& touch = *finger.touch;
+    const double end_n = barEnd_n(finger.strongest_n);
+    label(top, "angle", angleText(touch));
+    label(top + 1, "normal", normalText(touch));
+    label(top + 2, "tangential", tangentialText(touch));
+    label(top + 3, "width", widthText(touch));
+    bar(top + 1, 0, end_n, touch.normal_n, touch.sigmaNormal_n);
+    bar(top + 2, -end_n, end_n, touch.tangential_n, touch.sigmaTangential_n);
+    if (!std::isnan(touch.quality_percent))
+      say(top, kBarColumn, fmt::format("quality {:.0f} %", touch.quality_percent), Style::kFaint);
+    if (touch.second)
+      label(top + 4, "second",
+            fmt::format("{}  {}  {}", angleText(*touch.second), normalText(*touch.second),
+                        tangentialText(*touch.second)));
+  }
+
+  void label(int row, const char* name, const std::string& value) {
+    say(row, kTextColumn, name, Style::kFaint);
+    say(row, kTextColumn + 11, value, Style::kStrong);
+  }
+
+  void bar(int row, double low_n, double high_n, double value_n, double sigma_n) {
+    Bar bar(canvas_, row, low_n, high_n);
+    if (!bar.hasRoom()) return;
+    bar.fill(low_n, high_n, glyphs_.empty, Style::kFaint);
+    bar.fill(0, value_n, glyphs_.full, Style::kAccent);
+    bar.fill(value_n - sigma_n, value_n + sigma_n, glyphs_.uncertain, Style::kAccent);
+    bar.fill(0, 0, glyphs_.zero, Style::kPlain);
+    bar.caption(fmt::format("{:g} N", high_n));
+  }
+
+  void dial(int top, const FingerView& finger) {
+    Dial dial(canvas_, top, 3);
+    dial.arc(0, 180, glyphs_.ring, Style::kFaint);
+    dial.centre(glyphs_.centre);
+    if (!finger.isTouched()) return;
+    const can::TouchReport& touch = *finger.touch;
+    if (touch.second) contact(dial, *touch.second);
+    contact(dial, touch);
+  }
+
+  void contact(Dial& dial, const can::ContactReport& contact) {
+    if (std::isnan(contact.angle_deg)) return;
+    if (!std::isnan(contact.alternative_deg))
+      dial.put(contact.angle_deg + contact.alternative_deg, glyphs_.spread, Style::kAccent);
+    if (!std::isnan(contact.sigmaAngle_deg))
+      dial.arc(contact.angle_deg, contact.sigmaAngle_deg, glyphs_.spread, Style::kAccent);
+    dial.put(contact.angle_deg, glyphs_.contact, Style::kAccent);
+  }
+
+  const ScreenContent& content_;
+  std::vector<const FingerView*> fingers_{};  ///< of all buses
+  bool isUnicode_;
+  const Glyphs& glyphs_;
+  Canvas canvas_;
+};
+
+}  // namespace
+
+Canvas drawScreen(const ScreenContent& content, const ScreenForm& form) {
+  return Painter(content, form).paint();
+}
+
+}  // namespace strainfinger::live

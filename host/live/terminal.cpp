@@ -1,0 +1,96 @@
+#include "host/live/terminal.hpp"
+
+#include <fcntl.h>
+#include <langinfo.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <clocale>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "host/base/failure.hpp"
+
+namespace strainfinger::live {
+namespace {
+
+// Of xterm, and of all that followed it: see console_codes(4).
+constexpr const char* kOtherScreen = "\033[?1049h\033[?25l\033[2J";
+constexpr const char* kFirstScreen = "\033[0m\033[?25h\033[?1049l";
+constexpr const char* kHome = "\033[H";
+constexpr const char* kEndLine = "\033[K";
+constexpr const char* kClearBelow = "\033[J";
+
+void writeOut(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+    throw Failure(ExitCode::kFailure, "cannot write the output: the terminal is gone");
+}
+
+bool isUtf8() {
+  std::setlocale(LC_CTYPE, "");
+  return std::strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
+}
+
+bool wantsColour() {
+  const char* refused = std::getenv("NO_COLOR");
+  return refused == nullptr || *refused == '\0';
+}
+
+}  // namespace
+
+bool hasTerminal() { return isatty(STDOUT_FILENO) == 1; }
+
+ScreenForm terminalForm() {
+  ScreenForm form{.unicode = isUtf8()};
+  winsize size{};
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_row > 0 && size.ws_col > 0) {
+    form.rows = size.ws_row;
+    form.columns = size.ws_col;
+  }
+  return form;
+}
+
+Terminal::Terminal() : isStyled_(wantsColour()) {
+  ownsKeys_ = isatty(STDIN_FILENO) != 1;
+  keys_ = ownsKeys_ ? ::open("/dev/tty", O_RDONLY | O_CLOEXEC) : STDIN_FILENO;
+  if (keys_ >= 0 && tcgetattr(keys_, &before_) == 0) {
+    termios raw = before_;
+    raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+    raw.c_cc[VMIN] = 0;  // a read never waits
+    raw.c_cc[VTIME] = 0;
+    tcsetattr(keys_, TCSANOW, &raw);
+  }
+  writeOut(kOtherScreen);
+}
+
+Terminal::~Terminal() {
+  std::fputs(kFirstScreen, stdout);
+  std::fflush(stdout);
+  if (keys_ < 0) return;
+  tcsetattr(keys_, TCSANOW, &before_);
+  if (ownsKeys_) ::close(keys_);
+}
+
+void Terminal::show(const Canvas& canvas) {
+  std::string text = kHome;
+  const auto lines = canvas.lines(isStyled_);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    text.append(i > 0 ? "\r\n" : "").append(lines[i]).append(kEndLine);
+  writeOut(text + kClearBelow);
+}
+
+std::optional<unsigned char> Terminal::key() {
+  const auto next = [this] {
+    unsigned char byte = 0;
+    return keys_ >= 0 && ::read(keys_, &byte, 1) == 1 ? std::optional(byte) : std::nullopt;
+  };
+  const auto first = next();
+  if (first != 0x1B) return first;
+  const auto second = next();  // an arrow is ESC [ A
+  if (second != '[') return first;
+  const auto third = next();
+  return third ? std::optional(static_cast<unsigned char>(0x80 | *third)) : first;
+}
+
+}  // namespace strainfinger::live

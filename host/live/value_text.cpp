@@ -1,0 +1,107 @@
+#include "host/live/value_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <vector>
+
+#include "host/live/words.hpp"
+
+namespace strainfinger::live {
+namespace {
+
+constexpr const char* kUnknown = "?";
+
+std::string withSigma(const std::string& value, double sigma, int decimals, const char* unit) {
+  const std::string spread = std::isnan(sigma) ? kUnknown : fmt::format("{:.{}f}", sigma, decimals);
+  return fmt::format("{} ± {}{}{}", value, spread, *unit == '\0' ? "" : " ", unit);
+}
+
+/// What keeps a finger's touches from being shown, if anything does.
+std::string trouble(const FingerView& finger) {
+  if (finger.isSilent())
+    return fmt::format("silent for {:.1f} s", static_cast<double>(finger.silence_us) / 1e6);
+  if (finger.isForeign())
+    return fmt::format("speaks protocol {}, this program {}: use the strainfinger of its firmware",
+                       finger.heartbeat.protocol, kProtocolVersion);
+  return {};
+}
+
+std::string touchText(const can::TouchReport& touch) {
+  std::string text = fmt::format("angle {}  normal {}  tangential {}  width {}", angleText(touch),
+                                 normalText(touch), tangentialText(touch), widthText(touch));
+  if (touch.second)
+    text += fmt::format("  second {}, {}, {}", angleText(*touch.second), normalText(*touch.second),
+                        tangentialText(*touch.second));
+  return text;
+}
+
+std::string stateText(const FingerView& finger) {
+  if (finger.isTouched()) return touchText(*finger.touch);
+  return finger.touch ? "nothing touches it" : "no touch known";
+}
+
+}  // namespace
+
+std::string measured(double value, double sigma, int decimals, const char* unit) {
+  if (std::isnan(value)) return kUnknown;
+  return withSigma(fmt::format("{:.{}f}", value, decimals), sigma, decimals, unit);
+}
+
+std::string measuredSigned(double value, double sigma, int decimals, const char* unit) {
+  if (std::isnan(value)) return kUnknown;
+  return withSigma(fmt::format("{:+.{}f}", value, decimals), sigma, decimals, unit);
+}
+
+std::string angleText(const can::ContactReport& contact) {
+  return measured(contact.angle_deg, contact.sigmaAngle_deg, 2, "deg");
+}
+
+std::string normalText(const can::ContactReport& contact) {
+  return measured(contact.normal_n, contact.sigmaNormal_n, 3, "N");
+}
+
+std::string tangentialText(const can::ContactReport& contact) {
+  return measuredSigned(contact.tangential_n, contact.sigmaTangential_n, 3, "N");
+}
+
+std::string widthText(const can::TouchReport& touch) {
+  return measured(touch.width_m * 1e3, touch.sigmaWidth_m * 1e3, 2, "mm");
+}
+
+std::string durationText(std::uint16_t seconds) {
+  if (seconds == kNotKnown<std::uint16_t>) return kUnknown;
+  return fmt::format("{}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
+}
+
+std::string warningsText(const FingerView& finger) {
+  std::vector<std::string> warnings;
+  if (const std::string text = trouble(finger); !text.empty()) warnings.push_back(text);
+  if (finger.hasTwin)
+    warnings.emplace_back(
+        "another finger has this node number: `strainfinger config --set-node` changes one's");
+  const auto faults = wordsFor(kFingerFaultNames, finger.heartbeat.faults.raw());
+  if (!faults.empty()) warnings.push_back(fmt::format("faults: {}", fmt::join(faults, ", ")));
+  const auto gauges = bitNumbers(finger.gauges ? finger.gauges->out_of_use : 0);
+  if (!gauges.empty()) warnings.push_back(fmt::format("gauges out of use: {}", fmt::join(gauges, ", ")));
+  return fmt::format("{}", fmt::join(warnings, "; "));
+}
+
+std::string flagsText(const FingerView& finger) {
+  if (!finger.touch) return {};
+  FingerFlags flags = finger.touch->flags;
+  flags.set(FingerFlag::kContact, false);
+  return fmt::format("{}", fmt::join(wordsFor(kFingerFlagNames, flags.raw()), ", "));
+}
+
+std::string plainLine(const BusView& bus, const FingerView& finger) {
+  std::string line = fmt::format("{:.3f} s  {} node {}  {}  {}  {} contacts/s  {} lost",
+                                 static_cast<double>(bus.time_us) / 1e6, bus.name, finger.node,
+                                 wordFor(kFingerStateNames, static_cast<int>(finger.heartbeat.state)),
+                                 stateText(finger), finger.contactsPerSecond, finger.lost);
+  for (const std::string& more : {flagsText(finger), warningsText(finger)})
+    if (!more.empty()) line.append("  ").append(more);
+  return line;
+}
+
+}  // namespace strainfinger::live

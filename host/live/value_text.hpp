@@ -1,0 +1,35 @@
+#pragma once
+// Values of a view as people read them.
+
+#include <string>
+
+#include "host/live/finger_view.hpp"
+
+namespace strainfinger::live {
+
+/// "57.21 ± 0.01 deg"; "?" in place of what is not known. `unit` may be empty.
+std::string measured(double value, double sigma, int decimals, const char* unit);
+
+/// The same, always with its sign: "+0.282 ± 0.004 N".
+std::string measuredSigned(double value, double sigma, int decimals, const char* unit);
+
+std::string angleText(const can::ContactReport& contact);
+std::string normalText(const can::ContactReport& contact);
+std::string tangentialText(const can::ContactReport& contact);
+std::string widthText(const can::TouchReport& touch);
+
+/// "1:02:03", "2 d 3:04:05"; "?" where it is not known.
+std::string durationText(std::uint16_t seconds);
+
+/// What is to be known of a finger besides its numbers: "faults: gauges, noisy", "gauges 5, 7 out of use",
+/// "silent for 2.3 s", "speaks protocol 3: use the strainfinger of its firmware"; joined by "; ", "" for
+/// nothing.
+std::string warningsText(const FingerView& finger);
+
+/// Flags of its touch but for "contact", which the screen shows: "uncertain, simulated".
+std::string flagsText(const FingerView& finger);
+
+/// A line for people and for logs: "12.300 s  can0 node 1  run  angle 57.21 ± 0.01 deg  ..".
+std::string plainLine(const BusView& bus, const FingerView& finger);
+
+}  // namespace strainfinger::live

@@ -1,0 +1,116 @@
+#include "host/live/view_json.hpp"
+
+#include <cmath>
+
+#include "host/live/words.hpp"
+
+namespace strainfinger::live {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json numberOrNull(double value) { return std::isnan(value) ? Json() : Json(value); }
+
+Json listOrNull(const std::vector<double>& values) { return values.empty() ? Json() : Json(values); }
+
+template <typename Raw>
+Json knownOrNull(Raw raw) {
+  return raw == kNotKnown<Raw> ? Json() : Json(raw);
+}
+
+Json contactJson(const can::ContactReport& contact) {
+  return {{"angle_deg", numberOrNull(contact.angle_deg)},
+          {"sigma_angle_deg", numberOrNull(contact.sigmaAngle_deg)},
+          {"alternative_deg", numberOrNull(contact.alternative_deg)},
+          {"normal_n", numberOrNull(contact.normal_n)},
+          {"sigma_normal_n", numberOrNull(contact.sigmaNormal_n)},
+          {"tangential_n", numberOrNull(contact.tangential_n)},
+          {"sigma_tangential_n", numberOrNull(contact.sigmaTangential_n)},
+          {"quality_percent", numberOrNull(contact.quality_percent)}};
+}
+
+Json touchJson(const FingerView& finger) {
+  const can::TouchReport& touch = *finger.touch;
+  Json json = contactJson(touch);
+  json["time_s"] = static_cast<double>(finger.touched_us) / 1e6;
+  json["since_s"] = static_cast<double>(finger.since_us) / 1e6;
+  json["width_m"] = numberOrNull(touch.width_m);
+  json["sigma_width_m"] = numberOrNull(touch.sigmaWidth_m);
+  json["chi"] = numberOrNull(touch.chi);
+  json["touched"] = touch.flags.has(FingerFlag::kContact);
+  json["flags"] = wordsFor(kFingerFlagNames, touch.flags.raw());
+  json["sequence"] = touch.sequence;
+  json["second"] = touch.second ? contactJson(*touch.second) : Json();
+  return json;
+}
+
+Json spanJson(const ForceSpan& span) {
+  return {{"least_normal_n", numberOrNull(span.leastNormal_n)},
+          {"most_normal_n", numberOrNull(span.mostNormal_n)},
+          {"least_tangential_n", numberOrNull(span.leastTangential_n)},
+          {"most_tangential_n", numberOrNull(span.mostTangential_n)}};
+}
+
+Json gaugesJson(const GaugesFrame& gauges) {
+  const Json rate = knownOrNull(gauges.zero_rate_nano_per_s);
+  return {{"out_of_use", bitNumbers(gauges.out_of_use)},
+          {"zero_age_s", knownOrNull(gauges.zero_age_s)},
+          {"zero_rate_per_s", rate.is_null() ? rate : Json(gauges.zero_rate_nano_per_s * 1e-9)}};
+}
+
+Json infoJson(const InfoFrame& info) {
+  return {{"version", std::to_string(info.version_major) + "." + std::to_string(info.version_minor)},
+          {"board", info.board},
+          {"reset_cause", wordFor(kResetCauseNames, static_cast<int>(info.reset_cause))},
+          {"crash", wordFor(kCrashNames, static_cast<int>(info.crash))}};
+}
+
+Json fingerJson(const FingerView& finger) {
+  const HeartbeatFrame& heartbeat = finger.heartbeat;
+  return {{"node", finger.node},
+          {"silence_s", static_cast<double>(finger.silence_us) / 1e6},
+          {"silent", finger.isSilent()},
+          {"protocol", heartbeat.protocol},
+          {"foreign", finger.isForeign()},
+          {"state", wordFor(kFingerStateNames, static_cast<int>(heartbeat.state))},
+          {"faults", wordsFor(kFingerFaultNames, heartbeat.faults.raw())},
+          {"uptime_s", knownOrNull(heartbeat.uptime_s)},
+          {"temperature_degc", knownOrNull(heartbeat.temperature_degC)},
+          {"contacts_per_s", finger.contactsPerSecond},
+          {"jitter_s", numberOrNull(finger.jitter_s)},
+          {"received", finger.received},
+          {"lost", finger.lost},
+          {"restarts", finger.restarts},
+          {"has_twin", finger.hasTwin},
+          {"strongest_n", finger.strongest_n},
+          {"touch", finger.touch ? touchJson(finger) : Json()},
+          {"span", spanJson(finger.span)},
+          {"strains", listOrNull(finger.strains)},
+          {"fitted", listOrNull(finger.fitted)},
+          {"gauges", finger.gauges ? gaugesJson(*finger.gauges) : Json()},
+          {"info", finger.info ? infoJson(*finger.info) : Json()}};
+}
+
+}  // namespace
+
+Json toJson(const BusView& bus) {
+  Json fingers = Json::array();
+  for (const FingerView& finger : bus.fingers) fingers.push_back(fingerJson(finger));
+  return {{"bus", bus.name},
+          {"time_s", static_cast<double>(bus.time_us) / 1e6},
+          {"frames_per_s", bus.framesPerSecond},
+          {"load", bus.load},
+          {"missed", bus.missed},
+          {"fingers", std::move(fingers)}};
+}
+
+Json toJson(const config::FingerConfig& config) {
+  Json gauges = Json::array();
+  for (int gauge = 0; gauge < config.gauges.count; ++gauge) gauges.push_back(config.gauges.angle_deg(gauge));
+  return {{"core_radius_m", config.finger.core_radius_m},
+          {"outer_radius_m", config.finger.outer_radius_m},
+          {"gauge_radius_m", config.gauges.radius_m},
+          {"gauge_angles_deg", std::move(gauges)}};
+}
+
+}  // namespace strainfinger::live

@@ -1,0 +1,144 @@
+#include "host/plot/log_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "host/plot/style.hpp"
+
+namespace strainfinger::plot {
+namespace {
+
+constexpr double kMmPerM = 1e3;
+
+// A band is drawn below its line. Colours as in the pictures of
+// runs: what is estimated is blue, what is tangential orange.
+constexpr const char* kPanels = R"(
+set multiplot
+set lmargin at screen 0.105; set rmargin at screen 0.985
+set xrange [first:last]; set xtics format ''
+set style fill transparent solid 0.3 noborder
+set tmargin at screen 0.93; set bmargin at screen 0.71
+set label 1 heading at graph 0,1.07 left font ',13'
+set ylabel 'angle'; set yrange [0:360]; set ytics 90 format '%g°'
+plot data('angle') using 1:(gap(3)):(gap(4)) skip 1 with filledcurves linecolor rgb lightBlue title '±σ', \
+     '' using 1:(gap(2)) skip 1 with lines linewidth 1.4 linecolor rgb blue title 'contact', \
+     '' using 1:(gap(5)) skip 1 with points pointtype 7 pointsize 0.3 linecolor rgb green title 'second contact'
+unset label 1
+set tmargin at screen 0.67; set bmargin at screen 0.45
+set ylabel 'force (N)'; set yrange [*:*]; set ytics autofreq format '%g'; set offsets 0,0,graph 0.05,graph 0.05
+plot 0 with lines linewidth 1 linecolor rgb faint notitle, \
+     data('force') using 1:(gap(3)):(gap(4)) skip 1 with filledcurves linecolor rgb lightBlue notitle, \
+     '' using 1:(gap(6)):(gap(7)) skip 1 with filledcurves linecolor rgb orange notitle, \
+     '' using 1:(gap(2)) skip 1 with lines linewidth 1.4 linecolor rgb blue title 'normal', \
+     '' using 1:(gap(5)) skip 1 with lines linewidth 1.4 linecolor rgb vermilion title 'tangential'
+set tmargin at screen 0.41; set bmargin at screen 0.27
+set ylabel 'width (mm)'; set yrange [0:*]; set offsets 0,0,graph 0.05,0
+plot data('width') using 1:(gap(3)):(gap(4)) skip 1 with filledcurves linecolor rgb lightBlue notitle, \
+     '' using 1:(gap(2)) skip 1 with lines linewidth 1.4 linecolor rgb blue notitle
+unset offsets
+set tmargin at screen 0.23; set bmargin at screen 0.085
+set ylabel 'flags'; set yrange [flags - 0.5:-0.5]; set xtics format '%g'; set xlabel 'time (s)'
+plot data('flags') using 1:2 skip 1 with points pointtype 5 pointsize 0.3 linecolor rgb faint notitle
+unset multiplot
+)";
+
+using Row = std::vector<double>;
+
+/// The rows of `points`, with an empty one where a curve and its band must break.
+template <typename RowOf, typename Breaks>
+std::vector<Row> brokenRows(const std::vector<LogPoint>& points, RowOf rowOf, Breaks breaks) {
+  std::vector<Row> rows;
+  const LogPoint* before = nullptr;
+  for (const LogPoint& point : points) {
+    if (before != nullptr && (point.time_s - before->time_s > kGap_s || breaks(*before, point)))
+      rows.emplace_back();
+    rows.push_back(rowOf(point));
+    before = &point;
+  }
+  return rows;
+}
+
+bool never(const LogPoint&, const LogPoint&) { return false; }
+
+/// Through 0 deg a line would cross the panel.
+bool turns(const LogPoint& before, const LogPoint& point) {
+  return std::fabs(point.angle_deg - before.angle_deg) > 180;
+}
+
+DataFile angleData(const LogRecord& record) {
+  const auto rowOf = [](const LogPoint& point) {
+    return Row{point.time_s, point.angle_deg, std::fmax(point.angle_deg - point.sigmaAngle_deg, 0),
+               std::fmin(point.angle_deg + point.sigmaAngle_deg, 360), point.secondAngle_deg};
+  };
+  return {"angle",
+          {"time_s", "angle_deg", "angle_low_deg", "angle_high_deg", "angle2_deg"},
+          brokenRows(record.points, rowOf, turns)};
+}
+
+DataFile forceData(const LogRecord& record) {
+  const auto rowOf = [](const LogPoint& point) {
+    return Row{point.time_s,
+               point.normal_n,
+               point.normal_n - point.sigmaNormal_n,
+               point.normal_n + point.sigmaNormal_n,
+               point.tangential_n,
+               point.tangential_n - point.sigmaTangential_n,
+               point.tangential_n + point.sigmaTangential_n};
+  };
+  return {"force",
+          {"time_s", "normal_n", "normal_low_n", "normal_high_n", "tangential_n", "tangential_low_n",
+           "tangential_high_n"},
+          brokenRows(record.points, rowOf, never)};
+}
+
+DataFile widthData(const LogRecord& record) {
+  const auto rowOf = [](const LogPoint& point) {
+    return Row{point.time_s, point.width_m * kMmPerM,
+               std::fmax(point.width_m - point.sigmaWidth_m, 0) * kMmPerM,
+               (point.width_m + point.sigmaWidth_m) * kMmPerM};
+  };
+  return {"width",
+          {"time_s", "width_mm", "width_low_mm", "width_high_mm"},
+          brokenRows(record.points, rowOf, never)};
+}
+
+DataFile flagData(const LogRecord& record) {
+  DataFile data{"flags", {"time_s", "flag"}, {}};
+  for (const LogPoint& point : record.points)
+    for (std::size_t flag = 0; flag < record.flagNames.size(); ++flag)
+      if ((point.flags >> flag & 1) != 0) data.rows.push_back({point.time_s, static_cast<double>(flag)});
+  return data;
+}
+
+/// The names beside the rows of the last panel; gnuplot reads '_' as a subscript.
+std::string flagTics(const std::vector<std::string>& names) {
+  std::string tics;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    tics += fmt::format("{}'{}' {}", i > 0 ? ", " : "", names[i], i);
+  return tics;
+}
+
+std::string withFlagTics(std::string panels, const std::vector<std::string>& names) {
+  constexpr std::string_view kPlace = "set ylabel 'flags';";
+  panels.replace(panels.find(kPlace), kPlace.size(),
+                 fmt::format("unset ylabel; set ytics ({}) noenhanced font ',9';", flagTics(names)));
+  return panels;
+}
+
+}  // namespace
+
+Picture logPicture(const LogRecord& record) {
+  const double first_s = record.points.empty() ? 0 : record.points.front().time_s;
+  const double last_s = record.points.empty() ? 1 : record.points.back().time_s;
+  std::string script = kStyle;
+  script += fmt::format("first = {}; last = {}; flags = {}; heading = '{}'\n", first_s,
+                        last_s > first_s ? last_s : first_s + 1, record.flagNames.size(), record.heading);
+  script += withFlagTics(kPanels, record.flagNames);
+  return {1200,
+          900,
+          std::move(script),
+          {angleData(record), forceData(record), widthData(record), flagData(record)}};
+}
+
+}  // namespace strainfinger::plot

@@ -1,0 +1,66 @@
+#include <CppUTest/TestHarness.h>
+
+#include <string>
+
+#include "tests/commands/program.hpp"
+
+using namespace strainfinger;
+
+TEST_GROUP(Plot) {
+  static constexpr const char* kTouch =
+      "(10.000000) can0 185#E8032201808161A3\n(12.500000) can0 185#E8032201808161A3\n"
+      "(12.500000) can0 285#22011EFF070981A3\n(12.500000) can0 385#F8079600110181A3\n";
+
+  static Run inFolder(const std::string& commands, const std::string& input) {
+    return runShell(
+        "folder=$(mktemp -d); cat >$folder/x.log; cd $folder; trap 'rm -rf $folder' EXIT\n" + commands,
+        input);
+  }
+};
+
+TEST(Plot, DrawsALog) {
+  const Run run = inFolder(
+      "\"$STRAINFINGER\" plot x.log -o a.png && \"$STRAINFINGER\" plot - -o b.svg <x.log && head -c 4 a.png "
+      "| tail -c 3\n"
+      "grep -c '<svg' b.svg; tail -n 1 a-force.csv; ls",
+      kTouch);
+  STRCMP_EQUAL(
+      "PNG1\n2.5,0.28999999999999998,0.28649999999999998,0.29349999999999998,-0.22600000000000001,-0."
+      "23050000000000001,"
+      "-0.2215\na-angle.csv\na-flags.csv\na-force.csv\na-width.csv\na.gp\na.png\nb-angle.csv\nb-flags.csv\n"
+      "b-force.csv\nb-width.csv\nb.gp\nb.svg\nx.log\n",
+      run.out.c_str());
+  STRCMP_EQUAL("", run.err.c_str());
+}
+
+TEST(Plot, OfSeveralFingersOneIsChosen) {
+  std::string log = kTouch;
+  for (const char* line :
+       {"(13.000000) can0 182#E8032201808161A3\n", "(13.000000) can0 282#22011EFF070981A3\n",
+        "(13.000000) can0 382#F8079600110181A3\n"})
+    log += line;
+  const Run both = inFolder("\"$STRAINFINGER\" plot x.log -o a.png; status=$?; ls; exit $status", log);
+  LONGS_EQUAL(2, both.status);
+  STRCMP_EQUAL("x.log\n", both.out.c_str());
+  STRCMP_CONTAINS("several fingers (can0 node 2, can0 node 5): choose one with --node", both.err.c_str());
+  LONGS_EQUAL(0, inFolder("\"$STRAINFINGER\" plot x.log -o a.png -n 2", log).status);
+}
+
+TEST(Plot, SaysWhatItCannotDraw) {
+  const Run empty =
+      inFolder("\"$STRAINFINGER\" plot x.log -o a.png", "(1.000000) can0 705#2200004D0E1900A7\n");
+  LONGS_EQUAL(1, empty.status);
+  STRCMP_CONTAINS("x.log: no touch in it to draw", empty.err.c_str());
+  const Run unreadable = inFolder("\"$STRAINFINGER\" plot x.log -o a.png", "rubbish\n");
+  LONGS_EQUAL(1, unreadable.status);
+  STRCMP_CONTAINS("x.log:1:8: ", unreadable.err.c_str());
+  checkRefused("plot x.log -o a.pdf", "pictures are .svg or .png");
+}
+
+TEST(Plot, DrawsSomeOfTheTouchesOfALongLog) {
+  std::string log;
+  for (int i = 0; i < 20'000; ++i) log += kTouch;
+  const Run run = inFolder("\"$STRAINFINGER\" plot x.log -o a.svg; grep -c . a-width.csv", log);
+  LONGS_EQUAL(0, run.status);
+  CHECK_TRUE(std::stoi(run.out) > 4000 && std::stoi(run.out) <= 8001);
+}

@@ -1,0 +1,140 @@
+#include <CppUTest/TestHarness.h>
+
+#include <string>
+
+#include "tests/commands/program.hpp"
+
+using namespace strainfinger;
+
+TEST_GROUP(Record){
+    /// In a folder of its own, with a bus of its own in $bus; `record` records it into x.log until it is
+    /// stopped.
+    static Run inFolder(const std::string& commands, const std::string& input = ""){
+        return runShell("folder=$(mktemp -d); cat >$folder/in; cd $folder; trap 'rm -rf $folder' EXIT\n"
+                        "bus=udp:$((20000 + $$ % 20000))\n"
+                        "record() { \"$STRAINFINGER\" record --can $bus -o x.log \"$@\" & recorder=$!\n"
+                        "           until [ -e x.toml ] || ! kill -0 $recorder 2>&-; do sleep 0.02; done; }\n"
+                        "replay() { \"$STRAINFINGER\" replay --can $bus --speed 1000 \"$@\"; }\n"
+                        "stop() { sleep 0.4; kill -$1 $recorder; wait $recorder; }\n" +
+                            commands,
+                        input);
+}
+
+/// A log of so many frames, a millisecond apart.
+static std::string frames(int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i) {
+    std::string time = std::to_string(1'000'000 + i);
+    text += "(1609779" + time.substr(1, 3) + "." + time.substr(4) + "000) can0 181#" + std::string(14, '0') +
+            "55\n";
+  }
+  return text;
+}
+static void checkSays(const char* text, const Run& run) { STRCMP_CONTAINS(text, run.err.c_str()); }
+}
+;
+
+TEST(Record, WhatIsReplayedIsWhatWasRecorded) {
+  const Run run =
+      inFolder("record; replay in; stop INT; cut -d' ' -f3 in >a; cut -d' ' -f3 x.log | cmp a - && echo same",
+               frames(500));
+  STRCMP_EQUAL("same\n", run.out.c_str());
+  checkSays("replay: 500 of 500 frames sent, 0 of other kinds left out", run);
+  checkSays("record: 500 frames in ", run);
+  checkSays(" 0 missed: x.log, x.toml", run);
+}
+
+TEST(Record, CtrlCIsTheEnd) { LONGS_EQUAL(130, inFolder("record; stop INT").status); }
+
+TEST(Record, EndsAfterItsDuration) {
+  const Run run = inFolder("record --duration 0.3; wait $recorder");
+  LONGS_EQUAL(0, run.status);
+  checkSays("record: 0 frames in 0.3 s", run);
+}
+
+TEST(Record, NotesTheConfigAndTheFingers) {
+  const Run run = inFolder(
+      "printf 'schema = 1\\n[can]\\nnode = 9\\n' >c.toml; record -c c.toml; replay in; stop INT; cat x.toml\n"
+      "\"$STRAINFINGER\" dbc -c x.toml | grep -c FINGER_9",
+      "(1.000000) can0 705#2200004D0E1900A7\n(1.000000) can0 485#440300010000005C\n");
+  for (const char* text : {"\n[can]\n", "node = 9\n", "\n[recording]\nprogram = \"0.",
+                           "\nbus = \"udp:", "\nframes = 2\nmissed = 0\n", "\nconfig_crc32 = \"",
+                           "\n[[recording.finger]]\nnode = 5\nversion = \"0.1\"\nboard = 92\nprotocol = 2\n",
+                           "\ntable_crc = \"A7\"\n"})
+    STRCMP_CONTAINS(text, run.out.c_str());
+  CHECK(run.out.back() == '\n' && run.out.substr(run.out.size() - 3) != "\n0\n");
+}
+
+TEST(Record, SurvivesBeingKilled) {
+  const Run run = inFolder(
+      "record; replay in; sleep 0.5; kill -9 $recorder; wait $recorder 2>&-\n"
+      "\"$STRAINFINGER\" decode x.log >rows; echo $? $(wc -l <rows); grep -c '^.recording.$' x.toml",
+      frames(300));
+  STRCMP_EQUAL("0 301\n1\n", run.out.c_str());
+}
+
+TEST(Record, AFullDiskIsSaidAndLeavesWholeLines) {
+  const Run run = inFolder(
+      "trap '' XFSZ; ulimit -f 16; record; replay in; wait $recorder; echo $?; tail -c 1 x.log | od -An -c\n"
+      "\"$STRAINFINGER\" decode x.log >/dev/null",
+      frames(800));
+  LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS("1\n  \\n\n", run.out.c_str());
+  checkSays("x.log: cannot write: File too large; what was written before stays\n", run);
+}
+
+TEST(Record, NeverWritesOverAFile) {
+  const Run run = inFolder("echo old >x.log; record; wait $recorder; status=$?; cat x.log; exit $status");
+  LONGS_EQUAL(1, run.status);
+  STRCMP_EQUAL("old\n", run.out.c_str());
+  checkSays("x.log: cannot make the file: File exists: remove it, or write to another file", run);
+}
+
+TEST(Record, RefusesWhatCannotBe) {
+  checkRefused("record --can udp -o x.toml", "a log cannot end in .toml");
+  checkRefused("record -o x.log", "--can is required");
+  checkRefused("record --can udp", "--output is required");
+  LONGS_EQUAL(3, runProgram("record --can nobus -o /tmp/x.log").status);
+  LONGS_EQUAL(1, runProgram("record --can udp -o /nonexistent/x.log").status);
+}
+
+TEST(Record, ReplayKeepsTheTimesOfTheLog) {
+  const Run run = inFolder(
+      "record; \"$STRAINFINGER\" replay in --can $bus --speed 0.5; stop INT\n"
+      "\"$STRAINFINGER\" decode x.log | awk -F, 'NR == 2 {t = $1} NR == 3 {d = $1 - t; print 0.59 < d && d < "
+      "0.9}'",
+      "(1.000000) can0 181#0000000000000054\n(1.300000) can0 181#0000000000000055\n");
+  STRCMP_EQUAL("1\n", run.out.c_str());
+}
+
+TEST(Record, ReplayLeavesOutWhatFingersDontSend) {
+  const Run run = inFolder("replay in",
+                           "(1.000000) can0 12345678#11\n(1.000000) can0 181#R8\n(1.000000) can0 123#11\n\n"
+                           "DROPCOUNT: dropped 4 CAN frames on 'can0' socket (total drops 4)\n");
+  LONGS_EQUAL(0, run.status);
+  checkSays("1 of 1 frames sent, 2 of other kinds left out", run);
+}
+
+TEST(Record, ReplaySendsNothingOfALogItCannotRead) {
+  const Run run = inFolder("record; replay in; echo $?; stop INT; cat x.log", frames(3) + "rubbish\n");
+  STRCMP_EQUAL("1\n", run.out.c_str());
+  checkSays("in:4:8: ", run);
+  const Run timeless = inFolder("replay in", "  can0  185   [2]  E8 03\n");
+  LONGS_EQUAL(1, timeless.status);
+  checkSays("in:1: a frame without a time", timeless);
+}
+
+TEST(Record, ReplayRefusesWhatCannotBe) {
+  checkRefused("replay - --can udp", "the log must be a file");
+  checkRefused("replay x.log", "give either --can");
+  checkRefused("replay x.log --can udp --recompute", "give either --can");
+  checkRefused("replay x.log --can udp --speed 0", "--speed");
+  LONGS_EQUAL(1, runProgram("replay /nonexistent --can udp").status);
+}
+
+TEST(Record, CtrlCEndsAReplay) {
+  const Run run = inFolder("\"$STRAINFINGER\" replay in --can $bus & sleep 0.3; kill -INT $!; wait $!",
+                           "(1.000000) can0 181#00\n(1000.000000) can0 181#00\n");
+  LONGS_EQUAL(130, run.status);
+  checkSays("1 of 2 frames sent", run);
+}

@@ -1,0 +1,78 @@
+"""How fast `strainfinger decode` is, beside Debian's python3-canmatrix on the same frames, and how much memory it takes.
+
+usage: decode_speed.py STRAINFINGER [MEGABYTES]
+Both decode in turn, so that a busy machine slows both. Fails below 20 times canmatrix' speed, and where a log ten times
+as long takes more memory. MEGABYTES (default 20) is the longer log's size.
+"""
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+import warnings
+
+warnings.simplefilter("ignore")
+import logging  # noqa: E402
+
+logging.disable(logging.CRITICAL)
+import canmatrix.formats  # noqa: E402
+
+LEAST_RATIO = 20
+ROUNDS = 3
+MATRIX_LINES = 2000
+MEMORY_SPREAD_KIB = 2048
+
+
+def make_log(folder):
+    run = subprocess.run([STRAINFINGER, "run", "--duration", "20"], capture_output=True, text=True, check=True)
+    lines = [line.replace(" loopback ", " can0 ") for line in run.stdout.splitlines()]
+    path = os.path.join(folder, "long.log")
+    block = "\n".join(lines) + "\n"
+    with open(path, "w", encoding="ascii") as log:
+        for _ in range(max(1, MEGABYTES * 1_000_000 // len(block))):
+            log.write(block)
+    return lines, path
+
+
+def decode(path):
+    """Bytes a second, and the largest memory in KiB."""
+    start = time.monotonic()
+    with open(path, "rb") as log, open(os.devnull, "wb") as nothing:
+        child = subprocess.Popen([STRAINFINGER, "decode"], stdin=log, stdout=nothing, stderr=nothing)
+        _, status, usage = os.wait4(child.pid, 0)
+    assert status == 0, status
+    return os.path.getsize(path) / (time.monotonic() - start), usage.ru_maxrss
+
+
+def decode_by_canmatrix(matrix, lines):
+    """Bytes a second of the same lines, the text taken apart as sparingly as Python can."""
+    size, start = 0, time.monotonic()
+    for line in lines[:MATRIX_LINES]:
+        identifier, data = line.rsplit(" ", 1)[1].split("#")
+        matrix.decode(canmatrix.ArbitrationId(int(identifier, 16), extended=False), bytes.fromhex(data))
+        size += len(line) + 1
+    return size / (time.monotonic() - start)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        lines, path = make_log(folder)
+        dbc = os.path.join(folder, "finger.dbc")
+        subprocess.run([STRAINFINGER, "dbc", "-o", dbc], check=True)
+        matrix = canmatrix.formats.loadp_flat(dbc)
+        short = os.path.join(folder, "short.log")
+        with open(path, "rb") as log, open(short, "wb") as part:
+            part.write(log.read(os.path.getsize(path) // 10))
+        rounds = [(*decode(path), decode_by_canmatrix(matrix, lines)) for _ in range(ROUNDS)]
+        memory = [decode(short)[1], rounds[0][1]]
+    ratio = sorted(ours / theirs for ours, _, theirs in rounds)[ROUNDS // 2]
+    print(f"decode: {max(ours for ours, *_ in rounds) / 1e6:.0f} MB/s; canmatrix: "
+          f"{max(theirs for *_, theirs in rounds) / 1e6:.2f} MB/s; ratio, the middle of {ROUNDS} rounds: {ratio:.0f}")
+    print(f"memory: {memory[1]} KiB for {MEGABYTES} MB, {memory[0]} KiB for a tenth of it")
+    return 0 if ratio >= LEAST_RATIO and memory[1] <= memory[0] + MEMORY_SPREAD_KIB else 1
+
+
+if __name__ == "__main__":
+    STRAINFINGER, MEGABYTES = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 20
+    sys.exit(main())

@@ -1,0 +1,82 @@
+#include "host/live/bus_watch.hpp"
+
+#include <chrono>
+
+#include "tests/host/live/fake_bus_port.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::live;
+using namespace std::chrono_literals;
+
+TEST_GROUP(BusWatch) {
+  FakeBusPort port_;
+  BusWatch watch_{port_, config::FingerConfig{}};
+};
+
+TEST(BusWatch, ShowsWhatItHears) {
+  port_.hear(HeartbeatFrame{.state = FingerState::kZeroing});
+  watch_.listen(1ms);
+  const BusView view = watch_.view();
+  STRCMP_EQUAL("fake0", view.name.c_str());
+  LONGS_EQUAL(3, view.missed);
+  CHECK_TRUE(view.fingers.at(0).heartbeat.state == FingerState::kZeroing);
+  CHECK_TRUE(view.fingers.at(0).silence_us < 10'000'000);
+}
+
+TEST(BusWatch, ListensForSoLongThoughNothingComes) {
+  const auto begin = std::chrono::steady_clock::now();
+  watch_.listen(30ms);
+  CHECK_TRUE(std::chrono::steady_clock::now() - begin >= 30ms);
+}
+
+TEST(BusWatch, ARequestIsSentOnceAndItsResponseIsItsOutcome) {
+  watch_.request(1, tareRequest(false));
+  watch_.listen(2ms);
+  watch_.listen(2ms);
+  LONGS_EQUAL(1, port_.sent.size());
+  CHECK_TRUE(port_.sent[0] == encode(tareRequest(false), 1));
+  CHECK_TRUE(watch_.outcomes().empty());
+  port_.hear(responseTo(Command::kTare, CommandStatus::kDone));
+  watch_.listen(1ms);
+  STRCMP_EQUAL("node 1: tare: Done", watch_.outcomes().at(0).text.c_str());
+  CHECK_TRUE(watch_.outcomes().empty());
+}
+
+TEST(BusWatch, ARequestThatTheBusRefusesIsTriedAgain) {
+  port_.takes = false;
+  watch_.request(1, tareRequest(false));
+  watch_.listen(1ms);
+  port_.takes = true;
+  watch_.listen(1ms);
+  LONGS_EQUAL(1, port_.sent.size());
+}
+
+TEST(BusWatch, ANodeHasOneRequestAtATime) {
+  watch_.request(1, tareRequest(false));
+  watch_.request(1, tareRequest(false));
+  watch_.request(2, tareRequest(false));
+  watch_.listen(1ms);
+  LONGS_EQUAL(2, port_.sent.size());
+}
+
+TEST(BusWatch, WithoutAnAnswerThereIsAnOutcomeAfterASecond) {
+  watch_.request(1, tareRequest(false));
+  watch_.listen(900ms);
+  CHECK_TRUE(watch_.outcomes().empty());
+  watch_.listen(150ms);
+  watch_.listen(1ms);
+  STRCMP_CONTAINS("no answer", watch_.outcomes().at(0).text.c_str());
+}
+
+TEST(BusWatch, ATapGetsEveryFrameUntilItIsTakenOff) {
+  int frames = 0;
+  watch_.setTap([&](const can::TimedFrame&) { ++frames; });
+  port_.hear(HeartbeatFrame{}), port_.hear(InfoFrame{});
+  watch_.listen(1ms);
+  watch_.setTap({});
+  port_.hear(HeartbeatFrame{});
+  watch_.listen(1ms);
+  LONGS_EQUAL(2, frames);
+}

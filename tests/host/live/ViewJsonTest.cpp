@@ -1,0 +1,69 @@
+#include "host/live/view_json.hpp"
+
+#include "tests/host/live/views.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::live;
+
+TEST_GROUP(ViewJson){nlohmann::ordered_json jsonOf(const FingerView& finger){
+    return toJson(busWith({finger})).at("fingers").at(0);
+}
+}
+;
+
+TEST(ViewJson, NumbersAreInSiUnits) {
+  FingerView finger = touchedFinger();
+  finger.touched_us = 12'250'000;
+  const auto json = jsonOf(finger);
+  const auto& touch = json.at("touch");
+  DOUBLES_EQUAL(0.282, touch.at("normal_n"), 0);
+  DOUBLES_EQUAL(0.003, touch.at("sigma_tangential_n"), 0);
+  DOUBLES_EQUAL(0.00204, touch.at("width_m"), 0);
+  DOUBLES_EQUAL(12.25, touch.at("time_s"), 0);
+  DOUBLES_EQUAL(0.0002, json.at("jitter_s"), 0);
+  LONGS_EQUAL(3723, json.at("uptime_s"));
+}
+
+TEST(ViewJson, WhatIsNotKnownIsNull) {
+  FingerView finger = touchedFinger();
+  finger.touch->angle_deg = kNoValue;
+  finger.heartbeat.uptime_s = kNotKnown<std::uint16_t>;
+  finger.heartbeat.temperature_degC = kNotKnown<std::int8_t>;
+  finger.gauges.reset();
+  const auto json = jsonOf(finger);
+  CHECK_TRUE(json.at("touch").at("angle_deg").is_null());
+  CHECK_TRUE(json.at("touch").at("second").is_null());
+  for (const char* key : {"uptime_s", "temperature_degc", "gauges", "info"})
+    CHECK_TRUE(json.at(key).is_null());
+  CHECK_TRUE(json.at("span").at("most_normal_n").is_null());
+}
+
+TEST(ViewJson, FlagsFaultsAndGaugesAreLists) {
+  FingerView finger = touchedFinger();
+  finger.heartbeat.faults = {FingerFault::kNoisy};
+  finger.gauges->out_of_use = 0x8001;
+  const auto json = jsonOf(finger);
+  STRCMP_EQUAL("[\"contact\",\"stale zero\",\"simulated\"]", json.at("touch").at("flags").dump().c_str());
+  STRCMP_EQUAL("[\"noisy\"]", json.at("faults").dump().c_str());
+  STRCMP_EQUAL("[0,15]", json.at("gauges").at("out_of_use").dump().c_str());
+}
+
+TEST(ViewJson, AFingerThatSaysNothingHasNoTouch) {
+  FingerView finger = touchedFinger();
+  finger.silence_us = 2'000'000;
+  finger.touch.reset();
+  CHECK_TRUE(jsonOf(finger).at("silent"));
+  DOUBLES_EQUAL(2, jsonOf(finger).at("silence_s"), 0);
+  CHECK_TRUE(jsonOf(finger).at("touch").is_null());
+}
+
+TEST(ViewJson, TheShapeIsTheConfigs) {
+  config::FingerConfig config;
+  config.gauges.count = 4;
+  STRCMP_EQUAL(
+      "{\"core_radius_m\":0.0089,\"outer_radius_m\":0.0127,\"gauge_radius_m\":0.0094,"
+      "\"gauge_angles_deg\":[0.0,90.0,180.0,270.0]}",
+      toJson(config).dump().c_str());
+}

@@ -1,0 +1,52 @@
+#pragma once
+// A bus that tests speak on.
+
+#include <chrono>
+#include <deque>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/frame_layout.hpp"
+#include "host/can/bus_port.hpp"
+
+namespace strainfinger::live {
+
+/// Hears what it is given, and keeps what is sent.
+class FakeBusPort final : public can::BusPort {
+ public:
+  bool send(const CanFrame& frame) noexcept override {
+    if (takes) sent.push_back(frame);
+    return takes;
+  }
+  std::optional<can::TimedFrame> receiveTimed() noexcept override {
+    if (toHear.empty()) return std::nullopt;
+    const can::TimedFrame frame = toHear.front();
+    toHear.pop_front();
+    return frame;
+  }
+  hal::CanStatus status() noexcept override { return {.state = hal::CanState::kActive, .missed = 3}; }
+  bool waitReadable(std::chrono::milliseconds timeout) noexcept override {
+    if (toHear.empty()) std::this_thread::sleep_for(timeout);
+    return !toHear.empty();
+  }
+  int descriptor() const noexcept override { return -1; }
+  const std::string& name() const noexcept override { return name_; }
+
+  /// As a finger would say it now.
+  template <typename Frame>
+  void hear(const Frame& frame, std::uint8_t node = 1) {
+    const auto sinceEpoch = std::chrono::system_clock::now().time_since_epoch();
+    toHear.push_back({std::chrono::nanoseconds(sinceEpoch).count(), encode(frame, node)});
+  }
+
+  bool takes = true;
+  std::deque<can::TimedFrame> toHear;
+  std::vector<CanFrame> sent;
+
+ private:
+  std::string name_ = "fake0";
+};
+
+}  // namespace strainfinger::live

@@ -1,0 +1,78 @@
+#include "host/plot/log_picture.hpp"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/host/plot/TemporaryFolder.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger::plot;
+
+TEST_GROUP(LogPicture) {
+  const LogPoint point_{.time_s = 1,
+                        .angle_deg = 20,
+                        .sigmaAngle_deg = 2,
+                        .normal_n = 0.5,
+                        .sigmaNormal_n = 0.125,
+                        .tangential_n = -0.25,
+                        .sigmaTangential_n = 0.25,
+                        .width_m = 2e-3,
+                        .sigmaWidth_m = 3e-3,
+                        .flags = 0b101};
+
+  LogPoint pointAt(double time_s, double angle_deg) const {
+    LogPoint point = point_;
+    point.time_s = time_s;
+    point.angle_deg = angle_deg;
+    return point;
+  }
+
+  static std::vector<std::vector<double>> rows(const std::vector<LogPoint>& points, const std::string& name) {
+    for (const DataFile& file : logPicture({"heading", points, {"contact", "saturated", "degraded"}}).data)
+      if (file.name == name) return file.rows;
+    FAIL(name.c_str());
+    return {};
+  }
+  static void checkRow(const std::vector<double>& expected, const std::vector<double>& row) {
+    LONGS_EQUAL(expected.size(), row.size());
+    for (std::size_t i = 0; i < row.size(); ++i) DOUBLES_EQUAL(expected[i], row[i], 1e-9);
+  }
+};
+
+TEST(LogPicture, BandsAreOneSigmaWide) {
+  checkRow({1, 0.5, 0.375, 0.625, -0.25, -0.5, 0}, rows({point_}, "force").at(0));
+}
+
+TEST(LogPicture, BandsStayWhereValuesCanBe) {
+  checkRow({1, 2, 0, 5}, rows({point_}, "width").at(0));
+  const auto row = rows({pointAt(0, 1)}, "angle").at(0);
+  DOUBLES_EQUAL(0, row[2], 1e-9);
+  DOUBLES_EQUAL(3, row[3], 1e-9);
+}
+
+TEST(LogPicture, CurvesBreakWhereNothingWasSaid) {
+  const auto force = rows({pointAt(0, 20), pointAt(0.1, 20), pointAt(0.5, 20)}, "force");
+  LONGS_EQUAL(4, force.size());
+  CHECK_TRUE(force[2].empty());
+}
+
+TEST(LogPicture, TheAngleBreaksWhereItRunsThroughZero) {
+  const std::vector<LogPoint> points{pointAt(0, 359), pointAt(0.01, 1)};
+  CHECK_TRUE(rows(points, "angle").at(1).empty());
+  LONGS_EQUAL(2, rows(points, "force").size());
+}
+
+TEST(LogPicture, FlagsAreRowsByTheirBits) {
+  const auto flags = rows({point_}, "flags");
+  LONGS_EQUAL(2, flags.size());
+  checkRow({1, 0}, flags[0]);
+  checkRow({1, 2}, flags[1]);
+}
+
+TEST(LogPicture, CanBeDrawn) {
+  const TemporaryFolder folder;
+  draw(logPicture({"heading", {point_}, {"contact", "saturated", "degraded"}}), folder.file("one.svg"));
+  draw(logPicture({"heading", {point_, pointAt(2, 30)}, {"contact"}}), folder.file("two.png"));
+}

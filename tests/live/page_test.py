@@ -1,0 +1,247 @@
+#!/usr/bin/env python3
+"""page_test.py PROGRAM [PICTURE]: the live page in headless Chromium. With PICTURE, a screenshot of it is left there."""
+import subprocess
+import sys
+import unittest
+
+from fingers import UNTOUCHED, Bench
+import browser
+
+if browser.CHROMIUM is None:
+    print("chromium is not installed: apt install chromium")
+    sys.exit(77)
+
+PROGRAM = sys.argv.pop(1)
+PICTURE = sys.argv.pop(1) if len(sys.argv) > 1 and sys.argv[1].endswith(".png") else None
+
+# Touched for half a second of each second: presses, to be timed.
+PRESSES = """schema = 1
+repeat_s = 1
+[[touch]]
+start_s = 0.4
+end_s = 0.9
+angle_deg = 130
+normal_n_per_m = [[0, 20], [0.5, 20]]
+"""
+
+# Times from the moment the program had the frames of a press to the one they are in the page.
+WATCH_PRESSES = """
+window.lateness_ms = [];
+new MutationObserver(() => {
+  const touch = newest.fingers[0].touch;
+  const shown = document.querySelector('#finger-1 .normal').textContent !== '–';
+  if (shown && !window.wasShown && touch) window.lateness_ms.push(Date.now() - 1000 * touch.since_s);
+  window.wasShown = shown;
+}).observe(document.querySelector('#finger-1 .normal'), {childList: true, characterData: true, subtree: true});
+"""
+
+
+class LivePage(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.bench = Bench(PROGRAM)
+        cls.addClassCleanup(cls.bench.close)
+        cls.bench.finger(1)
+        cls.bench.finger(2, UNTOUCHED)
+        _, cls.url = cls.bench.serve()
+        cls.page = browser.Page(cls.url)
+        cls.page.__enter__()
+        cls.addClassCleanup(cls.page.__exit__)
+        cls.page.wait_for("document.querySelectorAll('article').length === 2")
+        cls.page.wait_for("document.querySelector('#finger-1 .normal').textContent.includes('N')")
+
+    def test_a_card_shows_its_finger(self):
+        self.assertEqual("Finger 1", self.page.text("#finger-1 h2"))
+        self.assertEqual("run", self.page.text("#finger-1 .state"))
+        self.assertRegex(self.page.text("#finger-1 .angle"), r"^\d+\.\d\d ± \d+\.\d\d °$")
+        self.assertRegex(self.page.text("#finger-1 .normal"), r"^\d\.\d{3} ± \d\.\d{3} N$")
+        self.assertRegex(self.page.text("#finger-1 .tangential"), r"^[+-]?\d\.\d{3} ± \d\.\d{3} N$")
+        self.assertRegex(self.page.text("#finger-1 .stats"), r"\d+ contacts/s · jitter .* 0 lost")
+        self.assertIn("simulated", self.page.text("#finger-1 .chips"))
+        self.assertRegex(self.page.text("#bus"), r"^udp:\d+ · \d+ frames/s · load \d")
+        self.assertEqual("live", self.page.text("#link"))
+
+    def test_numbers_change(self):
+        before = self.page.text("#finger-1 .angle")
+        self.page.wait_for(f"document.querySelector('#finger-1 .angle').textContent !== '{before}'")
+
+    def test_an_untouched_finger_shows_none(self):
+        self.assertEqual("–", self.page.text("#finger-2 .angle"))
+        self.assertEqual("Finger 2: not touched", self.page.value("document.querySelector('#finger-2 svg').getAttribute('aria-label')"))
+
+    def test_the_cross_section_has_arrow_wedge_and_width(self):
+        parts = self.page.wait_for("(() => { const live = document.querySelector('#finger-1 svg g'); return live.childElementCount >= 3 && live.innerHTML; })()")
+        self.assertIn("Z", parts)           # the wedge and the arrow's head
+        self.assertIn("stroke-width=\"6\"", parts)  # the width
+        self.assertEqual(16, self.page.value("cards.get(1).gauges.length"))
+
+    def test_the_arrow_is_where_the_finger_is_touched(self):
+        # Both from one state: the wedge's middle against the number.
+        off_deg = self.page.value("""(() => {
+          const d = document.querySelector('#finger-1 svg g path').getAttribute('d').match(/L(\\S+) (\\S+) A\\S+ \\S+ 0 . 0 (\\S+) (\\S+)/).slice(1).map(Number);
+          const deg = Math.atan2(-(d[1] + d[3]), d[0] + d[2]) * 180 / Math.PI;
+          const off = deg - parseFloat(document.querySelector('#finger-1 .angle').textContent);
+          return (off % 360 + 540) % 360 - 180;
+        })()""")
+        self.assertLess(abs(off_deg), 0.1)
+
+    def test_charts_are_drawn(self):
+        self.page.wait_for("cards.get(1).points.length > 20")
+        for canvas in (".forces", ".angles"):
+            inked = self.page.value(f"""(() => {{ const c = document.querySelector('#finger-1 {canvas}');
+              return c.getContext('2d').getImageData(0, 0, c.width, c.height).data.filter(v => v).length; }})()""")
+            self.assertGreater(inked, 1000)
+
+    def test_tare_works_by_keyboard_alone(self):
+        self.page.value("document.querySelector('#finger-1 button').focus()")
+        self.page.press("Tab", 9)
+        self.assertEqual("Tare finger 2: zero its gauges", self.page.value("document.activeElement.getAttribute('aria-label')"))
+        self.page.press("Enter", 13, "\r")
+        self.page.wait_for("document.querySelector('#finger-2 .told').textContent === 'node 2: tare: Done'")
+
+    def test_a_tare_of_a_touched_finger_says_why_not(self):
+        self.page.value("document.querySelector('#finger-1 button').click()")
+        self.page.wait_for("document.querySelector('#finger-1 .told').textContent.includes('something touches the finger')")
+
+    def test_a_screen_reader_finds_names_for_everything(self):
+        nodes = self.page.do("Accessibility.getFullAXTree")["nodes"]
+        named = {(node["role"]["value"], node.get("name", {}).get("value", "")) for node in nodes if not node.get("ignored")}
+        roles = {}
+        for role, name in named:
+            roles.setdefault(role, set()).add(name)
+        self.assertIn("Tare finger 1: zero its gauges", roles["button"])
+        self.assertIn("Finger 1", roles["article"])
+        self.assertIn("Fingers", roles["main"])
+        images = roles.get("img", set()) | roles.get("image", set())
+        self.assertIn("Normal and tangential force over the last 30 seconds", images)
+        self.assertTrue(any(name.startswith("Finger 1: touched at") for name in images), images)
+        for role in ("button", "img", "image", "article", "heading"):
+            self.assertNotIn("", roles.get(role, set()), role)
+
+    def test_it_fits_a_phone(self):
+        self.page.resize(360, 780, phone=True)
+        self.page.wait_for("innerWidth === 360 || document.documentElement.clientWidth === 360")
+        self.assertLessEqual(self.page.value("document.documentElement.scrollWidth"), 360)
+        self.assertLess(self.page.value("document.querySelector('article').getBoundingClientRect().right"), 360)
+        self.page.resize(1100, 900)
+
+    def contrast(self, ink, paper):
+        return self.page.value("""((a, b) => {
+          const light = name => { const c = color(name).slice(1), full = c.length === 3 ? [...c].map(x => x + x).join('') : c;
+            const [r, g, b] = [0, 2, 4].map(i => parseInt(full.slice(i, i + 2), 16) / 255).map(v => v <= .04045 ? v / 12.92 : ((v + .055) / 1.055) ** 2.4);
+            return .2126 * r + .7152 * g + .0722 * b; };
+          const [x, y] = [light(a), light(b)].sort((p, q) => q - p);
+          return (x + .05) / (y + .05); })('%s', '%s')""" % (ink, paper))
+
+    def test_light_and_dark_are_readable(self):
+        backgrounds = set()
+        for scheme in ("light", "dark"):
+            self.page.scheme(scheme)
+            backgrounds.add(self.page.value("getComputedStyle(document.body).backgroundColor"))
+            for ink in ("--ink", "--soft", "--normal", "--tangential", "--second", "--bad", "--good"):
+                self.assertGreater(self.contrast(ink, "--card"), 4.5, (scheme, ink))  # WCAG 2.1, 1.4.3
+        self.assertEqual(2, len(backgrounds))
+        self.page.scheme("light")
+
+    def test_nothing_went_wrong_in_the_page(self):
+        self.page.value("0")
+        refusals = [error for error in self.page.errors if "409" not in str(error)]  # the refused tare
+        self.assertEqual([], refusals)
+
+
+class InTime(unittest.TestCase):
+    def test_a_press_is_on_the_page_within_a_tenth_of_a_second(self):
+        with Bench(PROGRAM) as bench:
+            bench.finger(1, PRESSES)
+            _, url = bench.serve()
+            with browser.Page(url) as page:
+                page.wait_for("document.querySelector('#finger-1 .normal') !== null")
+                page.value(WATCH_PRESSES)
+                late_ms = page.wait_for("window.lateness_ms.length >= 10 && window.lateness_ms", 60)
+        print("a press is on the page after ms:", sorted(round(ms) for ms in late_ms), file=sys.stderr)
+        self.assertLess(sorted(late_ms)[len(late_ms) // 2], 100)
+
+
+class Strains(unittest.TestCase):
+    def test_strains_are_drawn_beside_the_fit_while_they_stream(self):
+        with Bench(PROGRAM) as bench:
+            bench.finger(1)
+            _, url = bench.serve()
+            with browser.Page(url) as page:
+                page.wait_for("document.querySelector('#finger-1 .raw')?.hidden")
+                strains = bench.start("strains", "--can", bench.bus, "--rate", "50", stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                page.wait_for("!document.querySelector('#finger-1 .raw').hidden && newest.fingers[0].fitted !== null")
+                strain, fit = page.value("[newest.fingers[0].strains, newest.fingers[0].fitted]")
+                self.assertEqual((16, 16), (len(strain), len(fit)))
+                deepest = min(range(16), key=strain.__getitem__)
+                off = abs(deepest - min(range(16), key=fit.__getitem__))
+                self.assertLessEqual(min(off, 16 - off), 1)  # a state and its set may be some milliseconds apart
+                self.assertLess(fit[deepest], 0)
+                Bench._end(strains)
+                page.wait_for("document.querySelector('#finger-1 .raw').hidden")
+
+
+class Ending(unittest.TestCase):
+    def test_a_page_whose_program_ended_says_so(self):
+        with Bench(PROGRAM) as bench:
+            bench.finger(1)
+            process, url = bench.serve()
+            with browser.Page(url) as page:
+                page.wait_for("document.querySelector('#link').textContent === 'live'")
+                Bench._end(process)
+                page.wait_for("document.querySelector('#link').textContent.startsWith('connection lost')")
+
+    def test_without_its_token_the_page_commands_nothing(self):
+        with Bench(PROGRAM) as bench:
+            bench.finger(1, UNTOUCHED)
+            _, url = bench.serve("--address", "0.0.0.0")
+            url, _, token = url.replace("0.0.0.0", "127.0.0.1").partition("#")
+            with browser.Page(url) as page:
+                page.wait_for("document.querySelector('#finger-1 button')?.disabled")
+                self.assertIn("token", page.text("#finger-1 .told"))
+            with browser.Page(url + "#" + token) as page:
+                page.wait_for("document.querySelector('#finger-1 .state')?.textContent === 'run'")
+                page.value("document.querySelector('#finger-1 button').click()")
+                page.wait_for("document.querySelector('#finger-1 .told').textContent === 'node 1: tare: Done'")
+
+
+# What the picture shows: a wide touch that slides and is rubbed; two touches at once, of which one comes and goes.
+WIDE_SLIDE = """schema = 1
+[[touch]]
+start_s = 0.5
+end_s = 60
+angle_deg = [20, 340, 40]
+normal_n_per_m = [10, 14, 30, 18, 36, 22, 30, 12, 24, 34, 20, 26]
+tangential_n_per_m = [0, 5, 9, -4, -12, 6, 10, 3, -8, 7, 12, 2]
+width_m = [4e-3, 6e-3]
+"""
+TWO = """schema = 1
+repeat_s = 6
+[[touch]]
+start_s = 0.4
+end_s = 5.8
+angle_deg = [40, 75, 50]
+normal_n_per_m = [0, 24, 30, 22, 0]
+tangential_n_per_m = [0, -6, 8, 0]
+[[touch]]
+start_s = 2
+end_s = 5
+angle_deg = 215
+normal_n_per_m = [0, 20, 16, 0]
+"""
+
+
+def take_picture():
+    """Of recorded fingers: simulated ones would say that they come late, on a machine that has much else to do."""
+    with Bench(PROGRAM) as bench:
+        for node, scenario in ((1, WIDE_SLIDE), (2, TWO)):
+            bench.replayed(node, scenario, 50)
+        _, url = bench.serve()
+        with browser.Page(url, 920, 770) as page:
+            page.wait_for("cards.size === 2 && cards.get(1).points.length > 0 && newest.time_s - cards.get(1).points[0].t > 29.5", 90)
+            page.wait_for("newest.fingers.every(finger => finger.touch?.touched) && newest.fingers[1].touch.second?.normal_n > .25", 20)
+            page.screenshot(PICTURE)
+
+
+if __name__ == "__main__":
+    take_picture() if PICTURE else unittest.main()

@@ -76,11 +76,13 @@ std::uint8_t qualityOf(const Answer& answer, std::int64_t chiSquared, int freedo
 
 /// A load's standard error with that of the scale of all loads.
 LineLoadQ12 withScaleError(const TableConstants& constants, LineLoadQ12 sigma, LineLoadQ12 load) {
-  const Wide scale = load.raw() * Wide{constants.model_error_q16} >> (16 - threshold::kScaleErrorBits);
+  constexpr Wide kMost = std::numeric_limits<Number>::max();
+  const Wide scale = lesser(
+      magnitude(load.raw() * Wide{constants.model_error_q16}) >> (16 - threshold::kScaleErrorBits), kMost);
   const Wide own = sigma.raw();
   if (scale == 0) return sigma;
   const Scaled both = rootOf(static_cast<std::uint64_t>(own * own + scale * scale), 0);
-  return LineLoadQ12::fromRaw(static_cast<Number>(both.times2(0, std::numeric_limits<Number>::max())));
+  return LineLoadQ12::fromRaw(static_cast<Number>(both.times2(0, kMost)));
 }
 
 /// Two contacts nearer than they can be told apart.
@@ -151,9 +153,8 @@ Contact estimate(const TableConstants& constants, const Answer& answer, const Li
   estimated.quality = qualityOf(answer, chiSquared, left);
   estimated.ambiguous = coverRival(answer, contact, estimated);
   estimated.alternative = TurnQ32::fromRaw(answer.rival[at(contact)].angle_q32);
-  estimated.uncertain = estimated.ambiguous || !answer.accepted ||
-                        answer.searching || answer.doubtful || areTooNear(constants, answer.solution) ||
-                        tooWide || faint;
+  estimated.uncertain = estimated.ambiguous || !answer.accepted || answer.searching || answer.doubtful ||
+                        areTooNear(constants, answer.solution) || tooWide || faint;
   if (estimated.uncertain) estimated.quality = std::min<std::uint8_t>(estimated.quality, 20);
   return estimated;
 }

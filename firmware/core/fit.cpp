@@ -238,11 +238,12 @@ void take(const TableConstants& constants, const Linearisation& linearisation, c
 }
 
 /// Largest reduction of the residuals' squares by a step after which another would not matter: its square
-/// over a reading's variance. A 64th of it makes no answer better.
-bool isConverged(Wide reduction, const ScaledReadings& readings) {
-  constexpr Wide kSquare = 2048;
+/// over a reading's variance. A 64th of it makes no answer better, but of three readings, which may tell so
+/// little that a small residual is a long step.
+bool isConverged(Wide reduction, const Hypothesis& hypothesis, const ScaledReadings& readings) {
+  const Wide most = hypothesis.exact == 0 ? 2048 : 32;
   return reduction < 64 ||
-         (reduction < Wide{1} << 31 && reduction * reduction <= kSquare * readings.noiseVariance_q4);
+         (reduction < Wide{1} << 31 && reduction * reduction <= most * readings.noiseVariance_q4);
 }
 
 }  // namespace
@@ -274,7 +275,7 @@ Solution step(const TableImage& tables, const Linearisation& linearisation, cons
   setLimits(tables.constants, linearisation, low, high);
   const Step best =
       solve(linearisation.decomposition, linearisation.column, linearisation.rows, residual, low, high);
-  Solution solution{hypothesis, linearisation.at, isConverged(best.reduction, readings),
+  Solution solution{hypothesis, linearisation.at, isConverged(best.reduction, hypothesis, readings),
                     std::max<Wide>(energy - best.reduction, 0)};
   take(tables.constants, linearisation, best, solution.contact);
   return solution;

@@ -79,14 +79,14 @@ bool Locator::follow(const TableImage& tables, const ScaledReadings& readings, G
     linearise(tables, hypothesis, rescaled(answer_.solution.contact, answer_.shift, readings.shift),
               linearisation_);
   Solution solution = step(tables, linearisation_, readings);
-  const int most = search_.isRunning() ? kStepsWhileSearching : kFollowingSteps;
+  const int most = search_.isBegun() ? kStepsWhileSearching : kFollowingSteps;
   for (int i = 1; i < most && !solution.converged; ++i) {
     linearise(tables, hypothesis, solution.contact, linearisation_);
     solution = step(tables, linearisation_, readings);
   }
   const bool wasAccepted = answer_.accepted;
   believe(tables, solution, readings);
-  return answer_.accepted || !wasAccepted || search_.isRunning() ||
+  return answer_.accepted || !wasAccepted || search_.isBegun() ||
          solution.residualEnergy <= energyOf(readings, threshold::kLost * threshold::kGate);
 }
 
@@ -225,7 +225,7 @@ void Locator::finishSearch(const TableImage& tables, std::span<const std::int32_
   const ScaledReadings readings =
       scaledReadings(tables.constants, strains_q32, gauges, kConfiguredNoise_q4, answer_.shift);
   if (guessed_) settle(tables, readings);
-  while (search_.isRunning()) goOn(tables, readings);
+  while (search_.isBegun()) goOn(tables, readings);
   const Solution found = answer_.solution;
   if (!found.converged)
     believe(tables,
@@ -248,7 +248,7 @@ void Locator::update(const TableImage& tables, std::span<const std::int32_t> str
     answer_.searching = true;
     return;
   }
-  if (search_.isRunning()) {
+  if (search_.isBegun()) {
     if (readings.shift > search_.readings().shift)
       search(tables, readings, gauges);  // a firmer touch tells more
     goOn(tables, readings);
@@ -258,7 +258,7 @@ void Locator::update(const TableImage& tables, std::span<const std::int32_t> str
   } else if (!answer_.accepted || answer_.doubtful || answer_.rivalEnergy >= 0) {
     if (++setsSinceSearch_ >= kSearchAgainAfter) search(tables, readings, gauges);
   }
-  if (mode_ == FitMode::kThreePoint && !search_.isRunning()) solveExactly(tables, readings);
+  if (mode_ == FitMode::kThreePoint && !search_.isBegun()) solveExactly(tables, readings);
 }
 
 void locateOnce(const TableImage& tables, std::span<const std::int32_t> strains_q32, GaugeSet gauges,

@@ -388,7 +388,7 @@ void Search::finishTask(const TableImage& tables, Linearisation& scratch) {
 }
 
 void Search::advance(const TableImage& tables, Linearisation& scratch) {
-  for (int work = 0; isRunning() && !isDone() && work < kWork;) {
+  for (int work = 0; isRunning() && work < kWork;) {
     if (point_ < grid_.size()) {
       work += lookAtPoint(tables, scratch);
     } else if (refined_ < refinements()) {

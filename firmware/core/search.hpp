@@ -97,7 +97,10 @@ class Search {
   /// `hypothesis`: one contact, read by all gauges that work.
   void begin(const TableImage& tables, const ScaledReadings& readings, const Hypothesis& hypothesis);
   void stop() { stage_ = Stage::kIdle; }
-  bool isRunning() const { return stage_ != Stage::kIdle; }
+  /// Since begin(), until stop().
+  bool isBegun() const { return stage_ != Stage::kIdle; }
+  /// There is more to look at.
+  bool isRunning() const { return isBegun() && !isDone(); }
   /// All was looked at; its rankings hold until stop().
   bool isDone() const { return stage_ == Stage::kDone; }
   /// Goes on for kWork units and a piece of work, which has 31 at most. Cost: 510 instructions of a Cortex-M4

@@ -151,7 +151,7 @@ TEST(FitRanges, AStepThatIsTakenOverflowsNothing) {
 }
 
 TEST(FitRanges, ConvergenceOfAnyReductionOverflowsNothing) {
-  forEachWay([] { isConverged(Wide(-kMostReduction, kMostReduction), anyReadings()); });
+  forEachWay([] { isConverged(Wide(-kMostReduction, kMostReduction), Hypothesis{}, anyReadings()); });
   checkNone();
 }
 

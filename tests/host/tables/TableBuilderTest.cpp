@@ -286,7 +286,7 @@ TEST(TableBuilder, NoiseBelowTheStepOfStrainIsRefused) {
 
 TEST(TableBuilder, LoadsThatTheFormatCannotHoldAreRefused) {
   config_.finger.shear_modulus_pa = 1e9;
-  checkRefusal("gauges.full_scale_strain = 0.03 is a load of 7.65e+05 N/m on this finger");
+  checkRefusal("gauges.full_scale_strain = 0.03 is a load of 7.66e+05 N/m on this finger");
   config_.finger.shear_modulus_pa = 100;
   checkRefusal(
       "from 0.25 to 5.24e+05 N/m: change it, finger.shear_modulus_pa or "
@@ -336,7 +336,7 @@ TEST(TableBuilder, TablesTooCoarseForThinRubberAreRefusedWithWhatToChange) {
   checkRefusal(
       "gauges.radius_m = 0.0115 is so near the surface at finger.outer_radius_m = 0.0127 that the tables are "
       "off by "
-      "0.0091 of a reading, with contact.width_m unknown up to contact.largest_width_m = 0.008; noise and "
+      "0.0064 of a reading, with contact.width_m unknown up to contact.largest_width_m = 0.008; noise and "
       "gauges.model_error = 0 leave ");
   checkRefusal(
       ": move the gauges inwards, cover less width or say what it is, or admit a larger gauges.model_error");
@@ -351,7 +351,7 @@ TEST(TableBuilder, KnownWidthsThatTheTablesAreTooCoarseForAreRefused) {
   config_.gauges.radius_m = 12.3e-3;
   config_.gauges.model_error = 0;
   config_.contact.width_m = 4e-3;
-  checkRefusal("0.0044 of a reading, with contact.width_m = 0.004; noise and");
+  checkRefusal("0.0038 of a reading, with contact.width_m = 0.004; noise and");
   checkRefusal(": move the gauges inwards, take contacts for narrower ones, or admit");
 }
 

@@ -112,8 +112,8 @@ TEST(TableImage, ConstantsThatLoopsAndShiftsRelyOnStayInTheirDomain) {
 
 TEST(TableImage, NodesAndCellsArePatchesThatAreThere) {
   TableConstants& constants = image_->constants;
-  checkDomain(constants.node_count, {8, 100}, {0, 7, 101, 65535});
-  checkDomain(constants.cell_count, {10}, {0, 9, 11, 255});  // the last edge is not where nine cells end
+  checkDomain(constants.node_count, {8, 125}, {0, 7, 126, 65535});
+  checkDomain(constants.cell_count, {8}, {0, 7, 9, 255});  // the last edge is not where seven cells end
 }
 
 TEST(TableImage, CellsAscendFromNoWidthToTheLargest) {

@@ -66,10 +66,10 @@ std::string shapeJson(const config::FingerConfig& config, bool needsToken) {
   return json.dump();
 }
 
-live::PageServerOptions serverOptions(const ServeOptions& options) {
+live::PageServerOptions serverOptions(const ServeOptions& options, const config::FingerConfig& config) {
   live::PageServerOptions server = options.server;
   if (server.token.empty() && !live::isLocalAddress(server.address)) server.token = randomToken();
-  server.shapeJson = shapeJson(options.common.config(), !server.token.empty());
+  server.shapeJson = shapeJson(config, !server.token.empty());
   return server;
 }
 
@@ -101,7 +101,7 @@ void runServe(const ServeOptions& options) {
   const config::FingerConfig config = options.common.config();
   const auto port = can::openBus(options.bus, config.can.bitrate);
   live::BusWatch watch(*port, config);
-  const live::PageServerOptions serverOptionsNow = serverOptions(options);
+  const live::PageServerOptions serverOptionsNow = serverOptions(options, config);
   live::PageServer server(serverOptionsNow);
   fmt::print(stderr, "serve: {} shows {}; Ctrl-C ends\n", urlOf(serverOptionsNow, server.port()),
              options.bus);

@@ -9,28 +9,41 @@
 
 using namespace strainfinger;
 
-TEST_GROUP(StrainsCommand){
-    /// The shell's: a bus of this test run's own, and a finger on it until the script ends.
-    static std::string withFinger(const std::string& options, const std::string& script){
-        const std::string bus = "udp:" + std::to_string(20'000 + getpid() % 40'000);
-return "BUS=" + bus + "\n\"$STRAINFINGER\" run --can $BUS --duration 30 " + options +
-       " 2>/dev/null & finger=$!\n"
-       "for _ in $(seq 100); do \"$STRAINFINGER\" config --can $BUS --contact-rate-hz 100 >/dev/null 2>&1 && "
-       "break; "
-       "sleep 0.1; done\n" +
-       script + "\nstatus=$?; kill -INT $finger; wait $finger; exit $status\n";
+namespace {
+
+constexpr int kNotHeard = 97;
+
+/// The shell's: a bus of this test run's own, and a finger on it until the script ends.
+Run withFinger(const std::string& options, const std::string& script) {
+  const std::string bus = "udp:" + std::to_string(20'000 + getpid() % 40'000);
+  const Run run = runShell("BUS=" + bus + "\n\"$STRAINFINGER\" run --can $BUS --duration 30 " + options +
+                           R"( 2>/dev/null & finger=$!
+heard=
+for _ in $(seq 100); do
+  "$STRAINFINGER" config --can $BUS --contact-rate-hz 100 >/dev/null 2>&1 && heard=yes && break
+  kill -0 $finger 2>/dev/null && sleep 0.1 || break
+done
+if [ -z "$heard" ]; then
+  echo "the finger on $BUS is not heard" >&2
+  kill -INT $finger 2>/dev/null; wait $finger; exit )" +
+                           std::to_string(kNotHeard) + "\nfi\n" + script +
+                           "\nstatus=$?; kill -INT $finger; wait $finger; exit $status\n");
+  if (run.status == kNotHeard) FAIL(run.err.c_str());
+  return run;
 }
-}
-;
+
+}  // namespace
+
+TEST_GROUP(StrainsCommand){};
 
 TEST(StrainsCommand, PrintsRowsThatLocateTakes) {
-  const Run run = runShell(withFinger("", R"(
+  const Run run = withFinger("", R"(
 "$STRAINFINGER" strains --can $BUS --rate 50 --duration 1.5 >strains.$$.csv || exit
 head -1 strains.$$.csv
 wc -l <strains.$$.csv
 "$STRAINFINGER" locate <strains.$$.csv | head -1
 "$STRAINFINGER" shape <strains.$$.csv | wc -l
-rm strains.$$.csv)"));
+rm strains.$$.csv)");
   LONGS_EQUAL(0, run.status);
   STRCMP_CONTAINS("time_s,strain_0,strain_1,", run.out.c_str());
   STRCMP_CONTAINS("\ntime_s,contact,angle_deg,", run.out.c_str());
@@ -38,7 +51,7 @@ rm strains.$$.csv)"));
 }
 
 TEST(StrainsCommand, TheFingerSendsNoMoreWhenItEnds) {
-  const Run run = runShell(withFinger("", R"(
+  const Run run = withFinger("", R"(
 "$STRAINFINGER" strains --can $BUS --rate 100 --duration 0.5 >/dev/null || exit
 /usr/bin/python3 - $BUS <<'END'
 import socket, sys, time
@@ -51,23 +64,22 @@ end, functions = time.monotonic() + 0.5, set()
 while time.monotonic() < end:
     functions.add(int.from_bytes(bus.recv(16)[1:3], "big") & 0x780)
 print(0x700 in functions, 0x400 in functions)
-END)"));
+END)");
   STRCMP_EQUAL("True False\n", run.out.c_str());
 }
 
 TEST(StrainsCommand, ARateBeyondTheBusIsRefusedWithTheFastest) {
-  const Run run =
-      runShell(withFinger("-c <(echo -e 'schema = 1\n[can]\nbitrate = 125000\ncontact_rate_hz = 200')",
-                          R"("$STRAINFINGER" strains --can $BUS --rate 1000 --duration 1)"));
+  const Run run = withFinger("-c <(echo -e 'schema = 1\n[can]\nbitrate = 125000\ncontact_rate_hz = 200')",
+                             R"("$STRAINFINGER" strains --can $BUS --rate 1000 --duration 1)");
   LONGS_EQUAL(1, run.status);
   STRCMP_CONTAINS("too_fast: 125 Hz", run.err.c_str());
   STRCMP_EQUAL("", run.out.c_str());
 }
 
 TEST(StrainsCommand, AnotherRingThanTheConfigsIsTold) {
-  const Run run = runShell(withFinger("", R"("$STRAINFINGER" strains --can $BUS -c <(echo -e 'schema = 1
+  const Run run = withFinger("", R"("$STRAINFINGER" strains --can $BUS -c <(echo -e 'schema = 1
 [gauges]
-count = 24') --duration 6)"));
+count = 24') --duration 6)");
   LONGS_EQUAL(4, run.status);
   STRCMP_CONTAINS("no whole set of readings for 3 s: has it gauges.count = 24", run.err.c_str());
 }

@@ -63,7 +63,7 @@ def main():
         matrix = canmatrix.formats.loadp_flat(dbc)
         short = os.path.join(folder, "short.log")
         with open(path, "rb") as log, open(short, "wb") as part:
-            part.write(log.read(os.path.getsize(path) // 10))
+            part.write(log.read(os.path.getsize(path) // 10) + log.readline())
         rounds = [(*decode(path), decode_by_canmatrix(matrix, lines)) for _ in range(ROUNDS)]
         memory = [decode(short)[1], rounds[0][1]]
     ratio = sorted(ours / theirs for ours, _, theirs in rounds)[ROUNDS // 2]

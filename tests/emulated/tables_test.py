@@ -20,7 +20,7 @@ CRC_AT = 12
 # One bit each: header, parameters, constants, angles, gains, first and last patches (common/TABLES.md).
 FLIPS = {"magic": 0, "format": 4, "reserved": 6, "image_bytes": 9, "crc32": CRC_AT + 3, "core_radius_m": 16,
          "gauge_count": 128, "gate_on": 141, "cell_edge_q15": 200, "an angle": 240, "a gain": 363, "the first patch": 402,
-         "a patch in the middle": 9000, "the end": 18831}
+         "a patch in the middle": 9000, "the end": 24407}
 ANOTHER_FORMAT, NOT_WHOLE = 5, 6  # exit statuses of `tables verify`
 RUN, FAULT = 2, 3  # FingerState
 TABLES_FAULT = 1  # bit of FingerFault

@@ -123,8 +123,9 @@ TEST_GROUP_BASE(Estimate, Estimated) {
     answer.solution.residualEnergy = static_cast<Wide>(times * left * answer.gateVariance_q4 / 16);
   }
   void setRival(double pitches, double chiSquared) {
-    answer.rival[0].angle_q32 = answer.solution.contact[0].angle_q32 +
-                             static_cast<std::uint32_t>(static_cast<std::int64_t>(std::ldexp(pitches, 28)));
+    answer.rival[0].angle_q32 =
+        answer.solution.contact[0].angle_q32 +
+        static_cast<std::uint32_t>(static_cast<std::int64_t>(std::ldexp(pitches, 28)));
     answer.rivalEnergy = static_cast<Wide>(chiSquared * answer.gateVariance_q4 / 16);
   }
 };

@@ -241,7 +241,7 @@ void take(const TableConstants& constants, const Linearisation& linearisation, c
 /// over a reading's variance. A 64th of it makes no answer better, but of three readings, which may tell so
 /// little that a small residual is a long step.
 bool isConverged(Wide reduction, const Hypothesis& hypothesis, const ScaledReadings& readings) {
-  const Wide most = hypothesis.exact == 0 ? 2048 : 32;
+  const Wide most = hypothesis.exact == 0 ? 256 : 32;
   return reduction < 64 ||
          (reduction < Wide{1} << 31 && reduction * reduction <= most * readings.noiseVariance_q4);
 }

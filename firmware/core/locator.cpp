@@ -9,7 +9,7 @@ namespace strainfinger::firmware {
 namespace {
 
 constexpr int kMostSteps = 9;       ///< of a fit from the readings
-constexpr int kFollowingSteps = 2;  ///< of one from the last answer
+constexpr int kFollowingSteps = 3;  ///< of one from the last answer
 constexpr int kStepsWhileSearching = 1, kStepsAfterSearch = 3;
 /// Sets of readings after which what is in doubt is looked into again ..
 constexpr std::uint16_t kSearchAgainAfter = 64;

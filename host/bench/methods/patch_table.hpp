@@ -23,8 +23,8 @@ struct SpreadResponse {
 
 template <typename Real>
 struct PatchTable {
-  static constexpr int kNodes = 96;  ///< over half a revolution
-  static constexpr int kCells = 8;
+  static constexpr int kNodes = 100;  ///< over half a revolution
+  static constexpr int kCells = 10;
   static constexpr Real kFriction = 1;
 
   /// Weights of 1, s, t, t^2, s t, s^2, as in ResponsePatch.

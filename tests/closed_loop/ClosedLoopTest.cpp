@@ -226,7 +226,8 @@ TEST(ClosedLoop, RandomContactsAreAtTheBoundAndHonest) {
   checkHonest(result);
 }
 
-// Three readings see less than sixteen: RMS 1.65 times the bound; reports chosen by their noise 1.36 of a sigma.
+// Three readings see less than sixteen: RMS 1.65 times the bound; reports chosen by their noise 1.36 of a
+// sigma.
 TEST(ClosedLoop, ThreeReadingsAreNearTheBoundAndHonest) {
   const std::uint64_t random = seed();
   const Result result = run(randomContacts(random), FitMode::kThreePoint, random, FirstOfEach());

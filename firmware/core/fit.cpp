@@ -237,13 +237,39 @@ void take(const TableConstants& constants, const Linearisation& linearisation, c
   }
 }
 
+/// The linear model holds for a step that turns a contact by at most this part of a pitch, changes its loads
+/// by at most this part of the larger one, and its second moment by at most this part of it and of the
+/// largest [log2]. What the model neglects grows with the step's square: it is below a tenth of sigma at 30
+/// N/m on the default finger (FitTest, SoTheyDoForFirmTouchesWithinTheTablesError).
+constexpr int kShortTurnBits = 8, kShortLoadBits = 7, kShortWideningBits = 6, kShortMomentBits = 8;
+
+bool isShort(const TableConstants& constants, const ContactState& from, const ContactState& to) {
+  const std::uint32_t turned_q32 = to.angle_q32 - from.angle_q32;
+  const std::uint32_t short_q32 = (std::uint32_t{1} << (32 - kShortTurnBits)) / constants.gauge_count;
+  const Number load = larger(from.normal, magnitude(from.tangential)) >> kShortLoadBits;
+  const Number moment = (from.moment_q20 >> kShortWideningBits) + (1 << (kMomentBits - kShortMomentBits));
+  return turned_q32 + short_q32 <= 2 * short_q32 && magnitude(to.normal - from.normal) <= load &&
+         magnitude(to.tangential - from.tangential) <= load &&
+         magnitude(to.moment_q20 - from.moment_q20) <= moment;
+}
+
 /// Largest reduction of the residuals' squares by a step after which another would not matter: its square
 /// over a reading's variance. A 64th of it makes no answer better, but of three readings, which may tell so
 /// little that a small residual is a long step.
-bool isConverged(Wide reduction, const Hypothesis& hypothesis, const ScaledReadings& readings) {
+bool changesLittle(Wide reduction, const Hypothesis& hypothesis, const ScaledReadings& readings) {
   const Wide most = hypothesis.exact == 0 ? 256 : 32;
   return reduction < 64 ||
          (reduction < Wide{1} << 31 && reduction * reduction <= most * readings.noiseVariance_q4);
+}
+
+/// A step after which another would not matter. That of three readings is long where they tell little.
+bool isConverged(const TableConstants& constants, const Linearisation& linearisation, const Step& step,
+                 const ContactStates& to, const ScaledReadings& readings) {
+  const Hypothesis& hypothesis = linearisation.hypothesis;
+  if (changesLittle(step.reduction, hypothesis, readings)) return true;
+  for (int k = 0; k < hypothesis.contacts; ++k)
+    if (!isShort(constants, linearisation.at[index(k)], to[index(k)])) return false;
+  return hypothesis.exact == 0;
 }
 
 }  // namespace
@@ -275,9 +301,9 @@ Solution step(const TableImage& tables, const Linearisation& linearisation, cons
   setLimits(tables.constants, linearisation, low, high);
   const Step best =
       solve(linearisation.decomposition, linearisation.column, linearisation.rows, residual, low, high);
-  Solution solution{hypothesis, linearisation.at, isConverged(best.reduction, hypothesis, readings),
-                    std::max<Wide>(energy - best.reduction, 0)};
+  Solution solution{hypothesis, linearisation.at, false, std::max<Wide>(energy - best.reduction, 0)};
   take(tables.constants, linearisation, best, solution.contact);
+  solution.converged = isConverged(tables.constants, linearisation, best, solution.contact, readings);
   return solution;
 }
 

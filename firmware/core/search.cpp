@@ -34,22 +34,21 @@ std::uint32_t pitch_q32(const TableConstants& constants) {
 }
 
 /// The middle of the two neighbouring gauges that read most energy: a contact is within two pitches of it,
-/// whatever its loads.
+/// whatever its loads. A gauge that does not count reads none.
 std::uint32_t anchor_q32(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges) {
-  std::array<std::uint8_t, kMaxGauges> ring{};
-  int used = 0;
-  for (int i = 0; i < tables.constants.gauge_count; ++i)
-    if (contains(gauges, i)) ring[at(used++)] = static_cast<std::uint8_t>(i);
-  const auto gauge = [&](int i) { return std::size_t{ring[at(i % used)]}; };
-  const auto energy = [&](int i) { return Wide{readings.value[gauge(i)]} * readings.value[gauge(i)]; };
+  const int count = tables.constants.gauge_count;
+  const auto energy = [&](int i) {
+    return contains(gauges, i) ? Wide{readings.value[at(i)]} * readings.value[at(i)] : 0;
+  };
   Wide most = -1;
   std::uint32_t anchor = 0;
-  for (int i = 0; i < used; ++i) {
-    const Wide sum = energy(i) + energy(i + 1);
+  for (int i = 0; i < count; ++i) {
+    const int next = (i + 1) % count;
+    const Wide sum = energy(i) + energy(next);
     if (sum <= most) continue;
     most = sum;
-    const std::uint32_t before = tables.gauge_angle_q32[gauge(i)];
-    anchor = before + (tables.gauge_angle_q32[gauge(i + 1)] - before) / 2;
+    const std::uint32_t before = tables.gauge_angle_q32[at(i)];
+    anchor = before + (tables.gauge_angle_q32[at(next)] - before) / 2;
   }
   return anchor;
 }

@@ -329,7 +329,7 @@ TEST(LocateAccuracy, TwentyFourGaugesAtAHundredthOfNoiseAreAtTheBound) {
 
 TEST(LocateAccuracy, ADeadGaugeThatIsKnownCostsWhatItsReadingIsWorth) {
   const auto result = Trial(lineFinger()).dead(5).run(touches(30, 0), 214, touchCount(5000));
-  checkRarelyWrong(2e-4, result);
+  checkNoGrossError(result);
   checkBound(1.1, result);
 }
 
@@ -347,10 +347,13 @@ TEST(LocateAccuracy, ALightLineIsHardlyEverSilentlyWrongByThreeReadings) {
                      Trial(lineFinger(), FitMode::kThreePoint).run(touches(load, 0), 216, touchCount(3000)));
 }
 
+// Of few pairs, another two of other widths and places explain the readings as well: these are flagged, and
+// the bound, which knows only what is near the truth, says nothing of them.
 TEST(LocateAccuracy, TwoContactsFourPitchesApartAreNearTheBound) {
   for (const double apart_pitch : {4.0, 5.5, 7.0}) {
     const Pairs pairs = locatePairs(apart_pitch, 217, touchCount(500));
     LONGS_EQUAL(pairs.count, pairs.located);
+    CHECK_COMPARE(pairs.flagged, <=, allowedCount(0.02, pairs.count));
     CHECK_COMPARE(pairs.overBound.rms(), <=, allowed(1.1, pairs.overBound.count()));
   }
 }

@@ -237,7 +237,7 @@ class Finger {
   /// Answers the request that has arrived, at once or when its work is done; while an answer waits for the
   /// port, the next request does. Not inlined: see report().
   [[gnu::noinline]] void serve(std::uint32_t now_us) {
-    if (now_us - requestedAt_us_ >= kAnswerWithin_us) {
+    if ((response_ || tareStatus_) && now_us - requestedAt_us_ >= kAnswerWithin_us) {
       response_.reset();
       tareStatus_.reset();
     }

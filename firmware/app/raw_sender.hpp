@@ -21,7 +21,7 @@ class RawSender {
   void setRate(std::uint16_t rate_hz) {
     rate_hz_ = rate_hz;
     phase_us_ = 0;
-    page_ = pages();
+    page_ = lastPage_;
     sayZeros();
   }
 
@@ -45,16 +45,17 @@ class RawSender {
     sample_ = static_cast<std::uint8_t>(sample);
     gauges_ = static_cast<std::uint8_t>(codes.size());
     page_ = 0;
+    lastPage_ = static_cast<std::uint8_t>(rawPages(gauges_));
     const auto next = static_cast<std::uint8_t>(zeroPage_ + 1);
-    lastZeroPage_ = rate_hz_ <= kSlow_hz ? pages() : std::min(next, pages());
+    lastZeroPage_ = rate_hz_ <= kSlow_hz ? lastPage_ : std::min(next, lastPage_);
   }
 
-  bool any() const { return page_ < pages() || zeroPage_ < lastZeroPage_; }
+  bool any() const { return page_ < lastPage_ || zeroPage_ < lastZeroPage_; }
 
   /// Sends what the port takes. Not inlined: what it needs is not on the stack while the locator runs.
   template <hal::CanPort Can>
   [[gnu::noinline]] void send(Can& can, std::uint8_t node, const Calibration& calibration) {
-    while (page_ < pages()) {
+    while (page_ < lastPage_) {
       const auto codeOf = [this](std::uint32_t gauge) { return codes_[gauge]; };
       if (!can.send(encode(pageOf(page_, kind_, codeOf), node))) return;
       ++page_;
@@ -69,8 +70,6 @@ class RawSender {
  private:
   static constexpr std::uint32_t kSecond_us = 1'000'000;
   static constexpr std::uint16_t kSlow_hz = 100;  ///< a set has time for all zeros' pages
-
-  std::uint8_t pages() const { return static_cast<std::uint8_t>(rawPages(gauges_)); }
 
   static std::uint16_t roundedZero(std::int32_t zero_q15) {
     return saturate<std::uint16_t>((std::int64_t{zero_q15} + (1 << (kCodeBits - 1))) >> kCodeBits);
@@ -93,6 +92,7 @@ class RawSender {
   std::uint8_t sample_ = 0;
   std::uint8_t gauges_ = 0;
   std::uint8_t page_ = 0;          ///< the next of the set's
+  std::uint8_t lastPage_ = 0;      ///< those before it are the set's
   std::uint8_t zeroPage_ = 0;      ///< the next of the zeros'
   std::uint8_t lastZeroPage_ = 0;  ///< those before it go with this set
 };

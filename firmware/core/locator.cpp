@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMostSteps = 9;       ///< of a fit from the readings
 constexpr int kFollowingSteps = 3;  ///< of one from the last answer
-constexpr int kStepsWhileSearching = 1, kStepsAfterSearch = 3;
+constexpr int kStepsWhileSearching = 2, kStepsAfterSearch = 3;
 /// Sets of readings after which what is in doubt is looked into again ..
 constexpr std::uint16_t kSearchAgainAfter = 64;
 /// .. and, if that is new, after so many sets in a row that leave doubt: noise alone does that once in 10^7.
@@ -71,23 +71,28 @@ void Locator::search(const TableImage& tables, const ScaledReadings& readings, G
   setsSinceSearch_ = 0;
 }
 
-/// From the linear model around an earlier answer; anew around the answer where that is too far away.
-bool Locator::follow(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges) {
+/// From the linear model around an earlier answer; anew around the answer where that is too far away. The
+/// work it took; nothing: the answer is lost.
+std::optional<int> Locator::follow(const TableImage& tables, const ScaledReadings& readings,
+                                   GaugeSet gauges) {
   const Hypothesis& hypothesis = answer_.solution.hypothesis;
-  if ((hypothesis.gauges & ~gauges) != 0) return false;
+  if ((hypothesis.gauges & ~gauges) != 0) return std::nullopt;
   if (readings.shift != answer_.shift)
     linearise(tables, hypothesis, rescaled(answer_.solution.contact, answer_.shift, readings.shift),
               linearisation_);
   Solution solution = step(tables, linearisation_, readings);
   const int most = search_.isBegun() ? kStepsWhileSearching : kFollowingSteps;
-  for (int i = 1; i < most && !solution.converged; ++i) {
+  int steps = 1;
+  for (; steps < most && !solution.converged; ++steps) {
     linearise(tables, hypothesis, solution.contact, linearisation_);
     solution = step(tables, linearisation_, readings);
   }
   const bool wasAccepted = answer_.accepted;
   believe(tables, solution, readings);
-  return answer_.accepted || !wasAccepted || search_.isBegun() ||
-         solution.residualEnergy <= energyOf(readings, threshold::kLost * threshold::kGate);
+  const bool isLost = wasAccepted && !answer_.accepted && !search_.isBegun() &&
+                      solution.residualEnergy > energyOf(readings, threshold::kLost * threshold::kGate);
+  if (isLost) return std::nullopt;
+  return (steps - 1) * Search::stepWork(hypothesis);
 }
 
 void Locator::start(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges) {
@@ -172,8 +177,9 @@ void Locator::rememberRival(const TableImage& tables, const Ranking& ranking,
                         likelihoodEnergy(tables.constants, ranking.best, readings);
 }
 
-void Locator::goOn(const TableImage& tables, const ScaledReadings& readings) {
-  if (!search_.isDone()) return search_.advance(tables, scratch_);
+/// Within what is left of an update's work.
+void Locator::goOn(const TableImage& tables, const ScaledReadings& readings, int workDone) {
+  if (!search_.isDone()) return search_.advance(tables, Search::kWork - workDone, scratch_);
   const Solution followed = answer_.solution;
   conclude(tables);
   search_.stop();
@@ -225,7 +231,7 @@ void Locator::finishSearch(const TableImage& tables, std::span<const std::int32_
   const ScaledReadings readings =
       scaledReadings(tables.constants, strains_q32, gauges, kConfiguredNoise_q4, answer_.shift);
   if (guessed_) settle(tables, readings);
-  while (search_.isBegun()) goOn(tables, readings);
+  while (search_.isBegun()) goOn(tables, readings, 0);
   const Solution found = answer_.solution;
   if (!found.converged)
     believe(tables,
@@ -242,7 +248,8 @@ void Locator::update(const TableImage& tables, std::span<const std::int32_t> str
   if (!tracking_ || (guessed_ && (answer_.solution.hypothesis.gauges & ~gauges) != 0))
     return start(tables, readings, gauges);
   if (guessed_) return settle(tables, readings);
-  if (!follow(tables, readings, gauges)) {
+  const std::optional<int> workDone = follow(tables, readings, gauges);
+  if (!workDone) {
     tracking_ = false;  // with the next set
     search_.stop();
     answer_.searching = true;
@@ -251,7 +258,7 @@ void Locator::update(const TableImage& tables, std::span<const std::int32_t> str
   if (search_.isBegun()) {
     if (readings.shift > search_.readings().shift)
       search(tables, readings, gauges);  // a firmer touch tells more
-    goOn(tables, readings);
+    goOn(tables, readings, *workDone);
   } else if (setsInDoubt_ == kNewDoubt && !answer_.doubtful) {
     answer_.searching = true;
     search(tables, readings, gauges);

@@ -2,6 +2,7 @@
 // Follows the contacts of a finger from one set of readings to the next.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "firmware/core/fit.hpp"
@@ -54,10 +55,10 @@ class Locator {
   Linearisation& scratch() { return scratch_; }
 
  private:
-  bool follow(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
+  std::optional<int> follow(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
   void start(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
   void settle(const TableImage& tables, const ScaledReadings& readings);
-  void goOn(const TableImage& tables, const ScaledReadings& readings);
+  void goOn(const TableImage& tables, const ScaledReadings& readings, int workDone);
   void search(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
   void conclude(const TableImage& tables);
   GaugeSet culprit(const TableImage& tables);

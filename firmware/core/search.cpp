@@ -26,7 +26,7 @@ constexpr int kFirstSteps = 2;  ///< Gauss-Newton steps of every candidate, befo
 constexpr int kMostSteps = 14;  ///< of these
 
 /// Units of work: a look at a point, one at a pair of places, a Gauss-Newton step of one or two contacts.
-constexpr int kPointWork = 5, kPairWork = 12, kStepWork = 12, kPairStepWork = 31;
+constexpr int kPointWork = 5, kPairWork = 12;
 
 std::uint32_t pitch_q32(const TableConstants& constants) {
   const std::uint32_t count = constants.gauge_count;
@@ -275,7 +275,7 @@ int Search::refineNext(const TableImage& tables, Linearisation& scratch) {
     if (refined_ == candidates_.size()) candidates_.sort();
     if (!first) keep(tables.constants, solution);
   }
-  return hypothesis_.contacts == 2 ? kPairStepWork : kStepWork;
+  return stepWork(hypothesis_);
 }
 
 void Search::keep(const TableConstants& constants, const Solution& solution) {
@@ -386,12 +386,12 @@ void Search::finishTask(const TableImage& tables, Linearisation& scratch) {
   }
 }
 
-void Search::advance(const TableImage& tables, Linearisation& scratch) {
-  for (int work = 0; isRunning() && work < kWork;) {
+void Search::advance(const TableImage& tables, int work, Linearisation& scratch) {
+  for (int done = 0; isRunning() && done < work;) {
     if (point_ < grid_.size()) {
-      work += lookAtPoint(tables, scratch);
+      done += lookAtPoint(tables, scratch);
     } else if (refined_ < refinements()) {
-      work += refineNext(tables, scratch);
+      done += refineNext(tables, scratch);
     } else {
       finishTask(tables, scratch);
     }

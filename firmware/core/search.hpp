@@ -103,16 +103,18 @@ class Search {
   bool isRunning() const { return isBegun() && !isDone(); }
   /// All was looked at; its rankings hold until stop().
   bool isDone() const { return stage_ == Stage::kDone; }
-  /// Goes on for kWork units and a piece of work, which has 31 at most. Cost: 510 instructions of a Cortex-M4
-  /// each.
-  void advance(const TableImage& tables, Linearisation& scratch);
+  /// Goes on for so much work and at most a step of a pair more.
+  void advance(const TableImage& tables, int work, Linearisation& scratch);
 
   const ScaledReadings& readings() const { return readings_; }
   const Ranking& single() const { return single_; }
   const Ranking& withoutOne() const { return withoutOne_; }
   const Ranking& pair() const { return pair_; }
 
-  static constexpr int kWork = 124;
+  /// What an update has time for, in units of 510 instructions of a Cortex-M4.
+  static constexpr int kWork = 118;
+  /// Of a Gauss-Newton step and its linear model.
+  static constexpr int stepWork(const Hypothesis& hypothesis) { return hypothesis.contacts == 1 ? 12 : 31; }
 
  private:
   enum class Stage : std::uint8_t {

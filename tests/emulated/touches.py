@@ -80,12 +80,12 @@ def decoded(program, log):
     return [row for row in rows if row["frame"] in TOUCH_FRAMES], done.stderr
 
 
-def check_truth(test, rows, expected, sure=0.9):
+def check_truth(test, rows, expected):
     """Every row that is sure of itself is right, and nine in ten are."""
     for frame, column, rounding in (("CONTACT", "angle_deg", ANGLE_ROUNDING_DEG), ("FORCE", "normal_n", FORCE_ROUNDING_N),
                                     ("FORCE", "tangential_n", FORCE_ROUNDING_N)):
         errors = list(errors_of(rows, expected, frame, column))
-        test.assertGreater(len(errors), sure * sum(row["frame"] == frame for row in rows), column)
+        test.assertGreater(len(errors), 0.9 * sum(row["frame"] == frame for row in rows), column)
         test.assertLessEqual(max(error - SIGMAS * sigma for error, sigma in errors), rounding, column)
 
 

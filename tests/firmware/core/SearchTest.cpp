@@ -16,7 +16,7 @@ TEST_GROUP(Search) {
   void searchOn(const ModelRing& of, const std::vector<double>& strains) {
     const bool isWidthFree = of.constants().width_is_known == 0;
     search.begin(of.tables(), of.scaled(strains), {1, isWidthFree, of.allGauges()});
-    for (advances = 0; search.isRunning(); ++advances) search.advance(of.tables(), scratch);
+    for (advances = 0; search.isRunning(); ++advances) search.advance(of.tables(), Search::kWork, scratch);
   }
   Press found(const ModelRing& of, const Solution& solution, int contact = 0) const {
     return of.pressOf(solution.contact[static_cast<std::size_t>(contact)], search.readings().shift);

@@ -32,6 +32,8 @@ inline constexpr int kLost = 4;
 /// Two answers are not told apart within this difference of chi-squared: the wrong one of two is told
 /// unflagged at most once in 11,000, however far apart they are.
 inline constexpr int kAmbiguous = 14;
+/// A second answer that leaves so much more than the first is forgotten: the touch has told which is right.
+inline constexpr int kForgotten = 4 * kAmbiguous;
 /// An inadmissible answer is believed only if it explains so much more: noise may have moved it there.
 inline constexpr int kInadmissible = 28;
 /// Largest reading over a standard deviation [squared] and second moment of contacts that have no second

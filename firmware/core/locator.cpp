@@ -11,9 +11,12 @@ namespace {
 constexpr int kMostSteps = 9;       ///< of a fit from the readings
 constexpr int kFollowingSteps = 3;  ///< of one from the last answer
 constexpr int kStepsWhileSearching = 2, kStepsAfterSearch = 3;
-/// Sets of readings after which what is in doubt is looked into again ..
+/// Sets of readings after which a second answer is fitted to them as well.
+constexpr std::uint8_t kRivalEvery = 8;
+/// Sets of readings after which what is in doubt is looked into again.
 constexpr std::uint16_t kSearchAgainAfter = 64;
-/// .. and, if that is new, after so many sets in a row that leave doubt: noise alone does that once in 10^7.
+/// What was not in doubt is looked into after so many sets in a row that leave doubt: noise alone does that
+/// once in 10^7.
 constexpr std::uint8_t kNewDoubt = 3;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -88,11 +91,37 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
     solution = step(tables, linearisation_, readings);
   }
   const bool wasAccepted = answer_.accepted;
+  answer_.rival = rescaled(answer_.rival, answer_.shift, readings.shift);
+  for (std::size_t k = 0; k < solution.contact.size(); ++k)
+    answer_.rival[k].angle_q32 += solution.contact[k].angle_q32 - answer_.solution.contact[k].angle_q32;
   believe(tables, solution, readings);
   const bool isLost = wasAccepted && !answer_.accepted && !search_.isBegun() &&
                       solution.residualEnergy > energyOf(readings, threshold::kLost * threshold::kGate);
   if (isLost) return std::nullopt;
-  return (steps - 1) * Search::stepWork(hypothesis);
+  return (steps - 1) * Search::stepWork(hypothesis) + followRival(tables, readings);
+}
+
+/// The second answer is fitted now and then, until the touch has told which of them is right. The work it
+/// took.
+int Locator::followRival(const TableImage& tables, const ScaledReadings& readings) {
+  if (answer_.rivalEnergy < 0 || ++setsSinceRival_ % kRivalEvery != 0) return 0;
+  const Solution answer = answer_.solution;
+  const Hypothesis& hypothesis = answer.hypothesis;
+  linearise(tables, hypothesis, answer_.rival, scratch_);
+  const Solution rival = step(tables, scratch_, readings);
+  const Wide more = likelihoodEnergy(tables.constants, rival, readings) -
+                    likelihoodEnergy(tables.constants, answer, readings);
+  answer_.rival = rival.contact;
+  answer_.rivalEnergy = magnitude(more);
+  if (more < 0) {
+    answer_.rival = answer.contact;
+    linearisation_ = scratch_;
+    believe(tables, rival, readings);
+  }
+  if (answer_.rivalEnergy > energyOf(readings, threshold::kForgotten) ||
+      areSame(tables.constants, hypothesis.contacts, answer.contact, rival.contact))
+    answer_.rivalEnergy = -1;
+  return Search::stepWork(hypothesis);
 }
 
 void Locator::start(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges) {
@@ -173,8 +202,9 @@ void Locator::rememberRival(const TableImage& tables, const Ranking& ranking,
   };
   if (ranking.best.hypothesis.contacts == 2 && apart(0, 1) + apart(1, 0) < apart(0, 0) + apart(1, 1))
     std::swap(answer_.rival[0], answer_.rival[1]);
-  answer_.rivalEnergy = likelihoodEnergy(tables.constants, ranking.second, readings) -
-                        likelihoodEnergy(tables.constants, ranking.best, readings);
+  const Wide more = likelihoodEnergy(tables.constants, ranking.second, readings) -
+                    likelihoodEnergy(tables.constants, ranking.best, readings);
+  if (more <= energyOf(readings, threshold::kForgotten)) answer_.rivalEnergy = more;
 }
 
 /// Within what is left of an update's work.
@@ -186,7 +216,10 @@ void Locator::goOn(const TableImage& tables, const ScaledReadings& readings, int
   // The touch has gone on since the search began: what was found has moved as the answer that was followed.
   const Hypothesis hypothesis = answer_.solution.hypothesis;
   ContactStates from = rescaled(answer_.solution.contact, answer_.shift, readings.shift);
-  for (ContactState& contact : from) contact.angle_q32 += followed.contact[0].angle_q32 - searchedAt_q32_;
+  answer_.rival = rescaled(answer_.rival, answer_.shift, readings.shift);
+  const std::uint32_t moved_q32 = followed.contact[0].angle_q32 - searchedAt_q32_;
+  for (ContactState& contact : from) contact.angle_q32 += moved_q32;
+  for (ContactState& contact : answer_.rival) contact.angle_q32 += moved_q32;
   Solution now = fit(tables, hypothesis, from, readings, kStepsAfterSearch, linearisation_);
   if (followed.hypothesis == hypothesis && followed.residualEnergy <= now.residualEnergy)
     now = fit(tables, hypothesis, followed.contact, readings, 1, linearisation_);
@@ -262,7 +295,7 @@ void Locator::update(const TableImage& tables, std::span<const std::int32_t> str
   } else if (setsInDoubt_ == kNewDoubt && !answer_.doubtful) {
     answer_.searching = true;
     search(tables, readings, gauges);
-  } else if (!answer_.accepted || answer_.doubtful || answer_.rivalEnergy >= 0) {
+  } else if (!answer_.accepted || answer_.doubtful) {
     if (++setsSinceSearch_ >= kSearchAgainAfter) search(tables, readings, gauges);
   }
   if (mode_ == FitMode::kThreePoint && !search_.isBegun()) solveExactly(tables, readings);

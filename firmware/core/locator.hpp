@@ -24,8 +24,8 @@ struct Answer {
   std::uint32_t variance_q4 = 0;       ///< of a reading
   std::uint32_t gateVariance_q4 = 0;   ///< by which hypotheses are judged
   std::uint32_t noiseVariance_q4 = 0;  ///< of a reading, that jitters from set to set
-  ContactStates rival;                 ///< another answer of the same hypothesis ..
-  Wide rivalEnergy = -1;   ///< .. and what it leaves more [residual energy]; negative: there is none
+  ContactStates rival;                 ///< another answer of the same hypothesis
+  Wide rivalEnergy = -1;   ///< what that answer leaves more [residual energy]; negative: there is none
   bool doubtful = false;   ///< another hypothesis explains the readings nearly as well
   bool accepted = false;   ///< the hypothesis explains the readings
   bool searching = false;  ///< the search for other hypotheses goes on
@@ -63,6 +63,7 @@ class Locator {
   void conclude(const TableImage& tables);
   GaugeSet culprit(const TableImage& tables);
   void rememberRival(const TableImage& tables, const Ranking& ranking, const ScaledReadings& readings);
+  int followRival(const TableImage& tables, const ScaledReadings& readings);
   void believe(const TableImage& tables, const Solution& solution, const ScaledReadings& readings);
   void solveExactly(const TableImage& tables, const ScaledReadings& readings);
 
@@ -74,6 +75,7 @@ class Locator {
   bool tracking_ = false;
   bool guessed_ = false;          ///< the answer is where a fit starts
   std::uint8_t setsInDoubt_ = 0;  ///< in a row, up to where a search begins
+  std::uint8_t setsSinceRival_ = 0;
   std::uint16_t setsSinceSearch_ = 0;
   std::uint32_t searchedAt_q32_ = 0;  ///< where the answer was when the search began
 };

@@ -64,12 +64,6 @@ bool isSame(const TableConstants& constants, const ContactState& a, const Contac
          magnitude(a.moment_q20 - b.moment_q20) < (1 << 15) + (a.moment_q20 + b.moment_q20) / 16;
 }
 
-bool areSame(const TableConstants& constants, int contacts, const ContactStates& a, const ContactStates& b) {
-  const auto match = [&](int i, int j) { return isSame(constants, a[at(i)], b[at(j)]); };
-  if (contacts == 1) return match(0, 0);
-  return (match(0, 0) && match(1, 1)) || (match(0, 1) && match(1, 0));
-}
-
 /// Points of a grid nearer than so many sixteenths of a pitch, of the same width: the worse is on the way to
 /// the better.
 constexpr std::uint32_t kNearFirsts_16 = 6, kNearWide_16 = 5, kNearLines_16 = 1;
@@ -83,6 +77,12 @@ bool areNeighbours(const TableConstants& constants, int contacts, const ContactS
 }
 
 }  // namespace
+
+bool areSame(const TableConstants& constants, int contacts, const ContactStates& a, const ContactStates& b) {
+  const auto match = [&](int i, int j) { return isSame(constants, a[at(i)], b[at(j)]); };
+  if (contacts == 1) return match(0, 0);
+  return (match(0, 0) && match(1, 1)) || (match(0, 1) && match(1, 0));
+}
 
 void Ranking::take(const TableConstants& constants, const Solution& solution,
                    const ScaledReadings& readings) {

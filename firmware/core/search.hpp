@@ -9,6 +9,9 @@
 
 namespace strainfinger::firmware {
 
+/// Two fits of so many contacts went to the same answer, in whichever order.
+bool areSame(const TableConstants& constants, int contacts, const ContactStates& a, const ContactStates& b);
+
 /// The most likely solution of a hypothesis, and the next best that lies elsewhere.
 struct Ranking {
   Solution best;

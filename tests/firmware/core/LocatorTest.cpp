@@ -85,6 +85,19 @@ TEST(Locator, FollowsAMovingTouchWithTheAnswersOfOneSetAlone) {
   CHECK(std::sqrt(squares / 300) < 0.15);
 }
 
+TEST(Locator, FollowsAMovingTouchWhileASearchGoesOn) {
+  Presses noise(16, 0, 411);
+  int setsOfSearches = 0;
+  for (int set = 0; set < 1000; ++set) {
+    const Press press{3 + set * 0.013, 20, 5, 4};  // 65 um a set, so wide that other answers are looked for
+    update(noise.noisy(ring.strains(press), ring.noise_strain()));
+    if (set < 3) continue;
+    setsOfSearches += locator.answer().searching;
+    DOUBLES_EQUAL(0, off_pitch(press), 6 * ring.bound(press)[0]);
+  }
+  CHECK_COMPARE(setsOfSearches, >, 5);
+}
+
 TEST(Locator, FollowsATouchThatGrowsAndFades) {
   Presses noise(16, 0, 403);
   for (int set = 0; set < 400; ++set) {
@@ -225,6 +238,24 @@ TEST(Locator, ARivalThatIsNearlyAsLikelyIsTold) {
     CHECK(locator.answer().rival[0].angle_q32 != locator.answer().solution.contact[0].angle_q32);
   }
   CHECK(rivals > 10);
+}
+
+TEST(Locator, ARivalIsForgottenOnceTheTouchHasTold) {
+  Presses presses(16, 3, 412, 5, 6);
+  int rivals = 0, left = 0;
+  for (int i = 0; i < 50; ++i) {
+    locator.release();
+    Press press = presses.next();
+    settle(presses.noisy(ring.strains(press), ring.noise_strain()));
+    if (locator.answer().rivalEnergy < 0) continue;
+    ++rivals;
+    for (int set = 0; set < 100; ++set, press.normal *= 1.03, press.tangential *= 1.03)
+      update(presses.noisy(ring.strains(press), ring.noise_strain()));
+    left += locator.answer().rivalEnergy >= 0;
+    DOUBLES_EQUAL(0, off_pitch(press), 0.02);
+  }
+  CHECK(rivals > 10);
+  CHECK_COMPARE(left, <=, rivals / 5);
 }
 
 TEST(Locator, NoiseThatIsMeasuredWidensTheGate) {

@@ -111,9 +111,12 @@ int newUdpSocket() {
 bool isUdpName(std::string_view name) { return name.substr(0, name.find(':')) == kUdp; }
 
 std::vector<std::uint8_t> toDatagram(const CanFrame& frame) {
-  std::vector<std::uint8_t> datagram{kDatagramVersion, static_cast<std::uint8_t>(frame.id >> 8),
-                                     static_cast<std::uint8_t>(frame.id), frame.length};
-  datagram.insert(datagram.end(), frame.data.begin(), frame.data.begin() + frame.length);
+  std::vector<std::uint8_t> datagram(kHeader_bytes + frame.length);
+  datagram[0] = kDatagramVersion;
+  datagram[1] = static_cast<std::uint8_t>(frame.id >> 8);
+  datagram[2] = static_cast<std::uint8_t>(frame.id);
+  datagram[3] = frame.length;
+  std::copy_n(frame.data.begin(), frame.length, datagram.begin() + kHeader_bytes);
   return datagram;
 }
 

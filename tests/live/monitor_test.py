@@ -200,7 +200,7 @@ class Log(unittest.TestCase):
         for time_s, due_s in zip(times, (1, 2, 3, 3.5)):
             self.assertAlmostEqual(due_s, time_s, delta=0.101)
         normal_n = float(re.search(r"normal ([0-9.]+) ", run.stdout)[1])
-        self.assertAlmostEqual(0.4, normal_n, delta=0.02)  # 20 N/m on 20 mm
+        self.assertAlmostEqual(0.4, normal_n, delta=0.003)  # 20 N/m on 20 mm; noise puts a force off by 0.15 N/m at most
 
     def test_a_log_can_be_watched_on_a_screen(self):
         with Bench(PROGRAM) as bench:

@@ -197,6 +197,13 @@ hal::CanStatus SocketCanPort::status() noexcept {
   return status_;
 }
 
+BusHints SocketCanPort::hints() const {
+  return {.whenBlocked = fmt::format("it is down, bus-off, nobody acknowledges or its queue is full; `ip "
+                                     "-details -statistics link show {}` shows which",
+                                     interface_),
+          .whenSilent = "is it on the bus, with this bit rate and this --node?"};
+}
+
 bool SocketCanPort::waitReadable(std::chrono::milliseconds timeout) noexcept {
   return calls_.poll(frames_, static_cast<int>(timeout.count())) > 0;
 }

@@ -190,6 +190,11 @@ std::optional<TimedFrame> UdpPort::receiveTimed() noexcept {
 
 hal::CanStatus UdpPort::status() noexcept { return {.state = hal::CanState::kActive, .missed = missed_}; }
 
+BusHints UdpPort::hints() const {
+  return {.whenBlocked = "the loopback interface has no IPv4 or is down; `ip address show lo` shows it",
+          .whenSilent = fmt::format("does it run (`strainfinger run --can {}`), with this --node?", name_)};
+}
+
 bool UdpPort::waitReadable(std::chrono::milliseconds timeout) noexcept {
   pollfd waiting{hears_, POLLIN, 0};
   return ::poll(&waiting, 1, static_cast<int>(timeout.count())) > 0;

@@ -36,6 +36,7 @@ class UdpPort final : public BusPort {
   hal::CanStatus status() noexcept override;
   bool waitReadable(std::chrono::milliseconds timeout) noexcept override;
   int descriptor() const noexcept override { return hears_; }
+  BusHints hints() const override;
   const std::string& name() const noexcept override { return name_; }
   std::uint32_t malformed() const noexcept override { return malformed_; }
 

@@ -45,6 +45,10 @@ class Bench(contextlib.ExitStack):
         self.bus = free_bus()
         self.folder = pathlib.Path(self.enter_context(tempfile.TemporaryDirectory()))
 
+    def new_folder(self):
+        """Recordings are named by the second: two in one would have one name."""
+        return pathlib.Path(tempfile.mkdtemp(dir=self.folder))
+
     def start(self, *arguments, **options):
         process = subprocess.Popen([self.program, *arguments], **options)
         self.callback(self._end, process)

@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 import time
+import tomllib
 import unittest
 
 from fingers import UNTOUCHED, Bench, cpu_s
@@ -104,18 +105,33 @@ class Live(unittest.TestCase):
             terminal.wait_for(r"node 2: tare: Done")
 
     def test_r_records(self):
-        with Terminal(f"cd {self.bench.folder}; {self.command}") as terminal:
+        folder = self.bench.new_folder()
+        with Terminal(f"cd {folder}; {self.command}") as terminal:
             terminal.wait_for(r"r record  q quit")
             terminal.press("r")
             name = re.search(r"r stop recording (strainfinger-\d{8}-\d{6}\.log)", terminal.wait_for(r"r stop recording \S+log")).group(1)
             time.sleep(1)
             terminal.press("r")
             frames = int(re.search(r"log: (\d+) frames", terminal.wait_for(r"log: \d+ frames")).group(1))
-            log = (self.bench.folder / name).read_text().splitlines()
+            log = (folder / name).read_text().splitlines()
             self.assertEqual(frames, len(log))
             self.assertGreater(frames, 20)
+            notes = tomllib.loads((folder / name).with_suffix(".toml").read_text())  # whoever reads TOML
+            self.assertEqual((frames, 0), (notes["recording"]["frames"], notes["recording"]["missed"]))
+            self.assertEqual({1, 2}, {finger["node"] for finger in notes["recording"]["finger"]})
+            self.assertEqual({"0.1"}, {finger["version"] for finger in notes["recording"]["finger"]})
             for line in log:
                 self.assertRegex(line, r"^\(\d{10}\.\d{6}\) udp:\d+ [0-9A-F]{3}#([0-9A-F]{2})*$")
+
+    def test_q_ends_a_recording_too(self):
+        folder = self.bench.new_folder()
+        with Terminal(f"cd {folder}; {self.command}") as terminal:
+            terminal.wait_for(r"r record  q quit")
+            terminal.press("r")
+            terminal.wait_for(r"r stop recording \S+log")
+            terminal.press("q")
+            name = re.search(r"monitor: (\S+)\.log: \d+ frames", terminal.wait_for(r"(?s)log: \d+ frames.*ended: 0")).group(1)
+            self.assertIn("end", tomllib.loads((folder / f"{name}.toml").read_text())["recording"])
 
     def test_a_recording_that_cannot_be_made_is_said_to_be(self):
         with Terminal(f"cd /proc; {self.command}") as terminal:  # no file can be made there

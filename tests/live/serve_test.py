@@ -172,6 +172,11 @@ class Serve(unittest.TestCase):
         self.assertEqual(409, status)
         self.assertIn("something touches the finger", text)
 
+    def test_a_command_may_come_without_a_body_and_its_length(self):
+        answer = raw(self.url, b"POST /fingers/1/tare HTTP/1.1\r\nHost: localhost\r\nX-Strainfinger: -\r\n\r\n")  # curl -X POST
+        self.assertEqual(409, status_of(answer))
+        self.assertIn(b"something touches the finger", answer)
+
     def test_a_tare_of_a_node_that_is_not_there_has_no_answer(self):
         status, text = post(self.url + "fingers/9/tare", {"X-Strainfinger": "-"})
         self.assertEqual((409, "node 9: tare: no answer: is it on the bus still?"), (status, text))

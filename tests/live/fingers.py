@@ -124,7 +124,7 @@ GROUP = "239.255.67.65"
 
 def chatter(bus, nodes, rate_hz, time_s):
     """Fingers that are all talk: CONTACT, FORCE and PATCH at an exact rate, HEARTBEATs ten times a second. The bytes are those of
-    common/BUS.md's examples, the datagrams those of host/can/UDP_BUS.md."""
+    common/BUS*.md's examples, the datagrams those of host/can/UDP_BUS.md."""
     speaks = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     speaks.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, socket.inet_aton("127.0.0.1"))
     speaks.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, 0)

@@ -14,7 +14,8 @@ TEST_GROUP(PendingRequest) {
 };
 
 TEST(PendingRequest, IsTheFrameOfTheBusDocument) {
-  CHECK_TRUE(request_.frame() == (CanFrame{0x605, 8, {0x02, 0x01}}));  // BUS.md: tare, unless touched
+  CHECK_TRUE(request_.frame() ==
+             (CanFrame{0x605, 8, {0x02, 0x01}}));  // BUS_REQUESTS.md: tare, unless touched
 }
 
 TEST(PendingRequest, ItsResponseIsItsOutcome) {

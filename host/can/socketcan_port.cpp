@@ -90,7 +90,7 @@ Failure openingFailure(const std::string& interface, int bitrate, int error) {
     case EPROTONOSUPPORT:
       return failure(fmt::format(
           "cannot open {}: this kernel has no CAN sockets; `sudo modprobe can_raw` loads them where the "
-          "kernel was built with CAN",
+          "kernel was built with CAN, and --can udp is a bus that needs none",
           interface));
     case ENODEV:
       return failure(fmt::format("no CAN interface {}: {}", interface, creationCommand(interface, bitrate)));

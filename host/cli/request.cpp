@@ -21,11 +21,6 @@ std::string nameOf(std::span<const ValueName> names, int value) {
 std::string commandName(Command command) { return nameOf(kCommandNames, static_cast<int>(command)); }
 std::string statusName(CommandStatus status) { return nameOf(kCommandStatusNames, static_cast<int>(status)); }
 
-std::string meaningOf(CommandStatus status) {
-  const ValueName* name = can::findName(kCommandStatusNames, static_cast<int>(status));
-  return name != nullptr ? name->comment : "A status that this program does not know";
-}
-
 /// Shows every finger of the bus, whatever carries it.
 std::string monitorCommand(const can::BusPort& bus) {
   return fmt::format("`strainfinger monitor --can {}`", bus.name());
@@ -38,7 +33,7 @@ std::string remedyFor(CommandStatus status, const can::BusPort& bus) {
     case CommandStatus::kBusy:
       return fmt::format("try again in a second; {} shows what it does", monitorCommand(bus));
     case CommandStatus::kWait:
-      return "try again then; what it has kept already stays";
+      return "try again then";
     case CommandStatus::kNotKept:
       return "it goes on as before; an emulated or simulated finger has no memory to keep it in";
     case CommandStatus::kTooFast:
@@ -46,11 +41,6 @@ std::string remedyFor(CommandStatus status, const can::BusPort& bus) {
     default:
       return "use the strainfinger of its firmware";
   }
-}
-
-std::string valueOf(const ResponseFrame& response) {
-  if (response.status == CommandStatus::kTooFast) return fmt::format(": {} Hz", response.value);
-  return response.status == CommandStatus::kWait ? fmt::format(" {} s", response.value) : "";
 }
 
 Failure silence(const can::Reply& reply, const can::BusPort& bus, const std::string& where) {
@@ -91,11 +81,12 @@ void requireDone(const can::Reply& reply, Command command, const can::BusPort& b
   if (!reply.response) throw silence(reply, bus, where);
   const CommandStatus status = reply.response->status;
   if (status == CommandStatus::kDoneTouched)
-    fmt::print(stderr, "strainfinger: {}: {}: {}\n", where, commandName(command), meaningOf(status));
+    fmt::print(stderr, "strainfinger: {}: {}: {}\n", where, commandName(command),
+               can::meaningOf(*reply.response));
   else if (status != CommandStatus::kDone)
     throw Failure(ExitCode::kFailure,
-                  fmt::format("{}: {}: {} ({}{}): {}", where, commandName(command), meaningOf(status),
-                              statusName(status), valueOf(*reply.response), remedyFor(status, bus)));
+                  fmt::format("{}: {}: {} ({}): {}", where, commandName(command),
+                              can::meaningOf(*reply.response), statusName(status), remedyFor(status, bus)));
 }
 
 void request(const RequestOptions& options, const std::vector<RequestFrame>& requests) {

@@ -45,7 +45,7 @@ TEST(Request, ARefusalNamesItsReasonAndTheRemedy) {
   checkFails(answered(CommandStatus::kUnknownCommand), ExitCode::kFailure, "firmware");
   checkFails(answered(CommandStatus::kBadArgument), ExitCode::kFailure, "(bad_argument)");
   checkFails({.sent = true, .response = responseTo(Command::kKeep, CommandStatus::kWait, 45)},
-             ExitCode::kFailure, "(wait 45 s): try again then");
+             ExitCode::kFailure, "Not yet: its memory would wear out: 45 s (wait): try again then");
   checkFails(answered(static_cast<CommandStatus>(99)), ExitCode::kFailure, "(99)");
 }
 

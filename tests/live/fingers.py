@@ -8,6 +8,7 @@ import signal
 import socket
 import subprocess
 import tempfile
+import threading
 import time
 import urllib.request
 
@@ -65,16 +66,30 @@ class Bench(contextlib.ExitStack):
             process.wait()
             raise
         finally:
-            if process.stderr:
-                process.stderr.close()
+            for stream in filter(None, (process.stdout, process.stderr)):
+                stream.close()
 
-    def finger(self, node=1, scenario=SCENARIO):
+    @staticmethod
+    def ended(process):
+        """What it says on stderr, if that is a pipe, ended as by Ctrl-C."""
+        process.send_signal(signal.SIGINT)
+        return process.communicate(timeout=20)[1]
+
+    @staticmethod
+    def until(holds, longest_s=30):
+        end = time.monotonic() + longest_s
+        while not holds():
+            if time.monotonic() > end:
+                raise AssertionError(f"not within {longest_s} s: {holds}")
+            time.sleep(0.02)
+
+    def finger(self, node=1, scenario=SCENARIO, said=subprocess.DEVNULL):
         config = self.folder / f"finger_{node}.toml"
         config.write_text(f"schema = 1\n[can]\nnode = {node}\n[gauges]\nmodel_error = 0.003\n")
         touches = self.folder / f"touches_{node}.toml"
         touches.write_text(scenario)
-        return self.start("run", "-c", str(config), "--can", self.bus, "--scenario", str(touches),
-                          stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        return self.start("run", "-c", str(config), "--can", self.bus, "--scenario", str(touches), "--json",
+                          stdout=subprocess.DEVNULL, stderr=said, text=True)
 
     def replayed(self, node, scenario, time_s):
         """A finger simulated beforehand, in its own time."""
@@ -113,6 +128,24 @@ class Bench(contextlib.ExitStack):
                 return state
             time.sleep(0.05)
         raise AssertionError(f"not within {longest_s} s; the last state: {state}")
+
+
+class Reader(threading.Thread):
+    """Reads the events of `serve` for so long, as a page does."""
+
+    def __init__(self, url, time_s):
+        super().__init__()
+        self.url, self.time_s, self.states, self.latest_s = url, time_s, [], 0
+
+    def run(self):
+        end = time.monotonic() + self.time_s
+        with urllib.request.urlopen(self.url + "events", timeout=10) as stream:
+            for line in stream:
+                if line.startswith(b"data: "):
+                    self.states.append(json.loads(line[6:]))
+                    self.latest_s = max(self.latest_s, time.time() - self.states[-1]["time_s"])
+                if time.monotonic() > end:
+                    return
 
 
 def touched(state):

@@ -5,14 +5,13 @@ import os
 import socket
 import subprocess
 import sys
-import threading
 import time
 import unittest
 import urllib.error
 import urllib.parse
 import urllib.request
 
-from fingers import UNTOUCHED, Bench, cpu_s, touched
+from fingers import UNTOUCHED, Bench, Reader, cpu_s, touched
 
 PROGRAM = sys.argv.pop(1)
 
@@ -42,24 +41,6 @@ def post(url, headers):
             return answer.status, json.load(answer)["text"]
     except urllib.error.HTTPError as error:
         return error.code, json.load(error)["text"]
-
-
-class Reader(threading.Thread):
-    """Reads events for so long."""
-
-    def __init__(self, url, time_s):
-        super().__init__()
-        self.url, self.time_s, self.states, self.latest_s = url, time_s, [], 0
-
-    def run(self):
-        end = time.monotonic() + self.time_s
-        with urllib.request.urlopen(self.url + "events", timeout=10) as stream:
-            for line in stream:
-                if line.startswith(b"data: "):
-                    self.states.append(json.loads(line[6:]))
-                    self.latest_s = max(self.latest_s, time.time() - self.states[-1]["time_s"])
-                if time.monotonic() > end:
-                    return
 
 
 class Serve(unittest.TestCase):

@@ -148,6 +148,15 @@ class Reader(threading.Thread):
                     return
 
 
+def bench_with_two(tests, program):
+    """For a class of tests: finger 1 is touched, finger 2 is not."""
+    bench = Bench(program)
+    tests.addClassCleanup(bench.close)
+    bench.finger(1)
+    bench.finger(2, UNTOUCHED)
+    return bench
+
+
 def touched(state):
     return state["fingers"] and all(finger["touch"] and finger["touch"]["touched"] for finger in state["fingers"])
 

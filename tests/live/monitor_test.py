@@ -11,7 +11,7 @@ import time
 import tomllib
 import unittest
 
-from fingers import UNTOUCHED, Bench, cpu_s
+from fingers import Bench, bench_with_two, cpu_s
 
 if shutil.which("tmux") is None:
     print("tmux is not installed: apt install tmux")
@@ -63,10 +63,7 @@ class Terminal:
 class Live(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.bench = Bench(PROGRAM)
-        cls.addClassCleanup(cls.bench.close)
-        cls.bench.finger(1)
-        cls.bench.finger(2, UNTOUCHED)
+        cls.bench = bench_with_two(cls, PROGRAM)
         cls.command = f"{PROGRAM} monitor --can {cls.bench.bus}"
 
     def test_the_screen_shows_every_finger(self):

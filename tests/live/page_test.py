@@ -4,7 +4,7 @@ import subprocess
 import sys
 import unittest
 
-from fingers import UNTOUCHED, Bench
+from fingers import UNTOUCHED, Bench, bench_with_two
 import browser
 
 if browser.CHROMIUM is None:
@@ -49,10 +49,7 @@ new MutationObserver(() => {
 class LivePage(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.bench = Bench(PROGRAM)
-        cls.addClassCleanup(cls.bench.close)
-        cls.bench.finger(1)
-        cls.bench.finger(2, UNTOUCHED)
+        cls.bench = bench_with_two(cls, PROGRAM)
         _, cls.url = cls.bench.serve()
         cls.page = browser.Page(cls.url)
         cls.page.__enter__()

@@ -1,8 +1,8 @@
 """How fast `strainfinger decode` is, beside Debian's python3-canmatrix on the same frames, and how much memory it takes.
 
-usage: decode_speed.py STRAINFINGER [MEGABYTES]
-Speeds are of processor time, which a busy machine hardly takes from. Fails below 20 times canmatrix' speed, and where a
-log ten times as long takes more memory. MEGABYTES (default 20) is the longer log's size.
+usage: decode_speed.py STRAINFINGER [MEGABYTES [LEAST_MB_PER_S]]
+Speeds are of processor time, which a busy machine hardly takes from. Fails below 20 times canmatrix' speed, below
+LEAST_MB_PER_S, and where a log ten times as long takes more memory. MEGABYTES (default 20) is the longer log's size.
 """
 import os
 import subprocess
@@ -76,12 +76,15 @@ def main():
         rounds = [(*decode(path), decode_by_canmatrix(matrix, lines)) for _ in range(ROUNDS)]
         memory = [decode(short)[1], rounds[0][1]]
     ratio = sorted(ours / theirs for ours, _, theirs in rounds)[ROUNDS // 2]
-    print(f"decode: {max(ours for ours, *_ in rounds) / 1e6:.0f} MB/s; canmatrix: "
+    fastest = max(ours for ours, *_ in rounds) / 1e6
+    print(f"decode: {fastest:.0f} MB/s; canmatrix: "
           f"{max(theirs for *_, theirs in rounds) / 1e6:.2f} MB/s; ratio, the middle of {ROUNDS} rounds: {ratio:.0f}")
     print(f"memory: {memory[1]} KiB for {MEGABYTES} MB, {memory[0]} KiB for a tenth of it")
-    return 0 if ratio >= LEAST_RATIO and memory[1] <= memory[0] + MEMORY_SPREAD_KIB else 1
+    is_fast = ratio >= LEAST_RATIO and fastest >= LEAST_MB_PER_S
+    return 0 if is_fast and memory[1] <= memory[0] + MEMORY_SPREAD_KIB else 1
 
 
 if __name__ == "__main__":
     STRAINFINGER, MEGABYTES = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 20
+    LEAST_MB_PER_S = float(sys.argv[3]) if len(sys.argv) > 3 else 0
     sys.exit(main())

@@ -1,5 +1,5 @@
 #pragma once
-// What a finger can be told over CAN, and what it answers. BUS.md shows the bytes.
+// What a finger can be told over CAN, and what it answers. BUS_REQUESTS.md shows the bytes.
 //
 // Both are ISO-TP single frames (ISO 15765-2): byte 0 counts the bytes that follow and matter, 1 .. 7. Its
 // upper four bits are 0, so that longer ISO-TP messages can come beside them. We send all eight bytes, the

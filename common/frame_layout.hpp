@@ -1,6 +1,6 @@
 #pragma once
 // The one way a struct of raw integers becomes a CAN frame and back: a constexpr table of fields per frame.
-// Encoder, decoder, printer, DBC file and the tables of BUS.md all come from it. No floating point, no heap
+// Encoder, decoder, printer, DBC file and the tables of BUS*.md all come from it. No floating point, no heap
 // and no text on the way to the bus: units, names and comments are read by host code only.
 //
 // Byte order, for every field of every frame: little-endian; bit b of the frame is bit b % 8 of byte b / 8,

@@ -1,6 +1,6 @@
 #pragma once
 // The frames a finger sends: their raw values and, below each, the table that says where these lie and what
-// they mean. BUS.md shows the bytes. A member that is not set is "not known", never an old value.
+// they mean. BUS*.md show the bytes. A member that is not set is "not known", never an old value.
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,10 @@
 #include "host/can/ask.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+
+#include "host/can/frame_catalogue.hpp"
 
 namespace strainfinger::can {
 namespace {
@@ -16,6 +20,19 @@ void take(const CanFrame& frame, std::uint8_t node, Command command, Reply& repl
 }
 
 }  // namespace
+
+std::string meaningOf(const ResponseFrame& response) {
+  if (response.status == CommandStatus::kWait)
+    return fmt::format(
+        "Not yet: {}: {} s",
+        response.command == Command::kTare ? "the zero was taken just now" : "its memory would wear out",
+        response.value);
+  if (response.status == CommandStatus::kTooFast)
+    return fmt::format("Refused: more than RAW's share of the bus; {} Hz is the fastest", response.value);
+  const int status = static_cast<int>(response.status);
+  const ValueName* const name = findName(kCommandStatusNames, status);
+  return name != nullptr ? name->comment : fmt::format("status {}, unknown to this program", status);
+}
 
 Reply ask(BusPort& port, std::uint8_t node, const RequestFrame& request, std::chrono::milliseconds longest) {
   using Clock = std::chrono::steady_clock;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "common/commands.hpp"
 #include "host/can/bus_port.hpp"
@@ -18,6 +19,9 @@ struct Reply {
   std::optional<ResponseFrame> response{};
   std::optional<HeartbeatFrame> heartbeat{};  ///< the last of that finger while nothing had come yet
 };
+
+/// What became of a request, for people: "Refused: something touches the finger", with what its value means.
+std::string meaningOf(const ResponseFrame& response);
 
 /// Sends the request to node 1 .. 63 and waits for its response, at most so long. Fingers tell callers apart
 /// by nothing: one at a time asks a node. Frames of others meanwhile are read and gone.

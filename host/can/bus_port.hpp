@@ -23,6 +23,12 @@ struct BusFilter {
   std::uint16_t mask = 0;  ///< 0: everything
 };
 
+/// Parts of messages: what may be wrong with a bus of this kind, and the command that shows or mends it.
+struct BusHints {
+  std::string whenBlocked;  ///< it takes no frames
+  std::string whenSilent;   ///< a finger that should be on it is not heard
+};
+
 /// A hal::CanPort that can be waited for. A frame of its own never comes back to it.
 class BusPort {
  public:
@@ -49,6 +55,7 @@ class BusPort {
   virtual int descriptor() const noexcept = 0;
   /// As it was opened: "can0", "udp".
   virtual const std::string& name() const noexcept = 0;
+  virtual BusHints hints() const = 0;
   /// What came over the bus and was no frame, since start.
   virtual std::uint32_t malformed() const noexcept { return 0; }
 };

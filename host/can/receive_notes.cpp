@@ -1,5 +1,6 @@
 #include "host/can/receive_notes.hpp"
 
+#include <netinet/in.h>
 #include <sys/socket.h>
 
 #include <cerrno>
@@ -32,6 +33,9 @@ int receiveWithNotes(int socket, void* data, std::size_t size, ReceiveNotes& not
   msghdr message{};
   message.msg_iov = &part;
   message.msg_iovlen = 1;
+  sockaddr_in sender{};
+  message.msg_name = &sender;
+  message.msg_namelen = sizeof sender;
   message.msg_control = control;
   message.msg_controllen = sizeof control;
   const auto read = ::recvmsg(socket, &message, 0);
@@ -39,6 +43,7 @@ int receiveWithNotes(int socket, void* data, std::size_t size, ReceiveNotes& not
   notes.time_ns = 0;
   for (cmsghdr* note = CMSG_FIRSTHDR(&message); note != nullptr; note = CMSG_NXTHDR(&message, note))
     readNote(*note, notes);
+  notes.senderPort = sender.sin_family == AF_INET ? ntohs(sender.sin_port) : std::uint16_t{0};
   if (notes.time_ns == 0) notes.time_ns = nowSince1970_ns();
   return static_cast<int>(read);
 }

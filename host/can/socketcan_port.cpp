@@ -90,7 +90,7 @@ Failure openingFailure(const std::string& interface, int bitrate, int error) {
     case EPROTONOSUPPORT:
       return failure(fmt::format(
           "cannot open {}: this kernel has no CAN sockets; `sudo modprobe can_raw` loads them where the "
-          "kernel was built with CAN",
+          "kernel was built with CAN, and --can udp is a bus that needs none",
           interface));
     case ENODEV:
       return failure(fmt::format("no CAN interface {}: {}", interface, creationCommand(interface, bitrate)));
@@ -195,6 +195,13 @@ hal::CanStatus SocketCanPort::status() noexcept {
   refresh();
   status_.missed = lostInQueue_ + lostElsewhere_;
   return status_;
+}
+
+BusHints SocketCanPort::hints() const {
+  return {.whenBlocked = fmt::format("it is down, bus-off, nobody acknowledges or its queue is full; `ip "
+                                     "-details -statistics link show {}` shows which",
+                                     interface_),
+          .whenSilent = "is it on the bus, with this bit rate and this --node?"};
 }
 
 bool SocketCanPort::waitReadable(std::chrono::milliseconds timeout) noexcept {

@@ -34,6 +34,7 @@ class SocketCanPort final : public BusPort {
   hal::CanStatus status() noexcept override;
   bool waitReadable(std::chrono::milliseconds timeout) noexcept override;
   int descriptor() const noexcept override { return frames_; }
+  BusHints hints() const override;
   const std::string& name() const noexcept override { return interface_; }
 
   std::uint32_t refused() const { return refused_; }  ///< frames send() did not take, since start

@@ -12,6 +12,7 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cstring>
 #include <utility>
 
@@ -76,15 +77,16 @@ void bindUdp(int socket, const sockaddr_in& address, const char* what) {
   require(::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address), what);
 }
 
-std::uint16_t ownPort(int socket) {
+std::uint16_t portOfSocket(int socket) {
   sockaddr_in address{};
   socklen_t size = sizeof address;
   require(::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size), "getsockname");
   return ntohs(address.sin_port);
 }
 
-/// Lets the kernel leave out what this port sent itself and what its filter doesn't want. The program's
-/// offsets count from the UDP header, whose first two bytes are the sender's port.
+/// Lets the kernel leave out what this port sent itself and what its filter doesn't want, both of which it
+/// counts as lost. The program's offsets count from the UDP header, whose first two bytes are the sender's
+/// port.
 void attachFilter(int socket, std::uint16_t own, BusFilter filter) {
   constexpr std::uint32_t kUdpHeader_bytes = 8, kIdOffset_bytes = kUdpHeader_bytes + 1, kWhole = 0xFFFF;
   std::array program{
@@ -96,8 +98,6 @@ void attachFilter(int socket, std::uint16_t own, BusFilter filter) {
       sock_filter BPF_STMT(BPF_RET | BPF_K, 0),
       sock_filter BPF_STMT(BPF_RET | BPF_K, kWhole),
   };
-  // Where everything is wanted, what is too short to have an identifier is to be seen, and counted, too.
-  if (filter.mask == 0) program[2] = BPF_STMT(BPF_RET | BPF_K, kWhole);
   const sock_fprog attached{static_cast<unsigned short>(program.size()), program.data()};
   setUdpOption(socket, SOL_SOCKET, SO_ATTACH_FILTER, attached, "SO_ATTACH_FILTER");
 }
@@ -147,8 +147,10 @@ void UdpPort::open(BusFilter filter) {
   bindUdp(speaks_, addressOf("127.0.0.1", 0), "binding to 127.0.0.1");
   setUdpOption(speaks_, IPPROTO_IP, IP_MULTICAST_IF, loopbackAddress(), "IP_MULTICAST_IF");
   setUdpOption(speaks_, IPPROTO_IP, IP_MULTICAST_TTL, kWithinMachine, "IP_MULTICAST_TTL");
+  ownPort_ = portOfSocket(speaks_);
   hears_ = newUdpSocket();
-  attachFilter(hears_, ownPort(speaks_), filter);
+  hearsAll_ = filter.mask == 0;
+  if (!hearsAll_) attachFilter(hears_, ownPort_, filter);
   setUdpOption(hears_, SOL_SOCKET, SO_REUSEADDR, kOn, "SO_REUSEADDR");
   setUdpOption(hears_, SOL_SOCKET, SO_RCVBUF, kReceiveBuffer_bytes, "SO_RCVBUF");
   setUdpOption(hears_, SOL_SOCKET, SO_RXQ_OVFL, kOn, "SO_RXQ_OVFL");
@@ -180,7 +182,8 @@ std::optional<TimedFrame> UdpPort::receiveTimed() noexcept {
     const auto size = receiveWithNotes(hears_, datagram.data(), datagram.size(), notes);
     if (size == -EINTR) continue;
     if (size < 0) return std::nullopt;
-    missed_ = notes.lost;
+    if (notes.senderPort == ownPort_) continue;
+    if (hearsAll_) missed_ = notes.lost;
     if (const auto frame = fromDatagram(std::span(datagram).first(static_cast<std::size_t>(size))))
       return TimedFrame{notes.time_ns, *frame};
     ++malformed_;
@@ -190,9 +193,31 @@ std::optional<TimedFrame> UdpPort::receiveTimed() noexcept {
 
 hal::CanStatus UdpPort::status() noexcept { return {.state = hal::CanState::kActive, .missed = missed_}; }
 
+BusHints UdpPort::hints() const {
+  return {.whenBlocked = "the loopback interface has no IPv4 or is down; `ip address show lo` shows it",
+          .whenSilent = fmt::format("does it run (`strainfinger run --can {}`), with this --node?", name_)};
+}
+
 bool UdpPort::waitReadable(std::chrono::milliseconds timeout) noexcept {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point end = Clock::now() + timeout;
   pollfd waiting{hears_, POLLIN, 0};
-  return ::poll(&waiting, 1, static_cast<int>(timeout.count())) > 0;
+  while (::poll(&waiting, 1, static_cast<int>(timeout.count())) > 0) {
+    if (!passOverOwn()) return true;
+    timeout =
+        std::chrono::ceil<std::chrono::milliseconds>(std::max(end - Clock::now(), Clock::duration::zero()));
+  }
+  return false;
+}
+
+bool UdpPort::passOverOwn() noexcept {
+  sockaddr_in sender{};
+  socklen_t size = sizeof sender;
+  std::uint8_t first = 0;
+  const auto peeked =
+      ::recvfrom(hears_, &first, sizeof first, MSG_PEEK, reinterpret_cast<sockaddr*>(&sender), &size);
+  if (peeked < 0 || ntohs(sender.sin_port) != ownPort_) return false;
+  return ::recv(hears_, &first, sizeof first, 0) >= 0;
 }
 
 }  // namespace strainfinger::can

@@ -21,7 +21,8 @@ std::optional<CanFrame> fromDatagram(std::span<const std::uint8_t> datagram);
 
 /// A node of the bus. Every port of this name hears all the others; frames of one port stay in order.
 /// A bus without errors or bit rate: send() always takes a valid frame, whether or not somebody listens; a
-/// receiver that is too slow loses frames and counts them as missed. Costs a system call a frame.
+/// receiver that is too slow loses frames and counts them as missed, if it has no filter: with one it counts
+/// none, as the kernel doesn't tell what was lost from what was left out. Costs a system call a frame.
 class UdpPort final : public BusPort {
  public:
   static constexpr std::uint16_t kDefaultPort = 29536;
@@ -36,17 +37,22 @@ class UdpPort final : public BusPort {
   hal::CanStatus status() noexcept override;
   bool waitReadable(std::chrono::milliseconds timeout) noexcept override;
   int descriptor() const noexcept override { return hears_; }
+  BusHints hints() const override;
   const std::string& name() const noexcept override { return name_; }
   std::uint32_t malformed() const noexcept override { return malformed_; }
 
  private:
   void open(BusFilter filter);
   void close() noexcept;
+  /// Takes the oldest datagram away if it is this port's own; false: it isn't.
+  bool passOverOwn() noexcept;
 
   std::string name_;
   std::uint16_t port_;
   int hears_ = -1;   ///< socket of the group's datagrams
   int speaks_ = -1;  ///< socket whose port tells our own datagrams from others'
+  std::uint16_t ownPort_ = 0;
+  bool hearsAll_ = true;
   std::uint32_t missed_ = 0;
   std::uint32_t malformed_ = 0;
 };

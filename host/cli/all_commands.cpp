@@ -12,19 +12,9 @@ void addCommands(CLI::App& app) {
   addField(app);
   addShape(app);
   addCalibrate(app);
-  addTables(app);
-  addLocate(app);
-  addRun(app);
-  addRecord(app);
-  addReplay(app);
-  addDecode(app);
-  addPlot(app);
+  addFingerCommands(app);
   addMonitor(app);
   addServe(app);
-  addDbc(app);
-  addStrains(app);
-  addTare(app);
-  addConfig(app);
   addFigures(app);
 }
 

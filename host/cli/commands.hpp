@@ -8,6 +8,9 @@ namespace strainfinger::cli {
 /// Adds those of the program that is linked: all_commands.cpp or demo_commands.cpp.
 void addCommands(CLI::App& app);
 
+/// Those of the finger, its tables and its bus.
+void addFingerCommands(CLI::App& app);
+
 void addResponse(CLI::App& app);
 void addStrain(CLI::App& app);
 void addContact(CLI::App& app);

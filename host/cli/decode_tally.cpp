@@ -27,7 +27,8 @@ void summariseNode(const can::NodeCount& node) {
     fmt::print(
         stderr,
         "decode: {} node {}: two fingers send as this node: {} frames of touches received, what was lost "
-        "cannot be told; give one of them another number with `strainfinger config --set-node`\n",
+        "cannot be told; take one off the bus, and `strainfinger config --set-node` changes the other's "
+        "number\n",
         node.interface, node.node, node.received);
   else
     fmt::print(stderr,

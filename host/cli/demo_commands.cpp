@@ -1,22 +1,10 @@
-// What a demo needs: the finger, its tables and its bus. The commands about the elastic model, which take
-// most of the time to compile, and those that show fingers live are left to the whole program.
+// What a demo needs. The commands about the elastic model, which take most of the time to compile, and those
+// that show fingers live are left to the whole program.
 
 #include "host/cli/commands.hpp"
 
 namespace strainfinger::cli {
 
-void addCommands(CLI::App& app) {
-  addTables(app);
-  addLocate(app);
-  addRun(app);
-  addRecord(app);
-  addReplay(app);
-  addDecode(app);
-  addPlot(app);
-  addDbc(app);
-  addStrains(app);
-  addTare(app);
-  addConfig(app);
-}
+void addCommands(CLI::App& app) { addFingerCommands(app); }
 
 }  // namespace strainfinger::cli

@@ -15,10 +15,10 @@
 #include "host/cli/bus_option.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/recording.hpp"
 #include "host/live/bus_watch.hpp"
 #include "host/live/log_watch.hpp"
 #include "host/live/plain_report.hpp"
-#include "host/live/recording.hpp"
 #include "host/live/screen.hpp"
 #include "host/live/terminal.hpp"
 #include "host/system/stop_signal.hpp"
@@ -32,7 +32,8 @@ constexpr const char* kMonitorHelp =
     "--can BUS: live. Without it, a log on stdin (any candump text): candump can0 | strainfinger monitor\n"
     "In a terminal a screen, drawn at most ten times a second. Keys: t zeroes the gauges of the finger that "
     "is "
-    "marked (do not touch it), up and down mark another, r begins and ends a log in this folder, q ends. "
+    "marked (do not touch it), up and down mark another, r begins and ends a log in this folder, with notes "
+    "as `record` writes them, q ends. "
     "NO_COLOR=1: no colours.\n"
     "Elsewhere, and with --plain, a line for each finger every second (--every), or with --json an object "
     "for "
@@ -72,10 +73,21 @@ void endIfStopped(const system::StopSignal& stop) {
 /// A live bus on the terminal, until q is pressed.
 class LiveScreen {
  public:
-  explicit LiveScreen(live::BusWatch& watch) : watch_(watch) {}
+  LiveScreen(can::BusPort& port, const config::FingerConfig& config)
+      : port_(port), config_(config), watch_(port, config) {}
 
   void run() {
     const system::StopSignal stop;
+    show(stop);
+    if (recording_) {
+      stopRecording();
+      fmt::print(stderr, "monitor: {}\n", content_.message);
+    }
+    endIfStopped(stop);
+  }
+
+ private:
+  void show(const system::StopSignal& stop) {
     live::Terminal terminal;
     while (!stop.asked() && !quit_) {
       watch_.listen(kRedraw);
@@ -87,10 +99,8 @@ class LiveScreen {
                                   recording_ ? "stop recording " + recording_->path() : "record");
       terminal.show(live::drawScreen(content_, live::terminalForm()));
     }
-    endIfStopped(stop);
   }
 
- private:
   void press(unsigned char key) {
     const auto& fingers = content_.buses.front().fingers;
     std::size_t& selected = content_.selected;
@@ -107,7 +117,7 @@ class LiveScreen {
     try {
       step();
     } catch (const Failure& failure) {
-      recording_.reset();
+      dropRecording();
       content_.message = failure.what();
     }
   }
@@ -115,13 +125,21 @@ class LiveScreen {
   void startRecording() {
     const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
     const std::string path = fmt::format("strainfinger-{:%Y%m%d-%H%M%S}.log", fmt::gmtime(now));
-    recording_.emplace(watch_, content_.buses.front().name, path);
+    recording_.emplace(port_, config_, path);
+    watch_.setTap([this](const can::TimedFrame& timed) { recording_->take(timed); });
     content_.message.clear();
   }
 
   void stopRecording() {
-    recording_->flush();
-    content_.message = fmt::format("{}: {} frames", recording_->path(), recording_->frames());
+    recording_->end();
+    content_.message =
+        fmt::format("{}: {} frames, {} missed; notes on it in {}", recording_->path(),
+                    recording_->progress().frames, recording_->progress().missed, recording_->notesPath());
+    dropRecording();
+  }
+
+  void dropRecording() {
+    watch_.setTap({});
     recording_.reset();
   }
 
@@ -134,14 +152,17 @@ class LiveScreen {
     watch_.request(node, tareRequest(false));
   }
 
-  live::BusWatch& watch_;
+  can::BusPort& port_;
+  const config::FingerConfig& config_;
+  live::BusWatch watch_;
   live::ScreenContent content_;
-  std::optional<live::Recording> recording_;
+  std::optional<Recording> recording_;
   bool quit_ = false;
 };
 
-void printLive(live::BusWatch& watch, const MonitorOptions& options) {
+void printLive(can::BusPort& port, const config::FingerConfig& config, const MonitorOptions& options) {
   const system::StopSignal stop;
+  live::BusWatch watch(port, config);
   live::PlainReport report(stdout, options.common.format(), options.every_s);
   while (!stop.asked()) {
     watch.listen(kRedraw);
@@ -154,8 +175,7 @@ void printLive(live::BusWatch& watch, const MonitorOptions& options) {
 void monitorBus(const MonitorOptions& options) {
   const config::FingerConfig config = options.common.config();
   const auto port = can::openBus(options.bus, config.can.bitrate);
-  live::BusWatch watch(*port, config);
-  options.wantsScreen() ? LiveScreen(watch).run() : printLive(watch, options);
+  options.wantsScreen() ? LiveScreen(*port, config).run() : printLive(*port, config, options);
 }
 
 /// The lines that come on stdin, as they come.

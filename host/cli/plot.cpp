@@ -45,20 +45,6 @@ struct PlotOptions {
   std::optional<int> node;
 };
 
-plot::LogPoint pointOf(double time_s, const can::TouchReport& touch) {
-  return {.time_s = time_s,
-          .angle_deg = touch.angle_deg,
-          .sigmaAngle_deg = touch.sigmaAngle_deg,
-          .normal_n = touch.normal_n,
-          .sigmaNormal_n = touch.sigmaNormal_n,
-          .tangential_n = touch.tangential_n,
-          .sigmaTangential_n = touch.sigmaTangential_n,
-          .width_m = touch.width_m,
-          .sigmaWidth_m = touch.sigmaWidth_m,
-          .secondAngle_deg = touch.second ? touch.second->angle_deg : kNoValue,
-          .flags = touch.flags.raw()};
-}
-
 /// What one finger said. Keeps every touch up to twice kMostPoints, then every second of them, and so on.
 class Track {
  public:
@@ -67,7 +53,7 @@ class Track {
   void take(double time_s, const CanFrame& frame) {
     const auto touch = receiver_.take(frame);
     if (!touch || count_++ % stride_ != 0) return;
-    points_.push_back(pointOf(time_s, *touch));
+    points_.push_back({time_s, *touch});
     if (points_.size() >= 2 * kMostPoints) halve();
   }
 
@@ -117,21 +103,13 @@ void requireOne(const PlotOptions& options, const Tracks& tracks) {
                                               options.path, fmt::join(names, ", ")));
 }
 
-/// Of bit 0, of bit 1, and so on.
-std::vector<std::string> flagNames() {
-  std::vector<std::string> names;
-  for (const ValueName& name : kFingerFlagNames) names.emplace_back(name.name);
-  return names;
-}
-
 void runPlot(const PlotOptions& options) {
   plot::requirePicturePath(options.output);
   const Tracks tracks = readTracks(options);
   requireOne(options, tracks);
   const auto& [name, track] = *tracks.begin();
-  plot::draw(plot::logPicture({.heading = fmt::format("{}, node {}", name.first, name.second),
-                               .points = track.points(),
-                               .flagNames = flagNames()}),
+  plot::draw(plot::logPicture(
+                 {.heading = fmt::format("{}, node {}", name.first, name.second), .points = track.points()}),
              options.output);
 }
 

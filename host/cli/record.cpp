@@ -1,20 +1,15 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <filesystem>
-#include <memory>
 #include <string>
 #include <thread>
-#include <utility>
 
-#include "host/base/atomic_file.hpp"
 #include "host/base/failure.hpp"
-#include "host/can/log_writer.hpp"
 #include "host/can/open_bus.hpp"
 #include "host/cli/bus_option.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/recording_notes.hpp"
+#include "host/cli/recording.hpp"
 #include "host/system/stop_signal.hpp"
 
 namespace strainfinger::cli {
@@ -55,79 +50,31 @@ struct RecordOptions {
   double duration_s = 0;  ///< 0: no end
 };
 
-std::int64_t now_ns() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+void recordUntil(Clock::time_point end, const system::StopSignal& stop, can::BusPort& port,
+                 Recording& recording) {
+  for (Clock::time_point flushAt{}; !stop.asked() && Clock::now() < end;) {
+    if (port.waitReadable(system::StopSignal::kLookEvery)) std::this_thread::sleep_for(kGather);
+    while (const auto frame = port.receiveTimed()) recording.take(*frame);
+    if (Clock::now() < flushAt) continue;
+    recording.flush();
+    flushAt = Clock::now() + kFlushPeriod;
+  }
+  recording.end();
 }
-
-std::string notesPath(const std::string& path) {
-  auto notes = std::filesystem::path(path).replace_extension(".toml").string();
-  if (notes == path)
-    throw Failure(ExitCode::kUsage, fmt::format("record: {}: a log cannot end in .toml: its notes do", path));
-  return notes;
-}
-
-class Recorder {
- public:
-  Recorder(const RecordOptions& options, const config::FingerConfig& config)
-      : notesPath_(notesPath(options.path)),
-        port_(can::openBus(options.bus, config.can.bitrate)),
-        log_(options.path),
-        notes_(options.bus, config) {
-    progress_.start_ns = now_ns();
-    writeNotes();
-  }
-
-  void runUntil(Clock::time_point end, const system::StopSignal& stop) {
-    while (!stop.asked() && Clock::now() < end) {
-      if (port_->waitReadable(system::StopSignal::kLookEvery)) std::this_thread::sleep_for(kGather);
-      while (const auto frame = port_->receiveTimed()) take(*frame);
-      if (Clock::now() >= flushAt_) flush();
-    }
-    flush();
-    progress_.end_ns = now_ns();
-    progress_.missed = port_->status().missed;
-    writeNotes();
-  }
-
-  const RecordingProgress& progress() const { return progress_; }
-  const std::string& notes() const { return notesPath_; }
-
- private:
-  void take(const can::TimedFrame& timed) {
-    log_.add(timed.time_ns, port_->name(), timed.frame);
-    ++progress_.frames;
-    isNew_ |= notes_.note(timed.frame);
-  }
-
-  void flush() {
-    log_.flush();
-    flushAt_ = Clock::now() + kFlushPeriod;
-    if (std::exchange(isNew_, false)) writeNotes();
-  }
-
-  void writeNotes() const { writeFileAtomically(notesPath_, notes_.toml(progress_)); }
-
-  std::string notesPath_;
-  std::unique_ptr<can::BusPort> port_;
-  can::LogWriter log_;
-  RecordingNotes notes_;
-  RecordingProgress progress_;
-  bool isNew_ = false;  ///< the notes have to be written again
-  Clock::time_point flushAt_{};
-};
 
 void runRecord(const RecordOptions& options) {
   const system::StopSignal stop;
   const auto start = Clock::now();
-  Recorder recorder(options, options.common.config());
+  const config::FingerConfig config = options.common.config();
+  const auto port = can::openBus(options.bus, config.can.bitrate);
+  Recording recording(*port, config, options.path);
   const auto duration =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.duration_s));
-  recorder.runUntil(options.duration_s > 0 ? start + duration : Clock::time_point::max(), stop);
-  const RecordingProgress& progress = recorder.progress();
+  recordUntil(options.duration_s > 0 ? start + duration : Clock::time_point::max(), stop, *port, recording);
+  const RecordingProgress& progress = recording.progress();
   fmt::print(stderr, "record: {} frames in {:.1f} s, {} missed: {}, {}\n", progress.frames,
-             static_cast<double>(progress.end_ns - progress.start_ns) * 1e-9, progress.missed, options.path,
-             recorder.notes());
+             static_cast<double>(progress.end_ns - progress.start_ns) * 1e-9, progress.missed,
+             recording.path(), recording.notesPath());
   if (stop.asked()) throw Failure(ExitCode::kInterrupted, "record: interrupted, all is written");
 }
 

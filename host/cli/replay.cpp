@@ -83,10 +83,8 @@ bool sleepUntil(Clock::time_point time, const system::StopSignal& stop) {
 void send(can::BusPort& port, const CanFrame& frame) {
   for (const auto giveUp = Clock::now() + kGiveUp; !port.send(frame);) {
     if (Clock::now() >= giveUp)
-      throw Failure(ExitCode::kNoInterface,
-                    fmt::format("{}: the interface took no frame in a second: it is down, bus-off, or nobody "
-                                "acknowledges; `ip -details -statistics link` shows which",
-                                port.name()));
+      throw Failure(ExitCode::kNoInterface, fmt::format("{}: it took no frame in a second: {}", port.name(),
+                                                        port.hints().whenBlocked));
     std::this_thread::sleep_for(kTryAgain);
   }
 }

@@ -21,19 +21,19 @@ std::string nameOf(std::span<const ValueName> names, int value) {
 std::string commandName(Command command) { return nameOf(kCommandNames, static_cast<int>(command)); }
 std::string statusName(CommandStatus status) { return nameOf(kCommandStatusNames, static_cast<int>(status)); }
 
-std::string meaningOf(CommandStatus status) {
-  const ValueName* name = can::findName(kCommandStatusNames, static_cast<int>(status));
-  return name != nullptr ? name->comment : "A status that this program does not know";
+/// Shows every finger of the bus, whatever carries it.
+std::string monitorCommand(const can::BusPort& bus) {
+  return fmt::format("`strainfinger monitor --can {}`", bus.name());
 }
 
-const char* remedyFor(CommandStatus status) {
+std::string remedyFor(CommandStatus status, const can::BusPort& bus) {
   switch (status) {
     case CommandStatus::kTouched:
       return "let go of it; if nothing touches it, its old zero is off: --force does it anyway";
     case CommandStatus::kBusy:
-      return "try again in a second; `candump` its HEARTBEAT into `strainfinger decode` to see what it does";
+      return fmt::format("try again in a second; {} shows what it does", monitorCommand(bus));
     case CommandStatus::kWait:
-      return "try again then; what it has kept already stays";
+      return "try again then";
     case CommandStatus::kNotKept:
       return "it goes on as before; an emulated or simulated finger has no memory to keep it in";
     case CommandStatus::kTooFast:
@@ -43,24 +43,16 @@ const char* remedyFor(CommandStatus status) {
   }
 }
 
-std::string valueOf(const ResponseFrame& response) {
-  if (response.status == CommandStatus::kTooFast) return fmt::format(": {} Hz", response.value);
-  return response.status == CommandStatus::kWait ? fmt::format(" {} s", response.value) : "";
-}
-
-Failure silence(const can::Reply& reply, const std::string& where) {
+Failure silence(const can::Reply& reply, const can::BusPort& bus, const std::string& where) {
   const auto waited_ms = can::kAskFor.count();
   if (!reply.sent)
-    return Failure(
-        ExitCode::kNoInterface,
-        fmt::format("{}: the interface took no frame in {} ms: it is down, bus-off or its queue is "
-                    "full; `ip -details -statistics link` shows which",
-                    where, waited_ms));
+    return Failure(ExitCode::kNoInterface, fmt::format("{}: {} took no frame in {} ms: {}", where, bus.name(),
+                                                       waited_ms, bus.hints().whenBlocked));
   if (!reply.heartbeat)
-    return Failure(ExitCode::kNoNode,
-                   fmt::format("{}: no answer within {} ms and no HEARTBEAT: is it on the bus, with this bit "
-                               "rate and this --node? `candump any,700:7C0` shows the fingers that are",
-                               where, waited_ms));
+    return Failure(
+        ExitCode::kNoNode,
+        fmt::format("{}: no answer within {} ms and no HEARTBEAT: {} {} shows the fingers that are there",
+                    where, waited_ms, bus.hints().whenSilent, monitorCommand(bus)));
   const HeartbeatFrame& heartbeat = *reply.heartbeat;
   if (heartbeat.protocol != kProtocolVersion)
     return Failure(ExitCode::kMismatch, fmt::format("{}: speaks protocol {}, this program {}: use the "
@@ -84,15 +76,17 @@ std::uint8_t nodeOf(const RequestOptions& options, const config::Can& can) {
   return static_cast<std::uint8_t>(options.node != 0 ? options.node : can.node);
 }
 
-void requireDone(const can::Reply& reply, Command command, const std::string& where) {
-  if (!reply.response) throw silence(reply, where);
+void requireDone(const can::Reply& reply, Command command, const can::BusPort& bus, std::uint8_t node) {
+  const std::string where = fmt::format("{} node {}", bus.name(), node);
+  if (!reply.response) throw silence(reply, bus, where);
   const CommandStatus status = reply.response->status;
   if (status == CommandStatus::kDoneTouched)
-    fmt::print(stderr, "strainfinger: {}: {}: {}\n", where, commandName(command), meaningOf(status));
+    fmt::print(stderr, "strainfinger: {}: {}: {}\n", where, commandName(command),
+               can::meaningOf(*reply.response));
   else if (status != CommandStatus::kDone)
     throw Failure(ExitCode::kFailure,
-                  fmt::format("{}: {}: {} ({}{}): {}", where, commandName(command), meaningOf(status),
-                              statusName(status), valueOf(*reply.response), remedyFor(status)));
+                  fmt::format("{}: {}: {} ({}): {}", where, commandName(command),
+                              can::meaningOf(*reply.response), statusName(status), remedyFor(status, bus)));
 }
 
 void request(const RequestOptions& options, const std::vector<RequestFrame>& requests) {
@@ -102,7 +96,7 @@ void request(const RequestOptions& options, const std::vector<RequestFrame>& req
   std::optional<TableWriter> table;  // nothing is printed before there is a row
   for (const RequestFrame& request : requests) {
     const can::Reply reply = can::ask(*port, node, request);
-    requireDone(reply, request.command, fmt::format("{} node {}", options.bus, node));
+    requireDone(reply, request.command, *port, node);
     if (!table)
       table.emplace(stdout, options.common.format(),
                     std::vector<std::string>{"interface", "node", "command", "status"});

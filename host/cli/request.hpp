@@ -26,7 +26,7 @@ void request(const RequestOptions& options, const std::vector<RequestFrame>& req
 /// Node of -n, else of the config.
 std::uint8_t nodeOf(const RequestOptions& options, const config::Can& can);
 
-/// What request() says of a reply, without the printing; `where`: "can0 node 1".
-void requireDone(const can::Reply& reply, Command command, const std::string& where);
+/// What request() says of a reply that came over `bus`, without the printing.
+void requireDone(const can::Reply& reply, Command command, const can::BusPort& bus, std::uint8_t node);
 
 }  // namespace strainfinger::cli

@@ -2,6 +2,8 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -17,8 +19,9 @@ namespace strainfinger::cli {
 namespace {
 
 constexpr const char* kStrainsHelp =
-    "Asks a finger for its gauges' readings (RAW) and prints them as strains, a row a sample set, until its "
-    "duration is over or Ctrl-C; then the finger is told to stop.\n"
+    "Asks a finger for its gauges' readings (RAW) and prints them as strains, a row a sample set, until "
+    "there "
+    "are --rows, its duration is over or Ctrl-C; then the finger is told to stop.\n"
     "stdout: time_s (since 1970, of arrival), strain_0, strain_1 ..: as `locate`, `shape` and `calibrate` "
     "read "
     "them, at nominal gain and less the finger's zero.\n"
@@ -34,18 +37,19 @@ struct StrainsOptions {
         ->type_name("HZ")
         ->check(CLI::Range(1, int{kFastestRaw_hz}));
     command.add_option("--duration", duration_s, "Seconds; without it until Ctrl-C")->type_name("S");
+    command.add_option("--rows", rows, "So many rows at most")->type_name("N")->check(CLI::PositiveNumber);
   }
   RequestOptions request;
   int rate_hz = 100;
   std::optional<double> duration_s;
+  std::uint64_t rows = std::numeric_limits<std::uint64_t>::max();
 };
 
 /// RAW of one finger, from its request to its end.
 class RawStream {
  public:
-  RawStream(can::BusPort& bus, std::uint8_t node, int rate_hz, std::string where)
-      : bus_(bus), node_(node), where_(std::move(where)) {
-    requireDone(ask(rate_hz), Command::kRaw, where_);
+  RawStream(can::BusPort& bus, std::uint8_t node, int rate_hz) : bus_(bus), node_(node) {
+    requireDone(ask(rate_hz), Command::kRaw, bus_, node_);
   }
   /// Best effort: whoever ends it by force leaves the finger sending until its next start.
   ~RawStream() { ask(0); }
@@ -59,7 +63,6 @@ class RawStream {
 
   can::BusPort& bus_;
   std::uint8_t node_;
-  std::string where_;
 };
 
 class StrainPrinter {
@@ -103,27 +106,28 @@ StrainClock::time_point endOf(const StrainsOptions& options) {
 void runStrains(const StrainsOptions& options) {
   const config::FingerConfig config = options.request.common.config();
   const std::uint8_t node = nodeOf(options.request, config.can);
-  const std::string where = fmt::format("{} node {}", options.request.bus, node);
   const auto end = endOf(options);
   const auto bus = can::openBus(options.request.bus, config.can.bitrate);
   const system::StopSignal stop;
-  RawStream stream(*bus, node, options.rate_hz, where);
+  RawStream stream(*bus, node, options.rate_hz);
   can::RawReceiver receiver(node, config.gauges.count);
   StrainPrinter printer(config.gauges, options.request.common.format());
-  for (auto heard = StrainClock::now(); !stop.asked() && StrainClock::now() < end;) {
+  const auto isWhole = [&] { return printer.sets() >= options.rows; };
+  for (auto heard = StrainClock::now(); !stop.asked() && !isWhole() && StrainClock::now() < end;) {
     bus->waitReadable(std::chrono::milliseconds(50));
-    while (const auto arrived = bus->receiveTimed()) {
+    while (!isWhole()) {
+      const auto arrived = bus->receiveTimed();
+      if (!arrived) break;
       const auto set = receiver.take(arrived->frame);
       if (set) heard = StrainClock::now();
       if (set && !receiver.zeros().empty()) printer.print(arrived->time_ns, *set, receiver.zeros());
     }
     if (StrainClock::now() - heard > kSilence)
-      throw Failure(
-          ExitCode::kNoNode,
-          fmt::format(
-              "{}: no whole set of readings for {} s: has it gauges.count = {}, as the config, and is "
-              "the bus free enough? A lower --rate may help",
-              where, kSilence.count() / 1000, config.gauges.count));
+      throw Failure(ExitCode::kNoNode,
+                    fmt::format("{} node {}: no whole set of readings for {} s: has it gauges.count = {}, as "
+                                "the config, and is "
+                                "the bus free enough? A lower --rate may help",
+                                bus->name(), node, kSilence.count() / 1000, config.gauges.count));
   }
   std::fflush(stdout);
   fmt::print(stderr, "strains: {} sets, {} incomplete\n", printer.sets(), receiver.incomplete());

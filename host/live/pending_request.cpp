@@ -2,21 +2,13 @@
 
 #include <fmt/format.h>
 
-#include "host/can/frame_catalogue.hpp"
+#include "host/can/ask.hpp"
 #include "host/live/words.hpp"
 
 namespace strainfinger::live {
 namespace {
 
 constexpr std::int64_t kLongest_us = 2'000 * std::int64_t{kAnswerWithin_ms};
-
-std::string meaningOfStatus(const ResponseFrame& response) {
-  const ValueName* name = can::findName(kCommandStatusNames, static_cast<int>(response.status));
-  if (name == nullptr)
-    return fmt::format("status {}, unknown to this program", static_cast<int>(response.status));
-  if (response.status == CommandStatus::kWait) return fmt::format("{}: {} s", name->comment, response.value);
-  return name->comment;
-}
 
 }  // namespace
 
@@ -25,7 +17,7 @@ std::optional<Outcome> PendingRequest::take(const CanFrame& frame) const {
   if (!sent_ || !response || response->command != request_.command) return std::nullopt;
   const bool isDone =
       response->status == CommandStatus::kDone || response->status == CommandStatus::kDoneTouched;
-  return outcome(isDone, meaningOfStatus(*response));
+  return outcome(isDone, can::meaningOf(*response));
 }
 
 std::optional<Outcome> PendingRequest::expire(std::int64_t now_us) const {

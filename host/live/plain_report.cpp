@@ -1,5 +1,7 @@
 #include "host/live/plain_report.hpp"
 
+#include <fmt/format.h>
+
 #include <string>
 
 #include "host/base/failure.hpp"
@@ -7,6 +9,18 @@
 #include "host/live/view_json.hpp"
 
 namespace strainfinger::live {
+namespace {
+
+std::string plainLines(const BusView& bus) {
+  if (bus.fingers.empty())
+    return fmt::format("{:.3f} s  {}  no finger heard yet\n", static_cast<double>(bus.time_us) / 1e6,
+                       bus.name);
+  std::string lines;
+  for (const FingerView& finger : bus.fingers) lines += plainLine(bus, finger) + "\n";
+  return lines;
+}
+
+}  // namespace
 
 std::optional<std::int64_t> PlainReport::due(std::int64_t time_us) {
   if (!next_us_) next_us_ = time_us + every_us_;
@@ -22,7 +36,7 @@ void PlainReport::print(std::span<const BusView> buses) const {
     if (format_ == TableFormat::kJson)
       text += toJson(bus).dump() + "\n";
     else
-      for (const FingerView& finger : bus.fingers) text += plainLine(bus, finger) + "\n";
+      text += plainLines(bus);
   }
   if (std::fwrite(text.data(), 1, text.size(), stream_) != text.size() || std::fflush(stream_) != 0)
     throw Failure(ExitCode::kFailure, "cannot write the output: disk full or reader gone");

@@ -79,7 +79,8 @@ std::string warningsText(const FingerView& finger) {
   if (const std::string text = trouble(finger); !text.empty()) warnings.push_back(text);
   if (finger.hasTwin)
     warnings.emplace_back(
-        "another finger has this node number: `strainfinger config --set-node` changes one's");
+        "another finger has this node number: take one off the bus, and `strainfinger config --set-node` "
+        "changes the other's");
   const auto faults = wordsFor(kFingerFaultNames, finger.heartbeat.faults.raw());
   if (!faults.empty()) warnings.push_back(fmt::format("faults: {}", fmt::join(faults, ", ")));
   const auto gauges = bitNumbers(finger.gauges ? finger.gauges->out_of_use : 0);

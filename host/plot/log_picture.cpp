@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <span>
 
+#include "common/frames.hpp"
 #include "host/plot/style.hpp"
 
 namespace strainfinger::plot {
@@ -63,13 +65,15 @@ bool never(const LogPoint&, const LogPoint&) { return false; }
 
 /// Through 0 deg a line would cross the panel.
 bool turns(const LogPoint& before, const LogPoint& point) {
-  return std::fabs(point.angle_deg - before.angle_deg) > 180;
+  return std::fabs(point.touch.angle_deg - before.touch.angle_deg) > 180;
 }
 
 DataFile angleData(const LogRecord& record) {
   const auto rowOf = [](const LogPoint& point) {
-    return Row{point.time_s, point.angle_deg, std::fmax(point.angle_deg - point.sigmaAngle_deg, 0),
-               std::fmin(point.angle_deg + point.sigmaAngle_deg, 360), point.secondAngle_deg};
+    const can::TouchReport& touch = point.touch;
+    return Row{point.time_s, touch.angle_deg, std::fmax(touch.angle_deg - touch.sigmaAngle_deg, 0),
+               std::fmin(touch.angle_deg + touch.sigmaAngle_deg, 360),
+               touch.second ? touch.second->angle_deg : kNoValue};
   };
   return {"angle",
           {"time_s", "angle_deg", "angle_low_deg", "angle_high_deg", "angle2_deg"},
@@ -78,13 +82,14 @@ DataFile angleData(const LogRecord& record) {
 
 DataFile forceData(const LogRecord& record) {
   const auto rowOf = [](const LogPoint& point) {
+    const can::TouchReport& touch = point.touch;
     return Row{point.time_s,
-               point.normal_n,
-               point.normal_n - point.sigmaNormal_n,
-               point.normal_n + point.sigmaNormal_n,
-               point.tangential_n,
-               point.tangential_n - point.sigmaTangential_n,
-               point.tangential_n + point.sigmaTangential_n};
+               touch.normal_n,
+               touch.normal_n - touch.sigmaNormal_n,
+               touch.normal_n + touch.sigmaNormal_n,
+               touch.tangential_n,
+               touch.tangential_n - touch.sigmaTangential_n,
+               touch.tangential_n + touch.sigmaTangential_n};
   };
   return {"force",
           {"time_s", "normal_n", "normal_low_n", "normal_high_n", "tangential_n", "tangential_low_n",
@@ -94,35 +99,40 @@ DataFile forceData(const LogRecord& record) {
 
 DataFile widthData(const LogRecord& record) {
   const auto rowOf = [](const LogPoint& point) {
-    return Row{point.time_s, point.width_m * kMmPerM,
-               std::fmax(point.width_m - point.sigmaWidth_m, 0) * kMmPerM,
-               (point.width_m + point.sigmaWidth_m) * kMmPerM};
+    const can::TouchReport& touch = point.touch;
+    return Row{point.time_s, touch.width_m * kMmPerM,
+               std::fmax(touch.width_m - touch.sigmaWidth_m, 0) * kMmPerM,
+               (touch.width_m + touch.sigmaWidth_m) * kMmPerM};
   };
   return {"width",
           {"time_s", "width_mm", "width_low_mm", "width_high_mm"},
           brokenRows(record.points, rowOf, never)};
 }
 
+/// A row of the last panel for each flag, in this order.
+constexpr std::span kFlags(kFingerFlagNames);
+
 DataFile flagData(const LogRecord& record) {
   DataFile data{"flags", {"time_s", "flag"}, {}};
   for (const LogPoint& point : record.points)
-    for (std::size_t flag = 0; flag < record.flagNames.size(); ++flag)
-      if ((point.flags >> flag & 1) != 0) data.rows.push_back({point.time_s, static_cast<double>(flag)});
+    for (std::size_t i = 0; i < kFlags.size(); ++i)
+      if ((point.touch.flags.raw() >> kFlags[i].value & 1) != 0)
+        data.rows.push_back({point.time_s, static_cast<double>(i)});
   return data;
 }
 
 /// The names beside the rows of the last panel; gnuplot reads '_' as a subscript.
-std::string flagTics(const std::vector<std::string>& names) {
+std::string flagTics() {
   std::string tics;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    tics += fmt::format("{}'{}' {}", i > 0 ? ", " : "", names[i], i);
+  for (std::size_t i = 0; i < kFlags.size(); ++i)
+    tics += fmt::format("{}'{}' {}", i > 0 ? ", " : "", kFlags[i].name, i);
   return tics;
 }
 
-std::string withFlagTics(std::string panels, const std::vector<std::string>& names) {
+std::string withFlagTics(std::string panels) {
   constexpr std::string_view kPlace = "set ylabel 'flags';";
   panels.replace(panels.find(kPlace), kPlace.size(),
-                 fmt::format("unset ylabel; set ytics ({}) noenhanced font ',9';", flagTics(names)));
+                 fmt::format("unset ylabel; set ytics ({}) noenhanced font ',9';", flagTics()));
   return panels;
 }
 
@@ -133,8 +143,8 @@ Picture logPicture(const LogRecord& record) {
   const double last_s = record.points.empty() ? 1 : record.points.back().time_s;
   std::string script = kStyle;
   script += fmt::format("first = {}; last = {}; flags = {}; heading = '{}'\n", first_s,
-                        last_s > first_s ? last_s : first_s + 1, record.flagNames.size(), record.heading);
-  script += withFlagTics(kPanels, record.flagNames);
+                        last_s > first_s ? last_s : first_s + 1, kFlags.size(), record.heading);
+  script += withFlagTics(kPanels);
   return {1200,
           900,
           std::move(script),

@@ -4,30 +4,19 @@
 #include <string>
 #include <vector>
 
-#include "host/base/no_value.hpp"
+#include "host/can/touch_receiver.hpp"
 #include "host/plot/picture.hpp"
 
 namespace strainfinger::plot {
 
-/// One touch sample; kNoValue where the finger said nothing.
 struct LogPoint {
   double time_s = 0;  ///< since the log's first frame
-  double angle_deg = kNoValue;
-  double sigmaAngle_deg = kNoValue;
-  double normal_n = kNoValue;
-  double sigmaNormal_n = kNoValue;
-  double tangential_n = kNoValue;
-  double sigmaTangential_n = kNoValue;
-  double width_m = kNoValue;
-  double sigmaWidth_m = kNoValue;
-  double secondAngle_deg = kNoValue;
-  unsigned flags = 0;  ///< bit i: flagNames[i] holds
+  can::TouchReport touch;
 };
 
 struct LogRecord {
   std::string heading;
-  std::vector<LogPoint> points;        ///< in order of time
-  std::vector<std::string> flagNames;  ///< of bit 0, 1, ..
+  std::vector<LogPoint> points;  ///< in order of time
 };
 
 /// Angle, forces and width with bands of one sigma, and the flags, over time. A gap of more than `kGap_s` and

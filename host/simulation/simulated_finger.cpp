@@ -16,4 +16,9 @@ void requireUntouchedStart(const Scenario& scenario) {
                                 time_s, kUntouched_s));
 }
 
+InfoFrame simulatedInfo() {
+  constexpr firmware::Version kVersion{STRAINFINGER_VERSION_MAJOR, STRAINFINGER_VERSION_MINOR};
+  return firmware::infoFrame(ResetCause::kPowerOn, {}, kVersion, 0);
+}
+
 }  // namespace strainfinger::simulation

@@ -6,7 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "common/frames.hpp"
 #include "common/table_image.hpp"
+#include "firmware/app/announce.hpp"
 #include "firmware/app/finger.hpp"
 #include "host/can/tapped_port.hpp"
 #include "host/can/touch_receiver.hpp"
@@ -25,6 +27,10 @@ static_assert(firmware::ZeroAverage::kSamples * SimulatedGauges::kSamplePeriod_u
 /// Throws Failure(kUsage) when the scenario touches the finger before kUntouched_s: every answer would be
 /// wrong.
 void requireUntouchedStart(const Scenario& scenario);
+
+/// What a finger on this machine says of itself at start: the program's version, power that has just come on
+/// and no board.
+InfoFrame simulatedInfo();
 
 /// What the finger reported, and what was true when its gauges were read.
 struct ComparedTouch {
@@ -66,7 +72,8 @@ class SimulatedFinger {
                  .faults = std::move(faults)}),
         port_(port),
         receiver_(static_cast<std::uint8_t>(config.can.node)),
-        finger_(tables, settingsOf(config, mode), gauges_, port_, clock_, watchdog_) {}
+        finger_(tables, settingsOf(config, mode), gauges_, port_, clock_, watchdog_),
+        info_(simulatedInfo(), static_cast<std::uint8_t>(config.can.node), clock_.now_us()) {}
   SimulatedFinger(const SimulatedFinger&) = delete;
   SimulatedFinger& operator=(const SimulatedFinger&) = delete;
 
@@ -78,6 +85,7 @@ class SimulatedFinger {
     for (bool sampled = true; sampled;) {
       const bool isZeroing = finger_.state() != FingerState::kRun;
       sampled = finger_.step();
+      info_.step(port_, clock_.now_us());
       Moment moment{gauges_.sampleTime_s(), gauges_.truth(), std::nullopt, isZeroing};
       listen(moment);
       if (sampled) visit(std::as_const(moment));
@@ -130,6 +138,7 @@ class SimulatedFinger {
   system::NoWatchdog watchdog_;
   can::TouchReceiver receiver_;
   firmware::Finger<SimulatedGauges, can::TappedPort<Port>, SimulatedClock, system::NoWatchdog> finger_;
+  firmware::Announcement<InfoFrame> info_;
   ComparedTouch reported_;
   std::uint64_t frames_ = 0;
   std::uint64_t heartbeats_ = 0;

@@ -22,3 +22,11 @@ TEST(Main, HelpIsNoError) {
   LONGS_EQUAL(0, run.status);
   STRCMP_CONTAINS("\n  locate ", run.out.c_str());
 }
+
+TEST(Main, HelpHasALineForEachCommand) {
+  const Run run = runProgram("--help");
+  STRCMP_CONTAINS("\n  tare                        Lets a finger take the zero of its gauges now. ",
+                  run.out.c_str());
+  CHECK_TRUE(run.out.find("Exit status") == std::string::npos);
+  STRCMP_CONTAINS("--force takes the zero anyway", runProgram("tare --help").out.c_str());
+}

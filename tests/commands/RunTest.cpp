@@ -62,7 +62,8 @@ TEST(RunCommand, PrintsLogLinesAsCandumpDoes) {
   const Run run = runProgram("run --duration 0.101");
   STRCMP_EQUAL("(0000000000.001000) loopback 701#", run.out.substr(0, 33).c_str());
   STRCMP_CONTAINS("\n(0000000000.101000) loopback 701#22", run.out.c_str());
-  LONGS_EQUAL(2, std::count(run.out.begin(), run.out.end(), '\n'));
+  STRCMP_CONTAINS("\n(0000000000.001000) loopback 481#0100000100000000\n", run.out.c_str());
+  LONGS_EQUAL(3, std::count(run.out.begin(), run.out.end(), '\n'));
 }
 
 TEST(RunCommand, TheSeedDecidesTheOutput) {

@@ -50,6 +50,14 @@ rm strains.$$.csv)");
   STRCMP_CONTAINS(" sets, 0 incomplete", run.err.c_str());
 }
 
+TEST(StrainsCommand, EndsWithItsLastRow) {
+  const Run run = withFinger("", R"(
+"$STRAINFINGER" strains --can $BUS --rate 100 --rows 7 | wc -l)");
+  LONGS_EQUAL(0, run.status);
+  STRCMP_EQUAL("8\n", run.out.c_str());
+  STRCMP_CONTAINS("strains: 7 sets, 0 incomplete", run.err.c_str());
+}
+
 TEST(StrainsCommand, TheFingerSendsNoMoreWhenItEnds) {
   const Run run = withFinger("", R"(
 "$STRAINFINGER" strains --can $BUS --rate 100 --duration 0.5 >/dev/null || exit
@@ -72,7 +80,7 @@ TEST(StrainsCommand, ARateBeyondTheBusIsRefusedWithTheFastest) {
   const Run run = withFinger("-c <(echo -e 'schema = 1\n[can]\nbitrate = 125000\ncontact_rate_hz = 200')",
                              R"("$STRAINFINGER" strains --can $BUS --rate 1000 --duration 1)");
   LONGS_EQUAL(1, run.status);
-  STRCMP_CONTAINS("too_fast: 125 Hz", run.err.c_str());
+  STRCMP_CONTAINS("125 Hz is the fastest (too_fast)", run.err.c_str());
   STRCMP_EQUAL("", run.out.c_str());
 }
 
@@ -94,6 +102,8 @@ TEST(StrainsCommand, RefusesWhatIsOutsideTheDomain) {
   checkRefused("strains", "--can");
   checkRefused("strains --can udp:19998 --rate 0", "--rate");
   checkRefused("strains --can udp:19998 --rate 1001", "--rate");
+  for (const std::string rows : {"0", "-1", "1.5", "x"})
+    checkRefused("strains --can udp:19998 --rows " + rows, "--rows");
   for (const std::string duration : {"0", "-1", "nan", "inf"})
     checkRefused("strains --can udp:19998 --duration " + duration, "--duration");
   checkRefused("strains --can loopback", "use udp on both sides");

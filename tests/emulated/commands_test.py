@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """commands_test.py FINGER.elf: an emulated finger is told to take its zero and to change its contact rate, over its
-CAN line (SLCAN), and does what it answers. common/BUS.md has the bytes."""
+CAN line (SLCAN), and does what it answers. common/BUS_REQUESTS.md has the bytes."""
 import sys
 import time
 import unittest

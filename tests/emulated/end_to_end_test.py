@@ -2,12 +2,15 @@
 """end_to_end_test.py FINGER.elf STRAINFINGER TOUCH_WORLD IN_VCAN: emulated fingers on a Linux CAN bus.
 
     simulated touches -> emulated Cortex-M4 -> SLCAN -> slcand in a small machine -> slcan1 -> cangw -> vcan0 -> candump -> decode
+                                                                                                             -> monitor, serve
 
 Every frame of a touch must arrive, in order, as the same logic says on this machine, over a thousand a second, from one
 finger and from three at once; what decode makes of them must be what really touched the finger; and what happens to the
 bus must be seen on both sides. One machine serves all of it: it is booted and everything done first, then looked at.
 """
 import contextlib
+import json
+import re
 import subprocess
 import sys
 import tempfile
@@ -17,7 +20,8 @@ from pathlib import Path
 
 import emulator
 from machine import TIMEOUT_S, Machine
-from touches import SLIDE_S, TouchedFinger, check_arrived, check_truth, decoded, touch_frames
+from touches import (ANGLE_ROUNDING_DEG, FORCE_ROUNDING_N, SIGMAS, SLIDE_S, TouchedFinger, check_arrived, check_truth,
+                     decoded, touch_frames)
 
 NODES = (1, 2, 3)
 PERIOD_S = 0.001
@@ -40,13 +44,18 @@ def play(tracks):
         time.sleep(max(0, begin + (number + 1) * PERIOD_S - time.monotonic()))
 
 
-def untouched_until(machine, board, done):
+def during(machine, board, records, script):
+    """What the script says, while the board is told the records again and again."""
+    done = machine.job / "done"
+    machine.run(f"({{ {script}\n}} &>$JOB/said || true; touch $JOB/done) &")
     end = time.monotonic() + TIMEOUT_S
     while not done.exists():
         machine.check_alive()
         if time.monotonic() > end:
-            raise RuntimeError(f"no {done.name} within {TIMEOUT_S} s")
-        play([(board, 100 * UNTOUCHED)])
+            raise RuntimeError(f"no end of: {script}")
+        play([(board, records)])
+    done.unlink()
+    return (machine.job / "said").read_text()
 
 
 class Recording:
@@ -95,25 +104,52 @@ class Bus:
 class Told:
     """What a finger is told from Linux, and what it then does: the way of the frames, backwards."""
     NODE, TOUCHED_MS, RATE_HZ = 2, 600, 100
+    RAW_HZ, ROWS = 50, 60
 
     def __init__(self, machine, board, finger):
-        play([(board, 100 * UNTOUCHED)])
+        untouched = 100 * UNTOUCHED
+        play([(board, untouched)])
         program = f"{STRAINFINGER} {{}} --can vcan0 --node {self.NODE}"
-        machine.run(f"({program.format('tare')} &>$TMPDIR/tare || true; touch $JOB/tared) &")
-        untouched_until(machine, board, machine.job / "tared")  # a zero takes 64 sets; the program takes its time to start
-        self.tare = machine.run("cat $TMPDIR/tare")
-        machine.run(f"({program.format('strains')} --rate 50 --duration 2 >$TMPDIR/strains 2>$TMPDIR/said || true; touch $JOB/strained) &")
-        untouched_until(machine, board, machine.job / "strained")
+        self.tare = during(machine, board, untouched, program.format("tare"))
+        machine.record()
+        self.said_of_strains = during(machine, board, untouched, f"{program.format('strains')} --rate {self.RAW_HZ} --rows {self.ROWS} >$TMPDIR/strains")
         self.strains = machine.run("cat $TMPDIR/strains")
-        self.said_of_strains = machine.run("cat $TMPDIR/said")
+        self.raw = [line.split()[2] for line in machine.recorded(0).splitlines() if f"40{self.NODE}#" in line]
         self.rate = machine.run(f"{program.format('config')} --contact-rate-hz {self.RATE_HZ} 2>&1")
         machine.record()
         play([(board, finger.records[300:300 + self.TOUCHED_MS])])
         self.frames = [line.split()[2] for line in machine.recorded(FRAMES_OF_TOUCH * (self.TOUCHED_MS * self.RATE_HZ // 1000 - 2)).splitlines()]
 
 
+class Watched:
+    """What `monitor` and `serve` show of a finger that is held, and what becomes of a tare through the page's server."""
+    NODE, AT_S, PORT = 3, 2.4, 8080
+    SCRIPT = """
+        ip link set lo up
+        {program} serve --can vcan0 --port {port} &>$TMPDIR/address & server=$!
+        {program} monitor --can vcan0 --every 0.5 &>$TMPDIR/lines & monitor=$!
+        until grep -q 'node {node}  run  angle' $TMPDIR/lines; do sleep 0.1; done
+        kill $monitor
+        cansend vcan0 60{node}#03063200   # RAW, 50 sets a second
+        until curl -s localhost:{port}/state >$TMPDIR/state && grep -q '"fitted":\\[' $TMPDIR/state; do sleep 0.1; done
+        curl -s -X POST -H 'X-Strainfinger: -' localhost:{port}/fingers/{node}/tare >$TMPDIR/answer
+        kill $server
+        wait || true
+        cat $TMPDIR/state $TMPDIR/answer $TMPDIR/lines
+    """
+
+    def __init__(self, machine, board, finger):
+        at = round(self.AT_S / finger.period_s)
+        self.truth = next(line.truth for line in finger.expected if round(line.time_s / finger.period_s) >= at)
+        play([(board, 100 * UNTOUCHED)])
+        script = self.SCRIPT.format(program=STRAINFINGER, port=self.PORT, node=self.NODE)
+        said = during(machine, board, 20 * finger.records[at:at + 1], script).splitlines()
+        self.bus, self.answer, self.lines = json.loads(said[0]), json.loads(said[1]), said[2:]
+        self.finger = next(each for each in self.bus["fingers"] if each["node"] == self.NODE)
+
+
 def setUpModule():
-    global one, three, told, bus, consoles
+    global one, three, told, watched, bus, consoles
     with contextlib.ExitStack() as stack:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
         (folder / "job").mkdir()
@@ -127,6 +163,7 @@ def setUpModule():
         one = slide_at_once(machine, boards[:1], fingers[:1])
         three = slide_at_once(machine, boards, fingers)
         told = Told(machine, boards[Told.NODE - 1], fingers[Told.NODE - 1])
+        watched = Watched(machine, boards[Watched.NODE - 1], fingers[Watched.NODE - 1])
         bus = Bus(machine, boards[0], fingers[0])
         consoles = [board.console() for board in boards]
         machine.end()
@@ -195,9 +232,15 @@ class Commands(unittest.TestCase):
     def test_its_strains_come_to_linux(self):
         names, *rows = (line.split(",") for line in told.strains.splitlines())
         self.assertEqual(["time_s", *(f"strain_{gauge}" for gauge in range(16))], names)
-        self.assertGreater(len(rows), 20, told.said_of_strains)  # a busy machine's emulator is late
+        self.assertEqual(f"strains: {told.ROWS} sets, 0 incomplete\n", told.said_of_strains)
+        self.assertEqual(told.ROWS, len(rows))
         self.assertEqual({0}, {float(strain) for row in rows for strain in row[1:]}, "untouched, of the finger's zero")
-        self.assertIn(" sets, 0 incomplete", told.said_of_strains)
+
+    def test_its_readings_come_at_the_rate_that_was_asked_for(self):
+        firsts = [bytes.fromhex(frame[4:]) for frame in told.raw]
+        samples = [data[1] for data in firsts if data[0] == 0]  # page 0 of readings: the number of its set, one a millisecond
+        self.assertGreaterEqual(len(samples), told.ROWS)
+        self.assertEqual({1000 // told.RAW_HZ}, {(b - a) % 256 for a, b in zip(samples, samples[1:])})
 
     def test_a_contact_rate_from_linux_is_done_and_answered(self):
         self.assertEqual(told.rate, self.ANSWER.format("contact_rate"))
@@ -205,6 +248,40 @@ class Commands(unittest.TestCase):
     def test_the_finger_keeps_to_its_new_rate(self):
         contacts = sum(frame.startswith("182#") for frame in told.frames)
         self.assertAlmostEqual(contacts, told.TOUCHED_MS * told.RATE_HZ / 1000, delta=2)
+
+
+class Live(unittest.TestCase):
+    def check_near_truth(self, angle, normal):
+        """(value, sigma) of each."""
+        off_deg = (angle[0] - watched.truth["angle_deg"] + 180) % 360 - 180
+        self.assertLessEqual(abs(off_deg), SIGMAS * angle[1] + ANGLE_ROUNDING_DEG)
+        self.assertLessEqual(abs(normal[0] - watched.truth["normal_n"]), SIGMAS * normal[1] + FORCE_ROUNDING_N)
+
+    def test_monitor_shows_where_and_how_hard_the_finger_is_touched(self):
+        line = next(line for line in watched.lines if f"node {watched.NODE}  run  angle" in line)
+        number = r"(\d+\.\d+) ± (\d+\.\d+)"
+        found = re.search(rf"vcan0 node \d  run  angle {number} deg  normal {number} N", line)
+        angle, sigma_angle, normal, sigma_normal = map(float, found.groups())
+        self.check_near_truth((angle, sigma_angle), (normal, sigma_normal))
+
+    def test_serve_shows_the_same(self):
+        touch = watched.finger["touch"]
+        self.assertEqual(("vcan0", "run", True), (watched.bus["bus"], watched.finger["state"], touch["touched"]))
+        self.check_near_truth((touch["angle_deg"], touch["sigma_angle_deg"]), (touch["normal_n"], touch["sigma_normal_n"]))
+
+    def test_serve_shows_the_boards_firmware(self):
+        self.assertEqual(("0.1", "none"), (watched.finger["info"]["version"], watched.finger["info"]["crash"]))
+
+    def test_its_strains_are_what_the_touch_explains(self):
+        strains, fitted = watched.finger["strains"], watched.finger["fitted"]
+        self.assertEqual((16, 16), (len(strains), len(fitted)))
+        deepest = min(strains)
+        self.assertLess(deepest, -0.004)
+        for gauge, (read, explained) in enumerate(zip(strains, fitted)):
+            self.assertAlmostEqual(read, explained, delta=-deepest / 100, msg=f"gauge {gauge}")
+
+    def test_a_tare_through_the_pages_server_is_refused_while_touched(self):
+        self.assertIn(f"node {watched.NODE}: tare: Refused: something touches", watched.answer["text"])
 
 
 class BusStates(unittest.TestCase):

@@ -8,6 +8,7 @@ import signal
 import socket
 import subprocess
 import tempfile
+import threading
 import time
 import urllib.request
 
@@ -45,6 +46,10 @@ class Bench(contextlib.ExitStack):
         self.bus = free_bus()
         self.folder = pathlib.Path(self.enter_context(tempfile.TemporaryDirectory()))
 
+    def new_folder(self):
+        """Recordings are named by the second: two in one would have one name."""
+        return pathlib.Path(tempfile.mkdtemp(dir=self.folder))
+
     def start(self, *arguments, **options):
         process = subprocess.Popen([self.program, *arguments], **options)
         self.callback(self._end, process)
@@ -61,16 +66,30 @@ class Bench(contextlib.ExitStack):
             process.wait()
             raise
         finally:
-            if process.stderr:
-                process.stderr.close()
+            for stream in filter(None, (process.stdout, process.stderr)):
+                stream.close()
 
-    def finger(self, node=1, scenario=SCENARIO):
+    @staticmethod
+    def ended(process):
+        """What it says on stderr, if that is a pipe, ended as by Ctrl-C."""
+        process.send_signal(signal.SIGINT)
+        return process.communicate(timeout=20)[1]
+
+    @staticmethod
+    def until(holds, longest_s=30):
+        end = time.monotonic() + longest_s
+        while not holds():
+            if time.monotonic() > end:
+                raise AssertionError(f"not within {longest_s} s: {holds}")
+            time.sleep(0.02)
+
+    def finger(self, node=1, scenario=SCENARIO, said=subprocess.DEVNULL):
         config = self.folder / f"finger_{node}.toml"
         config.write_text(f"schema = 1\n[can]\nnode = {node}\n[gauges]\nmodel_error = 0.003\n")
         touches = self.folder / f"touches_{node}.toml"
         touches.write_text(scenario)
-        return self.start("run", "-c", str(config), "--can", self.bus, "--scenario", str(touches),
-                          stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        return self.start("run", "-c", str(config), "--can", self.bus, "--scenario", str(touches), "--json",
+                          stdout=subprocess.DEVNULL, stderr=said, text=True)
 
     def replayed(self, node, scenario, time_s):
         """A finger simulated beforehand, in its own time."""
@@ -111,6 +130,33 @@ class Bench(contextlib.ExitStack):
         raise AssertionError(f"not within {longest_s} s; the last state: {state}")
 
 
+class Reader(threading.Thread):
+    """Reads the events of `serve` for so long, as a page does."""
+
+    def __init__(self, url, time_s):
+        super().__init__()
+        self.url, self.time_s, self.states, self.latest_s = url, time_s, [], 0
+
+    def run(self):
+        end = time.monotonic() + self.time_s
+        with urllib.request.urlopen(self.url + "events", timeout=10) as stream:
+            for line in stream:
+                if line.startswith(b"data: "):
+                    self.states.append(json.loads(line[6:]))
+                    self.latest_s = max(self.latest_s, time.time() - self.states[-1]["time_s"])
+                if time.monotonic() > end:
+                    return
+
+
+def bench_with_two(tests, program):
+    """For a class of tests: finger 1 is touched, finger 2 is not."""
+    bench = Bench(program)
+    tests.addClassCleanup(bench.close)
+    bench.finger(1)
+    bench.finger(2, UNTOUCHED)
+    return bench
+
+
 def touched(state):
     return state["fingers"] and all(finger["touch"] and finger["touch"]["touched"] for finger in state["fingers"])
 
@@ -120,7 +166,7 @@ GROUP = "239.255.67.65"
 
 def chatter(bus, nodes, rate_hz, time_s):
     """Fingers that are all talk: CONTACT, FORCE and PATCH at an exact rate, HEARTBEATs ten times a second. The bytes are those of
-    common/BUS.md's examples, the datagrams those of host/can/UDP_BUS.md."""
+    common/BUS*.md's examples, the datagrams those of host/can/UDP_BUS.md."""
     speaks = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     speaks.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, socket.inet_aton("127.0.0.1"))
     speaks.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, 0)

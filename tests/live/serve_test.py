@@ -5,14 +5,13 @@ import os
 import socket
 import subprocess
 import sys
-import threading
 import time
 import unittest
 import urllib.error
 import urllib.parse
 import urllib.request
 
-from fingers import UNTOUCHED, Bench, cpu_s, touched
+from fingers import UNTOUCHED, Bench, Reader, cpu_s, touched
 
 PROGRAM = sys.argv.pop(1)
 
@@ -42,24 +41,6 @@ def post(url, headers):
             return answer.status, json.load(answer)["text"]
     except urllib.error.HTTPError as error:
         return error.code, json.load(error)["text"]
-
-
-class Reader(threading.Thread):
-    """Reads events for so long."""
-
-    def __init__(self, url, time_s):
-        super().__init__()
-        self.url, self.time_s, self.states, self.latest_s = url, time_s, [], 0
-
-    def run(self):
-        end = time.monotonic() + self.time_s
-        with urllib.request.urlopen(self.url + "events", timeout=10) as stream:
-            for line in stream:
-                if line.startswith(b"data: "):
-                    self.states.append(json.loads(line[6:]))
-                    self.latest_s = max(self.latest_s, time.time() - self.states[-1]["time_s"])
-                if time.monotonic() > end:
-                    return
 
 
 class Serve(unittest.TestCase):
@@ -171,6 +152,11 @@ class Serve(unittest.TestCase):
         status, text = post(self.url + "fingers/1/tare", {"X-Strainfinger": "-"})
         self.assertEqual(409, status)
         self.assertIn("something touches the finger", text)
+
+    def test_a_command_may_come_without_a_body_and_its_length(self):
+        answer = raw(self.url, b"POST /fingers/1/tare HTTP/1.1\r\nHost: localhost\r\nX-Strainfinger: -\r\n\r\n")  # curl -X POST
+        self.assertEqual(409, status_of(answer))
+        self.assertIn(b"something touches the finger", answer)
 
     def test_a_tare_of_a_node_that_is_not_there_has_no_answer(self):
         status, text = post(self.url + "fingers/9/tare", {"X-Strainfinger": "-"})

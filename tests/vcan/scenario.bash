@@ -44,3 +44,22 @@ expect_heartbeats() {
   expect "heartbeats heard" "$(summed_up heartbeats)" "$heard"
   [ $((heard * 102 + lost)) -ge "$duration_ms" ] || fail "$heard heartbeats in $duration_ms ms, of which $lost are lost"
 }
+
+# Starts a finger ($finger) on vcan0 that is stroked all the time, and waits until a recording hears of the first touch.
+start_stroked_finger() {
+  cat >"$TMPDIR/stroke.toml" <<END
+schema = 1
+[[touch]]
+start_s = 0.2
+end_s = 72
+angle_deg = [-3600, 3600]
+normal_n_per_m = 20
+END
+  record
+  strainfinger run --can vcan0 --scenario "$TMPDIR/stroke.toml" 2>"$TMPDIR/summary" &
+  finger=$!
+  until grep -q ' 181#' "$recording"; do
+    kill -0 $finger || fail "$(cat "$TMPDIR/summary")"
+    sleep 0.1
+  done
+}

@@ -1,10 +1,12 @@
-// common/BUS.md is written by people; what can be computed in it is computed here again.
+// common/BUS.md and the pages it names are written by people; what can be computed in them is computed here
+// again.
 
 #include <CppUTest/TestHarness.h>
 #include <fmt/format.h>
 
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <span>
 #include <sstream>
 #include <string>
@@ -20,10 +22,21 @@ using namespace strainfinger::can;
 
 namespace {
 
-std::string readDocument() {
+std::string readPage(const std::string& name) {
   std::ostringstream text;
-  text << std::ifstream(STRAINFINGER_BUS_DOCUMENT).rdbuf();
+  text << std::ifstream(STRAINFINGER_BUS_PAGES + name).rdbuf();
+  CHECK_FALSE_TEXT(text.str().empty(), name.c_str());
   return text.str();
+}
+
+/// BUS.md and the pages beside it that it leads to.
+std::string readPages() {
+  static const std::regex kLink(R"(\]\((BUS_[A-Z]+\.md)\) \|)");
+  const std::string first = readPage("BUS.md");
+  std::string all = first;
+  for (std::sregex_iterator link(first.begin(), first.end(), kLink), end; link != end; ++link)
+    all += readPage((*link)[1]);
+  return all;
 }
 
 std::string place(const FieldBits& bits) {
@@ -94,8 +107,10 @@ std::string rawRow(int gauges, int rate_hz) {
 }  // namespace
 
 TEST_GROUP(BusDocument) {
-  const std::string document_ = readDocument();
-  void checkHas(const std::string& text) { STRCMP_CONTAINS(text.c_str(), document_.c_str()); }
+  std::string pages_;
+
+  void setup() override { pages_ = readPages(); }
+  void checkHas(const std::string& text) { STRCMP_CONTAINS(text.c_str(), pages_.c_str()); }
 };
 
 TEST(BusDocument, HasTheTableOfEachFrame) {

@@ -141,6 +141,22 @@ TEST(UdpPort, AFilterLeavesOutOtherIdentifiers) {
   LONGS_EQUAL(0, port.malformed());
 }
 
+TEST(UdpPort, WhatAFilterLeavesOutIsNotMissed) {
+  UdpPort port(ownBus(), BusFilter{.id = 0x601, .mask = 0x7FF}), other(ownBus());
+  for (int i = 0; i < 100; ++i) other.send(kFrame);
+  other.send({.id = 0x601});
+  CHECK_TRUE(hear(port).has_value());
+  LONGS_EQUAL(0, port.status().missed);
+}
+
+TEST(UdpPort, ItsOwnFramesAreNotMissed) {
+  UdpPort port(ownBus()), other(ownBus());
+  for (int i = 0; i < 100; ++i) port.send(kFrame);
+  other.send(kFrame);
+  CHECK_TRUE(hear(port).has_value());
+  LONGS_EQUAL(0, port.status().missed);
+}
+
 TEST(UdpPort, MalformedDatagramsAreCountedAndIgnored) {
   UdpPort port(ownBus()), other(ownBus());
   const std::vector<std::vector<std::uint8_t>> malformed{

@@ -1,6 +1,7 @@
 #include "host/cli/request.hpp"
 
 #include "host/base/failure.hpp"
+#include "tests/host/can/fake_bus_port.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -8,18 +9,20 @@ using namespace strainfinger;
 using namespace strainfinger::cli;
 
 TEST_GROUP(Request) {
-  static constexpr const char* kWhere = "can0 node 5";
+  static constexpr std::uint8_t kNode = 5;
+  can::FakeBusPort bus;
+
   static can::Reply answered(CommandStatus status) {
     return {.sent = true, .response = responseTo(Command::kTare, status)};
   }
   static can::Reply alive(const HeartbeatFrame& heartbeat) { return {.sent = true, .heartbeat = heartbeat}; }
 
-  static void checkFails(const can::Reply& reply, ExitCode code, const char* message) {
+  void checkFails(const can::Reply& reply, ExitCode code, const char* message) {
     try {
-      requireDone(reply, Command::kTare, kWhere);
+      requireDone(reply, Command::kTare, bus, kNode);
     } catch (const Failure& failure) {
       LONGS_EQUAL(static_cast<int>(code), static_cast<int>(failure.code()));
-      STRCMP_CONTAINS(kWhere, failure.what());
+      STRCMP_CONTAINS("fake0 node 5: ", failure.what());
       STRCMP_CONTAINS(message, failure.what());
       return;
     }
@@ -28,8 +31,8 @@ TEST_GROUP(Request) {
 };
 
 TEST(Request, WhatIsDoneIsDone) {
-  requireDone(answered(CommandStatus::kDone), Command::kTare, kWhere);
-  requireDone(answered(CommandStatus::kDoneTouched), Command::kTare, kWhere);
+  requireDone(answered(CommandStatus::kDone), Command::kTare, bus, kNode);
+  requireDone(answered(CommandStatus::kDoneTouched), Command::kTare, bus, kNode);
 }
 
 TEST(Request, ARefusalNamesItsReasonAndTheRemedy) {
@@ -38,15 +41,16 @@ TEST(Request, ARefusalNamesItsReasonAndTheRemedy) {
              "(touched): let go of it");
   checkFails(answered(CommandStatus::kTouched), ExitCode::kFailure, "--force");
   checkFails(answered(CommandStatus::kBusy), ExitCode::kFailure, "(busy): try again");
+  checkFails(answered(CommandStatus::kBusy), ExitCode::kFailure, "`strainfinger monitor --can fake0` shows");
   checkFails(answered(CommandStatus::kUnknownCommand), ExitCode::kFailure, "firmware");
   checkFails(answered(CommandStatus::kBadArgument), ExitCode::kFailure, "(bad_argument)");
   checkFails({.sent = true, .response = responseTo(Command::kKeep, CommandStatus::kWait, 45)},
-             ExitCode::kFailure, "(wait 45 s): try again then");
+             ExitCode::kFailure, "Not yet: its memory would wear out: 45 s (wait): try again then");
   checkFails(answered(static_cast<CommandStatus>(99)), ExitCode::kFailure, "(99)");
 }
 
 TEST(Request, NobodyThereIsToldFromAFingerThatDoesNotAnswer) {
-  checkFails({.sent = true}, ExitCode::kNoNode, "no answer within 1000 ms and no HEARTBEAT");
+  checkFails({.sent = true}, ExitCode::kNoNode, "no answer within 1000 ms and no HEARTBEAT: start it");
   checkFails(alive({.state = FingerState::kFault}), ExitCode::kNoNode, "alive: state fault");
 }
 
@@ -54,4 +58,6 @@ TEST(Request, AnotherProtocolIsAMismatch) {
   checkFails(alive({.protocol = 1}), ExitCode::kMismatch, "speaks protocol 1, this program 2");
 }
 
-TEST(Request, AnInterfaceThatTakesNothingIsNamed) { checkFails({}, ExitCode::kNoInterface, "took no frame"); }
+TEST(Request, AnInterfaceThatTakesNothingIsNamed) {
+  checkFails({}, ExitCode::kNoInterface, "took no frame in 1000 ms: free it");
+}

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "tests/host/live/fake_bus_port.hpp"
+#include "tests/host/can/fake_bus_port.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -11,7 +11,7 @@ using namespace strainfinger::live;
 using namespace std::chrono_literals;
 
 TEST_GROUP(BusWatch) {
-  FakeBusPort port_;
+  can::FakeBusPort port_;
   BusWatch watch_{port_, config::FingerConfig{}};
 };
 

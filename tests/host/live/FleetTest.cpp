@@ -171,7 +171,7 @@ TEST(Fleet, TwoFingersOfOneNumberAreNoticed) {
 }
 
 TEST(Fleet, TheLoadIsThatOfTheBusDocument) {
-  // BUS.md: 1512 frames of 8 bytes a second are 16.8 % of 1 Mbit/s without stuff bits.
+  // BUS_LOAD.md: 1512 frames of 8 bytes a second are 16.8 % of 1 Mbit/s without stuff bits.
   for (int i = 0; i < 1512; ++i) fleet_.take(1'000'000 + i * 1'000'000 / 1512, {0x181, 8, {}});
   now_us_ = 2'000'000;
   LONGS_EQUAL(1512, view().framesPerSecond);

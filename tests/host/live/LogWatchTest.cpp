@@ -17,7 +17,7 @@ TEST(LogWatch, HasNothingAtFirst) {
 }
 
 TEST(LogWatch, EveryInterfaceIsABusOfItsOwn) {
-  take("(1609779922.655421) can1 705#2200004D0E1900A7");  // BUS.md's HEARTBEAT
+  take("(1609779922.655421) can1 705#2200004D0E1900A7");  // BUS_HEALTH.md's HEARTBEAT
   take("(1609779922.755421) can0 705#2200004D0E1900A7");
   const auto buses = watch_.views(*watch_.time_us());
   LONGS_EQUAL(2, buses.size());

@@ -14,7 +14,8 @@ TEST_GROUP(PendingRequest) {
 };
 
 TEST(PendingRequest, IsTheFrameOfTheBusDocument) {
-  CHECK_TRUE(request_.frame() == (CanFrame{0x605, 8, {0x02, 0x01}}));  // BUS.md: tare, unless touched
+  CHECK_TRUE(request_.frame() ==
+             (CanFrame{0x605, 8, {0x02, 0x01}}));  // BUS_REQUESTS.md: tare, unless touched
 }
 
 TEST(PendingRequest, ItsResponseIsItsOutcome) {
@@ -30,7 +31,8 @@ TEST(PendingRequest, ARefusalSaysWhy) {
   const auto touched = request_.take(response(CommandStatus::kTouched));
   CHECK_FALSE(touched.value().isDone);
   STRCMP_CONTAINS("Refused: something touches the finger", touched->text.c_str());
-  STRCMP_CONTAINS(": 45 s", request_.take(response(CommandStatus::kWait, 45))->text.c_str());
+  STRCMP_CONTAINS("Not yet: the zero was taken just now: 45 s",
+                  request_.take(response(CommandStatus::kWait, 45))->text.c_str());
   STRCMP_CONTAINS("status 99", request_.take(response(static_cast<CommandStatus>(99)))->text.c_str());
 }
 

@@ -48,6 +48,10 @@ TEST(PlainReport, PrintsALineForEachFinger) {
   STRCMP_CONTAINS("\n12.300 s  can0 node 2  run", text.c_str());
 }
 
+TEST(PlainReport, SaysThatABusHasNoFinger) {
+  STRCMP_EQUAL("12.300 s  can0  no finger heard yet\n", printed(TableFormat::kCsv, {busWith({})}).c_str());
+}
+
 TEST(PlainReport, PrintsAnObjectForEachBus) {
   const std::string text = printed(TableFormat::kJson, {busWith({}), busWith({})});
   const std::string one =

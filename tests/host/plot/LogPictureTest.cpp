@@ -8,29 +8,34 @@
 
 #include <CppUTest/TestHarness.h>
 
+using namespace strainfinger;
 using namespace strainfinger::plot;
 
 TEST_GROUP(LogPicture) {
-  const LogPoint point_{.time_s = 1,
-                        .angle_deg = 20,
-                        .sigmaAngle_deg = 2,
-                        .normal_n = 0.5,
-                        .sigmaNormal_n = 0.125,
-                        .tangential_n = -0.25,
-                        .sigmaTangential_n = 0.25,
-                        .width_m = 2e-3,
-                        .sigmaWidth_m = 3e-3,
-                        .flags = 0b101};
+  LogPoint point_;
 
+  void setup() override {
+    can::TouchReport& touch = point_.touch;
+    point_.time_s = 1;
+    touch.angle_deg = 20;
+    touch.sigmaAngle_deg = 2;
+    touch.normal_n = 0.5;
+    touch.sigmaNormal_n = 0.125;
+    touch.tangential_n = -0.25;
+    touch.sigmaTangential_n = 0.25;
+    touch.width_m = 2e-3;
+    touch.sigmaWidth_m = 3e-3;
+    touch.flags = FingerFlags{FingerFlag::kContact, FingerFlag::kDegraded};
+  }
   LogPoint pointAt(double time_s, double angle_deg) const {
     LogPoint point = point_;
     point.time_s = time_s;
-    point.angle_deg = angle_deg;
+    point.touch.angle_deg = angle_deg;
     return point;
   }
 
   static std::vector<std::vector<double>> rows(const std::vector<LogPoint>& points, const std::string& name) {
-    for (const DataFile& file : logPicture({"heading", points, {"contact", "saturated", "degraded"}}).data)
+    for (const DataFile& file : logPicture({"heading", points}).data)
       if (file.name == name) return file.rows;
     FAIL(name.c_str());
     return {};
@@ -73,6 +78,6 @@ TEST(LogPicture, FlagsAreRowsByTheirBits) {
 
 TEST(LogPicture, CanBeDrawn) {
   const TemporaryFolder folder;
-  draw(logPicture({"heading", {point_}, {"contact", "saturated", "degraded"}}), folder.file("one.svg"));
-  draw(logPicture({"heading", {point_, pointAt(2, 30)}, {"contact"}}), folder.file("two.png"));
+  draw(logPicture({"heading", {point_}}), folder.file("one.svg"));
+  draw(logPicture({"heading", {point_, pointAt(2, 30)}}), folder.file("two.png"));
 }

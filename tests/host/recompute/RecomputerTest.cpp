@@ -71,12 +71,12 @@ class Recording {
         frames.push_back({static_cast<std::int64_t>(finger_.elapsed_us()) * 1000, *frame});
     }
   }
-  /// Zero taken within the recording, then the touches.
-  void runTared(int milliseconds) {
-    run(100);
+  /// So long without RAW, then a zero taken within the recording, then so much more.
+  void runTared(int milliseconds, int before_ms = 100, bool isForced = false) {
+    run(before_ms);
     tell(rawRequest(1000));
     run(10);
-    tell(tareRequest(false));
+    tell(tareRequest(isForced));
     run(milliseconds);
   }
 
@@ -106,6 +106,16 @@ TEST_GROUP(Recomputer) {
       if (decode<ContactFrame>(recorded.frame)) found.push_back(&recorded);
     return found;
   }
+  /// What follows from the readings is what was said.
+  static RecomputeTally checkSame(const Recording& recorded) {
+    const RecomputeTally tally = recomputed(recorded.frames);
+    CHECK_TRUE(tally.compared > 100);
+    STRCMP_EQUAL("", tally.first.value_or("").c_str());
+    LONGS_EQUAL(0, tally.different);
+    LONGS_EQUAL(0, tally.absent);
+    LONGS_EQUAL(0, tally.gaps);
+    return tally;
+  }
   std::size_t touchFrames() const {
     return static_cast<std::size_t>(std::ranges::count_if(recording.frames, [](const Recorded& recorded) {
       const CanFrame& frame = recorded.frame;
@@ -117,39 +127,21 @@ TEST_GROUP(Recomputer) {
 
 TEST(Recomputer, ARecordingFromATareOnGivesTheSameFrames) {
   recording.runTared(2500);
-  const RecomputeTally tally = recomputed(recording.frames);
   CHECK_TRUE(touchFrames() > 300);
-  LONGS_EQUAL(touchFrames(), tally.compared);
-  STRCMP_EQUAL("", tally.first.value_or("").c_str());
-  LONGS_EQUAL(0, tally.different);
-  LONGS_EQUAL(0, tally.absent);
-  LONGS_EQUAL(0, tally.gaps);
+  LONGS_EQUAL(touchFrames(), checkSame(recording).compared);
 }
 
 TEST(Recomputer, WhatWasLearntBeforeTheTareDoesNotMatter) {
   Recording again(Scenario({TouchCourse{0.3, 0.9, from(200, 220, 0.6), steady(18), steady(4)},
                             TouchCourse{1.6, 2.0, from(60, 90, 0.4), steady(25), steady(-4)}}));
-  again.run(1200);
-  again.tell(rawRequest(1000));
-  again.run(5);
-  again.tell(tareRequest(false));
-  again.run(1000);
-  const RecomputeTally tally = recomputed(again.frames);
-  CHECK_TRUE(tally.compared > 100);
-  STRCMP_EQUAL("", tally.first.value_or("").c_str());
-  LONGS_EQUAL(0, tally.absent);
+  again.runTared(1000, 1200);
+  checkSame(again);
 }
 
 TEST(Recomputer, ATareThatIsForcedOnATouchIsOneToo) {
-  recording.run(1000);
-  recording.tell(rawRequest(1000));
-  recording.run(5);
-  recording.tell(tareRequest(true));
-  recording.run(1400);
-  const RecomputeTally tally = recomputed(recording.frames);
-  CHECK_TRUE(tally.compared > 100);
-  STRCMP_EQUAL("", tally.first.value_or("").c_str());
-  LONGS_EQUAL(0, tally.absent);
+  constexpr bool kIsForced = true;
+  recording.runTared(1400, 1000, kIsForced);
+  checkSame(recording);
 }
 
 TEST(Recomputer, AFrameThatIsNotWhatTheReadingsGiveIsFound) {

@@ -85,6 +85,19 @@ TEST_GROUP(SimulatedFinger) {
   double most(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }
 };
 
+TEST(SimulatedFinger, SaysWhatItIsAtStartAndOnceASecond) {
+  Bench bench(config, Scenario({}));
+  bench.run(2.5);
+  const auto times = bench.timesOf(0x481);
+  LONGS_EQUAL(3, times.size());
+  DOUBLES_EQUAL(0, times[0], 0.002);
+  DOUBLES_EQUAL(1, times[1] - times[0], 0.002);
+  const auto frame =
+      std::ranges::find(bench.frames, 0x481, [](const TimedFrame& each) { return each.frame.id; });
+  LONGS_EQUAL(0x01, frame->frame.data[0]);  // power on, no crash
+  LONGS_EQUAL(0, frame->frame.data[7]);     // no board
+}
+
 TEST(SimulatedFinger, ReportsTheTouchThatIsThere) {
   Bench bench(config, hold(100));
   bench.run(0.5);
@@ -111,12 +124,13 @@ TEST(SimulatedFinger, EverySampleSetIsVisitedOnceWithItsTruth) {
   LONGS_EQUAL(1, bench.moments[200].truth.size());
 }
 
-TEST(SimulatedFinger, UntouchedItSaysHowItAndItsGaugesAreAndNothingElse) {
+TEST(SimulatedFinger, UntouchedItSaysWhatItIsHowItAndItsGaugesAreAndNothingElse) {
   Bench bench(config, Scenario({}));
   bench.run(5);
-  LONGS_EQUAL(55, bench.frames.size());
+  LONGS_EQUAL(60, bench.frames.size());
   LONGS_EQUAL(50, bench.timesOf(0x701).size());
   LONGS_EQUAL(5, bench.timesOf(0x081).size());
+  LONGS_EQUAL(5, bench.timesOf(0x481).size());
   LONGS_EQUAL(50, bench.counts().heartbeats);
   LONGS_EQUAL(0, bench.counts().finger.fits);
 }

@@ -1,19 +1,5 @@
 # `tare` and `config` to a running finger that is touched all the time. What reached the bus is candump's word.
-cat >"$TMPDIR/stroke.toml" <<END
-schema = 1
-[[touch]]
-start_s = 0.2
-end_s = 72
-angle_deg = [-3600, 3600]
-normal_n_per_m = 20
-END
-record
-strainfinger run --can vcan0 --scenario "$TMPDIR/stroke.toml" 2>"$TMPDIR/summary" &
-finger=$!
-until grep -q ' 181#' "$recording"; do
-  kill -0 $finger || fail "$(cat "$TMPDIR/summary")"
-  sleep 0.1
-done
+start_stroked_finger
 sleep 1
 
 # Refused while touched, with the reason and what to do.

@@ -1,22 +1,8 @@
 # `monitor` and `serve` beside a running finger that is touched all the time, and a tare through the page's server.
-cat >"$TMPDIR/stroke.toml" <<TOML
-schema = 1
-[[touch]]
-start_s = 0.2
-end_s = 72
-angle_deg = [-3600, 3600]
-normal_n_per_m = 20
-TOML
 ip link set lo up
 strainfinger serve --can vcan0 --port 0 2>"$TMPDIR/address" &
 server=$!
-record
-strainfinger run --can vcan0 --scenario "$TMPDIR/stroke.toml" 2>"$TMPDIR/summary" &
-finger=$!
-until grep -q ' 181#' "$recording"; do
-  kill -0 $finger || fail "$(cat "$TMPDIR/summary")"
-  sleep 0.1
-done
+start_stroked_finger
 
 strainfinger monitor --can vcan0 --every 1 >"$TMPDIR/lines" &
 monitor=$!

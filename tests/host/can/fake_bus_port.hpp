@@ -11,27 +11,28 @@
 #include "common/frame_layout.hpp"
 #include "host/can/bus_port.hpp"
 
-namespace strainfinger::live {
+namespace strainfinger::can {
 
 /// Hears what it is given, and keeps what is sent.
-class FakeBusPort final : public can::BusPort {
+class FakeBusPort final : public BusPort {
  public:
   bool send(const CanFrame& frame) noexcept override {
     if (takes) sent.push_back(frame);
     return takes;
   }
-  std::optional<can::TimedFrame> receiveTimed() noexcept override {
+  std::optional<TimedFrame> receiveTimed() noexcept override {
     if (toHear.empty()) return std::nullopt;
-    const can::TimedFrame frame = toHear.front();
+    const TimedFrame frame = toHear.front();
     toHear.pop_front();
     return frame;
   }
-  hal::CanStatus status() noexcept override { return {.state = hal::CanState::kActive, .missed = 3}; }
+  hal::CanStatus status() noexcept override { return {.state = hal::CanState::kActive, .missed = missed}; }
   bool waitReadable(std::chrono::milliseconds timeout) noexcept override {
     if (toHear.empty()) std::this_thread::sleep_for(timeout);
     return !toHear.empty();
   }
   int descriptor() const noexcept override { return -1; }
+  BusHints hints() const override { return {.whenBlocked = "free it", .whenSilent = "start it"}; }
   const std::string& name() const noexcept override { return name_; }
 
   /// As a finger would say it now.
@@ -42,11 +43,12 @@ class FakeBusPort final : public can::BusPort {
   }
 
   bool takes = true;
-  std::deque<can::TimedFrame> toHear;
+  std::uint32_t missed = 3;
+  std::deque<TimedFrame> toHear;
   std::vector<CanFrame> sent;
 
  private:
   std::string name_ = "fake0";
 };
 
-}  // namespace strainfinger::live
+}  // namespace strainfinger::can

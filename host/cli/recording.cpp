@@ -1,0 +1,69 @@
+#include "host/cli/recording.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "host/base/atomic_file.hpp"
+#include "host/base/failure.hpp"
+
+namespace strainfinger::cli {
+namespace {
+
+std::int64_t now_ns() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+}
+
+/// Where nothing is yet: the notes might replace the very config that they quote.
+std::string newNotesPath(const std::string& path) {
+  const auto notes = std::filesystem::path(path).replace_extension(".toml").string();
+  if (notes == path)
+    throw Failure(ExitCode::kUsage, fmt::format("{}: a log cannot end in .toml: its notes do", path));
+  std::error_code unknown;  // a folder that cannot be looked into is one where the log cannot be made either
+  if (std::filesystem::exists(notes, unknown))
+    throw Failure(
+        ExitCode::kFailure,
+        fmt::format("{}: cannot make the file: File exists: the log's notes belong there; remove it, or "
+                    "write to another file than {}",
+                    notes, path));
+  return notes;
+}
+
+}  // namespace
+
+Recording::Recording(can::BusPort& port, const config::FingerConfig& config, const std::string& path)
+    : port_(port),
+      path_(path),
+      notesPath_(newNotesPath(path)),
+      log_(path),
+      notes_(port.name(), config),
+      missedBefore_(port.status().missed) {
+  progress_.start_ns = now_ns();
+  writeNotes();
+}
+
+void Recording::take(const can::TimedFrame& timed) {
+  log_.add(timed.time_ns, port_.name(), timed.frame);
+  ++progress_.frames;
+  isNew_ |= notes_.note(timed.frame);
+}
+
+void Recording::flush() {
+  log_.flush();
+  if (std::exchange(isNew_, false)) writeNotes();
+}
+
+void Recording::end() {
+  log_.flush();
+  progress_.end_ns = now_ns();
+  progress_.missed = port_.status().missed - missedBefore_;
+  writeNotes();
+}
+
+void Recording::writeNotes() const { writeFileAtomically(notesPath_, notes_.toml(progress_)); }
+
+}  // namespace strainfinger::cli

@@ -1,0 +1,49 @@
+#pragma once
+// A bus, written down: a log, and notes on it beside it.
+
+#include <string>
+
+#include "host/can/bus_port.hpp"
+#include "host/can/log_writer.hpp"
+#include "host/cli/recording_notes.hpp"
+#include "host/config/finger_config.hpp"
+
+namespace strainfinger::cli {
+
+/// From its construction on. The notes are in place from the start, so that a recording that is cut off has
+/// them too; they lack its end then.
+class Recording {
+ public:
+  /// Makes `path` and, in its place with .toml at the end, the notes. Throws Failure(kUsage) when the path
+  /// itself ends in .toml, Failure(kFailure) when there is a file of either name already or one cannot be
+  /// made. `port` is where the frames come from; it must outlive the recording.
+  Recording(can::BusPort& port, const config::FingerConfig& config, const std::string& path);
+
+  /// Takes what the port received, in that order.
+  void take(const can::TimedFrame& timed);
+
+  /// Hands what was heard to the system: a killed program loses what came since. Throws Failure(kFailure)
+  /// when the disk is full.
+  void flush();
+
+  /// The last flush(); completes the notes. Throws like it.
+  void end();
+
+  const RecordingProgress& progress() const { return progress_; }
+  const std::string& path() const { return path_; }
+  const std::string& notesPath() const { return notesPath_; }
+
+ private:
+  void writeNotes() const;
+
+  can::BusPort& port_;
+  std::string path_;
+  std::string notesPath_;
+  can::LogWriter log_;
+  RecordingNotes notes_;
+  RecordingProgress progress_;
+  std::uint32_t missedBefore_;  ///< frames that the port had missed when this began
+  bool isNew_ = false;          ///< the notes have to be written again
+};
+
+}  // namespace strainfinger::cli

@@ -1,0 +1,92 @@
+#include "host/cli/recording.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+#include "common/frame_layout.hpp"
+#include "host/base/failure.hpp"
+#include "tests/host/can/fake_bus_port.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::cli;
+
+TEST_GROUP(Recording) {
+  can::FakeBusPort port_;
+  const config::FingerConfig config_;
+  const std::string name_ = "recording_test_" + std::to_string(getpid());
+  const std::string log_ = name_ + ".log", notes_ = name_ + ".toml";
+
+  void teardown() override {
+    std::remove(log_.c_str());
+    std::remove(notes_.c_str());
+  }
+  static std::string textOf(const std::string& path) {
+    std::ostringstream text;
+    text << std::ifstream(path).rdbuf();
+    return text.str();
+  }
+  static can::TimedFrame heard(const CanFrame& frame) { return {1'609'779'922'655'421'000, frame}; }
+  void checkRefused(const std::string& path, ExitCode code, const char* message) {
+    try {
+      Recording recording(port_, config_, path);
+    } catch (const Failure& failure) {
+      LONGS_EQUAL(static_cast<int>(code), static_cast<int>(failure.code()));
+      STRCMP_CONTAINS(message, failure.what());
+      return;
+    }
+    FAIL("not refused");
+  }
+};
+
+TEST(Recording, WritesWhatIsHeardAndNotesBesideIt) {
+  Recording recording(port_, config_, log_);
+  recording.take(heard({0x705, 8, {0x22, 0, 0, 0x4D, 0x0E, 0x19, 0, 0xA7}}));
+  recording.take(heard({0x100, 1, {1}}));
+  recording.end();
+  LONGS_EQUAL(2, recording.progress().frames);
+  STRCMP_EQUAL(
+      "(1609779922.655421) fake0 705#2200004D0E1900A7\n"
+      "(1609779922.655421) fake0 100#01\n",
+      textOf(log_).c_str());
+  for (const char* text : {"\n[recording]\n", "bus = \"fake0\"\n", "\nend = 2", "\nframes = 2\n",
+                           "\n[[recording.finger]]\nnode = 5\n"})
+    STRCMP_CONTAINS(text, textOf(notes_).c_str());
+}
+
+TEST(Recording, ThatIsCutOffHasNotesWithoutAnEnd) {
+  {
+    Recording recording(port_, config_, log_);
+    recording.take(heard({0x705, 8, {0x22, 0, 0, 0x4D, 0x0E, 0x19, 0, 0xA7}}));
+    recording.flush();
+  }
+  STRCMP_CONTAINS("\nnode = 5\n", textOf(notes_).c_str());
+  CHECK_TRUE(textOf(notes_).find("\nend = ") == std::string::npos);
+}
+
+TEST(Recording, CountsWhatWasMissedWhileItWent) {
+  port_.missed = 3;
+  Recording recording(port_, config_, log_);
+  port_.missed = 5;
+  recording.end();
+  LONGS_EQUAL(2, recording.progress().missed);
+}
+
+TEST(Recording, FilesThatAreThereAreLeftAlone) {
+  std::ofstream(log_) << "mine";
+  checkRefused(log_, ExitCode::kFailure, "File exists");
+  STRCMP_EQUAL("mine", textOf(log_).c_str());
+}
+
+TEST(Recording, AConfigIsNotReplacedByItsNotes) {
+  std::ofstream(notes_) << "mine";
+  checkRefused(log_, ExitCode::kFailure, "the log's notes belong there");
+  STRCMP_EQUAL("mine", textOf(notes_).c_str());
+  CHECK_FALSE(std::ifstream(log_).good());
+}
+
+TEST(Recording, ALogIsNotNamedLikeItsNotes) { checkRefused(notes_, ExitCode::kUsage, "cannot end in .toml"); }

@@ -142,7 +142,7 @@ class Finger {
   }
 
   /// With this zero, as after a start: what is said from here on follows from the sample sets alone.
-  [[gnu::noinline]] void beginAnew() {
+  void beginAnew() {
     std::construct_at(&pipeline_, tables_, settings_.mode);
     pipeline_.takeZero(zero_);
     raw_.sayZeros();
@@ -162,7 +162,7 @@ class Finger {
   }
 
   /// Not inlined, so that its frames aren't on the stack while the locator, which needs it most, runs.
-  [[gnu::noinline]] void report(std::uint32_t now_us) {
+  void report(std::uint32_t now_us) {
     if (owed_.any()) return;
     auto frames = reporter_.frames(pipeline_.constants(), pipeline_.observation(), pipeline_.answer(),
                                    pipeline_.linearisation(), sampleTime_us());
@@ -224,7 +224,7 @@ class Finger {
   }
 
   /// Not inlined: see report().
-  [[gnu::noinline]] void sayGauges(std::uint32_t now_us) {
+  void sayGauges(std::uint32_t now_us) {
     const GaugeSet outOfUse = pipeline_.observation().outOfUse;
     const GaugesFrame frame = gaugesFrame(outOfUse, pipeline_.zeroTracker(), setsPerSecond_);
     if (!can_.send(encode(frame, settings_.node))) return;
@@ -236,7 +236,7 @@ class Finger {
 
   /// Answers the request that has arrived, at once or when its work is done; while an answer waits for the
   /// port, the next request does. Not inlined: see report().
-  [[gnu::noinline]] void serve(std::uint32_t now_us) {
+  void serve(std::uint32_t now_us) {
     if ((response_ || tareStatus_) && now_us - requestedAt_us_ >= kAnswerWithin_us) {
       response_.reset();
       tareStatus_.reset();

@@ -52,9 +52,9 @@ class RawSender {
 
   bool any() const { return page_ < lastPage_ || zeroPage_ < lastZeroPage_; }
 
-  /// Sends what the port takes. Not inlined: what it needs is not on the stack while the locator runs.
+  /// Sends what the port takes.
   template <hal::CanPort Can>
-  [[gnu::noinline]] void send(Can& can, std::uint8_t node, const Calibration& calibration) {
+  void send(Can& can, std::uint8_t node, const Calibration& calibration) {
     while (page_ < lastPage_) {
       const auto codeOf = [this](std::uint32_t gauge) { return codes_[gauge]; };
       if (!can.send(encode(pageOf(page_, kind_, codeOf), node))) return;

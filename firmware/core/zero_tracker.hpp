@@ -65,8 +65,8 @@ class ZeroTracker {
               Calibration& calibration);
 
   Strains sum_{};       ///< of strains * kEvery / kInterval
-  Strains before_{};    ///< what the contacts left in the first interval of a rest ..
-  GaugeSet known_ = 0;  ///< .. of these gauges
+  Strains before_{};    ///< what the contacts left in the first interval of a rest
+  GaugeSet known_ = 0;  ///< the gauges that before_ is of
   Rest rest_;
   std::uint32_t age_sets_ = 0;
   std::optional<std::int32_t> lastChange_q32_;

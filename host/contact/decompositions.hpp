@@ -26,7 +26,7 @@ Eigen::VectorXd luSolution(const Eigen::MatrixXd& equations, const Eigen::Vector
 
 /// Eigenvalues of a symmetric matrix, rising (Eigen::SelfAdjointEigenSolver).
 Eigen::VectorXd symmetricEigenvalues(const Eigen::MatrixXd& matrix);
-/// .. of a tridiagonal one: its diagonal, and the n - 1 numbers beside it.
+/// Those of a tridiagonal matrix: its diagonal, and the n - 1 numbers beside it.
 Eigen::VectorXd tridiagonalEigenvalues(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& beside);
 
 }  // namespace strainfinger::contact

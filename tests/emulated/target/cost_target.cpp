@@ -84,7 +84,12 @@ class CountedFinger {
   CountedFinger(const TableImage& tables, const InstructionCounter& counter)
       : counter_(counter), finger_(tables, {.contactRate_hz = 1000}, adc_, can_, clock_, watchdog_) {
     for (std::uint32_t sample = 0; sample <= firmware::ZeroAverage::kSamples; ++sample)
-      update(noisy(kUntouched, sample));
+      update(kUntouched, sample);
+  }
+
+  /// With the noise of this sample. Not inlined: the stack that its caller needs is the same in all scenes.
+  [[gnu::noinline]] std::uint32_t update(const Deflections& codes, std::uint32_t sample) {
+    return update(noisy(codes, sample));
   }
 
   std::uint32_t update(const hal::SampleSet& set) {
@@ -111,8 +116,7 @@ CountedFinger& newFinger(const TableImage& tables, const InstructionCounter& cou
 
 void idle(const InstructionCounter& counter) {
   CountedFinger& finger = newFinger(kLinkedTables, counter);
-  for (std::uint32_t sample = 0; sample < kUpdates; ++sample)
-    tell("idle", finger.update(noisy(kUntouched, sample)));
+  for (std::uint32_t sample = 0; sample < kUpdates; ++sample) tell("idle", finger.update(kUntouched, sample));
 }
 
 /// A contact held where it is once it is found: the same codes, and with noise.
@@ -122,7 +126,7 @@ void held(const InstructionCounter& counter, Width width, const char* same, cons
   const Deflections contact = pressed(firmContact(0x12345678, width));
   for (std::uint32_t sample = 0; sample < kUntilFound + 2 * kUpdates; ++sample) {
     const bool unchanged = sample < kUntilFound + kUpdates;
-    const std::uint32_t instructions = finger.update(noisy(contact, unchanged ? 0 : sample));
+    const std::uint32_t instructions = finger.update(contact, unchanged ? 0 : sample);
     if (sample >= kUntilFound) tell(unchanged ? same : withNoise, instructions);
   }
 }
@@ -133,7 +137,7 @@ void sliding(const InstructionCounter& counter, const TableImage& tables, Width 
   CountedFinger& finger = newFinger(tables, counter);
   for (std::uint32_t sample = 0; sample < kUntilFound + kUpdates; ++sample) {
     const std::uint32_t instructions =
-        finger.update(noisy(pressed(firmContact(sample * kTurn_q32Of50_um, width)), sample));
+        finger.update(pressed(firmContact(sample * kTurn_q32Of50_um, width)), sample);
     if (sample >= kUntilFound) tell(what, instructions);
   }
 }
@@ -149,10 +153,10 @@ void newTouches(const InstructionCounter& counter) {
     contact.normal >>= draws.below(4);
     contact.tangential = contact.normal * (static_cast<std::int32_t>(draws.below(101)) - 50) / 100;
     const Deflections codes = pressed(contact);
-    tell("new", finger.update(noisy(codes, draws.next())));
+    tell("new", finger.update(codes, draws.next()));
     for (int i = 0; i < kMostSets && finger.isSearching(); ++i)
-      tell("search", finger.update(noisy(codes, draws.next())));
-    for (int i = 0; i < kBetween; ++i) finger.update(noisy(kUntouched, draws.next()));
+      tell("search", finger.update(codes, draws.next()));
+    for (int i = 0; i < kBetween; ++i) finger.update(kUntouched, draws.next());
   }
 }
 

@@ -151,7 +151,16 @@ TEST(FitRanges, AStepThatIsTakenOverflowsNothing) {
 }
 
 TEST(FitRanges, ConvergenceOfAnyReductionOverflowsNothing) {
-  forEachWay([] { isConverged(Wide(-kMostReduction, kMostReduction), Hypothesis{}, anyReadings()); });
+  forEachWay([] { changesLittle(Wide(-kMostReduction, kMostReduction), Hypothesis{}, anyReadings()); });
+  checkNone();
+}
+
+TEST(FitRanges, ConvergenceOfAnyStepOverflowsNothing) {
+  TableConstants constants{};
+  for (const int gauges : {1, kMaxGauges}) {
+    constants.gauge_count = static_cast<decltype(constants.gauge_count)>(gauges);
+    forEachWay([&] { isShort(constants, anyContact(), anyContact()); });
+  }
   checkNone();
 }
 

@@ -31,7 +31,7 @@ echo "The same touches on a perfect finger, and on one as built (gauges 0.5 deg,
 "$program" run -c as_built.toml --can loopback >/dev/null
 
 step "3. What it sent, as candump -L prints it, and what that says (CONTACT, FORCE and PATCH of one moment)"
-grep -m1 -A2 ' 181#' <(sed -n '2000,$p' candump.log) | tee moment.log
+grep -m1 -A2 '(0000000003\.5.* 181#' candump.log | tee moment.log
 "$program" decode <moment.log 2>/dev/null | cut -d, -f1-18
 
 if [ "$(cat /sys/class/net/vcan0/operstate 2>/dev/null || echo none)" = unknown ]; then   # there, and up

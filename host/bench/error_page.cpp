@@ -154,7 +154,7 @@ std::string inShort(const std::vector<ErrorCell>& cells) {
       "tables know the width; wide contacts are harder: {:.3f} mm at 4 mm.\n"
       "* **As built**: gauges glued 0.5 degrees and 0.05 mm off, gains off by 3 %, the core 0.1 mm thicker, "
       "Poisson's ratio 0.49, nothing calibrated: {:.2f} mm RMS at 2 mm of width, {} of the answers flagged "
-      "uncertain. `strainfinger calibrate` brings most of it back.\n"
+      "uncertain. `strainfinger calibrate` is for that.\n"
       "* **What it cannot do**: tell contacts apart that are nearer than 2.5 pitches, or where along the "
       "finger a "
       "contact is.\n",
@@ -165,16 +165,30 @@ std::string inShort(const std::vector<ErrorCell>& cells) {
       built.arc_mm.rms(), share(built.uncertain, built.contacts));
 }
 
+std::string madeBy(const SweepSettings& settings) {
+  return fmt::format(
+      "\n{} contacts a row, {} a cell of the map, seed {}. Made by `cmake --workflow --preset bench`; all "
+      "figures: build/bench/results/errors.csv.\n",
+      settings.contacts, settings.repeats, settings.seed);
+}
+
 }  // namespace
 
 std::string errorPage(const std::vector<ErrorCell>& cells, const SweepSettings& settings) {
   std::string text(kIntroduction);
   text += inShort(cells);
   text += worstSettings(cells);
-  text += worstPlaces(cells);
   text += "\n![Errors over position and load direction](error_map.png)\n";
   text += "![Error of place over the other quantities](error_curves.png)\n";
   text += "\nLines end where fewer than half of the contacts get a certain answer.\n";
+  return text + madeBy(settings);
+}
+
+std::string errorTables(const std::vector<ErrorCell>& cells, const SweepSettings& settings) {
+  std::string text =
+      "# Errors by load, noise, converter, width and gauge\n\n"
+      "For whoever chooses a part or a load. What the words mean, and the worst of it in short:\n"
+      "[what_the_finger_can_do.md](what_the_finger_can_do.md).\n";
   text += sweepTable(cells, kLoadSweep, "How hard must it be touched?", "load, N/m", false, false);
   text += sweepTable(cells, kNoiseSweep, "Noise of a gauge (16-bit converter)", "microstrain", true, false);
   text += sweepTable(cells, kBitsSweep, "Bits of the converter", "bits", true, false);
@@ -182,11 +196,8 @@ std::string errorPage(const std::vector<ErrorCell>& cells, const SweepSettings& 
   text += sweepTable(cells, kBuiltSweep, "Width of the contact on fingers as built, not calibrated", "mm",
                      false, false);
   text += sweepTable(cells, kLengthSweep, "Length of a gauge", "mm", false, true);
-  return text + fmt::format(
-                    "\n{} contacts a row, {} a cell of the map, seed {}. Made by "
-                    "`cmake --workflow --preset bench`; all figures: "
-                    "build/bench/results/errors.csv.\n",
-                    settings.contacts, settings.repeats, settings.seed);
+  text += worstPlaces(cells);
+  return text + madeBy(settings);
 }
 
 }  // namespace strainfinger::bench

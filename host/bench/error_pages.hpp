@@ -1,5 +1,5 @@
 #pragma once
-// The sweeps as pictures, and as a page for the people who use a finger.
+// The sweeps as pictures, and as pages for the people who use a finger and for those who design one.
 
 #include <string>
 #include <vector>
@@ -15,7 +15,10 @@ plot::Picture errorMapPicture(const std::vector<ErrorCell>& cells);
 /// Error of place over each of the other quantities, as curves.
 plot::Picture errorCurvesPicture(const std::vector<ErrorCell>& cells);
 
-/// Markdown; worst cases first. Figures in mm and N/m.
+/// Markdown: what there is to know in short, worst cases, pictures. Figures in mm and N/m.
 std::string errorPage(const std::vector<ErrorCell>& cells, const SweepSettings& settings);
+
+/// Markdown: a table of each sweep, and of the worst places of the map.
+std::string errorTables(const std::vector<ErrorCell>& cells, const SweepSettings& settings);
 
 }  // namespace strainfinger::bench

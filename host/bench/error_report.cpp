@@ -12,7 +12,7 @@ using namespace strainfinger;
 namespace {
 
 struct Options {
-  std::string folder, page;
+  std::string folder;
   bench::SweepSettings settings;
 };
 
@@ -30,7 +30,8 @@ void run(const Options& options) {
     draw(bench::errorMapPicture(cells), options.folder + "/error_map" + ending);
     draw(bench::errorCurvesPicture(cells), options.folder + "/error_curves" + ending);
   }
-  writeFileAtomically(options.page, page);
+  writeFileAtomically(options.folder + "/what_the_finger_can_do.md", page);
+  writeFileAtomically(options.folder + "/errors.md", errorTables(cells, options.settings));
   std::fputs(page.c_str(), stdout);
 }
 
@@ -39,9 +40,7 @@ void run(const Options& options) {
 int main(int count, char** arguments) {
   CLI::App app{"Error of the finger over all that a user may meet", "error_report"};
   Options options;
-  app.add_option("-o", options.folder, "where CSV and pictures go")->required();
-  app.add_option("--page", options.page, "the page to write (Markdown); it expects the pictures beside it")
-      ->required();
+  app.add_option("-o", options.folder, "where pages, pictures and CSV go")->required();
   app.add_option("--contacts", options.settings.contacts, "contacts of each cell")
       ->check(CLI::Range(10, 1'000'000));
   app.add_option("--repeats", options.settings.repeats, "contacts of each cell of the map")

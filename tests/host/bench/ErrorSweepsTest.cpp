@@ -54,14 +54,23 @@ TEST(ErrorSweeps, ASecondRunIsTheSame) {
           cells[i].statistics.unnoticed + cells[i].statistics.uncertain == cells[i].statistics.contacts);
 }
 
-TEST(ErrorSweeps, ThePageTellsTheWorstBeforeTheTablesAndHasThePictures) {
+TEST(ErrorSweeps, ThePageTellsTheWorstAndHasThePictures) {
   const std::string page = errorPage(cells, brief);
   const auto at = [&](const char* text) { return page.find(text); };
   CHECK(at("## In short") < at("## The worst settings"));
-  CHECK(at("## The worst settings") < at("## The worst places of the map"));
-  CHECK(at("## The worst places of the map") < at("(error_map.png)"));
+  CHECK(at("## The worst settings") < at("(error_map.png)"));
   CHECK(at("(error_curves.png)") != std::string::npos);
   CHECK(at("seed 5") != std::string::npos);
+}
+
+TEST(ErrorSweeps, TheTablesHaveARowForEachSetting) {
+  const std::string tables = errorTables(cells, brief);
+  std::size_t settings = 0;
+  for (const char* sweep : {kLoadSweep, kNoiseSweep, kBitsSweep, kWidthSweep, kBuiltSweep, kLengthSweep})
+    settings += cellsOf(cells, sweep).size();
+  const auto lines = static_cast<std::size_t>(std::count(tables.begin(), tables.end(), '\n'));
+  CHECK_COMPARE(lines, >, settings + 8);  // the worst places of the map
+  CHECK(tables.find("## The worst places of the map") != std::string::npos);
 }
 
 TEST(ErrorSweeps, ThePicturesAreDrawn) {

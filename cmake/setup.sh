@@ -9,7 +9,7 @@ demo=(
   gnuplot-nox                                             # pictures
 )
 firmware=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib)
-whole=(libcpp-httplib-dev)                                # the whole program: the live page
+whole=(libcpp-httplib-dev libceres-dev)                   # the whole program: the live page, calibration
 emulator=(qemu-system-arm)                                # its boards
 test=(
   "${demo[@]}" "${whole[@]}" "${firmware[@]}" "${emulator[@]}"

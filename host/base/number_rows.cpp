@@ -144,6 +144,7 @@ void NumberRowReader::parse(const std::string& line, std::vector<double>& row) {
 }
 
 double NumberRowReader::numberOf(std::string_view field, std::size_t column) const {
+  if (field.empty() && limit_.mayBeEmpty) return std::numeric_limits<double>::quiet_NaN();
   double value = 0;
   for (const auto& [separator, name] : kOtherSeparators)
     if (field.find(separator) != std::string_view::npos)

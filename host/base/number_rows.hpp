@@ -25,6 +25,7 @@ class NumberRowReader {
     std::string hint = {};
     std::string header = {};
     std::vector<std::string> columns = {};
+    bool mayBeEmpty = false;  ///< an empty field is a NaN: not known
   };
 
   /// `name` stands for the stream in messages ("stdin").

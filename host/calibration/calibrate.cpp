@@ -2,134 +2,278 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <numbers>
+#include <memory>
 
+#include "host/base/angles.hpp"
 #include "host/calibration/complaints.hpp"
-#include "host/model/impulse_response.hpp"
+#include "host/calibration/joint_fit.hpp"
+#include "host/calibration/model_error.hpp"
+#include "host/calibration/touch_fit.hpp"
+#include "host/model/pressure_profile.hpp"
 
 namespace strainfinger::calibration {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
+using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
-constexpr double kDegree = std::numbers::pi / 180;
+/// A touch whose largest reading is less than so many times the noise, or than this part of what strong
+/// touches read, tells nothing of the finger: information grows with the square. Its own unknowns would only
+/// bend the fit, by more than noise where there are thousands of them.
+constexpr double kWeakest = 40, kWeakestOfStrong = 0.125, kStrong = 0.9;
+/// Chi-squared by which a touch must explain a row better than any other.
+constexpr double kClearGap = 16;
+/// The first, coarse fits take so many rows: enough to find the finger, few enough to be quick.
+constexpr std::size_t kCoarseRows = 200;
+/// Of a touch's chi-squared: beyond its quantile at 4.5 standard deviations, one touch in 300,000 by chance.
+constexpr double kJunkDeviations = 4.5;
+/// A finger that nobody calibrated is off its drawing by as much, whatever its config says.
+constexpr double kLeastFirstError = 0.02;
+constexpr int kMostRounds = 4;
+/// Widths are unknown, but not without end: the prior's standard deviation over the largest moment.
+constexpr double kMomentSpread = 10;
+/// Standard deviation of a known untouched finger's loads [N/m] and of a known width's moment [rad^2].
+constexpr double kExactly = 1e-6;
 
-model::ImpulseResponse responseOf(const config::FingerConfig& config) {
-  return {config.finger.annulus(), config.gauges.radius_m, config.gauges.component,
-          config.gauges.arc_length_m, config.contact.width_m.value_or(0)};
-}
+const KnownTouch kNothingKnown;
 
-/// What the model gives: a row a touch, a column a gauge.
-MatrixXd expectedStrains(const model::ImpulseResponse& response, const config::Gauges& gauges,
-                         std::span<const KnownTouch> touches) {
-  MatrixXd strains(static_cast<Index>(touches.size()), gauges.count);
-  for (Index row = 0; row < strains.rows(); ++row)
-    for (Index gauge = 0; gauge < strains.cols(); ++gauge) {
-      const KnownTouch& touch = touches[static_cast<std::size_t>(row)];
-      const auto value = response.at(gauges.angle_rad(static_cast<int>(gauge)) - touch.angle_deg * kDegree);
-      strains(row, gauge) = touch.normal_n_per_m * value.normal + touch.tangential_n_per_m * value.tangential;
-    }
-  return strains;
-}
+enum class Loss { kRobust, kSquares };
 
-/// The load whose one touch tells a gain well enough, where it is felt most.
-NeededTouch neededTouch(const model::ImpulseResponse& response, const config::Gauges& gauges) {
-  constexpr int kSteps = 64;  // over a pitch on one side; the other mirrors it
-  NeededTouch best{};
-  double felt = 0;
-  for (int i = 0; i <= kSteps; ++i) {
-    const double offset_rad = 2 * std::numbers::pi / gauges.count * i / kSteps;
-    const double normal = std::abs(response.at(offset_rad).normal);
-    if (normal <= felt) continue;
-    felt = normal;
-    best = {offset_rad / kDegree, gauges.noise_strain / (kMostGainSigma * felt)};
-  }
-  return best;
-}
-
-/// y = gain * x + zero, or without zero.
-class Line {
+/// Rows, their touches and the finger, as they come nearer to each other.
+class Calibration {
  public:
-  Line(const VectorXd& x, const VectorXd& y, bool hasZero)
-      : count_(static_cast<double>(x.size())), xMean_(hasZero ? x.mean() : 0), hasZero_(hasZero) {
-    const double yMean = hasZero ? y.mean() : 0;
-    const VectorXd dx = x.array() - xMean_, dy = y.array() - yMean;
-    information_ = dx.squaredNorm();
-    gain_ = information_ > 0 ? dx.dot(dy) / information_ : 0;
-    zero_ = yMean - gain_ * xMean_;
-    residuals_ = dy - gain_ * dx;
+  Calibration(const config::FingerConfig& config, std::span<const KnownTouch> known, const MatrixXd& readings,
+              const KnownErrors& errors)
+      : drawing_(config),
+        lastHarmonic_(RingResponse::lastHarmonic(drawing_)),
+        mostMoment_rad2_(model::momentOfWidth(config.contact.largest_width_m / config.finger.outer_radius_m)),
+        rows_(static_cast<std::size_t>(readings.rows())),
+        rivalGap_(rows_.size()),
+        finger_(VectorXd::Zero(drawing_.unknowns())),
+        modelError_{std::max(config.gauges.model_error, kLeastFirstError), 0} {
+    for (std::size_t row = 0; row < rows_.size(); ++row) {
+      const KnownTouch& touch = known.empty() ? kNothingKnown : known[row];
+      const VectorXd strains = readings.row(static_cast<Index>(row));
+      rows_[row].use = useOf(strains, touch);
+      data_.push_back({strains, config.gauges.noise_strain, priorOf(touch, errors)});
+      isKnown_.push_back(touch.angle_deg || touch.normal_n_per_m || touch.tangential_n_per_m);
+    }
+    leaveOutWeak();
   }
-  double unknowns() const { return hasZero_ ? 2 : 1; }
-  double gainSigma(double noise) const { return noise / std::sqrt(information_); }
-  const VectorXd& residuals() const { return residuals_; }
-  GaugeCalibration result(double noise) const {
-    const double left = count_ - unknowns();
-    GaugeCalibration result{{gain_, gainSigma(noise)}, std::nullopt, 0};
-    if (hasZero_)
-      result.zero_strain = {zero_, noise * std::sqrt(1 / count_ + xMean_ * xMean_ / information_)};
-    if (left > 0) result.residual_strain = residuals_.norm() / std::sqrt(left);
-    return result;
+
+  CalibrationResult run() {
+    const auto all = usable();
+    requireTouches(drawing_.config().gauges, all.size());
+    const auto some = coarse(all);
+    for (int round = 0; round < 2; ++round) improve(some, Loss::kRobust);
+    if (some.size() < all.size()) improve(all, Loss::kRobust);
+    judge(all);
+    requireExplained(modelError_.value, shareUnexplained(all));
+    for (int round = 0; round < kMostRounds; ++round) {
+      improve(kept(all), Loss::kSquares);
+      if (!judge(all)) break;
+    }
+    return result(kept(all));
   }
 
  private:
-  double count_;
-  double xMean_;
-  bool hasZero_;
-  double information_ = 0;
-  double gain_ = 0;
-  double zero_ = 0;
-  VectorXd residuals_;
+  using Rows = std::vector<std::size_t>;
+
+  RowUse useOf(const VectorXd& strains, const KnownTouch& touch) const {
+    const config::Gauges& gauges = drawing_.config().gauges;
+    const double largest = strains.cwiseAbs().maxCoeff();
+    if (largest >= gauges.full_scale_strain) return RowUse::kOverRange;
+    if (touch.isUntouched()) return RowUse::kUntouched;
+    return largest < kWeakest * gauges.noise_strain ? RowUse::kWeak : RowUse::kFitted;
+  }
+
+  void leaveOutWeak() {
+    std::vector<double> peaks;
+    for (const std::size_t row : usable()) peaks.push_back(peakOf(row));
+    if (peaks.empty()) return;
+    const auto strong =
+        peaks.begin() + static_cast<std::ptrdiff_t>(kStrong * static_cast<double>(peaks.size()));
+    std::nth_element(peaks.begin(), strong, peaks.end());
+    for (std::size_t row = 0; row < rows_.size(); ++row)
+      if (rows_[row].use == RowUse::kFitted && !isKnown_[row] && peakOf(row) < kWeakestOfStrong * *strong)
+        rows_[row].use = RowUse::kWeak;
+  }
+
+  TouchPrior priorOf(const KnownTouch& touch, const KnownErrors& errors) const {
+    const config::Contact& contact = drawing_.config().contact;
+    TouchPrior prior;
+    const auto know = [&](TouchUnknown unknown, double value, double sigma) {
+      prior.value[unknown] = value;
+      prior.weight[unknown] = 1 / sigma;
+    };
+    know(kMoment, 0, kMomentSpread * mostMoment_rad2_);
+    if (contact.width_m) {
+      const double width_rad = *contact.width_m / drawing_.config().finger.outer_radius_m;
+      know(kMoment, model::momentOf(model::Profile::kUniform, width_rad), kExactly);
+    }
+    if (touch.isUntouched()) {
+      know(kPlace, 0, 1);
+      know(kNormalLoad, 0, kExactly);
+      know(kTangentialLoad, 0, kExactly);
+      return prior;
+    }
+    const double load_n_per_m = touch.normal_n_per_m.value_or(touch.tangential_n_per_m.value_or(0));
+    const double sigma_n_per_m = std::max(kExactly, errors.load * std::abs(load_n_per_m));
+    if (touch.angle_deg)
+      know(kPlace, *touch.angle_deg * kRadPerDeg, std::max(kExactly, errors.angle_deg * kRadPerDeg));
+    if (touch.normal_n_per_m) know(kNormalLoad, *touch.normal_n_per_m, sigma_n_per_m);
+    if (touch.tangential_n_per_m) know(kTangentialLoad, *touch.tangential_n_per_m, sigma_n_per_m);
+    return prior;
+  }
+
+  Rows usable() const {
+    Rows rows;
+    for (std::size_t row = 0; row < rows_.size(); ++row)
+      if (rows_[row].use == RowUse::kFitted || rows_[row].use == RowUse::kUntouched) rows.push_back(row);
+    return rows;
+  }
+
+  /// Evenly some of them, and all of which something is known.
+  Rows coarse(const Rows& rows) const {
+    const std::size_t step = std::max<std::size_t>(1, rows.size() / kCoarseRows);
+    Rows some;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (i % step == 0 || isKnown_[rows[i]]) some.push_back(rows[i]);
+    return some;
+  }
+
+  Rows kept(const Rows& rows) const {
+    Rows some;
+    for (const std::size_t row : rows)
+      if (rows_[row].use == RowUse::kFitted || rows_[row].use == RowUse::kUntouched) some.push_back(row);
+    return some;
+  }
+
+  double shareUnexplained(const Rows& rows) const {
+    const auto count = std::count_if(
+        rows.begin(), rows.end(), [this](std::size_t row) { return rows_[row].use == RowUse::kUnexplained; });
+    return static_cast<double>(count) / static_cast<double>(rows.size());
+  }
+
+  double peakOf(std::size_t row) const { return data_[row].readings.cwiseAbs().maxCoeff(); }
+
+  void weigh(const Rows& rows) {
+    for (const std::size_t row : rows)
+      data_[row].sigma_strain =
+          std::hypot(drawing_.config().gauges.noise_strain, modelError_.value * peakOf(row));
+  }
+
+  /// Finds the touches of these rows anew with the finger as it is known by now.
+  void locate(const Rows& rows) {
+    const RingResponse ring(drawing_, finger_, lastHarmonic_);
+    const TouchSearch search(ring, drawing_.config().contact.friction_coefficient, mostMoment_rad2_);
+    for (const std::size_t row : rows) {
+      RowResult& result = rows_[row];
+      if (result.use == RowUse::kUntouched) {
+        result.chiSquared = refineTouch(ring, data_[row], result.touch).chiSquared;
+        continue;
+      }
+      TouchFit found = search.find(ring, data_[row]);
+      if (result.touch[kNormalLoad] != 0) {
+        const TouchFit near = refineTouch(ring, data_[row], result.touch);
+        if (near.chiSquared < found.chiSquared) {
+          found.touch = near.touch;
+          found.chiSquared = near.chiSquared;
+        }
+      }
+      result.touch = found.touch;
+      result.chiSquared = found.chiSquared;
+      rivalGap_[row] = found.rivalGap;
+    }
+  }
+
+  /// One round: where are the touches, how well does the model explain them, what finger explains them best.
+  void improve(const Rows& rows, Loss loss) {
+    weigh(rows);
+    locate(rows);
+    estimateModelError(rows);
+    weigh(rows);
+    JointFit fit{finger_, {}};
+    std::vector<TouchData> data;
+    for (const std::size_t row : rows) {
+      fit.touches.push_back(rows_[row].touch);
+      data.push_back(data_[row]);
+    }
+    const double typical = degreesOfFreedom(rows);
+    fitTogether(drawing_, lastHarmonic_, data, loss == Loss::kRobust ? typical : 0, fit);
+    finger_ = fit.deviations;
+    for (std::size_t i = 0; i < rows.size(); ++i) rows_[rows[i]].touch = fit.touches[i];
+    estimateModelError(rows);
+  }
+
+  /// Of a row: readings less the touch's unknowns and its share of the finger's.
+  double degreesOfFreedom(const Rows& rows) const {
+    const double each = static_cast<double>(drawing_.unknowns()) / static_cast<double>(rows.size());
+    return std::max(1.0, drawing_.gauges() - kTouchUnknowns - each);
+  }
+
+  void keepResiduals(const Rows& rows) {
+    const RingResponse ring(drawing_, finger_, lastHarmonic_);
+    for (const std::size_t row : rows)
+      rows_[row].residual_strain = data_[row].readings - ring.readings(rows_[row].touch);
+  }
+
+  void estimateModelError(const Rows& rows) {
+    keepResiduals(rows);
+    std::vector<Misfit> misfits;
+    for (const std::size_t row : rows)
+      misfits.push_back({rows_[row].residual_strain.squaredNorm(), peakOf(row)});
+    modelError_ = modelErrorOf(misfits, drawing_.config().gauges.noise_strain, degreesOfFreedom(rows));
+  }
+
+  /// Decides anew which rows no touch explains; whether any decision has changed.
+  bool judge(const Rows& rows) {
+    weigh(rows);
+    locate(rows);
+    const double most = chiSquaredQuantile(drawing_.gauges() - kTouchUnknowns, kJunkDeviations);
+    bool changed = false;
+    for (const std::size_t row : rows) {
+      RowUse& use = rows_[row].use;
+      if (use == RowUse::kUntouched) continue;
+      const RowUse now = rows_[row].chiSquared > most ? RowUse::kUnexplained
+                         : rivalGap_[row] < kClearGap ? RowUse::kAmbiguous
+                                                      : RowUse::kFitted;
+      changed |= now != use;
+      use = now;
+    }
+    return changed;
+  }
+
+  CalibrationResult result(const Rows& rows) {
+    weigh(rows);
+    JointFit fit{finger_, {}};
+    std::vector<TouchData> data;
+    for (const std::size_t row : rows) {
+      fit.touches.push_back(rows_[row].touch);
+      data.push_back(data_[row]);
+    }
+    CalibrationResult result(drawing_, finger_, covarianceOf(drawing_, lastHarmonic_, data, fit), rows_,
+                             modelError_);
+    requireTold(result);
+    return result;
+  }
+
+  Drawing drawing_;
+  int lastHarmonic_;
+  double mostMoment_rad2_;
+  std::vector<RowResult> rows_;
+  std::vector<double> rivalGap_;
+  std::vector<TouchData> data_;
+  std::vector<bool> isKnown_;
+  VectorXd finger_;
+  Estimate modelError_;
 };
-
-std::vector<Line> fitLines(const MatrixXd& expected, const MatrixXd& readings, bool hasZeros) {
-  std::vector<Line> lines;
-  for (Index gauge = 0; gauge < expected.cols(); ++gauge)
-    lines.emplace_back(expected.col(gauge), readings.col(gauge), hasZeros);
-  return lines;
-}
-
-MatrixXd residualsOf(const std::vector<Line>& lines, Index rows) {
-  MatrixXd residuals(rows, static_cast<Index>(lines.size()));
-  for (Index gauge = 0; gauge < residuals.cols(); ++gauge)
-    residuals.col(gauge) = lines[static_cast<std::size_t>(gauge)].residuals();
-  return residuals;
-}
-
-double excessOf(const MatrixXd& residuals, double unknowns, double noise_strain) {
-  const double left = static_cast<double>(residuals.rows()) - unknowns;
-  if (left <= 0) return 1;
-  return residuals.norm() / std::sqrt(left * static_cast<double>(residuals.cols())) / noise_strain;
-}
-
-std::vector<int> undetermined(const std::vector<Line>& lines, double noise_strain) {
-  std::vector<int> gauges;
-  for (std::size_t i = 0; i < lines.size(); ++i)
-    if (!(lines[i].gainSigma(noise_strain) <= kMostGainSigma)) gauges.push_back(static_cast<int>(i));
-  return gauges;
-}
 
 }  // namespace
 
-CalibrationFit calibrate(const config::FingerConfig& config, std::span<const KnownTouch> touches,
-                         const MatrixXd& readings) {
-  const config::Gauges& gauges = config.gauges;
-  requireRows(gauges, touches, readings);
-  const auto response = responseOf(config);
-  const MatrixXd expected = expectedStrains(response, gauges, touches);
-  const bool hasZeros = !std::all_of(touches.begin(), touches.end(), std::mem_fn(&KnownTouch::isTouch));
-  const auto lines = fitLines(expected, readings, hasZeros);
-  const auto unknown = undetermined(lines, gauges.noise_strain);
-  if (!unknown.empty()) failUndetermined(gauges, unknown, neededTouch(response, gauges));
-  const MatrixXd residuals = residualsOf(lines, readings.rows());
-  CalibrationFit fit{{}, excessOf(residuals, lines.front().unknowns(), gauges.noise_strain)};
-  requireExplained(expected, residuals, fit.excess);
-  for (const Line& line : lines)
-    fit.gauges.push_back(line.result(gauges.noise_strain * std::max(1.0, fit.excess)));
-  requireGains(fit);
-  return fit;
+CalibrationResult calibrate(const config::FingerConfig& config, std::span<const KnownTouch> known,
+                            const MatrixXd& readings, const KnownErrors& errors) {
+  requireRows(config.gauges, known, readings);
+  return Calibration(config, known, readings, errors).run();
 }
 
 }  // namespace strainfinger::calibration

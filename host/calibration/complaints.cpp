@@ -4,90 +4,100 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "host/base/failure.hpp"
-#include "host/config/keys.hpp"
 
 namespace strainfinger::calibration {
 namespace {
 
-/// Touches by hand, on a scale, are right to a few percent; the wrong touches, to none.
-constexpr double kMostUnexplained = 0.2;
-/// Of the noise: weak touches, many of them, may leave much of what was read.
-constexpr double kMostExcess = 3;
+/// A touch has four unknowns; a gauge as many again, that eight touches in its sight tell.
+constexpr std::size_t kLeastTouchesPerGauge = 2;
+/// Of the largest reading: the drawing explains glued fingers to a percent.
+constexpr double kMostUnexplained = 0.05;
+/// Of all rows; junk is a tenth of a careless session.
+constexpr double kMostRowsUnexplained = 0.4;
+/// Of its tolerance: what is known of a gauge no better than that was not told by the touches.
+constexpr double kMostUntold = 0.7;
 
 [[noreturn]] void fail(const std::string& message) { throw Failure(ExitCode::kFailure, message); }
 
-void requireTouch(const KnownTouch& touch, std::size_t row) {
-  if (!std::isfinite(touch.angle_deg) || !std::isfinite(touch.normal_n_per_m) ||
-      !std::isfinite(touch.tangential_n_per_m))
-    fail(fmt::format("touch {}: its angle and loads must be finite numbers", row));
-  if (touch.normal_n_per_m < 0)
-    fail(fmt::format("touch {} pulls: normal_n_per_m = {} must be positive, or 0 for no touch", row,
-                     touch.normal_n_per_m));
-  if (touch.normal_n_per_m == 0 && touch.tangential_n_per_m != 0)
-    fail(fmt::format("touch {} has tangential_n_per_m = {} without a normal load; both are 0 for no touch",
-                     row, touch.tangential_n_per_m));
-}
+bool isFinite(const std::optional<double>& value) { return std::isfinite(value.value_or(0)); }
 
-void requireWithinScale(const config::Gauges& gauges, const Eigen::MatrixXd& readings) {
-  for (Eigen::Index row = 0; row < readings.rows(); ++row)
-    for (Eigen::Index gauge = 0; gauge < readings.cols(); ++gauge)
-      if (!(std::abs(readings(row, gauge)) < gauges.full_scale_strain))
-        fail(fmt::format("row {}: gauge {} reads {}, at or beyond gauges.full_scale_strain = {}: press less",
-                         row + 1, gauge, readings(row, gauge), gauges.full_scale_strain));
+void requireTouch(const KnownTouch& touch, std::size_t row) {
+  if (!isFinite(touch.angle_deg) || !isFinite(touch.normal_n_per_m) || !isFinite(touch.tangential_n_per_m))
+    fail(fmt::format("touch {}: its angle and loads must be finite numbers, or empty if they are unknown",
+                     row));
+  if (touch.normal_n_per_m.value_or(0) < 0)
+    fail(fmt::format("touch {} pulls: normal_n_per_m = {} must be positive, or 0 for no touch", row,
+                     *touch.normal_n_per_m));
+  if (touch.normal_n_per_m == 0.0 && !touch.isUntouched())
+    fail(fmt::format("touch {} has normal_n_per_m = 0: then tangential_n_per_m must be 0 too, for no touch",
+                     row));
 }
 
 }  // namespace
 
-void requireRows(const config::Gauges& gauges, std::span<const KnownTouch> touches,
+void requireRows(const config::Gauges& gauges, std::span<const KnownTouch> known,
                  const Eigen::MatrixXd& readings) {
-  if (touches.empty()) fail("no touches: give at least one that is felt by every gauge");
-  if (static_cast<std::size_t>(readings.rows()) != touches.size())
-    fail(fmt::format("{} rows of strains and {} touches: each row needs its touch", readings.rows(),
-                     touches.size()));
+  if (!known.empty() && static_cast<std::size_t>(readings.rows()) != known.size())
+    fail(
+        fmt::format("{} rows of strains and {} touches: each row needs its touch, with empty cells for what "
+                    "is not known",
+                    readings.rows(), known.size()));
   if (readings.cols() != gauges.count)
     fail(fmt::format("{} strains in a row; there must be one a gauge, gauges.count = {}", readings.cols(),
                      gauges.count));
-  for (std::size_t i = 0; i < touches.size(); ++i) requireTouch(touches[i], i + 1);
-  requireWithinScale(gauges, readings);
+  for (std::size_t i = 0; i < known.size(); ++i) requireTouch(known[i], i + 1);
+  for (Eigen::Index row = 0; row < readings.rows(); ++row)
+    if (!readings.row(row).allFinite()) fail(fmt::format("row {}: a strain is no finite number", row + 1));
 }
 
-void failUndetermined(const config::Gauges& gauges, const std::vector<int>& unknown,
-                      const NeededTouch& needed) {
+void requireTouches(const config::Gauges& gauges, std::size_t touches) {
+  const std::size_t least = kLeastTouchesPerGauge * static_cast<std::size_t>(gauges.count);
+  if (touches < least)
+    fail(
+        fmt::format("{} rows with a touch are too few: at least {}, all around the ring, tell anything, 300 "
+                    "tell it well; roll the finger along an edge while `strains` records",
+                    touches, least));
+}
+
+void requireExplained(double modelError, double shareOfRowsUnexplained) {
+  const char* const hint = "check the order and signs of the gauges, [finger] and gauges.radius_m";
+  if (modelError > kMostUnexplained)
+    fail(fmt::format(
+        "this finger doesn't explain the readings: {:.0f} % of a touch's largest reading are left "
+        "over; {}",
+        100 * modelError, hint));
+  if (shareOfRowsUnexplained > kMostRowsUnexplained)
+    fail(
+        fmt::format("this finger doesn't explain the readings: of {:.0f} % of the rows it makes nothing; {}, "
+                    "and touch it in one place at a time",
+                    100 * shareOfRowsUnexplained, hint));
+}
+
+std::string untoldGauges(const CalibrationResult& result, std::initializer_list<GaugeUnknown> unknowns,
+                         double most) {
+  const config::Gauges& gauges = result.drawing().config().gauges;
   std::string names;
-  for (const int gauge : unknown)
-    names += fmt::format("{}{} (at {:.6g} deg)", names.empty() ? "" : ", ", gauge, gauges.angle_deg(gauge));
-  const std::string place =
-      needed.offset_deg == 0 ? "over" : fmt::format("{:.1f} deg beside", needed.offset_deg);
+  for (int gauge = 0; gauge < gauges.count; ++gauge) {
+    const bool isUntold = std::any_of(unknowns.begin(), unknowns.end(), [&](GaugeUnknown unknown) {
+      const Eigen::Index at = Drawing::at(gauge, unknown);
+      return std::sqrt(result.covariance()(at, at)) > most;
+    });
+    if (isUntold)
+      names += fmt::format("{}{} (at {:.6g} deg)", names.empty() ? "" : ", ", gauge, gauges.angle_deg(gauge));
+  }
+  return names;
+}
+
+void requireTold(const CalibrationResult& result) {
+  const std::string names = untoldGauges(result, {kAngleOffset}, kMostUntold);
+  if (names.empty()) return;
   fail(
-      fmt::format("the touches don't tell the gain to {:g} % of gauge {}: add touches {} each of these, of "
-                  "{:.2g} N/m or more, or several of less",
-                  100 * kMostGainSigma, names, place, needed.normal_n_per_m));
-}
-
-void requireExplained(const Eigen::MatrixXd& expected, const Eigen::MatrixXd& residuals, double excess) {
-  const double share = residuals.norm() / expected.norm();
-  if (excess <= kMostExcess || share <= kMostUnexplained) return;
-  Eigen::Index row = 0, gauge = 0;
-  residuals.cwiseAbs().maxCoeff(&row, &gauge);
-  fail(fmt::format(
-      "the touches don't explain the strains: {:.0f} % of them are left over, most of gauge {} in "
-      "row {}; check the order of rows and gauges, the sense of angles, gauges.first_angle_deg",
-      100 * share, gauge, row + 1));
-}
-
-void requireGains(const CalibrationFit& fit) {
-  const auto keys = config::keys();
-  const auto key = std::find_if(keys.begin(), keys.end(),
-                                [](const config::Key& k) { return k.dotted() == "calibration.gain"; });
-  for (std::size_t i = 0; i < fit.gauges.size(); ++i)
-    if (const double gain = fit.gauges[i].gain.value; !key->domain.contains(gain))
-      fail(
-          fmt::format("gauge {} has a gain of {:.4g}; it must be {}: is it dead or its wires crossed, or is "
-                      "[finger] another finger's?",
-                      i, gain, key->domain.text()));
+      fmt::format("the touches don't tell where these gauges are: {}; add touches at ten places or more over "
+                  "each of them and between it and its neighbours, of various loads, some rubbed to either "
+                  "side",
+                  names));
 }
 
 }  // namespace strainfinger::calibration

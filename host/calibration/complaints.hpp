@@ -1,33 +1,34 @@
 #pragma once
-// What can be wrong with touches and readings, in words. Rows are counted from 1, gauges from 0.
+// What can be wrong with touches and readings, in words. Rows are counted from 1, gauges from 0. All throw
+// Failure(kFailure).
 
 #include <Eigen/Core>
+#include <initializer_list>
 #include <span>
-#include <vector>
+#include <string>
 
 #include "host/calibration/calibrate.hpp"
 
 namespace strainfinger::calibration {
 
-/// One touch that would tell a gauge's gain.
-struct NeededTouch {
-  double offset_deg;  ///< from the gauge, to either side
-  double normal_n_per_m;
-};
-
-/// As many rows as touches, at least one; a column a gauge; readings within full scale; touches that can be.
-void requireRows(const config::Gauges& gauges, std::span<const KnownTouch> touches,
+/// A known touch a row or none at all; a column a gauge; finite readings; touches that can be.
+void requireRows(const config::Gauges& gauges, std::span<const KnownTouch> known,
                  const Eigen::MatrixXd& readings);
 
-/// Names the gauges and what to add.
-[[noreturn]] void failUndetermined(const config::Gauges& gauges, const std::vector<int>& unknown,
-                                   const NeededTouch& needed);
+/// Enough rows with a touch to begin with.
+void requireTouches(const config::Gauges& gauges, std::size_t touches);
 
-/// Residuals may be many times the noise, as touches by hand leave them, but not most of what was read; names
-/// the worst of them.
-void requireExplained(const Eigen::MatrixXd& expected, const Eigen::MatrixXd& residuals, double excess);
+/// The drawing, give or take its tolerances, explains what was read but for a small part of it, and most
+/// rows.
+void requireExplained(double modelError, double shareOfRowsUnexplained);
 
-/// Gains in the domain of calibration.gain.
-void requireGains(const CalibrationFit& fit);
+/// Of every gauge the touches tell where it is, better than its tolerance does; names those of which they
+/// don't and the touches that would.
+void requireTold(const CalibrationResult& result);
+
+/// "3 (at 67.5 deg), 5 (at 112.5 deg)": the gauges of which the touches tell one of `unknowns` no better than
+/// `most` of its tolerance. Empty if there are none.
+std::string untoldGauges(const CalibrationResult& result, std::initializer_list<GaugeUnknown> unknowns,
+                         double most);
 
 }  // namespace strainfinger::calibration

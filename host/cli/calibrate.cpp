@@ -4,16 +4,20 @@
 
 #include <cmath>
 #include <iostream>
-#include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "host/base/angles.hpp"
 #include "host/base/atomic_file.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/no_value.hpp"
 #include "host/base/read_file.hpp"
+#include "host/calibration/expected_error.hpp"
+#include "host/calibration/report.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/model_options.hpp"
 #include "host/cli/strain_rows.hpp"
 #include "host/config/write_config.hpp"
 
@@ -21,29 +25,47 @@ namespace strainfinger::cli {
 namespace {
 
 constexpr const char* kCalibrateHelp =
-    "Each gauge's gain, from touches that are known: what it reads over what the elastic model gives.\n"
-    "--strains: CSV, one strain a gauge in a row, as `locate` reads them, without an earlier "
-    "calibration; --touches: CSV with angle_deg, normal_n_per_m and tangential_n_per_m of each of these "
-    "rows. Rows with both loads 0 are of the untouched finger: with them zeros are fitted too, without "
-    "them zeros are 0. A header row, blank lines and # comments are passed over.\n"
-    "stdout: one row a gauge; residual_strain is the RMS of what the fit leaves. Sigmas are for the "
-    "config's noise_strain, or for the residuals where these are larger.\n"
-    "Exit status 1 when the touches don't tell a gain to 1 %, naming the gauges and the touches that are "
-    "missing, and when touches and strains don't belong together.";
+    "The finger as it was built, from touches by hand that nobody need have measured: gain, zero, angle and "
+    "depth of each gauge, core radius, Poisson's ratio, shear modulus, together with place, loads and width "
+    "of every touch.\n"
+    "--strains: CSV, one strain a gauge in a row, as `strains` prints them, without an earlier calibration; "
+    "hundreds of rows, all around the finger. --touches: CSV with angle_deg, normal_n_per_m and "
+    "tangential_n_per_m of each of these rows; an empty cell is unknown, both loads 0 are the untouched "
+    "finger. A header row, blank lines and # comments are passed over.\n"
+    "stdout: one row a gauge; with --summary one row of what belongs to the whole finger and what it is "
+    "worth; with --rows what became of each row of strains. stderr: the same in words.\n"
+    "-o writes the config with all of it in [finger], [calibration] and gauges.model_error; [tolerance] says "
+    "how far a finger may be off the drawing.\n"
+    "Exit status 1 when the touches don't tell enough, naming the gauges and the touches that are missing, "
+    "and when this finger doesn't explain the strains.";
 
 struct CalibrateOptions {
   explicit CalibrateOptions(CLI::App& command) : common(command) {
-    command.add_option("--touches", touchesPath, "What pressed, a row for each row of strains")
-        ->type_name("FILE")
-        ->required();
     command.add_option("--strains", strainsPath, "What the gauges read; stdin without it")->type_name("FILE");
-    command.add_option("-o,--output", outputPath, "Writes the config with the gains in [calibration] there")
+    command
+        .add_option("--touches", touchesPath,
+                    "What is known of what pressed, a row for each row of strains; without it nothing")
         ->type_name("FILE");
+    command.add_option("-o,--output", outputPath, "Writes the calibrated config there")->type_name("FILE");
+    command
+        .add_option("--load-error", errors.load,
+                    "Standard deviation of known loads, relative to the normal load (default 0.01)")
+        ->type_name("SHARE")
+        ->check(realFrom(0, 1));
+    command
+        .add_option("--angle-error-deg", errors.angle_deg, "Standard deviation of known angles (default 0.5)")
+        ->type_name("DEG")
+        ->check(realFrom(0, 90));
+    auto* const whole = command.add_flag("--summary", summary, "Prints one row of the whole finger");
+    command.add_flag("--rows", rows, "Prints what became of each row of strains")->excludes(whole);
   }
   CommonOptions common;
   std::string touchesPath;
   std::string strainsPath;
   std::string outputPath;
+  calibration::KnownErrors errors;
+  bool summary = false;
+  bool rows = false;
 };
 
 using Rows = std::vector<std::vector<double>>;
@@ -63,10 +85,15 @@ Rows readRows(const std::string& path, std::size_t columns, const NumberRowReade
   return readRows(text, path, columns, limit);
 }
 
+std::optional<double> knownIn(double cell) { return std::isnan(cell) ? std::nullopt : std::optional(cell); }
+
 std::vector<calibration::KnownTouch> readTouches(const std::string& path) {
   std::vector<calibration::KnownTouch> touches;
-  for (const auto& row : readRows(path, 3, {.header = "angle_deg,normal_n_per_m,tangential_n_per_m"}))
-    touches.push_back({row[0], row[1], row[2]});
+  if (path.empty()) return touches;
+  const NumberRowReader::Limit limit{.header = "angle_deg,normal_n_per_m,tangential_n_per_m",
+                                     .mayBeEmpty = true};
+  for (const auto& row : readRows(path, 3, limit))
+    touches.push_back({knownIn(row[0]), knownIn(row[1]), knownIn(row[2])});
   return touches;
 }
 
@@ -78,46 +105,98 @@ Eigen::MatrixXd readStrains(const std::string& path, int gauges) {
   return strains;
 }
 
-void print(const CalibrateOptions& options, const config::Gauges& gauges,
-           const calibration::CalibrationFit& fit) {
-  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+/// Cells of values each with its sigma.
+std::vector<Cell> cellsOf(std::initializer_list<calibration::Estimate> estimates) {
+  std::vector<Cell> cells;
+  for (const calibration::Estimate& estimate : estimates) {
+    cells.emplace_back(estimate.value);
+    cells.emplace_back(estimate.sigma);
+  }
+  return cells;
+}
+
+void printGauges(TableFormat format, const calibration::CalibrationResult& result) {
   TableWriter table(
-      stdout, options.common.format(),
-      {"gauge", "angle_deg", "gain", "sigma_gain", "zero_strain", "sigma_zero_strain", "residual_strain"});
-  for (int i = 0; i < gauges.count; ++i) {
-    const auto& gauge = fit.gauges[static_cast<std::size_t>(i)];
-    const auto zero = gauge.zero_strain.value_or(calibration::Estimate{kUnknown, kUnknown});
-    table.row({std::int64_t{i}, gauges.angle_deg(i), gauge.gain.value, gauge.gain.sigma, zero.value,
-               zero.sigma, gauge.residual_strain});
+      stdout, format,
+      {"gauge", "angle_deg", "gain", "sigma_gain", "zero_strain", "sigma_zero_strain", "angle_offset_deg",
+       "sigma_angle_offset_deg", "depth_offset_m", "sigma_depth_offset_m", "residual_strain"});
+  for (int i = 0; i < result.drawing().gauges(); ++i) {
+    std::vector<Cell> cells =
+        cellsOf({result.gain(i), result.zero_strain(i), result.angleOffset_deg(i), result.depthOffset_m(i)});
+    cells.insert(cells.begin(), {std::int64_t{i}, result.drawing().config().gauges.angle_deg(i)});
+    cells.emplace_back(result.residual_strain(i));
+    table.row(cells);
   }
 }
 
-/// Touches by hand are seldom better than this; more than it is worth a look.
-constexpr double kRemarkableExcess = 2;
-
-void remark(const calibration::CalibrationFit& fit) {
-  if (fit.excess <= kRemarkableExcess) return;
-  fmt::print(
-      stderr,
-      "calibrate: the residuals are {:.3g} times gauges.noise_strain, and sigmas are larger by that: the "
-      "touches were not quite where or what they are said to be, or [finger] is not quite the finger\n",
-      fit.excess);
+void printSummary(TableFormat format, const calibration::CalibrationResult& result) {
+  using calibration::RowUse;
+  TableWriter table(stdout, format,
+                    {"core_radius_m",
+                     "sigma_core_radius_m",
+                     "poisson_ratio",
+                     "sigma_poisson_ratio",
+                     "shear_modulus_pa",
+                     "sigma_shear_modulus_pa",
+                     "model_error",
+                     "sigma_model_error",
+                     "fitted",
+                     "untouched",
+                     "weak",
+                     "ambiguous",
+                     "over_range",
+                     "unexplained",
+                     "arc_before_m",
+                     "normal_before_n_per_m",
+                     "tangential_before_n_per_m",
+                     "arc_after_m",
+                     "normal_after_n_per_m",
+                     "tangential_after_n_per_m"});
+  std::vector<Cell> cells =
+      cellsOf({result.coreRadius_m(), result.poissonRatio(), result.shearModulus_pa(), result.modelError()});
+  for (const RowUse use : {RowUse::kFitted, RowUse::kUntouched, RowUse::kWeak, RowUse::kAmbiguous,
+                           RowUse::kOverRange, RowUse::kUnexplained})
+    cells.emplace_back(std::int64_t{result.count(use)});
+  const auto errors = calibration::expectedErrors(result);
+  cells.insert(cells.end(), errors.before.begin(), errors.before.end());
+  cells.insert(cells.end(), errors.after.begin(), errors.after.end());
+  table.row(cells);
 }
 
-/// To 0.0001 %, a hundredth of what a good calibration can tell.
-double rounded(double gain) { return std::round(gain * 1e6) / 1e6; }
+void printRows(TableFormat format, const calibration::CalibrationResult& result) {
+  TableWriter table(
+      stdout, format,
+      {"row", "use", "angle_deg", "normal_n_per_m", "tangential_n_per_m", "width_m", "chi_squared"});
+  const double radius_m = result.drawing().config().finger.outer_radius_m;
+  for (std::size_t i = 0; i < result.rows().size(); ++i) {
+    const calibration::RowResult& row = result.rows()[i];
+    const bool isTouch = row.touch[calibration::kNormalLoad] != 0;
+    const auto known = [isTouch](double value) { return Cell{isTouch ? value : kNoValue}; };
+    const double turned_deg = std::fmod(row.touch[calibration::kPlace] / kRadPerDeg, 360);
+    table.row({static_cast<std::int64_t>(i + 1), std::string(nameOf(row.use)),
+               known(turned_deg < 0 ? turned_deg + 360 : turned_deg),
+               known(row.touch[calibration::kNormalLoad]), known(row.touch[calibration::kTangentialLoad]),
+               known(radius_m * std::sqrt(12 * std::max(0.0, row.touch[calibration::kMoment]))),
+               known(row.chiSquared)});
+  }
+}
+
+void print(const CalibrateOptions& options, const calibration::CalibrationResult& result) {
+  const TableFormat format = options.common.format();
+  if (options.summary) return printSummary(format, result);
+  if (options.rows) return printRows(format, result);
+  printGauges(format, result);
+}
 
 void runCalibrate(const CalibrateOptions& options) {
-  config::FingerConfig config = options.common.config();
-  const auto touches = readTouches(options.touchesPath);
-  const auto fit =
-      calibration::calibrate(config, touches, readStrains(options.strainsPath, config.gauges.count));
-  print(options, config.gauges, fit);
-  remark(fit);
-  if (options.outputPath.empty()) return;
-  config.calibration.gain.clear();
-  for (const auto& gauge : fit.gauges) config.calibration.gain.push_back(rounded(gauge.gain.value));
-  writeFileAtomically(options.outputPath, config::writeConfig(config));
+  const config::FingerConfig config = options.common.config();
+  const auto known = readTouches(options.touchesPath);
+  const auto result = calibration::calibrate(
+      config, known, readStrains(options.strainsPath, config.gauges.count), options.errors);
+  print(options, result);
+  fmt::print(stderr, "{}", calibration::textReport(result));
+  if (!options.outputPath.empty())
+    writeFileAtomically(options.outputPath, config::writeConfig(result.applied()));
 }
 
 }  // namespace

@@ -91,15 +91,29 @@ struct Calibration {
 /// drawn by the seed.
 struct AsBuilt {
   int seed = 1;
-  double angle_deg = 0;      ///< spread of the gauges' angles
-  double depth_m = 0;        ///< spread of their depths
-  double gain = 0;           ///< spread of their gains, relative
-  double core_radius_m = 0;  ///< true radius of the core less finger.core_radius_m
-  double poisson_ratio = 0;  ///< true ratio less finger.poisson_ratio
+  double angle_deg = 0;         ///< spread of the gauges' angles
+  double depth_m = 0;           ///< spread of their depths
+  double gain = 0;              ///< spread of their gains, relative
+  double core_radius_m = 0;     ///< true radius of the core less finger.core_radius_m
+  double poisson_ratio = 0;     ///< true ratio less finger.poisson_ratio
+  double shear_modulus_pa = 0;  ///< true modulus less finger.shear_modulus_pa
 
   bool isAsDrawn() const {
-    return angle_deg == 0 && depth_m == 0 && gain == 0 && core_radius_m == 0 && poisson_ratio == 0;
+    return angle_deg == 0 && depth_m == 0 && gain == 0 && core_radius_m == 0 && poisson_ratio == 0 &&
+           shear_modulus_pa == 0;
   }
+};
+
+/// How far a finger of this drawing may be off it: standard deviations. What `calibrate` takes for granted
+/// where touches tell nothing, and how it weighs that against what they tell.
+struct Tolerance {
+  double angle_deg = 0.5;     ///< of each gauge
+  double depth_m = 5e-5;      ///< of each gauge
+  double gain = 0.03;         ///< of each gauge, relative
+  double zero_strain = 1e-4;  ///< of each gauge, what taring leaves
+  double core_radius_m = 1e-4;
+  double poisson_ratio = 0.02;
+  double shear_modulus = 0.2;  ///< relative
 };
 
 struct FingerConfig {
@@ -108,6 +122,7 @@ struct FingerConfig {
   Contact contact;
   Can can;
   Calibration calibration;
+  Tolerance tolerance;
   AsBuilt as_built;
 
   /// A gauge by the drawing.

@@ -81,6 +81,21 @@ std::vector<Key> makeKeys() {
        Domain::between(-1, 1),
        "how much deeper each gauge is than gauges.radius_m, positive towards the core; an empty list: not "
        "calibrated"},
+      {"tolerance", "angle_deg", slot<&F::tolerance, &Tolerance::angle_deg>(),
+       Domain::above(0, kMostOffset_deg),
+       "calibrate: standard deviation of a gauge's angle from the drawing"},
+      {"tolerance", "depth_m", slot<&F::tolerance, &Tolerance::depth_m>(), Domain::above(0, 1),
+       "calibrate: standard deviation of a gauge's depth from the drawing"},
+      {"tolerance", "gain", slot<&F::tolerance, &Tolerance::gain>(), Domain::above(0, 0.5),
+       "calibrate: standard deviation of a gauge's gain, relative"},
+      {"tolerance", "zero_strain", slot<&F::tolerance, &Tolerance::zero_strain>(), Domain::above(0, 0.1),
+       "calibrate: standard deviation of what taring leaves of a gauge's zero"},
+      {"tolerance", "core_radius_m", slot<&F::tolerance, &Tolerance::core_radius_m>(), Domain::above(0, 1),
+       "calibrate: standard deviation of the core's radius from the drawing"},
+      {"tolerance", "poisson_ratio", slot<&F::tolerance, &Tolerance::poisson_ratio>(), Domain::above(0, 0.5),
+       "calibrate: standard deviation of Poisson's ratio from finger.poisson_ratio"},
+      {"tolerance", "shear_modulus", slot<&F::tolerance, &Tolerance::shear_modulus>(), Domain::above(0, 1),
+       "calibrate: standard deviation of the shear modulus, relative"},
       {"as_built", "seed", slot<&F::as_built, &AsBuilt::seed>(),
        Domain::between(0, std::numeric_limits<int>::max()),
        "simulations only: which finger of those that differ as much from the drawing"},
@@ -94,6 +109,8 @@ std::vector<Key> makeKeys() {
        "simulations only: true radius of the core less finger.core_radius_m"},
       {"as_built", "poisson_ratio", slot<&F::as_built, &AsBuilt::poisson_ratio>(), Domain::between(-0.5, 0.5),
        "simulations only: true Poisson's ratio less finger.poisson_ratio"},
+      {"as_built", "shear_modulus_pa", slot<&F::as_built, &AsBuilt::shear_modulus_pa>(),
+       Domain::between(-1e12, 1e12), "simulations only: true shear modulus less finger.shear_modulus_pa"},
   };
 }
 

@@ -209,6 +209,16 @@ Relation builtRubberPossible() {
           }};
 }
 
+Relation builtRubberStiff() {
+  return {[](Config c) { return c.finger.shear_modulus_pa + c.as_built.shear_modulus_pa > 0; },
+          {"as_built.shear_modulus_pa", "finger.shear_modulus_pa"},
+          [](Config c) {
+            return fmt::format(
+                "as_built.shear_modulus_pa = {}: with finger.shear_modulus_pa = {} it must be greater than 0",
+                c.as_built.shear_modulus_pa, c.finger.shear_modulus_pa);
+          }};
+}
+
 std::vector<Relation> makeRelations() {
   return {
       coreInsideSurface(),
@@ -226,7 +236,8 @@ std::vector<Relation> makeRelations() {
       onePerGauge("calibration.depth_offset_m", [](Config c) { return c.calibration.depth_offset_m; }),
       calibratedGaugesInRubber(),
       builtCoreBelowGauges(),
-      builtRubberPossible()};
+      builtRubberPossible(),
+      builtRubberStiff()};
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ BuiltFinger builtFinger(const config::FingerConfig& config) {
   BuiltFinger built{config.finger.annulus(), {}};
   built.annulus.core_radius_m += differs.core_radius_m;
   built.annulus.poisson_ratio += differs.poisson_ratio;
+  built.annulus.shear_modulus_pa += differs.shear_modulus_pa;
   const Noise draws(kSeedsBase + static_cast<std::uint64_t>(differs.seed));
   const double outermost_m = (config.gauges.radius_m + config.finger.outer_radius_m) / 2;
   for (int i = 0; i < config.gauges.count; ++i) {

@@ -68,13 +68,16 @@ class Trip {
     return !compared_.empty();
   }
 
-  /// The config with the gains that the readings tell.
-  config::FingerConfig calibrated(config::FingerConfig config) const {
-    Eigen::MatrixXd readings(static_cast<Eigen::Index>(rows_.size()), config.gauges.count);
-    for (std::size_t i = 0; i < rows_.size(); ++i) readings.row(static_cast<Eigen::Index>(i)) = rows_[i];
-    for (const auto& gauge : calibration::calibrate(config, touches_, readings).gauges)
-      config.calibration.gain.push_back(gauge.gain.value);
-    return config;
+  /// The config with what the readings tell, of some touches that were measured.
+  config::FingerConfig calibrated(const config::FingerConfig& config) const {
+    constexpr std::size_t kEvery = 8;
+    Eigen::MatrixXd readings(static_cast<Eigen::Index>(rows_.size() / kEvery), config.gauges.count);
+    std::vector<calibration::KnownTouch> touches;
+    for (Eigen::Index i = 0; i < readings.rows(); ++i) {
+      readings.row(i) = rows_[kEvery * static_cast<std::size_t>(i)];
+      touches.push_back(touches_[kEvery * static_cast<std::size_t>(i)]);
+    }
+    return calibration::calibrate(config, touches, readings, {.load = 1e-3, .angle_deg = 0.01}).applied();
   }
 
  private:

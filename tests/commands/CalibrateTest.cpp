@@ -1,5 +1,7 @@
+#include <fmt/format.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -7,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "host/config/write_config.hpp"
+#include "host/study/calibration_session.hpp"
 #include "tests/commands/program.hpp"
 #include "tests/commands/tables.hpp"
 
@@ -18,39 +22,39 @@ using namespace strainfinger;
 namespace {
 
 constexpr int kGauges = 16;
-constexpr double kPitch_deg = 360.0 / kGauges;
+constexpr int kTouches = 60;
+constexpr std::uint64_t kSeed = 5;
 
-double gainOf(int gauge) { return 1 + 0.01 * (gauge % 7) - 0.03; }
+std::string textOf(const Eigen::MatrixXd& readings) {
+  std::string text;
+  for (Eigen::Index row = 0; row < readings.rows(); ++row)
+    for (Eigen::Index gauge = 0; gauge < readings.cols(); ++gauge)
+      text += fmt::format("{}{}", readings(row, gauge), gauge + 1 < readings.cols() ? ',' : '\n');
+  return text;
+}
 
-/// Strains of the default finger's gauges under a touch over the first, as `strain` has them.
-std::vector<double> strainsBelow(const std::string& loads) {
-  std::vector<double> strains;
-  for (const auto& row :
-       tableOf(runProgram("strain --radius-m 9.4e-3 --points 16 --contact-deg 0 " + loads).out))
-    strains.push_back(row[1]);
-  return strains;
+std::string textOf(const std::vector<calibration::KnownTouch>& known) {
+  const auto cell = [](const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; };
+  std::string text = "angle_deg,normal_n_per_m,tangential_n_per_m\n";
+  for (const auto& touch : known)
+    text += fmt::format("{},{},{}\n", cell(touch.angle_deg), cell(touch.normal_n_per_m),
+                        cell(touch.tangential_n_per_m));
+  return text;
 }
 
 }  // namespace
 
 TEST_GROUP(CalibrateCommand) {
+  const config::FingerConfig finger = study::randomFinger(kSeed);
+  const study::Session session = study::sessionOf(finger, {.touches = kTouches}, kSeed);
   std::string folder;
-  std::string touches = "angle_deg,normal_n_per_m,tangential_n_per_m\n0,0,0\n";
-  std::string readings = "0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n";
+  std::string readings = textOf(session.readings);
 
-  /// A touch over each gauge in turn, read with gains of their own.
   void setup() override {
     folder = std::string(P_tmpdir) + "/calibrate_test." + std::to_string(getpid());
     std::filesystem::create_directory(folder);
-    const auto strains = strainsBelow("--normal-n-per-m 20 --tangential-n-per-m 5");
-    for (int touched = 0; touched < kGauges; ++touched) {
-      touches += std::to_string(kPitch_deg * touched) + ",20,5\n";
-      for (int gauge = 0; gauge < kGauges; ++gauge) {
-        const double strain = strains[static_cast<std::size_t>((gauge - touched + kGauges) % kGauges)];
-        readings += std::to_string(1e6 * gainOf(gauge) * strain) + (gauge + 1 < kGauges ? "e-6," : "e-6\n");
-      }
-    }
-    write("touches.csv", touches);
+    write("touches.csv", textOf(session.known));
+    write("finger.toml", config::writeConfig(finger));
   }
   void teardown() override { std::filesystem::remove_all(folder); }
 
@@ -67,57 +71,66 @@ TEST_GROUP(CalibrateCommand) {
   }
 };
 
-TEST(CalibrateCommand, PrintsTheGainOfEachGauge) {
+TEST(CalibrateCommand, PrintsEachGaugeWithItsErrorsAndTellsTheRestInWords) {
   const Run run = calibrate("", readings);
   LONGS_EQUAL(0, run.status);
-  STRCMP_CONTAINS("gauge,angle_deg,gain,sigma_gain,zero_strain,sigma_zero_strain,residual_strain\n",
+  STRCMP_CONTAINS("gauge,angle_deg,gain,sigma_gain,zero_strain,sigma_zero_strain,angle_offset_deg,",
                   run.out.c_str());
-  const auto rows = tableOf(run.out);
-  LONGS_EQUAL(kGauges, rows.size());
-  for (int gauge = 0; gauge < kGauges; ++gauge) {
-    const auto& row = rows[static_cast<std::size_t>(gauge)];
-    DOUBLES_EQUAL(kPitch_deg * gauge, row[1], 0);
-    DOUBLES_EQUAL(gainOf(gauge), row[2], 1e-6);  // the readings have 1e-12 of strain
-    DOUBLES_EQUAL(0, row[4], 1e-9);
-  }
+  LONGS_EQUAL(kGauges, tableOf(run.out).size());
+  STRCMP_CONTAINS("core radius", run.err.c_str());
+  STRCMP_CONTAINS("before, as drawn", run.err.c_str());
+  STRCMP_CONTAINS("60 rows: ", run.err.c_str());
 }
 
-TEST(CalibrateCommand, WritesAConfigThatIsReadBack) {
+TEST(CalibrateCommand, PrintsTheWholeFingerAsOneRow) {
+  const Run run = calibrate("--summary --json", readings);
+  LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS("{\"core_radius_m\":0.00", run.out.c_str());
+  STRCMP_CONTAINS("\"arc_before_m\":0.000", run.out.c_str());
+}
+
+TEST(CalibrateCommand, PrintsWhatBecameOfEachRow) {
+  const std::string pressed = "-0.5,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n",
+                    nothing = "0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n";
+  write("touches.csv", textOf(session.known) + ",,\n,0,0\n");
+  const Run run = calibrate("--rows", readings + pressed + nothing);
+  LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS("row,use,angle_deg,normal_n_per_m,tangential_n_per_m,width_m,chi_squared\n",
+                  run.out.c_str());
+  STRCMP_CONTAINS("\n61,over-range,,,,,\n62,untouched,", run.out.c_str());
+  STRCMP_CONTAINS("over range: press less: 1 rows: 61\n", run.err.c_str());
+}
+
+TEST(CalibrateCommand, WritesAConfigThatIsReadBackAndMakesTables) {
   write("strains.csv", readings);
-  LONGS_EQUAL(0, calibrate("--strains " + path("strains.csv") + " -o " + path("out.toml"), "").status);
+  LONGS_EQUAL(0, calibrate("-c " + path("finger.toml") + " --strains " + path("strains.csv") + " -o " +
+                               path("out.toml"),
+                           "")
+                     .status);
   std::ifstream file(path("out.toml"));
   const std::string text{std::istreambuf_iterator<char>(file), {}};
-  STRCMP_CONTAINS("[calibration]\n", text.c_str());
-  STRCMP_CONTAINS("\ngain = [0.97, 0.98, 0.99, 1, 1.01, ", text.c_str());
-  LONGS_EQUAL(0, calibrate("-c " + path("out.toml"), readings).status);
+  for (const char* const part : {"[calibration]\n", "\ngain = [", "\nangle_offset_deg = [",
+                                 "\ndepth_offset_m = [", "\nmodel_error = 0.00"})
+    STRCMP_CONTAINS(part, text.c_str());
+  LONGS_EQUAL(0, runProgram("tables -c " + path("out.toml") + " -o " + path("tables.bin")).status);
 }
 
-TEST(CalibrateCommand, RowsWithoutUntouchedOnesLeaveTheZeroUnknown) {
-  write("touches.csv", touches.substr(touches.find("0.000000,20,5")));
-  const Run run = calibrate("", readings.substr(readings.find('\n') + 1));
+TEST(CalibrateCommand, NeedsNoTouchThatIsKnown) {
+  const Run run = runProgram("calibrate", readings);
   LONGS_EQUAL(0, run.status);
-  STRCMP_CONTAINS(",,,", run.out.c_str());
-}
-
-TEST(CalibrateCommand, PrintsJson) {
-  STRCMP_CONTAINS("{\"gauge\":0,\"angle_deg\":0.0,\"gain\":0.96999",
-                  calibrate("--json", readings).out.c_str());
+  STRCMP_CONTAINS("No load is known", run.err.c_str());
 }
 
 TEST(CalibrateCommand, SaysWhatIsWrongAndWhereAndWritesNothing) {
   refuses(1, "", readings.substr(0, readings.rfind("\n", readings.size() - 2) + 1),
-          "16 rows of strains and 17");
+          "59 rows of strains and 60");
   refuses(1, "", "1,2,3\n", "stdin:1:");
   refuses(1, "--strains no/such.csv", "", "no/such.csv");
   refuses(2, "-c no/such.toml", readings, "no/such.toml");
+  refuses(2, "--rows --summary", readings, "--summary");
+  refuses(2, "--load-error 2", readings, "--load-error");
   write("touches.csv", "0,0,0\n0,20\n");
   refuses(1, "", readings, "touches.csv:2:");
-  LONGS_EQUAL(2, runProgram("calibrate", readings).status);
-}
-
-TEST(CalibrateCommand, NamesTheGaugesThatTheTouchesDontTell) {
-  write("touches.csv", "0,20,5\n");
-  const auto second = readings.find('\n') + 1;
-  refuses(1, "", readings.substr(second, readings.find('\n', second) + 1 - second),
-          "don't tell the gain to 1 % of gauge ");
+  write("touches.csv", ",,\n");
+  refuses(1, "", readings.substr(0, readings.find('\n') + 1), "too few: at least 32");
 }

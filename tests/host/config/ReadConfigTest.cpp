@@ -72,12 +72,20 @@ const std::vector<DomainCase>& domainCases() {
       {"calibration.gain", {"[]", gains("0.5"), gains("2"), gains("1")}, {}},
       {"calibration.angle_offset_deg", {"[]", fifteenAnd("0", "-2.5"), fifteenAnd("0", "2.5")}, {}},
       {"calibration.depth_offset_m", {"[]", fifteenAnd("0", "-0.0032"), fifteenAnd("0", "0.0005")}, {}},
+      {"tolerance.angle_deg", {"1e-6", "2.5"}, {"0", "2.51"}},
+      {"tolerance.depth_m", {"1e-9", "1"}, {"0", "1.1"}},
+      {"tolerance.gain", {"1e-6", "0.5"}, {"0", "0.51"}},
+      {"tolerance.zero_strain", {"1e-9", "0.1"}, {"0", "0.11"}},
+      {"tolerance.core_radius_m", {"1e-9", "1"}, {"0", "1.1"}},
+      {"tolerance.poisson_ratio", {"1e-6", "0.5"}, {"0", "0.51"}},
+      {"tolerance.shear_modulus", {"1e-6", "1"}, {"0", "1.1"}},
       {"as_built.seed", {"0", "2147483647"}, {"-1", "2147483648"}},
       {"as_built.angle_deg", {"0", "2.5"}, {"-0.1", "2.51"}},
       {"as_built.depth_m", {"0", "1"}, {"-1e-6", "1.1"}},
       {"as_built.gain", {"0", "0.2"}, {"-0.01", "0.21"}},
       {"as_built.core_radius_m", {"-0.0088", "0.0005"}, {"-1.1", "1.1"}},
       {"as_built.poisson_ratio", {"0", "-0.5"}, {"0.51", "-0.51"}},
+      {"as_built.shear_modulus_pa", {"-82999", "1e12"}, {"1.1e12", "-1.1e12"}},
   };
   return cases;
 }
@@ -189,10 +197,10 @@ TEST(ReadConfig, AKeyInTheWrongSectionIsSentToTheRightOne) {
 
 TEST(ReadConfig, UnknownSectionsAreNamedWithWhatWasProbablyMeant) {
   checkMention("schema = 1\n[guages]\ncount = 16", "unknown key guages; did you mean gauges?");
-  checkMention(
-      "schema = 1\n[zzzzzzzz]",
-      "unknown key zzzzzzzz; known here: schema, finger, gauges, contact, can, calibration, as_built, "
-      "recording");
+  checkMention("schema = 1\n[zzzzzzzz]",
+               "unknown key zzzzzzzz; known here: schema, finger, gauges, contact, can, calibration, "
+               "tolerance, as_built, "
+               "recording");
 }
 
 TEST(ReadConfig, ASectionThatIsAValueIsAnError) {
@@ -361,6 +369,8 @@ TEST(ReadConfig, AFingerAsBuiltIsAFingerThatCanBe) {
       "f.toml:3:17: as_built.poisson_ratio = 0.01: with finger.poisson_ratio = 0.5 it must be 0 to "
       "0.5");
   checkMention("schema = 1\nfinger.poisson_ratio = 0.2\nas_built.poisson_ratio = -0.21", "must be 0 to 0.5");
+  checkMention(settingOf("as_built.shear_modulus_pa", "-83000"),
+               "with finger.shear_modulus_pa = 83000 it must");
 }
 
 TEST(ReadConfig, AnUnreadableFileIsNamedWithTheReason) {

@@ -33,7 +33,9 @@ TEST_GROUP(WriteConfig) {
     if (random() % 2 == 0) any.contact.width_m = uniform(0, 0.01);
     any.can = {1 + static_cast<int>(random() % 63), 1000000, uniform(20, 1000)};
     any.gauges.model_error = uniform(0, 1);
-    any.as_built = {7, uniform(0, 2), uniform(0, 1e-3), uniform(0, 0.2), 0, 0};
+    any.as_built = {7, uniform(0, 2), uniform(0, 1e-3), uniform(0, 0.2), 0, 0, uniform(0, 1e3)};
+    any.tolerance = {uniform(0.1, 2),     uniform(1e-6, 1e-3), uniform(0.01, 0.2), uniform(1e-6, 1e-3),
+                     uniform(1e-6, 1e-3), uniform(0.01, 0.1),  uniform(0.1, 0.3)};
     if (random() % 2 == 0)
       any.gauges.first_angle_deg = uniform(0, 359);
     else

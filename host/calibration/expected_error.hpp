@@ -1,0 +1,34 @@
+#pragma once
+// What a calibration is worth: errors of touches to come.
+
+#include <Eigen/Core>
+
+#include "host/calibration/calibrate.hpp"
+
+namespace strainfinger::calibration {
+
+/// Variances of a touch's unknowns as a fit of its readings alone finds them.
+struct TouchVariances {
+  TouchState noise;  ///< by noise: Cramer-Rao's bound
+  TouchState total;  ///< and by the covariance of the finger's deviations
+};
+TouchVariances touchVariances(const RingResponse& ring, const TouchState& touch,
+                              const Eigen::MatrixXd& covariance, double noise_strain);
+
+/// Of touches of 30 N/m over 2 mm everywhere on the ring, pressed and rubbed either way: RMS of place [m],
+/// normal and tangential load [N/m].
+struct ExpectedErrors {
+  Eigen::Vector3d before;  ///< located as if the finger were as drawn: what the calibrated one makes of that
+  Eigen::Vector3d after;   ///< located with the finger as calibrated: noise and what is not known of it
+  Eigen::Vector3d bound;   ///< noise alone
+};
+
+/// Costs 0.2 s.
+ExpectedErrors expectedErrors(const CalibrationResult& result);
+
+/// Place as an arc of the surface, normal and tangential load; without the moment.
+inline Eigen::Vector3d inMetres(const TouchState& touch, double outerRadius_m) {
+  return {outerRadius_m * touch[kPlace], touch[kNormalLoad], touch[kTangentialLoad]};
+}
+
+}  // namespace strainfinger::calibration

@@ -1,0 +1,131 @@
+#include "host/calibration/joint_fit.hpp"
+
+#include <ceres/ceres.h>
+#include <ceres/normal_prior.h>
+
+#include <Eigen/Dense>
+#include <memory>
+
+namespace strainfinger::calibration {
+namespace {
+
+using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// The finger where the solver stands: computed once for all touches.
+class FingerAtPoint : public ceres::EvaluationCallback {
+ public:
+  FingerAtPoint(const Drawing& drawing, int lastHarmonic, const VectorXd& deviations)
+      : drawing_(drawing), lastHarmonic_(lastHarmonic), deviations_(deviations) {}
+  void PrepareForEvaluation(bool, bool isNewPoint) override {
+    if (isNewPoint || !ring_) ring_ = std::make_unique<RingResponse>(drawing_, deviations_, lastHarmonic_);
+  }
+  const RingResponse& ring() const { return *ring_; }
+
+ private:
+  const Drawing& drawing_;
+  int lastHarmonic_;
+  const VectorXd& deviations_;
+  std::unique_ptr<RingResponse> ring_;
+};
+
+/// Residuals of one touch: its readings, then what is known of it. Parameters: the finger, the touch.
+class TouchCost : public ceres::CostFunction {
+ public:
+  TouchCost(const FingerAtPoint& finger, const TouchData& data, Index fingerUnknowns)
+      : finger_(finger), data_(data) {
+    set_num_residuals(static_cast<int>(data.readings.size() + kTouchUnknowns));
+    mutable_parameter_block_sizes()->assign({static_cast<int>(fingerUnknowns), kTouchUnknowns});
+  }
+
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    const TouchState touch = Eigen::Map<const TouchState>(parameters[1]);
+    const Index gauges = data_.readings.size();
+    const double weight = 1 / data_.sigma_strain;
+    const bool withSlopes = jacobians != nullptr;
+    const auto model = finger_.ring().linearised(touch, withSlopes && jacobians[0] != nullptr);
+    Eigen::Map<VectorXd> residual(residuals, num_residuals());
+    residual.head(gauges) = weight * (data_.readings - model.readings);
+    residual.tail<kTouchUnknowns>() = data_.prior.residuals(touch);
+    if (withSlopes && jacobians[0] != nullptr) {
+      Eigen::Map<RowMajor> slopes(jacobians[0], num_residuals(), model.toFinger.cols());
+      slopes.topRows(gauges) = -weight * model.toFinger;
+      slopes.bottomRows<kTouchUnknowns>().setZero();
+    }
+    if (withSlopes && jacobians[1] != nullptr) {
+      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>> slopes(jacobians[1],
+                                                                                   num_residuals(), 4);
+      slopes.topRows(gauges) = -weight * model.toTouch;
+      slopes.bottomRows<kTouchUnknowns>() = (-data_.prior.weight).asDiagonal();
+    }
+    return residual.allFinite();
+  }
+
+ private:
+  const FingerAtPoint& finger_;
+  const TouchData& data_;
+};
+
+/// Cauchy's loss of a chi-squared beyond `scale`.
+ceres::LossFunction* lossOf(double scale) {
+  return scale > 0 ? new ceres::CauchyLoss(std::sqrt(scale)) : nullptr;
+}
+
+ceres::Solver::Options solverOptions(JointFit& fit, bool preliminary) {
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_SCHUR;
+  options.max_num_iterations = 50;
+  options.function_tolerance = preliminary ? 1e-3 : 1e-7;
+  options.parameter_tolerance = 1e-10;
+  options.logging_type = ceres::SILENT;
+  auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+  for (TouchState& touch : fit.touches) ordering->AddElementToGroup(touch.data(), 0);
+  ordering->AddElementToGroup(fit.deviations.data(), 1);
+  options.linear_solver_ordering = ordering;
+  return options;
+}
+
+}  // namespace
+
+void fitTogether(const Drawing& drawing, int lastHarmonic, const std::vector<TouchData>& data, double robust,
+                 JointFit& fit) {
+  FingerAtPoint finger(drawing, lastHarmonic, fit.deviations);
+  ceres::Problem::Options problemOptions;
+  problemOptions.evaluation_callback = &finger;
+  ceres::Problem problem(problemOptions);
+  const Index unknowns = drawing.unknowns();
+  for (std::size_t i = 0; i < data.size(); ++i)
+    problem.AddResidualBlock(new TouchCost(finger, data[i], unknowns), lossOf(robust), fit.deviations.data(),
+                             fit.touches[i].data());
+  problem.AddResidualBlock(
+      new ceres::NormalPrior(MatrixXd::Identity(unknowns, unknowns), VectorXd::Zero(unknowns)), nullptr,
+      fit.deviations.data());
+  const double mostPoisson = (0.5 - drawing.config().finger.poisson_ratio) / drawing.tolerance(kPoissonRatio);
+  problem.SetParameterUpperBound(fit.deviations.data(), static_cast<int>(drawing.at(kPoissonRatio)),
+                                 mostPoisson);
+  ceres::Solver::Summary summary;
+  ceres::Solve(solverOptions(fit, robust > 0), &problem, &summary);
+}
+
+MatrixXd covarianceOf(const Drawing& drawing, int lastHarmonic, const std::vector<TouchData>& data,
+                      const JointFit& fit) {
+  const RingResponse ring(drawing, fit.deviations, lastHarmonic);
+  MatrixXd information = MatrixXd::Identity(drawing.unknowns(), drawing.unknowns());
+  for (std::size_t i = 0; i < data.size(); ++i) {
+    const auto model = ring.linearised(fit.touches[i], true);
+    const double weight = 1 / data[i].sigma_strain;
+    const MatrixXd finger = weight * model.toFinger;
+    const Eigen::MatrixX4d touch = weight * model.toTouch;
+    Eigen::Matrix4d own = touch.transpose() * touch;
+    own.diagonal() += data[i].prior.weight.cwiseAbs2();
+    const Eigen::LLT<Eigen::Matrix4d> factor(own);
+    const MatrixXd shared = factor.matrixL().solve(touch.transpose() * finger);
+    information.selfadjointView<Eigen::Lower>().rankUpdate(finger.transpose());
+    information.selfadjointView<Eigen::Lower>().rankUpdate(shared.transpose(), -1);
+  }
+  return MatrixXd(information.selfadjointView<Eigen::Lower>())
+      .llt()
+      .solve(MatrixXd::Identity(drawing.unknowns(), drawing.unknowns()));
+}
+
+}  // namespace strainfinger::calibration

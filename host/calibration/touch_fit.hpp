@@ -1,0 +1,66 @@
+#pragma once
+// One touch of a finger that is given: from its readings alone, or from where it is thought to be.
+
+#include <Eigen/Core>
+#include <limits>
+#include <vector>
+
+#include "host/calibration/ring_response.hpp"
+
+namespace strainfinger::calibration {
+
+/// What is known of a touch beside its readings, as a normal prior of each unknown. A place is the same in
+/// every revolution.
+struct TouchPrior {
+  TouchState value = TouchState::Zero();
+  TouchState weight = TouchState::Zero();  ///< 1 / standard deviation; 0: nothing is known
+
+  /// Deviations from the prior, in its standard deviations: residuals like those of readings.
+  TouchState residuals(const TouchState& touch) const;
+};
+
+/// What a touch is fitted to.
+struct TouchData {
+  Eigen::VectorXd readings;  ///< a strain a gauge
+  double sigma_strain = 0;   ///< of each of them
+  TouchPrior prior;
+};
+
+struct TouchFit {
+  TouchState touch = TouchState::Zero();
+  double chiSquared = 0;  ///< of readings and prior
+  /// How much worse the best touch at another place or of another width explains the readings; infinite if
+  /// there is none.
+  double rivalGap = std::numeric_limits<double>::infinity();
+};
+
+/// Gauss-Newton with Levenberg's damping from a start nearby. Costs 40 us an iteration; four as a rule.
+TouchFit refineTouch(const RingResponse& ring, const TouchData& data, const TouchState& start);
+
+/// Finds touches without a start: all places of a grid with all widths of a grid, each with the loads that
+/// fit best there, and the best few refined.
+class TouchSearch {
+ public:
+  /// Domain: moments up to mostMoment_rad2 > 0. Costs 50 ms for 16 gauges.
+  TouchSearch(const RingResponse& ring, double friction, double mostMoment_rad2);
+
+  /// Costs 1 ms. `ring` is the one of the search, or one near it.
+  TouchFit find(const RingResponse& ring, const TouchData& data) const;
+
+ private:
+  struct Node {
+    double place_rad, moment_rad2;
+    Eigen::MatrixX2d unit;    ///< readings of unit loads, zeros apart
+    Eigen::Matrix2d toLoads;  ///< loads of unit length along the orthonormal directions
+  };
+  TouchState stateAt(std::size_t node, const Eigen::VectorXd& strains) const;
+  bool isAdmissible(const TouchState& touch, const TouchPrior& prior) const;
+  std::vector<TouchState> starts(const Eigen::VectorXd& strains, const TouchPrior& prior) const;
+
+  double friction_;
+  std::size_t moments_;
+  std::vector<Node> nodes_;      ///< place by place, each with all moments
+  Eigen::MatrixXd orthonormal_;  ///< two columns a node: a basis of what loads there make the gauges read
+};
+
+}  // namespace strainfinger::calibration

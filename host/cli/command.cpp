@@ -1,5 +1,7 @@
 #include "host/cli/command.hpp"
 
+#include <fmt/format.h>
+
 #include "host/config/read_config.hpp"
 
 namespace strainfinger::cli {
@@ -12,6 +14,15 @@ CommonOptions::CommonOptions(CLI::App& command) {
 
 config::FingerConfig CommonOptions::config() const {
   return path_.empty() ? config::FingerConfig{} : config::readConfigFile(path_);
+}
+
+CLI::Validator isFrom(double least, double most) {
+  const auto complaint = [least, most](const std::string& text) {
+    double value = 0;
+    const bool isWithin = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+    return isWithin ? std::string{} : fmt::format("{} is not a number from {} to {}", text, least, most);
+  };
+  return CLI::Validator(complaint, "");
 }
 
 }  // namespace strainfinger::cli

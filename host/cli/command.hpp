@@ -24,6 +24,9 @@ class CommonOptions {
   bool json_ = false;
 };
 
+/// A check of an option that is a number from `least` to `most`. CLI11's own lets NaN through.
+CLI::Validator isFrom(double least, double most);
+
 /// Adds a subcommand whose options live in an Options (constructed with the subcommand; its members are what
 /// the options write to) and which runs `run(options)` when it was chosen.
 template <typename Options>

@@ -32,7 +32,9 @@ constexpr const char* kDecodeHelp =
     "A line that cannot be read is reported as FILE:LINE:COLUMN on stderr and makes the exit status 1.\n"
     "At the end, or at Ctrl-C, stderr says what was read, skipped and lost.\n"
     "Other devices can use the same identifiers (CANopen drives do): --node says which nodes are fingers.\n"
-    "Live: candump vcan0 | strainfinger decode --touches";
+    "Live: candump vcan0 | strainfinger decode --touches\n"
+    "or, from a bus between programs: strainfinger record --can udp -o x.log & strainfinger decode --follow "
+    "x.log";
 
 /// How often a file that is followed is looked at.
 constexpr std::chrono::milliseconds kFollowPeriod{50};

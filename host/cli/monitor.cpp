@@ -46,10 +46,10 @@ struct MonitorOptions {
   explicit MonitorOptions(CLI::App& command) : common(command) {
     addBusOption(command, bus);
     command.add_flag("--plain", plain, "Lines, even in a terminal");
-    command.add_option("--every", every_s, "Seconds between lines (default 1)")->type_name("S");
+    command.add_option("--every", every_s, "Seconds between lines (default 1)")
+        ->type_name("S")
+        ->check(isFrom(0.01, 86'400));
   }
-  static constexpr double kShortest_s = 0.01;
-  static constexpr double kLongest_s = 86'400;
 
   bool wantsScreen() const { return !plain && common.format() == TableFormat::kCsv && live::hasTerminal(); }
 
@@ -58,13 +58,6 @@ struct MonitorOptions {
   bool plain = false;
   double every_s = 1;
 };
-
-void requireEvery(const MonitorOptions& options) {
-  // CLI11's ranges let NaN through.
-  if (!(options.every_s >= MonitorOptions::kShortest_s && options.every_s <= MonitorOptions::kLongest_s))
-    throw Failure(ExitCode::kUsage, fmt::format("--every: {} s is not from {} to {}", options.every_s,
-                                                MonitorOptions::kShortest_s, MonitorOptions::kLongest_s));
-}
 
 void endIfStopped(const system::StopSignal& stop) {
   if (stop.asked()) throw Failure(ExitCode::kInterrupted, "monitor: interrupted");
@@ -277,7 +270,6 @@ class LogMonitor {
 };
 
 void runMonitor(const MonitorOptions& options) {
-  requireEvery(options);
   options.bus.empty() ? LogMonitor(options).run() : monitorBus(options);
 }
 

@@ -42,7 +42,7 @@ struct RecordOptions {
         ->required();
     command.add_option("--duration", duration_s, "Seconds; until Ctrl-C without it")
         ->type_name("S")
-        ->check(CLI::Range(0.001, 1e9));
+        ->check(isFrom(0.001, 1e9));
   }
   CommonOptions common;
   std::string bus;

@@ -47,7 +47,7 @@ struct ReplayOptions {
     command.add_flag("--recompute", recompute,
                      "Compute what the finger must have said from its RAW, and compare");
     command.add_option("--speed", speed, "So many times as fast as it was (default 1)")
-        ->check(CLI::Range(1e-3, 1e6));
+        ->check(isFrom(1e-3, 1e6));
   }
   CommonOptions common;
   FirmwareOptions firmware;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include "host/base/failure.hpp"
@@ -36,12 +35,14 @@ struct StrainsOptions {
     command.add_option("--rate", rate_hz, "Sample sets a second (default 100)")
         ->type_name("HZ")
         ->check(CLI::Range(1, int{kFastestRaw_hz}));
-    command.add_option("--duration", duration_s, "Seconds; without it until Ctrl-C")->type_name("S");
+    command.add_option("--duration", duration_s, "Seconds; without it until Ctrl-C")
+        ->type_name("S")
+        ->check(isFrom(0.001, kLongestStrains_s));
     command.add_option("--rows", rows, "So many rows at most")->type_name("N")->check(CLI::PositiveNumber);
   }
   RequestOptions request;
   int rate_hz = 100;
-  std::optional<double> duration_s;
+  double duration_s = kLongestStrains_s;
   std::uint64_t rows = std::numeric_limits<std::uint64_t>::max();
 };
 
@@ -95,18 +96,10 @@ class StrainPrinter {
 
 using StrainClock = std::chrono::steady_clock;
 
-StrainClock::time_point endOf(const StrainsOptions& options) {
-  const double duration_s = options.duration_s.value_or(kLongestStrains_s);
-  if (!(duration_s > 0 && duration_s <= kLongestStrains_s))  // CLI11's ranges let NaN through
-    throw Failure(ExitCode::kUsage,
-                  fmt::format("--duration: {} s is not above 0 and up to {}", duration_s, kLongestStrains_s));
-  return StrainClock::now() + std::chrono::microseconds(std::llround(duration_s * 1e6));
-}
-
 void runStrains(const StrainsOptions& options) {
   const config::FingerConfig config = options.request.common.config();
   const std::uint8_t node = nodeOf(options.request, config.can);
-  const auto end = endOf(options);
+  const auto end = StrainClock::now() + std::chrono::microseconds(std::llround(options.duration_s * 1e6));
   const auto bus = can::openBus(options.request.bus, config.can.bitrate);
   const system::StopSignal stop;
   RawStream stream(*bus, node, options.rate_hz);

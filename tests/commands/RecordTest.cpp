@@ -94,6 +94,7 @@ TEST(Record, RefusesWhatCannotBe) {
   checkRefused("record --can udp -o x.toml", "a log cannot end in .toml");
   checkRefused("record -o x.log", "--can is required");
   checkRefused("record --can udp", "--output is required");
+  checkRefused("record --can udp -o x.log --duration nan", "--duration");
   LONGS_EQUAL(3, runProgram("record --can nobus -o /tmp/x.log").status);
   LONGS_EQUAL(1, runProgram("record --can udp -o /nonexistent/x.log").status);
 }
@@ -128,7 +129,8 @@ TEST(Record, ReplayRefusesWhatCannotBe) {
   checkRefused("replay - --can udp", "the log must be a file");
   checkRefused("replay x.log", "give either --can");
   checkRefused("replay x.log --can udp --recompute", "give either --can");
-  checkRefused("replay x.log --can udp --speed 0", "--speed");
+  for (const std::string speed : {"0", "nan"})
+    checkRefused("replay x.log --can udp --speed " + speed, "--speed");
   LONGS_EQUAL(1, runProgram("replay /nonexistent --can udp").status);
 }
 

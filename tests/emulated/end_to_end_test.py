@@ -9,12 +9,15 @@ finger and from three at once; what decode makes of them must be what really tou
 bus must be seen on both sides. One machine serves all of it: it is booted and everything done first, then looked at.
 """
 import contextlib
+import csv
+import io
 import json
 import re
 import subprocess
 import sys
 import tempfile
 import time
+import tomllib
 import unittest
 from pathlib import Path
 
@@ -148,8 +151,32 @@ class Watched:
         self.finger = next(each for each in self.bus["fingers"] if each["node"] == self.NODE)
 
 
+class Kept:
+    """What `record` keeps of a finger that is touched, beside what candump hears, and what becomes of it here."""
+    NODE, TOUCHED_MS = 3, 600
+
+    def __init__(self, machine, board, finger, folder):
+        machine.record()
+        machine.run(f"{STRAINFINGER} record --can vcan0 -o $TMPDIR/kept.log &>$TMPDIR/kept.said & echo $! >$TMPDIR/keeper\n"
+                    "until [ -e $TMPDIR/kept.log ]; do sleep 0.05; done; sleep 0.5")
+        play([(board, finger.records[300:300 + self.TOUCHED_MS])])
+        self.heard = machine.recorded(FRAMES_OF_TOUCH * self.TOUCHED_MS // 4)
+        machine.run("kill $(cat $TMPDIR/keeper); while kill -0 $(cat $TMPDIR/keeper) 2>/dev/null; do sleep 0.05; done")
+        self.log, self.notes = (machine.run(f"cat $TMPDIR/kept.{ending}") for ending in ("log", "toml"))
+        path = folder / "kept.log"
+        path.write_text(self.log)
+        subprocess.run([STRAINFINGER, "plot", path, "-o", folder / "kept.svg"], check=True, capture_output=True)
+        self.picture = (folder / "kept.svg").read_text()
+        rows = subprocess.run([STRAINFINGER, "decode", "--touches", path], check=True, capture_output=True, text=True).stdout
+        self.rows = list(csv.DictReader(io.StringIO(rows)))
+
+    @staticmethod
+    def touches_in(log):
+        return touch_frames([line.split()[2] for line in log.splitlines()])
+
+
 def setUpModule():
-    global one, three, told, watched, bus, consoles
+    global one, three, told, watched, kept, bus, consoles
     with contextlib.ExitStack() as stack:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
         (folder / "job").mkdir()
@@ -164,6 +191,7 @@ def setUpModule():
         three = slide_at_once(machine, boards, fingers)
         told = Told(machine, boards[Told.NODE - 1], fingers[Told.NODE - 1])
         watched = Watched(machine, boards[Watched.NODE - 1], fingers[Watched.NODE - 1])
+        kept = Kept(machine, boards[Kept.NODE - 1], fingers[Kept.NODE - 1], folder)
         bus = Bus(machine, boards[0], fingers[0])
         consoles = [board.console() for board in boards]
         machine.end()
@@ -282,6 +310,28 @@ class Live(unittest.TestCase):
 
     def test_a_tare_through_the_pages_server_is_refused_while_touched(self):
         self.assertIn(f"node {watched.NODE}: tare: Refused: something touches", watched.answer["text"])
+
+
+class KeptTouches(unittest.TestCase):
+    def test_the_log_has_every_frame_that_candump_heard(self):
+        heard = Kept.touches_in(kept.heard)
+        self.assertGreater(len(heard), 300)
+        self.assertEqual(heard, Kept.touches_in(kept.log))
+
+    def test_the_notes_name_the_finger_and_its_tables(self):
+        fingers = tomllib.loads(kept.notes)["recording"]["finger"]
+        self.assertEqual([Kept.NODE], [finger["node"] for finger in fingers])  # time stands still for the others
+        self.assertEqual(kept.table_crc, int(fingers[0]["table_crc"], 16))
+
+    def test_a_touch_is_a_row(self):
+        nodes = {row["node"] for row in kept.rows}
+        contacts = [frame for frame in Kept.touches_in(kept.log) if frame.startswith(f"18{Kept.NODE}#")]
+        self.assertIn(str(Kept.NODE), nodes)
+        self.assertEqual(len(contacts), sum(row["node"] == str(Kept.NODE) for row in kept.rows))
+
+    def test_the_log_is_a_picture(self):
+        self.assertIn("angle", kept.picture)
+        self.assertIn("</svg>", kept.picture)
 
 
 class BusStates(unittest.TestCase):

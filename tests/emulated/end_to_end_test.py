@@ -33,6 +33,7 @@ FRAMES_PER_S = 1000
 FRAMES_OF_TOUCH = 3  # CONTACT, FORCE, PATCH
 AS_DRAWN = "[gauges]\nmodel_error = 0\n"  # as the touched finger is; doubts of how it was built would make most sets no news
 ACTIVE, PASSIVE, BUS_OFF = 0, 2, 3  # hal::CanState
+CRC_AT = 12  # the lowest byte, in tables (common/TABLES.md)
 UNTOUCHED = [emulator.samples_record([0x8000] * 16)]
 LINK = "ip -d link show slcan1"
 UNTIL = "for _ in $(seq 100); do ! {link} | grep -q {state} || break; sleep 0.05; done; {link}"
@@ -167,6 +168,7 @@ class Kept:
         path.write_text(self.log)
         subprocess.run([STRAINFINGER, "plot", path, "-o", folder / "kept.svg"], check=True, capture_output=True)
         self.picture = (folder / "kept.svg").read_text()
+        self.table_crc = (folder / "tables").read_bytes()[CRC_AT]
         rows = subprocess.run([STRAINFINGER, "decode", "--touches", path], check=True, capture_output=True, text=True).stdout
         self.rows = list(csv.DictReader(io.StringIO(rows)))
 

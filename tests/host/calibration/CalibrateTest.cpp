@@ -148,9 +148,10 @@ TEST(Calibrate, TouchesThatLeaveAGaugeUntoldAreRefusedByItsName) {
     half.conservativeResize(half.rows() + 1, Eigen::NoChange);
     half.row(half.rows() - 1) = session.readings.row(static_cast<Eigen::Index>(row));
   }
-  while (half.rows() < 40) {  // too alike, not too few
+  const Eigen::Index apart = half.rows();
+  while (half.rows() < 40) {  // too alike, not too few: harder pressed, in the same places
     half.conservativeResize(half.rows() + 1, Eigen::NoChange);
-    half.row(half.rows() - 1) = half.row(half.rows() / 2);
+    half.row(half.rows() - 1) = 1.25 * half.row(half.rows() - 1 - apart);
   }
   const std::string said = complaintOf(finger, {}, half);
   STRCMP_CONTAINS("don't tell where these gauges are: ", said.c_str());

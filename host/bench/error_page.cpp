@@ -15,7 +15,7 @@ constexpr std::string_view kIntroduction = R"(# What the finger can and cannot d
 
 The default finger: 25.4 mm in diameter, 3.8 mm of rubber, 16 gauges of negligible length, 6 microstrain of noise (12-bit
 converter included). One sample set, no averaging; a search takes more of them. "Place" is arc of the surface. Errors are
-against the truth, of the answers that the finger itself calls certain; the others are counted. Unless said otherwise:
+against the truth, of loads RMS, of the answers that the finger itself calls certain; the others are counted. Unless said otherwise:
 touched along a line, a finger exactly as drawn and tables without model error, the width not known and fitted with each
 touch, any place, load directions within 45 degrees of the normal, "load" is the length of (normal, tangential). Contacts
 that have a width press as something round does; the width is that of the uniform pressure with the same second moment.
@@ -27,15 +27,13 @@ What disturbs it, and what it says then: [disturbances.md](disturbances.md).
 )";
 
 constexpr std::string_view kColumns =
-    " place, mm: RMS / 95 % / worst | normal, N/m: RMS / 95 % | tangential, N/m: RMS / 95 % | unnoticed | "
-    "uncertain | "
+    " place, mm: RMS / 95 % / worst | normal, N/m | tangential, N/m | unnoticed | uncertain | "
     "wrong gauge, unflagged |\n";
 
 std::string columnsOf(const ErrorStatistics& s) {
-  return fmt::format(" {} / {} / {} | {} / {} | {} / {} | {} | {} | {} |\n", number(s.arc_mm.rms(), 4),
+  return fmt::format(" {} / {} / {} | {} | {} | {} | {} | {} |\n", number(s.arc_mm.rms(), 4),
                      number(s.arc_mm.quantile(0.95), 4), number(s.arc_mm.worst(), 3),
-                     number(s.normal_n_per_m.rms(), 3), number(s.normal_n_per_m.quantile(0.95), 3),
-                     number(s.tangential_n_per_m.rms(), 3), number(s.tangential_n_per_m.quantile(0.95), 3),
+                     number(s.normal_n_per_m.rms(), 3), number(s.tangential_n_per_m.rms(), 3),
                      share(s.unnoticed, s.contacts), share(s.uncertain, s.contacts),
                      share(s.wrong, s.contacts));
 }
@@ -101,15 +99,6 @@ std::string worstSettings(const std::vector<ErrorCell>& cells) {
                      "\nThe largest errors of the others:\n\n" +
                      table("setting | load, N/m | tables know", 3);
   for (const ErrorCell& c : worstOf(others, 8)) text += settingOf(c) + columnsOf(c.statistics);
-  return text;
-}
-
-std::string worstPlaces(const std::vector<ErrorCell>& cells) {
-  std::string text =
-      "\n## The worst places of the map\n\n" + table("pitches from a gauge | direction | load, N/m", 3);
-  for (const ErrorCell& c : worstOf(cellsOf(cells, kMapSweep), 8))
-    text += fmt::format("| {:.3f} | {:.0f} deg | {:g} |{}", c.setting, c.direction_deg, c.load_n_per_m,
-                        columnsOf(c.statistics));
   return text;
 }
 
@@ -196,7 +185,6 @@ std::string errorTables(const std::vector<ErrorCell>& cells, const SweepSettings
   text += sweepTable(cells, kBuiltSweep, "Width of the contact on fingers as built, not calibrated", "mm",
                      false, false);
   text += sweepTable(cells, kLengthSweep, "Length of a gauge", "mm", false, true);
-  text += worstPlaces(cells);
   return text + madeBy(settings);
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <string_view>
 #include <tuple>
 
@@ -15,7 +16,7 @@ namespace {
 constexpr std::string_view kMatrixIntroduction = R"(# What disturbs the finger
 
 Touches of a default finger, one disturbance a row, through the firmware's own pipeline from the converter's codes on; the
-worst rows first. Unless a row says otherwise: line contacts of 2 to 40 N/m, anywhere, pushed within 45 degrees of the
+worst rows first, all of them in [disturbances.csv](disturbances.csv). Unless a row says otherwise: line contacts of 2 to 40 N/m, anywhere, pushed within 45 degrees of the
 normal, on a finger exactly as drawn; tables without model error, the width unknown. A finger is switched on, left alone
 for 0.3 s, and touched six times for 120 sample sets, 40 apart; a gauge that fails does so all the time, and touches are
 within two pitches of it. Answers count in the last sample set of a touch.
@@ -34,6 +35,8 @@ within two pitches of it. Answers count in the last sample set of a touch.
 Poisson's ratio 0.49; another finger for every six touches.
 
 )";
+
+constexpr std::size_t kRowsShown = 40;
 
 double part(int count, const Tally& tally) { return static_cast<double>(count) / std::max(tally.touches, 1); }
 
@@ -61,11 +64,12 @@ std::string matrixPage(std::vector<MatrixRow> rows, int touches, std::uint64_t s
   text +=
       "| disturbance | silent | beyond 6 sigma | flagged | blamed | missed | located | ghosts | touches |\n"
       "|--|--|--|--|--|--|--|--|--|\n";
-  for (const MatrixRow& row : rows) text += rowText(row);
+  const std::size_t shown = std::min(kRowsShown, rows.size());
+  for (std::size_t row = 0; row < shown; ++row) text += rowText(rows[row]);
   return text + fmt::format(
-                    "\n{} touches a row, fewer where they take seconds; seed {}. Made by "
+                    "\n{} of {} rows; {} touches a row, fewer where they take seconds; seed {}. Made by "
                     "`cmake --workflow --preset bench`.\n",
-                    touches, seed);
+                    shown, rows.size(), touches, seed);
 }
 
 void writeMatrixCsv(std::FILE* stream, const std::vector<MatrixRow>& rows) {

@@ -15,7 +15,7 @@ struct MatrixRow {
   Tally tally;
 };
 
-/// Markdown, worst rows first: by silent wrong places, then by answers beyond six sigmas, healthy gauges
+/// Markdown, the worst rows, worst first: by silent wrong places, then by answers beyond six sigmas, healthy gauges
 /// blamed, ghosts, and touches missed.
 std::string matrixPage(std::vector<MatrixRow> rows, int touches, std::uint64_t seed);
 

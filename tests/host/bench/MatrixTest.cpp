@@ -109,5 +109,13 @@ TEST(Matrix, ThePageHasTheWorstRowFirst) {
                  200, 7);
   STRCMP_CONTAINS("| bad | 1.5 % | 5 % | 50 % | 0 | 0 | 25 % | 0 | 200 |\n| flagged |", page.c_str());
   CHECK(page.find("| flagged |") < page.find("| good |"));
-  STRCMP_CONTAINS("200 touches a row, fewer where they take seconds; seed 7.", page.c_str());
+  STRCMP_CONTAINS("3 of 3 rows; 200 touches a row, fewer where they take seconds; seed 7.", page.c_str());
+}
+
+TEST(Matrix, ThePageLeavesTheMildestOfManyRowsToTheCsv) {
+  std::vector<MatrixRow> rows(41, {"bad", {.touches = 200, .silent = 3}});
+  rows[7] = {"mild", {.touches = 200, .located = 200}};
+  const std::string page = matrixPage(rows, 200, 7);
+  CHECK(page.find("| mild |") == std::string::npos);
+  STRCMP_CONTAINS("40 of 41 rows;", page.c_str());
 }

@@ -1,4 +1,5 @@
-// common/TABLES.md is written by people; offsets, types and bytes in it are compared with the code here.
+// common/TABLES.md and TABLES_EXAMPLE.md are written by people; offsets, types and bytes in them are compared with the
+// code here.
 
 #include <fmt/format.h>
 
@@ -138,9 +139,9 @@ Rows gainRows(const GaugeGains& gains) {
   return rows;
 }
 
-std::string readDocument() {
+std::string readDocument(const char* path) {
   std::ostringstream text;
-  text << std::ifstream(STRAINFINGER_TABLE_DOCUMENT).rdbuf();
+  text << std::ifstream(path).rdbuf();
   return text.str();
 }
 
@@ -155,7 +156,7 @@ std::string dumpLine(const std::string& bytes, std::size_t offset) {
 }  // namespace
 
 TEST_GROUP(TableDocument) {
-  const std::string document_ = readDocument();
+  const std::string document_ = readDocument(STRAINFINGER_TABLE_DOCUMENT);
   const TableImage image_ = tables::buildTableImage({});
 
   void checkHas(const std::string& text) { STRCMP_CONTAINS(text.c_str(), document_.c_str()); }
@@ -223,19 +224,23 @@ TEST(TableDocument, NamesFormatMagicAndLength) {
 }
 
 TEST(TableDocument, ItsExampleIsTheDefaultFinger) {
+  const std::string example = readDocument(STRAINFINGER_TABLE_EXAMPLE);
+  const auto checkExampleHas = [&](const std::string& text) {
+    STRCMP_CONTAINS(text.c_str(), example.c_str());
+  };
   const std::string bytes = tables::imageBytes(image_);
-  checkHas(dumpLine(bytes, 0) + dumpLine(bytes, 16));
+  checkExampleHas(dumpLine(bytes, 0) + dumpLine(bytes, 16));
   const std::size_t constants = offsetof(TableImage, constants);
   std::string dump;
   for (std::size_t line = 0; line < sizeof(TableConstants); line += 16)
     dump += dumpLine(bytes, constants + line);
-  checkHas(dump);
-  checkHas(dumpLine(bytes, offsetof(TableImage, patches)));
-  checkHas(fmt::format("CRC-32 {:08X}\n", image_.crc32));
-  checkHas(fmt::format("{} * 2^{}: (6e-6", image_.constants.noise_variance,
+  checkExampleHas(dump);
+  checkExampleHas(dumpLine(bytes, offsetof(TableImage, patches)));
+  checkExampleHas(fmt::format("CRC-32 {:08X}\n", image_.crc32));
+  checkExampleHas(fmt::format("{} * 2^{}: (6e-6", image_.constants.noise_variance,
                        image_.constants.noise_variance_exponent));
-  checkHas(
+  checkExampleHas(
       fmt::format("opens at {}, closes below {}\n", image_.constants.gate_on, image_.constants.gate_off));
-  checkHas(fmt::format("load {} * 2^{} *", image_.constants.load_scale, image_.constants.load_exponent));
-  checkHas(fmt::format("reading gain {}: 0.03", image_.constants.reading_gain));
+  checkExampleHas(fmt::format("load {} * 2^{} *", image_.constants.load_scale, image_.constants.load_exponent));
+  checkExampleHas(fmt::format("reading gain {}: 0.03", image_.constants.reading_gain));
 }

@@ -108,14 +108,14 @@ class Trip {
 
 /// Touches of up to 3 mm of the finger that `glued` simulates, located one by one with tables from `known`.
 evidence::Accuracy located(const config::FingerConfig& glued, const config::FingerConfig& known) {
-  constexpr int kTouches = 200;
+  constexpr int kLocatedTouches = 200;
   const evidence::TouchedRing ring(glued, kSeed);
   const evidence::TouchDraws draws(glued.gauges, {.load_n_per_m = {5, 40}, .width_m = {0, 3e-3}}, kSeed);
   StatelessLocator locator(known);
   const auto factors = tables::correctionFactors(tables::gaugeGains(known), glued.gauges.count);
   const auto factor = Eigen::Map<const Eigen::VectorXd>(factors.data(), glued.gauges.count);
   evidence::Accuracy accuracy(std::numbers::pi / glued.gauges.count);
-  for (std::uint64_t i = 0; i < kTouches; ++i) {
+  for (std::uint64_t i = 0; i < kLocatedTouches; ++i) {
     const Touch touch = draws.at(i);
     const auto found = locator.locate(ring.noisy(ring.exact(touch), i).cwiseProduct(factor)).contacts;
     const evidence::Parameters truth{touch.angle_rad, touch.normal_n_per_m, touch.tangential_n_per_m,

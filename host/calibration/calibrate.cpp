@@ -273,6 +273,8 @@ class Calibration {
 CalibrationResult calibrate(const config::FingerConfig& config, std::span<const KnownTouch> known,
                             const MatrixXd& readings, const KnownErrors& errors) {
   requireRows(config.gauges, known, readings);
+  requireTouches(config.gauges, static_cast<std::size_t>(readings.rows()));
+  requireWiring(findWiringFaults(config, known, readings, errors));
   return Calibration(config, known, readings, errors).run();
 }
 

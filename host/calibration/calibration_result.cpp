@@ -3,6 +3,7 @@
 
 #include "host/base/angles.hpp"
 #include "host/calibration/calibrate.hpp"
+#include "host/calibration/expected_error.hpp"
 
 namespace strainfinger::calibration {
 namespace {
@@ -72,7 +73,8 @@ config::FingerConfig CalibrationResult::applied() const {
     config.as_built.poisson_ratio += drawn.poisson_ratio - config.finger.poisson_ratio;
     config.as_built.shear_modulus_pa += drawn.shear_modulus_pa - config.finger.shear_modulus_pa;
   }
-  config.gauges.model_error = toDigits(std::hypot(modelError_.value, modelError_.sigma), 6);
+  config.gauges.model_error =
+      toDigits(std::hypot(modelError_.value, modelError_.sigma, fingerError(*this)), 6);
   config.calibration = {};
   for (int gauge = 0; gauge < drawing_.gauges(); ++gauge) {
     config.calibration.gain.push_back(toDigits(gain(gauge).value, 6));

@@ -61,6 +61,13 @@ void requireTouches(const config::Gauges& gauges, std::size_t touches) {
                     touches, least));
 }
 
+void requireWiring(const std::vector<WiringFault>& faults) {
+  if (faults.empty()) return;
+  std::string text;
+  for (const WiringFault& fault : faults) text += (text.empty() ? "" : "; ") + textOf(fault);
+  fail(text);
+}
+
 void requireExplained(double modelError, double shareOfRowsUnexplained) {
   const char* const hint = "check the order and signs of the gauges, [finger] and gauges.radius_m";
   if (modelError > kMostUnexplained)

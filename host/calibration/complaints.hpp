@@ -6,8 +6,10 @@
 #include <initializer_list>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "host/calibration/calibrate.hpp"
+#include "host/calibration/wiring.hpp"
 
 namespace strainfinger::calibration {
 
@@ -17,6 +19,9 @@ void requireRows(const config::Gauges& gauges, std::span<const KnownTouch> known
 
 /// Enough rows with a touch to begin with.
 void requireTouches(const config::Gauges& gauges, std::size_t touches);
+
+/// The gauges are wired as drawn; names every fault and its mend.
+void requireWiring(const std::vector<WiringFault>& faults);
 
 /// The drawing, give or take its tolerances, explains what was read but for a small part of it, and most
 /// rows.

@@ -1,7 +1,9 @@
 #include "host/calibration/expected_error.hpp"
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "host/calibration/touch_fit.hpp"
 #include "host/model/pressure_profile.hpp"
@@ -11,6 +13,30 @@ namespace {
 
 constexpr double kLoad_n_per_m = 30, kWidth_m = 2e-3;
 constexpr int kPlacesPerGauge = 6;
+constexpr double kFelt = 0.1;  ///< of the largest reading
+
+/// The touches by which a calibration is judged.
+std::vector<TouchState> touchesAround(const Drawing& drawing) {
+  const double moment_rad2 = model::momentOfWidth(kWidth_m / drawing.config().finger.outer_radius_m);
+  const int places = kPlacesPerGauge * drawing.gauges();
+  std::vector<TouchState> touches;
+  for (int place = 0; place < places; ++place)
+    for (const double lean : {-0.5, 0.1, 0.5})
+      touches.push_back(
+          {2 * std::numbers::pi * place / places, kLoad_n_per_m, lean * kLoad_n_per_m, moment_rad2});
+  return touches;
+}
+
+/// The covariance, given the mean of the angles and the modulus.
+Eigen::MatrixXd withoutConventions(const CalibrationResult& result) {
+  const Drawing& drawing = result.drawing();
+  Eigen::MatrixXd fixed = Eigen::MatrixXd::Zero(drawing.unknowns(), 2);
+  for (int gauge = 0; gauge < drawing.gauges(); ++gauge) fixed(Drawing::at(gauge, kAngleOffset), 0) = 1;
+  fixed(drawing.at(kShearModulus), 1) = 1;
+  const Eigen::MatrixXd& covariance = result.covariance();
+  const Eigen::MatrixXd along = covariance * fixed;
+  return covariance - along * (fixed.transpose() * along).inverse() * along.transpose();
+}
 
 }  // namespace
 
@@ -23,6 +49,25 @@ TouchVariances touchVariances(const RingResponse& ring, const TouchState& touch,
   return {noise, noise + (pull * covariance * pull.transpose()).diagonal()};
 }
 
+double fingerError(const CalibrationResult& result) {
+  const Drawing& drawing = result.drawing();
+  const RingResponse built(drawing, result.deviations(), RingResponse::lastHarmonic(drawing));
+  const Eigen::MatrixXd covariance = withoutConventions(result);
+  double sum = 0;
+  int readings = 0;
+  for (const TouchState& touch : touchesAround(drawing)) {
+    const auto model = built.linearised(touch, true);
+    const Eigen::VectorXd strains = (model.readings - built.zeros()).cwiseAbs();
+    for (Eigen::Index gauge = 0; gauge < strains.size(); ++gauge) {
+      if (strains[gauge] < kFelt * strains.maxCoeff()) continue;
+      const Eigen::VectorXd slope = model.toFinger.row(gauge) / strains.maxCoeff();
+      sum += slope.dot(covariance * slope);
+      ++readings;
+    }
+  }
+  return std::sqrt(sum / readings);
+}
+
 ExpectedErrors expectedErrors(const CalibrationResult& result) {
   const Drawing& drawing = result.drawing();
   const config::FingerConfig& config = drawing.config();
@@ -30,22 +75,18 @@ ExpectedErrors expectedErrors(const CalibrationResult& result) {
   const RingResponse built(drawing, result.deviations(), last);
   const RingResponse drawn(drawing, Eigen::VectorXd::Zero(drawing.unknowns()), last);
   const double radius_m = config.finger.outer_radius_m;
-  const double moment_rad2 = model::momentOfWidth(kWidth_m / radius_m);
   ExpectedErrors sum{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-  int touches = 0;
-  for (int place = 0; place < kPlacesPerGauge * drawing.gauges(); ++place)
-    for (const double lean : {-0.5, 0.1, 0.5}) {
-      const double place_rad = 2 * std::numbers::pi * place / (kPlacesPerGauge * drawing.gauges());
-      const TouchState touch{place_rad, kLoad_n_per_m, lean * kLoad_n_per_m, moment_rad2};
-      const auto variances = touchVariances(built, touch, result.covariance(), config.gauges.noise_strain);
-      const TouchState found =
-          refineTouch(drawn, {built.readings(touch), config.gauges.noise_strain, {}}, touch).touch;
-      sum.before += inMetres(found - touch, radius_m).cwiseAbs2();
-      sum.after += inMetres(variances.total.cwiseSqrt(), radius_m).cwiseAbs2();
-      sum.bound += inMetres(variances.noise.cwiseSqrt(), radius_m).cwiseAbs2();
-      ++touches;
-    }
-  for (Eigen::Vector3d* each : {&sum.before, &sum.after, &sum.bound}) *each = (*each / touches).cwiseSqrt();
+  const auto touches = touchesAround(drawing);
+  for (const TouchState& touch : touches) {
+    const auto variances = touchVariances(built, touch, result.covariance(), config.gauges.noise_strain);
+    const TouchState found =
+        refineTouch(drawn, {built.readings(touch), config.gauges.noise_strain, {}}, touch).touch;
+    sum.before += inMetres(found - touch, radius_m).cwiseAbs2();
+    sum.after += inMetres(variances.total.cwiseSqrt(), radius_m).cwiseAbs2();
+    sum.bound += inMetres(variances.noise.cwiseSqrt(), radius_m).cwiseAbs2();
+  }
+  for (Eigen::Vector3d* each : {&sum.before, &sum.after, &sum.bound})
+    *each = (*each / static_cast<double>(touches.size())).cwiseSqrt();
   return sum;
 }
 

@@ -138,6 +138,16 @@ std::vector<TouchState> TouchSearch::starts(const VectorXd& strains, const Touch
   return starts;
 }
 
+double TouchSearch::unexplainedShare(const VectorXd& strains) const {
+  const VectorXd along = orthonormal_.transpose() * strains;
+  double best = 0;
+  for (std::size_t node = 0; node < nodes_.size(); ++node) {
+    const double explained = along.segment<2>(2 * static_cast<Index>(node)).squaredNorm();
+    if (explained > best && isAdmissible(stateAt(node, strains), {})) best = explained;
+  }
+  return 1 - best / strains.squaredNorm();
+}
+
 TouchFit TouchSearch::find(const RingResponse& ring, const TouchData& data) const {
   std::vector<TouchFit> fits;
   for (const TouchState& start : starts(data.readings - ring.zeros(), data.prior))

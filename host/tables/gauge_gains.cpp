@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "host/base/failure.hpp"
 #include "host/model/impulse_response.hpp"
@@ -51,6 +52,28 @@ std::vector<double> depthGains(const config::FingerConfig& config) {
   return gains;
 }
 
+constexpr int kDepthAngles = 720;  ///< over a revolution, at which responses are compared
+
+/// The largest difference between a response and `gain` times the drawn one, to either load.
+double largestDifference(const model::ImpulseResponse& response, double gain,
+                         const model::ImpulseResponse& drawn) {
+  double largest = 0;
+  for (int i = 0; i < kDepthAngles; ++i) {
+    const double angle_rad = 2 * std::numbers::pi * i / kDepthAngles;
+    const auto here = response.at(angle_rad), there = drawn.at(angle_rad);
+    largest = std::max({largest, std::abs(here.normal - gain * there.normal),
+                        std::abs(here.tangential - gain * there.tangential)});
+  }
+  return largest;
+}
+
+double largestResponse(const model::ImpulseResponse& drawn) {
+  double largest = 0;
+  for (int i = 0; i < kDepthAngles; ++i)
+    largest = std::max(largest, std::abs(drawn.at(2 * std::numbers::pi * i / kDepthAngles).normal));
+  return largest;
+}
+
 /// What each gauge reads over what the tables say it does.
 std::vector<double> totalGains(const config::FingerConfig& config) {
   std::vector<double> gains = depthGains(config);
@@ -82,6 +105,18 @@ GaugeGains gaugeGains(const config::FingerConfig& config) {
     return static_cast<std::int8_t>(std::lround(std::ldexp(1 / each - 1, exponent)));
   });
   return gains;
+}
+
+double depthError(const config::FingerConfig& config) {
+  if (config.calibration.depth_offset_m.empty()) return 0;
+  const model::ImpulseResponse drawn = responseAt(config, config.gauges.radius_m);
+  const std::vector<double> gains = depthGains(config);
+  double squares = 0;
+  for (std::size_t i = 0; i < gains.size(); ++i) {
+    const double radius_m = config.calibrated(static_cast<int>(i)).radius_m;
+    squares += std::pow(largestDifference(responseAt(config, radius_m), gains[i], drawn), 2);
+  }
+  return std::sqrt(squares / static_cast<double>(gains.size())) / largestResponse(drawn);
 }
 
 std::vector<double> correctionFactors(const GaugeGains& gains, int count) {

@@ -15,6 +15,12 @@ namespace strainfinger::tables {
 /// depths, an impulse response a gauge.
 GaugeGains gaugeGains(const config::FingerConfig& config);
 
+/// What a reading may be off the tables because a gauge's depth is in them as a factor only: its response is
+/// also wider or narrower. Standard deviation over the gauges of the largest difference over all angles and
+/// both loads, over the largest response; 0 without calibration.depth_offset_m. Throws and costs as
+/// gaugeGains().
+double depthError(const config::FingerConfig& config);
+
 /// What the firmware multiplies the reading of each of `count` gauges with, 1 without a calibration.
 std::vector<double> correctionFactors(const GaugeGains& gains, int count);
 

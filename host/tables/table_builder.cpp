@@ -127,7 +127,8 @@ TableConstants tableConstants(const config::FingerConfig& config, const GaugeGai
   constants.force_per_load_q16 = rounded<std::uint32_t>(config.finger.length_m * 1000 * powerOfTwo(16));
   constants.friction_q8 = rounded<std::uint16_t>(config.contact.friction_coefficient * 256);
   constants.cone_q8 = rounded<std::uint16_t>(frictionCone(config.contact) * 256);
-  constants.model_error_q16 = rounded<std::uint16_t>(std::ldexp(config.gauges.model_error, 16));
+  constants.model_error_q16 =
+      rounded<std::uint16_t>(std::ldexp(std::hypot(config.gauges.model_error, depthError(config)), 16));
   constants.adc_rail = static_cast<std::uint16_t>(0xFFFF << (16 - config.gauges.adc_bits));
   constants.mirror_sign = config.gauges.component == StrainComponent::kShear ? -1 : 1;
   constants.peak_sign = static_cast<std::int8_t>(responses.peakSign);

@@ -3,14 +3,20 @@
 #include "host/calibration/calibrate.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <numbers>
 #include <random>
 #include <utility>
 #include <vector>
 
+#include "host/evidence/accuracy.hpp"
+#include "host/evidence/touches.hpp"
 #include "host/simulation/simulated_finger.hpp"
+#include "host/study/calibration_session.hpp"
+#include "host/tables/gauge_gains.hpp"
 #include "host/tables/table_builder.hpp"
+#include "tests/closed_loop/stateless_locator.hpp"
 #include "tests/doubles/fake_can_port.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -100,6 +106,28 @@ class Trip {
   std::vector<Eigen::RowVectorXd> rows_;
 };
 
+/// Touches of up to 3 mm of the finger that `glued` simulates, located one by one with tables from `known`.
+evidence::Accuracy located(const config::FingerConfig& glued, const config::FingerConfig& known) {
+  constexpr int kLocatedTouches = 200;
+  const evidence::TouchedRing ring(glued, kSeed);
+  const evidence::TouchDraws draws(glued.gauges, {.load_n_per_m = {5, 40}, .width_m = {0, 3e-3}}, kSeed);
+  StatelessLocator locator(known);
+  const auto factors = tables::correctionFactors(tables::gaugeGains(known), glued.gauges.count);
+  const auto factor = Eigen::Map<const Eigen::VectorXd>(factors.data(), glued.gauges.count);
+  evidence::Accuracy accuracy(std::numbers::pi / glued.gauges.count);
+  for (std::uint64_t i = 0; i < kLocatedTouches; ++i) {
+    const Touch touch = draws.at(i);
+    const auto found = locator.locate(ring.noisy(ring.exact(touch), i).cwiseProduct(factor)).contacts;
+    const evidence::Parameters truth{touch.angle_rad, touch.normal_n_per_m, touch.tangential_n_per_m,
+                                     kNoValue};
+    if (found.empty())
+      accuracy.addMissed();
+    else
+      accuracy.add(truth, evidence::Parameters::Zero(), found.front());
+  }
+  return accuracy;
+}
+
 }  // namespace
 
 TEST_GROUP(CalibrationLoop) {
@@ -134,6 +162,24 @@ TEST(CalibrationLoop, GaugesThatDifferAreAsGoodAsNominalOnesOnceCalibrated) {
   CHECK(before.normal_n_per_m > 10 * ideal.normal_n_per_m);
   CHECK(after.angle_deg < 1.2 * ideal.angle_deg);
   CHECK(after.normal_n_per_m < 1.2 * ideal.normal_n_per_m);
+}
+
+// A finger glued by hand, calibrated by touches that nobody measured. Chance of the ratio of errors to their
+// sigmas is 5 % for the 200 touches; what they all share, the calibration's own error, is one draw.
+TEST(CalibrationLoop, AGluedFingerIsLocatedWithTrueSigmasOnceCalibrated) {
+  const config::FingerConfig glued = study::randomFinger(kSeed);
+  const auto session = study::sessionOf(glued, {.touches = 100}, kSeed);
+  const auto calibrated =
+      calibration::calibrate(glued, session.known, session.readings, study::kExactlyKnown).applied();
+  const auto before = located(glued, glued), after = located(glued, calibrated);
+  std::printf("\narc before %.1f um, after %.1f um; errors over sigma %.2f\n",
+              1e6 * before.errors(evidence::kAngle).rms() * glued.finger.outer_radius_m,
+              1e6 * after.errors(evidence::kAngle).rms() * glued.finger.outer_radius_m,
+              after.overSigma(evidence::kAngle).rms());
+  CHECK_COMPARE(after.errors(evidence::kAngle).rms(), <, 0.4 * before.errors(evidence::kAngle).rms());
+  CHECK_COMPARE(after.errors(evidence::kNormal).rms(), <, 0.4 * before.errors(evidence::kNormal).rms());
+  CHECK_COMPARE(after.overSigma(evidence::kAngle).rms(), <, 2);
+  CHECK_COMPARE(after.flagged(), <=, 20);
 }
 
 TEST(CalibrationLoop, OnlyTablesWithoutGainsAreFlagged) {

@@ -164,10 +164,18 @@ TEST(Calibrate, TooFewTouchesAreRefused) {
   checkComplaint({}, session.readings, " rows with a touch are too few: at least 32");
 }
 
-TEST(Calibrate, AnotherFingersReadingsAreRefused) {
+TEST(Calibrate, GaugesThatAreNotWiredAsDrawnAreRefusedWithTheMend) {
   auto session = study::sessionOf(finger, {.touches = 60}, kSeed);
-  for (const int gauge : {0, 3, 6, 9}) session.readings.col(gauge).swap(session.readings.col(gauge + 2));
-  checkComplaint({}, session.readings, "this finger doesn't explain the readings: ");
+  session.readings.col(3).swap(session.readings.col(4));
+  checkComplaint({}, session.readings, "gauges 3 and 4 are swapped: exchange their wires");
+}
+
+// Gauges in an order that no exchange of a pair mends.
+TEST(Calibrate, AnotherFingersReadingsAreRefused) {
+  const auto session = study::sessionOf(finger, {.touches = 60}, kSeed);
+  Eigen::MatrixXd shuffled = session.readings;
+  for (int gauge = 0; gauge < 16; ++gauge) shuffled.col(gauge) = session.readings.col(5 * gauge % 16);
+  checkComplaint({}, shuffled, "this finger doesn't explain the readings: ");
 }
 
 TEST(Calibrate, TouchesThatCannotBeAreNamed) {

@@ -88,6 +88,28 @@ TEST(GaugeGains, FollowTheDepthOfEachGauge) {
   DOUBLES_EQUAL(1 / gain, correctionFactors(gaugeGains(config), 16)[3], 0x1p-9);
 }
 
+// Oracle: what the factor leaves at 360 angles. One gauge of 16 is off: its share of the ring's RMS is 1/4.
+TEST(GaugeGains, WhatADepthAsAFactorLeavesIsPartOfTheModelsError) {
+  config::FingerConfig config = configWith(1, 1);
+  DOUBLES_EQUAL(0, depthError(config), 0);
+  config.calibration.depth_offset_m.assign(16, 0);
+  config.calibration.depth_offset_m[3] = 1e-4;
+  const model::ImpulseResponse drawn(config.finger.annulus(), 9.4e-3, config.gauges.component);
+  const model::ImpulseResponse deeper(config.finger.annulus(), 9.3e-3, config.gauges.component);
+  const double gain = 1 / correctionFactors(gaugeGains(config), 16)[3];
+  double left = 0;
+  for (int i = 0; i < 360; ++i) {
+    const auto there = drawn.at(i * std::numbers::pi / 180), here = deeper.at(i * std::numbers::pi / 180);
+    left = std::max({left, std::abs(here.normal - gain * there.normal),
+                     std::abs(here.tangential - gain * there.tangential)});
+  }
+  const double share = left / std::abs(drawn.at(0).normal) / 4;
+  CHECK(share > 2e-3 && share < 5e-3);
+  DOUBLES_EQUAL(share, depthError(config), 0.05 * share);  // the factor is rounded to 2^-9 in the tables
+  config.gauges.model_error = 0;
+  DOUBLES_EQUAL(std::ldexp(depthError(config), 16), buildTableImage(config).constants.model_error_q16, 0.5);
+}
+
 TEST(GaugeGains, AGaugeThatLiesTooDeepToReadAnythingIsNamed) {
   config::FingerConfig config = configWith(1, 1);
   config.calibration.depth_offset_m.assign(16, 0);

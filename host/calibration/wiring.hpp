@@ -1,0 +1,43 @@
+#pragma once
+// Are the gauges wired as the drawing has them? From the strains of touches at unknown places.
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/calibration/calibrate.hpp"
+
+namespace strainfinger::calibration {
+
+struct WiringFault {
+  enum class Kind {
+    kSwapped,      ///< `gauge` and `other` in each other's place
+    kSign,         ///< reads the wrong way
+    kAllSigns,     ///< all of them do
+    kDead,         ///< reads nothing
+    kGlued,        ///< reads what its neighbour `other` does
+    kUnfit,        ///< reads something that is neither
+    kShifted,      ///< the ring is turned by `other` gauges: gauge i is where i + other should be
+    kReversed,     ///< counted the other way round, and turned so that gauge i is where other - i should be
+    kTurnUnclear,  ///< turned or reversed: the known directions don't tell which
+  };
+  Kind kind;
+  int gauge = 0;
+  int other = 0;
+
+  bool operator==(const WiringFault&) const = default;
+};
+
+/// What is wrong, worst first; empty for a ring that is wired as drawn. A fault is told when the drawn finger
+/// explains much more of the readings with it mended; turned and reversed rings explain theirs as well as the
+/// drawn one, and are told by rows of known angle_deg on rings that are even.
+/// Domain: as calibrate()'s. Cost: 0.1 s for a healthy ring of 16, 2 s a fault.
+std::vector<WiringFault> findWiringFaults(const config::FingerConfig& config,
+                                          std::span<const KnownTouch> known, const Eigen::MatrixXd& readings,
+                                          const KnownErrors& errors);
+
+/// What it is and how to mend it.
+std::string textOf(const WiringFault& fault);
+
+}  // namespace strainfinger::calibration

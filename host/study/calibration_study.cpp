@@ -1,0 +1,209 @@
+// How near calibrations of many simulated fingers come to the truth, as a page.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <ctime>
+#include <string>
+#include <vector>
+
+#include "host/base/atomic_file.hpp"
+#include "host/base/failure.hpp"
+#include "host/calibration/wiring.hpp"
+#include "host/study/calibration_score.hpp"
+#include "host/study/calibration_session.hpp"
+
+namespace strainfinger::study {
+namespace {
+
+constexpr int kNewTouches = 300;  ///< a finger
+constexpr std::array kNames{"arc", "normal", "tangential"};
+
+struct Options {
+  int fingers = 30;
+  std::vector<int> touches{300};
+  int wiring = 0;
+  std::string output;
+};
+
+/// What became of the fingers of one plan.
+struct Outcome {
+  std::array<std::vector<double>, 3> overPredicted, overBound, error;
+  std::vector<double> overSigma;  ///< errors of all unknowns over their sigmas
+  double mostUnexplained = 0, mostWritten = 0, mostSeconds = 0;
+  int refused = 0;
+};
+
+double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+void addFinger(std::uint64_t seed, const SessionPlan& plan, Outcome& outcome) {
+  const config::FingerConfig finger = randomFinger(seed);
+  const Session session = sessionOf(finger, plan, seed);
+  const double start_s = processor_s();
+  const auto result = calibration::calibrate(finger, session.known, session.readings, kExactlyKnown);
+  outcome.mostSeconds = std::max(outcome.mostSeconds, processor_s() - start_s);
+  const NewTouches touches = newTouches(result, finger, kNewTouches, seed);
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    outcome.overPredicted[i].push_back(touches.error[at] / touches.predicted[at]);
+    outcome.overBound[i].push_back(touches.error[at] / touches.bound[at]);
+    outcome.error[i].push_back(touches.error[at]);
+  }
+  const Eigen::VectorXd errors = errorsOverSigma(result, finger);
+  outcome.overSigma.insert(outcome.overSigma.end(), errors.begin(), errors.end());
+  outcome.mostUnexplained = std::max(outcome.mostUnexplained, result.modelError().value);
+  outcome.mostWritten = std::max(outcome.mostWritten, result.applied().gauges.model_error);
+}
+
+Outcome outcomeOf(const SessionPlan& plan, int fingers) {
+  Outcome outcome;
+  for (int seed = 1; seed <= fingers; ++seed) try {
+      addFinger(static_cast<std::uint64_t>(seed), plan, outcome);
+    } catch (const Failure& failure) {
+      ++outcome.refused;
+      fmt::print(stderr, "finger {}: {}\n", seed, failure.what());
+    }
+  return outcome;
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  return values[std::min(values.size() - 1,
+                         static_cast<std::size_t>(share * static_cast<double>(values.size())))];
+}
+
+std::string three(const std::array<std::vector<double>, 3>& each, double share) {
+  return fmt::format("{:.2f} / {:.2f} / {:.2f}", quantile(each[0], share), quantile(each[1], share),
+                     quantile(each[2], share));
+}
+
+std::string sectionOf(const SessionPlan& plan, int fingers) {
+  const Outcome outcome = outcomeOf(plan, fingers);
+  double squares = 0;
+  int covered = 0;
+  for (const double each : outcome.overSigma) {
+    squares += each * each;
+    covered += std::abs(each) < 1.96;
+  }
+  const double count = std::max<double>(1, static_cast<double>(outcome.overSigma.size()));
+  std::string text =
+      fmt::format("\n## {} touches{}, {} fingers\n\n| figure | median finger | worst finger |\n|--|--|--|\n",
+                  plan.touches, plan.junk > 0 ? ", a tenth of them junk" : "", fingers);
+  text +=
+      fmt::format("| error of new touches over what is predicted: arc / normal / tangential | {} | {} |\n",
+                  three(outcome.overPredicted, 0.5), three(outcome.overPredicted, 1));
+  text += fmt::format("| over the bound of a finger perfectly known | {} | {} |\n",
+                      three(outcome.overBound, 0.5), three(outcome.overBound, 1));
+  text += fmt::format("| error: um, N/m, N/m | {:.1f}, {:.3f}, {:.3f} | {:.1f}, {:.3f}, {:.3f} |\n",
+                      1e6 * quantile(outcome.error[0], 0.5), quantile(outcome.error[1], 0.5),
+                      quantile(outcome.error[2], 0.5), 1e6 * quantile(outcome.error[0], 1),
+                      quantile(outcome.error[1], 1), quantile(outcome.error[2], 1));
+  text += fmt::format(
+      "\nErrors of the fingers' unknowns over their sigmas: RMS {:.2f}, {:.1f} % within 1.96. Unexplained "
+      "share of a "
+      "reading at most {:.3f} %; gauges.model_error written at most {:.2f} %. Processor time at most {:.1f} "
+      "s a "
+      "finger. Refused: {}.\n",
+      std::sqrt(squares / count), 100 * covered / count, 100 * outcome.mostUnexplained,
+      100 * outcome.mostWritten, outcome.mostSeconds, outcome.refused);
+  return text;
+}
+
+constexpr const char* kIntroduction =
+    R"(# Calibrations of simulated fingers, against the truth
+
+Gauges off by 0.5 deg, 0.05 mm and 3 % (standard deviations), the core by up to 0.1 mm, Poisson's ratio 0.47 to 0.5; noise of 6 microstrain; touches
+of 2 to 40 N/m within 45 degrees of pressing, 0.5 to 4 mm wide, unknown but for 5 loads and one direction. New touches are of 30 N/m and 2 mm, located
+in double precision with the finger as calibrated; predicted is what noise and the calibration's own covariance make of them.
+)";
+
+/// One way to wire a ring wrongly, of the gauges that the number names.
+struct Miswiring {
+  const char* name;
+  calibration::WiringFault::Kind kind;
+  void (*apply)(Eigen::MatrixXd& readings, int number);
+};
+
+void turn(Eigen::MatrixXd& readings, int shift, int sense) {
+  const Eigen::MatrixXd drawn = readings;
+  const auto count = static_cast<int>(readings.cols());
+  for (int i = 0; i < count; ++i) readings.col(i) = drawn.col((count + shift + sense * i) % count);
+}
+
+using Kind = calibration::WiringFault::Kind;
+
+constexpr std::array<Miswiring, 6> kMiswirings{{
+    {"swapped pair", Kind::kSwapped,
+     [](Eigen::MatrixXd& r, int n) { r.col(n % 16).swap(r.col((n + 1 + n / 16) % 16)); }},
+    {"wrong sign", Kind::kSign, [](Eigen::MatrixXd& r, int n) { r.col(n % 16) *= -1; }},
+    {"dead", Kind::kDead, [](Eigen::MatrixXd& r, int n) { r.col(n % 16) *= 1e-3; }},
+    {"reads its neighbour's strain", Kind::kGlued,
+     [](Eigen::MatrixXd& r, int n) { r.col(n % 16) = r.col((n + 1) % 16); }},
+    {"shifted", Kind::kShifted, [](Eigen::MatrixXd& r, int n) { turn(r, 1 + n % 15, 1); }},
+    {"reversed", Kind::kReversed, [](Eigen::MatrixXd& r, int n) { turn(r, n % 16, -1); }},
+}};
+
+std::vector<calibration::WiringFault> faultsOf(int seed, const Miswiring* miswiring) {
+  const auto number = static_cast<std::uint64_t>(seed);
+  const SessionPlan plan{.touches = 300, .knownDirections = 2};
+  Session session = sessionOf(randomFinger(number), plan, number);
+  if (miswiring != nullptr) miswiring->apply(session.readings, seed);
+  return findWiringFaults(session.finger, session.known, session.readings, kExactlyKnown);
+}
+
+std::string wiringSection(int fingers) {
+  std::string text = fmt::format(
+      "\n## Wiring: 300 touches, 2 directions known\n\n| wired | found | of | found first "
+      "|\n|--|--|--|--|\n");
+  for (const Miswiring& miswiring : kMiswirings) {
+    int found = 0;
+    std::string example;
+    for (int seed = 1; seed <= fingers; ++seed) {
+      const auto faults = faultsOf(seed, &miswiring);
+      found += faults.size() == 1 && faults.front().kind == miswiring.kind;
+      if (example.empty() && !faults.empty()) example = textOf(faults.front());
+    }
+    text += fmt::format("| {} | {} | {} | {} |\n", miswiring.name, found, fingers, example);
+  }
+  int alarms = 0;
+  for (int seed = 1; seed <= 10 * fingers; ++seed) alarms += !faultsOf(seed, nullptr).empty();
+  return text + fmt::format("| as drawn | {} | {} | |\n", alarms, 10 * fingers);
+}
+
+void run(const Options& options) {
+  std::string page = kIntroduction;
+  if (options.wiring > 0) page += wiringSection(options.wiring);
+  for (const int touches : options.touches) {
+    page += sectionOf({.touches = touches}, options.fingers);
+    if (touches <= 300) page += sectionOf({.touches = touches, .junk = 0.1}, options.fingers);
+  }
+  if (options.output.empty())
+    fmt::print("{}", page);
+  else
+    writeFileAtomically(options.output, page);
+}
+
+}  // namespace
+}  // namespace strainfinger::study
+
+int main(int argc, char** argv) {
+  strainfinger::study::Options options;
+  CLI::App app("Calibrates random simulated fingers and compares with the truth.");
+  app.add_option("--fingers", options.fingers, "How many (30)")->check(CLI::Range(1, 10'000));
+  app.add_option("--touches", options.touches, "Touches of a session; several: one after the other (300)")
+      ->check(CLI::Range(40, 100'000));
+  app.add_option("--wiring", options.wiring, "Also so many fingers of each fault of wiring (0)")
+      ->check(CLI::Range(0, 10'000));
+  app.add_option("-o,--output", options.output, "The page; stdout without it");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    strainfinger::study::run(options);
+  } catch (const strainfinger::Failure& failure) {
+    fmt::print(stderr, "calibration_study: {}\n", failure.what());
+    return static_cast<int>(failure.code());
+  }
+  return 0;
+}

@@ -71,6 +71,23 @@ TEST(Fit, StepsReachTheOptimumOfTheElasticModel) { checkAgainstExactFit(10, 0.5,
 
 TEST(Fit, SoTheyDoForFirmTouchesWithinTheTablesError) { checkAgainstExactFit(30, 0.5, 3, 0.4); }
 
+TEST(Fit, AShortStepIsAlmostTheLast) {
+  constexpr int kTouches = 1000;
+  Presses presses(16, 30, 204, 0.5, 3);
+  double squares = 0, worst = 0;
+  for (int i = 0; i < kTouches; ++i) {
+    const Press press = presses.next(), start = beside(press, presses.noise(0.03), 0.1);
+    const auto strains = presses.noisy(ring.strains(press), ring.noise_strain());
+    const Press found = pressOf(ring, fitted(ring, strains, {start}), strains);
+    const Press further = pressOf(ring, fitted(ring, strains, {found}), strains);
+    const double apart_sigma = sigmasBetween(ring, further, found, ring.bound(press));
+    squares += apart_sigma * apart_sigma;
+    worst = std::max(worst, apart_sigma);
+  }
+  CHECK(std::sqrt(squares / kTouches) < 0.08);
+  CHECK(worst < 1);
+}
+
 TEST(Fit, WidthsThatNoiseMakesNegativeAre0AndTheRestIsFittedAnew) {
   Presses presses(16, 10, 202);
   int clamped = 0;

@@ -89,7 +89,7 @@ TEST(Locator, FollowsAMovingTouchWhileASearchGoesOn) {
   Presses noise(16, 0, 411);
   int setsOfSearches = 0;
   for (int set = 0; set < 1000; ++set) {
-    const Press press{3 + set * 0.013, 20, 5, 4};  // 65 um a set, so wide that other answers are looked for
+    const Press press{3 + set * 0.03, 20, 5, 4};  // 150 um a set, so wide that other answers are looked for
     update(noise.noisy(ring.strains(press), ring.noise_strain()));
     if (set < 3) continue;
     setsOfSearches += locator.answer().searching;

@@ -46,6 +46,8 @@ PROVED = [
          "limited(contact.normal + 8 * units(loadsOf(k), 16), kMostLoad)", "AStepThatIsTakenOverflowsNothing"),
     Seed("Fit", "fit.cpp", "reduction * reduction", "reduction * reduction * 4",
          "ConvergenceOfAnyReductionOverflowsNothing"),
+    Seed("Fit", "fit.cpp", "magnitude(to.normal - from.normal)", "magnitude((to.normal - from.normal) * 2048)",
+         "ConvergenceOfAnyStepOverflowsNothing"),
     Seed("Readings", "hypothesis.cpp", "error * error + noise", "error * error * error * error + noise",
          "AnyStrainsNoiseAndShiftOverflowNothing"),
     Seed("Readings", "condition.hpp", "code * (1 << kCodeBits) - zero", "code * (1 << kCodeBits) - 2 * zero",

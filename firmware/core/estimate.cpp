@@ -93,6 +93,12 @@ bool areTooNear(const TableConstants& constants, const Solution& solution) {
   return std::min(apart_q32, 0 - apart_q32) < threshold::kApart_16 * sixteenth_q32;
 }
 
+/// Where the contact is felt most, its normal load is read within so few standard deviations of noise.
+bool isWeak(const Answer& answer, const ContactState& state) {
+  const Wide amplitude = state.normal;  // a reading * 2
+  return 4 * amplitude * amplitude < Wide{threshold::kWeakSignal} * answer.noiseVariance_q4;
+}
+
 /// Errors reach a rival that the readings hardly tell from the answer in three of them. True: it is farther
 /// away than the answer's own errors reached.
 bool coverRival(const Answer& answer, int contact, Contact& estimated) {
@@ -154,7 +160,7 @@ Contact estimate(const TableConstants& constants, const Answer& answer, const Li
   estimated.ambiguous = coverRival(answer, contact, estimated);
   estimated.alternative = TurnQ32::fromRaw(answer.rival[at(contact)].angle_q32);
   estimated.uncertain = estimated.ambiguous || !answer.accepted || answer.searching || answer.doubtful ||
-                        areTooNear(constants, answer.solution) || tooWide || faint;
+                        areTooNear(constants, answer.solution) || tooWide || faint || isWeak(answer, state);
   if (estimated.uncertain) estimated.quality = std::min<std::uint8_t>(estimated.quality, 20);
   return estimated;
 }

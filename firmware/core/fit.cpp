@@ -239,8 +239,8 @@ void take(const TableConstants& constants, const Linearisation& linearisation, c
 
 /// The linear model holds for a step that turns a contact by at most this part of a pitch, changes its loads
 /// by at most this part of the larger one, and its second moment by at most this part of it and of the
-/// largest [log2]. What the model neglects grows with the step's square. On the default finger at 30 N/m it is
-/// 0.06 of sigma RMS, at most 0.9 (FitTest, AShortStepIsAlmostTheLast).
+/// largest [log2]. What the model neglects grows with the step's square. On the default finger at 30 N/m it
+/// is 0.06 of sigma RMS, at most 0.9 (FitTest, AShortStepIsAlmostTheLast).
 constexpr int kShortTurnBits = 8, kShortLoadBits = 7, kShortWideningBits = 6, kShortMomentBits = 8;
 
 bool isShort(const TableConstants& constants, const ContactState& from, const ContactState& to) {

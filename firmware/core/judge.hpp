@@ -32,14 +32,17 @@ inline constexpr int kLost = 4;
 /// Two answers are not told apart within this difference of chi-squared: the wrong one of two is told
 /// unflagged at most once in 11,000, however far apart they are.
 inline constexpr int kAmbiguous = 14;
-/// A second answer that leaves so much more than the first is forgotten: the touch has told which is right.
-inline constexpr int kForgotten = 4 * kAmbiguous;
+/// A second answer that leaves so much more than the first is refuted by this sample set.
+inline constexpr int kRefuted = 4 * kAmbiguous;
 /// An inadmissible answer is believed only if it explains so much more: noise may have moved it there.
 inline constexpr int kInadmissible = 28;
 /// Largest reading over a standard deviation [squared] and second moment of contacts that have no second
 /// answer near by: the gap of chi-squared is 80 at 14 N/m and 2 mm on the default finger.
 inline constexpr int kFirmSignal = 1'200'000;
 inline constexpr int kFirmMoment_um2 = 360'000;
+/// A contact's largest reading over a standard deviation of noise [squared] below which its place is not
+/// sure: where it is least determined, noise moves it farther than its standard errors say.
+inline constexpr int kWeakSignal = 1600;
 /// A contact of a pair whose loads explain less than this much of chi-squared is none.
 inline constexpr int kFaint = 36;
 /// The scale of all loads is off by so many times the model error [log2]: a Poisson's ratio of 0.48 instead

@@ -13,6 +13,7 @@ constexpr int kFollowingSteps = 3;  ///< of one from the last answer
 constexpr int kStepsWhileSearching = 2, kStepsAfterSearch = 3;
 /// Sets of readings after which a second answer is fitted to them as well.
 constexpr std::uint8_t kRivalEvery = 8;
+constexpr std::uint8_t kTimesRefuted = 3;  ///< in a row, until a second answer is forgotten
 /// Sets of readings after which what is in doubt is looked into again.
 constexpr std::uint16_t kSearchAgainAfter = 64;
 /// What was not in doubt is looked into after so many sets in a row that leave doubt. Noise alone: chi-squared
@@ -101,8 +102,9 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
   return (steps - 1) * Search::stepWork(hypothesis) + followRival(tables, readings);
 }
 
-/// The second answer is fitted now and then, until the touch has told which of them is right. The work it
-/// took.
+/// The second answer is fitted now and then, until the touch has told which of them is right. Weak readings
+/// show both answers in one sample set and one of them, perhaps the wrong one, in the next: what was said of
+/// the second holds until it is refuted several times, or a search has looked for it. The work it took.
 int Locator::followRival(const TableImage& tables, const ScaledReadings& readings) {
   if (answer_.rivalEnergy < 0 || ++setsSinceRival_ % kRivalEvery != 0) return 0;
   const Solution answer = answer_.solution;
@@ -111,6 +113,15 @@ int Locator::followRival(const TableImage& tables, const ScaledReadings& reading
   const Solution rival = step(tables, scratch_, readings);
   const Wide more = likelihoodEnergy(tables.constants, rival, readings) -
                     likelihoodEnergy(tables.constants, answer, readings);
+  const bool isMerged = areSame(tables.constants, hypothesis.contacts, answer.contact, rival.contact);
+  const bool isRefuted = more > energyOf(readings, threshold::kRefuted);
+  answer_.rivalIsLost = isMerged || isRefuted;
+  if (answer_.rivalIsLost) {
+    const bool hasTold = isRefuted && ++answer_.timesRefuted == kTimesRefuted;
+    if (hasTold || isFirm(tables.constants, answer, readings)) answer_.rivalEnergy = -1;
+    return Search::stepWork(hypothesis);
+  }
+  answer_.timesRefuted = 0;
   answer_.rival = rival.contact;
   answer_.rivalEnergy = magnitude(more);
   if (more < 0) {
@@ -118,9 +129,6 @@ int Locator::followRival(const TableImage& tables, const ScaledReadings& reading
     linearisation_ = scratch_;
     believe(tables, rival, readings);
   }
-  if (answer_.rivalEnergy > energyOf(readings, threshold::kForgotten) ||
-      areSame(tables.constants, hypothesis.contacts, answer.contact, rival.contact))
-    answer_.rivalEnergy = -1;
   return Search::stepWork(hypothesis);
 }
 
@@ -172,6 +180,8 @@ void Locator::conclude(const TableImage& tables) {
   answer_.searching = answer_.doubtful = answer_.several = false;
   answer_.suspect = 0;
   answer_.rivalEnergy = -1;
+  answer_.rivalIsLost = false;
+  answer_.timesRefuted = 0;
   if (!best) return;
   const bool faulty = explains[kWithoutOne], two = explains[kPair];
   answer_.doubtful =
@@ -204,7 +214,7 @@ void Locator::rememberRival(const TableImage& tables, const Ranking& ranking,
     std::swap(answer_.rival[0], answer_.rival[1]);
   const Wide more = likelihoodEnergy(tables.constants, ranking.second, readings) -
                     likelihoodEnergy(tables.constants, ranking.best, readings);
-  if (more <= energyOf(readings, threshold::kForgotten)) answer_.rivalEnergy = more;
+  if (more <= energyOf(readings, threshold::kRefuted)) answer_.rivalEnergy = more;
 }
 
 /// Within what is left of an update's work.
@@ -295,7 +305,7 @@ void Locator::update(const TableImage& tables, std::span<const std::int32_t> str
   } else if (setsInDoubt_ == kNewDoubt && !answer_.doubtful) {
     answer_.searching = true;
     search(tables, readings, gauges);
-  } else if (!answer_.accepted || answer_.doubtful) {
+  } else if (!answer_.accepted || answer_.doubtful || (answer_.rivalIsLost && answer_.rivalEnergy >= 0)) {
     if (++setsSinceSearch_ >= kSearchAgainAfter) search(tables, readings, gauges);
   }
   if (mode_ == FitMode::kThreePoint && !search_.isBegun()) solveExactly(tables, readings);

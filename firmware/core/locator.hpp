@@ -26,6 +26,8 @@ struct Answer {
   std::uint32_t noiseVariance_q4 = 0;  ///< of a reading, that jitters from set to set
   ContactStates rival;                 ///< another answer of the same hypothesis
   Wide rivalEnergy = -1;   ///< what that answer leaves more [residual energy]; negative: there is none
+  bool rivalIsLost = false;  ///< a search is to look for it
+  std::uint8_t timesRefuted = 0;
   bool doubtful = false;   ///< another hypothesis explains the readings nearly as well
   bool accepted = false;   ///< the hypothesis explains the readings
   bool searching = false;  ///< the search for other hypotheses goes on

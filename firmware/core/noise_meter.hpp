@@ -39,12 +39,19 @@ class NoiseMeter {
     std::array<std::int32_t, kMaxGauges> change;
     for (std::size_t i = 0; i < strains_q32.size(); ++i) change[i] = (strains_q32[i] - before_q32_[i]) / 2;
     const std::uint32_t energy = gateEnergy(constants, std::span(change).first(strains_q32.size()));
-    // Of configured noise the changes' energy is half the ring's; gate_off is about twice that.
-    const std::uint64_t ratio_q8 =
-        (std::uint64_t{energy} << 10) / std::max<std::uint32_t>(constants.gate_off, 1);
+    // Halved changes of configured noise have half the energy of the noise itself.
+    const std::uint64_t ratio_q8 = (std::uint64_t{energy} << 9) / configuredEnergy(constants);
     const auto now_q8 = static_cast<std::int64_t>(std::min<std::uint64_t>(ratio_q8, 1u << 24));
     mean_q8_ =
         static_cast<std::uint32_t>(mean_q8_ + ((now_q8 - static_cast<std::int64_t>(mean_q8_)) >> kMemory));
+  }
+
+  /// What configured noise and the gate's rounding leave on average [gate energy].
+  static std::uint64_t configuredEnergy(const TableConstants& constants) {
+    const int shift = constants.noise_variance_exponent - 2 * constants.gate_shift;
+    const std::uint64_t twice = std::uint64_t{constants.noise_variance} << 1;
+    const std::uint64_t variance_q1 = shift >= 0 ? twice << shift : twice >> -shift;
+    return std::max<std::uint64_t>(constants.gauge_count * (variance_q1 + 1) / 2, 1);
   }
 
   std::array<std::int32_t, kMaxGauges> before_q32_{};

@@ -40,6 +40,26 @@ struct Estimated : Utest {
 
 TEST_GROUP_BASE(EstimatedErrors, Estimated) { const ModelRing ring{ModelRing::asDrawn()}; };
 
+TEST(EstimatedErrors, AContactOfFewStandardDeviationsOfNoiseIsUncertain) {
+  config::FingerConfig lines = ModelRing::asDrawn();
+  lines.contact.width_m = 0;
+  const ModelRing known{lines};
+  double strainPerLoad = 0;
+  for (double position = 5; position <= 5.5; position += 0.01)
+    for (const double strain : known.strains({position, 1, 0, 0}))
+      strainPerLoad = std::max(strainPerLoad, std::abs(strain));
+  int unambiguous = 0;
+  for (const double sigmas : {20.0, 38.0, 42.0, 60.0})
+    for (double position = 5; position < 6; position += 0.05) {
+      const Press press{position, sigmas * known.noise_strain() / strainPerLoad, 0, 0};
+      const Contact contact = found(known, press);
+      if (contact.ambiguous) continue;
+      ++unambiguous;
+      CHECK_EQUAL(sigmas < 40, contact.uncertain);
+    }
+  CHECK(unambiguous > 20);
+}
+
 // Gauges out of reach would add 0.4 % of information, rounding takes 1 %, and the model is linearised where
 // the tables have the contact.
 TEST(EstimatedErrors, AreTheCramerRaoBoundWithTheWidthUnknown) {

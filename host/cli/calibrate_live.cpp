@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <thread>
 #include <utility>
 
 #include "host/base/failure.hpp"
@@ -27,7 +28,9 @@ using namespace std::chrono_literals;
 
 constexpr auto kSessionRedraw = 100ms;  ///< between pictures
 constexpr auto kSessionWait = 20ms;     ///< for frames, before keys are looked at
-constexpr auto kSessionSilence = 3s;    ///< then the finger is asked again: it may have been off
+/// Between a frame's arrival and reading: those that come meanwhile cost one awakening for all.
+constexpr auto kSessionGather = 5ms;
+constexpr auto kSessionSilence = 3s;  ///< then the finger is asked again: it may have been off
 constexpr auto kSessionLine = 1s, kSessionSameLine = 10s;  ///< between lines: at least; when nothing is new
 
 double secondsSince(SessionClock::time_point then) {
@@ -102,10 +105,10 @@ class LiveSession {
   LiveSession(const config::FingerConfig& config, const LiveCalibration& options)
       : config_(config),
         options_(options),
+        port_(can::openBus(options.bus, config.can.bitrate)),
         files_(options.outputPath, config.gauges.count),
         session_(config, files_.rows()),
         fit_(config, options.errors),
-        port_(can::openBus(options.bus, config.can.bitrate)),
         receiver_(options.node, config.gauges.count, config.gauges.full_scale_strain) {}
 
   LiveResult run() {
@@ -127,7 +130,8 @@ class LiveSession {
     heard_ = SessionClock::now();
     const auto face = makeFace();
     while (!stop.asked() && !quit_ && session_.advice().kind != session::Advice::Kind::kDone) {
-      if (port_->waitReadable(kSessionWait)) takeFrames();
+      if (port_->waitReadable(kSessionWait)) std::this_thread::sleep_for(kSessionGather);
+      takeFrames();
       followFit();
       while (const auto text = face->heard()) obey(*text);
       if (SessionClock::now() - heard_ > kSessionSilence) askAgain(stream);
@@ -243,10 +247,10 @@ class LiveSession {
 
   config::FingerConfig config_;
   LiveCalibration options_;
+  std::unique_ptr<can::BusPort> port_;
   session::SessionFiles files_;
   session::Session session_;
   session::FitBeside fit_;
-  std::unique_ptr<can::BusPort> port_;
   can::StrainReceiver receiver_;
   SessionClock::time_point began_ = SessionClock::now(), heard_ = began_;
   std::uint32_t missedBefore_ = 0;

@@ -61,10 +61,11 @@ Command parseCommand(std::string_view line, double length_m) {
   const std::string_view rest = blank == text.npos ? "" : trimmed(text.substr(blank));
   if (word == "load") return loadOf(rest, length_m);
   if (word == "angle") return angleOf(rest);
+  if (rest.empty() && word == "hold") return Hold{};
   if (rest.empty() && word == "tare") return Tare{};
   if (rest.empty() && word == "skip") return Skip{};
   if (rest.empty() && word == "quit") return Quit{};
-  return Unclear{fmt::format("\"{}\": say load, angle, skip, tare or quit", text)};
+  return Unclear{fmt::format("\"{}\": say load, angle, hold, skip, tare or quit", text)};
 }
 
 std::optional<std::string> KeyReader::press(unsigned char key) {
@@ -74,6 +75,7 @@ std::optional<std::string> KeyReader::press(unsigned char key) {
     if (key == 'l') mode_ = Mode::kLoad;
     if (key == 'a') mode_ = Mode::kAngle;
     if (key == 't') mode_ = Mode::kTare;
+    if (isTyping()) return "hold";
     if (key == 's') return "skip";
     if (key == 'q') return "quit";
     return std::nullopt;

@@ -14,6 +14,8 @@ struct LoadIs {
 struct AngleIs {
   double angle_deg;
 };
+/// What is held now is what the next load or angle is of.
+struct Hold {};
 struct Tare {};
 struct Skip {};
 struct Quit {};
@@ -21,14 +23,14 @@ struct Quit {};
 struct Unclear {
   std::string why;
 };
-using Command = std::variant<LoadIs, AngleIs, Tare, Skip, Quit, Unclear>;
+using Command = std::variant<LoadIs, AngleIs, Hold, Tare, Skip, Quit, Unclear>;
 
-/// "load 200 g", "load 2 N", "load 24.5 N/m", "angle 40", "tare", "skip", "quit"; blanks don't matter.
-/// `length_m`: of the finger, turns N into N/m.
+/// "load 200 g", "load 2 N", "load 24.5 N/m", "angle 40", "hold", "tare", "skip", "quit"; blanks don't
+/// matter. `length_m`: of the finger, turns N into N/m.
 Command parseCommand(std::string_view line, double length_m);
 
-/// What is typed on a terminal, key by key: `l` and `a` begin a load or an angle, which Return ends and
-/// Escape drops; t asks whether to tare, which y does.
+/// What is typed on a terminal, key by key: `l` and `a` hold what is pressed and begin its load or angle,
+/// which Return ends and Escape drops; t asks whether to tare, which y does.
 class KeyReader {
  public:
   /// A whole command's text, when this key makes it one.

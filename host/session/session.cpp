@@ -75,7 +75,7 @@ std::vector<NewRow> Session::watchRest(const Sample& sample) {
 }
 
 /// The mean of what is held; else why there is none.
-std::optional<VectorXd> Session::held(std::string& why) const {
+std::optional<Sample> Session::nowHeld(std::string& why) const {
   const config::Gauges& gauges = config_.gauges;
   if (recent_.size() < static_cast<std::size_t>(holds_.leastSets)) {
     why = "no readings come";
@@ -92,15 +92,15 @@ std::optional<VectorXd> Session::held(std::string& why) const {
     why = "it is pressed beyond its range";
   else if (std::sqrt(squares.maxCoeff()) > std::max(holds_.noise * gauges.noise_strain, holds_.share * peak))
     why = "it is not held still";
-  return why.empty() ? std::optional(mean) : std::nullopt;
+  return why.empty() ? std::optional(Sample{recent_.back().time_s, mean}) : std::nullopt;
 }
 
 Obeyed Session::keepHeld(const KnownTouch& known, const std::string& what) {
   std::string why;
-  const auto strains = held(why);
-  if (!strains)
+  const auto sample = held_ ? std::exchange(held_, std::nullopt) : nowHeld(why);
+  if (!sample)
     return {.message = fmt::format("{} was not taken: {}. Press, hold still, and enter it again", what, why)};
-  const NewRow row{recent_.back().time_s, *strains, known};
+  const NewRow row{sample->time_s, sample->strains, known};
   keep(row);
   knowsMore_ = true;
   return {.row = row, .message = what + " is taken"};
@@ -113,6 +113,12 @@ Obeyed Session::obeyLoad(double normal_n_per_m) {
 
 Obeyed Session::obeyAngle(double angle_deg) {
   return keepHeld({angle_deg, std::nullopt, std::nullopt}, fmt::format("the angle of {:.4g} deg", angle_deg));
+}
+
+Obeyed Session::obeyHold() {
+  std::string why;
+  held_ = nowHeld(why);
+  return {.message = held_ ? "held" : why + ": hold it still"};
 }
 
 Obeyed Session::obeySkip() {
@@ -142,6 +148,7 @@ Obeyed Session::obey(const Command& command) {
     Session& session;
     Obeyed operator()(const LoadIs& load) const { return session.obeyLoad(load.normal_n_per_m); }
     Obeyed operator()(const AngleIs& angle) const { return session.obeyAngle(angle.angle_deg); }
+    Obeyed operator()(const Hold&) const { return session.obeyHold(); }
     Obeyed operator()(const Tare&) const { return session.obeyTare(); }
     Obeyed operator()(const Skip&) const { return session.obeySkip(); }
     Obeyed operator()(const Quit&) const { return {.quit = true}; }

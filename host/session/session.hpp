@@ -63,10 +63,11 @@ class Session {
  private:
   void keep(const NewRow& row);
   std::vector<NewRow> watchRest(const Sample& sample);
-  std::optional<Eigen::VectorXd> held(std::string& why) const;
+  std::optional<Sample> nowHeld(std::string& why) const;
   Obeyed obeyLoad(double normal_n_per_m);
   Obeyed obeyAngle(double angle_deg);
   Obeyed keepHeld(const calibration::KnownTouch& known, const std::string& what);
+  Obeyed obeyHold();
   Obeyed obeySkip();
   Obeyed obeyTare();
 
@@ -84,6 +85,7 @@ class Session {
   std::size_t tried_ = 0;        ///< rows of the last fit
   bool knowsMore_ = false;       ///< than at the last fit, of a touch
   std::deque<Sample> recent_;    ///< of the last HoldRules::time_s
+  std::optional<Sample> held_;   ///< what the next load or angle is of, if that was said
   std::vector<Sample> resting_;  ///< since the finger came to rest
   Eigen::VectorXd restSum_;
   std::optional<int> farGauge_;

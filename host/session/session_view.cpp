@@ -11,7 +11,11 @@ namespace {
 
 using live::Canvas, live::Style;
 
-constexpr int kTouchesPerGlyph = 4, kMostGlyphs = 8;
+constexpr int kTouchesPerGlyph = 4, kMostGlyphs = 4;
+/// Columns of the table, which has room on 80.
+constexpr int kOverColumn = 13, kNextColumn = 25, kSigmaColumn = 37;
+/// Windows with fewer rows have none to leave empty: the default ring has room on 24.
+constexpr int kAiryRows = 28;
 constexpr double kSilentAfter_s = 1;
 
 /// Words to rows of so many columns.
@@ -40,14 +44,16 @@ class SessionPainter {
     paragraph(view_.next, Style::kStrong);
     if (!view_.complaint.empty()) paragraph("No fit yet: " + view_.complaint, Style::kBad);
     say(row_++, 0, nowText(view_), Style::kAccent);
+    if (!view_.message.empty()) paragraph(view_.message, Style::kStrong);
     worth();
-    ++row_;
+    row_ += space();
     table();
     foot();
     return canvas_;
   }
 
  private:
+  int space() const { return canvas_.rows() < kAiryRows ? 0 : 1; }
   int lastRow() const { return canvas_.rows() - 1; }
 
   int say(int row, int column, const std::string& text, Style style = Style::kPlain) {
@@ -67,22 +73,25 @@ class SessionPainter {
                                  view_.coverage.untouched, view_.coverage.loads, knowns));
     if (view_.lost > 0) behind = say(row_, behind + 2, fmt::format("{} lost", view_.lost), Style::kBad);
     if (view_.isFitting) say(row_, behind + 2, "fitting", Style::kFaint);
-    row_ += 2;
+    row_ += 1 + space();
   }
 
   void worth() {
     if (!view_.assessment) return;
     const Assessment& known = *view_.assessment;
-    paragraph("Errors to come: " + errorsText(known.errors), Style::kPlain);
-    paragraph(fmt::format("Unit of force {:.1f} %, zero of the angle {:.2f} deg; a hundred more touches "
-                          "would gain {:.0f} %",
-                          100 * known.unitOfForce, known.zeroOfAngle_deg, 100 * known.bestGain()),
-              Style::kPlain);
+    const auto each = [&](Eigen::Index i, double scale, int digits) {
+      return fmt::format("{:.{}f} > {:.{}f} > {:.{}f}", scale * known.errors.drawn[i], digits,
+                         scale * known.errors.known[i], digits, scale * known.errors.bound[i], digits);
+    };
+    say(row_++, 0, "Errors to come, as drawn > now > noise alone: place " + each(0, 1e3, 3) + " mm");
+    say(row_++, 0, "  normal " + each(1, 1, 2) + ", tangential " + each(2, 1, 2) + " N/m");
+    say(row_++, 0,
+        fmt::format("Unit of force {:.1f} %, zero of the angle {:.2f} deg; 100 more touches gain {:.0f} %",
+                    100 * known.unitOfForce, known.zeroOfAngle_deg, 100 * known.bestGain()));
   }
 
   void table() {
-    say(row_++, 0,
-        "gauge     deg  touches over it     up to the next     sigma: gain     angle    depth    zero",
+    say(row_++, 0, "gauge    deg  over it     to the next  sigma: gain     angle    depth    zero",
         Style::kFaint);
     const int room = std::max(0, lastRow() - row_);
     const int shown = gauges_.count <= room ? gauges_.count : std::max(0, room - 1);
@@ -93,12 +102,12 @@ class SessionPainter {
   }
 
   void gaugeRow(int gauge) {
-    say(row_, 0, fmt::format("{:>5} {:>7.1f}", gauge, gauges_.angle_deg(gauge)));
-    touches(15, 2 * gauge);
-    touches(34, 2 * gauge + 1);
+    say(row_, 0, fmt::format("{:>5} {:>6.1f}", gauge, gauges_.angle_deg(gauge)));
+    touches(kOverColumn, 2 * gauge);
+    touches(kNextColumn, 2 * gauge + 1);
     if (view_.assessment) {
       const GaugeSigmas& sigma = view_.assessment->gauges[static_cast<std::size_t>(gauge)];
-      say(row_, 58,
+      say(row_, kSigmaColumn,
           fmt::format("{:>6.2f} % {:>6.3f} deg {:>5.1f} um {:>4.1f}e-6", 100 * sigma.gain, sigma.angle_deg,
                       1e6 * sigma.depth_m, 1e6 * sigma.zero_strain));
     }
@@ -109,20 +118,18 @@ class SessionPainter {
     const auto at = static_cast<std::size_t>(arc);
     const int count = at < view_.coverage.touches.size() ? view_.coverage.touches[at] : 0;
     const Style style = count < kTouchesPerGlyph ? Style::kBad : Style::kGood;
-    say(row_, column, fmt::format("{:>5}", count), style);
+    say(row_, column, fmt::format("{:>4}", count), style);
     const int glyphs = std::min(kMostGlyphs, count / kTouchesPerGlyph);
     for (int i = 0; i < kMostGlyphs && row_ < lastRow(); ++i)
-      canvas_.put(row_, column + 6 + i, i < glyphs ? (isUnicode_ ? U'█' : U'#') : (isUnicode_ ? U'·' : U'.'),
+      canvas_.put(row_, column + 5 + i, i < glyphs ? (isUnicode_ ? U'█' : U'#') : (isUnicode_ ? U'·' : U'.'),
                   i < glyphs ? style : Style::kFaint);
   }
 
   void foot() {
-    if (!view_.prompt.empty()) {
+    if (view_.prompt.empty())
+      canvas_.text(lastRow(), 0, kSessionKeys, Style::kFaint);
+    else
       canvas_.text(lastRow(), 0, view_.prompt, Style::kStrong);
-      return;
-    }
-    const int column = canvas_.text(lastRow(), 0, kSessionKeys, Style::kFaint);
-    canvas_.text(lastRow(), column + 2, view_.message, Style::kStrong);
   }
 
   const SessionView& view_;

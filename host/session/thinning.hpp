@@ -28,7 +28,7 @@ enum class Verdict {
 /// Goes through a stream in the order of time. What it says follows from the sets that it was given alone.
 class Thinner {
  public:
-  /// The config's drawing says where and how strong touches are, to a tenth of a gap between gauges: what
+  /// The config's drawing says where and how strong touches are, as TouchSearch::guess() has it: what
   /// fingers are built off it doesn't matter here. Costs 50 ms for 16 gauges.
   explicit Thinner(const config::FingerConfig& config, const ThinningRules& rules = {});
 

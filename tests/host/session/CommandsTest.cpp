@@ -51,11 +51,12 @@ TEST(SessionCommands, WhatIsNotUnderstoodIsToldWithWhatWouldBe) {
   isUnclear("angle 400", "0 to 360");
   isUnclear("angle inf", "no angle");
   isUnclear("angle 4 rad", "degrees");
-  isUnclear("", "say load, angle, skip, tare or quit");
+  isUnclear("", "say load, angle, hold, skip, tare or quit");
   isUnclear("quit now", "say load");
 }
 
 TEST(SessionCommands, WordsStandForThemselves) {
+  CHECK(std::holds_alternative<Hold>(parseCommand("hold", 1)));
   CHECK(std::holds_alternative<Tare>(parseCommand("tare", 1)));
   CHECK(std::holds_alternative<Skip>(parseCommand("skip", 1)));
   CHECK(std::holds_alternative<Quit>(parseCommand("quit\r", 1)));
@@ -70,6 +71,12 @@ TEST(SessionCommands, KeysMakeTheSameCommands) {
   STRCMP_EQUAL("quit", typed("q").c_str());
 }
 
+TEST(SessionCommands, WhatIsPressedIsHeldWhileItsLoadIsTyped) {
+  KeyReader reader;
+  STRCMP_EQUAL("hold", reader.press('l').value_or("").c_str());
+  CHECK_FALSE(reader.press('2').has_value());
+}
+
 TEST(SessionCommands, ATareWantsAYes) {
   STRCMP_EQUAL("tare", typed("ty").c_str());
   STRCMP_EQUAL("", typed("tn").c_str());
@@ -78,7 +85,7 @@ TEST(SessionCommands, ATareWantsAYes) {
 
 TEST(SessionCommands, EscapeDropsWhatIsTyped) {
   STRCMP_EQUAL("quit", typed("l20\x1bq").c_str());
-  STRCMP_EQUAL("", typed("l20q").c_str());  // q is typed there
+  STRCMP_EQUAL("hold", typed("l20q").c_str());  // q is typed there
 }
 
 TEST(SessionCommands, ThePromptShowsWhatIsTyped) {

@@ -82,6 +82,16 @@ TEST(GuidedSession, ALoadIsThatOfTheTouchThatIsHeld) {
   STRCMP_CONTAINS("24 N/m is taken", obeyed.message.c_str());
 }
 
+TEST(GuidedSession, ALoadIsOfWhatWasHeldWhenItsEntryBegan) {
+  hold(45, 24);
+  STRCMP_EQUAL("held", say("hold").c_str());
+  for (int i = 0; i < 100; ++i) take(hand.nothing());  // let go to type
+  const Obeyed obeyed = session.obey(LoadIs{24});
+  CHECK(obeyed.row.has_value());
+  CHECK_COMPARE(obeyed.row->strains.cwiseAbs().maxCoeff(), >, 1e-3);
+  STRCMP_CONTAINS("was not taken", say("load 24 N/m").c_str());  // once
+}
+
 TEST(GuidedSession, NoLoadIsTakenOfWhatIsNotHeld) {
   STRCMP_CONTAINS("no readings come", say("load 20 N/m").c_str());
   leaveAlone(0.4);

@@ -248,6 +248,21 @@ class Resumed(unittest.TestCase):
         self.assertRegex(session.said.last, r"too few.*10 rows are kept in .*: the same command goes on with them")
         self.assertFalse(output.exists())
 
+    def test_gauges_that_are_wired_wrongly_are_named(self):
+        output = self.session_of(180)
+        strains = output.with_suffix(".strains.csv")
+        rows = [line.split(",") for line in strains.read_text().splitlines()]
+        for row in rows[1:]:
+            row[4], row[9] = row[9], row[4]  # gauges 3 and 8: time_s is first
+        strains.write_text("".join(",".join(row) + "\n" for row in rows))
+        session = Session(self.bench, self.finger, output)
+        self.bench.until(lambda: "no fit yet: " in session.said.last, 60)
+        self.assertRegex(session.said.last, r"no fit yet: .*3.* 8.*")
+        session.say("quit")
+        self.assertEqual(1, session.ended(60))
+        self.assertRegex(session.said.last, r"^strainfinger: .*3.* 8.*rows are kept in ")
+        self.assertFalse(output.exists())
+
     def test_control_c_ends_it_with_130_and_nothing_is_lost(self):
         output = self.session_of(40)
         session = Session(self.bench, self.finger, output)

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <fstream>
+#include <system_error>
 #include <variant>
 
 #include "host/base/failure.hpp"
@@ -13,6 +15,9 @@
 namespace strainfinger::session {
 
 bool isRecording(const std::string& path) {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(path, unknown))
+    return false;  // a pipe's lines can be read once alone
   std::ifstream file(path);
   for (std::string line; std::getline(file, line);) {
     if (line.find_first_not_of(" \t\r") == line.npos || line.front() == '#') continue;

@@ -9,7 +9,7 @@
 
 namespace strainfinger::session {
 
-/// Whether a file's first line with anything in it is one of candump's, in any of its forms.
+/// Whether the first line of a file (no pipe) with anything in it is one of candump's, in any of its forms.
 bool isRecording(const std::string& path);
 
 struct Recorded {

@@ -60,8 +60,11 @@ struct SessionGoals {
 
 /// When rows are fitted anew.
 struct FitRules {
-  /// [rows a gauge] Before the first fit: calibrate() wants two.
+  /// [touches a gauge] Before the first fit: calibrate() wants two.
   int firstPerGauge = 4;
+  /// [touches a gauge] With so many the first fit is made although arcs are not covered: it may tell why, as
+  /// gauges that are wired wrongly.
+  int uncoveredPerGauge = 20;
   /// [1] More rows than at the last fit, at which sigmas have fallen by a tenth.
   double growth = 1.2;
 };

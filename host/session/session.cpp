@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -160,7 +161,10 @@ Obeyed Session::obey(const Command& command) {
 bool Session::wantsFit() const {
   const FitRules rules;
   const auto touches = rows_.size() - static_cast<std::size_t>(coverage_.untouched);
-  const auto least = static_cast<std::size_t>(rules.firstPerGauge * config_.gauges.count);
+  const bool isCovered =
+      std::ranges::all_of(coverage_.touches, [this](int of) { return of >= goals_.leastPerArc; });
+  const int perGauge = isCovered || tried_ > 0 ? rules.firstPerGauge : rules.uncoveredPerGauge;
+  const auto least = static_cast<std::size_t>(perGauge * config_.gauges.count);
   if (touches < least) return false;
   return tried_ == 0 || knowsMore_ ||
          static_cast<double>(rows_.size()) >= rules.growth * static_cast<double>(tried_);

@@ -249,7 +249,7 @@ class Resumed(unittest.TestCase):
         self.assertFalse(output.exists())
 
     def test_gauges_that_are_wired_wrongly_are_named(self):
-        output = self.session_of(180)
+        output = self.session_of(400)
         strains = output.with_suffix(".strains.csv")
         rows = [line.split(",") for line in strains.read_text().splitlines()]
         for row in rows[1:]:

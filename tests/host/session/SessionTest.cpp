@@ -137,6 +137,19 @@ TEST(GuidedSession, AFitIsWantedOfFourTouchesAGaugeThenOfAFifthMoreOrOfWhatIsKno
   CHECK_TRUE(session.wantsFit());
 }
 
+TEST(GuidedSession, AnArcThatIsNotCoveredPutsTheFirstFitOffButNotForEver) {
+  leaveAlone(5.1);
+  const auto rollHalf = [&](double load_n_per_m) {
+    for (int i = 0; i < 250; ++i) take(hand.touch(0.72 * i, load_n_per_m, 0.01 * i));
+  };
+  for (const double load_n_per_m : {4, 8, 16, 32}) rollHalf(load_n_per_m);
+  CHECK_COMPARE(session.rows().size(), >, 10 + 4 * 16);
+  CHECK_FALSE(session.wantsFit());
+  for (const double load_n_per_m : {5, 10, 20, 34, 6, 12, 24}) rollHalf(load_n_per_m);
+  CHECK_COMPARE(session.rows().size(), >, 10 + 20 * 16);
+  CHECK_TRUE(session.wantsFit());
+}
+
 TEST(GuidedSession, AFailedFitLeavesTheOneBefore) {
   session.takeFit({.rows = 70, .complaint = "gauges 3 and 4 are swapped"});
   STRCMP_EQUAL("gauges 3 and 4 are swapped", session.complaint().c_str());

@@ -49,7 +49,7 @@ class TouchSearch {
 
   /// The touch of the grid that explains readings, zeros apart, best; 0 where no touch could be.
   /// Nineteen of twenty places are within a tenth of the gap between gauges, loads within a quarter; one in a
-  /// hundred is another touch that reads alike. Costs 20 us.
+  /// hundred is another touch that reads alike.
   TouchState guess(const Eigen::VectorXd& strains) const;
 
   /// The share of the energy of readings, zeros apart, that no touch of the grid explains: 0 .. 1; 1 where no

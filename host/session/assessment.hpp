@@ -38,7 +38,7 @@ struct Assessment {
   double bestGain() const;
 };
 
-/// Costs 0.5 s for 16 gauges. Errors of known loads as for calibrate().
+/// Errors of known loads as for calibrate().
 Assessment assess(const calibration::CalibrationResult& result, const calibration::KnownErrors& errors,
                   const SessionGoals& goals = {});
 

@@ -32,7 +32,6 @@ class Thinner {
   /// fingers are built off it doesn't matter here. Costs 50 ms for 16 gauges.
   explicit Thinner(const config::FingerConfig& config, const ThinningRules& rules = {});
 
-  /// Costs 20 us for a steady touch, 1 us else.
   Verdict take(const Sample& sample);
 
   /// A row that is there already, as of a session that goes on.

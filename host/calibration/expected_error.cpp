@@ -15,8 +15,9 @@ constexpr double kLoad_n_per_m = 30, kWidth_m = 2e-3;
 constexpr int kPlacesPerGauge = 6;
 constexpr double kFelt = 0.1;  ///< of the largest reading
 
-/// The touches by which a calibration is judged.
-std::vector<TouchState> touchesAround(const Drawing& drawing) {
+}  // namespace
+
+std::vector<TouchState> judgedTouches(const Drawing& drawing) {
   const double moment_rad2 = model::momentOfWidth(kWidth_m / drawing.config().finger.outer_radius_m);
   const int places = kPlacesPerGauge * drawing.gauges();
   std::vector<TouchState> touches;
@@ -27,18 +28,13 @@ std::vector<TouchState> touchesAround(const Drawing& drawing) {
   return touches;
 }
 
-/// The covariance, given the mean of the angles and the modulus.
-Eigen::MatrixXd withoutConventions(const CalibrationResult& result) {
-  const Drawing& drawing = result.drawing();
+Eigen::MatrixXd withoutConventions(const Drawing& drawing, const Eigen::MatrixXd& covariance) {
   Eigen::MatrixXd fixed = Eigen::MatrixXd::Zero(drawing.unknowns(), 2);
   for (int gauge = 0; gauge < drawing.gauges(); ++gauge) fixed(Drawing::at(gauge, kAngleOffset), 0) = 1;
   fixed(drawing.at(kShearModulus), 1) = 1;
-  const Eigen::MatrixXd& covariance = result.covariance();
   const Eigen::MatrixXd along = covariance * fixed;
   return covariance - along * (fixed.transpose() * along).inverse() * along.transpose();
 }
-
-}  // namespace
 
 TouchVariances touchVariances(const RingResponse& ring, const TouchState& touch,
                               const Eigen::MatrixXd& covariance, double noise_strain) {
@@ -52,10 +48,10 @@ TouchVariances touchVariances(const RingResponse& ring, const TouchState& touch,
 double fingerError(const CalibrationResult& result) {
   const Drawing& drawing = result.drawing();
   const RingResponse built(drawing, result.deviations(), RingResponse::lastHarmonic(drawing));
-  const Eigen::MatrixXd covariance = withoutConventions(result);
+  const Eigen::MatrixXd covariance = withoutConventions(drawing, result.covariance());
   double sum = 0;
   int readings = 0;
-  for (const TouchState& touch : touchesAround(drawing)) {
+  for (const TouchState& touch : judgedTouches(drawing)) {
     const auto model = built.linearised(touch, true);
     const Eigen::VectorXd strains = (model.readings - built.zeros()).cwiseAbs();
     for (Eigen::Index gauge = 0; gauge < strains.size(); ++gauge) {
@@ -76,7 +72,7 @@ ExpectedErrors expectedErrors(const CalibrationResult& result) {
   const RingResponse drawn(drawing, Eigen::VectorXd::Zero(drawing.unknowns()), last);
   const double radius_m = config.finger.outer_radius_m;
   ExpectedErrors sum{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-  const auto touches = touchesAround(drawing);
+  const auto touches = judgedTouches(drawing);
   for (const TouchState& touch : touches) {
     const auto variances = touchVariances(built, touch, result.covariance(), config.gauges.noise_strain);
     const TouchState found =

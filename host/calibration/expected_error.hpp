@@ -2,6 +2,7 @@
 // What a calibration is worth: errors of touches to come.
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "host/calibration/calibrate.hpp"
 
@@ -15,8 +16,15 @@ struct TouchVariances {
 TouchVariances touchVariances(const RingResponse& ring, const TouchState& touch,
                               const Eigen::MatrixXd& covariance, double noise_strain);
 
-/// Of touches of 30 N/m over 2 mm everywhere on the ring, pressed and rubbed either way: RMS of place [m],
-/// normal and tangential load [N/m].
+/// The touches by which a calibration is judged: of 30 N/m over 2 mm everywhere on the ring, pressed and
+/// rubbed either way.
+std::vector<TouchState> judgedTouches(const Drawing& drawing);
+
+/// A covariance of deviations, given the mean of the angles and the modulus: the zero of the angle and the
+/// unit of force are conventions where nothing is known of a touch.
+Eigen::MatrixXd withoutConventions(const Drawing& drawing, const Eigen::MatrixXd& covariance);
+
+/// Of the judged touches: RMS of place [m], normal and tangential load [N/m].
 struct ExpectedErrors {
   Eigen::Vector3d before;  ///< located as if the finger were as drawn: what the calibrated one makes of that
   Eigen::Vector3d after;   ///< located with the finger as calibrated: noise and what is not known of it

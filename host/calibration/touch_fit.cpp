@@ -138,6 +138,11 @@ std::vector<TouchState> TouchSearch::starts(const VectorXd& strains, const Touch
   return starts;
 }
 
+TouchState TouchSearch::guess(const VectorXd& strains) const {
+  const auto best = starts(strains, {});
+  return best.empty() ? TouchState::Zero() : best.front();
+}
+
 double TouchSearch::unexplainedShare(const VectorXd& strains) const {
   const VectorXd along = orthonormal_.transpose() * strains;
   double best = 0;

@@ -8,18 +8,22 @@
 #include <string>
 #include <vector>
 
+#include "common/commands.hpp"
 #include "host/base/angles.hpp"
 #include "host/base/atomic_file.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/no_value.hpp"
 #include "host/base/read_file.hpp"
+#include "host/base/strain_rows.hpp"
 #include "host/calibration/expected_error.hpp"
 #include "host/calibration/report.hpp"
+#include "host/cli/bus_option.hpp"
+#include "host/cli/calibrate_live.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/model_options.hpp"
-#include "host/cli/strain_rows.hpp"
 #include "host/config/write_config.hpp"
+#include "host/session/recorded.hpp"
 
 namespace strainfinger::cli {
 namespace {
@@ -28,8 +32,20 @@ constexpr const char* kCalibrateHelp =
     "The finger as it was built, from touches by hand that nobody need have measured: gain, zero, angle and "
     "depth of each gauge, core radius, Poisson's ratio, shear modulus, together with place, loads and width "
     "of every touch.\n"
+    "--can: guided, with the finger on a bus: it says what to do next (leave it alone, roll it here, press "
+    "it there with a known load, press it at a mark), shows what is covered and known, and ends when nothing "
+    "is left to gain. Keys: l keeps what is held and enters its load, a its angle, s skips what you cannot "
+    "do, t takes "
+    "a new zero (asks first), q ends. Where stdout is no terminal, and with --plain, lines on stderr; lines "
+    "on "
+    "stdin say load 200 g, angle 40, hold, skip, tare or quit. The rows are kept beside -o as they come, in "
+    "NAME.strains.csv and NAME.touches.csv, which --strains and --touches read; the same command goes on "
+    "with "
+    "them. Nothing else is written to the finger than requests for its readings (RAW), but for the zero "
+    "that you agree to.\n"
     "--strains: CSV, one strain a gauge in a row, as `strains` prints them, without an earlier calibration; "
-    "hundreds of rows, all around the finger. --touches: CSV with angle_deg, normal_n_per_m and "
+    "hundreds of rows, all around the finger; or a recording of a bus with RAW in it, as `record` writes, of "
+    "which the touches that differ are taken. --touches: CSV with angle_deg, normal_n_per_m and "
     "tangential_n_per_m of each of these rows; an empty cell is unknown, both loads 0 are the untouched "
     "finger. A header row, blank lines and # comments are passed over.\n"
     "stdout: one row a gauge; with --summary one row of what belongs to the whole finger and what it is "
@@ -41,12 +57,27 @@ constexpr const char* kCalibrateHelp =
 
 struct CalibrateOptions {
   explicit CalibrateOptions(CLI::App& command) : common(command) {
-    command.add_option("--strains", strainsPath, "What the gauges read; stdin without it")->type_name("FILE");
-    command
-        .add_option("--touches", touchesPath,
-                    "What is known of what pressed, a row for each row of strains; without it nothing")
-        ->type_name("FILE");
-    command.add_option("-o,--output", outputPath, "Writes the calibrated config there")->type_name("FILE");
+    auto* const bus = addBusOption(command, live.bus);
+    auto* const strains =
+        command.add_option("--strains", strainsPath, "What the gauges read; stdin without it")
+            ->type_name("FILE")
+            ->excludes(bus);
+    auto* const touches =
+        command
+            .add_option("--touches", touchesPath,
+                        "What is known of what pressed, a row for each row of strains; without it nothing")
+            ->type_name("FILE")
+            ->excludes(bus);
+    auto* const output = command.add_option("-o,--output", outputPath, "Writes the calibrated config there")
+                             ->type_name("FILE");
+    bus->needs(output)->excludes(strains)->excludes(touches);
+    command.add_option("-n,--node", node, "Of --can and of recordings: node number in place of the config's")
+        ->check(CLI::Range(int{kFirstNode}, int{kLastNode}));
+    command.add_option("--rate", live.rate_hz, "Of --can: sample sets a second (default 100)")
+        ->type_name("HZ")
+        ->check(CLI::Range(10, int{kFastestRaw_hz}))
+        ->needs(bus);
+    command.add_flag("--plain", live.plain, "Of --can: lines, even in a terminal")->needs(bus);
     command
         .add_option("--load-error", errors.load,
                     "Standard deviation of known loads, relative to the normal load (default 0.01)")
@@ -63,6 +94,8 @@ struct CalibrateOptions {
   std::string touchesPath;
   std::string strainsPath;
   std::string outputPath;
+  LiveCalibration live;
+  int node = 0;  ///< 0: the config's
   calibration::KnownErrors errors;
   bool summary = false;
   bool rows = false;
@@ -188,15 +221,51 @@ void print(const CalibrateOptions& options, const calibration::CalibrationResult
   printGauges(format, result);
 }
 
-void runCalibrate(const CalibrateOptions& options) {
-  const config::FingerConfig config = options.common.config();
-  const auto known = readTouches(options.touchesPath);
-  const auto result = calibration::calibrate(
-      config, known, readStrains(options.strainsPath, config.gauges.count), options.errors);
+void report(const CalibrateOptions& options, const calibration::CalibrationResult& result) {
   print(options, result);
   fmt::print(stderr, "{}", calibration::textReport(result));
   if (!options.outputPath.empty())
     writeFileAtomically(options.outputPath, config::writeConfig(result.applied()));
+}
+
+std::uint8_t nodeOf(const CalibrateOptions& options, const config::FingerConfig& config) {
+  return static_cast<std::uint8_t>(options.node != 0 ? options.node : config.can.node);
+}
+
+void runLiveCalibration(const CalibrateOptions& options, const config::FingerConfig& config) {
+  LiveCalibration live = options.live;
+  live.node = nodeOf(options, config);
+  live.outputPath = options.outputPath;
+  live.errors = options.errors;
+  const LiveResult ended = calibrateLive(config, live);
+  if (ended.result) report(options, *ended.result);
+  if (ended.interrupted) throw Failure(ExitCode::kInterrupted, "calibrate: interrupted; " + ended.kept);
+  if (!ended.result) throw Failure(ExitCode::kFailure, fmt::format("{}; {}", ended.complaint, ended.kept));
+  fmt::print(stderr, "calibrate: {}\n", ended.kept);
+}
+
+Eigen::MatrixXd strainsOfRecording(const CalibrateOptions& options, const config::FingerConfig& config) {
+  if (!options.touchesPath.empty())
+    throw Failure(
+        ExitCode::kUsage,
+        fmt::format(
+            "{} is a recording, of whose readings `calibrate` chooses the rows: leave --touches out, or "
+            "give rows as `strains` prints them",
+            options.strainsPath));
+  const auto recorded = session::readRecording(options.strainsPath, config, nodeOf(options, config));
+  fmt::print(stderr, "calibrate: {} of {} sample sets are touches that differ\n", recorded.rows.size(),
+             recorded.sets);
+  return recorded.rows.matrix();
+}
+
+void runCalibrate(const CalibrateOptions& options) {
+  const config::FingerConfig config = options.common.config();
+  if (!options.live.bus.empty()) return runLiveCalibration(options, config);
+  const bool isRecording = !options.strainsPath.empty() && session::isRecording(options.strainsPath);
+  const auto known = isRecording ? std::vector<calibration::KnownTouch>{} : readTouches(options.touchesPath);
+  const auto strains = isRecording ? strainsOfRecording(options, config)
+                                   : readStrains(options.strainsPath, config.gauges.count);
+  report(options, calibration::calibrate(config, known, strains, options.errors));
 }
 
 }  // namespace

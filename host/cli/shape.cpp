@@ -9,10 +9,10 @@
 
 #include "host/base/angles.hpp"
 #include "host/base/no_value.hpp"
+#include "host/base/strain_rows.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/model_options.hpp"
-#include "host/cli/strain_rows.hpp"
 #include "host/shape/quantiles.hpp"
 
 namespace strainfinger::cli {

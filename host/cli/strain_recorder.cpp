@@ -8,7 +8,7 @@
 
 #include "common/fixed_real.hpp"
 #include "common/quantities.hpp"
-#include "host/cli/strain_rows.hpp"
+#include "host/base/strain_rows.hpp"
 
 namespace strainfinger::cli {
 namespace {

@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "host/base/failure.hpp"
+#include "host/base/strain_rows.hpp"
 #include "host/can/open_bus.hpp"
-#include "host/can/raw_receiver.hpp"
+#include "host/can/strain_receiver.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/raw_stream.hpp"
 #include "host/cli/request.hpp"
-#include "host/cli/strain_rows.hpp"
 #include "host/system/stop_signal.hpp"
 
 namespace strainfinger::cli {
@@ -46,36 +47,14 @@ struct StrainsOptions {
   std::uint64_t rows = std::numeric_limits<std::uint64_t>::max();
 };
 
-/// RAW of one finger, from its request to its end.
-class RawStream {
- public:
-  RawStream(can::BusPort& bus, std::uint8_t node, int rate_hz) : bus_(bus), node_(node) {
-    requireDone(ask(rate_hz), Command::kRaw, bus_, node_);
-  }
-  /// Best effort: whoever ends it by force leaves the finger sending until its next start.
-  ~RawStream() { ask(0); }
-  RawStream(const RawStream&) = delete;
-  RawStream& operator=(const RawStream&) = delete;
-
- private:
-  can::Reply ask(int rate_hz) {
-    return can::ask(bus_, node_, rawRequest(static_cast<std::uint16_t>(rate_hz)));
-  }
-
-  can::BusPort& bus_;
-  std::uint8_t node_;
-};
-
 class StrainPrinter {
  public:
   StrainPrinter(const config::Gauges& gauges, TableFormat format)
-      : strainOfCode_(can::strainPerCode(gauges.full_scale_strain)),
-        table_(stdout, format, columnsOf(gauges)) {}
+      : table_(stdout, format, columnsOf(gauges)) {}
 
-  void print(std::int64_t time_ns, const can::RawSet& set, const std::vector<std::uint16_t>& zeros) {
+  void print(std::int64_t time_ns, const can::StrainSet& set) {
     std::vector<Cell> cells{fmt::format("{}.{:06}", time_ns / 1'000'000'000, time_ns % 1'000'000'000 / 1000)};
-    for (std::size_t i = 0; i < set.codes.size(); ++i)
-      cells.emplace_back(strainOfCode_ * (int{set.codes[i]} - zeros[i]));
+    cells.insert(cells.end(), set.strains.begin(), set.strains.end());
     table_.row(cells);
     ++sets_;
   }
@@ -89,7 +68,6 @@ class StrainPrinter {
     return columns;
   }
 
-  double strainOfCode_;
   TableWriter table_;
   std::uint64_t sets_ = 0;
 };
@@ -103,7 +81,7 @@ void runStrains(const StrainsOptions& options) {
   const auto bus = can::openBus(options.request.bus, config.can.bitrate);
   const system::StopSignal stop;
   RawStream stream(*bus, node, options.rate_hz);
-  can::RawReceiver receiver(node, config.gauges.count);
+  can::StrainReceiver receiver(node, config.gauges.count, config.gauges.full_scale_strain);
   StrainPrinter printer(config.gauges, options.request.common.format());
   const auto isWhole = [&] { return printer.sets() >= options.rows; };
   for (auto heard = StrainClock::now(); !stop.asked() && !isWhole() && StrainClock::now() < end;) {
@@ -112,8 +90,9 @@ void runStrains(const StrainsOptions& options) {
       const auto arrived = bus->receiveTimed();
       if (!arrived) break;
       const auto set = receiver.take(arrived->frame);
-      if (set) heard = StrainClock::now();
-      if (set && !receiver.zeros().empty()) printer.print(arrived->time_ns, *set, receiver.zeros());
+      if (!set) continue;
+      heard = StrainClock::now();
+      printer.print(arrived->time_ns, *set);
     }
     if (StrainClock::now() - heard > kSilence)
       throw Failure(ExitCode::kNoNode,

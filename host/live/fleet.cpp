@@ -36,7 +36,7 @@ double jitterOf(std::span<const std::int64_t> intervals_us) {
 }  // namespace
 
 Fleet::Node& Fleet::nodeAt(std::uint8_t number) {
-  return nodes_.try_emplace(number, number, gauges_.count).first->second;
+  return nodes_.try_emplace(number, number, gauges_).first->second;
 }
 
 void Fleet::take(std::int64_t time_us, const CanFrame& frame) {
@@ -49,7 +49,10 @@ void Fleet::take(std::int64_t time_us, const CanFrame& frame) {
   Node& node = nodeAt(number);
   if (decode<ContactFrame>(frame)) node.contacts.add(now_us_);
   if (const auto touch = node.receiver.take(frame)) takeTouch(node, now_us_, *touch);
-  if (const auto set = node.raw.take(frame)) takeRaw(node, *set);
+  if (const auto set = node.raw.take(frame)) {
+    node.strains = set->strains;
+    node.strained_us = now_us_;
+  }
   if (const auto heartbeat = decode<HeartbeatFrame>(frame)) takeHeartbeat(node, now_us_, *heartbeat);
   if (const auto info = decode<InfoFrame>(frame)) node.info = info;
   if (const auto gauges = decode<GaugesFrame>(frame)) node.gauges = gauges;
@@ -60,16 +63,6 @@ void Fleet::takeHeartbeat(Node& node, std::int64_t time_us, const HeartbeatFrame
     node.intervals_us[node.intervals++ % node.intervals_us.size()] = time_us - node.heard_us;
   node.heartbeat = heartbeat;
   node.heard_us = time_us;
-}
-
-void Fleet::takeRaw(Node& node, const can::RawSet& set) const {
-  const std::vector<std::uint16_t>& zeros = node.raw.zeros();
-  if (zeros.size() != set.codes.size()) return;  // not known yet
-  const double strain = can::strainPerCode(gauges_.full_scale_strain);
-  node.strains.clear();
-  for (std::size_t i = 0; i < zeros.size(); ++i)
-    node.strains.push_back(strain * (int{set.codes[i]} - int{zeros[i]}));
-  node.strained_us = now_us_;
 }
 
 void Fleet::takeTouch(Node& node, std::int64_t time_us, const can::TouchReport& touch) {

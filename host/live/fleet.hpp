@@ -10,7 +10,7 @@
 
 #include "common/can_frame.hpp"
 #include "host/can/loss_counter.hpp"
-#include "host/can/raw_receiver.hpp"
+#include "host/can/strain_receiver.hpp"
 #include "host/can/touch_receiver.hpp"
 #include "host/config/finger_config.hpp"
 #include "host/live/finger_view.hpp"
@@ -33,9 +33,10 @@ class Fleet {
  private:
   /// Of one node, which may turn out to be no finger.
   struct Node {
-    Node(std::uint8_t number, int gaugeCount) : receiver(number), raw(number, gaugeCount) {}
+    Node(std::uint8_t number, const config::Gauges& ring)
+        : receiver(number), raw(number, ring.count, ring.full_scale_strain) {}
     can::TouchReceiver receiver;
-    can::RawReceiver raw;
+    can::StrainReceiver raw;
     std::optional<HeartbeatFrame> heartbeat{};
     std::optional<InfoFrame> info{};
     std::optional<GaugesFrame> gauges{};
@@ -53,7 +54,6 @@ class Fleet {
   };
   Node& nodeAt(std::uint8_t number);
   static void takeHeartbeat(Node& node, std::int64_t time_us, const HeartbeatFrame& heartbeat);
-  void takeRaw(Node& node, const can::RawSet& set) const;
   static void takeTouch(Node& node, std::int64_t time_us, const can::TouchReport& touch);
   FingerView viewOf(std::uint8_t number, Node& node);
 

@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 """monitor_test.py PROGRAM: the monitor in a terminal, by what its screen holds, and in a pipe."""
-import itertools
 import json
 import os
 import re
@@ -12,52 +11,13 @@ import tomllib
 import unittest
 
 from fingers import Bench, bench_with_two, cpu_s
+from terminal import Terminal
 
 if shutil.which("tmux") is None:
     print("tmux is not installed: apt install tmux")
     sys.exit(77)
 
 PROGRAM = os.path.abspath(sys.argv.pop(1))
-
-
-class Terminal:
-    """A window of tmux, in a server of its own: the name of one that is ending is not to be had at once."""
-    numbers = itertools.count()
-
-    def __init__(self, command, columns=100, rows=30, locale="C.UTF-8"):
-        self.name = f"strainfinger_{os.getpid()}_{next(self.numbers)}"
-        environment = dict(os.environ, LC_ALL=locale, TERM="xterm-256color")
-        environment.pop("NO_COLOR", None)
-        self.tmux("-f", "/dev/null", "new-session", "-d", "-x", str(columns), "-y", str(rows), command + "; echo ended: $?; sleep 60",
-                  env=environment)
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.tmux("kill-server", check=False)
-
-    def tmux(self, *arguments, check=True, **options):
-        return subprocess.run(["tmux", "-u", "-L", self.name, *arguments], check=check, capture_output=True, text=True, **options).stdout
-
-    def screen(self, escapes=False):
-        return self.tmux("capture-pane", "-p", *(["-e"] if escapes else []))
-
-    def resize(self, columns, rows):
-        self.tmux("resize-window", "-x", str(columns), "-y", str(rows))
-
-    def press(self, *keys):
-        self.tmux("send-keys", *keys)
-
-    def wait_for(self, pattern, longest_s=20):
-        """The screen when it holds the regular expression."""
-        end = time.monotonic() + longest_s
-        while time.monotonic() < end:
-            screen = self.screen()
-            if re.search(pattern, screen):
-                return screen
-            time.sleep(0.05)
-        raise AssertionError(f"not within {longest_s} s: {pattern}; the screen:\n{screen}")
 
 
 class Live(unittest.TestCase):

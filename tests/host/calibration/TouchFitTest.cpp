@@ -64,3 +64,21 @@ TEST(TouchFit, WhatNothingPressesIsNotFound) {
   TouchData pulled = dataOf({1, -20, 0, 1e-3});
   CHECK_COMPARE(search.find(ring, pulled).chiSquared, >, 1e4);
 }
+
+TEST(TouchFit, NineteenOfTwentyGuessesAreWithinATenthOfAGap) {
+  const double gap = 2 * std::numbers::pi / 16;
+  const int cases = randomCases(1000);
+  int away = 0, wrongLoad = 0;
+  for (int i = 0; i < cases; ++i) {
+    const TouchState touch = someTouch();
+    const TouchState guess = search.guess(ring.readings(touch));
+    away += std::abs(std::remainder(guess[kPlace] - touch[kPlace], 2 * std::numbers::pi)) > 0.1 * gap;
+    wrongLoad += std::abs(guess[kNormalLoad] / touch[kNormalLoad] - 1) > 0.25;
+  }
+  CHECK_COMPARE(20 * away, <=, cases);
+  CHECK_COMPARE(20 * wrongLoad, <=, cases);
+}
+
+TEST(TouchFit, OfNothingThereIsNoGuess) {
+  DOUBLES_EQUAL(0, search.guess(Eigen::VectorXd::Zero(16)).norm(), 0);
+}

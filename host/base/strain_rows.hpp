@@ -6,7 +6,7 @@
 
 #include "host/base/number_rows.hpp"
 
-namespace strainfinger::cli {
+namespace strainfinger {
 
 /// The columns of a ring: strain_0, strain_1 ..
 inline std::vector<std::string> strainColumns(int gauges) {
@@ -22,4 +22,4 @@ inline NumberRowReader::Limit strainLimit(int gauges) {
           .columns = strainColumns(gauges)};
 }
 
-}  // namespace strainfinger::cli
+}  // namespace strainfinger

@@ -1,0 +1,269 @@
+#include "host/cli/calibrate_live.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <thread>
+#include <utility>
+
+#include "host/base/failure.hpp"
+#include "host/base/line_reader.hpp"
+#include "host/can/open_bus.hpp"
+#include "host/can/strain_receiver.hpp"
+#include "host/cli/raw_stream.hpp"
+#include "host/live/terminal.hpp"
+#include "host/session/session.hpp"
+#include "host/session/session_files.hpp"
+#include "host/session/session_view.hpp"
+#include "host/system/stop_signal.hpp"
+
+namespace strainfinger::cli {
+namespace {
+
+using SessionClock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+constexpr auto kSessionRedraw = 100ms;  ///< between pictures
+constexpr auto kSessionWait = 20ms;     ///< for frames, before keys are looked at
+/// Between a frame's arrival and reading: those that come meanwhile cost one awakening for all.
+constexpr auto kSessionGather = 5ms;
+constexpr auto kSessionSilence = 3s;  ///< then the finger is asked again: it may have been off
+constexpr auto kSessionLine = 1s, kSessionSameLine = 10s;  ///< between lines: at least; when nothing is new
+
+double secondsSince(SessionClock::time_point then) {
+  return std::chrono::duration<double>(SessionClock::now() - then).count();
+}
+
+/// What the user says and sees.
+class SessionFace {
+ public:
+  virtual ~SessionFace() = default;
+  /// The text of a command, if one was given.
+  virtual std::optional<std::string> heard() = 0;
+  virtual void show(const session::SessionView& view) = 0;
+};
+
+class SessionScreen : public SessionFace {
+ public:
+  explicit SessionScreen(const config::Gauges& gauges) : gauges_(gauges) {}
+
+  std::optional<std::string> heard() override {
+    while (const auto key = terminal_.key())
+      if (const auto text = keys_.press(*key)) return text;
+    return std::nullopt;
+  }
+  void show(const session::SessionView& view) override {
+    if (SessionClock::now() - drawn_ < kSessionRedraw) return;
+    drawn_ = SessionClock::now();
+    session::SessionView prompted = view;
+    prompted.prompt = keys_.prompt();
+    terminal_.show(session::drawSession(prompted, gauges_, live::terminalForm()));
+  }
+
+ private:
+  const config::Gauges& gauges_;
+  live::Terminal terminal_;
+  session::KeyReader keys_;
+  SessionClock::time_point drawn_{};
+};
+
+/// Lines on stderr: stdout is for the table at the end. Commands are lines on stdin.
+class SessionLines : public SessionFace {
+ public:
+  std::optional<std::string> heard() override {
+    if (const auto line = stdin_.next()) return std::string(*line);
+    if (!isOver_) isOver_ = stdin_.read(0ms) == LineReader::Got::kEnd;
+    if (const auto line = stdin_.next()) return std::string(*line);
+    return std::nullopt;
+  }
+  void show(const session::SessionView& view) override {
+    if (!view.message.empty() && view.message != message_)
+      fmt::print(stderr, "calibrate: {}\n", view.message);
+    message_ = view.message;
+    const auto since = SessionClock::now() - printed_;
+    const std::string news =
+        fmt::format("{}|{}|{}", view.next, view.complaint, view.assessment ? view.assessment->rows : 0);
+    if (since < kSessionLine || (news == news_ && since < kSessionSameLine)) return;
+    printed_ = SessionClock::now();
+    news_ = news;
+    fmt::print(stderr, "{}\n", session::sessionLine(view));
+  }
+
+ private:
+  LineReader stdin_{"-"};
+  bool isOver_ = false;
+  std::string message_, news_;
+  SessionClock::time_point printed_{};
+};
+
+/// Bus, files and fit around a session.
+class LiveSession {
+ public:
+  LiveSession(const config::FingerConfig& config, const LiveCalibration& options)
+      : config_(config),
+        options_(options),
+        port_(can::openBus(options.bus, config.can.bitrate)),
+        files_(options.outputPath, config.gauges.count),
+        session_(config, files_.rows()),
+        fit_(config, options.errors),
+        receiver_(options.node, config.gauges.count, config.gauges.full_scale_strain) {}
+
+  LiveResult run() {
+    bool interrupted = false;
+    try {
+      interrupted = collect();
+    } catch (const Failure& failure) {
+      throw Failure(failure.code(), fmt::format("{}; {}", failure.what(), kept()));
+    }
+    return conclude(interrupted);
+  }
+
+ private:
+  /// Whether it was interrupted.
+  bool collect() {
+    const system::StopSignal stop;
+    RawStream stream(*port_, options_.node, options_.rate_hz);
+    missedBefore_ = port_->status().missed;
+    heard_ = SessionClock::now();
+    const auto face = makeFace();
+    while (!stop.asked() && !quit_ && session_.advice().kind != session::Advice::Kind::kDone) {
+      if (port_->waitReadable(kSessionWait)) std::this_thread::sleep_for(kSessionGather);
+      takeFrames();
+      followFit();
+      while (const auto text = face->heard()) obey(*text);
+      if (SessionClock::now() - heard_ > kSessionSilence) askAgain(stream);
+      face->show(view());
+    }
+    return stop.asked();
+  }
+
+  std::unique_ptr<SessionFace> makeFace() const {
+    if (!options_.plain && live::hasTerminal()) return std::make_unique<SessionScreen>(config_.gauges);
+    return std::make_unique<SessionLines>();
+  }
+
+  void takeFrames() {
+    while (const auto frame = port_->receiveTimed()) {
+      const auto set = receiver_.take(frame->frame);
+      if (!set) continue;
+      heard_ = SessionClock::now();
+      if (set->zeroing) continue;
+      ++sets_;
+      const session::Sample sample{
+          1e-9 * static_cast<double>(frame->time_ns),
+          Eigen::Map<const Eigen::VectorXd>(set->strains.data(), config_.gauges.count)};
+      for (const session::NewRow& row : session_.take(sample)) files_.add(row.time_s, row.strains, row.known);
+    }
+  }
+
+  void followFit() {
+    if (auto outcome = fit_.poll()) session_.takeFit(std::move(*outcome));
+    if (!fit_.isRunning() && session_.wantsFit()) fit_.start(session_.beginFit());
+  }
+
+  void obey(const std::string& text) {
+    const session::Obeyed obeyed = session_.obey(session::parseCommand(text, config_.finger.length_m));
+    if (obeyed.row) files_.add(obeyed.row->time_s, obeyed.row->strains, obeyed.row->known);
+    message_ = obeyed.message;
+    quit_ |= obeyed.quit;
+    if (obeyed.tare) tare();
+  }
+
+  void tare() {
+    const can::Reply reply = can::ask(*port_, options_.node, tareRequest(false));
+    heard_ = SessionClock::now();
+    message_ = reply.response ? "tare: " + can::meaningOf(*reply.response)
+                              : "tare: no answer: is the finger on the bus still?";
+  }
+
+  void askAgain(RawStream& stream) {
+    const auto silence_s = secondsSince(heard_);
+    stream.askAgain();
+    heard_ = SessionClock::now();
+    if (++silences_ > kMostSilences || sets_ == 0)
+      throw Failure(ExitCode::kNoNode,
+                    fmt::format("{} node {}: no whole set of readings for {:.0f} s, though it answers: has "
+                                "it gauges.count = {}, as "
+                                "the config, and is the bus free enough? A lower --rate may help",
+                                port_->name(), options_.node, silence_s, config_.gauges.count));
+    message_ = "the finger sent nothing, and was asked again";
+  }
+
+  session::SessionView view() const {
+    session::SessionView view{.bus = port_->name(), .node = options_.node};
+    view.time_s = secondsSince(began_);
+    view.sets = sets_;
+    view.lost = port_->status().missed - missedBefore_ + receiver_.incomplete();
+    view.rows = session_.rows().size();
+    view.coverage = session_.coverage();
+    view.now = session_.now();
+    view.silent_s = secondsSince(heard_);
+    view.atRest_s = session_.atRest_s();
+    view.next = nextText();
+    if (session_.fit()) view.assessment = session_.fit()->assessment;
+    view.isFitting = fit_.isRunning();
+    view.complaint = session_.complaint();
+    view.message = message_;
+    return view;
+  }
+
+  std::string nextText() const {
+    if (const auto gauge = session_.farGauge())
+      return fmt::format(
+          "Gauge {} is far from its zero though nothing moves. If nothing touches the finger, tare it{}.",
+          *gauge, session_.rows().size() == 0 ? " (t)" : "");
+    return session::textOf(session_.advice(), config_.gauges);
+  }
+
+  std::string kept() const {
+    if (session_.rows().size() == 0) return "no rows were collected";
+    return fmt::format("{} rows are kept in {} and {}: the same command goes on with them",
+                       session_.rows().size(), files_.strainsPath(), files_.touchesPath());
+  }
+
+  /// A last fit of all rows, unless there is one or nobody waits for it.
+  LiveResult conclude(bool interrupted) {
+    if (fit_.isRunning()) {
+      fmt::print(stderr, "calibrate: waiting for the fit that is being made{}\n",
+                 interrupted ? "; Ctrl-C ends it at once" : "");
+      session_.takeFit(*fit_.wait());
+    }
+    const bool isNewest = session_.fit() && session_.fit()->rows == session_.rows().size();
+    if (!interrupted && !isNewest) {
+      fmt::print(stderr, "calibrate: fitting {} rows\n", session_.rows().size());
+      session_.takeFit(session::fitRows(config_, session_.beginFit(), options_.errors));
+    }
+    LiveResult ended{std::nullopt, session_.complaint(), kept(), interrupted};
+    if (session_.fit() && (interrupted || session_.complaint().empty()))
+      ended.result = session_.fit()->result;
+    if (ended.complaint.empty() && !ended.result) ended.complaint = "there was no fit yet";
+    return ended;
+  }
+
+  static constexpr int kMostSilences = 3;
+
+  config::FingerConfig config_;
+  LiveCalibration options_;
+  std::unique_ptr<can::BusPort> port_;
+  session::SessionFiles files_;
+  session::Session session_;
+  session::FitBeside fit_;
+  can::StrainReceiver receiver_;
+  SessionClock::time_point began_ = SessionClock::now(), heard_ = began_;
+  std::uint32_t missedBefore_ = 0;
+  std::uint64_t sets_ = 0;
+  int silences_ = 0;
+  std::string message_;
+  bool quit_ = false;
+};
+
+}  // namespace
+
+LiveResult calibrateLive(const config::FingerConfig& config, const LiveCalibration& options) {
+  return LiveSession(config, options).run();
+}
+
+}  // namespace strainfinger::cli

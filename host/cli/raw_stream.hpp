@@ -1,0 +1,37 @@
+#pragma once
+// A finger that sends its readings (RAW) while somebody listens.
+
+#include <cstdint>
+
+#include "common/commands.hpp"
+#include "host/can/ask.hpp"
+#include "host/cli/request.hpp"
+
+namespace strainfinger::cli {
+
+/// From the request for RAW to its end.
+class RawStream {
+ public:
+  /// Throws as requireDone() does.
+  RawStream(can::BusPort& bus, std::uint8_t node, int rate_hz) : bus_(bus), node_(node), rate_hz_(rate_hz) {
+    requireDone(ask(rate_hz_), Command::kRaw, bus_, node_);
+  }
+  /// Best effort: whoever ends it by force leaves the finger sending until its next start.
+  ~RawStream() { ask(0); }
+  RawStream(const RawStream&) = delete;
+  RawStream& operator=(const RawStream&) = delete;
+
+  /// Asks once more: a finger that was switched off and on sends no RAW. Throws as requireDone() does.
+  void askAgain() { requireDone(ask(rate_hz_), Command::kRaw, bus_, node_); }
+
+ private:
+  can::Reply ask(int rate_hz) {
+    return can::ask(bus_, node_, rawRequest(static_cast<std::uint16_t>(rate_hz)));
+  }
+
+  can::BusPort& bus_;
+  std::uint8_t node_;
+  int rate_hz_;
+};
+
+}  // namespace strainfinger::cli

@@ -1,0 +1,112 @@
+#include "host/session/commands.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace strainfinger::session {
+namespace {
+
+constexpr double kGravity_m_per_s2 = 9.80665;  // standard gravity (CGPM 1901)
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == text.npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+/// A number and what stands behind it.
+struct Quantity {
+  double value;
+  std::string_view unit;
+};
+std::optional<Quantity> quantityIn(std::string_view text) {
+  Quantity found{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), found.value);
+  if (error != std::errc{} || !std::isfinite(found.value)) return std::nullopt;
+  found.unit = trimmed(text.substr(static_cast<std::size_t>(end - text.data())));
+  return found;
+}
+
+Command loadOf(std::string_view text, double length_m) {
+  const auto said = quantityIn(text);
+  if (!said) return Unclear{fmt::format("\"{}\" is no load: say it as in 200 g, 2 N or 24.5 N/m", text)};
+  double perUnit = 0;
+  if (said->unit == "g") perUnit = 1e-3 * kGravity_m_per_s2 / length_m;
+  if (said->unit == "kg") perUnit = kGravity_m_per_s2 / length_m;
+  if (said->unit == "N") perUnit = 1 / length_m;
+  if (said->unit == "N/m") perUnit = 1;
+  if (perUnit == 0) return Unclear{fmt::format("\"{}\": say the unit of the load: g, kg, N or N/m", text)};
+  if (said->value <= 0) return Unclear{fmt::format("\"{}\": the load must press: more than 0", text)};
+  return LoadIs{said->value * perUnit};
+}
+
+Command angleOf(std::string_view text) {
+  const auto said = quantityIn(text);
+  if (!said || (said->unit != "" && said->unit != "deg"))
+    return Unclear{fmt::format("\"{}\" is no angle: say it in degrees, as in 40", text)};
+  if (std::abs(said->value) > 360)
+    return Unclear{
+        fmt::format("\"{}\": an angle is from 0 to 360 degrees, counter-clockwise seen from the tip", text)};
+  return AngleIs{said->value < 0 ? said->value + 360 : said->value};
+}
+
+}  // namespace
+
+Command parseCommand(std::string_view line, double length_m) {
+  const std::string_view text = trimmed(line);
+  const auto blank = text.find_first_of(" \t");
+  const std::string_view word = text.substr(0, blank);
+  const std::string_view rest = blank == text.npos ? "" : trimmed(text.substr(blank));
+  if (word == "load") return loadOf(rest, length_m);
+  if (word == "angle") return angleOf(rest);
+  if (rest.empty() && word == "hold") return Hold{};
+  if (rest.empty() && word == "tare") return Tare{};
+  if (rest.empty() && word == "skip") return Skip{};
+  if (rest.empty() && word == "quit") return Quit{};
+  return Unclear{fmt::format("\"{}\": say load, angle, hold, skip, tare or quit", text)};
+}
+
+std::optional<std::string> KeyReader::press(unsigned char key) {
+  constexpr unsigned char kEscape = 0x1B, kDelete = 0x7F, kBackspace = 0x08;
+  if (mode_ == Mode::kKeys) {
+    typed_.clear();
+    if (key == 'l') mode_ = Mode::kLoad;
+    if (key == 'a') mode_ = Mode::kAngle;
+    if (key == 't') mode_ = Mode::kTare;
+    if (isTyping()) return "hold";
+    if (key == 's') return "skip";
+    if (key == 'q') return "quit";
+    return std::nullopt;
+  }
+  if (mode_ == Mode::kTare) {
+    mode_ = Mode::kKeys;
+    return key == 'y' ? std::optional<std::string>("tare") : std::nullopt;
+  }
+  if (key == '\r' || key == '\n') {
+    const std::string text = (mode_ == Mode::kLoad ? "load " : "angle ") + typed_;
+    mode_ = Mode::kKeys;
+    return text;
+  }
+  if (key == kEscape) mode_ = Mode::kKeys;
+  if ((key == kDelete || key == kBackspace) && !typed_.empty()) typed_.pop_back();
+  if (key >= ' ' && key < kDelete && typed_.size() < 40) typed_ += static_cast<char>(key);
+  return std::nullopt;
+}
+
+std::string KeyReader::prompt() const {
+  switch (mode_) {
+    case Mode::kLoad:
+      return "load, with its unit (200 g, 2 N, 24.5 N/m), Return: " + typed_ + "_";
+    case Mode::kAngle:
+      return "angle in degrees, Return: " + typed_ + "_";
+    case Mode::kTare:
+      return "the finger takes a new zero: does nothing touch it? y: yes, any other key: no";
+    case Mode::kKeys:
+      break;
+  }
+  return "";
+}
+
+}  // namespace strainfinger::session

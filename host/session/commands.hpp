@@ -1,0 +1,50 @@
+#pragma once
+// What a user tells a session.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+namespace strainfinger::session {
+
+struct LoadIs {
+  double normal_n_per_m;
+};
+struct AngleIs {
+  double angle_deg;
+};
+/// What is held now is what the next load or angle is of.
+struct Hold {};
+struct Tare {};
+struct Skip {};
+struct Quit {};
+/// Not understood, and why.
+struct Unclear {
+  std::string why;
+};
+using Command = std::variant<LoadIs, AngleIs, Hold, Tare, Skip, Quit, Unclear>;
+
+/// "load 200 g", "load 2 N", "load 24.5 N/m", "angle 40", "hold", "tare", "skip", "quit"; blanks don't
+/// matter. `length_m`: of the finger, turns N into N/m.
+Command parseCommand(std::string_view line, double length_m);
+
+/// What is typed on a terminal, key by key: `l` and `a` hold what is pressed and begin its load or angle,
+/// which Return ends and Escape drops; t asks whether to tare, which y does.
+class KeyReader {
+ public:
+  /// A whole command's text, when this key makes it one.
+  std::optional<std::string> press(unsigned char key);
+
+  /// What is asked and was typed so far; empty: nothing.
+  std::string prompt() const;
+  /// A load or an angle is being typed in.
+  bool isTyping() const { return mode_ == Mode::kLoad || mode_ == Mode::kAngle; }
+
+ private:
+  enum class Mode { kKeys, kLoad, kAngle, kTare };
+  Mode mode_ = Mode::kKeys;
+  std::string typed_;
+};
+
+}  // namespace strainfinger::session

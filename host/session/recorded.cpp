@@ -1,0 +1,49 @@
+#include "host/session/recorded.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+#include <variant>
+
+#include "host/base/failure.hpp"
+#include "host/can/log_reader.hpp"
+#include "host/can/strain_receiver.hpp"
+#include "host/session/thinning.hpp"
+
+namespace strainfinger::session {
+
+bool isRecording(const std::string& path) {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(path, unknown))
+    return false;  // a pipe's lines can be read once alone
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    if (line.find_first_not_of(" \t\r") == line.npos || line.front() == '#') continue;
+    return std::holds_alternative<can::LogLine>(can::parseLogLine(line));
+  }
+  return false;
+}
+
+Recorded readRecording(const std::string& path, const config::FingerConfig& config, std::uint8_t node) {
+  can::LogReader log(path);
+  can::StrainReceiver receiver(node, config.gauges.count, config.gauges.full_scale_strain);
+  Thinner thinner(config);
+  Recorded found;
+  while (const auto frame = log.next()) {
+    const auto set = receiver.take(frame->frame);
+    if (!set || set->zeroing) continue;
+    ++found.sets;
+    const Sample sample{1e-9 * static_cast<double>(*frame->time_ns),
+                        Eigen::Map<const Eigen::VectorXd>(set->strains.data(), config.gauges.count)};
+    if (thinner.take(sample) == Verdict::kKept) found.rows.add(sample.strains, {});
+  }
+  if (found.sets > 0) return found;
+  throw Failure(ExitCode::kFailure, fmt::format("{}: no readings (RAW) of node {} with {} gauges: record "
+                                                "while `strainfinger strains --can ..` runs, "
+                                                "or give -n and the finger's config",
+                                                path, node, config.gauges.count));
+}
+
+}  // namespace strainfinger::session

@@ -1,0 +1,24 @@
+#pragma once
+// Rows out of a recording of a bus.
+
+#include <cstdint>
+#include <string>
+
+#include "host/config/finger_config.hpp"
+#include "host/session/rows.hpp"
+
+namespace strainfinger::session {
+
+/// Whether the first line of a file (no pipe) with anything in it is one of candump's, in any of its forms.
+bool isRecording(const std::string& path);
+
+struct Recorded {
+  Rows rows;               ///< thinned, of unknown touches
+  std::uint64_t sets = 0;  ///< that were whole
+};
+
+/// The readings (RAW) of the config's node, thinned as a session's are. Throws Failure(kFailure) as
+/// can::LogReader does, and when there are none.
+Recorded readRecording(const std::string& path, const config::FingerConfig& config, std::uint8_t node);
+
+}  // namespace strainfinger::session

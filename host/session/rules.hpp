@@ -1,0 +1,80 @@
+#pragma once
+// Every threshold of a guided session: unit, value, and where it comes from.
+
+namespace strainfinger::session {
+
+/// Which sample sets are kept as rows of strains.
+struct ThinningRules {
+  /// [standard deviations of a difference of two readings, RMS over the gauges] By so much a row differs from
+  /// the kept ones of its cell; 1 is noise, 5 is none by chance.
+  double distinct = 5;
+  /// [noise] Of the largest reading; weaker touches tell nothing beside it (calibrate()'s own limit).
+  double weakest = 40;
+  /// [1/s] Change of the readings over their largest size of late. The board takes 446 us to read a set's
+  /// gauges one after the other (firmware/board/stm32g431): at 10/s they are off by 0.13 %, RMS over the
+  /// ring.
+  double fastest_per_s = 10;
+  /// [s] The change is measured over a time between these: long enough that noise is none of it, and short
+  /// enough that nobody presses and lets go in between. Rows every 100 ms, as the guide has them, have it.
+  double shortestSpan_s = 0.03, longestSpan_s = 0.25;
+  /// [s] Between rows: a finger that is rolled around in 5 s has moved by half a millimetre.
+  double closest_s = 0.04;
+  /// [rows] Of one cell (half a gap between gauges, an octave of load, a third of leans). The default ring's
+  /// 96 cells of each octave get 2,300 rows in three octaves; 3,000 come within 1.4 of a perfectly known
+  /// finger (issue 20).
+  int mostPerCell = 8;
+  /// [N/m over N/m] Tangential over normal load beyond which a touch counts as rubbed.
+  double rubbed = 0.25;
+};
+
+/// What a session asks for, and when nothing is left to gain.
+struct SessionGoals {
+  /// [s] Leave it alone so long: ten rows of half a second.
+  double untouched_s = 5;
+  int untouchedRows = 10;
+  /// [noise] Sigma of the worst zero: ten rows give 0.3.
+  double zero = 0.5;
+  /// [noise] The finger is at rest while no reading leaves its mean by more: one in 10^9 by chance.
+  double atRest = 6;
+  /// [tolerance.zero_strain] A finger at rest whose readings are beyond is touched or wants a new zero: four
+  /// standard deviations.
+  double farZero = 4;
+  /// [touches] Over every gauge, and between it and the next, before anything else is judged: two touches a
+  /// gauge's unknown, with their four neighbours' help.
+  int leastPerArc = 4;
+  /// [1] Sigma of the unit of force: a gram in a hundred, as kitchen scales have it.
+  double unitOfForce = 0.01;
+  /// [deg] Sigma of the zero of the angle: what a hand presses a mark to, over the root of 8.
+  double zeroOfAngle_deg = 0.2;
+  /// [directions] That are known, not opposite each other: two tell a ring that is turned or reversed.
+  int directions = 2;
+  /// [deg] From each other and from opposite each other.
+  double directionsApart_deg = 20;
+  /// [touches] More, of which it is asked what they gain ..
+  int batch = 100;
+  /// .. [1] in the error of touches to come; nothing is left to gain below. What isn't known of a finger
+  /// falls with the root of the touches: an error that a hundred after 500 lower by less is within a quarter
+  /// of what noise alone makes.
+  double leastGain = 0.03;
+};
+
+/// When rows are fitted anew.
+struct FitRules {
+  /// [touches a gauge] Before the first fit: calibrate() wants two.
+  int firstPerGauge = 4;
+  /// [touches a gauge] With so many the first fit is made although arcs are not covered: it may tell why, as
+  /// gauges that are wired wrongly.
+  int uncoveredPerGauge = 20;
+  /// [1] More rows than at the last fit, at which sigmas have fallen by a tenth.
+  double growth = 1.2;
+};
+
+/// What is kept of a touch that is held while its load or angle is typed in.
+struct HoldRules {
+  double time_s = 0.3;  ///< [s] over which it is averaged
+  int leastSets = 3;
+  double noise = 3;     ///< [noise] that each gauge may move, RMS, or ..
+  double share = 0.01;  ///< .. [1] of the largest reading: a hand is no clamp
+};
+
+}  // namespace strainfinger::session

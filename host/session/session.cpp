@@ -1,0 +1,188 @@
+#include "host/session/session.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace strainfinger::session {
+
+using calibration::KnownTouch;
+using Eigen::VectorXd;
+
+Session::Session(const config::FingerConfig& config, Rows rows)
+    : config_(config),
+      rows_(std::move(rows)),
+      thinner_(config),
+      search_(drawnSearch(config)),
+      coverage_(coverageOf(config.gauges, search_, rows_)) {
+  for (const VectorXd& strains : rows_.strains) thinner_.remember(strains);
+}
+
+void Session::keep(const NewRow& row) {
+  rows_.add(row.strains, row.known);
+  count(coverage_, config_.gauges, search_, row.strains, row.known);
+}
+
+std::vector<NewRow> Session::take(const Sample& sample) {
+  recent_.push_back(sample);
+  while (sample.time_s - recent_.front().time_s > holds_.time_s) recent_.pop_front();
+  now_ = coverage_.untouched > 0 ? thinner_.take(sample) : Verdict::kTooSoon;
+  std::vector<NewRow> found = watchRest(sample);
+  if (now_ == Verdict::kKept) found.push_back({sample.time_s, sample.strains, {}});
+  for (const NewRow& row : found) keep(row);
+  return found;
+}
+
+double Session::atRest_s() const {
+  return resting_.empty() ? 0 : resting_.back().time_s - resting_.front().time_s;
+}
+
+/// Rows of the untouched finger, each the mean over a part of the time that it was left alone, once that was
+/// asked for and is over.
+std::vector<NewRow> Session::watchRest(const Sample& sample) {
+  const double most = goals_.atRest * config_.gauges.noise_strain;
+  const auto far = [&] {
+    return (sample.strains - restSum_ / static_cast<double>(resting_.size())).cwiseAbs().maxCoeff() > most;
+  };
+  if (!resting_.empty() && far()) {
+    resting_.clear();
+    farGauge_.reset();
+  }
+  if (resting_.empty()) restSum_ = VectorXd::Zero(sample.strains.size());
+  resting_.push_back(sample);
+  restSum_ += sample.strains;
+  if (atRest_s() < goals_.untouched_s) return {};
+  const std::vector<Sample> rested = std::exchange(resting_, {});
+  Eigen::Index worst = 0;
+  const VectorXd mean = restSum_ / static_cast<double>(rested.size());
+  const double off = mean.cwiseAbs().maxCoeff(&worst);
+  if (off > goals_.farZero * config_.tolerance.zero_strain) {
+    farGauge_ = static_cast<int>(worst);
+    return {};
+  }
+  if (advice().kind != Advice::Kind::kLeaveAlone) return {};
+  std::vector<NewRow> rows;
+  const auto parts = static_cast<std::size_t>(goals_.untouchedRows);
+  for (std::size_t part = 0; part < parts; ++part) {
+    const std::size_t begin = part * rested.size() / parts, end = (part + 1) * rested.size() / parts;
+    if (begin == end) continue;
+    VectorXd sum = VectorXd::Zero(sample.strains.size());
+    for (std::size_t i = begin; i < end; ++i) sum += rested[i].strains;
+    rows.push_back({rested[begin].time_s, sum / static_cast<double>(end - begin), {std::nullopt, 0, 0}});
+  }
+  return rows;
+}
+
+/// The mean of what is held; else why there is none.
+std::optional<Sample> Session::nowHeld(std::string& why) const {
+  const config::Gauges& gauges = config_.gauges;
+  if (recent_.size() < static_cast<std::size_t>(holds_.leastSets)) {
+    why = "no readings come";
+    return std::nullopt;
+  }
+  VectorXd mean = VectorXd::Zero(gauges.count), squares = VectorXd::Zero(gauges.count);
+  for (const Sample& sample : recent_) mean += sample.strains / static_cast<double>(recent_.size());
+  for (const Sample& sample : recent_)
+    squares += (sample.strains - mean).cwiseAbs2() / static_cast<double>(recent_.size());
+  const double peak = mean.cwiseAbs().maxCoeff();
+  if (peak < ThinningRules{}.weakest * gauges.noise_strain)
+    why = "nothing presses the finger, or too little";
+  else if (peak >= gauges.full_scale_strain)
+    why = "it is pressed beyond its range";
+  else if (std::sqrt(squares.maxCoeff()) > std::max(holds_.noise * gauges.noise_strain, holds_.share * peak))
+    why = "it is not held still";
+  return why.empty() ? std::optional(Sample{recent_.back().time_s, mean}) : std::nullopt;
+}
+
+Obeyed Session::keepHeld(const KnownTouch& known, const std::string& what) {
+  std::string why;
+  const auto sample = held_ ? std::exchange(held_, std::nullopt) : nowHeld(why);
+  if (!sample)
+    return {.message = fmt::format("{} was not taken: {}. Press, hold still, and enter it again", what, why)};
+  const NewRow row{sample->time_s, sample->strains, known};
+  keep(row);
+  knowsMore_ = true;
+  return {.row = row, .message = what + " is taken"};
+}
+
+Obeyed Session::obeyLoad(double normal_n_per_m) {
+  return keepHeld({std::nullopt, normal_n_per_m, std::nullopt},
+                  fmt::format("the load of {:.4g} N/m", normal_n_per_m));
+}
+
+Obeyed Session::obeyAngle(double angle_deg) {
+  return keepHeld({angle_deg, std::nullopt, std::nullopt}, fmt::format("the angle of {:.4g} deg", angle_deg));
+}
+
+Obeyed Session::obeyHold() {
+  std::string why;
+  held_ = nowHeld(why);
+  return {.message = held_ ? "held" : why + ": hold it still"};
+}
+
+Obeyed Session::obeySkip() {
+  const Advice::Kind kind = advice().kind;
+  if (kind == Advice::Kind::kPress) {
+    unavailable_.loads = true;
+    return {.message = "without known loads the unit of force is the drawing's"};
+  }
+  if (kind == Advice::Kind::kMark) {
+    unavailable_.directions = true;
+    return {.message = "without known directions a ring that is turned or reversed is not noticed"};
+  }
+  return {.message = "this cannot be skipped: q ends the session"};
+}
+
+/// Rows that are there were read with the zero that the finger had then.
+Obeyed Session::obeyTare() {
+  if (rows_.size() == 0) return {.message = "zeroing", .tare = true};
+  return {.message =
+              "not zeroed: the rows that were collected have the old zero. To begin anew, quit, "
+              "`strainfinger tare`, "
+              "and give another -o"};
+}
+
+Obeyed Session::obey(const Command& command) {
+  struct Visitor {
+    Session& session;
+    Obeyed operator()(const LoadIs& load) const { return session.obeyLoad(load.normal_n_per_m); }
+    Obeyed operator()(const AngleIs& angle) const { return session.obeyAngle(angle.angle_deg); }
+    Obeyed operator()(const Hold&) const { return session.obeyHold(); }
+    Obeyed operator()(const Tare&) const { return session.obeyTare(); }
+    Obeyed operator()(const Skip&) const { return session.obeySkip(); }
+    Obeyed operator()(const Quit&) const { return {.quit = true}; }
+    Obeyed operator()(const Unclear& unclear) const { return {.message = unclear.why}; }
+  };
+  return std::visit(Visitor{*this}, command);
+}
+
+bool Session::wantsFit() const {
+  const FitRules rules;
+  const auto touches = rows_.size() - static_cast<std::size_t>(coverage_.untouched);
+  const bool isCovered =
+      std::ranges::all_of(coverage_.touches, [this](int of) { return of >= goals_.leastPerArc; });
+  const int perGauge = isCovered || tried_ > 0 ? rules.firstPerGauge : rules.uncoveredPerGauge;
+  const auto least = static_cast<std::size_t>(perGauge * config_.gauges.count);
+  if (touches < least) return false;
+  return tried_ == 0 || knowsMore_ ||
+         static_cast<double>(rows_.size()) >= rules.growth * static_cast<double>(tried_);
+}
+
+const Rows& Session::beginFit() {
+  tried_ = rows_.size();
+  knowsMore_ = false;
+  return rows_;
+}
+
+void Session::takeFit(FitOutcome outcome) {
+  complaint_ = outcome.complaint;
+  if (outcome.result) fit_ = std::move(outcome);
+}
+
+Advice Session::advice() const {
+  return nextAdvice(config_.gauges, coverage_, fit_ ? fit_->assessment : std::nullopt, unavailable_, goals_);
+}
+
+}  // namespace strainfinger::session

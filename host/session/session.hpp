@@ -1,0 +1,94 @@
+#pragma once
+// A guided session: sample sets and what the user says go in, rows to keep and what to do next come out. It
+// knows no bus, no clock and no terminal.
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/session/advice.hpp"
+#include "host/session/commands.hpp"
+#include "host/session/fit_beside.hpp"
+#include "host/session/thinning.hpp"
+
+namespace strainfinger::session {
+
+/// A row to keep.
+struct NewRow {
+  double time_s = 0;
+  Eigen::VectorXd strains;
+  calibration::KnownTouch known;
+};
+
+/// What comes of a command.
+struct Obeyed {
+  std::optional<NewRow> row{};
+  std::string message{};  ///< for the user
+  bool tare = false;      ///< the finger is to be asked for a new zero
+  bool quit = false;
+};
+
+class Session {
+ public:
+  /// Goes on with `rows`.
+  Session(const config::FingerConfig& config, Rows rows);
+
+  /// The next sample set; the rows that come of it.
+  std::vector<NewRow> take(const Sample& sample);
+
+  Obeyed obey(const Command& command);
+
+  /// There is enough new for a fit.
+  bool wantsFit() const;
+  /// What it is of.
+  const Rows& beginFit();
+  const Rows& rows() const { return rows_; }
+  void takeFit(FitOutcome outcome);
+
+  /// What the last set was.
+  Verdict now() const { return now_; }
+  const Coverage& coverage() const { return coverage_; }
+  /// Of the newest fit that succeeded.
+  const std::optional<FitOutcome>& fit() const { return fit_; }
+  /// Of the newest fit, where it failed.
+  const std::string& complaint() const { return complaint_; }
+  Advice advice() const;
+  /// A gauge that is far from its zero though the finger is at rest.
+  std::optional<int> farGauge() const { return farGauge_; }
+  /// Seconds for which the finger has been at rest.
+  double atRest_s() const;
+
+ private:
+  void keep(const NewRow& row);
+  std::vector<NewRow> watchRest(const Sample& sample);
+  std::optional<Sample> nowHeld(std::string& why) const;
+  Obeyed obeyLoad(double normal_n_per_m);
+  Obeyed obeyAngle(double angle_deg);
+  Obeyed keepHeld(const calibration::KnownTouch& known, const std::string& what);
+  Obeyed obeyHold();
+  Obeyed obeySkip();
+  Obeyed obeyTare();
+
+  config::FingerConfig config_;
+  SessionGoals goals_;
+  HoldRules holds_;
+  Rows rows_;
+  Thinner thinner_;
+  calibration::TouchSearch search_;
+  Coverage coverage_;
+  Verdict now_ = Verdict::kTooSoon;
+  Unavailable unavailable_;
+  std::optional<FitOutcome> fit_;
+  std::string complaint_;
+  std::size_t tried_ = 0;        ///< rows of the last fit
+  bool knowsMore_ = false;       ///< than at the last fit, of a touch
+  std::deque<Sample> recent_;    ///< of the last HoldRules::time_s
+  std::optional<Sample> held_;   ///< what the next load or angle is of, if that was said
+  std::vector<Sample> resting_;  ///< since the finger came to rest
+  Eigen::VectorXd restSum_;
+  std::optional<int> farGauge_;
+};
+
+}  // namespace strainfinger::session

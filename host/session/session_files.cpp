@@ -1,0 +1,140 @@
+#include "host/session/session_files.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <sstream>
+
+#include "host/base/failure.hpp"
+#include "host/base/read_file.hpp"
+#include "host/base/strain_rows.hpp"
+
+namespace strainfinger::session {
+namespace {
+
+constexpr const char* kTouchesHeader = "angle_deg,normal_n_per_m,tangential_n_per_m";
+constexpr const char* kNothingIsKnown = ",,\n";
+
+std::string strainsHeader(int gauges) {
+  return fmt::format("time_s,{}", fmt::join(strainColumns(gauges), ","));
+}
+
+std::string besides(const std::string& outputPath, const char* ending) {
+  return std::filesystem::path(outputPath).replace_extension(ending).string();
+}
+
+[[noreturn]] void cannot(const std::string& path, const char* what) {
+  throw Failure(ExitCode::kFailure, fmt::format("{}: cannot {}: {}", path, what, std::strerror(errno)));
+}
+
+void requireNoStranger(const std::string& outputPath, const std::string& strainsPath) {
+  std::error_code unknown;  // a folder that cannot be looked into is one where no file can be made either
+  if (!std::filesystem::exists(outputPath, unknown) || std::filesystem::exists(strainsPath, unknown)) return;
+  throw Failure(ExitCode::kFailure,
+                fmt::format("{}: there is such a file already, and no session of it ({}): give another -o",
+                            outputPath, strainsPath));
+}
+
+int openToAppend(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (descriptor < 0) cannot(path, "open the file");
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
+  ::close(descriptor);
+  throw Failure(ExitCode::kFailure,
+                fmt::format("{}: another session writes it now: end that, or give another -o", path));
+}
+
+/// What is in a file, up to the end of its last whole line.
+std::string wholeLines(const std::string& path) {
+  std::string text = readFile(path, ExitCode::kFailure);
+  const auto end = text.rfind('\n');
+  text.resize(end == text.npos ? 0 : end + 1);
+  return text;
+}
+
+void requireHeader(const std::string& text, const std::string& header, const std::string& path) {
+  if (text.empty() || text.substr(0, text.find('\n')) == header) return;
+  throw Failure(
+      ExitCode::kFailure,
+      fmt::format(
+          "{}:1:1: no file of a session with this finger: its first line must be \"{}\"; give another -o",
+          path, header));
+}
+
+std::optional<double> knownCell(double cell) { return std::isnan(cell) ? std::nullopt : std::optional(cell); }
+
+std::string cellText(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; }
+
+}  // namespace
+
+SessionFiles::SessionFiles(const std::string& outputPath, int gauges)
+    : strains_{besides(outputPath, ".strains.csv")}, touches_{besides(outputPath, ".touches.csv")} {
+  requireNoStranger(outputPath, strains_.path);
+  strains_.descriptor = openToAppend(strains_.path);
+  try {
+    touches_.descriptor = openToAppend(touches_.path);
+    readRows(gauges);
+  } catch (...) {
+    ::close(strains_.descriptor);
+    if (touches_.descriptor >= 0) ::close(touches_.descriptor);
+    throw;
+  }
+}
+
+SessionFiles::~SessionFiles() {
+  ::close(strains_.descriptor);
+  ::close(touches_.descriptor);
+}
+
+void SessionFiles::readRows(int gauges) {
+  const std::string strains = wholeLines(strains_.path), touches = wholeLines(touches_.path);
+  requireHeader(strains, strainsHeader(gauges), strains_.path);
+  requireHeader(touches, kTouchesHeader, touches_.path);
+  std::istringstream strainText(strains), touchText(touches);
+  const auto columns = static_cast<std::size_t>(gauges);
+  NumberRowReader strainRows(strainText, strains_.path, columns, strainLimit(gauges));
+  NumberRowReader touchRows(touchText, touches_.path, 3, {.header = kTouchesHeader, .mayBeEmpty = true});
+  std::size_t unpaired = 0;
+  for (std::vector<double> row, known; strainRows.next(row);) {
+    const bool isPaired = touchRows.next(known);
+    if (!isPaired) known.assign(3, std::nan(""));
+    unpaired += isPaired ? 0 : 1;
+    rows_.add(Eigen::Map<const Eigen::VectorXd>(row.data(), gauges),
+              {knownCell(known[0]), knownCell(known[1]), knownCell(known[2])});
+  }
+  if (std::vector<double> known; touchRows.next(known))
+    throw Failure(ExitCode::kFailure, fmt::format("{}: more rows than in {}, to whose rows they belong: take "
+                                                  "the last ones away, or give another -o",
+                                                  touches_.path, strains_.path));
+  if (::ftruncate(strains_.descriptor, static_cast<off_t>(strains.size())) != 0)
+    cannot(strains_.path, "write");
+  if (::ftruncate(touches_.descriptor, static_cast<off_t>(touches.size())) != 0)
+    cannot(touches_.path, "write");
+  if (strains.empty()) append(strains_, strainsHeader(gauges) + "\n");
+  if (touches.empty()) append(touches_, std::string(kTouchesHeader) + "\n");
+  for (std::size_t i = 0; i < unpaired; ++i) append(touches_, kNothingIsKnown);
+}
+
+void SessionFiles::append(const File& file, const std::string& line) {
+  for (std::size_t done = 0; done < line.size();) {
+    const ssize_t count = ::write(file.descriptor, line.data() + done, line.size() - done);
+    if (count < 0 && errno != EINTR) cannot(file.path, "write");
+    if (count > 0) done += static_cast<std::size_t>(count);
+  }
+}
+
+/// The strains first: a row without its touch is one of which nothing is known.
+void SessionFiles::add(double time_s, const Eigen::VectorXd& strains, const calibration::KnownTouch& known) {
+  append(strains_, fmt::format("{:.6f},{}\n", time_s, fmt::join(strains.begin(), strains.end(), ",")));
+  append(touches_, fmt::format("{},{},{}\n", cellText(known.angle_deg), cellText(known.normal_n_per_m),
+                               cellText(known.tangential_n_per_m)));
+}
+
+}  // namespace strainfinger::session

@@ -1,0 +1,97 @@
+#include "host/session/commands.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::session;
+
+TEST_GROUP(SessionCommands){
+    static double load(const char* text){const Command command = parseCommand(text, 0.02);
+return std::holds_alternative<LoadIs>(command) ? std::get<LoadIs>(command).normal_n_per_m : -1;
+}
+static double angle(const char* text) {
+  const Command command = parseCommand(text, 0.02);
+  return std::holds_alternative<AngleIs>(command) ? std::get<AngleIs>(command).angle_deg : -1;
+}
+static void isUnclear(const char* text, const char* named) {
+  const Command command = parseCommand(text, 0.02);
+  CHECK_TEXT(std::holds_alternative<Unclear>(command), text);
+  STRCMP_CONTAINS(named, std::get<Unclear>(command).why.c_str());
+}
+/// What keys make: the last command's text, "" for none.
+static std::string typed(const std::string& keys) {
+  KeyReader reader;
+  std::string last;
+  for (const char key : keys)
+    if (const auto text = reader.press(static_cast<unsigned char>(key))) last = *text;
+  return last;
+}
+}
+;
+
+// 50 g weigh 0.4903 N, on 20 mm 24.517 N/m.
+TEST(SessionCommands, ALoadIsInItsUnit) {
+  DOUBLES_EQUAL(24.516625, load("load 50 g"), 1e-9);
+  DOUBLES_EQUAL(24.516625, load("load 0.05kg"), 1e-9);
+  DOUBLES_EQUAL(100, load("  load   2 N "), 1e-9);
+  DOUBLES_EQUAL(24.5, load("load 24.5 N/m\r"), 1e-9);
+}
+
+TEST(SessionCommands, AnAngleIsInDegrees) {
+  DOUBLES_EQUAL(40, angle("angle 40"), 0);
+  DOUBLES_EQUAL(350, angle("angle -10 deg"), 1e-9);
+}
+
+TEST(SessionCommands, WhatIsNotUnderstoodIsToldWithWhatWouldBe) {
+  isUnclear("load 50", "say the unit");
+  isUnclear("load g", "200 g");
+  isUnclear("load -5 g", "more than 0");
+  isUnclear("load nan g", "no load");
+  isUnclear("load 0 N", "more than 0");
+  isUnclear("angle 400", "0 to 360");
+  isUnclear("angle inf", "no angle");
+  isUnclear("angle 4 rad", "degrees");
+  isUnclear("", "say load, angle, hold, skip, tare or quit");
+  isUnclear("quit now", "say load");
+}
+
+TEST(SessionCommands, WordsStandForThemselves) {
+  CHECK(std::holds_alternative<Hold>(parseCommand("hold", 1)));
+  CHECK(std::holds_alternative<Tare>(parseCommand("tare", 1)));
+  CHECK(std::holds_alternative<Skip>(parseCommand("skip", 1)));
+  CHECK(std::holds_alternative<Quit>(parseCommand("quit\r", 1)));
+}
+
+TEST(SessionCommands, KeysMakeTheSameCommands) {
+  STRCMP_EQUAL("load 200 g", typed("l200 g\r").c_str());
+  STRCMP_EQUAL("angle 45", typed("a4\x7f"
+                                 "45\n")
+                               .c_str());
+  STRCMP_EQUAL("skip", typed("s").c_str());
+  STRCMP_EQUAL("quit", typed("q").c_str());
+}
+
+TEST(SessionCommands, WhatIsPressedIsHeldWhileItsLoadIsTyped) {
+  KeyReader reader;
+  STRCMP_EQUAL("hold", reader.press('l').value_or("").c_str());
+  CHECK_FALSE(reader.press('2').has_value());
+}
+
+TEST(SessionCommands, ATareWantsAYes) {
+  STRCMP_EQUAL("tare", typed("ty").c_str());
+  STRCMP_EQUAL("", typed("tn").c_str());
+  STRCMP_EQUAL("", typed("t\r").c_str());
+}
+
+TEST(SessionCommands, EscapeDropsWhatIsTyped) {
+  STRCMP_EQUAL("quit", typed("l20\x1bq").c_str());
+  STRCMP_EQUAL("hold", typed("l20q").c_str());  // q is typed there
+}
+
+TEST(SessionCommands, ThePromptShowsWhatIsTyped) {
+  KeyReader reader;
+  STRCMP_EQUAL("", reader.prompt().c_str());
+  reader.press('l');
+  reader.press('2');
+  STRCMP_CONTAINS("Return: 2_", reader.prompt().c_str());
+}

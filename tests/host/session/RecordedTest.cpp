@@ -1,0 +1,81 @@
+#include "host/session/recorded.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
+
+#include "common/frames.hpp"
+#include "host/base/failure.hpp"
+#include "host/can/candump_text.hpp"
+#include "tests/host/session/hands.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::session;
+
+TEST_GROUP(Recorded) {
+  const std::string path_ = fmt::format("{}/recorded_test.{}", P_tmpdir, getpid());
+  config::FingerConfig config;
+  Hand hand{config};
+
+  void teardown() override { std::remove(path_.c_str()); }
+  void write(const std::string& text) { std::ofstream(path_) << text; }
+
+  /// The pages of a set as BUS_RAW.md has them: 32768 is the middle, 2^15 codes are 0.03.
+  static std::string pages(std::int64_t time_us, int sample, RawKind kind, const Eigen::VectorXd& strains) {
+    std::string text;
+    for (int page = 0; page < 6; ++page) {
+      RawFrame frame{static_cast<std::uint8_t>(page), kind, static_cast<std::uint8_t>(sample)};
+      const auto code = [&](int i) {
+        const int gauge = 3 * page + i;
+        return static_cast<std::uint16_t>(gauge < 16 ? 32768 + std::lround(strains[gauge] / 0.03 * 32768)
+                                                     : 0);
+      };
+      frame.code_0 = code(0), frame.code_1 = code(1), frame.code_2 = code(2);
+      text += can::formatLogLine(time_us, "can0", encode(frame, 1)) + "\n";
+    }
+    return text;
+  }
+  std::string stroke() {
+    const Eigen::VectorXd zero = Eigen::VectorXd::Constant(16, 1e-3);
+    std::string text = pages(1'000'000, 0, RawKind::kZeros, zero);
+    for (int i = 0; i < 100; ++i)
+      text += pages(1'000'000 + 10'000 * i, i, RawKind::kReadings, zero + hand.touch(0.72 * i, 20));
+    return text;
+  }
+};
+
+TEST(Recorded, TouchesThatDifferAreRowsLessTheZero) {
+  write(stroke());
+  CHECK_TRUE(isRecording(path_));
+  const auto recorded = readRecording(path_, config, 1);
+  LONGS_EQUAL(100, recorded.sets);
+  CHECK_COMPARE(recorded.rows.size(), >=, 18);
+  CHECK_COMPARE(recorded.rows.size(), <=, 25);
+  const Eigen::VectorXd& first = recorded.rows.strains.front();
+  Eigen::Index largest = 0;
+  first.cwiseAbs().maxCoeff(&largest);
+  LONGS_EQUAL(0, largest);
+}
+
+TEST(Recorded, WithoutReadingsOfTheNodeItIsRefused) {
+  write(stroke());
+  try {
+    readRecording(path_, config, 2);
+    FAIL("accepted");
+  } catch (const Failure& failure) {
+    STRCMP_CONTAINS("no readings (RAW) of node 2 with 16 gauges", failure.what());
+  }
+}
+
+TEST(Recorded, RowsOfStrainsAreNoRecording) {
+  write("time_s,strain_0\n1,2\n");
+  CHECK_FALSE(isRecording(path_));
+  write("# a comment\n\n0.1,0.2\n");
+  CHECK_FALSE(isRecording(path_));
+  write("\n  can0  185   [8]  E8 03 22 01 80 81 61 A3\n");
+  CHECK_TRUE(isRecording(path_));
+}

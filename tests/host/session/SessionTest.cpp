@@ -1,0 +1,167 @@
+#include "host/session/session.hpp"
+
+#include "tests/host/session/hands.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::session;
+
+TEST_GROUP(GuidedSession) {
+  using Kind = session::Advice::Kind;
+  config::FingerConfig config;
+  Hand hand{config};
+  Session session{config, {}};
+  double time_s = 0;
+
+  std::vector<NewRow> take(const Eigen::VectorXd& strains) {
+    time_s += 0.01;
+    return session.take({time_s, strains});
+  }
+  std::vector<NewRow> leaveAlone(double duration_s) {
+    std::vector<NewRow> rows;
+    for (const double end_s = time_s + duration_s; time_s < end_s;)
+      for (const NewRow& row : take(hand.nothing())) rows.push_back(row);
+    return rows;
+  }
+  void hold(double angle_deg, double normal_n_per_m, int sets = 40) {
+    for (int i = 0; i < sets; ++i) take(hand.touch(angle_deg, normal_n_per_m));
+  }
+  void rollAround(double load_n_per_m = 20) {
+    for (int i = 0; i < 1000; ++i) take(hand.touch(0.72 * i, load_n_per_m + 0.01 * i));
+  }
+  std::string say(const char* text) {
+    return session.obey(parseCommand(text, config.finger.length_m)).message;
+  }
+};
+
+TEST(GuidedSession, FiveSecondsUntouchedAreTenRowsOfTheZero) {
+  const auto rows = leaveAlone(5.1);
+  LONGS_EQUAL(10, rows.size());
+  for (const NewRow& row : rows) {
+    CHECK(row.known.isUntouched());
+    CHECK_COMPARE(row.strains.cwiseAbs().maxCoeff(), <, 5e-6);  // the mean of fifty with a noise of 6e-6
+  }
+  CHECK(session.advice().kind == Kind::kRoll);
+  LONGS_EQUAL(0, leaveAlone(10).size());  // not asked for again
+}
+
+TEST(GuidedSession, ATouchBreaksTheTimeUntouched) {
+  LONGS_EQUAL(0, leaveAlone(4).size());
+  hold(40, 20);
+  LONGS_EQUAL(0, leaveAlone(4).size());
+  LONGS_EQUAL(10, leaveAlone(1.2).size());
+}
+
+TEST(GuidedSession, AFingerThatRestsFarFromItsZeroIsTold) {
+  Eigen::VectorXd off = Eigen::VectorXd::Zero(16);
+  off[5] = 2e-3;
+  for (int i = 0; i < 520; ++i) LONGS_EQUAL(0, take(hand.nothing() + off).size());
+  LONGS_EQUAL(5, session.farGauge().value_or(-1));
+  take(hand.nothing() + off);
+  LONGS_EQUAL(5, session.farGauge().value_or(-1));
+  take(hand.nothing());
+  CHECK_FALSE(session.farGauge().has_value());
+}
+
+TEST(GuidedSession, RollingCoversTheRingAndThenALoadIsAskedFor) {
+  leaveAlone(5.1);
+  rollAround(10);
+  rollAround(18);
+  for (const int touches : session.coverage().touches) CHECK_COMPARE(touches, >=, 4);
+  CHECK(session.advice().kind == Kind::kPress);
+}
+
+TEST(GuidedSession, ALoadIsThatOfTheTouchThatIsHeld) {
+  hold(45, 24);
+  const Obeyed obeyed = session.obey(LoadIs{24});
+  CHECK(obeyed.row.has_value());
+  DOUBLES_EQUAL(24, *obeyed.row->known.normal_n_per_m, 0);
+  CHECK_FALSE(obeyed.row->known.angle_deg.has_value());
+  LONGS_EQUAL(1, session.coverage().loads);
+  STRCMP_CONTAINS("24 N/m is taken", obeyed.message.c_str());
+}
+
+TEST(GuidedSession, ALoadIsOfWhatWasHeldWhenItsEntryBegan) {
+  hold(45, 24);
+  STRCMP_EQUAL("held", say("hold").c_str());
+  for (int i = 0; i < 100; ++i) take(hand.nothing());  // let go to type
+  const Obeyed obeyed = session.obey(LoadIs{24});
+  CHECK(obeyed.row.has_value());
+  CHECK_COMPARE(obeyed.row->strains.cwiseAbs().maxCoeff(), >, 1e-3);
+  STRCMP_CONTAINS("was not taken", say("load 24 N/m").c_str());  // once
+}
+
+TEST(GuidedSession, NoLoadIsTakenOfWhatIsNotHeld) {
+  STRCMP_CONTAINS("no readings come", say("load 20 N/m").c_str());
+  leaveAlone(0.4);
+  STRCMP_CONTAINS("nothing presses the finger", say("load 20 N/m").c_str());
+  for (int i = 0; i < 60; ++i) take(hand.touch(45 + 0.2 * i, 24));
+  STRCMP_CONTAINS("it is not held still", say("load 20 N/m").c_str());
+  hold(0, 100);
+  STRCMP_CONTAINS("beyond its range", say("load 20 N/m").c_str());
+  LONGS_EQUAL(0, session.coverage().loads);
+}
+
+TEST(GuidedSession, AZeroIsTakenBeforeThereAreRowsAlone) {
+  CHECK_TRUE(session.obey(Tare{}).tare);
+  leaveAlone(5.1);
+  CHECK_FALSE(session.obey(Tare{}).tare);
+  STRCMP_CONTAINS("have the old zero", say("tare").c_str());
+}
+
+TEST(GuidedSession, WhatCannotBeDoneIsSkipped) {
+  STRCMP_CONTAINS("cannot be skipped", say("skip").c_str());
+  leaveAlone(5.1);
+  rollAround(10);
+  rollAround(18);
+  STRCMP_CONTAINS("unit of force is the drawing's", say("skip").c_str());
+  CHECK(session.advice().kind == Kind::kMark);
+  STRCMP_CONTAINS("turned or reversed", say("skip").c_str());
+  CHECK(session.advice().kind == Kind::kWait);
+}
+
+TEST(GuidedSession, AFitIsWantedOfFourTouchesAGaugeThenOfAFifthMoreOrOfWhatIsKnown) {
+  leaveAlone(5.1);
+  CHECK_FALSE(session.wantsFit());
+  rollAround(10);
+  CHECK_TRUE(session.wantsFit());
+  const std::size_t rows = session.beginFit().size();
+  CHECK_FALSE(session.wantsFit());
+  hold(45, 24);
+  say("load 24 N/m");
+  CHECK_TRUE(session.wantsFit());
+  session.beginFit();
+  rollAround(18);
+  CHECK_COMPARE(session.rows().size(), >=, rows + rows / 5);
+  CHECK_TRUE(session.wantsFit());
+}
+
+TEST(GuidedSession, AnArcThatIsNotCoveredPutsTheFirstFitOffButNotForEver) {
+  leaveAlone(5.1);
+  const auto rollHalf = [&](double load_n_per_m) {
+    for (int i = 0; i < 250; ++i) take(hand.touch(0.72 * i, load_n_per_m, 0.01 * i));
+  };
+  for (const double load_n_per_m : {4, 8, 16, 32}) rollHalf(load_n_per_m);
+  CHECK_COMPARE(session.rows().size(), >, 10 + 4 * 16);
+  CHECK_FALSE(session.wantsFit());
+  for (const double load_n_per_m : {5, 10, 20, 34, 6, 12, 24}) rollHalf(load_n_per_m);
+  CHECK_COMPARE(session.rows().size(), >, 10 + 20 * 16);
+  CHECK_TRUE(session.wantsFit());
+}
+
+TEST(GuidedSession, AFailedFitLeavesTheOneBefore) {
+  session.takeFit({.rows = 70, .complaint = "gauges 3 and 4 are swapped"});
+  STRCMP_EQUAL("gauges 3 and 4 are swapped", session.complaint().c_str());
+  CHECK_FALSE(session.fit().has_value());
+}
+
+TEST(GuidedSession, GoesOnWithTheRowsOfBefore) {
+  leaveAlone(5.1);
+  rollAround(10);
+  Session again(config, session.rows());
+  LONGS_EQUAL(session.rows().size(), again.rows().size());
+  CHECK(session.coverage().touches == again.coverage().touches);
+  CHECK(again.advice() == session.advice());
+  CHECK_TRUE(again.wantsFit());
+}

@@ -8,6 +8,7 @@
 #include "host/calibration/complaints.hpp"
 #include "host/calibration/joint_fit.hpp"
 #include "host/calibration/model_error.hpp"
+#include "host/calibration/noise_bias.hpp"
 #include "host/calibration/touch_fit.hpp"
 #include "host/model/pressure_profile.hpp"
 
@@ -192,17 +193,27 @@ class Calibration {
     locate(rows);
     estimateModelError(rows);
     weigh(rows);
-    JointFit fit{finger_, {}};
-    std::vector<TouchData> data;
-    for (const std::size_t row : rows) {
-      fit.touches.push_back(rows_[row].touch);
-      data.push_back(data_[row]);
-    }
+    auto [data, fit] = joint(rows);
     const double typical = degreesOfFreedom(rows);
     fitTogether(drawing_, lastHarmonic_, data, loss == Loss::kRobust ? typical : 0, fit);
     finger_ = fit.deviations;
     for (std::size_t i = 0; i < rows.size(); ++i) rows_[rows[i]].touch = fit.touches[i];
     estimateModelError(rows);
+  }
+
+  struct Joint {
+    std::vector<TouchData> data;
+    JointFit fit;
+  };
+
+  /// These rows and where they and the finger are by now.
+  Joint joint(const Rows& rows) const {
+    Joint joint{{}, {finger_, {}}};
+    for (const std::size_t row : rows) {
+      joint.data.push_back(data_[row]);
+      joint.fit.touches.push_back(rows_[row].touch);
+    }
+    return joint;
   }
 
   /// Of a row: readings less the touch's unknowns and its share of the finger's.
@@ -245,16 +256,23 @@ class Calibration {
 
   CalibrationResult result(const Rows& rows) {
     weigh(rows);
-    JointFit fit{finger_, {}};
-    std::vector<TouchData> data;
-    for (const std::size_t row : rows) {
-      fit.touches.push_back(rows_[row].touch);
-      data.push_back(data_[row]);
-    }
-    CalibrationResult result(drawing_, finger_, covarianceOf(drawing_, lastHarmonic_, data, fit), rows_,
-                             modelError_);
+    const auto [data, fit] = joint(rows);
+    const MatrixXd covariance = covarianceOf(drawing_, lastHarmonic_, data, fit);
+    moveTo(fit.deviations - noiseBias(drawing_, lastHarmonic_, data, fit, covariance), rows);
+    CalibrationResult result(drawing_, finger_, covariance, rows_, modelError_);
     requireTold(result);
     return result;
+  }
+
+  /// Another finger, and these rows' touches as it has them.
+  void moveTo(const VectorXd& finger, const Rows& rows) {
+    finger_ = finger;
+    double& poisson = finger_[drawing_.at(kPoissonRatio)];
+    poisson = std::min(poisson, drawing_.mostPoissonDeviation());
+    const RingResponse ring(drawing_, finger_, lastHarmonic_);
+    for (const std::size_t row : rows)
+      rows_[row].touch = refineTouch(ring, data_[row], rows_[row].touch).touch;
+    keepResiduals(rows);
   }
 
   Drawing drawing_;

@@ -170,7 +170,7 @@ void printSummary(TableFormat format, const calibration::CalibrationResult& resu
   std::vector<Cell> cells =
       cellsOf({result.coreRadius_m(), result.poissonRatio(), result.shearModulus_pa(), result.modelError()});
   for (const RowUse use : {RowUse::kFitted, RowUse::kUntouched, RowUse::kWeak, RowUse::kAmbiguous,
-                           RowUse::kOverRange, RowUse::kUnexplained})
+                           RowUse::kWide, RowUse::kOverRange, RowUse::kUnexplained})
     cells.emplace_back(std::int64_t{result.count(use)});
   const auto errors = calibration::expectedErrors(result);
   cells.insert(cells.end(), errors.before.begin(), errors.before.end());

@@ -30,11 +30,11 @@ plot [-0.6:gauges-0.4] '+' using 1:(-tolGain):(tolGain) with filledcurves lineco
      0 with lines linecolor rgb faint notitle, \
      data('ring') using 1:2:(2*column(3)) every ::1 with yerrorbars pointtype 7 pointsize 0.7 linewidth 1.6 linecolor rgb blue title 'as found, ±2σ'
 unset key
-eval panel(0.635, 0.385)
+eval panel(0.635, 0.39)
 set ylabel 'angle off (deg)'
 plot [-0.6:gauges-0.4] '+' using 1:(-tolAngle):(tolAngle) with filledcurves linecolor rgb '#E6E6E6', 0 with lines linecolor rgb faint, \
      data('ring') using 1:4:(2*column(5)) every ::1 with yerrorbars pointtype 7 pointsize 0.7 linewidth 1.6 linecolor rgb blue
-eval panel(0.355, 0.105)
+eval panel(0.355, 0.12)
 set ylabel 'too deep (um)'; set xtics format '%g'; set xlabel 'gauge'
 plot [-0.6:gauges-0.4] '+' using 1:(-tolDepth):(tolDepth) with filledcurves linecolor rgb '#E6E6E6', 0 with lines linecolor rgb faint, \
      data('ring') using 1:6:(2*column(7)) every ::1 with yerrorbars pointtype 7 pointsize 0.7 linewidth 1.6 linecolor rgb blue
@@ -42,12 +42,12 @@ unset multiplot
 )";
 
 constexpr const char* kCoverage = R"(
-set lmargin at screen 0.08; set rmargin at screen 0.985; set tmargin at screen 0.9; set bmargin at screen 0.17
+set lmargin at screen 0.08; set rmargin at screen 0.97; set tmargin at screen 0.9; set bmargin at screen 0.17
 set xrange [0:360]; set xtics 45 format '%g°'; set xlabel 'angle around the ring; grey lines: gauges'
 set ylabel 'normal load (N/m)'; set logscale y; set offsets 0,0,0,0
 plot data('gauges') using 1:2:(0):3 every ::1 with vectors nohead linecolor rgb '#CCCCCC' notitle, \
      data('touches') using 1:(gap(2)) every ::1 with points pointtype 7 pointsize 0.45 linecolor rgb blue title 'used', \
-     '' using 1:(gap(3)) every ::1 with points pointtype 6 pointsize 0.45 linecolor rgb vermilion title 'left out'
+     '' using 1:(gap(3)) every ::1 with points pointtype 7 pointsize 0.45 linecolor rgb vermilion title 'left out'
 )";
 
 constexpr const char* kResiduals = R"(
@@ -57,14 +57,14 @@ set tmargin at screen 0.9; set bmargin at screen 0.17
 set lmargin at screen 0.08; set rmargin at screen 0.40
 set ylabel 'left over (microstrain, RMS)'
 set xlabel 'gauge'; set xrange [-0.6:gauges-0.4]
-plot data('gauges') using 1:2 every ::1 with linespoints pointtype 6 linecolor rgb vermilion title 'as drawn', \
-     '' using 1:3 every ::1 with linespoints pointtype 7 linecolor rgb blue title 'as found', \
-     noise with lines dashtype 2 linecolor rgb black title 'noise'
+plot data('gauges') using 1:2 every ::1 with linespoints pointtype 6 linecolor rgb vermilion notitle, \
+     '' using 1:3 every ::1 with linespoints pointtype 7 linecolor rgb blue notitle, \
+     noise with lines dashtype 2 linecolor rgb black notitle
 set lmargin at screen 0.47; set rmargin at screen 0.985
 unset ylabel; set xlabel 'row'; set xrange [0:rows+1]
-plot data('rows') using 1:(gap(2)) every ::1 with points pointtype 6 pointsize 0.35 linecolor rgb vermilion notitle, \
-     '' using 1:(gap(3)) every ::1 with points pointtype 7 pointsize 0.35 linecolor rgb blue notitle, \
-     noise with lines dashtype 2 linecolor rgb black notitle
+plot data('rows') using 1:(gap(2)) every ::1 with points pointtype 7 pointsize 0.35 linecolor rgb vermilion title 'as drawn', \
+     '' using 1:(gap(3)) every ::1 with points pointtype 7 pointsize 0.35 linecolor rgb blue title 'as found', \
+     noise with lines dashtype 2 linecolor rgb black title 'noise'
 unset multiplot
 )";
 

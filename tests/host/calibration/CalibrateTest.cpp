@@ -22,7 +22,7 @@ namespace {
 constexpr std::uint64_t kSeed = 11;
 
 /// Fewer touches under the sanitizers, which take ten times as long.
-constexpr int kTouches = STRAINFINGER_SANITIZED ? 80 : 150;
+constexpr int kTouches = STRAINFINGER_SANITIZED ? 100 : 150;
 
 /// One session and what comes of it, for all tests that only look at it.
 struct Calibrated {
@@ -100,10 +100,11 @@ TEST(Calibrate, TwoContactsSlipsAndSaturatedReadingsAreLeftOut) {
 
 // A slip of ten degrees reads like one touch of 4 mm and more.
 TEST(Calibrate, JunkMakesErrorsNoLargerByAFifth) {
-  const auto session = study::sessionOf(finger, {.touches = kTouches, .junk = 0.1}, kSeed);
+  constexpr int kMany = 150;
+  const auto session = study::sessionOf(finger, {.touches = kMany, .junk = 0.1}, kSeed);
   study::Session healthy{session.finger, {}, {}, {}};
   std::vector<int> rows;
-  for (int row = 0; row < kTouches; ++row) {
+  for (int row = 0; row < kMany; ++row) {
     if (session.isJunk[static_cast<std::size_t>(row)]) continue;
     rows.push_back(row);
     healthy.known.push_back(session.known[static_cast<std::size_t>(row)]);

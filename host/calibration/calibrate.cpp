@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <numbers>
 
 #include "host/base/angles.hpp"
 #include "host/calibration/complaints.hpp"
 #include "host/calibration/joint_fit.hpp"
 #include "host/calibration/model_error.hpp"
+#include "host/calibration/moved_zero.hpp"
+#include "host/calibration/noise_bias.hpp"
 #include "host/calibration/touch_fit.hpp"
 #include "host/model/pressure_profile.hpp"
 
@@ -22,6 +24,9 @@ using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 constexpr double kWeakest = 40, kWeakestOfStrong = 0.125, kStrong = 0.9;
 /// Chi-squared by which a touch must explain a row better than any other.
 constexpr double kClearGap = 16;
+/// Of the ring's pitch: a slip, or two contacts that are near each other, reads like one touch of this width
+/// and more, within noise; so wide touches have rivals half a pitch away besides.
+constexpr double kMostWidth = 0.8;
 /// The first, coarse fits take so many rows: enough to find the finger, few enough to be quick.
 constexpr std::size_t kCoarseRows = 200;
 /// Of a touch's chi-squared: beyond its quantile at 4.5 standard deviations, one touch in 300,000 by chance.
@@ -68,10 +73,12 @@ class Calibration {
     if (some.size() < all.size()) improve(all, Loss::kRobust);
     judge(all);
     requireExplained(modelError_.value, shareUnexplained(all));
+    requireTouches(drawing_.config().gauges, kept(all).size());
     for (int round = 0; round < kMostRounds; ++round) {
       improve(kept(all), Loss::kSquares);
       if (!judge(all)) break;
     }
+    if (leaveOutMovedZero()) improve(kept(all), Loss::kSquares);
     return result(kept(all));
   }
 
@@ -192,17 +199,27 @@ class Calibration {
     locate(rows);
     estimateModelError(rows);
     weigh(rows);
-    JointFit fit{finger_, {}};
-    std::vector<TouchData> data;
-    for (const std::size_t row : rows) {
-      fit.touches.push_back(rows_[row].touch);
-      data.push_back(data_[row]);
-    }
+    auto [data, fit] = joint(rows);
     const double typical = degreesOfFreedom(rows);
     fitTogether(drawing_, lastHarmonic_, data, loss == Loss::kRobust ? typical : 0, fit);
     finger_ = fit.deviations;
     for (std::size_t i = 0; i < rows.size(); ++i) rows_[rows[i]].touch = fit.touches[i];
     estimateModelError(rows);
+  }
+
+  struct Joint {
+    std::vector<TouchData> data;
+    JointFit fit;
+  };
+
+  /// These rows and where they and the finger are by now.
+  Joint joint(const Rows& rows) const {
+    Joint joint{{}, {finger_, {}}};
+    for (const std::size_t row : rows) {
+      joint.data.push_back(data_[row]);
+      joint.fit.touches.push_back(rows_[row].touch);
+    }
+    return joint;
   }
 
   /// Of a row: readings less the touch's unknowns and its share of the finger's.
@@ -236,6 +253,7 @@ class Calibration {
       if (use == RowUse::kUntouched) continue;
       const RowUse now = rows_[row].chiSquared > most ? RowUse::kUnexplained
                          : rivalGap_[row] < kClearGap ? RowUse::kAmbiguous
+                         : isWide(row)                ? RowUse::kWide
                                                       : RowUse::kFitted;
       changed |= now != use;
       use = now;
@@ -243,18 +261,50 @@ class Calibration {
     return changed;
   }
 
+  /// What a row is fitted with is independent of what it leaves over, so that choosing by it bends nothing.
+  bool isWide(std::size_t row) const {
+    if (isKnown_[row] || drawing_.config().contact.width_m) return false;
+    const double pitch_rad = 2 * std::numbers::pi / drawing_.gauges();
+    return rows_[row].touch[kMoment] > model::momentOf(model::Profile::kUniform, kMostWidth * pitch_rad);
+  }
+
   CalibrationResult result(const Rows& rows) {
     weigh(rows);
-    JointFit fit{finger_, {}};
-    std::vector<TouchData> data;
-    for (const std::size_t row : rows) {
-      fit.touches.push_back(rows_[row].touch);
-      data.push_back(data_[row]);
-    }
-    CalibrationResult result(drawing_, finger_, covarianceOf(drawing_, lastHarmonic_, data, fit), rows_,
-                             modelError_);
+    const auto [data, fit] = joint(rows);
+    const MatrixXd covariance = covarianceOf(drawing_, lastHarmonic_, data, fit);
+    moveTo(fit.deviations - noiseBias(drawing_, lastHarmonic_, data, fit, covariance), rows);
+    CalibrationResult result(drawing_, finger_, covariance, rows_, modelError_);
     requireTold(result);
     return result;
+  }
+
+  /// Another finger, and these rows' touches as it has them.
+  void moveTo(const VectorXd& finger, const Rows& rows) {
+    finger_ = finger;
+    double& poisson = finger_[drawing_.at(kPoissonRatio)];
+    poisson = std::min(poisson, drawing_.mostPoissonDeviation());
+    const RingResponse ring(drawing_, finger_, lastHarmonic_);
+    for (const std::size_t row : rows)
+      rows_[row].touch = refineTouch(ring, data_[row], rows_[row].touch).touch;
+    keepResiduals(rows);
+    keepResiduals(unexplained());
+  }
+
+  Rows unexplained() const {
+    Rows rows;
+    for (std::size_t row = 0; row < rows_.size(); ++row)
+      if (rows_[row].use == RowUse::kUnexplained) rows.push_back(row);
+    return rows;
+  }
+
+  /// The rows of a zero that moved which touches beside the real ones explain: whether there were any.
+  bool leaveOutMovedZero() {
+    keepResiduals(unexplained());
+    const auto moved = movedZero(rows_, drawing_.config().gauges);
+    if (!moved) return false;
+    for (std::size_t row = moved->firstRow - 1; row < moved->lastRow; ++row)
+      if (rows_[row].use == RowUse::kFitted) rows_[row].use = RowUse::kUnexplained;
+    return true;
   }
 
   Drawing drawing_;

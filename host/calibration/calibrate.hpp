@@ -33,6 +33,7 @@ enum class RowUse {
   kUntouched,    ///< known to be; tells the zeros
   kWeak,         ///< tells little beside noise or beside the others, and is not known to be untouched
   kAmbiguous,    ///< touches at two places or of two widths explain it
+  kWide,         ///< of unknown touch and as wide as slips and pairs of touches look
   kOverRange,    ///< a gauge at or beyond full scale
   kUnexplained,  ///< by no single touch at rest: two contacts, a slip, a zero that moved, another finger
 };

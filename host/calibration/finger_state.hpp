@@ -30,6 +30,10 @@ class Drawing {
   /// logarithm.
   double tolerance(GaugeUnknown unknown) const;
   double tolerance(RubberUnknown unknown) const;
+  /// Of the deviations of Poisson's ratio, that of 1/2: rubber isn't compressed more than not at all.
+  double mostPoissonDeviation() const {
+    return (0.5 - config_.finger.poisson_ratio) / tolerance(kPoissonRatio);
+  }
 
   model::Annulus<double> annulus(const Eigen::VectorXd& deviations) const;
   model::PlacedGauge gauge(const Eigen::VectorXd& deviations, int gauge) const;

@@ -100,9 +100,8 @@ void fitTogether(const Drawing& drawing, int lastHarmonic, const std::vector<Tou
   problem.AddResidualBlock(
       new ceres::NormalPrior(MatrixXd::Identity(unknowns, unknowns), VectorXd::Zero(unknowns)), nullptr,
       fit.deviations.data());
-  const double mostPoisson = (0.5 - drawing.config().finger.poisson_ratio) / drawing.tolerance(kPoissonRatio);
   problem.SetParameterUpperBound(fit.deviations.data(), static_cast<int>(drawing.at(kPoissonRatio)),
-                                 mostPoisson);
+                                 drawing.mostPoissonDeviation());
   ceres::Solver::Summary summary;
   ceres::Solve(solverOptions(fit, robust > 0), &problem, &summary);
 }

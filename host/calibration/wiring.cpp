@@ -19,26 +19,35 @@ namespace {
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 using Kind = WiringFault::Kind;
 
-/// Rows that are looked at, the strongest there are but for those over range.
-constexpr std::size_t kMostRows = 64;
+/// Rows that are looked at, of those in which a gauge reads most: the strongest but for those over range.
+constexpr std::size_t kRowsPerGauge = 6;
 /// Of a row's energy: what no touch explains counts no more than this.
 constexpr double kMostMisfit = 0.15;
 /// Mean share of the energy that a drawn finger leaves of a glued one's rows; with less nothing is wrong.
-constexpr double kHealthy = 0.003;
+constexpr double kHealthy = 0.001;
 /// A mend that is right leaves less than this of the misfit: with all gauges, which a wrong mend makes worse;
 /// without one that looks dead or glued to its neighbour; without one of which nothing else speaks, as a
 /// healthy ring may have half of its misfit at one gauge. One that keeps a gauge is preferred unless it
-/// leaves so much more than leaving it out.
-constexpr double kImproved = 0.75, kImprovedWithout = 0.6, kImprovedMuch = 0.3, kNearly = 1.3;
+/// leaves so much more than leaving out a gauge, or than leaving out that very one: without it, its share of
+/// what the build of a glued finger leaves is gone too.
+constexpr double kImproved = 0.75, kImprovedWithout = 0.6, kImprovedMuch = 0.3, kNearly = 1.3,
+                 kNearlyThere = 3;
 /// Poisson's ratios that are tried, in tolerances below the drawing's: of all unknowns it changes the strains
 /// of touches most.
 constexpr double kPoissonDeviations[] = {0, -0.75, -1.5};
 constexpr int kMostFaults = 4;
 /// Of the reading of a healthy gauge beside it: less is dead. A correlation beyond kSame is its neighbour's.
 constexpr double kDeadShare = 0.1, kSame = 0.8;
-/// A direction that is known is found within so much of a pitch, uncalibrated; of a wide touch between two
-/// gauges not always, so the ring as drawn has the benefit of the doubt up to nearly half of one.
-constexpr double kTurnTolerance = 0.25, kDoubtfulTurn = 0.45;
+/// A touch of known direction is where the drawn ring sees it, give or take so many tolerances of a gauge's
+/// angle: 0.3 mm of a pitch of 5, as glued rings that nobody calibrated are off; and the drawn ring explains
+/// its reading but for this part of the largest.
+constexpr double kPlacedTolerances = 3, kFirstError = 0.05;
+/// Chi-squared by which another turn must explain the directions better than the drawn one, and than others.
+constexpr double kClearly = 16;
+
+bool concerns(const WiringFault& fault, int gauge) {
+  return fault.gauge == gauge || (fault.kind == Kind::kSwapped && fault.other == gauge);
+}
 
 /// The readings with a fault mended; of a gauge that is left out they are 0.
 MatrixXd mended(const MatrixXd& readings, const WiringFault& fault) {
@@ -68,7 +77,7 @@ class WiringCheck {
         isLeftOut_(static_cast<std::size_t>(drawing_.gauges()), false) {}
 
   std::vector<WiringFault> run() {
-    std::vector<WiringFault> faults;
+    std::vector<WiringFault> faults = leaveOutDead();
     double misfit = choosePoissonRatio();
     while (misfit > kHealthy && static_cast<int>(faults.size()) < kMostFaults) {
       const auto mend = bestMend(misfit);
@@ -105,18 +114,22 @@ class WiringCheck {
     return {drawing_, deviations, lastHarmonic_};
   }
 
+  /// Of each gauge, the strongest rows in which none reads more: a fault shows where it is touched.
   MatrixXd strongRows(const MatrixXd& readings) const {
-    std::vector<std::pair<double, Index>> rows;
+    std::vector<std::vector<std::pair<double, Index>>> ofGauge(static_cast<std::size_t>(readings.cols()));
     for (Index row = 0; row < readings.rows(); ++row) {
-      const double peak = readings.row(row).cwiseAbs().maxCoeff();
-      if (peak < drawing_.config().gauges.full_scale_strain) rows.emplace_back(peak, row);
+      Index gauge = 0;
+      const double peak = readings.row(row).cwiseAbs().maxCoeff(&gauge);
+      if (peak < drawing_.config().gauges.full_scale_strain)
+        ofGauge[static_cast<std::size_t>(gauge)].emplace_back(peak, row);
     }
-    std::sort(rows.rbegin(), rows.rend());
-    rows.resize(std::min(rows.size(), kMostRows));
-    MatrixXd strong(static_cast<Index>(rows.size()), readings.cols());
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      strong.row(static_cast<Index>(i)) = readings.row(rows[i].second);
-    return strong;
+    std::vector<Index> strong;
+    for (auto& rows : ofGauge) {
+      std::sort(rows.rbegin(), rows.rend());
+      rows.resize(std::min(rows.size(), kRowsPerGauge));
+      for (const auto& [peak, row] : rows) strong.push_back(row);
+    }
+    return readings(strong, Eigen::all);
   }
 
   static double misfitOf(const MatrixXd& readings, const TouchSearch& search) {
@@ -140,10 +153,26 @@ class WiringCheck {
     return least;
   }
 
+  /// Gauges that read far less than both beside them: no touch does that, wherever the finger was touched.
+  std::vector<WiringFault> leaveOutDead() {
+    std::vector<WiringFault> faults;
+    const int count = drawing_.gauges();
+    const VectorXd read = readings_.colwise().norm();
+    for (int gauge = 0; gauge < count; ++gauge) {
+      const double beside = std::min(read[(gauge + 1) % count], read[(gauge + count - 1) % count]);
+      if (read[gauge] >= kDeadShare * beside) continue;
+      faults.push_back({Kind::kDead, gauge});
+      isLeftOut_[static_cast<std::size_t>(gauge)] = true;
+      readings_.col(gauge).setZero();
+    }
+    return faults;
+  }
+
   /// The best there is, if it is good enough.
   std::optional<Mend> bestMend(double misfit) {
     const Mend kept = bestThatKeepsAll(), out = bestThatLeavesOneOut();
-    if (kept.misfit <= kImproved * misfit && kept.misfit <= kNearly * out.misfit) return kept;
+    const double nearly = concerns(kept.fault, out.fault.gauge) ? kNearlyThere : kNearly;
+    if (kept.misfit <= kImproved * misfit && kept.misfit <= nearly * out.misfit) return kept;
     const WiringFault fault = described(out.fault.gauge);
     const double most = fault.kind == Kind::kUnfit ? kImprovedMuch : kImprovedWithout;
     if (out.misfit > most * misfit) return std::nullopt;
@@ -199,62 +228,75 @@ class WiringCheck {
   double poissonDeviation_ = 0;
 };
 
-/// A row of known direction: where it is, and where the drawn ring has it.
-struct Direction {
-  double known_rad, found_rad;
-};
-
-std::vector<Direction> directionsOf(const config::FingerConfig& config, std::span<const KnownTouch> known,
-                                    const MatrixXd& readings) {
-  std::vector<Direction> directions;
-  const WiringCheck check(config, MatrixXd(0, readings.cols()));
-  std::optional<TouchSearch> search;
-  for (std::size_t row = 0; row < known.size(); ++row) {
-    if (!known[row].angle_deg || known[row].isUntouched()) continue;
-    if (!search) search.emplace(check.search());
-    const VectorXd strains = readings.row(static_cast<Index>(row));
-    const double sigma_strain = std::hypot(config.gauges.noise_strain, 0.05 * strains.cwiseAbs().maxCoeff());
-    const TouchFit fit = search->find(check.ring(), {strains, sigma_strain, {}});
-    if (std::isfinite(fit.chiSquared))
-      directions.push_back({*known[row].angle_deg * kRadPerDeg, fit.touch[kPlace]});
-  }
-  return directions;
-}
-
 /// How the ring may lie: gauge i is where gauge shift + i, or shift - i, should be.
 struct Turn {
   int shift;
   bool isReversed;
 };
 
-/// Whether the known directions are what such a ring would have them found as.
-bool explains(const Turn& turn, const std::vector<Direction>& directions, const config::Gauges& gauges,
-              double tolerance_rad) {
-  const double pitch_rad = 2 * std::numbers::pi / gauges.count, first_rad = gauges.angle_rad(0);
-  return std::all_of(directions.begin(), directions.end(), [&](const Direction& direction) {
-    const double along = direction.found_rad - first_rad;
-    const double real_rad = first_rad + turn.shift * pitch_rad + (turn.isReversed ? -along : along);
-    return std::abs(std::remainder(real_rad - direction.known_rad, 2 * std::numbers::pi)) < tolerance_rad;
-  });
-}
+/// How well rows of known direction are explained by rings that lie otherwise than drawn.
+class TurnCheck {
+ public:
+  TurnCheck(const config::FingerConfig& config, std::span<const KnownTouch> known, const MatrixXd& readings,
+            const KnownErrors& errors)
+      : gauges_(config.gauges), wired_(config, MatrixXd(0, readings.cols())), ring_(wired_.ring()) {
+    const double sigma_deg = std::hypot(errors.angle_deg, kPlacedTolerances * config.tolerance.angle_deg);
+    for (std::size_t row = 0; row < known.size(); ++row) {
+      if (!known[row].angle_deg || known[row].isUntouched()) continue;
+      const VectorXd strains = readings.row(static_cast<Index>(row));
+      TouchData data{
+          strains, std::hypot(gauges_.noise_strain, kFirstError * strains.cwiseAbs().maxCoeff()), {}};
+      data.prior.value[kPlace] = *known[row].angle_deg * kRadPerDeg;
+      data.prior.weight[kPlace] = 1 / (sigma_deg * kRadPerDeg);
+      directions_.push_back(data);
+    }
+    if (!directions_.empty()) search_.emplace(wired_.search());
+  }
+
+  std::optional<WiringFault> run() const {
+    if (directions_.empty()) return std::nullopt;
+    const double drawn = chiSquaredOf({0, false});
+    double best = drawn;
+    WiringFault fault{Kind::kTurnUnclear};
+    std::vector<double> all;
+    for (int shift = 0; shift < gauges_.count; ++shift)
+      for (const bool isReversed : {false, true}) {
+        all.push_back(chiSquaredOf({shift, isReversed}));
+        if (all.back() >= best) continue;
+        best = all.back();
+        fault = {isReversed ? Kind::kReversed : Kind::kShifted, 0, shift};
+      }
+    if (!(best + kClearly < drawn)) return std::nullopt;
+    const auto rivals =
+        std::count_if(all.begin(), all.end(), [&](double each) { return each < best + kClearly; });
+    return rivals == 1 ? fault : WiringFault{Kind::kTurnUnclear};
+  }
+
+ private:
+  /// Of all directions, each where such a ring would see it.
+  double chiSquaredOf(const Turn& turn) const {
+    const double pitch_rad = 2 * std::numbers::pi / gauges_.count, first_rad = gauges_.angle_rad(0);
+    double sum = 0;
+    for (TouchData seen : directions_) {
+      double& place_rad = seen.prior.value[kPlace];
+      const double along_rad = place_rad - first_rad - turn.shift * pitch_rad;
+      place_rad = first_rad + (turn.isReversed ? -along_rad : along_rad);
+      sum += search_->find(ring_, seen).chiSquared;
+    }
+    return sum;
+  }
+
+  config::Gauges gauges_;
+  WiringCheck wired_;
+  RingResponse ring_;
+  std::vector<TouchData> directions_;
+  std::optional<TouchSearch> search_;
+};
 
 std::optional<WiringFault> findTurn(const config::FingerConfig& config, std::span<const KnownTouch> known,
                                     const MatrixXd& readings, const KnownErrors& errors) {
   if (!config.gauges.isEven()) return std::nullopt;
-  const auto directions = directionsOf(config, known, readings);
-  const double pitch_rad = 2 * std::numbers::pi / config.gauges.count;
-  const double known_rad = 3 * errors.angle_deg * kRadPerDeg;
-  const double tolerance_rad = kTurnTolerance * pitch_rad + known_rad;
-  if (directions.empty() ||
-      explains({0, false}, directions, config.gauges, kDoubtfulTurn * pitch_rad + known_rad))
-    return std::nullopt;
-  std::vector<WiringFault> turns;
-  for (int shift = 0; shift < config.gauges.count; ++shift)
-    for (const bool isReversed : {false, true})
-      if (explains({shift, isReversed}, directions, config.gauges, tolerance_rad))
-        turns.push_back({isReversed ? Kind::kReversed : Kind::kShifted, 0, shift});
-  if (turns.empty()) return std::nullopt;
-  return turns.size() == 1 ? turns.front() : WiringFault{Kind::kTurnUnclear};
+  return TurnCheck(config, known, readings, errors).run();
 }
 
 }  // namespace

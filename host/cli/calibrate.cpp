@@ -16,6 +16,8 @@
 #include "host/base/read_file.hpp"
 #include "host/base/strain_rows.hpp"
 #include "host/calibration/expected_error.hpp"
+#include "host/calibration/findings.hpp"
+#include "host/calibration/page.hpp"
 #include "host/calibration/report.hpp"
 #include "host/cli/bus_option.hpp"
 #include "host/cli/calibrate_live.hpp"
@@ -49,7 +51,8 @@ constexpr const char* kCalibrateHelp =
     "tangential_n_per_m of each of these rows; an empty cell is unknown, both loads 0 are the untouched "
     "finger. A header row, blank lines and # comments are passed over.\n"
     "stdout: one row a gauge; with --summary one row of what belongs to the whole finger and what it is "
-    "worth; with --rows what became of each row of strains. stderr: the same in words.\n"
+    "worth; with --rows what became of each row of strains; with --correlations what is told together only. "
+    "stderr: the same in words.\n"
     "-o writes the config with all of it in [finger], [calibration] and gauges.model_error; [tolerance] says "
     "how far a finger may be off the drawing.\n"
     "Exit status 1 when the touches don't tell enough, naming the gauges and the touches that are missing, "
@@ -78,6 +81,8 @@ struct CalibrateOptions {
         ->check(CLI::Range(10, int{kFastestRaw_hz}))
         ->needs(bus);
     command.add_flag("--plain", live.plain, "Of --can: lines, even in a terminal")->needs(bus);
+    command.add_option("--page", pagePath, "Writes a page with pictures there; needs gnuplot")
+        ->type_name("FILE.html");
     command
         .add_option("--load-error", errors.load,
                     "Standard deviation of known loads, relative to the normal load (default 0.01)")
@@ -88,7 +93,11 @@ struct CalibrateOptions {
         ->type_name("DEG")
         ->check(realFrom(0, 90));
     auto* const whole = command.add_flag("--summary", summary, "Prints one row of the whole finger");
-    command.add_flag("--rows", rows, "Prints what became of each row of strains")->excludes(whole);
+    auto* const each =
+        command.add_flag("--rows", rows, "Prints what became of each row of strains")->excludes(whole);
+    command.add_flag("--correlations", correlations, "Prints which unknowns the touches tell together only")
+        ->excludes(whole)
+        ->excludes(each);
   }
   CommonOptions common;
   std::string touchesPath;
@@ -96,9 +105,11 @@ struct CalibrateOptions {
   std::string outputPath;
   LiveCalibration live;
   int node = 0;  ///< 0: the config's
+  std::string pagePath;
   calibration::KnownErrors errors;
   bool summary = false;
   bool rows = false;
+  bool correlations = false;
 };
 
 using Rows = std::vector<std::vector<double>>;
@@ -177,6 +188,7 @@ void printSummary(TableFormat format, const calibration::CalibrationResult& resu
                      "untouched",
                      "weak",
                      "ambiguous",
+                     "wide",
                      "over_range",
                      "unexplained",
                      "arc_before_m",
@@ -184,22 +196,27 @@ void printSummary(TableFormat format, const calibration::CalibrationResult& resu
                      "tangential_before_n_per_m",
                      "arc_after_m",
                      "normal_after_n_per_m",
-                     "tangential_after_n_per_m"});
+                     "tangential_after_n_per_m",
+                     "arc_bound_m",
+                     "normal_bound_n_per_m",
+                     "tangential_bound_n_per_m"});
   std::vector<Cell> cells =
       cellsOf({result.coreRadius_m(), result.poissonRatio(), result.shearModulus_pa(), result.modelError()});
   for (const RowUse use : {RowUse::kFitted, RowUse::kUntouched, RowUse::kWeak, RowUse::kAmbiguous,
-                           RowUse::kOverRange, RowUse::kUnexplained})
+                           RowUse::kWide, RowUse::kOverRange, RowUse::kUnexplained})
     cells.emplace_back(std::int64_t{result.count(use)});
   const auto errors = calibration::expectedErrors(result);
   cells.insert(cells.end(), errors.before.begin(), errors.before.end());
   cells.insert(cells.end(), errors.after.begin(), errors.after.end());
+  cells.insert(cells.end(), errors.bound.begin(), errors.bound.end());
   table.row(cells);
 }
 
 void printRows(TableFormat format, const calibration::CalibrationResult& result) {
-  TableWriter table(
-      stdout, format,
-      {"row", "use", "angle_deg", "normal_n_per_m", "tangential_n_per_m", "width_m", "chi_squared"});
+  TableWriter table(stdout, format,
+                    {"row", "use", "angle_deg", "normal_n_per_m", "tangential_n_per_m", "width_m",
+                     "chi_squared", "residual_drawn_strain", "residual_strain"});
+  const calibration::Residuals residuals = residualsOf(result);
   const double radius_m = result.drawing().config().finger.outer_radius_m;
   for (std::size_t i = 0; i < result.rows().size(); ++i) {
     const calibration::RowResult& row = result.rows()[i];
@@ -210,20 +227,28 @@ void printRows(TableFormat format, const calibration::CalibrationResult& result)
                known(turned_deg < 0 ? turned_deg + 360 : turned_deg),
                known(row.touch[calibration::kNormalLoad]), known(row.touch[calibration::kTangentialLoad]),
                known(radius_m * std::sqrt(12 * std::max(0.0, row.touch[calibration::kMoment]))),
-               known(row.chiSquared)});
+               known(row.chiSquared), residuals.rows[i].before_strain, residuals.rows[i].after_strain});
   }
+}
+
+void printCorrelations(TableFormat format, const calibration::CalibrationResult& result) {
+  TableWriter table(stdout, format, {"one", "other", "correlation"});
+  for (const calibration::Correlation& each : correlationsWorthKnowing(result))
+    table.row({each.one, each.other, each.value});
 }
 
 void print(const CalibrateOptions& options, const calibration::CalibrationResult& result) {
   const TableFormat format = options.common.format();
   if (options.summary) return printSummary(format, result);
   if (options.rows) return printRows(format, result);
+  if (options.correlations) return printCorrelations(format, result);
   printGauges(format, result);
 }
 
 void report(const CalibrateOptions& options, const calibration::CalibrationResult& result) {
   print(options, result);
   fmt::print(stderr, "{}", calibration::textReport(result));
+  if (!options.pagePath.empty()) writeFileAtomically(options.pagePath, calibration::htmlPage(result));
   if (!options.outputPath.empty())
     writeFileAtomically(options.outputPath, config::writeConfig(result.applied()));
 }

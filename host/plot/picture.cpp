@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "host/base/failure.hpp"
+#include "host/base/read_file.hpp"
 #include "host/base/table_writer.hpp"
 #include "host/plot/process.hpp"
 
@@ -102,16 +103,40 @@ std::string completeScript(const Picture& picture, const std::string& stem, cons
 
 void requirePicturePath(const std::string& path) { terminal({}, fs::path(path).extension().string()); }
 
-void draw(const Picture& picture, const std::string& path) {
-  const fs::path file(path);
-  const std::string stem = file.stem().string();
-  const std::string script = completeScript(picture, stem, file.extension().string());
-  const Workshop workshop(file.has_parent_path() ? file.parent_path() : fs::path("."));
-  writeText(workshop.path() / (stem + ".gp"), script);
+namespace {
+
+void drawIn(const Workshop& workshop, const Picture& picture, const std::string& stem,
+            const std::string& ending) {
+  writeText(workshop.path() / (stem + ".gp"), completeScript(picture, stem, ending));
   for (const DataFile& data : picture.data)
     writeData(workshop.path() / fmt::format("{}-{}.csv", stem, data.name), data);
   runIn(workshop.path().string(), {"gnuplot", stem + ".gp"}, "gnuplot-nox");
+}
+
+void replaceAll(std::string& text, const std::string& old, const std::string& with) {
+  for (std::size_t at = text.find(old); at != std::string::npos; at = text.find(old, at + with.size()))
+    text.replace(at, old.size(), with);
+}
+
+}  // namespace
+
+void draw(const Picture& picture, const std::string& path) {
+  const fs::path file(path);
+  terminal(picture, file.extension().string());
+  const Workshop workshop(file.has_parent_path() ? file.parent_path() : fs::path("."));
+  drawIn(workshop, picture, file.stem().string(), file.extension().string());
   workshop.deliver();
+}
+
+std::string svgElement(const Picture& picture, const std::string& name) {
+  const Workshop workshop(fs::temp_directory_path());
+  drawIn(workshop, picture, name, ".svg");
+  std::string svg = readFile((workshop.path() / (name + ".svg")).string(), ExitCode::kFailure);
+  svg.erase(0, svg.find("<svg"));
+  replaceAll(svg, "<title>Gnuplot</title>", "");  // a page would show it at every point
+  for (const std::string begin : {"id='", "id=\"", "href='#", "href=\"#", "url(#"})
+    replaceAll(svg, begin, begin + name + "-");
+  return svg;
 }
 
 }  // namespace strainfinger::plot

@@ -31,6 +31,10 @@ struct Picture {
 /// about.
 void draw(const Picture& picture, const std::string& path);
 
+/// The picture as an <svg> element, to be put into a page: `name`, which no other picture of the page has,
+/// begins all its ids. Throws as draw() does.
+std::string svgElement(const Picture& picture, const std::string& name);
+
 /// Throws Failure(kUsage) for a path that draw() would refuse: for who draws only after a long time.
 void requirePicturePath(const std::string& path);
 

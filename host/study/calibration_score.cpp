@@ -1,5 +1,6 @@
 #include "host/study/calibration_score.hpp"
 
+#include <Eigen/Dense>
 #include <cmath>
 
 #include "host/calibration/expected_error.hpp"
@@ -7,13 +8,27 @@
 #include "host/evidence/touched_ring.hpp"
 #include "host/evidence/touches.hpp"
 #include "host/simulation/built_finger.hpp"
+#include "host/simulation/noise.hpp"
 
 namespace strainfinger::study {
 namespace {
 
 using calibration::Drawing, calibration::RingResponse, calibration::TouchState, calibration::inMetres;
 
-constexpr std::uint64_t kNewTouchSeeds = 3'000'000;
+constexpr std::uint64_t kNewTouchSeeds = 3'000'000, kChanceSeeds = 4'000'000;
+
+/// Normal deviates of that covariance.
+Eigen::VectorXd drawnBy(const Eigen::MatrixXd& covariance, const simulation::Noise& draws) {
+  Eigen::VectorXd drawn(covariance.rows());
+  for (Eigen::Index i = 0; i < drawn.size(); ++i) drawn[i] = draws.at(static_cast<std::uint64_t>(i), 0);
+  return covariance.llt().matrixL() * drawn;
+}
+
+/// Errors of a touch's unknowns that one of each of the finger's deviations makes, to first order.
+Eigen::MatrixXd fingerPull(const RingResponse& ring, const TouchState& touch) {
+  const auto model = ring.linearised(touch, true);
+  return model.toTouch.householderQr().solve(model.toFinger);
+}
 
 }  // namespace
 
@@ -52,7 +67,10 @@ NewTouches newTouches(const calibration::CalibrationResult& result, const config
   const int last = RingResponse::lastHarmonic(drawing);
   const RingResponse fitted(drawing, result.deviations(), last), truth(drawing, trueDeviations(finger), last);
   const double radius_m = finger.finger.outer_radius_m, noise_strain = finger.gauges.noise_strain;
-  NewTouches sum{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  const Eigen::VectorXd drawnFinger = drawnBy(result.covariance(), simulation::Noise(kChanceSeeds + seed));
+  const simulation::Noise chance(2 * kChanceSeeds + seed);
+  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+  NewTouches sum{zero, zero, zero, zero};
   for (int i = 0; i < count; ++i) {
     const auto number = static_cast<std::uint64_t>(i);
     const simulation::Touch drawn = draws.at(number);
@@ -62,11 +80,16 @@ NewTouches newTouches(const calibration::CalibrationResult& result, const config
     const TouchState found = refineTouch(fitted, {readings, noise_strain, {}}, touch).touch;
     const auto variances = touchVariances(fitted, touch, result.covariance(), noise_strain);
     const auto known = touchVariances(truth, touch, result.covariance(), noise_strain);
+    TouchState missed = fingerPull(fitted, touch) * drawnFinger;
+    for (Eigen::Index k = 0; k < missed.size(); ++k)
+      missed[k] += std::sqrt(variances.noise[k]) * chance.at(number, static_cast<std::uint32_t>(k));
+    sum.byChance += inMetres(missed, radius_m).cwiseAbs2();
     sum.error += inMetres(found - touch, radius_m).cwiseAbs2();
     sum.predicted += inMetres(variances.total.cwiseSqrt(), radius_m).cwiseAbs2();
     sum.bound += inMetres(known.noise.cwiseSqrt(), radius_m).cwiseAbs2();
   }
-  for (Eigen::Vector3d* each : {&sum.error, &sum.predicted, &sum.bound}) *each = (*each / count).cwiseSqrt();
+  for (Eigen::Vector3d* each : {&sum.error, &sum.predicted, &sum.byChance, &sum.bound})
+    *each = (*each / count).cwiseSqrt();
   return sum;
 }
 

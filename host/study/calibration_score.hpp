@@ -20,7 +20,10 @@ Eigen::VectorXd errorsOverSigma(const calibration::CalibrationResult& result,
 struct NewTouches {
   Eigen::Vector3d error;      ///< located with the finger as calibrated, less the truth
   Eigen::Vector3d predicted;  ///< what noise and the calibration's covariance make of it
-  Eigen::Vector3d bound;      ///< Cramer-Rao's of the finger perfectly known, the width not
+  /// What chance makes of `error` where the calibration's errors are as its covariance has them: one draw of
+  /// the finger's, which all touches share, and of each touch's noise.
+  Eigen::Vector3d byChance;
+  Eigen::Vector3d bound;  ///< Cramer-Rao's of the finger perfectly known, the width not
 };
 
 /// `count` touches of 30 N/m and 2 mm anywhere on the ring and within 45 degrees of pressing, located in

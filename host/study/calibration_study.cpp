@@ -31,12 +31,27 @@ struct Options {
 /// What became of the fingers of one plan.
 struct Outcome {
   std::array<std::vector<double>, 3> overPredicted, overBound, error;
-  std::vector<double> overSigma;  ///< errors of all unknowns over their sigmas
+  std::array<std::vector<double>, 3> byChance;  ///< overPredicted, if errors were drawn by the covariance
+  std::array<std::vector<double>, 3> overWithoutJunk;  ///< of the same finger by the same rows but the junk
+  std::vector<double> overSigma;                       ///< errors of all unknowns over their sigmas
   double mostUnexplained = 0, mostWritten = 0, mostSeconds = 0;
   int refused = 0;
 };
 
 double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// The session without its junk.
+Session healthyPart(const Session& session) {
+  Session part{session.finger, {}, {}, {}};
+  std::vector<Eigen::Index> rows;
+  for (std::size_t row = 0; row < session.known.size(); ++row) {
+    if (session.isJunk[row]) continue;
+    rows.push_back(static_cast<Eigen::Index>(row));
+    part.known.push_back(session.known[row]);
+  }
+  part.readings = session.readings(rows, Eigen::all);
+  return part;
+}
 
 void addFinger(std::uint64_t seed, const SessionPlan& plan, Outcome& outcome) {
   const config::FingerConfig finger = randomFinger(seed);
@@ -50,6 +65,16 @@ void addFinger(std::uint64_t seed, const SessionPlan& plan, Outcome& outcome) {
     outcome.overPredicted[i].push_back(touches.error[at] / touches.predicted[at]);
     outcome.overBound[i].push_back(touches.error[at] / touches.bound[at]);
     outcome.error[i].push_back(touches.error[at]);
+    outcome.byChance[i].push_back(touches.byChance[at] / touches.predicted[at]);
+  }
+  if (plan.junk > 0) {
+    const Session healthy = healthyPart(session);
+    const auto without = calibration::calibrate(finger, healthy.known, healthy.readings, kExactlyKnown);
+    const NewTouches same = newTouches(without, finger, kNewTouches, seed);
+    for (std::size_t i = 0; i < kNames.size(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      outcome.overWithoutJunk[i].push_back(touches.error[at] / same.error[at]);
+    }
   }
   const Eigen::VectorXd errors = errorsOverSigma(result, finger);
   outcome.overSigma.insert(outcome.overSigma.end(), errors.begin(), errors.end());
@@ -95,6 +120,11 @@ std::string sectionOf(const SessionPlan& plan, int fingers) {
   text +=
       fmt::format("| error of new touches over what is predicted: arc / normal / tangential | {} | {} |\n",
                   three(outcome.overPredicted, 0.5), three(outcome.overPredicted, 1));
+  text += fmt::format("| the same, were a finger's errors drawn by its covariance | {} | {} |\n",
+                      three(outcome.byChance, 0.5), three(outcome.byChance, 1));
+  if (plan.junk > 0)
+    text += fmt::format("| over the error of the same session without its junk | {} | {} |\n",
+                        three(outcome.overWithoutJunk, 0.5), three(outcome.overWithoutJunk, 1));
   text += fmt::format("| over the bound of a finger perfectly known | {} | {} |\n",
                       three(outcome.overBound, 0.5), three(outcome.overBound, 1));
   text += fmt::format("| error: um, N/m, N/m | {:.1f}, {:.3f}, {:.3f} | {:.1f}, {:.3f}, {:.3f} |\n",
@@ -146,17 +176,36 @@ constexpr std::array<Miswiring, 6> kMiswirings{{
     {"reversed", Kind::kReversed, [](Eigen::MatrixXd& r, int n) { turn(r, n % 16, -1); }},
 }};
 
+/// Keeps of all directions the two nearest to marks that are neither opposite nor over a gauge.
+void knowMarksOnly(Session& session) {
+  constexpr std::array kMarks_deg{40.0, 125.0};
+  std::array<std::size_t, kMarks_deg.size()> nearest{};
+  const auto away_deg = [&](std::size_t row, double mark_deg) {
+    return std::abs(std::remainder(session.known[row].angle_deg.value_or(1e9) - mark_deg, 360));
+  };
+  for (std::size_t mark = 0; mark < kMarks_deg.size(); ++mark)
+    for (std::size_t row = 0; row < session.known.size(); ++row)
+      if (session.known[row].angle_deg &&
+          (!session.known[nearest[mark]].angle_deg ||
+           away_deg(row, kMarks_deg[mark]) < away_deg(nearest[mark], kMarks_deg[mark])))
+        nearest[mark] = row;
+  for (std::size_t row = 0; row < session.known.size(); ++row)
+    if (row != nearest[0] && row != nearest[1]) session.known[row].angle_deg.reset();
+}
+
 std::vector<calibration::WiringFault> faultsOf(int seed, const Miswiring* miswiring) {
   const auto number = static_cast<std::uint64_t>(seed);
-  const SessionPlan plan{.touches = 300, .knownDirections = 2};
+  const SessionPlan plan{.touches = 300, .knownDirections = 300};
   Session session = sessionOf(randomFinger(number), plan, number);
+  knowMarksOnly(session);
   if (miswiring != nullptr) miswiring->apply(session.readings, seed);
   return findWiringFaults(session.finger, session.known, session.readings, kExactlyKnown);
 }
 
 std::string wiringSection(int fingers) {
   std::string text = fmt::format(
-      "\n## Wiring: 300 touches, 2 directions known\n\n| wired | found | of | found first "
+      "\n## Wiring: 300 touches, 2 directions known, near 40 and 125 degrees\n\n| wired | found | of | found "
+      "first "
       "|\n|--|--|--|--|\n");
   for (const Miswiring& miswiring : kMiswirings) {
     int found = 0;

@@ -95,9 +95,11 @@ TEST(CalibrateCommand, PrintsWhatBecameOfEachRow) {
   write("touches.csv", textOf(session.known) + ",,\n,0,0\n");
   const Run run = calibrate("--rows", readings + pressed + nothing);
   LONGS_EQUAL(0, run.status);
-  STRCMP_CONTAINS("row,use,angle_deg,normal_n_per_m,tangential_n_per_m,width_m,chi_squared\n",
-                  run.out.c_str());
-  STRCMP_CONTAINS("\n61,over-range,,,,,\n62,untouched,", run.out.c_str());
+  STRCMP_CONTAINS(
+      "row,use,angle_deg,normal_n_per_m,tangential_n_per_m,width_m,chi_squared,residual_drawn_strain,"
+      "residual_strain\n",
+      run.out.c_str());
+  STRCMP_CONTAINS("\n61,over-range,,,,,,,\n62,untouched,", run.out.c_str());
   STRCMP_CONTAINS("over range: press less: 1 rows: 61\n", run.err.c_str());
 }
 
@@ -114,6 +116,26 @@ TEST(CalibrateCommand, WritesAConfigThatIsReadBackAndMakesTables) {
     STRCMP_CONTAINS(part, text.c_str());
   CHECK_TRUE(text.find("\nmodel_error = 0.05\n") == std::string::npos);
   LONGS_EQUAL(0, runProgram("tables -c " + path("out.toml") + " -o " + path("tables.bin")).status);
+}
+
+TEST(CalibrateCommand, WritesAPageThatSaysWhatTheTablesSay) {
+  write("strains.csv", readings);
+  const std::string strains = "--json --strains " + path("strains.csv");
+  const Run gauges = calibrate(strains + " --page " + path("page.html"), "");
+  LONGS_EQUAL(0, gauges.status);
+  write("gauges.json", gauges.out);
+  write("summary.json", calibrate(strains + " --summary", "").out);
+  const Run check = runShell(std::string(STRAINFINGER_PAGE_CHECK) + " " + path("page.html") + " " +
+                                 path("gauges.json") + " " + path("summary.json"),
+                             "");
+  STRCMP_EQUAL("", check.err.c_str());
+  LONGS_EQUAL(0, check.status);
+}
+
+TEST(CalibrateCommand, PrintsWhatIsToldTogetherOnly) {
+  const Run run = calibrate("--correlations", readings);
+  LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS("one,other,correlation\n", run.out.c_str());
 }
 
 TEST(CalibrateCommand, NeedsNoTouchThatIsKnown) {

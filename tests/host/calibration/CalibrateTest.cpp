@@ -1,11 +1,13 @@
 #include "host/calibration/calibrate.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "host/base/failure.hpp"
+#include "host/calibration/moved_zero.hpp"
 #include "host/calibration/report.hpp"
 #include "host/study/calibration_score.hpp"
 #include "host/study/calibration_session.hpp"
@@ -20,7 +22,7 @@ namespace {
 constexpr std::uint64_t kSeed = 11;
 
 /// Fewer touches under the sanitizers, which take ten times as long.
-constexpr int kTouches = STRAINFINGER_SANITIZED ? 80 : 150;
+constexpr int kTouches = STRAINFINGER_SANITIZED ? 100 : 150;
 
 /// One session and what comes of it, for all tests that only look at it.
 struct Calibrated {
@@ -94,6 +96,44 @@ TEST(Calibrate, TwoContactsSlipsAndSaturatedReadingsAreLeftOut) {
     CHECK_TRUE(session.isJunk[row] || !isAccused);
   }
   CHECK_COMPARE(study::newTouches(result, finger, 100, kSeed).error[0], <, 80e-6);
+}
+
+// A slip of ten degrees reads like one touch of 4 mm and more.
+TEST(Calibrate, JunkMakesErrorsNoLargerByAFifth) {
+  constexpr int kMany = 150;
+  const auto session = study::sessionOf(finger, {.touches = kMany, .junk = 0.1}, kSeed);
+  study::Session healthy{session.finger, {}, {}, {}};
+  std::vector<int> rows;
+  for (int row = 0; row < kMany; ++row) {
+    if (session.isJunk[static_cast<std::size_t>(row)]) continue;
+    rows.push_back(row);
+    healthy.known.push_back(session.known[static_cast<std::size_t>(row)]);
+  }
+  healthy.readings = session.readings(rows, Eigen::all);
+  const auto result = calibrated(session);
+  CHECK_COMPARE(result.count(RowUse::kWide), >, 0);
+  const auto with = study::newTouches(result, finger, 100, kSeed);
+  const auto without = study::newTouches(calibrated(healthy), finger, 100, kSeed);
+  for (int i = 0; i < 3; ++i) CHECK_COMPARE(with.error[i], <, 1.2 * without.error[i]);
+}
+
+TEST(Calibrate, AZeroThatMovedIsToldAndItsRowsLeftOut) {
+  constexpr int kMany = 150, kFirstMoved = kMany - kMany / 4;
+  auto session = study::sessionOf(finger, {.touches = kMany}, kSeed);
+  session.readings.bottomRows(kMany - kFirstMoved).col(5).array() += 2e-4;
+  const auto result = calibrated(session);
+  const auto moved = movedZero(result.rows(), finger.gauges);
+  CHECK_TRUE(moved.has_value());
+  LONGS_EQUAL(5, moved->gauge);
+  DOUBLES_EQUAL(2e-4, moved->strain, 4e-5);
+  CHECK_COMPARE(moved->firstRow, >, kFirstMoved - 2);
+  CHECK_COMPARE(moved->firstRow, <, kFirstMoved + 5);
+  LONGS_EQUAL(kMany, moved->lastRow);
+  STRCMP_CONTAINS("The zero of gauge 5 moved during the session: in rows 1", textReport(result).c_str());
+  for (std::size_t row = moved->firstRow - 1; row < moved->lastRow; ++row)
+    CHECK_TRUE(result.rows()[row].use != RowUse::kFitted);
+  CHECK_COMPARE(study::newTouches(result, finger, 100, kSeed).error[0], <, 80e-6);
+  CHECK_FALSE(movedZero(usual().result.rows(), finger.gauges).has_value());
 }
 
 TEST(Calibrate, TheUnitOfForceAndTheZeroOfTheAngleAreTheDrawingsWhereNothingIsKnown) {

@@ -1,0 +1,44 @@
+#pragma once
+// What is worth telling of a calibration, for all who tell it: the text, the tables, the page.
+
+#include <string>
+#include <vector>
+
+#include "host/calibration/calibrate.hpp"
+
+namespace strainfinger::calibration {
+
+/// Two unknowns of the rubber, or one of them and the gauges' gains or depths (the mean of their
+/// correlations), that touches tell together: beyond 0.9.
+struct Correlation {
+  std::string one, other;
+  double value;
+};
+std::vector<Correlation> correlationsWorthKnowing(const CalibrationResult& result);
+
+/// What the touches left untold, and which touches would tell it: sentences.
+std::vector<std::string> whatIsUntold(const CalibrationResult& result);
+
+/// Rows that were left out for one reason, counted from 1.
+struct LeftOut {
+  RowUse use;
+  std::string reason;
+  std::vector<std::size_t> rows;
+};
+std::vector<LeftOut> rowsLeftOut(const CalibrationResult& result);
+
+/// movedZero() of a result, in a sentence; empty where none moved.
+std::string movedZeroText(const CalibrationResult& result);
+
+/// RMS of what the fitted finger leaves, and what the drawn one does of the same rows, each with the touches
+/// that suit it best. Costs 0.2 ms a row.
+struct Residuals {
+  struct Of {
+    double before_strain = 0, after_strain = 0;
+  };
+  std::vector<Of> gauges;
+  std::vector<Of> rows;  ///< NaN for rows that were left out
+};
+Residuals residualsOf(const CalibrationResult& result);
+
+}  // namespace strainfinger::calibration

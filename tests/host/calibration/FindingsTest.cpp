@@ -1,0 +1,89 @@
+#include "host/calibration/findings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "host/calibration/moved_zero.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger::calibration;
+
+TEST_GROUP(Findings) {
+  strainfinger::config::FingerConfig config;
+  const Drawing drawing{config};
+  Eigen::VectorXd deviations = Eigen::VectorXd::Zero(drawing.unknowns());
+  Eigen::MatrixXd covariance = 1e-4 * Eigen::MatrixXd::Identity(drawing.unknowns(), drawing.unknowns());
+  std::vector<RowResult> rows;
+
+  CalibrationResult result() const { return {drawing, deviations, covariance, rows, {0, 0}}; }
+  /// A row whose only residual is that of gauge 3.
+  RowResult row(RowUse use, double strain) const {
+    RowResult result{use, {1, 20, 5, 1e-3}, 0, Eigen::VectorXd::Zero(drawing.gauges())};
+    result.residual_strain[3] = strain;
+    return result;
+  }
+};
+
+TEST(Findings, OnlyStrongCorrelationsAreWorthKnowing) {
+  LONGS_EQUAL(0, correlationsWorthKnowing(result()).size());
+  const Eigen::Index core = drawing.at(kCoreRadius), poisson = drawing.at(kPoissonRatio);
+  covariance(core, poisson) = covariance(poisson, core) = -0.95e-4;
+  const auto found = correlationsWorthKnowing(result());
+  LONGS_EQUAL(1, found.size());
+  STRCMP_EQUAL("core radius", found.front().one.c_str());
+  STRCMP_EQUAL("Poisson's ratio", found.front().other.c_str());
+  DOUBLES_EQUAL(-0.95, found.front().value, 1e-12);
+}
+
+TEST(Findings, AGaugeThatIsUntoldIsNamedWithTheTouchesThatTell) {
+  LONGS_EQUAL(0, whatIsUntold(result()).size());
+  const Eigen::Index depth = Drawing::at(7, kDepthOffset);
+  covariance(depth, depth) = 0.8;
+  const auto sentences = whatIsUntold(result());
+  LONGS_EQUAL(1, sentences.size());
+  STRCMP_CONTAINS("gauges 7 (at 157.5 deg)", sentences.front().c_str());
+  STRCMP_CONTAINS("Touches over them", sentences.front().c_str());
+}
+
+// 16 gauges, one of which is off by 40 microstrain: 10 RMS.
+TEST(Findings, ResidualsAreThoseOfRowsThatWereFitted) {
+  rows = {row(RowUse::kFitted, 40e-6), row(RowUse::kWeak, 1), row(RowUse::kFitted, -40e-6)};
+  const Residuals residuals = residualsOf(result());
+  DOUBLES_EQUAL(10e-6, residuals.rows[0].after_strain, 1e-12);
+  CHECK_TRUE(std::isnan(residuals.rows[1].after_strain));
+  DOUBLES_EQUAL(40e-6, residuals.gauges[3].after_strain, 1e-12);
+  DOUBLES_EQUAL(0, residuals.gauges[4].after_strain, 1e-12);
+  // as drawn is as found here, and touches that suit are fitted anew
+  CHECK_COMPARE(residuals.rows[0].before_strain, <, 10.1e-6);
+}
+
+TEST(Findings, RowsThatWereLeftOutAreListedByReason) {
+  rows = {row(RowUse::kFitted, 0), row(RowUse::kWide, 0), row(RowUse::kOverRange, 0), row(RowUse::kWide, 0)};
+  const auto left = rowsLeftOut(result());
+  LONGS_EQUAL(2, left.size());
+  CHECK_TRUE(left.front().rows == (std::vector<std::size_t>{2, 4}));
+  STRCMP_CONTAINS("slip", left.front().reason.c_str());
+}
+
+TEST(Findings, AZeroThatMovedAtEitherEndIsTold) {
+  for (int i = 0; i < 30; ++i)
+    rows.push_back(row(i < 10 ? RowUse::kUnexplained : RowUse::kFitted, i < 10 ? -1e-4 : 0));
+  auto moved = movedZero(rows, config.gauges);
+  CHECK_TRUE(moved.has_value());
+  LONGS_EQUAL(3, moved->gauge);
+  LONGS_EQUAL(1, moved->firstRow);
+  LONGS_EQUAL(10, moved->lastRow);
+  DOUBLES_EQUAL(-1e-4, moved->strain, 1e-12);
+  std::reverse(rows.begin(), rows.end());
+  moved = movedZero(rows, config.gauges);
+  LONGS_EQUAL(21, moved->firstRow);
+  LONGS_EQUAL(30, moved->lastRow);
+}
+
+TEST(Findings, JunkHereAndThereIsNoMovedZero) {
+  for (int i = 0; i < 90; ++i) rows.push_back(row(i % 3 == 0 ? RowUse::kUnexplained : RowUse::kFitted, 1e-4));
+  CHECK_FALSE(movedZero(rows, config.gauges).has_value());
+}

@@ -16,8 +16,9 @@ constexpr std::uint8_t kRivalEvery = 8;
 constexpr std::uint8_t kTimesRefuted = 3;  ///< in a row, until a second answer is forgotten
 /// Sets of readings after which what is in doubt is looked into again.
 constexpr std::uint16_t kSearchAgainAfter = 64;
-/// What was not in doubt is looked into after so many sets in a row that leave doubt. Noise alone: chi-squared
-/// of 12 freedoms is beyond 29 (threshold::kDoubt) with p = 0.004, three times in a row with 6e-8.
+/// What was not in doubt is looked into after so many sets in a row that leave doubt. Noise alone:
+/// chi-squared of 12 freedoms is beyond 29 (threshold::kDoubt) with p = 0.004, three times in a row with
+/// 6e-8.
 constexpr std::uint8_t kNewDoubt = 3;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }

@@ -15,8 +15,8 @@ struct MatrixRow {
   Tally tally;
 };
 
-/// Markdown, the worst rows, worst first: by silent wrong places, then by answers beyond six sigmas, healthy gauges
-/// blamed, ghosts, and touches missed.
+/// Markdown, the worst rows, worst first: by silent wrong places, then by answers beyond six sigmas, healthy
+/// gauges blamed, ghosts, and touches missed.
 std::string matrixPage(std::vector<MatrixRow> rows, int touches, std::uint64_t seed);
 
 /// CSV: one row a disturbance, in the order given.

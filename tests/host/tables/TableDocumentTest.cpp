@@ -1,5 +1,5 @@
-// common/TABLES.md and TABLES_EXAMPLE.md are written by people; offsets, types and bytes in them are compared with the
-// code here.
+// common/TABLES.md and TABLES_EXAMPLE.md are written by people; offsets, types and bytes in them are compared
+// with the code here.
 
 #include <fmt/format.h>
 
@@ -238,9 +238,10 @@ TEST(TableDocument, ItsExampleIsTheDefaultFinger) {
   checkExampleHas(dumpLine(bytes, offsetof(TableImage, patches)));
   checkExampleHas(fmt::format("CRC-32 {:08X}\n", image_.crc32));
   checkExampleHas(fmt::format("{} * 2^{}: (6e-6", image_.constants.noise_variance,
-                       image_.constants.noise_variance_exponent));
+                              image_.constants.noise_variance_exponent));
   checkExampleHas(
       fmt::format("opens at {}, closes below {}\n", image_.constants.gate_on, image_.constants.gate_off));
-  checkExampleHas(fmt::format("load {} * 2^{} *", image_.constants.load_scale, image_.constants.load_exponent));
+  checkExampleHas(
+      fmt::format("load {} * 2^{} *", image_.constants.load_scale, image_.constants.load_exponent));
   checkExampleHas(fmt::format("reading gain {}: 0.03", image_.constants.reading_gain));
 }

@@ -46,11 +46,13 @@ class NoiseMeter {
         static_cast<std::uint32_t>(mean_q8_ + ((now_q8 - static_cast<std::int64_t>(mean_q8_)) >> kMemory));
   }
 
-  /// What configured noise and the gate's rounding leave on average [gate energy].
+  /// What configured noise and the gate's rounding leave on average [gate energy]. Of any tables below 2^64.
   static std::uint64_t configuredEnergy(const TableConstants& constants) {
-    const int shift = constants.noise_variance_exponent - 2 * constants.gate_shift;
+    constexpr int kMostUp = 25, kMostDown = 63;
+    const int up = constants.noise_variance_exponent - 2 * constants.gate_shift;
     const std::uint64_t twice = std::uint64_t{constants.noise_variance} << 1;
-    const std::uint64_t variance_q1 = shift >= 0 ? twice << shift : twice >> -shift;
+    const std::uint64_t variance_q1 =
+        up >= 0 ? twice << std::min(up, kMostUp) : twice >> std::min(-up, kMostDown);
     return std::max<std::uint64_t>(constants.gauge_count * (variance_q1 + 1) / 2, 1);
   }
 

@@ -15,7 +15,7 @@ test=(
   "${demo[@]}" "${whole[@]}" "${firmware[@]}" "${emulator[@]}"
   libbenchmark-dev clang-format                           # what the tests build, and its format
   libcpputest-dev python3-canmatrix python3-can            # framework, DBC oracle, a user's plot
-  tmux chromium python3-websockets curl                   # a terminal, a browser and its DevTools protocol
+  tmux chromium python3-websockets curl                    # a terminal, a browser and its DevTools protocol
   can-utils iproute2                                      # candump, ip link
   openocd stlink-tools dfu-util                           # that the commands for flashing are ones they know
   clang libclang-rt-14-dev                                # a second compiler, fuzzing

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -68,11 +67,6 @@ plot data('rows') using 1:(gap(2)) every ::1 with points pointtype 7 pointsize 0
 unset multiplot
 )";
 
-double turned_deg(double angle_rad) {
-  const double angle_deg = std::fmod(angle_rad / kRadPerDeg, 360);
-  return angle_deg < 0 ? angle_deg + 360 : angle_deg;
-}
-
 }  // namespace
 
 plot::Picture ringPicture(const CalibrationResult& result) {
@@ -103,8 +97,8 @@ plot::Picture coveragePicture(const CalibrationResult& result) {
     least = std::min(least, load_n_per_m);
     most = std::max(most, load_n_per_m);
     const bool isUsed = row.use == RowUse::kFitted;
-    touches.rows.push_back(
-        {turned_deg(row.touch[kPlace]), isUsed ? load_n_per_m : kNoValue, isUsed ? kNoValue : load_n_per_m});
+    touches.rows.push_back({withinATurn_deg(row.touch[kPlace] / kRadPerDeg), isUsed ? load_n_per_m : kNoValue,
+                            isUsed ? kNoValue : load_n_per_m});
   }
   plot::DataFile gauges{"gauges", {"angle_deg", "from_n_per_m", "length_n_per_m"}, {}};
   for (int i = 0; i < config.gauges.count; ++i)

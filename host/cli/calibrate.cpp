@@ -222,9 +222,8 @@ void printRows(TableFormat format, const calibration::CalibrationResult& result)
     const calibration::RowResult& row = result.rows()[i];
     const bool isTouch = row.touch[calibration::kNormalLoad] != 0;
     const auto known = [isTouch](double value) { return Cell{isTouch ? value : kNoValue}; };
-    const double turned_deg = std::fmod(row.touch[calibration::kPlace] / kRadPerDeg, 360);
     table.row({static_cast<std::int64_t>(i + 1), std::string(nameOf(row.use)),
-               known(turned_deg < 0 ? turned_deg + 360 : turned_deg),
+               known(withinATurn_deg(row.touch[calibration::kPlace] / kRadPerDeg)),
                known(row.touch[calibration::kNormalLoad]), known(row.touch[calibration::kTangentialLoad]),
                known(radius_m * std::sqrt(12 * std::max(0.0, row.touch[calibration::kMoment]))),
                known(row.chiSquared), residuals.rows[i].before_strain, residuals.rows[i].after_strain});

@@ -62,10 +62,7 @@ struct ShapeOptions {
   int points = 41;
 };
 
-double degrees(double angle_rad) {
-  const double angle_deg = std::remainder(angle_rad / kRadPerDeg, 360);
-  return angle_deg < 0 ? angle_deg + 360 : angle_deg;
-}
+double degrees(double angle_rad) { return withinATurn_deg(angle_rad / kRadPerDeg); }
 
 std::string unresolved(const shape::Shape& shape) {
   std::vector<std::string> words;

@@ -2,23 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <iterator>
-#include <numbers>
 
 #include "common/fixed_real.hpp"
 #include "common/quantities.hpp"
+#include "host/base/angles.hpp"
 #include "host/base/strain_rows.hpp"
 
 namespace strainfinger::cli {
-namespace {
-
-double degreesRoundTheFinger(double angle_rad) {
-  const double turns = angle_rad / (2 * std::numbers::pi);
-  return 360 * (turns - std::floor(turns));
-}
-
-}  // namespace
 
 void StrainRecorder::add(const simulation::Moment& moment, std::span<const std::int32_t> strains_q32) {
   if (moment.time_s < static_cast<double>(taken_) * period_s_ || moment.truth.size() > 1) return;
@@ -40,7 +31,7 @@ std::string StrainRecorder::strains() const {
 std::string StrainRecorder::touches() const {
   std::string text = "angle_deg,normal_n_per_m,tangential_n_per_m\n";
   for (const auto& [time_s, strains, touch] : rows_)
-    fmt::format_to(std::back_inserter(text), "{},{},{}\n", degreesRoundTheFinger(touch.angle_rad),
+    fmt::format_to(std::back_inserter(text), "{},{},{}\n", withinATurn_deg(touch.angle_rad / kRadPerDeg),
                    touch.normal_n_per_m, touch.tangential_n_per_m);
   return text;
 }

@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <numbers>
 #include <string>
 
+#include "host/base/angles.hpp"
 #include "host/simulation/touch_errors.hpp"
 
 namespace strainfinger::cli {
@@ -25,16 +24,11 @@ constexpr const char* kNoTruth = "     -        -        -";
 /// In contact a finger has something to say every kContactPeriod_ms; a beat more and it says nothing.
 constexpr double kSilence_s = 1.2e-3 * kContactPeriod_ms;
 
-double degreesOf(const Touch& touch) {
-  const double turns = touch.angle_rad / (2 * std::numbers::pi);
-  return 360 * (turns - std::floor(turns));
-}
-
 std::string truthText(const std::vector<Touch>& truth) {
   if (truth.empty()) return kNoTruth;
   const Touch& touch = truth.front();
-  return fmt::format("{:6.2f} {:8.2f} {:+8.2f}{}", degreesOf(touch), touch.normal_n_per_m,
-                     touch.tangential_n_per_m, truth.size() > 1 ? " and more" : "");
+  return fmt::format("{:6.2f} {:8.2f} {:+8.2f}{}", withinATurn_deg(touch.angle_rad / kRadPerDeg),
+                     touch.normal_n_per_m, touch.tangential_n_per_m, truth.size() > 1 ? " and more" : "");
 }
 
 std::string differenceText(const ComparedTouch& touch, const config::Finger& finger) {

@@ -69,8 +69,6 @@ plot 0 with lines linewidth 1 linecolor rgb faint notitle, \
 unset multiplot
 )";
 
-double reduced_deg(double angle_deg) { return angle_deg - 360 * std::floor(angle_deg / 360); }
-
 /// Error of the estimate as an arc of the surface, the short way around.
 double arcError_m(const TrackPoint& point, double radius_m) {
   return std::remainder(point.estimate.angle_deg - point.truth.angle_deg, 360.0) * kRadPerDeg * radius_m;
@@ -90,7 +88,7 @@ DataFile profileData(const TouchRecord& record) {
 DataFile readingData(const TouchRecord& record) {
   DataFile data{"readings", {"angle_deg", "millistrain", "residual_microstrain", "sigma_microstrain"}, {}};
   for (const GaugeReading& reading : record.readings)
-    data.rows.push_back({reduced_deg(reading.angle_deg), reading.strain * kMilli,
+    data.rows.push_back({withinATurn_deg(reading.angle_deg), reading.strain * kMilli,
                          (reading.strain - reading.fitted_strain) * kMicro, reading.sigma_strain * kMicro});
   return data;
 }
@@ -98,10 +96,10 @@ DataFile readingData(const TouchRecord& record) {
 std::vector<double> trackRow(const TrackPoint& point, double radius_m) {
   const ContactPoint &truth = point.truth, &estimate = point.estimate;
   return {point.time_s,
-          reduced_deg(truth.angle_deg),
+          withinATurn_deg(truth.angle_deg),
           truth.normal_n_per_m,
           truth.tangential_n_per_m,
-          reduced_deg(estimate.angle_deg),
+          withinATurn_deg(estimate.angle_deg),
           estimate.normal_n_per_m,
           estimate.tangential_n_per_m,
           arcError_m(point, radius_m) * kMilli,
@@ -121,7 +119,7 @@ DataFile trackData(const TouchRecord& record) {
                 {}};
   for (const TrackPoint& point : record.track) {
     // A gap where the truth runs through 0 deg, or the line would cross the panel.
-    if (!data.rows.empty() && std::fabs(data.rows.back()[1] - reduced_deg(point.truth.angle_deg)) > 180)
+    if (!data.rows.empty() && std::fabs(data.rows.back()[1] - withinATurn_deg(point.truth.angle_deg)) > 180)
       data.rows.push_back(gapAt(point.time_s));
     data.rows.push_back(trackRow(point, record.outerRadius_m));
   }
@@ -146,14 +144,14 @@ double errorRange_mm(const TouchRecord& record) {
 
 std::string contactText(const ContactPoint& contact) {
   if (std::isnan(contact.angle_deg)) return "no contact";
-  return fmt::format("{:.2f}°, {:.1f} N/m normal, {:+.1f} N/m tangential", reduced_deg(contact.angle_deg),
+  return fmt::format("{:.2f}°, {:.1f} N/m normal, {:+.1f} N/m tangential", withinATurn_deg(contact.angle_deg),
                      contact.normal_n_per_m, contact.tangential_n_per_m);
 }
 
 /// The words at the bottom, on the side of the panel that the contact leaves free.
 std::string profileText(const TouchRecord& record) {
   const double contact_deg =
-      std::isnan(record.truthThen.angle_deg) ? -1 : reduced_deg(record.truthThen.angle_deg);
+      std::isnan(record.truthThen.angle_deg) ? -1 : withinATurn_deg(record.truthThen.angle_deg);
   return fmt::format(
       "heading = 'What {} gauges see at {:.2f} s'\ncontact = {}\n"
       "set label 1 \"truth: {}\\nestimate: {}\" at graph {},0.09 {} textcolor '#333333' font ',10'\n",

@@ -2,10 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "host/base/angles.hpp"
 
 namespace strainfinger::session {
@@ -13,11 +9,6 @@ namespace {
 
 /// Of the ring: longer runs have no ends that are worth naming.
 constexpr double kMostArcsNamed = 0.75;
-
-double withinATurn_deg(double angle_deg) {
-  const double turned = std::fmod(angle_deg, 360);
-  return turned < 0 ? turned + 360 : turned;
-}
 
 }  // namespace
 

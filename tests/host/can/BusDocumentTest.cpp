@@ -31,7 +31,7 @@ std::string readPage(const std::string& name) {
 
 /// BUS.md and the pages beside it that it leads to.
 std::string readPages() {
-  static const std::regex kLink(R"(\]\((BUS_[A-Z]+\.md)\) \|)");
+  static const std::regex kLink(R"(\]\((BUS_[A-Z_]+\.md)\) \|)");
   const std::string first = readPage("BUS.md");
   std::string all = first;
   for (std::sregex_iterator link(first.begin(), first.end(), kLink), end; link != end; ++link)

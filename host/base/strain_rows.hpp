@@ -1,5 +1,5 @@
 #pragma once
-// Rows of gauge strains, as commands read and write them.
+// Rows of gauge strains and of the touches under which they were read, as commands read and write them.
 
 #include <string>
 #include <vector>
@@ -21,5 +21,11 @@ inline NumberRowReader::Limit strainLimit(int gauges) {
           .hint = "a strain is an extension over a length, not in per cent or millionths",
           .columns = strainColumns(gauges)};
 }
+
+/// The header of rows of touches.
+inline constexpr const char* kTouchHeader = "angle_deg,normal_n_per_m,tangential_n_per_m";
+
+/// What may be there of a touch: an empty cell is what nobody knows.
+inline NumberRowReader::Limit touchLimit() { return {.header = kTouchHeader, .mayBeEmpty = true}; }
 
 }  // namespace strainfinger

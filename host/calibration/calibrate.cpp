@@ -18,10 +18,9 @@ namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
-/// A touch whose largest reading is less than so many times the noise, or than this part of what strong
-/// touches read, tells nothing of the finger: information grows with the square. Its own unknowns would only
-/// bend the fit, by more than noise where there are thousands of them.
-constexpr double kWeakest = 40, kWeakestOfStrong = 0.125, kStrong = 0.9;
+/// A touch whose largest reading is less than this part of what strong touches read tells nothing beside
+/// them, as one below kWeakestTouch tells nothing beside noise.
+constexpr double kWeakestOfStrong = 0.125, kStrong = 0.9;
 /// Chi-squared by which a touch must explain a row better than any other.
 constexpr double kClearGap = 16;
 /// Of the ring's pitch: a slip, or two contacts that are near each other, reads like one touch of this width
@@ -73,13 +72,13 @@ class Calibration {
     if (some.size() < all.size()) improve(all, Loss::kRobust);
     judge(all);
     requireExplained(modelError_.value, shareUnexplained(all));
-    requireTouches(drawing_.config().gauges, kept(all).size());
+    requireTouches(drawing_.config().gauges, usable().size());
     for (int round = 0; round < kMostRounds; ++round) {
-      improve(kept(all), Loss::kSquares);
+      improve(usable(), Loss::kSquares);
       if (!judge(all)) break;
     }
-    if (leaveOutMovedZero()) improve(kept(all), Loss::kSquares);
-    return result(kept(all));
+    if (leaveOutMovedZero()) improve(usable(), Loss::kSquares);
+    return result(usable());
   }
 
  private:
@@ -90,7 +89,7 @@ class Calibration {
     const double largest = strains.cwiseAbs().maxCoeff();
     if (largest >= gauges.full_scale_strain) return RowUse::kOverRange;
     if (touch.isUntouched()) return RowUse::kUntouched;
-    return largest < kWeakest * gauges.noise_strain ? RowUse::kWeak : RowUse::kFitted;
+    return largest < kWeakestTouch * gauges.noise_strain ? RowUse::kWeak : RowUse::kFitted;
   }
 
   void leaveOutWeak() {
@@ -145,13 +144,6 @@ class Calibration {
     Rows some;
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (i % step == 0 || isKnown_[rows[i]]) some.push_back(rows[i]);
-    return some;
-  }
-
-  Rows kept(const Rows& rows) const {
-    Rows some;
-    for (const std::size_t row : rows)
-      if (rows_[row].use == RowUse::kFitted || rows_[row].use == RowUse::kUntouched) some.push_back(row);
     return some;
   }
 

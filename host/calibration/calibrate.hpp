@@ -28,6 +28,10 @@ struct KnownErrors {
   double angle_deg = 0.5;
 };
 
+/// [noise] Of the largest reading: a weaker touch tells nothing of the finger. Information grows with the
+/// square; the touch's own unknowns would only bend the fit, by more than noise where there are thousands.
+inline constexpr double kWeakestTouch = 40;
+
 enum class RowUse {
   kFitted,
   kUntouched,    ///< known to be; tells the zeros

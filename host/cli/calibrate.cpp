@@ -129,15 +129,11 @@ Rows readRows(const std::string& path, std::size_t columns, const NumberRowReade
   return readRows(text, path, columns, limit);
 }
 
-std::optional<double> knownIn(double cell) { return std::isnan(cell) ? std::nullopt : std::optional(cell); }
-
 std::vector<calibration::KnownTouch> readTouches(const std::string& path) {
   std::vector<calibration::KnownTouch> touches;
   if (path.empty()) return touches;
-  const NumberRowReader::Limit limit{.header = "angle_deg,normal_n_per_m,tangential_n_per_m",
-                                     .mayBeEmpty = true};
-  for (const auto& row : readRows(path, 3, limit))
-    touches.push_back({knownIn(row[0]), knownIn(row[1]), knownIn(row[2])});
+  for (const auto& row : readRows(path, 3, touchLimit()))
+    touches.push_back({valueOf(row[0]), valueOf(row[1]), valueOf(row[2])});
   return touches;
 }
 

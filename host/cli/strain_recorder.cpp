@@ -29,7 +29,7 @@ std::string StrainRecorder::strains() const {
 }
 
 std::string StrainRecorder::touches() const {
-  std::string text = "angle_deg,normal_n_per_m,tangential_n_per_m\n";
+  std::string text = fmt::format("{}\n", kTouchHeader);
   for (const auto& [time_s, strains, touch] : rows_)
     fmt::format_to(std::back_inserter(text), "{},{},{}\n", withinATurn_deg(touch.angle_rad / kRadPerDeg),
                    touch.normal_n_per_m, touch.tangential_n_per_m);

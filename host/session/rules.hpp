@@ -1,6 +1,8 @@
 #pragma once
 // Every threshold of a guided session: unit, value, and where it comes from.
 
+#include "host/calibration/calibrate.hpp"
+
 namespace strainfinger::session {
 
 /// Which sample sets are kept as rows of strains.
@@ -8,8 +10,8 @@ struct ThinningRules {
   /// [standard deviations of a difference of two readings, RMS over the gauges] By so much a row differs from
   /// the kept ones of its cell; 1 is noise, 5 is none by chance.
   double distinct = 5;
-  /// [noise] Of the largest reading; weaker touches tell nothing beside it (calibrate()'s own limit).
-  double weakest = 40;
+  /// [noise] Of the largest reading; weaker touches tell nothing beside it, to calibrate() as well.
+  double weakest = calibration::kWeakestTouch;
   /// [1/s] Change of the readings over their largest size of late. The board takes 446 us to read a set's
   /// gauges one after the other (firmware/board/stm32g431): at 10/s they are off by 0.13 %, RMS over the
   /// ring.

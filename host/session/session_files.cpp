@@ -6,20 +6,19 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <optional>
 #include <sstream>
 
 #include "host/base/failure.hpp"
+#include "host/base/no_value.hpp"
 #include "host/base/read_file.hpp"
 #include "host/base/strain_rows.hpp"
 
 namespace strainfinger::session {
 namespace {
 
-constexpr const char* kTouchesHeader = "angle_deg,normal_n_per_m,tangential_n_per_m";
 constexpr const char* kNothingIsKnown = ",,\n";
 
 std::string strainsHeader(int gauges) {
@@ -68,8 +67,6 @@ void requireHeader(const std::string& text, const std::string& header, const std
           path, header));
 }
 
-std::optional<double> knownCell(double cell) { return std::isnan(cell) ? std::nullopt : std::optional(cell); }
-
 std::string cellText(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; }
 
 }  // namespace
@@ -96,18 +93,18 @@ SessionFiles::~SessionFiles() {
 void SessionFiles::readRows(int gauges) {
   const std::string strains = wholeLines(strains_.path), touches = wholeLines(touches_.path);
   requireHeader(strains, strainsHeader(gauges), strains_.path);
-  requireHeader(touches, kTouchesHeader, touches_.path);
+  requireHeader(touches, kTouchHeader, touches_.path);
   std::istringstream strainText(strains), touchText(touches);
   const auto columns = static_cast<std::size_t>(gauges);
   NumberRowReader strainRows(strainText, strains_.path, columns, strainLimit(gauges));
-  NumberRowReader touchRows(touchText, touches_.path, 3, {.header = kTouchesHeader, .mayBeEmpty = true});
+  NumberRowReader touchRows(touchText, touches_.path, 3, touchLimit());
   std::size_t unpaired = 0;
   for (std::vector<double> row, known; strainRows.next(row);) {
     const bool isPaired = touchRows.next(known);
-    if (!isPaired) known.assign(3, std::nan(""));
+    if (!isPaired) known.assign(3, kNoValue);
     unpaired += isPaired ? 0 : 1;
     rows_.add(Eigen::Map<const Eigen::VectorXd>(row.data(), gauges),
-              {knownCell(known[0]), knownCell(known[1]), knownCell(known[2])});
+              {valueOf(known[0]), valueOf(known[1]), valueOf(known[2])});
   }
   if (std::vector<double> known; touchRows.next(known))
     throw Failure(ExitCode::kFailure, fmt::format("{}: more rows than in {}, to whose rows they belong: take "
@@ -118,7 +115,7 @@ void SessionFiles::readRows(int gauges) {
   if (::ftruncate(touches_.descriptor, static_cast<off_t>(touches.size())) != 0)
     cannot(touches_.path, "write");
   if (strains.empty()) append(strains_, strainsHeader(gauges) + "\n");
-  if (touches.empty()) append(touches_, std::string(kTouchesHeader) + "\n");
+  if (touches.empty()) append(touches_, std::string(kTouchHeader) + "\n");
   for (std::size_t i = 0; i < unpaired; ++i) append(touches_, kNothingIsKnown);
 }
 

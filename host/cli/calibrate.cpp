@@ -240,12 +240,13 @@ void print(const CalibrateOptions& options, const calibration::CalibrationResult
   printGauges(format, result);
 }
 
+/// The config first: it is what the touches were for, and the rest can fail.
 void report(const CalibrateOptions& options, const calibration::CalibrationResult& result) {
+  if (!options.outputPath.empty())
+    writeFileAtomically(options.outputPath, config::writeConfig(result.applied()));
   print(options, result);
   fmt::print(stderr, "{}", calibration::textReport(result));
   if (!options.pagePath.empty()) writeFileAtomically(options.pagePath, calibration::htmlPage(result));
-  if (!options.outputPath.empty())
-    writeFileAtomically(options.outputPath, config::writeConfig(result.applied()));
 }
 
 std::uint8_t nodeOf(const CalibrateOptions& options, const config::FingerConfig& config) {
@@ -258,7 +259,11 @@ void runLiveCalibration(const CalibrateOptions& options, const config::FingerCon
   live.outputPath = options.outputPath;
   live.errors = options.errors;
   const LiveResult ended = calibrateLive(config, live);
-  if (ended.result) report(options, *ended.result);
+  try {
+    if (ended.result) report(options, *ended.result);
+  } catch (const Failure& failure) {
+    throw Failure(failure.code(), fmt::format("{}; {}", failure.what(), ended.kept));
+  }
   if (ended.interrupted) throw Failure(ExitCode::kInterrupted, "calibrate: interrupted; " + ended.kept);
   if (!ended.result) throw Failure(ExitCode::kFailure, fmt::format("{}; {}", ended.complaint, ended.kept));
   fmt::print(stderr, "calibrate: {}\n", ended.kept);

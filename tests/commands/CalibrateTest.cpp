@@ -132,6 +132,20 @@ TEST(CalibrateCommand, WritesAPageThatSaysWhatTheTablesSay) {
   LONGS_EQUAL(0, check.status);
 }
 
+TEST(CalibrateCommand, WritesTheConfigAlthoughThePageCannotBeMade) {
+  write("strains.csv", readings);
+  const auto expectConfig = [this](const Run& run, const char* named) {
+    LONGS_EQUAL(1, run.status);
+    STRCMP_CONTAINS(named, run.err.c_str());
+    CHECK_TRUE(std::filesystem::remove(path("out.toml")));
+    CHECK_FALSE(std::filesystem::exists(path("page.html")));
+  };
+  const std::string arguments = " --strains " + path("strains.csv") + " -o " + path("out.toml") + " --page ";
+  expectConfig(calibrate(arguments + path("none/page.html"), ""), path("none/page.html").c_str());
+  expectConfig(runShell("PATH=/none \"$STRAINFINGER\" calibrate" + arguments + path("page.html"), ""),
+               "gnuplot is not installed: apt install gnuplot");
+}
+
 TEST(CalibrateCommand, PrintsWhatIsToldTogetherOnly) {
   const Run run = calibrate("--correlations", readings);
   LONGS_EQUAL(0, run.status);

@@ -22,8 +22,8 @@ struct ThinningRules {
   /// [s] Between rows: a finger that is rolled around in 5 s has moved by half a millimetre.
   double closest_s = 0.04;
   /// [rows] Of one cell (half a gap between gauges, an octave of load, a third of leans). The default ring's
-  /// 96 cells of each octave get 2,300 rows in three octaves; 3,000 come within 1.4 of a perfectly known
-  /// finger (issue 20).
+  /// 96 cells of each octave get 2,300 rows in three octaves; what 3,000 are worth is in
+  /// host/study/README.md.
   int mostPerCell = 8;
   /// [N/m over N/m] Tangential over normal load beyond which a touch counts as rubbed.
   double rubbed = 0.25;
@@ -52,11 +52,11 @@ struct SessionGoals {
   int directions = 2;
   /// [deg] From each other and from opposite each other.
   double directionsApart_deg = 20;
-  /// [touches] More, of which it is asked what they gain ..
+  /// [touches] So many more are weighed against what they would gain.
   int batch = 100;
-  /// .. [1] in the error of touches to come; nothing is left to gain below. What isn't known of a finger
-  /// falls with the root of the touches: an error that a hundred after 500 lower by less is within a quarter
-  /// of what noise alone makes.
+  /// [1] The gain of a batch in the error of touches to come below which nothing is left to gain. What isn't
+  /// known of a finger falls with the root of the touches: an error that a hundred after 500 lower by less is
+  /// within a quarter of what noise alone makes.
   double leastGain = 0.03;
 };
 
@@ -75,8 +75,9 @@ struct FitRules {
 struct HoldRules {
   double time_s = 0.3;  ///< [s] over which it is averaged
   int leastSets = 3;
-  double noise = 3;     ///< [noise] that each gauge may move, RMS, or ..
-  double share = 0.01;  ///< .. [1] of the largest reading: a hand is no clamp
+  /// Each gauge may move by the larger of these, RMS: a hand is no clamp.
+  double noise = 3;     ///< [noise]
+  double share = 0.01;  ///< [1] of the largest reading
 };
 
 }  // namespace strainfinger::session

@@ -83,6 +83,19 @@ TEST(Findings, AZeroThatMovedAtEitherEndIsTold) {
   LONGS_EQUAL(30, moved->lastRow);
 }
 
+// A fifth of an end may be explained by a touch that happens to suit, not more.
+TEST(Findings, AnEndOfWhichMuchIsExplainedIsNoMovedZero) {
+  const auto isTold = [this](int every) {
+    rows.clear();
+    for (int i = 0; i < 30; ++i) rows.push_back(row(RowUse::kUnexplained, 1e-4));
+    for (int i = every - 1; i < 30; i += every) rows[static_cast<std::size_t>(i)].use = RowUse::kFitted;
+    for (int i = 0; i < 60; ++i) rows.push_back(row(RowUse::kFitted, 0));
+    return movedZero(rows, config.gauges).has_value();
+  };
+  CHECK_TRUE(isTold(6));
+  CHECK_FALSE(isTold(3));
+}
+
 TEST(Findings, JunkHereAndThereIsNoMovedZero) {
   for (int i = 0; i < 90; ++i) rows.push_back(row(i % 3 == 0 ? RowUse::kUnexplained : RowUse::kFitted, 1e-4));
   CHECK_FALSE(movedZero(rows, config.gauges).has_value());

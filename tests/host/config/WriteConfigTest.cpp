@@ -1,5 +1,7 @@
 #include "host/config/write_config.hpp"
 
+#include <fstream>
+#include <iterator>
 #include <random>
 #include <string>
 
@@ -83,4 +85,11 @@ TEST(WriteConfig, EveryKeyIsDocumentedWithItsDomain) {
                   text.c_str());
   STRCMP_CONTAINS("# the strain the gauges read [one of radial, hoop, shear]\ncomponent = \"radial\"\n",
                   text.c_str());
+}
+
+// What people read to learn the keys, and begin their own finger's file with.
+TEST(WriteConfig, TheFileInTheTreeIsTheDefaultFinger) {
+  std::ifstream file(STRAINFINGER_DOCUMENTED_CONFIG);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  STRCMP_EQUAL(writeConfig({}).c_str(), text.c_str());
 }

@@ -24,6 +24,8 @@ namespace {
 constexpr int kGauges = 16;
 constexpr int kTouches = 60;
 constexpr std::uint64_t kSeed = 5;
+/// A row of strains that a gauge can't read.
+constexpr const char* kOverRange = "-0.5,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n";
 
 std::string textOf(const Eigen::MatrixXd& readings) {
   std::string text;
@@ -90,10 +92,9 @@ TEST(CalibrateCommand, PrintsTheWholeFingerAsOneRow) {
 }
 
 TEST(CalibrateCommand, PrintsWhatBecameOfEachRow) {
-  const std::string pressed = "-0.5,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n",
-                    nothing = "0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n";
+  const std::string nothing = "0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n";
   write("touches.csv", textOf(session.known) + ",,\n,0,0\n");
-  const Run run = calibrate("--rows", readings + pressed + nothing);
+  const Run run = calibrate("--rows", readings + kOverRange + nothing);
   LONGS_EQUAL(0, run.status);
   STRCMP_CONTAINS(
       "row,use,angle_deg,normal_n_per_m,tangential_n_per_m,width_m,chi_squared,residual_drawn_strain,"
@@ -119,7 +120,8 @@ TEST(CalibrateCommand, WritesAConfigThatIsReadBackAndMakesTables) {
 }
 
 TEST(CalibrateCommand, WritesAPageThatSaysWhatTheTablesSay) {
-  write("strains.csv", readings);
+  write("touches.csv", textOf(session.known) + ",,\n");
+  write("strains.csv", readings + kOverRange);
   const std::string strains = "--json --strains " + path("strains.csv");
   const Run gauges = calibrate(strains + " --page " + path("page.html"), "");
   LONGS_EQUAL(0, gauges.status);

@@ -44,9 +44,15 @@ def main(page_path, gauges_path, summary_path):
     assert numbers(table, "residual_strain") == [gauge["residual_strain"] for gauge in gauges]
 
     summary = json.loads(open(summary_path, encoding="utf-8").read())
-    missing = {"weak", "ambiguous", "wide", "over_range", "unexplained"}  # only where there are any
-    for name, value in summary.items():
-        assert numbers(root, name) == [value] or name in missing, name
+    reasons = {"weak", "ambiguous", "wide", "over_range", "unexplained"}
+    for name in set(summary) - reasons:
+        assert numbers(root, name) == [summary[name]], name
+    for name in reasons:  # told where there are any
+        assert numbers(root, "left-out " + name.replace("_", "-")) == [summary[name]] * (summary[name] > 0), name
+    listed = next(each for each in root.iter(XHTML + "table") if each.get("id") == "left-out")
+    for row in list(listed)[1:]:
+        count, which = row.find(f".//{XHTML}data"), row.find(f"{XHTML}td[@class='words']")
+        assert int(count.get("value")) == len(which.text.split(", ")), count.get("class")
 
     pictures = list(root.iter(SVG + "svg"))
     assert len(pictures) == 3 and all(picture.get("aria-label") for picture in pictures)

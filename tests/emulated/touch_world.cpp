@@ -5,7 +5,6 @@
 #include <fmt/os.h>
 
 #include <cstdlib>
-#include <deque>
 #include <numbers>
 #include <vector>
 
@@ -17,21 +16,11 @@
 #include "host/simulation/read_scenario.hpp"
 #include "host/simulation/simulated_gauges.hpp"
 #include "host/tables/table_file.hpp"
+#include "tests/firmware/board/fake_world_line.hpp"
 
 using namespace strainfinger;
 
 namespace {
-
-struct Line {
-  std::deque<std::uint8_t> bytes;
-  bool put(std::uint8_t) noexcept { return true; }
-  std::optional<std::uint8_t> get() noexcept {
-    if (bytes.empty()) return std::nullopt;
-    const std::uint8_t byte = bytes.front();
-    bytes.pop_front();
-    return byte;
-  }
-};
 
 struct Port {
   std::vector<CanFrame> sent;
@@ -50,12 +39,6 @@ struct Watchdog {
   void feed() noexcept {}
   hal::ResetCause resetCause() const noexcept { return hal::ResetCause::kPowerOn; }
 };
-
-std::vector<std::uint8_t> bytesOf(const mps2::WorldRecord& record) {
-  std::vector<std::uint8_t> bytes{static_cast<std::uint8_t>(record.kind), record.size};
-  bytes.insert(bytes.end(), record.payload.begin(), record.payload.begin() + record.size);
-  return bytes;
-}
 
 std::string textOf(const CanFrame& frame) {
   const std::string line = can::formatLogLine(0, "x", frame);
@@ -84,7 +67,7 @@ int main(int count, char** arguments) {
   simulation::SimulatedClock time;
   simulation::SimulatedGauges gauges(config, simulation::readScenarioFile(arguments[2]), time,
                                      {.seed = node});
-  Line line;
+  mps2::FakeWorldLine line;
   Port port;
   Watchdog watchdog;
   mps2::World world(line, port);
@@ -96,10 +79,9 @@ int main(int count, char** arguments) {
     hal::SampleSet set{};
     if (!gauges.read(set)) return 1;
     const auto codes = std::span(set).first(static_cast<std::size_t>(config.gauges.count));
-    for (const std::uint8_t byte : bytesOf(mps2::samplesRecord(codes))) {
-      records.print("{}", static_cast<char>(byte));
-      line.bytes.push_back(byte);
-    }
+    const auto told = mps2::bytesOf(mps2::samplesRecord(codes));
+    for (const std::uint8_t byte : told) records.print("{}", static_cast<char>(byte));
+    line.tell(told);
     port.sent.clear();
     world.poll([](const mps2::WorldRecord&) {});
     while (finger.step()) continue;

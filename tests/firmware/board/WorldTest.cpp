@@ -7,22 +7,12 @@
 
 #include "firmware/board/mps2/timer.hpp"
 #include "tests/doubles/fake_clock.hpp"
+#include "tests/firmware/board/fake_world_line.hpp"
 
 using namespace strainfinger;
 using namespace strainfinger::mps2;
 
 namespace {
-
-struct FakeWorldLine {
-  std::deque<std::uint8_t> bytes;
-  bool put(std::uint8_t) noexcept { return true; }
-  std::optional<std::uint8_t> get() noexcept {
-    if (bytes.empty()) return std::nullopt;
-    const std::uint8_t byte = bytes.front();
-    bytes.pop_front();
-    return byte;
-  }
-};
 
 struct FakeBus {
   bool sentAll = true;
@@ -45,11 +35,7 @@ TEST_GROUP(World) {
   bool poll() {
     return world.poll([this](const WorldRecord& record) { acted.push_back(record); });
   }
-  void tell(const WorldRecord& record) {
-    line.bytes.push_back(static_cast<std::uint8_t>(record.kind));
-    line.bytes.push_back(record.size);
-    line.bytes.insert(line.bytes.end(), record.payload.begin(), record.payload.begin() + record.size);
-  }
+  void tell(const WorldRecord& record) { line.tell(bytesOf(record)); }
   void tellSamples(std::uint16_t first, std::uint16_t second) {
     const std::array codes{first, second};
     tell(samplesRecord(codes));

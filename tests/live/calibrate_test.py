@@ -96,8 +96,8 @@ class Finger:
 class Session:
     """`calibrate --can` in pipes."""
 
-    def __init__(self, bench, finger, output):
-        self.process = bench.start("calibrate", "--can", bench.bus, "-c", str(finger.config), "-o", str(output),
+    def __init__(self, bench, finger, output, *options):
+        self.process = bench.start("calibrate", "--can", bench.bus, "-c", str(finger.config), "-o", str(output), *options,
                                    stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.said = Follower(self.process.stderr)
         self.printed = Follower(self.process.stdout)
@@ -262,6 +262,16 @@ class Resumed(unittest.TestCase):
         self.assertEqual(1, session.ended(60))
         self.assertRegex(session.said.last, r"^strainfinger: .*3.* 8.*rows are kept in ")
         self.assertFalse(output.exists())
+
+    def test_a_page_that_cannot_be_written_loses_neither_config_nor_rows(self):
+        output = self.session_of(250)
+        session = Session(self.bench, self.finger, output, "--page", str(output.parent / "none" / "page.html"))
+        self.bench.until(lambda: session.rows() >= 250)
+        session.say("quit")
+        self.assertEqual(1, session.ended(120))
+        self.assertRegex(session.said.last, r"cannot write \S+none/page.html: .*; \d\d\d rows are kept in ")
+        self.assertIn("[calibration]", output.read_text())
+        self.assertEqual(17, len(session.printed.lines))
 
     def test_control_c_ends_it_with_130_and_nothing_is_lost(self):
         output = self.session_of(40)

@@ -99,17 +99,34 @@ bool isWeak(const Answer& answer, const ContactState& state) {
   return 4 * amplitude * amplitude < Wide{threshold::kWeakSignal} * answer.noiseVariance_q4;
 }
 
-/// Errors reach a rival that the readings hardly tell from the answer in three of them. True: it is farther
-/// away than the answer's own errors reached.
-bool coverRival(const Answer& answer, int contact, Contact& estimated) {
-  if (answer.rivalEnergy < 0) return false;
-  if (answer.rivalEnergy >= energyOf(answer.gateVariance_q4, threshold::kAmbiguous)) return false;
-  const auto turned = static_cast<std::int32_t>(answer.rival[at(contact)].angle_q32 -
-                                                answer.solution.contact[at(contact)].angle_q32);
-  const std::uint32_t least = static_cast<std::uint32_t>(magnitude(Wide{turned})) / 3;
-  if (estimated.sigmaAngle.raw() >= least) return false;
-  estimated.sigmaAngle = TurnQ32::fromRaw(least);
-  return true;
+LineLoadQ12 loadOf(const TableConstants& constants, const Answer& answer, std::int64_t amplitude) {
+  return LineLoadQ12::fromRaw(
+      lineLoad(static_cast<Number>(amplitude), constants.load_scale, constants.load_exponent + answer.shift));
+}
+
+/// A standard error of which three reach so far.
+constexpr Wide reaching(Wide sigma, Wide far) { return std::max(sigma, magnitude(far) / 3); }
+
+/// Errors reach a rival that the readings hardly tell from the answer. Ambiguous: the rival is farther away
+/// than the answer's own errors reached.
+void coverRival(const TableConstants& constants, const Answer& answer, int contact, Contact& estimated) {
+  if (answer.rivalEnergy < 0) return;
+  if (answer.rivalEnergy >= energyOf(answer.gateVariance_q4, threshold::kAmbiguous)) return;
+  const ContactState& rival = answer.rival[at(contact)];
+  const Wide turned_q32 = static_cast<std::int32_t>(rival.angle_q32 - estimated.angle.raw());
+  const Wide sigma_q32 = reaching(estimated.sigmaAngle.raw(), turned_q32);
+  if (sigma_q32 == estimated.sigmaAngle.raw()) return;
+  estimated.ambiguous = true;
+  estimated.sigmaAngle = TurnQ32::fromRaw(static_cast<std::uint32_t>(sigma_q32));
+  const auto cover = [&](LineLoadQ12& sigma, LineLoadQ12 told, Number amplitude) {
+    const Wide off = Wide{loadOf(constants, answer, amplitude).raw()} - told.raw();
+    sigma = LineLoadQ12::fromRaw(static_cast<Number>(reaching(sigma.raw(), off)));
+  };
+  cover(estimated.sigmaNormal, estimated.normal, rival.normal);
+  cover(estimated.sigmaTangential, estimated.tangential, rival.tangential);
+  if (!answer.solution.hypothesis.widthIsFree) return;
+  const Wide wider_um = Wide{widthOf_um(moment_um2(constants, rival.moment_q20))} - estimated.width_um;
+  estimated.sigmaWidth_um = static_cast<std::uint32_t>(reaching(estimated.sigmaWidth_um, wider_um));
 }
 
 }  // namespace
@@ -124,10 +141,7 @@ Contact estimate(const TableConstants& constants, const Answer& answer, const Li
     if (!linearisation.decomposition.isDetermined(unknown)) return most;
     return sigmaOf(variance[at(unknown)], noise).times2(unitBits - linearisation.exponent[at(unknown)], most);
   };
-  const auto load = [&](std::int64_t amplitude) {
-    return LineLoadQ12::fromRaw(lineLoad(static_cast<Number>(amplitude), constants.load_scale,
-                                         constants.load_exponent + answer.shift));
-  };
+  const auto load = [&](std::int64_t amplitude) { return loadOf(constants, answer, amplitude); };
   const int contacts = hypothesis.contacts;
   Contact estimated;
   estimated.angle = TurnQ32::fromRaw(state.angle_q32);
@@ -157,7 +171,7 @@ Contact estimate(const TableConstants& constants, const Answer& answer, const Li
     estimated.chi_q4 = static_cast<std::uint16_t>(chi.times2(0, kNoChi - 1));
   }
   estimated.quality = qualityOf(answer, chiSquared, left);
-  estimated.ambiguous = coverRival(answer, contact, estimated);
+  coverRival(constants, answer, contact, estimated);
   estimated.alternative = TurnQ32::fromRaw(answer.rival[at(contact)].angle_q32);
   estimated.uncertain = estimated.ambiguous || !answer.accepted || answer.searching || answer.doubtful ||
                         areTooNear(constants, answer.solution) || tooWide || faint || isWeak(answer, state);

@@ -1,6 +1,8 @@
 #include "firmware/core/estimate.hpp"
 
+#include <cmath>
 #include <limits>
+#include <utility>
 
 #include "common/fixed_real.hpp"
 #include "tests/firmware/core/model_ring.hpp"
@@ -239,6 +241,28 @@ TEST(Estimate, ErrorsCoverARivalThatIsNearlyAsLikely) {
     const double rival = toReal(contact.angle) * 16 + pitches;
     DOUBLES_EQUAL(0, ring.between(rival, toReal(contact.alternative) * 16), 1e-4);
   }
+}
+
+TEST(Estimate, ErrorsOfLoadsAndWidthReachTheRivalToo) {
+  const Contact alone = estimated();
+  ContactState& told = answer.solution.contact[0];
+  const ContactState rival{told.angle_q32, told.normal / 2, -told.tangential - told.normal / 4,
+                           told.moment_q20 + (1 << (kMomentBits - 2))};
+  const ContactState kept = std::exchange(told, rival);
+  const Contact other = estimated();
+  told = kept;
+  answer.rival[0] = rival;
+  setRival(0.9, 5);
+  const Contact contact = estimated();
+  const auto isThird = [](double sigma, double own, double apart, double step) {
+    CHECK_COMPARE(sigma, >, own);
+    DOUBLES_EQUAL(std::abs(apart) / 3, sigma, step);
+  };
+  isThird(toReal(contact.sigmaNormal), toReal(alone.sigmaNormal), toReal(other.normal) - toReal(alone.normal),
+          1e-3);
+  isThird(toReal(contact.sigmaTangential), toReal(alone.sigmaTangential),
+          toReal(other.tangential) - toReal(alone.tangential), 1e-3);
+  isThird(contact.sigmaWidth_um, alone.sigmaWidth_um, 1.0 * other.width_um - alone.width_um, 1);
 }
 
 TEST(Estimate, ARivalThatIsFarLessLikelyIsNone) {

@@ -344,7 +344,7 @@ class Finger {
   Watchdog& watchdog_;
   Store& store_;
   FingerState state_ = FingerState::kBoot;
-  hal::SampleSet codes_{};
+  alignas(4) hal::SampleSet codes_{};  ///< copied by words
   OwedFrames owed_;
   bool wasSecond_ = false;  ///< in the last touch that was said
   RawSender raw_;

@@ -20,11 +20,6 @@ void GaugeWatch::suspect(GaugeSet gauge, std::uint32_t angle_q32) {
   if (++places_[i] >= kPlaces) outOfUse_ |= gauge;
 }
 
-void GaugeWatch::implausiblyAtRail(GaugeSet gauges) {
-  outOfUse_ |= gauges & atRail_;
-  atRail_ = gauges;
-}
-
 void GaugeWatch::vindicate(GaugeSet gauges) {
   for (std::size_t i = 0; gauges != 0; ++i, gauges >>= 1) {
     if ((gauges & 1) == 0) continue;

@@ -19,7 +19,10 @@ class GaugeWatch {
   /// Once a touched sample set: the gauge that it speaks against, if any, and where the contact is.
   void suspect(GaugeSet gauge, std::uint32_t angle_q32);
   /// Gauges at a rail that should be well within their range; two sets in a row convict them.
-  void implausiblyAtRail(GaugeSet gauges);
+  void implausiblyAtRail(GaugeSet gauges) {
+    outOfUse_ |= gauges & atRail_;
+    atRail_ = gauges;
+  }
   /// Gauges that touches which they should have felt speak for: of those in use it clears a suspicion, those
   /// out of use come back after kConvincing of them.
   void vindicate(GaugeSet gauges);

@@ -50,8 +50,7 @@ bool isFarOff(const TableImage& tables, const Solution& solution, const ScaledRe
 
 }  // namespace
 
-void Locator::release() {
-  if (!tracking_ && !answer_.searching) return;
+void Locator::forget() {
   tracking_ = guessed_ = false;
   search_.stop();
   answer_ = {};

@@ -48,7 +48,9 @@ class Locator {
   /// The whole of a search that update() began, with the same strains.
   void finishSearch(const TableImage& tables, std::span<const std::int32_t> strains_q32, GaugeSet gauges);
   /// Nothing touches the finger any more.
-  void release();
+  void release() {
+    if (tracking_ || answer_.searching) forget();
+  }
 
   const Answer& answer() const { return answer_; }
   /// The linear model around the answer, of which its errors are.
@@ -58,6 +60,7 @@ class Locator {
 
  private:
   std::optional<int> follow(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
+  void forget();
   void start(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
   void settle(const TableImage& tables, const ScaledReadings& readings);
   void goOn(const TableImage& tables, const ScaledReadings& readings, int workDone);

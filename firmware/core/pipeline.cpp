@@ -79,16 +79,16 @@ void Pipeline::watchGauges(Codes codes) {
   watch_.vindicate(right & ~answer.suspect);
 }
 
-/// The codes are those of the last set, and the answer to them is found.
+/// The codes are those of the last set of a touch, and the answer to them is found.
 bool Pipeline::isKnown(Codes codes) const {
   const Answer& answer = locator_.answer();
-  if (!observation_.touched || !answer.accepted || answer.searching) return false;
+  if (!answer.accepted || answer.searching) return false;
   if (observation_.saturated != 0) return false;  // a second set may convict a gauge at a rail
   return !areZerosNew_ && std::equal(codes.begin(), codes.end(), codes_.begin());
 }
 
 const Observation& Pipeline::process(Codes codes) {
-  if (isKnown(codes)) {
+  if (observation_.touched && isKnown(codes)) {
     observation_.unchanged = true;
   } else {
     observe(codes);

@@ -141,20 +141,15 @@ void ZeroTracker::finish(const TableImage& tables, const Answer* answer, Calibra
   if (isWorthIt) follow(tables.constants, sum_, gauges, calibration);
 }
 
-bool ZeroTracker::take(const TableImage& tables, std::span<const std::int32_t> strains_q32,
-                       const Answer* answer, GaugeSet leftOut, Calibration& calibration,
-                       Linearisation& scratch) {
-  if (age_sets_ != std::numeric_limits<std::uint32_t>::max()) ++age_sets_;
-  const bool touched = answer != nullptr;
-  if (touched != touched_ || (touched && (!answer->accepted || answer->searching))) {
-    begin(touched);
-    rest_ = {};
-    return false;
-  }
-  leftOut_ |= leftOut;
-  if (++sets_ % kEvery != 0) return false;
-  if (touched && !rests(tables.constants, *answer)) {
-    begin(touched);
+void ZeroTracker::interrupt(bool touched) {
+  begin(touched);
+  rest_ = {};
+}
+
+bool ZeroTracker::average(const TableImage& tables, std::span<const std::int32_t> strains_q32,
+                          const Answer* answer, Calibration& calibration, Linearisation& scratch) {
+  if (answer != nullptr && !rests(tables.constants, *answer)) {
+    begin(true);
     known_ = 0;
     rest_ = {answer->solution.hypothesis.contacts, answer->shift, answer->solution.contact};
     return false;
@@ -163,7 +158,7 @@ bool ZeroTracker::take(const TableImage& tables, std::span<const std::int32_t> s
   for (std::size_t i = 0; i < strains_q32.size(); ++i) sum_[i] += (strains_q32[i] + kHalf) >> kTakenBits;
   if (sets_ < kInterval) return false;
   finish(tables, answer, calibration, scratch);
-  begin(touched);
+  begin(answer != nullptr);
   return true;
 }
 

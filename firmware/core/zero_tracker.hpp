@@ -29,7 +29,16 @@ class ZeroTracker {
   /// True: the zeros may have changed. Cost: two instructions a gauge in one of kEvery sets; at the end of an
   /// untouched interval at most kMostSteps steps of a fit from the readings.
   bool take(const TableImage& tables, std::span<const std::int32_t> strains_q32, const Answer* answer,
-            GaugeSet leftOut, Calibration& calibration, Linearisation& scratch);
+            GaugeSet leftOut, Calibration& calibration, Linearisation& scratch) {
+    if (age_sets_ != std::numeric_limits<std::uint32_t>::max()) ++age_sets_;
+    const bool touched = answer != nullptr;
+    if (touched != touched_ || (touched && (!answer->accepted || answer->searching))) {
+      interrupt(touched);
+      return false;
+    }
+    leftOut_ |= leftOut;
+    return ++sets_ % kEvery == 0 && average(tables, strains_q32, answer, calibration, scratch);
+  }
 
   /// Forgets everything: the zeros are new.
   void restart() { *this = {}; }
@@ -53,6 +62,9 @@ class ZeroTracker {
   };
 
   void begin(bool touched);
+  void interrupt(bool touched);
+  bool average(const TableImage& tables, std::span<const std::int32_t> strains_q32, const Answer* answer,
+               Calibration& calibration, Linearisation& scratch);
   bool rests(const TableConstants& constants, const Answer& answer) const;
   void finish(const TableImage& tables, const Answer* answer, Calibration& calibration,
               Linearisation& scratch);

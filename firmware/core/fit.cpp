@@ -171,8 +171,10 @@ void lineariseContact(const TableImage& tables, int contact, Linearisation& line
   WideColumn angle, moment;
   for (int gauge = 0, row = 0; gauge < tables.constants.gauge_count; ++gauge) {
     const std::uint32_t angle_q32 = tables.gauge_angle_q32[index(gauge)];
+    Number& predicted = linearisation.predicted[index(gauge)];
+    if (contact == 0) predicted = 0;
     if (row >= linearisation.usedRows || linearisation.gauge[index(row)] != gauge) {
-      linearisation.predicted[index(gauge)] += model.predictedAt(angle_q32);
+      predicted += model.predictedAt(angle_q32);
       continue;
     }
     const ContactModel::Reading reading = model.at(angle_q32);
@@ -180,7 +182,7 @@ void lineariseContact(const TableImage& tables, int contact, Linearisation& line
     tangential[index(row)] = static_cast<Short>(reading.loads.tangential >> kLoadExponent);
     angle[index(row)] = reading.angle;
     moment[index(row)] = reading.moment;
-    linearisation.predicted[index(gauge)] += reading.predicted;
+    predicted += reading.predicted;
     ++row;
   }
   linearisation.exponent[index(loadsOf(contact))] = linearisation.exponent[index(loadsOf(contact) + 1)] =
@@ -279,7 +281,6 @@ void linearise(const TableImage& tables, const Hypothesis& hypothesis, const Con
   linearisation.hypothesis = hypothesis;
   linearisation.at = contacts;
   chooseRows(tables, linearisation);
-  linearisation.predicted = {};
   for (int k = 0; k < hypothesis.contacts; ++k) lineariseContact(tables, k, linearisation);
   decompose(linearisation.column, linearisation.rows, hypothesis.unknowns(), linearisation.decomposition);
 }

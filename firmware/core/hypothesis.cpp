@@ -19,17 +19,15 @@ std::uint32_t noiseVariance_q4(const TableConstants& constants, int shift) {
 
 ScaledReadings scaledReadings(const TableConstants& constants, std::span<const Number> strains_q32,
                               GaugeSet gauges, std::uint32_t noise_q4, int shift) {
-  Number bits = 0;
-  for (std::size_t i = 0; i < strains_q32.size(); ++i)
-    if (contains(gauges, static_cast<int>(i))) bits |= signlessBits(strains_q32[i]);
-  ScaledReadings scaled;
-  const int own = std::max(bitWidth(bits) - 15, 0);
-  scaled.shift = static_cast<std::int8_t>(shift == own + 1 ? shift : own);
   Number largest = 0;
-  for (std::size_t i = 0; i < strains_q32.size(); ++i) {
+  for (std::size_t i = 0; i < strains_q32.size(); ++i)
+    if (contains(gauges, static_cast<int>(i))) largest = larger(largest, signlessBits(strains_q32[i]));
+  ScaledReadings scaled;
+  const int own = std::max(bitWidth(largest) - 15, 0);
+  scaled.shift = static_cast<std::int8_t>(shift == own + 1 ? shift : own);
+  largest >>= scaled.shift;
+  for (std::size_t i = 0; i < strains_q32.size(); ++i)
     scaled.value[i] = shortened(strains_q32[i] >> scaled.shift);
-    if (contains(gauges, static_cast<int>(i))) largest = larger(largest, magnitude(Number{scaled.value[i]}));
-  }
   const Natural modelError = static_cast<Natural>(largest) * constants.model_error_q16 >> 14;  // * 4
   const Natural noise =
       (Natural{noiseVariance_q4(constants, scaled.shift)} * noise_q4 >> 4) + kRoundingVariance_q4;

@@ -30,20 +30,17 @@ void Pipeline::takeZero(const ZeroAverage& zero) {
 
 /// The readings are small, and not for long those of contacts: hum or drift.
 bool Pipeline::isDisturbance(GaugeSet gauges) {
+  const bool accepted = locator_.answer().accepted;
+  if (settledSets_ == kSettled && accepted) return false;
   const Wide most = kDisturbance * readingNoise_q32(constants());
   bool weak = true;
   for (int i = 0; i < constants().gauge_count; ++i) {
     const std::int32_t strain = readings_.strain_q32[static_cast<std::size_t>(i)];
     if (contains(gauges, i) && (strain > most || strain < -most)) weak = false;
   }
-  if (!weak) {
-    settledSets_ = kSettled;
-  } else if (!locator_.answer().accepted) {
-    settledSets_ = 0;
-  } else {
-    settledSets_ = static_cast<std::uint8_t>(std::min(settledSets_ + 1, kSettled));
-  }
-  return settledSets_ < kSettled;
+  const int settled = !weak ? kSettled : accepted ? settledSets_ + 1 : 0;
+  settledSets_ = static_cast<std::uint8_t>(settled);
+  return settled < kSettled;
 }
 
 void Pipeline::locate(GaugeSet gauges) {

@@ -25,7 +25,7 @@ ScaledReadings scaledReadings(const TableConstants& constants, std::span<const N
   ScaledReadings scaled;
   const int own = std::max(bitWidth(largest) - 15, 0);
   scaled.shift = static_cast<std::int8_t>(shift == own + 1 ? shift : own);
-  largest >>= scaled.shift;
+  largest = largest >> scaled.shift;
   for (std::size_t i = 0; i < strains_q32.size(); ++i)
     scaled.value[i] = shortened(strains_q32[i] >> scaled.shift);
   const Natural modelError = static_cast<Natural>(largest) * constants.model_error_q16 >> 14;  // * 4

@@ -24,7 +24,7 @@ constexpr std::array kNames{"arc", "normal", "tangential"};
 struct Options {
   int fingers = 30;
   std::vector<int> touches{300};
-  int wiring = 0;
+  int wiring = 0, healthy = 0;
   std::string output;
 };
 
@@ -202,7 +202,13 @@ std::vector<calibration::WiringFault> faultsOf(int seed, const Miswiring* miswir
   return findWiringFaults(session.finger, session.known, session.readings, kExactlyKnown);
 }
 
-std::string wiringSection(int fingers) {
+void printMissed(const char* wired, int seed, const std::vector<calibration::WiringFault>& faults) {
+  fmt::print(stderr, "finger {}, {}:", seed, wired);
+  for (const auto& fault : faults) fmt::print(stderr, " {};", textOf(fault));
+  fmt::print(stderr, "{}\n", faults.empty() ? " nothing found" : "");
+}
+
+std::string wiringSection(int fingers, int healthy) {
   std::string text = fmt::format(
       "\n## Wiring: 300 touches, 2 directions known, near 40 and 125 degrees\n\n| wired | found | of | found "
       "first "
@@ -212,20 +218,27 @@ std::string wiringSection(int fingers) {
     std::string example;
     for (int seed = 1; seed <= fingers; ++seed) {
       const auto faults = faultsOf(seed, &miswiring);
-      found += faults.size() == 1 && faults.front().kind == miswiring.kind;
+      const bool isFound = faults.size() == 1 && faults.front().kind == miswiring.kind;
+      found += isFound;
+      if (!isFound) printMissed(miswiring.name, seed, faults);
       if (example.empty() && !faults.empty()) example = textOf(faults.front());
     }
     text += fmt::format("| {} | {} | {} | {} |\n", miswiring.name, found, fingers, example);
   }
   int alarms = 0;
-  for (int seed = 1; seed <= 10 * fingers; ++seed) alarms += !faultsOf(seed, nullptr).empty();
-  return text + fmt::format("| as drawn | {} | {} | |\n", alarms, 10 * fingers);
+  for (int seed = 1; seed <= healthy; ++seed) {
+    const auto faults = faultsOf(seed, nullptr);
+    alarms += !faults.empty();
+    if (!faults.empty()) printMissed("as drawn", seed, faults);
+  }
+  return text + fmt::format("| as drawn | {} | {} | |\n", alarms, healthy);
 }
 
 void run(const Options& options) {
   std::string page = kIntroduction;
-  if (options.wiring > 0) page += wiringSection(options.wiring);
+  if (options.wiring + options.healthy > 0) page += wiringSection(options.wiring, options.healthy);
   for (const int touches : options.touches) {
+    if (options.fingers == 0) break;
     page += sectionOf({.touches = touches}, options.fingers);
     if (touches <= 300) page += sectionOf({.touches = touches, .junk = 0.1}, options.fingers);
   }
@@ -241,11 +254,13 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   strainfinger::study::Options options;
   CLI::App app("Calibrates random simulated fingers and compares with the truth.");
-  app.add_option("--fingers", options.fingers, "How many (30)")->check(CLI::Range(1, 10'000));
+  app.add_option("--fingers", options.fingers, "How many; 0: only wiring (30)")->check(CLI::Range(0, 10'000));
   app.add_option("--touches", options.touches, "Touches of a session; several: one after the other (300)")
       ->check(CLI::Range(40, 100'000));
   app.add_option("--wiring", options.wiring, "Also so many fingers of each fault of wiring (0)")
       ->check(CLI::Range(0, 10'000));
+  app.add_option("--healthy", options.healthy, "And so many that are wired as drawn (0)")
+      ->check(CLI::Range(0, 100'000));
   app.add_option("-o,--output", options.output, "The page; stdout without it");
   CLI11_PARSE(app, argc, argv);
   try {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 #include "host/base/angles.hpp"
@@ -36,6 +37,8 @@ constexpr double kImproved = 0.75, kImprovedWithout = 0.6, kImprovedMuch = 0.3, 
 /// of touches most.
 constexpr double kPoissonDeviations[] = {0, -0.75, -1.5};
 constexpr int kMostFaults = 4;
+/// Of the mends of either sort, so many are compared on all rows.
+constexpr std::ptrdiff_t kPromising = 4;
 /// Of the reading of a healthy gauge beside it: less is dead. A correlation beyond kSame is its neighbour's.
 constexpr double kDeadShare = 0.1, kSame = 0.8;
 /// A touch of known direction is where the drawn ring sees it, give or take so many tolerances of a gauge's
@@ -73,24 +76,34 @@ class WiringCheck {
   WiringCheck(const config::FingerConfig& config, const MatrixXd& readings)
       : drawing_(config),
         lastHarmonic_(RingResponse::lastHarmonic(drawing_)),
-        readings_(strongRows(readings)),
-        isLeftOut_(static_cast<std::size_t>(drawing_.gauges()), false) {}
+        isLeftOut_(static_cast<std::size_t>(drawing_.gauges()), false) {
+    takeStrongRows(readings);
+    listKeepingMends();
+  }
 
   std::vector<WiringFault> run() {
     std::vector<WiringFault> faults = leaveOutDead();
-    double misfit = choosePoissonRatio();
-    while (misfit > kHealthy && static_cast<int>(faults.size()) < kMostFaults) {
-      const auto mend = bestMend(misfit);
-      if (!mend) break;
-      faults.push_back(mend->fault);
-      readings_ = mended(readings_, mend->fault);
-      misfit = mend->misfit;
+    choosePoissonRatio();
+    while (misfits_.mean() > kHealthy && static_cast<int>(faults.size()) < kMostFaults) {
+      const auto fault = bestMend();
+      if (!fault) break;
+      faults.push_back(*fault);
+      readings_ = mended(readings_, *fault);
+      lookAgain();
     }
     return faults;
   }
 
-  TouchSearch search() const { return {ring(isLeftOut_), friction(), mostMoment_rad2()}; }
-  RingResponse ring() const { return ring(isLeftOut_); }
+  /// With the Poisson's ratio that explains the readings best. Domain: after run().
+  const TouchSearch& search() const { return *search_; }
+  RingResponse ring() const {
+    VectorXd deviations = VectorXd::Zero(drawing_.unknowns());
+    deviations[drawing_.at(kPoissonRatio)] = poissonDeviation_;
+    for (int gauge = 0; gauge < drawing_.gauges(); ++gauge)
+      if (isLeftOut_[static_cast<std::size_t>(gauge)])
+        deviations[Drawing::at(gauge, kGain)] = -1 / drawing_.tolerance(kGain);
+    return {drawing_, deviations, lastHarmonic_};
+  }
 
  private:
   struct Mend {
@@ -98,24 +111,8 @@ class WiringCheck {
     double misfit = std::numeric_limits<double>::infinity();
   };
 
-  double friction() const { return drawing_.config().contact.friction_coefficient; }
-  double mostMoment_rad2() const {
-    const config::FingerConfig& config = drawing_.config();
-    return model::momentOfWidth(config.contact.largest_width_m / config.finger.outer_radius_m);
-  }
-
-  /// As drawn, gauges that are left out reading nothing.
-  RingResponse ring(const std::vector<bool>& isLeftOut) const {
-    VectorXd deviations = VectorXd::Zero(drawing_.unknowns());
-    deviations[drawing_.at(kPoissonRatio)] = poissonDeviation_;
-    for (int gauge = 0; gauge < drawing_.gauges(); ++gauge)
-      if (isLeftOut[static_cast<std::size_t>(gauge)])
-        deviations[Drawing::at(gauge, kGain)] = -1 / drawing_.tolerance(kGain);
-    return {drawing_, deviations, lastHarmonic_};
-  }
-
   /// Of each gauge, the strongest rows in which none reads more: a fault shows where it is touched.
-  MatrixXd strongRows(const MatrixXd& readings) const {
+  void takeStrongRows(const MatrixXd& readings) {
     std::vector<std::vector<std::pair<double, Index>>> ofGauge(static_cast<std::size_t>(readings.cols()));
     for (Index row = 0; row < readings.rows(); ++row) {
       Index gauge = 0;
@@ -124,33 +121,67 @@ class WiringCheck {
         ofGauge[static_cast<std::size_t>(gauge)].emplace_back(peak, row);
     }
     std::vector<Index> strong;
-    for (auto& rows : ofGauge) {
+    for (std::size_t gauge = 0; gauge < ofGauge.size(); ++gauge) {
+      auto& rows = ofGauge[gauge];
       std::sort(rows.rbegin(), rows.rend());
       rows.resize(std::min(rows.size(), kRowsPerGauge));
-      for (const auto& [peak, row] : rows) strong.push_back(row);
+      for (const auto& [peak, row] : rows) {
+        strong.push_back(row);
+        strongest_.push_back(static_cast<int>(gauge));
+      }
     }
-    return readings(strong, Eigen::all);
+    readings_ = readings(strong, Eigen::all);
   }
 
-  static double misfitOf(const MatrixXd& readings, const TouchSearch& search) {
-    double sum = 0;
+  void listKeepingMends() {
+    keeping_.push_back({Kind::kAllSigns});
+    for (int gauge = 0; gauge < drawing_.gauges(); ++gauge) {
+      keeping_.push_back({Kind::kSign, gauge});
+      leaving_.push_back({Kind::kUnfit, gauge});
+      for (int other = gauge + 1; other < drawing_.gauges(); ++other)
+        keeping_.push_back({Kind::kSwapped, gauge, other});
+    }
+  }
+
+  TouchSearch searchOf(const RingResponse& ring) const {
+    const config::FingerConfig& config = drawing_.config();
+    return {ring, config.contact.friction_coefficient,
+            model::momentOfWidth(config.contact.largest_width_m / config.finger.outer_radius_m)};
+  }
+
+  void lookAgain() {
+    search_ = searchOf(ring());
+    misfits_ = misfitsOf(readings_, std::nullopt);
+  }
+
+  /// Of each row, the share of its energy that no touch explains, but no more than kMostMisfit.
+  VectorXd misfitsOf(const MatrixXd& readings, std::optional<int> leftOut) const {
+    VectorXd misfits(readings.rows());
     for (Index row = 0; row < readings.rows(); ++row)
-      sum += std::min(kMostMisfit, search.unexplainedShare(readings.row(row)));
-    return sum / static_cast<double>(std::max<Index>(1, readings.rows()));
+      misfits[row] = std::min(kMostMisfit, search_->unexplainedShare(readings.row(row), leftOut));
+    return misfits;
   }
 
-  /// The one that explains the readings best, wired as they are; what it leaves.
-  double choosePoissonRatio() {
+  /// What these rows leave with a fault mended.
+  VectorXd misfitsWith(const WiringFault& fault, const std::vector<Index>& rows) const {
+    const bool leavesOut = fault.kind == Kind::kUnfit;
+    return misfitsOf(mended(readings_(rows, Eigen::all), fault),
+                     leavesOut ? std::optional(fault.gauge) : std::nullopt);
+  }
+
+  /// The one that explains the readings best, wired as they are.
+  void choosePoissonRatio() {
     double least = std::numeric_limits<double>::infinity(), best = 0;
     for (const double deviation : kPoissonDeviations) {
       poissonDeviation_ = deviation;
-      const double misfit = misfitOf(readings_, search());
-      if (misfit >= least) continue;
-      least = misfit;
+      lookAgain();
+      if (misfits_.mean() >= least) continue;
+      least = misfits_.mean();
       best = deviation;
     }
+    if (poissonDeviation_ == best) return;
     poissonDeviation_ = best;
-    return least;
+    lookAgain();
   }
 
   /// Gauges that read far less than both beside them: no touch does that, wherever the finger was touched.
@@ -169,44 +200,53 @@ class WiringCheck {
   }
 
   /// The best there is, if it is good enough.
-  std::optional<Mend> bestMend(double misfit) {
-    const Mend kept = bestThatKeepsAll(), out = bestThatLeavesOneOut();
+  std::optional<WiringFault> bestMend() {
+    const double misfit = misfits_.mean();
+    const Mend kept = bestOf(keeping_), out = bestOf(leaving_);
     const double nearly = concerns(kept.fault, out.fault.gauge) ? kNearlyThere : kNearly;
-    if (kept.misfit <= kImproved * misfit && kept.misfit <= nearly * out.misfit) return kept;
+    if (kept.misfit <= kImproved * misfit && kept.misfit <= nearly * out.misfit) return kept.fault;
     const WiringFault fault = described(out.fault.gauge);
     const double most = fault.kind == Kind::kUnfit ? kImprovedMuch : kImprovedWithout;
     if (out.misfit > most * misfit) return std::nullopt;
     isLeftOut_[static_cast<std::size_t>(fault.gauge)] = true;
-    return Mend{fault, out.misfit};
+    return fault;
   }
 
-  Mend bestThatKeepsAll() const {
-    const TouchSearch search = this->search();
+  /// Of mends, the one that leaves least: those that gain most on the rows of their own gauges are compared
+  /// on all rows.
+  Mend bestOf(const std::vector<WiringFault>& mends) const {
+    std::vector<std::pair<double, WiringFault>> gains;
+    for (const WiringFault& fault : mends) {
+      const auto rows = rowsAt(fault);
+      gains.emplace_back((misfits_(rows) - misfitsWith(fault, rows)).sum(), fault);
+    }
+    const auto promising = gains.begin() + std::min<std::ptrdiff_t>(kPromising, std::ssize(gains));
+    std::partial_sort(gains.begin(), promising, gains.end(),
+                      [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<Index> all(static_cast<std::size_t>(readings_.rows()));
+    std::iota(all.begin(), all.end(), Index{0});
     Mend best;
-    const auto consider = [&](const WiringFault& fault) {
-      const double misfit = misfitOf(mended(readings_, fault), search);
-      if (misfit < best.misfit) best = {fault, misfit};
+    for (auto each = gains.begin(); each != promising; ++each) {
+      const double misfit = misfitsWith(each->second, all).mean();
+      if (misfit < best.misfit) best = {each->second, misfit};
+    }
+    return best;
+  }
+
+  /// The rows in which a gauge of the fault reads most, or the gauges beside it, as a gauge at fault may read
+  /// most nowhere.
+  std::vector<Index> rowsAt(const WiringFault& fault) const {
+    const int count = drawing_.gauges();
+    const auto isNear = [&](int gauge, int other) {
+      const int away = std::abs(gauge - other);
+      return std::min(away, count - away) <= 1;
     };
-    consider({Kind::kAllSigns});
-    for (int gauge = 0; gauge < drawing_.gauges(); ++gauge) {
-      consider({Kind::kSign, gauge});
-      for (int other = gauge + 1; other < drawing_.gauges(); ++other)
-        consider({Kind::kSwapped, gauge, other});
-    }
-    return best;
-  }
-
-  Mend bestThatLeavesOneOut() const {
-    Mend best;
-    for (int gauge = 0; gauge < drawing_.gauges(); ++gauge) {
-      std::vector<bool> isLeftOut = isLeftOut_;
-      isLeftOut[static_cast<std::size_t>(gauge)] = true;
-      const WiringFault fault{Kind::kUnfit, gauge};
-      const double misfit =
-          misfitOf(mended(readings_, fault), {ring(isLeftOut), friction(), mostMoment_rad2()});
-      if (misfit < best.misfit) best = {fault, misfit};
-    }
-    return best;
+    std::vector<Index> rows;
+    for (std::size_t row = 0; row < strongest_.size(); ++row)
+      if (fault.kind == Kind::kAllSigns || isNear(strongest_[row], fault.gauge) ||
+          (fault.kind == Kind::kSwapped && isNear(strongest_[row], fault.other)))
+        rows.push_back(static_cast<Index>(row));
+    return rows;
   }
 
   /// What is wrong with a gauge that is better left out.
@@ -223,9 +263,13 @@ class WiringCheck {
 
   Drawing drawing_;
   int lastHarmonic_;
-  MatrixXd readings_;
+  std::vector<WiringFault> keeping_, leaving_;  ///< mends that are tried: with all gauges, without one
+  MatrixXd readings_;                           ///< strong rows
+  std::vector<int> strongest_;                  ///< of each row, the gauge that reads most
   std::vector<bool> isLeftOut_;
   double poissonDeviation_ = 0;
+  std::optional<TouchSearch> search_;
+  VectorXd misfits_;  ///< of each row, wired as found by now
 };
 
 /// How the ring may lie: gauge i is where gauge shift + i, or shift - i, should be.
@@ -238,8 +282,8 @@ struct Turn {
 class TurnCheck {
  public:
   TurnCheck(const config::FingerConfig& config, std::span<const KnownTouch> known, const MatrixXd& readings,
-            const KnownErrors& errors)
-      : gauges_(config.gauges), wired_(config, MatrixXd(0, readings.cols())), ring_(wired_.ring()) {
+            const KnownErrors& errors, const WiringCheck& wired)
+      : gauges_(config.gauges), search_(wired.search()), ring_(wired.ring()) {
     const double sigma_deg = std::hypot(errors.angle_deg, kPlacedTolerances * config.tolerance.angle_deg);
     for (std::size_t row = 0; row < known.size(); ++row) {
       if (!known[row].angle_deg || known[row].isUntouched()) continue;
@@ -250,7 +294,6 @@ class TurnCheck {
       data.prior.weight[kPlace] = 1 / (sigma_deg * kRadPerDeg);
       directions_.push_back(data);
     }
-    if (!directions_.empty()) search_.emplace(wired_.search());
   }
 
   std::optional<WiringFault> run() const {
@@ -281,32 +324,26 @@ class TurnCheck {
       double& place_rad = seen.prior.value[kPlace];
       const double along_rad = place_rad - first_rad - turn.shift * pitch_rad;
       place_rad = first_rad + (turn.isReversed ? -along_rad : along_rad);
-      sum += search_->find(ring_, seen).chiSquared;
+      sum += search_.find(ring_, seen).chiSquared;
     }
     return sum;
   }
 
   config::Gauges gauges_;
-  WiringCheck wired_;
+  const TouchSearch& search_;
   RingResponse ring_;
   std::vector<TouchData> directions_;
-  std::optional<TouchSearch> search_;
 };
-
-std::optional<WiringFault> findTurn(const config::FingerConfig& config, std::span<const KnownTouch> known,
-                                    const MatrixXd& readings, const KnownErrors& errors) {
-  if (!config.gauges.isEven()) return std::nullopt;
-  return TurnCheck(config, known, readings, errors).run();
-}
 
 }  // namespace
 
 std::vector<WiringFault> findWiringFaults(const config::FingerConfig& config,
                                           std::span<const KnownTouch> known, const MatrixXd& readings,
                                           const KnownErrors& errors) {
-  std::vector<WiringFault> faults = WiringCheck(config, readings).run();
-  if (faults.empty())
-    if (const auto turn = findTurn(config, known, readings, errors)) faults.push_back(*turn);
+  WiringCheck check(config, readings);
+  std::vector<WiringFault> faults = check.run();
+  if (faults.empty() && config.gauges.isEven())
+    if (const auto turn = TurnCheck(config, known, readings, errors, check).run()) faults.push_back(*turn);
   return faults;
 }
 

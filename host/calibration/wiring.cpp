@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "host/base/angles.hpp"
+#include "host/calibration/joint_fit.hpp"
 #include "host/calibration/touch_fit.hpp"
 #include "host/model/pressure_profile.hpp"
 
@@ -41,10 +42,9 @@ constexpr int kMostFaults = 4;
 constexpr std::ptrdiff_t kPromising = 4;
 /// Of the reading of a healthy gauge beside it: less is dead. A correlation beyond kSame is its neighbour's.
 constexpr double kDeadShare = 0.1, kSame = 0.8;
-/// A touch of known direction is where the drawn ring sees it, give or take so many tolerances of a gauge's
-/// angle: 0.3 mm of a pitch of 5, as glued rings that nobody calibrated are off; and the drawn ring explains
-/// its reading but for this part of the largest.
-constexpr double kPlacedTolerances = 3, kFirstError = 0.05;
+/// A touch of known direction is where the fitted ring sees it, give or take so many tolerances of a gauge's
+/// angle, though the mean of all of them is nearer. What the fit leaves of readings besides noise, of the largest.
+constexpr double kPlacedTolerances = 1, kFittedError = 0.005;
 /// Chi-squared by which another turn must explain the directions better than the drawn one, and than others.
 constexpr double kClearly = 16;
 
@@ -69,6 +69,11 @@ MatrixXd mended(const MatrixXd& readings, const WiringFault& fault) {
       result.col(fault.gauge).setZero();
   }
   return result;
+}
+
+/// A touch of which nothing is known but its readings.
+TouchData touchData(const VectorXd& strains, double noise_strain) {
+  return {strains, std::hypot(noise_strain, kFittedError * strains.cwiseAbs().maxCoeff()), {}};
 }
 
 class WiringCheck {
@@ -96,16 +101,36 @@ class WiringCheck {
 
   /// With the Poisson's ratio that explains the readings best. Domain: after run().
   const TouchSearch& search() const { return *search_; }
-  RingResponse ring() const {
+
+  /// The ring that fits the strong rows best, in its own order and sense: what is known of touches isn't
+  /// looked at. Domain: after run().
+  RingResponse fittedRing() const {
+    const RingResponse start = ring();
+    std::vector<TouchData> data;
+    JointFit fit{deviations(), {}};
+    for (Index row = 0; row < readings_.rows(); ++row) {
+      TouchData each = touchData(readings_.row(row), drawing_.config().gauges.noise_strain);
+      const TouchFit found = search_->find(start, each);
+      if (found.touch[kNormalLoad] <= 0) continue;
+      data.push_back(each);
+      fit.touches.push_back(found.touch);
+    }
+    fitTogether(drawing_, lastHarmonic_, data, drawing_.gauges() - kTouchUnknowns, fit);
+    return {drawing_, fit.deviations, lastHarmonic_};
+  }
+
+ private:
+  VectorXd deviations() const {
     VectorXd deviations = VectorXd::Zero(drawing_.unknowns());
     deviations[drawing_.at(kPoissonRatio)] = poissonDeviation_;
     for (int gauge = 0; gauge < drawing_.gauges(); ++gauge)
       if (isLeftOut_[static_cast<std::size_t>(gauge)])
         deviations[Drawing::at(gauge, kGain)] = -1 / drawing_.tolerance(kGain);
-    return {drawing_, deviations, lastHarmonic_};
+    return deviations;
   }
 
- private:
+  RingResponse ring() const { return {drawing_, deviations(), lastHarmonic_}; }
+
   struct Mend {
     WiringFault fault;
     double misfit = std::numeric_limits<double>::infinity();
@@ -283,17 +308,16 @@ class TurnCheck {
  public:
   TurnCheck(const config::FingerConfig& config, std::span<const KnownTouch> known, const MatrixXd& readings,
             const KnownErrors& errors, const WiringCheck& wired)
-      : gauges_(config.gauges), search_(wired.search()), ring_(wired.ring()) {
+      : gauges_(config.gauges), search_(wired.search()) {
     const double sigma_deg = std::hypot(errors.angle_deg, kPlacedTolerances * config.tolerance.angle_deg);
     for (std::size_t row = 0; row < known.size(); ++row) {
       if (!known[row].angle_deg || known[row].isUntouched()) continue;
-      const VectorXd strains = readings.row(static_cast<Index>(row));
-      TouchData data{
-          strains, std::hypot(gauges_.noise_strain, kFirstError * strains.cwiseAbs().maxCoeff()), {}};
+      TouchData data = touchData(readings.row(static_cast<Index>(row)), gauges_.noise_strain);
       data.prior.value[kPlace] = *known[row].angle_deg * kRadPerDeg;
       data.prior.weight[kPlace] = 1 / (sigma_deg * kRadPerDeg);
       directions_.push_back(data);
     }
+    if (!directions_.empty()) ring_.emplace(wired.fittedRing());
   }
 
   std::optional<WiringFault> run() const {
@@ -324,15 +348,15 @@ class TurnCheck {
       double& place_rad = seen.prior.value[kPlace];
       const double along_rad = place_rad - first_rad - turn.shift * pitch_rad;
       place_rad = first_rad + (turn.isReversed ? -along_rad : along_rad);
-      sum += search_.find(ring_, seen).chiSquared;
+      sum += search_.find(*ring_, seen).chiSquared;
     }
     return sum;
   }
 
   config::Gauges gauges_;
   const TouchSearch& search_;
-  RingResponse ring_;
   std::vector<TouchData> directions_;
+  std::optional<RingResponse> ring_;
 };
 
 }  // namespace
@@ -377,8 +401,7 @@ std::string textOf(const WiringFault& fault) {
       break;
   }
   return "the gauges are shifted or counted the wrong way round, and the known directions don't tell which: "
-         "add "
-         "another touch of known angle_deg, not opposite nor at a gauge";
+         "add a touch of known angle_deg that is neither at a gauge nor midway between two";
 }
 
 }  // namespace strainfinger::calibration

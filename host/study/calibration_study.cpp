@@ -200,7 +200,7 @@ constexpr std::array<Miswiring, 6> kMiswirings{{
 void knowMarkOnly(Session& session) {
   constexpr double kMark_deg = 40;
   const auto away_deg = [](const calibration::KnownTouch& touch) {
-    return std::abs(std::remainder(touch.angle_deg.value_or(1e9) - kMark_deg, 360));
+    return touch.angle_deg ? std::abs(std::remainder(*touch.angle_deg - kMark_deg, 360)) : 360;
   };
   const auto nearest =
       std::min_element(session.known.begin(), session.known.end(),

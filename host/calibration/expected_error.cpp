@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kLoad_n_per_m = 30, kWidth_m = 2e-3;
 constexpr int kPlacesPerGauge = 6;
-constexpr double kFelt = 0.1;  ///< of the largest reading
 
 }  // namespace
 
@@ -47,21 +46,17 @@ TouchVariances touchVariances(const RingResponse& ring, const TouchState& touch,
 
 double fingerError(const CalibrationResult& result) {
   const Drawing& drawing = result.drawing();
+  const double noise_strain = drawing.config().gauges.noise_strain;
   const RingResponse built(drawing, result.deviations(), RingResponse::lastHarmonic(drawing));
   const Eigen::MatrixXd covariance = withoutConventions(drawing, result.covariance());
-  double sum = 0;
-  int readings = 0;
+  Eigen::Vector3d byFinger = Eigen::Vector3d::Zero(), byReadings = byFinger;
   for (const TouchState& touch : judgedTouches(drawing)) {
-    const auto model = built.linearised(touch, true);
-    const Eigen::VectorXd strains = (model.readings - built.zeros()).cwiseAbs();
-    for (Eigen::Index gauge = 0; gauge < strains.size(); ++gauge) {
-      if (strains[gauge] < kFelt * strains.maxCoeff()) continue;
-      const Eigen::VectorXd slope = model.toFinger.row(gauge) / strains.maxCoeff();
-      sum += slope.dot(covariance * slope);
-      ++readings;
-    }
+    const auto variances = touchVariances(built, touch, covariance, noise_strain);
+    const double peak_strain = (built.readings(touch) - built.zeros()).cwiseAbs().maxCoeff();
+    byFinger += (variances.total - variances.noise).head<3>();
+    byReadings += std::pow(peak_strain / noise_strain, 2) * variances.noise.head<3>();
   }
-  return std::sqrt(sum / readings);
+  return std::sqrt(byFinger.cwiseQuotient(byReadings).maxCoeff());
 }
 
 ExpectedErrors expectedErrors(const CalibrationResult& result) {

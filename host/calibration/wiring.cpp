@@ -12,6 +12,7 @@
 
 #include "host/base/angles.hpp"
 #include "host/calibration/joint_fit.hpp"
+#include "host/calibration/model_error.hpp"
 #include "host/calibration/touch_fit.hpp"
 #include "host/model/pressure_profile.hpp"
 
@@ -43,8 +44,11 @@ constexpr std::ptrdiff_t kPromising = 4;
 /// Of the reading of a healthy gauge beside it: less is dead. A correlation beyond kSame is its neighbour's.
 constexpr double kDeadShare = 0.1, kSame = 0.8;
 /// A touch of known direction is where the fitted ring sees it, give or take so many tolerances of a gauge's
-/// angle, though the mean of all of them is nearer. What the fit leaves of readings besides noise, of the largest.
-constexpr double kPlacedTolerances = 1, kFittedError = 0.005;
+/// angle, though the mean of all of them is nearer.
+constexpr double kPlacedTolerances = 1;
+/// Of the largest reading: what a ring leaves of strong rows when it is fitted to them for the first time; what
+/// its covariance makes of another touch's readings, that the touch can't explain, at least.
+constexpr double kFirstError = 0.005, kFittedError = 0.002;
 /// Chi-squared by which another turn must explain the directions better than the drawn one, and than others.
 constexpr double kClearly = 16;
 
@@ -72,8 +76,8 @@ MatrixXd mended(const MatrixXd& readings, const WiringFault& fault) {
 }
 
 /// A touch of which nothing is known but its readings.
-TouchData touchData(const VectorXd& strains, double noise_strain) {
-  return {strains, std::hypot(noise_strain, kFittedError * strains.cwiseAbs().maxCoeff()), {}};
+TouchData touchData(const VectorXd& strains, double noise_strain, double error) {
+  return {strains, std::hypot(noise_strain, error * strains.cwiseAbs().maxCoeff()), {}};
 }
 
 class WiringCheck {
@@ -102,21 +106,33 @@ class WiringCheck {
   /// With the Poisson's ratio that explains the readings best. Domain: after run().
   const TouchSearch& search() const { return *search_; }
 
-  /// The ring that fits the strong rows best, in its own order and sense: what is known of touches isn't
-  /// looked at. Domain: after run().
-  RingResponse fittedRing() const {
+  /// The ring that fits the strong rows best, in its own order and sense, as what is known of touches isn't
+  /// looked at; and what it leaves of readings besides noise, of the largest. Domain: after run().
+  struct Fitted {
+    RingResponse ring;
+    double error;
+  };
+  Fitted fitted() const {
+    const double noise_strain = drawing_.config().gauges.noise_strain;
     const RingResponse start = ring();
     std::vector<TouchData> data;
     JointFit fit{deviations(), {}};
     for (Index row = 0; row < readings_.rows(); ++row) {
-      TouchData each = touchData(readings_.row(row), drawing_.config().gauges.noise_strain);
+      TouchData each = touchData(readings_.row(row), noise_strain, kFirstError);
       const TouchFit found = search_->find(start, each);
       if (found.touch[kNormalLoad] <= 0) continue;
       data.push_back(each);
       fit.touches.push_back(found.touch);
     }
-    fitTogether(drawing_, lastHarmonic_, data, drawing_.gauges() - kTouchUnknowns, fit);
-    return {drawing_, fit.deviations, lastHarmonic_};
+    const double degreesOfFreedom = drawing_.gauges() - kTouchUnknowns;
+    fitTogether(drawing_, lastHarmonic_, data, degreesOfFreedom, fit);
+    const RingResponse ring(drawing_, fit.deviations, lastHarmonic_);
+    std::vector<Misfit> misfits;
+    for (std::size_t i = 0; i < data.size(); ++i)
+      misfits.push_back({(data[i].readings - ring.readings(fit.touches[i])).squaredNorm(),
+                         data[i].readings.cwiseAbs().maxCoeff()});
+    if (misfits.empty()) return {ring, kFirstError};
+    return {ring, modelErrorOf(misfits, noise_strain, degreesOfFreedom).value};
   }
 
  private:
@@ -309,15 +325,20 @@ class TurnCheck {
   TurnCheck(const config::FingerConfig& config, std::span<const KnownTouch> known, const MatrixXd& readings,
             const KnownErrors& errors, const WiringCheck& wired)
       : gauges_(config.gauges), search_(wired.search()) {
+    std::vector<std::size_t> rows;
+    for (std::size_t row = 0; row < known.size(); ++row)
+      if (known[row].angle_deg && !known[row].isUntouched()) rows.push_back(row);
+    if (rows.empty()) return;
+    const auto fitted = wired.fitted();
+    ring_ = fitted.ring;
     const double sigma_deg = std::hypot(errors.angle_deg, kPlacedTolerances * config.tolerance.angle_deg);
-    for (std::size_t row = 0; row < known.size(); ++row) {
-      if (!known[row].angle_deg || known[row].isUntouched()) continue;
-      TouchData data = touchData(readings.row(static_cast<Index>(row)), gauges_.noise_strain);
+    for (const std::size_t row : rows) {
+      TouchData data = touchData(readings.row(static_cast<Index>(row)), gauges_.noise_strain,
+                                 std::max(kFittedError, fitted.error));
       data.prior.value[kPlace] = *known[row].angle_deg * kRadPerDeg;
       data.prior.weight[kPlace] = 1 / (sigma_deg * kRadPerDeg);
       directions_.push_back(data);
     }
-    if (!directions_.empty()) ring_.emplace(wired.fittedRing());
   }
 
   std::optional<WiringFault> run() const {

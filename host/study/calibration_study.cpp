@@ -217,7 +217,7 @@ constexpr std::array<Miswiring, 6> kMiswirings{{
 /// Keeps of all directions one, of a firm touch a quarter of a pitch from a gauge, as the guide asks for:
 /// about a gauge and about the middle of a gap, a ring that is reversed reads as one that is turned does.
 void knowOneMark(Session& session) {
-  constexpr double kFirm_strain = 1e-3;
+  constexpr double kFirm_strain = 4e-3;  ///< of 15 N/m
   const double quarter_deg = 360.0 / (4 * session.finger.gauges.count);
   const auto away_deg = [&](std::size_t row) {
     const auto& angle_deg = session.known[row].angle_deg;

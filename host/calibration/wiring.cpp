@@ -369,9 +369,20 @@ class TurnCheck {
       double& place_rad = seen.prior.value[kPlace];
       const double along_rad = place_rad - first_rad - turn.shift * pitch_rad;
       place_rad = first_rad + (turn.isReversed ? -along_rad : along_rad);
-      sum += search_.find(*ring_, seen).chiSquared;
+      sum += refineTouches(*ring_, seen, startsOf(seen)).chiSquared;
     }
     return sum;
+  }
+
+  /// Those of the grid, which may be on the far side of another minimum, and where the touch is known to be.
+  std::vector<TouchState> startsOf(const TouchData& seen) const {
+    std::vector<TouchState> starts = search_.starts(seen.readings - ring_->zeros(), seen.prior);
+    const std::size_t found = starts.size();
+    for (std::size_t i = 0; i < found; ++i) {
+      starts.push_back(starts[i]);
+      starts.back()[kPlace] = seen.prior.value[kPlace];
+    }
+    return starts;
   }
 
   config::Gauges gauges_;

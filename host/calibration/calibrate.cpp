@@ -267,10 +267,10 @@ class Calibration {
     for (const std::size_t row : rows) {
       RowUse& use = rows_[row].use;
       if (use == RowUse::kUntouched) continue;
-      const RowUse now = rows_[row].chiSquared > most ? RowUse::kUnexplained
+      const RowUse now = rows_[row].chiSquared > most   ? RowUse::kUnexplained
                          : rivals_[row].gap < kClearGap ? RowUse::kAmbiguous
-                         : isWide(row)                ? RowUse::kWide
-                                                      : RowUse::kFitted;
+                         : isWide(row)                  ? RowUse::kWide
+                                                        : RowUse::kFitted;
       changed |= now != use;
       use = now;
     }

@@ -49,14 +49,14 @@ double fingerError(const CalibrationResult& result) {
   const double noise_strain = drawing.config().gauges.noise_strain;
   const RingResponse built(drawing, result.deviations(), RingResponse::lastHarmonic(drawing));
   const Eigen::MatrixXd covariance = withoutConventions(drawing, result.covariance());
-  Eigen::Vector3d byFinger = Eigen::Vector3d::Zero(), byReadings = byFinger;
-  for (const TouchState& touch : judgedTouches(drawing)) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  const auto touches = judgedTouches(drawing);
+  for (const TouchState& touch : touches) {
     const auto variances = touchVariances(built, touch, covariance, noise_strain);
-    const double peak_strain = (built.readings(touch) - built.zeros()).cwiseAbs().maxCoeff();
-    byFinger += (variances.total - variances.noise).head<3>();
-    byReadings += std::pow(peak_strain / noise_strain, 2) * variances.noise.head<3>();
+    const double noises = noise_strain / (built.readings(touch) - built.zeros()).cwiseAbs().maxCoeff();
+    sum += noises * noises * (variances.total.cwiseQuotient(variances.noise).array() - 1).head<3>().matrix();
   }
-  return std::sqrt(byFinger.cwiseQuotient(byReadings).maxCoeff());
+  return std::sqrt(sum.maxCoeff() / static_cast<double>(touches.size()));
 }
 
 ExpectedErrors expectedErrors(const CalibrationResult& result) {

@@ -39,7 +39,8 @@ struct TouchFit {
 /// Gauss-Newton with Levenberg's damping from a start nearby. Costs 40 us an iteration; four as a rule.
 TouchFit refineTouch(const RingResponse& ring, const TouchData& data, const TouchState& start);
 
-/// The best of what these starts lead to, and its rival among them; of no starts: infinite chi-squared, no gap.
+/// The best of what these starts lead to, and its rival among them; of no starts: infinite chi-squared, no
+/// gap.
 TouchFit refineTouches(const RingResponse& ring, const TouchData& data,
                        const std::vector<TouchState>& starts);
 
@@ -50,8 +51,8 @@ class TouchSearch {
   /// Domain: moments up to mostMoment_rad2 > 0. Costs 10 ms for 16 gauges.
   TouchSearch(const RingResponse& ring, double friction, double mostMoment_rad2);
 
-  /// Of readings, zeros apart, the nodes that explain most, each of another width; none where no touch of this
-  /// prior could be. Costs 30 us.
+  /// Of readings, zeros apart, the nodes that explain most, each of another width; none where no touch of
+  /// this prior could be. Costs 30 us.
   std::vector<TouchState> starts(const Eigen::VectorXd& strains, const TouchPrior& prior) const;
 
   /// Those refined. Costs 0.5 ms. `ring` is the one of the search, or one near it.

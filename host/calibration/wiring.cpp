@@ -46,8 +46,8 @@ constexpr double kDeadShare = 0.1, kSame = 0.8;
 /// A touch of known direction is where the fitted ring sees it, give or take so many tolerances of a gauge's
 /// angle, though the mean of all of them is nearer.
 constexpr double kPlacedTolerances = 1;
-/// Of the largest reading: what a ring leaves of strong rows when it is fitted to them for the first time; what
-/// its covariance makes of another touch's readings, that the touch can't explain, at least.
+/// Of the largest reading: what a ring leaves of strong rows when it is fitted to them for the first time;
+/// what its covariance makes of another touch's readings, that the touch can't explain, at least.
 constexpr double kFirstError = 0.005, kFittedError = 0.002;
 /// Chi-squared by which another turn must explain the directions better than the drawn one, and than others.
 constexpr double kClearly = 16;

@@ -199,8 +199,7 @@ constexpr std::array<Miswiring, 6> kMiswirings{{
      [](int n) {
        return calibration::WiringFault{Kind::kDead, n % 16};
      }},
-    {"reads its neighbour's strain",
-     [](Eigen::MatrixXd& r, int n) { r.col(n % 16) = r.col((n + 1) % 16); },
+    {"reads its neighbour's strain", [](Eigen::MatrixXd& r, int n) { r.col(n % 16) = r.col((n + 1) % 16); },
      [](int n) {
        return calibration::WiringFault{Kind::kGlued, n % 16, (n + 1) % 16};
      }},
@@ -249,7 +248,8 @@ void printMissed(const char* wired, int seed, const std::vector<calibration::Wir
 
 std::string wiringSection(int fingers, int healthy) {
   std::string text = fmt::format(
-      "\n## Wiring: 300 touches, 1 direction known, of a firm touch a quarter of a pitch from a gauge\n\n| wired | found | of | found "
+      "\n## Wiring: 300 touches, 1 direction known, of a firm touch a quarter of a pitch from a gauge\n\n| "
+      "wired | found | of | found "
       "first |\n|--|--|--|--|\n");
   for (const Miswiring& miswiring : kMiswirings) {
     int found = 0;

@@ -47,9 +47,9 @@ TEST(ExpectedError, ATurnAndAUnitOfForceAreNoErrorOfReadings) {
   CHECK_COMPARE(fingerError(resultOf(none(), covariance)), <, 1e-6);
 }
 
-// Fingers whose gains are drawn with a standard deviation of 1 %, and readings that are off by as much of the
-// largest as is said, independently: touches located as drawn are off by as much in what is off most, and by
-// no more in the others. Chance of an RMS of 20 draws of 16 gains is 4 %.
+// Fingers whose gains are drawn with a standard deviation of 1 %: touches located as drawn are off by one
+// sigma (RMS) of readings that are off by as much of the largest as is said, in what is off most. Chance of
+// the RMS of 20 draws of 16 gains is 4 %.
 TEST(ExpectedError, TouchesAreOffAsByIndependentErrorsOfReadings) {
   constexpr double kGainSigma = 0.01;
   Eigen::MatrixXd covariance = known();
@@ -66,18 +66,17 @@ TEST(ExpectedError, TouchesAreOffAsByIndependentErrorsOfReadings) {
     for (double& value : values) value = normal(random);
     return values;
   };
-  Eigen::Array3d byGains = Eigen::Array3d::Zero(), byReadings = byGains;
+  Eigen::Array3d squares = Eigen::Array3d::Zero();  // of errors over sigmas
   for (int draw = 0; draw < 20; ++draw) {
     const Eigen::VectorXd gains = kGainSigma * drawn();
     for (const TouchState& touch : judgedTouches(drawing)) {
       const Eigen::VectorXd exact = ring.readings(touch);
-      const double peak = exact.cwiseAbs().maxCoeff();
-      const auto errorOf = [&](const Eigen::VectorXd& readings) -> Eigen::Array3d {
-        return (refineTouch(ring, {readings, 1e-6, {}}, touch).touch - touch).head<3>().array().square();
-      };
-      byGains += errorOf(exact + gains.cwiseProduct(exact));
-      byReadings += errorOf(exact + error * peak * drawn());
+      const double sigma_strain = error * exact.cwiseAbs().maxCoeff();
+      const TouchState found = refineTouch(ring, {exact + gains.cwiseProduct(exact), 1e-6, {}}, touch).touch;
+      const TouchState variance = touchVariances(ring, touch, known(), sigma_strain).noise;
+      squares += (found - touch).cwiseAbs2().cwiseQuotient(variance).head<3>().array();
     }
   }
-  DOUBLES_EQUAL(1, (byGains / byReadings).sqrt().maxCoeff(), 0.12);
+  const auto count = static_cast<double>(20 * judgedTouches(drawing).size());
+  DOUBLES_EQUAL(1, (squares / count).sqrt().maxCoeff(), 0.12);
 }

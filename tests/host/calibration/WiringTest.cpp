@@ -93,8 +93,8 @@ TEST(Wiring, TwoFaultsAreBothNamed) {
   LONGS_EQUAL(2, faults().size());
 }
 
-// A fitted ring sees a touch within a degree: a shifted and a reversed ring see it ten degrees apart where it is
-// a quarter of a pitch from a gauge.
+// A fitted ring sees a touch within a degree: a shifted and a reversed ring see it ten degrees apart where it
+// is a quarter of a pitch from a gauge.
 TEST(Wiring, OneDirectionAwayFromGaugesTellsAShiftFromAReversal) {
   const evidence::TouchRanges quarter{
       .load_n_per_m = {20, 40}, .lean_deg = {-20, 20}, .offset_pitch = {0.25, 0.25}, .width_m = {1e-3, 2e-3}};

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
 
 #include "host/base/angles.hpp"
 #include "host/calibration/complaints.hpp"
@@ -41,6 +43,7 @@ constexpr double kExactly = 1e-6;
 const KnownTouch kNothingKnown;
 
 enum class Loss { kRobust, kSquares };
+enum class Search { kEverywhere, kNearby };
 
 /// Rows, their touches and the finger, as they come nearer to each other.
 class Calibration {
@@ -51,7 +54,7 @@ class Calibration {
         lastHarmonic_(RingResponse::lastHarmonic(drawing_)),
         mostMoment_rad2_(model::momentOfWidth(config.contact.largest_width_m / config.finger.outer_radius_m)),
         rows_(static_cast<std::size_t>(readings.rows())),
-        rivalGap_(rows_.size()),
+        rivals_(rows_.size()),
         finger_(VectorXd::Zero(drawing_.unknowns())),
         modelError_{std::max(config.gauges.model_error, kLeastFirstError), 0} {
     for (std::size_t row = 0; row < rows_.size(); ++row) {
@@ -68,14 +71,20 @@ class Calibration {
     const auto all = usable();
     requireTouches(drawing_.config().gauges, all.size());
     const auto some = coarse(all);
-    for (int round = 0; round < 2; ++round) improve(some, Loss::kRobust);
-    if (some.size() < all.size()) improve(all, Loss::kRobust);
-    judge(all);
+    for (int round = 0; round < 2; ++round) {
+      locate(some, Search::kEverywhere);
+      improve(some, Loss::kRobust);
+    }
+    if (some.size() < all.size()) {
+      locate(all, Search::kEverywhere);
+      improve(all, Loss::kRobust);
+    }
+    judge(all, Search::kEverywhere);
     requireExplained(modelError_.value, shareUnexplained(all));
     requireTouches(drawing_.config().gauges, usable().size());
     for (int round = 0; round < kMostRounds; ++round) {
       improve(usable(), Loss::kSquares);
-      if (!judge(all)) break;
+      if (!judge(all, Search::kNearby)) break;
     }
     if (leaveOutMovedZero()) improve(usable(), Loss::kSquares);
     return result(usable());
@@ -83,6 +92,12 @@ class Calibration {
 
  private:
   using Rows = std::vector<std::size_t>;
+
+  /// A touch that explains a row second best, and by how much chi-squared.
+  struct Rival {
+    double gap = std::numeric_limits<double>::infinity();
+    TouchState touch = TouchState::Zero();
+  };
 
   RowUse useOf(const VectorXd& strains, const KnownTouch& touch) const {
     const config::Gauges& gauges = drawing_.config().gauges;
@@ -161,34 +176,36 @@ class Calibration {
           std::hypot(drawing_.config().gauges.noise_strain, modelError_.value * peakOf(row));
   }
 
-  /// Finds the touches of these rows anew with the finger as it is known by now.
-  void locate(const Rows& rows) {
+  /// Fits the touches of these rows with the finger as it is known by now.
+  void locate(const Rows& rows, Search search) {
+    weigh(rows);
     const RingResponse ring(drawing_, finger_, lastHarmonic_);
-    const TouchSearch search(ring, drawing_.config().contact.friction_coefficient, mostMoment_rad2_);
+    std::optional<TouchSearch> grid;
+    if (search == Search::kEverywhere)
+      grid.emplace(ring, drawing_.config().contact.friction_coefficient, mostMoment_rad2_);
     for (const std::size_t row : rows) {
       RowResult& result = rows_[row];
-      if (result.use == RowUse::kUntouched) {
-        result.chiSquared = refineTouch(ring, data_[row], result.touch).chiSquared;
-        continue;
-      }
-      TouchFit found = search.find(ring, data_[row]);
-      if (result.touch[kNormalLoad] != 0) {
-        const TouchFit near = refineTouch(ring, data_[row], result.touch);
-        if (near.chiSquared < found.chiSquared) {
-          found.touch = near.touch;
-          found.chiSquared = near.chiSquared;
-        }
-      }
+      std::vector<TouchState> starts{result.touch};
+      if (result.use != RowUse::kUntouched) starts = startsOf(row, ring.zeros(), grid);
+      const TouchFit found = refineTouches(ring, data_[row], starts);
       result.touch = found.touch;
       result.chiSquared = found.chiSquared;
-      rivalGap_[row] = found.rivalGap;
+      rivals_[row] = {found.rivalGap, found.rival};
     }
   }
 
-  /// One round: where are the touches, how well does the model explain them, what finger explains them best.
+  /// Where the touch was by now, and what the grid has or else its rival.
+  std::vector<TouchState> startsOf(std::size_t row, const VectorXd& zeros,
+                                   const std::optional<TouchSearch>& grid) const {
+    std::vector<TouchState> starts;
+    if (grid) starts = grid->starts(data_[row].readings - zeros, data_[row].prior);
+    if (rows_[row].touch[kNormalLoad] != 0) starts.push_back(rows_[row].touch);
+    if (!grid && std::isfinite(rivals_[row].gap)) starts.push_back(rivals_[row].touch);
+    return starts;
+  }
+
+  /// One round: how well does the model explain the rows, what finger explains them best. Domain: located.
   void improve(const Rows& rows, Loss loss) {
-    weigh(rows);
-    locate(rows);
     estimateModelError(rows);
     weigh(rows);
     auto [data, fit] = joint(rows);
@@ -235,18 +252,17 @@ class Calibration {
   }
 
   /// Decides anew which rows no touch explains; whether any decision has changed.
-  bool judge(const Rows& rows) {
-    weigh(rows);
-    locate(rows);
+  bool judge(const Rows& rows, Search search) {
+    locate(rows, search);
     const double most = chiSquaredQuantile(drawing_.gauges() - kTouchUnknowns, kJunkDeviations);
     bool changed = false;
     for (const std::size_t row : rows) {
       RowUse& use = rows_[row].use;
       if (use == RowUse::kUntouched) continue;
-      const RowUse now = rows_[row].chiSquared > most ? RowUse::kUnexplained
-                         : rivalGap_[row] < kClearGap ? RowUse::kAmbiguous
-                         : isWide(row)                ? RowUse::kWide
-                                                      : RowUse::kFitted;
+      const RowUse now = rows_[row].chiSquared > most   ? RowUse::kUnexplained
+                         : rivals_[row].gap < kClearGap ? RowUse::kAmbiguous
+                         : isWide(row)                  ? RowUse::kWide
+                                                        : RowUse::kFitted;
       changed |= now != use;
       use = now;
     }
@@ -303,7 +319,7 @@ class Calibration {
   int lastHarmonic_;
   double mostMoment_rad2_;
   std::vector<RowResult> rows_;
-  std::vector<double> rivalGap_;
+  std::vector<Rival> rivals_;
   std::vector<TouchData> data_;
   std::vector<bool> isKnown_;
   VectorXd finger_;

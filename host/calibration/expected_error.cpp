@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kLoad_n_per_m = 30, kWidth_m = 2e-3;
 constexpr int kPlacesPerGauge = 6;
-constexpr double kFelt = 0.1;  ///< of the largest reading
 
 }  // namespace
 
@@ -47,21 +46,17 @@ TouchVariances touchVariances(const RingResponse& ring, const TouchState& touch,
 
 double fingerError(const CalibrationResult& result) {
   const Drawing& drawing = result.drawing();
+  const double noise_strain = drawing.config().gauges.noise_strain;
   const RingResponse built(drawing, result.deviations(), RingResponse::lastHarmonic(drawing));
   const Eigen::MatrixXd covariance = withoutConventions(drawing, result.covariance());
-  double sum = 0;
-  int readings = 0;
-  for (const TouchState& touch : judgedTouches(drawing)) {
-    const auto model = built.linearised(touch, true);
-    const Eigen::VectorXd strains = (model.readings - built.zeros()).cwiseAbs();
-    for (Eigen::Index gauge = 0; gauge < strains.size(); ++gauge) {
-      if (strains[gauge] < kFelt * strains.maxCoeff()) continue;
-      const Eigen::VectorXd slope = model.toFinger.row(gauge) / strains.maxCoeff();
-      sum += slope.dot(covariance * slope);
-      ++readings;
-    }
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  const auto touches = judgedTouches(drawing);
+  for (const TouchState& touch : touches) {
+    const auto variances = touchVariances(built, touch, covariance, noise_strain);
+    const double noises = noise_strain / (built.readings(touch) - built.zeros()).cwiseAbs().maxCoeff();
+    sum += noises * noises * (variances.total.cwiseQuotient(variances.noise).array() - 1).head<3>().matrix();
   }
-  return std::sqrt(sum / readings);
+  return std::sqrt(sum.maxCoeff() / static_cast<double>(touches.size()));
 }
 
 ExpectedErrors expectedErrors(const CalibrationResult& result) {

@@ -34,9 +34,11 @@ struct ExpectedErrors {
 /// Costs 0.2 s.
 ExpectedErrors expectedErrors(const CalibrationResult& result);
 
-/// What is not known of the finger, as an error of readings: the RMS standard deviation, over the same
-/// touches and the gauges that feel them, as a fraction of the touch's largest reading. The zero of the angle
-/// and the unit of force don't count: what isn't known of these is right by convention. Costs 0.1 s.
+/// What is not known of the finger, as an error of readings: the standard deviation of independent errors of
+/// all readings, as a fraction of the touch's largest, with which a locator's sigmas of the judged touches
+/// are their errors (RMS of one over the other), in place, normal or tangential load, whichever asks for
+/// most. What of the finger is not known but changes no touch doesn't count, nor do the zero of the angle and
+/// the unit of force: what isn't known of these is right by convention. Costs 0.1 s.
 double fingerError(const CalibrationResult& result);
 
 /// Place as an arc of the surface, normal and tangential load; without the moment.

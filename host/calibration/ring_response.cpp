@@ -181,12 +181,19 @@ RingResponse::Linearised RingResponse::linearised(const TouchState& touch, bool 
   return result;
 }
 
-Eigen::MatrixX2d RingResponse::unitReadings(double place_rad, double moment_rad2,
-                                            double shearMoment_rad2) const {
+RingResponse::Spread RingResponse::spread(double moment_rad2, double shearMoment_rad2) const {
+  Spread spread{VectorXd(lastHarmonic_ + 1), VectorXd(lastHarmonic_ + 1)};
+  for (int n = 0; n <= lastHarmonic_; ++n) {
+    spread.pressure[n] = spreadFactor(model::Profile::kEllipse, n, moment_rad2).value;
+    spread.shear[n] = spreadFactor(model::Profile::kEllipse, n, shearMoment_rad2).value;
+  }
+  return spread;
+}
+
+Eigen::MatrixX2d RingResponse::unitReadings(double place_rad, const Spread& spread) const {
   VectorXd normal = VectorXd::Zero(strains_.cols()), tangential = normal;
   model::visitMultiples(place_rad, lastHarmonic_, [&](int n, double c, double s) {
-    const double pressure = spreadFactor(model::Profile::kEllipse, n, moment_rad2).value;
-    const double shear = spreadFactor(model::Profile::kEllipse, n, shearMoment_rad2).value;
+    const double pressure = spread.pressure[n], shear = spread.shear[n];
     const Index even = kWaves * n, odd = even + 2;
     normal.segment<2>(normalIsEven_ ? even : odd) << c * pressure, s * pressure;
     tangential.segment<2>(normalIsEven_ ? odd : even) << c * shear, s * shear;

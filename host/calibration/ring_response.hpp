@@ -44,9 +44,14 @@ class RingResponse {
 
   int gauges() const { return static_cast<int>(gain_.size()); }
   const Eigen::VectorXd& zeros() const { return zero_; }
-  /// Readings, zeros apart, of a normal and a tangential load of 1 N/m at a place, each of its own moment:
-  /// what a search compares readings with.
-  Eigen::MatrixX2d unitReadings(double place_rad, double moment_rad2, double shearMoment_rad2) const;
+  /// What each harmonic of a normal and of a tangential load of these moments is multiplied by.
+  struct Spread {
+    Eigen::VectorXd pressure, shear;
+  };
+  Spread spread(double moment_rad2, double shearMoment_rad2) const;
+  /// Readings, zeros apart, of a normal and a tangential load of 1 N/m at a place: what a search compares
+  /// readings with.
+  Eigen::MatrixX2d unitReadings(double place_rad, const Spread& spread) const;
 
  private:
   TouchWaves wavesOf(const TouchState& touch) const {

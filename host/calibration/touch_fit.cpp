@@ -25,6 +25,9 @@ constexpr double kApart_rad = 5e-3, kApart_rad2 = 1e-3;
 constexpr int kMostIterations = 30;
 constexpr double kEnoughGain = 1e-3;  ///< of chi-squared: far less than noise makes of it
 
+/// Of a load's energy: with less at the other gauges, these don't tell it.
+constexpr double kLeastLeft = 1e-6;
+
 /// Normal equations of a touch's readings and prior.
 struct NormalEquations {
   Eigen::Matrix4d matrix;
@@ -48,6 +51,13 @@ bool isBetter(const TouchFit& a, const TouchFit& b) { return a.chiSquared < b.ch
 bool isAnother(const TouchState& a, const TouchState& b) {
   return std::abs(std::remainder(a[kPlace] - b[kPlace], 2 * pi)) > kApart_rad ||
          std::abs(a[kMoment] - b[kMoment]) > kApart_rad2;
+}
+
+/// Coordinates of the least squares along two orthonormal directions when one gauge, of which they have the
+/// row `own`, is left out: their Gram matrix is then I - own^T own (Sherman & Morrison).
+Eigen::Vector2d withoutGauge(const Eigen::RowVector2d& own, const Eigen::Vector2d& projected) {
+  const double left = std::max(kLeastLeft, 1 - own.squaredNorm());
+  return projected + own.transpose() * (own.dot(projected.transpose()) / left);
 }
 
 TouchState damped(const NormalEquations& equations, double damping) {
@@ -85,16 +95,36 @@ TouchFit refineTouch(const RingResponse& ring, const TouchData& data, const Touc
   return {touch, here.chiSquared};
 }
 
+TouchFit refineTouches(const RingResponse& ring, const TouchData& data,
+                       const std::vector<TouchState>& starts) {
+  std::vector<TouchFit> fits;
+  for (const TouchState& start : starts) fits.push_back(refineTouch(ring, data, start));
+  if (fits.empty()) return {TouchState::Zero(), std::numeric_limits<double>::infinity(), 0};
+  TouchFit found = *std::min_element(fits.begin(), fits.end(), isBetter);
+  for (const TouchFit& fit : fits) {
+    const double gap = fit.chiSquared - found.chiSquared;
+    if (gap >= found.rivalGap || !isAnother(fit.touch, found.touch)) continue;
+    found.rivalGap = gap;
+    found.rival = fit.touch;
+  }
+  return found;
+}
+
 TouchSearch::TouchSearch(const RingResponse& ring, double friction, double mostMoment_rad2)
     : friction_(friction), moments_(kMomentNodes) {
   const int places = kPlacesPerPitch * ring.gauges();
   orthonormal_.resize(ring.gauges(), 2 * places * kMomentNodes);
+  std::vector<double> moments_rad2;
+  std::vector<RingResponse::Spread> spreads;
+  for (int k = 0; k < kMomentNodes; ++k) {
+    const double width = (k + 0.5) / kMomentNodes;
+    moments_rad2.push_back(mostMoment_rad2 * width * width);
+    spreads.push_back(ring.spread(moments_rad2.back(), 1.5 * moments_rad2.back()));
+  }
   for (int place = 0; place < places; ++place)
-    for (int k = 0; k < kMomentNodes; ++k) {
-      const double width = (k + 0.5) / kMomentNodes;
-      Node node{2 * pi * place / places, mostMoment_rad2 * width * width, {}, {}};
-      node.unit = ring.unitReadings(node.place_rad, node.moment_rad2, 1.5 * node.moment_rad2);
-      const Eigen::HouseholderQR<Eigen::MatrixX2d> qr(node.unit);
+    for (std::size_t k = 0; k < moments_; ++k) {
+      Node node{2 * pi * place / places, moments_rad2[k], {}};
+      const Eigen::HouseholderQR<Eigen::MatrixX2d> qr(ring.unitReadings(node.place_rad, spreads[k]));
       const Index first = 2 * static_cast<Index>(nodes_.size());
       orthonormal_.middleCols<2>(first) = qr.householderQ() * MatrixXd::Identity(ring.gauges(), 2);
       const Eigen::Matrix2d triangle = qr.matrixQR().topRows<2>().triangularView<Eigen::Upper>();
@@ -103,10 +133,8 @@ TouchSearch::TouchSearch(const RingResponse& ring, double friction, double mostM
     }
 }
 
-TouchState TouchSearch::stateAt(std::size_t node, const VectorXd& strains) const {
-  const Index first = 2 * static_cast<Index>(node);
-  const Eigen::Vector2d loads =
-      nodes_[node].toLoads * (orthonormal_.middleCols<2>(first).transpose() * strains);
+TouchState TouchSearch::stateAt(std::size_t node, const Eigen::Vector2d& coordinates) const {
+  const Eigen::Vector2d loads = nodes_[node].toLoads * coordinates;
   return {nodes_[node].place_rad, loads[0], loads[1], nodes_[node].moment_rad2};
 }
 
@@ -125,10 +153,11 @@ std::vector<TouchState> TouchSearch::starts(const VectorXd& strains, const Touch
   };
   std::vector<Candidate> best(moments_);
   for (std::size_t node = 0; node < nodes_.size(); ++node) {
-    const double explained = along.segment<2>(2 * static_cast<Index>(node)).squaredNorm();
+    const Eigen::Vector2d coordinates = along.segment<2>(2 * static_cast<Index>(node));
+    const double explained = coordinates.squaredNorm();
     Candidate& rival = best[node % moments_];
     if (explained <= rival.explained) continue;
-    const TouchState touch = stateAt(node, strains);
+    const TouchState touch = stateAt(node, coordinates);
     if (isAdmissible(touch, prior)) rival = {explained, touch};
   }
   std::sort(best.begin(), best.end(), [](const auto& a, const auto& b) { return a.explained > b.explained; });
@@ -143,26 +172,24 @@ TouchState TouchSearch::guess(const VectorXd& strains) const {
   return best.empty() ? TouchState::Zero() : best.front();
 }
 
-double TouchSearch::unexplainedShare(const VectorXd& strains) const {
-  const VectorXd along = orthonormal_.transpose() * strains;
+double TouchSearch::unexplainedShare(const VectorXd& strains, std::optional<int> leftOut) const {
+  VectorXd seen = strains;
+  if (leftOut) seen[*leftOut] = 0;
+  const VectorXd along = orthonormal_.transpose() * seen;
   double best = 0;
   for (std::size_t node = 0; node < nodes_.size(); ++node) {
-    const double explained = along.segment<2>(2 * static_cast<Index>(node)).squaredNorm();
-    if (explained > best && isAdmissible(stateAt(node, strains), {})) best = explained;
+    const Index first = 2 * static_cast<Index>(node);
+    const Eigen::Vector2d projected = along.segment<2>(first);
+    Eigen::Vector2d coordinates = projected;
+    if (leftOut) coordinates = withoutGauge(orthonormal_.block<1, 2>(*leftOut, first), projected);
+    const double explained = projected.dot(coordinates);
+    if (explained > best && isAdmissible(stateAt(node, coordinates), {})) best = explained;
   }
-  return 1 - best / strains.squaredNorm();
+  return 1 - best / seen.squaredNorm();
 }
 
 TouchFit TouchSearch::find(const RingResponse& ring, const TouchData& data) const {
-  std::vector<TouchFit> fits;
-  for (const TouchState& start : starts(data.readings - ring.zeros(), data.prior))
-    fits.push_back(refineTouch(ring, data, start));
-  if (fits.empty()) return {TouchState::Zero(), std::numeric_limits<double>::infinity(), 0};
-  TouchFit found = *std::min_element(fits.begin(), fits.end(), isBetter);
-  for (const TouchFit& fit : fits)
-    if (isAnother(fit.touch, found.touch))
-      found.rivalGap = std::min(found.rivalGap, fit.chiSquared - found.chiSquared);
-  return found;
+  return refineTouches(ring, data, starts(data.readings - ring.zeros(), data.prior));
 }
 
 }  // namespace strainfinger::calibration

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "host/calibration/ring_response.hpp"
@@ -29,22 +30,32 @@ struct TouchData {
 struct TouchFit {
   TouchState touch = TouchState::Zero();
   double chiSquared = 0;  ///< of readings and prior
-  /// How much worse the best touch at another place or of another width explains the readings; infinite if
-  /// there is none.
+  /// How much worse the best touch at another place or of another width explains the readings, and that
+  /// touch; infinite if there is none.
   double rivalGap = std::numeric_limits<double>::infinity();
+  TouchState rival = TouchState::Zero();
 };
 
 /// Gauss-Newton with Levenberg's damping from a start nearby. Costs 40 us an iteration; four as a rule.
 TouchFit refineTouch(const RingResponse& ring, const TouchData& data, const TouchState& start);
 
+/// The best of what these starts lead to, and its rival among them; of no starts: infinite chi-squared, no
+/// gap.
+TouchFit refineTouches(const RingResponse& ring, const TouchData& data,
+                       const std::vector<TouchState>& starts);
+
 /// Finds touches without a start: all places of a grid with all widths of a grid, each with the loads that
 /// fit best there, and the best few refined.
 class TouchSearch {
  public:
-  /// Domain: moments up to mostMoment_rad2 > 0. Costs 50 ms for 16 gauges.
+  /// Domain: moments up to mostMoment_rad2 > 0. Costs 10 ms for 16 gauges.
   TouchSearch(const RingResponse& ring, double friction, double mostMoment_rad2);
 
-  /// Costs 1 ms. `ring` is the one of the search, or one near it.
+  /// Of readings, zeros apart, the nodes that explain most, each of another width; none where no touch of
+  /// this prior could be. Costs 30 us.
+  std::vector<TouchState> starts(const Eigen::VectorXd& strains, const TouchPrior& prior) const;
+
+  /// Those refined. Costs 0.5 ms. `ring` is the one of the search, or one near it.
   TouchFit find(const RingResponse& ring, const TouchData& data) const;
 
   /// The touch of the grid that explains readings, zeros apart, best; 0 where no touch could be.
@@ -53,18 +64,16 @@ class TouchSearch {
   TouchState guess(const Eigen::VectorXd& strains) const;
 
   /// The share of the energy of readings, zeros apart, that no touch of the grid explains: 0 .. 1; 1 where no
-  /// touch could be. Costs 20 us.
-  double unexplainedShare(const Eigen::VectorXd& strains) const;
+  /// touch could be. With one gauge left out, as if the ring had no such gauge. Costs 20 us.
+  double unexplainedShare(const Eigen::VectorXd& strains, std::optional<int> leftOut = {}) const;
 
  private:
   struct Node {
     double place_rad, moment_rad2;
-    Eigen::MatrixX2d unit;    ///< readings of unit loads, zeros apart
     Eigen::Matrix2d toLoads;  ///< loads of unit length along the orthonormal directions
   };
-  TouchState stateAt(std::size_t node, const Eigen::VectorXd& strains) const;
+  TouchState stateAt(std::size_t node, const Eigen::Vector2d& coordinates) const;
   bool isAdmissible(const TouchState& touch, const TouchPrior& prior) const;
-  std::vector<TouchState> starts(const Eigen::VectorXd& strains, const TouchPrior& prior) const;
 
   double friction_;
   std::size_t moments_;

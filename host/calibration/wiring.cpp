@@ -7,9 +7,12 @@
 #include <cstdlib>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 #include "host/base/angles.hpp"
+#include "host/calibration/joint_fit.hpp"
+#include "host/calibration/model_error.hpp"
 #include "host/calibration/touch_fit.hpp"
 #include "host/model/pressure_profile.hpp"
 
@@ -36,12 +39,16 @@ constexpr double kImproved = 0.75, kImprovedWithout = 0.6, kImprovedMuch = 0.3, 
 /// of touches most.
 constexpr double kPoissonDeviations[] = {0, -0.75, -1.5};
 constexpr int kMostFaults = 4;
+/// Of the mends of either sort, so many are compared on all rows.
+constexpr std::ptrdiff_t kPromising = 4;
 /// Of the reading of a healthy gauge beside it: less is dead. A correlation beyond kSame is its neighbour's.
 constexpr double kDeadShare = 0.1, kSame = 0.8;
-/// A touch of known direction is where the drawn ring sees it, give or take so many tolerances of a gauge's
-/// angle: 0.3 mm of a pitch of 5, as glued rings that nobody calibrated are off; and the drawn ring explains
-/// its reading but for this part of the largest.
-constexpr double kPlacedTolerances = 3, kFirstError = 0.05;
+/// A touch of known direction is where the fitted ring sees it, give or take so many tolerances of a gauge's
+/// angle, though the mean of all of them is nearer.
+constexpr double kPlacedTolerances = 1;
+/// Of the largest reading: what a ring leaves of strong rows when it is fitted to them for the first time;
+/// what its covariance makes of another touch's readings, that the touch can't explain, at least.
+constexpr double kFirstError = 0.005, kFittedError = 0.002;
 /// Chi-squared by which another turn must explain the directions better than the drawn one, and than others.
 constexpr double kClearly = 16;
 
@@ -68,54 +75,85 @@ MatrixXd mended(const MatrixXd& readings, const WiringFault& fault) {
   return result;
 }
 
+/// A touch of which nothing is known but its readings.
+TouchData touchData(const VectorXd& strains, double noise_strain, double error) {
+  return {strains, std::hypot(noise_strain, error * strains.cwiseAbs().maxCoeff()), {}};
+}
+
 class WiringCheck {
  public:
   WiringCheck(const config::FingerConfig& config, const MatrixXd& readings)
       : drawing_(config),
         lastHarmonic_(RingResponse::lastHarmonic(drawing_)),
-        readings_(strongRows(readings)),
-        isLeftOut_(static_cast<std::size_t>(drawing_.gauges()), false) {}
+        isLeftOut_(static_cast<std::size_t>(drawing_.gauges()), false) {
+    takeStrongRows(readings);
+    listKeepingMends();
+  }
 
   std::vector<WiringFault> run() {
     std::vector<WiringFault> faults = leaveOutDead();
-    double misfit = choosePoissonRatio();
-    while (misfit > kHealthy && static_cast<int>(faults.size()) < kMostFaults) {
-      const auto mend = bestMend(misfit);
-      if (!mend) break;
-      faults.push_back(mend->fault);
-      readings_ = mended(readings_, mend->fault);
-      misfit = mend->misfit;
+    choosePoissonRatio();
+    while (misfits_.mean() > kHealthy && static_cast<int>(faults.size()) < kMostFaults) {
+      const auto fault = bestMend();
+      if (!fault) break;
+      faults.push_back(*fault);
+      readings_ = mended(readings_, *fault);
+      lookAgain();
     }
     return faults;
   }
 
-  TouchSearch search() const { return {ring(isLeftOut_), friction(), mostMoment_rad2()}; }
-  RingResponse ring() const { return ring(isLeftOut_); }
+  /// With the Poisson's ratio that explains the readings best. Domain: after run().
+  const TouchSearch& search() const { return *search_; }
+
+  /// The ring that fits the strong rows best, in its own order and sense, as what is known of touches isn't
+  /// looked at; and what it leaves of readings besides noise, of the largest. Domain: after run().
+  struct Fitted {
+    RingResponse ring;
+    double error;
+  };
+  Fitted fitted() const {
+    const double noise_strain = drawing_.config().gauges.noise_strain;
+    const RingResponse start = ring();
+    std::vector<TouchData> data;
+    JointFit fit{deviations(), {}};
+    for (Index row = 0; row < readings_.rows(); ++row) {
+      TouchData each = touchData(readings_.row(row), noise_strain, kFirstError);
+      const TouchFit found = search_->find(start, each);
+      if (found.touch[kNormalLoad] <= 0) continue;
+      data.push_back(each);
+      fit.touches.push_back(found.touch);
+    }
+    const double degreesOfFreedom = drawing_.gauges() - kTouchUnknowns;
+    fitTogether(drawing_, lastHarmonic_, data, degreesOfFreedom, fit);
+    const RingResponse ring(drawing_, fit.deviations, lastHarmonic_);
+    std::vector<Misfit> misfits;
+    for (std::size_t i = 0; i < data.size(); ++i)
+      misfits.push_back({(data[i].readings - ring.readings(fit.touches[i])).squaredNorm(),
+                         data[i].readings.cwiseAbs().maxCoeff()});
+    if (misfits.empty()) return {ring, kFirstError};
+    return {ring, modelErrorOf(misfits, noise_strain, degreesOfFreedom).value};
+  }
 
  private:
+  VectorXd deviations() const {
+    VectorXd deviations = VectorXd::Zero(drawing_.unknowns());
+    deviations[drawing_.at(kPoissonRatio)] = poissonDeviation_;
+    for (int gauge = 0; gauge < drawing_.gauges(); ++gauge)
+      if (isLeftOut_[static_cast<std::size_t>(gauge)])
+        deviations[Drawing::at(gauge, kGain)] = -1 / drawing_.tolerance(kGain);
+    return deviations;
+  }
+
+  RingResponse ring() const { return {drawing_, deviations(), lastHarmonic_}; }
+
   struct Mend {
     WiringFault fault;
     double misfit = std::numeric_limits<double>::infinity();
   };
 
-  double friction() const { return drawing_.config().contact.friction_coefficient; }
-  double mostMoment_rad2() const {
-    const config::FingerConfig& config = drawing_.config();
-    return model::momentOfWidth(config.contact.largest_width_m / config.finger.outer_radius_m);
-  }
-
-  /// As drawn, gauges that are left out reading nothing.
-  RingResponse ring(const std::vector<bool>& isLeftOut) const {
-    VectorXd deviations = VectorXd::Zero(drawing_.unknowns());
-    deviations[drawing_.at(kPoissonRatio)] = poissonDeviation_;
-    for (int gauge = 0; gauge < drawing_.gauges(); ++gauge)
-      if (isLeftOut[static_cast<std::size_t>(gauge)])
-        deviations[Drawing::at(gauge, kGain)] = -1 / drawing_.tolerance(kGain);
-    return {drawing_, deviations, lastHarmonic_};
-  }
-
   /// Of each gauge, the strongest rows in which none reads more: a fault shows where it is touched.
-  MatrixXd strongRows(const MatrixXd& readings) const {
+  void takeStrongRows(const MatrixXd& readings) {
     std::vector<std::vector<std::pair<double, Index>>> ofGauge(static_cast<std::size_t>(readings.cols()));
     for (Index row = 0; row < readings.rows(); ++row) {
       Index gauge = 0;
@@ -124,33 +162,67 @@ class WiringCheck {
         ofGauge[static_cast<std::size_t>(gauge)].emplace_back(peak, row);
     }
     std::vector<Index> strong;
-    for (auto& rows : ofGauge) {
+    for (std::size_t gauge = 0; gauge < ofGauge.size(); ++gauge) {
+      auto& rows = ofGauge[gauge];
       std::sort(rows.rbegin(), rows.rend());
       rows.resize(std::min(rows.size(), kRowsPerGauge));
-      for (const auto& [peak, row] : rows) strong.push_back(row);
+      for (const auto& [peak, row] : rows) {
+        strong.push_back(row);
+        strongest_.push_back(static_cast<int>(gauge));
+      }
     }
-    return readings(strong, Eigen::all);
+    readings_ = readings(strong, Eigen::all);
   }
 
-  static double misfitOf(const MatrixXd& readings, const TouchSearch& search) {
-    double sum = 0;
+  void listKeepingMends() {
+    keeping_.push_back({Kind::kAllSigns});
+    for (int gauge = 0; gauge < drawing_.gauges(); ++gauge) {
+      keeping_.push_back({Kind::kSign, gauge});
+      leaving_.push_back({Kind::kUnfit, gauge});
+      for (int other = gauge + 1; other < drawing_.gauges(); ++other)
+        keeping_.push_back({Kind::kSwapped, gauge, other});
+    }
+  }
+
+  TouchSearch searchOf(const RingResponse& ring) const {
+    const config::FingerConfig& config = drawing_.config();
+    return {ring, config.contact.friction_coefficient,
+            model::momentOfWidth(config.contact.largest_width_m / config.finger.outer_radius_m)};
+  }
+
+  void lookAgain() {
+    search_ = searchOf(ring());
+    misfits_ = misfitsOf(readings_, std::nullopt);
+  }
+
+  /// Of each row, the share of its energy that no touch explains, but no more than kMostMisfit.
+  VectorXd misfitsOf(const MatrixXd& readings, std::optional<int> leftOut) const {
+    VectorXd misfits(readings.rows());
     for (Index row = 0; row < readings.rows(); ++row)
-      sum += std::min(kMostMisfit, search.unexplainedShare(readings.row(row)));
-    return sum / static_cast<double>(std::max<Index>(1, readings.rows()));
+      misfits[row] = std::min(kMostMisfit, search_->unexplainedShare(readings.row(row), leftOut));
+    return misfits;
   }
 
-  /// The one that explains the readings best, wired as they are; what it leaves.
-  double choosePoissonRatio() {
+  /// What these rows leave with a fault mended.
+  VectorXd misfitsWith(const WiringFault& fault, const std::vector<Index>& rows) const {
+    const bool leavesOut = fault.kind == Kind::kUnfit;
+    return misfitsOf(mended(readings_(rows, Eigen::all), fault),
+                     leavesOut ? std::optional(fault.gauge) : std::nullopt);
+  }
+
+  /// The one that explains the readings best, wired as they are.
+  void choosePoissonRatio() {
     double least = std::numeric_limits<double>::infinity(), best = 0;
     for (const double deviation : kPoissonDeviations) {
       poissonDeviation_ = deviation;
-      const double misfit = misfitOf(readings_, search());
-      if (misfit >= least) continue;
-      least = misfit;
+      lookAgain();
+      if (misfits_.mean() >= least) continue;
+      least = misfits_.mean();
       best = deviation;
     }
+    if (poissonDeviation_ == best) return;
     poissonDeviation_ = best;
-    return least;
+    lookAgain();
   }
 
   /// Gauges that read far less than both beside them: no touch does that, wherever the finger was touched.
@@ -169,44 +241,53 @@ class WiringCheck {
   }
 
   /// The best there is, if it is good enough.
-  std::optional<Mend> bestMend(double misfit) {
-    const Mend kept = bestThatKeepsAll(), out = bestThatLeavesOneOut();
+  std::optional<WiringFault> bestMend() {
+    const double misfit = misfits_.mean();
+    const Mend kept = bestOf(keeping_), out = bestOf(leaving_);
     const double nearly = concerns(kept.fault, out.fault.gauge) ? kNearlyThere : kNearly;
-    if (kept.misfit <= kImproved * misfit && kept.misfit <= nearly * out.misfit) return kept;
+    if (kept.misfit <= kImproved * misfit && kept.misfit <= nearly * out.misfit) return kept.fault;
     const WiringFault fault = described(out.fault.gauge);
     const double most = fault.kind == Kind::kUnfit ? kImprovedMuch : kImprovedWithout;
     if (out.misfit > most * misfit) return std::nullopt;
     isLeftOut_[static_cast<std::size_t>(fault.gauge)] = true;
-    return Mend{fault, out.misfit};
+    return fault;
   }
 
-  Mend bestThatKeepsAll() const {
-    const TouchSearch search = this->search();
+  /// Of mends, the one that leaves least: those that gain most on the rows of their own gauges are compared
+  /// on all rows.
+  Mend bestOf(const std::vector<WiringFault>& mends) const {
+    std::vector<std::pair<double, WiringFault>> gains;
+    for (const WiringFault& fault : mends) {
+      const auto rows = rowsAt(fault);
+      gains.emplace_back((misfits_(rows) - misfitsWith(fault, rows)).sum(), fault);
+    }
+    const auto promising = gains.begin() + std::min<std::ptrdiff_t>(kPromising, std::ssize(gains));
+    std::partial_sort(gains.begin(), promising, gains.end(),
+                      [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<Index> all(static_cast<std::size_t>(readings_.rows()));
+    std::iota(all.begin(), all.end(), Index{0});
     Mend best;
-    const auto consider = [&](const WiringFault& fault) {
-      const double misfit = misfitOf(mended(readings_, fault), search);
-      if (misfit < best.misfit) best = {fault, misfit};
+    for (auto each = gains.begin(); each != promising; ++each) {
+      const double misfit = misfitsWith(each->second, all).mean();
+      if (misfit < best.misfit) best = {each->second, misfit};
+    }
+    return best;
+  }
+
+  /// The rows in which a gauge of the fault reads most, or the gauges beside it, as a gauge at fault may read
+  /// most nowhere.
+  std::vector<Index> rowsAt(const WiringFault& fault) const {
+    const int count = drawing_.gauges();
+    const auto isNear = [&](int gauge, int other) {
+      const int away = std::abs(gauge - other);
+      return std::min(away, count - away) <= 1;
     };
-    consider({Kind::kAllSigns});
-    for (int gauge = 0; gauge < drawing_.gauges(); ++gauge) {
-      consider({Kind::kSign, gauge});
-      for (int other = gauge + 1; other < drawing_.gauges(); ++other)
-        consider({Kind::kSwapped, gauge, other});
-    }
-    return best;
-  }
-
-  Mend bestThatLeavesOneOut() const {
-    Mend best;
-    for (int gauge = 0; gauge < drawing_.gauges(); ++gauge) {
-      std::vector<bool> isLeftOut = isLeftOut_;
-      isLeftOut[static_cast<std::size_t>(gauge)] = true;
-      const WiringFault fault{Kind::kUnfit, gauge};
-      const double misfit =
-          misfitOf(mended(readings_, fault), {ring(isLeftOut), friction(), mostMoment_rad2()});
-      if (misfit < best.misfit) best = {fault, misfit};
-    }
-    return best;
+    std::vector<Index> rows;
+    for (std::size_t row = 0; row < strongest_.size(); ++row)
+      if (fault.kind == Kind::kAllSigns || isNear(strongest_[row], fault.gauge) ||
+          (fault.kind == Kind::kSwapped && isNear(strongest_[row], fault.other)))
+        rows.push_back(static_cast<Index>(row));
+    return rows;
   }
 
   /// What is wrong with a gauge that is better left out.
@@ -223,9 +304,13 @@ class WiringCheck {
 
   Drawing drawing_;
   int lastHarmonic_;
-  MatrixXd readings_;
+  std::vector<WiringFault> keeping_, leaving_;  ///< mends that are tried: with all gauges, without one
+  MatrixXd readings_;                           ///< strong rows
+  std::vector<int> strongest_;                  ///< of each row, the gauge that reads most
   std::vector<bool> isLeftOut_;
   double poissonDeviation_ = 0;
+  std::optional<TouchSearch> search_;
+  VectorXd misfits_;  ///< of each row, wired as found by now
 };
 
 /// How the ring may lie: gauge i is where gauge shift + i, or shift - i, should be.
@@ -238,19 +323,22 @@ struct Turn {
 class TurnCheck {
  public:
   TurnCheck(const config::FingerConfig& config, std::span<const KnownTouch> known, const MatrixXd& readings,
-            const KnownErrors& errors)
-      : gauges_(config.gauges), wired_(config, MatrixXd(0, readings.cols())), ring_(wired_.ring()) {
+            const KnownErrors& errors, const WiringCheck& wired)
+      : gauges_(config.gauges), search_(wired.search()) {
+    std::vector<std::size_t> rows;
+    for (std::size_t row = 0; row < known.size(); ++row)
+      if (known[row].angle_deg && !known[row].isUntouched()) rows.push_back(row);
+    if (rows.empty()) return;
+    const auto fitted = wired.fitted();
+    ring_ = fitted.ring;
     const double sigma_deg = std::hypot(errors.angle_deg, kPlacedTolerances * config.tolerance.angle_deg);
-    for (std::size_t row = 0; row < known.size(); ++row) {
-      if (!known[row].angle_deg || known[row].isUntouched()) continue;
-      const VectorXd strains = readings.row(static_cast<Index>(row));
-      TouchData data{
-          strains, std::hypot(gauges_.noise_strain, kFirstError * strains.cwiseAbs().maxCoeff()), {}};
+    for (const std::size_t row : rows) {
+      TouchData data = touchData(readings.row(static_cast<Index>(row)), gauges_.noise_strain,
+                                 std::max(kFittedError, fitted.error));
       data.prior.value[kPlace] = *known[row].angle_deg * kRadPerDeg;
       data.prior.weight[kPlace] = 1 / (sigma_deg * kRadPerDeg);
       directions_.push_back(data);
     }
-    if (!directions_.empty()) search_.emplace(wired_.search());
   }
 
   std::optional<WiringFault> run() const {
@@ -281,32 +369,37 @@ class TurnCheck {
       double& place_rad = seen.prior.value[kPlace];
       const double along_rad = place_rad - first_rad - turn.shift * pitch_rad;
       place_rad = first_rad + (turn.isReversed ? -along_rad : along_rad);
-      sum += search_->find(ring_, seen).chiSquared;
+      sum += refineTouches(*ring_, seen, startsOf(seen)).chiSquared;
     }
     return sum;
   }
 
-  config::Gauges gauges_;
-  WiringCheck wired_;
-  RingResponse ring_;
-  std::vector<TouchData> directions_;
-  std::optional<TouchSearch> search_;
-};
+  /// Those of the grid, which may be on the far side of another minimum, and where the touch is known to be.
+  std::vector<TouchState> startsOf(const TouchData& seen) const {
+    std::vector<TouchState> starts = search_.starts(seen.readings - ring_->zeros(), seen.prior);
+    const std::size_t found = starts.size();
+    for (std::size_t i = 0; i < found; ++i) {
+      starts.push_back(starts[i]);
+      starts.back()[kPlace] = seen.prior.value[kPlace];
+    }
+    return starts;
+  }
 
-std::optional<WiringFault> findTurn(const config::FingerConfig& config, std::span<const KnownTouch> known,
-                                    const MatrixXd& readings, const KnownErrors& errors) {
-  if (!config.gauges.isEven()) return std::nullopt;
-  return TurnCheck(config, known, readings, errors).run();
-}
+  config::Gauges gauges_;
+  const TouchSearch& search_;
+  std::vector<TouchData> directions_;
+  std::optional<RingResponse> ring_;
+};
 
 }  // namespace
 
 std::vector<WiringFault> findWiringFaults(const config::FingerConfig& config,
                                           std::span<const KnownTouch> known, const MatrixXd& readings,
                                           const KnownErrors& errors) {
-  std::vector<WiringFault> faults = WiringCheck(config, readings).run();
-  if (faults.empty())
-    if (const auto turn = findTurn(config, known, readings, errors)) faults.push_back(*turn);
+  WiringCheck check(config, readings);
+  std::vector<WiringFault> faults = check.run();
+  if (faults.empty() && config.gauges.isEven())
+    if (const auto turn = TurnCheck(config, known, readings, errors, check).run()) faults.push_back(*turn);
   return faults;
 }
 
@@ -340,8 +433,7 @@ std::string textOf(const WiringFault& fault) {
       break;
   }
   return "the gauges are shifted or counted the wrong way round, and the known directions don't tell which: "
-         "add "
-         "another touch of known angle_deg, not opposite nor at a gauge";
+         "add a touch of known angle_deg that is neither at a gauge nor midway between two";
 }
 
 }  // namespace strainfinger::calibration

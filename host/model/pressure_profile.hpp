@@ -38,7 +38,8 @@ struct SpreadFactor {
 
 /// A function of n^2 moment, analytic at 0 and continued below it, where no pressure is: there it rises like
 /// exp(2 n sqrt(-moment)) for the ellipse. So a fit of a line load's strains may end on either side of 0.
-/// Domain: n >= 0, moment a number. Error: 1e-14 of the larger of value and 1. Costs 0.2 us.
+/// Domain: n >= 0, moment a number. Error: 1e-14 of the larger of value and 1. Costs 0.04 us up to n h = 6,
+/// 0.2 us beyond.
 SpreadFactor spreadFactor(Profile profile, int n, double moment_rad2);
 
 /// Density [1/rad] of a load of 1 at a distance from the centre: 0 outside, infinite where the profile is.

@@ -17,10 +17,12 @@ using calibration::Drawing, calibration::RingResponse, calibration::TouchState, 
 
 constexpr std::uint64_t kNewTouchSeeds = 3'000'000, kChanceSeeds = 4'000'000;
 
-/// Normal deviates of that covariance.
-Eigen::VectorXd drawnBy(const Eigen::MatrixXd& covariance, const simulation::Noise& draws) {
-  Eigen::VectorXd drawn(covariance.rows());
-  for (Eigen::Index i = 0; i < drawn.size(); ++i) drawn[i] = draws.at(static_cast<std::uint64_t>(i), 0);
+/// Normal deviates of that covariance, a column a draw.
+Eigen::MatrixXd drawnBy(const Eigen::MatrixXd& covariance, const simulation::Noise& draws) {
+  Eigen::MatrixXd drawn(covariance.rows(), kChances);
+  for (Eigen::Index j = 0; j < drawn.cols(); ++j)
+    for (Eigen::Index i = 0; i < drawn.rows(); ++i)
+      drawn(i, j) = draws.at(static_cast<std::uint64_t>(i), static_cast<std::uint32_t>(2 * j));
   return covariance.llt().matrixL() * drawn;
 }
 
@@ -67,10 +69,10 @@ NewTouches newTouches(const calibration::CalibrationResult& result, const config
   const int last = RingResponse::lastHarmonic(drawing);
   const RingResponse fitted(drawing, result.deviations(), last), truth(drawing, trueDeviations(finger), last);
   const double radius_m = finger.finger.outer_radius_m, noise_strain = finger.gauges.noise_strain;
-  const Eigen::VectorXd drawnFinger = drawnBy(result.covariance(), simulation::Noise(kChanceSeeds + seed));
+  const Eigen::MatrixXd drawnFingers = drawnBy(result.covariance(), simulation::Noise(kChanceSeeds + seed));
   const simulation::Noise chance(2 * kChanceSeeds + seed);
   const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
-  NewTouches sum{zero, zero, zero, zero};
+  NewTouches sum{zero, zero, Eigen::Matrix3Xd::Zero(3, kChances), zero};
   for (int i = 0; i < count; ++i) {
     const auto number = static_cast<std::uint64_t>(i);
     const simulation::Touch drawn = draws.at(number);
@@ -80,16 +82,19 @@ NewTouches newTouches(const calibration::CalibrationResult& result, const config
     const TouchState found = refineTouch(fitted, {readings, noise_strain, {}}, touch).touch;
     const auto variances = touchVariances(fitted, touch, result.covariance(), noise_strain);
     const auto known = touchVariances(truth, touch, result.covariance(), noise_strain);
-    TouchState missed = fingerPull(fitted, touch) * drawnFinger;
-    for (Eigen::Index k = 0; k < missed.size(); ++k)
-      missed[k] += std::sqrt(variances.noise[k]) * chance.at(number, static_cast<std::uint32_t>(k));
-    sum.byChance += inMetres(missed, radius_m).cwiseAbs2();
+    const Eigen::MatrixXd missed = fingerPull(fitted, touch) * drawnFingers;
+    for (Eigen::Index j = 0; j < kChances; ++j) {
+      TouchState noise = variances.noise.cwiseSqrt();
+      for (Eigen::Index k = 0; k < noise.size(); ++k)
+        noise[k] *= chance.at(number, static_cast<std::uint32_t>(2 * (noise.size() * j + k)));
+      sum.byChance.col(j) += inMetres(missed.col(j) + noise, radius_m).cwiseAbs2();
+    }
     sum.error += inMetres(found - touch, radius_m).cwiseAbs2();
     sum.predicted += inMetres(variances.total.cwiseSqrt(), radius_m).cwiseAbs2();
     sum.bound += inMetres(known.noise.cwiseSqrt(), radius_m).cwiseAbs2();
   }
-  for (Eigen::Vector3d* each : {&sum.error, &sum.predicted, &sum.byChance, &sum.bound})
-    *each = (*each / count).cwiseSqrt();
+  for (Eigen::Vector3d* each : {&sum.error, &sum.predicted, &sum.bound}) *each = (*each / count).cwiseSqrt();
+  sum.byChance = (sum.byChance / count).cwiseSqrt().array().colwise() / sum.predicted.array();
   return sum;
 }
 

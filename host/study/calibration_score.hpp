@@ -16,13 +16,16 @@ Eigen::VectorXd trueDeviations(const config::FingerConfig& finger);
 Eigen::VectorXd errorsOverSigma(const calibration::CalibrationResult& result,
                                 const config::FingerConfig& finger);
 
+/// Draws of NewTouches::byChance.
+inline constexpr Eigen::Index kChances = 200;
+
 /// RMS over many new touches, of place [m], normal and tangential load [N/m].
 struct NewTouches {
   Eigen::Vector3d error;      ///< located with the finger as calibrated, less the truth
   Eigen::Vector3d predicted;  ///< what noise and the calibration's covariance make of it
-  /// What chance makes of `error` where the calibration's errors are as its covariance has them: one draw of
-  /// the finger's, which all touches share, and of each touch's noise.
-  Eigen::Vector3d byChance;
+  /// What chance makes of error / predicted where the calibration's errors are as its covariance has them: a
+  /// column a draw of the finger's errors, which all touches share, and of each touch's noise.
+  Eigen::Matrix3Xd byChance;
   Eigen::Vector3d bound;  ///< Cramer-Rao's of the finger perfectly known, the width not
 };
 

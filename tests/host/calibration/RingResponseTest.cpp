@@ -169,7 +169,7 @@ TEST(RingResponse, ReadsWhatTheSimulatedFingerDoes) {
 TEST(RingResponse, UnitReadingsAreThoseOfUnitLoads) {
   const Drawing drawing(config);
   const RingResponse ring(drawing, someDeviations(drawing), 40);
-  const Eigen::MatrixX2d unit = ring.unitReadings(2, 1e-3, 1e-3);
+  const Eigen::MatrixX2d unit = ring.unitReadings(2, ring.spread(1e-3, 1e-3));
   // in full sliding the shear is spread like the pressure
   const Eigen::VectorXd both = ring.readings({2, 10, 10, 1e-3}) - ring.zeros();
   CHECK_COMPARE((10 * unit.rowwise().sum() - both).norm(), <, 1e-12 * both.norm());

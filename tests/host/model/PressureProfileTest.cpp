@@ -46,15 +46,30 @@ TEST(PressureProfile, FactorsAreTheDensitiesFourierTransforms) {
       DOUBLES_EQUAL(transformed(profile, 0.02, n), spreadFactor(profile, n, 0.02).value, 1e-6);
 }
 
-// The closed forms take over from the series where n h = 2.
+// The closed forms take over from the series where (n h)^2 = 40, another series below -40.
 TEST(PressureProfile, FactorsAreSmooth) {
-  for (const Profile profile : allProfiles()) {
-    const double h = halfWidth_rad(profile, 1), change = 4 / (h * h);
-    const SpreadFactor below = spreadFactor(profile, 1, change * (1 - 1e-12));
-    const SpreadFactor above = spreadFactor(profile, 1, change * (1 + 1e-12));
-    DOUBLES_EQUAL(below.value, above.value, 1e-11);
-    DOUBLES_EQUAL(below.slope, above.slope, 1e-11);
-  }
+  for (const Profile profile : allProfiles())
+    for (const double square : {40.0, -40.0}) {
+      const double h = halfWidth_rad(profile, 1), change = square / (h * h);
+      const SpreadFactor below = spreadFactor(profile, 1, change * (1 - 1e-13));
+      const SpreadFactor above = spreadFactor(profile, 1, change * (1 + 1e-13));
+      const double larger = std::max(1.0, std::abs(below.value));
+      DOUBLES_EQUAL(below.value, above.value, 2e-13 * larger);
+      DOUBLES_EQUAL(below.slope, above.slope, 1e-12 * larger);
+    }
+}
+
+// mpmath at 40 digits: 2 J_1(x) / x, sin x / x, the integral of J_0 over x, and J_0, x^2 = 39 and 41.
+TEST(PressureProfile, FactorsAreExactOnBothSidesOfTheSeries) {
+  const auto check = [](Profile profile, double below, double above) {
+    const double h = halfWidth_rad(profile, 1);
+    DOUBLES_EQUAL(below, spreadFactor(profile, 1, 39 / (h * h)).value, 1e-14);
+    DOUBLES_EQUAL(above, spreadFactor(profile, 1, 41 / (h * h)).value, 1e-14);
+  };
+  check(Profile::kEllipse, -0.0710844752832789571, -0.0564686916709254979);
+  check(Profile::kUniform, -0.00611337717477381662, 0.018686436816934712);
+  check(Profile::kWedge, 0.120242925902056578, 0.122915676343966625);
+  check(Profile::kPunch, 0.21198290300357617, 0.243876756873418435);
 }
 
 TEST(PressureProfile, SlopesAreDerivatives) {

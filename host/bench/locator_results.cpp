@@ -117,7 +117,7 @@ Counts::Counts(const std::string& path) try {
 }
 
 Count Counts::of(std::size_t core, const std::string& method, std::size_t level) const {
-  const auto found = counts_.find({kCores[core], method, kLevelSettings[level].name});
+  const auto found = counts_.find({kCores[core], method, std::to_string(level)});
   return found == counts_.end() ? Count{kUncounted, kUncounted, kUncounted} : found->second;
 }
 

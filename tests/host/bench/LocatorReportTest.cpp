@@ -37,10 +37,10 @@ TEST_GROUP(LocatorReport) {
     return Counts(folder.file("counts.json"));
   }
   Counts someCounts() const {
-    return counts(R"({"Cortex-M4": {"ours: refined": {"0.1 %": [700, 900, 1500], "1 %": [800, 901, 1501],
+    return counts(R"({"Cortex-M4": {"ours: refined": {"1": [700, 900, 1500], "2": [800, 901, 1501],
                         "0.1 %, 0.5 to 4 mm wide": [950, 960, 970]}},
-      "Cortex-M4 with FPU": {"rough": {"0.1 %": [100, 100, 100]}, "fine": {"0.1 %": [2100, 2200, 2300]},
-                             "finer": {"0.1 %": [7000, 8000, 9000]}}})");
+      "Cortex-M4 with FPU": {"rough": {"1": [100, 100, 100]}, "fine": {"1": [2100, 2200, 2300]},
+                             "finer": {"1": [7000, 8000, 9000]}}})");
   }
   std::string csv(const Counts& counted) const {
     std::FILE* file = std::fopen(folder.file("out.csv").c_str(), "w");
@@ -93,8 +93,8 @@ TEST(LocatorReport, ThePictureHasAPointForEachMethodWithACost) {
   LONGS_EQUAL(4, locatorPicture(results, Counts()).data[0].rows.size());
   LONGS_EQUAL(4, locatorPicture(results, someCounts()).data[0].rows.size());
   LONGS_EQUAL(1, locatorPicture(results, someCounts()).data[1].rows.size());
-  LONGS_EQUAL(
-      0, locatorPicture(results, counts(R"({"Cortex-M0+": {"fine": {"0.1 %": [1, 2, 3]}}})")).data.size());
+  LONGS_EQUAL(0,
+              locatorPicture(results, counts(R"({"Cortex-M0+": {"fine": {"1": [1, 2, 3]}}})")).data.size());
   draw(locatorPicture(results, someCounts()), folder.file("pareto.svg"));
   checkHas(readFile(folder.file("pareto.svg"), ExitCode::kFailure), "3 fine");
 }

@@ -76,10 +76,11 @@ std::string verdictAt(std::size_t level, const std::vector<MethodResult>& result
     if (best == nullptr || cost(other) < cost(*best)) best = &other;
   }
   if (best == nullptr) return "";
+  const double ratio = cost(*best) / cost(ours);
   return fmt::format(
-      "The cheapest other method with no larger error and no more gross errors at {}, {}, takes {:.1f} "
+      "The cheapest other method with no larger error and no more gross errors at {}, {}, takes {:.{}f} "
       "times the instructions of {} on a Cortex-M4 with an FPU, which ours doesn't use.\n",
-      kLevelSettings[level].name, best->name, cost(*best) / cost(ours), ours.name);
+      kLevelSettings[level].name, best->name, ratio, ratio < 1 ? 3 : 1, ours.name);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ TEST_GROUP(LocatorReport) {
   }
   Counts someCounts() const {
     return counts(R"({"Cortex-M4": {"ours: refined": {"1": [700, 900, 1500], "2": [800, 901, 1501],
-                        "0.1 %, 0.5 to 4 mm wide": [950, 960, 970]}},
+                        "3": [950, 960, 970]}},
       "Cortex-M4 with FPU": {"rough": {"1": [100, 100, 100]}, "fine": {"1": [2100, 2200, 2300]},
                              "finer": {"1": [7000, 8000, 9000]}}})");
   }

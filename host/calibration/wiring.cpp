@@ -319,15 +319,35 @@ struct Turn {
   bool isReversed;
 };
 
+/// Rows of known direction from which the turn of a ring is told: one that is well placed would do, and each
+/// costs as much as locating it 64 times.
+constexpr std::size_t kMostDirections = 8;
+
+/// The strongest, or of more than twice as many as are needed some of the stronger half, from all the
+/// session.
+std::vector<std::size_t> tellingRows(std::span<const KnownTouch> known, const MatrixXd& readings) {
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < known.size(); ++row)
+    if (known[row].angle_deg && !known[row].isUntouched()) rows.push_back(row);
+  if (rows.size() <= kMostDirections) return rows;
+  const VectorXd peaks = readings.cwiseAbs().rowwise().maxCoeff();
+  std::stable_sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) {
+    return peaks[static_cast<Index>(a)] > peaks[static_cast<Index>(b)];
+  });
+  rows.resize(std::max(kMostDirections, rows.size() / 2));
+  std::sort(rows.begin(), rows.end());
+  std::vector<std::size_t> some;
+  for (std::size_t i = 0; i < kMostDirections; ++i) some.push_back(rows[i * rows.size() / kMostDirections]);
+  return some;
+}
+
 /// How well rows of known direction are explained by rings that lie otherwise than drawn.
 class TurnCheck {
  public:
   TurnCheck(const config::FingerConfig& config, std::span<const KnownTouch> known, const MatrixXd& readings,
             const KnownErrors& errors, const WiringCheck& wired)
       : gauges_(config.gauges), search_(wired.search()) {
-    std::vector<std::size_t> rows;
-    for (std::size_t row = 0; row < known.size(); ++row)
-      if (known[row].angle_deg && !known[row].isUntouched()) rows.push_back(row);
+    const std::vector<std::size_t> rows = tellingRows(known, readings);
     if (rows.empty()) return;
     const auto fitted = wired.fitted();
     ring_ = fitted.ring;

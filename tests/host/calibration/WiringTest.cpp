@@ -128,6 +128,15 @@ TEST(Wiring, ARingThatIsReversedIsNamed) {
   checkOnly({Kind::kReversed, 0, 0});
 }
 
+TEST(Wiring, OfManyKnownDirectionsSomeTellATurn) {
+  session = study::sessionOf(study::randomFinger(seed), {.touches = 150, .knownDirections = 100}, seed);
+  LONGS_EQUAL(0, faults().size());
+  std::vector<int> places;
+  for (int i = 0; i < 16; ++i) places.push_back((16 - i) % 16);
+  rewire(places);
+  checkOnly({Kind::kReversed, 0, 0});
+}
+
 // A touch over a gauge: a ring turned by twice its place explains it as well as a reversed one.
 TEST(Wiring, OneDirectionAtAGaugeDoesNotTellAShiftFromAReversal) {
   const evidence::TouchRanges overGauges{

@@ -24,8 +24,8 @@ Place<double> placeOf(const TableImage& tables, const Contact& contact) {
   return {turn * kGauges, toReal(contact.normal), toReal(contact.tangential)};
 }
 
-Place<double> placeOf(const TableImage& tables, const firmware::Locator& locator) {
-  return placeOf(tables, estimate(tables.constants, locator.answer(), locator.linearisation(), 0));
+Place<double> placeOf(const TableImage& tables, const OwnLocator& locator) {
+  return placeOf(tables, locator.contact());
 }
 
 Place<double> placeOf(const TableImage&, const Place<float>& place) {

@@ -6,14 +6,13 @@
 #include <vector>
 
 #include "common/table_image.hpp"
-#include "firmware/core/estimate.hpp"
-#include "firmware/core/locator.hpp"
+#include "host/bench/methods/catalogue.hpp"
 #include "host/bench/readings.hpp"
 
 namespace strainfinger::bench {
 
 Place<double> placeOf(const TableImage& tables, const Contact& contact);
-Place<double> placeOf(const TableImage& tables, const firmware::Locator& locator);
+Place<double> placeOf(const TableImage& tables, const OwnLocator& locator);
 Place<double> placeOf(const TableImage& tables, const Place<float>& place);
 Place<double> placeOf(const TableImage& tables, const Place<double>& place);
 

@@ -24,13 +24,12 @@ class OwnLocator {
   OwnLocator(const TableImage& tables, firmware::FitMode mode) : tables_(tables), locator_(mode) {}
 
   /// From conditioned strains of a touch of which nothing is known yet, to the end of the search.
-  const firmware::Locator& locate(const Sample& sample) {
+  const OwnLocator& locate(const Sample& sample) {
     firmware::locateOnce(tables_, sample.strain_q32, firmware::allGauges(kGauges), locator_);
-    return locator_;
+    return *this;
   }
-  /// The same with the answer in units and its standard errors.
-  Contact estimate(const Sample& sample) {
-    locate(sample);
+  /// The answer in units, with its standard errors.
+  Contact contact() const {
     return firmware::estimate(tables_.constants, locator_.answer(), locator_.linearisation(), 0);
   }
 
@@ -39,8 +38,7 @@ class OwnLocator {
   firmware::Locator locator_;
 };
 
-/// Calls visit(Method, f) for each of ours; f(sample) gives a firmware::Locator that has the answer, or a
-/// Contact.
+/// Calls visit(Method, f) for each of ours; f(sample) gives an OwnLocator that has the answer, or a Contact.
 template <typename Visit>
 void visitOurs(const NoiseTables& tables, Visit&& visit) {
   using enum firmware::FitMode;
@@ -48,7 +46,8 @@ void visitOurs(const NoiseTables& tables, Visit&& visit) {
       anyWidth(tables.anyWidth, kRefined);
   visit(
       Method{"ours: width known", false, 1}, [&](const Sample& s) -> const auto& { return line.locate(s); });
-  visit(Method{"ours: width known with sigmas", false, 1}, [&](const Sample& s) { return line.estimate(s); });
+  visit(Method{"ours: width known with sigmas", false, 1},
+        [&](const Sample& s) { return line.locate(s).contact(); });
   visit(
       Method{"ours: three-point", false, 1}, [&](const Sample& s) -> const auto& { return three.locate(s); });
   visit(
@@ -56,7 +55,7 @@ void visitOurs(const NoiseTables& tables, Visit&& visit) {
         return anyWidth.locate(s);
       });
   visit(Method{"ours: width fitted with sigmas", false, 1},
-        [&](const Sample& s) { return anyWidth.estimate(s); });
+        [&](const Sample& s) { return anyWidth.locate(s).contact(); });
 }
 
 /// Likewise for the others, all in float; f(sample) gives a Place<float>.

@@ -2,7 +2,11 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <string_view>
 
+#include "host/bench/make_bundle.hpp"
+#include "host/bench/methods/catalogue.hpp"
 #include "host/tables/table_builder.hpp"
 
 // last: its macros redefine new
@@ -66,4 +70,23 @@ TEST(Score, AContactOfTheFirmwareIsAPlaceInPitches) {
   const Place<double> place = placeOf(tables, contact);
   DOUBLES_EQUAL(3, place.position_pitch, 1e-9);
   DOUBLES_EQUAL(5, place.normal, 1e-9);
+}
+
+// A locator's answer is in units of its own tables, whichever it has.
+TEST(Score, WhatFindingSigmasAddsChangesNoAnswer) {
+  const LevelSettings& wide = kLevelSettings.back();
+  const auto tables = std::make_unique<NoiseTables>(tablesFor(finger, wide));
+  const std::vector<Reading> readings = readingsOf(finger, wide, 4);
+  std::vector<Place<double>> answers;
+  visitOurs(*tables, [&](const Method& method, auto fit) {
+    if (method.name.find("three-point") != std::string_view::npos) return;
+    for (const Reading& reading : readings) answers.push_back(placeOf(tables->line, fit(reading.sample)));
+  });
+  const std::size_t count = readings.size();
+  LONGS_EQUAL(4 * count, answers.size());
+  for (std::size_t i = 0; i < answers.size(); i += i % count == count - 1 ? count + 1 : 1) {
+    DOUBLES_EQUAL(answers[i + count].position_pitch, answers[i].position_pitch, 0);
+    DOUBLES_EQUAL(answers[i + count].normal, answers[i].normal, 0);
+    DOUBLES_EQUAL(answers[i + count].tangential, answers[i].tangential, 0);
+  }
 }

@@ -344,7 +344,7 @@ class Finger {
   Watchdog& watchdog_;
   Store& store_;
   FingerState state_ = FingerState::kBoot;
-  alignas(4) hal::SampleSet codes_{};  ///< copied by words
+  alignas(4) hal::SampleSet codes_{};  ///< compared and copied by words
   OwedFrames owed_;
   bool wasSecond_ = false;  ///< in the last touch that was said
   RawSender raw_;

@@ -26,7 +26,7 @@ constexpr std::uint32_t kUpdates = 2000;  ///< of a scene
 constexpr std::uint32_t kPaint = 0x57ACC57A;
 
 struct Adc {
-  alignas(4) hal::SampleSet next{};  ///< as a converter's buffer is
+  hal::SampleSet next{};
   bool read(hal::SampleSet& set) noexcept {
     set = next;
     return true;

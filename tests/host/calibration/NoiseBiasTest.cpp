@@ -69,3 +69,10 @@ TEST(NoiseBias, OfAFingerThatIsKnownIsNone) {
   const Eigen::VectorXd bias = noiseBias(drawing, last, data(6e-6), fit, 0 * identity);
   DOUBLES_EQUAL(0, bias.norm(), 0);
 }
+
+// Larger loads on stiffer rubber read the same. What a fit's last step leaves must not tell them apart: the
+// sum over thousands of touches would be a unit of force of its own.
+TEST(NoiseBias, TouchesOfUnknownLoadTellNothingOfTheUnitOfForce) {
+  const Eigen::VectorXd bias = noiseBias(drawing, last, data(6e-6), fit, identity);
+  DOUBLES_EQUAL(0, bias[drawing.at(kShearModulus)], 1e-9);
+}

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <sstream>
 #include <string>
@@ -253,7 +254,17 @@ std::uint8_t nodeOf(const CalibrateOptions& options, const config::FingerConfig&
   return static_cast<std::uint8_t>(options.node != 0 ? options.node : config.can.node);
 }
 
+/// Before the afternoon, not at its end.
+void requireFolderOf(const std::string& path) {
+  if (path.empty()) return;
+  const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+  if (std::filesystem::is_directory(folder)) return;
+  throw Failure(ExitCode::kFailure, fmt::format("--page {}: there is no folder {}; make it, or name another",
+                                                path, folder.string()));
+}
+
 void runLiveCalibration(const CalibrateOptions& options, const config::FingerConfig& config) {
+  requireFolderOf(options.pagePath);
   LiveCalibration live = options.live;
   live.node = nodeOf(options, config);
   live.outputPath = options.outputPath;

@@ -265,13 +265,23 @@ class Resumed(unittest.TestCase):
 
     def test_a_page_that_cannot_be_written_loses_neither_config_nor_rows(self):
         output = self.session_of(250)
-        session = Session(self.bench, self.finger, output, "--page", str(output.parent / "none" / "page.html"))
+        folder = output.parent / "none"
+        folder.mkdir()
+        session = Session(self.bench, self.finger, output, "--page", str(folder / "page.html"))
         self.bench.until(lambda: session.rows() >= 250)
+        folder.rmdir()
         session.say("quit")
         self.assertEqual(1, session.ended(120))
         self.assertRegex(session.said.last, r"cannot write \S+none/page.html: .*; \d\d\d rows are kept in ")
         self.assertIn("[calibration]", output.read_text())
         self.assertEqual(17, len(session.printed.lines))
+
+    def test_a_page_for_which_there_is_no_folder_is_refused_at_once(self):
+        output = self.session_of(40)
+        session = Session(self.bench, self.finger, output, "--page", str(output.parent / "none" / "page.html"))
+        self.assertEqual(1, session.ended(60))
+        self.assertRegex(session.said.last, r"--page \S+none/page.html: there is no folder \S+none; make it")
+        self.assertFalse(output.exists())
 
     def test_control_c_ends_it_with_130_and_nothing_is_lost(self):
         output = self.session_of(40)

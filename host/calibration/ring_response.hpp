@@ -29,7 +29,7 @@ class RingResponse {
   /// The last harmonic that counts for fingers of this drawing: what is beyond is below 1e-7 of the peak.
   static int lastHarmonic(const Drawing& drawing);
 
-  /// Domain: the deviations put every gauge into the rubber. Costs 2 ms for 16 gauges and 60 harmonics.
+  /// Domain: the deviations put every gauge into the rubber. Costs 1 ms for 16 gauges and 60 harmonics.
   RingResponse(const Drawing& drawing, const Eigen::VectorXd& deviations, int lastHarmonic);
 
   /// One reading a gauge, gains and zeros included. Costs 5 us besides the touch's waves.

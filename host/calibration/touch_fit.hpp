@@ -48,14 +48,14 @@ TouchFit refineTouches(const RingResponse& ring, const TouchData& data,
 /// fit best there, and the best few refined.
 class TouchSearch {
  public:
-  /// Domain: moments up to mostMoment_rad2 > 0. Costs 10 ms for 16 gauges.
+  /// Domain: moments up to mostMoment_rad2 > 0. Costs 5 ms for 16 gauges.
   TouchSearch(const RingResponse& ring, double friction, double mostMoment_rad2);
 
   /// Of readings, zeros apart, the nodes that explain most, each of another width; none where no touch of
   /// this prior could be. Costs 30 us.
   std::vector<TouchState> starts(const Eigen::VectorXd& strains, const TouchPrior& prior) const;
 
-  /// Those refined. Costs 0.5 ms. `ring` is the one of the search, or one near it.
+  /// Those refined. Costs 0.7 ms. `ring` is the one of the search, or one near it.
   TouchFit find(const RingResponse& ring, const TouchData& data) const;
 
   /// The touch of the grid that explains readings, zeros apart, best; 0 where no touch could be.

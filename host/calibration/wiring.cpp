@@ -319,12 +319,12 @@ struct Turn {
   bool isReversed;
 };
 
-/// Rows of known direction from which the turn of a ring is told: one that is well placed would do, and each
-/// costs as much as locating it 64 times.
+/// Rows of known direction from which the turn of a ring is told: one that is well placed would do. Each is
+/// located once for each of the turns, twice as many as there are gauges.
 constexpr std::size_t kMostDirections = 8;
 
-/// The strongest, or of more than twice as many as are needed some of the stronger half, from all the
-/// session.
+/// Where there are more rows of known direction than are needed: some of the stronger half of them, from all
+/// the session.
 std::vector<std::size_t> tellingRows(std::span<const KnownTouch> known, const MatrixXd& readings) {
   std::vector<std::size_t> rows;
   for (std::size_t row = 0; row < known.size(); ++row)

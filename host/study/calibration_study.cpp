@@ -23,6 +23,7 @@ constexpr std::array kNames{"arc", "normal", "tangential"};
 
 struct Options {
   int fingers = 30;
+  int sessions = 1;  ///< a finger
   std::vector<int> touches{300};
   int wiring = 0, healthy = 0;
   std::string output;
@@ -53,20 +54,14 @@ Session healthyPart(const Session& session) {
   return part;
 }
 
-void addFinger(std::uint64_t seed, const SessionPlan& plan, Outcome& outcome) {
-  const config::FingerConfig finger = randomFinger(seed);
+/// One session of a finger; what came of its calibration.
+NewTouches addSession(const config::FingerConfig& finger, std::uint64_t seed, const SessionPlan& plan,
+                      Outcome& outcome) {
   const Session session = sessionOf(finger, plan, seed);
   const double start_s = processor_s();
   const auto result = calibration::calibrate(finger, session.known, session.readings, kExactlyKnown);
   outcome.mostSeconds = std::max(outcome.mostSeconds, processor_s() - start_s);
   const NewTouches touches = newTouches(result, finger, kNewTouches, seed);
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
-    outcome.overPredicted[i].push_back(touches.error[at] / touches.predicted[at]);
-    outcome.overBound[i].push_back(touches.error[at] / touches.bound[at]);
-    outcome.error[i].push_back(touches.error[at]);
-  }
-  outcome.byChance.push_back(touches.byChance);
   if (plan.junk > 0) {
     const Session healthy = healthyPart(session);
     const auto without = calibration::calibrate(finger, healthy.known, healthy.readings, kExactlyKnown);
@@ -80,12 +75,45 @@ void addFinger(std::uint64_t seed, const SessionPlan& plan, Outcome& outcome) {
   outcome.overSigma.insert(outcome.overSigma.end(), errors.begin(), errors.end());
   outcome.mostUnexplained = std::max(outcome.mostUnexplained, result.modelError().value);
   outcome.mostWritten = std::max(outcome.mostWritten, result.applied().gauges.model_error);
+  return touches;
 }
 
-Outcome outcomeOf(const SessionPlan& plan, int fingers) {
+/// Of touches after several sessions.
+NewTouches rootMeanSquare(const std::vector<NewTouches>& all) {
+  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+  NewTouches mean{zero, zero, Eigen::Matrix3Xd::Zero(3, kChances), zero};
+  for (const NewTouches& each : all) {
+    mean.error += each.error.cwiseAbs2();
+    mean.predicted += each.predicted.cwiseAbs2();
+    mean.bound += each.bound.cwiseAbs2();
+    mean.byChance += (each.predicted.asDiagonal() * each.byChance).cwiseAbs2();
+  }
+  mean.byChance = (mean.predicted.cwiseInverse().asDiagonal() * mean.byChance).cwiseSqrt();
+  for (Eigen::Vector3d* each : {&mean.error, &mean.predicted, &mean.bound})
+    *each = (*each / static_cast<double>(all.size())).cwiseSqrt();
+  return mean;
+}
+
+void addFinger(std::uint64_t seed, const SessionPlan& plan, int sessions, Outcome& outcome) {
+  constexpr std::uint64_t kSeedsApart = 100'000;
+  const config::FingerConfig finger = randomFinger(seed);
+  std::vector<NewTouches> all;
+  for (int i = 0; i < sessions; ++i)
+    all.push_back(addSession(finger, seed + kSeedsApart * static_cast<std::uint64_t>(i), plan, outcome));
+  const NewTouches touches = rootMeanSquare(all);
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    outcome.overPredicted[i].push_back(touches.error[at] / touches.predicted[at]);
+    outcome.overBound[i].push_back(touches.error[at] / touches.bound[at]);
+    outcome.error[i].push_back(touches.error[at]);
+  }
+  outcome.byChance.push_back(touches.byChance);
+}
+
+Outcome outcomeOf(const SessionPlan& plan, int fingers, int sessions) {
   Outcome outcome;
   for (int seed = 1; seed <= fingers; ++seed) try {
-      addFinger(static_cast<std::uint64_t>(seed), plan, outcome);
+      addFinger(static_cast<std::uint64_t>(seed), plan, sessions, outcome);
     } catch (const Failure& failure) {
       ++outcome.refused;
       fmt::print(stderr, "finger {}: {}\n", seed, failure.what());
@@ -124,8 +152,8 @@ std::string chanceLines(const Outcome& outcome) {
       100.0 * static_cast<double>(met) / static_cast<double>(kChances));
 }
 
-std::string sectionOf(const SessionPlan& plan, int fingers) {
-  const Outcome outcome = outcomeOf(plan, fingers);
+std::string sectionOf(const SessionPlan& plan, int fingers, int sessions) {
+  const Outcome outcome = outcomeOf(plan, fingers, sessions);
   double squares = 0;
   int covered = 0;
   for (const double each : outcome.overSigma) {
@@ -133,9 +161,10 @@ std::string sectionOf(const SessionPlan& plan, int fingers) {
     covered += std::abs(each) < 1.96;
   }
   const double count = std::max<double>(1, static_cast<double>(outcome.overSigma.size()));
-  std::string text =
-      fmt::format("\n## {} touches{}, {} fingers\n\n| figure | median finger | worst finger |\n|--|--|--|\n",
-                  plan.touches, plan.junk > 0 ? ", a tenth of them junk" : "", fingers);
+  std::string text = fmt::format(
+      "\n## {} touches{}, {} fingers, sessions of each: {}\n\n| figure | median finger | worst finger "
+      "|\n|--|--|--|\n",
+      plan.touches, plan.junk > 0 ? ", a tenth of them junk" : "", fingers, sessions);
   text +=
       fmt::format("| error of new touches over what is predicted: arc / normal / tangential | {} | {} |\n",
                   three(outcome.overPredicted, 0.5), three(outcome.overPredicted, 1));
@@ -277,8 +306,9 @@ void run(const Options& options) {
   if (options.wiring + options.healthy > 0) page += wiringSection(options.wiring, options.healthy);
   for (const int touches : options.touches) {
     if (options.fingers == 0) break;
-    page += sectionOf({.touches = touches}, options.fingers);
-    if (touches <= 300) page += sectionOf({.touches = touches, .junk = 0.1}, options.fingers);
+    page += sectionOf({.touches = touches}, options.fingers, options.sessions);
+    if (touches <= 300)
+      page += sectionOf({.touches = touches, .junk = 0.1}, options.fingers, options.sessions);
   }
   if (options.output.empty())
     fmt::print("{}", page);
@@ -293,6 +323,9 @@ int main(int argc, char** argv) {
   strainfinger::study::Options options;
   CLI::App app("Calibrates random simulated fingers and compares with the truth.");
   app.add_option("--fingers", options.fingers, "How many; 0: only wiring (30)")->check(CLI::Range(0, 10'000));
+  app.add_option("--sessions", options.sessions,
+                 "Of each finger; its errors and what is predicted are their root mean square (1)")
+      ->check(CLI::Range(1, 1000));
   app.add_option("--touches", options.touches, "Touches of a session; several: one after the other (300)")
       ->check(CLI::Range(40, 100'000));
   app.add_option("--wiring", options.wiring, "Also so many fingers of each fault of wiring (0)")

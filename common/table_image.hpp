@@ -20,7 +20,7 @@ namespace strainfinger {
 static_assert(std::endian::native == std::endian::little, "the image is little-endian and is read in place");
 
 inline constexpr std::uint32_t kTableMagic = 0x42544653;  ///< "SFTB" in the file's first four bytes
-inline constexpr std::uint16_t kTableFormat = 7;          ///< raised with every change of the layout
+inline constexpr std::uint16_t kTableFormat = 8;          ///< raised with every change of the layout
 
 /// What the image was made from, as in finger.toml. The firmware carries it and doesn't look at it.
 struct TableParameters {
@@ -35,6 +35,9 @@ struct TableParameters {
   double noise_strain;
   double full_scale_strain;
   double model_error;
+  double place_error_m;
+  double load_error;
+  double moment_error_m2;
   double contact_width_m;  ///< negative: not known, fitted with each touch
   double largest_width_m;
   double friction_coefficient;
@@ -69,12 +72,16 @@ struct TableConstants {
   std::uint32_t reach_q32;           ///< gauges within this angle of a contact take part in its fit, TurnQ32
   std::uint32_t largest_moment_um2;  ///< second moment of the widest pressure [um^2]
   std::uint32_t known_moment_q20;    ///< fraction of it, where the width is known
+  std::uint32_t place_error_q32;     ///< standard error that calibration leaves of all places, TurnQ32
   std::int16_t load_exponent;
   std::uint16_t friction_q8;      ///< coefficient of friction [* 2^8]
   std::uint16_t cone_q8;          ///< largest |tangential| / normal an answer may have [* 2^8]
   std::uint16_t model_error_q16;  ///< standard deviation of a reading's model error over the largest reading
-  std::uint16_t adc_rail;         ///< left-justified code at which the converter clips; 0 is the other
-  std::uint16_t node_count;       ///< angle nodes over half a revolution
+  std::uint16_t load_scale_error_q16;  ///< standard error of the scale of all loads
+  std::uint16_t load_error_q16;        ///< that calibration leaves of both loads, over the normal load
+  std::uint16_t moment_error_q20;      ///< that it leaves of second moments, a fraction of the largest
+  std::uint16_t adc_rail;              ///< left-justified code at which the converter clips; 0 is the other
+  std::uint16_t node_count;            ///< angle nodes over half a revolution
   std::int8_t noise_variance_exponent;
   std::int8_t mirror_sign;  ///< reading seen from the other side: +1 radial, hoop; -1 shear
   std::int8_t peak_sign;    ///< sign of the largest reading that a pressing load makes
@@ -85,7 +92,7 @@ struct TableConstants {
   std::uint8_t reserved;        ///< 0
   std::array<std::uint16_t, kMostCells + 1> cell_edge_q15;  ///< ascending from 0 to 2^15 (all of it)
   std::array<std::uint16_t, kMostCells> cell_rate_q8;       ///< 2 / (cell's width) [* 2^8]
-  std::array<std::uint8_t, 6> reserved2;                    ///< 0
+  std::array<std::uint8_t, 4> reserved2;                    ///< 0
 };
 
 /// The response of a gauge at angles around a node and second moments around a cell's middle, a quadratic in
@@ -137,9 +144,9 @@ struct TableImage {
 };
 
 static_assert(std::is_trivially_copyable_v<TableImage>);
-static_assert(sizeof(TableParameters) == 120 && sizeof(TableConstants) == 104 && sizeof(PatchPair) == 24 &&
+static_assert(sizeof(TableParameters) == 144 && sizeof(TableConstants) == 112 && sizeof(PatchPair) == 24 &&
               sizeof(GaugeGains) == 40);
-static_assert(sizeof(TableImage) == 16 + 120 + 104 + 4 * kMaxGauges + 40 + 24 * kMostPatches,
+static_assert(sizeof(TableImage) == 16 + 144 + 112 + 4 * kMaxGauges + 40 + 24 * kMostPatches,
               "no padding anywhere");
 
 /// Why an image was refused. The numbers go on the bus and into exit statuses: never reuse one.
@@ -208,6 +215,9 @@ constexpr bool usableCells(const TableConstants& constants) {
   return true;
 }
 
+/// Places that are known no better are not known.
+inline constexpr std::uint32_t kMostPlaceError_q32 = std::uint32_t{1} << 30;
+
 /// What the firmware's loops and shifts rely on, and names that have a meaning.
 constexpr bool usable(const TableParameters& parameters, const TableConstants& constants) {
   return parameters.component <= StrainComponent::kShear && constants.gauge_count >= kMinGauges &&
@@ -217,7 +227,8 @@ constexpr bool usable(const TableParameters& parameters, const TableConstants& c
          usableLoads(constants.load_exponent, constants.gate_shift) &&
          (constants.mirror_sign == 1 || constants.mirror_sign == -1) &&
          (constants.peak_sign == 1 || constants.peak_sign == -1) && constants.width_is_known <= 1 &&
-         constants.known_moment_q20 <= 1u << kMomentBits && constants.cone_q8 > 0 &&
+         constants.known_moment_q20 <= 1u << kMomentBits &&
+         constants.place_error_q32 <= kMostPlaceError_q32 && constants.cone_q8 > 0 &&
          constants.reach_q32 < std::uint32_t{1} << 31 && usableCells(constants) &&
          constants.node_count >= kLeastNodes && constants.node_count * constants.cell_count <= kMostPatches;
 }

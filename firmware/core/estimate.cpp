@@ -74,15 +74,24 @@ std::uint8_t qualityOf(const Answer& answer, std::int64_t chiSquared, int freedo
   return static_cast<std::uint8_t>(std::max<std::int64_t>(quality, kMostUncertain + 1));
 }
 
-/// A load's standard error with that of the scale of all loads.
-LineLoadQ12 withScaleError(const TableConstants& constants, LineLoadQ12 sigma, LineLoadQ12 load) {
+/// The standard error of a sum of two independent errors. Domain: up to 2^31 and 2^30, or 2^31 - 1 each.
+Wide together(Wide one, Wide other) {
+  if (other == 0) return one;
+  return rootOf(static_cast<std::uint64_t>(one * one + other * other), 0).times2(0, Wide{1} << 31);
+}
+
+/// A load's standard error with those that no residual shows: of the scale of all loads, and what calibration
+/// leaves.
+LineLoadQ12 withCalibrationError(const TableConstants& constants, LineLoadQ12 sigma, LineLoadQ12 load,
+                                 LineLoadQ12 normal) {
   constexpr Wide kMost = std::numeric_limits<Number>::max();
-  const Wide scale = lesser(
-      magnitude(load.raw() * Wide{constants.model_error_q16}) >> (16 - threshold::kScaleErrorBits), kMost);
-  const Wide own = sigma.raw();
-  if (scale == 0) return sigma;
-  const Scaled both = rootOf(static_cast<std::uint64_t>(own * own + scale * scale), 0);
-  return LineLoadQ12::fromRaw(static_cast<Number>(both.times2(0, kMost)));
+  const auto share = [](LineLoadQ12 of, std::uint16_t error_q16) {
+    return lesser(magnitude(of.raw() * Wide{error_q16}) >> 16, kMost);
+  };
+  const Wide unseen =
+      together(share(load, constants.load_scale_error_q16), share(normal, constants.load_error_q16));
+  return LineLoadQ12::fromRaw(
+      static_cast<Number>(lesser(together(sigma.raw(), lesser(unseen, kMost)), kMost)));
 }
 
 /// Two contacts nearer than they can be told apart.
@@ -147,21 +156,25 @@ Contact estimate(const TableConstants& constants, const Answer& answer, const Li
   estimated.angle = TurnQ32::fromRaw(state.angle_q32);
   const std::int64_t turn =
       sigma(2 * contacts + contact, kAngleBits, kMostHalfNodes) * halfNode_q32(constants) >> kAngleBits;
-  estimated.sigmaAngle = TurnQ32::fromRaw(static_cast<std::uint32_t>(std::min(turn, kHalfTurn_q32)));
+  estimated.sigmaAngle = TurnQ32::fromRaw(static_cast<std::uint32_t>(
+      std::min(together(std::min(turn, kHalfTurn_q32), constants.place_error_q32), kHalfTurn_q32)));
   estimated.normal = load(state.normal);
   estimated.tangential = load(state.tangential);
   estimated.sigmaNormal = load(sigma(2 * contact, 16, kMostLoad));
   estimated.sigmaTangential = load(sigma(2 * contact + 1, 16, kMostLoad));
   bool tooWide = false;
   if (hypothesis.widthIsFree) {
-    const std::int64_t sigma_q20 = sigma(3 * contacts + contact, kMomentBits, 1 << kMomentBits);
+    const std::int64_t sigma_q20 =
+        together(sigma(3 * contacts + contact, kMomentBits, 1 << kMomentBits), constants.moment_error_q20);
     setWidth(constants, state.moment_q20, sigma_q20, estimated);
     tooWide = state.moment_q20 > (1 << kMomentBits) - (1 << kMomentBits) / 64;
   }
   const bool faint = contacts > 1 && estimated.normal.raw() <
                                          threshold::kFewestSigmas * std::int64_t{estimated.sigmaNormal.raw()};
-  estimated.sigmaNormal = withScaleError(constants, estimated.sigmaNormal, estimated.normal);
-  estimated.sigmaTangential = withScaleError(constants, estimated.sigmaTangential, estimated.tangential);
+  estimated.sigmaNormal =
+      withCalibrationError(constants, estimated.sigmaNormal, estimated.normal, estimated.normal);
+  estimated.sigmaTangential =
+      withCalibrationError(constants, estimated.sigmaTangential, estimated.tangential, estimated.normal);
   const int left = freedoms(hypothesis);
   const std::int64_t chiSquared = (answer.solution.residualEnergy << 4) / answer.gateVariance_q4;
   if (left > 0) {

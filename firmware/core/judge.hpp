@@ -45,9 +45,6 @@ inline constexpr int kFirmMoment_um2 = 360'000;
 inline constexpr int kWeakSignal = 1600;
 /// A contact of a pair whose loads explain less than this much of chi-squared is none.
 inline constexpr int kFaint = 36;
-/// The scale of all loads is off by so many times the model error [log2]: a Poisson's ratio of 0.48 instead
-/// of 0.5 makes the loads of the default finger a fifth smaller, and leaves no residuals.
-inline constexpr int kScaleErrorBits = 2;
 /// A contact of a pair is sure from so many of its load's standard errors on.
 inline constexpr int kFewestSigmas = 5;
 /// Two contacts are told apart from so many sixteenths of a pitch on; nearer ones are flagged.

@@ -89,8 +89,8 @@ class CalibrationResult {
   const Eigen::MatrixXd& covariance() const { return covariance_; }
 
   /// The config with all of it: core, Poisson's ratio and modulus in [finger], the gauges in [calibration],
-  /// gauges.model_error, which covers what is not known of the finger too. The finger that [as_built] stands
-  /// for stays what it is.
+  /// with the errors that what is not known of the finger makes of touches, gauges.model_error. The finger
+  /// that [as_built] stands for stays what it is.
   config::FingerConfig applied() const;
 
  private:

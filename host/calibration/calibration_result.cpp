@@ -73,9 +73,12 @@ config::FingerConfig CalibrationResult::applied() const {
     config.as_built.poisson_ratio += drawn.poisson_ratio - config.finger.poisson_ratio;
     config.as_built.shear_modulus_pa += drawn.shear_modulus_pa - config.finger.shear_modulus_pa;
   }
-  config.gauges.model_error =
-      toDigits(std::hypot(modelError_.value, modelError_.sigma, fingerError(*this)), 6);
+  config.gauges.model_error = toDigits(std::hypot(modelError_.value, modelError_.sigma), 6);
+  const CalibrationErrors errors = calibrationErrors(*this);
   config.calibration = {};
+  config.calibration.place_error_m = toDigits(errors.place_m, 8);
+  config.calibration.load_error = toDigits(errors.load, 5);
+  config.calibration.moment_error_m2 = toDigits(errors.moment_m2, 11);
   for (int gauge = 0; gauge < drawing_.gauges(); ++gauge) {
     config.calibration.gain.push_back(toDigits(gain(gauge).value, 6));
     config.calibration.angle_offset_deg.push_back(toDigits(angleOffset_deg(gauge).value, 5));

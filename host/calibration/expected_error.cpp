@@ -1,6 +1,7 @@
 #include "host/calibration/expected_error.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -13,6 +14,9 @@ namespace {
 
 constexpr double kLoad_n_per_m = 30, kWidth_m = 2e-3;
 constexpr int kPlacesPerGauge = 6;
+
+/// Standard deviations over the prior's, from which on the touches told nothing.
+constexpr double kUntoldMean = 0.9, kUntoldModulus = 0.5;
 
 }  // namespace
 
@@ -27,12 +31,31 @@ std::vector<TouchState> judgedTouches(const Drawing& drawing) {
   return touches;
 }
 
-Eigen::MatrixXd withoutConventions(const Drawing& drawing, const Eigen::MatrixXd& covariance) {
-  Eigen::MatrixXd fixed = Eigen::MatrixXd::Zero(drawing.unknowns(), 2);
-  for (int gauge = 0; gauge < drawing.gauges(); ++gauge) fixed(Drawing::at(gauge, kAngleOffset), 0) = 1;
-  fixed(drawing.at(kShearModulus), 1) = 1;
-  const Eigen::MatrixXd along = covariance * fixed;
-  return covariance - along * (fixed.transpose() * along).inverse() * along.transpose();
+Conventions conventionsOf(const CalibrationResult& result) {
+  const Drawing& drawing = result.drawing();
+  const Eigen::MatrixXd& covariance = result.covariance();
+  double sum = 0;
+  for (int a = 0; a < drawing.gauges(); ++a)
+    for (int b = 0; b < drawing.gauges(); ++b)
+      sum += covariance(Drawing::at(a, kAngleOffset), Drawing::at(b, kAngleOffset));
+  const double byDrawingAlone = 1 / std::sqrt(static_cast<double>(drawing.gauges()));
+  const Eigen::Index modulus = drawing.at(kShearModulus);
+  return {.zeroOfAngle = std::sqrt(sum) / drawing.gauges() > kUntoldMean * byDrawingAlone,
+          .unitOfForce = std::sqrt(covariance(modulus, modulus)) > kUntoldModulus};
+}
+
+Eigen::MatrixXd withoutConventions(const Drawing& drawing, const Eigen::MatrixXd& covariance,
+                                   const Conventions& conventions) {
+  Eigen::MatrixXd given = covariance;
+  const auto give = [&](const Eigen::VectorXd& direction) {
+    const Eigen::VectorXd along = given * direction;
+    given -= along * along.transpose() / direction.dot(along);
+  };
+  Eigen::VectorXd direction = Eigen::VectorXd::Zero(drawing.unknowns());
+  for (int gauge = 0; gauge < drawing.gauges(); ++gauge) direction[Drawing::at(gauge, kAngleOffset)] = 1;
+  if (conventions.zeroOfAngle) give(direction);
+  if (conventions.unitOfForce) give(Eigen::VectorXd::Unit(drawing.unknowns(), drawing.at(kShearModulus)));
+  return given;
 }
 
 TouchVariances touchVariances(const RingResponse& ring, const TouchState& touch,
@@ -44,19 +67,21 @@ TouchVariances touchVariances(const RingResponse& ring, const TouchState& touch,
   return {noise, noise + (pull * covariance * pull.transpose()).diagonal()};
 }
 
-double fingerError(const CalibrationResult& result) {
+CalibrationErrors calibrationErrors(const CalibrationResult& result) {
   const Drawing& drawing = result.drawing();
-  const double noise_strain = drawing.config().gauges.noise_strain;
+  const double radius_m = drawing.config().finger.outer_radius_m;
   const RingResponse built(drawing, result.deviations(), RingResponse::lastHarmonic(drawing));
-  const Eigen::MatrixXd covariance = withoutConventions(drawing, result.covariance());
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  const Eigen::MatrixXd covariance = withoutConventions(drawing, result.covariance(), conventionsOf(result));
+  TouchState sum = TouchState::Zero();
   const auto touches = judgedTouches(drawing);
   for (const TouchState& touch : touches) {
-    const auto variances = touchVariances(built, touch, covariance, noise_strain);
-    const double noises = noise_strain / (built.readings(touch) - built.zeros()).cwiseAbs().maxCoeff();
-    sum += noises * noises * (variances.total.cwiseQuotient(variances.noise).array() - 1).head<3>().matrix();
+    const auto variances = touchVariances(built, touch, covariance, drawing.config().gauges.noise_strain);
+    sum += variances.total - variances.noise;
   }
-  return std::sqrt(sum.maxCoeff() / static_cast<double>(touches.size()));
+  const TouchState error = (sum / static_cast<double>(touches.size())).cwiseMax(0).cwiseSqrt();
+  return {.place_m = radius_m * error[kPlace],
+          .load = std::max(error[kNormalLoad], error[kTangentialLoad]) / kLoad_n_per_m,
+          .moment_m2 = radius_m * radius_m * error[kMoment]};
 }
 
 ExpectedErrors expectedErrors(const CalibrationResult& result) {

@@ -20,9 +20,18 @@ TouchVariances touchVariances(const RingResponse& ring, const TouchState& touch,
 /// rubbed either way.
 std::vector<TouchState> judgedTouches(const Drawing& drawing);
 
-/// A covariance of deviations, given the mean of the angles and the modulus: the zero of the angle and the
-/// unit of force are conventions where nothing is known of a touch.
-Eigen::MatrixXd withoutConventions(const Drawing& drawing, const Eigen::MatrixXd& covariance);
+/// What is right by convention, because nothing is known of any touch that would tell it.
+struct Conventions {
+  bool zeroOfAngle = true;  ///< the mean of the gauges' angles is the drawing's
+  bool unitOfForce = true;  ///< the shear modulus is the drawing's
+};
+
+/// Those that the touches of a calibration left.
+Conventions conventionsOf(const CalibrationResult& result);
+
+/// A covariance of deviations, given what is right by convention.
+Eigen::MatrixXd withoutConventions(const Drawing& drawing, const Eigen::MatrixXd& covariance,
+                                   const Conventions& conventions = {});
 
 /// Of the judged touches: RMS of place [m], normal and tangential load [N/m].
 struct ExpectedErrors {
@@ -31,15 +40,20 @@ struct ExpectedErrors {
   Eigen::Vector3d bound;   ///< noise alone
 };
 
-/// Costs 0.2 s.
+/// Costs 0.1 s.
 ExpectedErrors expectedErrors(const CalibrationResult& result);
 
-/// What is not known of the finger, as an error of readings: the standard deviation of independent errors of
-/// all readings, as a fraction of the touch's largest, with which a locator's sigmas of the judged touches
-/// are their errors (RMS of one over the other), in place, normal or tangential load, whichever asks for
-/// most. What of the finger is not known but changes no touch doesn't count, nor do the zero of the angle and
-/// the unit of force: what isn't known of these is right by convention. Costs 0.1 s.
-double fingerError(const CalibrationResult& result);
+/// What is not known of the finger makes of touches to come: standard errors that all of them share, whatever
+/// their load and width (README.md beside this file has figures). RMS over the judged touches.
+struct CalibrationErrors {
+  double place_m;    ///< an arc of the surface
+  double load;       ///< of the normal or the tangential load, whichever is larger, over the normal load
+  double moment_m2;  ///< of the pressure's second moment
+};
+
+/// Where no direction or no load is known, the zero of the angle and the unit of force are right by
+/// convention and no error. Costs 10 ms.
+CalibrationErrors calibrationErrors(const CalibrationResult& result);
 
 /// Place as an arc of the surface, normal and tangential load; without the moment.
 inline Eigen::Vector3d inMetres(const TouchState& touch, double outerRadius_m) {

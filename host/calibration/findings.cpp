@@ -9,6 +9,7 @@
 
 #include "host/base/no_value.hpp"
 #include "host/calibration/complaints.hpp"
+#include "host/calibration/expected_error.hpp"
 #include "host/calibration/moved_zero.hpp"
 #include "host/calibration/touch_fit.hpp"
 
@@ -19,16 +20,6 @@ namespace {
 constexpr double kUntold = 0.5;
 /// Two unknowns whose correlation is beyond this are told as a pair: their sum or their difference.
 constexpr double kRemarkable = 0.9;
-
-/// How well the touches tell a direction in which nothing is told by the strains themselves.
-double sigmaOfMean(const CalibrationResult& result, GaugeUnknown unknown) {
-  const int gauges = result.drawing().gauges();
-  double variance = 0;
-  for (int a = 0; a < gauges; ++a)
-    for (int b = 0; b < gauges; ++b)
-      variance += result.covariance()(Drawing::at(a, unknown), Drawing::at(b, unknown));
-  return std::sqrt(variance) / gauges;
-}
 
 std::string reasonOf(RowUse use) {
   switch (use) {
@@ -50,15 +41,13 @@ std::string reasonOf(RowUse use) {
 }  // namespace
 
 std::vector<std::string> whatIsUntold(const CalibrationResult& result) {
-  const Drawing& drawing = result.drawing();
-  const double alone = 1 / std::sqrt(static_cast<double>(drawing.gauges()));  // by the drawing alone
+  const Conventions conventions = conventionsOf(result);
   std::vector<std::string> sentences;
-  if (sigmaOfMean(result, kAngleOffset) > 0.9 * alone)
+  if (conventions.zeroOfAngle)
     sentences.emplace_back(
         "No direction is known: angles count from where the drawing has the gauges on average. One touch "
         "with a known angle_deg mends that.");
-  const Eigen::Index modulus = drawing.at(kShearModulus);
-  if (std::sqrt(result.covariance()(modulus, modulus)) > kUntold)
+  if (conventions.unitOfForce)
     sentences.emplace_back(
         "No load is known: forces are right as far as finger.shear_modulus_pa is. Some touches on a "
         "scale, with a known normal_n_per_m, mend that.");

@@ -78,11 +78,15 @@ struct Can {
   double contact_rate_hz = 500;
 };
 
-/// What calibration found of each gauge, one number a gauge; an empty list: not calibrated.
+/// What calibration found of each gauge, one number a gauge; an empty list: not calibrated. And what it does
+/// not know, as standard errors of all touches to come.
 struct Calibration {
   std::vector<double> gain;              ///< what a gauge reads over what it should
   std::vector<double> angle_offset_deg;  ///< its true angle less the drawing's, counter-clockwise positive
   std::vector<double> depth_offset_m;    ///< deeper than the drawing: positive towards the core
+  double place_error_m = 0;              ///< of places, an arc of the surface
+  double load_error = 0;                 ///< of normal and tangential loads, over the normal load
+  double moment_error_m2 = 0;            ///< of second moments of the pressure, as widths are told by
 
   bool isEmpty() const { return gain.empty() && angle_offset_deg.empty() && depth_offset_m.empty(); }
 };

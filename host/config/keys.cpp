@@ -81,6 +81,16 @@ std::vector<Key> makeKeys() {
        Domain::between(-1, 1),
        "how much deeper each gauge is than gauges.radius_m, positive towards the core; an empty list: not "
        "calibrated"},
+      {"calibration", "place_error_m", slot<&F::calibration, &Calibration::place_error_m>(),
+       Domain::between(0, 1),
+       "standard error of all places that the calibration leaves, an arc of the surface"},
+      {"calibration", "load_error", slot<&F::calibration, &Calibration::load_error>(), Domain::between(0, 1),
+       "standard error of all loads that the calibration leaves, over the normal load"},
+      {"calibration", "moment_error_m2", slot<&F::calibration, &Calibration::moment_error_m2>(),
+       Domain::between(0, 1),
+       "standard error that the calibration leaves of the second moment by which widths are told, width_m^2 "
+       "/ "
+       "12 of uniform pressure"},
       {"tolerance", "angle_deg", slot<&F::tolerance, &Tolerance::angle_deg>(),
        Domain::above(0, kMostOffset_deg),
        "calibrate: standard deviation of a gauge's angle from the drawing"},

@@ -116,6 +116,25 @@ std::uint32_t reach_q32(const std::vector<double>& gaps_turn) {
   return fromReal<TurnQ32>(std::clamp(kUsualReach, least_turn, std::max(least_turn, most_turn))).raw();
 }
 
+/// The scale of all loads is off by so many times the model error: a Poisson's ratio of 0.48 instead of 0.5
+/// makes the loads of the default finger a fifth smaller, and leaves no residuals.
+constexpr double kScaleErrorPerModelError = 4;
+
+/// value * 2^bits, at most what the field holds.
+std::uint16_t fraction(double value, int bits) {
+  return rounded<std::uint16_t>(std::min(std::ldexp(value, bits), 65535.0));
+}
+
+/// What standard errors have that no residual shows.
+void fillErrors(TableConstants& constants, const config::FingerConfig& config) {
+  const config::Calibration& left = config.calibration;
+  const double turn = left.place_error_m / (2 * std::numbers::pi * config.finger.outer_radius_m);
+  constants.place_error_q32 =
+      rounded<std::uint32_t>(std::min(std::ldexp(turn, 32), double{kMostPlaceError_q32}));
+  constants.load_scale_error_q16 = fraction(kScaleErrorPerModelError * config.gauges.model_error, 16);
+  constants.load_error_q16 = fraction(left.load_error, 16);
+}
+
 TableConstants tableConstants(const config::FingerConfig& config, const GaugeGains& gains,
                               const ResponseTable& responses) {
   TableConstants constants{};
@@ -129,13 +148,16 @@ TableConstants tableConstants(const config::FingerConfig& config, const GaugeGai
   constants.cone_q8 = rounded<std::uint16_t>(frictionCone(config.contact) * 256);
   constants.model_error_q16 =
       rounded<std::uint16_t>(std::ldexp(std::hypot(config.gauges.model_error, depthError(config)), 16));
+  fillErrors(constants, config);
   constants.adc_rail = static_cast<std::uint16_t>(0xFFFF << (16 - config.gauges.adc_bits));
   constants.mirror_sign = config.gauges.component == StrainComponent::kShear ? -1 : 1;
   constants.peak_sign = static_cast<std::int8_t>(responses.peakSign);
   return constants;
 }
 
-void fillMoments(TableConstants& constants, const config::Contact& contact, const ResponseTable& responses) {
+void fillMoments(TableConstants& constants, const config::FingerConfig& config,
+                 const ResponseTable& responses) {
+  const config::Contact& contact = config.contact;
   constants.node_count = static_cast<std::uint16_t>(responses.nodes);
   constants.cell_count = static_cast<std::uint8_t>(responses.cells);
   constants.cell_edge_q15 = responses.cell_edge_q15;
@@ -145,6 +167,9 @@ void fillMoments(TableConstants& constants, const config::Contact& contact, cons
   constants.largest_moment_um2 = rounded<std::uint32_t>(responses.largestMoment_m2 * 1e12);
   constants.width_is_known = contact.width_m ? 1 : 0;
   constants.known_moment_q20 = contact.width_m.value_or(0) > 0 ? 1u << kMomentBits : 0;
+  if (responses.largestMoment_m2 > 0)
+    constants.moment_error_q20 =
+        fraction(config.calibration.moment_error_m2 / responses.largestMoment_m2, kMomentBits);
 }
 
 /// From each gauge to the next, in turns.
@@ -241,6 +266,9 @@ TableParameters tableParameters(const config::FingerConfig& config) {
           .noise_strain = config.gauges.noise_strain,
           .full_scale_strain = config.gauges.full_scale_strain,
           .model_error = config.gauges.model_error,
+          .place_error_m = config.calibration.place_error_m,
+          .load_error = config.calibration.load_error,
+          .moment_error_m2 = config.calibration.moment_error_m2,
           .contact_width_m = config.contact.width_m.value_or(kUnknown),
           .largest_width_m = config.contact.largest_width_m,
           .friction_coefficient = config.contact.friction_coefficient,
@@ -269,7 +297,7 @@ TableImage buildTableImage(const config::FingerConfig& config) {
   image.parameters = tableParameters(config);
   image.gains = gaugeGains(config);
   image.constants = tableConstants(config, image.gains, responses);
-  fillMoments(image.constants, config.contact, responses);
+  fillMoments(image.constants, config, responses);
   image.gauge_angle_q32 = gaugeAngles_q32(config);
   image.constants.reach_q32 = reach_q32(gapsOf(image.gauge_angle_q32, image.constants.gauge_count));
   std::copy(responses.patches.begin(), responses.patches.end(), image.patches.begin());

@@ -80,6 +80,9 @@ std::vector<Parameter> parametersOf(const TableParameters& p) {
           {"gauges.full_scale_strain", p.full_scale_strain},
           {"gauges.adc_bits", std::int64_t{p.adc_bits}},
           {"gauges.model_error", p.model_error},
+          {"calibration.place_error_m", p.place_error_m},
+          {"calibration.load_error", p.load_error},
+          {"calibration.moment_error_m2", p.moment_error_m2},
           {"contact.friction_coefficient", p.friction_coefficient},
           {"contact.width_m", p.contact_width_m < 0 ? Cell("unknown") : Cell(p.contact_width_m)},
           {"contact.largest_width_m", p.largest_width_m}};

@@ -172,13 +172,19 @@ TEST(CalibrationLoop, AGluedFingerIsLocatedWithTrueSigmasOnceCalibrated) {
   const auto calibrated =
       calibration::calibrate(glued, session.known, session.readings, study::kExactlyKnown).applied();
   const auto before = located(glued, glued), after = located(glued, calibrated);
-  std::printf("\narc before %.1f um, after %.1f um; errors over sigma %.2f\n",
-              1e6 * before.errors(evidence::kAngle).rms() * glued.finger.outer_radius_m,
-              1e6 * after.errors(evidence::kAngle).rms() * glued.finger.outer_radius_m,
-              after.overSigma(evidence::kAngle).rms());
+  const auto overSigma = [&](evidence::Parameter what) { return after.overSigma(what).rms(); };
+  std::printf(
+      "\narc before %.1f um, after %.1f um; errors over sigma, arc %.2f, normal %.2f, tangential %.2f\n",
+      1e6 * before.errors(evidence::kAngle).rms() * glued.finger.outer_radius_m,
+      1e6 * after.errors(evidence::kAngle).rms() * glued.finger.outer_radius_m, overSigma(evidence::kAngle),
+      overSigma(evidence::kNormal), overSigma(evidence::kTangential));
   CHECK_COMPARE(after.errors(evidence::kAngle).rms(), <, 0.4 * before.errors(evidence::kAngle).rms());
   CHECK_COMPARE(after.errors(evidence::kNormal).rms(), <, 0.4 * before.errors(evidence::kNormal).rms());
-  CHECK_COMPARE(after.overSigma(evidence::kAngle).rms(), <, 2);
+  for (const auto what : {evidence::kAngle, evidence::kNormal, evidence::kTangential}) {
+    CHECK_COMPARE(overSigma(what), >, 0.5);
+    CHECK_COMPARE(overSigma(what), <, 1.2);
+  }
+  CHECK_COMPARE(calibrated.gauges.model_error, <, 3e-3);
   CHECK_COMPARE(after.flagged(), <=, 20);
 }
 

@@ -104,6 +104,7 @@ TEST(TableImage, ConstantsThatLoopsAndShiftsRelyOnStayInTheirDomain) {
   checkDomain(constants.peak_sign, {1, -1}, {0, 2, -128});
   checkDomain(constants.width_is_known, {1, 0}, {2, 255});
   checkDomain(constants.known_moment_q20, {1 << 20, 0}, {(1 << 20) + 1, -1});
+  checkDomain(constants.place_error_q32, {1 << 30, 0}, {(1 << 30) + 1, -1});
   checkDomain(constants.cone_q8, {1, 65535}, {0});
   checkDomain(constants.reach_q32, {0, std::numeric_limits<int>::max()},
               {-1, std::numeric_limits<int>::min()});

@@ -41,6 +41,10 @@ void changeNoise(Input& input, TableConstants& constants) {
   constants.gate_on = input.any<std::uint32_t>();
   constants.gate_off = input.any<std::uint32_t>();
   constants.model_error_q16 = input.any<std::uint16_t>();
+  constants.place_error_q32 = input.within<std::uint32_t>(0, kMostPlaceError_q32);
+  constants.load_scale_error_q16 = input.any<std::uint16_t>();
+  constants.load_error_q16 = input.any<std::uint16_t>();
+  constants.moment_error_q20 = input.any<std::uint16_t>();
 }
 
 void changeScales(Input& input, TableConstants& constants) {

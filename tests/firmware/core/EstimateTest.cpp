@@ -230,6 +230,46 @@ TEST(Estimate, WhatIsStillSearchedIsUncertain) {
   CHECK_TRUE(estimated().uncertain);
 }
 
+TEST(Estimate, WhatCalibrationLeavesIsPartOfTheErrors) {
+  const Contact alone = estimated();
+  constants.place_error_q32 = 3 * alone.sigmaAngle.raw();
+  constants.load_error_q16 = 1311;  // 2 % of 20 N/m: 0.4 N/m of both loads
+  const Contact calibrated = estimated();
+  DOUBLES_EQUAL(std::sqrt(10.0), toReal(calibrated.sigmaAngle) / toReal(alone.sigmaAngle), 1e-3);
+  DOUBLES_EQUAL(std::hypot(0.4, toReal(alone.sigmaNormal)), toReal(calibrated.sigmaNormal), 1e-3);
+  DOUBLES_EQUAL(std::hypot(0.4, toReal(alone.sigmaTangential)), toReal(calibrated.sigmaTangential), 1e-3);
+  LONGS_EQUAL(alone.sigmaWidth_um, calibrated.sigmaWidth_um);
+}
+
+// The second moment is w^2 / 12: 1.5 mm +- d is 0.1875 mm^2 +- 0.25 mm d.
+TEST(Estimate, AnErrorOfSecondMomentsIsOneOfWidths) {
+  const double alone_um = estimated().sigmaWidth_um, more_um = 40;
+  constants.moment_error_q20 =
+      static_cast<std::uint16_t>(std::ldexp(250 * more_um / constants.largest_moment_um2, kMomentBits));
+  DOUBLES_EQUAL(std::hypot(alone_um, more_um), estimated().sigmaWidth_um, 2);
+}
+
+// A fifth of 20 and of 4 N/m.
+TEST(Estimate, TheScaleOfLoadsIsAnErrorOfEachLoad) {
+  const Contact alone = estimated();
+  constants.load_scale_error_q16 = 13107;
+  const Contact scaled = estimated();
+  DOUBLES_EQUAL(std::hypot(4, toReal(alone.sigmaNormal)), toReal(scaled.sigmaNormal), 0.01);
+  DOUBLES_EQUAL(std::hypot(0.8, toReal(alone.sigmaTangential)), toReal(scaled.sigmaTangential), 0.01);
+}
+
+TEST(Estimate, TheLargestErrorsOfTablesSaturate) {
+  answer.solution.contact[0].normal = kMostLoad;
+  constants.load_exponent = static_cast<std::int16_t>(-answer.shift - 2);
+  constants.load_scale = std::numeric_limits<std::int32_t>::max();
+  constants.place_error_q32 = kMostPlaceError_q32;
+  constants.load_scale_error_q16 = constants.load_error_q16 = constants.moment_error_q20 = 0xFFFF;
+  const Contact contact = estimated();
+  DOUBLES_EQUAL(0.25, toReal(contact.sigmaAngle), 1e-4);
+  CHECK(contact.sigmaNormal == LineLoadQ12::max());
+  CHECK(contact.sigmaTangential == LineLoadQ12::max());
+}
+
 TEST(Estimate, ErrorsCoverARivalThatIsNearlyAsLikely) {
   const double alone = sigmaAngle_pitch(ring, estimated());
   for (const double pitches : {0.9, -0.9}) {

@@ -67,6 +67,11 @@ TEST_GROUP(Extremes) {
         upTo(0, 3) == 0 ? upTo(kLeastNoiseExponent, kMostNoiseExponent) : upTo(-8, 2 * constants.gate_shift));
     fillAny(constants.model_error_q16);
     if (upTo(0, 1) == 0) constants.model_error_q16 = 0;
+    if (upTo(0, 1) == 0) return;
+    constants.place_error_q32 = static_cast<std::uint32_t>(upTo(0, kMostPlaceError_q32));
+    fillAny(constants.load_scale_error_q16);
+    fillAny(constants.load_error_q16);
+    fillAny(constants.moment_error_q20);
   }
   void fillConstants(TableConstants & constants) {
     fillAny(constants.load_scale);

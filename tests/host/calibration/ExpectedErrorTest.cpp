@@ -1,5 +1,6 @@
 #include "host/calibration/expected_error.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -39,44 +40,61 @@ TEST(ExpectedError, OfATurnedRingIsTheTurn) {
   DOUBLES_EQUAL(std::hypot(arc_m, after.bound[0]), after.after[0], 1e-3 * arc_m);
 }
 
-TEST(ExpectedError, ATurnAndAUnitOfForceAreNoErrorOfReadings) {
+TEST(ExpectedError, ATurnAndAUnitOfForceOfWhichNothingIsKnownAreConventions) {
   Eigen::VectorXd turned = none();
   for (int gauge = 0; gauge < drawing.gauges(); ++gauge) turned[Drawing::at(gauge, kAngleOffset)] = 1;
   Eigen::MatrixXd covariance = known() + turned * turned.transpose();
   covariance(drawing.at(kShearModulus), drawing.at(kShearModulus)) += 1;
-  CHECK_COMPARE(fingerError(resultOf(none(), covariance)), <, 1e-6);
+  const auto errors = calibrationErrors(resultOf(none(), covariance));
+  CHECK_COMPARE(errors.place_m, <, 1e-9);
+  CHECK_COMPARE(errors.load, <, 1e-5);
 }
 
-// Fingers whose gains are drawn with a standard deviation of 1 %: touches located as drawn are off by one
-// sigma (RMS) of readings that are off by as much of the largest as is said, in what is off most. Chance of
-// the RMS of 20 draws of 16 gains is 4 %.
-TEST(ExpectedError, TouchesAreOffAsByIndependentErrorsOfReadings) {
+// A mark that is 0.05 deg off is 11 um of arc, a scale that is 1 % off 1 % of the loads.
+TEST(ExpectedError, ATurnAndAUnitOfForceThatWereToldAreAsGoodAsTold) {
+  constexpr double kTurn_deg = 0.05, kScale = 0.01;
+  Eigen::VectorXd turned = none();
+  for (int gauge = 0; gauge < drawing.gauges(); ++gauge)
+    turned[Drawing::at(gauge, kAngleOffset)] = kTurn_deg / config.tolerance.angle_deg;
+  Eigen::MatrixXd covariance = known() + turned * turned.transpose();
+  const Eigen::Index modulus = drawing.at(kShearModulus);
+  covariance(modulus, modulus) += std::pow(kScale / config.tolerance.shear_modulus, 2);
+  const auto errors = calibrationErrors(resultOf(none(), covariance));
+  const double arc_m = kTurn_deg * 3.14159265 / 180 * 12.7e-3;
+  DOUBLES_EQUAL(arc_m, errors.place_m, 1e-3 * arc_m);
+  DOUBLES_EQUAL(kScale, errors.load, 1e-3 * kScale);
+  CHECK_COMPARE(errors.moment_m2, <, 1e-10);
+}
+
+// Fingers whose gains are drawn with a standard deviation of 1 %: touches located as drawn are off by as much
+// as is said (RMS). Chance of the RMS of 20 draws of 16 gains is 4 %.
+TEST(ExpectedError, TouchesAreOffAsMuchAsIsSaid) {
   constexpr double kGainSigma = 0.01;
   Eigen::MatrixXd covariance = known();
   for (int gauge = 0; gauge < drawing.gauges(); ++gauge)
     covariance(Drawing::at(gauge, kGain), Drawing::at(gauge, kGain)) =
         std::pow(kGainSigma / config.tolerance.gain, 2);
-  const double error = fingerError(resultOf(none(), covariance));
+  const auto said = calibrationErrors(resultOf(none(), covariance));
 
   const RingResponse ring(drawing, none(), RingResponse::lastHarmonic(drawing));
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
-  const auto drawn = [&] {
-    Eigen::VectorXd values(drawing.gauges());
-    for (double& value : values) value = normal(random);
-    return values;
-  };
-  Eigen::Array3d squares = Eigen::Array3d::Zero();  // of errors over sigmas
+  TouchState squares = TouchState::Zero();
   for (int draw = 0; draw < 20; ++draw) {
-    const Eigen::VectorXd gains = kGainSigma * drawn();
+    Eigen::VectorXd gains(drawing.gauges());
+    for (double& gain : gains) gain = 1 + kGainSigma * normal(random);
     for (const TouchState& touch : judgedTouches(drawing)) {
-      const Eigen::VectorXd exact = ring.readings(touch);
-      const double sigma_strain = error * exact.cwiseAbs().maxCoeff();
-      const TouchState found = refineTouch(ring, {exact + gains.cwiseProduct(exact), 1e-6, {}}, touch).touch;
-      const TouchState variance = touchVariances(ring, touch, known(), sigma_strain).noise;
-      squares += (found - touch).cwiseAbs2().cwiseQuotient(variance).head<3>().array();
+      const Eigen::VectorXd readings = ring.readings(touch).cwiseProduct(gains);
+      squares += (refineTouch(ring, {readings, 1e-6, {}}, touch).touch - touch).cwiseAbs2();
     }
   }
+  const double radius_m = config.finger.outer_radius_m;
   const auto count = static_cast<double>(20 * judgedTouches(drawing).size());
-  DOUBLES_EQUAL(1, (squares / count).sqrt().maxCoeff(), 0.12);
+  const TouchState rms = (squares / count).cwiseSqrt();
+  const auto checkClose = [](double expected, double value) {
+    DOUBLES_EQUAL(expected, value, 0.12 * expected);
+  };
+  checkClose(radius_m * rms[kPlace], said.place_m);
+  checkClose(std::max(rms[kNormalLoad], rms[kTangentialLoad]) / 30, said.load);
+  checkClose(radius_m * radius_m * rms[kMoment], said.moment_m2);
 }

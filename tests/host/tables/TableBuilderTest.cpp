@@ -232,6 +232,37 @@ TEST(TableBuilder, TheModelErrorIsAFractionOfTheReading) {
   LONGS_EQUAL(65535, constants().model_error_q16);
 }
 
+TEST(TableBuilder, ThereIsNoErrorOfCalibrationWhereNoneIsTold) {
+  LONGS_EQUAL(0, constants().place_error_q32);
+  LONGS_EQUAL(0, constants().load_error_q16);
+  LONGS_EQUAL(0, constants().moment_error_q20);
+}
+
+// 25 um of the circumference of 79.8 mm; 0.02 mm^2 of 64 / 12.
+TEST(TableBuilder, WhatCalibrationLeavesIsATurnAndFractions) {
+  config_.calibration.place_error_m = 25e-6;
+  config_.calibration.load_error = 0.006;
+  config_.calibration.moment_error_m2 = 2e-8;
+  const TableConstants c = constants();
+  checkClose(25e-6 / (2 * 3.141592653589793 * 12.7e-3), c.place_error_q32 * power2(-32), 1e-6);
+  LONGS_EQUAL(393, c.load_error_q16);
+  LONGS_EQUAL(3932, c.moment_error_q20);
+  config_.calibration.place_error_m = config_.calibration.load_error = 1;
+  config_.calibration.moment_error_m2 = 1;
+  LONGS_EQUAL(kMostPlaceError_q32, constants().place_error_q32);
+  LONGS_EQUAL(65535, constants().load_error_q16);
+  LONGS_EQUAL(65535, constants().moment_error_q20);
+}
+
+// A Poisson's ratio that nobody measured: a fifth of the load at the default 5 %.
+TEST(TableBuilder, TheScaleOfLoadsIsOffByFourTimesTheModelError) {
+  LONGS_EQUAL(13107, constants().load_scale_error_q16);
+  config_.gauges.model_error = 0;
+  LONGS_EQUAL(0, constants().load_scale_error_q16);
+  config_.gauges.model_error = 0.5;
+  LONGS_EQUAL(65535, constants().load_scale_error_q16);
+}
+
 TEST(TableBuilder, TheRailIsTheConvertersLastCode) {
   const std::vector<std::pair<int, int>> rails{{8, 0xFF00}, {10, 0xFFC0}, {12, 0xFFF0}, {16, 0xFFFF}};
   for (const auto& [bits, rail] : rails) {

@@ -77,6 +77,9 @@ Rows parameterRows(const TableParameters& p) {
   rows.add("noise_strain", p.noise_strain);
   rows.add("full_scale_strain", p.full_scale_strain);
   rows.add("model_error", p.model_error);
+  rows.add("place_error_m", p.place_error_m);
+  rows.add("load_error", p.load_error);
+  rows.add("moment_error_m2", p.moment_error_m2);
   rows.add("contact_width_m", p.contact_width_m);
   rows.add("largest_width_m", p.largest_width_m);
   rows.add("friction_coefficient", p.friction_coefficient);
@@ -98,10 +101,14 @@ Rows constantRows(const TableConstants& c) {
   rows.add("reach_q32", c.reach_q32);
   rows.add("largest_moment_um2", c.largest_moment_um2);
   rows.add("known_moment_q20", c.known_moment_q20);
+  rows.add("place_error_q32", c.place_error_q32);
   rows.add("load_exponent", c.load_exponent);
   rows.add("friction_q8", c.friction_q8);
   rows.add("cone_q8", c.cone_q8);
   rows.add("model_error_q16", c.model_error_q16);
+  rows.add("load_scale_error_q16", c.load_scale_error_q16);
+  rows.add("load_error_q16", c.load_error_q16);
+  rows.add("moment_error_q20", c.moment_error_q20);
   rows.add("adc_rail", c.adc_rail);
   rows.add("node_count", c.node_count);
   rows.add("noise_variance_exponent", c.noise_variance_exponent);

@@ -94,6 +94,12 @@ LineLoadQ12 withCalibrationError(const TableConstants& constants, LineLoadQ12 si
       static_cast<Number>(lesser(together(sigma.raw(), lesser(unseen, kMost)), kMost)));
 }
 
+/// All places of a touch are off by the same: that tells nothing of which of two answers is right.
+TurnQ32 withPlaceError(const TableConstants& constants, TurnQ32 sigma) {
+  const Wide both = together(sigma.raw(), constants.place_error_q32);
+  return TurnQ32::fromRaw(static_cast<std::uint32_t>(lesser(both, Wide{kHalfTurn_q32})));
+}
+
 /// Two contacts nearer than they can be told apart.
 bool areTooNear(const TableConstants& constants, const Solution& solution) {
   if (solution.hypothesis.contacts < 2) return false;
@@ -156,16 +162,15 @@ Contact estimate(const TableConstants& constants, const Answer& answer, const Li
   estimated.angle = TurnQ32::fromRaw(state.angle_q32);
   const std::int64_t turn =
       sigma(2 * contacts + contact, kAngleBits, kMostHalfNodes) * halfNode_q32(constants) >> kAngleBits;
-  estimated.sigmaAngle = TurnQ32::fromRaw(static_cast<std::uint32_t>(
-      std::min(together(std::min(turn, kHalfTurn_q32), constants.place_error_q32), kHalfTurn_q32)));
+  estimated.sigmaAngle = TurnQ32::fromRaw(static_cast<std::uint32_t>(std::min(turn, kHalfTurn_q32)));
   estimated.normal = load(state.normal);
   estimated.tangential = load(state.tangential);
   estimated.sigmaNormal = load(sigma(2 * contact, 16, kMostLoad));
   estimated.sigmaTangential = load(sigma(2 * contact + 1, 16, kMostLoad));
   bool tooWide = false;
   if (hypothesis.widthIsFree) {
-    const std::int64_t sigma_q20 =
-        together(sigma(3 * contacts + contact, kMomentBits, 1 << kMomentBits), constants.moment_error_q20);
+    const std::int64_t sigma_q20 = together(sigma(3 * contacts + contact, kMomentBits, 1 << kMomentBits),
+                                            Wide{constants.moment_error_q16} << (kMomentBits - 16));
     setWidth(constants, state.moment_q20, sigma_q20, estimated);
     tooWide = state.moment_q20 > (1 << kMomentBits) - (1 << kMomentBits) / 64;
   }
@@ -185,6 +190,7 @@ Contact estimate(const TableConstants& constants, const Answer& answer, const Li
   }
   estimated.quality = qualityOf(answer, chiSquared, left);
   coverRival(constants, answer, contact, estimated);
+  estimated.sigmaAngle = withPlaceError(constants, estimated.sigmaAngle);
   estimated.alternative = TurnQ32::fromRaw(answer.rival[at(contact)].angle_q32);
   estimated.uncertain = estimated.ambiguous || !answer.accepted || answer.searching || answer.doubtful ||
                         areTooNear(constants, answer.solution) || tooWide || faint || isWeak(answer, state);

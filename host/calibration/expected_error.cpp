@@ -71,7 +71,8 @@ CalibrationErrors calibrationErrors(const CalibrationResult& result) {
   const Drawing& drawing = result.drawing();
   const double radius_m = drawing.config().finger.outer_radius_m;
   const RingResponse built(drawing, result.deviations(), RingResponse::lastHarmonic(drawing));
-  const Eigen::MatrixXd covariance = withoutConventions(drawing, result.covariance(), conventionsOf(result));
+  const Eigen::MatrixXd covariance = withoutConventions(
+      drawing, result.covariance(), {.zeroOfAngle = conventionsOf(result).zeroOfAngle, .unitOfForce = false});
   TouchState sum = TouchState::Zero();
   const auto touches = judgedTouches(drawing);
   for (const TouchState& touch : touches) {

@@ -51,8 +51,8 @@ struct CalibrationErrors {
   double moment_m2;  ///< of the pressure's second moment
 };
 
-/// Where no direction or no load is known, the zero of the angle and the unit of force are right by
-/// convention and no error. Costs 10 ms.
+/// Where no direction is known the zero of the angle is right by convention, and no error; where no load is
+/// known, loads are off by what the drawing's modulus may be. Costs 10 ms.
 CalibrationErrors calibrationErrors(const CalibrationResult& result);
 
 /// Place as an arc of the surface, normal and tangential load; without the moment.

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -69,7 +70,8 @@ struct RunOptions {
                     "A gauge fails, at a second or from the start: dead, open, short, stuck or noisy, as in "
                     "stuck:5@2.5; may be given several times")
         ->type_name("KIND:GAUGE[@S]");
-    command.add_flag("--uncalibrated", uncalibrated, "The tables don't know the config's [calibration]");
+    command.add_flag("--uncalibrated", uncalibrated,
+                     "The tables don't know the config's [calibration]; gauges.model_error is 0.05 at least");
     command.add_flag("--truth", truth, "Truth beside estimate on stderr, four lines a second");
     command
         .add_option("--strains", strainsPath,
@@ -169,7 +171,10 @@ template <typename Port, typename Wait, typename Afterwards>
 void runOn(Port& port, const config::FingerConfig& config, const RunOptions& options, Wait wait,
            Afterwards afterwards) {
   config::FingerConfig known = config;
-  if (options.uncalibrated) known.calibration = {};
+  if (options.uncalibrated && !known.calibration.isEmpty()) {
+    known.calibration = {};
+    known.gauges.model_error = std::max(known.gauges.model_error, config::Gauges{}.model_error);
+  }
   const auto tables = options.firmware.tablesOf(known);
   const simulation::Scenario scenario = scenarioOf(options);
   const auto end_us = static_cast<std::uint64_t>(std::llround(durationOf(options, scenario) * 1e6));

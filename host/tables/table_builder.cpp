@@ -168,8 +168,8 @@ void fillMoments(TableConstants& constants, const config::FingerConfig& config,
   constants.width_is_known = contact.width_m ? 1 : 0;
   constants.known_moment_q20 = contact.width_m.value_or(0) > 0 ? 1u << kMomentBits : 0;
   if (responses.largestMoment_m2 > 0)
-    constants.moment_error_q20 =
-        fraction(config.calibration.moment_error_m2 / responses.largestMoment_m2, kMomentBits);
+    constants.moment_error_q16 =
+        fraction(config.calibration.moment_error_m2 / responses.largestMoment_m2, 16);
 }
 
 /// From each gauge to the next, in turns.

@@ -112,8 +112,9 @@ TEST(CalibrateCommand, WritesAConfigThatIsReadBackAndMakesTables) {
                      .status);
   std::ifstream file(path("out.toml"));
   const std::string text{std::istreambuf_iterator<char>(file), {}};
-  for (const char* const part : {"[calibration]\n", "\ngain = [", "\nangle_offset_deg = [",
-                                 "\ndepth_offset_m = [", "\nmodel_error = 0.0"})
+  for (const char* const part :
+       {"[calibration]\n", "\ngain = [", "\nangle_offset_deg = [", "\ndepth_offset_m = [",
+        "\nplace_error_m = ", "\nload_error = 0.0", "\nmoment_error_m2 = ", "\nmodel_error = 0.0"})
     STRCMP_CONTAINS(part, text.c_str());
   CHECK_TRUE(text.find("\nmodel_error = 0.05\n") == std::string::npos);
   LONGS_EQUAL(0, runProgram("tables -c " + path("out.toml") + " -o " + path("tables.bin")).status);

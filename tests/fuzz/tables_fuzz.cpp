@@ -41,10 +41,13 @@ void changeNoise(Input& input, TableConstants& constants) {
   constants.gate_on = input.any<std::uint32_t>();
   constants.gate_off = input.any<std::uint32_t>();
   constants.model_error_q16 = input.any<std::uint16_t>();
+}
+
+void changeErrors(Input& input, TableConstants& constants) {
   constants.place_error_q32 = input.within<std::uint32_t>(0, kMostPlaceError_q32);
   constants.load_scale_error_q16 = input.any<std::uint16_t>();
   constants.load_error_q16 = input.any<std::uint16_t>();
-  constants.moment_error_q20 = input.any<std::uint16_t>();
+  constants.moment_error_q16 = input.any<std::uint16_t>();
 }
 
 void changeScales(Input& input, TableConstants& constants) {
@@ -104,6 +107,7 @@ void change(Input& input, TableImage& image) {
   if (isChanged(4)) changeGains(input, image.gains);
   if (isChanged(5)) changeContacts(input, image.constants);
   if (isChanged(6)) changePatches(input, image);
+  if (isChanged(7)) changeErrors(input, image.constants);
   image.crc32 = crc32(checkedBytes(image));
 }
 

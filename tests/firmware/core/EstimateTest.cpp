@@ -241,11 +241,17 @@ TEST(Estimate, WhatCalibrationLeavesIsPartOfTheErrors) {
   LONGS_EQUAL(alone.sigmaWidth_um, calibrated.sigmaWidth_um);
 }
 
+TEST(Estimate, ARivalIsAsAmbiguousWhateverErrorAllPlacesShare) {
+  setRival(0.9, 5);
+  constants.place_error_q32 = kMostPlaceError_q32;
+  CHECK_TRUE(estimated().ambiguous);
+}
+
 // The second moment is w^2 / 12: 1.5 mm +- d is 0.1875 mm^2 +- 0.25 mm d.
 TEST(Estimate, AnErrorOfSecondMomentsIsOneOfWidths) {
   const double alone_um = estimated().sigmaWidth_um, more_um = 40;
-  constants.moment_error_q20 =
-      static_cast<std::uint16_t>(std::ldexp(250 * more_um / constants.largest_moment_um2, kMomentBits));
+  constants.moment_error_q16 =
+      static_cast<std::uint16_t>(std::ldexp(250 * more_um / constants.largest_moment_um2, 16));
   DOUBLES_EQUAL(std::hypot(alone_um, more_um), estimated().sigmaWidth_um, 2);
 }
 
@@ -263,7 +269,7 @@ TEST(Estimate, TheLargestErrorsOfTablesSaturate) {
   constants.load_exponent = static_cast<std::int16_t>(-answer.shift - 2);
   constants.load_scale = std::numeric_limits<std::int32_t>::max();
   constants.place_error_q32 = kMostPlaceError_q32;
-  constants.load_scale_error_q16 = constants.load_error_q16 = constants.moment_error_q20 = 0xFFFF;
+  constants.load_scale_error_q16 = constants.load_error_q16 = constants.moment_error_q16 = 0xFFFF;
   const Contact contact = estimated();
   DOUBLES_EQUAL(0.25, toReal(contact.sigmaAngle), 1e-4);
   CHECK(contact.sigmaNormal == LineLoadQ12::max());

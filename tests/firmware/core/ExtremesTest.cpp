@@ -71,7 +71,7 @@ TEST_GROUP(Extremes) {
     constants.place_error_q32 = static_cast<std::uint32_t>(upTo(0, kMostPlaceError_q32));
     fillAny(constants.load_scale_error_q16);
     fillAny(constants.load_error_q16);
-    fillAny(constants.moment_error_q20);
+    fillAny(constants.moment_error_q16);
   }
   void fillConstants(TableConstants & constants) {
     fillAny(constants.load_scale);

@@ -46,6 +46,9 @@ TEST_GROUP(WriteConfig) {
       any.calibration.gain = listOf(any.gauges, 1);
       any.calibration.angle_offset_deg = listOf(any.gauges, 2);
       any.calibration.depth_offset_m = listOf(any.gauges, 3);
+      any.calibration.place_error_m = uniform(0, 1e-3);
+      any.calibration.load_error = uniform(0, 0.1);
+      any.calibration.moment_error_m2 = uniform(0, 1e-6);
     }
     return any;
   }

@@ -235,7 +235,7 @@ TEST(TableBuilder, TheModelErrorIsAFractionOfTheReading) {
 TEST(TableBuilder, ThereIsNoErrorOfCalibrationWhereNoneIsTold) {
   LONGS_EQUAL(0, constants().place_error_q32);
   LONGS_EQUAL(0, constants().load_error_q16);
-  LONGS_EQUAL(0, constants().moment_error_q20);
+  LONGS_EQUAL(0, constants().moment_error_q16);
 }
 
 // 25 um of the circumference of 79.8 mm; 0.02 mm^2 of 64 / 12.
@@ -246,12 +246,19 @@ TEST(TableBuilder, WhatCalibrationLeavesIsATurnAndFractions) {
   const TableConstants c = constants();
   checkClose(25e-6 / (2 * 3.141592653589793 * 12.7e-3), c.place_error_q32 * power2(-32), 1e-6);
   LONGS_EQUAL(393, c.load_error_q16);
-  LONGS_EQUAL(3932, c.moment_error_q20);
+  LONGS_EQUAL(246, c.moment_error_q16);
   config_.calibration.place_error_m = config_.calibration.load_error = 1;
   config_.calibration.moment_error_m2 = 1;
   LONGS_EQUAL(kMostPlaceError_q32, constants().place_error_q32);
   LONGS_EQUAL(65535, constants().load_error_q16);
-  LONGS_EQUAL(65535, constants().moment_error_q20);
+  LONGS_EQUAL(65535, constants().moment_error_q16);
+}
+
+// The error that calibrations leave is a quarter of the second moment of 1 mm.
+TEST(TableBuilder, AnErrorOfMomentsIsHeldForNarrowContacts) {
+  config_.contact.largest_width_m = 1e-3;
+  config_.calibration.moment_error_m2 = 2e-8;
+  checkClose(2e-8 * 12 / 1e-6, constants().moment_error_q16 * power2(-16), 1e-3);
 }
 
 // A Poisson's ratio that nobody measured: a fifth of the load at the default 5 %.

@@ -108,7 +108,7 @@ Rows constantRows(const TableConstants& c) {
   rows.add("model_error_q16", c.model_error_q16);
   rows.add("load_scale_error_q16", c.load_scale_error_q16);
   rows.add("load_error_q16", c.load_error_q16);
-  rows.add("moment_error_q20", c.moment_error_q20);
+  rows.add("moment_error_q16", c.moment_error_q16);
   rows.add("adc_rail", c.adc_rail);
   rows.add("node_count", c.node_count);
   rows.add("noise_variance_exponent", c.noise_variance_exponent);
@@ -209,10 +209,10 @@ TEST(TableDocument, ItsFieldsLeaveNoGaps) {
 }
 
 TEST(TableDocument, OffsetsThatDependOnAlignmentAreThoseOfTheCompiler) {
-  LONGS_EQUAL(128, offsetof(TableImage, parameters) + offsetof(TableParameters, gauge_count));
-  LONGS_EQUAL(172, offsetof(TableImage, constants) + offsetof(TableConstants, load_exponent));
-  LONGS_EQUAL(184, offsetof(TableImage, constants) + offsetof(TableConstants, noise_variance_exponent));
-  LONGS_EQUAL(192, offsetof(TableImage, constants) + offsetof(TableConstants, cell_edge_q15));
+  LONGS_EQUAL(152, offsetof(TableImage, parameters) + offsetof(TableParameters, gauge_count));
+  LONGS_EQUAL(200, offsetof(TableImage, constants) + offsetof(TableConstants, load_exponent));
+  LONGS_EQUAL(218, offsetof(TableImage, constants) + offsetof(TableConstants, noise_variance_exponent));
+  LONGS_EQUAL(226, offsetof(TableImage, constants) + offsetof(TableConstants, cell_edge_q15));
 }
 
 TEST(TableDocument, HasThePartsAtTheirOffsets) {

@@ -126,7 +126,7 @@ TEST(TableFile, WhatCannotBeReadIsNamedWithTheReason) {
 
 TEST(TableFile, ParametersAreNamedAndWrittenAsInTheConfig) {
   const auto parameters = parametersOf(image_->parameters);
-  LONGS_EQUAL(17, parameters.size());
+  LONGS_EQUAL(20, parameters.size());
   for (const Parameter& parameter : parameters) {
     bool known = false;
     for (const config::Key& key : config::keys()) known = known || key.dotted() == parameter.key;
@@ -173,6 +173,12 @@ const Change kChanges[] = {
      "contact.friction_coefficient is 1, the config has 0.5"},
     {[](config::FingerConfig& c) { c.gauges.model_error = 0.02; },
      "gauges.model_error is 0.05, the config has 0.02"},
+    {[](config::FingerConfig& c) { c.calibration.place_error_m = 2.5e-5; },
+     "calibration.place_error_m is 0, the config has 2.5e-05"},
+    {[](config::FingerConfig& c) { c.calibration.load_error = 0.006; },
+     "calibration.load_error is 0, the config has 0.006"},
+    {[](config::FingerConfig& c) { c.calibration.moment_error_m2 = 2e-8; },
+     "calibration.moment_error_m2 is 0, the config has 2e-08"},
     {[](config::FingerConfig& c) { c.contact.width_m = 1e-3; },
      "contact.width_m is unknown, the config has 0.001"},
     {[](config::FingerConfig& c) { c.contact.largest_width_m = 6e-3; },

@@ -135,7 +135,8 @@ class Watched:
         until grep -q 'node {node}  run  angle' $TMPDIR/lines; do sleep 0.1; done
         kill $monitor
         cansend vcan0 60{node}#03063200   # RAW, 50 sets a second
-        until curl -s localhost:{port}/state >$TMPDIR/state && grep -q '"fitted":\\[' $TMPDIR/state; do sleep 0.1; done
+        until curl -s localhost:{port}/state >$TMPDIR/state &&
+              grep '"fitted":\\[' $TMPDIR/state | grep -q '"info":{{'; do sleep 0.1; done
         curl -s -X POST -H 'X-Strainfinger: -' localhost:{port}/fingers/{node}/tare >$TMPDIR/answer
         kill $server
         wait || true

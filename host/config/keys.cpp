@@ -88,9 +88,8 @@ std::vector<Key> makeKeys() {
        "standard error of all loads that the calibration leaves, over the normal load"},
       {"calibration", "moment_error_m2", slot<&F::calibration, &Calibration::moment_error_m2>(),
        Domain::between(0, 1),
-       "standard error that the calibration leaves of the second moment by which widths are told: width_m^2 "
-       "/ "
-       "12 of uniform pressure"},
+       "standard error of all second moments of pressure that the calibration leaves, of width_m^2 / 12 "
+       "where it is uniform"},
       {"tolerance", "angle_deg", slot<&F::tolerance, &Tolerance::angle_deg>(),
        Domain::above(0, kMostOffset_deg),
        "calibrate: standard deviation of a gauge's angle from the drawing"},

@@ -120,10 +120,7 @@ std::uint32_t reach_q32(const std::vector<double>& gaps_turn) {
 /// makes the loads of the default finger a fifth smaller, and leaves no residuals.
 constexpr double kScaleErrorPerModelError = 4;
 
-/// value * 2^bits, at most what the field holds.
-std::uint16_t fraction(double value, int bits) {
-  return rounded<std::uint16_t>(std::min(std::ldexp(value, bits), 65535.0));
-}
+std::uint16_t fraction_q16(double value) { return rounded<std::uint16_t>(std::ldexp(value, 16)); }
 
 /// What standard errors have that no residual shows.
 void fillErrors(TableConstants& constants, const config::FingerConfig& config) {
@@ -131,8 +128,8 @@ void fillErrors(TableConstants& constants, const config::FingerConfig& config) {
   const double turn = left.place_error_m / (2 * std::numbers::pi * config.finger.outer_radius_m);
   constants.place_error_q32 =
       rounded<std::uint32_t>(std::min(std::ldexp(turn, 32), double{kMostPlaceError_q32}));
-  constants.load_scale_error_q16 = fraction(kScaleErrorPerModelError * config.gauges.model_error, 16);
-  constants.load_error_q16 = fraction(left.load_error, 16);
+  constants.load_scale_error_q16 = fraction_q16(kScaleErrorPerModelError * config.gauges.model_error);
+  constants.load_error_q16 = fraction_q16(left.load_error);
 }
 
 TableConstants tableConstants(const config::FingerConfig& config, const GaugeGains& gains,
@@ -146,8 +143,7 @@ TableConstants tableConstants(const config::FingerConfig& config, const GaugeGai
   constants.force_per_load_q16 = rounded<std::uint32_t>(config.finger.length_m * 1000 * powerOfTwo(16));
   constants.friction_q8 = rounded<std::uint16_t>(config.contact.friction_coefficient * 256);
   constants.cone_q8 = rounded<std::uint16_t>(frictionCone(config.contact) * 256);
-  constants.model_error_q16 =
-      rounded<std::uint16_t>(std::ldexp(std::hypot(config.gauges.model_error, depthError(config)), 16));
+  constants.model_error_q16 = fraction_q16(std::hypot(config.gauges.model_error, depthError(config)));
   fillErrors(constants, config);
   constants.adc_rail = static_cast<std::uint16_t>(0xFFFF << (16 - config.gauges.adc_bits));
   constants.mirror_sign = config.gauges.component == StrainComponent::kShear ? -1 : 1;
@@ -169,7 +165,7 @@ void fillMoments(TableConstants& constants, const config::FingerConfig& config,
   constants.known_moment_q20 = contact.width_m.value_or(0) > 0 ? 1u << kMomentBits : 0;
   if (responses.largestMoment_m2 > 0)
     constants.moment_error_q16 =
-        fraction(config.calibration.moment_error_m2 / responses.largestMoment_m2, 16);
+        fraction_q16(config.calibration.moment_error_m2 / responses.largestMoment_m2);
 }
 
 /// From each gauge to the next, in turns.

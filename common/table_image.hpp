@@ -20,7 +20,7 @@ namespace strainfinger {
 static_assert(std::endian::native == std::endian::little, "the image is little-endian and is read in place");
 
 inline constexpr std::uint32_t kTableMagic = 0x42544653;  ///< "SFTB" in the file's first four bytes
-inline constexpr std::uint16_t kTableFormat = 8;          ///< raised with every change of the layout
+inline constexpr std::uint16_t kTableFormat = 9;          ///< raised with every change of the layout
 
 /// What the image was made from, as in finger.toml. The firmware carries it and doesn't look at it.
 struct TableParameters {
@@ -106,22 +106,43 @@ struct PatchPair {
   ResponsePatch tangential;
 };
 
-/// How sensitive each gauge is, from calibration: gauge i's gain is reading_gain (1 + correction_i
-/// 2^-exponent). One exponent for all, so that a ring whose gauges are alike to 12 % has steps of 0.1 %.
+/// How sensitive each gauge is, from calibration: gauge i's gain is reading_gain (1 + correction_i 2^-14).
 struct GaugeGains {
-  std::array<std::int8_t, kMaxGauges> correction;
-  std::uint8_t exponent;                 ///< 0: not calibrated, and no gauge is corrected
+  std::array<std::int16_t, kMaxGauges> correction_q14;
+  std::uint8_t are_known;                ///< 0: not calibrated, and no gauge is corrected
   std::array<std::uint8_t, 7> reserved;  ///< 0
 
-  constexpr bool isCalibrated() const { return exponent != 0; }
+  static constexpr int kFracBits = 14;
+  constexpr bool areKnown() const { return are_known != 0; }
   constexpr std::int64_t gainOf(std::int32_t readingGain, std::size_t gauge) const {
-    return readingGain + (std::int64_t{readingGain} * correction[gauge] >> exponent);
+    return readingGain + (std::int64_t{readingGain} * correction_q14[gauge] >> kFracBits);
   }
   bool operator==(const GaugeGains&) const = default;
 };
 
-inline constexpr int kLeastGainExponent = 6;  ///< corrections up to 127/64, for gains down to 1/2
-inline constexpr int kMostGainExponent = 15;
+/// Points of a shape over half a revolution from the contact, both ends included.
+inline constexpr int kDepthShapePoints = 24;
+inline constexpr int kMostDepthShapeShift = 8;
+
+/// How much deeper each gauge lies than the drawing, and what a depth of 128 steps adds to its responses
+/// besides a factor, which is in its gain: so much of the other load's slope over the angle, taken at the
+/// same second moment, of itself, and a shape over the angle.
+struct GaugeDepths {
+  using Shape = std::array<std::int8_t, kDepthShapePoints>;
+
+  std::array<std::int8_t, kMaxGauges> steps;  ///< negative: nearer the surface; 0 beyond the ring
+  std::int16_t normal_turn_q11;               ///< of d(tangential) / dt
+  std::int16_t tangential_turn_q11;           ///< of d(normal) / dt
+  std::int16_t tangential_q15;                ///< of the tangential response
+  std::uint16_t step_nm;                      ///< 0: not calibrated, and no gauge is deeper
+  Shape normal_shape;                         ///< * 2^shape_shift: response * 2^15
+  Shape tangential_shape;                     ///< the same
+  std::uint8_t shape_shift;
+  std::array<std::uint8_t, 7> reserved;  ///< 0
+
+  constexpr bool areKnown() const { return step_nm != 0; }
+  bool operator==(const GaugeDepths&) const = default;
+};
 
 /// Where each gauge of a ring is, TurnQ32, ascending from the first one round the ring; then 0.
 using GaugeAngles = std::array<std::uint32_t, kMaxGauges>;
@@ -136,6 +157,7 @@ struct TableImage {
   TableConstants constants;
   GaugeAngles gauge_angle_q32;
   GaugeGains gains;
+  GaugeDepths depths;
   std::array<PatchPair, kMostPatches> patches;  ///< node by node; of each, cell by cell
 
   const PatchPair& patch(int node, int cell) const {
@@ -145,8 +167,8 @@ struct TableImage {
 
 static_assert(std::is_trivially_copyable_v<TableImage>);
 static_assert(sizeof(TableParameters) == 144 && sizeof(TableConstants) == 112 && sizeof(PatchPair) == 24 &&
-              sizeof(GaugeGains) == 40);
-static_assert(sizeof(TableImage) == 16 + 144 + 112 + 4 * kMaxGauges + 40 + 24 * kMostPatches,
+              sizeof(GaugeGains) == 72 && sizeof(GaugeDepths) == 96);
+static_assert(sizeof(TableImage) == 16 + 144 + 112 + 4 * kMaxGauges + 72 + 96 + 24 * kMostPatches,
               "no padding anywhere");
 
 /// Why an image was refused. The numbers go on the bus and into exit statuses: never reuse one.
@@ -176,16 +198,21 @@ constexpr bool usableGain(std::int64_t gain, int gateShift) {
   return gain >= 0 && gain <= (std::int64_t{1} << (16 + gateShift)) - 2;
 }
 
-/// Gains of all gauges, in use or not, are usable; none is corrected without an exponent.
+/// Gains of all gauges, in use or not, are usable; none is corrected without a calibration.
 constexpr bool usable(const GaugeGains& gains, const TableConstants& constants) {
-  const bool inDomain =
-      gains.isCalibrated()
-          ? gains.exponent >= kLeastGainExponent && gains.exponent <= kMostGainExponent
-          : std::all_of(gains.correction.begin(), gains.correction.end(), [](int each) { return each == 0; });
-  if (!inDomain) return false;
-  for (std::size_t i = 0; i < gains.correction.size(); ++i)
+  if (gains.are_known > 1) return false;
+  for (std::size_t i = 0; i < gains.correction_q14.size(); ++i) {
+    if (!gains.areKnown() && gains.correction_q14[i] != 0) return false;
     if (!usableGain(gains.gainOf(constants.reading_gain, i), constants.gate_shift)) return false;
+  }
   return true;
+}
+
+/// No gauge is deeper than the drawing without a step.
+constexpr bool usable(const GaugeDepths& depths) {
+  return depths.shape_shift <= kMostDepthShapeShift &&
+         (depths.areKnown() ||
+          std::all_of(depths.steps.begin(), depths.steps.end(), [](int each) { return each == 0; }));
 }
 
 /// Variances have 24 bits; 2^24 is what rounding makes of the largest.
@@ -256,7 +283,7 @@ inline TableFault checkTableImage(const TableImage& image) {
   if (image.image_bytes != sizeof(TableImage)) return TableFault::kLength;
   if (image.crc32 != crc32(checkedBytes(image))) return TableFault::kChecksum;
   const bool works = usable(image.parameters, image.constants) && usable(image.gains, image.constants) &&
-                     usable(image.gauge_angle_q32, image.constants.gauge_count) &&
+                     usable(image.depths) && usable(image.gauge_angle_q32, image.constants.gauge_count) &&
                      std::all_of(image.patches.begin(), image.patches.end(), [](const PatchPair& pair) {
                        return usable(pair.normal) && usable(pair.tangential);
                      });

@@ -94,7 +94,7 @@ class Finger {
  private:
   static FingerFlags standingFlagsOf(const FingerSettings& settings, const TableImage& tables) {
     FingerFlags flags = settings.standingFlags;
-    if (tables.gains.isCalibrated()) flags.set(FingerFlag::kUncalibrated, false);
+    if (tables.gains.areKnown()) flags.set(FingerFlag::kUncalibrated, false);
     return flags;
   }
 

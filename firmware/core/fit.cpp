@@ -14,6 +14,7 @@ constexpr Number kMostTurn_q32 = 1 << 25;
 constexpr Number kMostWidening_q20 = 1 << (kMomentBits - 4);
 
 constexpr int kLoadExponent = 2;  ///< of the loads' columns, whose entries have 15 bits
+constexpr int kMostEntry = (1 << (15 - kLoadExponent)) - 1;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
@@ -42,26 +43,32 @@ class ContactModel {
   ContactModel(const TableImage& tables, const ContactState& contact, Number slip_q15)
       : tables_(tables), contact_(contact), normalCell_(momentCell(tables.constants, contact.moment_q20)) {
     const Number part_q16 = (1 << 16) - slip_q15;
-    tangentialCell_ = momentCell(tables.constants, scaled<16>(contact.moment_q20, part_q16));
+    const Number tangentialMoment_q20 = scaled<16>(contact.moment_q20, part_q16);
+    tangentialCell_ = momentCell(tables.constants, tangentialMoment_q20);
     tangentialRate_q8_ = scaled<16>(tangentialCell_.rate_q8, part_q16);
+    if (tables.depths.areKnown()) {
+      asNormal_ = momentCell(tables.constants, contact.moment_q20 / 2);
+      asTangential_ = momentCell(tables.constants, 2 * tangentialMoment_q20);
+    }
     const Loads loads{contact.normal, contact.tangential};
     seen_ = {loads, mirrored(loads)};
   }
 
   /// Responses.
-  Loads loadsAt(std::uint32_t gaugeAngle_q32) const {
-    const AngleNode node = nodeOf(gaugeAngle_q32);
+  Loads loadsAt(int gauge) const {
+    const AngleNode node = nodeOf(gauge);
     return oriented(node, valuesAt(node));
   }
-  Number predictedAt(std::uint32_t gaugeAngle_q32) const {
-    const AngleNode node = nodeOf(gaugeAngle_q32);
+  Number predictedAt(int gauge) const {
+    const AngleNode node = nodeOf(gauge);
     return static_cast<Number>(readingOf(node, valuesAt(node)) >> kReadingBits);
   }
 
-  Reading at(std::uint32_t gaugeAngle_q32) const {
-    const AngleNode node = nodeOf(gaugeAngle_q32);
-    const Response normal = responseOf(normalPatch(node), normalCell_.s_q15, node.t_q15);
-    const Response tangential = responseOf(tangentialPatch(node), tangentialCell_.s_q15, node.t_q15);
+  Reading at(int gauge) const {
+    const AngleNode node = nodeOf(gauge);
+    const Response normal = responseOf(normalPatch(node, normalCell_), normalCell_.s_q15, node.t_q15);
+    const Response tangential =
+        responseOf(tangentialPatch(node, tangentialCell_), tangentialCell_.s_q15, node.t_q15);
     const Loads values{normal.value, tangential.value};
     // Turning the contact forward brings a gauge beyond it nearer, one behind it farther away.
     const Wide farther = readingOf(node, {normal.slope, tangential.slope});
@@ -73,21 +80,48 @@ class ContactModel {
             static_cast<Number>(readingOf(node, values) >> kReadingBits)};
   }
 
+  struct Depth {
+    Loads loads;
+    Number predicted;
+  };
+  /// What a gauge's own depth adds.
+  Depth depthAt(int gauge) const {
+    const GaugeDepths& depths = tables_.depths;
+    const AngleNode node = nodeOf(gauge);
+    const ShapePoint point = shapePoint(distance_q32(gauge));
+    const Number normalSlope = slopeOf(normalPatch(node, asTangential_), asTangential_.s_q15, node.t_q15),
+                 tangentialSlope = slopeOf(tangentialPatch(node, asNormal_), asNormal_.s_q15, node.t_q15);
+    const Number normal = scaled<11>(tangentialSlope, depths.normal_turn_q11) +
+                          shapeAt(depths.normal_shape, depths.shape_shift, point);
+    const Number tangential = scaled<11>(normalSlope, depths.tangential_turn_q11) +
+                              scaled<15>(tangentialAt(node), depths.tangential_q15) +
+                              shapeAt(depths.tangential_shape, depths.shape_shift, point);
+    const Number depth = depths.steps[index(gauge)];
+    const Loads added{limited(scaled<kDepthBits>(normal, depth), kMostValue),
+                      limited(scaled<kDepthBits>(tangential, depth), kMostValue)};
+    return {oriented(node, added), static_cast<Number>(readingOf(node, added) >> kReadingBits)};
+  }
+
  private:
   static constexpr int kReadingBits = 16;
+  static constexpr int kDepthBits = 7;
+  static constexpr Number kMostValue = (1 << 15) - 1;
 
-  AngleNode nodeOf(std::uint32_t gaugeAngle_q32) const {
-    return angleNode(tables_.constants, gaugeAngle_q32 - contact_.angle_q32);
+  std::uint32_t distance_q32(int gauge) const {
+    return tables_.gauge_angle_q32[index(gauge)] - contact_.angle_q32;
   }
-  const ResponsePatch& normalPatch(const AngleNode& node) const {
-    return tables_.patch(node.node, normalCell_.cell).normal;
+  AngleNode nodeOf(int gauge) const { return angleNode(tables_.constants, distance_q32(gauge)); }
+  const ResponsePatch& normalPatch(const AngleNode& node, const MomentCell& moment) const {
+    return tables_.patch(node.node, moment.cell).normal;
   }
-  const ResponsePatch& tangentialPatch(const AngleNode& node) const {
-    return tables_.patch(node.node, tangentialCell_.cell).tangential;
+  const ResponsePatch& tangentialPatch(const AngleNode& node, const MomentCell& moment) const {
+    return tables_.patch(node.node, moment.cell).tangential;
   }
   Loads valuesAt(const AngleNode& node) const {
-    return {valueOf(normalPatch(node), normalCell_.s_q15, node.t_q15),
-            valueOf(tangentialPatch(node), tangentialCell_.s_q15, node.t_q15)};
+    return {valueOf(normalPatch(node, normalCell_), normalCell_.s_q15, node.t_q15), tangentialAt(node)};
+  }
+  Number tangentialAt(const AngleNode& node) const {
+    return valueOf(tangentialPatch(node, tangentialCell_), tangentialCell_.s_q15, node.t_q15);
   }
   /// value * rate / 2^8, of which both have less than 18 bits.
   static Number widening(Number value, Number rate_q8) {
@@ -112,6 +146,8 @@ class ContactModel {
   const ContactState& contact_;
   MomentCell normalCell_;
   MomentCell tangentialCell_;
+  MomentCell asNormal_{};      ///< of a tangential load, at the pressure's second moment
+  MomentCell asTangential_{};  ///< of a normal load, at the tangential one's
   Number tangentialRate_q8_;
   std::array<Loads, 2> seen_;  ///< the contact's loads from its either side
 };
@@ -162,6 +198,26 @@ void setColumn(Linearisation& linearisation, int unknown, const WideColumn& entr
                                                           : entries[index(row)] << -exponent);
 }
 
+/// Another pass, which fingers without a calibration don't pay for.
+void addDepths(const TableImage& tables, const ContactModel& model, int contact,
+               Linearisation& linearisation) {
+  const auto add = [](Short& entry, Number response) {
+    entry = static_cast<Short>(limited(Number{entry} + (response >> kLoadExponent), kMostEntry));
+  };
+  for (int gauge = 0, row = 0; gauge < tables.constants.gauge_count; ++gauge) {
+    const bool isRow = row < linearisation.usedRows && linearisation.gauge[index(row)] == gauge;
+    if (tables.depths.steps[index(gauge)] != 0) {
+      const ContactModel::Depth depth = model.depthAt(gauge);
+      linearisation.predicted[index(gauge)] += depth.predicted;
+      if (isRow) {
+        add(linearisation.column[index(loadsOf(contact))][index(row)], depth.loads.normal);
+        add(linearisation.column[index(loadsOf(contact) + 1)][index(row)], depth.loads.tangential);
+      }
+    }
+    row += isRow ? 1 : 0;
+  }
+}
+
 void lineariseContact(const TableImage& tables, int contact, Linearisation& linearisation) {
   const Hypothesis& hypothesis = linearisation.hypothesis;
   const ContactState& state = linearisation.at[index(contact)];
@@ -170,14 +226,13 @@ void lineariseContact(const TableImage& tables, int contact, Linearisation& line
   Rows& tangential = linearisation.column[index(loadsOf(contact) + 1)];
   WideColumn angle, moment;
   for (int gauge = 0, row = 0; gauge < tables.constants.gauge_count; ++gauge) {
-    const std::uint32_t angle_q32 = tables.gauge_angle_q32[index(gauge)];
     Number& predicted = linearisation.predicted[index(gauge)];
     if (contact == 0) predicted = 0;
     if (row >= linearisation.usedRows || linearisation.gauge[index(row)] != gauge) {
-      predicted += model.predictedAt(angle_q32);
+      predicted += model.predictedAt(gauge);
       continue;
     }
-    const ContactModel::Reading reading = model.at(angle_q32);
+    const ContactModel::Reading reading = model.at(gauge);
     normal[index(row)] = static_cast<Short>(reading.loads.normal >> kLoadExponent);
     tangential[index(row)] = static_cast<Short>(reading.loads.tangential >> kLoadExponent);
     angle[index(row)] = reading.angle;
@@ -185,6 +240,7 @@ void lineariseContact(const TableImage& tables, int contact, Linearisation& line
     predicted += reading.predicted;
     ++row;
   }
+  if (tables.depths.areKnown()) addDepths(tables, model, contact, linearisation);
   linearisation.exponent[index(loadsOf(contact))] = linearisation.exponent[index(loadsOf(contact) + 1)] =
       kLoadExponent;
   setColumn(linearisation, angleOf(hypothesis, contact), angle);
@@ -323,9 +379,8 @@ Solution fitLoads(const TableImage& tables, const Hypothesis& hypothesis, const 
       if (!contains(hypothesis.gauges, gauge)) continue;
       const Number reading = readings.value[index(gauge)];
       if (k == 0) energy += Wide{reading} * reading;
-      const std::uint32_t angle_q32 = tables.gauge_angle_q32[index(gauge)];
       if (!contains(inReach, gauge)) continue;
-      const ContactModel::Loads loads = model.loadsAt(angle_q32);
+      const ContactModel::Loads loads = model.loadsAt(gauge);
       columns[index(loadsOf(k))][index(rows)] = static_cast<Short>(loads.normal >> kLoadExponent);
       columns[index(loadsOf(k) + 1)][index(rows)] = static_cast<Short>(loads.tangential >> kLoadExponent);
       residual[index(rows++)] = static_cast<Short>(reading);

@@ -11,6 +11,7 @@ namespace {
 constexpr int kMostSteps = 9;       ///< of a fit from the readings
 constexpr int kFollowingSteps = 3;  ///< of one from the last answer
 constexpr int kStepsWhileSearching = 2, kStepsAfterSearch = 3;
+constexpr int kWorkAfterSearch = 170;  ///< of an update that concludes one, as Search::kWork counts
 /// Sets of readings after which a second answer is fitted to them as well.
 constexpr std::uint8_t kRivalEvery = 8;
 constexpr std::uint8_t kTimesRefuted = 3;  ///< in a row, until a second answer is forgotten
@@ -99,7 +100,7 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
   const bool isLost = wasAccepted && !answer_.accepted && !search_.isBegun() &&
                       solution.residualEnergy > energyOf(readings, threshold::kLost * threshold::kGate);
   if (isLost) return std::nullopt;
-  return (steps - 1) * Search::stepWork(hypothesis) + followRival(tables, readings);
+  return (steps - 1) * Search::stepWork(tables, hypothesis) + followRival(tables, readings);
 }
 
 /// The second answer is fitted now and then, until the touch has told which of them is right. Weak readings
@@ -119,7 +120,7 @@ int Locator::followRival(const TableImage& tables, const ScaledReadings& reading
   if (answer_.rivalIsLost) {
     const bool hasTold = isRefuted && ++answer_.timesRefuted == kTimesRefuted;
     if (hasTold || isFirm(tables.constants, answer, readings)) answer_.rivalEnergy = -1;
-    return Search::stepWork(hypothesis);
+    return Search::stepWork(tables, hypothesis);
   }
   answer_.timesRefuted = 0;
   answer_.rival = rival.contact;
@@ -129,7 +130,7 @@ int Locator::followRival(const TableImage& tables, const ScaledReadings& reading
     linearisation_ = scratch_;
     believe(tables, rival, readings);
   }
-  return Search::stepWork(hypothesis);
+  return Search::stepWork(tables, hypothesis);
 }
 
 void Locator::start(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges) {
@@ -219,7 +220,12 @@ void Locator::rememberRival(const TableImage& tables, const Ranking& ranking,
 
 /// Within what is left of an update's work.
 void Locator::goOn(const TableImage& tables, const ScaledReadings& readings, int workDone) {
-  if (!search_.isDone()) return search_.advance(tables, Search::kWork - workDone, scratch_);
+  if (!search_.isDone()) return search_.advance(tables, Search::work(tables) - workDone, scratch_);
+  // A set after which the second answer was fitted may leave no room: then with the next one.
+  const auto stepsLeft = [&] {
+    return (kWorkAfterSearch - workDone) / Search::stepWork(tables, answer_.solution.hypothesis) - 1;
+  };
+  if (stepsLeft() < 1) return;
   const Solution followed = answer_.solution;
   conclude(tables);
   search_.stop();
@@ -230,7 +236,8 @@ void Locator::goOn(const TableImage& tables, const ScaledReadings& readings, int
   const std::uint32_t moved_q32 = followed.contact[0].angle_q32 - searchedAt_q32_;
   for (ContactState& contact : from) contact.angle_q32 += moved_q32;
   for (ContactState& contact : answer_.rival) contact.angle_q32 += moved_q32;
-  Solution now = fit(tables, hypothesis, from, readings, kStepsAfterSearch, linearisation_);
+  const int steps = std::clamp(stepsLeft(), 1, kStepsAfterSearch);
+  Solution now = fit(tables, hypothesis, from, readings, steps, linearisation_);
   if (followed.hypothesis == hypothesis && followed.residualEnergy <= now.residualEnergy)
     now = fit(tables, hypothesis, followed.contact, readings, 1, linearisation_);
   believe(tables, now, readings);

@@ -48,6 +48,28 @@ inline Number halfNode_q32(const TableConstants& constants) {
   return static_cast<Number>((std::uint32_t{1} << 30) / constants.node_count);
 }
 
+/// Where a distance lies in the shapes of what a gauge's depth adds.
+struct ShapePoint {
+  std::size_t part;
+  Number along_q15;  ///< from its first point, 0 .. 2^15 at its second
+};
+
+/// `distance_q32` as in angleNode(); shapes are the same on either side.
+inline ShapePoint shapePoint(std::uint32_t distance_q32) {
+  constexpr std::uint32_t kParts = kDepthShapePoints - 1;
+  const std::uint32_t size = distance_q32 >> 31 != 0 ? 0 - distance_q32 : distance_q32;
+  const std::uint64_t position = std::uint64_t{size} * kParts;  // [parts * 2^31]
+  const auto part = static_cast<std::uint32_t>(position >> 31);
+  if (part >= kParts) return {kParts - 1, 1 << 15};
+  return {part, static_cast<Number>(static_cast<std::uint32_t>(position >> 16) & 0x7FFF)};
+}
+
+/// |value| <= 2^(7 + shift).
+inline Number shapeAt(const GaugeDepths::Shape& shape, int shift, const ShapePoint& point) {
+  const Number from = shape[point.part], to = shape[point.part + 1];
+  return ((from * (1 << 15) + (to - from) * point.along_q15) * (1 << shift)) >> 15;
+}
+
 /// [* 2^15 of the largest response]: |value| < 2^15, |slope| and |widening| < 2^16.
 struct Response {
   Number value;
@@ -61,9 +83,11 @@ inline Number valueOf(const ResponsePatch& patch, Number s, Number t) {
           patch[4] * (s * t >> 15) + patch[5] * (s * s >> 15)) >>
          15;
 }
+inline Number slopeOf(const ResponsePatch& patch, Number s, Number t) {
+  return patch[2] + ((2 * patch[3] * t + patch[4] * s) >> 15);
+}
 inline Response responseOf(const ResponsePatch& patch, Number s, Number t) {
-  return {valueOf(patch, s, t), patch[2] + ((2 * patch[3] * t + patch[4] * s) >> 15),
-          patch[1] + ((2 * patch[5] * s + patch[4] * t) >> 15)};
+  return {valueOf(patch, s, t), slopeOf(patch, s, t), patch[1] + ((2 * patch[5] * s + patch[4] * t) >> 15)};
 }
 
 }  // namespace strainfinger::firmware

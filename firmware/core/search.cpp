@@ -66,7 +66,7 @@ bool isSame(const TableConstants& constants, const ContactState& a, const Contac
 
 /// Points of a grid nearer than so many sixteenths of a pitch, of the same width: the worse is on the way to
 /// the better.
-constexpr std::uint32_t kNearFirsts_16 = 6, kNearWide_16 = 5, kNearLines_16 = 1;
+constexpr std::uint32_t kNearFirsts_16 = 6, kNearWide_16 = 3, kNearLines_16 = 1;
 
 bool areNeighbours(const TableConstants& constants, int contacts, const ContactStates& a,
                    const ContactStates& b, std::uint32_t near_16) {
@@ -275,7 +275,7 @@ int Search::refineNext(const TableImage& tables, Linearisation& scratch) {
     if (refined_ == candidates_.size()) candidates_.sort();
     if (!first) keep(tables.constants, solution);
   }
-  return stepWork(hypothesis_);
+  return stepWork(tables, hypothesis_);
 }
 
 void Search::keep(const TableConstants& constants, const Solution& solution) {

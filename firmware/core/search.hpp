@@ -116,8 +116,12 @@ class Search {
 
   /// What an update has time for, in units of 510 instructions of a Cortex-M4.
   static constexpr int kWork = 118;
+  /// Less of it where a step of a pair, by which an update may take longer, is a longer one.
+  static int work(const TableImage& tables) { return kWork - (tables.depths.areKnown() ? 16 : 0); }
   /// Of a Gauss-Newton step and its linear model.
-  static constexpr int stepWork(const Hypothesis& hypothesis) { return hypothesis.contacts == 1 ? 12 : 31; }
+  static int stepWork(const TableImage& tables, const Hypothesis& hypothesis) {
+    return (hypothesis.contacts == 1 ? 12 : 31) + (tables.depths.areKnown() ? 6 * hypothesis.contacts : 0);
+  }
 
  private:
   enum class Stage : std::uint8_t {

@@ -71,7 +71,8 @@ void showInfo(const TablesOptions& options) {
     table.row({parameter.key, parameter.value});
   const int count = image->constants.gauge_count;
   for (const tables::Parameter& list :
-       {tables::anglesOf(image->gauge_angle_q32, count), tables::gainsOf(image->gains, count)})
+       {tables::anglesOf(image->gauge_angle_q32, count), tables::gainsOf(image->gains, count),
+        tables::depthsOf(image->depths, count)})
     table.row({list.key, list.value});
 }
 

@@ -184,9 +184,10 @@ int signOfLargest(const Patches& patches) {
 constexpr double kLargestSum = 32768 - 8;
 
 void roundPatches(const config::Contact& contact, const Patches& normal, const Patches& tangential,
-                  ResponseTable& table) {
+                  double growth, ResponseTable& table) {
   table.peakSign = signOfLargest(normal);
-  table.strainPerUnit = std::max(largestSum(normal), largestSum(tangential)) * (32768 / kLargestSum);
+  table.strainPerUnit =
+      (1 + growth) * std::max(largestSum(normal), largestSum(tangential)) * (32768 / kLargestSum);
   table.interpolationError = 0;
   for (int patch = 0; patch < table.nodes * table.cells; ++patch) {
     table.patches.push_back({rounded(normal.weights.col(patch), table.strainPerUnit),
@@ -200,19 +201,23 @@ void roundPatches(const config::Contact& contact, const Patches& normal, const P
 
 }  // namespace
 
-ResponseTable responseTable(const config::FingerConfig& config) {
+double largestMoment_m2(const config::FingerConfig& config) {
+  const double radius_m = config.finger.outer_radius_m;
+  const double width_rad = config.contact.width_m.value_or(config.contact.largest_width_m) / radius_m;
+  return model::momentOf(model::Profile::kUniform, width_rad) * radius_m * radius_m;
+}
+
+ResponseTable responseTable(const config::FingerConfig& config, double growth) {
   const model::ImpulseResponse response(config.finger.annulus(), config.gauges.radius_m,
                                         config.gauges.component, config.gauges.arc_length_m, 0,
                                         kPatchTolerance);
   const std::vector<int> edges_q15 = cellEdges_q15(config.contact);
-  const double width_rad =
-      config.contact.width_m.value_or(config.contact.largest_width_m) / config.finger.outer_radius_m;
-  const double largest_rad2 = model::momentOf(model::Profile::kUniform, width_rad);
   ResponseTable table{};
   table.cells = static_cast<int>(edges_q15.size()) - 1;
   table.nodes = std::clamp(enoughNodes(response), kLeastNodes, kMostPatches / table.cells);
   std::copy(edges_q15.begin(), edges_q15.end(), table.cell_edge_q15.begin());
-  table.largestMoment_m2 = largest_rad2 * std::pow(config.finger.outer_radius_m, 2);
+  table.largestMoment_m2 = largestMoment_m2(config);
+  const double largest_rad2 = table.largestMoment_m2 / std::pow(config.finger.outer_radius_m, 2);
   const bool even = response.isEvenInNormal();
   const MatrixXd normalColumns =
       spreadHarmonics(even ? response.even() : response.odd(), edges_q15, largest_rad2);
@@ -224,7 +229,7 @@ ResponseTable responseTable(const config::FingerConfig& config) {
     fitBatch(even ? waves.cosines : waves.sines, normalColumns, node, table.nodes, normal);
     fitBatch(even ? waves.sines : waves.cosines, tangentialColumns, node, table.nodes, tangential);
   }
-  roundPatches(config.contact, normal, tangential, table);
+  roundPatches(config.contact, normal, tangential, growth, table);
   return table;
 }
 

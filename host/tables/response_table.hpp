@@ -21,11 +21,15 @@ struct ResponseTable {
   std::vector<PatchPair> patches;
 };
 
+/// Second moment of the widest pressure that a table holds: of that of a known width, or of the largest one.
+double largestMoment_m2(const config::FingerConfig& config);
+
 /// Least-squares fits to the elastic model. The pressure is a semi-ellipse with the second moment of a
 /// uniform pressure of the contact's width, and so is the shear, up to twice as large in second moment
 /// (Mindlin, see model::shearMoment_rad2()). Where contact.width_m is known its pressure has the largest
-/// moment, and patches for less than half of that, which no load has, don't count in the error. Throws what
+/// moment, and patches for less than half of that, which no load has, don't count in the error. A response of
+/// 2^15 is larger than the largest by `growth`, for gauges that read more than the drawn one. Throws what
 /// ImpulseResponse throws. Cost: 1 ms for the default finger, 9 ms for 300 harmonics.
-ResponseTable responseTable(const config::FingerConfig& config);
+ResponseTable responseTable(const config::FingerConfig& config, double growth = 0);
 
 }  // namespace strainfinger::tables

@@ -12,6 +12,7 @@
 #include "firmware/core/normal_equations.hpp"
 #include "host/base/failure.hpp"
 #include "host/config/keys.hpp"
+#include "host/tables/gauge_depths.hpp"
 #include "host/tables/gauge_gains.hpp"
 #include "host/tables/response_table.hpp"
 
@@ -133,7 +134,7 @@ void fillErrors(TableConstants& constants, const config::FingerConfig& config) {
 }
 
 TableConstants tableConstants(const config::FingerConfig& config, const GaugeGains& gains,
-                              const ResponseTable& responses) {
+                              const ResponseTable& responses, double depthError) {
   TableConstants constants{};
   constants.gauge_count = static_cast<std::uint8_t>(config.gauges.count);
   const Corrected ring = corrected(config, gains);
@@ -143,7 +144,7 @@ TableConstants tableConstants(const config::FingerConfig& config, const GaugeGai
   constants.force_per_load_q16 = rounded<std::uint32_t>(config.finger.length_m * 1000 * powerOfTwo(16));
   constants.friction_q8 = rounded<std::uint16_t>(config.contact.friction_coefficient * 256);
   constants.cone_q8 = rounded<std::uint16_t>(frictionCone(config.contact) * 256);
-  constants.model_error_q16 = fraction_q16(std::hypot(config.gauges.model_error, depthError(config)));
+  constants.model_error_q16 = fraction_q16(std::hypot(config.gauges.model_error, depthError));
   fillErrors(constants, config);
   constants.adc_rail = static_cast<std::uint16_t>(0xFFFF << (16 - config.gauges.adc_bits));
   constants.mirror_sign = config.gauges.component == StrainComponent::kShear ? -1 : 1;
@@ -283,7 +284,8 @@ GaugeAngles gaugeAngles_q32(const config::FingerConfig& config) {
 
 TableImage buildTableImage(const config::FingerConfig& config) {
   requireWidths(config.contact);
-  const ResponseTable responses = responseTable(config);
+  const DepthFit depths = depthFit(config);
+  const ResponseTable responses = responseTable(config, depths.growth);
   requireFormats(config, responses.strainPerUnit);
   requirePrecision(config, responses.interpolationError);
   TableImage image{};
@@ -291,8 +293,10 @@ TableImage buildTableImage(const config::FingerConfig& config) {
   image.format = kTableFormat;
   image.image_bytes = sizeof(TableImage);
   image.parameters = tableParameters(config);
-  image.gains = gaugeGains(config);
-  image.constants = tableConstants(config, image.gains, responses);
+  image.gains = gaugeGains(config, depths);
+  image.depths = gaugeDepths(depths, responses);
+  image.constants =
+      tableConstants(config, image.gains, responses, depthError(config, depths, image.depths, responses));
   fillMoments(image.constants, config, responses);
   image.gauge_angle_q32 = gaugeAngles_q32(config);
   image.constants.reach_q32 = reach_q32(gapsOf(image.gauge_angle_q32, image.constants.gauge_count));

@@ -10,7 +10,9 @@
 #include "common/fixed_real.hpp"
 #include "host/base/read_file.hpp"
 #include "host/config/keys.hpp"
+#include "host/tables/gauge_depths.hpp"
 #include "host/tables/gauge_gains.hpp"
+#include "host/tables/response_table.hpp"
 #include "host/tables/table_builder.hpp"
 
 namespace strainfinger::tables {
@@ -97,10 +99,18 @@ Parameter anglesOf(const GaugeAngles& angles_q32, int count) {
 
 Parameter gainsOf(const GaugeGains& gains, int count) {
   std::vector<std::string> texts;
-  if (gains.isCalibrated())
+  if (gains.areKnown())
     for (const double factor : correctionFactors(gains, count))
       texts.push_back(fmt::format("{:.4g}", 1 / factor));
   return {"calibration.gain", fmt::format("[{}]", fmt::join(texts, ", "))};
+}
+
+Parameter depthsOf(const GaugeDepths& depths, int count) {
+  std::vector<std::string> texts;
+  if (depths.areKnown())
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+      texts.push_back(fmt::format("{:.3g}", 1e-9 * depths.steps[i] * depths.step_nm));
+  return {"calibration.depth_offset_m", fmt::format("[{}]", fmt::join(texts, ", "))};
 }
 
 namespace {
@@ -126,8 +136,13 @@ void requireTablesOf(const TableImage& image, const config::FingerConfig& config
   const GaugeAngles wantedAngles_q32 = gaugeAngles_q32(config);
   if (isSameRing(image.parameters, wantedParameters) && image.gauge_angle_q32 != wantedAngles_q32)
     differences += differenceOf(anglesOf(image.gauge_angle_q32, count), anglesOf(wantedAngles_q32, count));
-  if (const GaugeGains wanted = gaugeGains(config); image.gains != wanted)
+  const DepthFit wantedDepths = depthFit(config);
+  if (const GaugeGains wanted = gaugeGains(config, wantedDepths); image.gains != wanted)
     differences += differenceOf(gainsOf(image.gains, count), gainsOf(wanted, config.gauges.count));
+  const GaugeDepths depths = gaugeDepths(wantedDepths, responseTable(config, wantedDepths.growth));
+  const Parameter hasDepths = depthsOf(image.depths, count),
+                  wantsDepths = depthsOf(depths, config.gauges.count);
+  if (hasDepths.value != wantsDepths.value) differences += differenceOf(hasDepths, wantsDepths);
   if (differences.empty()) return;
   throw Failure(ExitCode::kMismatch,
                 fmt::format("{}: made for another finger than the config's:{}\nmake it anew with: "
@@ -149,7 +164,8 @@ std::string imageHeader(const TableImage& image) {
   for (const Parameter& parameter : parametersOf(image.parameters))
     fmt::format_to(std::back_inserter(text), "//   {} = {}\n", parameter.key, textOf(parameter.value));
   for (const Parameter& parameter : {anglesOf(image.gauge_angle_q32, image.constants.gauge_count),
-                                     gainsOf(image.gains, image.constants.gauge_count)})
+                                     gainsOf(image.gains, image.constants.gauge_count),
+                                     depthsOf(image.depths, image.constants.gauge_count)})
     fmt::format_to(std::back_inserter(text), "//   {} = {}\n", parameter.key, textOf(parameter.value));
   fmt::format_to(std::back_inserter(text),
                  "// CRC-32 0x{:08X}\n\n#include <cstdint>\n\nnamespace strainfinger {{\n\n"

@@ -12,6 +12,7 @@
 
 #include "host/evidence/accuracy.hpp"
 #include "host/evidence/touches.hpp"
+#include "host/model/pressure_profile.hpp"
 #include "host/simulation/simulated_finger.hpp"
 #include "host/study/calibration_session.hpp"
 #include "host/tables/gauge_gains.hpp"
@@ -112,14 +113,16 @@ evidence::Accuracy located(const config::FingerConfig& glued, const config::Fing
   const evidence::TouchedRing ring(glued, kSeed);
   const evidence::TouchDraws draws(glued.gauges, {.load_n_per_m = {5, 40}, .width_m = {0, 3e-3}}, kSeed);
   StatelessLocator locator(known);
-  const auto factors = tables::correctionFactors(tables::gaugeGains(known), glued.gauges.count);
+  const auto factors =
+      tables::correctionFactors(tables::gaugeGains(known, tables::depthFit(known)), glued.gauges.count);
   const auto factor = Eigen::Map<const Eigen::VectorXd>(factors.data(), glued.gauges.count);
   evidence::Accuracy accuracy(std::numbers::pi / glued.gauges.count);
   for (std::uint64_t i = 0; i < kLocatedTouches; ++i) {
     const Touch touch = draws.at(i);
     const auto found = locator.locate(ring.noisy(ring.exact(touch), i).cwiseProduct(factor)).contacts;
+    const double width_m = std::sqrt(12 * model::momentOf(touch.profile, *touch.width_m));
     const evidence::Parameters truth{touch.angle_rad, touch.normal_n_per_m, touch.tangential_n_per_m,
-                                     kNoValue};
+                                     width_m};
     if (found.empty())
       accuracy.addMissed();
     else
@@ -174,15 +177,16 @@ TEST(CalibrationLoop, AGluedFingerIsLocatedWithTrueSigmasOnceCalibrated) {
   const auto before = located(glued, glued), after = located(glued, calibrated);
   const auto overSigma = [&](evidence::Parameter what) { return after.overSigma(what).rms(); };
   std::printf(
-      "\narc before %.1f um, after %.1f um; errors over sigma, arc %.2f, normal %.2f, tangential %.2f\n",
+      "\narc before %.1f um, after %.1f um; errors over sigma, arc %.2f, normal %.2f, tangential %.2f, "
+      "width %.2f\n",
       1e6 * before.errors(evidence::kAngle).rms() * glued.finger.outer_radius_m,
       1e6 * after.errors(evidence::kAngle).rms() * glued.finger.outer_radius_m, overSigma(evidence::kAngle),
-      overSigma(evidence::kNormal), overSigma(evidence::kTangential));
-  CHECK_COMPARE(after.errors(evidence::kAngle).rms(), <, 0.4 * before.errors(evidence::kAngle).rms());
-  CHECK_COMPARE(after.errors(evidence::kNormal).rms(), <, 0.4 * before.errors(evidence::kNormal).rms());
-  for (const auto what : {evidence::kAngle, evidence::kNormal, evidence::kTangential}) {
+      overSigma(evidence::kNormal), overSigma(evidence::kTangential), overSigma(kWidth));
+  CHECK_COMPARE(after.errors(evidence::kAngle).rms(), <, 0.15 * before.errors(evidence::kAngle).rms());
+  CHECK_COMPARE(after.errors(evidence::kNormal).rms(), <, 0.25 * before.errors(evidence::kNormal).rms());
+  for (const auto what : {evidence::kAngle, evidence::kNormal, evidence::kTangential, kWidth}) {
     CHECK_COMPARE(overSigma(what), >, 0.5);
-    CHECK_COMPARE(overSigma(what), <, 1.2);
+    CHECK_COMPARE(overSigma(what), <, what == kWidth ? 1.5 : 1.2);
   }
   CHECK_COMPARE(calibrated.gauges.model_error, <, 3e-3);
   CHECK_COMPARE(after.flagged(), <=, 20);

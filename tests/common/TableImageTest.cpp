@@ -154,12 +154,19 @@ TEST(TableImage, GainsThatConditioningReliesOnStayInTheirDomain) {
   image_->constants.gate_shift = 13;
   image_->constants.reading_gain = 1 << 28;  // 2^29 - 2 at most
   GaugeGains& gains = image_->gains;
-  checkDomain(gains.exponent, {6, 15, 0}, {1, 5, 16, 255});
-  checkDomain(gains.correction[31], {0}, {1, -1});  // without an exponent
-  gains.exponent = 7;
-  checkDomain(gains.correction[31], {-128, 127, 0}, {});
-  gains.exponent = 6;
-  checkDomain(gains.correction[0], {-64, 63}, {-65, -128, 64, 127});
+  checkDomain(gains.are_known, {1, 0}, {2, 255});
+  checkDomain(gains.correction_q14[31], {0}, {1, -1});  // without a calibration
+  gains.are_known = 1;
+  checkDomain(gains.correction_q14[31], {-8192, 8191, 0}, {});
+  checkDomain(gains.correction_q14[0], {-16384, 16383}, {-16385, -32768, 16384, 32767});
+}
+
+TEST(TableImage, NoGaugeIsDeeperWithoutAStepAndShapesFitTheirWords) {
+  GaugeDepths& depths = image_->depths;
+  checkDomain(depths.steps[31], {0}, {1, -1});  // without a step
+  depths.step_nm = 1;
+  checkDomain(depths.steps[31], {-128, 127, 0}, {});
+  checkDomain(depths.shape_shift, {0, 8}, {9, 255});
 }
 
 TEST(TableImage, FaultsKeepTheirNumbers) {

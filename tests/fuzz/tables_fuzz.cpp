@@ -82,8 +82,18 @@ void changeAngles(Input& input, TableImage& image) {
 }
 
 void changeGains(Input& input, GaugeGains& gains) {
-  gains.exponent = static_cast<std::uint8_t>(input.within(kLeastGainExponent, kMostGainExponent));
-  for (std::int8_t& each : gains.correction) each = input.any<std::int8_t>();
+  gains.are_known = static_cast<std::uint8_t>(input.within(0, 1));
+  for (std::int16_t& each : gains.correction_q14) each = input.any<std::int16_t>();
+}
+
+void changeDepths(Input& input, GaugeDepths& depths) {
+  depths.step_nm = input.any<std::uint16_t>();
+  for (std::int16_t* slope : {&depths.normal_turn_q11, &depths.tangential_turn_q11, &depths.tangential_q15})
+    *slope = input.any<std::int16_t>();
+  depths.shape_shift = static_cast<std::uint8_t>(input.within(0, kMostDepthShapeShift));
+  for (GaugeDepths::Shape* shape : {&depths.normal_shape, &depths.tangential_shape})
+    for (std::int8_t& each : *shape) each = input.any<std::int8_t>();
+  for (std::int8_t& each : depths.steps) each = input.any<std::int8_t>();
 }
 
 void changeContacts(Input& input, TableConstants& constants) {
@@ -107,7 +117,10 @@ void change(Input& input, TableImage& image) {
   if (isChanged(4)) changeGains(input, image.gains);
   if (isChanged(5)) changeContacts(input, image.constants);
   if (isChanged(6)) changePatches(input, image);
-  if (isChanged(7)) changeErrors(input, image.constants);
+  if (isChanged(7)) {
+    changeErrors(input, image.constants);
+    changeDepths(input, image.depths);
+  }
   image.crc32 = crc32(checkedBytes(image));
 }
 

@@ -144,18 +144,19 @@ void sliding(const InstructionCounter& counter, const TableImage& tables, Width 
 
 /// New contacts anywhere, from an eighth of 30 N/m to all of it: the first set of each, and those during
 /// which the search for other answers goes on.
-void newTouches(const InstructionCounter& counter) {
+void newTouches(const InstructionCounter& counter, const TableImage& tables, const char* first,
+                const char* searching) {
   constexpr int kBetween = 3, kMostSets = 64;
-  CountedFinger& finger = newFinger(kLinkedTables, counter);
+  CountedFinger& finger = newFinger(tables, counter);
   for (std::uint32_t touch = 0; touch < kUpdates; ++touch) {
     Draws draws(touch);
     GeneratedContact contact = firmContact(draws.next(), touch % 2 == 0 ? kLine : kTwoMillimetres);
     contact.normal >>= draws.below(4);
     contact.tangential = contact.normal * (static_cast<std::int32_t>(draws.below(101)) - 50) / 100;
     const Deflections codes = pressed(contact);
-    tell("new", finger.update(codes, draws.next()));
+    tell(first, finger.update(codes, draws.next()));
     for (int i = 0; i < kMostSets && finger.isSearching(); ++i)
-      tell("search", finger.update(codes, draws.next()));
+      tell(searching, finger.update(codes, draws.next()));
     for (int i = 0; i < kBetween; ++i) finger.update(kUntouched, draws.next());
   }
 }
@@ -206,13 +207,10 @@ hal::SampleSet setOf(Kind kind, std::uint32_t sample) {
   return noisy(codes, sample);
 }
 
-void anyKind(const InstructionCounter& counter, std::uint32_t updates) {
-  constexpr auto kKinds = static_cast<std::uint32_t>(Kind::kCount);
-  for (std::uint32_t kind = 0; kind < kKinds; ++kind) {
-    CountedFinger& finger = newFinger(kLinkedTables, counter);
-    for (std::uint32_t sample = 0; sample < updates / kKinds; ++sample)
-      tell(kKindNames[kind], finger.update(setOf(static_cast<Kind>(kind), sample)));
-  }
+void ofKind(const InstructionCounter& counter, const TableImage& tables, Kind kind, const char* what,
+            std::uint32_t updates) {
+  CountedFinger& finger = newFinger(tables, counter);
+  for (std::uint32_t sample = 0; sample < updates; ++sample) tell(what, finger.update(setOf(kind, sample)));
 }
 
 /// The default finger's tables for who says that contacts are lines.
@@ -220,6 +218,14 @@ const TableImage& lineTables() {
   static TableImage tables = kLinkedTables;
   tables.constants.width_is_known = 1;
   tables.constants.known_moment_q20 = 0;
+  return tables;
+}
+
+/// The same of a calibrated finger: every gauge has a depth of its own, which changes nothing but the work.
+const TableImage& tablesOfDepths() {
+  static TableImage tables = kLinkedTables;
+  tables.depths.step_nm = 1;
+  tables.depths.steps.fill(1);
   return tables;
 }
 
@@ -236,8 +242,13 @@ void runBoard() {
   held(counter, kTwoMillimetres, "held_wide", "held_wide_noise");
   sliding(counter, lineTables(), kLine, "known_line");
   sliding(counter, kLinkedTables, kTwoMillimetres, "wide");
-  newTouches(counter);
-  anyKind(counter, ofAnyKind);
+  sliding(counter, tablesOfDepths(), kTwoMillimetres, "wide_depths");
+  newTouches(counter, kLinkedTables, "new", "search");
+  newTouches(counter, tablesOfDepths(), "new_depths", "search_depths");
+  constexpr auto kKinds = static_cast<std::uint32_t>(Kind::kCount);
+  for (std::uint32_t kind = 0; kind < kKinds; ++kind)
+    ofKind(counter, kLinkedTables, static_cast<Kind>(kind), kKindNames[kind], ofAnyKind / kKinds);
+  ofKind(counter, tablesOfDepths(), Kind::kPair, "any_pair_depths", ofAnyKind / kKinds);
   const auto* const touched = std::find_if(stack_bottom, const_cast<std::uint32_t*>(stack_top),
                                            [](std::uint32_t word) { return word != kPaint; });
   tell("stack_bytes", 4 * static_cast<std::uint32_t>(stack_top - touched));

@@ -103,6 +103,16 @@ TEST_GROUP(Extremes) {
     for (std::size_t i = 0; i < steps.size(); ++i)
       image_->gauge_angle_q32[i] = steps[0] + (i == 0 ? 0 : steps[i]);
   }
+  void fillDepths(GaugeDepths & depths) {
+    fillAny(depths.step_nm);
+    for (std::int16_t* slope : {&depths.normal_turn_q11, &depths.tangential_turn_q11, &depths.tangential_q15})
+      fillAny(*slope);
+    depths.shape_shift = static_cast<std::uint8_t>(upTo(0, kMostDepthShapeShift));
+    for (GaugeDepths::Shape* shape : {&depths.normal_shape, &depths.tangential_shape})
+      for (std::int8_t& each : *shape) fillAny(each);
+    if (!depths.areKnown()) return;
+    for (std::int8_t& each : depths.steps) fillAny(each);
+  }
   void fillImage() {
     *image_ = {};
     image_->magic = kTableMagic;
@@ -114,8 +124,9 @@ TEST_GROUP(Extremes) {
       fillPatch(pair.normal);
       fillPatch(pair.tangential);
     }
-    image_->gains.exponent = static_cast<std::uint8_t>(upTo(kLeastGainExponent, kMostGainExponent));
-    for (std::int8_t& each : image_->gains.correction) each = static_cast<std::int8_t>(upTo(-64, 0));
+    image_->gains.are_known = 1;
+    for (std::int16_t& each : image_->gains.correction_q14) each = static_cast<std::int16_t>(upTo(-16384, 0));
+    fillDepths(image_->depths);
     image_->crc32 = crc32(checkedBytes(*image_));
     CHECK(checkTableImage(*image_) == TableFault::kNone);
     codes_.resize(constants_.gauge_count);

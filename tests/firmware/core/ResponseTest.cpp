@@ -1,5 +1,6 @@
 #include "firmware/core/response.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -15,6 +16,30 @@ namespace {
 constexpr std::uint32_t kHalfTurn = std::uint32_t{1} << 31;
 constexpr Number kEnd = 1 << 15;
 }  // namespace
+
+TEST_GROUP(DepthShape){};
+
+TEST(DepthShape, IsStraightBetweenItsPointsAndTheSameOnEitherSide) {
+  GaugeDepths::Shape shape;
+  for (std::size_t i = 0; i < kDepthShapePoints; ++i)
+    shape[i] = static_cast<std::int8_t>(i % 3 == 0 ? -128 : i % 3 == 1 ? 127 : 5 * static_cast<int>(i));
+  for (std::uint64_t distance = 0; distance < std::uint64_t{1} << 32; distance += 12'345'677) {
+    const double size = std::abs(std::remainder(std::ldexp(static_cast<double>(distance), -32), 1));
+    const double position = 2 * (kDepthShapePoints - 1) * size;
+    const auto part = static_cast<std::size_t>(std::min<double>(position, kDepthShapePoints - 2));
+    const double expected = std::lerp(shape[part], shape[part + 1], position - static_cast<double>(part));
+    const Number value = shapeAt(shape, 4, shapePoint(static_cast<std::uint32_t>(distance)));
+    DOUBLES_EQUAL(16 * expected, value, 1.2);
+  }
+}
+
+TEST(DepthShape, EndsAtTheContactAndHalfWayRound) {
+  GaugeDepths::Shape shape{};
+  shape.front() = 100;
+  shape.back() = -128;
+  LONGS_EQUAL(100, shapeAt(shape, 0, shapePoint(0)));
+  LONGS_EQUAL(-128 * 256, shapeAt(shape, 8, shapePoint(kHalfTurn)));
+}
 
 TEST_GROUP(AngleNode) {
   TableConstants constants{};

@@ -40,12 +40,36 @@ TEST_GROUP_BASE(FitRanges, RangesGroup) {
       visit(0 - distance_q32);
     }
   }
-  static void checkReading(const ContactModel& model, std::uint32_t distance_q32) {
-    const ContactModel::Reading reading = model.at(distance_q32);
+  /// Depths as large as their words hold them, each of either sign.
+  template <typename Visit>
+  static void forEachDepths(TableImage & tables, Visit visit) {
+    GaugeDepths& depths = tables.depths;
+    visit();
+    depths.step_nm = 1;
+    depths.shape_shift = kMostDepthShapeShift;
+    for (const int slope : {-0x8000, 0x7FFF})
+      for (const int shape : {-128, 127}) {
+        depths.steps.fill(-128);
+        depths.normal_turn_q11 = depths.tangential_turn_q11 = depths.tangential_q15 =
+            static_cast<std::int16_t>(slope);
+        depths.normal_shape.fill(static_cast<std::int8_t>(shape));
+        depths.tangential_shape = depths.normal_shape;
+        depths.tangential_shape[0] = static_cast<std::int8_t>(-1 - shape);
+        CHECK_TRUE(usable(depths));
+        visit();
+      }
+  }
+  /// Of the first gauge.
+  static void checkReading(const ContactModel& model) {
+    const ContactModel::Reading reading = model.at(0);
     checkWithin(reading.loads.normal, -kMostResponse, kMostResponse);
     checkWithin(reading.loads.tangential, -kMostResponse, kMostResponse);
     checkWithin(reading.predicted, -kMostPredicted, kMostPredicted);
-    checkWithin(model.predictedAt(distance_q32), -kMostPredicted, kMostPredicted);
+    checkWithin(model.predictedAt(0), -kMostPredicted, kMostPredicted);
+    const ContactModel::Depth depth = model.depthAt(0);
+    checkWithin(depth.loads.normal, -kMostResponse, kMostResponse);
+    checkWithin(depth.loads.tangential, -kMostResponse, kMostResponse);
+    checkWithin(depth.predicted, -kMostPredicted, kMostPredicted);
     checkWithin(reading.angle, -kMostSlope, kMostSlope);
     checkWithin(reading.moment, -kMostSlope, kMostSlope);
   }
@@ -95,9 +119,12 @@ TEST(FitRanges, SlipOverflowsNothing) {
 
 TEST(FitRanges, ReadingsOfAContactOverflowNothing) {
   const ContactState contact = anyContact();
-  forEachTables([&](const TableImage& tables) {
-    forEachDistance(tables, [&](std::uint32_t distance_q32) {
-      forEachWay([&] { checkReading(ContactModel(tables, contact, anySlip()), distance_q32); });
+  forEachTables([&](TableImage& tables) {
+    forEachDepths(tables, [&] {
+      forEachDistance(tables, [&](std::uint32_t distance_q32) {
+        tables.gauge_angle_q32[0] = distance_q32;
+        forEachWay([&] { checkReading(ContactModel(tables, contact, anySlip())); });
+      });
     });
   });
   checkNone();
@@ -170,7 +197,7 @@ TEST(FitRanges, AWholeStepOverflowsNothing) {
   linearisation.hypothesis = {1, false, 0xFFFFFFFF};
   linearisation.usedRows = linearisation.rows = kMostRows;
   for (std::size_t row = 0; row < kMostRows; ++row) linearisation.gauge[row] = static_cast<std::uint8_t>(row);
-  linearisation.predicted.fill(within(2 * kMostPredicted));
+  linearisation.predicted.fill(within(4 * kMostPredicted));  // of both contacts and their gauges' depths
   for (Rows& column : linearisation.column) column.fill(within<Short>(1 << kColumnBits));
   forEachWay([&] {
     decompose(linearisation.column, kMostRows, linearisation.hypothesis.unknowns(),

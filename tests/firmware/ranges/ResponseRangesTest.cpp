@@ -55,6 +55,18 @@ TEST(ResponseRanges, APatchOfTwoFullWeightsWouldOverflow) {
   checkSome();
 }
 
+TEST(ResponseRanges, AShapeOfAnyPointsOverflowsNothing) {
+  for (const int first : {-128, 127})
+    for (const int second : {-128, 127}) {
+      GaugeDepths::Shape shape{};
+      shape[0] = static_cast<std::int8_t>(first);
+      shape[1] = static_cast<std::int8_t>(second);
+      const ShapePoint anywhere{0, Number(0, kOne)};
+      checkWithin(shapeAt(shape, kMostDepthShapeShift, anywhere), -3 * kOne, 3 * kOne);
+    }
+  checkNone();
+}
+
 TEST(ResponseRanges, CellsOfAnyWidthOverflowNothing) {
   for (int width = 1; width < 1 << 15; width += width < 64 ? 1 : width / 64)
     for (const int first : {0, (1 << 15) - width}) checkCells(cellsAround(first, width));

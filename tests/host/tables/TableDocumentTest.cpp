@@ -140,9 +140,23 @@ Rows patchRows(const PatchPair& pair) {
 
 Rows gainRows(const GaugeGains& gains) {
   Rows rows(offsetof(TableImage, gains));
-  rows.add("correction", gains.correction);
-  rows.add("exponent", gains.exponent);
+  rows.add("correction_q14", gains.correction_q14);
+  rows.add("are_known", gains.are_known);
   rows.add("reserved", gains.reserved);
+  return rows;
+}
+
+Rows depthRows(const GaugeDepths& depths) {
+  Rows rows(offsetof(TableImage, depths));
+  rows.add("steps", depths.steps);
+  rows.add("normal_turn_q11", depths.normal_turn_q11);
+  rows.add("tangential_turn_q11", depths.tangential_turn_q11);
+  rows.add("tangential_q15", depths.tangential_q15);
+  rows.add("step_nm", depths.step_nm);
+  rows.add("normal_shape", depths.normal_shape);
+  rows.add("tangential_shape", depths.tangential_shape);
+  rows.add("shape_shift", depths.shape_shift);
+  rows.add("reserved", depths.reserved);
   return rows;
 }
 
@@ -191,6 +205,7 @@ TEST(TableDocument, HasEveryFieldAtItsOffset) {
   checkTable("## Constants", constantRows(image_.constants));
   checkTable("## Angles", angleRows(image_));
   checkTable("## Gains", gainRows(image_.gains));
+  checkTable("## Depths", depthRows(image_.depths));
 }
 
 TEST(TableDocument, APatchHasEveryFieldAtItsOffset) {
@@ -205,7 +220,8 @@ TEST(TableDocument, ItsFieldsLeaveNoGaps) {
   LONGS_EQUAL(offsetof(TableImage, constants), parameterRows(image_.parameters).end());
   LONGS_EQUAL(offsetof(TableImage, gauge_angle_q32), constantRows(image_.constants).end());
   LONGS_EQUAL(offsetof(TableImage, gains), angleRows(image_).end());
-  LONGS_EQUAL(offsetof(TableImage, patches), gainRows(image_.gains).end());
+  LONGS_EQUAL(offsetof(TableImage, depths), gainRows(image_.gains).end());
+  LONGS_EQUAL(offsetof(TableImage, patches), depthRows(image_.depths).end());
 }
 
 TEST(TableDocument, OffsetsThatDependOnAlignmentAreThoseOfTheCompiler) {
@@ -221,6 +237,7 @@ TEST(TableDocument, HasThePartsAtTheirOffsets) {
   checkPart(offsetof(TableImage, constants), sizeof(TableConstants));
   checkPart(offsetof(TableImage, gauge_angle_q32), sizeof(GaugeAngles));
   checkPart(offsetof(TableImage, gains), sizeof(GaugeGains));
+  checkPart(offsetof(TableImage, depths), sizeof(GaugeDepths));
   checkPart(offsetof(TableImage, patches), sizeof(TableImage::patches));
   checkHas(fmt::format("up to {} pairs of {} bytes", kMostPatches, sizeof(PatchPair)));
 }

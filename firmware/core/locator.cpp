@@ -82,13 +82,14 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
                                    GaugeSet gauges) {
   const Hypothesis& hypothesis = answer_.solution.hypothesis;
   if ((hypothesis.gauges & ~gauges) != 0) return std::nullopt;
-  if (readings.shift != answer_.shift)
+  const bool isRescaled = readings.shift != answer_.shift;
+  if (isRescaled)
     linearise(tables, hypothesis, rescaled(answer_.solution.contact, answer_.shift, readings.shift),
               linearisation_);
   Solution solution = step(tables, linearisation_, readings);
   const int most = search_.isBegun() ? kStepsWhileSearching : kFollowingSteps;
-  int steps = 1;
-  for (; steps < most && !solution.converged; ++steps) {
+  int linearised = isRescaled ? 1 : 0;
+  for (int steps = 1; steps < most && !solution.converged; ++steps, ++linearised) {
     linearise(tables, hypothesis, solution.contact, linearisation_);
     solution = step(tables, linearisation_, readings);
   }
@@ -100,7 +101,7 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
   const bool isLost = wasAccepted && !answer_.accepted && !search_.isBegun() &&
                       solution.residualEnergy > energyOf(readings, threshold::kLost * threshold::kGate);
   if (isLost) return std::nullopt;
-  return (steps - 1) * Search::stepWork(tables, hypothesis) + followRival(tables, readings);
+  return linearised * Search::stepWork(tables, hypothesis) + followRival(tables, readings);
 }
 
 /// The second answer is fitted now and then, until the touch has told which of them is right. Weak readings
@@ -220,7 +221,7 @@ void Locator::rememberRival(const TableImage& tables, const Ranking& ranking,
 
 /// Within what is left of an update's work.
 void Locator::goOn(const TableImage& tables, const ScaledReadings& readings, int workDone) {
-  if (!search_.isDone()) return search_.advance(tables, Search::work(tables) - workDone, scratch_);
+  if (!search_.isDone()) return search_.advance(tables, Search::kWork - workDone, scratch_);
   // A set after which the second answer was fitted may leave no room: then with the next one.
   const auto stepsLeft = [&] {
     return (kWorkAfterSearch - workDone) / Search::stepWork(tables, answer_.solution.hypothesis) - 1;

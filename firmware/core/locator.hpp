@@ -36,7 +36,7 @@ struct Answer {
 };
 
 /// Starts from the last answer where it still explains the readings, else from the readings; searches where
-/// that leaves doubt, over several sets of readings. Cost of an update: below a search's kWork and 16 steps.
+/// that leaves doubt, over several sets of readings. Cost of an update: see firmware/cost.md.
 class Locator {
  public:
   explicit Locator(FitMode mode) : mode_(mode) {}

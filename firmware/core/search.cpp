@@ -25,8 +25,8 @@ constexpr int kMostRounds = 4;  ///< of looking for each contact of a pair again
 constexpr int kFirstSteps = 2;  ///< Gauss-Newton steps of every candidate, before the best are chosen
 constexpr int kMostSteps = 14;  ///< of these
 
-/// Units of work: a look at a point, one at a pair of places, a Gauss-Newton step of one or two contacts.
-constexpr int kPointWork = 5, kPairWork = 12;
+/// A look at a point, one at a pair of places, and what comes between two grids [units of Search::kWork].
+constexpr int kPointWork = 5, kPairWork = 12, kTaskWork = 9;
 
 std::uint32_t pitch_q32(const TableConstants& constants) {
   const std::uint32_t count = constants.gauge_count;
@@ -250,21 +250,20 @@ void Search::consider(const TableConstants& constants, const Solution& point) {
   candidates_.insert(point, effort().candidates, neighbours);
 }
 
-int Search::lookAtPoint(const TableImage& tables, Linearisation& scratch) {
+void Search::lookAtPoint(const TableImage& tables, Linearisation& scratch) {
   const Solution point = fitLoads(tables, hypothesis_, grid_.at(tables, point_++), looked_, scratch);
   if (stage_ == Stage::kFirstOfPair || isPromising(tables.constants, point))
     consider(tables.constants, point);
-  return hypothesis_.contacts == 1 ? kPointWork : kPairWork;
 }
 
 /// A Gauss-Newton step of the next candidate: each has kFirstSteps, then the best have as many as they need.
-int Search::refineNext(const TableImage& tables, Linearisation& scratch) {
+void Search::refineNext(const TableImage& tables, Linearisation& scratch) {
   const bool first = refined_ < candidates_.size();
   const int i = first ? refined_ : refined_ - candidates_.size();
   Candidate& candidate = candidates_[i];
   if (!first && steps_ == 0 && isWorseTwin(tables.constants, i)) {
     ++refined_;
-    return 0;
+    return;
   }
   linearise(tables, hypothesis_, candidate.contact, scratch);
   const Solution solution = step(tables, scratch, looked_);
@@ -275,7 +274,6 @@ int Search::refineNext(const TableImage& tables, Linearisation& scratch) {
     if (refined_ == candidates_.size()) candidates_.sort();
     if (!first) keep(tables.constants, solution);
   }
-  return stepWork(tables, hypothesis_);
 }
 
 void Search::keep(const TableConstants& constants, const Solution& solution) {
@@ -386,12 +384,19 @@ void Search::finishTask(const TableImage& tables, Linearisation& scratch) {
   }
 }
 
+/// At most so much is next.
+int Search::nextWork(const TableImage& tables) const {
+  if (point_ < grid_.size()) return hypothesis_.contacts == 1 ? kPointWork : kPairWork;
+  return refined_ < refinements() ? stepWork(tables, hypothesis_) : kTaskWork;
+}
+
 void Search::advance(const TableImage& tables, int work, Linearisation& scratch) {
-  for (int done = 0; isRunning() && done < work;) {
+  for (int left = work; isRunning() && nextWork(tables) <= left;) {
+    left -= nextWork(tables);
     if (point_ < grid_.size()) {
-      done += lookAtPoint(tables, scratch);
+      lookAtPoint(tables, scratch);
     } else if (refined_ < refinements()) {
-      done += refineNext(tables, scratch);
+      refineNext(tables, scratch);
     } else {
       finishTask(tables, scratch);
     }

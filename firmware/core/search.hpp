@@ -106,7 +106,7 @@ class Search {
   bool isRunning() const { return isBegun() && !isDone(); }
   /// All was looked at; its rankings hold until stop().
   bool isDone() const { return stage_ == Stage::kDone; }
-  /// Goes on for so much work and at most a step of a pair more.
+  /// Goes on for at most so much work.
   void advance(const TableImage& tables, int work, Linearisation& scratch);
 
   const ScaledReadings& readings() const { return readings_; }
@@ -115,9 +115,7 @@ class Search {
   const Ranking& pair() const { return pair_; }
 
   /// What an update has time for, in units of 510 instructions of a Cortex-M4.
-  static constexpr int kWork = 118;
-  /// Less of it where a step of a pair, by which an update may take longer, is a longer one.
-  static int work(const TableImage& tables) { return kWork - (tables.depths.areKnown() ? 16 : 0); }
+  static constexpr int kWork = 128;
   /// Of a Gauss-Newton step and its linear model.
   static int stepWork(const TableImage& tables, const Hypothesis& hypothesis) {
     return (hypothesis.contacts == 1 ? 12 : 31) + (tables.depths.areKnown() ? 6 * hypothesis.contacts : 0);
@@ -144,9 +142,10 @@ class Search {
   Effort effort() const;
 
   void beginTask(const Hypothesis& hypothesis, const Grid& grid);
-  int lookAtPoint(const TableImage& tables, Linearisation& scratch);
+  int nextWork(const TableImage& tables) const;
+  void lookAtPoint(const TableImage& tables, Linearisation& scratch);
   void consider(const TableConstants& constants, const Solution& point);
-  int refineNext(const TableImage& tables, Linearisation& scratch);
+  void refineNext(const TableImage& tables, Linearisation& scratch);
   bool isWorseTwin(const TableConstants& constants, int candidate) const;
   int refinements() const;
   Ranking& ranking();

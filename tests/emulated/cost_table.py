@@ -65,8 +65,7 @@ Instructions of a whole update, from the converter's codes to all frames in the 
 {kinds}
 
 The dearest of all of them takes {dearest:,} instructions on the Cortex-M4, at most {dearest_ms:.2f} ms of the millisecond between two sets at
-1 kHz; the bar is {bar:,}. Where each gauge's depth is known the dearest takes {dearest_depths:,}, {dearest_depths_ms:.2f} ms: more than the bar, less than
-the millisecond.
+1 kHz; the bar is {bar:,}.
 
 Neither core's floating-point unit is used, and the M0+ has no products of 64 bits and no division. Instructions are counted, cycles
 are not: times take {cycles} cycles an instruction, an assumption for a Cortex-M4 that runs from flash with its accelerator on, to be
@@ -115,15 +114,14 @@ def kind_rows(m4, m0plus):
         yield f"| {name} | {cells(spread(m4[key])[1:])} | {cells(spread(m0plus[key])[1:])} |"
 
 
-def dearest(m4, depths_known=False):
-    return max(max(m4[key]) for key in (*SCENES, *KINDS) if key.endswith("_depths") == depths_known)
+def dearest(m4):
+    return max(max(m4[key]) for key in (*SCENES, *KINDS))
 
 
 def page(m4, m0plus):
     return PAGE.format(scenes="\n".join(scene_rows(m4, m0plus)), kinds="\n".join(kind_rows(m4, m0plus)),
                        any_m4=OF_ANY_KIND["m4"], any_m0plus=OF_ANY_KIND["m0plus"], dearest=dearest(m4),
-                       dearest_ms=microseconds(dearest(m4)) / 1000, dearest_depths=dearest(m4, True),
-                       dearest_depths_ms=microseconds(dearest(m4, True)) / 1000, bar=DEAREST_BAR, cycles=CYCLES_PER_INSTRUCTION)
+                       dearest_ms=microseconds(dearest(m4)) / 1000, bar=DEAREST_BAR, cycles=CYCLES_PER_INSTRUCTION)
 
 
 def numbers_in(line):

@@ -89,11 +89,13 @@ NewTouches newTouches(const calibration::CalibrationResult& result, const config
         noise[k] *= chance.at(number, static_cast<std::uint32_t>(2 * (noise.size() * j + k)));
       sum.byChance.col(j) += inMetres(missed.col(j) + noise, radius_m).cwiseAbs2();
     }
+    sum.load_n_per_m += touch[calibration::kNormalLoad] * touch[calibration::kNormalLoad];
     sum.error += inMetres(found - touch, radius_m).cwiseAbs2();
     sum.predicted += inMetres(variances.total.cwiseSqrt(), radius_m).cwiseAbs2();
     sum.bound += inMetres(known.noise.cwiseSqrt(), radius_m).cwiseAbs2();
   }
   for (Eigen::Vector3d* each : {&sum.error, &sum.predicted, &sum.bound}) *each = (*each / count).cwiseSqrt();
+  sum.load_n_per_m = std::sqrt(sum.load_n_per_m / count);
   sum.byChance = (sum.byChance / count).cwiseSqrt().array().colwise() / sum.predicted.array();
   return sum;
 }

@@ -26,7 +26,8 @@ struct NewTouches {
   /// What chance makes of error / predicted where the calibration's errors are as its covariance has them: a
   /// column a draw of the finger's errors, which all touches share, and of each touch's noise.
   Eigen::Matrix3Xd byChance;
-  Eigen::Vector3d bound;  ///< Cramer-Rao's of the finger perfectly known, the width not
+  Eigen::Vector3d bound;    ///< Cramer-Rao's of the finger perfectly known, the width not
+  double load_n_per_m = 0;  ///< the normal load itself
 };
 
 /// `count` touches of 30 N/m and 2 mm anywhere on the ring and within 45 degrees of pressing, located in

@@ -36,6 +36,8 @@ struct Outcome {
   std::array<std::vector<double>, 3> overWithoutJunk;  ///< of the same finger by the same rows but the junk
   std::vector<double> overSigma;                       ///< errors of all unknowns over their sigmas
   double mostUnexplained = 0, mostWritten = 0, mostSeconds = 0;
+  /// Of place [m^2] and normal load [(N/m)^2], summed: squared errors beyond noise, and as they are written.
+  Eigen::Array2d beyondNoise = Eigen::Array2d::Zero(), written = Eigen::Array2d::Zero();
   int refused = 0;
 };
 
@@ -74,7 +76,12 @@ NewTouches addSession(const config::FingerConfig& finger, std::uint64_t seed, co
   const Eigen::VectorXd errors = errorsOverSigma(result, finger);
   outcome.overSigma.insert(outcome.overSigma.end(), errors.begin(), errors.end());
   outcome.mostUnexplained = std::max(outcome.mostUnexplained, result.modelError().value);
-  outcome.mostWritten = std::max(outcome.mostWritten, result.applied().gauges.model_error);
+  const config::FingerConfig applied = result.applied();
+  outcome.mostWritten = std::max(outcome.mostWritten, applied.gauges.model_error);
+  outcome.beyondNoise += (touches.error.cwiseAbs2() - touches.bound.cwiseAbs2()).head<2>().array();
+  outcome.written +=
+      Eigen::Array2d(applied.calibration.place_error_m, applied.calibration.load_error * touches.load_n_per_m)
+          .square();
   return touches;
 }
 
@@ -181,11 +188,12 @@ std::string sectionOf(const SessionPlan& plan, int fingers, int sessions) {
   text += fmt::format(
       "\nErrors of the fingers' unknowns over their sigmas: RMS {:.2f}, {:.1f} % within 1.96. Unexplained "
       "share of a "
-      "reading at most {:.3f} %; gauges.model_error written at most {:.2f} %. Processor time at most {:.1f} "
-      "s a "
-      "finger. Refused: {}.\n",
+      "reading at most {:.3f} %; gauges.model_error written at most {:.2f} %. Errors of new touches beyond "
+      "their noise over calibration.place_error_m, .load_error as written: {:.2f}, {:.2f} (RMS of all). "
+      "Processor time at most {:.1f} s a finger. Refused: {}.\n",
       std::sqrt(squares / count), 100 * covered / count, 100 * outcome.mostUnexplained,
-      100 * outcome.mostWritten, outcome.mostSeconds, outcome.refused);
+      100 * outcome.mostWritten, std::sqrt(outcome.beyondNoise[0] / outcome.written[0]),
+      std::sqrt(outcome.beyondNoise[1] / outcome.written[1]), outcome.mostSeconds, outcome.refused);
   return text;
 }
 
@@ -307,7 +315,7 @@ void run(const Options& options) {
   for (const int touches : options.touches) {
     if (options.fingers == 0) break;
     page += sectionOf({.touches = touches}, options.fingers, options.sessions);
-    if (touches <= 300)
+    if (touches <= 300 && options.sessions == 1)
       page += sectionOf({.touches = touches, .junk = 0.1}, options.fingers, options.sessions);
   }
   if (options.output.empty())
@@ -324,7 +332,8 @@ int main(int argc, char** argv) {
   CLI::App app("Calibrates random simulated fingers and compares with the truth.");
   app.add_option("--fingers", options.fingers, "How many; 0: only wiring (30)")->check(CLI::Range(0, 10'000));
   app.add_option("--sessions", options.sessions,
-                 "Of each finger; its errors and what is predicted are their root mean square (1)")
+                 "Of each finger, none with junk; its errors and what is predicted are their root mean "
+                 "square (1)")
       ->check(CLI::Range(1, 1000));
   app.add_option("--touches", options.touches, "Touches of a session; several: one after the other (300)")
       ->check(CLI::Range(40, 100'000));

@@ -166,6 +166,25 @@ TEST(RunCommand, RefusesTablesOfAnotherFinger) {
   checkRefused(run, 5, "gauges.count is 24, the config has 16");
 }
 
+TEST(RunCommand, UncalibratedItKnowsNoMoreThanAFingerThatNobodyCalibrated) {
+  const Run run = runShell(R"(
+    folder=$(mktemp -d) && trap 'rm -rf "$folder"' EXIT && cd "$folder"
+    gains='[calibration]\ngain = [1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n'
+    printf "schema = 1\n[gauges]\nmodel_error = 0.001\n$gains" >sure
+    printf "schema = 1\n[gauges]\nmodel_error = 0.1\n$gains" >unsure
+    printf 'schema = 1\n' >default
+    printf 'schema = 1\n[gauges]\nmodel_error = 0.1\n' >tenth
+    told() {
+      "$STRAINFINGER" run -c $1 --duration 1 $2 2>/dev/null | "$STRAINFINGER" decode --touches 2>/dev/null | cut -d, -f1-13
+    }
+    cmp <(told sure --uncalibrated) <(told default) && echo as one of the default error
+    cmp <(told unsure --uncalibrated) <(told tenth) && echo as one of the larger error
+    cmp -s <(told sure --uncalibrated) <(told sure) || echo otherwise than calibrated
+    told default | wc -l)");
+  STRCMP_CONTAINS("as one of the default error\nas one of the larger error\notherwise than calibrated\n334\n",
+                  run.out.c_str());
+}
+
 TEST(RunCommand, RefusesDamagedTables) {
   const Run run = runShell(
       "t=$(mktemp); \"$STRAINFINGER\" tables -o $t; printf X | dd of=$t bs=1 seek=500 conv=notrunc "

@@ -22,8 +22,9 @@ namespace {
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 using Kind = WiringFault::Kind;
 
-/// Rows that are looked at, of those in which a gauge reads most: the strongest but for those over range.
-constexpr std::size_t kRowsPerGauge = 6;
+/// Rows that are looked at, of those in which a gauge reads most: so many of the strongest third but for
+/// those over range. The strongest alone would be alike, of firm and narrow touches right above the gauge.
+constexpr std::size_t kRowsPerGauge = 6, kStrongPart = 3;
 /// Of a row's energy: what no touch explains counts no more than this.
 constexpr double kMostMisfit = 0.15;
 /// Mean share of the energy that a drawn finger leaves of a glued one's rows; with less nothing is wrong.
@@ -152,7 +153,7 @@ class WiringCheck {
     double misfit = std::numeric_limits<double>::infinity();
   };
 
-  /// Of each gauge, the strongest rows in which none reads more: a fault shows where it is touched.
+  /// Of each gauge, strong rows in which none reads more: a fault shows where it is touched.
   void takeStrongRows(const MatrixXd& readings) {
     std::vector<std::vector<std::pair<double, Index>>> ofGauge(static_cast<std::size_t>(readings.cols()));
     for (Index row = 0; row < readings.rows(); ++row) {
@@ -165,9 +166,10 @@ class WiringCheck {
     for (std::size_t gauge = 0; gauge < ofGauge.size(); ++gauge) {
       auto& rows = ofGauge[gauge];
       std::sort(rows.rbegin(), rows.rend());
-      rows.resize(std::min(rows.size(), kRowsPerGauge));
-      for (const auto& [peak, row] : rows) {
-        strong.push_back(row);
+      const std::size_t count = std::min(rows.size(), kRowsPerGauge),
+                        from = std::max(count, rows.size() / kStrongPart);
+      for (std::size_t i = 0; i < count; ++i) {
+        strong.push_back(rows[i * from / count].second);
         strongest_.push_back(static_cast<int>(gauge));
       }
     }

@@ -42,6 +42,15 @@ TEST(Wiring, HealthyFingersAreNotBlamed) {
   }
 }
 
+// The strongest of so many are alike; fitted to those alone, this finger's ring explained its one known
+// direction better the other way round.
+TEST(Wiring, AHealthyRingThatWasTouchedThousandsOfTimesIsNotBlamed) {
+  seed = 18;
+  session = study::sessionOf(study::randomFinger(seed), {.touches = 3000}, seed);
+  const auto found = faults();
+  if (!found.empty()) FAIL(textOf(found.front()).c_str());
+}
+
 TEST(Wiring, ATenthOfJunkIsNoFault) {
   session =
       study::sessionOf(study::randomFinger(seed), {.touches = 150, .knownDirections = 2, .junk = 0.1}, seed);

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "host/base/failure.hpp"
@@ -119,17 +120,25 @@ TEST(UdpPort, AnotherBusIsNotHeard) {
 }
 
 TEST(UdpPort, AFrameComesWithTheTimeOfItsArrival) {
+  // Linux switches its time stamps on in the background once a socket asks for them, late on a busy machine;
+  // until then a frame has the time at which it is read (net_enable_timestamp() in net/core/dev.c).
+  constexpr int kMostTries = 200;
+  constexpr std::int64_t kUnread_ns = 20'000'000;
   const auto now_ns = [] {
     return std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count();
   };
   UdpPort port(ownBus()), other(ownBus());
-  const auto before_ns = now_ns();
-  other.send(kFrame);
-  const auto after_ns = now_ns();
-  usleep(20'000);
-  const auto heard = hearTimed(port);
-  CHECK_TRUE(heard->time_ns >= before_ns - 1'000'000);
-  CHECK_TRUE(heard->time_ns <= after_ns + 10'000'000);
+  bool isOfArrival = false;
+  for (int i = 0; i < kMostTries && !isOfArrival; ++i) {
+    const auto before_ns = now_ns();
+    other.send(kFrame);
+    const auto after_ns = now_ns();
+    std::this_thread::sleep_for(std::chrono::nanoseconds(kUnread_ns));
+    const auto heard = hearTimed(port);
+    CHECK_TRUE(heard->time_ns >= before_ns - 1'000'000);
+    isOfArrival = heard->time_ns <= after_ns + kUnread_ns / 2;
+  }
+  CHECK_TRUE(isOfArrival);
 }
 
 TEST(UdpPort, AFilterLeavesOutOtherIdentifiers) {

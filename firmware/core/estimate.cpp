@@ -13,33 +13,34 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// A positive number: mantissa (16 bits) * 2^exponent.
-struct Scaled {
-  std::uint32_t mantissa = 0;
-  int exponent = 0;
-
-  /// * 2^up as an integer, at most `most`.
-  std::int64_t times2(int up, std::int64_t most) const {
-    const int shift = exponent + up;
-    if (shift <= 0) return static_cast<std::int64_t>(mantissa) >> std::min(-shift, 63);
-    return shift > 40 ? (mantissa == 0 ? 0 : most)
-                      : std::min<std::int64_t>(static_cast<std::int64_t>(mantissa) << shift, most);
-  }
+/// A number above 0: mantissa * 2^exponent, the mantissa's highest bit set.
+struct Normal {
+  std::uint32_t mantissa;
+  int exponent;
 };
 
-/// sqrt(value * 2^exponent).
-Scaled rootOf(std::uint64_t value, int exponent) {
-  if (value == 0) return {};
-  const int up = (std::countl_zero(value) - 32) - ((exponent - (std::countl_zero(value) - 32)) & 1);
-  const std::uint64_t normal = up >= 0 ? value << up : value >> -up;
-  return {integerRoot(static_cast<std::uint32_t>(normal)), (exponent - up) / 2};
+Normal normalOf(std::uint64_t value) {
+  const int up = std::countl_zero(value);
+  return {static_cast<std::uint32_t>(value << up >> 32), 32 - up};
 }
 
-/// Standard deviation of an unknown [units of its column], its variance for readings of variance 1 and the
-/// readings' noise given.
-Scaled sigmaOf(Wide variance, const Scaled& noise) {
-  const Scaled root = rootOf(static_cast<std::uint64_t>(variance), -50);
-  return {(root.mantissa * noise.mantissa) >> 16, root.exponent + noise.exponent + 16};
+/// sqrt(value * 2^exponent) as an integer, at most `most`.
+std::int64_t rootOf(std::uint64_t value, int exponent, std::int64_t most) {
+  if (value == 0) return 0;
+  const Normal normal = normalOf(value);
+  const int odd = (normal.exponent + exponent) & 1;
+  const std::uint32_t root = integerRoot(normal.mantissa >> odd);  // 16 bits
+  const int shift = (normal.exponent + exponent + odd) / 2;
+  if (shift <= 0) return shift <= -32 ? 0 : root >> -shift;
+  return shift > 40 ? most : std::min<std::int64_t>(static_cast<std::int64_t>(root) << shift, most);
+}
+
+/// Standard deviation of an unknown [units of its column * 2^up], its variance for readings of variance 1
+/// [* 2^50] and the readings' variance given.
+std::int64_t sigmaOf(Wide variance_q50, std::uint32_t readings_q4, int up, std::int64_t most) {
+  if (variance_q50 == 0) return 0;
+  const Normal variance = normalOf(static_cast<std::uint64_t>(variance_q50));
+  return rootOf(std::uint64_t{variance.mantissa} * readings_q4, variance.exponent - 50 - 4 + 2 * up, most);
 }
 
 constexpr std::int64_t kHalfTurn_q32 = std::int64_t{1} << 31;
@@ -66,18 +67,30 @@ void setWidth(const TableConstants& constants, Number moment_q20, std::int64_t s
 }
 
 /// [Percent] of what is left, by what the gate allows.
-std::uint8_t qualityOf(const Answer& answer, std::int64_t chiSquared, int freedoms) {
+std::uint8_t qualityOf(const Answer& answer, int freedoms) {
   constexpr int kMostUncertain = 20;
-  const std::int64_t allowed = threshold::kGatePerFreedom * freedoms + threshold::kGate;
-  const auto quality = chiSquared <= allowed ? 100 : std::max<std::int64_t>(100 * allowed / chiSquared, 1);
+  const std::int64_t allowed =
+      energyOf(answer.gateVariance_q4, threshold::kGatePerFreedom * freedoms + threshold::kGate);
+  const std::int64_t energy = answer.solution.residualEnergy;
+  const auto quality = energy <= allowed ? 100 : std::max<std::int64_t>(100 * allowed / energy, 1);
   if (!answer.accepted) return static_cast<std::uint8_t>(std::min<std::int64_t>(quality, kMostUncertain));
   return static_cast<std::uint8_t>(std::max<std::int64_t>(quality, kMostUncertain + 1));
+}
+
+/// Square root of chi-squared a degree of freedom [* 2^4].
+std::uint16_t chiOf_q4(const Answer& answer, int freedoms) {
+  if (answer.solution.residualEnergy == 0) return 0;
+  const Normal energy = normalOf(static_cast<std::uint64_t>(answer.solution.residualEnergy));
+  const Normal allowed =
+      normalOf(std::uint64_t{answer.gateVariance_q4} * static_cast<std::uint32_t>(freedoms));
+  const std::uint32_t ratio = energy.mantissa / (allowed.mantissa >> 16);  // * 2^16, to 2^-15
+  return static_cast<std::uint16_t>(rootOf(ratio, energy.exponent - allowed.exponent - 16 + 4 + 2 * 4, kNoChi - 1));
 }
 
 /// The standard error of a sum of two independent errors. Domain: up to 2^31 and 2^30, or 2^31 - 1 each.
 Wide together(Wide one, Wide other) {
   if (other == 0) return one;
-  return rootOf(static_cast<std::uint64_t>(one * one + other * other), 0).times2(0, Wide{1} << 31);
+  return rootOf(static_cast<std::uint64_t>(one * one + other * other), 0, Wide{1} << 31);
 }
 
 /// A load's standard error with those that no residual shows: of the scale of all loads, and what calibration
@@ -151,10 +164,10 @@ Contact estimate(const TableConstants& constants, const Answer& answer, const Li
   const Hypothesis& hypothesis = answer.solution.hypothesis;
   const ContactState& state = answer.solution.contact[at(contact)];
   const auto variance = variances(linearisation.decomposition);
-  const Scaled noise = rootOf(answer.variance_q4, -4);
   const auto sigma = [&](int unknown, int unitBits, std::int64_t most) {
     if (!linearisation.decomposition.isDetermined(unknown)) return most;
-    return sigmaOf(variance[at(unknown)], noise).times2(unitBits - linearisation.exponent[at(unknown)], most);
+    return sigmaOf(variance[at(unknown)], answer.variance_q4, unitBits - linearisation.exponent[at(unknown)],
+                   most);
   };
   const auto load = [&](std::int64_t amplitude) { return loadOf(constants, answer, amplitude); };
   const int contacts = hypothesis.contacts;
@@ -181,14 +194,8 @@ Contact estimate(const TableConstants& constants, const Answer& answer, const Li
   estimated.sigmaTangential =
       withCalibrationError(constants, estimated.sigmaTangential, estimated.tangential, estimated.normal);
   const int left = freedoms(hypothesis);
-  const std::int64_t chiSquared = (answer.solution.residualEnergy << 4) / answer.gateVariance_q4;
-  if (left > 0) {
-    const Scaled chi = rootOf(static_cast<std::uint64_t>((answer.solution.residualEnergy << 12) /
-                                                         (std::int64_t{answer.gateVariance_q4} * left)),
-                              0);
-    estimated.chi_q4 = static_cast<std::uint16_t>(chi.times2(0, kNoChi - 1));
-  }
-  estimated.quality = qualityOf(answer, chiSquared, left);
+  if (left > 0) estimated.chi_q4 = chiOf_q4(answer, left);
+  estimated.quality = qualityOf(answer, left);
   coverRival(constants, answer, contact, estimated);
   estimated.sigmaAngle = withPlaceError(constants, estimated.sigmaAngle);
   estimated.alternative = TurnQ32::fromRaw(answer.rival[at(contact)].angle_q32);

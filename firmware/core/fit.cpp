@@ -13,8 +13,10 @@ constexpr Number kMostTurn_q32 = 1 << 25;
 /// A step changes the second moment by at most 1/16 + 5/16 of it.
 constexpr Number kMostWidening_q20 = 1 << (kMomentBits - 4);
 
-constexpr int kLoadExponent = 2;  ///< of the loads' columns, whose entries have 15 bits
-constexpr int kMostEntry = (1 << (15 - kLoadExponent)) - 1;
+constexpr int kLoadExponent = 3;  ///< of the loads' columns, whose entries have 15 bits
+constexpr int kLoadStepBits = kLoadExponent + kStepBits - 16;  ///< a step of theirs is an amplitude * 2^this
+/// Of what a step leaves: estimate() has room for so much.
+constexpr int kMostEnergyBits = 48;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
@@ -35,49 +37,52 @@ class ContactModel {
     Number normal, tangential;
   };
   struct Reading {
-    Loads loads;           ///< responses
-    Number angle, moment;  ///< slopes: readings per half node and per unit of second moment
-    Number predicted;
+    Loads loads_q30;   ///< responses
+    Number predicted;  ///< [readings]
+    Number angle;      ///< slope over the contact's angle: readings per half node
+    Number moment;     ///< slope over its second moment: readings per unit * 2^-momentExponent()
   };
 
   ContactModel(const TableImage& tables, const ContactState& contact, Number slip_q15)
-      : tables_(tables), contact_(contact), normalCell_(momentCell(tables.constants, contact.moment_q20)) {
+      : tables_(tables),
+        angle_q32_(contact.angle_q32),
+        normalCell_(momentCell(tables.constants, contact.moment_q20)) {
     const Number part_q16 = (1 << 16) - slip_q15;
     const Number tangentialMoment_q20 = scaled<16>(contact.moment_q20, part_q16);
     tangentialCell_ = momentCell(tables.constants, tangentialMoment_q20);
-    tangentialRate_q8_ = scaled<16>(tangentialCell_.rate_q8, part_q16);
     if (tables.depths.areKnown()) {
       asNormal_ = momentCell(tables.constants, contact.moment_q20 / 2);
       asTangential_ = momentCell(tables.constants, 2 * tangentialMoment_q20);
     }
-    const Loads loads{contact.normal, contact.tangential};
-    seen_ = {loads, mirrored(loads)};
+    const Wide wider = Wide{contact.normal} * normalCell_.rate_q8,
+               widerTangential =
+                   Wide{contact.tangential} * scaled<16>(tangentialCell_.rate_q8, part_q16);
+    Wide bits = magnitude(wider);
+    bits |= magnitude(widerTangential);
+    const int down = std::max(bitWidth(bits) - 30, 0);
+    momentExponent_ = down - 7;
+    const Loads moment{static_cast<Number>(wider >> down), static_cast<Number>(widerTangential >> down)};
+    const Loads seen{2 * contact.normal, 2 * contact.tangential};
+    const int sign = tables.constants.mirror_sign;
+    side_[0] = {seen, {-seen.normal, -seen.tangential}, moment, 1, 1};
+    side_[1] = {mirrored(seen), mirrored(seen), mirrored(moment), sign, -sign};
   }
 
-  /// Responses.
-  Loads loadsAt(int gauge) const {
+  int momentExponent() const { return momentExponent_; }
+
+  Loads loadsAt_q30(int gauge) const {
     const AngleNode node = nodeOf(gauge);
-    return oriented(node, valuesAt(node));
-  }
-  Number predictedAt(int gauge) const {
-    const AngleNode node = nodeOf(gauge);
-    return static_cast<Number>(readingOf(node, valuesAt(node)) >> kReadingBits);
+    return oriented(node, {normalAt(node).value_q30, tangentialAt(node).value_q30});
   }
 
   Reading at(int gauge) const {
     const AngleNode node = nodeOf(gauge);
-    const Response normal = responseOf(normalPatch(node, normalCell_), normalCell_.s_q15, node.t_q15);
-    const Response tangential =
-        responseOf(tangentialPatch(node, tangentialCell_), tangentialCell_.s_q15, node.t_q15);
-    const Loads values{normal.value, tangential.value};
-    // Turning the contact forward brings a gauge beyond it nearer, one behind it farther away.
-    const Wide farther = readingOf(node, {normal.slope, tangential.slope});
-    const Wide wider = readingOf(node, {widening(normal.widening, normalCell_.rate_q8),
-                                        widening(tangential.widening, tangentialRate_q8_)});
-    return {oriented(node, values),
-            -static_cast<Number>((node.mirrored ? -farther : farther) >> kReadingBits),
-            static_cast<Number>(wider >> kReadingBits),
-            static_cast<Number>(readingOf(node, values) >> kReadingBits)};
+    const Response normal = normalAt(node), tangential = tangentialAt(node);
+    const Side& side = side_[node.mirrored ? 1 : 0];
+    return {oriented(node, {normal.value_q30, tangential.value_q30}),
+            together(side.loads, normal.value_q30, tangential.value_q30),
+            together(side.angle, normal.slope_q30, tangential.slope_q30),
+            together(side.moment, normal.widening_q30, tangential.widening_q30)};
   }
 
   struct Depth {
@@ -88,133 +93,117 @@ class ContactModel {
   Depth depthAt(int gauge) const {
     const GaugeDepths& depths = tables_.depths;
     const AngleNode node = nodeOf(gauge);
+    const PatchPair* const patches = patchesOf(node);
     const ShapePoint point = shapePoint(distance_q32(gauge));
-    const Number normalSlope = slopeOf(normalPatch(node, asTangential_), asTangential_.s_q15, node.t_q15),
-                 tangentialSlope = slopeOf(tangentialPatch(node, asNormal_), asNormal_.s_q15, node.t_q15);
-    const Number normal = scaled<11>(tangentialSlope, depths.normal_turn_q11) +
+    const Number normalSlope =
+                     responseOf(patches[asTangential_.cell].normal, asTangential_.s_q15, node.t_q15).slope_q30,
+                 tangentialSlope =
+                     responseOf(patches[asNormal_.cell].tangential, asNormal_.s_q15, node.t_q15).slope_q30;
+    const Number normal = scaled<11 + 15>(tangentialSlope, depths.normal_turn_q11) +
                           shapeAt(depths.normal_shape, depths.shape_shift, point);
-    const Number tangential = scaled<11>(normalSlope, depths.tangential_turn_q11) +
-                              scaled<15>(tangentialAt(node), depths.tangential_q15) +
+    const Number tangential = scaled<11 + 15>(normalSlope, depths.tangential_turn_q11) +
+                              scaled<15>(tangentialAt(node).value_q30 >> 15, depths.tangential_q15) +
                               shapeAt(depths.tangential_shape, depths.shape_shift, point);
     const Number depth = depths.steps[index(gauge)];
     const Loads added{limited(scaled<kDepthBits>(normal, depth), kMostValue),
                       limited(scaled<kDepthBits>(tangential, depth), kMostValue)};
-    return {oriented(node, added), static_cast<Number>(readingOf(node, added) >> kReadingBits)};
+    return {oriented(node, added), together(side_[node.mirrored ? 1 : 0].loads, added.normal * (1 << 15),
+                                            added.tangential * (1 << 15))};
   }
 
  private:
-  static constexpr int kReadingBits = 16;
   static constexpr int kDepthBits = 7;
   static constexpr Number kMostValue = (1 << 15) - 1;
 
-  std::uint32_t distance_q32(int gauge) const {
-    return tables_.gauge_angle_q32[index(gauge)] - contact_.angle_q32;
-  }
-  AngleNode nodeOf(int gauge) const { return angleNode(tables_.constants, distance_q32(gauge)); }
-  const ResponsePatch& normalPatch(const AngleNode& node, const MomentCell& moment) const {
-    return tables_.patch(node.node, moment.cell).normal;
-  }
-  const ResponsePatch& tangentialPatch(const AngleNode& node, const MomentCell& moment) const {
-    return tables_.patch(node.node, moment.cell).tangential;
-  }
-  Loads valuesAt(const AngleNode& node) const {
-    return {valueOf(normalPatch(node, normalCell_), normalCell_.s_q15, node.t_q15), tangentialAt(node)};
-  }
-  Number tangentialAt(const AngleNode& node) const {
-    return valueOf(tangentialPatch(node, tangentialCell_), tangentialCell_.s_q15, node.t_q15);
-  }
-  /// value * rate / 2^8, of which both have less than 18 bits.
-  static Number widening(Number value, Number rate_q8) {
-    return mulHigh(value * (1 << 12), rate_q8 * (1 << 12));
-  }
+  /// What responses as they are on the side that isn't mirrored are multiplied by, on either side.
+  struct Side {
+    Loads loads;   ///< * 2
+    Loads angle;   ///< the same; turning the contact forward brings a gauge beyond it nearer
+    Loads moment;  ///< with what second moments change s by
+    int normalSign, tangentialSign;  ///< of responses on this side
+  };
 
+  std::uint32_t distance_q32(int gauge) const { return tables_.gauge_angle_q32[index(gauge)] - angle_q32_; }
+  AngleNode nodeOf(int gauge) const { return angleNode(tables_.constants, distance_q32(gauge)); }
+  /// Of all cells.
+  const PatchPair* patchesOf(const AngleNode& node) const { return &tables_.patch(node.node, 0); }
+  Response normalAt(const AngleNode& node) const {
+    return responseOf(patchesOf(node)[normalCell_.cell].normal, normalCell_.s_q15, node.t_q15);
+  }
+  Response tangentialAt(const AngleNode& node) const {
+    return responseOf(patchesOf(node)[tangentialCell_.cell].tangential, tangentialCell_.s_q15, node.t_q15);
+  }
+  static Number together(const Loads& loads, Number normal_q30, Number tangential_q30) {
+    return static_cast<Number>((Wide{loads.normal} * normal_q30 + Wide{loads.tangential} * tangential_q30) >>
+                               32);
+  }
   /// On the mirrored side one of the two has the other sign.
   Loads mirrored(const Loads& loads) const {
     const int sign = tables_.constants.mirror_sign;
     return {sign * loads.normal, -sign * loads.tangential};
   }
   Loads oriented(const AngleNode& node, const Loads& responses) const {
-    return node.mirrored ? mirrored(responses) : responses;
-  }
-  /// [* 2^kReadingBits] of responses as they are on the side that isn't mirrored.
-  Wide readingOf(const AngleNode& node, const Loads& responses) const {
-    const Loads& loads = seen_[node.mirrored ? 1 : 0];
-    return Wide{loads.normal} * responses.normal + Wide{loads.tangential} * responses.tangential;
+    const Side& side = side_[node.mirrored ? 1 : 0];
+    return {side.normalSign * responses.normal, side.tangentialSign * responses.tangential};
   }
 
   const TableImage& tables_;
-  const ContactState& contact_;
+  std::uint32_t angle_q32_;
   MomentCell normalCell_;
   MomentCell tangentialCell_;
   MomentCell asNormal_{};      ///< of a tangential load, at the pressure's second moment
   MomentCell asTangential_{};  ///< of a normal load, at the tangential one's
-  Number tangentialRate_q8_;
-  std::array<Loads, 2> seen_;  ///< the contact's loads from its either side
+  int momentExponent_;
+  std::array<Side, 2> side_;
 };
 
 int loadsOf(int contact) { return 2 * contact; }
 int angleOf(const Hypothesis& hypothesis, int contact) { return 2 * hypothesis.contacts + contact; }
 int momentOf(const Hypothesis& hypothesis, int contact) { return 3 * hypothesis.contacts + contact; }
 
-bool isInReach(const TableConstants& constants, std::uint32_t distance_q32) {
-  return distance_q32 + constants.reach_q32 <= 2 * constants.reach_q32;
+/// Gauges that are fitted.
+GaugeSet fittedGauges(const Hypothesis& hypothesis) {
+  return hypothesis.exact != 0 ? hypothesis.exact : hypothesis.gauges;
 }
 
-/// Gauges of the hypothesis whose readings change with a contact.
-GaugeSet gaugesInReach(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,
-                       GaugeSet gauges) {
-  GaugeSet inReach = 0;
-  for (int k = 0; k < hypothesis.contacts; ++k)
-    for (int gauge = 0; gauge < tables.constants.gauge_count; ++gauge)
-      if (isInReach(tables.constants, tables.gauge_angle_q32[index(gauge)] - contacts[index(k)].angle_q32))
-        inReach |= GaugeSet{1} << gauge;
-  return inReach & gauges;
-}
+using WideColumn = std::array<Number, kMaxGauges>;
 
-void chooseRows(const TableImage& tables, Linearisation& linearisation) {
-  const Hypothesis& hypothesis = linearisation.hypothesis;
-  GaugeSet left = gaugesInReach(tables, hypothesis, linearisation.at,
-                                hypothesis.exact != 0 ? hypothesis.exact : hypothesis.gauges);
-  int rows = 0;
-  for (; left != 0 && rows < kMostRows; left &= left - 1)
-    linearisation.gauge[index(rows++)] = static_cast<std::uint8_t>(std::countr_zero(left));
-  linearisation.usedRows = static_cast<std::uint8_t>(rows);
-  if (rows % 2 != 0)
-    for (int i = 0; i < hypothesis.unknowns(); ++i) linearisation.column[index(i)][index(rows)] = 0;
-  linearisation.rows = static_cast<std::uint8_t>((rows + 1) & ~1);
-}
-
-using WideColumn = std::array<Number, kMostRows>;
-
-/// A column as numbers below 2^13, scaled by a power of two.
-void setColumn(Linearisation& linearisation, int unknown, const WideColumn& entries) {
+/// A column as numbers of kColumnBits, scaled by a power of two. `exponent`: of the entries.
+void setColumn(const WideColumn& entries, int gauges, int exponent, Rows& column, std::int8_t& scaledBy) {
   Number bits = 1;
-  for (int row = 0; row < linearisation.usedRows; ++row) bits |= magnitude(entries[index(row)]);
-  const int exponent = std::max(bitWidth(bits) - kColumnBits, -8);
-  linearisation.exponent[index(unknown)] = static_cast<std::int8_t>(exponent);
-  Rows& column = linearisation.column[index(unknown)];
-  for (int row = 0; row < linearisation.usedRows; ++row)
-    column[index(row)] = static_cast<Short>(exponent >= 0 ? entries[index(row)] >> exponent
-                                                          : entries[index(row)] << -exponent);
+  for (int gauge = 0; gauge < gauges; ++gauge) bits |= signlessBits(entries[index(gauge)]);
+  const int down = std::max(bitWidth(bits) - kColumnBits, 0);
+  scaledBy = static_cast<std::int8_t>(exponent + down);
+  for (int gauge = 0; gauge < gauges; ++gauge)
+    column[index(gauge)] = static_cast<Short>(saturated<kColumnBits>(entries[index(gauge)] >> down));
+}
+
+/// Gauges that are not fitted, and what fills the columns up.
+void clearRows(const Hypothesis& hypothesis, int unknowns, int gauges, std::array<Rows, kMostUnknowns>& column) {
+  const GaugeSet out = ~fittedGauges(hypothesis) & allGauges(rowsOf(gauges));
+  for (GaugeSet left = out; left != 0; left &= left - 1)
+    for (int i = 0; i < unknowns; ++i) column[index(i)][index(std::countr_zero(left))] = 0;
+}
+
+/// `columns`: of the normal and the tangential load.
+void setLoads(const ContactModel::Loads& responses_q30, int gauge, Rows* columns) {
+  constexpr int kDown = 15 + kLoadExponent;
+  columns[0][index(gauge)] = static_cast<Short>(responses_q30.normal >> kDown);
+  columns[1][index(gauge)] = static_cast<Short>(responses_q30.tangential >> kDown);
 }
 
 /// Another pass, which fingers without a calibration don't pay for.
 void addDepths(const TableImage& tables, const ContactModel& model, int contact,
                Linearisation& linearisation) {
   const auto add = [](Short& entry, Number response) {
-    entry = static_cast<Short>(limited(Number{entry} + (response >> kLoadExponent), kMostEntry));
+    entry = static_cast<Short>(saturated<kColumnBits>(entry + (response >> kLoadExponent)));
   };
-  for (int gauge = 0, row = 0; gauge < tables.constants.gauge_count; ++gauge) {
-    const bool isRow = row < linearisation.usedRows && linearisation.gauge[index(row)] == gauge;
-    if (tables.depths.steps[index(gauge)] != 0) {
-      const ContactModel::Depth depth = model.depthAt(gauge);
-      linearisation.predicted[index(gauge)] += depth.predicted;
-      if (isRow) {
-        add(linearisation.column[index(loadsOf(contact))][index(row)], depth.loads.normal);
-        add(linearisation.column[index(loadsOf(contact) + 1)][index(row)], depth.loads.tangential);
-      }
-    }
-    row += isRow ? 1 : 0;
+  for (int gauge = 0; gauge < tables.constants.gauge_count; ++gauge) {
+    if (tables.depths.steps[index(gauge)] == 0) continue;
+    const ContactModel::Depth depth = model.depthAt(gauge);
+    linearisation.predicted[index(gauge)] += depth.predicted;
+    add(linearisation.column[index(loadsOf(contact))][index(gauge)], depth.loads.normal);
+    add(linearisation.column[index(loadsOf(contact) + 1)][index(gauge)], depth.loads.tangential);
   }
 }
 
@@ -222,29 +211,46 @@ void lineariseContact(const TableImage& tables, int contact, Linearisation& line
   const Hypothesis& hypothesis = linearisation.hypothesis;
   const ContactState& state = linearisation.at[index(contact)];
   const ContactModel model(tables, state, slip_q15(tables.constants, state));
-  Rows& normal = linearisation.column[index(loadsOf(contact))];
-  Rows& tangential = linearisation.column[index(loadsOf(contact) + 1)];
+  const int gauges = tables.constants.gauge_count;
+  Rows* const loads = &linearisation.column[index(loadsOf(contact))];
   WideColumn angle, moment;
-  for (int gauge = 0, row = 0; gauge < tables.constants.gauge_count; ++gauge) {
-    Number& predicted = linearisation.predicted[index(gauge)];
-    if (contact == 0) predicted = 0;
-    if (row >= linearisation.usedRows || linearisation.gauge[index(row)] != gauge) {
-      predicted += model.predictedAt(gauge);
-      continue;
-    }
+  for (int gauge = 0; gauge < gauges; ++gauge) {
     const ContactModel::Reading reading = model.at(gauge);
-    normal[index(row)] = static_cast<Short>(reading.loads.normal >> kLoadExponent);
-    tangential[index(row)] = static_cast<Short>(reading.loads.tangential >> kLoadExponent);
-    angle[index(row)] = reading.angle;
-    moment[index(row)] = reading.moment;
-    predicted += reading.predicted;
-    ++row;
+    setLoads(reading.loads_q30, gauge, loads);
+    angle[index(gauge)] = reading.angle;
+    moment[index(gauge)] = reading.moment;
+    Number& predicted = linearisation.predicted[index(gauge)];
+    predicted = reading.predicted + (contact == 0 ? 0 : predicted);
   }
   if (tables.depths.areKnown()) addDepths(tables, model, contact, linearisation);
+  const auto set = [&](int unknown, const WideColumn& entries, int exponent) {
+    setColumn(entries, gauges, exponent, linearisation.column[index(unknown)],
+              linearisation.exponent[index(unknown)]);
+  };
   linearisation.exponent[index(loadsOf(contact))] = linearisation.exponent[index(loadsOf(contact) + 1)] =
       kLoadExponent;
-  setColumn(linearisation, angleOf(hypothesis, contact), angle);
-  if (hypothesis.widthIsFree) setColumn(linearisation, momentOf(hypothesis, contact), moment);
+  set(angleOf(hypothesis, contact), angle, 0);
+  if (hypothesis.widthIsFree) set(momentOf(hypothesis, contact), moment, model.momentExponent());
+}
+
+/// What is left of each reading [readings]; 0 of gauges that don't count.
+template <typename Left>
+Residual residualOf(int gauges, GaugeSet counted, Left leftOf) {
+  Residual residual;
+  const auto gather = [&](int shift) {
+    residual.shift = shift;
+    const Number half = (1 << shift) / 2;
+    Number bits = 0;
+    for (int gauge = 0; gauge < gauges; ++gauge) {
+      const Number left = leftOf(index(gauge)) * static_cast<Number>(counted >> gauge & 1);
+      residual.value[index(gauge)] = static_cast<Short>(saturated<kColumnBits>((left + half) >> shift));
+      bits |= signlessBits(left);
+    }
+    return std::min(bitWidth(bits) - kColumnBits, kMostResidualShift);
+  };
+  if (const int shift = gather(0); shift > 0) gather(shift);
+  for (int row = gauges; row < rowsOf(gauges); ++row) residual.value[index(row)] = 0;
+  return residual;
 }
 
 /// [units of an unknown] as a step of its column.
@@ -273,6 +279,11 @@ void setLimits(const TableConstants& constants, const Linearisation& linearisati
   }
 }
 
+/// What a step leaves of a residual's energy.
+Wide leftOf(Wide energy, Wide reduction) {
+  return lesser(std::max<Wide>(energy - reduction, 0), Wide{1} << kMostEnergyBits);
+}
+
 /// A step of a column in units of its unknown.
 Number unitsOf(Number x_q14, int exponent, int unitBits, Number limit) {
   return shifted(x_q14, unitBits - kStepBits - exponent, limit);
@@ -286,8 +297,11 @@ void take(const TableConstants& constants, const Linearisation& linearisation, c
   };
   for (int k = 0; k < hypothesis.contacts; ++k) {
     ContactState& contact = contacts[index(k)];
-    contact.normal = limited(contact.normal + units(loadsOf(k), 16), kMostLoad);
-    contact.tangential = limited(contact.tangential + units(loadsOf(k) + 1, 16), kMostLoad);
+    const auto load = [&](Number from, int unknown) {
+      return limited(from + (step.x_q14[index(unknown)] >> kLoadStepBits), kMostLoad);
+    };
+    contact.normal = load(contact.normal, loadsOf(k));
+    contact.tangential = load(contact.tangential, loadsOf(k) + 1);
     contact.angle_q32 += wrapped(scaled<15>(units(angleOf(hypothesis, k), 15), halfNode_q32(constants)));
     if (hypothesis.widthIsFree)
       contact.moment_q20 =
@@ -332,33 +346,31 @@ bool isConverged(const TableConstants& constants, const Linearisation& linearisa
 
 }  // namespace
 
+bool isInReach(const TableImage& tables, const ContactState& contact, int gauge) {
+  const std::uint32_t reach_q32 = tables.constants.reach_q32;
+  return tables.gauge_angle_q32[index(gauge)] - contact.angle_q32 + reach_q32 <= 2 * reach_q32;
+}
+
 void linearise(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,
                Linearisation& linearisation) {
+  const int gauges = tables.constants.gauge_count, unknowns = hypothesis.unknowns();
   linearisation.hypothesis = hypothesis;
   linearisation.at = contacts;
-  chooseRows(tables, linearisation);
   for (int k = 0; k < hypothesis.contacts; ++k) lineariseContact(tables, k, linearisation);
-  decompose(linearisation.column, linearisation.rows, hypothesis.unknowns(), linearisation.decomposition);
+  clearRows(hypothesis, unknowns, gauges, linearisation.column);
+  decompose(linearisation.column, rowsOf(gauges), unknowns, linearisation.decomposition);
 }
 
 Solution step(const TableImage& tables, const Linearisation& linearisation, const ScaledReadings& readings) {
   const Hypothesis& hypothesis = linearisation.hypothesis;
-  Rows residual;
-  residual[index(linearisation.rows - (linearisation.rows > 0 ? 1 : 0))] = 0;
-  Wide energy = 0;
-  std::array<Short, kMaxGauges> rest;
-  for (int gauge = 0; gauge < tables.constants.gauge_count; ++gauge) {
-    const Short each = shortened(readings.value[index(gauge)] - linearisation.predicted[index(gauge)]);
-    rest[index(gauge)] = each;
-    if (contains(hypothesis.gauges, gauge)) energy += Wide{each} * each;
-  }
-  for (int row = 0; row < linearisation.usedRows; ++row)
-    residual[index(row)] = rest[linearisation.gauge[index(row)]];
+  const int gauges = tables.constants.gauge_count, rows = rowsOf(gauges);
+  const Residual residual = residualOf(gauges, hypothesis.gauges, [&](std::size_t gauge) {
+    return readings.value[gauge] - linearisation.predicted[gauge];
+  });
   Vector low, high;
   setLimits(tables.constants, linearisation, low, high);
-  const Step best =
-      solve(linearisation.decomposition, linearisation.column, linearisation.rows, residual, low, high);
-  Solution solution{hypothesis, linearisation.at, false, std::max<Wide>(energy - best.reduction, 0)};
+  const Step best = solve(linearisation.decomposition, linearisation.column, rows, residual, low, high);
+  Solution solution{hypothesis, linearisation.at, false, leftOf(residual.energy(rows), best.reduction)};
   take(tables.constants, linearisation, best, solution.contact);
   solution.converged = isConverged(tables.constants, linearisation, best, solution.contact, readings);
   return solution;
@@ -367,39 +379,27 @@ Solution step(const TableImage& tables, const Linearisation& linearisation, cons
 Solution fitLoads(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,
                   const ScaledReadings& readings, Linearisation& scratch) {
   constexpr Number kHalfSlips_q15 = 1 << 14;
-  auto& columns = scratch.column;
-  alignas(4) Rows residual;
-  const GaugeSet inReach = gaugesInReach(tables, hypothesis, contacts, hypothesis.gauges);
-  int rows = 0;
-  Wide energy = 0;
+  const int gauges = tables.constants.gauge_count, rows = rowsOf(gauges), unknowns = 2 * hypothesis.contacts;
   for (int k = 0; k < hypothesis.contacts; ++k) {
     const ContactModel model(tables, contacts[index(k)], kHalfSlips_q15);
-    rows = 0;
-    for (int gauge = 0; gauge < tables.constants.gauge_count && rows < kMostRows; ++gauge) {
-      if (!contains(hypothesis.gauges, gauge)) continue;
-      const Number reading = readings.value[index(gauge)];
-      if (k == 0) energy += Wide{reading} * reading;
-      if (!contains(inReach, gauge)) continue;
-      const ContactModel::Loads loads = model.loadsAt(gauge);
-      columns[index(loadsOf(k))][index(rows)] = static_cast<Short>(loads.normal >> kLoadExponent);
-      columns[index(loadsOf(k) + 1)][index(rows)] = static_cast<Short>(loads.tangential >> kLoadExponent);
-      residual[index(rows++)] = static_cast<Short>(reading);
+    for (int gauge = 0; gauge < gauges; ++gauge) {
+      ContactModel::Loads loads_q30{0, 0};
+      if (isInReach(tables, contacts[index(k)], gauge)) loads_q30 = model.loadsAt_q30(gauge);
+      setLoads(loads_q30, gauge, &scratch.column[index(loadsOf(k))]);
     }
   }
-  const int unknowns = 2 * hypothesis.contacts;
-  if (rows % 2 != 0) {
-    for (int i = 0; i < unknowns; ++i) columns[index(i)][index(rows)] = 0;
-    residual[index(rows++)] = 0;
-  }
-  decompose(columns, rows, unknowns, scratch.decomposition);
+  clearRows(hypothesis, unknowns, gauges, scratch.column);
+  decompose(scratch.column, rows, unknowns, scratch.decomposition);
+  const Residual residual = residualOf(gauges, hypothesis.gauges,
+                                       [&](std::size_t gauge) -> Number { return readings.value[gauge]; });
   Vector low, high;
-  low.fill(-kMostLoad);
-  high.fill(kMostLoad);
-  const Step best = solve(scratch.decomposition, columns, rows, residual, low, high);
-  Solution solution{hypothesis, contacts, false, std::max<Wide>(energy - best.reduction, 0)};
+  low.fill(-(kMostLoad << kLoadStepBits));
+  high.fill(kMostLoad << kLoadStepBits);
+  const Step best = solve(scratch.decomposition, scratch.column, rows, residual, low, high);
+  Solution solution{hypothesis, contacts, false, leftOf(residual.energy(rows), best.reduction)};
   for (int k = 0; k < hypothesis.contacts; ++k) {
-    solution.contact[index(k)].normal = best.x_q14[index(loadsOf(k))];
-    solution.contact[index(k)].tangential = best.x_q14[index(loadsOf(k) + 1)];
+    solution.contact[index(k)].normal = best.x_q14[index(loadsOf(k))] >> kLoadStepBits;
+    solution.contact[index(k)].tangential = best.x_q14[index(loadsOf(k) + 1)] >> kLoadStepBits;
   }
   return solution;
 }

@@ -18,12 +18,12 @@ struct Linearisation {
   ContactStates at;
   alignas(4) std::array<Rows, kMostUnknowns> column;  ///< * 2^exponent: readings per unit of the unknown
   std::array<std::int8_t, kMostUnknowns> exponent;
-  std::array<std::uint8_t, kMostRows> gauge;  ///< whose readings the rows are
-  std::uint8_t rows;                          ///< even: the last may be empty
-  std::uint8_t usedRows;
   std::array<Number, kMaxGauges> predicted;  ///< of every gauge of the ring, not limited to what can be read
   Decomposition decomposition;
 };
+
+/// Entries of a column: one a gauge, up to a multiple of 4.
+constexpr int rowsOf(int gauges) { return (gauges + 3) & ~3; }
 
 /// Where a fit stands.
 struct Solution {
@@ -35,7 +35,10 @@ struct Solution {
   std::span<const ContactState> contacts() const { return std::span(contact).first(hypothesis.contacts); }
 };
 
-/// Cost: two table lookups a gauge in reach of a contact, and the decomposition.
+/// The gauge is so near to the contact that grids look at what it reads of it.
+bool isInReach(const TableImage& tables, const ContactState& contact, int gauge);
+
+/// Cost: two table lookups a gauge and contact, and the decomposition.
 void linearise(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,
                Linearisation& linearisation);
 

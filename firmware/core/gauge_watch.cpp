@@ -15,20 +15,21 @@ void GaugeWatch::suspect(GaugeSet gauge, std::uint32_t angle_q32) {
   const auto i = static_cast<std::size_t>(std::countr_zero(gauge));
   const std::uint32_t moved = angle_q32 - lastPlace_q32_[i];
   const bool isElsewhere = moved + kOnePlace_q32 > 2 * kOnePlace_q32;
-  if (places_[i] != 0 && !isElsewhere) return;
+  if ((suspects_ & gauge) != 0 && !isElsewhere) return;
+  if ((suspects_ & gauge) == 0) places_[i] = 0;
+  suspects_ |= gauge;
   lastPlace_q32_[i] = angle_q32;
   if (++places_[i] >= kPlaces) outOfUse_ |= gauge;
 }
 
 void GaugeWatch::vindicate(GaugeSet gauges) {
-  for (std::size_t i = 0; gauges != 0; ++i, gauges >>= 1) {
-    if ((gauges & 1) == 0) continue;
-    if (!contains(outOfUse_, static_cast<int>(i))) {
-      places_[i] = 0;
-    } else if (++right_[i] >= kConvincing) {
-      right_[i] = places_[i] = 0;
-      outOfUse_ &= ~(GaugeSet{1} << i);
-    }
+  suspects_ &= ~gauges | outOfUse_;
+  for (GaugeSet left = gauges & outOfUse_; left != 0; left &= left - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(left));
+    if (++right_[i] < kConvincing) continue;
+    right_[i] = 0;
+    suspects_ &= ~(GaugeSet{1} << i);
+    outOfUse_ &= ~(GaugeSet{1} << i);
   }
 }
 

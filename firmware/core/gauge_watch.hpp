@@ -15,6 +15,8 @@ namespace strainfinger::firmware {
 class GaugeWatch {
  public:
   GaugeSet outOfUse() const { return outOfUse_; }
+  /// Those that touches may speak for: suspects, and those out of use.
+  GaugeSet watched() const { return suspects_ | outOfUse_; }
 
   /// Once a touched sample set: the gauge that it speaks against, if any, and where the contact is.
   void suspect(GaugeSet gauge, std::uint32_t angle_q32);
@@ -37,6 +39,7 @@ class GaugeWatch {
   std::array<std::uint8_t, kMaxGauges> right_{};
   std::array<std::uint32_t, kMaxGauges> lastPlace_q32_{};
   GaugeSet outOfUse_ = 0;
+  GaugeSet suspects_ = 0;  ///< of one place or more
   GaugeSet atRail_ = 0;  ///< in the last set
 };
 

@@ -51,7 +51,7 @@ inline constexpr int kGateModelError = 2;
 /// The readings of a ring as 16-bit numbers: strain * 2^32 / 2^shift, the largest in [2^14, 2^15) unless all
 /// are tiny. Half a step of rounding is part of the variance.
 struct ScaledReadings {
-  std::array<Short, kMaxGauges> value{};
+  std::array<Short, kMaxGauges> value;  ///< of the gauges that there are
   std::uint32_t variance_q4 = 0;       ///< of a reading: noise, rounding and the model's error [* 2^4]
   std::uint32_t gateVariance_q4 = 0;   ///< the same by which hypotheses are judged, see kGateModelError
   std::uint32_t noiseVariance_q4 = 0;  ///< noise and rounding alone: what a fit has to reach

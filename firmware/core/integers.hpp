@@ -8,7 +8,7 @@
 
 #include "common/fixed.hpp"
 
-#if defined(__ARM_FEATURE_DSP)
+#if defined(__ARM_FEATURE_DSP) || defined(__ARM_FEATURE_SAT)
 #include <arm_acle.h>
 #endif
 
@@ -63,10 +63,18 @@ constexpr Number narrowed(Wide value) {
   return static_cast<Number>(value >> bits);
 }
 
-/// To the nearest that 16 bits hold.
-constexpr Short shortened(Number value) {
-  return static_cast<Short>(std::clamp<Number>(value, -0x8000, 0x7FFF));
+/// To the nearest of -2^bits .. 2^bits - 1.
+template <int bits>
+inline Number saturated(Number value) {
+#if defined(__ARM_FEATURE_SAT)
+  return __ssat(value, bits + 1);
+#else
+  return std::clamp<Number>(value, -(1 << bits), (1 << bits) - 1);
+#endif
 }
+
+/// To the nearest that 16 bits hold.
+inline Short shortened(Number value) { return static_cast<Short>(saturated<15>(value)); }
 
 /// value * 2^up for any sign of `up`, rounded down and to the nearest within +-limit.
 constexpr Number shifted(Wide value, int up, Number limit) {
@@ -102,32 +110,18 @@ constexpr Wide squareOf(Number value) {
 #endif
 }
 
-/// Sum of a[i] * b[i]; `count` is even, both start at multiples of 4 bytes. Two products an instruction where
-/// the core has Arm's DSP extension. The caller keeps the sum within 32 bits.
+/// Sum of a[i] * b[i]; `count` is a multiple of 4, both start at multiples of 4 bytes. Two products an
+/// instruction where the core has Arm's DSP extension. The caller keeps the sum within 32 bits.
 inline Number dot(const Short* a, const Short* b, int count) {
   Number sum = 0;
 #if defined(__ARM_FEATURE_DSP)
-  for (int i = 0; i < count; i += 2) {
-    int16x2_t pairA, pairB;
-    __builtin_memcpy(&pairA, a + i, sizeof pairA);
-    __builtin_memcpy(&pairB, b + i, sizeof pairB);
-    sum = __smlad(pairA, pairB, sum);
-  }
-#else
-  for (int i = 0; i < count; ++i) sum += a[i] * b[i];
-#endif
-  return sum;
-}
-
-/// The same for sums that need more than 32 bits.
-inline Wide wideDot(const Short* a, const Short* b, int count) {
-  Wide sum = 0;
-#if defined(__ARM_FEATURE_DSP)
-  for (int i = 0; i < count; i += 2) {
-    int16x2_t pairA, pairB;
-    __builtin_memcpy(&pairA, a + i, sizeof pairA);
-    __builtin_memcpy(&pairB, b + i, sizeof pairB);
-    sum = __smlald(pairA, pairB, sum);
+  for (const Short* const end = a + count; a != end; a += 4, b += 4) {
+    int16x2_t a1, a2, b1, b2;
+    __builtin_memcpy(&a1, a, sizeof a1);
+    __builtin_memcpy(&a2, a + 2, sizeof a2);
+    __builtin_memcpy(&b1, b, sizeof b1);
+    __builtin_memcpy(&b2, b + 2, sizeof b2);
+    sum = __smlad(a2, b2, __smlad(a1, b1, sum));
   }
 #else
   for (int i = 0; i < count; ++i) sum += a[i] * b[i];

@@ -252,20 +252,26 @@ void Locator::solveExactly(const TableImage& tables, const ScaledReadings& readi
   const Solution byAll = answer_.solution;
   linearise(tables, {1, false, hypothesis.gauges}, answer_.solution.contact, linearisation_);
   const auto& column = linearisation_.column;
+  std::array<std::uint8_t, kMaxGauges> near;
+  int rows = 0;
+  for (int gauge = 0; gauge < tables.constants.gauge_count; ++gauge)
+    if (contains(hypothesis.gauges, gauge) && isInReach(tables, byAll.contact[0], gauge))
+      near[at(rows++)] = static_cast<std::uint8_t>(gauge);
   Wide most = -1;
-  for (int a = 0; a < linearisation_.usedRows; ++a)
-    for (int b = a + 1; b < linearisation_.usedRows; ++b) {
-      const auto minor = [&](int i, int j) {
-        return column[at(i)][at(a)] * column[at(j)][at(b)] - column[at(j)][at(a)] * column[at(i)][at(b)];
+  for (int i = 0; i < rows; ++i)
+    for (int j = i + 1; j < rows; ++j) {
+      const std::size_t a = near[at(i)], b = near[at(j)];
+      const auto minor = [&](std::size_t m, std::size_t n) {
+        return column[m][a] * column[n][b] - column[n][a] * column[m][b];
       };
       const Number x = minor(1, 2), y = minor(2, 0), z = minor(0, 1);
-      for (int c = b + 1; c < linearisation_.usedRows; ++c) {
+      for (int k = j + 1; k < rows; ++k) {
+        const std::size_t c = near[at(k)];
         const Wide determinant =
-            magnitude(Wide{x} * column[0][at(c)] + Wide{y} * column[1][at(c)] + Wide{z} * column[2][at(c)]);
+            magnitude(Wide{x} * column[0][c] + Wide{y} * column[1][c] + Wide{z} * column[2][c]);
         if (determinant <= most) continue;
         most = determinant;
-        const auto bit = [&](int row) { return GaugeSet{1} << linearisation_.gauge[at(row)]; };
-        hypothesis.exact = bit(a) | bit(b) | bit(c);
+        hypothesis.exact = GaugeSet{1} << a | GaugeSet{1} << b | GaugeSet{1} << c;
       }
     }
   const Solution byThree = fit(tables, hypothesis, byAll.contact, readings, kMostSteps / 2, linearisation_);

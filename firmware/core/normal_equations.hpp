@@ -10,14 +10,13 @@
 namespace strainfinger::firmware {
 
 inline constexpr int kMostUnknowns = 4 * kMostContacts;
-/// Readings that one fit can use; even.
-inline constexpr int kMostRows = 24;
 
 using Vector = std::array<Number, kMostUnknowns>;
-using Rows = std::array<Short, kMostRows>;
+/// One entry a gauge of the ring, in its order.
+using Rows = std::array<Short, kMaxGauges>;
 
-/// Columns are scaled so that each entry is below 2^13: sums of 24 products of two fit 31 bits.
-inline constexpr int kColumnBits = 13;
+/// Entries of columns and residuals lie within +-2^12: sums of 32 products of two stay within 2^29.
+inline constexpr int kColumnBits = 12;
 inline constexpr int kLowerBits = 20;
 inline constexpr int kStepBits = 14;
 
@@ -32,7 +31,17 @@ struct Decomposition {
   bool isDetermined(int unknown) const { return reciprocal[static_cast<std::size_t>(unknown)].mantissa != 0; }
 };
 
-/// `columns`: of the unknowns, `rows` (even) entries each. Cost: unknowns^2 / 2 scalar products.
+/// What the readings differ by from what is predicted: value * 2^shift, a multiple of 4 of them, the last ones 0.
+struct Residual {
+  alignas(4) Rows value;
+  int shift;  ///< at most kMostResidualShift
+
+  /// Sum of squares.
+  Wide energy(int rows) const { return Wide{dot(value.data(), value.data(), rows)} << (2 * shift); }
+};
+inline constexpr int kMostResidualShift = 11;
+
+/// `columns`: of the unknowns, `rows` entries each, a multiple of 4. Cost: unknowns^2 / 2 scalar products.
 void decompose(const std::array<Rows, kMostUnknowns>& columns, int rows, int unknowns,
                Decomposition& decomposition);
 
@@ -45,7 +54,7 @@ struct Step {
 /// The least-squares step to `residual`, each unknown's within low .. high, given those behind it: an unknown
 /// at its limit stays there and those before it are solved anew.
 Step solve(const Decomposition& decomposition, const std::array<Rows, kMostUnknowns>& columns, int rows,
-           const Rows& residual, const Vector& low_q14, const Vector& high_q14);
+           const Residual& residual, const Vector& low_q14, const Vector& high_q14);
 
 /// Diagonal of the inverse of N: variances of the unknowns in units of the columns, for readings of variance
 /// 1 [* 2^50, saturating]; 0 where undetermined.

@@ -52,14 +52,15 @@ void Pipeline::locate(GaugeSet gauges) {
 }
 
 /// What the answer says of each gauge.
-void Pipeline::watchGauges(Codes codes) {
+void Pipeline::watchGauges() {
   const Answer& answer = locator_.answer();
   if (!answer.accepted || answer.searching) return;
   watch_.suspect(answer.suspect, answer.solution.contact[0].angle_q32);
   const Linearisation& fit = locator_.linearisation();
   GaugeSet atRail = 0, right = 0;
-  for (std::size_t i = 0; i < codes.size(); ++i) {
-    const GaugeSet gauge = GaugeSet{1} << i;
+  for (GaugeSet left = watch_.watched() | observation_.saturated; left != 0; left &= left - 1) {
+    const GaugeSet gauge = left & (0 - left);
+    const auto i = static_cast<std::size_t>(std::countr_zero(left));
     const std::int32_t predicted = fit.predicted[i];
     const bool saturated = (observation_.saturated & gauge) != 0;
     if (!saturated && magnitude(predicted) < 1 << (14 - kFelt)) continue;
@@ -129,7 +130,7 @@ void Pipeline::observe(Codes codes) {
   if (gate_.update(constants(), energy, noise_.variance_q4())) {
     locate(gauges);
     if (!observation_.touched) return;
-    watchGauges(codes);
+    watchGauges();
     std::copy(codes.begin(), codes.end(), codes_.begin());
   } else {
     watch_.implausiblyAtRail(observation_.saturated & working);

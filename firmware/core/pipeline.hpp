@@ -49,7 +49,7 @@ class Pipeline {
  private:
   std::span<const std::int32_t> strains() const { return readings_.strains(constants().gauge_count); }
   void locate(GaugeSet gauges);
-  void watchGauges(Codes codes);
+  void watchGauges();
   bool isKnown(Codes codes) const;
   void observe(Codes codes);
   bool isDisturbance(GaugeSet gauges);

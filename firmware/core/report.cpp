@@ -1,6 +1,7 @@
 #include "firmware/core/report.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "firmware/core/estimate.hpp"
 #include "firmware/core/integer_root.hpp"
@@ -160,8 +161,9 @@ bool isNews(const TouchFrames& frames, const TouchFrames& last, std::uint32_t no
 
 /// Standard deviation of the noise over that of all that a reading may be off [* 2^8].
 std::uint32_t noiseShare_q8(const Answer& answer) {
-  const std::uint64_t square_q16 = (std::uint64_t{answer.noiseVariance_q4} << 16) / answer.variance_q4;
-  return integerRoot(static_cast<std::uint32_t>(square_q16));
+  const int down = std::max(16 - std::countl_zero(answer.variance_q4), 0);  // to 16 bits
+  const std::uint32_t variance = answer.variance_q4 >> down, noise = answer.noiseVariance_q4 >> down;
+  return integerRoot((noise << 16) / variance);
 }
 
 bool TouchReporter::mustBeRepeated(std::uint32_t now_us) const {

@@ -35,12 +35,11 @@ struct AngleNode {
 /// `distance_q32`: the gauge's angle minus the contact's, TurnQ32.
 inline AngleNode angleNode(const TableConstants& constants, std::uint32_t distance_q32) {
   const bool mirrored = distance_q32 >> 31 != 0;
-  const std::uint32_t size = mirrored ? 0 - distance_q32 : distance_q32;
-  const std::uint64_t position = std::uint64_t{size} * constants.node_count;  // [nodes * 2^31]
-  const auto node = static_cast<int>(position >> 31);
-  if (node >= constants.node_count) return {constants.node_count - 1, (1 << 15) - 1, mirrored};
-  return {node, static_cast<Number>(static_cast<std::uint32_t>(position >> 15) & 0xFFFF) - (1 << 15),
-          mirrored};
+  std::uint32_t size = mirrored ? 0 - distance_q32 : distance_q32;
+  size -= size >> 31;  // half a revolution is the last node's
+  const std::uint64_t position = std::uint64_t{2 * size} * constants.node_count;  // [nodes * 2^32]
+  return {static_cast<int>(position >> 32),
+          static_cast<Number>(static_cast<std::uint32_t>(position) >> 16) - (1 << 15), mirrored};
 }
 
 /// Turns [* 2^32] of t = 1: half the angle between two nodes.
@@ -70,24 +69,19 @@ inline Number shapeAt(const GaugeDepths::Shape& shape, int shift, const ShapePoi
   return ((from * (1 << 15) + (to - from) * point.along_q15) * (1 << shift)) >> 15;
 }
 
-/// [* 2^15 of the largest response]: |value| < 2^15, |slope| and |widening| < 2^16.
+/// [* 2^30 of the largest response]: |value| < 2^30, |slope| and |widening| < 2^31.
 struct Response {
-  Number value;
-  Number slope;     ///< d value / dt
-  Number widening;  ///< d value / ds
+  Number value_q30;
+  Number slope_q30;     ///< d value / dt
+  Number widening_q30;  ///< d value / ds
 };
 
-/// Of a patch whose weights' sizes add up to less than 2^15 (usable()): each sum stays below 2^31.
-inline Number valueOf(const ResponsePatch& patch, Number s, Number t) {
-  return ((patch[0] << 15) + (1 << 14) + patch[1] * s + patch[2] * t + patch[3] * (t * t >> 15) +
-          patch[4] * (s * t >> 15) + patch[5] * (s * s >> 15)) >>
-         15;
-}
-inline Number slopeOf(const ResponsePatch& patch, Number s, Number t) {
-  return patch[2] + ((2 * patch[3] * t + patch[4] * s) >> 15);
-}
+/// Of a patch whose weights' sizes add up to less than 2^15 (usable()): so do those of every sum here.
 inline Response responseOf(const ResponsePatch& patch, Number s, Number t) {
-  return {valueOf(patch, s, t), slopeOf(patch, s, t), patch[1] + ((2 * patch[5] * s + patch[4] * t) >> 15)};
+  const Number curved = patch[3] * t;
+  const Number along_q30 = patch[2] * (1 << 15) + patch[4] * s + curved;
+  return {patch[0] * (1 << 15) + patch[1] * s + patch[5] * (s * s >> 15) + t * (along_q30 >> 15),
+          along_q30 + curved, patch[1] * (1 << 15) + 2 * (patch[5] * s) + patch[4] * t};
 }
 
 }  // namespace strainfinger::firmware

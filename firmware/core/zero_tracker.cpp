@@ -78,14 +78,11 @@ bool ZeroTracker::looksLikeAContact(const TableImage& tables, GaugeSet gauges, L
 
 /// Gauges that no contact reaches.
 GaugeSet ZeroTracker::farGauges(const TableImage& tables) const {
-  const TableConstants& constants = tables.constants;
   GaugeSet far = 0;
-  for (int i = 0; i < constants.gauge_count; ++i) {
+  for (int i = 0; i < tables.constants.gauge_count; ++i) {
     const bool isReached =
-        std::any_of(rest_.contact.begin(), rest_.contact.begin() + rest_.contacts, [&](const auto& contact) {
-          return tables.gauge_angle_q32[at(i)] - contact.angle_q32 + constants.reach_q32 <=
-                 2 * constants.reach_q32;
-        });
+        std::any_of(rest_.contact.begin(), rest_.contact.begin() + rest_.contacts,
+                    [&](const ContactState& contact) { return isInReach(tables, contact, i); });
     if (!isReached) far |= GaugeSet{1} << i;
   }
   return far;

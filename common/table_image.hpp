@@ -69,7 +69,7 @@ struct TableConstants {
                               ///< make a largest reading of 1 (strain * 2^32)
   std::int32_t reading_gain;  ///< strain * 2^32 = ((code << 15) - zero) * reading_gain >> 32
   std::uint32_t force_per_load_q16;  ///< mN per N/m [* 2^16]
-  std::uint32_t reach_q32;           ///< gauges within this angle of a contact take part in its fit, TurnQ32
+  std::uint32_t reach_q32;           ///< grids look at gauges within this angle of a contact, TurnQ32
   std::uint32_t largest_moment_um2;  ///< second moment of the widest pressure [um^2]
   std::uint32_t known_moment_q20;    ///< fraction of it, where the width is known
   std::uint32_t place_error_q32;     ///< standard error that calibration leaves of all places, TurnQ32

@@ -84,7 +84,8 @@ std::uint16_t chiOf_q4(const Answer& answer, int freedoms) {
   const Normal allowed =
       normalOf(std::uint64_t{answer.gateVariance_q4} * static_cast<std::uint32_t>(freedoms));
   const std::uint32_t ratio = energy.mantissa / (allowed.mantissa >> 16);  // * 2^16, to 2^-15
-  return static_cast<std::uint16_t>(rootOf(ratio, energy.exponent - allowed.exponent - 16 + 4 + 2 * 4, kNoChi - 1));
+  return static_cast<std::uint16_t>(
+      rootOf(ratio, energy.exponent - allowed.exponent - 16 + 4 + 2 * 4, kNoChi - 1));
 }
 
 /// The standard error of a sum of two independent errors. Domain: up to 2^31 and 2^30, or 2^31 - 1 each.

@@ -39,7 +39,7 @@ class ContactModel {
   struct Reading {
     Loads loads_q30;   ///< responses
     Number predicted;  ///< [readings]
-    Number angle;      ///< slope over the contact's angle: readings per half node
+    Number angle;      ///< slope over the contact's angle: readings per half node * 2^-kAngleExponent
     Number moment;     ///< slope over its second moment: readings per unit * 2^-momentExponent()
   };
 
@@ -55,24 +55,32 @@ class ContactModel {
       asTangential_ = momentCell(tables.constants, 2 * tangentialMoment_q20);
     }
     const Wide wider = Wide{contact.normal} * normalCell_.rate_q8,
-               widerTangential =
-                   Wide{contact.tangential} * scaled<16>(tangentialCell_.rate_q8, part_q16);
+               widerTangential = Wide{contact.tangential} * scaled<16>(tangentialCell_.rate_q8, part_q16);
     Wide bits = magnitude(wider);
     bits |= magnitude(widerTangential);
-    const int down = std::max(bitWidth(bits) - 30, 0);
+    const int down = std::max(bitWidth(bits) - kFactorBits, 0);
     momentExponent_ = down - 7;
     const Loads moment{static_cast<Number>(wider >> down), static_cast<Number>(widerTangential >> down)};
+    const Loads angle{contact.normal * (1 << kAngleBits), contact.tangential * (1 << kAngleBits)};
     const Loads seen{2 * contact.normal, 2 * contact.tangential};
     const int sign = tables.constants.mirror_sign;
-    side_[0] = {seen, {-seen.normal, -seen.tangential}, moment, 1, 1};
-    side_[1] = {mirrored(seen), mirrored(seen), mirrored(moment), sign, -sign};
+    side_[0] = {seen, {-angle.normal, -angle.tangential}, moment, 1, 1};
+    side_[1] = {mirrored(seen), mirrored(angle), mirrored(moment), sign, -sign};
   }
 
+  static constexpr int kAngleBits = 10;  ///< that loads have to spare, so that columns use their bits
+  static constexpr int kAngleExponent = 1 - kAngleBits;
   int momentExponent() const { return momentExponent_; }
 
   Loads loadsAt_q30(int gauge) const {
     const AngleNode node = nodeOf(gauge);
     return oriented(node, {normalAt(node).value_q30, tangentialAt(node).value_q30});
+  }
+
+  Number predictedAt(int gauge) const {
+    const AngleNode node = nodeOf(gauge);
+    return together(side_[node.mirrored ? 1 : 0].loads, normalAt(node).value_q30,
+                    tangentialAt(node).value_q30);
   }
 
   Reading at(int gauge) const {
@@ -95,8 +103,8 @@ class ContactModel {
     const AngleNode node = nodeOf(gauge);
     const PatchPair* const patches = patchesOf(node);
     const ShapePoint point = shapePoint(distance_q32(gauge));
-    const Number normalSlope =
-                     responseOf(patches[asTangential_.cell].normal, asTangential_.s_q15, node.t_q15).slope_q30,
+    const Number normalSlope = responseOf(patches[asTangential_.cell].normal, asTangential_.s_q15, node.t_q15)
+                                   .slope_q30,
                  tangentialSlope =
                      responseOf(patches[asNormal_.cell].tangential, asNormal_.s_q15, node.t_q15).slope_q30;
     const Number normal = scaled<11 + 15>(tangentialSlope, depths.normal_turn_q11) +
@@ -113,12 +121,13 @@ class ContactModel {
 
  private:
   static constexpr int kDepthBits = 7;
+  static constexpr int kFactorBits = 30;  ///< of what slopes are multiplied by
   static constexpr Number kMostValue = (1 << 15) - 1;
 
   /// What responses as they are on the side that isn't mirrored are multiplied by, on either side.
   struct Side {
     Loads loads;   ///< * 2
-    Loads angle;   ///< the same; turning the contact forward brings a gauge beyond it nearer
+    Loads angle;   ///< of slopes; turning the contact forward brings a gauge beyond it nearer
     Loads moment;  ///< with what second moments change s by
     int normalSign, tangentialSign;  ///< of responses on this side
   };
@@ -179,7 +188,8 @@ void setColumn(const WideColumn& entries, int gauges, int exponent, Rows& column
 }
 
 /// Gauges that are not fitted, and what fills the columns up.
-void clearRows(const Hypothesis& hypothesis, int unknowns, int gauges, std::array<Rows, kMostUnknowns>& column) {
+void clearRows(const Hypothesis& hypothesis, int unknowns, int gauges,
+               std::array<Rows, kMostUnknowns>& column) {
   const GaugeSet out = ~fittedGauges(hypothesis) & allGauges(rowsOf(gauges));
   for (GaugeSet left = out; left != 0; left &= left - 1)
     for (int i = 0; i < unknowns; ++i) column[index(i)][index(std::countr_zero(left))] = 0;
@@ -187,9 +197,9 @@ void clearRows(const Hypothesis& hypothesis, int unknowns, int gauges, std::arra
 
 /// `columns`: of the normal and the tangential load.
 void setLoads(const ContactModel::Loads& responses_q30, int gauge, Rows* columns) {
-  constexpr int kDown = 15 + kLoadExponent;
-  columns[0][index(gauge)] = static_cast<Short>(responses_q30.normal >> kDown);
-  columns[1][index(gauge)] = static_cast<Short>(responses_q30.tangential >> kDown);
+  constexpr int kDown = 15 + kLoadExponent, kHalf = 1 << (kDown - 1);
+  columns[0][index(gauge)] = static_cast<Short>((responses_q30.normal + kHalf) >> kDown);
+  columns[1][index(gauge)] = static_cast<Short>((responses_q30.tangential + kHalf) >> kDown);
 }
 
 /// Another pass, which fingers without a calibration don't pay for.
@@ -229,13 +239,14 @@ void lineariseContact(const TableImage& tables, int contact, Linearisation& line
   };
   linearisation.exponent[index(loadsOf(contact))] = linearisation.exponent[index(loadsOf(contact) + 1)] =
       kLoadExponent;
-  set(angleOf(hypothesis, contact), angle, 0);
+  set(angleOf(hypothesis, contact), angle, ContactModel::kAngleExponent);
   if (hypothesis.widthIsFree) set(momentOf(hypothesis, contact), moment, model.momentExponent());
 }
 
-/// What is left of each reading [readings]; 0 of gauges that don't count.
+/// What is left of each reading [readings]; 0 of gauges that don't count. `expectedShift`: another one takes
+/// a second pass.
 template <typename Left>
-Residual residualOf(int gauges, GaugeSet counted, Left leftOf) {
+Residual residualOf(int gauges, GaugeSet counted, int expectedShift, Left leftOf) {
   Residual residual;
   const auto gather = [&](int shift) {
     residual.shift = shift;
@@ -246,9 +257,9 @@ Residual residualOf(int gauges, GaugeSet counted, Left leftOf) {
       residual.value[index(gauge)] = static_cast<Short>(saturated<kColumnBits>((left + half) >> shift));
       bits |= signlessBits(left);
     }
-    return std::min(bitWidth(bits) - kColumnBits, kMostResidualShift);
+    return std::clamp(bitWidth(bits) - kColumnBits, 0, kMostResidualShift);
   };
-  if (const int shift = gather(0); shift > 0) gather(shift);
+  if (const int shift = gather(expectedShift); shift != expectedShift) gather(shift);
   for (int row = gauges; row < rowsOf(gauges); ++row) residual.value[index(row)] = 0;
   return residual;
 }
@@ -314,14 +325,28 @@ void take(const TableConstants& constants, const Linearisation& linearisation, c
 /// largest [log2]. What the model neglects grows with the step's square. On the default finger at 30 N/m it
 /// is 0.06 of sigma RMS, at most 0.9 (FitTest, AShortStepIsAlmostTheLast).
 constexpr int kShortTurnBits = 8, kShortLoadBits = 7, kShortWideningBits = 6, kShortMomentBits = 8;
+/// Columns hold so many times [log2] as far: a touch that slides on is told within 0.13 of sigma RMS of what
+/// columns of each place tell (LocatorTest, FollowsAMovingTouch..).
+constexpr int kSlopesHoldBits = 3;
 
-bool isShort(const TableConstants& constants, const ContactState& from, const ContactState& to) {
-  const std::uint32_t turned_q32 = to.angle_q32 - from.angle_q32;
-  const std::uint32_t short_q32 = (std::uint32_t{1} << (32 - kShortTurnBits)) / constants.gauge_count;
-  const Number load = larger(from.normal, magnitude(from.tangential)) >> kShortLoadBits;
-  const Number moment = (from.moment_q20 >> kShortWideningBits) + (1 << (kMomentBits - kShortMomentBits));
-  return turned_q32 + short_q32 <= 2 * short_q32 && magnitude(to.normal - from.normal) <= load &&
-         magnitude(to.tangential - from.tangential) <= load &&
+}  // namespace
+
+bool isShortTurn(const TableConstants& constants, std::uint32_t turned_q32, int farther) {
+  const std::uint32_t short_q32 = (std::uint32_t{1} << (32 - kShortTurnBits)) / constants.gauge_count
+                                  << farther;
+  return turned_q32 + short_q32 <= 2 * short_q32;
+}
+
+namespace {
+
+/// `farther`: so many times as far [log2].
+bool isShort(const TableConstants& constants, const ContactState& from, const ContactState& to,
+             int farther = 0) {
+  const Number load = larger(from.normal, magnitude(from.tangential)) >> (kShortLoadBits - farther);
+  const Number moment =
+      (from.moment_q20 >> (kShortWideningBits - farther)) + (1 << (kMomentBits - kShortMomentBits + farther));
+  return isShortTurn(constants, to.angle_q32 - from.angle_q32, farther) &&
+         magnitude(to.normal - from.normal) <= load && magnitude(to.tangential - from.tangential) <= load &&
          magnitude(to.moment_q20 - from.moment_q20) <= moment;
 }
 
@@ -329,8 +354,8 @@ bool isShort(const TableConstants& constants, const ContactState& from, const Co
 /// over a reading's variance. A 64th of it makes no answer better, but of three readings, which may tell so
 /// little that a small residual is a long step.
 bool changesLittle(Wide reduction, const Hypothesis& hypothesis, const ScaledReadings& readings) {
-  const Wide most = hypothesis.exact == 0 ? 256 : 32;
-  return reduction < 64 ||
+  const Wide most = hypothesis.exact == 0 ? 256 : 2;
+  return reduction < (hypothesis.exact == 0 ? 64 : 16) ||
          (reduction < Wide{1} << 31 && reduction * reduction <= most * readings.noiseVariance_q4);
 }
 
@@ -355,16 +380,33 @@ void linearise(const TableImage& tables, const Hypothesis& hypothesis, const Con
                Linearisation& linearisation) {
   const int gauges = tables.constants.gauge_count, unknowns = hypothesis.unknowns();
   linearisation.hypothesis = hypothesis;
-  linearisation.at = contacts;
+  linearisation.at = linearisation.slopesAt = contacts;
   for (int k = 0; k < hypothesis.contacts; ++k) lineariseContact(tables, k, linearisation);
   clearRows(hypothesis, unknowns, gauges, linearisation.column);
   decompose(linearisation.column, rowsOf(gauges), unknowns, linearisation.decomposition);
 }
 
+void move(const TableImage& tables, const ContactStates& contacts, Linearisation& linearisation) {
+  const Hypothesis& hypothesis = linearisation.hypothesis;
+  for (int k = 0; k < hypothesis.contacts; ++k)
+    if (!isShort(tables.constants, linearisation.slopesAt[index(k)], contacts[index(k)], kSlopesHoldBits))
+      return linearise(tables, hypothesis, contacts, linearisation);
+  linearisation.at = contacts;
+  for (int k = 0; k < hypothesis.contacts; ++k) {
+    const ContactState& state = contacts[index(k)];
+    const ContactModel model(tables, state, slip_q15(tables.constants, state));
+    for (int gauge = 0; gauge < tables.constants.gauge_count; ++gauge) {
+      Number& predicted = linearisation.predicted[index(gauge)];
+      predicted = model.predictedAt(gauge) + (k == 0 ? 0 : predicted);
+      if (tables.depths.steps[index(gauge)] != 0) predicted += model.depthAt(gauge).predicted;
+    }
+  }
+}
+
 Solution step(const TableImage& tables, const Linearisation& linearisation, const ScaledReadings& readings) {
   const Hypothesis& hypothesis = linearisation.hypothesis;
   const int gauges = tables.constants.gauge_count, rows = rowsOf(gauges);
-  const Residual residual = residualOf(gauges, hypothesis.gauges, [&](std::size_t gauge) {
+  const Residual residual = residualOf(gauges, hypothesis.gauges, 0, [&](std::size_t gauge) {
     return readings.value[gauge] - linearisation.predicted[gauge];
   });
   Vector low, high;
@@ -390,7 +432,7 @@ Solution fitLoads(const TableImage& tables, const Hypothesis& hypothesis, const 
   }
   clearRows(hypothesis, unknowns, gauges, scratch.column);
   decompose(scratch.column, rows, unknowns, scratch.decomposition);
-  const Residual residual = residualOf(gauges, hypothesis.gauges,
+  const Residual residual = residualOf(gauges, hypothesis.gauges, 15 - kColumnBits,
                                        [&](std::size_t gauge) -> Number { return readings.value[gauge]; });
   Vector low, high;
   low.fill(-(kMostLoad << kLoadStepBits));

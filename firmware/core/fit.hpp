@@ -12,10 +12,12 @@
 namespace strainfinger::firmware {
 
 /// A hypothesis linearised at some contacts: what the gauges should read, and how that changes with each
-/// unknown. Unknowns are ordered normal and tangential load of each contact, angles, second moments.
+/// unknown, there or near by. Unknowns are ordered normal and tangential load of each contact, angles, second
+/// moments.
 struct Linearisation {
   Hypothesis hypothesis;
-  ContactStates at;
+  ContactStates at;                                   ///< where the predictions are of
+  ContactStates slopesAt;                             ///< where the columns are of
   alignas(4) std::array<Rows, kMostUnknowns> column;  ///< * 2^exponent: readings per unit of the unknown
   std::array<std::int8_t, kMostUnknowns> exponent;
   std::array<Number, kMaxGauges> predicted;  ///< of every gauge of the ring, not limited to what can be read
@@ -41,6 +43,13 @@ bool isInReach(const TableImage& tables, const ContactState& contact, int gauge)
 /// Cost: two table lookups a gauge and contact, and the decomposition.
 void linearise(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,
                Linearisation& linearisation);
+
+/// Predictions of contacts elsewhere; where its columns still hold, these stay as they are. Cost: a third of
+/// linearise() then.
+void move(const TableImage& tables, const ContactStates& contacts, Linearisation& linearisation);
+
+/// A contact that turned by so much is where the linear model holds; `farther`: so many times as far [log2].
+bool isShortTurn(const TableConstants& constants, std::uint32_t turned_q32, int farther = 0);
 
 /// One step from a linearisation to these readings. `solution.converged`: the linear model holds that far.
 Solution step(const TableImage& tables, const Linearisation& linearisation, const ScaledReadings& readings);

@@ -40,7 +40,7 @@ class GaugeWatch {
   std::array<std::uint32_t, kMaxGauges> lastPlace_q32_{};
   GaugeSet outOfUse_ = 0;
   GaugeSet suspects_ = 0;  ///< of one place or more
-  GaugeSet atRail_ = 0;  ///< in the last set
+  GaugeSet atRail_ = 0;    ///< in the last set
 };
 
 }  // namespace strainfinger::firmware

@@ -52,9 +52,9 @@ inline constexpr int kGateModelError = 2;
 /// are tiny. Half a step of rounding is part of the variance.
 struct ScaledReadings {
   std::array<Short, kMaxGauges> value;  ///< of the gauges that there are
-  std::uint32_t variance_q4 = 0;       ///< of a reading: noise, rounding and the model's error [* 2^4]
-  std::uint32_t gateVariance_q4 = 0;   ///< the same by which hypotheses are judged, see kGateModelError
-  std::uint32_t noiseVariance_q4 = 0;  ///< noise and rounding alone: what a fit has to reach
+  std::uint32_t variance_q4 = 0;        ///< of a reading: noise, rounding and the model's error [* 2^4]
+  std::uint32_t gateVariance_q4 = 0;    ///< the same by which hypotheses are judged, see kGateModelError
+  std::uint32_t noiseVariance_q4 = 0;   ///< noise and rounding alone: what a fit has to reach
   std::int8_t shift = 0;
 };
 

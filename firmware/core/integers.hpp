@@ -63,6 +63,12 @@ constexpr Number narrowed(Wide value) {
   return static_cast<Number>(value >> bits);
 }
 
+/// What value >> bits drops; of a value that is not negative.
+template <int bits>
+constexpr Number lowBits(Wide value) {
+  return static_cast<Number>(value & ((Wide{1} << bits) - 1));
+}
+
 /// To the nearest of -2^bits .. 2^bits - 1.
 template <int bits>
 inline Number saturated(Number value) {

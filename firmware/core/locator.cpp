@@ -76,27 +76,41 @@ void Locator::search(const TableImage& tables, const ScaledReadings& readings, G
   setsSinceSearch_ = 0;
 }
 
+/// Where the contacts are expected: one that slid as far in the last two sets goes on.
+ContactStates Locator::expected(const TableConstants& constants) const {
+  ContactStates contacts = answer_.solution.contact;
+  for (std::size_t k = 0; k < contacts.size(); ++k)
+    if (isShortTurn(constants, slid_q32_[k] - slidBefore_q32_[k])) contacts[k].angle_q32 += slid_q32_[k];
+  return contacts;
+}
+
 /// From the linear model around an earlier answer; anew around the answer where that is too far away. The
 /// work it took; nothing: the answer is lost.
 std::optional<int> Locator::follow(const TableImage& tables, const ScaledReadings& readings,
                                    GaugeSet gauges) {
   const Hypothesis& hypothesis = answer_.solution.hypothesis;
   if ((hypothesis.gauges & ~gauges) != 0) return std::nullopt;
-  const bool isRescaled = readings.shift != answer_.shift;
-  if (isRescaled)
-    linearise(tables, hypothesis, rescaled(answer_.solution.contact, answer_.shift, readings.shift),
-              linearisation_);
+  const ContactStates from = expected(tables.constants);
+  int linearised = 1;
+  if (readings.shift != answer_.shift)
+    linearise(tables, hypothesis, rescaled(from, answer_.shift, readings.shift), linearisation_);
+  else if (!isShortTurn(tables.constants, from[0].angle_q32 - linearisation_.at[0].angle_q32))
+    move(tables, from, linearisation_);
+  else
+    linearised = 0;
   Solution solution = step(tables, linearisation_, readings);
   const int most = search_.isBegun() ? kStepsWhileSearching : kFollowingSteps;
-  int linearised = isRescaled ? 1 : 0;
   for (int steps = 1; steps < most && !solution.converged; ++steps, ++linearised) {
-    linearise(tables, hypothesis, solution.contact, linearisation_);
+    move(tables, solution.contact, linearisation_);
     solution = step(tables, linearisation_, readings);
   }
   const bool wasAccepted = answer_.accepted;
-  answer_.rival = rescaled(answer_.rival, answer_.shift, readings.shift);
-  for (std::size_t k = 0; k < solution.contact.size(); ++k)
-    answer_.rival[k].angle_q32 += solution.contact[k].angle_q32 - answer_.solution.contact[k].angle_q32;
+  if (readings.shift != answer_.shift) answer_.rival = rescaled(answer_.rival, answer_.shift, readings.shift);
+  slidBefore_q32_ = slid_q32_;
+  for (std::size_t k = 0; k < solution.contact.size(); ++k) {
+    slid_q32_[k] = solution.contact[k].angle_q32 - answer_.solution.contact[k].angle_q32;
+    answer_.rival[k].angle_q32 += slid_q32_[k];
+  }
   believe(tables, solution, readings);
   const bool isLost = wasAccepted && !answer_.accepted && !search_.isBegun() &&
                       solution.residualEnergy > energyOf(readings, threshold::kLost * threshold::kGate);

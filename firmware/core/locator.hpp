@@ -59,6 +59,7 @@ class Locator {
   Linearisation& scratch() { return scratch_; }
 
  private:
+  ContactStates expected(const TableConstants& constants) const;
   std::optional<int> follow(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
   void forget();
   void start(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
@@ -76,6 +77,8 @@ class Locator {
   Linearisation linearisation_;
   Linearisation scratch_;
   Answer answer_;
+  /// By how much the contacts turned from set to set, the last time and before.
+  std::array<std::uint32_t, kMostContacts> slid_q32_{}, slidBefore_q32_{};
   FitMode mode_;
   bool tracking_ = false;
   bool guessed_ = false;          ///< the answer is where a fit starts

@@ -8,6 +8,7 @@ namespace {
 constexpr int kUndeterminedBits = 12;
 constexpr int kSumBits = kColumnBits + kColumnBits + 5;  ///< of products of columns and residuals
 constexpr int kLowerLimitBits = 30;
+constexpr int kInverseLimitBits = 29;
 constexpr int kStepLimitBits = 28;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -51,8 +52,8 @@ Step solve(const Decomposition& decomposition, const std::array<Rows, kMostUnkno
   for (int i = 0; i < unknowns; ++i) {
     y[at(i)] = dot(columns[at(i)].data(), residual.value.data(), rows) -
                product(decomposition.lower_q20[at(i)], y, i);
-    z[at(i)] = divided(y[at(i)], decomposition.reciprocal[at(i)], kStepBits + residual.shift,
-                       1 << kStepLimitBits);
+    z[at(i)] =
+        divided(y[at(i)], decomposition.reciprocal[at(i)], kStepBits + residual.shift, 1 << kStepLimitBits);
     if (decomposition.isDetermined(i)) reduction += Wide{y[at(i)]} * z[at(i)];
   }
   for (int i = unknowns - 1; i >= 0; --i) {
@@ -74,26 +75,27 @@ Step solve(const Decomposition& decomposition, const std::array<Rows, kMostUnkno
 }
 
 std::array<Wide, kMostUnknowns> variances(const Decomposition& decomposition) {
-  constexpr int kWeightBits = 40, kSquareBits = 10;
+  constexpr int kWeightBits = 40, kSpareBits = 10;
   const int unknowns = decomposition.unknowns;
   Vector weight_q40;  // 1 / pivot: of columns with an entry that uses its bits, pivots are above 2^9
   for (int i = 0; i < unknowns; ++i) {
     const Reciprocal& reciprocal = decomposition.reciprocal[at(i)];
-    weight_q40[at(i)] = shifted(reciprocal.mantissa, reciprocal.exponent + kWeightBits, 1 << 30);
+    weight_q40[at(i)] =
+        (shifted(reciprocal.mantissa, reciprocal.exponent + kWeightBits + 1, (1 << 30) - 1) + 1) >> 1;
   }
   std::array<Wide, kMostUnknowns> variance;
   for (int i = 0; i < unknowns; ++i) {
     // Column i of L^-1, below its 1 in row i.
     Vector inverse;
     inverse[at(i)] = 1 << kLowerBits;
-    variance[at(i)] = Wide{weight_q40[at(i)]} << kSquareBits;
+    variance[at(i)] = Wide{weight_q40[at(i)]} << kSpareBits;
     for (int k = i + 1; k < unknowns; ++k) {
       Wide sum_q20 = 0;
       for (int m = i; m < k; ++m) sum_q20 -= Wide{decomposition.lower_q20[at(k)][at(m)]} * inverse[at(m)];
-      inverse[at(k)] = narrowed<kLowerBits, kLowerLimitBits>(sum_q20);
-      const auto square_q10 =
-          static_cast<Number>(squareOf(inverse[at(k)]) >> (2 * kLowerBits - kSquareBits));
-      variance[at(i)] += Wide{square_q10} * weight_q40[at(k)];
+      inverse[at(k)] = narrowed<kLowerBits, kInverseLimitBits>(sum_q20);
+      const Wide square_q20 = squareOf(inverse[at(k)]) >> kLowerBits;
+      variance[at(i)] += (square_q20 >> kSpareBits) * weight_q40[at(k)] +
+                         ((Wide{lowBits<kSpareBits>(square_q20)} * weight_q40[at(k)]) >> kSpareBits);
     }
     if (!decomposition.isDetermined(i)) variance[at(i)] = 0;
   }

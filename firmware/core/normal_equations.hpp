@@ -31,7 +31,8 @@ struct Decomposition {
   bool isDetermined(int unknown) const { return reciprocal[static_cast<std::size_t>(unknown)].mantissa != 0; }
 };
 
-/// What the readings differ by from what is predicted: value * 2^shift, a multiple of 4 of them, the last ones 0.
+/// What the readings differ by from what is predicted: value * 2^shift, a multiple of 4 of them, the last
+/// ones 0.
 struct Residual {
   alignas(4) Rows value;
   int shift;  ///< at most kMostResidualShift

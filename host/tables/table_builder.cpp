@@ -99,22 +99,19 @@ Corrected corrected(const config::FingerConfig& config, const GaugeGains& gains)
           config.gauges.full_scale_strain * largest};
 }
 
-constexpr int kLeastInReach = 7;          ///< gauges; of seven 1.7 % of the information is lost
+constexpr std::size_t kLeastInReach = 7;  ///< gauges; of seven 1.7 % of the information is lost
 constexpr double kUsualReach = 4.5 / 16;  ///< turns: nine gauges of sixteen
 
-/// Within reach of a contact, wherever it is, are kLeastInReach gauges and at most what a fit can use.
+/// Within reach of a contact, wherever it is, are kLeastInReach gauges.
 std::uint32_t reach_q32(const std::vector<double>& gaps_turn) {
   const auto count = gaps_turn.size();
-  const auto spans = [&](std::size_t gauges) {  // from a gauge to the one `gauges` further
-    std::vector<double> spans_turn(count, 0);
-    for (std::size_t first = 0; first < count; ++first)
-      for (std::size_t i = 0; i < gauges; ++i) spans_turn[first] += gaps_turn[(first + i) % count];
-    return spans_turn;
-  };
-  const auto wide = spans(kLeastInReach), narrow = spans(firmware::kMostRows);
-  const double least_turn = *std::max_element(wide.begin(), wide.end()) / 2;
-  const double most_turn = *std::min_element(narrow.begin(), narrow.end()) / 2;
-  return fromReal<TurnQ32>(std::clamp(kUsualReach, least_turn, std::max(least_turn, most_turn))).raw();
+  double widest_turn = 0;  // from a gauge to the kLeastInReach-th further
+  for (std::size_t first = 0; first < count; ++first) {
+    double span_turn = 0;
+    for (std::size_t i = 0; i < kLeastInReach; ++i) span_turn += gaps_turn[(first + i) % count];
+    widest_turn = std::max(widest_turn, span_turn);
+  }
+  return fromReal<TurnQ32>(std::max(kUsualReach, widest_turn / 2)).raw();
 }
 
 /// The scale of all loads is off by so many times the model error: a Poisson's ratio of 0.48 instead of 0.5

@@ -62,8 +62,7 @@ TEST(EstimatedErrors, AContactOfFewStandardDeviationsOfNoiseIsUncertain) {
   CHECK(unambiguous > 20);
 }
 
-// Gauges out of reach would add 0.4 % of information, rounding takes 1 %, and the model is linearised where
-// the tables have the contact.
+// The model is linearised where the tables have the contact.
 TEST(EstimatedErrors, AreTheCramerRaoBoundWithTheWidthUnknown) {
   for (const double width_mm : {0.5, 1.0, 2.0, 3.0, 4.0})
     for (double position = 5; position < 6; position += 0.1) {

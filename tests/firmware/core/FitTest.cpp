@@ -196,14 +196,65 @@ TEST(Fit, TheLinearisationPredictsEveryGauge) {
   }
 }
 
-TEST(Fit, GaugesInReachAreItsRows) {
-  linearise(ring.tables(), hypothesis, {ring.stateOf({3.25, 20, 0, 1}, 5)}, linearisation);
-  int rows = 0;
-  for (int gauge = 0; gauge < 16; ++gauge)
-    if (std::abs(ring.between(3.25, gauge)) <= reach_pitch())
-      LONGS_EQUAL(gauge, linearisation.gauge[static_cast<std::size_t>(rows++)]);
-  LONGS_EQUAL(rows, linearisation.usedRows);
-  LONGS_EQUAL(0, linearisation.rows % 2);
+TEST(Fit, GaugesThatDontCountAreRowsOfZeros) {
+  hypothesis.gauges = allGauges(16) & ~(GaugeSet{1} << 3);
+  linearise(ring.tables(), hypothesis, {ring.stateOf({3.25, 20, 5, 1}, 5)}, linearisation);
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t gauge = 2; gauge < 5; ++gauge)
+      CHECK_EQUAL(gauge == 3, linearisation.column[i][gauge] == 0);
+}
+
+TEST(Fit, AMovedLinearisationPredictsWhatOneOfThatPlaceDoes) {
+  Presses presses(16, 30, 210, 0.5, 4);
+  Linearisation there;
+  for (int i = 0; i < 100; ++i) {
+    const Press press = presses.next();
+    linearise(ring.tables(), hypothesis, {ring.stateOf(press, 10)}, linearisation);
+    const ContactStates moved{ring.stateOf(beside(press, i % 2 == 0 ? 0.01 : 0.3, 0.05), 10)};
+    move(ring.tables(), moved, linearisation);
+    linearise(ring.tables(), hypothesis, moved, there);
+    for (std::size_t gauge = 0; gauge < 16; ++gauge)
+      LONGS_EQUAL(there.predicted[gauge], linearisation.predicted[gauge]);
+    LONGS_EQUAL(there.at[0].angle_q32, linearisation.at[0].angle_q32);
+  }
+}
+
+TEST(Fit, ColumnsAreKeptWhereTheyHoldAndAreThoseOfThePlaceElsewhere) {
+  const Press press{5.3, 20, 5, 1};
+  Linearisation there;
+  for (const double pitches : {0.02, 0.05}) {
+    linearise(ring.tables(), hypothesis, {ring.stateOf(press, 10)}, linearisation);
+    const auto before = linearisation.column;
+    const ContactStates moved{ring.stateOf(beside(press, pitches, 0), 10)};
+    move(ring.tables(), moved, linearisation);
+    linearise(ring.tables(), hypothesis, moved, there);
+    const bool isKept = pitches < 1.0 / 32;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t gauge = 0; gauge < 16; ++gauge)
+        LONGS_EQUAL((isKept ? before : there.column)[i][gauge], linearisation.column[i][gauge]);
+  }
+}
+
+// At the farthest that columns are kept, and the largest of four unknowns' errors.
+TEST(Fit, AStepWithColumnsFromNearByIsOffByAPartOfSigma) {
+  Presses presses(16, 30, 211, 0.5, 3);
+  double squares = 0, worst = 0;
+  constexpr int kTouches = 500;
+  for (int i = 0; i < kTouches; ++i) {
+    const Press press = presses.next();
+    const auto strains = presses.noisy(ring.strains(press), ring.noise_strain());
+    const ScaledReadings readings = ring.scaled(strains);
+    const Press exact = pressOf(ring, fitted(ring, strains, {press}), strains);
+    linearise(ring.tables(), hypothesis, {ring.stateOf(beside(press, 0.03, 0), readings.shift)},
+              linearisation);
+    move(ring.tables(), {ring.stateOf(press, readings.shift)}, linearisation);
+    const Press found = pressOf(ring, step(ring.tables(), linearisation, readings), strains);
+    const double apart_sigma = sigmasBetween(ring, exact, found, ring.bound(press));
+    squares += apart_sigma * apart_sigma;
+    worst = std::max(worst, apart_sigma);
+  }
+  CHECK(std::sqrt(squares / kTouches) < 0.45);
+  CHECK(worst < 2.5);
 }
 
 TEST(Fit, TheBestLoadsOfAPlaceAreThoseOfLeastSquares) {

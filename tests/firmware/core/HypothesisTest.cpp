@@ -60,7 +60,7 @@ TEST(ScaledReadings, TheEndsOfTheirWordAreReadings) {
 TEST(ScaledReadings, NothingIsNothing) {
   const ScaledReadings readings = scaled();
   LONGS_EQUAL(0, readings.shift);
-  for (const int value : readings.value) LONGS_EQUAL(0, value);
+  for (std::size_t i = 0; i < strains.size(); ++i) LONGS_EQUAL(0, readings.value[i]);
   LONGS_EQUAL(kRounding_q4, readings.variance_q4);
 }
 

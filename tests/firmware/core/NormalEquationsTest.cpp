@@ -25,7 +25,7 @@ TEST_GROUP(NormalEquations) {
   static constexpr int kRows = 16;
   std::mt19937_64 random{102};
   alignas(4) std::array<Rows, kMostUnknowns> columns{};
-  alignas(4) Rows residual{};
+  Residual residual{};
   Vector low, high;
   Decomposition decomposition;
 
@@ -41,15 +41,15 @@ TEST_GROUP(NormalEquations) {
   /// Columns at random, each longer than the last by some power of two.
   void fill(int unknowns) {
     for (int i = 0; i < unknowns; ++i)
-      for (std::size_t row = 0; row < kRows; ++row) columns[at(i)][row] = upTo(8191 >> (i % 3));
-    for (std::size_t row = 0; row < kRows; ++row) residual[row] = upTo(2000);
+      for (std::size_t row = 0; row < kRows; ++row) columns[at(i)][row] = upTo(4095 >> (i % 3));
+    for (std::size_t row = 0; row < kRows; ++row) residual.value[row] = upTo(2000);
   }
   /// The last column is a sum of the others but for a part of it.
   void makeNearlyDependent(int unknowns, int part) {
     for (std::size_t row = 0; row < kRows; ++row) {
       int sum = 0;
       for (int i = 0; i + 1 < unknowns; ++i) sum += columns[at(i)][row];
-      columns[at(unknowns - 1)][row] = static_cast<std::int16_t>(sum / unknowns + upTo(8192 / part));
+      columns[at(unknowns - 1)][row] = static_cast<std::int16_t>(sum / unknowns + upTo(4096 / part));
     }
   }
   MatrixXd matrix(int unknowns) const {
@@ -60,7 +60,7 @@ TEST_GROUP(NormalEquations) {
   }
   VectorXd rest() const {
     VectorXd all(kRows);
-    for (Index row = 0; row < kRows; ++row) all[row] = residual[at(row)];
+    for (Index row = 0; row < kRows; ++row) all[row] = std::ldexp(residual.value[at(row)], residual.shift);
     return all;
   }
   /// What each unknown comes to, given those behind it: from the last to the first, each within its limits.
@@ -140,19 +140,21 @@ TEST(NormalEquations, NearlyDependentColumnsAreSolvedToAPartOfTheirErrors) {
 }
 
 TEST(NormalEquations, TinyAndHugeResidualsAreSolvedAlike) {
-  for (int bits = 0; bits <= 15; ++bits) {
+  for (int bits = 0; bits <= kColumnBits + kMostResidualShift; ++bits) {
     fill(4);
-    for (std::size_t row = 0; row < kRows; ++row) residual[row] = upTo((1 << bits) - (bits == 15 ? 1 : 0));
+    residual.shift = std::max(bits - kColumnBits, 0);
+    for (std::size_t row = 0; row < kRows; ++row) residual.value[row] = upTo(1 << (bits - residual.shift));
     checkSolved(4, 2e-3);
   }
 }
 
 TEST(NormalEquations, ReductionsOfTheLargestResidualsAreToldApart) {
   for (std::size_t row = 0; row < kRows; ++row) {
-    columns[0][row] = 8191;
-    residual[row] = row < 12 ? 32'000 : 0;
+    columns[0][row] = 4095;
+    residual.value[row] = row < 12 ? 4'000 : 0;
   }
-  checkReduction(1, 1e-3);  // 9.2e9: more than 32 bits
+  residual.shift = kMostResidualShift;
+  checkReduction(1, 1e-3);  // 6e14: more than 32 bits
 }
 
 TEST(NormalEquations, AnUndeterminedUnknownKeepsItsValue) {

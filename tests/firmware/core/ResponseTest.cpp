@@ -149,7 +149,8 @@ TEST_GROUP(Response) {
     const PatchPair& pair = ring.tables().patch(node.node, cell.cell);
     const int sign = isNormal ? constants.mirror_sign : -constants.mirror_sign;
     return (node.mirrored ? sign : 1) *
-           valueOf(isNormal ? pair.normal : pair.tangential, cell.s_q15, node.t_q15);
+           std::ldexp(responseOf(isNormal ? pair.normal : pair.tangential, cell.s_q15, node.t_q15).value_q30,
+                      -15);
   }
   /// Strain that a value of 1 is, per N/m: an amplitude of 1 reads 2^-16 of it.
   static double strainOfOne(const ModelRing& ring) {
@@ -193,10 +194,9 @@ TEST(Response, ThePatchIsAQuadraticInBoth) {
         patch[0] + patch[1] * s + patch[2] * t + patch[3] * t * t + patch[4] * s * t + patch[5] * s * s;
     const auto fixed = [](double part) { return static_cast<Number>(std::lround(std::ldexp(part, 15))); };
     const Response response = responseOf(patch, fixed(s), fixed(t));
-    DOUBLES_EQUAL(value, response.value, 2);
-    DOUBLES_EQUAL(patch[2] + 2 * patch[3] * t + patch[4] * s, response.slope, 2);
-    DOUBLES_EQUAL(patch[1] + 2 * patch[5] * s + patch[4] * t, response.widening, 2);
-    LONGS_EQUAL(response.value, valueOf(patch, fixed(s), fixed(t)));
+    DOUBLES_EQUAL(value, std::ldexp(response.value_q30, -15), 2);
+    DOUBLES_EQUAL(patch[2] + 2 * patch[3] * t + patch[4] * s, std::ldexp(response.slope_q30, -15), 2);
+    DOUBLES_EQUAL(patch[1] + 2 * patch[5] * s + patch[4] * t, std::ldexp(response.widening_q30, -15), 2);
   }
 }
 
@@ -208,7 +208,8 @@ TEST(Response, WeightsAsLargeAsTablesMayHaveThemStayWithinTheirWords) {
           ResponsePatch patch{};
           patch[i] = weight;
           const Response response = responseOf(patch, s, t);
-          CHECK(std::abs(response.value) <= kEnd);
-          CHECK(std::abs(response.slope) <= 2 * kEnd && std::abs(response.widening) <= 2 * kEnd);
+          const auto size = [](Number sum_q30) { return std::abs(std::ldexp(sum_q30, -15)); };
+          CHECK(size(response.value_q30) <= kEnd);
+          CHECK(size(response.slope_q30) <= 2 * kEnd && size(response.widening_q30) <= 2 * kEnd);
         }
 }

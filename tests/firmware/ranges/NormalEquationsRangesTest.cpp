@@ -3,6 +3,7 @@
 
 #include "tests/firmware/ranges/ranges_group.hpp"
 
+using namespace strainfinger;
 using namespace strainfinger::firmware;
 
 TEST_GROUP_BASE(NormalEquationsRanges, RangesGroup) {
@@ -26,14 +27,17 @@ TEST_GROUP_BASE(NormalEquationsRanges, RangesGroup) {
   }
   static void solveAny(const Decomposition& decomposition) {
     constexpr std::int64_t kLimit = 1 << 28;
-    Rows residual;
-    residual.fill(Short::any());
     Vector high, low;
     high.fill({0, kLimit});
     low.fill({-kLimit, 0});
-    const Step step = solve(decomposition, anyColumns(), kMostRows, residual, low, high);
-    for (const Number& x : step.x_q14) checkWithin(x, -kLimit, kLimit);
-    checkWithin(step.reduction, -kMostReduction, kMostReduction);
+    for (const int shift : {0, kMostResidualShift}) {
+      Residual residual;
+      residual.value.fill(within<Short>(kEntry));
+      residual.shift = shift;
+      const Step step = solve(decomposition, anyColumns(), kMaxGauges, residual, low, high);
+      for (const Number& x : step.x_q14) checkWithin(x, -kLimit, kLimit);
+      checkWithin(step.reduction, -kMostReduction, kMostReduction);
+    }
   }
 };
 
@@ -41,7 +45,7 @@ TEST(NormalEquationsRanges, ADecompositionOverflowsNothing) {
   const Columns columns = anyColumns();
   const int ways = forEachWay([&] {
     Decomposition decomposition;
-    decompose(columns, kMostRows, kMostUnknowns, decomposition);
+    decompose(columns, kMaxGauges, kMostUnknowns, decomposition);
     for (std::size_t i = 0; i < kMostUnknowns; ++i) {
       checkWithin(decomposition.pivot[i], 0, Number::kMost);
       checkWithin(decomposition.reciprocal[i].mantissa, 0, 1 << 30);
@@ -53,11 +57,11 @@ TEST(NormalEquationsRanges, ADecompositionOverflowsNothing) {
   checkNone();
 }
 
-TEST(NormalEquationsRanges, EntriesOfABitMoreWouldOverflowADecomposition) {
-  const Columns columns = anyColumns(2 * kEntry);
+TEST(NormalEquationsRanges, EntriesOfTwoBitsMoreWouldOverflowADecomposition) {
+  const Columns columns = anyColumns(4 * kEntry);
   forEachWay([&] {
     Decomposition decomposition;
-    decompose(columns, kMostRows, 1, decomposition);
+    decompose(columns, kMaxGauges, 1, decomposition);
   });
   checkSome();
 }

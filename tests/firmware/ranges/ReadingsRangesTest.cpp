@@ -42,7 +42,7 @@ TEST_GROUP_BASE(ReadingsRanges, RangesGroup) {
   static Solution anySolution(int contacts) {
     Solution any{{static_cast<std::uint8_t>(contacts), true, kAll}, {}};
     any.contact.fill({0, within(1 << 20), within(1 << 20), {0, 1 << kMomentBits}});
-    any.residualEnergy = {0, 2 * kMostReduction};
+    any.residualEnergy = {0, kMostLeft};
     return any;
   }
 };

@@ -11,10 +11,9 @@ TEST_GROUP_BASE(ResponseRanges, RangesGroup) {
 
   static void checkResponse(const ResponsePatch& patch, const Number& s, const Number& t) {
     const Response response = responseOf(patch, s, t);
-    checkWithin(response.value, -kOne + 1, kOne - 1);
-    checkWithin(valueOf(patch, s, t), -kOne + 1, kOne - 1);
-    checkWithin(response.slope, -2 * kOne + 1, 2 * kOne - 1);
-    checkWithin(response.widening, -2 * kOne + 1, 2 * kOne - 1);
+    checkWithin(response.value_q30, -kOne * (kOne - 1), kOne * (kOne - 1));
+    checkWithin(response.slope_q30, -2 * kOne * (kOne - 1), 2 * kOne * (kOne - 1));
+    checkWithin(response.widening_q30, -2 * kOne * (kOne - 1), 2 * kOne * (kOne - 1));
   }
   /// Cells 0 .. first .. first + width .. 1, each of the highest rate.
   static TableConstants cellsAround(int first, int width) {
@@ -51,7 +50,7 @@ TEST(ResponseRanges, APatchOverflowsNothing) {
 }
 
 TEST(ResponseRanges, APatchOfTwoFullWeightsWouldOverflow) {
-  valueOf({32767, 32767, 32767, 0, 0, 0}, within(kOne), within(kOne));
+  responseOf({32767, 32767, 32767, 0, 0, 0}, within(kOne), within(kOne));
   checkSome();
 }
 

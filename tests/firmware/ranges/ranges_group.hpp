@@ -9,8 +9,9 @@
 
 namespace strainfinger::firmware {
 
-/// Of a sum of squared residuals by one step; and what it leaves, where a limit made it worse.
-inline constexpr Exact kMostReduction = Exact{1} << 52;
+/// Of a sum of squared residuals by one step, as far as bounds know; and what a step leaves.
+inline constexpr Exact kMostReduction = Exact{1} << 59;
+inline constexpr Exact kMostLeft = Exact{1} << 48;
 
 struct RangesGroup : Utest {
   void setup() override {

@@ -195,13 +195,6 @@ TEST(TableBuilder, SevenGaugesOrMoreAreInReachWhereverAContactIs) {
   DOUBLES_EQUAL((4 * 50 + 3 * 20) / 2.0, constants().reach_q32 * (360 / 0x1p32), 1e-6);
 }
 
-TEST(TableBuilder, NoMoreGaugesAreInReachThanAFitCanUse) {
-  config_.gauges.count = 32;
-  for (int i = 0; i < 32; ++i) config_.gauges.angles_deg.push_back(i <= 24 ? 7.5 * i : 180 + (i - 24) * 22.5);
-  DOUBLES_EQUAL(7.5 * 24 / 2, constants().reach_q32 * (360 / 0x1p32), 1e-6);
-  checkTaken();
-}
-
 TEST(TableBuilder, WidthsAreFittedUnlessTheyAreKnown) {
   LONGS_EQUAL(0, constants().width_is_known);
   LONGS_EQUAL(64'000'000 / 12, constants().largest_moment_um2);

@@ -74,6 +74,8 @@ inline std::vector<ranges::Primitive> primitives() {
        {sized(31), sized(15)},
        [](In a) { return boundsOf(scaled<16>(number(a[0]), number(a[1]))); }},
       {"narrowed", {sized(62)}, [](In a) { return boundsOf(narrowed<20, 28>(wide(a[0]))); }},
+      {"lowBits", {upTo(62)}, [](In a) { return boundsOf(lowBits<10>(wide(a[0]))); }},
+      {"saturated", {sized(31)}, [](In a) { return boundsOf(saturated<12>(number(a[0]))); }},
       {"shortened", {sized(31)}, [](In a) { return boundsOf(shortened(number(a[0]))); }},
       {"shifted",
        {sized(31), plain(-70, 70), upTo(28)},
@@ -89,14 +91,15 @@ inline std::vector<ranges::Primitive> primitives() {
       {"dot",
        {sized(13), sized(13), sized(13), sized(13)},
        [](In a) {
-         alignas(4) const std::array<Short, 2> left{kept(a[0]), kept(a[1])}, right{kept(a[2]), kept(a[3])};
-         return boundsOf(dot(left.data(), right.data(), 2));
+         alignas(4) const std::array<Short, 4> left{kept(a[0]), 1, kept(a[1]), 2},
+             right{kept(a[2]), -3, kept(a[3]), 4};
+         return boundsOf(dot(left.data(), right.data(), 4));
        }},
-      {"wideDot of one",
-       {sized(15), sized(15)},
+      {"dot of one",
+       {sized(14), sized(14)},
        [](In a) {
-         alignas(4) const std::array<Short, 2> both{kept(a[0]), kept(a[1])};
-         return boundsOf(wideDot(both.data(), both.data(), 2));
+         alignas(4) const std::array<Short, 4> both{kept(a[0]), 0, 0, kept(a[1])};
+         return boundsOf(dot(both.data(), both.data(), 4));
        }},
       {"mantissa of reciprocalOf",
        {above0(31)},

@@ -299,10 +299,19 @@ template <int bits, int limitBits>
 Number narrowed(const Wide& value) {
   return limited(value >> bits, 1 << limitBits);
 }
-inline Short shortened(const Number& value) {
-  return {std::clamp(value.least(), Short::kLeast, Short::kMost),
-          std::clamp(value.most(), Short::kLeast, Short::kMost)};
+template <int bits>
+Number lowBits(const Wide& value) {
+  if (value.least() < 0) ++overflows;
+  constexpr Exact end = Exact{1} << bits;
+  if (value.least() / end == value.most() / end) return {value.least() % end, value.most() % end};
+  return {0, end - 1};
 }
+template <int bits>
+Number saturated(const Number& value) {
+  constexpr Exact end = Exact{1} << bits;
+  return {std::clamp<Exact>(value.least(), -end, end - 1), std::clamp<Exact>(value.most(), -end, end - 1)};
+}
+inline Short shortened(const Number& value) { return static_cast<Short>(saturated<15>(value)); }
 inline Number shifted(const Wide& value, const Number& up, const Number& limit) {
   const auto by = [](Exact number, Exact bits) {
     return bits >= 0 ? number * (Exact{1} << std::min<int>(static_cast<int>(bits), 63))
@@ -324,15 +333,12 @@ inline Wide squareOf(const Number& value) {
   const Number size = sizeOf(value);
   return {size.least() * size.least(), size.most() * size.most()};
 }
-template <typename Sum>
-Sum sumOfProducts(const Short* a, const Short* b, int count) {
-  if (count % 2 != 0) ++overflows;
-  Sum sum = 0;
+inline Number dot(const Short* a, const Short* b, int count) {
+  if (count % 4 != 0) ++overflows;
+  Number sum = 0;
   for (int i = 0; i < count; ++i) sum += a == b ? Number(squareOf(a[i])) : a[i] * b[i];
   return sum;
 }
-inline Number dot(const Short* a, const Short* b, int count) { return sumOfProducts<Number>(a, b, count); }
-inline Wide wideDot(const Short* a, const Short* b, int count) { return sumOfProducts<Wide>(a, b, count); }
 
 using strainfinger::saturate;
 template <typename To, int kBits, bool kSigned>

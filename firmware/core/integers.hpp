@@ -8,7 +8,7 @@
 
 #include "common/fixed.hpp"
 
-#if defined(__ARM_FEATURE_DSP) || defined(__ARM_FEATURE_SAT)
+#if defined(__ARM_FEATURE_DSP)
 #include <arm_acle.h>
 #endif
 
@@ -73,7 +73,7 @@ constexpr Number lowBits(Wide value) {
 template <int bits>
 inline Number saturated(Number value) {
 #if defined(__ARM_FEATURE_SAT)
-  return __ssat(value, bits + 1);
+  return static_cast<Number>(__builtin_arm_ssat(value, bits + 1));  // __ssat() of GCC 12 warns
 #else
   return std::clamp<Number>(value, -(1 << bits), (1 << bits) - 1);
 #endif

@@ -14,9 +14,9 @@ constexpr int kStepLimitBits = 28;
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Sum of L's row and a vector, up to `last` - 1: seven products below 2^60.
-Number product(const Vector& lower_q20, const Vector& vector, int last) {
+Number product(const Number* lower_q20, const Vector& vector, int last) {
   Wide sum = 0;
-  for (int m = 0; m < last; ++m) sum += Wide{lower_q20[at(m)]} * vector[at(m)];
+  for (int m = 0; m < last; ++m) sum += Wide{lower_q20[m]} * vector[at(m)];
   return narrowed<kLowerBits, kSumBits>(sum);
 }
 
@@ -26,14 +26,14 @@ void decompose(const std::array<Rows, kMostUnknowns>& columns, int rows, int unk
                Decomposition& decomposition) {
   decomposition.unknowns = static_cast<std::uint8_t>(unknowns);
   for (int i = 0; i < unknowns; ++i) {
-    Vector& lower = decomposition.lower_q20[at(i)];
+    Number* const lower = decomposition.lower(i);
     Vector scaledRow;  // L D
     const Short* const column = columns[at(i)].data();
     for (int j = 0; j < i; ++j) {
       const Number rest =
-          dot(column, columns[at(j)].data(), rows) - product(decomposition.lower_q20[at(j)], scaledRow, j);
+          dot(column, columns[at(j)].data(), rows) - product(decomposition.lower(j), scaledRow, j);
       scaledRow[at(j)] = rest;
-      lower[at(j)] = divided(rest, decomposition.reciprocal[at(j)], kLowerBits, 1 << kLowerLimitBits);
+      lower[j] = divided(rest, decomposition.reciprocal[at(j)], kLowerBits, 1 << kLowerLimitBits);
     }
     const Number square = dot(column, column, rows);
     const Number pivot = square - product(lower, scaledRow, i);
@@ -50,8 +50,8 @@ Step solve(const Decomposition& decomposition, const std::array<Rows, kMostUnkno
   Wide reduction = 0;  // [* 2^(14 - shift)]
   Vector y, z;
   for (int i = 0; i < unknowns; ++i) {
-    y[at(i)] = dot(columns[at(i)].data(), residual.value.data(), rows) -
-               product(decomposition.lower_q20[at(i)], y, i);
+    y[at(i)] =
+        dot(columns[at(i)].data(), residual.value.data(), rows) - product(decomposition.lower(i), y, i);
     z[at(i)] =
         divided(y[at(i)], decomposition.reciprocal[at(i)], kStepBits + residual.shift, 1 << kStepLimitBits);
     if (decomposition.isDetermined(i)) reduction += Wide{y[at(i)]} * z[at(i)];
@@ -60,8 +60,7 @@ Step solve(const Decomposition& decomposition, const std::array<Rows, kMostUnkno
     step.x_q14[at(i)] = 0;
     if (!decomposition.isDetermined(i)) continue;
     Wide sum_q20 = 0;
-    for (int j = i + 1; j < unknowns; ++j)
-      sum_q20 += Wide{decomposition.lower_q20[at(j)][at(i)]} * step.x_q14[at(j)];
+    for (int j = i + 1; j < unknowns; ++j) sum_q20 += Wide{decomposition.lower(j)[i]} * step.x_q14[at(j)];
     const Number wanted = z[at(i)] - narrowed<kLowerBits, kStepLimitBits>(sum_q20);
     const Number taken = clamped(wanted, low_q14[at(i)], high_q14[at(i)]);
     step.x_q14[at(i)] = taken;
@@ -91,7 +90,7 @@ std::array<Wide, kMostUnknowns> variances(const Decomposition& decomposition) {
     variance[at(i)] = Wide{weight_q40[at(i)]} << kSpareBits;
     for (int k = i + 1; k < unknowns; ++k) {
       Wide sum_q20 = 0;
-      for (int m = i; m < k; ++m) sum_q20 -= Wide{decomposition.lower_q20[at(k)][at(m)]} * inverse[at(m)];
+      for (int m = i; m < k; ++m) sum_q20 -= Wide{decomposition.lower(k)[m]} * inverse[at(m)];
       inverse[at(k)] = narrowed<kLowerBits, kInverseLimitBits>(sum_q20);
       const Wide square_q20 = squareOf(inverse[at(k)]) >> kLowerBits;
       variance[at(i)] += (square_q20 >> kSpareBits) * weight_q40[at(k)] +

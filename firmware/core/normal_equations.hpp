@@ -23,11 +23,14 @@ inline constexpr int kStepBits = 14;
 /// N = L D L^T. An unknown of which the others leave less than 2^-12 of its column's square is taken for
 /// undetermined: its pivot is 0 and it keeps its value.
 struct Decomposition {
-  std::array<Vector, kMostUnknowns> lower_q20;  ///< L below its diagonal of ones
+  std::array<Number, kMostUnknowns*(kMostUnknowns - 1) / 2> lower_q20;  ///< L below its diagonal, row by row
   Vector pivot;
   std::array<Reciprocal, kMostUnknowns> reciprocal;  ///< of the pivots; 0 of an undetermined unknown's
   std::uint8_t unknowns;
 
+  /// Where row i of L begins, of i entries.
+  Number* lower(int i) { return lower_q20.data() + i * (i - 1) / 2; }
+  const Number* lower(int i) const { return lower_q20.data() + i * (i - 1) / 2; }
   bool isDetermined(int unknown) const { return reciprocal[static_cast<std::size_t>(unknown)].mantissa != 0; }
 };
 

@@ -20,7 +20,7 @@ TEST_GROUP_BASE(NormalEquationsRanges, RangesGroup) {
   static Decomposition anyDecomposition(int unknowns, int leastMantissa = 0) {
     Decomposition any;
     any.unknowns = static_cast<std::uint8_t>(unknowns);
-    for (Vector& lower : any.lower_q20) lower.fill(within(kMostLower));
+    any.lower_q20.fill(within(kMostLower));
     any.pivot.fill({0, Number::kMost});
     any.reciprocal.fill({{leastMantissa, 1 << 30}, {-60, 0}});
     return any;
@@ -50,8 +50,8 @@ TEST(NormalEquationsRanges, ADecompositionOverflowsNothing) {
       checkWithin(decomposition.pivot[i], 0, Number::kMost);
       checkWithin(decomposition.reciprocal[i].mantissa, 0, 1 << 30);
       checkWithin(decomposition.reciprocal[i].exponent, -60, 0);
-      for (std::size_t j = 0; j < i; ++j) checkWithin(decomposition.lower_q20[i][j], -kMostLower, kMostLower);
     }
+    for (const Number& lower : decomposition.lower_q20) checkWithin(lower, -kMostLower, kMostLower);
   });
   LONGS_EQUAL(1 << kMostUnknowns, ways);
   checkNone();

@@ -26,7 +26,7 @@ class Seed(NamedTuple):
 PROVED = [
     Seed("NormalEquations", "normal_equations.cpp", "dot(column, columns[at(j)].data(), rows) - product(",
          "4 * dot(column, columns[at(j)].data(), rows) - product(", "ADecompositionOverflowsNothing"),
-    Seed("NormalEquations", "normal_equations.cpp", "sum += Wide{lower_q20[at(m)]}", "sum += 4 * Wide{lower_q20[at(m)]}",
+    Seed("NormalEquations", "normal_equations.cpp", "sum += Wide{lower_q20[m]}", "sum += 4 * Wide{lower_q20[m]}",
          "ADecompositionOverflowsNothing"),
     Seed("NormalEquations", "normal_equations.cpp", "kInverseLimitBits = 29", "kInverseLimitBits = 30",
          "VariancesOverflowNothing"),

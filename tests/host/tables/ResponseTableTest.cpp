@@ -84,7 +84,8 @@ TEST_GROUP(ResponseTable) {
         const firmware::AngleNode node = firmware::angleNode(image.constants, angle_q32);
         const PatchPair& patch = image.patch(node.node, cell.cell);
         const auto signedValue = [&](const ResponsePatch& weights, int mirror) {
-          const int value = firmware::valueOf(weights, cell.s_q15, node.t_q15);
+          const int value =
+              (firmware::responseOf(weights, cell.s_q15, node.t_q15).value_q30 + (1 << 14)) >> 15;
           return (node.mirrored && mirror < 0 ? -value : value) * unit;
         };
         const double angle_rad = 2 * pi * i / (4.0 * 96);

@@ -157,7 +157,7 @@ TEST(TableBuilder, TheLoadScaleTurnsFittedLoadsIntoLineLoads) {
   const TableImage image = buildTableImage(config_);
   const firmware::AngleNode node = firmware::angleNode(image.constants, 0);
   const long double response =
-      firmware::valueOf(image.patch(node.node, 0).normal, 0, node.t_q15) / -power2(15);
+      firmware::responseOf(image.patch(node.node, 0).normal, 0, node.t_q15).value_q30 / -power2(30);
   const long double strainPerUnit = power2(-33) * response;
   const long double load = strainPerUnit / 460.6030e-6L * power2(12);
   checkClose(load, image.constants.load_scale * power2(image.constants.load_exponent), 2e-5);

@@ -72,7 +72,7 @@ struct TableConstants {
   std::uint32_t reach_q32;           ///< grids look at gauges within this angle of a contact, TurnQ32
   std::uint32_t largest_moment_um2;  ///< second moment of the widest pressure [um^2]
   std::uint32_t known_moment_q20;    ///< fraction of it, where the width is known
-  std::uint32_t place_error_q32;     ///< standard error that calibration leaves of all places, TurnQ32
+  std::uint32_t place_error_q32;     ///< standard error of all places that no residual shows, TurnQ32
   std::int16_t load_exponent;
   std::uint16_t friction_q8;      ///< coefficient of friction [* 2^8]
   std::uint16_t cone_q8;          ///< largest |tangential| / normal an answer may have [* 2^8]

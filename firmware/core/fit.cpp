@@ -255,7 +255,7 @@ Residual residualOf(int gauges, GaugeSet counted, int expectedShift, Left leftOf
     for (int gauge = 0; gauge < gauges; ++gauge) {
       const Number left = leftOf(index(gauge)) * static_cast<Number>(counted >> gauge & 1);
       residual.value[index(gauge)] = static_cast<Short>(saturated<kColumnBits>((left + half) >> shift));
-      bits |= signlessBits(left);
+      bits |= signlessBits(Number{left});
     }
     return std::clamp(bitWidth(bits) - kColumnBits, 0, kMostResidualShift);
   };

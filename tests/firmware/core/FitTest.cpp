@@ -198,7 +198,7 @@ TEST(Fit, TheLinearisationPredictsEveryGauge) {
 
 TEST(Fit, GaugesThatDontCountAreRowsOfZeros) {
   hypothesis.gauges = allGauges(16) & ~(GaugeSet{1} << 3);
-  linearise(ring.tables(), hypothesis, {ring.stateOf({3.25, 20, 5, 1}, 5)}, linearisation);
+  linearise(ring.tables(), hypothesis, {ring.stateOf({3.25, 20, 5, 1}, 10)}, linearisation);
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t gauge = 2; gauge < 5; ++gauge)
       CHECK_EQUAL(gauge == 3, linearisation.column[i][gauge] == 0);

@@ -226,6 +226,7 @@ TEST(TableBuilder, TheModelErrorIsAFractionOfTheReading) {
 }
 
 TEST(TableBuilder, ThereIsNoErrorOfCalibrationWhereNoneIsTold) {
+  config_.gauges.model_error = 0;
   LONGS_EQUAL(0, constants().place_error_q32);
   LONGS_EQUAL(0, constants().load_error_q16);
   LONGS_EQUAL(0, constants().moment_error_q16);
@@ -233,6 +234,7 @@ TEST(TableBuilder, ThereIsNoErrorOfCalibrationWhereNoneIsTold) {
 
 // 25 um of the circumference of 79.8 mm; 0.02 mm^2 of 64 / 12.
 TEST(TableBuilder, WhatCalibrationLeavesIsATurnAndFractions) {
+  config_.gauges.model_error = 0;
   config_.calibration.place_error_m = 25e-6;
   config_.calibration.load_error = 0.006;
   config_.calibration.moment_error_m2 = 2e-8;
@@ -245,6 +247,14 @@ TEST(TableBuilder, WhatCalibrationLeavesIsATurnAndFractions) {
   LONGS_EQUAL(kMostPlaceError_q32, constants().place_error_q32);
   LONGS_EQUAL(65535, constants().load_error_q16);
   LONGS_EQUAL(65535, constants().moment_error_q16);
+}
+
+// 0.3 of 5 % of 3.3 mm; 25 um of a calibration are another, independent error.
+TEST(TableBuilder, PlacesAreOffByWhatTheModelErrorMakesOfThem) {
+  const double circumference_m = 2 * 3.141592653589793 * 12.7e-3;
+  checkClose(49.5e-6 / circumference_m, constants().place_error_q32 * power2(-32), 1e-6);
+  config_.calibration.place_error_m = 25e-6;
+  checkClose(std::hypot(49.5e-6, 25e-6) / circumference_m, constants().place_error_q32 * power2(-32), 1e-6);
 }
 
 // The error that calibrations leave is a quarter of the second moment of 1 mm.

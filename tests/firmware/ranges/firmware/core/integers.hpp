@@ -260,9 +260,12 @@ requires kIsBounds<T> T magnitude(const T& value) {
 }
 template <typename T>
 requires(kIsBounds<T> && !std::is_reference_v<T>) T magnitude(T&& value) { return sizeOf(value); }
-inline Number signlessBits(const Number& value) {
+inline Number signlessBits(Number&& value) {
   const Exact least = value.least() >= 0 ? value.least() : value.most() < 0 ? -value.most() - 1 : 0;
-  Number bits{least, std::max(-value.least() - 1, value.most())};
+  return {least, std::max(-value.least() - 1, value.most())};
+}
+inline Number signlessBits(const Number& value) {
+  Number bits = signlessBits(Number{value});
   bits.parts = {&value};
   return bits;
 }

@@ -150,6 +150,7 @@ int Locator::followRival(const TableImage& tables, const ScaledReadings& reading
 
 void Locator::start(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges) {
   answer_ = {};
+  slid_q32_ = slidBefore_q32_ = {};
   search_.stop();
   const Hypothesis hypothesis = oneContact(tables, mode_, gauges);
   const ContactStates guess = initialGuess(tables, hypothesis, readings, linearisation_);

@@ -14,12 +14,12 @@ namespace {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// A number above 0: mantissa * 2^exponent, the mantissa's highest bit set.
-struct Normal {
+struct Floating {
   std::uint32_t mantissa;
   int exponent;
 };
 
-Normal normalOf(std::uint64_t value) {
+Floating floatingOf(std::uint64_t value) {
   const int up = std::countl_zero(value);
   return {static_cast<std::uint32_t>(value << up >> 32), 32 - up};
 }
@@ -27,10 +27,10 @@ Normal normalOf(std::uint64_t value) {
 /// sqrt(value * 2^exponent) as an integer, at most `most`.
 std::int64_t rootOf(std::uint64_t value, int exponent, std::int64_t most) {
   if (value == 0) return 0;
-  const Normal normal = normalOf(value);
-  const int odd = (normal.exponent + exponent) & 1;
-  const std::uint32_t root = integerRoot(normal.mantissa >> odd);  // 16 bits
-  const int shift = (normal.exponent + exponent + odd) / 2;
+  const Floating number = floatingOf(value);
+  const int odd = (number.exponent + exponent) & 1;
+  const std::uint32_t root = integerRoot(number.mantissa >> odd);  // 16 bits
+  const int shift = (number.exponent + exponent + odd) / 2;
   if (shift <= 0) return shift <= -32 ? 0 : root >> -shift;
   return shift > 40 ? most : std::min<std::int64_t>(static_cast<std::int64_t>(root) << shift, most);
 }
@@ -39,7 +39,7 @@ std::int64_t rootOf(std::uint64_t value, int exponent, std::int64_t most) {
 /// [* 2^50] and the readings' variance given.
 std::int64_t sigmaOf(Wide variance_q50, std::uint32_t readings_q4, int up, std::int64_t most) {
   if (variance_q50 == 0) return 0;
-  const Normal variance = normalOf(static_cast<std::uint64_t>(variance_q50));
+  const Floating variance = floatingOf(static_cast<std::uint64_t>(variance_q50));
   return rootOf(std::uint64_t{variance.mantissa} * readings_q4, variance.exponent - 50 - 4 + 2 * up, most);
 }
 
@@ -80,9 +80,9 @@ std::uint8_t qualityOf(const Answer& answer, int freedoms) {
 /// Square root of chi-squared a degree of freedom [* 2^4].
 std::uint16_t chiOf_q4(const Answer& answer, int freedoms) {
   if (answer.solution.residualEnergy == 0) return 0;
-  const Normal energy = normalOf(static_cast<std::uint64_t>(answer.solution.residualEnergy));
-  const Normal allowed =
-      normalOf(std::uint64_t{answer.gateVariance_q4} * static_cast<std::uint32_t>(freedoms));
+  const Floating energy = floatingOf(static_cast<std::uint64_t>(answer.solution.residualEnergy));
+  const Floating allowed =
+      floatingOf(std::uint64_t{answer.gateVariance_q4} * static_cast<std::uint32_t>(freedoms));
   const std::uint32_t ratio = energy.mantissa / (allowed.mantissa >> 16);  // * 2^16, to 2^-15
   return static_cast<std::uint16_t>(
       rootOf(ratio, energy.exponent - allowed.exponent - 16 + 4 + 2 * 4, kNoChi - 1));

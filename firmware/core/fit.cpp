@@ -13,7 +13,7 @@ constexpr Number kMostTurn_q32 = 1 << 25;
 /// A step changes the second moment by at most 1/16 + 5/16 of it.
 constexpr Number kMostWidening_q20 = 1 << (kMomentBits - 4);
 
-constexpr int kLoadExponent = 3;  ///< of the loads' columns, whose entries have 15 bits
+constexpr int kLoadExponent = 3;  ///< of the loads' columns: responses of 15 bits as entries of 12
 constexpr int kLoadStepBits = kLoadExponent + kStepBits - 16;  ///< a step of theirs is an amplitude * 2^this
 /// Of what a step leaves: estimate() has room for so much.
 constexpr int kMostEnergyBits = 48;
@@ -187,7 +187,7 @@ void setColumn(const WideColumn& entries, int gauges, int exponent, Rows& column
     column[index(gauge)] = static_cast<Short>(saturated<kColumnBits>(entries[index(gauge)] >> down));
 }
 
-/// Gauges that are not fitted, and what fills the columns up.
+/// Zeroes the rows of gauges that are not fitted, and those that fill the columns up.
 void clearRows(const Hypothesis& hypothesis, int unknowns, int gauges,
                std::array<Rows, kMostUnknowns>& column) {
   const GaugeSet out = ~fittedGauges(hypothesis) & allGauges(rowsOf(gauges));
@@ -326,7 +326,7 @@ void take(const TableConstants& constants, const Linearisation& linearisation, c
 /// is 0.06 of sigma RMS, at most 0.9 (FitTest, AShortStepIsAlmostTheLast).
 constexpr int kShortTurnBits = 8, kShortLoadBits = 7, kShortWideningBits = 6, kShortMomentBits = 8;
 /// Columns hold so many times [log2] as far: a touch that slides on is told within 0.13 of sigma RMS of what
-/// columns of each place tell (LocatorTest, FollowsAMovingTouch..).
+/// columns of each place tell (LocatorTest, FollowsAMovingTouchWithTheAnswersOfOneSetAlone).
 constexpr int kSlopesHoldBits = 3;
 
 }  // namespace
@@ -350,9 +350,9 @@ bool isShort(const TableConstants& constants, const ContactState& from, const Co
          magnitude(to.moment_q20 - from.moment_q20) <= moment;
 }
 
-/// Largest reduction of the residuals' squares by a step after which another would not matter: its square
-/// over a reading's variance. A 64th of it makes no answer better, but of three readings, which may tell so
-/// little that a small residual is a long step.
+/// A step reduces the residuals' squares by so little that another would not matter: its square is at most
+/// 256 times a reading's variance, or it is below 64 units. Three readings may tell so little that a small
+/// residual is a long step: for them 2 times, and 16 units.
 bool changesLittle(Wide reduction, const Hypothesis& hypothesis, const ScaledReadings& readings) {
   const Wide most = hypothesis.exact == 0 ? 256 : 2;
   return reduction < (hypothesis.exact == 0 ? 64 : 16) ||

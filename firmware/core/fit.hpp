@@ -37,7 +37,7 @@ struct Solution {
   std::span<const ContactState> contacts() const { return std::span(contact).first(hypothesis.contacts); }
 };
 
-/// The gauge is so near to the contact that grids look at what it reads of it.
+/// The gauge is so near to the contact that it feels it: grids, three readings and drift go by that.
 bool isInReach(const TableImage& tables, const ContactState& contact, int gauge);
 
 /// Cost: two table lookups a gauge and contact, and the decomposition.
@@ -48,7 +48,7 @@ void linearise(const TableImage& tables, const Hypothesis& hypothesis, const Con
 /// linearise() then.
 void move(const TableImage& tables, const ContactStates& contacts, Linearisation& linearisation);
 
-/// A contact that turned by so much is where the linear model holds; `farther`: so many times as far [log2].
+/// The linear model holds for a contact that turns by so much; `farther`: so many times as far [log2].
 bool isShortTurn(const TableConstants& constants, std::uint32_t turned_q32, int farther = 0);
 
 /// One step from a linearisation to these readings. `solution.converged`: the linear model holds that far.

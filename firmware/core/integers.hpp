@@ -99,11 +99,6 @@ constexpr Number shifted(Number value, int up, Number limit) {
   return value << std::min(up, 31);  // by more only 0
 }
 
-/// value * 2^up for any sign of `up`, rounded down; by 2^most where `up` is more.
-constexpr Wide shiftedAtMost(Wide value, int up, int most) {
-  return up >= 0 ? value << std::min(up, most) : value >> std::min(-up, 63);
-}
-
 /// value^2, exactly. Cores without long products make it of three short ones.
 constexpr Wide squareOf(Number value) {
 #if defined(__ARM_ARCH_6M__)

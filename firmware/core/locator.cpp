@@ -84,8 +84,8 @@ ContactStates Locator::expected(const TableConstants& constants) const {
   return contacts;
 }
 
-/// From the linear model around an earlier answer; anew around the answer where that is too far away. The
-/// work it took; nothing: the answer is lost.
+/// From the linear model around an earlier answer, moved to where the contacts are expected, or to what a
+/// step found, where that is too far away. The work it took; nothing: the answer is lost.
 std::optional<int> Locator::follow(const TableImage& tables, const ScaledReadings& readings,
                                    GaugeSet gauges) {
   const Hypothesis& hypothesis = answer_.solution.hypothesis;

@@ -14,7 +14,7 @@ namespace strainfinger::firmware {
 /// How the contacts are fitted.
 enum class FitMode : std::uint8_t {
   kThreePoint,  ///< the paper's: three readings are solved exactly, the others decide; the width is known
-  kRefined,     ///< all readings in reach
+  kRefined,     ///< all readings
 };
 
 /// What the locator believes.

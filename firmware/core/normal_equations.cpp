@@ -13,7 +13,7 @@ constexpr int kStepLimitBits = 28;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// Sum of L's row and a vector, up to `last` - 1: seven products below 2^60.
+/// Scalar product of the first `last` entries of a row of L and a vector: at most seven products below 2^60.
 Number product(const Number* lower_q20, const Vector& vector, int last) {
   Wide sum = 0;
   for (int m = 0; m < last; ++m) sum += Wide{lower_q20[m]} * vector[at(m)];

@@ -76,7 +76,7 @@ struct Response {
   Number widening_q30;  ///< d value / ds
 };
 
-/// Of a patch whose weights' sizes add up to less than 2^15 (usable()): so do those of every sum here.
+/// Of a patch whose weights' sizes add up to less than 2^15 (usable()): no sum here leaves its word.
 inline Response responseOf(const ResponsePatch& patch, Number s, Number t) {
   const Number curved = patch[3] * t;
   const Number along_q30 = patch[2] * (1 << 15) + patch[4] * s + curved;

@@ -9,7 +9,6 @@
 
 #include "common/fixed_real.hpp"
 #include "firmware/core/judge.hpp"
-#include "firmware/core/normal_equations.hpp"
 #include "host/base/failure.hpp"
 #include "host/config/keys.hpp"
 #include "host/tables/gauge_depths.hpp"

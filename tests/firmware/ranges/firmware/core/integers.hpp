@@ -323,14 +323,6 @@ inline Number shifted(const Wide& value, const Number& up, const Number& limit) 
   return boundedBy(std::min(by(value.least(), up.least()), by(value.least(), up.most())),
                    std::max(by(value.most(), up.least()), by(value.most(), up.most())), limit);
 }
-inline Wide shiftedAtMost(const Wide& value, const Number& up, int most) {
-  const auto by = [most](Exact number, Exact bits) {
-    return bits >= 0 ? number * (Exact{1} << std::min<int>(static_cast<int>(bits), most))
-                     : number >> std::min(-static_cast<int>(bits), 63);
-  };
-  return {std::min(by(value.least(), up.least()), by(value.least(), up.most())),
-          std::max(by(value.most(), up.least()), by(value.most(), up.most()))};
-}
 inline Number mulHigh(const Number& a, const Number& b) { return static_cast<Number>((Wide{a} * b) >> 32); }
 inline Wide squareOf(const Number& value) {
   const Number size = sizeOf(value);

@@ -15,7 +15,7 @@ constexpr Number kMostWidening_q20 = 1 << (kMomentBits - 4);
 
 constexpr int kLoadExponent = 3;  ///< of the loads' columns: responses of 15 bits as entries of 12
 constexpr int kLoadStepBits = kLoadExponent + kStepBits - 16;  ///< a step of theirs is an amplitude * 2^this
-/// Of what a step leaves: estimate() has room for so much.
+/// Of what a step leaves, so that thresholds and other energies can be added to it.
 constexpr int kMostEnergyBits = 48;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
@@ -255,7 +255,7 @@ Residual residualOf(int gauges, GaugeSet counted, int expectedShift, Left leftOf
     for (int gauge = 0; gauge < gauges; ++gauge) {
       const Number left = leftOf(index(gauge)) * static_cast<Number>(counted >> gauge & 1);
       residual.value[index(gauge)] = static_cast<Short>(saturated<kColumnBits>((left + half) >> shift));
-      bits |= signlessBits(Number{left});
+      bits |= signlessBits(Number{left});  // a copy: `left` is gone when the bits are counted
     }
     return std::clamp(bitWidth(bits) - kColumnBits, 0, kMostResidualShift);
   };

@@ -13,36 +13,6 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// A number above 0: mantissa * 2^exponent, the mantissa's highest bit set.
-struct Floating {
-  std::uint32_t mantissa;
-  int exponent;
-};
-
-Floating floatingOf(std::uint64_t value) {
-  const int up = std::countl_zero(value);
-  return {static_cast<std::uint32_t>(value << up >> 32), 32 - up};
-}
-
-/// sqrt(value * 2^exponent) as an integer, at most `most`.
-std::int64_t rootOf(std::uint64_t value, int exponent, std::int64_t most) {
-  if (value == 0) return 0;
-  const Floating number = floatingOf(value);
-  const int odd = (number.exponent + exponent) & 1;
-  const std::uint32_t root = integerRoot(number.mantissa >> odd);  // 16 bits
-  const int shift = (number.exponent + exponent + odd) / 2;
-  if (shift <= 0) return shift <= -32 ? 0 : root >> -shift;
-  return shift > 40 ? most : std::min<std::int64_t>(static_cast<std::int64_t>(root) << shift, most);
-}
-
-/// Standard deviation of an unknown [units of its column * 2^up], its variance for readings of variance 1
-/// [* 2^50] and the readings' variance given.
-std::int64_t sigmaOf(Wide variance_q50, std::uint32_t readings_q4, int up, std::int64_t most) {
-  if (variance_q50 == 0) return 0;
-  const Floating variance = floatingOf(static_cast<std::uint64_t>(variance_q50));
-  return rootOf(std::uint64_t{variance.mantissa} * readings_q4, variance.exponent - 50 - 4 + 2 * up, most);
-}
-
 constexpr std::int64_t kHalfTurn_q32 = std::int64_t{1} << 31;
 /// Half nodes [* 2^kAngleBits] that are half a turn or more, whatever the number of nodes.
 constexpr int kAngleBits = 15 + 8;
@@ -83,15 +53,17 @@ std::uint16_t chiOf_q4(const Answer& answer, int freedoms) {
   const Floating energy = floatingOf(static_cast<std::uint64_t>(answer.solution.residualEnergy));
   const Floating allowed =
       floatingOf(std::uint64_t{answer.gateVariance_q4} * static_cast<std::uint32_t>(freedoms));
-  const std::uint32_t ratio = energy.mantissa / (allowed.mantissa >> 16);  // * 2^16, to 2^-15
-  return static_cast<std::uint16_t>(
-      rootOf(ratio, energy.exponent - allowed.exponent - 16 + 4 + 2 * 4, kNoChi - 1));
+  Floating ratio = floatingOf(energy.mantissa / (allowed.mantissa >> 16));  // * 2^16, to 2^-15
+  ratio.exponent += energy.exponent - allowed.exponent - 16 + 4;
+  const Root chi = rootOf(ratio);
+  return static_cast<std::uint16_t>(integerOf(chi.mantissa, chi.exponent + 4, kNoChi - 1));
 }
 
 /// The standard error of a sum of two independent errors. Domain: up to 2^31 and 2^30, or 2^31 - 1 each.
 Wide together(Wide one, Wide other) {
   if (other == 0) return one;
-  return rootOf(static_cast<std::uint64_t>(one * one + other * other), 0, Wide{1} << 31);
+  const Root sum = rootOf(floatingOf(static_cast<std::uint64_t>(one * one + other * other)));
+  return integerOf(sum.mantissa, sum.exponent, Wide{1} << 31);
 }
 
 /// A load's standard error with those that no residual shows: of the scale of all loads, and what calibration
@@ -160,15 +132,27 @@ void coverRival(const TableConstants& constants, const Answer& answer, int conta
 
 }  // namespace
 
-Contact estimate(const TableConstants& constants, const Answer& answer, const Linearisation& linearisation,
+UnitErrors unitErrors(const Linearisation& linearisation) {
+  UnitErrors errors{linearisation.hypothesis, linearisation.slopesAt};
+  const auto variance_q50 = variances(linearisation.decomposition);
+  for (int i = 0; i < linearisation.decomposition.unknowns; ++i) {
+    Floating variance = floatingOf(static_cast<std::uint64_t>(variance_q50[at(i)]));
+    variance.exponent -= 50 + 2 * linearisation.exponent[at(i)];
+    if (linearisation.decomposition.isDetermined(i)) errors.sigma[at(i)] = rootOf(variance);
+  }
+  return errors;
+}
+
+Contact estimate(const TableConstants& constants, const Answer& answer, const UnitErrors& errors,
                  int contact) {
   const Hypothesis& hypothesis = answer.solution.hypothesis;
   const ContactState& state = answer.solution.contact[at(contact)];
-  const auto variance = variances(linearisation.decomposition);
+  const Root reading = rootOf(floatingOf(answer.variance_q4));  // [* 2^2]
   const auto sigma = [&](int unknown, int unitBits, std::int64_t most) {
-    if (!linearisation.decomposition.isDetermined(unknown)) return most;
-    return sigmaOf(variance[at(unknown)], answer.variance_q4, unitBits - linearisation.exponent[at(unknown)],
-                   most);
+    const Root& unit = errors.sigma[at(unknown)];
+    if (unit.mantissa == 0) return most;
+    return integerOf(std::uint32_t{reading.mantissa} * unit.mantissa,
+                     reading.exponent + unit.exponent - 2 + unitBits, most);
   };
   const auto load = [&](std::int64_t amplitude) { return loadOf(constants, answer, amplitude); };
   const int contacts = hypothesis.contacts;

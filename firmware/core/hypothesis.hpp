@@ -25,6 +25,8 @@ struct ContactState {
   Number normal = 0;      ///< amplitude: scaled readings * 2 where the response is largest, within kMostLoad
   Number tangential = 0;  ///< the same
   Number moment_q20 = 0;  ///< second moment of the pressure, see kMomentBits
+
+  bool operator==(const ContactState&) const = default;
 };
 
 inline constexpr Number kMostLoad = 1 << 20;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 
@@ -14,6 +15,39 @@ constexpr std::uint32_t integerRoot(std::uint32_t value) {
     if (next >= root) return root;
     root = next;
   }
+}
+
+/// A number above 0: mantissa * 2^exponent, the mantissa's highest bit set; or 0.
+struct Floating {
+  std::uint32_t mantissa = 0;
+  int exponent = 0;
+};
+
+constexpr Floating floatingOf(std::uint64_t value) {
+  if (value == 0) return {};
+  const int up = std::countl_zero(value);
+  return {static_cast<std::uint32_t>(value << up >> 32), 32 - up};
+}
+
+/// A square root, rounded down: mantissa * 2^exponent, the mantissa's highest bit set; or 0.
+struct Root {
+  std::uint16_t mantissa = 0;
+  std::int16_t exponent = 0;
+};
+
+/// Relative error below 2^-15. Exponents within +-2^15.
+constexpr Root rootOf(const Floating& number) {
+  const int odd = number.exponent & 1;
+  return {static_cast<std::uint16_t>(integerRoot(number.mantissa >> odd)),
+          static_cast<std::int16_t>((number.exponent + odd) / 2)};
+}
+
+/// mantissa * 2^exponent as an integer, rounded down, at most `most`, which is below 2^45. The mantissa is 0
+/// or 2^15 or more.
+constexpr std::int64_t integerOf(std::uint32_t mantissa, int exponent, std::int64_t most) {
+  if (mantissa == 0) return 0;
+  if (exponent <= 0) return std::min<std::int64_t>(exponent <= -32 ? 0 : mantissa >> -exponent, most);
+  return exponent > 30 ? most : std::min<std::int64_t>(static_cast<std::int64_t>(mantissa) << exponent, most);
 }
 
 }  // namespace strainfinger::firmware

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "firmware/core/estimate.hpp"
 #include "firmware/core/integer_root.hpp"
 #include "firmware/core/units.hpp"
 
@@ -190,9 +189,10 @@ std::optional<TouchFrames> TouchReporter::frames(const TableConstants& constants
   if (observation.unchanged && !mustBeRepeated(now_us)) return std::nullopt;
   FingerFlags flags = flagsOf(observation);
   if (!observation.touched) return releaseFrames(flags, next);
-  const Contact contact = estimate(constants, answer, linearisation, 0);
+  if (!unitErrors_.areOf(linearisation)) unitErrors_ = unitErrors(linearisation);
+  const Contact contact = estimate(constants, answer, unitErrors_, 0);
   std::optional<Contact> second;
-  if (answer.solution.hypothesis.contacts > 1) second = estimate(constants, answer, linearisation, 1);
+  if (answer.solution.hypothesis.contacts > 1) second = estimate(constants, answer, unitErrors_, 1);
   flags.set(FingerFlag::kUncertain,
             contact.uncertain || observation.uncertain || (second && second->uncertain));
   const TouchFrames frames = touchFrames(constants, contact, second, flags, next);

@@ -7,6 +7,7 @@
 #include "common/contact.hpp"
 #include "common/frames.hpp"
 #include "common/table_image.hpp"
+#include "firmware/core/estimate.hpp"
 #include "firmware/core/pipeline.hpp"
 
 namespace strainfinger::firmware {
@@ -69,6 +70,7 @@ class TouchReporter {
   std::uint32_t shortestPeriod_us_;
   FingerFlags standing_;
   TouchFrames last_{};
+  UnitErrors unitErrors_;  ///< of the last linearisation that frames were made of
   std::uint32_t sentAt_us_ = 0;
   bool any_ = false;
 };

@@ -53,8 +53,8 @@ void Trial::judge(const Eigen::VectorXd& exact, const simulation::Touch& touch,
     ++statistics.unnoticed;
     return;
   }
-  const Contact contact =
-      firmware::estimate(tables_.constants, pipeline.answer(), pipeline.linearisation(), 0);
+  const Contact contact = firmware::estimate(tables_.constants, pipeline.answer(),
+                                             firmware::unitErrors(pipeline.linearisation()), 0);
   if (contact.uncertain || pipeline.observation().several) {
     ++statistics.uncertain;
     return;

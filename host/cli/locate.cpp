@@ -178,7 +178,8 @@ std::vector<Cell> located(const TableImage& image, firmware::Locator& locator,
   const Answer& answer = locator.answer();
   std::vector<Contact> contacts;
   for (int i = 0; i < answer.solution.hypothesis.contacts; ++i)
-    contacts.push_back(firmware::estimate(image.constants, answer, locator.linearisation(), i));
+    contacts.push_back(
+        firmware::estimate(image.constants, answer, firmware::unitErrors(locator.linearisation()), i));
   if (!areRailsPlausible(locator, strains_q32, saturated))
     for (Contact& contact : contacts) {
       contact.uncertain = true;

@@ -136,7 +136,8 @@ class Trials {
     firmware::locateOnce(image_, readings_, firmware::allGauges(image_.constants.gauge_count), locator);
     ++check_.contacts;
     const firmware::Answer& answer = locator.answer();
-    const Contact found = firmware::estimate(image_.constants, answer, locator.linearisation(), 0);
+    const Contact found =
+        firmware::estimate(image_.constants, answer, firmware::unitErrors(locator.linearisation()), 0);
     if (found.uncertain || answer.several || answer.suspect != 0) {
       ++check_.uncertain;
       return;

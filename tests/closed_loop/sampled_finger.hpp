@@ -40,8 +40,8 @@ class SampledFinger {
     std::vector<evidence::Answer> answers;
     if (!seen.touched) return answers;
     for (int i = 0; i < pipeline_.answer().solution.hypothesis.contacts; ++i) {
-      answers.push_back(
-          answerOf(estimate(tables_.constants, pipeline_.answer(), pipeline_.linearisation(), i)));
+      answers.push_back(answerOf(estimate(tables_.constants, pipeline_.answer(),
+                                          firmware::unitErrors(pipeline_.linearisation()), i)));
       answers.back().isFlagged |= seen.uncertain || seen.staleZero;
     }
     return answers;

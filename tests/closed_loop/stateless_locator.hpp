@@ -54,7 +54,8 @@ class StatelessLocator {
     const firmware::Answer& answer = locator_.answer();
     Found found{{}, answer.several, answer.suspect};
     for (int i = 0; i < answer.solution.hypothesis.contacts; ++i)
-      found.contacts.push_back(answerOf(estimate(constants, answer, locator_.linearisation(), i)));
+      found.contacts.push_back(
+          answerOf(estimate(constants, answer, firmware::unitErrors(locator_.linearisation()), i)));
     return found;
   }
 

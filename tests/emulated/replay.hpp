@@ -63,7 +63,8 @@ inline void add(Hash& hash, const firmware::Pipeline& pipeline, std::uint32_t sa
            4 * std::int32_t{answer.searching} + 8 * std::int32_t{answer.several} +
            16 * std::int32_t{answer.doubtful} + 256 * answer.shift);
   const auto contact = [&](int i) {
-    return firmware::estimate(pipeline.constants(), answer, pipeline.linearisation(), i);
+    return firmware::estimate(pipeline.constants(), answer, firmware::unitErrors(pipeline.linearisation()),
+                              i);
   };
   std::optional<Contact> second;
   if (hypothesis.contacts > 1) second = contact(1);

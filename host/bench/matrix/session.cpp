@@ -220,7 +220,8 @@ void Session::judge(Pressings pressings, Tally& tally) const {
   std::vector<bool> found(pressings.size());
   const double half_rad = std::numbers::pi / finger_.gauges.count;
   for (int i = 0; i < contacts; ++i) {
-    const Contact contact = estimate(pipeline_.constants(), pipeline_.answer(), pipeline_.linearisation(), i);
+    const Contact contact = estimate(pipeline_.constants(), pipeline_.answer(),
+                                     firmware::unitErrors(pipeline_.linearisation()), i);
     isFlagged |= contact.uncertain;
     const ToldContact told = toldContact(contact);
     const auto nearest =

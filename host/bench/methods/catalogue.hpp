@@ -30,7 +30,8 @@ class OwnLocator {
   }
   /// The answer in units, with its standard errors.
   Contact contact() const {
-    return firmware::estimate(tables_.constants, locator_.answer(), locator_.linearisation(), 0);
+    return firmware::estimate(tables_.constants, locator_.answer(),
+                              firmware::unitErrors(locator_.linearisation()), 0);
   }
 
  private:

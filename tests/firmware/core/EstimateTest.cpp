@@ -22,7 +22,8 @@ struct Estimated : Utest {
     locateOnce(ring.tables(), ring.raw(ring.strains(presses)), ring.allGauges(), locator);
     std::vector<Contact> contacts;
     for (int k = 0; k < locator.answer().solution.hypothesis.contacts; ++k)
-      contacts.push_back(estimate(ring.constants(), locator.answer(), locator.linearisation(), k));
+      contacts.push_back(
+          estimate(ring.constants(), locator.answer(), unitErrors(locator.linearisation()), k));
     return contacts;
   }
   Contact found(const ModelRing& ring, const Press& press) { return found(ring, {&press, 1}).front(); }
@@ -137,7 +138,7 @@ TEST_GROUP_BASE(Estimate, Estimated) {
     linearisation = locator.linearisation();
     answer.solution.residualEnergy = 0;
   }
-  Contact estimated() { return estimate(constants, answer, linearisation, 0); }
+  Contact estimated() { return estimate(constants, answer, unitErrors(linearisation), 0); }
   /// Leaves so many variances for each degree of freedom.
   void leave(double times) {
     const int left = freedoms(answer.solution.hypothesis);

@@ -146,7 +146,7 @@ TEST_GROUP(Extremes) {
   }
   void checkContacts(const TableConstants& constants, const Answer& answer, const Linearisation& fit) {
     for (int k = 0; k < answer.solution.hypothesis.contacts; ++k) {
-      const Contact contact = estimate(constants, answer, fit, k);
+      const Contact contact = estimate(constants, answer, unitErrors(fit), k);
       CHECK(contact.quality <= 100);
       if (contact.ambiguous) CHECK(contact.uncertain);
     }

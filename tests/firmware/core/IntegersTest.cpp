@@ -125,3 +125,28 @@ TEST(Integers, RootsAreRoundedDown) {
   }
   LONGS_EQUAL(65535, integerRoot(std::numeric_limits<std::uint32_t>::max()));
 }
+
+TEST(Integers, RootsOfAnyNumberAreWithinTheirLastBit) {
+  for (int i = 0; i < 100'000; ++i) {
+    const std::uint64_t value = random() >> (i % 64);
+    Floating scaledBy = floatingOf(value);
+    scaledBy.exponent -= 50;
+    const Root root = rootOf(scaledBy);
+    const double exact = std::sqrt(std::ldexp(static_cast<double>(value), -50));
+    const double rounded = std::ldexp(root.mantissa, root.exponent);
+    CHECK(rounded <= exact * (1 + 1e-12) && rounded >= exact * (1 - 3.1e-5));
+  }
+  LONGS_EQUAL(0, rootOf(floatingOf(0)).mantissa);
+}
+
+TEST(Integers, IntegersOfAMantissaAreRoundedDownAndLimited) {
+  constexpr std::int64_t kMost = std::int64_t{1} << 40;
+  for (int i = 0; i < 100'000; ++i) {
+    const std::uint32_t mantissa = static_cast<std::uint32_t>(random()) >> (i % 17) | 1u << 15;
+    const int exponent = static_cast<int>(random() % 140) - 70;
+    const double exact = std::floor(std::ldexp(mantissa, exponent));
+    DOUBLES_EQUAL(std::min(exact, static_cast<double>(kMost)),
+                  static_cast<double>(integerOf(mantissa, exponent, kMost)), 0);
+  }
+  LONGS_EQUAL(0, integerOf(0, 30, kMost));
+}

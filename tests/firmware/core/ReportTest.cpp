@@ -265,7 +265,7 @@ TEST_GROUP(TouchReporter) {
   /// The contact is so many of its own standard errors further round than it was found.
   void move(double sigmas) {
     answer.solution.contact = locator.answer().solution.contact;
-    const Contact contact = estimate(ring.constants(), answer, locator.linearisation(), 0);
+    const Contact contact = estimate(ring.constants(), answer, unitErrors(locator.linearisation()), 0);
     answer.solution.contact[0].angle_q32 +=
         static_cast<std::uint32_t>(static_cast<std::int64_t>(sigmas * contact.sigmaAngle.raw()));
   }
@@ -294,6 +294,21 @@ TEST(TouchReporter, SaysATouchAtOnce) {
   DOUBLES_EQUAL(80, said->force.tangential_mN, 1);
   DOUBLES_EQUAL(7200, said->contact.angle_cdeg, 2);
   LONGS_EQUAL(0, said->contact.sequence);
+}
+
+TEST(TouchReporter, SaysTheErrorsOfEachTouchWhateverWasTouchedBefore) {
+  for (const Press& other : {Press{3.7, 20, 4, 1}, Press{3.7, 20, 4, 3}, Press{11.1, 2, 0, 1}}) {
+    say(touch);
+    later(kFloor_us);
+    press({other});
+    const auto said = say(touch);
+    later(kFloor_us);
+    TouchReporter fresh(kPeriod_us, {FingerFlag::kSimulated});
+    auto expected = fresh.frames(ring.constants(), touch, answer, locator.linearisation(), now_us);
+    LONGS_EQUAL(expected->contact.sigma_angle_cdeg, said->contact.sigma_angle_cdeg);
+    LONGS_EQUAL(expected->force.sigma_normal_half_mN, said->force.sigma_normal_half_mN);
+    LONGS_EQUAL(expected->patch.sigma_width_um, said->patch.sigma_width_um);
+  }
 }
 
 TEST(TouchReporter, SaysAnUnchangedTouchTwentyTimesASecond) {

@@ -40,8 +40,6 @@ constexpr double kMomentSpread = 10;
 /// Standard deviation of a known untouched finger's loads [N/m] and of a known width's moment [rad^2].
 constexpr double kExactly = 1e-6;
 
-const KnownTouch kNothingKnown;
-
 enum class Loss { kRobust, kSquares };
 enum class Search { kEverywhere, kNearby };
 
@@ -50,26 +48,33 @@ class Calibration {
  public:
   Calibration(const config::FingerConfig& config, std::span<const KnownTouch> known, const MatrixXd& readings,
               const KnownErrors& errors)
-      : drawing_(config),
+      : drawing_(config, zeroOfAngle(known)),
         lastHarmonic_(RingResponse::lastHarmonic(drawing_)),
         mostMoment_rad2_(model::momentOfWidth(config.contact.largest_width_m / config.finger.outer_radius_m)),
         rows_(static_cast<std::size_t>(readings.rows())),
         rivals_(rows_.size()),
+        known_(known.begin(), known.end()),
         finger_(VectorXd::Zero(drawing_.unknowns())),
         modelError_{std::max(config.gauges.model_error, kLeastFirstError), 0} {
+    known_.resize(rows_.size());
     for (std::size_t row = 0; row < rows_.size(); ++row) {
-      const KnownTouch& touch = known.empty() ? kNothingKnown : known[row];
+      const KnownTouch& touch = known_[row];
       const VectorXd strains = readings.row(static_cast<Index>(row));
       rows_[row].use = useOf(strains, touch);
       data_.push_back({strains, config.gauges.noise_strain, priorOf(touch, errors)});
-      isKnown_.push_back(touch.angle_deg || touch.normal_n_per_m || touch.tangential_n_per_m);
     }
     leaveOutWeak();
   }
 
+  /// Domain: before run(), or within it.
+  void requireEnough() const {
+    const auto touched = std::count_if(rows_.begin(), rows_.end(),
+                                       [](const RowResult& row) { return row.use == RowUse::kFitted; });
+    requireTouches(drawing_.config().gauges, static_cast<std::size_t>(touched));
+  }
+
   CalibrationResult run() {
     const auto all = usable();
-    requireTouches(drawing_.config().gauges, all.size());
     const auto some = coarse(all);
     for (int round = 0; round < 2; ++round) {
       locate(some, Search::kEverywhere);
@@ -81,12 +86,13 @@ class Calibration {
     }
     judge(all, Search::kEverywhere);
     requireExplained(modelError_.value, shareUnexplained(all));
-    requireTouches(drawing_.config().gauges, usable().size());
+    requireEnough();
     for (int round = 0; round < kMostRounds; ++round) {
       improve(usable(), Loss::kSquares);
       if (!judge(all, Search::kNearby)) break;
     }
     if (leaveOutMovedZero()) improve(usable(), Loss::kSquares);
+    requireBorneOut();
     return result(usable());
   }
 
@@ -98,6 +104,19 @@ class Calibration {
     double gap = std::numeric_limits<double>::infinity();
     TouchState touch = TouchState::Zero();
   };
+
+  static ZeroOfAngle zeroOfAngle(std::span<const KnownTouch> known) {
+    const bool isKnown = std::any_of(known.begin(), known.end(), [](const KnownTouch& touch) {
+      return touch.angle_deg && !touch.isUntouched();
+    });
+    return isKnown ? ZeroOfAngle::kKnown : ZeroOfAngle::kByConvention;
+  }
+
+  bool isKnown(std::size_t row) const { return isDirectionKnown(row) || isLoadKnown(row); }
+  bool isDirectionKnown(std::size_t row) const { return known_[row].angle_deg.has_value(); }
+  bool isLoadKnown(std::size_t row) const {
+    return known_[row].normal_n_per_m || known_[row].tangential_n_per_m;
+  }
 
   RowUse useOf(const VectorXd& strains, const KnownTouch& touch) const {
     const config::Gauges& gauges = drawing_.config().gauges;
@@ -115,7 +134,7 @@ class Calibration {
         peaks.begin() + static_cast<std::ptrdiff_t>(kStrong * static_cast<double>(peaks.size()));
     std::nth_element(peaks.begin(), strong, peaks.end());
     for (std::size_t row = 0; row < rows_.size(); ++row)
-      if (rows_[row].use == RowUse::kFitted && !isKnown_[row] && peakOf(row) < kWeakestOfStrong * *strong)
+      if (rows_[row].use == RowUse::kFitted && !isKnown(row) && peakOf(row) < kWeakestOfStrong * *strong)
         rows_[row].use = RowUse::kWeak;
   }
 
@@ -158,7 +177,7 @@ class Calibration {
     const std::size_t step = std::max<std::size_t>(1, rows.size() / kCoarseRows);
     Rows some;
     for (std::size_t i = 0; i < rows.size(); ++i)
-      if (i % step == 0 || isKnown_[rows[i]]) some.push_back(rows[i]);
+      if (i % step == 0 || isKnown(rows[i])) some.push_back(rows[i]);
     return some;
   }
 
@@ -258,8 +277,8 @@ class Calibration {
     bool changed = false;
     for (const std::size_t row : rows) {
       RowUse& use = rows_[row].use;
-      if (use == RowUse::kUntouched) continue;
-      const RowUse now = rows_[row].chiSquared > most   ? RowUse::kUnexplained
+      const RowUse now = rows_[row].chiSquared > most   ? whyUnexplained(row, most)
+                         : known_[row].isUntouched()    ? RowUse::kUntouched
                          : rivals_[row].gap < kClearGap ? RowUse::kAmbiguous
                          : isWide(row)                  ? RowUse::kWide
                                                         : RowUse::kFitted;
@@ -269,9 +288,44 @@ class Calibration {
     return changed;
   }
 
+  /// With what is known of it no touch explains the row; without that, one may.
+  RowUse whyUnexplained(std::size_t row, double mostChiSquared) const {
+    if (known_[row].isUntouched()) return RowUse::kContradicted;
+    if (!isKnown(row)) return RowUse::kUnexplained;
+    TouchData unknown = data_[row];
+    unknown.prior = priorOf({}, {});
+    const RingResponse ring(drawing_, finger_, lastHarmonic_);
+    const TouchSearch search(ring, drawing_.config().contact.friction_coefficient, mostMoment_rad2_);
+    return search.find(ring, unknown).chiSquared > mostChiSquared ? RowUse::kUnexplained
+                                                                  : RowUse::kContradicted;
+  }
+
+  /// Of the known directions, and of the known loads, the readings bear out some, if there are any.
+  void requireBorneOut() const {
+    const auto require = [&](auto isSaid, const char* what, const char* mend) {
+      Rows contradicted;
+      for (std::size_t row = 0; row < rows_.size(); ++row) {
+        if (known_[row].isUntouched() || !isSaid(row)) continue;
+        if (rows_[row].use == RowUse::kFitted) return;
+        if (rows_[row].use == RowUse::kContradicted) contradicted.push_back(row + 1);
+      }
+      requireNone(contradicted, what, mend);
+    };
+    require([&](std::size_t row) { return isDirectionKnown(row); }, "angle_deg",
+            "the angles themselves, gauges.first_angle_deg, the order of the gauges and --angle-error-deg");
+    require([&](std::size_t row) { return isLoadKnown(row); }, "loads",
+            "their unit, newtons per metre of the finger's length, finger.shear_modulus_pa and --load-error");
+  }
+
+  bool isAnyLoadKnown() const {
+    for (std::size_t row = 0; row < rows_.size(); ++row)
+      if (rows_[row].use == RowUse::kFitted && isLoadKnown(row)) return true;
+    return false;
+  }
+
   /// What a row is fitted with is independent of what it leaves over, so that choosing by it bends nothing.
   bool isWide(std::size_t row) const {
-    if (isKnown_[row] || drawing_.config().contact.width_m) return false;
+    if (isKnown(row) || drawing_.config().contact.width_m) return false;
     const double pitch_rad = 2 * std::numbers::pi / drawing_.gauges();
     return rows_[row].touch[kMoment] > model::momentOf(model::Profile::kUniform, kMostWidth * pitch_rad);
   }
@@ -281,7 +335,7 @@ class Calibration {
     const auto [data, fit] = joint(rows);
     const MatrixXd covariance = covarianceOf(drawing_, lastHarmonic_, data, fit);
     moveTo(fit.deviations - noiseBias(drawing_, lastHarmonic_, data, fit, covariance), rows);
-    CalibrationResult result(drawing_, finger_, covariance, rows_, modelError_);
+    CalibrationResult result(drawing_, finger_, covariance, rows_, modelError_, isAnyLoadKnown());
     requireTold(result);
     return result;
   }
@@ -321,7 +375,7 @@ class Calibration {
   std::vector<RowResult> rows_;
   std::vector<Rival> rivals_;
   std::vector<TouchData> data_;
-  std::vector<bool> isKnown_;
+  std::vector<KnownTouch> known_;
   VectorXd finger_;
   Estimate modelError_;
 };
@@ -331,9 +385,10 @@ class Calibration {
 CalibrationResult calibrate(const config::FingerConfig& config, std::span<const KnownTouch> known,
                             const MatrixXd& readings, const KnownErrors& errors) {
   requireRows(config.gauges, known, readings);
-  requireTouches(config.gauges, static_cast<std::size_t>(readings.rows()));
+  Calibration calibration(config, known, readings, errors);
+  calibration.requireEnough();
   requireWiring(findWiringFaults(config, known, readings, errors));
-  return Calibration(config, known, readings, errors).run();
+  return calibration.run();
 }
 
 }  // namespace strainfinger::calibration

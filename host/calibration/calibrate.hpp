@@ -34,12 +34,13 @@ inline constexpr double kWeakestTouch = 40;
 
 enum class RowUse {
   kFitted,
-  kUntouched,    ///< known to be; tells the zeros
-  kWeak,         ///< tells little beside noise or beside the others, and is not known to be untouched
-  kAmbiguous,    ///< touches at two places or of two widths explain it
-  kWide,         ///< of unknown touch and as wide as slips and pairs of touches look
-  kOverRange,    ///< a gauge at or beyond full scale
-  kUnexplained,  ///< by no single touch at rest: two contacts, a slip, a zero that moved, another finger
+  kUntouched,     ///< known to be; tells the zeros
+  kWeak,          ///< tells little beside noise or beside the others, and is not known to be untouched
+  kAmbiguous,     ///< touches at two places or of two widths explain it
+  kWide,          ///< of unknown touch and as wide as slips and pairs of touches look
+  kOverRange,     ///< a gauge at or beyond full scale
+  kContradicted,  ///< what is known of the touch is not what its readings say
+  kUnexplained,   ///< by no single touch at rest: two contacts, a slip, a zero that moved, another finger
 };
 
 struct RowResult {
@@ -62,12 +63,13 @@ struct TouchError {
 class CalibrationResult {
  public:
   CalibrationResult(const Drawing& drawing, Eigen::VectorXd deviations, Eigen::MatrixXd covariance,
-                    std::vector<RowResult> rows, Estimate modelError)
+                    std::vector<RowResult> rows, Estimate modelError, bool isLoadKnown)
       : drawing_(drawing),
         deviations_(std::move(deviations)),
         covariance_(std::move(covariance)),
         rows_(std::move(rows)),
-        modelError_(modelError) {}
+        modelError_(modelError),
+        isLoadKnown_(isLoadKnown) {}
 
   Estimate gain(int gauge) const { return of(gauge, kGain, 1); }
   Estimate zero_strain(int gauge) const { return of(gauge, kZero, 0); }
@@ -84,6 +86,9 @@ class CalibrationResult {
   const std::vector<RowResult>& rows() const { return rows_; }
   int count(RowUse use) const;
   const Drawing& drawing() const { return drawing_; }
+  /// What the zero of angles and the unit of force come from: touches, or else the drawing.
+  bool isDirectionKnown() const { return drawing_.zeroOfAngle() == ZeroOfAngle::kKnown; }
+  bool isLoadKnown() const { return isLoadKnown_; }
   /// In units of the tolerances, see Drawing; and their covariance, the prior counted in.
   const Eigen::VectorXd& deviations() const { return deviations_; }
   const Eigen::MatrixXd& covariance() const { return covariance_; }
@@ -102,6 +107,7 @@ class CalibrationResult {
   Eigen::MatrixXd covariance_;
   std::vector<RowResult> rows_;
   Estimate modelError_;
+  bool isLoadKnown_;
 };
 
 /// Maximum a posteriori of the finger and of every touch together: readings are the elastic model's and noise
@@ -112,7 +118,8 @@ class CalibrationResult {
 /// `known`: one a row, or none at all. `readings`: strain at nominal gain, a row a touch, a column a gauge;
 /// all finite. [calibration] of the config is not looked at.
 /// Throws Failure(kFailure), saying which row or gauge and what would help: rows that don't pair; a known
-/// touch that can't be; touches that leave gauges untold; readings that this drawing can't explain.
+/// touch that can't be; known directions, or known loads, of which the readings bear out none; touches that
+/// leave gauges untold; readings that this drawing can't explain.
 /// Cost: linear; 300 touches of 16 gauges take 3 s, 3,000 take 15 s.
 CalibrationResult calibrate(const config::FingerConfig& config, std::span<const KnownTouch> known,
                             const Eigen::MatrixXd& readings, const KnownErrors& errors = {});

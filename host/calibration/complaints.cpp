@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "host/base/failure.hpp"
+#include "host/calibration/expected_error.hpp"
 
 namespace strainfinger::calibration {
 namespace {
@@ -19,7 +20,15 @@ constexpr double kMostRowsUnexplained = 0.4;
 /// Of its tolerance: what is known of a gauge no better than that was not told by the touches.
 constexpr double kMostUntold = 0.7;
 
+/// Rows that a message names, at most.
+constexpr std::size_t kMostNamed = 10;
+
 [[noreturn]] void fail(const std::string& message) { throw Failure(ExitCode::kFailure, message); }
+
+std::string rowNames(const std::vector<std::size_t>& rows) {
+  const auto named = rows.begin() + static_cast<std::ptrdiff_t>(std::min(kMostNamed, rows.size()));
+  return fmt::format("{}{}", fmt::join(rows.begin(), named, ", "), named == rows.end() ? "" : ", ..");
+}
 
 bool isFinite(const std::optional<double>& value) { return std::isfinite(value.value_or(0)); }
 
@@ -82,14 +91,22 @@ void requireExplained(double modelError, double shareOfRowsUnexplained) {
                     100 * shareOfRowsUnexplained, hint));
 }
 
+void requireNone(const std::vector<std::size_t>& contradicted, const char* what, const char* lookAt) {
+  if (contradicted.empty()) return;
+  fail(fmt::format(
+      "the {} of touches.csv are not what the readings say in any row that has them: {}; look at {}", what,
+      rowNames(contradicted), lookAt));
+}
+
 std::string untoldGauges(const CalibrationResult& result, std::initializer_list<GaugeUnknown> unknowns,
                          double most) {
   const config::Gauges& gauges = result.drawing().config().gauges;
+  const Eigen::MatrixXd covariance = withoutConventions(result.drawing(), result.covariance());
   std::string names;
   for (int gauge = 0; gauge < gauges.count; ++gauge) {
     const bool isUntold = std::any_of(unknowns.begin(), unknowns.end(), [&](GaugeUnknown unknown) {
       const Eigen::Index at = Drawing::at(gauge, unknown);
-      return std::sqrt(result.covariance()(at, at)) > most;
+      return std::sqrt(covariance(at, at)) > most;
     });
     if (isUntold)
       names += fmt::format("{}{} (at {:.6g} deg)", names.empty() ? "" : ", ", gauge, gauges.angle_deg(gauge));

@@ -15,9 +15,6 @@ namespace {
 constexpr double kLoad_n_per_m = 30, kWidth_m = 2e-3;
 constexpr int kPlacesPerGauge = 6;
 
-/// Standard deviations over the prior's, from which on the touches told nothing.
-constexpr double kUntoldMean = 0.9, kUntoldModulus = 0.5;
-
 }  // namespace
 
 std::vector<TouchState> judgedTouches(const Drawing& drawing) {
@@ -31,30 +28,16 @@ std::vector<TouchState> judgedTouches(const Drawing& drawing) {
   return touches;
 }
 
-Conventions conventionsOf(const CalibrationResult& result) {
-  const Drawing& drawing = result.drawing();
-  const Eigen::MatrixXd& covariance = result.covariance();
-  double sum = 0;
-  for (int a = 0; a < drawing.gauges(); ++a)
-    for (int b = 0; b < drawing.gauges(); ++b)
-      sum += covariance(Drawing::at(a, kAngleOffset), Drawing::at(b, kAngleOffset));
-  const double byDrawingAlone = 1 / std::sqrt(static_cast<double>(drawing.gauges()));
-  const Eigen::Index modulus = drawing.at(kShearModulus);
-  return {.zeroOfAngle = std::sqrt(sum) / drawing.gauges() > kUntoldMean * byDrawingAlone,
-          .unitOfForce = std::sqrt(covariance(modulus, modulus)) > kUntoldModulus};
-}
-
-Eigen::MatrixXd withoutConventions(const Drawing& drawing, const Eigen::MatrixXd& covariance,
-                                   const Conventions& conventions) {
+Eigen::MatrixXd withoutConventions(const Drawing& drawing, const Eigen::MatrixXd& covariance) {
   Eigen::MatrixXd given = covariance;
   const auto give = [&](const Eigen::VectorXd& direction) {
     const Eigen::VectorXd along = given * direction;
     given -= along * along.transpose() / direction.dot(along);
   };
-  Eigen::VectorXd direction = Eigen::VectorXd::Zero(drawing.unknowns());
-  for (int gauge = 0; gauge < drawing.gauges(); ++gauge) direction[Drawing::at(gauge, kAngleOffset)] = 1;
-  if (conventions.zeroOfAngle) give(direction);
-  if (conventions.unitOfForce) give(Eigen::VectorXd::Unit(drawing.unknowns(), drawing.at(kShearModulus)));
+  Eigen::VectorXd turn = Eigen::VectorXd::Zero(drawing.unknowns());
+  for (int gauge = 0; gauge < drawing.gauges(); ++gauge) turn[Drawing::at(gauge, kAngleOffset)] = 1;
+  give(turn);
+  give(Eigen::VectorXd::Unit(drawing.unknowns(), drawing.at(kShearModulus)));
   return given;
 }
 
@@ -71,12 +54,11 @@ CalibrationErrors calibrationErrors(const CalibrationResult& result) {
   const Drawing& drawing = result.drawing();
   const double radius_m = drawing.config().finger.outer_radius_m;
   const RingResponse built(drawing, result.deviations(), RingResponse::lastHarmonic(drawing));
-  const Eigen::MatrixXd covariance = withoutConventions(
-      drawing, result.covariance(), {.zeroOfAngle = conventionsOf(result).zeroOfAngle, .unitOfForce = false});
   TouchState sum = TouchState::Zero();
   const auto touches = judgedTouches(drawing);
   for (const TouchState& touch : touches) {
-    const auto variances = touchVariances(built, touch, covariance, drawing.config().gauges.noise_strain);
+    const auto variances =
+        touchVariances(built, touch, result.covariance(), drawing.config().gauges.noise_strain);
     sum += variances.total - variances.noise;
   }
   const TouchState error = (sum / static_cast<double>(touches.size())).cwiseMax(0).cwiseSqrt();

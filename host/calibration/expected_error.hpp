@@ -20,18 +20,8 @@ TouchVariances touchVariances(const RingResponse& ring, const TouchState& touch,
 /// rubbed either way.
 std::vector<TouchState> judgedTouches(const Drawing& drawing);
 
-/// What is right by convention, because nothing is known of any touch that would tell it.
-struct Conventions {
-  bool zeroOfAngle = true;  ///< the mean of the gauges' angles is the drawing's
-  bool unitOfForce = true;  ///< the shear modulus is the drawing's
-};
-
-/// Those that the touches of a calibration left.
-Conventions conventionsOf(const CalibrationResult& result);
-
-/// A covariance of deviations, given what is right by convention.
-Eigen::MatrixXd withoutConventions(const Drawing& drawing, const Eigen::MatrixXd& covariance,
-                                   const Conventions& conventions = {});
+/// A covariance of deviations, the zero of angles and the unit of force being given.
+Eigen::MatrixXd withoutConventions(const Drawing& drawing, const Eigen::MatrixXd& covariance);
 
 /// Of the judged touches: RMS of place [m], normal and tangential load [N/m].
 struct ExpectedErrors {
@@ -51,8 +41,7 @@ struct CalibrationErrors {
   double moment_m2;  ///< of the pressure's second moment
 };
 
-/// Where no direction is known the zero of the angle is right by convention, and no error; where no load is
-/// known, loads are off by what the drawing's modulus may be. Costs 10 ms.
+/// Where no load is known, loads are off by what the drawing's modulus may be. Costs 10 ms.
 CalibrationErrors calibrationErrors(const CalibrationResult& result);
 
 /// Place as an arc of the surface, normal and tangential load; without the moment.

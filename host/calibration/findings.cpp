@@ -31,6 +31,8 @@ std::string reasonOf(RowUse use) {
       return "as wide as a slip or two contacts look: press with an edge";
     case RowUse::kOverRange:
       return "over range: press less";
+    case RowUse::kContradicted:
+      return "not as touches.csv has them: look at their angles and loads";
     case RowUse::kUnexplained:
       return "explained by no single touch (two contacts, a slip, a zero that moved)";
     default:
@@ -41,13 +43,12 @@ std::string reasonOf(RowUse use) {
 }  // namespace
 
 std::vector<std::string> whatIsUntold(const CalibrationResult& result) {
-  const Conventions conventions = conventionsOf(result);
   std::vector<std::string> sentences;
-  if (conventions.zeroOfAngle)
+  if (!result.isDirectionKnown())
     sentences.emplace_back(
         "No direction is known: angles count from where the drawing has the gauges on average. One touch "
         "with a known angle_deg mends that.");
-  if (conventions.unitOfForce)
+  if (!result.isLoadKnown())
     sentences.emplace_back(
         "No load is known: forces are right as far as finger.shear_modulus_pa is. Some touches on a "
         "scale, with a known normal_n_per_m, mend that.");
@@ -77,6 +78,10 @@ std::vector<Correlation> correlationsWorthKnowing(const CalibrationResult& resul
     for (std::size_t b = a + 1; b < rubber.size(); ++b)
       add(rubber[a].second, rubber[b].second,
           between(drawing.at(rubber[a].first), drawing.at(rubber[b].first)));
+  double ofOneGauge = 0;
+  for (int i = 0; i < drawing.gauges(); ++i)
+    ofOneGauge += between(Drawing::at(i, kGain), Drawing::at(i, kDepthOffset)) / drawing.gauges();
+  add("gains", "depths of the same gauges", ofOneGauge);
   for (const auto& [unknown, name] : rubber)
     for (const auto& [of, gauges] : gauge) {
       double sum = 0;
@@ -88,8 +93,8 @@ std::vector<Correlation> correlationsWorthKnowing(const CalibrationResult& resul
 
 std::vector<LeftOut> rowsLeftOut(const CalibrationResult& result) {
   std::vector<LeftOut> all;
-  for (const RowUse use :
-       {RowUse::kWeak, RowUse::kAmbiguous, RowUse::kWide, RowUse::kOverRange, RowUse::kUnexplained}) {
+  for (const RowUse use : {RowUse::kWeak, RowUse::kAmbiguous, RowUse::kWide, RowUse::kOverRange,
+                           RowUse::kContradicted, RowUse::kUnexplained}) {
     LeftOut left{use, reasonOf(use), {}};
     for (std::size_t row = 0; row < result.rows().size(); ++row)
       if (result.rows()[row].use == use) left.rows.push_back(row + 1);

@@ -8,8 +8,8 @@
 
 namespace strainfinger::calibration {
 
-/// Two unknowns of the rubber, or one of them and the gauges' gains or depths (the mean of their
-/// correlations), that touches tell together: beyond 0.9.
+/// Two unknowns of the rubber, one of them and the gauges' gains or depths, or these two (means of all
+/// gauges' correlations), that touches tell together: beyond 0.9.
 struct Correlation {
   std::string one, other;
   double value;

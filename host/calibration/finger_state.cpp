@@ -5,6 +5,13 @@
 #include "host/base/angles.hpp"
 
 namespace strainfinger::calibration {
+namespace {
+
+/// Of the tolerance of one gauge's angle: a ring is glued by hand to the mark that directions count from, and
+/// nothing but known directions tells how far it is turned. By convention it isn't, as good as exactly.
+constexpr double kTurn = 20, kNoTurn = 1e-3;
+
+}  // namespace
 
 double Drawing::tolerance(GaugeUnknown unknown) const {
   switch (unknown) {
@@ -28,6 +35,16 @@ double Drawing::tolerance(RubberUnknown unknown) const {
     default:
       return config_.tolerance.shear_modulus;
   }
+}
+
+double Drawing::turnDeviation() const { return zeroOfAngle_ == ZeroOfAngle::kKnown ? kTurn : kNoTurn; }
+
+Eigen::MatrixXd Drawing::priorRoot() const {
+  const double root = std::sqrt(static_cast<double>(gauges()));
+  Eigen::VectorXd together = Eigen::VectorXd::Zero(unknowns());  // of unit length
+  for (int gauge = 0; gauge < gauges(); ++gauge) together[at(gauge, kAngleOffset)] = 1 / root;
+  const double weight = 1 / (root * turnDeviation());
+  return Eigen::MatrixXd::Identity(unknowns(), unknowns()) + (weight - 1) * together * together.transpose();
 }
 
 model::Annulus<double> Drawing::annulus(const Eigen::VectorXd& deviations) const {

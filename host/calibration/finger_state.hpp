@@ -15,11 +15,18 @@ enum GaugeUnknown : Eigen::Index { kGain, kZero, kAngleOffset, kDepthOffset, kGa
 /// The unknowns of the rubber, behind those of all gauges.
 enum RubberUnknown : Eigen::Index { kCoreRadius, kPoissonRatio, kShearModulus, kRubberUnknowns };
 
+/// Where angles count from.
+enum class ZeroOfAngle {
+  kByConvention,  ///< where the drawing has the gauges on average: no touch tells otherwise
+  kKnown,         ///< from known directions, by which the ring as a whole may be turned
+};
+
 /// How a FingerConfig's [finger], [gauges] and [tolerance] turn a vector of deviations into a finger. Each
-/// deviation is counted in its tolerance, so that the prior of all of them is the standard normal one.
+/// deviation is counted in its tolerance.
 class Drawing {
  public:
-  explicit Drawing(const config::FingerConfig& config) : config_(config) {}
+  explicit Drawing(const config::FingerConfig& config, ZeroOfAngle zeroOfAngle = ZeroOfAngle::kByConvention)
+      : config_(config), zeroOfAngle_(zeroOfAngle) {}
 
   int gauges() const { return config_.gauges.count; }
   Eigen::Index unknowns() const { return kGaugeUnknowns * gauges() + kRubberUnknowns; }
@@ -30,6 +37,12 @@ class Drawing {
   /// logarithm.
   double tolerance(GaugeUnknown unknown) const;
   double tolerance(RubberUnknown unknown) const;
+  ZeroOfAngle zeroOfAngle() const { return zeroOfAngle_; }
+  /// The prior is that of standard normal deviates, but for the mean of the angles: this matrix times the
+  /// deviations has the identity as covariance.
+  Eigen::MatrixXd priorRoot() const;
+  /// Of the mean of the angles' deviations: its prior's standard deviation.
+  double turnDeviation() const;
   /// Of the deviations of Poisson's ratio, that of 1/2: rubber isn't compressed more than not at all.
   double mostPoissonDeviation() const {
     return (0.5 - config_.finger.poisson_ratio) / tolerance(kPoissonRatio);
@@ -45,6 +58,7 @@ class Drawing {
 
  private:
   config::FingerConfig config_;
+  ZeroOfAngle zeroOfAngle_;
 };
 
 }  // namespace strainfinger::calibration

@@ -97,9 +97,8 @@ void fitTogether(const Drawing& drawing, int lastHarmonic, const std::vector<Tou
   for (std::size_t i = 0; i < data.size(); ++i)
     problem.AddResidualBlock(new TouchCost(finger, data[i], unknowns), lossOf(robust), fit.deviations.data(),
                              fit.touches[i].data());
-  problem.AddResidualBlock(
-      new ceres::NormalPrior(MatrixXd::Identity(unknowns, unknowns), VectorXd::Zero(unknowns)), nullptr,
-      fit.deviations.data());
+  problem.AddResidualBlock(new ceres::NormalPrior(drawing.priorRoot(), VectorXd::Zero(unknowns)), nullptr,
+                           fit.deviations.data());
   problem.SetParameterUpperBound(fit.deviations.data(), static_cast<int>(drawing.at(kPoissonRatio)),
                                  drawing.mostPoissonDeviation());
   ceres::Solver::Summary summary;
@@ -109,7 +108,8 @@ void fitTogether(const Drawing& drawing, int lastHarmonic, const std::vector<Tou
 MatrixXd covarianceOf(const Drawing& drawing, int lastHarmonic, const std::vector<TouchData>& data,
                       const JointFit& fit) {
   const RingResponse ring(drawing, fit.deviations, lastHarmonic);
-  MatrixXd information = MatrixXd::Identity(drawing.unknowns(), drawing.unknowns());
+  const MatrixXd prior = drawing.priorRoot();
+  MatrixXd information = prior.transpose() * prior;
   for (std::size_t i = 0; i < data.size(); ++i) {
     const auto model = ring.linearised(fit.touches[i], true);
     const double weight = 1 / data[i].sigma_strain;

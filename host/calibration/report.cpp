@@ -108,6 +108,8 @@ const char* nameOf(RowUse use) {
       return "wide";
     case RowUse::kOverRange:
       return "over-range";
+    case RowUse::kContradicted:
+      return "contradicted";
     case RowUse::kUnexplained:
       break;
   }

@@ -187,6 +187,7 @@ void printSummary(TableFormat format, const calibration::CalibrationResult& resu
                      "ambiguous",
                      "wide",
                      "over_range",
+                     "contradicted",
                      "unexplained",
                      "arc_before_m",
                      "normal_before_n_per_m",
@@ -200,7 +201,7 @@ void printSummary(TableFormat format, const calibration::CalibrationResult& resu
   std::vector<Cell> cells =
       cellsOf({result.coreRadius_m(), result.poissonRatio(), result.shearModulus_pa(), result.modelError()});
   for (const RowUse use : {RowUse::kFitted, RowUse::kUntouched, RowUse::kWeak, RowUse::kAmbiguous,
-                           RowUse::kWide, RowUse::kOverRange, RowUse::kUnexplained})
+                           RowUse::kWide, RowUse::kOverRange, RowUse::kContradicted, RowUse::kUnexplained})
     cells.emplace_back(std::int64_t{result.count(use)});
   const auto errors = calibration::expectedErrors(result);
   cells.insert(cells.end(), errors.before.begin(), errors.before.end());
@@ -254,17 +255,16 @@ std::uint8_t nodeOf(const CalibrateOptions& options, const config::FingerConfig&
   return static_cast<std::uint8_t>(options.node != 0 ? options.node : config.can.node);
 }
 
-/// Before the afternoon, not at its end.
-void requireFolderOf(const std::string& path) {
+/// Before the afternoon, or the fit, not at its end.
+void requireFolderOf(const char* option, const std::string& path) {
   if (path.empty()) return;
   const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
   if (std::filesystem::is_directory(folder)) return;
-  throw Failure(ExitCode::kFailure, fmt::format("--page {}: there is no folder {}; make it, or name another",
-                                                path, folder.string()));
+  throw Failure(ExitCode::kFailure, fmt::format("{} {}: there is no folder {}; make it, or name another",
+                                                option, path, folder.string()));
 }
 
 void runLiveCalibration(const CalibrateOptions& options, const config::FingerConfig& config) {
-  requireFolderOf(options.pagePath);
   LiveCalibration live = options.live;
   live.node = nodeOf(options, config);
   live.outputPath = options.outputPath;
@@ -296,6 +296,8 @@ Eigen::MatrixXd strainsOfRecording(const CalibrateOptions& options, const config
 
 void runCalibrate(const CalibrateOptions& options) {
   const config::FingerConfig config = options.common.config();
+  requireFolderOf("--page", options.pagePath);
+  requireFolderOf("--output", options.outputPath);
   if (!options.live.bus.empty()) return runLiveCalibration(options, config);
   const bool isRecording = !options.strainsPath.empty() && session::isRecording(options.strainsPath);
   const auto known = isRecording ? std::vector<calibration::KnownTouch>{} : readTouches(options.touchesPath);

@@ -155,7 +155,7 @@ Assessment assess(const CalibrationResult& result, const calibration::KnownError
                   errorsOf(yardstick.variances(result.covariance()), radius_m),
                   errorsOf(yardstick.noise(), radius_m)};
   found.unitOfForce = sigmaOfModulus(drawing, result.covariance());
-  found.zeroOfAngle_deg = sigmaOfMeanAngle_deg(drawing, result.covariance());
+  if (result.isDirectionKnown()) found.zeroOfAngle_deg = sigmaOfMeanAngle_deg(drawing, result.covariance());
   const double now = yardstick.total(result.covariance());
   const int arcs = 2 * drawing.gauges();
   MatrixXd around = MatrixXd::Zero(drawing.unknowns(), drawing.unknowns());

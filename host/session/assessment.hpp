@@ -2,6 +2,7 @@
 // What a calibration knows of the finger by now, and what further touches would gain.
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "host/calibration/calibrate.hpp"
@@ -14,7 +15,8 @@ struct GaugeSigmas {
   double gain = 0, zero_strain = 0, angle_deg = 0, depth_m = 0;
 };
 
-/// Errors of touches to come, RMS over the ring: place [m], normal and tangential load [N/m].
+/// Errors of touches to come, the zero of angles and the unit of force apart, RMS over the ring: place [m],
+/// normal and tangential load [N/m].
 struct TouchesToCome {
   Eigen::Vector3d drawn = Eigen::Vector3d::Zero();  ///< as if the finger were as drawn
   Eigen::Vector3d known = Eigen::Vector3d::Zero();  ///< as it is known by now
@@ -26,8 +28,8 @@ struct Assessment {
   std::size_t fitted = 0;  ///< of these
   std::vector<GaugeSigmas> gauges;
   TouchesToCome errors;
-  double unitOfForce = 0;  ///< relative sigma
-  double zeroOfAngle_deg = 0;
+  double unitOfForce = 0;                                            ///< relative sigma
+  double zeroOfAngle_deg = std::numeric_limits<double>::infinity();  ///< sigma; infinite: no mark is known
   /// By what share so many further touches in an arc, pressed with various loads and rubbed to either side,
   /// would lower the errors of touches to come; and all around.
   std::vector<double> arcGains;

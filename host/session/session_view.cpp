@@ -86,8 +86,11 @@ class SessionPainter {
     say(row_++, 0, "Errors to come, as drawn > now > noise alone: place " + each(0, 1e3, 3) + " mm");
     say(row_++, 0, "  normal " + each(1, 1, 2) + ", tangential " + each(2, 1, 2) + " N/m");
     say(row_++, 0,
-        fmt::format("Unit of force {:.1f} %, zero of the angle {:.2f} deg; 100 more touches gain {:.0f} %",
-                    100 * known.unitOfForce, known.zeroOfAngle_deg, 100 * known.bestGain()));
+        fmt::format("Unit of force {:.1f} %, zero of the angle {}; 100 more touches gain {:.0f} %",
+                    100 * known.unitOfForce,
+                    std::isfinite(known.zeroOfAngle_deg) ? fmt::format("{:.2f} deg", known.zeroOfAngle_deg)
+                                                         : std::string("not known"),
+                    100 * known.bestGain()));
   }
 
   void table() {

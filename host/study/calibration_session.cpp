@@ -11,6 +11,9 @@ namespace {
 /// Seeds of what is drawn beside the finger, so that nothing repeats its draws.
 constexpr std::uint64_t kFingerSeeds = 1'000'000, kSessionSeeds = 2'000'000;
 
+/// [N/m] A mark is pressed with so much, or more.
+constexpr double kFirm_n_per_m = 15;
+
 enum Junk : int { kTwoContacts, kSlip, kSaturated, kJunkKinds };
 
 /// What the ring reads of a touch that went wrong, `other` being another touch.
@@ -47,15 +50,18 @@ Session sessionOf(const config::FingerConfig& finger, const SessionPlan& plan, s
   const evidence::TouchDraws draws(finger.gauges, plan.ranges, kSessionSeeds + seed);
   const simulation::Noise chance(kSessionSeeds + seed);
   Session session{finger, Eigen::MatrixXd(plan.touches, finger.gauges.count), {}, {}};
+  int directions = 0;
   for (int i = 0; i < plan.touches; ++i) {
     const auto number = static_cast<std::uint64_t>(i);
     const simulation::Touch touch = draws.at(number);
     calibration::KnownTouch known;
     if (i < plan.knownLoads) known.normal_n_per_m = touch.normal_n_per_m;
-    const bool isDirection = i >= plan.knownLoads && i < plan.knownLoads + plan.knownDirections;
+    const bool isDirection =
+        i >= plan.knownLoads && directions < plan.knownDirections && touch.normal_n_per_m >= kFirm_n_per_m;
     if (isDirection) known.angle_deg = touch.angle_rad / kRadPerDeg;
-    const bool isKnown = i < plan.knownLoads + plan.knownDirections;
-    const bool isJunk = !isKnown && evidence::uniform(chance, number, 20) + 0.5 < plan.junk;
+    directions += isDirection;
+    const bool isJunk =
+        i >= plan.knownLoads && !isDirection && evidence::uniform(chance, number, 20) + 0.5 < plan.junk;
     const auto otherNumber = number + static_cast<std::uint64_t>(plan.touches);
     const Eigen::VectorXd exact = isJunk ? junkReadings(ring, touch, draws.at(otherNumber), i % kJunkKinds,
                                                         finger.gauges.full_scale_strain)

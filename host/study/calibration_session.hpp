@@ -15,7 +15,7 @@ namespace strainfinger::study {
 struct SessionPlan {
   int touches = 300;
   int knownLoads = 5;       ///< the first so many touches are on a scale
-  int knownDirections = 1;  ///< so many touches after them are in a known direction
+  int knownDirections = 1;  ///< so many firm touches after them are in a known direction: a mark is pressed
   double junk = 0;          ///< share of touches that no single touch at rest explains
   evidence::TouchRanges ranges{.load_n_per_m = {2, 40}, .width_m = {0.5e-3, 4e-3}};
 };

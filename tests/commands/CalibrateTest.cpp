@@ -137,16 +137,24 @@ TEST(CalibrateCommand, WritesAPageThatSaysWhatTheTablesSay) {
 
 TEST(CalibrateCommand, WritesTheConfigAlthoughThePageCannotBeMade) {
   write("strains.csv", readings);
-  const auto expectConfig = [this](const Run& run, const char* named) {
+  const Run run = runShell("PATH=/none \"$STRAINFINGER\" calibrate --strains " + path("strains.csv") +
+                               " -o " + path("out.toml") + " --page " + path("page.html"),
+                           "");
+  LONGS_EQUAL(1, run.status);
+  STRCMP_CONTAINS("gnuplot is not installed: apt install gnuplot", run.err.c_str());
+  CHECK_TRUE(std::filesystem::exists(path("out.toml")));
+  CHECK_FALSE(std::filesystem::exists(path("page.html")));
+}
+
+TEST(CalibrateCommand, AFolderThatIsMissingIsToldBeforeAnythingIsFitted) {
+  for (const char* option : {"--page", "--output"}) {
+    const Run run = calibrate(fmt::format("{} {}", option, path("none/file")), "nonsense");
     LONGS_EQUAL(1, run.status);
-    STRCMP_CONTAINS(named, run.err.c_str());
-    CHECK_TRUE(std::filesystem::remove(path("out.toml")));
-    CHECK_FALSE(std::filesystem::exists(path("page.html")));
-  };
-  const std::string arguments = " --strains " + path("strains.csv") + " -o " + path("out.toml") + " --page ";
-  expectConfig(calibrate(arguments + path("none/page.html"), ""), path("none/page.html").c_str());
-  expectConfig(runShell("PATH=/none \"$STRAINFINGER\" calibrate" + arguments + path("page.html"), ""),
-               "gnuplot is not installed: apt install gnuplot");
+    STRCMP_CONTAINS(fmt::format("{} {}: there is no folder {}; make it, or name another", option,
+                                path("none/file"), path("none"))
+                        .c_str(),
+                    run.err.c_str());
+  }
 }
 
 TEST(CalibrateCommand, PrintsWhatIsToldTogetherOnly) {

@@ -44,7 +44,7 @@ def main(page_path, gauges_path, summary_path):
     assert numbers(table, "residual_strain") == [gauge["residual_strain"] for gauge in gauges]
 
     summary = json.loads(open(summary_path, encoding="utf-8").read())
-    reasons = {"weak", "ambiguous", "wide", "over_range", "unexplained"}
+    reasons = {"weak", "ambiguous", "wide", "over_range", "contradicted", "unexplained"}
     for name in set(summary) - reasons:
         assert numbers(root, name) == [summary[name]], name
     for name in reasons:  # told where there are any

@@ -147,6 +147,63 @@ TEST(Calibrate, TheUnitOfForceAndTheZeroOfTheAngleAreTheDrawingsWhereNothingIsKn
   STRCMP_CONTAINS("No direction is known", report.c_str());
   STRCMP_CONTAINS("No load is known", report.c_str());
   CHECK_TRUE(textReport(usual().result).find("is known:") == std::string::npos);
+  double mean_deg = 0;
+  for (int gauge = 0; gauge < 16; ++gauge) mean_deg += result.angleOffset_deg(gauge).value / 16;
+  DOUBLES_EQUAL(0, mean_deg, 1e-3);
+}
+
+// A ring that is glued three degrees away from the mark that angles count from, which one press at a known
+// angle tells as well as that press is known.
+TEST(Calibrate, AKnownDirectionTurnsTheRing) {
+  constexpr double kTurn_deg = 3;
+  for (const double error_deg : {0.0, 0.5}) {
+    auto session = study::sessionOf(finger, {.touches = 80}, kSeed);
+    for (KnownTouch& touch : session.known)
+      if (touch.angle_deg) *touch.angle_deg += kTurn_deg;
+    const auto turned = calibrate(session.finger, session.known, session.readings, {0, error_deg});
+    const auto straight = calibrated(study::sessionOf(finger, {.touches = 80}, kSeed));
+    double turn_deg = 0;
+    for (int gauge = 0; gauge < 16; ++gauge)
+      turn_deg += (turned.angleOffset_deg(gauge).value - straight.angleOffset_deg(gauge).value) / 16;
+    DOUBLES_EQUAL(kTurn_deg, turn_deg, 0.1);
+    CHECK_TRUE(turned.isDirectionKnown());
+    CHECK_COMPARE(turned.angleOffset_deg(3).sigma, >, error_deg);
+    CHECK_COMPARE(straight.angleOffset_deg(3).sigma, <, 0.4);
+  }
+}
+
+TEST(Calibrate, WhatContradictsTheReadingsIsLeftOutByRow) {
+  auto session = study::sessionOf(finger, {.touches = 80, .knownDirections = 4}, kSeed);
+  const auto mark = std::find_if(session.known.begin(), session.known.end(),
+                                 [](const KnownTouch& touch) { return touch.angle_deg.has_value(); });
+  *mark->angle_deg += 15;
+  const auto marked = static_cast<std::size_t>(mark - session.known.begin());
+  session.known[2].normal_n_per_m = 3 * *session.known[2].normal_n_per_m;
+  session.known.push_back({std::nullopt, 0, 0});
+  session.readings.conservativeResize(81, Eigen::NoChange);
+  session.readings.row(80) = session.readings.row(30);
+  const auto result = calibrated(session);
+  for (std::size_t row = 0; row < session.known.size(); ++row)
+    CHECK_EQUAL(row == 2 || row == marked || row == 80, result.rows()[row].use == RowUse::kContradicted);
+  STRCMP_CONTAINS("not as touches.csv has them: look at their angles and loads: 3 rows: 3 ",
+                  textReport(result).c_str());
+  CHECK_COMPARE(study::newTouches(result, finger, 100, kSeed).error[0], <, 80e-6);
+}
+
+TEST(Calibrate, KnownLoadsOfWhichTheReadingsBearOutNoneAreRefusedByRow) {
+  auto session = study::sessionOf(finger, {.touches = 80}, kSeed);
+  for (KnownTouch& touch : session.known)
+    if (touch.normal_n_per_m) *touch.normal_n_per_m *= 10;
+  checkComplaint(session.known, session.readings,
+                 "in any row that has them: 1, 2, 3, 4, 5; look at their unit");
+}
+
+TEST(Calibrate, RowsThatNothingTouchesAreNoTouches) {
+  auto session = study::sessionOf(finger, {.touches = 31}, kSeed);
+  session.known.resize(60, {std::nullopt, 0, 0});
+  session.readings.conservativeResize(60, Eigen::NoChange);
+  session.readings.bottomRows(29).setZero();
+  checkComplaint(session.known, session.readings, " rows with a touch are too few");
 }
 
 TEST(Calibrate, UntouchedRowsTellTheZeros) {

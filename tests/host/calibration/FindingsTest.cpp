@@ -13,12 +13,13 @@ using namespace strainfinger::calibration;
 
 TEST_GROUP(Findings) {
   strainfinger::config::FingerConfig config;
-  const Drawing drawing{config};
+  const Drawing drawing{config, ZeroOfAngle::kKnown};
+  const bool isLoadKnown = true;
   Eigen::VectorXd deviations = Eigen::VectorXd::Zero(drawing.unknowns());
   Eigen::MatrixXd covariance = 1e-4 * Eigen::MatrixXd::Identity(drawing.unknowns(), drawing.unknowns());
   std::vector<RowResult> rows;
 
-  CalibrationResult result() const { return {drawing, deviations, covariance, rows, {0, 0}}; }
+  CalibrationResult result() const { return {drawing, deviations, covariance, rows, {0, 0}, isLoadKnown}; }
   /// A row whose only residual is that of gauge 3.
   RowResult row(RowUse use, double strain) const {
     RowResult result{use, {1, 20, 5, 1e-3}, 0, Eigen::VectorXd::Zero(drawing.gauges())};

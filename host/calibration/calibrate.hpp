@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/calibration/finger_state.hpp"
+#include "host/calibration/moved_zero.hpp"
 #include "host/calibration/ring_response.hpp"
 #include "host/config/finger_config.hpp"
 
@@ -62,12 +63,13 @@ struct TouchError {
 class CalibrationResult {
  public:
   CalibrationResult(const Drawing& drawing, Eigen::VectorXd deviations, Eigen::MatrixXd covariance,
-                    std::vector<RowResult> rows, Estimate modelError)
+                    std::vector<RowResult> rows, Estimate modelError, std::vector<MovedZero> movedZeros = {})
       : drawing_(drawing),
         deviations_(std::move(deviations)),
         covariance_(std::move(covariance)),
         rows_(std::move(rows)),
-        modelError_(modelError) {}
+        modelError_(modelError),
+        movedZeros_(std::move(movedZeros)) {}
 
   Estimate gain(int gauge) const { return of(gauge, kGain, 1); }
   Estimate zero_strain(int gauge) const { return of(gauge, kZero, 0); }
@@ -83,6 +85,8 @@ class CalibrationResult {
 
   const std::vector<RowResult>& rows() const { return rows_; }
   int count(RowUse use) const;
+  /// See movedZeros(); their rows are left out.
+  const std::vector<MovedZero>& movedZeros() const { return movedZeros_; }
   const Drawing& drawing() const { return drawing_; }
   /// In units of the tolerances, see Drawing; and their covariance, the prior counted in.
   const Eigen::VectorXd& deviations() const { return deviations_; }
@@ -102,12 +106,13 @@ class CalibrationResult {
   Eigen::MatrixXd covariance_;
   std::vector<RowResult> rows_;
   Estimate modelError_;
+  std::vector<MovedZero> movedZeros_;
 };
 
 /// Maximum a posteriori of the finger and of every touch together: readings are the elastic model's and noise
 /// of gauges.noise_strain and of the model's error, which is estimated; the finger is the drawing give or
 /// take [tolerance]; touches are semi-ellipses of pressure with the shear of partial slip, of contact.width_m
-/// if that is known. Rows that no single touch explains are left out.
+/// if that is known. Rows that no single touch explains are left out, and those of a zero that moved.
 ///
 /// `known`: one a row, or none at all. `readings`: strain at nominal gain, a row a touch, a column a gauge;
 /// all finite. [calibration] of the config is not looked at.

@@ -10,7 +10,6 @@
 #include "host/calibration/complaints.hpp"
 #include "host/calibration/joint_fit.hpp"
 #include "host/calibration/model_error.hpp"
-#include "host/calibration/moved_zero.hpp"
 #include "host/calibration/noise_bias.hpp"
 #include "host/calibration/touch_fit.hpp"
 #include "host/model/pressure_profile.hpp"
@@ -48,12 +47,13 @@ class Calibration {
  public:
   Calibration(const config::FingerConfig& config, std::span<const KnownTouch> known, const MatrixXd& readings,
               const KnownErrors& errors)
-      : drawing_(config, zeroOfAngle(known)),
+      : drawing_(config),
         lastHarmonic_(RingResponse::lastHarmonic(drawing_)),
         mostMoment_rad2_(model::momentOfWidth(config.contact.largest_width_m / config.finger.outer_radius_m)),
         rows_(static_cast<std::size_t>(readings.rows())),
         rivals_(rows_.size()),
         known_(known.begin(), known.end()),
+        isMoved_(rows_.size()),
         finger_(VectorXd::Zero(drawing_.unknowns())),
         modelError_{std::max(config.gauges.model_error, kLeastFirstError), 0} {
     known_.resize(rows_.size());
@@ -64,6 +64,7 @@ class Calibration {
       data_.push_back({strains, config.gauges.noise_strain, priorOf(touch, errors)});
     }
     leaveOutWeak();
+    chooseZeroOfAngle();
   }
 
   /// Domain: before run(), or within it.
@@ -85,13 +86,16 @@ class Calibration {
       improve(all, Loss::kRobust);
     }
     judge(all, Search::kEverywhere);
+    findMovedZeros(all);
     requireExplained(modelError_.value, shareUnexplained(all));
     requireEnough();
     for (int round = 0; round < kMostRounds; ++round) {
+      chooseZeroOfAngle();
       improve(usable(), Loss::kSquares);
-      if (!judge(all, Search::kNearby)) break;
+      const bool isJudgedAnew = judge(all, Search::kNearby);
+      if (!findMovedZeros(all) && !isJudgedAnew) break;
     }
-    if (leaveOutMovedZero()) improve(usable(), Loss::kSquares);
+    tellMoved();
     requireBorneOut();
     return result(usable());
   }
@@ -105,11 +109,13 @@ class Calibration {
     TouchState touch = TouchState::Zero();
   };
 
-  static ZeroOfAngle zeroOfAngle(std::span<const KnownTouch> known) {
-    const bool isKnown = std::any_of(known.begin(), known.end(), [](const KnownTouch& touch) {
-      return touch.angle_deg && !touch.isUntouched();
-    });
-    return isKnown ? ZeroOfAngle::kKnown : ZeroOfAngle::kByConvention;
+  /// Where angles count from, by the rows that are fitted.
+  void chooseZeroOfAngle() {
+    bool isKnown = false;
+    for (std::size_t row = 0; row < rows_.size(); ++row)
+      isKnown |= rows_[row].use == RowUse::kFitted && isDirectionKnown(row);
+    const config::FingerConfig config = drawing_.config();
+    drawing_ = Drawing(config, isKnown ? ZeroOfAngle::kKnown : ZeroOfAngle::kByConvention);
   }
 
   bool isKnown(std::size_t row) const { return isDirectionKnown(row) || isLoadKnown(row); }
@@ -165,10 +171,15 @@ class Calibration {
     return prior;
   }
 
+  bool isUsable(std::size_t row) const {
+    const RowUse use = rows_[row].use;
+    return !isMoved_[row] && (use == RowUse::kFitted || use == RowUse::kUntouched);
+  }
+
   Rows usable() const {
     Rows rows;
     for (std::size_t row = 0; row < rows_.size(); ++row)
-      if (rows_[row].use == RowUse::kFitted || rows_[row].use == RowUse::kUntouched) rows.push_back(row);
+      if (isUsable(row)) rows.push_back(row);
     return rows;
   }
 
@@ -182,8 +193,9 @@ class Calibration {
   }
 
   double shareUnexplained(const Rows& rows) const {
-    const auto count = std::count_if(
-        rows.begin(), rows.end(), [this](std::size_t row) { return rows_[row].use == RowUse::kUnexplained; });
+    const auto count = std::count_if(rows.begin(), rows.end(), [this](std::size_t row) {
+      return isMoved_[row] || rows_[row].use == RowUse::kUnexplained;
+    });
     return static_cast<double>(count) / static_cast<double>(rows.size());
   }
 
@@ -335,7 +347,8 @@ class Calibration {
     const auto [data, fit] = joint(rows);
     const MatrixXd covariance = covarianceOf(drawing_, lastHarmonic_, data, fit);
     moveTo(fit.deviations - noiseBias(drawing_, lastHarmonic_, data, fit, covariance), rows);
-    CalibrationResult result(drawing_, finger_, covariance, rows_, modelError_, isAnyLoadKnown());
+    CalibrationResult result(drawing_, finger_, covariance, rows_, modelError_, isAnyLoadKnown(),
+                             movedZeros_);
     requireTold(result);
     return result;
   }
@@ -359,14 +372,28 @@ class Calibration {
     return rows;
   }
 
-  /// The rows of a zero that moved which touches beside the real ones explain: whether there were any.
-  bool leaveOutMovedZero() {
-    keepResiduals(unexplained());
-    const auto moved = movedZero(rows_, drawing_.config().gauges);
-    if (!moved) return false;
-    for (std::size_t row = moved->firstRow - 1; row < moved->lastRow; ++row)
-      if (rows_[row].use == RowUse::kFitted) rows_[row].use = RowUse::kUnexplained;
-    return true;
+  /// Decides anew which zeros moved, whose rows are used no longer; whether any row has changed.
+  bool findMovedZeros(const Rows& rows) {
+    const RingResponse ring(drawing_, finger_, lastHarmonic_);
+    std::vector<ZeroEvidence> evidence;
+    for (const std::size_t row : rows)
+      if (std::isfinite(rows_[row].chiSquared))
+        evidence.push_back(zeroEvidence(row + 1, ring, data_[row], rows_[row].touch));
+    movedZeros_ = movedZeros(std::move(evidence), drawing_.config().gauges.noise_strain);
+    std::vector<bool> isMoved(rows_.size());
+    for (const MovedZero& moved : movedZeros_)
+      for (std::size_t row = moved.firstRow - 1; row < moved.lastRow; ++row) isMoved[row] = true;
+    const bool changed = isMoved != isMoved_;
+    isMoved_ = std::move(isMoved);
+    requireStill(movedZeros_, shareUnexplained(rows));
+    return changed;
+  }
+
+  /// That they were left out, of rows which touches beside the real ones explain.
+  void tellMoved() {
+    for (std::size_t row = 0; row < rows_.size(); ++row)
+      if (isMoved_[row] && (rows_[row].use == RowUse::kFitted || rows_[row].use == RowUse::kUntouched))
+        rows_[row].use = RowUse::kUnexplained;
   }
 
   Drawing drawing_;
@@ -376,6 +403,8 @@ class Calibration {
   std::vector<Rival> rivals_;
   std::vector<TouchData> data_;
   std::vector<KnownTouch> known_;
+  std::vector<bool> isMoved_;  ///< a row of a zero that moved
+  std::vector<MovedZero> movedZeros_;
   VectorXd finger_;
   Estimate modelError_;
 };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/calibration/finger_state.hpp"
+#include "host/calibration/moved_zero.hpp"
 #include "host/calibration/ring_response.hpp"
 #include "host/config/finger_config.hpp"
 
@@ -63,13 +64,15 @@ struct TouchError {
 class CalibrationResult {
  public:
   CalibrationResult(const Drawing& drawing, Eigen::VectorXd deviations, Eigen::MatrixXd covariance,
-                    std::vector<RowResult> rows, Estimate modelError, bool isLoadKnown)
+                    std::vector<RowResult> rows, Estimate modelError, bool isLoadKnown,
+                    std::vector<MovedZero> movedZeros = {})
       : drawing_(drawing),
         deviations_(std::move(deviations)),
         covariance_(std::move(covariance)),
         rows_(std::move(rows)),
         modelError_(modelError),
-        isLoadKnown_(isLoadKnown) {}
+        isLoadKnown_(isLoadKnown),
+        movedZeros_(std::move(movedZeros)) {}
 
   Estimate gain(int gauge) const { return of(gauge, kGain, 1); }
   Estimate zero_strain(int gauge) const { return of(gauge, kZero, 0); }
@@ -85,6 +88,8 @@ class CalibrationResult {
 
   const std::vector<RowResult>& rows() const { return rows_; }
   int count(RowUse use) const;
+  /// See movedZeros(); their rows are left out.
+  const std::vector<MovedZero>& movedZeros() const { return movedZeros_; }
   const Drawing& drawing() const { return drawing_; }
   /// What the zero of angles and the unit of force come from: touches, or else the drawing.
   bool isDirectionKnown() const { return drawing_.zeroOfAngle() == ZeroOfAngle::kKnown; }
@@ -108,12 +113,13 @@ class CalibrationResult {
   std::vector<RowResult> rows_;
   Estimate modelError_;
   bool isLoadKnown_;
+  std::vector<MovedZero> movedZeros_;
 };
 
 /// Maximum a posteriori of the finger and of every touch together: readings are the elastic model's and noise
 /// of gauges.noise_strain and of the model's error, which is estimated; the finger is the drawing give or
 /// take [tolerance]; touches are semi-ellipses of pressure with the shear of partial slip, of contact.width_m
-/// if that is known. Rows that no single touch explains are left out.
+/// if that is known. Rows that no single touch explains are left out, and those of a zero that moved.
 ///
 /// `known`: one a row, or none at all. `readings`: strain at nominal gain, a row a touch, a column a gauge;
 /// all finite. [calibration] of the config is not looked at.

@@ -10,7 +10,6 @@
 #include "host/base/no_value.hpp"
 #include "host/calibration/complaints.hpp"
 #include "host/calibration/expected_error.hpp"
-#include "host/calibration/moved_zero.hpp"
 #include "host/calibration/touch_fit.hpp"
 
 namespace strainfinger::calibration {
@@ -104,13 +103,12 @@ std::vector<LeftOut> rowsLeftOut(const CalibrationResult& result) {
 }
 
 std::string movedZeroText(const CalibrationResult& result) {
-  const auto moved = movedZero(result.rows(), result.drawing().config().gauges);
-  if (!moved) return "";
+  const auto& moved = result.movedZeros();
+  if (moved.empty()) return "";
   return fmt::format(
-      "The zero of gauge {} moved during the session: in rows {} to {}, which are left out, it reads about "
-      "{:.0f} microstrain {} than in the others. Tare, and touch the finger anew, all around.",
-      moved->gauge, moved->firstRow, moved->lastRow, 1e6 * std::abs(moved->strain),
-      moved->strain > 0 ? "more" : "less");
+      "{} moved during the session: {} than in the others. These rows are left out. Tare, and touch the "
+      "finger anew, all around.",
+      moved.size() == 1 ? "A zero" : "Zeros", textOf(moved));
 }
 
 Residuals residualsOf(const CalibrationResult& result) {

@@ -27,7 +27,7 @@ struct LeftOut {
 };
 std::vector<LeftOut> rowsLeftOut(const CalibrationResult& result);
 
-/// movedZero() of a result, in a sentence; empty where none moved.
+/// The zeros that moved, each with its rows and its shift, in a sentence; empty where none did.
 std::string movedZeroText(const CalibrationResult& result);
 
 /// RMS of what the fitted finger leaves, and what the drawn one does of the same rows, each with the touches

@@ -1,11 +1,8 @@
 #include "host/calibration/findings.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
-
-#include "host/calibration/moved_zero.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -69,35 +66,12 @@ TEST(Findings, RowsThatWereLeftOutAreListedByReason) {
   STRCMP_CONTAINS("slip", left.front().reason.c_str());
 }
 
-TEST(Findings, AZeroThatMovedAtEitherEndIsTold) {
-  for (int i = 0; i < 30; ++i)
-    rows.push_back(row(i < 10 ? RowUse::kUnexplained : RowUse::kFitted, i < 10 ? -1e-4 : 0));
-  auto moved = movedZero(rows, config.gauges);
-  CHECK_TRUE(moved.has_value());
-  LONGS_EQUAL(3, moved->gauge);
-  LONGS_EQUAL(1, moved->firstRow);
-  LONGS_EQUAL(10, moved->lastRow);
-  DOUBLES_EQUAL(-1e-4, moved->strain, 1e-12);
-  std::reverse(rows.begin(), rows.end());
-  moved = movedZero(rows, config.gauges);
-  LONGS_EQUAL(21, moved->firstRow);
-  LONGS_EQUAL(30, moved->lastRow);
-}
-
-// A fifth of an end may be explained by a touch that happens to suit, not more.
-TEST(Findings, AnEndOfWhichMuchIsExplainedIsNoMovedZero) {
-  const auto isTold = [this](int every) {
-    rows.clear();
-    for (int i = 0; i < 30; ++i) rows.push_back(row(RowUse::kUnexplained, 1e-4));
-    for (int i = every - 1; i < 30; i += every) rows[static_cast<std::size_t>(i)].use = RowUse::kFitted;
-    for (int i = 0; i < 60; ++i) rows.push_back(row(RowUse::kFitted, 0));
-    return movedZero(rows, config.gauges).has_value();
-  };
-  CHECK_TRUE(isTold(6));
-  CHECK_FALSE(isTold(3));
-}
-
-TEST(Findings, JunkHereAndThereIsNoMovedZero) {
-  for (int i = 0; i < 90; ++i) rows.push_back(row(i % 3 == 0 ? RowUse::kUnexplained : RowUse::kFitted, 1e-4));
-  CHECK_FALSE(movedZero(rows, config.gauges).has_value());
+TEST(Findings, ZerosThatMovedAreToldWithRowsAndShifts) {
+  STRCMP_EQUAL("", movedZeroText(result()).c_str());
+  const CalibrationResult moved(drawing, deviations, covariance, rows, {0, 0}, isLoadKnown,
+                                {{3, 1, 10, -1e-4}, {5, 301, 456, 8e-5}});
+  STRCMP_CONTAINS(
+      "Zeros moved during the session: gauge 3 reads 100 microstrain less in rows 1 to 10; gauge 5 reads 80 "
+      "microstrain more in rows 301 to 456 than in the others.",
+      movedZeroText(moved).c_str());
 }

@@ -332,6 +332,7 @@ CalibrationResult calibrate(const config::FingerConfig& config, std::span<const 
                             const MatrixXd& readings, const KnownErrors& errors) {
   requireRows(config.gauges, known, readings);
   requireTouches(config.gauges, static_cast<std::size_t>(readings.rows()));
+  requireAllAround(config.gauges, untouchedGauges(config.gauges, readings));
   requireWiring(findWiringFaults(config, known, readings, errors));
   return Calibration(config, known, readings, errors).run();
 }

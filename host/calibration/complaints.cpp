@@ -19,7 +19,17 @@ constexpr double kMostRowsUnexplained = 0.4;
 /// Of its tolerance: what is known of a gauge no better than that was not told by the touches.
 constexpr double kMostUntold = 0.7;
 
+constexpr const char* kTouchesToAdd =
+    "add touches at ten places or more over each of them and between it and its neighbours, of various "
+    "loads, "
+    "some rubbed to either side";
+
 [[noreturn]] void fail(const std::string& message) { throw Failure(ExitCode::kFailure, message); }
+
+/// "3 (at 67.5 deg)".
+std::string placed(const config::Gauges& gauges, int gauge) {
+  return fmt::format("{} (at {:.6g} deg)", gauge, gauges.angle_deg(gauge));
+}
 
 bool isFinite(const std::optional<double>& value) { return std::isfinite(value.value_or(0)); }
 
@@ -61,6 +71,16 @@ void requireTouches(const config::Gauges& gauges, std::size_t touches) {
                     touches, least));
 }
 
+void requireAllAround(const config::Gauges& gauges, const std::vector<int>& untouched) {
+  if (untouched.empty()) return;
+  std::string names;
+  for (const int gauge : untouched) names += (names.empty() ? "" : ", ") + placed(gauges, gauge);
+  fail(fmt::format(
+      "no touches, or hardly any, are near these gauges: {}; {}. Where the finger was touched there, "
+      "look for open wires: in no row they or the gauges beside them read most",
+      names, kTouchesToAdd));
+}
+
 void requireWiring(const std::vector<WiringFault>& faults) {
   if (faults.empty()) return;
   std::string text;
@@ -91,8 +111,7 @@ std::string untoldGauges(const CalibrationResult& result, std::initializer_list<
       const Eigen::Index at = Drawing::at(gauge, unknown);
       return std::sqrt(result.covariance()(at, at)) > most;
     });
-    if (isUntold)
-      names += fmt::format("{}{} (at {:.6g} deg)", names.empty() ? "" : ", ", gauge, gauges.angle_deg(gauge));
+    if (isUntold) names += (names.empty() ? "" : ", ") + placed(gauges, gauge);
   }
   return names;
 }
@@ -100,11 +119,7 @@ std::string untoldGauges(const CalibrationResult& result, std::initializer_list<
 void requireTold(const CalibrationResult& result) {
   const std::string names = untoldGauges(result, {kAngleOffset}, kMostUntold);
   if (names.empty()) return;
-  fail(
-      fmt::format("the touches don't tell where these gauges are: {}; add touches at ten places or more over "
-                  "each of them and between it and its neighbours, of various loads, some rubbed to either "
-                  "side",
-                  names));
+  fail(fmt::format("the touches don't tell where these gauges are: {}; {}", names, kTouchesToAdd));
 }
 
 }  // namespace strainfinger::calibration

@@ -312,16 +312,19 @@ class Calibration {
                                                                   : RowUse::kContradicted;
   }
 
-  /// Of the known directions, and of the known loads, the readings bear out some, if there are any.
+  /// Of the known directions, and of the known loads, the readings bear out some, or contradict no more than
+  /// half.
   void requireBorneOut() const {
     const auto require = [&](auto isSaid, const char* what, const char* mend) {
       Rows contradicted;
+      std::size_t said = 0;
       for (std::size_t row = 0; row < rows_.size(); ++row) {
         if (known_[row].isUntouched() || !isSaid(row)) continue;
         if (rows_[row].use == RowUse::kFitted) return;
         if (rows_[row].use == RowUse::kContradicted) contradicted.push_back(row + 1);
+        ++said;
       }
-      requireNone(contradicted, what, mend);
+      if (2 * contradicted.size() > said) requireNone(contradicted, what, mend);
     };
     require([&](std::size_t row) { return isDirectionKnown(row); }, "angle_deg",
             "the angles themselves, gauges.first_angle_deg, the order of the gauges and --angle-error-deg");
@@ -416,6 +419,7 @@ CalibrationResult calibrate(const config::FingerConfig& config, std::span<const 
   requireRows(config.gauges, known, readings);
   Calibration calibration(config, known, readings, errors);
   calibration.requireEnough();
+  requireAllAround(config.gauges, untouchedGauges(config.gauges, readings));
   requireWiring(findWiringFaults(config, known, readings, errors));
   return calibration.run();
 }

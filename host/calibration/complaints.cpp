@@ -23,11 +23,20 @@ constexpr double kMostUntold = 0.7;
 /// Rows that a message names, at most.
 constexpr std::size_t kMostNamed = 10;
 
+constexpr const char* kTouchesToAdd =
+    "add touches at ten places or more over each of them and between it and its neighbours, of various "
+    "loads, some rubbed to either side";
+
 [[noreturn]] void fail(const std::string& message) { throw Failure(ExitCode::kFailure, message); }
 
 std::string rowNames(const std::vector<std::size_t>& rows) {
   const auto named = rows.begin() + static_cast<std::ptrdiff_t>(std::min(kMostNamed, rows.size()));
   return fmt::format("{}{}", fmt::join(rows.begin(), named, ", "), named == rows.end() ? "" : ", ..");
+}
+
+/// "3 (at 67.5 deg)".
+std::string placed(const config::Gauges& gauges, int gauge) {
+  return fmt::format("{} (at {:.6g} deg)", gauge, gauges.angle_deg(gauge));
 }
 
 bool isFinite(const std::optional<double>& value) { return std::isfinite(value.value_or(0)); }
@@ -70,6 +79,16 @@ void requireTouches(const config::Gauges& gauges, std::size_t touches) {
                     touches, least));
 }
 
+void requireAllAround(const config::Gauges& gauges, const std::vector<int>& untouched) {
+  if (untouched.empty()) return;
+  std::string names;
+  for (const int gauge : untouched) names += (names.empty() ? "" : ", ") + placed(gauges, gauge);
+  fail(fmt::format(
+      "no touches, or hardly any, are near these gauges: {}; {}. Where the finger was touched there, "
+      "look for open wires: in no row they or the gauges beside them read most",
+      names, kTouchesToAdd));
+}
+
 void requireWiring(const std::vector<WiringFault>& faults) {
   if (faults.empty()) return;
   std::string text;
@@ -108,8 +127,7 @@ std::string untoldGauges(const CalibrationResult& result, std::initializer_list<
       const Eigen::Index at = Drawing::at(gauge, unknown);
       return std::sqrt(covariance(at, at)) > most;
     });
-    if (isUntold)
-      names += fmt::format("{}{} (at {:.6g} deg)", names.empty() ? "" : ", ", gauge, gauges.angle_deg(gauge));
+    if (isUntold) names += (names.empty() ? "" : ", ") + placed(gauges, gauge);
   }
   return names;
 }
@@ -117,11 +135,7 @@ std::string untoldGauges(const CalibrationResult& result, std::initializer_list<
 void requireTold(const CalibrationResult& result) {
   const std::string names = untoldGauges(result, {kAngleOffset}, kMostUntold);
   if (names.empty()) return;
-  fail(
-      fmt::format("the touches don't tell where these gauges are: {}; add touches at ten places or more over "
-                  "each of them and between it and its neighbours, of various loads, some rubbed to either "
-                  "side",
-                  names));
+  fail(fmt::format("the touches don't tell where these gauges are: {}; {}", names, kTouchesToAdd));
 }
 
 }  // namespace strainfinger::calibration

@@ -20,6 +20,9 @@ void requireRows(const config::Gauges& gauges, std::span<const KnownTouch> known
 /// Enough rows with a touch to begin with.
 void requireTouches(const config::Gauges& gauges, std::size_t touches);
 
+/// There are touches near every gauge; names the `untouched` ones and the touches that are missing.
+void requireAllAround(const config::Gauges& gauges, const std::vector<int>& untouched);
+
 /// The gauges are wired as drawn; names every fault and its mend.
 void requireWiring(const std::vector<WiringFault>& faults);
 

@@ -25,6 +25,9 @@ using Kind = WiringFault::Kind;
 /// Rows that are looked at, of those in which a gauge reads most: so many of the strongest third but for
 /// those over range. The strongest alone would be alike, of firm and narrow touches right above the gauge.
 constexpr std::size_t kRowsPerGauge = 6, kStrongPart = 3;
+/// Touches in which a gauge or one beside it reads most; a single one may be junk. Where gauges side by side
+/// have none, how the others were built looks like a fault.
+constexpr std::size_t kLeastNear = 2;
 /// Of a row's energy: what no touch explains counts no more than this.
 constexpr double kMostMisfit = 0.15;
 /// Mean share of the energy that a drawn finger leaves of a glued one's rows; with less nothing is wrong.
@@ -52,6 +55,11 @@ constexpr double kPlacedTolerances = 1;
 constexpr double kFirstError = 0.005, kFittedError = 0.002;
 /// Chi-squared by which another turn must explain the directions better than the drawn one, and than others.
 constexpr double kClearly = 16;
+/// Standard deviations of chi-squared: beyond its quantile there, one touch in 300,000 by chance, a ring
+/// doesn't explain a row.
+constexpr double kChanceDeviations = 4.5;
+/// Of the known directions, what a turn must explain: one of four may be wrong, of three none.
+constexpr double kMostOfThem = 0.75;
 
 bool concerns(const WiringFault& fault, int gauge) {
   return fault.gauge == gauge || (fault.kind == Kind::kSwapped && fault.other == gauge);
@@ -81,13 +89,27 @@ TouchData touchData(const VectorXd& strains, double noise_strain, double error) 
   return {strains, std::hypot(noise_strain, error * strains.cwiseAbs().maxCoeff()), {}};
 }
 
+/// Of each gauge the rows in which none reads more, with what it reads there [strain], weakest first.
+using RowsOfGauges = std::vector<std::vector<std::pair<double, Index>>>;
+
+RowsOfGauges rowsOfGauges(const config::Gauges& gauges, const MatrixXd& readings) {
+  RowsOfGauges result(static_cast<std::size_t>(gauges.count));
+  for (Index row = 0; row < readings.rows(); ++row) {
+    Index gauge = 0;
+    const double peak = readings.row(row).cwiseAbs().maxCoeff(&gauge);
+    if (peak < gauges.full_scale_strain) result[static_cast<std::size_t>(gauge)].emplace_back(peak, row);
+  }
+  for (auto& rows : result) std::sort(rows.begin(), rows.end());
+  return result;
+}
+
 class WiringCheck {
  public:
   WiringCheck(const config::FingerConfig& config, const MatrixXd& readings)
       : drawing_(config),
         lastHarmonic_(RingResponse::lastHarmonic(drawing_)),
         isLeftOut_(static_cast<std::size_t>(drawing_.gauges()), false) {
-    takeStrongRows(readings);
+    takeStrongRows(rowsOfGauges(config.gauges, readings), readings);
     listKeepingMends();
   }
 
@@ -114,26 +136,11 @@ class WiringCheck {
     double error;
   };
   Fitted fitted() const {
-    const double noise_strain = drawing_.config().gauges.noise_strain;
-    const RingResponse start = ring();
-    std::vector<TouchData> data;
-    JointFit fit{deviations(), {}};
-    for (Index row = 0; row < readings_.rows(); ++row) {
-      TouchData each = touchData(readings_.row(row), noise_strain, kFirstError);
-      const TouchFit found = search_->find(start, each);
-      if (found.touch[kNormalLoad] <= 0) continue;
-      data.push_back(each);
-      fit.touches.push_back(found.touch);
-    }
-    const double degreesOfFreedom = drawing_.gauges() - kTouchUnknowns;
-    fitTogether(drawing_, lastHarmonic_, data, degreesOfFreedom, fit);
-    const RingResponse ring(drawing_, fit.deviations, lastHarmonic_);
-    std::vector<Misfit> misfits;
-    for (std::size_t i = 0; i < data.size(); ++i)
-      misfits.push_back({(data[i].readings - ring.readings(fit.touches[i])).squaredNorm(),
-                         data[i].readings.cwiseAbs().maxCoeff()});
-    if (misfits.empty()) return {ring, kFirstError};
-    return {ring, modelErrorOf(misfits, noise_strain, degreesOfFreedom).value};
+    StrongFit strong = locatedStrong();
+    const Fitted first = fitted(strong);
+    // A row of two contacts or of a slip draws the ring, though it counts less: what the ring doesn't explain
+    // is no touch.
+    return leaveOutUnexplained(first, strong) ? fitted(strong) : first;
   }
 
  private:
@@ -148,28 +155,71 @@ class WiringCheck {
 
   RingResponse ring() const { return {drawing_, deviations(), lastHarmonic_}; }
 
+  struct StrongFit {
+    std::vector<TouchData> data;
+    JointFit fit;
+  };
+
+  /// The strong rows, each where the ring of the search sees it.
+  StrongFit locatedStrong() const {
+    const RingResponse start = ring();
+    StrongFit strong{{}, {deviations(), {}}};
+    for (Index row = 0; row < readings_.rows(); ++row) {
+      TouchData each = touchData(readings_.row(row), drawing_.config().gauges.noise_strain, kFirstError);
+      const TouchFit found = search_->find(start, each);
+      if (found.touch[kNormalLoad] <= 0) continue;
+      strong.data.push_back(each);
+      strong.fit.touches.push_back(found.touch);
+    }
+    return strong;
+  }
+
+  double degreesOfFreedom() const { return drawing_.gauges() - kTouchUnknowns; }
+
+  Fitted fitted(StrongFit& strong) const {
+    auto& [data, fit] = strong;
+    fitTogether(drawing_, lastHarmonic_, data, degreesOfFreedom(), fit);
+    const RingResponse ring(drawing_, fit.deviations, lastHarmonic_);
+    std::vector<Misfit> misfits;
+    for (std::size_t i = 0; i < data.size(); ++i)
+      misfits.push_back({(data[i].readings - ring.readings(fit.touches[i])).squaredNorm(),
+                         data[i].readings.cwiseAbs().maxCoeff()});
+    if (misfits.empty()) return {ring, kFirstError};
+    return {ring, modelErrorOf(misfits, drawing_.config().gauges.noise_strain, degreesOfFreedom()).value};
+  }
+
+  /// Whether there were any.
+  bool leaveOutUnexplained(const Fitted& fitted, StrongFit& strong) const {
+    const double most = chiSquaredQuantile(degreesOfFreedom(), kChanceDeviations);
+    StrongFit kept{{}, {strong.fit.deviations, {}}};
+    for (std::size_t i = 0; i < strong.data.size(); ++i) {
+      const VectorXd& strains = strong.data[i].readings;
+      const double sigma_strain =
+          touchData(strains, drawing_.config().gauges.noise_strain, fitted.error).sigma_strain;
+      const VectorXd left = strains - fitted.ring.readings(strong.fit.touches[i]);
+      if (left.squaredNorm() > most * sigma_strain * sigma_strain) continue;
+      kept.data.push_back(strong.data[i]);
+      kept.fit.touches.push_back(strong.fit.touches[i]);
+    }
+    if (kept.data.size() == strong.data.size()) return false;
+    strong = kept;
+    return true;
+  }
+
   struct Mend {
     WiringFault fault;
     double misfit = std::numeric_limits<double>::infinity();
   };
 
   /// Of each gauge, strong rows in which none reads more: a fault shows where it is touched.
-  void takeStrongRows(const MatrixXd& readings) {
-    std::vector<std::vector<std::pair<double, Index>>> ofGauge(static_cast<std::size_t>(readings.cols()));
-    for (Index row = 0; row < readings.rows(); ++row) {
-      Index gauge = 0;
-      const double peak = readings.row(row).cwiseAbs().maxCoeff(&gauge);
-      if (peak < drawing_.config().gauges.full_scale_strain)
-        ofGauge[static_cast<std::size_t>(gauge)].emplace_back(peak, row);
-    }
+  void takeStrongRows(const RowsOfGauges& ofGauges, const MatrixXd& readings) {
     std::vector<Index> strong;
-    for (std::size_t gauge = 0; gauge < ofGauge.size(); ++gauge) {
-      auto& rows = ofGauge[gauge];
-      std::sort(rows.rbegin(), rows.rend());
+    for (std::size_t gauge = 0; gauge < ofGauges.size(); ++gauge) {
+      const auto& rows = ofGauges[gauge];
       const std::size_t count = std::min(rows.size(), kRowsPerGauge),
                         from = std::max(count, rows.size() / kStrongPart);
       for (std::size_t i = 0; i < count; ++i) {
-        strong.push_back(rows[i * from / count].second);
+        strong.push_back(rows[rows.size() - 1 - i * from / count].second);
         strongest_.push_back(static_cast<int>(gauge));
       }
     }
@@ -315,24 +365,22 @@ class WiringCheck {
   VectorXd misfits_;  ///< of each row, wired as found by now
 };
 
-/// How the ring may lie: gauge i is where gauge shift + i, or shift - i, should be.
-struct Turn {
-  int shift;
-  bool isReversed;
-};
-
 /// Rows of known direction from which the turn of a ring is told: one that is well placed would do. Each is
 /// located once for each of the turns, twice as many as there are gauges.
 constexpr std::size_t kMostDirections = 8;
 
 /// Where there are more rows of known direction than are needed: some of the stronger half of them, from all
 /// the session.
-std::vector<std::size_t> tellingRows(std::span<const KnownTouch> known, const MatrixXd& readings) {
-  std::vector<std::size_t> rows;
-  for (std::size_t row = 0; row < known.size(); ++row)
-    if (known[row].angle_deg && !known[row].isUntouched()) rows.push_back(row);
-  if (rows.size() <= kMostDirections) return rows;
+std::vector<std::size_t> tellingRows(const config::Gauges& gauges, std::span<const KnownTouch> known,
+                                     const MatrixXd& readings) {
   const VectorXd peaks = readings.cwiseAbs().rowwise().maxCoeff();
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < known.size(); ++row) {
+    const double peak = peaks[static_cast<Index>(row)];
+    const bool isWithin = peak >= kWeakestTouch * gauges.noise_strain && peak < gauges.full_scale_strain;
+    if (known[row].angle_deg && isWithin) rows.push_back(row);
+  }
+  if (rows.size() <= kMostDirections) return rows;
   std::stable_sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) {
     return peaks[static_cast<Index>(a)] > peaks[static_cast<Index>(b)];
   });
@@ -343,13 +391,14 @@ std::vector<std::size_t> tellingRows(std::span<const KnownTouch> known, const Ma
   return some;
 }
 
-/// How well rows of known direction are explained by rings that lie otherwise than drawn.
+/// How well rows of known direction are explained by rings that lie otherwise than drawn: shifted or
+/// reversed.
 class TurnCheck {
  public:
   TurnCheck(const config::FingerConfig& config, std::span<const KnownTouch> known, const MatrixXd& readings,
             const KnownErrors& errors, const WiringCheck& wired)
       : gauges_(config.gauges), search_(wired.search()) {
-    const std::vector<std::size_t> rows = tellingRows(known, readings);
+    const std::vector<std::size_t> rows = tellingRows(config.gauges, known, readings);
     if (rows.empty()) return;
     const auto fitted = wired.fitted();
     ring_ = fitted.ring;
@@ -361,39 +410,67 @@ class TurnCheck {
       data.prior.weight[kPlace] = 1 / (sigma_deg * kRadPerDeg);
       directions_.push_back(data);
     }
+    if (rows.size() == 1) onlyMark_ = static_cast<int>(rows.front()) + 1;
   }
 
   std::optional<WiringFault> run() const {
-    if (directions_.empty()) return std::nullopt;
-    const double drawn = chiSquaredOf({0, false});
-    double best = drawn;
-    WiringFault fault{Kind::kTurnUnclear};
-    std::vector<double> all;
+    if (!ring_) return std::nullopt;
+    std::vector<Told> all;
     for (int shift = 0; shift < gauges_.count; ++shift)
-      for (const bool isReversed : {false, true}) {
-        all.push_back(chiSquaredOf({shift, isReversed}));
-        if (all.back() >= best) continue;
-        best = all.back();
-        fault = {isReversed ? Kind::kReversed : Kind::kShifted, 0, shift};
-      }
-    if (!(best + kClearly < drawn)) return std::nullopt;
-    const auto rivals =
-        std::count_if(all.begin(), all.end(), [&](double each) { return each < best + kClearly; });
-    return rivals == 1 ? fault : WiringFault{Kind::kTurnUnclear};
+      for (const Kind kind : {Kind::kShifted, Kind::kReversed}) all.push_back(toldBy({kind, 0, shift}));
+    const Told &drawn = all.front(), &best = *std::min_element(all.begin(), all.end(), isBetter);
+    const bool isExplained = best.explained >= kMostOfThem * static_cast<double>(directions_.size());
+    if (!isExplained || best.chiSquared + kClearly >= drawn.chiSquared) return std::nullopt;
+    const auto rivals = std::count_if(all.begin(), all.end(), [&](const Told& each) {
+      return each.chiSquared < best.chiSquared + kClearly;
+    });
+    WiringFault fault = rivals == 1 ? best.turn : WiringFault{Kind::kTurnUnclear};
+    fault.onlyMark = onlyMark_;
+    return fault;
   }
 
  private:
-  /// Of all directions, each where such a ring would see it.
-  double chiSquaredOf(const Turn& turn) const {
-    const double pitch_rad = 2 * std::numbers::pi / gauges_.count, first_rad = gauges_.angle_rad(0);
-    double sum = 0;
-    for (TouchData seen : directions_) {
-      double& place_rad = seen.prior.value[kPlace];
-      const double along_rad = place_rad - first_rad - turn.shift * pitch_rad;
-      place_rad = first_rad + (turn.isReversed ? -along_rad : along_rad);
-      sum += refineTouches(*ring_, seen, startsOf(seen)).chiSquared;
+  /// What a turn makes of the known directions; the drawn ring is shifted by 0.
+  struct Told {
+    WiringFault turn;
+    double chiSquared = 0;  ///< of a direction that it doesn't explain no more than chance makes
+    int explained = 0;
+  };
+
+  static bool isBetter(const Told& a, const Told& b) { return a.chiSquared < b.chiSquared; }
+
+  Told toldBy(const WiringFault& turn) const {
+    const double most =
+        chiSquaredQuantile(gauges_.count + 1 - kTouchUnknowns, kChanceDeviations);  // + 1: the direction
+    Told told{turn};
+    for (const TouchData& direction : directions_) {
+      const TouchData seen = seenBy(turn, direction);
+      const double chiSquared = refineTouches(*ring_, seen, startsOf(seen)).chiSquared;
+      told.chiSquared += std::min(most, chiSquared);
+      told.explained += chiSquared < most;
     }
-    return sum;
+    return told;
+  }
+
+  /// A known direction where such a ring would see it.
+  TouchData seenBy(const WiringFault& turn, TouchData direction) const {
+    const double pitch_rad = 2 * std::numbers::pi / gauges_.count, first_rad = meanFirst_rad();
+    double& place_rad = direction.prior.value[kPlace];
+    const double along_rad = place_rad - first_rad - turn.other * pitch_rad;
+    place_rad = first_rad + (turn.kind == Kind::kReversed ? -along_rad : along_rad);
+    return direction;
+  }
+
+  /// Where gauge 0 of the even ring is that is nearest to the drawn one: a ring that is fitted in the wrong
+  /// order gets its own shape from the readings, but is drawn to these places as a whole.
+  double meanFirst_rad() const {
+    const double pitch_deg = 360.0 / gauges_.count;
+    double first_deg = gauges_.angle_deg(0), sum_deg = 0;  // of the even ring that has this gauge where it is
+    for (int gauge = 0; gauge < gauges_.count; ++gauge) {
+      sum_deg += first_deg;
+      first_deg += gauges_.gap_deg(gauge) - pitch_deg;
+    }
+    return sum_deg / gauges_.count * kRadPerDeg;
   }
 
   /// Those of the grid, which may be on the far side of another minimum, and where the touch is known to be.
@@ -410,17 +487,40 @@ class TurnCheck {
   config::Gauges gauges_;
   const TouchSearch& search_;
   std::vector<TouchData> directions_;
+  int onlyMark_ = 0;  ///< as WiringFault::onlyMark
   std::optional<RingResponse> ring_;
 };
 
+/// Behind what a turn is: that it may be the mark. Empty where several directions agree.
+std::string orTheMark(const WiringFault& fault) {
+  if (fault.onlyMark == 0) return {};
+  return fmt::format(
+      "; or angle_deg of touch {}, the only one that is known, is wrong: another one would tell",
+      fault.onlyMark);
+}
+
 }  // namespace
+
+std::vector<int> untouchedGauges(const config::Gauges& gauges, const MatrixXd& readings) {
+  std::vector<std::size_t> touches;
+  for (const auto& rows : rowsOfGauges(gauges, readings))
+    touches.push_back(static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), [&](const auto& row) {
+      return row.first >= kWeakestTouch * gauges.noise_strain;
+    })));
+  const std::size_t count = touches.size();
+  std::vector<int> untouched;
+  for (std::size_t gauge = 0; gauge < count; ++gauge)
+    if (touches[(gauge + count - 1) % count] + touches[gauge] + touches[(gauge + 1) % count] < kLeastNear)
+      untouched.push_back(static_cast<int>(gauge));
+  return untouched;
+}
 
 std::vector<WiringFault> findWiringFaults(const config::FingerConfig& config,
                                           std::span<const KnownTouch> known, const MatrixXd& readings,
                                           const KnownErrors& errors) {
   WiringCheck check(config, readings);
   std::vector<WiringFault> faults = check.run();
-  if (faults.empty() && config.gauges.isEven())
+  if (faults.empty())
     if (const auto turn = TurnCheck(config, known, readings, errors, check).run()) faults.push_back(*turn);
   return faults;
 }
@@ -444,18 +544,19 @@ std::string textOf(const WiringFault& fault) {
     case Kind::kShifted:
       return fmt::format(
           "the gauges are shifted: gauge 0 is where gauge {} should be; move the connector by so "
-          "many, or set gauges.first_angle_deg",
-          fault.other);
+          "many, or set gauges.first_angle_deg, of an uneven ring gauges.angle_deg{}",
+          fault.other, orTheMark(fault));
     case Kind::kReversed:
       return fmt::format(
           "the gauges are counted the wrong way round: gauge 0 is where gauge {0} should be, gauge 1 "
-          "one before it; reverse the connector",
-          fault.other);
+          "one before it; reverse the connector{1}",
+          fault.other, orTheMark(fault));
     case Kind::kTurnUnclear:
       break;
   }
   return "the gauges are shifted or counted the wrong way round, and the known directions don't tell which: "
-         "add a touch of known angle_deg that is neither at a gauge nor midway between two";
+         "add a touch of known angle_deg that is neither at a gauge nor midway between two" +
+         orTheMark(fault);
 }
 
 }  // namespace strainfinger::calibration

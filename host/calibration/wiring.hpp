@@ -25,17 +25,23 @@ struct WiringFault {
   Kind kind;
   int gauge = 0;
   int other = 0;
+  int onlyMark = 0;  ///< of a turn: the row, from 1, of the one known direction that tells it; 0: several do
 
   bool operator==(const WiringFault&) const = default;
 };
 
+/// Gauges near which there are too few touches to judge the wiring: in hardly a row such a gauge reads most,
+/// or one beside it, as a dead one reads most nowhere. Domain: as calibrate()'s. Cost: one look at each row.
+std::vector<int> untouchedGauges(const config::Gauges& gauges, const Eigen::MatrixXd& readings);
+
 /// What is wrong, worst first; empty for a ring that is wired as drawn. A fault is told when the drawn finger
-/// explains much more of the readings with it mended. Turned and reversed rings explain theirs as well as the
-/// drawn one: a row of known angle_deg tells them, on rings that are even. One is enough where it is three
-/// degrees or more from any gauge and from the middle of any gap: a ring that is reversed about such a place
-/// reads a touch there as one that is turned does.
-/// Domain: as calibrate()'s. Cost: 0.15 s for a healthy ring of 16, as much again for known directions, 0.1 s
-/// a fault.
+/// explains much more of the readings with it mended. Rings that are turned or reversed explain theirs as
+/// well as the drawn one: rows of known angle_deg tell them, if three quarters of these are where such a ring
+/// would see them. One is enough where it is three degrees or more from any gauge and from the middle of any
+/// gap: a ring that is reversed about such a place reads a touch there as one that is turned does. Domain: as
+/// calibrate()'s, touches near every gauge. Of rings that are drawn a degree or two off even places and
+/// turned, one direction tells four of five; those that are drawn further off may pass. Cost: 0.15 s for a
+/// healthy ring of 16, as much again for known directions, 0.1 s a fault.
 std::vector<WiringFault> findWiringFaults(const config::FingerConfig& config,
                                           std::span<const KnownTouch> known, const Eigen::MatrixXd& readings,
                                           const KnownErrors& errors);

@@ -69,9 +69,9 @@ class Calibration {
 
   /// Domain: before run(), or within it.
   void requireEnough() const {
-    const auto touched = std::count_if(rows_.begin(), rows_.end(),
-                                       [](const RowResult& row) { return row.use == RowUse::kFitted; });
-    requireTouches(drawing_.config().gauges, static_cast<std::size_t>(touched));
+    std::size_t touched = 0;
+    for (std::size_t row = 0; row < rows_.size(); ++row) touched += isFitted(row);
+    requireTouches(drawing_.config().gauges, touched);
   }
 
   CalibrationResult run() {
@@ -89,12 +89,14 @@ class Calibration {
     findMovedZeros(all);
     requireExplained(modelError_.value, shareUnexplained(all));
     requireEnough();
-    for (int round = 0; round < kMostRounds; ++round) {
-      chooseZeroOfAngle();
-      improve(usable(), Loss::kSquares);
+    bool isAnother = true;
+    for (int round = 0; isAnother && round < kMostRounds; ++round) {
+      fitUsable();
       const bool isJudgedAnew = judge(all, Search::kNearby);
-      if (!findMovedZeros(all) && !isJudgedAnew) break;
+      isAnother = findMovedZeros(all) || isJudgedAnew;
     }
+    if (isAnother) fitUsable();
+    requireEnough();
     tellMoved();
     requireBorneOut();
     return result(usable());
@@ -112,12 +114,17 @@ class Calibration {
   /// Where angles count from, by the rows that are fitted.
   void chooseZeroOfAngle() {
     bool isKnown = false;
-    for (std::size_t row = 0; row < rows_.size(); ++row)
-      isKnown |= rows_[row].use == RowUse::kFitted && isDirectionKnown(row);
+    for (std::size_t row = 0; row < rows_.size(); ++row) isKnown |= isFitted(row) && isDirectionKnown(row);
     const config::FingerConfig config = drawing_.config();
     drawing_ = Drawing(config, isKnown ? ZeroOfAngle::kKnown : ZeroOfAngle::kByConvention);
   }
 
+  void fitUsable() {
+    chooseZeroOfAngle();
+    improve(usable(), Loss::kSquares);
+  }
+
+  bool isFitted(std::size_t row) const { return !isMoved_[row] && rows_[row].use == RowUse::kFitted; }
   bool isKnown(std::size_t row) const { return isDirectionKnown(row) || isLoadKnown(row); }
   bool isDirectionKnown(std::size_t row) const { return known_[row].angle_deg.has_value(); }
   bool isLoadKnown(std::size_t row) const {
@@ -217,7 +224,7 @@ class Calibration {
     for (const std::size_t row : rows) {
       RowResult& result = rows_[row];
       std::vector<TouchState> starts{result.touch};
-      if (result.use != RowUse::kUntouched) starts = startsOf(row, ring.zeros(), grid);
+      if (!known_[row].isUntouched()) starts = startsOf(row, ring.zeros(), grid);
       const TouchFit found = refineTouches(ring, data_[row], starts);
       result.touch = found.touch;
       result.chiSquared = found.chiSquared;
@@ -315,7 +322,7 @@ class Calibration {
   /// Of the known directions, and of the known loads, the readings bear out some, or contradict no more than
   /// half.
   void requireBorneOut() const {
-    const auto require = [&](auto isSaid, const char* what, const char* mend) {
+    const auto require = [&](auto isSaid, const char* what, const char* lookAt) {
       Rows contradicted;
       std::size_t said = 0;
       for (std::size_t row = 0; row < rows_.size(); ++row) {
@@ -324,7 +331,7 @@ class Calibration {
         if (rows_[row].use == RowUse::kContradicted) contradicted.push_back(row + 1);
         ++said;
       }
-      if (2 * contradicted.size() > said) requireNone(contradicted, what, mend);
+      if (2 * contradicted.size() > said) refuseContradicted(contradicted, what, lookAt);
     };
     require([&](std::size_t row) { return isDirectionKnown(row); }, "angle_deg",
             "the angles themselves, gauges.first_angle_deg, the order of the gauges and --angle-error-deg");

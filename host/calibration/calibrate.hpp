@@ -124,7 +124,7 @@ class CalibrationResult {
 /// `known`: one a row, or none at all. `readings`: strain at nominal gain, a row a touch, a column a gauge;
 /// all finite. [calibration] of the config is not looked at.
 /// Throws Failure(kFailure), saying which row or gauge and what would help: rows that don't pair; a known
-/// touch that can't be; known directions, or known loads, of which the readings bear out none; touches that
+/// touch that can't be; known directions, or known loads, most of which the readings contradict; touches that
 /// leave gauges untold; readings that this drawing can't explain.
 /// Cost: linear; 300 touches of 16 gauges take 3 s, 3,000 take 15 s.
 CalibrationResult calibrate(const config::FingerConfig& config, std::span<const KnownTouch> known,

@@ -85,7 +85,8 @@ void requireAllAround(const config::Gauges& gauges, const std::vector<int>& unto
   for (const int gauge : untouched) names += (names.empty() ? "" : ", ") + placed(gauges, gauge);
   fail(fmt::format(
       "no touches, or hardly any, are near these gauges: {}; {}. Where the finger was touched there, "
-      "look for open wires: in no row they or the gauges beside them read most",
+      "press less if they read beyond full scale, else look for open wires: they and the gauges beside them "
+      "read most in no row",
       names, kTouchesToAdd));
 }
 
@@ -110,11 +111,11 @@ void requireExplained(double modelError, double shareOfRowsUnexplained) {
                     100 * shareOfRowsUnexplained, hint));
 }
 
-void requireNone(const std::vector<std::size_t>& contradicted, const char* what, const char* lookAt) {
-  if (contradicted.empty()) return;
-  fail(fmt::format(
-      "the {} of touches.csv are not what the readings say in any row that has them: {}; look at {}", what,
-      rowNames(contradicted), lookAt));
+void refuseContradicted(const std::vector<std::size_t>& rows, const char* what, const char* lookAt) {
+  fail(
+      fmt::format("the {} of touches.csv are not what the readings say in rows {}, and none of the others is "
+                  "fitted; look at {}",
+                  what, rowNames(rows), lookAt));
 }
 
 std::string untoldGauges(const CalibrationResult& result, std::initializer_list<GaugeUnknown> unknowns,

@@ -30,9 +30,9 @@ void requireWiring(const std::vector<WiringFault>& faults);
 /// rows.
 void requireExplained(double modelError, double shareOfRowsUnexplained);
 
-/// No touch contradicts what is known of it (rows counted from 1): `what` of touches.csv, and what to look
-/// at.
-void requireNone(const std::vector<std::size_t>& contradicted, const char* what, const char* lookAt);
+/// Of these rows (counted from 1) the readings contradict `what` touches.csv says; what to look at.
+[[noreturn]] void refuseContradicted(const std::vector<std::size_t>& rows, const char* what,
+                                     const char* lookAt);
 
 /// Of every gauge the touches tell where it is, better than its tolerance does; names those of which they
 /// don't and the touches that would.

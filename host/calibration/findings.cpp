@@ -45,11 +45,13 @@ std::vector<std::string> whatIsUntold(const CalibrationResult& result) {
   std::vector<std::string> sentences;
   if (!result.isDirectionKnown())
     sentences.emplace_back(
-        "No direction is known: angles count from where the drawing has the gauges on average. One touch "
+        "No direction is known of the fitted rows: angles count from where the drawing has the gauges on "
+        "average. One touch "
         "with a known angle_deg mends that.");
   if (!result.isLoadKnown())
     sentences.emplace_back(
-        "No load is known: forces are right as far as finger.shear_modulus_pa is. Some touches on a "
+        "No load is known of the fitted rows: forces are right as far as finger.shear_modulus_pa is. Some "
+        "touches on a "
         "scale, with a known normal_n_per_m, mend that.");
   const std::string names = untoldGauges(result, {kGain, kAngleOffset, kDepthOffset}, kUntold);
   if (!names.empty())

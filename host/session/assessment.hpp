@@ -15,11 +15,11 @@ struct GaugeSigmas {
   double gain = 0, zero_strain = 0, angle_deg = 0, depth_m = 0;
 };
 
-/// Errors of touches to come, the zero of angles and the unit of force apart, RMS over the ring: place [m],
-/// normal and tangential load [N/m].
+/// Errors of touches to come, RMS over the ring: place [m], normal and tangential load [N/m].
 struct TouchesToCome {
   Eigen::Vector3d drawn = Eigen::Vector3d::Zero();  ///< as if the finger were as drawn
-  Eigen::Vector3d known = Eigen::Vector3d::Zero();  ///< as it is known by now
+  Eigen::Vector3d known =
+      Eigen::Vector3d::Zero();  ///< as it is known by now, the zero of angles and the unit of force given
   Eigen::Vector3d bound = Eigen::Vector3d::Zero();  ///< by noise alone
 };
 

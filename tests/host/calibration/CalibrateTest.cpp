@@ -247,7 +247,7 @@ TEST(Calibrate, KnownLoadsOfWhichTheReadingsBearOutNoneAreRefusedByRow) {
   for (KnownTouch& touch : session.known)
     if (touch.normal_n_per_m) *touch.normal_n_per_m *= 10;
   checkComplaint(session.known, session.readings,
-                 "in any row that has them: 1, 2, 3, 4, 5; look at their unit");
+                 "in rows 1, 2, 3, 4, 5, and none of the others is fitted; look at their unit");
 }
 
 TEST(Calibrate, RowsThatNothingTouchesAreNoTouches) {

@@ -29,8 +29,6 @@ constexpr double kClearGap = 16;
 constexpr double kMostWidth = 0.8;
 /// The first, coarse fits take so many rows: enough to find the finger, few enough to be quick.
 constexpr std::size_t kCoarseRows = 200;
-/// Of a touch's chi-squared: beyond its quantile at 4.5 standard deviations, one touch in 300,000 by chance.
-constexpr double kJunkDeviations = 4.5;
 /// A finger that nobody calibrated is off its drawing by as much, whatever its config says.
 constexpr double kLeastFirstError = 0.02;
 constexpr int kMostRounds = 4;
@@ -69,9 +67,7 @@ class Calibration {
 
   /// Domain: before run(), or within it.
   void requireEnough() const {
-    std::size_t touched = 0;
-    for (std::size_t row = 0; row < rows_.size(); ++row) touched += isFitted(row);
-    requireTouches(drawing_.config().gauges, touched);
+    requireTouches(drawing_.config().gauges, fittedRows([](std::size_t) { return true; }));
   }
 
   CalibrationResult run() {
@@ -111,17 +107,30 @@ class Calibration {
     TouchState touch = TouchState::Zero();
   };
 
+  /// What finds a touch of which nothing is known: made where the first row asks for it.
+  struct WithoutKnowledge {
+    RingResponse ring;
+    TouchSearch search;
+    TouchPrior prior;
+  };
+
   /// Where angles count from, by the rows that are fitted.
   void chooseZeroOfAngle() {
-    bool isKnown = false;
-    for (std::size_t row = 0; row < rows_.size(); ++row) isKnown |= isFitted(row) && isDirectionKnown(row);
     const config::FingerConfig config = drawing_.config();
+    const bool isKnown = fittedRows([&](std::size_t row) { return isDirectionKnown(row); }) > 0;
     drawing_ = Drawing(config, isKnown ? ZeroOfAngle::kKnown : ZeroOfAngle::kByConvention);
   }
 
   void fitUsable() {
     chooseZeroOfAngle();
     improve(usable(), Loss::kSquares);
+  }
+
+  template <typename Which>
+  std::size_t fittedRows(Which which) const {
+    std::size_t count = 0;
+    for (std::size_t row = 0; row < rows_.size(); ++row) count += isFitted(row) && which(row);
+    return count;
   }
 
   bool isFitted(std::size_t row) const { return !isMoved_[row] && rows_[row].use == RowUse::kFitted; }
@@ -214,13 +223,16 @@ class Calibration {
           std::hypot(drawing_.config().gauges.noise_strain, modelError_.value * peakOf(row));
   }
 
+  TouchSearch searchOf(const RingResponse& ring) const {
+    return {ring, drawing_.config().contact.friction_coefficient, mostMoment_rad2_};
+  }
+
   /// Fits the touches of these rows with the finger as it is known by now.
   void locate(const Rows& rows, Search search) {
     weigh(rows);
     const RingResponse ring(drawing_, finger_, lastHarmonic_);
     std::optional<TouchSearch> grid;
-    if (search == Search::kEverywhere)
-      grid.emplace(ring, drawing_.config().contact.friction_coefficient, mostMoment_rad2_);
+    if (search == Search::kEverywhere) grid = searchOf(ring);
     for (const std::size_t row : rows) {
       RowResult& result = rows_[row];
       std::vector<TouchState> starts{result.touch};
@@ -292,11 +304,12 @@ class Calibration {
   /// Decides anew which rows no touch explains; whether any decision has changed.
   bool judge(const Rows& rows, Search search) {
     locate(rows, search);
-    const double most = chiSquaredQuantile(drawing_.gauges() - kTouchUnknowns, kJunkDeviations);
+    const double most = chiSquaredQuantile(drawing_.gauges() - kTouchUnknowns, kBeyondChance);
     bool changed = false;
+    std::optional<WithoutKnowledge> free;
     for (const std::size_t row : rows) {
       RowUse& use = rows_[row].use;
-      const RowUse now = rows_[row].chiSquared > most   ? whyUnexplained(row, most)
+      const RowUse now = rows_[row].chiSquared > most   ? whyUnexplained(row, most, free)
                          : known_[row].isUntouched()    ? RowUse::kUntouched
                          : rivals_[row].gap < kClearGap ? RowUse::kAmbiguous
                          : isWide(row)                  ? RowUse::kWide
@@ -308,15 +321,16 @@ class Calibration {
   }
 
   /// With what is known of it no touch explains the row; without that, one may.
-  RowUse whyUnexplained(std::size_t row, double mostChiSquared) const {
+  RowUse whyUnexplained(std::size_t row, double mostChiSquared, std::optional<WithoutKnowledge>& free) const {
     if (known_[row].isUntouched()) return RowUse::kContradicted;
     if (!isKnown(row)) return RowUse::kUnexplained;
-    TouchData unknown = data_[row];
-    unknown.prior = priorOf({}, {});
-    const RingResponse ring(drawing_, finger_, lastHarmonic_);
-    const TouchSearch search(ring, drawing_.config().contact.friction_coefficient, mostMoment_rad2_);
-    return search.find(ring, unknown).chiSquared > mostChiSquared ? RowUse::kUnexplained
-                                                                  : RowUse::kContradicted;
+    if (!free) {
+      const RingResponse ring(drawing_, finger_, lastHarmonic_);
+      free = {ring, searchOf(ring), priorOf({}, {})};
+    }
+    const double chiSquared =
+        free->search.find(free->ring, {data_[row].readings, data_[row].sigma_strain, free->prior}).chiSquared;
+    return chiSquared > mostChiSquared ? RowUse::kUnexplained : RowUse::kContradicted;
   }
 
   /// Of the known directions, and of the known loads, the readings bear out some, or contradict no more than
@@ -339,12 +353,6 @@ class Calibration {
             "their unit, newtons per metre of the finger's length, finger.shear_modulus_pa and --load-error");
   }
 
-  bool isAnyLoadKnown() const {
-    for (std::size_t row = 0; row < rows_.size(); ++row)
-      if (rows_[row].use == RowUse::kFitted && isLoadKnown(row)) return true;
-    return false;
-  }
-
   /// What a row is fitted with is independent of what it leaves over, so that choosing by it bends nothing.
   bool isWide(std::size_t row) const {
     if (isKnown(row) || drawing_.config().contact.width_m) return false;
@@ -357,8 +365,8 @@ class Calibration {
     const auto [data, fit] = joint(rows);
     const MatrixXd covariance = covarianceOf(drawing_, lastHarmonic_, data, fit);
     moveTo(fit.deviations - noiseBias(drawing_, lastHarmonic_, data, fit, covariance), rows);
-    CalibrationResult result(drawing_, finger_, covariance, rows_, modelError_, isAnyLoadKnown(),
-                             movedZeros_);
+    const bool isUnitKnown = fittedRows([&](std::size_t row) { return isLoadKnown(row); }) > 0;
+    CalibrationResult result(drawing_, finger_, covariance, rows_, modelError_, isUnitKnown, movedZeros_);
     requireTold(result);
     return result;
   }

@@ -111,6 +111,14 @@ void requireExplained(double modelError, double shareOfRowsUnexplained) {
                     100 * shareOfRowsUnexplained, hint));
 }
 
+void requireStill(const std::vector<MovedZero>& moved, double shareOfRowsUnexplained) {
+  if (moved.empty() || shareOfRowsUnexplained <= kMostRowsUnexplained) return;
+  fail(fmt::format(
+      "zeros moved during the session: {} than in the others; {:.0f} % of the rows are left out, too "
+      "many to know which the zeros are: tare, and touch the finger anew",
+      textOf(moved), 100 * shareOfRowsUnexplained));
+}
+
 void refuseContradicted(const std::vector<std::size_t>& rows, const char* what, const char* lookAt) {
   fail(
       fmt::format("the {} of touches.csv are not what the readings say in rows {}, and none of the others is "

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/calibration/calibrate.hpp"
+#include "host/calibration/moved_zero.hpp"
 #include "host/calibration/wiring.hpp"
 
 namespace strainfinger::calibration {
@@ -29,6 +30,9 @@ void requireWiring(const std::vector<WiringFault>& faults);
 /// The drawing, give or take its tolerances, explains what was read but for a small part of it, and most
 /// rows.
 void requireExplained(double modelError, double shareOfRowsUnexplained);
+
+/// Most rows are of one zero of each gauge, so that it is known which of them moved.
+void requireStill(const std::vector<MovedZero>& moved, double shareOfRowsUnexplained);
 
 /// Of these rows (counted from 1) the readings contradict `what` touches.csv says; what to look at.
 [[noreturn]] void refuseContradicted(const std::vector<std::size_t>& rows, const char* what,

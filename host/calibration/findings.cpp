@@ -46,13 +46,11 @@ std::vector<std::string> whatIsUntold(const CalibrationResult& result) {
   if (!result.isDirectionKnown())
     sentences.emplace_back(
         "No direction is known of the fitted rows: angles count from where the drawing has the gauges on "
-        "average. One touch "
-        "with a known angle_deg mends that.");
+        "average. One touch with a known angle_deg mends that.");
   if (!result.isLoadKnown())
     sentences.emplace_back(
         "No load is known of the fitted rows: forces are right as far as finger.shear_modulus_pa is. Some "
-        "touches on a "
-        "scale, with a known normal_n_per_m, mend that.");
+        "touches on a scale, with a known normal_n_per_m, mend that.");
   const std::string names = untoldGauges(result, {kGain, kAngleOffset, kDepthOffset}, kUntold);
   if (!names.empty())
     sentences.push_back(

@@ -18,6 +18,9 @@ struct Misfit {
 /// explains them; its sigma is what e could be and not be noticed. Domain: at least one touch.
 Estimate modelErrorOf(const std::vector<Misfit>& misfits, double noise_strain, double degreesOfFreedom);
 
+/// Standard deviations of chi-squared that no touch leaves by chance: one in 300,000 is beyond its quantile.
+inline constexpr double kBeyondChance = 4.5;
+
 /// Chi-squared that is exceeded as often as a normal variable exceeds `deviations` of its own (Wilson &
 /// Hilferty 1931): to 1 % for 4 degrees of freedom and more.
 double chiSquaredQuantile(double degreesOfFreedom, double deviations);

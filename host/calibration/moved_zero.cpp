@@ -8,7 +8,6 @@
 #include <optional>
 #include <tuple>
 
-#include "host/base/failure.hpp"
 #include "host/calibration/model_error.hpp"
 
 namespace strainfinger::calibration {
@@ -34,13 +33,8 @@ constexpr double kLeastExplained = 0.6, kMostLeftOver = 0.05;
 /// Of the freedom that a touch leaves: with less of it left any row is explained. Of 16 gauges, four may move
 /// at once.
 constexpr double kLeastFree = 0.6;
-/// Of a row's chi-squared: as calibrate.cpp's kJunkDeviations.
-constexpr double kExplainedDeviations = 4.5;
 /// [1] Of what a gauge reads: with less left the touch suits whatever it reads.
 constexpr double kLeastTold = 1e-3;
-/// Of all rows: with more it is not known which is the zero that moved. As complaints.cpp's
-/// kMostRowsUnexplained.
-constexpr double kMostRowsLeftOut = 0.4;
 
 using Rows = std::vector<ZeroEvidence>;
 
@@ -82,9 +76,8 @@ double scoreOf(const ZeroEvidence& row, Index gauge, double centre, double sign)
   return std::clamp(kTriedShift * off - kTriedShift * kTriedShift / 2 * left, -kMostOfOneRow, kMostOfOneRow);
 }
 
-/// The segment that counts most (Kadane); of no length where no row counts for the shift.
-Segment mostCounting(const Rows& rows, Index gauge, double sign) {
-  const double centre_strain = weightedMedian(shiftsOf(rows, gauge, {0, rows.size()}));
+/// The segment that counts most (Kadane) for a shift from `centre_strain`; of no length where no row does.
+Segment mostCounting(const Rows& rows, Index gauge, double centre_strain, double sign) {
   Segment best, here;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (here.sum <= 0) here = {i, i, 0};
@@ -113,15 +106,17 @@ std::optional<Found> mostMoved(const Rows& rows, double noise_strain) {
   const Index gauges = rows.front().residual.size();
   double most = beyondChance(rows, gauges);
   std::optional<Found> found;
-  for (Index gauge = 0; gauge < gauges; ++gauge)
+  for (Index gauge = 0; gauge < gauges; ++gauge) {
+    const double centre_strain = weightedMedian(shiftsOf(rows, gauge, {0, rows.size()}));
     for (const double sign : {1.0, -1.0}) {
-      const Segment segment = mostCounting(rows, gauge, sign);
+      const Segment segment = mostCounting(rows, gauge, centre_strain, sign);
       if (segment.sum <= most) continue;
       const double strain = weightedMedian(shiftsOf(rows, gauge, segment));
       if (sign * strain < kLeastShift * noise_strain) continue;
       most = segment.sum;
       found = {gauge, segment, strain};
     }
+  }
   return found;
 }
 
@@ -142,7 +137,7 @@ std::vector<double> chiSquareds(const Rows& rows) {
 /// Whether zeros that moved explain most rows of a segment: `rows` is what these left, `before` chi-squared.
 bool isExplained(const Segment& segment, const std::vector<double>& before, const Rows& rows) {
   const auto freedom = static_cast<double>(rows.front().residual.size() - kTouchUnknowns);
-  const double most = chiSquaredQuantile(freedom, kExplainedDeviations);
+  const double most = chiSquaredQuantile(freedom, kBeyondChance);
   int explained = 0;
   for (std::size_t i = segment.first; i < segment.end; ++i)
     explained += rows[i].residual.squaredNorm() < std::max(most, kMostLeftOver * before[i]) &&
@@ -189,16 +184,6 @@ std::string textOf(const std::vector<MovedZero>& moved) {
                         each.gauge, 1e6 * std::abs(each.strain), each.strain > 0 ? "more" : "less",
                         each.firstRow, each.lastRow);
   return text;
-}
-
-void requireStill(const std::vector<MovedZero>& moved, double shareOfRowsLeftOut) {
-  if (moved.empty() || shareOfRowsLeftOut <= kMostRowsLeftOut) return;
-  throw Failure(
-      ExitCode::kFailure,
-      fmt::format(
-          "zeros moved during the session: {} than in the others; {:.0f} % of the rows are left out, too "
-          "many to know which the zeros are: tare, and touch the finger anew",
-          textOf(moved), 100 * shareOfRowsLeftOut));
 }
 
 }  // namespace strainfinger::calibration

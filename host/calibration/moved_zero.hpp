@@ -26,7 +26,7 @@ ZeroEvidence zeroEvidence(std::size_t row, const RingResponse& ring, const Touch
 struct MovedZero {
   int gauge;
   std::size_t firstRow, lastRow;  ///< where it was another one; counted from 1
-  double strain;                  ///< how much more it read there than in the other rows
+  double strain;  ///< how much more it read there than by the zero that the finger was fitted with
 };
 
 /// A gauge each and the rows, where they are those of a zero that moved, at the beginning, in the middle or
@@ -39,9 +39,5 @@ std::vector<MovedZero> movedZeros(std::vector<ZeroEvidence> rows, double noise_s
 
 /// "gauge 5 reads 80 microstrain more in rows 301 to 456; gauge 9 .."; empty for none.
 std::string textOf(const std::vector<MovedZero>& moved);
-
-/// Throws Failure(kFailure), naming them, if zeros moved and beyond 40 % of the rows are explained by no
-/// touch or are theirs.
-void requireStill(const std::vector<MovedZero>& moved, double shareOfRowsLeftOut);
 
 }  // namespace strainfinger::calibration

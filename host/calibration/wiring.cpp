@@ -55,9 +55,6 @@ constexpr double kPlacedTolerances = 1;
 constexpr double kFirstError = 0.005, kFittedError = 0.002;
 /// Chi-squared by which another turn must explain the directions better than the drawn one, and than others.
 constexpr double kClearly = 16;
-/// Standard deviations of chi-squared: beyond its quantile there, one touch in 300,000 by chance, a ring
-/// doesn't explain a row.
-constexpr double kChanceDeviations = 4.5;
 /// Of the known directions, what a turn must explain: one of four may be wrong, of three none.
 constexpr double kMostOfThem = 0.75;
 
@@ -138,8 +135,8 @@ class WiringCheck {
   Fitted fitted() const {
     StrongFit strong = locatedStrong();
     const Fitted first = fitted(strong);
-    // A row of two contacts or of a slip draws the ring, though it counts less: what the ring doesn't explain
-    // is no touch.
+    // A row of two contacts, a slip or another zero draws the ring, though it counts less: what the ring
+    // doesn't explain is no touch.
     return leaveOutUnexplained(first, strong) ? fitted(strong) : first;
   }
 
@@ -190,7 +187,7 @@ class WiringCheck {
 
   /// Whether there were any.
   bool leaveOutUnexplained(const Fitted& fitted, StrongFit& strong) const {
-    const double most = chiSquaredQuantile(degreesOfFreedom(), kChanceDeviations);
+    const double most = chiSquaredQuantile(degreesOfFreedom(), kBeyondChance);
     StrongFit kept{{}, {strong.fit.deviations, {}}};
     for (std::size_t i = 0; i < strong.data.size(); ++i) {
       const VectorXd& strains = strong.data[i].readings;
@@ -441,7 +438,7 @@ class TurnCheck {
 
   Told toldBy(const WiringFault& turn) const {
     const double most =
-        chiSquaredQuantile(gauges_.count + 1 - kTouchUnknowns, kChanceDeviations);  // + 1: the direction
+        chiSquaredQuantile(gauges_.count + 1 - kTouchUnknowns, kBeyondChance);  // + 1: the direction
     Told told{turn};
     for (const TouchData& direction : directions_) {
       const TouchData seen = seenBy(turn, direction);

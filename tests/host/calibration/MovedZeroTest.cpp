@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/base/failure.hpp"
+#include "host/calibration/complaints.hpp"
 #include "host/simulation/noise.hpp"
 
 #include <CppUTest/TestHarness.h>

@@ -109,15 +109,6 @@ TEST(Wiring, AZeroThatMovesIsNoFault) {
   }
 }
 
-// Of its 96 strong rows a dozen are two contacts or slips; a ring fitted to all of them explained its one
-// known direction better the other way round.
-TEST(Wiring, JunkDoesNotTurnAHealthyRing) {
-  seed = 4;
-  session = study::sessionOf(study::randomFinger(seed), {.touches = 300, .junk = 0.1}, seed);
-  const auto found = faults();
-  if (!found.empty()) FAIL(textOf(found.front()).c_str());
-}
-
 TEST(Wiring, GaugesThatNoTouchIsNearAreNamed) {
   CHECK_TRUE(untouched().empty());
   keepTouches(40, 185);

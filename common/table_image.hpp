@@ -1,6 +1,7 @@
 #pragma once
 // The flash image of the lookup tables: what the host tools build from the elastic model and the firmware
-// reads in place. Byte by byte: TABLES.md and TABLES_PATCHES.md, with an example: TABLES_EXAMPLE.md.
+// reads in place. Byte by byte: TABLES.md and TABLES_PATCHES.md, with an example: TABLES_EXAMPLE.md. What is
+// checked: TABLES_CHECKS.md.
 
 #include <algorithm>
 #include <array>

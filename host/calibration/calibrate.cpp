@@ -223,16 +223,12 @@ class Calibration {
           std::hypot(drawing_.config().gauges.noise_strain, modelError_.value * peakOf(row));
   }
 
-  TouchSearch searchOf(const RingResponse& ring) const {
-    return {ring, drawing_.config().contact.friction_coefficient, mostMoment_rad2_};
-  }
-
   /// Fits the touches of these rows with the finger as it is known by now.
   void locate(const Rows& rows, Search search) {
     weigh(rows);
     const RingResponse ring(drawing_, finger_, lastHarmonic_);
     std::optional<TouchSearch> grid;
-    if (search == Search::kEverywhere) grid = searchOf(ring);
+    if (search == Search::kEverywhere) grid.emplace(ring, drawing_.config());
     for (const std::size_t row : rows) {
       RowResult& result = rows_[row];
       std::vector<TouchState> starts{result.touch};
@@ -326,7 +322,7 @@ class Calibration {
     if (!isKnown(row)) return RowUse::kUnexplained;
     if (!free) {
       const RingResponse ring(drawing_, finger_, lastHarmonic_);
-      free = {ring, searchOf(ring), priorOf({}, {})};
+      free = {ring, {ring, drawing_.config()}, priorOf({}, {})};
     }
     const double chiSquared =
         free->search.find(free->ring, {data_[row].readings, data_[row].sigma_strain, free->prior}).chiSquared;

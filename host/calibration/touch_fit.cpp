@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "host/model/pressure_profile.hpp"
+
 namespace strainfinger::calibration {
 namespace {
 
@@ -110,8 +112,10 @@ TouchFit refineTouches(const RingResponse& ring, const TouchData& data,
   return found;
 }
 
-TouchSearch::TouchSearch(const RingResponse& ring, double friction, double mostMoment_rad2)
-    : friction_(friction), moments_(kMomentNodes) {
+TouchSearch::TouchSearch(const RingResponse& ring, const config::FingerConfig& config)
+    : friction_(config.contact.friction_coefficient), moments_(kMomentNodes) {
+  const double mostMoment_rad2 =
+      model::momentOfWidth(config.contact.largest_width_m / config.finger.outer_radius_m);
   const int places = kPlacesPerPitch * ring.gauges();
   orthonormal_.resize(ring.gauges(), 2 * places * kMomentNodes);
   std::vector<double> moments_rad2;

@@ -48,8 +48,8 @@ TouchFit refineTouches(const RingResponse& ring, const TouchData& data,
 /// fit best there, and the best few refined.
 class TouchSearch {
  public:
-  /// Domain: moments up to mostMoment_rad2 > 0. Costs 5 ms for 16 gauges.
-  TouchSearch(const RingResponse& ring, double friction, double mostMoment_rad2);
+  /// Within the config's friction, up to its largest width. Costs 5 ms for 16 gauges.
+  TouchSearch(const RingResponse& ring, const config::FingerConfig& config);
 
   /// Of readings, zeros apart, the nodes that explain most, each of another width; none where no touch of
   /// this prior could be. Costs 30 us.

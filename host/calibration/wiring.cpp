@@ -10,11 +10,8 @@
 #include <numeric>
 #include <optional>
 
-#include "host/base/angles.hpp"
-#include "host/calibration/joint_fit.hpp"
-#include "host/calibration/model_error.hpp"
 #include "host/calibration/touch_fit.hpp"
-#include "host/model/pressure_profile.hpp"
+#include "host/calibration/wiring_turn.hpp"
 
 namespace strainfinger::calibration {
 namespace {
@@ -47,17 +44,6 @@ constexpr int kMostFaults = 4;
 constexpr std::ptrdiff_t kPromising = 4;
 /// Of the reading of a healthy gauge beside it: less is dead. A correlation beyond kSame is its neighbour's.
 constexpr double kDeadShare = 0.1, kSame = 0.8;
-/// A touch of known direction is where the fitted ring sees it, give or take so many tolerances of a gauge's
-/// angle, though the mean of all of them is nearer.
-constexpr double kPlacedTolerances = 1;
-/// Of the largest reading: what a ring leaves of strong rows when it is fitted to them for the first time;
-/// what its covariance makes of another touch's readings, that the touch can't explain, at least.
-constexpr double kFirstError = 0.005, kFittedError = 0.002;
-/// Chi-squared by which another turn must explain the directions better than the drawn one, and than others.
-constexpr double kClearly = 16;
-/// Of the known directions, what a turn must explain: one of four may be wrong, of three none.
-constexpr double kMostOfThem = 0.75;
-
 bool concerns(const WiringFault& fault, int gauge) {
   return fault.gauge == gauge || (fault.kind == Kind::kSwapped && fault.other == gauge);
 }
@@ -79,11 +65,6 @@ MatrixXd mended(const MatrixXd& readings, const WiringFault& fault) {
       result.col(fault.gauge).setZero();
   }
   return result;
-}
-
-/// A touch of which nothing is known but its readings.
-TouchData touchData(const VectorXd& strains, double noise_strain, double error) {
-  return {strains, std::hypot(noise_strain, error * strains.cwiseAbs().maxCoeff()), {}};
 }
 
 /// Of each gauge the rows in which none reads more, with what it reads there [strain], weakest first.
@@ -123,22 +104,9 @@ class WiringCheck {
     return faults;
   }
 
-  /// With the Poisson's ratio that explains the readings best. Domain: after run().
-  const TouchSearch& search() const { return *search_; }
-
-  /// The ring that fits the strong rows best, in its own order and sense, as what is known of touches isn't
-  /// looked at; and what it leaves of readings besides noise, of the largest. Domain: after run().
-  struct Fitted {
-    RingResponse ring;
-    double error;
-  };
-  Fitted fitted() const {
-    StrongFit strong = locatedStrong();
-    const Fitted first = fitted(strong);
-    // A row of two contacts, a slip or another zero draws the ring, though it counts less: what the ring
-    // doesn't explain is no touch.
-    return leaveOutUnexplained(first, strong) ? fitted(strong) : first;
-  }
+  const MatrixXd& strongRows() const { return readings_; }
+  /// In tolerances from the drawing's, what explains the readings best. Domain: after run().
+  double poissonDeviation() const { return poissonDeviation_; }
 
  private:
   VectorXd deviations() const {
@@ -151,57 +119,6 @@ class WiringCheck {
   }
 
   RingResponse ring() const { return {drawing_, deviations(), lastHarmonic_}; }
-
-  struct StrongFit {
-    std::vector<TouchData> data;
-    JointFit fit;
-  };
-
-  /// The strong rows, each where the ring of the search sees it.
-  StrongFit locatedStrong() const {
-    const RingResponse start = ring();
-    StrongFit strong{{}, {deviations(), {}}};
-    for (Index row = 0; row < readings_.rows(); ++row) {
-      TouchData each = touchData(readings_.row(row), drawing_.config().gauges.noise_strain, kFirstError);
-      const TouchFit found = search_->find(start, each);
-      if (found.touch[kNormalLoad] <= 0) continue;
-      strong.data.push_back(each);
-      strong.fit.touches.push_back(found.touch);
-    }
-    return strong;
-  }
-
-  double degreesOfFreedom() const { return drawing_.gauges() - kTouchUnknowns; }
-
-  Fitted fitted(StrongFit& strong) const {
-    auto& [data, fit] = strong;
-    fitTogether(drawing_, lastHarmonic_, data, degreesOfFreedom(), fit);
-    const RingResponse ring(drawing_, fit.deviations, lastHarmonic_);
-    std::vector<Misfit> misfits;
-    for (std::size_t i = 0; i < data.size(); ++i)
-      misfits.push_back({(data[i].readings - ring.readings(fit.touches[i])).squaredNorm(),
-                         data[i].readings.cwiseAbs().maxCoeff()});
-    if (misfits.empty()) return {ring, kFirstError};
-    return {ring, modelErrorOf(misfits, drawing_.config().gauges.noise_strain, degreesOfFreedom()).value};
-  }
-
-  /// Whether there were any.
-  bool leaveOutUnexplained(const Fitted& fitted, StrongFit& strong) const {
-    const double most = chiSquaredQuantile(degreesOfFreedom(), kBeyondChance);
-    StrongFit kept{{}, {strong.fit.deviations, {}}};
-    for (std::size_t i = 0; i < strong.data.size(); ++i) {
-      const VectorXd& strains = strong.data[i].readings;
-      const double sigma_strain =
-          touchData(strains, drawing_.config().gauges.noise_strain, fitted.error).sigma_strain;
-      const VectorXd left = strains - fitted.ring.readings(strong.fit.touches[i]);
-      if (left.squaredNorm() > most * sigma_strain * sigma_strain) continue;
-      kept.data.push_back(strong.data[i]);
-      kept.fit.touches.push_back(strong.fit.touches[i]);
-    }
-    if (kept.data.size() == strong.data.size()) return false;
-    strong = kept;
-    return true;
-  }
 
   struct Mend {
     WiringFault fault;
@@ -233,14 +150,8 @@ class WiringCheck {
     }
   }
 
-  TouchSearch searchOf(const RingResponse& ring) const {
-    const config::FingerConfig& config = drawing_.config();
-    return {ring, config.contact.friction_coefficient,
-            model::momentOfWidth(config.contact.largest_width_m / config.finger.outer_radius_m)};
-  }
-
   void lookAgain() {
-    search_ = searchOf(ring());
+    search_.emplace(ring(), drawing_.config());
     misfits_ = misfitsOf(readings_, std::nullopt);
   }
 
@@ -362,132 +273,6 @@ class WiringCheck {
   VectorXd misfits_;  ///< of each row, wired as found by now
 };
 
-/// Rows of known direction from which the turn of a ring is told: one that is well placed would do. Each is
-/// located once for each of the turns, twice as many as there are gauges.
-constexpr std::size_t kMostDirections = 8;
-
-/// Where there are more rows of known direction than are needed: some of the stronger half of them, from all
-/// the session.
-std::vector<std::size_t> tellingRows(const config::Gauges& gauges, std::span<const KnownTouch> known,
-                                     const MatrixXd& readings) {
-  const VectorXd peaks = readings.cwiseAbs().rowwise().maxCoeff();
-  std::vector<std::size_t> rows;
-  for (std::size_t row = 0; row < known.size(); ++row) {
-    const double peak = peaks[static_cast<Index>(row)];
-    const bool isWithin = peak >= kWeakestTouch * gauges.noise_strain && peak < gauges.full_scale_strain;
-    if (known[row].angle_deg && isWithin) rows.push_back(row);
-  }
-  if (rows.size() <= kMostDirections) return rows;
-  std::stable_sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) {
-    return peaks[static_cast<Index>(a)] > peaks[static_cast<Index>(b)];
-  });
-  rows.resize(std::max(kMostDirections, rows.size() / 2));
-  std::sort(rows.begin(), rows.end());
-  std::vector<std::size_t> some;
-  for (std::size_t i = 0; i < kMostDirections; ++i) some.push_back(rows[i * rows.size() / kMostDirections]);
-  return some;
-}
-
-/// How well rows of known direction are explained by rings that lie otherwise than drawn: shifted or
-/// reversed.
-class TurnCheck {
- public:
-  TurnCheck(const config::FingerConfig& config, std::span<const KnownTouch> known, const MatrixXd& readings,
-            const KnownErrors& errors, const WiringCheck& wired)
-      : gauges_(config.gauges), search_(wired.search()) {
-    const std::vector<std::size_t> rows = tellingRows(config.gauges, known, readings);
-    if (rows.empty()) return;
-    const auto fitted = wired.fitted();
-    ring_ = fitted.ring;
-    const double sigma_deg = std::hypot(errors.angle_deg, kPlacedTolerances * config.tolerance.angle_deg);
-    for (const std::size_t row : rows) {
-      TouchData data = touchData(readings.row(static_cast<Index>(row)), gauges_.noise_strain,
-                                 std::max(kFittedError, fitted.error));
-      data.prior.value[kPlace] = *known[row].angle_deg * kRadPerDeg;
-      data.prior.weight[kPlace] = 1 / (sigma_deg * kRadPerDeg);
-      directions_.push_back(data);
-    }
-    if (rows.size() == 1) onlyMark_ = static_cast<int>(rows.front()) + 1;
-  }
-
-  std::optional<WiringFault> run() const {
-    if (!ring_) return std::nullopt;
-    std::vector<Told> all;
-    for (int shift = 0; shift < gauges_.count; ++shift)
-      for (const Kind kind : {Kind::kShifted, Kind::kReversed}) all.push_back(toldBy({kind, 0, shift}));
-    const Told &drawn = all.front(), &best = *std::min_element(all.begin(), all.end(), isBetter);
-    const bool isExplained = best.explained >= kMostOfThem * static_cast<double>(directions_.size());
-    if (!isExplained || best.chiSquared + kClearly >= drawn.chiSquared) return std::nullopt;
-    const auto rivals = std::count_if(all.begin(), all.end(), [&](const Told& each) {
-      return each.chiSquared < best.chiSquared + kClearly;
-    });
-    WiringFault fault = rivals == 1 ? best.turn : WiringFault{Kind::kTurnUnclear};
-    fault.onlyMark = onlyMark_;
-    return fault;
-  }
-
- private:
-  /// What a turn makes of the known directions; the drawn ring is shifted by 0.
-  struct Told {
-    WiringFault turn;
-    double chiSquared = 0;  ///< of a direction that it doesn't explain no more than chance makes
-    int explained = 0;
-  };
-
-  static bool isBetter(const Told& a, const Told& b) { return a.chiSquared < b.chiSquared; }
-
-  Told toldBy(const WiringFault& turn) const {
-    const double most =
-        chiSquaredQuantile(gauges_.count + 1 - kTouchUnknowns, kBeyondChance);  // + 1: the direction
-    Told told{turn};
-    for (const TouchData& direction : directions_) {
-      const TouchData seen = seenBy(turn, direction);
-      const double chiSquared = refineTouches(*ring_, seen, startsOf(seen)).chiSquared;
-      told.chiSquared += std::min(most, chiSquared);
-      told.explained += chiSquared < most;
-    }
-    return told;
-  }
-
-  /// A known direction where such a ring would see it.
-  TouchData seenBy(const WiringFault& turn, TouchData direction) const {
-    const double pitch_rad = 2 * std::numbers::pi / gauges_.count, first_rad = meanFirst_rad();
-    double& place_rad = direction.prior.value[kPlace];
-    const double along_rad = place_rad - first_rad - turn.other * pitch_rad;
-    place_rad = first_rad + (turn.kind == Kind::kReversed ? -along_rad : along_rad);
-    return direction;
-  }
-
-  /// Where gauge 0 of the even ring is that is nearest to the drawn one: a ring that is fitted in the wrong
-  /// order gets its own shape from the readings, but is drawn to these places as a whole.
-  double meanFirst_rad() const {
-    const double pitch_deg = 360.0 / gauges_.count;
-    double first_deg = gauges_.angle_deg(0), sum_deg = 0;  // of the even ring that has this gauge where it is
-    for (int gauge = 0; gauge < gauges_.count; ++gauge) {
-      sum_deg += first_deg;
-      first_deg += gauges_.gap_deg(gauge) - pitch_deg;
-    }
-    return sum_deg / gauges_.count * kRadPerDeg;
-  }
-
-  /// Those of the grid, which may be on the far side of another minimum, and where the touch is known to be.
-  std::vector<TouchState> startsOf(const TouchData& seen) const {
-    std::vector<TouchState> starts = search_.starts(seen.readings - ring_->zeros(), seen.prior);
-    const std::size_t found = starts.size();
-    for (std::size_t i = 0; i < found; ++i) {
-      starts.push_back(starts[i]);
-      starts.back()[kPlace] = seen.prior.value[kPlace];
-    }
-    return starts;
-  }
-
-  config::Gauges gauges_;
-  const TouchSearch& search_;
-  std::vector<TouchData> directions_;
-  int onlyMark_ = 0;  ///< as WiringFault::onlyMark
-  std::optional<RingResponse> ring_;
-};
-
 /// Behind what a turn is: that it may be the mark. Empty where several directions agree.
 std::string orTheMark(const WiringFault& fault) {
   if (fault.onlyMark == 0) return {};
@@ -518,7 +303,9 @@ std::vector<WiringFault> findWiringFaults(const config::FingerConfig& config,
   WiringCheck check(config, readings);
   std::vector<WiringFault> faults = check.run();
   if (faults.empty())
-    if (const auto turn = TurnCheck(config, known, readings, errors, check).run()) faults.push_back(*turn);
+    if (const auto turn =
+            findTurn(config, known, readings, errors, {check.strongRows(), check.poissonDeviation()}))
+      faults.push_back(*turn);
   return faults;
 }
 

@@ -37,11 +37,10 @@ std::vector<int> untouchedGauges(const config::Gauges& gauges, const Eigen::Matr
 /// What is wrong, worst first; empty for a ring that is wired as drawn. A fault is told when the drawn finger
 /// explains much more of the readings with it mended. Rings that are turned or reversed explain theirs as
 /// well as the drawn one: rows of known angle_deg tell them, if three quarters of these are where such a ring
-/// would see them. One is enough where it is three degrees or more from any gauge and from the middle of any
-/// gap: a ring that is reversed about such a place reads a touch there as one that is turned does. Domain: as
-/// calibrate()'s, touches near every gauge. Of rings that are drawn a degree or two off even places and
-/// turned, one direction tells four of five; those that are drawn further off may pass. Cost: 0.15 s for a
-/// healthy ring of 16, as much again for known directions, 0.1 s a fault.
+/// would see them, and the shape of an uneven ring does. One direction is enough where it is three degrees or
+/// more from any gauge and from the middle of any gap: a ring that is reversed about such a place reads a
+/// touch there as one that is turned does. Domain: as calibrate()'s, touches near every gauge. Cost: 0.15 s
+/// for a healthy ring of 16, and findTurn()'s; 0.1 s a fault.
 std::vector<WiringFault> findWiringFaults(const config::FingerConfig& config,
                                           std::span<const KnownTouch> known, const Eigen::MatrixXd& readings,
                                           const KnownErrors& errors);

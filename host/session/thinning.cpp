@@ -22,8 +22,7 @@ calibration::TouchSearch drawnSearch(const config::FingerConfig& config) {
   const calibration::Drawing drawing(config);
   const calibration::RingResponse drawn(drawing, VectorXd::Zero(drawing.unknowns()),
                                         calibration::RingResponse::lastHarmonic(drawing));
-  const double widest_rad = config.contact.largest_width_m / config.finger.outer_radius_m;
-  return {drawn, config.contact.friction_coefficient, model::momentOfWidth(widest_rad)};
+  return {drawn, config};
 }
 
 Thinner::Thinner(const config::FingerConfig& config, const ThinningRules& rules)

@@ -220,6 +220,9 @@ void turn(Eigen::MatrixXd& readings, int shift, int sense) {
 
 using Kind = calibration::WiringFault::Kind;
 
+/// Gauges are drawn so far off even places.
+constexpr double kUneven_deg[] = {0, 1, 2.5};
+
 constexpr int swappedWith(int number) { return (number + 1 + number / 16) % 16; }
 
 constexpr std::array<Miswiring, 6> kMiswirings{{
@@ -268,10 +271,20 @@ void knowOneMark(Session& session) {
     if (row != nearest) session.known[row].angle_deg.reset();
 }
 
-std::vector<calibration::WiringFault> faultsOf(int seed, const Miswiring* miswiring) {
+/// A random finger whose gauges are drawn up to so much off even places.
+config::FingerConfig unevenFinger(std::uint64_t seed, double most_deg) {
+  config::FingerConfig finger = randomFinger(seed);
+  if (most_deg == 0) return finger;
+  for (int gauge = 0; gauge < finger.gauges.count; ++gauge)
+    finger.gauges.angles_deg.push_back((gauge + 0.5) * 360 / finger.gauges.count +
+                                       most_deg * std::cos(gauge * gauge + static_cast<double>(seed)));
+  return finger;
+}
+
+std::vector<calibration::WiringFault> faultsOf(int seed, double uneven_deg, const Miswiring* miswiring) {
   const auto number = static_cast<std::uint64_t>(seed);
   const SessionPlan plan{.touches = 300, .knownDirections = 300};
-  Session session = sessionOf(randomFinger(number), plan, number);
+  Session session = sessionOf(unevenFinger(number, uneven_deg), plan, number);
   knowOneMark(session);
   if (miswiring != nullptr) miswiring->apply(session.readings, seed);
   return findWiringFaults(session.finger, session.known, session.readings, kExactlyKnown);
@@ -290,16 +303,16 @@ bool areOnly(const std::vector<calibration::WiringFault>& faults, calibration::W
   return faults.front() == expected;
 }
 
-std::string wiringSection(int fingers, int healthy) {
+std::string wiringSection(int fingers, int healthy, double uneven_deg) {
   std::string text = fmt::format(
-      "\n## Wiring: 300 touches, 1 direction known, of a firm touch a quarter of a pitch from a gauge\n\n| "
-      "wired | found | of | found "
-      "first |\n|--|--|--|--|\n");
+      "\n## Wiring, gauges drawn up to {} degrees off even places: 300 touches, 1 direction known, of a firm "
+      "touch a quarter of a pitch from a gauge\n\n| wired | found | of | found first |\n|--|--|--|--|\n",
+      uneven_deg);
   for (const Miswiring& miswiring : kMiswirings) {
     int found = 0;
     std::string example;
     for (int seed = 1; seed <= fingers; ++seed) {
-      const auto faults = faultsOf(seed, &miswiring);
+      const auto faults = faultsOf(seed, uneven_deg, &miswiring);
       const bool isFound = areOnly(faults, miswiring.fault(seed));
       found += isFound;
       if (!isFound) printMissed(miswiring.name, seed, faults);
@@ -309,7 +322,7 @@ std::string wiringSection(int fingers, int healthy) {
   }
   int alarms = 0;
   for (int seed = 1; seed <= healthy; ++seed) {
-    const auto faults = faultsOf(seed, nullptr);
+    const auto faults = faultsOf(seed, uneven_deg, nullptr);
     alarms += !faults.empty();
     if (!faults.empty()) printMissed("as drawn", seed, faults);
   }
@@ -318,7 +331,9 @@ std::string wiringSection(int fingers, int healthy) {
 
 void run(const Options& options) {
   std::string page = kIntroduction;
-  if (options.wiring + options.healthy > 0) page += wiringSection(options.wiring, options.healthy);
+  if (options.wiring + options.healthy > 0)
+    for (const double uneven_deg : kUneven_deg)
+      page += wiringSection(options.wiring, options.healthy, uneven_deg);
   for (const int touches : options.touches) {
     if (options.fingers == 0) break;
     page += sectionOf({.touches = touches}, options.fingers, options.sessions);

@@ -18,7 +18,7 @@ TEST_GROUP(TouchFit) {
   const Drawing drawing{config};
   const RingResponse ring{drawing, Eigen::VectorXd::Zero(drawing.unknowns()),
                           RingResponse::lastHarmonic(drawing)};
-  const TouchSearch search{ring, 1, model::momentOfWidth(8e-3 / config.finger.outer_radius_m)};
+  const TouchSearch search{ring, config};
   std::mt19937_64 random{20241121};
 
   double between(double least, double most) {

@@ -290,8 +290,9 @@ std::vector<calibration::WiringFault> faultsOf(int seed, double uneven_deg, cons
   return findWiringFaults(session.finger, session.known, session.readings, kExactlyKnown);
 }
 
-void printMissed(const char* wired, int seed, const std::vector<calibration::WiringFault>& faults) {
-  fmt::print(stderr, "finger {}, {}:", seed, wired);
+void printMissed(const char* wired, int seed, double uneven_deg,
+                 const std::vector<calibration::WiringFault>& faults) {
+  fmt::print(stderr, "finger {} of {} degrees, {}:", seed, uneven_deg, wired);
   for (const auto& fault : faults) fmt::print(stderr, " {};", textOf(fault));
   fmt::print(stderr, "{}\n", faults.empty() ? " nothing found" : "");
 }
@@ -315,7 +316,7 @@ std::string wiringSection(int fingers, int healthy, double uneven_deg) {
       const auto faults = faultsOf(seed, uneven_deg, &miswiring);
       const bool isFound = areOnly(faults, miswiring.fault(seed));
       found += isFound;
-      if (!isFound) printMissed(miswiring.name, seed, faults);
+      if (!isFound) printMissed(miswiring.name, seed, uneven_deg, faults);
       if (example.empty() && !faults.empty()) example = textOf(faults.front());
     }
     text += fmt::format("| {} | {} | {} | {} |\n", miswiring.name, found, fingers, example);
@@ -324,7 +325,7 @@ std::string wiringSection(int fingers, int healthy, double uneven_deg) {
   for (int seed = 1; seed <= healthy; ++seed) {
     const auto faults = faultsOf(seed, uneven_deg, nullptr);
     alarms += !faults.empty();
-    if (!faults.empty()) printMissed("as drawn", seed, faults);
+    if (!faults.empty()) printMissed("as drawn", seed, uneven_deg, faults);
   }
   return text + fmt::format("| as drawn | {} | {} | |\n", alarms, healthy);
 }

@@ -92,6 +92,7 @@ class Calibration {
       isAnother = findMovedZeros(all) || isJudgedAnew;
     }
     if (isAnother) fitUsable();
+    requireExplained(modelError_.value, shareUnexplained(all));
     requireEnough();
     tellMoved();
     requireBorneOut();
@@ -341,7 +342,8 @@ class Calibration {
         if (rows_[row].use == RowUse::kContradicted) contradicted.push_back(row + 1);
         ++said;
       }
-      if (2 * contradicted.size() > said) refuseContradicted(contradicted, what, lookAt);
+      if (!contradicted.empty() && 2 * contradicted.size() >= said)
+        refuseContradicted(contradicted, what, lookAt);
     };
     require([&](std::size_t row) { return isDirectionKnown(row); }, "angle_deg",
             "the angles themselves, gauges.first_angle_deg, the order of the gauges and --angle-error-deg");

@@ -338,8 +338,8 @@ std::string textOf(const WiringFault& fault) {
     case Kind::kTurnUnclear:
       break;
   }
-  return "the gauges are shifted or counted the wrong way round, and the known directions don't tell which: "
-         "add a touch of known angle_deg that is neither at a gauge nor midway between two" +
+  return "the gauges are shifted or counted the wrong way round, and which isn't told: add a touch of known "
+         "angle_deg that is neither at a gauge nor midway between two" +
          orTheMark(fault);
 }
 

@@ -20,7 +20,7 @@ struct WiringFault {
     kUnfit,        ///< reads something that is neither
     kShifted,      ///< the ring is turned by `other` gauges: gauge i is where i + other should be
     kReversed,     ///< counted the other way round, and turned so that gauge i is where other - i should be
-    kTurnUnclear,  ///< turned or reversed: the known directions don't tell which
+    kTurnUnclear,  ///< turned or reversed: which isn't told
   };
   Kind kind;
   int gauge = 0;

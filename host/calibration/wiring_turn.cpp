@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "host/base/angles.hpp"
@@ -22,10 +23,13 @@ constexpr double kPlacedTolerances = 1;
 /// Of the largest reading: what a ring leaves of strong rows when it is fitted to them for the first time;
 /// what its covariance makes of another touch's readings, that the touch can't explain, at least.
 constexpr double kFirstError = 0.005, kFittedError = 0.002;
-/// Fits of a ring to its strong rows, each weighing them by what the one before left: by the first weights
-/// the drawing would count too much for an uneven ring to show its shape.
-constexpr int kRounds = 3;
-/// Chi-squared by which another turn must explain the directions better than the drawn one, and than others.
+/// Fits of a ring to its strong rows, each weighing them by what the one before left, until that changes by
+/// no more than this part: by the first weights the drawing would count too much for an uneven ring to show
+/// its shape.
+constexpr int kMostFits = 8;
+constexpr double kSettled = 0.02;
+/// Chi-squared by which another turn must explain directions and shape better than the drawn one, and than
+/// others.
 constexpr double kClearly = 16;
 /// Of the known directions, what a turn must explain: one of four may be wrong, of three none.
 constexpr double kMostOfThem = 0.75;
@@ -33,6 +37,14 @@ constexpr double kMostOfThem = 0.75;
 /// A touch of which nothing is known but its readings.
 TouchData touchData(const VectorXd& strains, double noise_strain, double error) {
   return {strains, std::hypot(noise_strain, error * strains.cwiseAbs().maxCoeff()), {}};
+}
+
+/// All ways a ring may lie that read alike where the ring is even; the drawn one first.
+std::vector<WiringFault> turns(int gauges) {
+  std::vector<WiringFault> all;
+  for (int shift = 0; shift < gauges; ++shift)
+    for (const Kind kind : {Kind::kShifted, Kind::kReversed}) all.push_back({kind, 0, shift});
+  return all;
 }
 
 /// The even ring that is nearest to an uneven one, whose gauges may be as far off as those of the uneven one
@@ -73,10 +85,11 @@ class OwnRingFit {
     const TouchSearch search(ring(), drawing_.config());
     locate(readings, search);
     double error = improve();
-    for (int round = 1; round < kRounds; ++round) {
-      leaveOutUnexplained(error);
+    for (int round = 1; round < kMostFits; ++round) {
+      const bool isAnyLeftOut = leaveOutUnexplained(error);
       weigh(error);
-      error = improve();
+      const double before = std::exchange(error, improve());
+      if (!isAnyLeftOut && std::abs(error - before) <= kSettled * before) break;
     }
     std::vector<double> angles_rad;
     for (int gauge = 0; gauge < drawing_.gauges(); ++gauge)
@@ -113,8 +126,8 @@ class OwnRingFit {
   }
 
   /// A row of two contacts, a slip or another zero draws the ring, though it counts less: what the ring
-  /// doesn't explain is no touch.
-  void leaveOutUnexplained(double error) {
+  /// doesn't explain is no touch. Whether there were any.
+  bool leaveOutUnexplained(double error) {
     const double most = chiSquaredQuantile(degreesOfFreedom(), kBeyondChance);
     const RingResponse fitted = ring();
     std::size_t kept = 0;
@@ -126,8 +139,10 @@ class OwnRingFit {
       data_[kept] = data_[i];
       fit_.touches[kept++] = fit_.touches[i];
     }
+    const bool isAny = kept < data_.size();
     data_.resize(kept);
     fit_.touches.resize(kept);
+    return isAny;
   }
 
   void weigh(double error) {
@@ -215,16 +230,20 @@ class TurnCheck {
 
   std::optional<WiringFault> run() const {
     std::vector<Told> all;
-    for (int shift = 0; shift < config_.gauges.count; ++shift)
-      for (const Kind kind : {Kind::kShifted, Kind::kReversed}) all.push_back(toldBy({kind, 0, shift}));
-    const Told &drawn = all.front(), &best = *std::min_element(all.begin(), all.end(), isBetter);
-    const bool isExplained = best.explained >= kMostOfThem * static_cast<double>(directions_.size());
-    if (!isExplained || best.chiSquared() + kClearly >= drawn.chiSquared()) return std::nullopt;
+    for (const WiringFault& turn : turns(config_.gauges.count)) all.push_back(toldBy(turn));
+    const Told drawn = all.front();
+    const double leastOfShape = std::min_element(all.begin(), all.end(), hasBetterShape)->ofShape;
+    std::erase_if(all, [&](const Told& each) { return each.ofShape > leastOfShape + kClearly; });
+    const Told& best = *std::min_element(all.begin(), all.end(), isBetter);
+    const bool isToldByShape = drawn.ofShape > leastOfShape + kClearly;
+    const bool isToldByDirections = best.explained >= kMostOfThem * static_cast<double>(directions_.size()) &&
+                                    best.chiSquared() + kClearly < drawn.chiSquared();
+    if (!isToldByShape && !isToldByDirections) return std::nullopt;
     const auto rivals = std::count_if(all.begin(), all.end(), [&](const Told& each) {
       return each.chiSquared() < best.chiSquared() + kClearly;
     });
     WiringFault fault = rivals == 1 ? best.turn : WiringFault{Kind::kTurnUnclear};
-    if (best.ofShape + kClearly >= drawn.ofShape) fault.onlyMark = onlyMark_;
+    if (!isToldByShape) fault.onlyMark = onlyMark_;
     return fault;
   }
 
@@ -239,6 +258,7 @@ class TurnCheck {
   };
 
   static bool isBetter(const Told& a, const Told& b) { return a.chiSquared() < b.chiSquared(); }
+  static bool hasBetterShape(const Told& a, const Told& b) { return a.ofShape < b.ofShape; }
 
   Told toldBy(const WiringFault& turn) const {
     const Lie lie = lieOf(config_, own_, turn);

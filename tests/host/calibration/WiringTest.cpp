@@ -235,6 +235,13 @@ TEST(Wiring, ARingThatIsDrawnDegreesOffEvenPlacesTellsItselfHowItLies) { checkTu
 
 TEST(Wiring, OneMarkIsNotInDoubtWhereTheShapeTellsATurn) { checkTurnsAreFound(uneven(2.5, 1)); }
 
+TEST(Wiring, TheShapeTellsATurnThatAMarkDenies) {
+  session = uneven(2.5, 1);
+  *session.known[marked()].angle_deg += 40;
+  rewire(shifted(5));
+  checkOnly({Kind::kShifted, 0, 5});
+}
+
 TEST(Wiring, AHalfOfTheRingWithMostOfTheGaugesIsNoFault) {
   config::FingerConfig finger = study::randomFinger(seed);
   for (int i = 0; i < 16; ++i)

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "host/model/pressure_profile.hpp"
-
 namespace strainfinger::session {
 
 using calibration::TouchState;

@@ -152,7 +152,7 @@ TEST(Decode, AnUnreadableStdinIsAFailure) {
 TEST(Decode, CtrlCStillPrintsTheSummary) {
   const Run run = runShell(
       "pipe=$(mktemp -u); mkfifo $pipe; exec 3<>$pipe; cat >&3\n"
-      "\"$STRAINFINGER\" decode <$pipe & sleep 0.5; kill -INT $!; wait $!; status=$?; rm $pipe; exit $status",
+      "\"$STRAINFINGER\" decode <$pipe & interrupt $!; wait $!; status=$?; rm $pipe; exit $status",
       contact_);
   LONGS_EQUAL(130, run.status);
   STRCMP_CONTAINS("CONTACT", run.out.c_str());
@@ -163,7 +163,7 @@ TEST(Decode, FollowsAFileThatGrows) {
   const Run run = runShell(
       "log=$(mktemp); \"$STRAINFINGER\" decode --follow $log & sleep 0.3; head -c 20 >>$log; sleep 0.2; cat "
       ">>$log\n"
-      "sleep 0.3; kill -INT $!; wait $!; status=$?; rm $log; exit $status",
+      "interrupt $!; wait $!; status=$?; rm $log; exit $status",
       contact_ + force_);
   LONGS_EQUAL(130, run.status);
   STRCMP_CONTAINS("FORCE", run.out.c_str());

@@ -135,7 +135,7 @@ TEST(Record, ReplayRefusesWhatCannotBe) {
 }
 
 TEST(Record, CtrlCEndsAReplay) {
-  const Run run = inFolder("\"$STRAINFINGER\" replay in --can $bus & sleep 0.3; kill -INT $!; wait $!",
+  const Run run = inFolder("\"$STRAINFINGER\" replay in --can $bus & interrupt $!; wait $!",
                            "(1.000000) can0 181#00\n(1000.000000) can0 181#00\n");
   LONGS_EQUAL(130, run.status);
   checkSays("1 of 2 frames sent", run);

@@ -13,6 +13,13 @@
 namespace strainfinger {
 namespace {
 
+/// SigCgt is a mask of 16 hexadecimal digits, and SIGINT its second bit (proc(5)).
+constexpr const char* kInterrupt =
+    "interrupt() {\n"
+    "  until grep -q '^SigCgt:.*[2367abef]$' /proc/$1/status || ! kill -0 $1; do sleep 0.02; done\n"
+    "  sleep 0.3; kill -INT $1\n"
+    "}\n";
+
 std::string read(const std::filesystem::path& path) {
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();
@@ -30,7 +37,8 @@ std::filesystem::path temporaryFolder() {
 Run runShell(const std::string& command, const std::string& input) {
   const std::filesystem::path folder = temporaryFolder();
   std::ofstream(folder / "in", std::ios::binary) << input;
-  std::ofstream(folder / "script") << "STRAINFINGER='" << STRAINFINGER_PROGRAM << "'\n" << command << "\n";
+  std::ofstream(folder / "script") << "STRAINFINGER='" << STRAINFINGER_PROGRAM << "'\n"
+                                   << kInterrupt << command << "\n";
   const std::string at = folder.string();
   std::string line = "bash ";
   line.append(at)

@@ -47,8 +47,9 @@ std::vector<WiringFault> turns(int gauges) {
   return all;
 }
 
-/// The even ring that is nearest to an uneven one, whose gauges may be as far off as those of the uneven one
-/// are: no turn of it is likelier than another.
+/// The even ring that is nearest to the drawn one, whose gauges may be as far off as those of that one are:
+/// no turn of it is likelier than another. Of an uneven ring that is wired otherwise the drawing is a bad
+/// start.
 config::FingerConfig evened(config::FingerConfig config) {
   config::Gauges& gauges = config.gauges;
   const double pitch_deg = 360.0 / gauges.count;
@@ -178,15 +179,6 @@ Lie lieOf(const config::FingerConfig& config, const OwnRing& own, const WiringFa
           (beside_rad.array() - mean_rad).matrix().squaredNorm() / (sigma_rad * sigma_rad)};
 }
 
-/// Of an uneven ring that is wired otherwise than drawn the drawing is a bad start; of one that is far from
-/// even, the even ring is.
-OwnRing ownRing(const config::FingerConfig& config, const StrongRows& strong) {
-  const OwnRing own = OwnRingFit(config, strong.poissonDeviation).run(strong.readings);
-  if (config.gauges.isEven()) return own;
-  const OwnRing other = OwnRingFit(evened(config), strong.poissonDeviation).run(strong.readings);
-  return other.error < own.error ? other : own;
-}
-
 /// Rows of known direction from which the turn of a ring is told: one that is well placed would do. Each is
 /// located once for each of the turns, twice as many as there are gauges.
 constexpr std::size_t kMostDirections = 8;
@@ -300,7 +292,7 @@ std::optional<WiringFault> findTurn(const config::FingerConfig& config, std::spa
                                     const StrongRows& strong) {
   const std::vector<std::size_t> rows = tellingRows(config.gauges, known, readings);
   if (rows.empty() && config.gauges.isEven()) return std::nullopt;
-  const OwnRing own = ownRing(config, strong);
+  const OwnRing own = OwnRingFit(evened(config), strong.poissonDeviation).run(strong.readings);
   TurnCheck check(config, own);
   for (const std::size_t row : rows)
     check.know(row, *known[row].angle_deg, errors.angle_deg, readings.row(static_cast<Index>(row)));

@@ -330,7 +330,7 @@ class Calibration {
     return chiSquared > mostChiSquared ? RowUse::kUnexplained : RowUse::kContradicted;
   }
 
-  /// Of the known directions, and of the known loads, the readings bear out some, or contradict no more than
+  /// Of the known directions, and of the known loads, the readings bear out some, or contradict fewer than
   /// half.
   void requireBorneOut() const {
     const auto require = [&](auto isSaid, const char* what, const char* lookAt) {

@@ -370,3 +370,16 @@ TEST(Calibrate, RowsPairWithTouchesAndColumnsWithGauges) {
   bad(1, 2) = std::numeric_limits<double>::quiet_NaN();
   checkComplaint({}, bad, "row 2: a strain is no finite number");
 }
+
+// Gauges that are drawn in pairs and connected one place further: that 49 % of its rows are no touches of the
+// drawn finger shows only in the last fits.
+TEST(Calibrate, WhatIsLeftUnexplainedInTheEndIsRefused) {
+  constexpr std::uint64_t kPairedSeed = 5;
+  config::FingerConfig paired = study::randomFinger(kPairedSeed);
+  for (int i = 0; i < 16; ++i) paired.gauges.angles_deg.push_back(5 + 22.5 * i + (i % 2 == 0 ? -2.5 : 2.5));
+  const auto session = study::sessionOf(paired, {.knownLoads = 0, .knownDirections = 0}, kPairedSeed);
+  Eigen::MatrixXd shifted(session.readings.rows(), 16);
+  shifted << session.readings.rightCols(15), session.readings.leftCols(1);
+  STRCMP_CONTAINS("this finger doesn't explain the readings: of 49 % of the rows",
+                  complaintOf(session.finger, session.known, shifted).c_str());
+}

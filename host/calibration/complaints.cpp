@@ -20,6 +20,9 @@ constexpr double kMostRowsUnexplained = 0.4;
 /// Of its tolerance: what is known of a gauge no better than that was not told by the touches.
 constexpr double kMostUntold = 0.7;
 
+/// A known angle; beyond it another unit or a slip of the keyboard.
+constexpr double kMostAngle_deg = 360;
+
 /// Rows that a message names, at most.
 constexpr std::size_t kMostNamed = 10;
 
@@ -45,6 +48,8 @@ void requireTouch(const KnownTouch& touch, std::size_t row) {
   if (!isFinite(touch.angle_deg) || !isFinite(touch.normal_n_per_m) || !isFinite(touch.tangential_n_per_m))
     fail(fmt::format("touch {}: its angle and loads must be finite numbers, or empty if they are unknown",
                      row));
+  if (std::abs(touch.angle_deg.value_or(0)) > kMostAngle_deg)
+    fail(fmt::format("touch {}: angle_deg = {} must be within +-{}", row, *touch.angle_deg, kMostAngle_deg));
   if (touch.normal_n_per_m.value_or(0) < 0)
     fail(fmt::format("touch {} pulls: normal_n_per_m = {} must be positive, or 0 for no touch", row,
                      *touch.normal_n_per_m));

@@ -120,6 +120,9 @@ Rows readRows(std::istream& stream, const std::string& name, std::size_t columns
   NumberRowReader reader(stream, name, columns, limit);
   Rows rows;
   for (std::vector<double> row; reader.next(row);) rows.push_back(row);
+  if (!reader.otherNames().empty())
+    fmt::print(stderr, "calibrate: of {} only the strains are used, not {}\n", name,
+               fmt::join(reader.otherNames(), ", "));
   return rows;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -167,6 +168,17 @@ TEST(CalibrateCommand, NeedsNoTouchThatIsKnown) {
   const Run run = runProgram("calibrate", readings);
   LONGS_EQUAL(0, run.status);
   STRCMP_CONTAINS("No load is known", run.err.c_str());
+}
+
+TEST(CalibrateCommand, NamesTheColumnsThatItDoesNotUse) {
+  std::string withTime = "time_s,temperature_c";
+  for (int gauge = 0; gauge < kGauges; ++gauge) withTime += fmt::format(",strain_{}", gauge);
+  std::istringstream rows(readings);
+  for (std::string row; std::getline(rows, row);) withTime += "\n0,21," + row;
+  const Run run = calibrate("", withTime);
+  LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS("calibrate: of stdin only the strains are used, not time_s, temperature_c\n",
+                  run.err.c_str());
 }
 
 TEST(CalibrateCommand, SaysWhatIsWrongAndWhereAndWritesNothing) {

@@ -355,6 +355,7 @@ TEST(Calibrate, TouchesThatCannotBeAreNamed) {
   std::vector<KnownTouch> known(3);
   for (const auto& [touch, said] :
        {std::pair{KnownTouch{nan, 1, 0}, "touch 3: its angle and loads must be finite"},
+        {KnownTouch{-361, 1, 0}, "touch 3: angle_deg = -361 must be within +-360"},
         {KnownTouch{0, -1, 0}, "touch 3 pulls: normal_n_per_m = -1 must be positive"},
         {KnownTouch{0, 0, 1}, "touch 3 has normal_n_per_m = 0: then tangential_n_per_m must be 0"}}) {
     known[2] = touch;

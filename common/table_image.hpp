@@ -89,7 +89,7 @@ struct TableConstants {
   std::uint8_t gauge_count;
   std::uint8_t cell_count;      ///< cells of the second moment
   std::uint8_t width_is_known;  ///< 1: known_moment_q20 holds, no width is fitted
-  std::uint8_t gate_shift;      ///< the gate's energy is the sum of (strain >> gate_shift)^2
+  std::uint8_t gate_shift;      ///< the gate's energy is the sum of strain^2, >> (2 * gate_shift)
   std::uint8_t reserved;        ///< 0
   std::array<std::uint16_t, kMostCells + 1> cell_edge_q15;  ///< ascending from 0 to 2^15 (all of it)
   std::array<std::uint16_t, kMostCells> cell_rate_q8;       ///< 2 / (cell's width) [* 2^8]

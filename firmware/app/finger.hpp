@@ -137,8 +137,12 @@ class Finger {
   void zero() {
     state_ = FingerState::kZeroing;
     if (!zero_.add(codes())) return;
-    beginAnew();
     state_ = FingerState::kRun;
+    if (tareStatus_ == CommandStatus::kDone && pipeline_.isTouchedDuring(zero_)) {
+      tareStatus_ = CommandStatus::kTouched;
+      return;
+    }
+    beginAnew();
   }
 
   /// With this zero, as after a start: what is said from here on follows from the sample sets alone.
@@ -163,11 +167,15 @@ class Finger {
 
   /// Not inlined, so that its frames aren't on the stack while the locator, which needs it most, runs.
   void report(std::uint32_t now_us) {
-    if (owed_.any()) return;
+    const std::uint32_t busOffs = can_.status().busOffs;
+    if (std::exchange(busOffs_, busOffs) != busOffs) {
+      reporter_.lost();
+      maySecondStand_ = wasSecondEver_;
+    }
+    if (owed_.any()) return reporter_.missed();
     auto frames = reporter_.frames(pipeline_.constants(), pipeline_.observation(), pipeline_.answer(),
                                    pipeline_.linearisation(), sampleTime_us());
     if (!frames) return;
-    const std::uint32_t busOffs = can_.status().busOffs;
     if (!can_.send(encode(frames->contact, settings_.node))) {
       ++counters_.touchesBusy;
       return;
@@ -178,10 +186,13 @@ class Finger {
     sendOwed(now_us);
   }
 
-  /// A second contact that ends is said once more as well, without contact and with no force.
+  /// A second contact that ends is said once more as well, without contact and with no force, until the port
+  /// has taken it.
   void releaseSecond(TouchFrames& frames) {
-    const bool wasSecond = std::exchange(wasSecond_, frames.second.has_value());
-    if (!wasSecond || frames.second) return;
+    isSecond_ = frames.second.has_value();
+    wasSecondEver_ |= isSecond_;
+    if (isSecond_) maySecondStand_ = true;
+    if (isSecond_ || !maySecondStand_) return;
     FingerFlags flags = frames.contact.flags;
     flags.set(FingerFlag::kContact, false);
     const TouchFrames released = releaseFrames(flags, frames.contact.sequence);
@@ -190,7 +201,10 @@ class Finger {
 
   void sendOwed(std::uint32_t now_us) {
     const OwedFrames::Outcome outcome = owed_.send(can_, now_us);
-    if (outcome == OwedFrames::Outcome::kAllSent) ++counters_.touchesSent;
+    if (outcome == OwedFrames::Outcome::kAllSent) {
+      ++counters_.touchesSent;
+      maySecondStand_ = isSecond_;
+    }
     if (outcome == OwedFrames::Outcome::kDropped) ++counters_.touchesIncomplete;
   }
 
@@ -218,7 +232,7 @@ class Finger {
     return frame;
   }
 
-  /// Once in a while, and at once when a gauge has failed.
+  /// Once in a while, and at once when a gauge has failed or works again.
   bool areGaugesNews(std::uint32_t now_us) const {
     return now_us - gaugesAt_us_ >= kGaugesPeriod_us || pipeline_.observation().outOfUse != saidOutOfUse_;
   }
@@ -346,7 +360,10 @@ class Finger {
   FingerState state_ = FingerState::kBoot;
   alignas(4) hal::SampleSet codes_{};  ///< compared and copied by words
   OwedFrames owed_;
-  bool wasSecond_ = false;  ///< in the last touch that was said
+  bool isSecond_ = false;        ///< there is a second contact in the last touch that was said
+  bool maySecondStand_ = false;  ///< the last that was said of a second contact may be that there is one
+  bool wasSecondEver_ = false;
+  std::uint32_t busOffs_ = 0;  ///< of the port, when something was said last
   RawSender raw_;
   std::optional<CommandStatus> tareStatus_;  ///< to answer when the zero is taken
   std::optional<ResponseFrame> response_;    ///< that the port hasn't taken yet

@@ -66,14 +66,26 @@ bool ZeroAverage::add(Codes codes) {
   if (complete()) return true;
   std::transform(codes.begin(), codes.end(), sum_.begin(), sum_.begin(),
                  [](std::uint16_t code, std::uint32_t sum) { return sum + code; });
-  ++count_;
+  if (++count_ == kSamples / 2)
+    std::transform(sum_.begin(), sum_.end(), firstHalf_.begin(), [](std::uint32_t sum) {
+      return static_cast<std::uint16_t>((sum + kSamples / 4) >> (kSampleBits - 1));
+    });
   return complete();
 }
 
 void ZeroAverage::writeTo(Calibration& calibration) const {
-  static_assert(kSamples == 1 << 6 && kCodeBits >= 6);
-  std::transform(sum_.begin(), sum_.end(), calibration.zero_q15.begin(),
-                 [](std::uint32_t sum) { return static_cast<std::int32_t>(sum << (kCodeBits - 6)); });
+  std::transform(sum_.begin(), sum_.end(), calibration.zero_q15.begin(), [](std::uint32_t sum) {
+    return static_cast<std::int32_t>(sum << (kCodeBits - kSampleBits));
+  });
+}
+
+Readings ZeroAverage::change(const Calibration& calibration) const {
+  Readings change;
+  for (std::size_t i = 0; i < change.strain_q32.size(); ++i) {
+    const std::int32_t twice = static_cast<std::int32_t>(sum_[i]) - firstHalf_[i] * kSamples;
+    change.strain_q32[i] = mulHigh(twice * (1 << (kCodeBits - kSampleBits + 1)), calibration.gain[i]);
+  }
+  return change;
 }
 
 }  // namespace strainfinger::firmware

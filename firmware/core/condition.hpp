@@ -54,7 +54,8 @@ void condition(const Calibration& calibration, Codes codes, Readings& readings);
 /// Bit i: gauge i is at a rail of its converter, its strain is a bound.
 std::uint32_t saturatedGauges(const TableConstants& constants, Codes codes);
 
-/// Averages sample sets into zeros. Nothing may touch the finger meanwhile.
+/// Averages sample sets into zeros. Nothing may touch the finger meanwhile; change() tells whether something
+/// did.
 class ZeroAverage {
  public:
   static constexpr int kSamples = 64;
@@ -63,9 +64,15 @@ class ZeroAverage {
   bool add(Codes codes);
   bool complete() const { return count_ >= kSamples; }
   void writeTo(Calibration& calibration) const;
+  /// What the strains of the second half of the sets are on average more than those of the first.
+  Readings change(const Calibration& calibration) const;
 
  private:
+  static constexpr int kSampleBits = 6;
+  static_assert(kSamples == 1 << kSampleBits && kCodeBits >= kSampleBits);
+
   std::array<std::uint32_t, kMaxGauges> sum_{};
+  std::array<std::uint16_t, kMaxGauges> firstHalf_{};  ///< averages, to the nearest code
   int count_ = 0;
 };
 

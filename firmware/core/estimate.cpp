@@ -86,14 +86,6 @@ TurnQ32 withPlaceError(const TableConstants& constants, TurnQ32 sigma) {
   return TurnQ32::fromRaw(static_cast<std::uint32_t>(lesser(both, Wide{kHalfTurn_q32})));
 }
 
-/// Two contacts nearer than they can be told apart.
-bool areTooNear(const TableConstants& constants, const Solution& solution) {
-  if (solution.hypothesis.contacts < 2) return false;
-  const std::uint32_t apart_q32 = solution.contact[0].angle_q32 - solution.contact[1].angle_q32;
-  const std::uint32_t sixteenth_q32 = (std::uint32_t{1} << 28) / constants.gauge_count;
-  return std::min(apart_q32, 0 - apart_q32) < threshold::kApart_16 * sixteenth_q32;
-}
-
 /// Where the contact is felt most, its normal load is read within so few standard deviations of noise.
 bool isWeak(const Answer& answer, const ContactState& state) {
   const Wide amplitude = state.normal;  // a reading * 2

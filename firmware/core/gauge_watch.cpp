@@ -22,9 +22,11 @@ void GaugeWatch::suspect(GaugeSet gauge, std::uint32_t angle_q32) {
   if (++places_[i] >= kPlaces) outOfUse_ |= gauge;
 }
 
-void GaugeWatch::vindicate(GaugeSet gauges) {
-  suspects_ &= ~gauges | outOfUse_;
-  for (GaugeSet left = gauges & outOfUse_; left != 0; left &= left - 1) {
+void GaugeWatch::vindicate(GaugeSet right, GaugeSet wrong) {
+  suspects_ &= ~right | outOfUse_;
+  for (GaugeSet left = wrong; left != 0; left &= left - 1)
+    right_[static_cast<std::size_t>(std::countr_zero(left))] = 0;
+  for (GaugeSet left = right & outOfUse_; left != 0; left &= left - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(left));
     if (++right_[i] < kConvincing) continue;
     right_[i] = 0;

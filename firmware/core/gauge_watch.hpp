@@ -25,18 +25,16 @@ class GaugeWatch {
     outOfUse_ |= gauges & atRail_;
     atRail_ = gauges;
   }
-  /// Gauges that touches which they should have felt speak for: of those in use it clears a suspicion, those
-  /// out of use come back after kConvincing of them.
-  void vindicate(GaugeSet gauges);
-  /// Gauges that feel a firm touch while the ring is untouched.
-  void convict(GaugeSet gauges) { outOfUse_ |= gauges; }
+  /// Gauges that read what they should of a touch that they feel: of those in use it clears a suspicion,
+  /// those out of use come back after kConvincing such sets with none between in which they were `wrong`.
+  void vindicate(GaugeSet right, GaugeSet wrong);
 
   static constexpr int kPlaces = 3;       ///< that convict a gauge
   static constexpr int kConvincing = 64;  ///< sample sets that bring one back
 
  private:
   std::array<std::uint8_t, kMaxGauges> places_{};
-  std::array<std::uint8_t, kMaxGauges> right_{};
+  std::array<std::uint8_t, kMaxGauges> right_{};  ///< sets in a row, of gauges out of use
   std::array<std::uint32_t, kMaxGauges> lastPlace_q32_{};
   GaugeSet outOfUse_ = 0;
   GaugeSet suspects_ = 0;  ///< of one place or more

@@ -33,6 +33,13 @@ bool isPromising(const TableConstants& constants, const Solution& solution) {
   return true;
 }
 
+bool areTooNear(const TableConstants& constants, const Solution& solution) {
+  if (solution.hypothesis.contacts < 2) return false;
+  const std::uint32_t apart_q32 = solution.contact[0].angle_q32 - solution.contact[1].angle_q32;
+  const std::uint32_t sixteenth_q32 = (std::uint32_t{1} << 28) / constants.gauge_count;
+  return std::min(apart_q32, 0 - apart_q32) < threshold::kApart_16 * sixteenth_q32;
+}
+
 Wide likelihoodEnergy(const TableConstants& constants, const Solution& solution,
                       const ScaledReadings& readings) {
   return solution.residualEnergy +

@@ -51,8 +51,11 @@ inline constexpr int kFewestSigmas = 5;
 inline constexpr int kApart_16 = 37;
 /// A gauge is a suspect only if leaving it out takes this much more off chi-squared than any other gauge.
 inline constexpr int kCulpritMargin = 12;
-/// A suspect's reading is off by at least this part of the largest reading, 1/16.
-inline constexpr int kCulpritBits = 4;
+/// A suspect's reading is off by at least so much: a 16th of what readings are scaled to [scaled reading].
+inline constexpr Number kCulprit = 1 << 11;
+/// What a gauge reads speaks for or against it where it should read so much: an eighth of the largest
+/// reading, or more [scaled reading].
+inline constexpr Number kFelt = 1 << 11;
 
 }  // namespace threshold
 
@@ -67,6 +70,9 @@ constexpr Wide energyOf(const ScaledReadings& readings, Wide chiSquared) {
 /// The contact presses and stays within the friction cone.
 bool isAdmissible(const TableConstants& constants, const ContactState& contact);
 bool isAdmissible(const TableConstants& constants, const Solution& solution);
+
+/// Two contacts nearer than they can be told apart.
+bool areTooNear(const TableConstants& constants, const Solution& solution);
 
 /// A fit from these contacts may lead to admissible ones: beside the right place loads are far off.
 bool isPromising(const TableConstants& constants, const Solution& solution);

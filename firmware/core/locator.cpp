@@ -12,7 +12,7 @@ constexpr int kMostSteps = 9;       ///< of a fit from the readings
 constexpr int kFollowingSteps = 3;  ///< of one from the last answer
 constexpr int kStepsWhileSearching = 2, kStepsAfterSearch = 3;
 constexpr int kWorkAfterSearch = 170;  ///< of an update that concludes one, as Search::kWork counts
-/// Sets of readings after which a second answer is fitted to them as well.
+/// Sets of readings after which a second answer is fitted to them as well, or one to all gauges that work.
 constexpr std::uint8_t kRivalEvery = 8;
 constexpr std::uint8_t kTimesRefuted = 3;  ///< in a row, until a second answer is forgotten
 /// Sets of readings after which what is in doubt is looked into again.
@@ -46,7 +46,7 @@ bool isFarOff(const TableImage& tables, const Solution& solution, const ScaledRe
   linearise(tables, solution.hypothesis, solution.contact, scratch);
   const auto gauge = at(std::countr_zero(leftOut));
   const Number off = magnitude(Number{readings.value[gauge]} - scratch.predicted[gauge]);
-  return off >= 1 << (15 - threshold::kCulpritBits);
+  return off >= threshold::kCulprit;
 }
 
 }  // namespace
@@ -99,13 +99,17 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
   else
     linearised = 0;
   Solution solution = step(tables, linearisation_, readings);
-  const int most = search_.isBegun() ? kStepsWhileSearching : kFollowingSteps;
-  for (int steps = 1; steps < most && !solution.converged; ++steps, ++linearised) {
+  const int stepWork = Search::stepWork(tables, hypothesis);
+  const auto isTimeForAnother = [&](int steps) {
+    return search_.isBegun() ? steps < kStepsWhileSearching && (linearised + 2) * stepWork <= Search::kWork
+                             : steps < kFollowingSteps;
+  };
+  for (int steps = 1; isTimeForAnother(steps) && !solution.converged; ++steps, ++linearised) {
     move(tables, solution.contact, linearisation_);
     solution = step(tables, linearisation_, readings);
   }
   const bool wasAccepted = answer_.accepted;
-  if (readings.shift != answer_.shift) answer_.rival = rescaled(answer_.rival, answer_.shift, readings.shift);
+  rescaleRival(readings.shift);
   slidBefore_q32_ = slid_q32_;
   for (std::size_t k = 0; k < solution.contact.size(); ++k) {
     slid_q32_[k] = solution.contact[k].angle_q32 - answer_.solution.contact[k].angle_q32;
@@ -115,7 +119,39 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
   const bool isLost = wasAccepted && !answer_.accepted && !search_.isBegun() &&
                       solution.residualEnergy > energyOf(readings, threshold::kLost * threshold::kGate);
   if (isLost) return std::nullopt;
-  return linearised * Search::stepWork(tables, hypothesis) + followRival(tables, readings);
+  return linearised * stepWork + takeBack(tables, readings, gauges) + followRival(tables, readings);
+}
+
+/// The rival, for readings of another scale than the answer's.
+void Locator::rescaleRival(int shift) {
+  if (shift == answer_.shift) return;
+  answer_.rival = rescaled(answer_.rival, answer_.shift, shift);
+  if (answer_.rivalEnergy < 0) return;
+  const int up = 2 * (answer_.shift - shift);
+  constexpr int kMostBits = 62;
+  answer_.rivalEnergy = up <= 0 ? answer_.rivalEnergy >> std::min(-up, kMostBits)
+                                : lesser(answer_.rivalEnergy, Wide{1} << (kMostBits - up)) << up;
+}
+
+/// Gauges that work, feel the touch and were left out count again, once an answer explains their readings as
+/// well. The work it took.
+int Locator::takeBack(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges) {
+  Hypothesis hypothesis = answer_.solution.hypothesis;
+  if (hypothesis.gauges == gauges || hypothesis.exact != 0 || search_.isBegun()) return 0;
+  if (!answer_.accepted || ++setsLeftOut_ % kRivalEvery != 0) return 0;
+  for (GaugeSet left = gauges & ~hypothesis.gauges; left != 0; left &= left - 1) {
+    const int gauge = std::countr_zero(left);
+    if (magnitude(linearisation_.predicted[at(gauge)]) >= threshold::kFelt)
+      hypothesis.gauges |= GaugeSet{1} << gauge;
+  }
+  if (hypothesis == answer_.solution.hypothesis) return 0;
+  linearise(tables, hypothesis, answer_.solution.contact, scratch_);
+  const Solution solution = step(tables, scratch_, readings);
+  if (isPlain(tables.constants, solution, readings)) {
+    linearisation_ = scratch_;
+    believe(tables, solution, readings);
+  }
+  return Search::stepWork(tables, hypothesis);
 }
 
 /// The second answer is fitted now and then, until the touch has told which of them is right. Weak readings
@@ -248,7 +284,7 @@ void Locator::goOn(const TableImage& tables, const ScaledReadings& readings, int
   // The touch has gone on since the search began: what was found has moved as the answer that was followed.
   const Hypothesis hypothesis = answer_.solution.hypothesis;
   ContactStates from = rescaled(answer_.solution.contact, answer_.shift, readings.shift);
-  answer_.rival = rescaled(answer_.rival, answer_.shift, readings.shift);
+  rescaleRival(readings.shift);
   const std::uint32_t moved_q32 = followed.contact[0].angle_q32 - searchedAt_q32_;
   for (ContactState& contact : from) contact.angle_q32 += moved_q32;
   for (ContactState& contact : answer_.rival) contact.angle_q32 += moved_q32;
@@ -334,7 +370,8 @@ void Locator::update(const TableImage& tables, std::span<const std::int32_t> str
   } else if (setsInDoubt_ == kNewDoubt && !answer_.doubtful) {
     answer_.searching = true;
     search(tables, readings, gauges);
-  } else if (!answer_.accepted || answer_.doubtful || (answer_.rivalIsLost && answer_.rivalEnergy >= 0)) {
+  } else if (!answer_.accepted || answer_.doubtful || (answer_.rivalIsLost && answer_.rivalEnergy >= 0) ||
+             areTooNear(tables.constants, answer_.solution)) {
     if (++setsSinceSearch_ >= kSearchAgainAfter) search(tables, readings, gauges);
   }
   if (mode_ == FitMode::kThreePoint && !search_.isBegun()) solveExactly(tables, readings);

@@ -66,6 +66,8 @@ class Locator {
   void settle(const TableImage& tables, const ScaledReadings& readings);
   void goOn(const TableImage& tables, const ScaledReadings& readings, int workDone);
   void search(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
+  void rescaleRival(int shift);
+  int takeBack(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
   void conclude(const TableImage& tables);
   GaugeSet culprit(const TableImage& tables);
   void rememberRival(const TableImage& tables, const Ranking& ranking, const ScaledReadings& readings);
@@ -84,6 +86,7 @@ class Locator {
   bool guessed_ = false;          ///< the answer is where a fit starts
   std::uint8_t setsInDoubt_ = 0;  ///< in a row, up to where a search begins
   std::uint8_t setsSinceRival_ = 0;
+  std::uint8_t setsLeftOut_ = 0;  ///< in which the answer left gauges out
   std::uint16_t setsSinceSearch_ = 0;
   std::uint32_t searchedAt_q32_ = 0;  ///< where the answer was when the search began
 };

@@ -8,6 +8,7 @@
 
 #include "common/table_image.hpp"
 #include "firmware/core/detect.hpp"
+#include "firmware/core/hypothesis.hpp"
 
 namespace strainfinger::firmware {
 
@@ -21,10 +22,13 @@ class NoiseMeter {
   static constexpr int kMemory = 4;         ///< sixteen comparisons: a quarter of a second [log2]
   static constexpr int kNoisy_q4 = 4 << 4;  ///< variance, in configured ones, from which the ring is noisy
 
-  /// One sample set of an untouched ring.
-  void take(const TableConstants& constants, std::span<const std::int32_t> strains_q32) {
-    if (phase_ == 0) std::copy(strains_q32.begin(), strains_q32.end(), before_q32_.begin());
-    if (phase_ == kLag) compare(constants, strains_q32);
+  /// One sample set of an untouched ring. `gauges`: those that work; the others' noise is nobody's.
+  void take(const TableConstants& constants, std::span<const std::int32_t> strains_q32, GaugeSet gauges) {
+    if (phase_ == 0) {
+      std::copy(strains_q32.begin(), strains_q32.end(), before_q32_.begin());
+      compared_ = gauges;
+    }
+    if (phase_ == kLag) compare(constants, strains_q32, compared_ & gauges);
     phase_ = static_cast<std::uint8_t>((phase_ + 1) % kEvery);
   }
   /// The ring was touched in between: nothing to compare with.
@@ -35,9 +39,10 @@ class NoiseMeter {
   bool isNoisy() const { return variance_q4() >= kNoisy_q4; }
 
  private:
-  void compare(const TableConstants& constants, std::span<const std::int32_t> strains_q32) {
+  void compare(const TableConstants& constants, std::span<const std::int32_t> strains_q32, GaugeSet gauges) {
     std::array<std::int32_t, kMaxGauges> change;
-    for (std::size_t i = 0; i < strains_q32.size(); ++i) change[i] = (strains_q32[i] - before_q32_[i]) / 2;
+    for (std::size_t i = 0; i < strains_q32.size(); ++i)
+      change[i] = contains(gauges, static_cast<int>(i)) ? (strains_q32[i] - before_q32_[i]) / 2 : 0;
     const std::uint32_t energy = gateEnergy(constants, std::span(change).first(strains_q32.size()));
     // Halved changes of configured noise have half the energy of the noise itself.
     const std::uint64_t ratio_q8 = (std::uint64_t{energy} << 9) / configuredEnergy(constants);
@@ -57,6 +62,7 @@ class NoiseMeter {
   }
 
   std::array<std::int32_t, kMaxGauges> before_q32_{};
+  GaugeSet compared_ = 0;
   std::uint32_t mean_q8_ = 1 << 8;
   std::uint8_t phase_ = 0;
 };

@@ -12,8 +12,6 @@ constexpr int kGaugesPerOut = 8;
 /// row, a period of 50 Hz hum at 1 kHz and a bit: else they are a disturbance.
 constexpr Wide kDisturbance = 64;
 constexpr int kSettled = 24;
-/// A reading speaks for its gauge where it should be at least this part of the largest [log2].
-constexpr int kFelt = 3;
 
 }  // namespace
 
@@ -28,19 +26,26 @@ void Pipeline::takeZero(const ZeroAverage& zero) {
   locator_.release();
 }
 
-/// The readings are small, and not for long those of contacts: hum or drift.
+/// The readings are small, and not for long those of contacts: hum or drift. A touch stays one until as many
+/// sets in a row are not those of contacts: one reading that is off in one set doesn't end it.
 bool Pipeline::isDisturbance(GaugeSet gauges) {
+  constexpr int kTouch = 2 * kSettled;
   const bool accepted = locator_.answer().accepted;
-  if (settledSets_ == kSettled && accepted) return false;
+  if (settledSets_ == kTouch && accepted) return false;
   const Wide most = kDisturbance * readingNoise_q32(constants());
   bool weak = true;
   for (int i = 0; i < constants().gauge_count; ++i) {
     const std::int32_t strain = readings_.strain_q32[static_cast<std::size_t>(i)];
     if (contains(gauges, i) && (strain > most || strain < -most)) weak = false;
   }
-  const int settled = !weak ? kSettled : accepted ? settledSets_ + 1 : 0;
-  settledSets_ = static_cast<std::uint8_t>(settled);
-  return settled < kSettled;
+  if (!weak) {
+    settledSets_ = kTouch;
+  } else if (accepted) {
+    settledSets_ = settledSets_ + 1 < kSettled ? static_cast<std::uint8_t>(settledSets_ + 1) : kTouch;
+  } else {
+    settledSets_ = settledSets_ > kSettled + 1 ? static_cast<std::uint8_t>(settledSets_ - 1) : 0;
+  }
+  return settledSets_ < kSettled;
 }
 
 void Pipeline::locate(GaugeSet gauges) {
@@ -51,30 +56,32 @@ void Pipeline::locate(GaugeSet gauges) {
   observation_.several = answer.several || answer.solution.hypothesis.contacts > 1;
 }
 
-/// What the answer says of each gauge.
+/// What the answer says of each gauge. A suspect stays one only as long as its own reading is off: it may
+/// have been wrong for a moment only.
 void Pipeline::watchGauges() {
   const Answer& answer = locator_.answer();
   if (!answer.accepted || answer.searching) return;
-  watch_.suspect(answer.suspect, answer.solution.contact[0].angle_q32);
   const Linearisation& fit = locator_.linearisation();
-  GaugeSet atRail = 0, right = 0;
-  for (GaugeSet left = watch_.watched() | observation_.saturated; left != 0; left &= left - 1) {
+  GaugeSet atRail = 0, right = 0, wrong = 0, suspect = 0;
+  const GaugeSet looked = watch_.watched() | answer.suspect | observation_.saturated;
+  for (GaugeSet left = looked; left != 0; left &= left - 1) {
     const GaugeSet gauge = left & (0 - left);
     const auto i = static_cast<std::size_t>(std::countr_zero(left));
     const std::int32_t predicted = fit.predicted[i];
-    const bool saturated = (observation_.saturated & gauge) != 0;
-    if (!saturated && magnitude(predicted) < 1 << (14 - kFelt)) continue;
     const std::int32_t measured = readings_.strain_q32[i] >> answer.shift;
-    if (saturated) {
+    if ((observation_.saturated & gauge) != 0) {
       const bool beyond =
           measured < 0 ? predicted <= measured - measured / 4 : predicted >= measured - measured / 4;
       if (!beyond) atRail |= gauge;
-    } else if (magnitude(measured - predicted) <= magnitude(predicted) / 4) {
-      right |= gauge;
+      continue;
     }
+    const std::int32_t off = magnitude(measured - predicted);
+    if (off >= threshold::kCulprit) suspect |= answer.suspect & gauge;
+    if (magnitude(predicted) >= threshold::kFelt) (off <= magnitude(predicted) / 4 ? right : wrong) |= gauge;
   }
   watch_.implausiblyAtRail(atRail);
-  watch_.vindicate(right & ~answer.suspect);
+  watch_.suspect(suspect, answer.solution.contact[0].angle_q32);
+  watch_.vindicate(right & ~suspect, wrong);
 }
 
 /// The codes are those of the last set of a touch, and the answer to them is found.
@@ -94,7 +101,7 @@ const Observation& Pipeline::process(Codes codes) {
   if (observation_.touched) {
     noise_.interrupt();
   } else if (settledSets_ == 0) {
-    noise_.take(constants(), strains());
+    noise_.take(constants(), strains(), ~(observation_.saturated | watch_.outOfUse()));
   }
   areZerosNew_ = tracker_.take(*tables_, strains(), observation_.touched ? &locator_.answer() : nullptr,
                                observation_.leftOut | observation_.saturated | watch_.outOfUse(),
@@ -107,12 +114,17 @@ const Observation& Pipeline::process(Codes codes) {
 }
 
 /// Gate energy of some gauges.
-std::uint32_t Pipeline::energyOf(GaugeSet gauges) const {
-  std::array<std::int32_t, kMaxGauges> counted{};
+std::uint32_t Pipeline::energyOf(const Readings& readings, GaugeSet gauges) const {
+  Readings counted;
   for (int i = 0; i < constants().gauge_count; ++i)
     if (contains(gauges, i))
-      counted[static_cast<std::size_t>(i)] = readings_.strain_q32[static_cast<std::size_t>(i)];
-  return gateEnergy(constants(), std::span(counted).first(constants().gauge_count));
+      counted.strain_q32[static_cast<std::size_t>(i)] = readings.strain_q32[static_cast<std::size_t>(i)];
+  return gateEnergy(constants(), counted.strains(constants().gauge_count));
+}
+
+bool Pipeline::isTouchedDuring(const ZeroAverage& zero) const {
+  const std::uint32_t energy = energyOf(zero.change(calibration_), ~watch_.outOfUse());
+  return ContactGate().update(constants(), energy, noise_.variance_q4());
 }
 
 void Pipeline::observe(Codes codes) {
@@ -125,7 +137,7 @@ void Pipeline::observe(Codes codes) {
   if (energy >= constants().gate_off) {
     observation_.saturated = saturatedGauges(constants(), codes);
     gauges &= ~observation_.saturated;
-    if (gauges != allGauges(constants().gauge_count)) energy = energyOf(gauges);
+    if (gauges != allGauges(constants().gauge_count)) energy = energyOf(readings_, gauges);
   }
   if (gate_.update(constants(), energy, noise_.variance_q4())) {
     locate(gauges);

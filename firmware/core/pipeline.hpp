@@ -40,6 +40,8 @@ class Pipeline {
   Calibration& calibration() { return calibration_; }
   /// A new zero: what was learnt with the old one is forgotten, gauges out of use have another try.
   void takeZero(const ZeroAverage& zero);
+  /// The strains changed while the zero was taken, as by a touch that began or ended.
+  bool isTouchedDuring(const ZeroAverage& zero) const;
   /// So few gauges work that nothing is said for sure.
   bool tooFewGauges() const;
   const ZeroTracker& zeroTracker() const { return tracker_; }
@@ -53,7 +55,7 @@ class Pipeline {
   bool isKnown(Codes codes) const;
   void observe(Codes codes);
   bool isDisturbance(GaugeSet gauges);
-  std::uint32_t energyOf(GaugeSet gauges) const;
+  std::uint32_t energyOf(const Readings& readings, GaugeSet gauges) const;
 
   const TableImage* tables_;
   Calibration calibration_;
@@ -62,7 +64,7 @@ class Pipeline {
   bool areZerosNew_ = false;                       ///< since then
   Observation observation_;
   ContactGate gate_;
-  std::uint8_t settledSets_ = 0;  ///< in a row that contacts explain; firm readings count at once
+  std::uint8_t settledSets_ = 0;  ///< how sure it is that contacts make the readings, see isDisturbance()
   NoiseMeter noise_;
   Locator locator_;
   GaugeWatch watch_;

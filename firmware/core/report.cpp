@@ -183,10 +183,11 @@ FingerFlags TouchReporter::flagsOf(const Observation& observation) const {
 std::optional<TouchFrames> TouchReporter::frames(const TableConstants& constants,
                                                  const Observation& observation, const Answer& answer,
                                                  const Linearisation& linearisation, std::uint32_t now_us) {
+  isLookedAt_ &= observation.unchanged;
   if (!due(now_us)) return std::nullopt;
   const auto next = static_cast<std::uint8_t>(last_.contact.sequence + (any_ ? 1 : 0));
   if (!observation.touched && (!any_ || !last_.contact.flags.has(FingerFlag::kContact))) return std::nullopt;
-  if (observation.unchanged && !mustBeRepeated(now_us)) return std::nullopt;
+  if (isLookedAt_ && !mustBeRepeated(now_us)) return std::nullopt;
   FingerFlags flags = flagsOf(observation);
   if (!observation.touched) return releaseFrames(flags, next);
   if (!unitErrors_.areOf(linearisation)) unitErrors_ = unitErrors(linearisation);
@@ -196,14 +197,19 @@ std::optional<TouchFrames> TouchReporter::frames(const TableConstants& constants
   flags.set(FingerFlag::kUncertain,
             contact.uncertain || observation.uncertain || (second && second->uncertain));
   const TouchFrames frames = touchFrames(constants, contact, second, flags, next);
-  if (!mustBeRepeated(now_us) && !isNews(frames, last_, noiseShare_q8(answer))) return std::nullopt;
+  isLookedAt_ = !mustBeRepeated(now_us) && !isNews(frames, last_, noiseShare_q8(answer));
+  if (isLookedAt_) return std::nullopt;
   return frames;
 }
 
 void TouchReporter::sent(const TouchFrames& frames, std::uint32_t now_us) {
   last_ = frames;
   sentAt_us_ = now_us;
-  any_ = true;
+  any_ = isLookedAt_ = true;
+}
+
+void TouchReporter::lost() {
+  if (any_) last_.contact.flags.set(FingerFlag::kContact, true);
 }
 
 }  // namespace strainfinger::firmware

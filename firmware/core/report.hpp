@@ -60,6 +60,10 @@ class TouchReporter {
                                     const Answer& answer, const Linearisation& linearisation,
                                     std::uint32_t now_us);
   void sent(const TouchFrames& frames, std::uint32_t now_us);
+  /// A set of readings that nothing could be said of.
+  void missed() { isLookedAt_ = false; }
+  /// What was sent last may never have been on the bus: the end of a touch is said again.
+  void lost();
   void setShortestPeriod(std::uint32_t period_us) { shortestPeriod_us_ = period_us; }
 
  private:
@@ -73,6 +77,7 @@ class TouchReporter {
   UnitErrors unitErrors_;  ///< of the last linearisation that frames were made of
   std::uint32_t sentAt_us_ = 0;
   bool any_ = false;
+  bool isLookedAt_ = false;  ///< nothing is left to say of these codes
 };
 
 }  // namespace strainfinger::firmware

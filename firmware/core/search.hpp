@@ -50,7 +50,7 @@ class Candidates {
   void move(int from, int to);
 
   std::array<Candidate, kMost> candidate_;
-  std::array<std::uint8_t, kMost> order_{};  ///< slots of solution_: those in use, then the free ones
+  std::array<std::uint8_t, kMost> order_{};  ///< slots of candidate_: those in use, then the free ones
   std::uint8_t count_ = 0;
 };
 

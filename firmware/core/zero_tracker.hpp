@@ -25,9 +25,9 @@ class ZeroTracker {
   static constexpr std::uint32_t kStaleSets = 600'000;  ///< ten minutes
 
   /// One sample set. `answer`: what explains it; nothing where nothing touches the finger. Gauges in
-  /// `leftOut` learn nothing. `scratch` is overwritten at the end of an interval.
-  /// True: the zeros may have changed. Cost: two instructions a gauge in one of kEvery sets; at the end of an
-  /// untouched interval at most kMostSteps steps of a fit from the readings.
+  /// `leftOut` teach nothing, and learn nothing of their own. `scratch` is overwritten at the end of an
+  /// interval. True: the zeros may have changed. Cost: two instructions a gauge in one of kEvery sets; at the
+  /// end of an untouched interval at most kMostSteps steps of a fit from the readings.
   bool take(const TableImage& tables, std::span<const std::int32_t> strains_q32, const Answer* answer,
             GaugeSet leftOut, Calibration& calibration, Linearisation& scratch) {
     if (age_sets_ != std::numeric_limits<std::uint32_t>::max()) ++age_sets_;

@@ -133,6 +133,10 @@ void Recomputer::take(std::int64_t time_ns, const CanFrame& frame) {
         fmt::format("node {} has tables with a CRC-32 that ends in {:02x}, these end in {:02x}: give "
                     "the finger's config, or its --tables",
                     finger_.node, heartbeat->table_crc, tables_.crc32 & 0xFF));
+  const auto response = readSingleFrame<ResponseFrame>(frame, finger_.node);
+  const bool isTareRefused =
+      response && response->command == Command::kTare && response->status == CommandStatus::kTouched;
+  if (isTareRefused && wasZeroing_) return end();  // the old zero stays, and what made it is not known here
   const bool isKnown = engine_ != nullptr && zeroingSets_ == firmware::ZeroAverage::kSamples;
   if (!isKnown || !isTouchOf(finger_.node, frame) || isOfTouchBefore(frame)) return;
   recorded_[frame.id].push_back({time_ns, frame});

@@ -13,8 +13,7 @@ struct PageRange {
 };
 
 inline constexpr PageRange kImagePages{0, 48};
-inline constexpr PageRange kTablePages{
-    48, 12};  ///< tables of a finger, used instead of the image's if they are whole
+inline constexpr PageRange kTablePages{48, 12};  ///< tables of a finger, used instead of the image's
 inline constexpr PageRange kConfigurationPages{60, 4};
 
 static_assert(kTablePages.first == kImagePages.first + kImagePages.count);

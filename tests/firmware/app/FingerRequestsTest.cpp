@@ -134,6 +134,21 @@ TEST(FingerRequests, ATareIsRefusedWhileTouched) {
   LONGS_EQUAL(fits + 100, finger.counters().fits);
 }
 
+TEST(FingerRequests, ATareDuringWhichATouchBeginsIsRefusedAndTheZeroStays) {
+  for (const int before : {0, 10, 30, 50}) {
+    run(1100);
+    responses();
+    ask(tareRequest(false));
+    run(before);
+    for (int set = before; set < 64; ++set) run(1, {3.2, 1.5 * (set - before), 0});
+    checkAnswer(Command::kTare, CommandStatus::kTouched);
+    run(100, kTouch);
+    CHECK_TRUE(sent<ContactFrame>().back().flags.has(FingerFlag::kContact));
+    run(100);
+    CHECK_FALSE(sent<ContactFrame>().back().flags.has(FingerFlag::kContact));
+  }
+}
+
 TEST(FingerRequests, AForcedTareUntouchedIsAnOrdinaryOne) {
   ask(tareRequest(true));
   run(64);

@@ -188,6 +188,44 @@ TEST(Finger, AForceWhoseContactWasLostToBusOffIsDropped) {
   LONGS_EQUAL(1, finger->counters().touchesIncomplete);
 }
 
+TEST(Finger, TheEndOfATouchThatWasLostToBusOffIsSaidAgain) {
+  runZeroed();
+  run(100, kTouch);
+  run(1);
+  CHECK_FALSE(sent<ContactFrame>().back().flags.has(FingerFlag::kContact));
+  run(100);
+  can.sent.clear();
+  ++can.bus.busOffs;
+  run(100);
+  LONGS_EQUAL(1, sent<ContactFrame>().size());
+  CHECK_FALSE(sent<ContactFrame>().back().flags.has(FingerFlag::kContact));
+  LONGS_EQUAL(1, sent<ForceFrame>().size());
+}
+
+TEST(Finger, ABusOffBeforeAnyTouchIsNoEndOfOne) {
+  runZeroed();
+  ++can.bus.busOffs;
+  run(100);
+  LONGS_EQUAL(0, sent<ContactFrame>().size());
+}
+
+TEST(Finger, TheEndOfASecondContactIsSaidUntilThePortTakesIt) {
+  runZeroed();
+  runSets(400, codesOfStrains(ring.strains({{0.5, 25, 0}, {8.2, 20, 3}})));
+  CHECK_FALSE(sent<Force2Frame>().empty());
+  can.sent.clear();
+  const Press one{0.5, 25, 0};
+  for (int set = 0; set < 400; ++set) {
+    if (set % 100 == 0) can.room = 1;  // for a CONTACT; what follows it gets too old
+    run(1, {one.position_pitch + 0.01 * (set % 2), one.normal, one.tangential});
+  }
+  LONGS_EQUAL(0, sent<Contact2Frame>().size());
+  can.room = SIZE_MAX;
+  for (int set = 0; set < 200; ++set) run(1, {one.position_pitch + 0.01 * (set % 2), one.normal, 0});
+  LONGS_EQUAL(1, sent<Contact2Frame>().size());
+  CHECK_FALSE(sent<Contact2Frame>().back().flags.has(FingerFlag::kContact));
+}
+
 TEST(Finger, SendsNothingButHeartbeatsUntouched) {
   runZeroed();
   run(1000);

@@ -55,7 +55,7 @@ TEST(GaugeWatch, ATouchThatAGaugeFeelsRightClearsIt) {
   for (int round = 0; round < 100; ++round) {
     suspectAt(kFive, round);
     suspectAt(kFive, round + 1);
-    watch.vindicate(kFive);
+    watch.vindicate(kFive, 0);
   }
   UNSIGNED_LONGS_EQUAL(0, watch.outOfUse());
 }
@@ -63,22 +63,31 @@ TEST(GaugeWatch, ATouchThatAGaugeFeelsRightClearsIt) {
 TEST(GaugeWatch, WhatSpeaksForOthersDoesNotClearAGauge) {
   for (int place = 0; place < GaugeWatch::kPlaces; ++place) {
     suspectAt(kFive, place);
-    watch.vindicate(~kFive);
+    watch.vindicate(~kFive, 0);
   }
   UNSIGNED_LONGS_EQUAL(kFive, watch.outOfUse());
 }
 
 TEST(GaugeWatch, AGaugeOutOfUseComesBackWhenItReadsRightForLong) {
   convictFive();
-  for (int set = 0; set + 1 < GaugeWatch::kConvincing; ++set) watch.vindicate(kFive);
+  for (int set = 0; set + 1 < GaugeWatch::kConvincing; ++set) watch.vindicate(kFive, 0);
   UNSIGNED_LONGS_EQUAL(kFive, watch.outOfUse());
-  watch.vindicate(kFive);
+  watch.vindicate(kFive, 0);
   UNSIGNED_LONGS_EQUAL(0, watch.outOfUse());
+}
+
+TEST(GaugeWatch, AGaugeThatIsWrongInBetweenStaysOutOfUse) {
+  convictFive();
+  for (int round = 0; round < 10; ++round) {
+    for (int set = 0; set + 1 < GaugeWatch::kConvincing; ++set) watch.vindicate(kFive, 0);
+    watch.vindicate(0, kFive);
+  }
+  UNSIGNED_LONGS_EQUAL(kFive, watch.outOfUse());
 }
 
 TEST(GaugeWatch, AGaugeThatCameBackHasToFailAgainAtAsManyPlaces) {
   convictFive();
-  for (int set = 0; set < GaugeWatch::kConvincing; ++set) watch.vindicate(kFive);
+  for (int set = 0; set < GaugeWatch::kConvincing; ++set) watch.vindicate(kFive, 0);
   suspectAt(kFive, 8);
   suspectAt(kFive, 9);
   UNSIGNED_LONGS_EQUAL(0, watch.outOfUse());

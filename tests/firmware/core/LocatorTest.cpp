@@ -258,6 +258,50 @@ TEST(Locator, ARivalIsForgottenOnceTheTouchHasTold) {
   CHECK_COMPARE(left, <=, rivals / 5);
 }
 
+TEST(Locator, ARivalStaysOneWhenTheReadingsScaleChanges) {
+  Presses presses(16, 5, 413, 2, 6);
+  int rescaled = 0;
+  for (int i = 0; i < 400; ++i) {
+    locator.release();
+    const auto strains = ring.strains(presses.next());
+    settle(presses.noisy(strains, ring.noise_strain()));
+    const auto chiSquared = [&] {
+      const Answer& answer = locator.answer();
+      return static_cast<double>(answer.rivalEnergy) /
+             static_cast<double>(energyOf(answer.gateVariance_q4, 1));
+    };
+    for (double times = 1.01; times < 2.2 && locator.answer().rivalEnergy >= 0; times *= 1.01) {
+      const double before = chiSquared();
+      const int shift = locator.answer().shift;
+      auto more = strains;
+      for (double& strain : more) strain *= times;
+      update(presses.noisy(more, ring.noise_strain()));
+      // In the other sets the rival may have been fitted to the new readings.
+      if (locator.answer().shift == shift || locator.answer().rivalEnergy < 0) continue;
+      ++rescaled;
+      if (before > 1) CHECK_COMPARE(chiSquared(), <, 2 * before + 10);
+    }
+  }
+  CHECK(rescaled > 10);
+}
+
+TEST(Locator, ASearchEndsWhileTwoContactsOfACalibratedFingerTremble) {
+  config::FingerConfig config = ModelRing::asDrawn();
+  config.calibration.depth_offset_m.assign(16, 0.02e-3);
+  const ModelRing calibrated{config};
+  Presses noise(16, 20, 414);
+  int searching = 0;
+  for (int set = 0; set < 4000; ++set) {
+    const double off = set < 1500 ? 0 : 0.02 * (set % 2 == 0 ? -1 : 1) * (1 + set / 2 % 2);
+    std::vector<Press> presses{{4.6 + off, 20, 3, 2}, {11.2 + off, 20, 0, 2}};
+    if (set >= 2000) presses.push_back({8 + off, 3, 0, 1});
+    update(calibrated, noise.noisy(calibrated.strains(presses), calibrated.noise_strain()),
+           calibrated.allGauges());
+    searching = locator.answer().searching ? searching + 1 : 0;
+    CHECK_COMPARE(searching, <, 2 * kLongestSearch);
+  }
+}
+
 TEST(Locator, NoiseThatIsMeasuredWidensTheGate) {
   Presses presses(16, 10, 410);
   int accepted = 0, acceptedAsConfigured = 0;

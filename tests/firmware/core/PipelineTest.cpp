@@ -19,8 +19,17 @@ TEST_GROUP(Pipeline) {
   std::vector<std::uint16_t> codes = std::vector<std::uint16_t>(16);
 
   const Observation& process(const std::vector<double>& strains) {
+    convert(strains);
+    return pipeline.process(codes);
+  }
+  void convert(const std::vector<double>& strains) {
     const auto noisy = random.noisy(strains, noise_strain);
     for (std::size_t i = 0; i < codes.size(); ++i) codes[i] = converter.codeOf(noisy[i]);
+  }
+  /// The same where gauge 5 reads this code.
+  const Observation& processWithFive(const std::vector<double>& strains, std::uint16_t code) {
+    convert(strains);
+    codes[5] = code;
     return pipeline.process(codes);
   }
   const Observation& process(const std::vector<double>& strains, int sets) {
@@ -80,4 +89,73 @@ TEST(Pipeline, ASaturatedGaugeIsNotFitted) {
   const Observation& observation = process(strains, 40);
   UNSIGNED_LONGS_EQUAL(1u << 5, observation.saturated);
   CHECK_FALSE(contains(pipeline.answer().solution.hypothesis.gauges, 5));
+}
+
+TEST(Pipeline, AGaugeThatIsOpenHidesNoTouch) {
+  const std::vector<double> nothing(16, 0.0);
+  const auto flips = [](int set) { return static_cast<std::uint16_t>(set / 3 % 2 == 0 ? 0xFFFF : 0); };
+  const auto spikes = [&](int set) { return set % 50 == 0 ? std::uint16_t{0xFFFF} : codes[5]; };
+  for (const bool isOpen : {true, false}) {
+    pipeline = Pipeline(ring.tables(), FitMode::kRefined);
+    int seen = 0;
+    for (int set = 0; set < 2000; ++set) {
+      convert(nothing);
+      codes[5] = isOpen ? flips(set) : spikes(set);
+      pipeline.process(codes);
+    }
+    CHECK_FALSE(pipeline.observation().noisy);
+    for (int set = 0; set < 300; ++set) {
+      convert(ring.strains(Press{11.3, 5, 0.5, 2}));
+      codes[5] = isOpen ? flips(set) : spikes(set);
+      seen += pipeline.process(codes).touched;
+    }
+    CHECK_COMPARE(seen, >, 300 - 30);
+  }
+}
+
+TEST(Pipeline, OneWrongReadingDoesNotEndALightTouch) {
+  const auto strains = ring.strains(Press{5.4, 1.5, 0.2, 1});
+  CHECK_TRUE(process(strains, 100).touched);
+  auto wrong = strains;
+  wrong[9] += 20 * noise_strain;
+  CHECK_TRUE(process(wrong).touched);
+  for (int set = 0; set < 50; ++set) CHECK_TRUE(process(strains).touched);
+}
+
+TEST(Pipeline, AGaugeThatIsWrongForAMomentIsNotConvictedByWhatTheTouchDoesLater) {
+  constexpr int kWrong = 300, kStill = 1000, kSlid = 5000;
+  for (int set = 0; set < kSlid; ++set) {
+    auto strains = ring.strains(Press{4.6 + std::max(0, set - kStill) * 2.5 / 4000, 30, 3, 2});
+    if (set < kWrong) strains[5] = 0;
+    UNSIGNED_LONGS_EQUAL(0, process(strains).outOfUse);
+  }
+}
+
+TEST(Pipeline, AGaugeThatWasSaturatedCountsAgain) {
+  process(ring.strains(Press{5, 250, 0, 2}), 300);
+  UNSIGNED_LONGS_EQUAL(1u << 5, pipeline.observation().leftOut);
+  process(ring.strains(Press{5, 60, 0, 2}), 1000);
+  UNSIGNED_LONGS_EQUAL(0, pipeline.observation().leftOut);
+}
+
+TEST(Pipeline, AGaugeThatWorksAgainCountsAgain) {
+  const std::vector<double> nothing(16, 0.0);
+  for (int set = 0; set < 200; ++set) processWithFive(nothing, 0xFFFF);
+  UNSIGNED_LONGS_EQUAL(1u << 5, pipeline.observation().outOfUse);
+  process(ring.strains(Press{4.6, 30, 3, 2}), 1000);
+  UNSIGNED_LONGS_EQUAL(0, pipeline.observation().outOfUse);
+  UNSIGNED_LONGS_EQUAL(0, pipeline.observation().leftOut);
+  UNSIGNED_LONGS_EQUAL(ring.allGauges(), pipeline.linearisation().hypothesis.gauges);
+}
+
+TEST(Pipeline, TwoContactsThatBecameOneAreToldAsOneInTheEnd) {
+  constexpr int kApart = 2000, kTogether = 5000, kOne = 6500, kEnd = 10'000;
+  for (int set = 0; set < kEnd; ++set) {
+    const double apart = 6 * std::clamp((kTogether - set) / double{kTogether - kApart}, 0.0, 1.0);
+    const double share = std::clamp((kOne - set) / 500.0, 0.0, 1.0);
+    const Press first{4.6, 30, 3, 3}, second{4.6 + apart, 15 * share, 0, 3};
+    process(share > 0 ? ring.strains({first, second}) : ring.strains(first));
+  }
+  LONGS_EQUAL(1, pipeline.answer().solution.hypothesis.contacts);
+  CHECK_FALSE(pipeline.observation().several);
 }

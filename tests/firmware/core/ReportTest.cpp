@@ -321,6 +321,21 @@ TEST(TouchReporter, SaysAnUnchangedTouchTwentyTimesASecond) {
   LONGS_EQUAL(20, said);
 }
 
+TEST(TouchReporter, SaysWhatCameBeforeItWasDueAlthoughNothingChangesAnyMore) {
+  say(touch);
+  later(1000);
+  move(10);
+  CHECK_FALSE(say(touch).has_value());
+  const Observation unchanged{.touched = true, .unchanged = true};
+  later(1000);
+  const auto offered = frames(unchanged);
+  CHECK_TRUE(offered.has_value());
+  later(1000);
+  CHECK_TRUE(say(unchanged).has_value());  // the port didn't take it
+  later(2000);
+  CHECK_FALSE(say(unchanged).has_value());
+}
+
 TEST(TouchReporter, SaysNothingBeforeTheFloorAndSomethingAtIt) {
   say(touch);
   later(kFloor_us - 1);

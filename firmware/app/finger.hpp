@@ -167,15 +167,11 @@ class Finger {
 
   /// Not inlined, so that its frames aren't on the stack while the locator, which needs it most, runs.
   void report(std::uint32_t now_us) {
-    const std::uint32_t busOffs = can_.status().busOffs;
-    if (std::exchange(busOffs_, busOffs) != busOffs) {
-      reporter_.lost();
-      maySecondStand_ = wasSecondEver_;
-    }
     if (owed_.any()) return reporter_.missed();
     auto frames = reporter_.frames(pipeline_.constants(), pipeline_.observation(), pipeline_.answer(),
                                    pipeline_.linearisation(), sampleTime_us());
     if (!frames) return;
+    const std::uint32_t busOffs = can_.status().busOffs;
     if (!can_.send(encode(frames->contact, settings_.node))) {
       ++counters_.touchesBusy;
       return;
@@ -210,11 +206,19 @@ class Finger {
 
   void beat(std::uint32_t now_us) {
     if (now_us - heartbeatAt_us_ < kHeartbeatPeriod_us) return;
-    if (can_.send(encode(heartbeat(now_us), settings_.node))) heartbeatAt_us_ = now_us;
+    const hal::CanStatus status = can_.status();
+    repeatAfter(status.busOffs);
+    if (can_.send(encode(heartbeat(status, now_us), settings_.node))) heartbeatAt_us_ = now_us;
   }
 
-  HeartbeatFrame heartbeat(std::uint32_t now_us) const {
-    const hal::CanStatus status = can_.status();
+  /// What the port had taken when the node left the bus is lost, perhaps the end of a touch.
+  void repeatAfter(std::uint32_t busOffs) {
+    if (std::exchange(busOffs_, busOffs) == busOffs) return;
+    reporter_.lost();
+    maySecondStand_ = wasSecondEver_;
+  }
+
+  HeartbeatFrame heartbeat(const hal::CanStatus& status, std::uint32_t now_us) const {
     HeartbeatFrame frame;
     frame.state = state_;
     frame.faults = settings_.standingFaults;
@@ -363,7 +367,7 @@ class Finger {
   bool isSecond_ = false;        ///< there is a second contact in the last touch that was said
   bool maySecondStand_ = false;  ///< the last that was said of a second contact may be that there is one
   bool wasSecondEver_ = false;
-  std::uint32_t busOffs_ = 0;  ///< of the port, when something was said last
+  std::uint32_t busOffs_ = 0;  ///< of the port, at the last heartbeat
   RawSender raw_;
   std::optional<CommandStatus> tareStatus_;  ///< to answer when the zero is taken
   std::optional<ResponseFrame> response_;    ///< that the port hasn't taken yet

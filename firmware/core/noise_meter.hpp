@@ -7,7 +7,6 @@
 #include <span>
 
 #include "common/table_image.hpp"
-#include "firmware/core/detect.hpp"
 #include "firmware/core/hypothesis.hpp"
 
 namespace strainfinger::firmware {
@@ -39,27 +38,7 @@ class NoiseMeter {
   bool isNoisy() const { return variance_q4() >= kNoisy_q4; }
 
  private:
-  void compare(const TableConstants& constants, std::span<const std::int32_t> strains_q32, GaugeSet gauges) {
-    std::array<std::int32_t, kMaxGauges> change;
-    for (std::size_t i = 0; i < strains_q32.size(); ++i)
-      change[i] = contains(gauges, static_cast<int>(i)) ? (strains_q32[i] - before_q32_[i]) / 2 : 0;
-    const std::uint32_t energy = gateEnergy(constants, std::span(change).first(strains_q32.size()));
-    // Halved changes of configured noise have half the energy of the noise itself.
-    const std::uint64_t ratio_q8 = (std::uint64_t{energy} << 9) / configuredEnergy(constants);
-    const auto now_q8 = static_cast<std::int64_t>(std::min<std::uint64_t>(ratio_q8, 1u << 24));
-    mean_q8_ =
-        static_cast<std::uint32_t>(mean_q8_ + ((now_q8 - static_cast<std::int64_t>(mean_q8_)) >> kMemory));
-  }
-
-  /// What configured noise and the gate's rounding leave on average [gate energy]. Of any tables below 2^64.
-  static std::uint64_t configuredEnergy(const TableConstants& constants) {
-    constexpr int kMostUp = 25, kMostDown = 63;
-    const int up = constants.noise_variance_exponent - 2 * constants.gate_shift;
-    const std::uint64_t twice = std::uint64_t{constants.noise_variance} << 1;
-    const std::uint64_t variance_q1 =
-        up >= 0 ? twice << std::min(up, kMostUp) : twice >> std::min(-up, kMostDown);
-    return std::max<std::uint64_t>(constants.gauge_count * (variance_q1 + 1) / 2, 1);
-  }
+  void compare(const TableConstants& constants, std::span<const std::int32_t> strains_q32, GaugeSet gauges);
 
   std::array<std::int32_t, kMaxGauges> before_q32_{};
   GaugeSet compared_ = 0;

@@ -13,6 +13,15 @@ constexpr int kGaugesPerOut = 8;
 constexpr Wide kDisturbance = 64;
 constexpr int kSettled = 24;
 
+/// Gate energy of some gauges.
+std::uint32_t energyOf(const TableConstants& constants, const Readings& readings, GaugeSet gauges) {
+  Readings counted;
+  for (int i = 0; i < constants.gauge_count; ++i)
+    if (contains(gauges, i))
+      counted.strain_q32[static_cast<std::size_t>(i)] = readings.strain_q32[static_cast<std::size_t>(i)];
+  return gateEnergy(constants, counted.strains(constants.gauge_count));
+}
+
 }  // namespace
 
 bool Pipeline::tooFewGauges() const {
@@ -113,38 +122,30 @@ const Observation& Pipeline::process(Codes codes) {
   return observation_;
 }
 
-/// Gate energy of some gauges.
-std::uint32_t Pipeline::energyOf(const Readings& readings, GaugeSet gauges) const {
-  Readings counted;
-  for (int i = 0; i < constants().gauge_count; ++i)
-    if (contains(gauges, i))
-      counted.strain_q32[static_cast<std::size_t>(i)] = readings.strain_q32[static_cast<std::size_t>(i)];
-  return gateEnergy(constants(), counted.strains(constants().gauge_count));
-}
-
 bool Pipeline::isTouchedDuring(const ZeroAverage& zero) const {
-  const std::uint32_t energy = energyOf(zero.change(calibration_), ~watch_.outOfUse());
+  const std::uint32_t energy = energyOf(constants(), zero.change(calibration_), ~watch_.outOfUse());
   return ContactGate().update(constants(), energy, noise_.variance_q4());
 }
 
 void Pipeline::observe(Codes codes) {
   condition(calibration_, codes, readings_);
   observation_ = {};
-  observation_.outOfUse = watch_.outOfUse();
   const GaugeSet working = allGauges(constants().gauge_count) & ~watch_.outOfUse();
   GaugeSet gauges = working;
   std::uint32_t energy = gateEnergy(constants(), strains());
-  if (energy >= constants().gate_off) {
+  const bool mayBeTouched = energy >= constants().gate_off;
+  if (mayBeTouched) {
     observation_.saturated = saturatedGauges(constants(), codes);
     gauges &= ~observation_.saturated;
-    if (gauges != allGauges(constants().gauge_count)) energy = energyOf(readings_, gauges);
+    if (gauges != allGauges(constants().gauge_count)) energy = energyOf(constants(), readings_, gauges);
   }
-  if (gate_.update(constants(), energy, noise_.variance_q4())) {
+  if (mayBeTouched && gate_.update(constants(), energy, noise_.variance_q4())) {
     locate(gauges);
     if (!observation_.touched) return;
     watchGauges();
     std::copy(codes.begin(), codes.end(), codes_.begin());
   } else {
+    gate_ = {};
     watch_.implausiblyAtRail(observation_.saturated & working);
     locator_.release();
     settledSets_ = 0;

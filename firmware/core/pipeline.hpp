@@ -55,7 +55,6 @@ class Pipeline {
   bool isKnown(Codes codes) const;
   void observe(Codes codes);
   bool isDisturbance(GaugeSet gauges);
-  std::uint32_t energyOf(const Readings& readings, GaugeSet gauges) const;
 
   const TableImage* tables_;
   Calibration calibration_;

@@ -183,11 +183,13 @@ FingerFlags TouchReporter::flagsOf(const Observation& observation) const {
 std::optional<TouchFrames> TouchReporter::frames(const TableConstants& constants,
                                                  const Observation& observation, const Answer& answer,
                                                  const Linearisation& linearisation, std::uint32_t now_us) {
-  isLookedAt_ &= observation.unchanged;
-  if (!due(now_us)) return std::nullopt;
+  if (!due(now_us)) {
+    isLookedAt_ &= observation.unchanged;
+    return std::nullopt;
+  }
   const auto next = static_cast<std::uint8_t>(last_.contact.sequence + (any_ ? 1 : 0));
   if (!observation.touched && (!any_ || !last_.contact.flags.has(FingerFlag::kContact))) return std::nullopt;
-  if (isLookedAt_ && !mustBeRepeated(now_us)) return std::nullopt;
+  if (observation.unchanged && isLookedAt_ && !mustBeRepeated(now_us)) return std::nullopt;
   FingerFlags flags = flagsOf(observation);
   if (!observation.touched) return releaseFrames(flags, next);
   if (!unitErrors_.areOf(linearisation)) unitErrors_ = unitErrors(linearisation);

@@ -18,6 +18,7 @@
 #include "host/simulation/simulated_finger.hpp"
 #include "host/simulation/touch_errors.hpp"
 #include "host/tables/table_builder.hpp"
+#include "tests/under_sanitizers.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -168,7 +169,7 @@ TEST_GROUP(ClosedLoop) {
 
 namespace {
 
-constexpr int kTouches = 1000;
+constexpr int kTouches = kSanitized ? 500 : 1000;
 constexpr double kContact_s = 0.2;  ///< from one touch to the next; half of it untouched
 
 /// Loads from 2 to 50 N/m, every order of magnitude alike, directions within +-45 deg, angles all around.

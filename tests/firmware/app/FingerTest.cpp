@@ -196,7 +196,7 @@ TEST(Finger, TheEndOfATouchThatWasLostToBusOffIsSaidAgain) {
   run(100);
   can.sent.clear();
   ++can.bus.busOffs;
-  run(100);
+  run(300);
   LONGS_EQUAL(1, sent<ContactFrame>().size());
   CHECK_FALSE(sent<ContactFrame>().back().flags.has(FingerFlag::kContact));
   LONGS_EQUAL(1, sent<ForceFrame>().size());

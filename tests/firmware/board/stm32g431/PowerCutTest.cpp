@@ -12,6 +12,7 @@
 #include "host/config/finger_config.hpp"
 #include "host/tables/table_builder.hpp"
 #include "tests/firmware/board/stm32g431/fake_flash.hpp"
+#include "tests/under_sanitizers.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -194,6 +195,9 @@ TEST(PowerCut, WhileTablesAreWrittenTheBoardComesUpWithWholeTablesOrSaysThatItHa
   for (const Torn torn : kTorn)
     for (const EccAddress address : addressesToTry(torn))
       for (int operation = 0; operation < kOperations; ++operation) {
+        // Words are all written alike.
+        constexpr int kEvery = kSanitized ? 8 : 1;
+        if (operation >= kErases && operation < kOperations - 1 && operation % kEvery != 0) continue;
         const Found found = cutWhileFlashing(old, operation, torn, address);
         CHECK_TRUE(!found.tables || has(found, linked) || has(found, old));
         if (operation == kOperations - 1 && torn == Torn::kDone) CHECK_TRUE(has(found, linked));

@@ -366,6 +366,7 @@ class Calibration {
     const bool isUnitKnown = fittedRows([&](std::size_t row) { return isLoadKnown(row); }) > 0;
     CalibrationResult result(drawing_, finger_, covariance, rows_, modelError_, isUnitKnown, movedZeros_);
     requireTold(result);
+    requireReadable(result);
     return result;
   }
 

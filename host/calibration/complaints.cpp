@@ -7,6 +7,9 @@
 
 #include "host/base/failure.hpp"
 #include "host/calibration/expected_error.hpp"
+#include "host/config/keys.hpp"
+#include "host/config/read_config.hpp"
+#include "host/config/write_config.hpp"
 
 namespace strainfinger::calibration {
 namespace {
@@ -40,6 +43,20 @@ std::string rowNames(const std::vector<std::size_t>& rows) {
 /// "3 (at 67.5 deg)".
 std::string placed(const config::Gauges& gauges, int gauge) {
   return fmt::format("{} (at {:.6g} deg)", gauge, gauges.angle_deg(gauge));
+}
+
+/// Of a list with a number a gauge, that each is what a config may say.
+void requireWithin(const config::Gauges& gauges, const char* key, const std::vector<double>& values,
+                   const char* what, const char* lookAt) {
+  const config::Domain& domain = config::keyOf(key).domain;
+  std::string text;
+  for (int gauge = 0; gauge < gauges.count; ++gauge) {
+    const double value = values[static_cast<std::size_t>(gauge)];
+    if (domain.contains(value)) continue;
+    text +=
+        fmt::format("{}gauge {}: {} {:.4g}", text.empty() ? "" : "; ", placed(gauges, gauge), what, value);
+  }
+  if (!text.empty()) fail(fmt::format("{}; {} must be {}: look at {}", text, key, domain.text(), lookAt));
 }
 
 bool isFinite(const std::optional<double>& value) { return std::isfinite(value.value_or(0)); }
@@ -150,6 +167,24 @@ void requireTold(const CalibrationResult& result) {
   const std::string names = untoldGauges(result, {kAngleOffset}, kMostUntold);
   if (names.empty()) return;
   fail(fmt::format("the touches don't tell where these gauges are: {}; {}", names, kTouchesToAdd));
+}
+
+void requireReadable(const CalibrationResult& result) {
+  const config::FingerConfig config = result.applied();
+  const config::Calibration& found = config.calibration;
+  const config::Gauges& drawn = result.drawing().config().gauges;
+  requireWithin(drawn, "calibration.gain", found.gain, "gain", "its joint and its wires");
+  requireWithin(drawn, "calibration.angle_offset_deg", found.angle_offset_deg,
+                "angle less the drawing's [deg]",
+                "how it is glued, or draw the ring as it is, gauges.angle_deg");
+  try {
+    config::readConfig(config::writeConfig(config), "the config");
+  } catch (const Failure& failure) {
+    fail(
+        fmt::format("what was found can't be written as a config: {}; look at [finger], gauges.radius_m and "
+                    "the known loads",
+                    failure.what()));
+  }
 }
 
 }  // namespace strainfinger::calibration

@@ -42,6 +42,10 @@ void requireStill(const std::vector<MovedZero>& moved, double shareOfRowsUnexpla
 /// don't and the touches that would.
 void requireTold(const CalibrationResult& result);
 
+/// The finger that was found can be written as a config that is read again; else names the gauge, its value
+/// and what to look at.
+void requireReadable(const CalibrationResult& result);
+
 /// "3 (at 67.5 deg), 5 (at 112.5 deg)": the gauges of which the touches tell one of `unknowns` no better than
 /// `most` of its tolerance. Empty if there are none.
 std::string untoldGauges(const CalibrationResult& result, std::initializer_list<GaugeUnknown> unknowns,

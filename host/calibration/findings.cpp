@@ -111,6 +111,15 @@ std::string movedZeroText(const CalibrationResult& result) {
       moved.size() == 1 ? "A zero" : "Zeros", textOf(moved));
 }
 
+std::string turnText(const CalibrationResult& result) {
+  const double turn_deg = result.drawnTurn_deg();
+  if (turn_deg == 0) return "";
+  return fmt::format(
+      "The known angles turn the ring by {:.2f} deg (counter-clockwise positive): the config has that in "
+      "gauges.{}, and in [calibration] what each gauge is off besides.",
+      turn_deg, result.drawing().config().gauges.isEven() ? "first_angle_deg" : "angle_deg");
+}
+
 Residuals residualsOf(const CalibrationResult& result) {
   const Drawing& drawing = result.drawing();
   const int last = RingResponse::lastHarmonic(drawing);

@@ -30,6 +30,9 @@ std::vector<LeftOut> rowsLeftOut(const CalibrationResult& result);
 /// The zeros that moved, each with its rows and its shift, in a sentence; empty where none did.
 std::string movedZeroText(const CalibrationResult& result);
 
+/// That the known angles turn the ring, and where the config has that; empty where [gauges] stays as drawn.
+std::string turnText(const CalibrationResult& result);
+
 /// RMS of what the fitted finger leaves, and what the drawn one does of the same rows, each with the touches
 /// that suit it best. Costs 0.2 ms a row.
 struct Residuals {

@@ -128,7 +128,8 @@ std::string gaugeSection(const CalibrationResult& result, const Residuals& resid
              fmt::format("{:.1f}", 1e6 * left.before_strain),
              number("residual_strain", left.after_strain, fmt::format("{:.2f}", 1e6 * left.after_strain))});
   }
-  return heading("The gauges") +
+  const std::string turn = turnText(result);
+  return heading("The gauges") + (turn.empty() ? "" : "<p id=\"turn\">" + escaped(turn) + "</p>\n") +
          figure(ringPicture(result), "ring", "Each gauge as found, beside what the drawing allows.") +
          table("gauges",
                {"gauge", "gain", "zero, microstrain", "angle off, deg", "too deep, um", "left over before",

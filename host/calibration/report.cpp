@@ -43,7 +43,8 @@ std::string worthText(const CalibrationResult& result) {
 std::string untoldText(const CalibrationResult& result) {
   std::string text;
   for (const std::string& sentence : whatIsUntold(result)) text += sentence + "\n";
-  return text;
+  const std::string turn = turnText(result);
+  return turn.empty() ? text : text + turn + "\n";
 }
 
 std::string correlationText(const CalibrationResult& result) {

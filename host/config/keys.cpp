@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -130,6 +131,10 @@ std::string Key::dotted() const { return fmt::format("{}.{}", section, name); }
 std::span<const Key> keys() {
   static const std::vector<Key> table = makeKeys();
   return table;
+}
+
+const Key& keyOf(std::string_view dotted) {
+  return *std::ranges::find_if(keys(), [&](const Key& key) { return key.dotted() == dotted; });
 }
 
 }  // namespace strainfinger::config

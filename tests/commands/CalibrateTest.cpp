@@ -121,6 +121,29 @@ TEST(CalibrateCommand, WritesAConfigThatIsReadBackAndMakesTables) {
   LONGS_EQUAL(0, runProgram("tables -c " + path("out.toml") + " -o " + path("tables.bin")).status);
 }
 
+TEST(CalibrateCommand, AConfigOfARingThatMarksTurnIsReadBackAndMakesTables) {
+  auto turned = session.known;
+  for (auto& touch : turned)
+    if (touch.angle_deg) *touch.angle_deg += 3;
+  write("touches.csv", textOf(turned));
+  const Run run = calibrate("-c " + path("finger.toml") + " -o " + path("out.toml"), readings);
+  LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS("The known angles turn the ring by ", run.err.c_str());
+  const Run tables = runProgram("tables -c " + path("out.toml") + " -o " + path("tables.bin"));
+  STRCMP_EQUAL("", tables.out.c_str());
+  LONGS_EQUAL(0, tables.status);
+}
+
+TEST(CalibrateCommand, AGaugeTooWeakForAnyConfigIsRefusedAndNothingWritten) {
+  auto weak = study::sessionOf(finger, {.touches = 150}, kSeed);
+  write("touches.csv", textOf(weak.known));
+  config::FingerConfig loose = finger;  // else the rows of such a gauge may be left out
+  loose.tolerance.gain = 0.3;
+  write("loose.toml", config::writeConfig(loose));
+  weak.readings.col(6) *= 0.41;
+  refuses(1, "-c " + path("loose.toml"), textOf(weak.readings), "gauge 6 (at 135 deg): gain 0.39");
+}
+
 TEST(CalibrateCommand, WritesAPageThatSaysWhatTheTablesSay) {
   write("touches.csv", textOf(session.known) + ",,\n");
   write("strains.csv", readings + kOverRange);

@@ -11,6 +11,7 @@
 #include "host/calibration/joint_fit.hpp"
 #include "host/calibration/model_error.hpp"
 #include "host/calibration/noise_bias.hpp"
+#include "host/calibration/over_range.hpp"
 #include "host/calibration/touch_fit.hpp"
 #include "host/model/pressure_profile.hpp"
 
@@ -144,7 +145,7 @@ class Calibration {
   RowUse useOf(const VectorXd& strains, const KnownTouch& touch) const {
     const config::Gauges& gauges = drawing_.config().gauges;
     const double largest = strains.cwiseAbs().maxCoeff();
-    if (largest >= gauges.full_scale_strain) return RowUse::kOverRange;
+    if (isOverRange(gauges, largest)) return RowUse::kOverRange;
     if (touch.isUntouched()) return RowUse::kUntouched;
     return largest < kWeakestTouch * gauges.noise_strain ? RowUse::kWeak : RowUse::kFitted;
   }

@@ -372,6 +372,19 @@ TEST(Calibrate, RowsPairWithTouchesAndColumnsWithGauges) {
   checkComplaint({}, bad, "row 2: a strain is no finite number");
 }
 
+// What is left where every other gauge has the wrong sign, and a hundred times what a healthy finger leaves.
+TEST(Calibrate, WhatWrongSignsOfEveryOtherGaugeLeaveIsRefused) {
+  std::string said;
+  try {
+    requireExplained(0.04, 0);
+  } catch (const Failure& failure) {
+    said = failure.what();
+  }
+  STRCMP_CONTAINS("this finger doesn't explain the readings: 4 % of a touch's largest reading are left over",
+                  said.c_str());
+  requireExplained(0.02, 0);
+}
+
 // Gauges that are drawn in pairs and connected one place further: that 49 % of its rows are no touches of the
 // drawn finger shows only in the last fits.
 TEST(Calibrate, WhatIsLeftUnexplainedInTheEndIsRefused) {

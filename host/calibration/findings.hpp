@@ -19,6 +19,10 @@ std::vector<Correlation> correlationsWorthKnowing(const CalibrationResult& resul
 /// What the touches left untold, and which touches would tell it: sentences.
 std::vector<std::string> whatIsUntold(const CalibrationResult& result);
 
+/// What is more than four tolerances off the drawing, of the modulus more than three, each with what to look
+/// at: sentences. Of angles the ring's own turn is left out.
+std::vector<std::string> whatIsFarOff(const CalibrationResult& result);
+
 /// Rows that were left out for one reason, counted from 1.
 struct LeftOut {
   RowUse use;

@@ -171,6 +171,13 @@ std::string rowsSection(const CalibrationResult& result) {
          (rows.empty() ? "" : table("left-out", {"reason", "rows", "which"}, rows));
 }
 
+std::string farOffSection(const CalibrationResult& result) {
+  std::string items;
+  for (const std::string& sentence : whatIsFarOff(result))
+    items += fmt::format("<li>{}</li>\n", escaped(sentence));
+  return items.empty() ? "" : heading("Far off the drawing") + "<ul id=\"far-off\">\n" + items + "</ul>\n";
+}
+
 std::string untoldSection(const CalibrationResult& result) {
   std::string items;
   for (const std::string& sentence : whatIsUntold(result))
@@ -185,8 +192,8 @@ std::string untoldSection(const CalibrationResult& result) {
 std::string htmlPage(const CalibrationResult& result) {
   const Residuals residuals = residualsOf(result);
   return kHead + std::string("<h1>A finger as it was built</h1>\n") + worthSection(result) +
-         untoldSection(result) + gaugeSection(result, residuals) + rubberSection(result) +
-         togetherSection(result) + heading("The touches") +
+         farOffSection(result) + untoldSection(result) + gaugeSection(result, residuals) +
+         rubberSection(result) + togetherSection(result) + heading("The touches") +
          figure(coveragePicture(result), "coverage", "Where the finger was touched, and how hard.") +
          figure(residualPicture(result, residuals), "residuals",
                 "What is left over of the readings, by gauge and by row, before and after.") +

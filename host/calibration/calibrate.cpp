@@ -68,7 +68,10 @@ class Calibration {
 
   /// Domain: before run(), or within it.
   void requireEnough() const {
-    requireTouches(drawing_.config().gauges, fittedRows([](std::size_t) { return true; }));
+    std::vector<RowUse> uses;
+    for (std::size_t row = 0; row < rows_.size(); ++row)
+      uses.push_back(isMoved_[row] ? RowUse::kUnexplained : rows_[row].use);
+    requireTouches(drawing_.config().gauges, uses);
   }
 
   CalibrationResult run() {

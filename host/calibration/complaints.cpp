@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include "host/base/failure.hpp"
 #include "host/calibration/expected_error.hpp"
+#include "host/calibration/report.hpp"
 #include "host/config/keys.hpp"
 #include "host/config/read_config.hpp"
 #include "host/config/write_config.hpp"
@@ -15,7 +18,7 @@ namespace strainfinger::calibration {
 namespace {
 
 /// A touch has four unknowns; a gauge as many again, that eight touches in its sight tell.
-constexpr std::size_t kLeastTouchesPerGauge = 2;
+constexpr int kLeastTouchesPerGauge = 2;
 /// Of the largest reading. Healthy fingers leave 0.05 %; every other gauge of the wrong sign, which no single
 /// mend of the wiring explains, leaves 4 to 5 % where depths and Poisson's ratio follow it.
 constexpr double kMostUnexplained = 0.03;
@@ -60,6 +63,40 @@ void requireWithin(const config::Gauges& gauges, const char* key, const std::vec
   if (!text.empty()) fail(fmt::format("{}; {} must be {}: look at {}", text, key, domain.text(), lookAt));
 }
 
+/// What to do where most rows are of no use for this reason.
+const char* mendOf(RowUse use) {
+  switch (use) {
+    case RowUse::kUntouched:
+      return "leave the finger alone in fewer of them";
+    case RowUse::kWeak:
+      return "press harder, all with about the same load";
+    case RowUse::kAmbiguous:
+      return "press over the gauges, too, and with an edge";
+    case RowUse::kWide:
+      return "press with an edge, in one place at a time";
+    case RowUse::kOverRange:
+      return "press less";
+    case RowUse::kContradicted:
+      return "look at the angles and loads of touches.csv";
+    default:
+      return "touch it in one place at a time, without slips";
+  }
+}
+
+/// "of 300 rows 200 are wide, 9 untouched: press with an edge; "; empty where no row is left out.
+std::string leftOutText(std::span<const RowUse> uses) {
+  std::vector<std::pair<std::ptrdiff_t, RowUse>> counts;
+  for (const RowUse use : {RowUse::kUntouched, RowUse::kWeak, RowUse::kAmbiguous, RowUse::kWide,
+                           RowUse::kOverRange, RowUse::kContradicted, RowUse::kUnexplained})
+    if (const auto count = std::ranges::count(uses, use); count > 0) counts.emplace_back(count, use);
+  if (counts.empty()) return {};
+  std::ranges::stable_sort(counts, std::ranges::greater{}, &std::pair<std::ptrdiff_t, RowUse>::first);
+  std::string text;
+  for (const auto& [count, use] : counts)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, nameOf(use));
+  return fmt::format("of {} rows are {}: {}; ", uses.size(), text, mendOf(counts.front().second));
+}
+
 bool isFinite(const std::optional<double>& value) { return std::isfinite(value.value_or(0)); }
 
 void requireTouch(const KnownTouch& touch, std::size_t row) {
@@ -93,13 +130,14 @@ void requireRows(const config::Gauges& gauges, std::span<const KnownTouch> known
     if (!readings.row(row).allFinite()) fail(fmt::format("row {}: a strain is no finite number", row + 1));
 }
 
-void requireTouches(const config::Gauges& gauges, std::size_t touches) {
-  const std::size_t least = kLeastTouchesPerGauge * static_cast<std::size_t>(gauges.count);
-  if (touches < least)
-    fail(
-        fmt::format("{} rows with a touch are too few: at least {}, all around the ring, tell anything, 300 "
-                    "tell it well; roll the finger along an edge while `strains` records",
-                    touches, least));
+void requireTouches(const config::Gauges& gauges, std::span<const RowUse> uses) {
+  const std::ptrdiff_t least = kLeastTouchesPerGauge * gauges.count;
+  const auto touches = std::ranges::count(uses, RowUse::kFitted);
+  if (touches >= least) return;
+  fail(
+      fmt::format("{} rows with a touch are too few: at least {}, all around the ring, tell anything, 300 "
+                  "tell it well; {}roll the finger along an edge while `strains` records",
+                  touches, least, leftOutText(uses)));
 }
 
 void requireAllAround(const config::Gauges& gauges, const std::vector<int>& untouched) {

@@ -18,8 +18,8 @@ namespace strainfinger::calibration {
 void requireRows(const config::Gauges& gauges, std::span<const KnownTouch> known,
                  const Eigen::MatrixXd& readings);
 
-/// Enough rows with a touch to begin with.
-void requireTouches(const config::Gauges& gauges, std::size_t touches);
+/// Enough rows are fitted; else says what the others are, and the mend of what most of them are.
+void requireTouches(const config::Gauges& gauges, std::span<const RowUse> uses);
 
 /// There are touches near every gauge; names the `untouched` ones and the touches that are missing.
 void requireAllAround(const config::Gauges& gauges, const std::vector<int>& untouched);

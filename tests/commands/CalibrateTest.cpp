@@ -204,6 +204,16 @@ TEST(CalibrateCommand, NamesTheColumnsThatItDoesNotUse) {
                   run.err.c_str());
 }
 
+TEST(CalibrateCommand, StrainsOfAnotherRingAreRefusedForTheConfig) {
+  std::string header = "time_s", row = "0";
+  for (int gauge = 0; gauge < 24; ++gauge) {
+    header += fmt::format(",strain_{}", gauge);
+    row += ",0.001";
+  }
+  refuses(1, "", header + "\n" + row + "\n",
+          "the file has strain_16 .. strain_23, but gauges.count = 16: give this finger's config, -c");
+}
+
 TEST(CalibrateCommand, SaysWhatIsWrongAndWhereAndWritesNothing) {
   refuses(1, "", readings.substr(0, readings.rfind("\n", readings.size() - 2) + 1),
           "59 rows of strains and 60");

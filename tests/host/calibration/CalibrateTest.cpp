@@ -335,6 +335,15 @@ TEST(Calibrate, TooFewTouchesAreRefused) {
   checkComplaint({}, session.readings, " rows with a touch are too few: at least 32");
 }
 
+TEST(Calibrate, WhyRowsAreTooFewIsToldByReasonWithTheMendOfTheCommonest) {
+  auto session = study::sessionOf(finger, {.touches = 60}, kSeed);
+  session.readings.bottomRows(40) *= 1e3;
+  const std::string said = complaintOf(finger, {}, session.readings);
+  STRCMP_CONTAINS(" rows with a touch are too few: at least 32, ", said.c_str());
+  STRCMP_CONTAINS("; of 60 rows are 40 over-range, ", said.c_str());
+  STRCMP_CONTAINS(" weak: press less; roll the finger along an edge", said.c_str());
+}
+
 TEST(Calibrate, GaugesThatAreNotWiredAsDrawnAreRefusedWithTheMend) {
   auto session = study::sessionOf(finger, {.touches = 60}, kSeed);
   session.readings.col(3).swap(session.readings.col(4));

@@ -67,7 +67,7 @@ void requireWithin(const config::Gauges& gauges, const char* key, const std::vec
 const char* mendOf(RowUse use) {
   switch (use) {
     case RowUse::kUntouched:
-      return "leave the finger alone in fewer of them";
+      return "touch the finger in more of them";
     case RowUse::kWeak:
       return "press harder, all with about the same load";
     case RowUse::kAmbiguous:
@@ -122,6 +122,10 @@ void requireRows(const config::Gauges& gauges, std::span<const KnownTouch> known
         fmt::format("{} rows of strains and {} touches: each row needs its touch, with empty cells for what "
                     "is not known",
                     readings.rows(), known.size()));
+  if (readings.rows() == 0)
+    fail(
+        "there are no rows of strains: none were collected, or the file holds none; record them while the "
+        "finger is touched");
   if (readings.cols() != gauges.count)
     fail(fmt::format("{} strains in a row; there must be one a gauge, gauges.count = {}", readings.cols(),
                      gauges.count));

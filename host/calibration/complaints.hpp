@@ -14,7 +14,8 @@
 
 namespace strainfinger::calibration {
 
-/// A known touch a row or none at all; a column a gauge; finite readings; touches that can be.
+/// There are rows; a known touch a row or none at all; a column a gauge; finite readings; touches that can
+/// be.
 void requireRows(const config::Gauges& gauges, std::span<const KnownTouch> known,
                  const Eigen::MatrixXd& readings);
 

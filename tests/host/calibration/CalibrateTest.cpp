@@ -374,6 +374,7 @@ TEST(Calibrate, TouchesThatCannotBeAreNamed) {
 
 TEST(Calibrate, RowsPairWithTouchesAndColumnsWithGauges) {
   const Eigen::MatrixXd readings = Eigen::MatrixXd::Zero(3, 16);
+  checkComplaint({}, Eigen::MatrixXd(0, 0), "there are no rows of strains");
   checkComplaint(std::vector<KnownTouch>(4), readings, "3 rows of strains and 4 touches");
   checkComplaint({}, readings.leftCols(15), "15 strains in a row; there must be one a gauge");
   Eigen::MatrixXd bad = readings;

@@ -128,7 +128,8 @@ Obeyed Session::obeySkip() {
   const Advice::Kind kind = advice().kind;
   if (kind == Advice::Kind::kPress) {
     unavailable_.loads = true;
-    return {.message = "without known loads the unit of force is the drawing's"};
+    return {.message = coverage_.loads > 0 ? "the unit of force is what the loads tell that were taken"
+                                           : "without known loads the unit of force is the drawing's"};
   }
   if (kind == Advice::Kind::kMark) {
     unavailable_.directions = true;

@@ -352,7 +352,8 @@ class Calibration {
     require([&](std::size_t row) { return isDirectionKnown(row); }, "angle_deg",
             "the angles themselves, gauges.first_angle_deg, the order of the gauges and --angle-error-deg");
     require([&](std::size_t row) { return isLoadKnown(row); }, "loads",
-            "their unit, newtons per metre of the finger's length, finger.shear_modulus_pa and --load-error");
+            "their unit, newtons per metre of the finger's length, the sign of tangential_n_per_m, which is "
+            "positive counter-clockwise seen from the tip, finger.shear_modulus_pa and --load-error");
   }
 
   /// What a row is fitted with is independent of what it leaves over, so that choosing by it bends nothing.

@@ -163,7 +163,8 @@ void requireWiring(const std::vector<WiringFault>& faults) {
 }
 
 void requireExplained(double modelError, double shareOfRowsUnexplained) {
-  const char* const hint = "check the order and signs of the gauges, [finger] and gauges.radius_m";
+  const char* const hint =
+      "check the order and signs of the gauges, [finger], gauges.radius_m and what is known of touches";
   if (modelError > kMostUnexplained)
     fail(fmt::format(
         "this finger doesn't explain the readings: {:.0f} % of a touch's largest reading are left "
@@ -209,7 +210,11 @@ std::string untoldGauges(const CalibrationResult& result, std::initializer_list<
 void requireTold(const CalibrationResult& result) {
   const std::string names = untoldGauges(result, {kAngleOffset}, kMostUntold);
   if (names.empty()) return;
-  fail(fmt::format("the touches don't tell where these gauges are: {}; {}", names, kTouchesToAdd));
+  fail(
+      fmt::format("the touches don't tell where these gauges are: {}; {}. Where there are such touches, look "
+                  "at the order "
+                  "in which these gauges are connected",
+                  names, kTouchesToAdd));
 }
 
 void requireReadable(const CalibrationResult& result) {

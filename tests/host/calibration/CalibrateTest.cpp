@@ -253,6 +253,22 @@ TEST(Calibrate, KnownLoadsOfWhichTheReadingsBearOutNoneAreRefusedByRow) {
                  "in rows 1, 2, 3, 4, 5, and none of the others is fitted; look at their unit");
 }
 
+TEST(Calibrate, KnownTangentialLoadsOfTheWrongSignAreRefusedWithTheSignThatIsMeant) {
+  auto session = study::sessionOf(finger, {.touches = 80, .knownLoads = 0}, kSeed);
+  const auto wellLocated = calibrated(session);
+  int rubbed = 0;
+  for (std::size_t row = 0; row < session.known.size() && rubbed < 5; ++row) {
+    const RowResult& found = wellLocated.rows()[row];
+    const bool isRubbed = std::abs(found.touch[kTangentialLoad]) > 0.3 * found.touch[kNormalLoad];
+    if (found.use != RowUse::kFitted || !isRubbed || session.known[row].angle_deg) continue;
+    session.known[row].normal_n_per_m = found.touch[kNormalLoad];
+    session.known[row].tangential_n_per_m = -found.touch[kTangentialLoad];
+    ++rubbed;
+  }
+  checkComplaint(session.known, session.readings,
+                 "the sign of tangential_n_per_m, which is positive counter-clockwise seen from the tip");
+}
+
 TEST(Calibrate, RowsThatNothingTouchesAreNoTouches) {
   auto session = study::sessionOf(finger, {.touches = 31}, kSeed);
   session.known.resize(60, {std::nullopt, 0, 0});
@@ -307,6 +323,7 @@ TEST(Calibrate, TouchesThatLeaveAGaugeUntoldAreRefusedByItsName) {
   }
   STRCMP_CONTAINS("don't tell where these gauges are: 8 (at 180 deg); add touches at ten places",
                   said.c_str());
+  STRCMP_CONTAINS("look at the order in which these gauges are connected", said.c_str());
 }
 
 // How so few gauges were built looks like a fault of their wiring.

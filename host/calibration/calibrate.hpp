@@ -123,8 +123,9 @@ class CalibrationResult {
 
 /// Maximum a posteriori of the finger and of every touch together: readings are the elastic model's and noise
 /// of gauges.noise_strain and of the model's error, which is estimated; the finger is the drawing give or
-/// take [tolerance]; touches are semi-ellipses of pressure with the shear of partial slip, of contact.width_m
-/// if that is known. Rows that no single touch explains are left out, and those of a zero that moved.
+/// take [tolerance]; touches are semi-ellipses of pressure with the shear of partial slip, of the second
+/// moment that a uniform pressure over contact.width_m has, w^2 / 12, if that is known. Rows that no single
+/// touch explains are left out, and those of a zero that moved.
 ///
 /// `known`: one a row, or none at all. `readings`: strain at nominal gain, a row a touch, a column a gauge;
 /// all finite. [calibration] of the config is not looked at.

@@ -412,6 +412,19 @@ TEST(Calibrate, WhatWrongSignsOfEveryOtherGaugeLeaveIsRefused) {
   requireExplained(0.02, 0);
 }
 
+// A touch of a known width is a uniform pressure's, whose second moment is w^2 / 12.
+TEST(Calibrate, AKnownWidthIsThatOfAUniformPressure) {
+  constexpr double kWidth_m = 2e-3;
+  auto session = study::sessionOf(
+      finger, {.touches = 80, .ranges = {.load_n_per_m = {5, 40}, .width_m = {kWidth_m, kWidth_m}}}, kSeed);
+  session.finger.contact.width_m = std::sqrt(12.0 / 16) * kWidth_m;  // the study's touches are Hertzian
+  const auto result = calibrated(session);
+  const double width_rad = *session.finger.contact.width_m / finger.finger.outer_radius_m;
+  for (const RowResult& row : result.rows())
+    if (row.use == RowUse::kFitted) DOUBLES_EQUAL(width_rad * width_rad / 12, row.touch[kMoment], 1e-5);
+  CHECK_COMPARE(result.count(RowUse::kFitted), >, 60);
+}
+
 // Gauges that are drawn in pairs and connected one place further: that 49 % of its rows are no touches of the
 // drawn finger shows only in the last fits.
 TEST(Calibrate, WhatIsLeftUnexplainedInTheEndIsRefused) {

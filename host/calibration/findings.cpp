@@ -21,6 +21,20 @@ constexpr double kUntold = 0.5;
 /// Two unknowns whose correlation is beyond this are told as a pair: their sum or their difference.
 constexpr double kRemarkable = 0.9;
 
+/// A load that is known to be none is fitted within 1e-6 N/m; the weakest touch that tells anything has some
+/// tenths of 1 N/m.
+constexpr double kTrace_n_per_m = 1e-3;
+constexpr const char* kZerosDrifted =
+    "known to be untouched, with other zeros than the rest of the session has: the zeros drifted; tare, and "
+    "touch the finger anew";
+
+/// Of a row that isn't what is known of it: nothing pressed, and what it reads is too little for a touch.
+bool isDriftedZero(const CalibrationResult& result, const RowResult& row) {
+  const double most_strain = kWeakestTouch * result.drawing().config().gauges.noise_strain;
+  return !isTouch(row) && row.residual_strain.size() > 0 &&
+         row.residual_strain.cwiseAbs().maxCoeff() < most_strain;
+}
+
 std::string reasonOf(RowUse use) {
   switch (use) {
     case RowUse::kWeak:
@@ -101,6 +115,8 @@ void addFarOff(const CalibrationResult& result, const GaugeWords& words,
 
 }  // namespace
 
+bool isTouch(const RowResult& row) { return std::abs(row.touch[kNormalLoad]) > kTrace_n_per_m; }
+
 std::vector<std::string> whatIsFarOff(const CalibrationResult& result) {
   std::vector<std::string> sentences;
   for (const GaugeWords& words : kGaugeWords) addFarOff(result, words, sentences);
@@ -172,8 +188,13 @@ std::vector<LeftOut> rowsLeftOut(const CalibrationResult& result) {
   for (const RowUse use : {RowUse::kWeak, RowUse::kAmbiguous, RowUse::kWide, RowUse::kOverRange,
                            RowUse::kContradicted, RowUse::kUnexplained}) {
     LeftOut left{use, reasonOf(use), {}};
+    bool isDrifted = use == RowUse::kContradicted;
     for (std::size_t row = 0; row < result.rows().size(); ++row)
-      if (result.rows()[row].use == use) left.rows.push_back(row + 1);
+      if (result.rows()[row].use == use) {
+        left.rows.push_back(row + 1);
+        isDrifted &= isDriftedZero(result, result.rows()[row]);
+      }
+    if (isDrifted) left.reason = kZerosDrifted;
     if (!left.rows.empty()) all.push_back(std::move(left));
   }
   return all;

@@ -23,6 +23,9 @@ std::vector<std::string> whatIsUntold(const CalibrationResult& result);
 /// at: sentences. Of angles the ring's own turn is left out.
 std::vector<std::string> whatIsFarOff(const CalibrationResult& result);
 
+/// Whether the row's touch is one: the fit leaves a trace of a load where nothing is known to have pressed.
+bool isTouch(const RowResult& row);
+
 /// Rows that were left out for one reason, counted from 1.
 struct LeftOut {
   RowUse use;

@@ -99,6 +99,15 @@ TEST(Findings, RowsThatWereLeftOutAreListedByReason) {
   STRCMP_CONTAINS("slip", left.front().reason.c_str());
 }
 
+TEST(Findings, UntouchedRowsOfOtherZerosAreToldForTheDrift) {
+  RowResult drifted = row(RowUse::kContradicted, 1e-4);
+  drifted.touch = {0, 1e-9, 0, 0};
+  rows = {row(RowUse::kFitted, 0), drifted, drifted};
+  STRCMP_CONTAINS("the zeros drifted; tare", rowsLeftOut(result()).front().reason.c_str());
+  rows.push_back(row(RowUse::kContradicted, 0));
+  STRCMP_CONTAINS("look at their angles and loads", rowsLeftOut(result()).front().reason.c_str());
+}
+
 TEST(Findings, ZerosThatMovedAreToldWithRowsAndShifts) {
   STRCMP_EQUAL("", movedZeroText(result()).c_str());
   const CalibrationResult moved(drawing, deviations, covariance, rows, {0, 0}, isLoadKnown,

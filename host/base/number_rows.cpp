@@ -120,10 +120,24 @@ void NumberRowReader::chooseColumns(const std::string& names) {
     if (place == wanted.size()) otherNames_.emplace_back(name);
     places_.push_back(place);
   }
+  requireNoMore();
   for (std::size_t place = 0; place < wanted.size(); ++place)
     if (const auto count = std::count(places_.begin(), places_.end(), place); count != 1)
       fail(1, fmt::format("the header has {} column {}: name them {} to {}, or leave the header out",
                           count == 0 ? "no" : "more than one", wanted[place], wanted.front(), wanted.back()));
+}
+
+/// Of the family of columns that are wanted there are no others: they would be another ring's.
+void NumberRowReader::requireNoMore() const {
+  if (limit_.family.empty()) return;
+  std::vector<std::string> more;
+  for (const std::string& name : otherNames_)
+    if (name.starts_with(limit_.family) && name.size() > limit_.family.size() &&
+        name.find_first_not_of("0123456789", limit_.family.size()) == std::string::npos)
+      more.push_back(name);
+  if (more.empty()) return;
+  fail(1, fmt::format("the file has {}{}, {}", more.front(),
+                      more.size() > 1 ? fmt::format(" .. {}", more.back()) : "", limit_.familyHint));
 }
 
 void NumberRowReader::parse(const std::string& line, std::vector<double>& row) {

@@ -26,6 +26,10 @@ class NumberRowReader {
     std::string header = {};
     std::vector<std::string> columns = {};
     bool mayBeEmpty = false;  ///< an empty field is a NaN: not known
+    /// Names that begin so and go on with a number are no other columns: there are more of `columns` than
+    /// are wanted. `familyHint` says why that is wrong. Empty: there are no such names.
+    std::string family = {};
+    std::string familyHint = {};
   };
 
   /// `name` stands for the stream in messages ("stdin").
@@ -45,6 +49,7 @@ class NumberRowReader {
  private:
   void takeHeader(const std::string& line);
   void chooseColumns(const std::string& names);
+  void requireNoMore() const;
   void parse(const std::string& line, std::vector<double>& row);
   double numberOf(std::string_view field, std::size_t column) const;
   [[noreturn]] void fail(std::size_t column, const std::string& what) const;

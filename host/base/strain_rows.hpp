@@ -19,7 +19,9 @@ inline std::vector<std::string> strainColumns(int gauges) {
 inline NumberRowReader::Limit strainLimit(int gauges) {
   return {.most = 1,
           .hint = "a strain is an extension over a length, not in per cent or millionths",
-          .columns = strainColumns(gauges)};
+          .columns = strainColumns(gauges),
+          .family = "strain_",
+          .familyHint = "but gauges.count = " + std::to_string(gauges) + ": give this finger's config, -c"};
 }
 
 /// The header of rows of touches.

@@ -11,6 +11,7 @@
 #include "host/calibration/joint_fit.hpp"
 #include "host/calibration/model_error.hpp"
 #include "host/calibration/noise_bias.hpp"
+#include "host/calibration/over_range.hpp"
 #include "host/calibration/touch_fit.hpp"
 #include "host/model/pressure_profile.hpp"
 
@@ -67,7 +68,10 @@ class Calibration {
 
   /// Domain: before run(), or within it.
   void requireEnough() const {
-    requireTouches(drawing_.config().gauges, fittedRows([](std::size_t) { return true; }));
+    std::vector<RowUse> uses;
+    for (std::size_t row = 0; row < rows_.size(); ++row)
+      uses.push_back(isMoved_[row] ? RowUse::kUnexplained : rows_[row].use);
+    requireTouches(drawing_.config().gauges, uses);
   }
 
   CalibrationResult run() {
@@ -144,7 +148,7 @@ class Calibration {
   RowUse useOf(const VectorXd& strains, const KnownTouch& touch) const {
     const config::Gauges& gauges = drawing_.config().gauges;
     const double largest = strains.cwiseAbs().maxCoeff();
-    if (largest >= gauges.full_scale_strain) return RowUse::kOverRange;
+    if (isOverRange(gauges, largest)) return RowUse::kOverRange;
     if (touch.isUntouched()) return RowUse::kUntouched;
     return largest < kWeakestTouch * gauges.noise_strain ? RowUse::kWeak : RowUse::kFitted;
   }
@@ -348,7 +352,8 @@ class Calibration {
     require([&](std::size_t row) { return isDirectionKnown(row); }, "angle_deg",
             "the angles themselves, gauges.first_angle_deg, the order of the gauges and --angle-error-deg");
     require([&](std::size_t row) { return isLoadKnown(row); }, "loads",
-            "their unit, newtons per metre of the finger's length, finger.shear_modulus_pa and --load-error");
+            "their unit, newtons per metre of the finger's length, the sign of tangential_n_per_m, which is "
+            "positive counter-clockwise seen from the tip, finger.shear_modulus_pa and --load-error");
   }
 
   /// What a row is fitted with is independent of what it leaves over, so that choosing by it bends nothing.
@@ -366,6 +371,7 @@ class Calibration {
     const bool isUnitKnown = fittedRows([&](std::size_t row) { return isLoadKnown(row); }) > 0;
     CalibrationResult result(drawing_, finger_, covariance, rows_, modelError_, isUnitKnown, movedZeros_);
     requireTold(result);
+    requireReadable(result);
     return result;
   }
 

@@ -78,6 +78,11 @@ class CalibrationResult {
   Estimate zero_strain(int gauge) const { return of(gauge, kZero, 0); }
   Estimate angleOffset_deg(int gauge) const;
   Estimate depthOffset_m(int gauge) const { return of(gauge, kDepthOffset, 0); }
+  /// The mean of all offsets of angles: how far the ring as a whole is turned.
+  double turn_deg() const;
+  /// What of it applied() has in [gauges]: all where else a gauge's offset would be beyond what
+  /// calibration.angle_offset_deg may be, else nothing.
+  double drawnTurn_deg() const;
   Estimate coreRadius_m() const;
   Estimate poissonRatio() const;
   Estimate shearModulus_pa() const;
@@ -99,8 +104,8 @@ class CalibrationResult {
   const Eigen::MatrixXd& covariance() const { return covariance_; }
 
   /// The config with all of it: core, Poisson's ratio and modulus in [finger], the gauges in [calibration],
-  /// with the errors that what is not known of the finger makes of touches, gauges.model_error. The finger
-  /// that [as_built] stands for stays what it is.
+  /// with the errors that what is not known of the finger makes of touches, gauges.model_error, and
+  /// drawnTurn_deg() in [gauges]. The finger that [as_built] stands for stays what it is, but for that turn.
   config::FingerConfig applied() const;
 
  private:
@@ -118,14 +123,15 @@ class CalibrationResult {
 
 /// Maximum a posteriori of the finger and of every touch together: readings are the elastic model's and noise
 /// of gauges.noise_strain and of the model's error, which is estimated; the finger is the drawing give or
-/// take [tolerance]; touches are semi-ellipses of pressure with the shear of partial slip, of contact.width_m
-/// if that is known. Rows that no single touch explains are left out, and those of a zero that moved.
+/// take [tolerance]; touches are semi-ellipses of pressure with the shear of partial slip, of the second
+/// moment that a uniform pressure over contact.width_m has, w^2 / 12, if that is known. Rows that no single
+/// touch explains are left out, and those of a zero that moved.
 ///
 /// `known`: one a row, or none at all. `readings`: strain at nominal gain, a row a touch, a column a gauge;
 /// all finite. [calibration] of the config is not looked at.
 /// Throws Failure(kFailure), saying which row or gauge and what would help: rows that don't pair; a known
 /// touch that can't be; known directions, or known loads, most of which the readings contradict; touches that
-/// leave gauges untold; readings that this drawing can't explain.
+/// leave gauges untold; readings that this drawing can't explain; a finger that no config can be of.
 /// Cost: linear; 300 touches of 16 gauges take 3 s, 3,000 take 15 s.
 CalibrationResult calibrate(const config::FingerConfig& config, std::span<const KnownTouch> known,
                             const Eigen::MatrixXd& readings, const KnownErrors& errors = {});

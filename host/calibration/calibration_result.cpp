@@ -4,6 +4,7 @@
 #include "host/base/angles.hpp"
 #include "host/calibration/calibrate.hpp"
 #include "host/calibration/expected_error.hpp"
+#include "host/config/keys.hpp"
 
 namespace strainfinger::calibration {
 namespace {
@@ -12,6 +13,18 @@ namespace {
 double toDigits(double value, int digits) {
   const double scale = std::pow(10.0, digits);
   return std::round(value * scale) / scale;
+}
+
+/// [deg] Of an angle, behind the point.
+constexpr int kAngleDigits = 5;
+
+/// The same gauges, all of them further on.
+void turn(config::Gauges& gauges, double turn_deg) {
+  const auto turned = [turn_deg](double angle_deg) {
+    return withinATurn_deg(toDigits(angle_deg + turn_deg, kAngleDigits));
+  };
+  if (gauges.isEven()) gauges.first_angle_deg = turned(gauges.first_angle_deg);
+  for (double& angle_deg : gauges.angles_deg) angle_deg = turned(angle_deg);
 }
 
 }  // namespace
@@ -62,6 +75,19 @@ int CalibrationResult::count(RowUse use) const {
       std::count_if(rows_.begin(), rows_.end(), [use](const RowResult& row) { return row.use == use; }));
 }
 
+double CalibrationResult::turn_deg() const {
+  double sum_deg = 0;
+  for (int gauge = 0; gauge < drawing_.gauges(); ++gauge) sum_deg += angleOffset_deg(gauge).value;
+  return sum_deg / drawing_.gauges();
+}
+
+double CalibrationResult::drawnTurn_deg() const {
+  const config::Domain& domain = config::keyOf("calibration.angle_offset_deg").domain;
+  for (int gauge = 0; gauge < drawing_.gauges(); ++gauge)
+    if (!domain.contains(angleOffset_deg(gauge).value)) return toDigits(turn_deg(), kAngleDigits);
+  return 0;
+}
+
 config::FingerConfig CalibrationResult::applied() const {
   config::FingerConfig config = drawing_.config();
   const config::Finger drawn = config.finger;
@@ -79,9 +105,12 @@ config::FingerConfig CalibrationResult::applied() const {
   config.calibration.place_error_m = toDigits(errors.place_m, 8);
   config.calibration.load_error = toDigits(errors.load, 5);
   config.calibration.moment_error_m2 = toDigits(errors.moment_m2, 11);
+  const double turned_deg = drawnTurn_deg();
+  if (turned_deg != 0) turn(config.gauges, turned_deg);
   for (int gauge = 0; gauge < drawing_.gauges(); ++gauge) {
     config.calibration.gain.push_back(toDigits(gain(gauge).value, 6));
-    config.calibration.angle_offset_deg.push_back(toDigits(angleOffset_deg(gauge).value, 5));
+    config.calibration.angle_offset_deg.push_back(
+        toDigits(angleOffset_deg(gauge).value - turned_deg, kAngleDigits));
     config.calibration.depth_offset_m.push_back(toDigits(depthOffset_m(gauge).value, 9));
   }
   return config;

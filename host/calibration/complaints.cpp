@@ -4,17 +4,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include "host/base/failure.hpp"
 #include "host/calibration/expected_error.hpp"
+#include "host/calibration/report.hpp"
+#include "host/config/keys.hpp"
+#include "host/config/read_config.hpp"
+#include "host/config/write_config.hpp"
 
 namespace strainfinger::calibration {
 namespace {
 
 /// A touch has four unknowns; a gauge as many again, that eight touches in its sight tell.
-constexpr std::size_t kLeastTouchesPerGauge = 2;
-/// Of the largest reading: the drawing explains glued fingers to a percent.
-constexpr double kMostUnexplained = 0.05;
+constexpr int kLeastTouchesPerGauge = 2;
+/// Of the largest reading. Healthy fingers leave 0.05 %; every other gauge of the wrong sign, which no single
+/// mend of the wiring explains, leaves 4 to 5 % where depths and Poisson's ratio follow it.
+constexpr double kMostUnexplained = 0.03;
 /// Of all rows; junk is a tenth of a careless session.
 constexpr double kMostRowsUnexplained = 0.4;
 /// Of its tolerance: what is known of a gauge no better than that was not told by the touches.
@@ -42,6 +49,54 @@ std::string placed(const config::Gauges& gauges, int gauge) {
   return fmt::format("{} (at {:.6g} deg)", gauge, gauges.angle_deg(gauge));
 }
 
+/// Of a list with a number a gauge, that each is what a config may say.
+void requireWithin(const config::Gauges& gauges, const char* key, const std::vector<double>& values,
+                   const char* what, const char* lookAt) {
+  const config::Domain& domain = config::keyOf(key).domain;
+  std::string text;
+  for (int gauge = 0; gauge < gauges.count; ++gauge) {
+    const double value = values[static_cast<std::size_t>(gauge)];
+    if (domain.contains(value)) continue;
+    text +=
+        fmt::format("{}gauge {}: {} {:.4g}", text.empty() ? "" : "; ", placed(gauges, gauge), what, value);
+  }
+  if (!text.empty()) fail(fmt::format("{}; {} must be {}: look at {}", text, key, domain.text(), lookAt));
+}
+
+/// What to do where most rows are of no use for this reason.
+const char* mendOf(RowUse use) {
+  switch (use) {
+    case RowUse::kUntouched:
+      return "touch the finger in more of them";
+    case RowUse::kWeak:
+      return "press harder, all with about the same load";
+    case RowUse::kAmbiguous:
+      return "press over the gauges, too, and with an edge";
+    case RowUse::kWide:
+      return "press with an edge, in one place at a time";
+    case RowUse::kOverRange:
+      return "press less";
+    case RowUse::kContradicted:
+      return "look at the angles and loads of touches.csv";
+    default:
+      return "touch it in one place at a time, without slips";
+  }
+}
+
+/// "of 300 rows 200 are wide, 9 untouched: press with an edge; "; empty where no row is left out.
+std::string leftOutText(std::span<const RowUse> uses) {
+  std::vector<std::pair<std::ptrdiff_t, RowUse>> counts;
+  for (const RowUse use : {RowUse::kUntouched, RowUse::kWeak, RowUse::kAmbiguous, RowUse::kWide,
+                           RowUse::kOverRange, RowUse::kContradicted, RowUse::kUnexplained})
+    if (const auto count = std::ranges::count(uses, use); count > 0) counts.emplace_back(count, use);
+  if (counts.empty()) return {};
+  std::ranges::stable_sort(counts, std::ranges::greater{}, &std::pair<std::ptrdiff_t, RowUse>::first);
+  std::string text;
+  for (const auto& [count, use] : counts)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, nameOf(use));
+  return fmt::format("of {} rows are {}: {}; ", uses.size(), text, mendOf(counts.front().second));
+}
+
 bool isFinite(const std::optional<double>& value) { return std::isfinite(value.value_or(0)); }
 
 void requireTouch(const KnownTouch& touch, std::size_t row) {
@@ -67,6 +122,10 @@ void requireRows(const config::Gauges& gauges, std::span<const KnownTouch> known
         fmt::format("{} rows of strains and {} touches: each row needs its touch, with empty cells for what "
                     "is not known",
                     readings.rows(), known.size()));
+  if (readings.rows() == 0)
+    fail(
+        "there are no rows of strains: none were collected, or the file holds none; record them while the "
+        "finger is touched");
   if (readings.cols() != gauges.count)
     fail(fmt::format("{} strains in a row; there must be one a gauge, gauges.count = {}", readings.cols(),
                      gauges.count));
@@ -75,13 +134,14 @@ void requireRows(const config::Gauges& gauges, std::span<const KnownTouch> known
     if (!readings.row(row).allFinite()) fail(fmt::format("row {}: a strain is no finite number", row + 1));
 }
 
-void requireTouches(const config::Gauges& gauges, std::size_t touches) {
-  const std::size_t least = kLeastTouchesPerGauge * static_cast<std::size_t>(gauges.count);
-  if (touches < least)
-    fail(
-        fmt::format("{} rows with a touch are too few: at least {}, all around the ring, tell anything, 300 "
-                    "tell it well; roll the finger along an edge while `strains` records",
-                    touches, least));
+void requireTouches(const config::Gauges& gauges, std::span<const RowUse> uses) {
+  const std::ptrdiff_t least = kLeastTouchesPerGauge * gauges.count;
+  const auto touches = std::ranges::count(uses, RowUse::kFitted);
+  if (touches >= least) return;
+  fail(
+      fmt::format("{} rows with a touch are too few: at least {}, all around the ring, tell anything, 300 "
+                  "tell it well; {}roll the finger along an edge while `strains` records",
+                  touches, least, leftOutText(uses)));
 }
 
 void requireAllAround(const config::Gauges& gauges, const std::vector<int>& untouched) {
@@ -103,7 +163,8 @@ void requireWiring(const std::vector<WiringFault>& faults) {
 }
 
 void requireExplained(double modelError, double shareOfRowsUnexplained) {
-  const char* const hint = "check the order and signs of the gauges, [finger] and gauges.radius_m";
+  const char* const hint =
+      "check the order and signs of the gauges, [finger], gauges.radius_m and what is known of touches";
   if (modelError > kMostUnexplained)
     fail(fmt::format(
         "this finger doesn't explain the readings: {:.0f} % of a touch's largest reading are left "
@@ -149,7 +210,29 @@ std::string untoldGauges(const CalibrationResult& result, std::initializer_list<
 void requireTold(const CalibrationResult& result) {
   const std::string names = untoldGauges(result, {kAngleOffset}, kMostUntold);
   if (names.empty()) return;
-  fail(fmt::format("the touches don't tell where these gauges are: {}; {}", names, kTouchesToAdd));
+  fail(
+      fmt::format("the touches don't tell where these gauges are: {}; {}. Where there are such touches, look "
+                  "at the order "
+                  "in which these gauges are connected",
+                  names, kTouchesToAdd));
+}
+
+void requireReadable(const CalibrationResult& result) {
+  const config::FingerConfig config = result.applied();
+  const config::Calibration& found = config.calibration;
+  const config::Gauges& drawn = result.drawing().config().gauges;
+  requireWithin(drawn, "calibration.gain", found.gain, "gain", "its joint and its wires");
+  requireWithin(drawn, "calibration.angle_offset_deg", found.angle_offset_deg,
+                "angle less the drawing's [deg]",
+                "how it is glued, or draw the ring as it is, gauges.angle_deg");
+  try {
+    config::readConfig(config::writeConfig(config), "the config");
+  } catch (const Failure& failure) {
+    fail(
+        fmt::format("what was found can't be written as a config: {}; look at [finger], gauges.radius_m and "
+                    "the known loads",
+                    failure.what()));
+  }
 }
 
 }  // namespace strainfinger::calibration

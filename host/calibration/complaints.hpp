@@ -14,12 +14,13 @@
 
 namespace strainfinger::calibration {
 
-/// A known touch a row or none at all; a column a gauge; finite readings; touches that can be.
+/// There are rows; a known touch a row or none at all; a column a gauge; finite readings; touches that can
+/// be.
 void requireRows(const config::Gauges& gauges, std::span<const KnownTouch> known,
                  const Eigen::MatrixXd& readings);
 
-/// Enough rows with a touch to begin with.
-void requireTouches(const config::Gauges& gauges, std::size_t touches);
+/// Enough rows are fitted; else says what the others are, and the mend of what most of them are.
+void requireTouches(const config::Gauges& gauges, std::span<const RowUse> uses);
 
 /// There are touches near every gauge; names the `untouched` ones and the touches that are missing.
 void requireAllAround(const config::Gauges& gauges, const std::vector<int>& untouched);
@@ -41,6 +42,10 @@ void requireStill(const std::vector<MovedZero>& moved, double shareOfRowsUnexpla
 /// Of every gauge the touches tell where it is, better than its tolerance does; names those of which they
 /// don't and the touches that would.
 void requireTold(const CalibrationResult& result);
+
+/// The finger that was found can be written as a config that is read again; else names the gauge, its value
+/// and what to look at.
+void requireReadable(const CalibrationResult& result);
 
 /// "3 (at 67.5 deg), 5 (at 112.5 deg)": the gauges of which the touches tell one of `unknowns` no better than
 /// `most` of its tolerance. Empty if there are none.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "host/base/angles.hpp"
 #include "host/base/no_value.hpp"
 #include "host/calibration/complaints.hpp"
 #include "host/calibration/expected_error.hpp"
@@ -19,6 +20,20 @@ namespace {
 constexpr double kUntold = 0.5;
 /// Two unknowns whose correlation is beyond this are told as a pair: their sum or their difference.
 constexpr double kRemarkable = 0.9;
+
+/// A load that is known to be none is fitted within 1e-6 N/m; the weakest touch that tells anything has some
+/// tenths of 1 N/m.
+constexpr double kTrace_n_per_m = 1e-3;
+constexpr const char* kZerosDrifted =
+    "known to be untouched, with other zeros than the rest of the session has: the zeros drifted; tare, and "
+    "touch the finger anew";
+
+/// Of a row that isn't what is known of it: nothing pressed, and what it reads is too little for a touch.
+bool isDriftedZero(const CalibrationResult& result, const RowResult& row) {
+  const double most_strain = kWeakestTouch * result.drawing().config().gauges.noise_strain;
+  return !isTouch(row) && row.residual_strain.size() > 0 &&
+         row.residual_strain.cwiseAbs().maxCoeff() < most_strain;
+}
 
 std::string reasonOf(RowUse use) {
   switch (use) {
@@ -39,7 +54,85 @@ std::string reasonOf(RowUse use) {
   }
 }
 
+/// Of its tolerance: of 67 unknowns one is further off the drawing in 4 fingers of 1,000 by chance.
+constexpr double kFarOff = 4;
+/// The same of the modulus alone, in 3 of 1,000: known loads that are off by a factor of 2 make it 3.5.
+constexpr double kFarOffModulus = 3;
+
+/// An unknown of gauges, in people's units: what to look at where it is far off at a gauge, and where it is
+/// at most of them.
+struct GaugeWords {
+  GaugeUnknown unknown;
+  const char* name;
+  const char* unit;
+  double perUnit;
+  const char* lookAt;
+  const char* lookAtIfMost;
+};
+constexpr std::array kGaugeWords{
+    GaugeWords{kGain, "gain", "", 1, "look at its joint and wires",
+               "check gauges.full_scale_strain and finger.outer_radius_m"},
+    GaugeWords{kZero, "zero", " microstrain", 1e-6, "tare", "tare"},
+    GaugeWords{kAngleOffset, "angle off by", " deg", kRadPerDeg, "look at how it is glued",
+               "check gauges.angle_deg"},
+    GaugeWords{kDepthOffset, "too deep by", " um", 1e-6, "look at how it is glued", "check gauges.radius_m"}};
+
+/// In tolerances, and in the words' unit.
+struct Off {
+  int gauge;
+  double tolerances, value;
+};
+
+Off offOf(const CalibrationResult& result, const GaugeWords& words, int gauge) {
+  const Drawing& drawing = result.drawing();
+  const double tolerance = drawing.tolerance(words.unknown);
+  double deviation = result.deviations()[Drawing::at(gauge, words.unknown)];
+  if (words.unknown == kAngleOffset) deviation -= result.turn_deg() * kRadPerDeg / tolerance;
+  const double nominal = words.unknown == kGain ? 1 : 0;
+  return {gauge, std::abs(deviation), (nominal + tolerance * deviation) / words.perUnit};
+}
+
+void addFarOff(const CalibrationResult& result, const GaugeWords& words,
+               std::vector<std::string>& sentences) {
+  const config::Gauges& gauges = result.drawing().config().gauges;
+  std::vector<Off> far;
+  for (int gauge = 0; gauge < gauges.count; ++gauge)
+    if (const Off off = offOf(result, words, gauge); off.tolerances > kFarOff) far.push_back(off);
+  const auto text = [&](const std::string& whose, const Off& off, const char* lookAt) {
+    sentences.push_back(fmt::format("{}: {} {:.3g}{}, {:.1f} tolerances off the drawing: {}.", whose,
+                                    words.name, off.value, words.unit, off.tolerances, lookAt));
+  };
+  if (2 * far.size() <= static_cast<std::size_t>(gauges.count)) {
+    for (const Off& off : far)
+      text(fmt::format("Gauge {} (at {:.6g} deg)", off.gauge, gauges.angle_deg(off.gauge)), off,
+           words.lookAt);
+    return;
+  }
+  const Off& worst = *std::ranges::max_element(far, {}, &Off::tolerances);
+  text(fmt::format("{} gauges of {}, gauge {} most", far.size(), gauges.count, worst.gauge), worst,
+       words.lookAtIfMost);
+}
+
 }  // namespace
+
+bool isTouch(const RowResult& row) { return std::abs(row.touch[kNormalLoad]) > kTrace_n_per_m; }
+
+std::vector<std::string> whatIsFarOff(const CalibrationResult& result) {
+  std::vector<std::string> sentences;
+  for (const GaugeWords& words : kGaugeWords) addFarOff(result, words, sentences);
+  const auto add = [&](RubberUnknown unknown, const char* name, const Estimate& found, double perUnit,
+                       const char* unit, const char* lookAt, double most = kFarOff) {
+    const double tolerances = std::abs(result.deviations()[result.drawing().at(unknown)]);
+    if (tolerances > most)
+      sentences.push_back(fmt::format("{} {:.4g}{}, {:.1f} tolerances off the drawing: {}.", name,
+                                      found.value / perUnit, unit, tolerances, lookAt));
+  };
+  add(kCoreRadius, "Core radius", result.coreRadius_m(), 1e-3, " mm", "check finger.core_radius_m");
+  add(kPoissonRatio, "Poisson's ratio", result.poissonRatio(), 1, "", "check finger.poisson_ratio");
+  add(kShearModulus, "Shear modulus", result.shearModulus_pa(), 1e3, " kPa",
+      "check finger.length_m, the known loads and finger.shear_modulus_pa", kFarOffModulus);
+  return sentences;
+}
 
 std::vector<std::string> whatIsUntold(const CalibrationResult& result) {
   std::vector<std::string> sentences;
@@ -95,8 +188,13 @@ std::vector<LeftOut> rowsLeftOut(const CalibrationResult& result) {
   for (const RowUse use : {RowUse::kWeak, RowUse::kAmbiguous, RowUse::kWide, RowUse::kOverRange,
                            RowUse::kContradicted, RowUse::kUnexplained}) {
     LeftOut left{use, reasonOf(use), {}};
+    bool isDrifted = use == RowUse::kContradicted;
     for (std::size_t row = 0; row < result.rows().size(); ++row)
-      if (result.rows()[row].use == use) left.rows.push_back(row + 1);
+      if (result.rows()[row].use == use) {
+        left.rows.push_back(row + 1);
+        isDrifted &= isDriftedZero(result, result.rows()[row]);
+      }
+    if (isDrifted) left.reason = kZerosDrifted;
     if (!left.rows.empty()) all.push_back(std::move(left));
   }
   return all;
@@ -109,6 +207,15 @@ std::string movedZeroText(const CalibrationResult& result) {
       "{} moved during the session: {} than in the others. These rows are left out. Tare, and touch the "
       "finger anew, all around.",
       moved.size() == 1 ? "A zero" : "Zeros", textOf(moved));
+}
+
+std::string turnText(const CalibrationResult& result) {
+  const double turn_deg = result.drawnTurn_deg();
+  if (turn_deg == 0) return "";
+  return fmt::format(
+      "The known angles turn the ring by {:.2f} deg (counter-clockwise positive): the config has that in "
+      "gauges.{}, and in [calibration] what each gauge is off besides.",
+      turn_deg, result.drawing().config().gauges.isEven() ? "first_angle_deg" : "angle_deg");
 }
 
 Residuals residualsOf(const CalibrationResult& result) {

@@ -19,6 +19,13 @@ std::vector<Correlation> correlationsWorthKnowing(const CalibrationResult& resul
 /// What the touches left untold, and which touches would tell it: sentences.
 std::vector<std::string> whatIsUntold(const CalibrationResult& result);
 
+/// What is more than four tolerances off the drawing, of the modulus more than three, each with what to look
+/// at: sentences. Of angles the ring's own turn is left out.
+std::vector<std::string> whatIsFarOff(const CalibrationResult& result);
+
+/// Whether the row's touch is one: the fit leaves a trace of a load where nothing is known to have pressed.
+bool isTouch(const RowResult& row);
+
 /// Rows that were left out for one reason, counted from 1.
 struct LeftOut {
   RowUse use;
@@ -29,6 +36,9 @@ std::vector<LeftOut> rowsLeftOut(const CalibrationResult& result);
 
 /// The zeros that moved, each with its rows and its shift, in a sentence; empty where none did.
 std::string movedZeroText(const CalibrationResult& result);
+
+/// That the known angles turn the ring, and where the config has that; empty where [gauges] stays as drawn.
+std::string turnText(const CalibrationResult& result);
 
 /// RMS of what the fitted finger leaves, and what the drawn one does of the same rows, each with the touches
 /// that suit it best. Costs 0.2 ms a row.

@@ -128,7 +128,8 @@ std::string gaugeSection(const CalibrationResult& result, const Residuals& resid
              fmt::format("{:.1f}", 1e6 * left.before_strain),
              number("residual_strain", left.after_strain, fmt::format("{:.2f}", 1e6 * left.after_strain))});
   }
-  return heading("The gauges") +
+  const std::string turn = turnText(result);
+  return heading("The gauges") + (turn.empty() ? "" : "<p id=\"turn\">" + escaped(turn) + "</p>\n") +
          figure(ringPicture(result), "ring", "Each gauge as found, beside what the drawing allows.") +
          table("gauges",
                {"gauge", "gain", "zero, microstrain", "angle off, deg", "too deep, um", "left over before",
@@ -170,6 +171,13 @@ std::string rowsSection(const CalibrationResult& result) {
          (rows.empty() ? "" : table("left-out", {"reason", "rows", "which"}, rows));
 }
 
+std::string farOffSection(const CalibrationResult& result) {
+  std::string items;
+  for (const std::string& sentence : whatIsFarOff(result))
+    items += fmt::format("<li>{}</li>\n", escaped(sentence));
+  return items.empty() ? "" : heading("Far off the drawing") + "<ul id=\"far-off\">\n" + items + "</ul>\n";
+}
+
 std::string untoldSection(const CalibrationResult& result) {
   std::string items;
   for (const std::string& sentence : whatIsUntold(result))
@@ -184,8 +192,8 @@ std::string untoldSection(const CalibrationResult& result) {
 std::string htmlPage(const CalibrationResult& result) {
   const Residuals residuals = residualsOf(result);
   return kHead + std::string("<h1>A finger as it was built</h1>\n") + worthSection(result) +
-         untoldSection(result) + gaugeSection(result, residuals) + rubberSection(result) +
-         togetherSection(result) + heading("The touches") +
+         farOffSection(result) + untoldSection(result) + gaugeSection(result, residuals) +
+         rubberSection(result) + togetherSection(result) + heading("The touches") +
          figure(coveragePicture(result), "coverage", "Where the finger was touched, and how hard.") +
          figure(residualPicture(result, residuals), "residuals",
                 "What is left over of the readings, by gauge and by row, before and after.") +

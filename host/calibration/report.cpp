@@ -42,8 +42,10 @@ std::string worthText(const CalibrationResult& result) {
 
 std::string untoldText(const CalibrationResult& result) {
   std::string text;
-  for (const std::string& sentence : whatIsUntold(result)) text += sentence + "\n";
-  return text;
+  for (const auto& sentences : {whatIsFarOff(result), whatIsUntold(result)})
+    for (const std::string& sentence : sentences) text += sentence + "\n";
+  const std::string turn = turnText(result);
+  return turn.empty() ? text : text + turn + "\n";
 }
 
 std::string correlationText(const CalibrationResult& result) {

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 
+#include "host/calibration/over_range.hpp"
 #include "host/calibration/touch_fit.hpp"
 #include "host/calibration/wiring_turn.hpp"
 
@@ -74,7 +75,7 @@ RowsOfGauges rowsOfGauges(const config::Gauges& gauges, const MatrixXd& readings
   for (Index row = 0; row < readings.rows(); ++row) {
     Index gauge = 0;
     const double peak = readings.row(row).cwiseAbs().maxCoeff(&gauge);
-    if (peak < gauges.full_scale_strain) result[static_cast<std::size_t>(gauge)].emplace_back(peak, row);
+    if (!isOverRange(gauges, peak)) result[static_cast<std::size_t>(gauge)].emplace_back(peak, row);
   }
   for (auto& rows : result) std::sort(rows.begin(), rows.end());
   return result;
@@ -272,6 +273,31 @@ class WiringCheck {
   VectorXd misfits_;  ///< of each row, wired as found by now
 };
 
+/// Of tolerance.zero_strain: what taring leaves is less, four standard deviations.
+constexpr double kFarZero = 4;
+
+/// Of each gauge, what it reads on average where nothing is known to touch the finger; 0 without such rows.
+VectorXd untouchedMean_strain(std::span<const KnownTouch> known, const MatrixXd& readings) {
+  VectorXd sum = VectorXd::Zero(readings.cols());
+  double rows = 0;
+  for (std::size_t row = 0; row < known.size(); ++row)
+    if (known[row].isUntouched()) {
+      sum += readings.row(static_cast<Index>(row)).transpose();
+      ++rows;
+    }
+  return sum / std::max(rows, 1.0);
+}
+
+/// Of gauges that read what no touch does, those whose zeros alone may be why.
+void tellZeros(std::vector<WiringFault>& faults, const config::FingerConfig& config,
+               const VectorXd& zeros_strain) {
+  for (WiringFault& fault : faults) {
+    const double zero_strain = zeros_strain[fault.gauge];
+    if (fault.kind == Kind::kUnfit && std::abs(zero_strain) > kFarZero * config.tolerance.zero_strain)
+      fault = {.kind = Kind::kZeroOff, .gauge = fault.gauge, .zero_strain = zero_strain};
+  }
+}
+
 /// Behind what a turn is: that it may be the mark. Empty where several directions agree.
 std::string orTheMark(const WiringFault& fault) {
   if (fault.onlyMark == 0) return {};
@@ -301,6 +327,7 @@ std::vector<WiringFault> findWiringFaults(const config::FingerConfig& config,
                                           const KnownErrors& errors) {
   WiringCheck check(config, readings);
   std::vector<WiringFault> faults = check.run();
+  tellZeros(faults, config, untouchedMean_strain(known, readings));
   if (faults.empty())
     if (const auto turn =
             findTurn(config, known, readings, errors, {check.strongRows(), check.poissonDeviation()}))
@@ -324,6 +351,12 @@ std::string textOf(const WiringFault& fault) {
                          fault.other);
     case Kind::kUnfit:
       return fmt::format("gauge {} reads what no touch does: has it come loose?", fault.gauge);
+    case Kind::kZeroOff:
+      return fmt::format(
+          "gauge {} reads {:.4g} microstrain where nothing touches the finger: its zero is off: tare, and "
+          "touch "
+          "the finger anew",
+          fault.gauge, 1e6 * fault.zero_strain);
     case Kind::kShifted:
       return fmt::format(
           "the gauges are shifted: gauge 0 is where gauge {} should be; move the connector by so "

@@ -18,6 +18,7 @@ struct WiringFault {
     kDead,         ///< reads nothing
     kGlued,        ///< reads what its neighbour `other` does
     kUnfit,        ///< reads something that is neither
+    kZeroOff,      ///< the same, and `zero_strain` where nothing touches the finger
     kShifted,      ///< the ring is turned by `other` gauges: gauge i is where i + other should be
     kReversed,     ///< counted the other way round, and turned so that gauge i is where other - i should be
     kTurnUnclear,  ///< turned or reversed: which isn't told
@@ -26,6 +27,7 @@ struct WiringFault {
   int gauge = 0;
   int other = 0;
   int onlyMark = 0;  ///< of a turn: the row, from 1, of the one known direction that tells it; 0: several do
+  double zero_strain = 0;
 
   bool operator==(const WiringFault&) const = default;
 };
@@ -39,8 +41,9 @@ std::vector<int> untouchedGauges(const config::Gauges& gauges, const Eigen::Matr
 /// well as the drawn one: rows of known angle_deg tell them, if three quarters of these are where such a ring
 /// would see them, and the shape of an uneven ring does. One direction is enough where it is three degrees or
 /// more from any gauge and from the middle of any gap: a ring that is reversed about such a place reads a
-/// touch there as one that is turned does. Domain: as calibrate()'s, touches near every gauge. Cost: 0.08 s
-/// for a healthy ring of 16, 0.05 s a fault, and findTurn()'s.
+/// touch there as one that is turned does. A gauge that reads what no touch does is told for its zero where
+/// rows that are known to be untouched show that. Domain: as calibrate()'s, touches near every gauge. Cost:
+/// 0.08 s for a healthy ring of 16, 0.05 s a fault, and findTurn()'s.
 std::vector<WiringFault> findWiringFaults(const config::FingerConfig& config,
                                           std::span<const KnownTouch> known, const Eigen::MatrixXd& readings,
                                           const KnownErrors& errors);

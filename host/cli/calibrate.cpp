@@ -221,8 +221,7 @@ void printRows(TableFormat format, const calibration::CalibrationResult& result)
   const double radius_m = result.drawing().config().finger.outer_radius_m;
   for (std::size_t i = 0; i < result.rows().size(); ++i) {
     const calibration::RowResult& row = result.rows()[i];
-    const bool isTouch = row.touch[calibration::kNormalLoad] != 0;
-    const auto known = [isTouch](double value) { return Cell{isTouch ? value : kNoValue}; };
+    const auto known = [&](double value) { return Cell{calibration::isTouch(row) ? value : kNoValue}; };
     table.row({static_cast<std::int64_t>(i + 1), std::string(nameOf(row.use)),
                known(withinATurn_deg(row.touch[calibration::kPlace] / kRadPerDeg)),
                known(row.touch[calibration::kNormalLoad]), known(row.touch[calibration::kTangentialLoad]),

@@ -232,6 +232,7 @@ class LiveSession {
       session_.takeFit(*fit_.wait());
     }
     const bool isNewest = session_.fit() && session_.fit()->rows == session_.rows().size();
+    if (session_.rows().size() == 0) return {std::nullopt, "there is nothing to fit", kept(), interrupted};
     if (!interrupted && !isNewest) {
       fmt::print(stderr, "calibrate: fitting {} rows\n", session_.rows().size());
       session_.takeFit(session::fitRows(config_, session_.beginFit(), options_.errors));

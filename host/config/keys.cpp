@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -59,7 +60,9 @@ std::vector<Key> makeKeys() {
       {"contact", "friction_coefficient", slot<&F::contact, &Contact::friction_coefficient>(),
        Domain::between(0, 10), "tangential load is at most this times the normal load"},
       {"contact", "width_m", slot<&F::contact, &Contact::width_m>(), Domain::between(0, 1),
-       "width over which a contact presses, an arc of the surface; 0: a line load; at most largest_width_m; "
+       "width over which a contact presses, uniformly, an arc of the surface (of a Hertzian contact 0.87 "
+       "times "
+       "its width); 0: a line load; at most largest_width_m; "
        "left out: unknown, fitted with each touch"},
       {"contact", "largest_width_m", slot<&F::contact, &Contact::largest_width_m>(), Domain::above(0, 1),
        "widest contact that the tables cover; at most outer_radius_m"},
@@ -130,6 +133,10 @@ std::string Key::dotted() const { return fmt::format("{}.{}", section, name); }
 std::span<const Key> keys() {
   static const std::vector<Key> table = makeKeys();
   return table;
+}
+
+const Key& keyOf(std::string_view dotted) {
+  return *std::ranges::find_if(keys(), [&](const Key& key) { return key.dotted() == dotted; });
 }
 
 }  // namespace strainfinger::config

@@ -40,6 +40,8 @@ struct Key {
 
 /// All keys; those of a section follow each other, in the order a file lists them.
 std::span<const Key> keys();
+/// Domain: "section.name" of one of them.
+const Key& keyOf(std::string_view dotted);
 
 /// A condition between keys. Its text names them all.
 struct Relation {

@@ -47,8 +47,8 @@ Command angleOf(std::string_view text) {
   if (!said || (said->unit != "" && said->unit != "deg"))
     return Unclear{fmt::format("\"{}\" is no angle: say it in degrees, as in 40", text)};
   if (std::abs(said->value) > 360)
-    return Unclear{
-        fmt::format("\"{}\": an angle is from 0 to 360 degrees, counter-clockwise seen from the tip", text)};
+    return Unclear{fmt::format(
+        "\"{}\": an angle is from -360 to 360 degrees, counter-clockwise seen from the tip", text)};
   return AngleIs{said->value < 0 ? said->value + 360 : said->value};
 }
 

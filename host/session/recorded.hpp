@@ -18,7 +18,7 @@ struct Recorded {
 };
 
 /// The readings (RAW) of the config's node, thinned as a session's are. Throws Failure(kFailure) as
-/// can::LogReader does, and when there are none.
+/// can::LogReader does, when there are none, and when none is a touch.
 Recorded readRecording(const std::string& path, const config::FingerConfig& config, std::uint8_t node);
 
 }  // namespace strainfinger::session

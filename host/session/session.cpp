@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "host/calibration/over_range.hpp"
+
 namespace strainfinger::session {
 
 using calibration::KnownTouch;
@@ -89,7 +91,7 @@ std::optional<Sample> Session::nowHeld(std::string& why) const {
   const double peak = mean.cwiseAbs().maxCoeff();
   if (peak < ThinningRules{}.weakest * gauges.noise_strain)
     why = "nothing presses the finger, or too little";
-  else if (peak >= gauges.full_scale_strain)
+  else if (calibration::isOverRange(gauges, peak))
     why = "it is pressed beyond its range";
   else if (std::sqrt(squares.maxCoeff()) > std::max(holds_.noise * gauges.noise_strain, holds_.share * peak))
     why = "it is not held still";
@@ -126,7 +128,8 @@ Obeyed Session::obeySkip() {
   const Advice::Kind kind = advice().kind;
   if (kind == Advice::Kind::kPress) {
     unavailable_.loads = true;
-    return {.message = "without known loads the unit of force is the drawing's"};
+    return {.message = coverage_.loads > 0 ? "the unit of force is what the loads tell that were taken"
+                                           : "without known loads the unit of force is the drawing's"};
   }
   if (kind == Advice::Kind::kMark) {
     unavailable_.directions = true;

@@ -34,6 +34,12 @@ std::vector<std::string> wrapped(std::string_view text, int columns) {
   return rows;
 }
 
+/// Its standard error, if there is a mark.
+std::string zeroOfAngleText(const Assessment& known) {
+  return std::isfinite(known.zeroOfAngle_deg) ? fmt::format("{:.2f} deg", known.zeroOfAngle_deg)
+                                              : "not known";
+}
+
 class SessionPainter {
  public:
   SessionPainter(const SessionView& view, const config::Gauges& gauges, const live::ScreenForm& form)
@@ -87,10 +93,7 @@ class SessionPainter {
     say(row_++, 0, "  normal " + each(1, 1, 2) + ", tangential " + each(2, 1, 2) + " N/m");
     say(row_++, 0,
         fmt::format("Unit of force {:.1f} %, zero of the angle {}; 100 more touches gain {:.0f} %",
-                    100 * known.unitOfForce,
-                    std::isfinite(known.zeroOfAngle_deg) ? fmt::format("{:.2f} deg", known.zeroOfAngle_deg)
-                                                         : std::string("not known"),
-                    100 * known.bestGain()));
+                    100 * known.unitOfForce, zeroOfAngleText(known), 100 * known.bestGain()));
   }
 
   void table() {
@@ -185,9 +188,11 @@ std::string sessionLine(const SessionView& view) {
       "{:.1f} s  {} rows: {} untouched, {} of known load, {} of known angle; {} lost", view.time_s, view.rows,
       view.coverage.untouched, view.coverage.loads, view.coverage.directions_deg.size(), view.lost);
   if (view.assessment)
-    text += fmt::format("; errors to come: {}; unit of force {:.1f} %; 100 more touches would gain {:.0f} %",
-                        errorsText(view.assessment->errors), 100 * view.assessment->unitOfForce,
-                        100 * view.assessment->bestGain());
+    text += fmt::format(
+        "; errors to come: {}; unit of force {:.1f} %, zero of the angle {}; 100 more touches would gain "
+        "{:.0f} %",
+        errorsText(view.assessment->errors), 100 * view.assessment->unitOfForce,
+        zeroOfAngleText(*view.assessment), 100 * view.assessment->bestGain());
   if (!view.complaint.empty()) text += "; no fit yet: " + view.complaint;
   return text + " | " + view.next;
 }

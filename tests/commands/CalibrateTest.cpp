@@ -101,7 +101,7 @@ TEST(CalibrateCommand, PrintsWhatBecameOfEachRow) {
       "row,use,angle_deg,normal_n_per_m,tangential_n_per_m,width_m,chi_squared,residual_drawn_strain,"
       "residual_strain\n",
       run.out.c_str());
-  STRCMP_CONTAINS("\n61,over-range,,,,,,,\n62,untouched,", run.out.c_str());
+  STRCMP_CONTAINS("\n61,over-range,,,,,,,\n62,untouched,,,,,,", run.out.c_str());
   STRCMP_CONTAINS("over range: press less: 1 rows: 61\n", run.err.c_str());
 }
 
@@ -119,6 +119,29 @@ TEST(CalibrateCommand, WritesAConfigThatIsReadBackAndMakesTables) {
     STRCMP_CONTAINS(part, text.c_str());
   CHECK_TRUE(text.find("\nmodel_error = 0.05\n") == std::string::npos);
   LONGS_EQUAL(0, runProgram("tables -c " + path("out.toml") + " -o " + path("tables.bin")).status);
+}
+
+TEST(CalibrateCommand, AConfigOfARingThatMarksTurnIsReadBackAndMakesTables) {
+  auto turned = session.known;
+  for (auto& touch : turned)
+    if (touch.angle_deg) *touch.angle_deg += 3;
+  write("touches.csv", textOf(turned));
+  const Run run = calibrate("-c " + path("finger.toml") + " -o " + path("out.toml"), readings);
+  LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS("The known angles turn the ring by ", run.err.c_str());
+  const Run tables = runProgram("tables -c " + path("out.toml") + " -o " + path("tables.bin"));
+  STRCMP_EQUAL("", tables.out.c_str());
+  LONGS_EQUAL(0, tables.status);
+}
+
+TEST(CalibrateCommand, AGaugeTooWeakForAnyConfigIsRefusedAndNothingWritten) {
+  auto weak = study::sessionOf(finger, {.touches = 150}, kSeed);
+  write("touches.csv", textOf(weak.known));
+  config::FingerConfig loose = finger;  // else the rows of such a gauge may be left out
+  loose.tolerance.gain = 0.3;
+  write("loose.toml", config::writeConfig(loose));
+  weak.readings.col(6) *= 0.41;
+  refuses(1, "-c " + path("loose.toml"), textOf(weak.readings), "gauge 6 (at 135 deg): gain 0.39");
 }
 
 TEST(CalibrateCommand, WritesAPageThatSaysWhatTheTablesSay) {
@@ -179,6 +202,16 @@ TEST(CalibrateCommand, NamesTheColumnsThatItDoesNotUse) {
   LONGS_EQUAL(0, run.status);
   STRCMP_CONTAINS("calibrate: of stdin only the strains are used, not time_s, temperature_c\n",
                   run.err.c_str());
+}
+
+TEST(CalibrateCommand, StrainsOfAnotherRingAreRefusedForTheConfig) {
+  std::string header = "time_s", row = "0";
+  for (int gauge = 0; gauge < 24; ++gauge) {
+    header += fmt::format(",strain_{}", gauge);
+    row += ",0.001";
+  }
+  refuses(1, "", header + "\n" + row + "\n",
+          "the file has strain_16 .. strain_23, but gauges.count = 16: give this finger's config, -c");
 }
 
 TEST(CalibrateCommand, SaysWhatIsWrongAndWhereAndWritesNothing) {

@@ -248,6 +248,15 @@ class Resumed(unittest.TestCase):
         self.assertRegex(session.said.last, r"too few.*10 rows are kept in .*: the same command goes on with them")
         self.assertFalse(output.exists())
 
+    def test_what_is_quit_before_any_row_is_not_said_to_be_fitted(self):
+        output = self.bench.new_folder() / "none.toml"
+        session = Session(self.bench, self.finger, output)
+        self.bench.until(lambda: session.said.lines)
+        session.say("quit")
+        self.assertEqual(1, session.ended(60))
+        self.assertIn("there is nothing to fit; no rows were collected", session.said.last)
+        self.assertFalse([line for line in session.said.lines if "fitting" in line])
+
     def test_gauges_that_are_wired_wrongly_are_named(self):
         output = self.session_of(400)
         strains = output.with_suffix(".strains.csv")

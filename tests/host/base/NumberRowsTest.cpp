@@ -47,6 +47,21 @@ TEST(NumberRows, AFirstRowWithANumberInItIsNoHeader) {
   STRCMP_EQUAL("stdin:1:1: \"foo\" is no number", complaintAbout("foo,2\n").c_str());
 }
 
+TEST(NumberRows, MoreOfTheColumnsThanAreWantedAreAnotherFiles) {
+  const NumberRowReader::Limit limit{
+      .columns = {"g_0", "g_1"}, .family = "g_", .familyHint = "but there are two"};
+  std::vector<double> row;
+  std::istringstream others("g_0,g_1,g_,g_x,ag_3\n1,2,3,4,5\n");
+  CHECK_TRUE(NumberRowReader(others, "stdin", 2, limit).next(row));
+  std::istringstream more("time_s,g_0,g_1,g_2,g_3\n1,2,3,4,5\n");
+  try {
+    NumberRowReader(more, "stdin", 2, limit).next(row);
+    FAIL("accepted");
+  } catch (const Failure& failure) {
+    STRCMP_EQUAL("stdin:1:1: the file has g_2 .. g_3, but there are two", failure.what());
+  }
+}
+
 TEST(NumberRows, NamedColumnsAreFoundAmongOthers) {
   std::istringstream stream("time_s, b,\"note\",a\n0.100,2,\"x y\",1\n0.2,4,,3\n");
   NumberRowReader reader(stream, "stdin", 2, {.columns = {"a", "b"}});

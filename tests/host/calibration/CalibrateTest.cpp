@@ -253,6 +253,22 @@ TEST(Calibrate, KnownLoadsOfWhichTheReadingsBearOutNoneAreRefusedByRow) {
                  "in rows 1, 2, 3, 4, 5, and none of the others is fitted; look at their unit");
 }
 
+TEST(Calibrate, KnownTangentialLoadsOfTheWrongSignAreRefusedWithTheSignThatIsMeant) {
+  auto session = study::sessionOf(finger, {.touches = 80, .knownLoads = 0}, kSeed);
+  const auto wellLocated = calibrated(session);
+  int rubbed = 0;
+  for (std::size_t row = 0; row < session.known.size() && rubbed < 5; ++row) {
+    const RowResult& found = wellLocated.rows()[row];
+    const bool isRubbed = std::abs(found.touch[kTangentialLoad]) > 0.3 * found.touch[kNormalLoad];
+    if (found.use != RowUse::kFitted || !isRubbed || session.known[row].angle_deg) continue;
+    session.known[row].normal_n_per_m = found.touch[kNormalLoad];
+    session.known[row].tangential_n_per_m = -found.touch[kTangentialLoad];
+    ++rubbed;
+  }
+  checkComplaint(session.known, session.readings,
+                 "the sign of tangential_n_per_m, which is positive counter-clockwise seen from the tip");
+}
+
 TEST(Calibrate, RowsThatNothingTouchesAreNoTouches) {
   auto session = study::sessionOf(finger, {.touches = 31}, kSeed);
   session.known.resize(60, {std::nullopt, 0, 0});
@@ -307,6 +323,7 @@ TEST(Calibrate, TouchesThatLeaveAGaugeUntoldAreRefusedByItsName) {
   }
   STRCMP_CONTAINS("don't tell where these gauges are: 8 (at 180 deg); add touches at ten places",
                   said.c_str());
+  STRCMP_CONTAINS("look at the order in which these gauges are connected", said.c_str());
 }
 
 // How so few gauges were built looks like a fault of their wiring.
@@ -333,6 +350,15 @@ TEST(Calibrate, TouchesOnAnArcAreRefusedForThoseThatAreMissing) {
 TEST(Calibrate, TooFewTouchesAreRefused) {
   const auto session = study::sessionOf(finger, {.touches = 20}, kSeed);
   checkComplaint({}, session.readings, " rows with a touch are too few: at least 32");
+}
+
+TEST(Calibrate, WhyRowsAreTooFewIsToldByReasonWithTheMendOfTheCommonest) {
+  auto session = study::sessionOf(finger, {.touches = 60}, kSeed);
+  session.readings.bottomRows(40) *= 1e3;
+  const std::string said = complaintOf(finger, {}, session.readings);
+  STRCMP_CONTAINS(" rows with a touch are too few: at least 32, ", said.c_str());
+  STRCMP_CONTAINS("; of 60 rows are 40 over-range, ", said.c_str());
+  STRCMP_CONTAINS(" weak: press less; roll the finger along an edge", said.c_str());
 }
 
 TEST(Calibrate, GaugesThatAreNotWiredAsDrawnAreRefusedWithTheMend) {
@@ -365,11 +391,38 @@ TEST(Calibrate, TouchesThatCannotBeAreNamed) {
 
 TEST(Calibrate, RowsPairWithTouchesAndColumnsWithGauges) {
   const Eigen::MatrixXd readings = Eigen::MatrixXd::Zero(3, 16);
+  checkComplaint({}, Eigen::MatrixXd(0, 0), "there are no rows of strains");
   checkComplaint(std::vector<KnownTouch>(4), readings, "3 rows of strains and 4 touches");
   checkComplaint({}, readings.leftCols(15), "15 strains in a row; there must be one a gauge");
   Eigen::MatrixXd bad = readings;
   bad(1, 2) = std::numeric_limits<double>::quiet_NaN();
   checkComplaint({}, bad, "row 2: a strain is no finite number");
+}
+
+// What is left where every other gauge has the wrong sign, and a hundred times what a healthy finger leaves.
+TEST(Calibrate, WhatWrongSignsOfEveryOtherGaugeLeaveIsRefused) {
+  std::string said;
+  try {
+    requireExplained(0.04, 0);
+  } catch (const Failure& failure) {
+    said = failure.what();
+  }
+  STRCMP_CONTAINS("this finger doesn't explain the readings: 4 % of a touch's largest reading are left over",
+                  said.c_str());
+  requireExplained(0.02, 0);
+}
+
+// A touch of a known width is a uniform pressure's, whose second moment is w^2 / 12.
+TEST(Calibrate, AKnownWidthIsThatOfAUniformPressure) {
+  constexpr double kWidth_m = 2e-3;
+  auto session = study::sessionOf(
+      finger, {.touches = 80, .ranges = {.load_n_per_m = {5, 40}, .width_m = {kWidth_m, kWidth_m}}}, kSeed);
+  session.finger.contact.width_m = std::sqrt(12.0 / 16) * kWidth_m;  // the study's touches are Hertzian
+  const auto result = calibrated(session);
+  const double width_rad = *session.finger.contact.width_m / finger.finger.outer_radius_m;
+  for (const RowResult& row : result.rows())
+    if (row.use == RowUse::kFitted) DOUBLES_EQUAL(width_rad * width_rad / 12, row.touch[kMoment], 1e-5);
+  CHECK_COMPARE(result.count(RowUse::kFitted), >, 60);
 }
 
 // Gauges that are drawn in pairs and connected one place further: that 49 % of its rows are no touches of the

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "host/calibration/report.hpp"
+
 #include <CppUTest/TestHarness.h>
 
 using namespace strainfinger::calibration;
@@ -46,6 +48,37 @@ TEST(Findings, AGaugeThatIsUntoldIsNamedWithTheTouchesThatTell) {
   STRCMP_CONTAINS("Touches over them", sentences.front().c_str());
 }
 
+TEST(Findings, WhatIsFarOffTheDrawingIsToldWithWhatToLookAt) {
+  LONGS_EQUAL(0, whatIsFarOff(result()).size());
+  deviations[Drawing::at(6, kGain)] = -10;
+  deviations[Drawing::at(2, kDepthOffset)] = 3.9;
+  deviations[drawing.at(kShearModulus)] =
+      -std::log(2) / config.tolerance.shear_modulus;  // known loads half of what they are
+  const auto sentences = whatIsFarOff(result());
+  LONGS_EQUAL(2, sentences.size());
+  STRCMP_EQUAL(
+      "Gauge 6 (at 135 deg): gain 0.7, 10.0 tolerances off the drawing: look at its joint and wires.",
+      sentences[0].c_str());
+  STRCMP_CONTAINS("kPa, 3.5 tolerances off the drawing: check finger.length_m, the known loads",
+                  sentences[1].c_str());
+  STRCMP_CONTAINS(sentences[0].c_str(), textReport(result()).c_str());
+}
+
+TEST(Findings, WhatIsFarOffAtMostGaugesIsTheDrawings) {
+  for (int gauge = 0; gauge < drawing.gauges(); ++gauge) deviations[Drawing::at(gauge, kDepthOffset)] = 6;
+  const auto sentences = whatIsFarOff(result());
+  LONGS_EQUAL(1, sentences.size());
+  STRCMP_CONTAINS(
+      "16 gauges of 16, gauge 0 most: too deep by 300 um, 6.0 tolerances off the drawing: check "
+      "gauges.radius_m.",
+      sentences[0].c_str());
+}
+
+TEST(Findings, ATurnOfTheWholeRingIsNotFarOff) {
+  for (int gauge = 0; gauge < drawing.gauges(); ++gauge) deviations[Drawing::at(gauge, kAngleOffset)] = 9;
+  LONGS_EQUAL(0, whatIsFarOff(result()).size());
+}
+
 // 16 gauges, one of which is off by 40 microstrain: 10 RMS.
 TEST(Findings, ResidualsAreThoseOfRowsThatWereFitted) {
   rows = {row(RowUse::kFitted, 40e-6), row(RowUse::kWeak, 1), row(RowUse::kFitted, -40e-6)};
@@ -64,6 +97,15 @@ TEST(Findings, RowsThatWereLeftOutAreListedByReason) {
   LONGS_EQUAL(2, left.size());
   CHECK_TRUE(left.front().rows == (std::vector<std::size_t>{2, 4}));
   STRCMP_CONTAINS("slip", left.front().reason.c_str());
+}
+
+TEST(Findings, UntouchedRowsOfOtherZerosAreToldForTheDrift) {
+  RowResult drifted = row(RowUse::kContradicted, 1e-4);
+  drifted.touch = {0, 1e-9, 0, 0};
+  rows = {row(RowUse::kFitted, 0), drifted, drifted};
+  STRCMP_CONTAINS("the zeros drifted; tare", rowsLeftOut(result()).front().reason.c_str());
+  rows.push_back(row(RowUse::kContradicted, 0));
+  STRCMP_CONTAINS("look at their angles and loads", rowsLeftOut(result()).front().reason.c_str());
 }
 
 TEST(Findings, ZerosThatMovedAreToldWithRowsAndShifts) {

@@ -168,6 +168,19 @@ TEST(Wiring, AGaugeThatReadsItsNeighboursStrainIsNamed) {
   checkOnly({Kind::kGlued, 5, 6});
 }
 
+TEST(Wiring, AGaugeWhoseZeroIsOffIsToldForThatWhereUntouchedRowsShowIt) {
+  session.readings.conservativeResize(155, Eigen::NoChange);
+  session.readings.bottomRows(5).setZero();
+  session.known.resize(155, {std::nullopt, 0, 0});
+  session.readings.col(6).array() += 1e-3;
+  const auto found = faults();
+  LONGS_EQUAL(1, found.size());
+  STRCMP_EQUAL(
+      "gauge 6 reads 1000 microstrain where nothing touches the finger: its zero is off: tare, and touch the "
+      "finger anew",
+      textOf(found.front()).c_str());
+}
+
 TEST(Wiring, TwoFaultsAreBothNamed) {
   session.readings.col(7) *= -1;
   session.readings.col(1).swap(session.readings.col(2));

@@ -40,6 +40,8 @@ TEST(SessionCommands, ALoadIsInItsUnit) {
 TEST(SessionCommands, AnAngleIsInDegrees) {
   DOUBLES_EQUAL(40, angle("angle 40"), 0);
   DOUBLES_EQUAL(350, angle("angle -10 deg"), 1e-9);
+  DOUBLES_EQUAL(0, angle("angle -360"), 1e-9);
+  DOUBLES_EQUAL(360, angle("angle 360"), 1e-9);
 }
 
 TEST(SessionCommands, WhatIsNotUnderstoodIsToldWithWhatWouldBe) {
@@ -48,7 +50,7 @@ TEST(SessionCommands, WhatIsNotUnderstoodIsToldWithWhatWouldBe) {
   isUnclear("load -5 g", "more than 0");
   isUnclear("load nan g", "no load");
   isUnclear("load 0 N", "more than 0");
-  isUnclear("angle 400", "0 to 360");
+  isUnclear("angle 400", "from -360 to 360");
   isUnclear("angle inf", "no angle");
   isUnclear("angle 4 rad", "degrees");
   isUnclear("", "say load, angle, hold, skip, tare or quit");

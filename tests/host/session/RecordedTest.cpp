@@ -71,6 +71,18 @@ TEST(Recorded, WithoutReadingsOfTheNodeItIsRefused) {
   }
 }
 
+TEST(Recorded, WithoutATouchItIsRefused) {
+  std::string text;
+  for (int i = 0; i < 20; ++i) text += pages(1'000'000 + 10'000 * i, i, RawKind::kReadings, hand.nothing());
+  write(pages(1'000'000, 0, RawKind::kZeros, Eigen::VectorXd::Zero(16)) + text);
+  try {
+    readRecording(path_, config, 1);
+    FAIL("accepted");
+  } catch (const Failure& failure) {
+    STRCMP_CONTAINS(": none of its 20 sample sets is a touch", failure.what());
+  }
+}
+
 TEST(Recorded, RowsOfStrainsAreNoRecording) {
   write("time_s,strain_0\n1,2\n");
   CHECK_FALSE(isRecording(path_));

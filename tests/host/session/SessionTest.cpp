@@ -121,6 +121,25 @@ TEST(GuidedSession, WhatCannotBeDoneIsSkipped) {
   CHECK(session.advice().kind == Kind::kWait);
 }
 
+// A second load would tell the unit of force better; the first has told it.
+TEST(GuidedSession, SkippingAnotherLoadLeavesWhatLoadsHaveTold) {
+  leaveAlone(5.1);
+  rollAround(10);
+  rollAround(18);
+  const calibration::Drawing drawing(config);
+  const calibration::CalibrationResult poorlyTold(
+      drawing, Eigen::VectorXd::Zero(drawing.unknowns()),
+      Eigen::MatrixXd::Identity(drawing.unknowns(), drawing.unknowns()), {}, {0, 0}, true);
+  Assessment assessment;
+  assessment.unitOfForce = 0.05;
+  assessment.unitAfterPress.assign(16, 0.03);
+  session.takeFit({.rows = session.rows().size(), .result = poorlyTold, .assessment = assessment});
+  hold(45, 24);
+  say("load 24 N/m");
+  CHECK(session.advice().kind == Kind::kPress);
+  STRCMP_EQUAL("the unit of force is what the loads tell that were taken", say("skip").c_str());
+}
+
 TEST(GuidedSession, AFitIsWantedOfFourTouchesAGaugeThenOfAFifthMoreOrOfWhatIsKnown) {
   leaveAlone(5.1);
   CHECK_FALSE(session.wantsFit());

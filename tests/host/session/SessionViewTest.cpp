@@ -117,7 +117,8 @@ TEST(SessionView, ALineHasItAll) {
       "mm (drawn "
       "0.640, noise alone 0.010), normal 0.30 N/m (drawn 5.00, noise alone 0.10), tangential 0.20 N/m (drawn "
       "4.00, noise "
-      "alone 0.08); unit of force 0.8 %; 100 more touches would gain 5 %; no fit yet: too few | Leave it "
+      "alone 0.08); unit of force 0.8 %, zero of the angle 0.12 deg; 100 more touches would gain 5 %; no fit "
+      "yet: too few | Leave it "
       "alone for 5 s.",
       sessionLine(view).c_str());
 }

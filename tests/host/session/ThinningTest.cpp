@@ -63,6 +63,13 @@ TEST(Thinning, ReadingsBeyondTheRangeAreNotKept) {
   LONGS_EQUAL(0, kept());
 }
 
+TEST(Thinning, ReadingsThatTheZeroKeepsBelowFullScaleAreBeyondTheRangeToo) {
+  Thinner thinner(config);
+  Eigen::VectorXd strains = Eigen::VectorXd::Zero(config.gauges.count);
+  strains[3] = -0.98 * config.gauges.full_scale_strain;
+  CHECK(thinner.take({0, strains}) == Verdict::kOverRange);
+}
+
 TEST(Thinning, AfterAPauseTheFirstSetIsNotKept) {
   hold(40, 20, 1);
   add(hand.touch(90, 20), 10);

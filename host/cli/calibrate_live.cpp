@@ -159,8 +159,13 @@ class LiveSession {
     }
   }
 
+  void takeFit(session::FitOutcome outcome) {
+    outcome.complaint = files_.named(outcome.complaint);
+    session_.takeFit(std::move(outcome));
+  }
+
   void followFit() {
-    if (auto outcome = fit_.poll()) session_.takeFit(std::move(*outcome));
+    if (auto outcome = fit_.poll()) takeFit(std::move(*outcome));
     if (!fit_.isRunning() && session_.wantsFit()) fit_.start(session_.beginFit());
   }
 
@@ -229,13 +234,13 @@ class LiveSession {
     if (fit_.isRunning()) {
       fmt::print(stderr, "calibrate: waiting for the fit that is being made{}\n",
                  interrupted ? "; Ctrl-C ends it at once" : "");
-      session_.takeFit(*fit_.wait());
+      takeFit(*fit_.wait());
     }
     const bool isNewest = session_.fit() && session_.fit()->rows == session_.rows().size();
     if (session_.rows().size() == 0) return {std::nullopt, "there is nothing to fit", kept(), interrupted};
     if (!interrupted && !isNewest) {
       fmt::print(stderr, "calibrate: fitting {} rows\n", session_.rows().size());
-      session_.takeFit(session::fitRows(config_, session_.beginFit(), options_.errors));
+      takeFit(session::fitRows(config_, session_.beginFit(), options_.errors));
     }
     LiveResult ended{std::nullopt, session_.complaint(), kept(), interrupted};
     if (session_.fit() && (interrupted || session_.complaint().empty()))

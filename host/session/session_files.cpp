@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <optional>
 #include <sstream>
+#include <string_view>
 
 #include "host/base/failure.hpp"
 #include "host/base/no_value.hpp"
@@ -125,6 +126,13 @@ void SessionFiles::append(const File& file, const std::string& line) {
     if (count < 0 && errno != EINTR) cannot(file.path, "write");
     if (count > 0) done += static_cast<std::size_t>(count);
   }
+}
+
+std::string SessionFiles::named(std::string message) const {
+  constexpr std::string_view kAnyFile = "touches.csv";
+  if (const auto at = message.find(kAnyFile); at != message.npos)
+    message.replace(at, kAnyFile.size(), touches_.path);
+  return message;
 }
 
 /// The strains first: a row without its touch is one of which nothing is known.

@@ -24,6 +24,9 @@ class SessionFiles {
   const std::string& strainsPath() const { return strains_.path; }
   const std::string& touchesPath() const { return touches_.path; }
 
+  /// What calibrate() says of touches.csv, of this session's file.
+  std::string named(std::string message) const;
+
   /// `time_s`: since 1970. Throws Failure(kFailure) when the disk is full or broken.
   void add(double time_s, const Eigen::VectorXd& strains, const calibration::KnownTouch& known);
 

@@ -50,6 +50,13 @@ TEST(SessionFiles, AreWhatCalibrateReads) {
   STRCMP_EQUAL("angle_deg,normal_n_per_m,tangential_n_per_m\n,24.5,\n40,,\n", contentOf(touches_).c_str());
 }
 
+TEST(SessionFiles, AreNamedWhereCalibrateSpeaksOfTouches) {
+  const SessionFiles files(config_, 3);
+  STRCMP_EQUAL(("the loads of " + files.touchesPath() + " are wrong in rows 3").c_str(),
+               files.named("the loads of touches.csv are wrong in rows 3").c_str());
+  STRCMP_EQUAL("gauge 3 is dead", files.named("gauge 3 is dead").c_str());
+}
+
 TEST(SessionFiles, GoOnWithWhatIsThere) {
   write(strains_, "time_s,strain_0,strain_1,strain_2\n1.5,0.1,-2e-06,0.3\n");
   write(touches_, "angle_deg,normal_n_per_m,tangential_n_per_m\n,24.5,\n");

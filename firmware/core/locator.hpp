@@ -89,6 +89,7 @@ class Locator {
   std::uint8_t setsLeftOut_ = 0;  ///< in which the answer left gauges out
   std::uint16_t setsSinceSearch_ = 0;
   std::uint32_t searchedAt_q32_ = 0;  ///< where the answer was when the search began
+  std::int8_t searchedShift_ = 0;     ///< of the readings then
 };
 
 /// The answer to one set of strains alone: an update and the whole search.

@@ -29,6 +29,8 @@ std::optional<RawSet> RawReceiver::take(const CanFrame& frame) {
   if (nodeOf(frame.id, FunctionCode::kRaw) != node_) return std::nullopt;
   const auto page = decode<RawFrame>(frame);
   if (!page) return std::nullopt;
+  hasMoreGauges_ |= page->page >= rawPages(static_cast<std::uint32_t>(gauges_));
+  if (hasMoreGauges_) return std::nullopt;
   if (page->kind == RawKind::kZeros) {
     if (add(zeroPages_, *page)) zeros_ = zeroPages_.codes;
     return std::nullopt;

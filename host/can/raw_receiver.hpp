@@ -33,6 +33,8 @@ class RawReceiver {
   const std::vector<std::uint16_t>& zeros() const { return zeros_; }
 
   std::uint64_t incomplete() const { return incomplete_; }  ///< sets that lost a page
+  /// The finger has told pages of more gauges: there are no more sets then.
+  bool hasMoreGauges() const { return hasMoreGauges_; }
 
  private:
   /// The pages of one set so far.
@@ -51,6 +53,7 @@ class RawReceiver {
   Pages zeroPages_;
   std::vector<std::uint16_t> zeros_;
   std::uint64_t incomplete_ = 0;
+  bool hasMoreGauges_ = false;
 };
 
 }  // namespace strainfinger::can

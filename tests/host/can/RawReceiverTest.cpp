@@ -78,6 +78,17 @@ TEST(RawReceiver, ListeningCanBeginAnywhere) {
   LONGS_EQUAL(0, receiver.incomplete());
 }
 
+TEST(RawReceiver, AFingerOfMoreGaugesGivesNothing) {
+  receiver = RawReceiver(kNode, 12);
+  for (int number = 0; number < 3; ++number) receiver.take(page(number, 1));
+  CHECK_TRUE(receiver.take(page(3, 1)).has_value());
+  CHECK_FALSE(receiver.hasMoreGauges());
+  for (const int sample : {1, 2})
+    for (int number = sample == 1 ? 4 : 0; number < 6; ++number)
+      CHECK_FALSE(receiver.take(page(number, sample)).has_value());
+  CHECK_TRUE(receiver.hasMoreGauges());
+}
+
 TEST(RawReceiver, OtherNodesAndFramesAreNotLookedAt) {
   for (int number = 0; number < 6; ++number) {
     CHECK_FALSE(receiver.take(page(number, 1, RawKind::kReadings, kNode + 1)).has_value());

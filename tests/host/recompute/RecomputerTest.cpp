@@ -131,6 +131,15 @@ TEST(Recomputer, ARecordingFromATareOnGivesTheSameFrames) {
   LONGS_EQUAL(touchFrames(), checkSame(recording).compared);
 }
 
+TEST(Recomputer, ATareThatATouchInterruptsIsNoBeginning) {
+  Recording touched(Scenario({TouchCourse{0.33, 0.9, from(200, 220, 0.5), steady(20), steady(2)}}));
+  touched.runTared(1000, 300);
+  const RecomputeTally tally = recomputed(touched.frames);
+  LONGS_EQUAL(0, tally.compared);
+  LONGS_EQUAL(0, tally.different);
+  CHECK_TRUE(tally.leftOut > 500);
+}
+
 TEST(Recomputer, WhatWasLearntBeforeTheTareDoesNotMatter) {
   Recording again(Scenario({TouchCourse{0.3, 0.9, from(200, 220, 0.6), steady(18), steady(4)},
                             TouchCourse{1.6, 2.0, from(60, 90, 0.4), steady(25), steady(-4)}}));

@@ -210,8 +210,6 @@ void TouchReporter::sent(const TouchFrames& frames, std::uint32_t now_us) {
   any_ = isLookedAt_ = true;
 }
 
-void TouchReporter::lost() {
-  if (any_) last_.contact.flags.set(FingerFlag::kContact, true);
-}
+void TouchReporter::lost() { last_.contact.flags.set(FingerFlag::kContact, true); }
 
 }  // namespace strainfinger::firmware

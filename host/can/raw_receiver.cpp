@@ -1,6 +1,9 @@
 #include "host/can/raw_receiver.hpp"
 
+#include <fmt/format.h>
+
 #include "common/raw_share.hpp"
+#include "host/base/failure.hpp"
 
 namespace strainfinger::can {
 
@@ -39,6 +42,13 @@ std::optional<RawSet> RawReceiver::take(const CanFrame& frame) {
   if (isCutOff) ++incomplete_;
   if (!add(readings_, *page)) return std::nullopt;
   return RawSet{readings_.kind == RawKind::kZeroing, readings_.sample, readings_.codes};
+}
+
+void RawReceiver::requireAllGauges() const {
+  if (hasMoreGauges_)
+    throw Failure(
+        ExitCode::kMismatch,
+        fmt::format("node {} has more gauges than gauges.count = {}: give its config, -c", node_, gauges_));
 }
 
 }  // namespace strainfinger::can

@@ -33,8 +33,8 @@ class RawReceiver {
   const std::vector<std::uint16_t>& zeros() const { return zeros_; }
 
   std::uint64_t incomplete() const { return incomplete_; }  ///< sets that lost a page
-  /// The finger has told pages of more gauges: there are no more sets then.
-  bool hasMoreGauges() const { return hasMoreGauges_; }
+  /// Throws Failure(kMismatch) where the finger has told pages of more gauges: there are no more sets then.
+  void requireAllGauges() const;
 
  private:
   /// The pages of one set so far.

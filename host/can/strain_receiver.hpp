@@ -34,8 +34,8 @@ class StrainReceiver {
   }
 
   std::uint64_t incomplete() const { return raw_.incomplete(); }  ///< sets that lost a page
-  /// The finger has more gauges than are listened to; see RawReceiver.
-  bool hasMoreGauges() const { return raw_.hasMoreGauges(); }
+  /// As RawReceiver's.
+  void requireAllGauges() const { raw_.requireAllGauges(); }
 
  private:
   RawReceiver raw_;

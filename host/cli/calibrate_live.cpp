@@ -148,10 +148,7 @@ class LiveSession {
   void takeFrames() {
     while (const auto frame = port_->receiveTimed()) {
       const auto set = receiver_.take(frame->frame);
-      if (receiver_.hasMoreGauges())
-        throw Failure(ExitCode::kMismatch,
-                      fmt::format("the finger has more gauges than gauges.count = {}: give its config, -c",
-                                  config_.gauges.count));
+      receiver_.requireAllGauges();
       if (!set) continue;
       heard_ = SessionClock::now();
       if (set->zeroing) continue;

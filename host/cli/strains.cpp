@@ -94,11 +94,7 @@ void runStrains(const StrainsOptions& options) {
       heard = StrainClock::now();
       printer.print(arrived->time_ns, *set);
     }
-    if (receiver.hasMoreGauges())
-      throw Failure(ExitCode::kMismatch,
-                    fmt::format("{} node {} has more gauges than gauges.count = {}: give its "
-                                "config, -c",
-                                bus->name(), node, config.gauges.count));
+    receiver.requireAllGauges();
     if (StrainClock::now() - heard > kSilence)
       throw Failure(ExitCode::kNoNode,
                     fmt::format("{} node {}: no whole set of readings for {} s: has it gauges.count = {}, as "

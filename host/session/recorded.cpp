@@ -39,9 +39,9 @@ Recorded readRecording(const std::string& path, const config::FingerConfig& conf
                         Eigen::Map<const Eigen::VectorXd>(set->strains.data(), config.gauges.count)};
     if (thinner.take(sample) == Verdict::kKept) found.rows.add(sample.strains, {});
   }
-  const bool isOfThisFinger = !receiver.hasMoreGauges();
-  if (found.rows.size() > 0 && isOfThisFinger) return found;
-  if (found.sets > 0 && isOfThisFinger)
+  receiver.requireAllGauges();
+  if (found.rows.size() > 0) return found;
+  if (found.sets > 0)
     throw Failure(ExitCode::kFailure,
                   fmt::format("{}: none of its {} sample sets is a touch that can be used: record while the "
                               "finger is rolled along an edge, slowly and within its range",

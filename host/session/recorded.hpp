@@ -18,7 +18,7 @@ struct Recorded {
 };
 
 /// The readings (RAW) of the config's node, thinned as a session's are. Throws Failure(kFailure) as
-/// can::LogReader does, when there are none, and when none is a touch.
+/// can::LogReader does, when there are none, and when none is a touch; kMismatch as can::RawReceiver does.
 Recorded readRecording(const std::string& path, const config::FingerConfig& config, std::uint8_t node);
 
 }  // namespace strainfinger::session

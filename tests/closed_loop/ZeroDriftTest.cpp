@@ -100,20 +100,35 @@ TEST_GROUP(ZeroDrift) {
     DOUBLES_EQUAL(first.tangential, last.tangential, part * touch.normal_n_per_m);
   }
 
-  /// For how many seconds a touch that grows steadily is told wrong without a flag, from the moment on that
-  /// it should be seen.
-  int silentSecondsOfGrowth(const simulation::Touch& touch, int seconds) {
+  struct Growth {
+    int silent = 0;  ///< seconds in which it is told wrong without a flag, from where it should be seen on
+    Second last;
+  };
+  Growth grow(const simulation::Touch& touch, int seconds) {
     const Eigen::VectorXd strains = ring.exact(touch);
     const double seen_n_per_m = touch.normal_n_per_m / 5;
-    int silent = 0;
+    Growth growth;
     for (int s = 0; s < seconds; ++s) {
       const Second now =
           second([&](double share) -> Eigen::VectorXd { return (s + share) / seconds * strains; });
       const double truth = touch.normal_n_per_m * (s + 0.5) / seconds;
       const bool isRight = now.told == 100 && std::abs(now.normal - truth) < 0.02 * touch.normal_n_per_m;
-      silent += truth > seen_n_per_m && !isRight && now.flagged < now.told / 2;
+      growth.silent += truth > seen_n_per_m && !isRight && now.flagged < now.told / 2;
+      growth.last = now;
     }
-    return silent;
+    return growth;
+  }
+
+  /// A touch that grows steadily is told right, or flagged, from the moment on that it should be seen.
+  void checkGrowthTold(const simulation::Touch& touch, int seconds) {
+    const Growth growth = grow(touch, seconds);
+    std::printf("\ngrown within %d s: %.3f N/m, silent for %d s ", seconds, growth.last.normal,
+                growth.silent);
+    LONGS_EQUAL(100, growth.last.told);
+    DOUBLES_EQUAL(touch.normal_n_per_m, growth.last.normal, 0.02 * touch.normal_n_per_m);
+    LONGS_EQUAL(0, growth.silent);
+    rest(5);
+    CHECK_FALSE(finger->observation().touched);
   }
 };
 
@@ -150,27 +165,33 @@ TEST(ZeroDrift, AnUnevenWarmthIsFlaggedBeforeItMovesTheLoadByAFifth) {
   CHECK_COMPARE(silent_n_per_m, <=, 0.2 * 5);
 }
 
-// Where a touch of 1 N/m is seen first, a wider one beside it may explain it as well, and its first 0.1 N/m
-// may have been taken for drift: bar 0, missed at these places (README, known limits).
-TEST(ZeroDrift, ATouchThatGrowsOverFiveMinutesIsMostlyToldOrFlagged) {
+TEST(ZeroDrift, ATouchOverAGaugeOrAGapThatGrowsOverFiveMinutesIsToldOrFlagged) {
+  for (const double position_pitch : {3.0, 7.5}) {
+    renew();
+    checkGrowthTold(touchAt(position_pitch, 5), 300);
+  }
+}
+
+// Bar 0, missed (README, known limits): where a touch of 1 N/m is seen first, a wider one beside it may
+// explain it as well, and what it had grown to before may have been taken for drift.
+TEST(ZeroDrift, AtMostPlacesATouchThatGrowsOverFiveMinutesIsToldOrFlagged) {
   constexpr int kPlaces = kSanitized ? 2 : 20;
   int silent = 0, silent_s = 0;
+  double least_n_per_m = 5;
   for (int place = 0; place < kPlaces; ++place) {
     renew();
-    const int now_s = silentSecondsOfGrowth(touchAt(3 + 0.157 * place, 5), 300);
-    silent += now_s > 0;
-    silent_s += now_s;
+    const Growth growth = grow(touchAt(3 + 0.157 * place, 5), 300);
+    silent += growth.silent > 0;
+    silent_s += growth.silent;
+    least_n_per_m = std::min(least_n_per_m, growth.last.normal);
   }
-  std::printf("\nsilent at %d of %d places, for %d of %d s ", silent, kPlaces, silent_s, 300 * kPlaces);
+  std::printf("\nsilent at %d of %d places, for %d of %d s; 5 N/m told as %.2f or more ", silent, kPlaces,
+              silent_s, 300 * kPlaces, least_n_per_m);
   CHECK_COMPARE(silent, <=, kPlaces / 4);
   CHECK_COMPARE(silent_s, <=, 300 * kPlaces / 10);
 }
 
-TEST(ZeroDrift, ATouchThatGrowsOverAMinuteIsTold) {
-  LONGS_EQUAL(0, silentSecondsOfGrowth(touchAt(5.4, 8, 2), 60));
-  rest(5);
-  CHECK_FALSE(finger->observation().touched);
-}
+TEST(ZeroDrift, ATouchThatGrowsOverAMinuteIsTold) { checkGrowthTold(touchAt(5.4, 8, 2), 60); }
 
 TEST(ZeroDrift, UntouchedZerosFollow) {
   for (int gauge = 0; gauge < config.gauges.count; ++gauge)

@@ -149,6 +149,13 @@ TEST(FingerRequests, ATareDuringWhichATouchBeginsIsRefusedAndTheZeroStays) {
   }
 }
 
+// What BUS_REQUESTS.md says of slow ones.
+TEST(FingerRequests, ATareDuringWhichATouchGrowsByANewtonPerMetreIn32SetsIsRefused) {
+  ask(tareRequest(false));
+  for (int set = 0; set < 64; ++set) run(1, {3.2, set / 32.0, 0});
+  checkAnswer(Command::kTare, CommandStatus::kTouched);
+}
+
 TEST(FingerRequests, AForcedTareUntouchedIsAnOrdinaryOne) {
   ask(tareRequest(true));
   run(64);

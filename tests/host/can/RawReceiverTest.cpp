@@ -1,5 +1,7 @@
 #include "host/can/raw_receiver.hpp"
 
+#include "host/base/failure.hpp"
+
 #include <CppUTest/TestHarness.h>
 
 using namespace strainfinger;
@@ -82,11 +84,17 @@ TEST(RawReceiver, AFingerOfMoreGaugesGivesNothing) {
   receiver = RawReceiver(kNode, 12);
   for (int number = 0; number < 3; ++number) receiver.take(page(number, 1));
   CHECK_TRUE(receiver.take(page(3, 1)).has_value());
-  CHECK_FALSE(receiver.hasMoreGauges());
+  receiver.requireAllGauges();
   for (const int sample : {1, 2})
     for (int number = sample == 1 ? 4 : 0; number < 6; ++number)
       CHECK_FALSE(receiver.take(page(number, sample)).has_value());
-  CHECK_TRUE(receiver.hasMoreGauges());
+  try {
+    receiver.requireAllGauges();
+    FAIL("accepted");
+  } catch (const Failure& failure) {
+    STRCMP_EQUAL("node 5 has more gauges than gauges.count = 12: give its config, -c", failure.what());
+    CHECK(failure.code() == ExitCode::kMismatch);
+  }
 }
 
 TEST(RawReceiver, OtherNodesAndFramesAreNotLookedAt) {

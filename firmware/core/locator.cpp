@@ -73,7 +73,6 @@ void Locator::believe(const TableImage& tables, const Solution& solution, const 
 void Locator::search(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges) {
   search_.begin(tables, readings, oneContact(tables, mode_, gauges));
   searchedAt_q32_ = answer_.solution.contact[0].angle_q32;
-  searchedShift_ = readings.shift;
   setsSinceSearch_ = 0;
 }
 
@@ -193,7 +192,6 @@ void Locator::start(const TableImage& tables, const ScaledReadings& readings, Ga
   const ContactStates guess = initialGuess(tables, hypothesis, readings, linearisation_);
   believe(tables, fit(tables, hypothesis, guess, readings, 1, linearisation_), readings);
   guessed_ = answer_.searching = true;
-  searchedShift_ = readings.shift;
 }
 
 /// The fit that start() began; a search where it leaves doubt.
@@ -372,8 +370,6 @@ void Locator::update(const TableImage& tables, std::span<const std::int32_t> str
   } else if (setsInDoubt_ == kNewDoubt && !answer_.doubtful) {
     answer_.searching = true;
     search(tables, readings, gauges);
-  } else if (readings.shift > searchedShift_ && !isFirm(tables.constants, answer_.solution, readings)) {
-    search(tables, readings, gauges);  // twice as firm as when the others were looked at
   } else if (!answer_.accepted || answer_.doubtful || (answer_.rivalIsLost && answer_.rivalEnergy >= 0) ||
              areTooNear(tables.constants, answer_.solution)) {
     if (++setsSinceSearch_ >= kSearchAgainAfter) search(tables, readings, gauges);

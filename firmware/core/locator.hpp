@@ -53,6 +53,8 @@ class Locator {
   }
 
   const Answer& answer() const { return answer_; }
+  /// Other answers are being looked for, whether or not the answer is doubted meanwhile (Answer::searching).
+  bool isSearching() const { return search_.isBegun(); }
   /// The linear model around the answer, of which its errors are.
   const Linearisation& linearisation() const { return linearisation_; }
   /// Work space between updates, so that who else fits needs none of its own.
@@ -89,7 +91,6 @@ class Locator {
   std::uint8_t setsLeftOut_ = 0;  ///< in which the answer left gauges out
   std::uint16_t setsSinceSearch_ = 0;
   std::uint32_t searchedAt_q32_ = 0;  ///< where the answer was when the search began
-  std::int8_t searchedShift_ = 0;     ///< of the readings then
 };
 
 /// The answer to one set of strains alone: an update and the whole search.

@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "tests/firmware/core/model_ring.hpp"
+#include "tests/under_sanitizers.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -291,15 +292,34 @@ TEST(Locator, ASearchEndsWhileTwoContactsOfACalibratedFingerTremble) {
   const ModelRing calibrated{config};
   Presses noise(16, 20, 414);
   int searching = 0;
-  for (int set = 0; set < 4000; ++set) {
+  for (int set = 0; set < 6000; ++set) {
     const double off = set < 1500 ? 0 : 0.02 * (set % 2 == 0 ? -1 : 1) * (1 + set / 2 % 2);
     std::vector<Press> presses{{4.6 + off, 20, 3, 2}, {11.2 + off, 20, 0, 2}};
     if (set >= 2000) presses.push_back({8 + off, 3, 0, 1});
     update(calibrated, noise.noisy(calibrated.strains(presses), calibrated.noise_strain()),
            calibrated.allGauges());
-    searching = locator.answer().searching ? searching + 1 : 0;
+    searching = locator.isSearching() ? searching + 1 : 0;
     CHECK_COMPARE(searching, <, 2 * kLongestSearch);
   }
+}
+
+TEST(Locator, TwoContactsThatBecameOneAreToldAsOneInTheEnd) {
+  Presses random(16, 20, 415, 1, 3);
+  int pairs = 0;
+  for (int i = 0; i < randomCases(150); ++i) {
+    locator.release();
+    const Press press = random.next();
+    const double apart_pitch = 3 + 3 * (i % 10) / 10.0, load = 10 + i % 20;
+    for (int set = 0; set < 1600; ++set) {
+      const double together = std::clamp((800 - set) / 400.0, 0.0, 1.0);
+      const double lifted = std::clamp((1000 - set) / 100.0, 0.0, 1.0);
+      const Press one{press.position_pitch, 30, 3, press.width_mm},
+          other{press.position_pitch + apart_pitch * together, load * lifted, 0, press.width_mm};
+      update(random.noisy(lifted > 0 ? ring.strains({one, other}) : ring.strains(one), ring.noise_strain()));
+    }
+    pairs += locator.answer().solution.hypothesis.contacts == 2;
+  }
+  LONGS_EQUAL(0, pairs);
 }
 
 TEST(Locator, NoiseThatIsMeasuredWidensTheGate) {

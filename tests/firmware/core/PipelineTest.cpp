@@ -147,15 +147,3 @@ TEST(Pipeline, AGaugeThatWorksAgainCountsAgain) {
   UNSIGNED_LONGS_EQUAL(0, pipeline.observation().leftOut);
   UNSIGNED_LONGS_EQUAL(ring.allGauges(), pipeline.linearisation().hypothesis.gauges);
 }
-
-TEST(Pipeline, TwoContactsThatBecameOneAreToldAsOneInTheEnd) {
-  constexpr int kApart = 2000, kTogether = 5000, kOne = 6500, kEnd = 10'000;
-  for (int set = 0; set < kEnd; ++set) {
-    const double apart = 6 * std::clamp((kTogether - set) / double{kTogether - kApart}, 0.0, 1.0);
-    const double share = std::clamp((kOne - set) / 500.0, 0.0, 1.0);
-    const Press first{4.6, 30, 3, 3}, second{4.6 + apart, 15 * share, 0, 3};
-    process(share > 0 ? ring.strains({first, second}) : ring.strains(first));
-  }
-  LONGS_EQUAL(1, pipeline.answer().solution.hypothesis.contacts);
-  CHECK_FALSE(pipeline.observation().several);
-}

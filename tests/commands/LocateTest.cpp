@@ -34,10 +34,8 @@ TEST_GROUP(LocateCommand) {
     double times = 0;  ///< the loads of touchAt()
     std::string row;
   };
-  /// The touch of touchAt(), so much harder that its largest reading is `peak`, clipped to a range.
-  static Firm firmTouchAt(const std::string& angle_deg, double peak, Range range) {
-    const std::string touch = touchAt(angle_deg);
-    const std::vector<double> strains = tableOf("header\n" + touch).front();
+  /// A touch so much harder that its largest reading is `peak`, clipped to a range.
+  static Firm firmTouch(const std::vector<double>& strains, double peak, Range range) {
     double largest = 0;
     for (const double strain : strains) largest = std::max(largest, std::abs(strain));
     const double times = peak / largest;
@@ -51,9 +49,18 @@ TEST_GROUP(LocateCommand) {
     static const std::vector<std::string> angles{"0", "5", "11.25", "47", "100", "181.3", "200.7", "351"};
     return angles;
   }
+  /// The strains of touchAt() at all these angles.
+  static const std::vector<std::vector<double>>& touchesAround() {
+    static const std::vector<std::vector<double>> touches = [] {
+      std::string rows = "header\n";
+      for (const std::string& angle_deg : angles_deg()) rows += touchAt(angle_deg);
+      return tableOf(rows);
+    }();
+    return touches;
+  }
   static std::vector<Firm> firmTouches(double peak, Range range) {
     std::vector<Firm> touches;
-    for (const std::string& angle_deg : angles_deg()) touches.push_back(firmTouchAt(angle_deg, peak, range));
+    for (const auto& strains : touchesAround()) touches.push_back(firmTouch(strains, peak, range));
     return touches;
   }
   static std::string located(const std::vector<Firm>& touches, const std::string& mode) {

@@ -31,6 +31,14 @@ TEST_GROUP(CalibrationResult) {
         1e-4 * Eigen::MatrixXd::Identity(drawing.unknowns(), drawing.unknowns());
     return {drawing, deviations, covariance, {}, {1e-3, 1e-4}, true};
   }
+  /// One whose core was found this much larger than drawn, in tolerances.
+  CalibrationResult resultWithCore(double tolerances) const {
+    const Drawing drawing(config, ZeroOfAngle::kKnown);
+    Eigen::VectorXd deviations = Eigen::VectorXd::Zero(drawing.unknowns());
+    deviations[drawing.at(kCoreRadius)] = tolerances;
+    return {drawing, deviations, 1e-4 * Eigen::MatrixXd::Identity(drawing.unknowns(), drawing.unknowns()),
+            {},      {1e-3, 1e-4}, true};
+  }
   /// The config is read again, with the gauges where they were found.
   config::FingerConfig readBack(const CalibrationResult& result) const {
     const auto read = config::readConfig(config::writeConfig(result.applied()), "written");
@@ -82,4 +90,13 @@ TEST(CalibrationResult, AGaugeThatNoConfigCanHaveIsNamedWithWhatToLookAt) {
   STRCMP_EQUAL(
       "gauge 6 (at 135 deg): gain 0.35; calibration.gain must be 0.5 to 2: look at its joint and its wires",
       complaintOf(resultOf(0, 0.35)).c_str());
+}
+
+TEST(CalibrationResult, ACoreThatNoConfigCanHaveIsToldAsSuch) {
+  STRCMP_EQUAL("accepted", complaintOf(resultWithCore(1)).c_str());
+  const std::string complaint = complaintOf(resultWithCore(100));
+  STRCMP_CONTAINS("what was found can't be written as a config: ", complaint.c_str());
+  STRCMP_CONTAINS(
+      "finger.core_radius_m = 0.0189 must be less than finger.outer_radius_m = 0.0127; look at [finger], ",
+      complaint.c_str());
 }

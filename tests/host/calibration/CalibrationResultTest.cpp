@@ -36,7 +36,7 @@ TEST_GROUP(CalibrationResult) {
     const Drawing drawing(config, ZeroOfAngle::kKnown);
     Eigen::VectorXd deviations = Eigen::VectorXd::Zero(drawing.unknowns());
     deviations[drawing.at(kCoreRadius)] = tolerances;
-    return {drawing, deviations, 1e-4 * Eigen::MatrixXd::Identity(drawing.unknowns(), drawing.unknowns()),
+    return {drawing, deviations,   1e-4 * Eigen::MatrixXd::Identity(drawing.unknowns(), drawing.unknowns()),
             {},      {1e-3, 1e-4}, true};
   }
   /// The config is read again, with the gauges where they were found.

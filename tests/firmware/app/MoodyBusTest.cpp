@@ -1,4 +1,6 @@
 // A finger on a bus that takes its frames or not; FingerTest.cpp has what it says on a free one.
+#include <algorithm>
+#include <cstdio>
 #include <optional>
 #include <random>
 #include <vector>

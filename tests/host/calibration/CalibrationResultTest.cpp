@@ -27,17 +27,19 @@ TEST_GROUP(CalibrationResult) {
       deviations[Drawing::at(gauge, kAngleOffset)] =
           (turn_deg + (gauge % 2 == 0 ? -0.25 : 0.25)) / config.tolerance.angle_deg;
     deviations[Drawing::at(6, kGain)] = (gainOfGauge6 - 1) / config.tolerance.gain;
-    const Eigen::MatrixXd covariance =
-        1e-4 * Eigen::MatrixXd::Identity(drawing.unknowns(), drawing.unknowns());
-    return {drawing, deviations, covariance, {}, {1e-3, 1e-4}, true};
+    return resultAt(drawing, deviations);
   }
   /// One whose core was found this much larger than drawn, in tolerances.
   CalibrationResult resultWithCore(double tolerances) const {
     const Drawing drawing(config, ZeroOfAngle::kKnown);
     Eigen::VectorXd deviations = Eigen::VectorXd::Zero(drawing.unknowns());
     deviations[drawing.at(kCoreRadius)] = tolerances;
-    return {drawing, deviations,   1e-4 * Eigen::MatrixXd::Identity(drawing.unknowns(), drawing.unknowns()),
-            {},      {1e-3, 1e-4}, true};
+    return resultAt(drawing, deviations);
+  }
+  static CalibrationResult resultAt(const Drawing& drawing, const Eigen::VectorXd& deviations) {
+    const Eigen::MatrixXd covariance =
+        1e-4 * Eigen::MatrixXd::Identity(drawing.unknowns(), drawing.unknowns());
+    return {drawing, deviations, covariance, {}, {1e-3, 1e-4}, true};
   }
   /// The config is read again, with the gauges where they were found.
   config::FingerConfig readBack(const CalibrationResult& result) const {

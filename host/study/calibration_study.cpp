@@ -192,8 +192,9 @@ std::string sectionOf(const SessionPlan& plan, int fingers, int sessions) {
       "their noise over calibration.place_error_m, .load_error as written: {:.2f}, {:.2f} (RMS of all). "
       "Processor time at most {:.1f} s a finger. Refused: {}.\n",
       std::sqrt(squares / count), 100 * covered / count, 100 * outcome.mostUnexplained,
-      100 * outcome.mostWritten, std::sqrt(outcome.beyondNoise[0] / outcome.written[0]),
-      std::sqrt(outcome.beyondNoise[1] / outcome.written[1]), outcome.mostSeconds, outcome.refused);
+      100 * outcome.mostWritten, std::sqrt(std::max(0.0, outcome.beyondNoise[0]) / outcome.written[0]),
+      std::sqrt(std::max(0.0, outcome.beyondNoise[1]) / outcome.written[1]), outcome.mostSeconds,
+      outcome.refused);
   return text;
 }
 

@@ -165,11 +165,15 @@ int Locator::followRival(const TableImage& tables, const ScaledReadings& reading
   const Solution rival = step(tables, scratch_, readings);
   const Wide more = likelihoodEnergy(tables.constants, rival, readings) -
                     likelihoodEnergy(tables.constants, answer, readings);
-  const bool isMerged = areSame(tables.constants, hypothesis.contacts, answer.contact, rival.contact);
+  const int contacts = hypothesis.contacts;
+  const bool isMerged =
+      areSame(tables.constants, contacts, answer.contact, rival.contact) ||
+      (answer_.rivalIsElsewhere && !areElsewhere(tables.constants, contacts, answer.contact, rival.contact));
   const bool isRefuted = more > energyOf(readings, threshold::kRefuted);
   answer_.rivalIsLost = isMerged || isRefuted;
   if (answer_.rivalIsLost) {
-    const bool hasTold = isRefuted && ++answer_.timesRefuted == kTimesRefuted;
+    if (!isMerged) answer_.rival = rival.contact;
+    const bool hasTold = isRefuted && rival.converged && ++answer_.timesRefuted == kTimesRefuted;
     if (hasTold || isFirm(tables.constants, answer, readings)) answer_.rivalEnergy = -1;
     return Search::stepWork(tables, hypothesis);
   }
@@ -177,6 +181,9 @@ int Locator::followRival(const TableImage& tables, const ScaledReadings& reading
   answer_.rival = rival.contact;
   answer_.rivalEnergy = magnitude(more);
   if (more < 0) {
+    const std::uint32_t turned_q32 = rival.contact[0].angle_q32 - answer.contact[0].angle_q32;
+    searchedAt_q32_ += turned_q32;  // the touch itself has not moved
+    lookedAt_q32_ += turned_q32;
     answer_.rival = answer.contact;
     linearisation_ = scratch_;
     believe(tables, rival, readings);
@@ -203,6 +210,7 @@ void Locator::settle(const TableImage& tables, const ScaledReadings& readings) {
   answer_.searching = !isPlain(tables.constants, answer_.solution, readings) ||
                       !isFirm(tables.constants, answer_.solution, readings);
   if (answer_.searching) search(tables, readings, hypothesis.gauges);
+  noteLook(readings);
 }
 
 /// The most likely hypothesis of those that were looked at: each must take more off chi-squared than its
@@ -267,7 +275,10 @@ void Locator::rememberRival(const TableImage& tables, const Ranking& ranking,
     std::swap(answer_.rival[0], answer_.rival[1]);
   const Wide more = likelihoodEnergy(tables.constants, ranking.second, readings) -
                     likelihoodEnergy(tables.constants, ranking.best, readings);
-  if (more <= energyOf(readings, threshold::kRefuted)) answer_.rivalEnergy = more;
+  if (more > energyOf(readings, threshold::kRefuted)) return;
+  answer_.rivalEnergy = more;
+  answer_.rivalIsElsewhere = areElsewhere(tables.constants, ranking.best.hypothesis.contacts,
+                                          ranking.best.contact, answer_.rival);
 }
 
 /// Within what is left of an update's work.
@@ -290,9 +301,29 @@ void Locator::goOn(const TableImage& tables, const ScaledReadings& readings, int
   for (ContactState& contact : answer_.rival) contact.angle_q32 += moved_q32;
   const int steps = std::clamp(stepsLeft(), 1, kStepsAfterSearch);
   Solution now = fit(tables, hypothesis, from, readings, steps, linearisation_);
-  if (followed.hypothesis == hypothesis && followed.residualEnergy <= now.residualEnergy)
+  if (followed.hypothesis == hypothesis && followed.residualEnergy <= now.residualEnergy) {
+    if (areElsewhere(tables.constants, hypothesis.contacts, followed.contact, now.contact)) {
+      answer_.rival = now.contact;
+      answer_.rivalEnergy = 0;  // until it is followed
+      answer_.rivalIsElsewhere = true;
+    }
     now = fit(tables, hypothesis, followed.contact, readings, 1, linearisation_);
+  }
   believe(tables, now, readings);
+  noteLook(readings);
+}
+
+void Locator::noteLook(const ScaledReadings& readings) {
+  lookedAt_q32_ = answer_.solution.contact[0].angle_q32;
+  lookedShift_ = readings.shift;
+}
+
+/// Since other answers were looked for, the touch has become twice as firm, or is a quarter of a pitch away:
+/// which others there are, and whether they are told apart, is another question there.
+bool Locator::isLookOutdated(const TableConstants& constants, const ScaledReadings& readings) const {
+  constexpr int kQuarterPitchBits = 6;  // of short turns
+  return readings.shift > lookedShift_ ||
+         !isShortTurn(constants, answer_.solution.contact[0].angle_q32 - lookedAt_q32_, kQuarterPitchBits);
 }
 
 /// Three readings that see the place and both loads well, solved exactly, unless they lead elsewhere than all
@@ -371,7 +402,9 @@ void Locator::update(const TableImage& tables, std::span<const std::int32_t> str
     answer_.searching = true;
     search(tables, readings, gauges);
   } else if (!answer_.accepted || answer_.doubtful || (answer_.rivalIsLost && answer_.rivalEnergy >= 0) ||
-             areTooNear(tables.constants, answer_.solution)) {
+             areTooNear(tables.constants, answer_.solution) ||
+             (isLookOutdated(tables.constants, readings) &&
+              !isFirm(tables.constants, answer_.solution, readings))) {
     if (++setsSinceSearch_ >= kSearchAgainAfter) search(tables, readings, gauges);
   }
   if (mode_ == FitMode::kThreePoint && !search_.isBegun()) solveExactly(tables, readings);

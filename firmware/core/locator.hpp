@@ -26,7 +26,8 @@ struct Answer {
   std::uint32_t noiseVariance_q4 = 0;  ///< of a reading, that jitters from set to set
   ContactStates rival;                 ///< another answer of the same hypothesis
   Wide rivalEnergy = -1;     ///< what that answer leaves more [residual energy]; negative: there is none
-  bool rivalIsLost = false;  ///< a search is to look for it
+  bool rivalIsElsewhere = false;  ///< when it was found, not another width of the same place
+  bool rivalIsLost = false;       ///< a search is to look for it
   std::uint8_t timesRefuted = 0;
   bool doubtful = false;   ///< another hypothesis explains the readings nearly as well
   bool accepted = false;   ///< the hypothesis explains the readings
@@ -74,6 +75,8 @@ class Locator {
   GaugeSet culprit(const TableImage& tables);
   void rememberRival(const TableImage& tables, const Ranking& ranking, const ScaledReadings& readings);
   int followRival(const TableImage& tables, const ScaledReadings& readings);
+  void noteLook(const ScaledReadings& readings);
+  bool isLookOutdated(const TableConstants& constants, const ScaledReadings& readings) const;
   void believe(const TableImage& tables, const Solution& solution, const ScaledReadings& readings);
   void solveExactly(const TableImage& tables, const ScaledReadings& readings);
 
@@ -91,6 +94,8 @@ class Locator {
   std::uint8_t setsLeftOut_ = 0;  ///< in which the answer left gauges out
   std::uint16_t setsSinceSearch_ = 0;
   std::uint32_t searchedAt_q32_ = 0;  ///< where the answer was when the search began
+  std::uint32_t lookedAt_q32_ = 0;    ///< where it was when other answers had been looked for
+  std::int8_t lookedShift_ = 0;       ///< of the readings then
 };
 
 /// The answer to one set of strains alone: an update and the whole search.

@@ -1,6 +1,7 @@
 #include "firmware/core/search.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace strainfinger::firmware {
 namespace {
@@ -84,25 +85,44 @@ bool areSame(const TableConstants& constants, int contacts, const ContactStates&
   return (match(0, 0) && match(1, 1)) || (match(0, 1) && match(1, 0));
 }
 
+bool areElsewhere(const TableConstants& constants, int contacts, const ContactStates& a,
+                  const ContactStates& b) {
+  const auto match = [&](int i, int j) {
+    return apart_q32(a[at(i)], b[at(j)]) < pitch_q32(constants) / 4;
+  };
+  if (contacts == 1) return !match(0, 0);
+  return !(match(0, 0) && match(1, 1)) && !(match(0, 1) && match(1, 0));
+}
+
 void Ranking::take(const TableConstants& constants, const Solution& solution,
                    const ScaledReadings& readings) {
   if (!isPromising(constants, solution)) return;
-  const auto isLikelier = [&](const Solution& a, const Solution& b) {
-    return likelihoodEnergy(constants, a, readings) < likelihoodEnergy(constants, b, readings);
-  };
-  const bool same = anyBest && solution.hypothesis == best.hypothesis &&
-                    areSame(constants, solution.hypothesis.contacts, solution.contact, best.contact);
-  if (!anyBest || isLikelier(solution, best)) {
-    if (anyBest && !same) {
-      second = best;
-      anySecond = true;
-    }
+  if (!anyBest) {
     best = solution;
     anyBest = true;
-  } else if (!same && (!anySecond || isLikelier(solution, second))) {
-    second = solution;
-    anySecond = true;
+    return;
   }
+  const auto energy = [&](const Solution& of) { return likelihoodEnergy(constants, of, readings); };
+  const auto isSameAsBest = [&](const Solution& of) {
+    return of.hypothesis == best.hypothesis &&
+           areSame(constants, of.hypothesis.contacts, of.contact, best.contact);
+  };
+  const auto isRival = [&](const Solution& of) {
+    return energy(of) - energy(best) < energyOf(readings, threshold::kAmbiguous) &&
+           areElsewhere(constants, of.hypothesis.contacts, of.contact, best.contact);
+  };
+  Solution other = solution;
+  if (energy(other) < energy(best)) {
+    std::swap(other, best);
+    anySecond = anySecond && !isSameAsBest(second);
+  }
+  if (isSameAsBest(other)) return;
+  if (anySecond) {
+    const bool is = isRival(other), was = isRival(second);
+    if (is != was ? was : energy(second) <= energy(other)) return;
+  }
+  second = other;
+  anySecond = true;
 }
 
 Grid::Grid(const TableImage& tables, const Hypothesis& hypothesis, const ScaledReadings& readings, Kind kind)
@@ -188,12 +208,16 @@ ContactStates Grid::at(const TableImage& tables, int index) const {
 }
 
 ContactStates initialGuess(const TableImage& tables, const Hypothesis& hypothesis,
-                           const ScaledReadings& readings, Linearisation& scratch) {
+                           const ScaledReadings& readings, Linearisation& scratch,
+                           std::optional<std::uint32_t> earlier_q32) {
   const Grid grid(tables, hypothesis, readings, Grid::Kind::kCoarse);
+  const std::uint32_t away_q32 = pitch_q32(tables.constants) / 8 * 3;
   Solution best;
   bool any = false;
   for (int i = 0; i < grid.size(); ++i) {
-    const Solution point = fitLoads(tables, hypothesis, grid.at(tables, i), readings, scratch);
+    const ContactStates contacts = grid.at(tables, i);
+    if (earlier_q32 && apart_q32(contacts[0], {*earlier_q32}) < away_q32) continue;
+    const Solution point = fitLoads(tables, hypothesis, contacts, readings, scratch);
     if (!isPromising(tables.constants, point)) continue;
     if (any && point.residualEnergy >= best.residualEnergy) continue;
     best = point;
@@ -237,7 +261,7 @@ void Search::beginTask(const Hypothesis& hypothesis, const Grid& grid) {
   grid_ = grid;
   point_ = 0;
   candidates_.clear();
-  refined_ = steps_ = 0;
+  refined_ = steps_ = kept_ = 0;
 }
 
 /// Keeps the best points that are not neighbours of better ones, best first.
@@ -272,7 +296,9 @@ void Search::refineNext(const TableImage& tables, Linearisation& scratch) {
     steps_ = 0;
     ++refined_;
     if (refined_ == candidates_.size()) candidates_.sort();
-    if (!first) keep(tables.constants, solution);
+    if (first) return;
+    ++kept_;
+    keep(tables.constants, solution);
   }
 }
 
@@ -293,9 +319,15 @@ bool Search::isWorseTwin(const TableConstants& constants, int candidate) const {
   return false;
 }
 
-int Search::refinements() const {
-  const int refined = effort().refined;
-  return refined == 0 ? 0 : candidates_.size() + std::min(candidates_.size(), refined);
+/// All candidates get their first steps, then the best are refined: those that went where a better one is
+/// don't count, and those that have far more left than the best, and all behind them, lead nowhere.
+bool Search::isRefining() const {
+  const int refined = effort().refined, next = refined_ - candidates_.size();
+  if (refined == 0 || next < 0) return refined > 0 && candidates_.size() > 0;
+  if (kept_ == refined || next == candidates_.size()) return false;
+  return steps_ > 0 || next == 0 ||
+         candidates_[next].residualEnergy >> threshold::kHopelessBits <
+             candidates_[0].residualEnergy + energyOf(looked_, threshold::kRefuted);
 }
 
 Ranking& Search::ranking() {
@@ -387,7 +419,7 @@ void Search::finishTask(const TableImage& tables, Linearisation& scratch) {
 /// At most so much is next.
 int Search::nextWork(const TableImage& tables) const {
   if (point_ < grid_.size()) return hypothesis_.contacts == 1 ? kPointWork : kPairWork;
-  return refined_ < refinements() ? stepWork(tables, hypothesis_) : kTaskWork;
+  return isRefining() ? stepWork(tables, hypothesis_) : kTaskWork;
 }
 
 void Search::advance(const TableImage& tables, int work, Linearisation& scratch) {
@@ -395,7 +427,7 @@ void Search::advance(const TableImage& tables, int work, Linearisation& scratch)
     left -= nextWork(tables);
     if (point_ < grid_.size()) {
       lookAtPoint(tables, scratch);
-    } else if (refined_ < refinements()) {
+    } else if (isRefining()) {
       refineNext(tables, scratch);
     } else {
       finishTask(tables, scratch);

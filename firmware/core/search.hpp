@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "firmware/core/fit.hpp"
 #include "firmware/core/judge.hpp"
@@ -11,6 +12,10 @@ namespace strainfinger::firmware {
 
 /// Two fits of so many contacts went to the same answer, in whichever order.
 bool areSame(const TableConstants& constants, int contacts, const ContactStates& a, const ContactStates& b);
+
+/// Some contact of the one fit is so far from those of the other that it is another touch, whatever the widths.
+bool areElsewhere(const TableConstants& constants, int contacts, const ContactStates& a,
+                  const ContactStates& b);
 
 /// The most likely solution of a hypothesis, and the next best that lies elsewhere.
 struct Ranking {
@@ -88,9 +93,11 @@ class Grid {
   bool widthIsFree_ = true;
 };
 
-/// Where to start without knowing anything: the best point of a coarse grid.
+/// Where to start without knowing anything: the best point of a coarse grid, three eighths of a pitch or more
+/// from where an earlier start led, if any.
 ContactStates initialGuess(const TableImage& tables, const Hypothesis& hypothesis,
-                           const ScaledReadings& readings, Linearisation& scratch);
+                           const ScaledReadings& readings, Linearisation& scratch,
+                           std::optional<std::uint32_t> earlier_q32 = {});
 
 /// One contact; if that leaves doubt, one contact without one of the gauges, and two contacts, of which each
 /// is looked for anew in what the other leaves, then both together. Of each hypothesis a grid is looked at,
@@ -147,7 +154,7 @@ class Search {
   void consider(const TableConstants& constants, const Solution& point);
   void refineNext(const TableImage& tables, Linearisation& scratch);
   bool isWorseTwin(const TableConstants& constants, int candidate) const;
-  int refinements() const;
+  bool isRefining() const;
   Ranking& ranking();
   void finishTask(const TableImage& tables, Linearisation& scratch);
   void findSuspects(const TableImage& tables, Linearisation& scratch);
@@ -172,6 +179,7 @@ class Search {
   std::int16_t point_ = 0;    ///< of the grid, the next to be looked at
   std::uint8_t refined_ = 0;  ///< refinements made: first steps of all candidates, then all of the best
   std::uint8_t steps_ = 0;    ///< of the refinement that is under way
+  std::uint8_t kept_ = 0;     ///< answers that refinements led to
   std::uint8_t leftOut_ = 0;  ///< gauge
   std::uint8_t rounds_ = 0;   ///< of looking for each contact of a pair again
   Stage stage_ = Stage::kIdle;

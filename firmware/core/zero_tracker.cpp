@@ -37,6 +37,7 @@ void ZeroTracker::begin(bool touched) {
   sum_.fill(0);
   sets_ = 0;
   leftOut_ = 0;
+  refutedAt_q32_.reset();
   touched_ = touched;
 }
 
@@ -64,16 +65,17 @@ bool ZeroTracker::isWorthFollowing(const TableConstants& constants, GaugeSet gau
   return energy > kWorthFollowing * squareOf(noise);
 }
 
-bool ZeroTracker::looksLikeAContact(const TableImage& tables, GaugeSet gauges, Linearisation& scratch) const {
+bool ZeroTracker::looksLikeAContact(const TableImage& tables, GaugeSet gauges, Linearisation& scratch) {
   const auto averages = std::span(sum_).first(tables.constants.gauge_count);
   const ScaledReadings readings = scaledReadings(tables.constants, averages, gauges);
   Wide energy = 0;
   for (int i = 0; i < tables.constants.gauge_count; ++i)
     if (contains(gauges, i)) energy += squareOf(readings.value[at(i)]);
   const Hypothesis hypothesis{1, tables.constants.width_is_known == 0, gauges};
-  const Solution solution = fit(tables, hypothesis, initialGuess(tables, hypothesis, readings, scratch),
-                                readings, kMostSteps, scratch);
-  return isAdmissible(tables.constants, solution) && solution.residualEnergy < energy >> kContactBits;
+  const ContactStates start = initialGuess(tables, hypothesis, readings, scratch, refutedAt_q32_);
+  const Solution solution = fit(tables, hypothesis, start, readings, kMostSteps, scratch);
+  refutedAt_q32_ = solution.contact[0].angle_q32;
+  return isPromising(tables.constants, solution) && solution.residualEnergy < energy >> kContactBits;
 }
 
 /// Gauges that no contact reaches.
@@ -124,18 +126,25 @@ void ZeroTracker::follow(const TableConstants& constants, const Strains& changes
   }
 }
 
-void ZeroTracker::finish(const TableImage& tables, const Answer* answer, Calibration& calibration,
+/// False: there is no time for the rest in this sample set.
+bool ZeroTracker::finish(const TableImage& tables, const Answer* answer, Calibration& calibration,
                          Linearisation& scratch) {
   const GaugeSet gauges = allGauges(tables.constants.gauge_count) & ~leftOut_;
   if (answer != nullptr) {
     Strains changes;
     changes.fill(commonChange_q32(tables, *answer, farGauges(tables) & gauges, scratch));
-    return follow(tables.constants, changes, allGauges(tables.constants.gauge_count), calibration);
+    follow(tables.constants, changes, allGauges(tables.constants.gauge_count), calibration);
+    return true;
   }
   const bool isWorthIt = isWorthFollowing(tables.constants, gauges);
-  if (isWorthIt && looksLikeAContact(tables, gauges, scratch)) return;
+  if (isWorthIt) {
+    const bool isSecondStart = refutedAt_q32_.has_value();
+    if (looksLikeAContact(tables, gauges, scratch)) return true;
+    if (!isSecondStart) return false;
+    follow(tables.constants, sum_, gauges, calibration);
+  }
   age_sets_ = 0;
-  if (isWorthIt) follow(tables.constants, sum_, gauges, calibration);
+  return true;
 }
 
 void ZeroTracker::interrupt(bool touched) {
@@ -152,9 +161,9 @@ bool ZeroTracker::average(const TableImage& tables, std::span<const std::int32_t
     return false;
   }
   constexpr std::int32_t kHalf = 1 << (kTakenBits - 1);
-  for (std::size_t i = 0; i < strains_q32.size(); ++i) sum_[i] += (strains_q32[i] + kHalf) >> kTakenBits;
-  if (sets_ < kInterval) return false;
-  finish(tables, answer, calibration, scratch);
+  if (sets_ <= kInterval)
+    for (std::size_t i = 0; i < strains_q32.size(); ++i) sum_[i] += (strains_q32[i] + kHalf) >> kTakenBits;
+  if (sets_ < kInterval || !finish(tables, answer, calibration, scratch)) return false;
   begin(answer != nullptr);
   return true;
 }

@@ -66,13 +66,13 @@ class ZeroTracker {
   bool average(const TableImage& tables, std::span<const std::int32_t> strains_q32, const Answer* answer,
                Calibration& calibration, Linearisation& scratch);
   bool rests(const TableConstants& constants, const Answer& answer) const;
-  void finish(const TableImage& tables, const Answer* answer, Calibration& calibration,
+  bool finish(const TableImage& tables, const Answer* answer, Calibration& calibration,
               Linearisation& scratch);
   GaugeSet farGauges(const TableImage& tables) const;
   std::int32_t commonChange_q32(const TableImage& tables, const Answer& answer, GaugeSet far,
                                 Linearisation& scratch);
   bool isWorthFollowing(const TableConstants& constants, GaugeSet gauges) const;
-  bool looksLikeAContact(const TableImage& tables, GaugeSet gauges, Linearisation& scratch) const;
+  bool looksLikeAContact(const TableImage& tables, GaugeSet gauges, Linearisation& scratch);
   void follow(const TableConstants& constants, const Strains& changes_q32, GaugeSet gauges,
               Calibration& calibration);
 
@@ -82,6 +82,8 @@ class ZeroTracker {
   Rest rest_;
   std::uint32_t age_sets_ = 0;
   std::optional<std::int32_t> lastChange_q32_;
+  /// Where a fit of these averages led that does not explain them: another one starts elsewhere.
+  std::optional<std::uint32_t> refutedAt_q32_;
   std::uint16_t sets_ = 0;
   GaugeSet leftOut_ = 0;  ///< in any set of the interval
   bool touched_ = false;

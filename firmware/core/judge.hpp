@@ -34,9 +34,9 @@ inline constexpr int kLost = 4;
 inline constexpr int kAmbiguous = 14;
 /// A second answer that leaves so much more than the first is refuted by this sample set.
 inline constexpr int kRefuted = 4 * kAmbiguous;
-/// A candidate of a search is not refined that leaves, after its first steps, so many times [log2] what the best
-/// leaves and kRefuted: of 140,000 disturbed touches (host/bench) 156 are silently wrong so, 146 without the
-/// limit, where searches take longer and 5 % more touches are flagged.
+/// A candidate of a search is not refined that leaves, after its first steps, so many times [log2] what the
+/// best leaves and kRefuted: of 140,000 disturbed touches (host/bench) 156 are silently wrong so, 146 without
+/// the limit, where searches take longer and 5 % more touches are flagged.
 inline constexpr int kHopelessBits = 2;
 /// An inadmissible answer is believed only if it explains so much more: noise may have moved it there.
 inline constexpr int kInadmissible = 28;

@@ -116,7 +116,7 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
     answer_.rival[k].angle_q32 += slid_q32_[k];
   }
   believe(tables, solution, readings);
-  const bool isLost = wasAccepted && !answer_.accepted && !search_.isBegun() &&
+  const bool isLost = wasAccepted && !answer_.accepted && !answer_.searching &&
                       solution.residualEnergy > energyOf(readings, threshold::kLost * threshold::kGate);
   if (isLost) return std::nullopt;
   return linearised * stepWork + takeBack(tables, readings, gauges) + followRival(tables, readings);
@@ -277,8 +277,8 @@ void Locator::rememberRival(const TableImage& tables, const Ranking& ranking,
                     likelihoodEnergy(tables.constants, ranking.best, readings);
   if (more > energyOf(readings, threshold::kRefuted)) return;
   answer_.rivalEnergy = more;
-  answer_.rivalIsElsewhere = areElsewhere(tables.constants, ranking.best.hypothesis.contacts,
-                                          ranking.best.contact, answer_.rival);
+  answer_.rivalIsElsewhere =
+      areElsewhere(tables.constants, ranking.best.hypothesis.contacts, ranking.best.contact, answer_.rival);
 }
 
 /// Within what is left of an update's work.

@@ -25,7 +25,7 @@ struct Answer {
   std::uint32_t gateVariance_q4 = 0;   ///< by which hypotheses are judged
   std::uint32_t noiseVariance_q4 = 0;  ///< of a reading, that jitters from set to set
   ContactStates rival;                 ///< another answer of the same hypothesis
-  Wide rivalEnergy = -1;     ///< what that answer leaves more [residual energy]; negative: there is none
+  Wide rivalEnergy = -1;          ///< what that answer leaves more [residual energy]; negative: there is none
   bool rivalIsElsewhere = false;  ///< when it was found, not another width of the same place
   bool rivalIsLost = false;       ///< a search is to look for it
   std::uint8_t timesRefuted = 0;

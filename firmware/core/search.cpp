@@ -87,9 +87,7 @@ bool areSame(const TableConstants& constants, int contacts, const ContactStates&
 
 bool areElsewhere(const TableConstants& constants, int contacts, const ContactStates& a,
                   const ContactStates& b) {
-  const auto match = [&](int i, int j) {
-    return apart_q32(a[at(i)], b[at(j)]) < pitch_q32(constants) / 4;
-  };
+  const auto match = [&](int i, int j) { return apart_q32(a[at(i)], b[at(j)]) < pitch_q32(constants) / 4; };
   if (contacts == 1) return !match(0, 0);
   return !(match(0, 0) && match(1, 1)) && !(match(0, 1) && match(1, 0));
 }
@@ -325,7 +323,7 @@ bool Search::isRefining() const {
   const int refined = effort().refined, next = refined_ - candidates_.size();
   if (refined == 0 || next < 0) return refined > 0 && candidates_.size() > 0;
   if (kept_ == refined || next == candidates_.size()) return false;
-  return steps_ > 0 || next == 0 ||
+  return steps_ > 0 || next == 0 || hypothesis_.contacts > 1 ||
          candidates_[next].residualEnergy >> threshold::kHopelessBits <
              candidates_[0].residualEnergy + energyOf(looked_, threshold::kRefuted);
 }

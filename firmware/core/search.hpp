@@ -13,7 +13,8 @@ namespace strainfinger::firmware {
 /// Two fits of so many contacts went to the same answer, in whichever order.
 bool areSame(const TableConstants& constants, int contacts, const ContactStates& a, const ContactStates& b);
 
-/// Some contact of the one fit is so far from those of the other that it is another touch, whatever the widths.
+/// Some contact of the one fit is so far from those of the other that it is another touch, whatever the
+/// widths.
 bool areElsewhere(const TableConstants& constants, int contacts, const ContactStates& a,
                   const ContactStates& b);
 

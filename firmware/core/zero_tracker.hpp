@@ -14,7 +14,8 @@ namespace strainfinger::firmware {
 
 /// Zeros follow what no contact can explain, by two standard deviations of a reading an interval at most.
 ///   - Untouched: the averages of all gauges, once they are worth it, unless one contact explains nearly all
-///     of them: a touch that grows over minutes looks like that, drift does not.
+///     of them: a touch that grows over minutes looks like that, drift does not. A fit from where a grid is
+///     best and, if that is no contact, from elsewhere: the first alone misses one touch in eighty.
 ///   - Touched: while the contacts rest, what the gauges that they don't reach change by in common, as warmth
 ///     does it. What each gauge drifts by on its own is not told from the touch.
 /// How old the zeros are is told (stale()).
@@ -27,7 +28,8 @@ class ZeroTracker {
   /// One sample set. `answer`: what explains it; nothing where nothing touches the finger. Gauges in
   /// `leftOut` teach nothing, and learn nothing of their own. `scratch` is overwritten at the end of an
   /// interval. True: the zeros may have changed. Cost: two instructions a gauge in one of kEvery sets; at the
-  /// end of an untouched interval at most kMostSteps steps of a fit from the readings.
+  /// end of an untouched interval, and once more kEvery sets later, at most kMostSteps steps of a fit from
+  /// the readings.
   bool take(const TableImage& tables, std::span<const std::int32_t> strains_q32, const Answer* answer,
             GaugeSet leftOut, Calibration& calibration, Linearisation& scratch) {
     if (age_sets_ != std::numeric_limits<std::uint32_t>::max()) ++age_sets_;

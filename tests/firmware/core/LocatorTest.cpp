@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "firmware/core/estimate.hpp"
 #include "tests/firmware/core/model_ring.hpp"
 #include "tests/under_sanitizers.hpp"
 
@@ -257,6 +258,46 @@ TEST(Locator, ARivalIsForgottenOnceTheTouchHasTold) {
   }
   CHECK(rivals > 10);
   CHECK_COMPARE(left, <=, rivals / 5);
+}
+
+// Touches of which one set alone often doesn't tell which of two places is right, for half a second each.
+TEST(Locator, AFaintTouchThatIsHeldIsSeldomToldElsewhereUnflagged) {
+  constexpr int kTouches = kSanitized ? 4 : 40, kSets = 500;
+  Presses presses(16, 1, 415, 0, 2);
+  int silent = 0, told = 0;
+  for (int i = 0; i < kTouches; ++i) {
+    locator.release();
+    const Press press = presses.next();
+    for (int set = 0; set < kSets; ++set) {
+      update(presses.noisy(ring.strains(press), ring.noise_strain()));
+      const Contact contact =
+          estimate(ring.constants(), locator.answer(), unitErrors(locator.linearisation()), 0);
+      if (contact.uncertain) continue;
+      ++told;
+      silent += off_pitch(press) > 0.5;
+    }
+  }
+  std::printf("%d of %d ", silent, told);
+  CHECK_COMPARE(told, >, kTouches * kSets / 4);
+  CHECK_COMPARE(silent, <=, told / 500);
+}
+
+TEST(Locator, AFaintTouchThatIsFollowedThroughItsRivalsPlaceIsLookedAtAgain) {
+  Presses presses(16, 1, 416, 0.8, 0.9);
+  settle(presses.noisy(ring.strains({4.7, 4, 0, 0.85}), ring.noise_strain()));
+  const auto searchedWithin = [&](int sets, auto pressAt) {
+    int searched = 0;
+    for (int set = 0; set < sets; ++set) {
+      update(presses.noisy(ring.strains(pressAt(set)), ring.noise_strain()));
+      searched += locator.isSearching();
+    }
+    return searched;
+  };
+  constexpr int kSets = 200;
+  while (locator.isSearching() || locator.answer().rivalEnergy >= 0)
+    searchedWithin(1, [](int) { return Press{4.7, 4, 0, 0.85}; });
+  LONGS_EQUAL(0, searchedWithin(kSets, [](int) { return Press{4.7, 4, 0, 0.85}; }));
+  CHECK(searchedWithin(kSets, [](int set) { return Press{4.7 + 0.4 * set / kSets, 4, 0, 0.85}; }) > 0);
 }
 
 TEST(Locator, ARivalStaysOneWhenTheReadingsScaleChanges) {

@@ -98,6 +98,26 @@ TEST(Search, TellsTheSecondBestAnswerThatLiesElsewhere) {
   CHECK(seconds > 10);
 }
 
+// Most candidates lead to a wide contact a pitch away, in whose valley many of them stop at once.
+TEST(Search, FindsTheSecondAnswerThoughMostCandidatesLeadToTheFirst) {
+  const Press press{4.727, 1, 0, 0.85};
+  Presses presses(16, 1, 307);
+  int rivals = 0, missed = 0;
+  for (int i = 0; i < 400; ++i) {
+    const auto strains = presses.noisy(ring.strains(press), ring.noise_strain());
+    searchOn(ring, strains);
+    const Ranking& single = search.single();
+    if (isAt(single.best, press, 0.5)) continue;
+    const ExactFit exact(ring, strains);
+    const double more = exact.from({press}).chiSquared - exact.chiSquared(found(ring, single.best));
+    if (more > threshold::kAmbiguous - 1) continue;
+    ++rivals;
+    missed += !single.anySecond || !isAt(single.second, press, 0.5);
+  }
+  CHECK_COMPARE(rivals, >, 50);
+  CHECK_COMPARE(missed, <=, 1);
+}
+
 TEST(Search, FindsTheGaugeWithoutWhichOneContactExplainsAll) {
   for (int gauge = 0; gauge < 16; gauge += 3) {
     auto strains = ring.strains({gauge + 1.3, 20, 5, 1});
@@ -149,9 +169,9 @@ TEST_GROUP(Ranking) {
     constants.cone_q8 = 256;
     readings.gateVariance_q4 = 16;
   }
-  void take(int degrees, Wide energy, Number tangential = 0) {
+  void take(int degrees, Wide energy, Number tangential = 0, Number moment_q20 = 0) {
     Solution solution{{1, true, allGauges(16)}, {}};
-    solution.contact[0] = {static_cast<std::uint32_t>(degrees) * 11'930'465u, 1000, tangential, 0};
+    solution.contact[0] = {static_cast<std::uint32_t>(degrees) * 11'930'465u, 1000, tangential, moment_q20};
     solution.residualEnergy = energy;
     ranking.take(constants, solution, readings);
   }
@@ -179,6 +199,41 @@ TEST(Ranking, TheSameAnswerIsNoSecond) {
   take(11, 400);
   CHECK_FALSE(ranking.anySecond);
   LONGS_EQUAL(400, ranking.best.residualEnergy);
+}
+
+TEST(Ranking, AnAnswerElsewhereIsASecondBeforeAnotherWidthOfTheSamePlace) {
+  take(10, 100);
+  take(12, 105, 0, 300'000);
+  LONGS_EQUAL(12, degreesOf(ranking.second));
+  take(50, 110);
+  LONGS_EQUAL(50, degreesOf(ranking.second));
+  take(11, 103, 0, 500'000);
+  LONGS_EQUAL(50, degreesOf(ranking.second));
+}
+
+TEST(Ranking, AnAnswerElsewhereThatIsFarLessLikelyIsNone) {
+  take(10, 100);
+  take(50, 100 + threshold::kAmbiguous);
+  take(12, 105, 0, 300'000);
+  LONGS_EQUAL(12, degreesOf(ranking.second));
+  take(90, 100 + threshold::kAmbiguous);
+  LONGS_EQUAL(12, degreesOf(ranking.second));
+}
+
+TEST(Ranking, WhereABetterAnswerIsAnotherWidthOfTheBestTheRivalElsewhereStays) {
+  take(10, 100);
+  take(50, 104);
+  take(12, 95, 0, 300'000);
+  LONGS_EQUAL(12, degreesOf(ranking.best));
+  LONGS_EQUAL(50, degreesOf(ranking.second));
+}
+
+TEST(Ranking, ASecondThatABetterAnswerIsTheSameAsIsNone) {
+  take(10, 100);
+  take(50, 104);
+  take(50, 90);
+  LONGS_EQUAL(50, degreesOf(ranking.best));
+  LONGS_EQUAL(10, degreesOf(ranking.second));
 }
 
 TEST(Ranking, AnswersBeyondTheFrictionConeAreLessLikely) {

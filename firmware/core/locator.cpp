@@ -181,9 +181,8 @@ int Locator::followRival(const TableImage& tables, const ScaledReadings& reading
   answer_.rival = rival.contact;
   answer_.rivalEnergy = magnitude(more);
   if (more < 0) {
-    const std::uint32_t turned_q32 = rival.contact[0].angle_q32 - answer.contact[0].angle_q32;
-    searchedAt_q32_ += turned_q32;  // the touch itself has not moved
-    lookedAt_q32_ += turned_q32;
+    // The touch itself has not moved.
+    searchedAt_q32_ += rival.contact[0].angle_q32 - answer.contact[0].angle_q32;
     answer_.rival = answer.contact;
     linearisation_ = scratch_;
     believe(tables, rival, readings);
@@ -314,16 +313,16 @@ void Locator::goOn(const TableImage& tables, const ScaledReadings& readings, int
 }
 
 void Locator::noteLook(const ScaledReadings& readings) {
-  lookedAt_q32_ = answer_.solution.contact[0].angle_q32;
   lookedShift_ = readings.shift;
+  lookedMoment_q20_ = answer_.solution.contact[0].moment_q20;
 }
 
-/// Since other answers were looked for, the touch has become twice as firm, or is a quarter of a pitch away:
-/// which others there are, and whether they are told apart, is another question there.
-bool Locator::isLookOutdated(const TableConstants& constants, const ScaledReadings& readings) const {
-  constexpr int kQuarterPitchBits = 6;  // of short turns
+/// Since other answers were looked for, the touch has become twice as firm, so that others may be told apart,
+/// or of quite another width: then it was followed to another answer.
+bool Locator::isLookOutdated(const ScaledReadings& readings) const {
+  constexpr Number kAnotherWidth = 1 << (kMomentBits - 2);
   return readings.shift > lookedShift_ ||
-         !isShortTurn(constants, answer_.solution.contact[0].angle_q32 - lookedAt_q32_, kQuarterPitchBits);
+         magnitude(answer_.solution.contact[0].moment_q20 - lookedMoment_q20_) > kAnotherWidth;
 }
 
 /// Three readings that see the place and both loads well, solved exactly, unless they lead elsewhere than all
@@ -403,8 +402,7 @@ void Locator::update(const TableImage& tables, std::span<const std::int32_t> str
     search(tables, readings, gauges);
   } else if (!answer_.accepted || answer_.doubtful || (answer_.rivalIsLost && answer_.rivalEnergy >= 0) ||
              areTooNear(tables.constants, answer_.solution) ||
-             (isLookOutdated(tables.constants, readings) &&
-              !isFirm(tables.constants, answer_.solution, readings))) {
+             (isLookOutdated(readings) && !isFirm(tables.constants, answer_.solution, readings))) {
     if (++setsSinceSearch_ >= kSearchAgainAfter) search(tables, readings, gauges);
   }
   if (mode_ == FitMode::kThreePoint && !search_.isBegun()) solveExactly(tables, readings);

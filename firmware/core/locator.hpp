@@ -76,7 +76,7 @@ class Locator {
   void rememberRival(const TableImage& tables, const Ranking& ranking, const ScaledReadings& readings);
   int followRival(const TableImage& tables, const ScaledReadings& readings);
   void noteLook(const ScaledReadings& readings);
-  bool isLookOutdated(const TableConstants& constants, const ScaledReadings& readings) const;
+  bool isLookOutdated(const ScaledReadings& readings) const;
   void believe(const TableImage& tables, const Solution& solution, const ScaledReadings& readings);
   void solveExactly(const TableImage& tables, const ScaledReadings& readings);
 
@@ -94,7 +94,7 @@ class Locator {
   std::uint8_t setsLeftOut_ = 0;  ///< in which the answer left gauges out
   std::uint16_t setsSinceSearch_ = 0;
   std::uint32_t searchedAt_q32_ = 0;  ///< where the answer was when the search began
-  std::uint32_t lookedAt_q32_ = 0;    ///< where it was when other answers had been looked for
+  Number lookedMoment_q20_ = 0;       ///< of the answer when others had been looked for
   std::int8_t lookedShift_ = 0;       ///< of the readings then
 };
 

@@ -282,22 +282,21 @@ TEST(Locator, AFaintTouchThatIsHeldIsSeldomToldElsewhereUnflagged) {
   CHECK_COMPARE(silent, <=, told / 500);
 }
 
-TEST(Locator, AFaintTouchThatIsFollowedThroughItsRivalsPlaceIsLookedAtAgain) {
-  Presses presses(16, 1, 416, 0.8, 0.9);
-  settle(presses.noisy(ring.strains({4.7, 4, 0, 0.85}), ring.noise_strain()));
-  const auto searchedWithin = [&](int sets, auto pressAt) {
+TEST(Locator, OtherAnswersAreLookedForAgainOnceATouchIsTwiceAsFirm) {
+  Presses presses(16, 1, 416);
+  const auto searchedWithin = [&](int sets, double normal_n_per_m) {
     int searched = 0;
     for (int set = 0; set < sets; ++set) {
-      update(presses.noisy(ring.strains(pressAt(set)), ring.noise_strain()));
+      update(presses.noisy(ring.strains({4.9, normal_n_per_m, 0, 0.85}), ring.noise_strain()));
       searched += locator.isSearching();
     }
     return searched;
   };
-  constexpr int kSets = 200;
-  while (locator.isSearching() || locator.answer().rivalEnergy >= 0)
-    searchedWithin(1, [](int) { return Press{4.7, 4, 0, 0.85}; });
-  LONGS_EQUAL(0, searchedWithin(kSets, [](int) { return Press{4.7, 4, 0, 0.85}; }));
-  CHECK(searchedWithin(kSets, [](int set) { return Press{4.7 + 0.4 * set / kSets, 4, 0, 0.85}; }) > 0);
+  searchedWithin(400, 4);
+  LONGS_EQUAL(0, searchedWithin(200, 4));
+  CHECK(searchedWithin(200, 9) > 0);
+  LONGS_EQUAL(0, searchedWithin(200, 9));
+  CHECK_TRUE(locator.answer().rivalEnergy < 0);
 }
 
 TEST(Locator, ARivalStaysOneWhenTheReadingsScaleChanges) {

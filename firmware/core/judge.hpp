@@ -34,10 +34,17 @@ inline constexpr int kLost = 4;
 inline constexpr int kAmbiguous = 14;
 /// A second answer that leaves so much more than the first is refuted by this sample set.
 inline constexpr int kRefuted = 4 * kAmbiguous;
-/// A candidate of a search is not refined that leaves, after its first steps, so many times [log2] what the
-/// best leaves and kRefuted: of 140,000 disturbed touches (host/bench) 156 are silently wrong so, 146 without
-/// the limit, where searches take longer and 5 % more touches are flagged.
+/// Of one contact, a search does not refine candidates which leave, after their first steps, so many times
+/// [log2] what the best one leaves and kRefuted. Without that limit searches take longer: 5 % more of the
+/// disturbed touches of host/bench are flagged, and as many are silently wrong.
 inline constexpr int kHopelessBits = 2;
+/// Answers so many sixteenths of a pitch apart are at different places, rather than of different widths.
+inline constexpr int kElsewhere_16 = 4;
+/// A second start is so many sixteenths of a pitch away from the first: the coarse grid's next point but one.
+inline constexpr int kOtherStart_16 = 6;
+/// A touch does not change its second moment by more than this part of the largest [log2] while it is
+/// followed: the fit went to another answer.
+inline constexpr int kOtherWidthBits = 2;
 /// An inadmissible answer is believed only if it explains so much more: noise may have moved it there.
 inline constexpr int kInadmissible = 28;
 /// Largest reading over a standard deviation [squared] and second moment of contacts that have no second

@@ -40,6 +40,17 @@ bool areBothContacts(const Solution& pair, const ScaledReadings& readings) {
          least * least >= energyOf(readings, threshold::kFaint);
 }
 
+/// These contacts in the order in which they are nearest to a solution's.
+ContactStates inOrderOf(const Solution& solution, ContactStates contacts) {
+  const auto apart = [&](int i, int j) {
+    const std::uint32_t turned = solution.contact[at(i)].angle_q32 - contacts[at(j)].angle_q32;
+    return magnitude(Wide{static_cast<std::int32_t>(turned)});
+  };
+  if (solution.hypothesis.contacts == 2 && apart(0, 1) + apart(1, 0) < apart(0, 0) + apart(1, 1))
+    std::swap(contacts[0], contacts[1]);
+  return contacts;
+}
+
 /// The reading of a gauge that was left out is far from what the others predict.
 bool isFarOff(const TableImage& tables, const Solution& solution, const ScaledReadings& readings,
               GaugeSet leftOut, Linearisation& scratch) {
@@ -209,12 +220,12 @@ void Locator::settle(const TableImage& tables, const ScaledReadings& readings) {
   answer_.searching = !isPlain(tables.constants, answer_.solution, readings) ||
                       !isFirm(tables.constants, answer_.solution, readings);
   if (answer_.searching) search(tables, readings, hypothesis.gauges);
-  noteLook(readings);
+  noteLook(readings.shift);
 }
 
 /// The most likely hypothesis of those that were looked at: each must take more off chi-squared than its
-/// additional unknowns would by chance.
-void Locator::conclude(const TableImage& tables) {
+/// additional unknowns would by chance. False: there is none.
+bool Locator::conclude(const TableImage& tables) {
   const ScaledReadings& readings = search_.readings();
   const std::array rankings{&search_.single(), &search_.withoutOne(), &search_.pair()};
   constexpr std::array<int, 3> kPrice{0, threshold::kLeftOut, threshold::kSecondContact};
@@ -242,7 +253,7 @@ void Locator::conclude(const TableImage& tables) {
   answer_.rivalEnergy = -1;
   answer_.rivalIsLost = false;
   answer_.timesRefuted = 0;
-  if (!best) return;
+  if (!best) return false;
   const bool faulty = explains[kWithoutOne], two = explains[kPair];
   answer_.doubtful =
       !isPlain(tables.constants, rankings[*best]->best, readings) ||
@@ -251,6 +262,7 @@ void Locator::conclude(const TableImage& tables) {
   if (*best == kWithoutOne && !(two && answer_.doubtful)) answer_.suspect = culprit(tables);
   believe(tables, rankings[*best]->best, readings);
   rememberRival(tables, *rankings[*best], readings);
+  return true;
 }
 
 /// The gauge that the best answer leaves out, if no other one would do and its reading is far off.
@@ -265,19 +277,26 @@ GaugeSet Locator::culprit(const TableImage& tables) {
 void Locator::rememberRival(const TableImage& tables, const Ranking& ranking,
                             const ScaledReadings& readings) {
   if (!ranking.anySecond || ranking.second.hypothesis != ranking.best.hypothesis) return;
-  answer_.rival = ranking.second.contact;
-  const auto apart = [&](int i, int j) {
-    const std::uint32_t turned = ranking.best.contact[at(i)].angle_q32 - answer_.rival[at(j)].angle_q32;
-    return magnitude(Wide{static_cast<std::int32_t>(turned)});
-  };
-  if (ranking.best.hypothesis.contacts == 2 && apart(0, 1) + apart(1, 0) < apart(0, 0) + apart(1, 1))
-    std::swap(answer_.rival[0], answer_.rival[1]);
+  answer_.rival = inOrderOf(ranking.best, ranking.second.contact);
   const Wide more = likelihoodEnergy(tables.constants, ranking.second, readings) -
                     likelihoodEnergy(tables.constants, ranking.best, readings);
   if (more > energyOf(readings, threshold::kRefuted)) return;
   answer_.rivalEnergy = more;
   answer_.rivalIsElsewhere =
       areElsewhere(tables.constants, ranking.best.hypothesis.contacts, ranking.best.contact, answer_.rival);
+}
+
+/// What a search found is the rival of the answer that was followed, where that explains these readings
+/// better: one that isn't told apart, until it is followed itself.
+void Locator::rememberFound(const TableConstants& constants, const Solution& followed, const Solution& found,
+                            const ScaledReadings& readings) {
+  if (!areElsewhere(constants, followed.hypothesis.contacts, followed.contact, found.contact)) return;
+  if (!isPromising(constants, found) ||
+      found.residualEnergy - followed.residualEnergy > energyOf(readings, threshold::kRefuted))
+    return;
+  answer_.rival = inOrderOf(followed, found.contact);
+  answer_.rivalEnergy = 0;
+  answer_.rivalIsElsewhere = true;
 }
 
 /// Within what is left of an update's work.
@@ -289,40 +308,37 @@ void Locator::goOn(const TableImage& tables, const ScaledReadings& readings, int
   };
   if (stepsLeft() < 1) return;
   const Solution followed = answer_.solution;
-  conclude(tables);
+  const bool isFound = conclude(tables);
   search_.stop();
   // The touch has gone on since the search began: what was found has moved as the answer that was followed.
   const Hypothesis hypothesis = answer_.solution.hypothesis;
   ContactStates from = rescaled(answer_.solution.contact, answer_.shift, readings.shift);
   rescaleRival(readings.shift);
-  const std::uint32_t moved_q32 = followed.contact[0].angle_q32 - searchedAt_q32_;
+  const std::uint32_t moved_q32 = isFound ? followed.contact[0].angle_q32 - searchedAt_q32_ : 0;
   for (ContactState& contact : from) contact.angle_q32 += moved_q32;
   for (ContactState& contact : answer_.rival) contact.angle_q32 += moved_q32;
   const int steps = std::clamp(stepsLeft(), 1, kStepsAfterSearch);
   Solution now = fit(tables, hypothesis, from, readings, steps, linearisation_);
   if (followed.hypothesis == hypothesis && followed.residualEnergy <= now.residualEnergy) {
-    if (areElsewhere(tables.constants, hypothesis.contacts, followed.contact, now.contact)) {
-      answer_.rival = now.contact;
-      answer_.rivalEnergy = 0;  // until it is followed
-      answer_.rivalIsElsewhere = true;
-    }
+    rememberFound(tables.constants, followed, now, readings);
     now = fit(tables, hypothesis, followed.contact, readings, 1, linearisation_);
   }
   believe(tables, now, readings);
-  noteLook(readings);
+  noteLook(search_.readings().shift);
 }
 
-void Locator::noteLook(const ScaledReadings& readings) {
-  lookedShift_ = readings.shift;
+void Locator::noteLook(int shift) {
+  lookedShift_ = static_cast<std::int8_t>(shift);
   lookedMoment_q20_ = answer_.solution.contact[0].moment_q20;
 }
 
-/// Since other answers were looked for, the touch has become twice as firm, so that others may be told apart,
-/// or of quite another width: then it was followed to another answer.
+/// Since other answers were looked for, the readings have outgrown their scale, by a factor of two at most,
+/// so that others may be told apart; or the touch has quite another width: then it was followed to another
+/// answer.
 bool Locator::isLookOutdated(const ScaledReadings& readings) const {
-  constexpr Number kAnotherWidth = 1 << (kMomentBits - 2);
   return readings.shift > lookedShift_ ||
-         magnitude(answer_.solution.contact[0].moment_q20 - lookedMoment_q20_) > kAnotherWidth;
+         magnitude(answer_.solution.contact[0].moment_q20 - lookedMoment_q20_) >
+             1 << (kMomentBits - threshold::kOtherWidthBits);
 }
 
 /// Three readings that see the place and both loads well, solved exactly, unless they lead elsewhere than all

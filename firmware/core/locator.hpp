@@ -71,11 +71,13 @@ class Locator {
   void search(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
   void rescaleRival(int shift);
   int takeBack(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
-  void conclude(const TableImage& tables);
+  bool conclude(const TableImage& tables);
   GaugeSet culprit(const TableImage& tables);
   void rememberRival(const TableImage& tables, const Ranking& ranking, const ScaledReadings& readings);
+  void rememberFound(const TableConstants& constants, const Solution& followed, const Solution& found,
+                     const ScaledReadings& readings);
   int followRival(const TableImage& tables, const ScaledReadings& readings);
-  void noteLook(const ScaledReadings& readings);
+  void noteLook(int shift);
   bool isLookOutdated(const ScaledReadings& readings) const;
   void believe(const TableImage& tables, const Solution& solution, const ScaledReadings& readings);
   void solveExactly(const TableImage& tables, const ScaledReadings& readings);

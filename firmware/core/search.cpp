@@ -106,7 +106,8 @@ void Ranking::take(const TableConstants& constants, const Solution& solution,
            areSame(constants, of.hypothesis.contacts, of.contact, best.contact);
   };
   const auto isRival = [&](const Solution& of) {
-    return energy(of) - energy(best) < energyOf(readings, threshold::kAmbiguous) &&
+    return of.hypothesis == best.hypothesis &&
+           energy(of) - energy(best) < energyOf(readings, threshold::kAmbiguous) &&
            areElsewhere(constants, of.hypothesis.contacts, of.contact, best.contact);
   };
   Solution other = solution;
@@ -207,14 +208,14 @@ ContactStates Grid::at(const TableImage& tables, int index) const {
 
 ContactStates initialGuess(const TableImage& tables, const Hypothesis& hypothesis,
                            const ScaledReadings& readings, Linearisation& scratch,
-                           std::optional<std::uint32_t> earlier_q32) {
+                           std::optional<std::uint32_t> otherStart_q32) {
   const Grid grid(tables, hypothesis, readings, Grid::Kind::kCoarse);
-  const std::uint32_t away_q32 = pitch_q32(tables.constants) / 8 * 3;
+  const std::uint32_t away_q32 = pitch_q32(tables.constants) / 16 * threshold::kOtherStart_16;
   Solution best;
   bool any = false;
   for (int i = 0; i < grid.size(); ++i) {
     const ContactStates contacts = grid.at(tables, i);
-    if (earlier_q32 && apart_q32(contacts[0], {*earlier_q32}) < away_q32) continue;
+    if (otherStart_q32 && apart_q32(contacts[0], {*otherStart_q32}) < away_q32) continue;
     const Solution point = fitLoads(tables, hypothesis, contacts, readings, scratch);
     if (!isPromising(tables.constants, point)) continue;
     if (any && point.residualEnergy >= best.residualEnergy) continue;
@@ -317,11 +318,12 @@ bool Search::isWorseTwin(const TableConstants& constants, int candidate) const {
   return false;
 }
 
-/// All candidates get their first steps, then the best are refined: those that went where a better one is
-/// don't count, and those that have far more left than the best, and all behind them, lead nowhere.
+/// All candidates get their first steps, then the best are refined. Those whose first steps went where a
+/// better one is don't count. Of one contact, those that leave far more than the best lead nowhere; of pairs,
+/// whose first steps come less far, they may.
 bool Search::isRefining() const {
   const int refined = effort().refined, next = refined_ - candidates_.size();
-  if (refined == 0 || next < 0) return refined > 0 && candidates_.size() > 0;
+  if (refined == 0 || next < 0) return refined > 0;
   if (kept_ == refined || next == candidates_.size()) return false;
   return steps_ > 0 || next == 0 || hypothesis_.contacts > 1 ||
          candidates_[next].residualEnergy >> threshold::kHopelessBits <

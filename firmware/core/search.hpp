@@ -18,7 +18,8 @@ bool areSame(const TableConstants& constants, int contacts, const ContactStates&
 bool areElsewhere(const TableConstants& constants, int contacts, const ContactStates& a,
                   const ContactStates& b);
 
-/// The most likely solution of a hypothesis, and the next best that lies elsewhere.
+/// The most likely solution of a hypothesis, and another: the likeliest elsewhere, if the readings hardly
+/// tell it from the best, else the next best, which may be another width of the same place.
 struct Ranking {
   Solution best;
   Solution second;
@@ -94,11 +95,11 @@ class Grid {
   bool widthIsFree_ = true;
 };
 
-/// Where to start without knowing anything: the best point of a coarse grid, three eighths of a pitch or more
-/// from where an earlier start led, if any.
+/// Where to start without knowing anything: the best point of a coarse grid, apart from another start, if any
+/// (threshold::kOtherStart_16).
 ContactStates initialGuess(const TableImage& tables, const Hypothesis& hypothesis,
                            const ScaledReadings& readings, Linearisation& scratch,
-                           std::optional<std::uint32_t> earlier_q32 = {});
+                           std::optional<std::uint32_t> otherStart_q32 = {});
 
 /// One contact; if that leaves doubt, one contact without one of the gauges, and two contacts, of which each
 /// is looked for anew in what the other leaves, then both together. Of each hypothesis a grid is looked at,

@@ -37,7 +37,8 @@ void ZeroTracker::begin(bool touched) {
   sum_.fill(0);
   sets_ = 0;
   leftOut_ = 0;
-  refutedAt_q32_.reset();
+  starts_ = 0;
+  isFitNext_ = false;
   touched_ = touched;
 }
 
@@ -55,6 +56,10 @@ bool ZeroTracker::rests(const TableConstants& constants, const Answer& answer) c
   return true;
 }
 
+ScaledReadings ZeroTracker::averages(const TableConstants& constants, GaugeSet gauges) const {
+  return scaledReadings(constants, std::span(sum_).first(constants.gauge_count), gauges);
+}
+
 /// The averages have so much energy that their shape says where it comes from.
 bool ZeroTracker::isWorthFollowing(const TableConstants& constants, GaugeSet gauges) const {
   constexpr int kDown = 4;  // keeps the sum below 2^63
@@ -65,16 +70,26 @@ bool ZeroTracker::isWorthFollowing(const TableConstants& constants, GaugeSet gau
   return energy > kWorthFollowing * squareOf(noise);
 }
 
-bool ZeroTracker::looksLikeAContact(const TableImage& tables, GaugeSet gauges, Linearisation& scratch) {
-  const auto averages = std::span(sum_).first(tables.constants.gauge_count);
-  const ScaledReadings readings = scaledReadings(tables.constants, averages, gauges);
+/// What the averages are as readings of a contact.
+Hypothesis ZeroTracker::oneContact(const TableConstants& constants, GaugeSet gauges) {
+  return {1, constants.width_is_known == 0, gauges};
+}
+
+void ZeroTracker::findStart(const TableImage& tables, GaugeSet gauges, Linearisation& scratch) {
+  const Hypothesis hypothesis = oneContact(tables.constants, gauges);
+  std::optional<std::uint32_t> otherStart_q32;
+  if (starts_ > 0) otherStart_q32 = start_.angle_q32;
+  start_ = initialGuess(tables, hypothesis, averages(tables.constants, gauges), scratch, otherStart_q32)[0];
+  ++starts_;
+}
+
+bool ZeroTracker::looksLikeAContact(const TableImage& tables, GaugeSet gauges, Linearisation& scratch) const {
+  const ScaledReadings readings = averages(tables.constants, gauges);
   Wide energy = 0;
   for (int i = 0; i < tables.constants.gauge_count; ++i)
     if (contains(gauges, i)) energy += squareOf(readings.value[at(i)]);
-  const Hypothesis hypothesis{1, tables.constants.width_is_known == 0, gauges};
-  const ContactStates start = initialGuess(tables, hypothesis, readings, scratch, refutedAt_q32_);
-  const Solution solution = fit(tables, hypothesis, start, readings, kMostSteps, scratch);
-  refutedAt_q32_ = solution.contact[0].angle_q32;
+  const Solution solution =
+      fit(tables, oneContact(tables.constants, gauges), {start_}, readings, kMostSteps, scratch);
   return isPromising(tables.constants, solution) && solution.residualEnergy < energy >> kContactBits;
 }
 
@@ -136,11 +151,14 @@ bool ZeroTracker::finish(const TableImage& tables, const Answer* answer, Calibra
     follow(tables.constants, changes, allGauges(tables.constants.gauge_count), calibration);
     return true;
   }
-  const bool isWorthIt = isWorthFollowing(tables.constants, gauges);
-  if (isWorthIt) {
-    const bool isSecondStart = refutedAt_q32_.has_value();
+  if (isWorthFollowing(tables.constants, gauges)) {
+    isFitNext_ = !isFitNext_;
+    if (isFitNext_) {
+      findStart(tables, gauges, scratch);
+      return false;
+    }
     if (looksLikeAContact(tables, gauges, scratch)) return true;
-    if (!isSecondStart) return false;
+    if (starts_ < kMostStarts) return false;
     follow(tables.constants, sum_, gauges, calibration);
   }
   age_sets_ = 0;

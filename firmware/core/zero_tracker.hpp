@@ -14,24 +14,27 @@ namespace strainfinger::firmware {
 
 /// Zeros follow what no contact can explain, by two standard deviations of a reading an interval at most.
 ///   - Untouched: the averages of all gauges, once they are worth it, unless one contact explains nearly all
-///     of them: a touch that grows over minutes looks like that, drift does not. A fit from where a grid is
-///     best and, if that is no contact, from elsewhere: the first alone misses one touch in eighty.
+///     of them: a touch that grows over minutes looks like that, drift does not. The fit starts where a
+///     coarse grid is best and, if it finds no contact, once more elsewhere: one start misses one touch in
+///     eighty.
 ///   - Touched: while the contacts rest, what the gauges that they don't reach change by in common, as warmth
 ///     does it. What each gauge drifts by on its own is not told from the touch.
 /// How old the zeros are is told (stale()).
 class ZeroTracker {
  public:
-  static constexpr int kInterval = 1024;                ///< sample sets: a second at 1 kHz
-  static constexpr int kEvery = 4;                      ///< which of them are averaged: each so many
+  static constexpr int kInterval = 1024;  ///< sample sets: a second at 1 kHz
+  static constexpr int kEvery = 4;        ///< which of them are averaged: each so many
+  /// Sample sets after which zeros have followed, if there was time: two starts, each with its fit.
+  static constexpr int kUntilFollowed = kInterval + 3 * kEvery;
   static constexpr std::uint32_t kStaleSets = 600'000;  ///< ten minutes
 
   /// One sample set. `answer`: what explains it; nothing where nothing touches the finger. Gauges in
   /// `leftOut` teach nothing, and learn nothing of their own. `scratch` is overwritten at the end of an
-  /// interval. True: the zeros may have changed. Cost: two instructions a gauge in one of kEvery sets; at the
-  /// end of an untouched interval, and once more kEvery sets later, at most kMostSteps steps of a fit from
-  /// the readings.
+  /// interval and in the sets up to kUntilFollowed. True: the zeros may have changed. Cost: two instructions
+  /// a gauge in one of kEvery sets; after an untouched interval a coarse grid or a fit of at most kMostSteps
+  /// steps in one of kEvery sets, as soon as `isTimeLeft`: not while the locator looks at a disturbance.
   bool take(const TableImage& tables, std::span<const std::int32_t> strains_q32, const Answer* answer,
-            GaugeSet leftOut, Calibration& calibration, Linearisation& scratch) {
+            GaugeSet leftOut, Calibration& calibration, Linearisation& scratch, bool isTimeLeft = true) {
     if (age_sets_ != std::numeric_limits<std::uint32_t>::max()) ++age_sets_;
     const bool touched = answer != nullptr;
     if (touched != touched_ || (touched && (!answer->accepted || answer->searching))) {
@@ -39,6 +42,7 @@ class ZeroTracker {
       return false;
     }
     leftOut_ |= leftOut;
+    if (sets_ + 1 >= kInterval && !isTimeLeft) return false;
     return ++sets_ % kEvery == 0 && average(tables, strains_q32, answer, calibration, scratch);
   }
 
@@ -54,6 +58,7 @@ class ZeroTracker {
 
  private:
   static constexpr int kMostSteps = 6;
+  static constexpr int kMostStarts = 2;
   using Strains = std::array<std::int32_t, kMaxGauges>;  ///< [strain * 2^32]
 
   /// Contacts as they were when they came to rest.
@@ -74,7 +79,10 @@ class ZeroTracker {
   std::int32_t commonChange_q32(const TableImage& tables, const Answer& answer, GaugeSet far,
                                 Linearisation& scratch);
   bool isWorthFollowing(const TableConstants& constants, GaugeSet gauges) const;
-  bool looksLikeAContact(const TableImage& tables, GaugeSet gauges, Linearisation& scratch);
+  static Hypothesis oneContact(const TableConstants& constants, GaugeSet gauges);
+  ScaledReadings averages(const TableConstants& constants, GaugeSet gauges) const;
+  void findStart(const TableImage& tables, GaugeSet gauges, Linearisation& scratch);
+  bool looksLikeAContact(const TableImage& tables, GaugeSet gauges, Linearisation& scratch) const;
   void follow(const TableConstants& constants, const Strains& changes_q32, GaugeSet gauges,
               Calibration& calibration);
 
@@ -84,8 +92,9 @@ class ZeroTracker {
   Rest rest_;
   std::uint32_t age_sets_ = 0;
   std::optional<std::int32_t> lastChange_q32_;
-  /// Where a fit of these averages led that does not explain them: another one starts elsewhere.
-  std::optional<std::uint32_t> refutedAt_q32_;
+  ContactState start_;       ///< of the last fit of these averages, or of the next
+  std::uint8_t starts_ = 0;  ///< of fits of these averages
+  bool isFitNext_ = false;   ///< from start_
   std::uint16_t sets_ = 0;
   GaugeSet leftOut_ = 0;  ///< in any set of the interval
   bool touched_ = false;

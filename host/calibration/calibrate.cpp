@@ -26,9 +26,9 @@ constexpr double kWeakestOfStrong = 0.125, kStrong = 0.9;
 /// Chi-squared by which a touch must explain a row better than any other.
 constexpr double kClearGap = 16;
 /// Of the ring's pitch: a slip, or two contacts that are near each other, reads like one touch of this width
-/// and more, within noise; so wide touches have rivals half a pitch away besides. Measured (host/study): with
-/// 0.8, places are 1.5 times as far off for a tenth of slips and pairs in one of 30 fingers, with 0.7 at
-/// most 1.2.
+/// and more, within noise; so wide touches have rivals half a pitch away besides. Measured (host/study):
+/// where a tenth of the rows were slips and pairs, places came out up to 1.5 times as far off as without them
+/// with 0.8, up to 1.2 times with 0.7.
 constexpr double kMostWidth = 0.7;
 /// The first, coarse fits take so many rows: enough to find the finger, few enough to be quick.
 constexpr std::size_t kCoarseRows = 200;

@@ -13,7 +13,7 @@ namespace {
 /// More sets than any search takes, whatever it looks at: a ring of 16 takes 600, with each gauge left out
 /// and pairs.
 constexpr int kMostSearchedSets = 2000;
-constexpr std::array<int, 6> kRepetitions{1, 2, 5, 16, 70, ZeroTracker::kInterval + 2};
+constexpr std::array<int, 6> kRepetitions{1, 2, 5, 16, 70, ZeroTracker::kUntilFollowed + 2};
 /// Sets that one input can have: longer ones teach the fuzzer nothing.
 constexpr int kMostSets = ZeroTracker::kInterval + 100;
 

@@ -119,6 +119,22 @@ void idle(const InstructionCounter& counter) {
   for (std::uint32_t sample = 0; sample < kUpdates; ++sample) tell("idle", finger.update(kUntouched, sample));
 }
 
+/// Gauges that each drift on their own, too little to be a touch: the dearest set of each interval after
+/// which zeros follow, and of what then goes on for a few sets.
+void drifting(const InstructionCounter& counter, const TableImage& tables, const char* what) {
+  constexpr std::uint32_t kIntervals = 20, kSets = firmware::ZeroTracker::kInterval + 16;
+  CountedFinger& finger = newFinger(tables, counter);
+  for (std::uint32_t interval = 0; interval < kIntervals; ++interval) {
+    Draws draws(interval);
+    Deflections drift{};
+    for (std::int32_t& codes : drift) codes = static_cast<std::int32_t>(draws.below(31)) - 15;
+    std::uint32_t dearest = 0;
+    for (std::uint32_t set = 0; set < kSets; ++set)
+      dearest = std::max(dearest, finger.update(drift, interval * kSets + set));
+    tell(what, dearest);
+  }
+}
+
 /// A contact held where it is once it is found: the same codes, and with noise.
 void held(const InstructionCounter& counter, Width width, const char* same, const char* withNoise) {
   constexpr std::uint32_t kUntilFound = 100;
@@ -238,6 +254,8 @@ void runBoard() {
   const InstructionCounter counter;
   const std::uint32_t ofAnyKind = Words().number();
   idle(counter);
+  drifting(counter, kLinkedTables, "drift");
+  drifting(counter, tablesOfDepths(), "drift_depths");
   held(counter, kLine, "held_line", "held_line_noise");
   held(counter, kTwoMillimetres, "held_wide", "held_wide_noise");
   sliding(counter, lineTables(), kLine, "known_line");

@@ -188,7 +188,7 @@ TEST(Extremes, NorDoZerosThatFollowThem) {
     for (int interval = 0; interval < 3; ++interval) {
       fillCodes();
       if (interval == 1) std::fill(codes_.begin(), codes_.end(), std::uint16_t{0x8001});
-      process(*image_, pipeline, reporter, ZeroTracker::kInterval + 1);
+      process(*image_, pipeline, reporter, ZeroTracker::kUntilFollowed + 1);
     }
     const GaugesFrame frame = gaugesFrame(0, pipeline.zeroTracker(), static_cast<std::uint32_t>(random_()));
     UNSIGNED_LONGS_EQUAL(0, frame.out_of_use);

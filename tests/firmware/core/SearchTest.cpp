@@ -85,7 +85,7 @@ TEST(Search, ATouchThatOneContactExplainsIsNotLookedIntoFurther) {
 TEST(Search, TellsTheSecondBestAnswerThatLiesElsewhere) {
   // Between two gauges a wide contact has a rival that is hardly less likely.
   Presses presses(16, 3, 303, 4, 6);
-  int seconds = 0;
+  int seconds = 0, elsewhere = 0;
   for (int i = 0; i < 30; ++i) {
     searchOn(ring, presses.noisy(ring.strains(presses.next()), ring.noise_strain()));
     const Ranking& single = search.single();
@@ -93,9 +93,10 @@ TEST(Search, TellsTheSecondBestAnswerThatLiesElsewhere) {
     ++seconds;
     CHECK(likelihoodEnergy(ring.constants(), single.best, search.readings()) <=
           likelihoodEnergy(ring.constants(), single.second, search.readings()));
-    CHECK(single.best.contact[0].angle_q32 != single.second.contact[0].angle_q32);
+    elsewhere += areElsewhere(ring.constants(), 1, single.best.contact, single.second.contact);
   }
   CHECK(seconds > 10);
+  CHECK_COMPARE(elsewhere, >, 3);
 }
 
 // Most candidates lead to a wide contact a pitch away, in whose valley many of them stop at once.
@@ -211,9 +212,10 @@ TEST(Ranking, AnAnswerElsewhereIsASecondBeforeAnotherWidthOfTheSamePlace) {
   LONGS_EQUAL(50, degreesOf(ranking.second));
 }
 
-TEST(Ranking, AnAnswerElsewhereThatIsFarLessLikelyIsNone) {
+TEST(Ranking, AnAnswerElsewhereThatIsFarLessLikelyGivesWayToAnotherWidth) {
   take(10, 100);
   take(50, 100 + threshold::kAmbiguous);
+  LONGS_EQUAL(50, degreesOf(ranking.second));
   take(12, 105, 0, 300'000);
   LONGS_EQUAL(12, degreesOf(ranking.second));
   take(90, 100 + threshold::kAmbiguous);
@@ -234,6 +236,20 @@ TEST(Ranking, ASecondThatABetterAnswerIsTheSameAsIsNone) {
   take(50, 90);
   LONGS_EQUAL(50, degreesOf(ranking.best));
   LONGS_EQUAL(10, degreesOf(ranking.second));
+}
+
+// Which gauge is at fault is asked of all gauges near by, wherever the contact is without them.
+TEST(Ranking, OfOtherHypothesesTheNextBestIsTheSecond) {
+  const auto without = [this](int gauge, int degrees, Wide energy) {
+    Solution solution{{1, true, allGauges(16) & ~(GaugeSet{1} << gauge)}, {}};
+    solution.contact[0] = {static_cast<std::uint32_t>(degrees) * 11'930'465u, 1000, 0, 0};
+    solution.residualEnergy = energy;
+    ranking.take(constants, solution, readings);
+  };
+  without(3, 10, 100);
+  without(4, 10, 105);
+  without(5, 50, 113);
+  LONGS_EQUAL(105, ranking.second.residualEnergy);
 }
 
 TEST(Ranking, AnswersBeyondTheFrictionConeAreLessLikely) {

@@ -9,9 +9,6 @@ using namespace strainfinger;
 using namespace strainfinger::firmware;
 
 TEST_GROUP(ZeroTracker) {
-  /// In which averages are taken, and, of those that no contact explains, a contact is sought elsewhere.
-  static constexpr int kUntouchedInterval = ZeroTracker::kInterval + ZeroTracker::kEvery;
-
   const ModelRing ring;
   Calibration calibration = tabledCalibration(ring.tables());
   const Calibration first = calibration;
@@ -83,8 +80,8 @@ TEST(ZeroTracker, DoesNotFollowATouchThatGrowsOverMinutes) {
   CHECK(mostFollowed_strain() < 0.02 * 0.00045 * 5);
 }
 
-// Where the coarse grid's best point is on the way to another answer than the touch, that one explains less
-// than nearly all: 31 of 200 places at one of these four leans and widths.
+// At some places the coarse grid's best point leads the fit to another answer, which doesn't explain the
+// touch's averages well enough: only a second start finds the touch.
 TEST(ZeroTracker, DoesNotFollowFaintTouchesWhoseAveragesLookLikeAnotherTouchAtFirst) {
   constexpr int kPlaces = 50;
   int followed = 0;
@@ -95,7 +92,7 @@ TEST(ZeroTracker, DoesNotFollowFaintTouchesWhoseAveragesLookLikeAnotherTouchAtFi
       const double load = 0.6;
       const auto strains =
           ring.strains({5 + static_cast<double>(place) / kPlaces, load, lean * load, width_mm});
-      for (int set = 0; set < kUntouchedInterval; ++set) takeUntouched(noisy(strains));
+      for (int set = 0; set < ZeroTracker::kUntilFollowed; ++set) takeUntouched(noisy(strains));
       followed += mostFollowed_strain() > 0;
     }
   LONGS_EQUAL(0, followed);
@@ -103,13 +100,13 @@ TEST(ZeroTracker, DoesNotFollowFaintTouchesWhoseAveragesLookLikeAnotherTouchAtFi
 
 TEST(ZeroTracker, FollowsAtMostTwoDeviationsAnInterval) {
   const std::vector<double> strains(16, 50e-6);
-  for (int set = 0; set < kUntouchedInterval; ++set) takeUntouched(strains);
+  for (int set = 0; set < ZeroTracker::kUntilFollowed; ++set) takeUntouched(strains);
   DOUBLES_EQUAL(2 * ring.noise_strain(), followed_strain(3), 0.1e-6);
   DOUBLES_EQUAL(2 * ring.noise_strain(), std::ldexp(*tracker.lastChange_q32(), -32), 0.1e-6);
 }
 
 TEST(ZeroTracker, LearnsNothingOfGaugesLeftOut) {
-  for (int set = 0; set < kUntouchedInterval; ++set)
+  for (int set = 0; set < ZeroTracker::kUntilFollowed; ++set)
     takeUntouched(std::vector<double>(16, 30e-6), set == 7 ? 1u << 4 : 0);
   LONGS_EQUAL(first.zero_q15[4], calibration.zero_q15[4]);
   CHECK(first.zero_q15[5] != calibration.zero_q15[5]);
@@ -163,7 +160,7 @@ TEST(ZeroTracker, TenMinutesWithoutAnUntouchedRingAreStale) {
 }
 
 TEST(ZeroTracker, AfterARestartNothingIsKnown) {
-  for (int set = 0; set < kUntouchedInterval; ++set) takeUntouched(std::vector<double>(16, 30e-6));
+  for (int set = 0; set < ZeroTracker::kUntilFollowed; ++set) takeUntouched(std::vector<double>(16, 30e-6));
   CHECK_TRUE(tracker.lastChange_q32().has_value());
   tracker.restart();
   CHECK_FALSE(tracker.lastChange_q32().has_value());

@@ -70,7 +70,7 @@ bool ZeroTracker::isWorthFollowing(const TableConstants& constants, GaugeSet gau
   return energy > kWorthFollowing * squareOf(noise);
 }
 
-/// What the averages are as readings of a contact.
+/// One contact made the averages of these gauges.
 Hypothesis ZeroTracker::oneContact(const TableConstants& constants, GaugeSet gauges) {
   return {1, constants.width_is_known == 0, gauges};
 }
@@ -90,7 +90,7 @@ bool ZeroTracker::looksLikeAContact(const TableImage& tables, GaugeSet gauges, L
     if (contains(gauges, i)) energy += squareOf(readings.value[at(i)]);
   const Solution solution =
       fit(tables, oneContact(tables.constants, gauges), {start_}, readings, kMostSteps, scratch);
-  return isPromising(tables.constants, solution) && solution.residualEnergy < energy >> kContactBits;
+  return isAdmissible(tables.constants, solution) && solution.residualEnergy < energy >> kContactBits;
 }
 
 /// Gauges that no contact reaches.

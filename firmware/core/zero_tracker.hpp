@@ -15,8 +15,8 @@ namespace strainfinger::firmware {
 /// Zeros follow what no contact can explain, by two standard deviations of a reading an interval at most.
 ///   - Untouched: the averages of all gauges, once they are worth it, unless one contact explains nearly all
 ///     of them: a touch that grows over minutes looks like that, drift does not. The fit starts where a
-///     coarse grid is best and, if it finds no contact, once more elsewhere: one start misses one touch in
-///     eighty.
+///     coarse grid is best and, if it finds no contact, once more elsewhere: at some places the first leads
+///     to another answer.
 ///   - Touched: while the contacts rest, what the gauges that they don't reach change by in common, as warmth
 ///     does it. What each gauge drifts by on its own is not told from the touch.
 /// How old the zeros are is told (stale()).

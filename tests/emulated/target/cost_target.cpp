@@ -122,7 +122,8 @@ void idle(const InstructionCounter& counter) {
 /// Gauges that each drift on their own, too little to be a touch: the dearest set of each interval after
 /// which zeros follow, and of what then goes on for a few sets.
 void drifting(const InstructionCounter& counter, const TableImage& tables, const char* what) {
-  constexpr std::uint32_t kIntervals = 20, kSets = firmware::ZeroTracker::kInterval + 16;
+  constexpr std::uint32_t kIntervals = 20;
+  constexpr std::uint32_t kSets = firmware::ZeroTracker::kUntilFollowed + firmware::ZeroTracker::kEvery;
   CountedFinger& finger = newFinger(tables, counter);
   for (std::uint32_t interval = 0; interval < kIntervals; ++interval) {
     Draws draws(interval);

@@ -170,8 +170,8 @@ TEST_GROUP(Ranking) {
     constants.cone_q8 = 256;
     readings.gateVariance_q4 = 16;
   }
-  void take(int degrees, Wide energy, Number tangential = 0, Number moment_q20 = 0) {
-    Solution solution{{1, true, allGauges(16)}, {}};
+  void take(int degrees, Wide energy, Number tangential = 0, Number moment_q20 = 0, GaugeSet leftOut = 0) {
+    Solution solution{{1, true, allGauges(16) & ~leftOut}, {}};
     solution.contact[0] = {static_cast<std::uint32_t>(degrees) * 11'930'465u, 1000, tangential, moment_q20};
     solution.residualEnergy = energy;
     ranking.take(constants, solution, readings);
@@ -230,25 +230,19 @@ TEST(Ranking, WhereABetterAnswerIsAnotherWidthOfTheBestTheRivalElsewhereStays) {
   LONGS_EQUAL(50, degreesOf(ranking.second));
 }
 
-TEST(Ranking, ASecondThatABetterAnswerIsTheSameAsIsNone) {
+TEST(Ranking, ASecondThatIsTheSameAsABetterAnswerIsNone) {
   take(10, 100);
-  take(50, 104);
-  take(50, 90);
-  LONGS_EQUAL(50, degreesOf(ranking.best));
-  LONGS_EQUAL(10, degreesOf(ranking.second));
+  take(12, 105);
+  LONGS_EQUAL(12, degreesOf(ranking.second));
+  take(11, 90);
+  CHECK_FALSE(ranking.anySecond);
 }
 
 // Which gauge is at fault is asked of all gauges near by, wherever the contact is without them.
 TEST(Ranking, OfOtherHypothesesTheNextBestIsTheSecond) {
-  const auto without = [this](int gauge, int degrees, Wide energy) {
-    Solution solution{{1, true, allGauges(16) & ~(GaugeSet{1} << gauge)}, {}};
-    solution.contact[0] = {static_cast<std::uint32_t>(degrees) * 11'930'465u, 1000, 0, 0};
-    solution.residualEnergy = energy;
-    ranking.take(constants, solution, readings);
-  };
-  without(3, 10, 100);
-  without(4, 10, 105);
-  without(5, 50, 113);
+  take(10, 100, 0, 0, 1u << 3);
+  take(10, 105, 0, 0, 1u << 4);
+  take(50, 113, 0, 0, 1u << 5);
   LONGS_EQUAL(105, ranking.second.residualEnergy);
 }
 

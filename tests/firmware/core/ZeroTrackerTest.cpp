@@ -28,8 +28,8 @@ TEST_GROUP(ZeroTracker) {
     const double codes = std::ldexp(calibration.zero_q15[gauge] - first.zero_q15[gauge], -15);
     return codes * std::ldexp(calibration.gain[gauge], 15 - 64);
   }
-  void takeUntouched(const std::vector<double>& strains, GaugeSet leftOut = 0) {
-    tracker.take(ring.tables(), conditionedBy(strains), nullptr, leftOut, calibration, scratch);
+  void takeUntouched(const std::vector<double>& strains, GaugeSet leftOut = 0, bool isTimeLeft = true) {
+    tracker.take(ring.tables(), conditionedBy(strains), nullptr, leftOut, calibration, scratch, isTimeLeft);
   }
   void takeTouched(const std::vector<double>& strains) {
     const auto raw = conditionedBy(strains);
@@ -103,6 +103,14 @@ TEST(ZeroTracker, FollowsAtMostTwoDeviationsAnInterval) {
   for (int set = 0; set < ZeroTracker::kUntilFollowed; ++set) takeUntouched(strains);
   DOUBLES_EQUAL(2 * ring.noise_strain(), followed_strain(3), 0.1e-6);
   DOUBLES_EQUAL(2 * ring.noise_strain(), std::ldexp(*tracker.lastChange_q32(), -32), 0.1e-6);
+}
+
+TEST(ZeroTracker, FollowsAsSoonAsThereIsTime) {
+  const std::vector<double> strains(16, 50e-6);
+  for (int set = 0; set < 2 * ZeroTracker::kInterval; ++set) takeUntouched(strains, 0, false);
+  DOUBLES_EQUAL(0, followed_strain(3), 1e-9);
+  for (int set = 0; set < 4 * ZeroTracker::kEvery; ++set) takeUntouched(strains);
+  DOUBLES_EQUAL(2 * ring.noise_strain(), followed_strain(3), 0.1e-6);
 }
 
 TEST(ZeroTracker, LearnsNothingOfGaugesLeftOut) {

@@ -40,7 +40,7 @@ void setWidth(const TableConstants& constants, Number moment_q20, std::int64_t s
 std::uint8_t qualityOf(const Answer& answer, int freedoms) {
   constexpr int kMostUncertain = 20;
   const std::int64_t allowed =
-      energyOf(answer.gateVariance_q4, threshold::kGatePerFreedom * freedoms + threshold::kGate);
+      energyOf(answer.variances, threshold::kGatePerFreedom * freedoms + threshold::kGate);
   const std::int64_t energy = answer.solution.residualEnergy;
   const auto quality = energy <= allowed ? 100 : std::max<std::int64_t>(100 * allowed / energy, 1);
   if (!answer.accepted) return static_cast<std::uint8_t>(std::min<std::int64_t>(quality, kMostUncertain));
@@ -52,7 +52,7 @@ std::uint16_t chiOf_q4(const Answer& answer, int freedoms) {
   if (answer.solution.residualEnergy == 0) return 0;
   const Floating energy = floatingOf(static_cast<std::uint64_t>(answer.solution.residualEnergy));
   const Floating allowed =
-      floatingOf(std::uint64_t{answer.gateVariance_q4} * static_cast<std::uint32_t>(freedoms));
+      floatingOf(std::uint64_t{answer.variances.gate_q4} * static_cast<std::uint32_t>(freedoms));
   Floating ratio = floatingOf(energy.mantissa / (allowed.mantissa >> 16));  // * 2^16, to 2^-15
   ratio.exponent += energy.exponent - allowed.exponent - 16 + 4;
   const Root chi = rootOf(ratio);
@@ -89,7 +89,7 @@ TurnQ32 withPlaceError(const TableConstants& constants, TurnQ32 sigma) {
 /// Where the contact is felt most, its normal load is read within so few standard deviations of noise.
 bool isWeak(const Answer& answer, const ContactState& state) {
   const Wide amplitude = state.normal;  // a reading * 2
-  return 4 * amplitude * amplitude < Wide{threshold::kWeakSignal} * answer.noiseVariance_q4;
+  return 4 * amplitude * amplitude < Wide{threshold::kWeakSignal} * answer.variances.noise_q4;
 }
 
 LineLoadQ12 loadOf(const TableConstants& constants, const Answer& answer, std::int64_t amplitude) {
@@ -104,7 +104,7 @@ constexpr Wide reaching(Wide sigma, Wide far) { return std::max(sigma, magnitude
 /// than the answer's own errors reached.
 void coverRival(const TableConstants& constants, const Answer& answer, int contact, Contact& estimated) {
   if (answer.rivalEnergy < 0) return;
-  if (answer.rivalEnergy >= energyOf(answer.gateVariance_q4, threshold::kAmbiguous)) return;
+  if (answer.rivalEnergy >= ambiguity(answer.variances, answer.solution)) return;
   const ContactState& rival = answer.rival[at(contact)];
   const Wide turned_q32 = static_cast<std::int32_t>(rival.angle_q32 - estimated.angle.raw());
   const Wide sigma_q32 = reaching(estimated.sigmaAngle.raw(), turned_q32);
@@ -139,7 +139,7 @@ Contact estimate(const TableConstants& constants, const Answer& answer, const Un
                  int contact) {
   const Hypothesis& hypothesis = answer.solution.hypothesis;
   const ContactState& state = answer.solution.contact[at(contact)];
-  const Root reading = rootOf(floatingOf(answer.variance_q4));  // [* 2^2]
+  const Root reading = rootOf(floatingOf(answer.variances.reading_q4));  // [* 2^2]
   const auto sigma = [&](int unknown, int unitBits, std::int64_t most) {
     const Root& unit = errors.sigma[at(unknown)];
     if (unit.mantissa == 0) return most;

@@ -356,7 +356,7 @@ bool isShort(const TableConstants& constants, const ContactState& from, const Co
 bool changesLittle(Wide reduction, const Hypothesis& hypothesis, const ScaledReadings& readings) {
   const Wide most = hypothesis.exact == 0 ? 256 : 2;
   return reduction < (hypothesis.exact == 0 ? 64 : 16) ||
-         (reduction < Wide{1} << 31 && reduction * reduction <= most * readings.noiseVariance_q4);
+         (reduction < Wide{1} << 31 && reduction * reduction <= most * readings.variances.noise_q4);
 }
 
 /// A step after which another would not matter. That of three readings is long where they tell little.

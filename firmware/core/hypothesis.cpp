@@ -34,9 +34,8 @@ ScaledReadings scaledReadings(const TableConstants& constants, std::span<const N
   const auto withModelError = [&](Natural error) {
     return static_cast<std::uint32_t>(std::min<Natural>(error * error + noise, kMostVariance_q4));
   };
-  scaled.variance_q4 = withModelError(modelError);
-  scaled.gateVariance_q4 = withModelError(modelError >> kGateModelError);
-  scaled.noiseVariance_q4 = withModelError(0);
+  scaled.variances = {withModelError(modelError), withModelError(modelError >> kGateModelError),
+                      withModelError(0)};
   return scaled;
 }
 

@@ -45,6 +45,13 @@ struct Hypothesis {
 
 using ContactStates = std::array<ContactState, kMostContacts>;
 
+/// Of one scaled reading [* 2^4].
+struct Variances {
+  std::uint32_t reading_q4 = 0;  ///< noise, rounding and the model's error
+  std::uint32_t gate_q4 = 0;     ///< the same by which hypotheses are judged, see kGateModelError
+  std::uint32_t noise_q4 = 0;    ///< noise and rounding alone, which jitter from set to set
+};
+
 /// A wrong build pulls the answer along rather than leaving residuals: of a model error of 5 % the fit leaves
 /// 0.6 % of the largest reading in the median and 3 % once in a hundred touches. Hypotheses are judged by a
 /// quarter of the model error [log2].
@@ -54,9 +61,7 @@ inline constexpr int kGateModelError = 2;
 /// are tiny. Half a step of rounding is part of the variance.
 struct ScaledReadings {
   std::array<Short, kMaxGauges> value;  ///< of the gauges that there are
-  std::uint32_t variance_q4 = 0;        ///< of a reading: noise, rounding and the model's error [* 2^4]
-  std::uint32_t gateVariance_q4 = 0;    ///< the same by which hypotheses are judged, see kGateModelError
-  std::uint32_t noiseVariance_q4 = 0;   ///< noise and rounding alone: what a fit has to reach
+  Variances variances;
   std::int8_t shift = 0;
 };
 

@@ -1,5 +1,6 @@
 #include "firmware/core/judge.hpp"
 
+#include <algorithm>
 #include <bit>
 
 namespace strainfinger::firmware {
@@ -14,6 +15,14 @@ Number largestReading(const ScaledReadings& readings, GaugeSet gauges) {
 }
 
 }  // namespace
+
+Wide ambiguity(const Variances& variances, const Solution& better) {
+  const Wide least = energyOf(variances.noise_q4, threshold::kAmbiguous),
+             most = energyOf(variances.reading_q4, threshold::kAmbiguous);
+  const Wide left = better.residualEnergy + energyOf(variances, 1);
+  return std::clamp(threshold::kAmbiguousRatio * left / std::max(freedoms(better.hypothesis), 1), least,
+                    most);
+}
 
 bool isAdmissible(const TableConstants& constants, const ContactState& contact) {
   return contact.normal > 0 && magnitude(contact.tangential) <= scaled<8>(contact.normal, constants.cone_q8);
@@ -53,27 +62,36 @@ int freedoms(const Hypothesis& hypothesis) {
 namespace {
 
 bool explains(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings,
-              int chiSquared) {
+              Wide allowed) {
   const int left = freedoms(solution.hypothesis);
   if (left < 1 || !isAdmissible(constants, solution)) return false;
-  const Wide allowed = energyOf(readings, chiSquared);
   if (solution.residualEnergy <= allowed) return true;
   const Number off = largestReading(readings, solution.hypothesis.gauges) >> 5;
   const Wide profile = (Wide{off} * off * left) >> (2 * (threshold::kProfileErrorBits - 5));
   return solution.residualEnergy <= allowed + profile;
 }
 
+int doubt(const Hypothesis& hypothesis) {
+  return (threshold::kDoubtPerFreedom_q2 * freedoms(hypothesis) >> 2) + threshold::kDoubt;
+}
+
 }  // namespace
 
 bool isAccepted(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings) {
   const int left = freedoms(solution.hypothesis);
-  return explains(constants, solution, readings, threshold::kGatePerFreedom * left + threshold::kGate);
+  return explains(constants, solution, readings,
+                  energyOf(readings, threshold::kGatePerFreedom * left + threshold::kGate));
 }
 
 bool isPlain(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings) {
-  const int left = freedoms(solution.hypothesis);
-  return explains(constants, solution, readings,
-                  (threshold::kDoubtPerFreedom_q2 * left >> 2) + threshold::kDoubt);
+  return explains(constants, solution, readings, energyOf(readings, doubt(solution.hypothesis)));
+}
+
+bool isPlainAsBuilt(const TableConstants& constants, const Solution& solution,
+                    const ScaledReadings& readings) {
+  const Variances& variances = readings.variances;
+  const Wide model = energyOf(variances.gate_q4 - variances.noise_q4, doubt(solution.hypothesis));
+  return explains(constants, solution, readings, energyOf(readings, doubt(solution.hypothesis)) + model);
 }
 
 bool isFirm(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings) {

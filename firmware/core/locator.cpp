@@ -32,6 +32,13 @@ Hypothesis oneContact(const TableImage& tables, FitMode mode, GaugeSet gauges) {
   return {1, widthIsFree, gauges};
 }
 
+/// What a gauge that is left out changes is nobody's business while the place stays.
+bool saysOther(const TableConstants& constants, const Solution& answer, const Solution& other) {
+  const int contacts = answer.hypothesis.contacts;
+  return contacts != other.hypothesis.contacts ||
+         areElsewhere(constants, contacts, answer.contact, other.contact);
+}
+
 /// Both contacts of a pair press by more than noise, and by a 16th of the other.
 bool areBothContacts(const Solution& pair, const ScaledReadings& readings) {
   const Number first = pair.contact[0].normal, second = pair.contact[1].normal;
@@ -71,13 +78,11 @@ void Locator::forget() {
 void Locator::believe(const TableImage& tables, const Solution& solution, const ScaledReadings& readings) {
   answer_.solution = solution;
   answer_.shift = readings.shift;
-  answer_.variance_q4 = readings.variance_q4;
-  answer_.gateVariance_q4 = readings.gateVariance_q4;
-  answer_.noiseVariance_q4 = readings.noiseVariance_q4;
+  answer_.variances = readings.variances;
   answer_.accepted = isAccepted(tables.constants, solution, readings);
-  setsInDoubt_ = isPlain(tables.constants, solution, readings)
-                     ? 0
-                     : static_cast<std::uint8_t>(std::min<int>(setsInDoubt_ + 1, kNewDoubt));
+  const bool leavesDoubt = isLookedInto_ ? !isPlainAsBuilt(tables.constants, solution, readings)
+                                         : !isPlain(tables.constants, solution, readings);
+  setsInDoubt_ = static_cast<std::uint8_t>(leavesDoubt ? std::min<int>(setsInDoubt_ + 1, kNewDoubt) : 0);
   tracking_ = true;
 }
 
@@ -180,7 +185,7 @@ int Locator::followRival(const TableImage& tables, const ScaledReadings& reading
   const bool isMerged =
       areSame(tables.constants, contacts, answer.contact, rival.contact) ||
       (answer_.rivalIsElsewhere && !areElsewhere(tables.constants, contacts, answer.contact, rival.contact));
-  const bool isRefuted = more > energyOf(readings, threshold::kRefuted);
+  const bool isRefuted = more > threshold::kRefuted * ambiguity(readings.variances, answer);
   answer_.rivalIsLost = isMerged || isRefuted;
   if (answer_.rivalIsLost) {
     if (!isMerged) answer_.rival = rival.contact;
@@ -203,6 +208,7 @@ int Locator::followRival(const TableImage& tables, const ScaledReadings& reading
 
 void Locator::start(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges) {
   answer_ = {};
+  isLookedInto_ = false;
   slid_q32_ = slidBefore_q32_ = {};
   search_.stop();
   const Hypothesis hypothesis = oneContact(tables, mode_, gauges);
@@ -255,12 +261,13 @@ bool Locator::conclude(const TableImage& tables) {
   answer_.timesRefuted = 0;
   if (!best) return false;
   const bool faulty = explains[kWithoutOne], two = explains[kPair];
-  answer_.doubtful =
-      !isPlain(tables.constants, rankings[*best]->best, readings) ||
-      (next && explains[*next] && costOf(*next) - costOf(*best) < energyOf(readings, threshold::kAmbiguous));
+  const Solution& answer = rankings[*best]->best;
+  answer_.doubtful = !isPlainAsBuilt(tables.constants, answer, readings) ||
+                     (next && explains[*next] && saysOther(tables.constants, answer, rankings[*next]->best) &&
+                      costOf(*next) - costOf(*best) < ambiguity(readings.variances, answer));
   answer_.several = *best == kPair || (!faulty && *best != kSingle);
   if (*best == kWithoutOne && !(two && answer_.doubtful)) answer_.suspect = culprit(tables);
-  believe(tables, rankings[*best]->best, readings);
+  believe(tables, answer, readings);
   rememberRival(tables, *rankings[*best], readings);
   return true;
 }
@@ -280,7 +287,7 @@ void Locator::rememberRival(const TableImage& tables, const Ranking& ranking,
   answer_.rival = inOrderOf(ranking.best, ranking.second.contact);
   const Wide more = likelihoodEnergy(tables.constants, ranking.second, readings) -
                     likelihoodEnergy(tables.constants, ranking.best, readings);
-  if (more > energyOf(readings, threshold::kRefuted)) return;
+  if (more > threshold::kRefuted * ambiguity(readings.variances, ranking.best)) return;
   answer_.rivalEnergy = more;
   answer_.rivalIsElsewhere =
       areElsewhere(tables.constants, ranking.best.hypothesis.contacts, ranking.best.contact, answer_.rival);
@@ -291,8 +298,8 @@ void Locator::rememberRival(const TableImage& tables, const Ranking& ranking,
 void Locator::rememberFound(const TableConstants& constants, const Solution& followed, const Solution& found,
                             const ScaledReadings& readings) {
   if (!areElsewhere(constants, followed.hypothesis.contacts, followed.contact, found.contact)) return;
-  if (!isPromising(constants, found) ||
-      found.residualEnergy - followed.residualEnergy > energyOf(readings, threshold::kRefuted))
+  if (!isPromising(constants, found) || found.residualEnergy - followed.residualEnergy >
+                                            threshold::kRefuted * ambiguity(readings.variances, followed))
     return;
   answer_.rival = inOrderOf(followed, found.contact);
   answer_.rivalEnergy = 0;
@@ -308,6 +315,7 @@ void Locator::goOn(const TableImage& tables, const ScaledReadings& readings, int
   };
   if (stepsLeft() < 1) return;
   const Solution followed = answer_.solution;
+  isLookedInto_ = true;
   const bool isFound = conclude(tables);
   search_.stop();
   // The touch has gone on since the search began: what was found has moved as the answer that was followed.

@@ -20,11 +20,9 @@ enum class FitMode : std::uint8_t {
 /// What the locator believes.
 struct Answer {
   Solution solution;
-  std::int8_t shift = 0;               ///< of the readings
-  std::uint32_t variance_q4 = 0;       ///< of a reading
-  std::uint32_t gateVariance_q4 = 0;   ///< by which hypotheses are judged
-  std::uint32_t noiseVariance_q4 = 0;  ///< of a reading, that jitters from set to set
-  ContactStates rival;                 ///< another answer of the same hypothesis
+  std::int8_t shift = 0;  ///< of the readings
+  Variances variances;
+  ContactStates rival;            ///< another answer of the same hypothesis
   Wide rivalEnergy = -1;          ///< what that answer leaves more [residual energy]; negative: there is none
   bool rivalIsElsewhere = false;  ///< when it was found, not another width of the same place
   bool rivalIsLost = false;       ///< a search is to look for it
@@ -90,6 +88,7 @@ class Locator {
   std::array<std::uint32_t, kMostContacts> slid_q32_{}, slidBefore_q32_{};
   FitMode mode_;
   bool tracking_ = false;
+  bool isLookedInto_ = false;     ///< by a search since the touch was found
   bool guessed_ = false;          ///< the answer is where a fit starts
   std::uint8_t setsInDoubt_ = 0;  ///< in a row, up to where a search begins
   std::uint8_t setsSinceRival_ = 0;

@@ -87,7 +87,9 @@ bool areSame(const TableConstants& constants, int contacts, const ContactStates&
 
 bool areElsewhere(const TableConstants& constants, int contacts, const ContactStates& a,
                   const ContactStates& b) {
-  const auto match = [&](int i, int j) { return apart_q32(a[at(i)], b[at(j)]) < pitch_q32(constants) / 4; };
+  const auto match = [&](int i, int j) {
+    return apart_q32(a[at(i)], b[at(j)]) < pitch_q32(constants) / 16 * threshold::kElsewhere_16;
+  };
   if (contacts == 1) return !match(0, 0);
   return !(match(0, 0) && match(1, 1)) && !(match(0, 1) && match(1, 0));
 }
@@ -107,7 +109,7 @@ void Ranking::take(const TableConstants& constants, const Solution& solution,
   };
   const auto isRival = [&](const Solution& of) {
     return of.hypothesis == best.hypothesis &&
-           energy(of) - energy(best) < energyOf(readings, threshold::kAmbiguous) &&
+           energy(of) - energy(best) < ambiguity(readings.variances, best) &&
            areElsewhere(constants, of.hypothesis.contacts, of.contact, best.contact);
   };
   Solution other = solution;
@@ -327,7 +329,7 @@ bool Search::isRefining() const {
   if (kept_ == refined || next == candidates_.size()) return false;
   return steps_ > 0 || next == 0 || hypothesis_.contacts > 1 ||
          candidates_[next].residualEnergy >> threshold::kHopelessBits <
-             candidates_[0].residualEnergy + energyOf(looked_, threshold::kRefuted);
+             candidates_[0].residualEnergy + energyOf(looked_, threshold::kRefuted * threshold::kAmbiguous);
 }
 
 Ranking& Search::ranking() {
@@ -357,8 +359,16 @@ void Search::withoutNext(const TableImage& tables) {
     const Hypothesis without{1, all_.widthIsFree, all_.gauges & ~(GaugeSet{1} << leftOut_++)};
     return beginTask(without, Grid(tables, without, readings_, Grid::Kind::kCoarse));
   }
+  if (isSettled(tables.constants)) return finish();
   stage_ = Stage::kFirstOfPair;
   beginTask(all_, Grid(tables, all_, readings_, Grid::Kind::kRing));
+}
+
+/// One contact explains the readings, on a finger as built, and no gauge that is left out moves it elsewhere.
+bool Search::isSettled(const TableConstants& constants) const {
+  if (!single_.anyBest || !isPlainAsBuilt(constants, single_.best, readings_)) return false;
+  return !withoutOne_.anyBest || !isAccepted(constants, withoutOne_.best, readings_) ||
+         !areElsewhere(constants, 1, single_.best.contact, withoutOne_.best.contact);
 }
 
 /// One contact of the pair is sought anew in what the other leaves of the readings: near every contact there

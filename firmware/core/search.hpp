@@ -161,6 +161,7 @@ class Search {
   void finishTask(const TableImage& tables, Linearisation& scratch);
   void findSuspects(const TableImage& tables, Linearisation& scratch);
   void withoutNext(const TableImage& tables);
+  bool isSettled(const TableConstants& constants) const;
   void lookAgain(const TableImage& tables, int contact, Linearisation& scratch);
   void tryTogether();
   void finish() { stage_ = Stage::kDone; }

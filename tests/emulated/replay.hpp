@@ -57,8 +57,8 @@ inline void add(Hash& hash, const firmware::Pipeline& pipeline, std::uint32_t sa
   hash.add(hypothesis.gauges);
   hash.add(hypothesis.exact);
   hash.add(answer.suspect);
-  hash.add(answer.variance_q4);
-  hash.add(answer.gateVariance_q4);
+  hash.add(answer.variances.reading_q4);
+  hash.add(answer.variances.gate_q4);
   hash.add(std::int32_t{answer.solution.converged} + 2 * std::int32_t{answer.accepted} +
            4 * std::int32_t{answer.searching} + 8 * std::int32_t{answer.several} +
            16 * std::int32_t{answer.doubtful} + 256 * answer.shift);

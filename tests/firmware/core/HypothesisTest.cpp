@@ -61,7 +61,7 @@ TEST(ScaledReadings, NothingIsNothing) {
   const ScaledReadings readings = scaled();
   LONGS_EQUAL(0, readings.shift);
   for (std::size_t i = 0; i < strains.size(); ++i) LONGS_EQUAL(0, readings.value[i]);
-  LONGS_EQUAL(kRounding_q4, readings.variance_q4);
+  LONGS_EQUAL(kRounding_q4, readings.variances.reading_q4);
 }
 
 TEST(ScaledReadings, GaugesThatDoNotCountSaturate) {
@@ -92,9 +92,9 @@ TEST(ScaledReadings, TheVarianceIsThatOfNoiseAndRounding) {
   strains[0] = 1 << 20;  // divided by 2^6
   for (const double variance : {1e6, 3e7, 5e8}) {
     setNoise(variance);
-    DOUBLES_EQUAL(variance / 4096 * 16 + kRounding_q4, scaled().variance_q4, 1);
-    DOUBLES_EQUAL(variance / 4096 * 16 * 5 + kRounding_q4, scaled(5 * 16).variance_q4, 5);
-    LONGS_EQUAL(scaled().variance_q4, scaled().gateVariance_q4);
+    DOUBLES_EQUAL(variance / 4096 * 16 + kRounding_q4, scaled().variances.reading_q4, 1);
+    DOUBLES_EQUAL(variance / 4096 * 16 * 5 + kRounding_q4, scaled(5 * 16).variances.reading_q4, 5);
+    LONGS_EQUAL(scaled().variances.reading_q4, scaled().variances.gate_q4);
   }
 }
 
@@ -102,15 +102,15 @@ TEST(ScaledReadings, TheModelErrorIsAPartOfTheLargestReading) {
   constants.model_error_q16 = 3277;  // 5 %
   strains[7] = -24'000;
   strains[8] = 12'000;
-  DOUBLES_EQUAL(1200.0 * 1200 * 16, scaled().variance_q4, 1200.0 * 1200 * 16 / 500);
-  DOUBLES_EQUAL(300.0 * 300 * 16, scaled().gateVariance_q4, 300.0 * 300 * 16 / 200);
+  DOUBLES_EQUAL(1200.0 * 1200 * 16, scaled().variances.reading_q4, 1200.0 * 1200 * 16 / 500);
+  DOUBLES_EQUAL(300.0 * 300 * 16, scaled().variances.gate_q4, 300.0 * 300 * 16 / 200);
 }
 
 TEST(ScaledReadings, TheModelErrorIsNotThatOfGaugesThatDoNotCount) {
   constants.model_error_q16 = 3277;
   strains[7] = 20'000;
   gauges &= ~(GaugeSet{1} << 7);
-  LONGS_EQUAL(kRounding_q4, scaled().variance_q4);
+  LONGS_EQUAL(kRounding_q4, scaled().variances.reading_q4);
 }
 
 TEST(ScaledReadings, VariancesSaturateForAnyConstants) {
@@ -122,8 +122,9 @@ TEST(ScaledReadings, VariancesSaturateForAnyConstants) {
         constants.noise_variance_exponent = static_cast<std::int8_t>(exponent);
         strains[0] = strain;
         const ScaledReadings readings = scaled(std::numeric_limits<std::uint32_t>::max());
-        CHECK(readings.variance_q4 >= readings.gateVariance_q4 && readings.variance_q4 <= 0x7FFFFFFF);
-        CHECK(readings.gateVariance_q4 >= kRounding_q4);
+        CHECK(readings.variances.reading_q4 >= readings.variances.gate_q4 &&
+              readings.variances.reading_q4 <= 0x7FFFFFFF);
+        CHECK(readings.variances.gate_q4 >= kRounding_q4);
       }
 }
 

@@ -16,7 +16,7 @@ TEST_GROUP(Judge) {
     constants.gauge_count = 16;
     constants.cone_q8 = 320;  // 1.25
     constants.largest_moment_um2 = 4'000'000;
-    readings.variance_q4 = readings.gateVariance_q4 = 100 << 4;
+    readings.variances.reading_q4 = readings.variances.gate_q4 = 100 << 4;
     solution.hypothesis = {1, true, allGauges(16)};
     solution.contact[0] = {0, 8000, 0, 0};
   }
@@ -86,7 +86,7 @@ TEST(Judge, ReadingsAreExplainedUpToTheGate) {
 }
 
 TEST(Judge, TheGateFollowsTheVariance) {
-  readings.gateVariance_q4 = 400 << 4;
+  readings.variances.gate_q4 = 400 << 4;
   CHECK_TRUE(isAcceptedAt(20'800));
   CHECK_FALSE(isAcceptedAt(20'801));
 }
@@ -110,6 +110,46 @@ TEST(Judge, WithoutADegreeOfFreedomNothingIsExplained) {
   CHECK_TRUE(isAcceptedAt(0));
 }
 
+TEST(Judge, OnAFingerAsBuiltTwiceTheModelsErrorLeavesNoDoubt) {
+  const auto isPlainAt = [&](Wide energy, bool asBuilt) {
+    solution.residualEnergy = energy;
+    return asBuilt ? isPlainAsBuilt(constants, solution, readings) : isPlain(constants, solution, readings);
+  };
+  // 12 degrees of freedom: chi-squared of 7 / 4 * 12 + 8.
+  readings.variances.noise_q4 = 30 << 4;
+  CHECK_TRUE(isPlainAt(29 * 100, false));
+  CHECK_FALSE(isPlainAt(29 * 100 + 1, false));
+  CHECK_TRUE(isPlainAt(29 * (30 + 2 * 70), true));
+  CHECK_FALSE(isPlainAt(29 * (30 + 2 * 70) + 1, true));
+  readings.variances.noise_q4 = readings.variances.gate_q4;
+  CHECK_TRUE(isPlainAt(29 * 100, true));
+  CHECK_FALSE(isPlainAt(29 * 100 + 1, true));
+}
+
+TEST(Judge, AnswersAreToldApartByWhatTheBetterOneLeavesWithinNoiseAndModelError) {
+  std::uint32_t noise = 10;
+  const auto ambiguityAt = [&](Wide energy) {
+    solution.residualEnergy = energy;
+    return ambiguity({1600 << 4, 100 << 4, noise << 4}, solution);
+  };
+  LONGS_EQUAL(2 * (0 + 100), ambiguityAt(0));  // 24 of 12 freedoms
+  LONGS_EQUAL(2 * (3000 + 100), ambiguityAt(3000));
+  LONGS_EQUAL(14 * 1600, ambiguityAt(1'000'000));
+  noise = 30;
+  LONGS_EQUAL(14 * 30, ambiguityAt(0));
+  solution.hypothesis.contacts = 2;
+  LONGS_EQUAL(3 * (3000 + 100), ambiguityAt(3000));
+  solution.hypothesis.gauges = allGauges(8);
+  LONGS_EQUAL(14 * 1600, ambiguityAt(3000));  // no freedom is left
+}
+
+TEST(Judge, WithoutModelErrorNoiseAloneTellsAnswersApart) {
+  for (const Wide energy : {0, 1000, 1'000'000}) {
+    solution.residualEnergy = energy;
+    LONGS_EQUAL(14 * 100, ambiguity({100 << 4, 100 << 4, 100 << 4}, solution));
+  }
+}
+
 TEST(Judge, AnInadmissibleAnswerCountsAsLessLikely) {
   solution.residualEnergy = 1000;
   LONGS_EQUAL(1000, likelihoodEnergy(constants, solution, readings));
@@ -118,14 +158,14 @@ TEST(Judge, AnInadmissibleAnswerCountsAsLessLikely) {
 }
 
 TEST(Judge, FirmTouchesHaveMuchSignal) {
-  readings.gateVariance_q4 = 200 << 4;
+  readings.variances.gate_q4 = 200 << 4;
   CHECK_TRUE(isFirmWith(15'492, 0));  // 1,200,000 variances
   CHECK_TRUE(isFirmWith(-15'492, 0));
   CHECK_FALSE(isFirmWith(15'490, 0));
 }
 
 TEST(Judge, WideTouchesAreNotFirmUnlessTheirWidthIsKnown) {
-  readings.gateVariance_q4 = 16;
+  readings.variances.gate_q4 = 16;
   CHECK_TRUE(isFirmWith(20'000, 360'000));
   CHECK_FALSE(isFirmWith(20'000, 361'000));
   solution.hypothesis.widthIsFree = false;
@@ -133,7 +173,7 @@ TEST(Judge, WideTouchesAreNotFirmUnlessTheirWidthIsKnown) {
 }
 
 TEST(Judge, ATouchThatNotAllGaugesReadIsNotFirm) {
-  readings.gateVariance_q4 = 16;
+  readings.variances.gate_q4 = 16;
   CHECK_TRUE(isFirmWith(20'000, 0));
   solution.hypothesis.gauges &= ~GaugeSet{1 << 9};
   CHECK_FALSE(isFirmWith(20'000, 0));

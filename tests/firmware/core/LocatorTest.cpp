@@ -229,6 +229,39 @@ TEST(Locator, AGaugeThatStopsCountingChangesNothing) {
   }
 }
 
+// Builds leave more than noise and a quarter of the model's error in every set.
+TEST(Locator, OnAFingerAsBuiltWhatWasLookedIntoIsNeitherDoubtedNorLookedIntoAgain) {
+  const ModelRing built;
+  Presses presses(16, 20, 417, 0, 2);
+  constexpr int kTouches = kSanitized ? 600 : 2700;
+  int settled = 0, doubted = 0;
+  for (int i = 0; i < kTouches; ++i) {
+    const auto strains = built.strainsAsBuilt(presses.next(), presses);
+    const ScaledReadings readings = built.scaled(strains);
+    const auto hold = [&](int sets) {
+      int searched = 0;
+      for (int set = 0; set < sets; ++set) {
+        update(built, presses.noisy(strains, built.noise_strain()), built.allGauges());
+        searched += locator.isSearching();
+      }
+      return searched;
+    };
+    locator.release();
+    hold(160);
+    const Answer& answer = locator.answer();
+    const bool isSettled = answer.solution.hypothesis.contacts == 1 && !answer.searching &&
+                           isPlainAsBuilt(built.constants(), answer.solution, readings) &&
+                           !isPlain(built.constants(), answer.solution, readings);
+    if (!isSettled) continue;
+    ++settled;
+    doubted += answer.doubtful;
+    if (!answer.doubtful && answer.rivalEnergy < 0) LONGS_EQUAL(0, hold(200));
+  }
+  std::printf("%d settled, %d doubted ", settled, doubted);
+  CHECK_COMPARE(settled, >, kTouches / 300);
+  CHECK_COMPARE(doubted, <=, settled / 3);
+}
+
 TEST(Locator, ARivalThatIsNearlyAsLikelyIsTold) {
   Presses presses(16, 3, 409, 5, 6);
   int rivals = 0;
@@ -263,7 +296,7 @@ TEST(Locator, ARivalIsForgottenOnceTheTouchHasTold) {
 // Touches of which one set alone often doesn't tell which of two places is right, for half a second each.
 TEST(Locator, AFaintTouchThatIsHeldIsSeldomToldElsewhereUnflagged) {
   constexpr int kTouches = kSanitized ? 4 : 300, kSets = 500;
-  Presses presses(16, 1, 415, 0, 2);
+  Presses presses(16, 2, 415, 0, 2);
   int silent = 0, told = 0;
   for (int i = 0; i < kTouches; ++i) {
     locator.release();
@@ -278,8 +311,8 @@ TEST(Locator, AFaintTouchThatIsHeldIsSeldomToldElsewhereUnflagged) {
     }
   }
   std::printf("%d of %d ", silent, told);
-  CHECK_COMPARE(told, >, kTouches * kSets / 4);
-  CHECK_COMPARE(silent, <=, told / 500);
+  CHECK_COMPARE(told, >, kTouches * kSets / 2);
+  CHECK_COMPARE(silent, <=, told / 2000);
 }
 
 TEST(Locator, OtherAnswersAreLookedForAgainOnceATouchIsTwiceAsFirm) {
@@ -308,8 +341,7 @@ TEST(Locator, ARivalStaysOneWhenTheReadingsScaleChanges) {
     settle(presses.noisy(strains, ring.noise_strain()));
     const auto chiSquared = [&] {
       const Answer& answer = locator.answer();
-      return static_cast<double>(answer.rivalEnergy) /
-             static_cast<double>(energyOf(answer.gateVariance_q4, 1));
+      return static_cast<double>(answer.rivalEnergy) / static_cast<double>(energyOf(answer.variances, 1));
     };
     for (double times = 1.01; times < 2.2 && locator.answer().rivalEnergy >= 0; times *= 1.01) {
       const double before = chiSquared();

@@ -277,7 +277,7 @@ TEST_GROUP(TouchReporter) {
   void leave(double times) {
     const int allowed = threshold::kGatePerFreedom * freedoms(answer.solution.hypothesis) + threshold::kGate;
     answer.solution.residualEnergy =
-        static_cast<Wide>(times * static_cast<double>(energyOf(answer.gateVariance_q4, allowed)));
+        static_cast<Wide>(times * static_cast<double>(energyOf(answer.variances, allowed)));
   }
   void later(std::uint32_t by_us) { now_us += by_us; }
 };

@@ -102,6 +102,19 @@ class ModelRing {
   }
   std::vector<double> strains(const Press& press) const { return strains({press}); }
 
+  /// Of another finger as built with each call: gauges are off their places and gains by these standard
+  /// deviations, 0.6 degrees and 4 %.
+  std::vector<double> strainsAsBuilt(const Press& press, Presses& draws) const {
+    constexpr double kOff_pitch = 0.6 / 22.5, kGain = 0.04;
+    std::vector<double> built;
+    for (int gauge = 0; gauge < gauges(); ++gauge) {
+      Press seen = press;
+      seen.position_pitch += draws.noise(kOff_pitch);
+      built.push_back(strains(seen)[static_cast<std::size_t>(gauge)] * (1 + draws.noise(kGain)));
+    }
+    return built;
+  }
+
   /// Derivatives of the strains to position [pitch], normal and tangential load [N/m], second moment [mm^2].
   Eigen::MatrixX4d slopes(const Press& press) const {
     return model_.slopes(contactOf(press)) * unitsOfModel().asDiagonal();

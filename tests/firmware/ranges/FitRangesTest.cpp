@@ -100,7 +100,7 @@ TEST_GROUP_BASE(FitRanges, RangesGroup) {
   static ScaledReadings anyReadings() {
     ScaledReadings any;
     any.value.fill(Short::any());
-    any.variance_q4 = any.gateVariance_q4 = 0x7FFFFFFF;
+    any.variances.reading_q4 = any.variances.gate_q4 = 0x7FFFFFFF;
     return any;
   }
 };

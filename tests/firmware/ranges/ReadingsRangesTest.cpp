@@ -30,13 +30,14 @@ TEST_GROUP_BASE(ReadingsRanges, RangesGroup) {
       const ScaledReadings scaled =
           scaledReadings(constants, strains, kAll, std::numeric_limits<std::uint32_t>::max(), shift);
       CHECK_TRUE(scaled.shift >= 0 && scaled.shift <= 18);
-      CHECK_TRUE(scaled.variance_q4 <= 0x7FFFFFFF && scaled.gateVariance_q4 <= scaled.variance_q4);
+      CHECK_TRUE(scaled.variances.reading_q4 <= 0x7FFFFFFF &&
+                 scaled.variances.gate_q4 <= scaled.variances.reading_q4);
     });
   }
   static ScaledReadings anyReadings() {
     ScaledReadings any;
     any.value.fill(Short::any());
-    any.variance_q4 = any.gateVariance_q4 = 0x7FFFFFFF;
+    any.variances.reading_q4 = any.variances.gate_q4 = 0x7FFFFFFF;
     return any;
   }
   static Solution anySolution(int contacts) {

@@ -90,8 +90,9 @@ bool isPlain(const TableConstants& constants, const Solution& solution, const Sc
 bool isPlainAsBuilt(const TableConstants& constants, const Solution& solution,
                     const ScaledReadings& readings) {
   const Variances& variances = readings.variances;
-  const Wide model = energyOf(variances.gate_q4 - variances.noise_q4, doubt(solution.hypothesis));
-  return explains(constants, solution, readings, energyOf(readings, doubt(solution.hypothesis)) + model);
+  return isAccepted(constants, solution, readings) &&
+         explains(constants, solution, readings,
+                  energyOf(2 * variances.gate_q4 - variances.noise_q4, doubt(solution.hypothesis)));
 }
 
 bool isFirm(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings) {

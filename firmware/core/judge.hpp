@@ -29,12 +29,12 @@ inline constexpr int kLeftOut = 16;
 inline constexpr int kProfileErrorBits = 9;
 /// An answer that was followed is given up where it leaves so many times kGate: hysteresis.
 inline constexpr int kLost = 4;
-/// Two answers are not told apart within this difference of chi-squared: the wrong one of two is told
+/// Two answers are not told apart within so many variances of noise: the wrong one of two is told
 /// unflagged at most once in 11,000, however far apart they are.
 inline constexpr int kAmbiguous = 14;
 /// Nor within so many times what the better one leaves a degree of freedom, as far as that may be the model's
-/// error: of 6,000 touches of fingers as built (host/bench) 9 are silently wrong, 16 by kAmbiguous alone, and
-/// fewer flagged.
+/// error. By kAmbiguous variances of the gate instead, 16 of 6,000 touches of fingers as built (host/bench)
+/// were silently wrong and 19.6 % flagged; this made it 9 and 18.8 %.
 inline constexpr int kAmbiguousRatio = 24;
 /// A second answer is refuted by a sample set of which it leaves so many times more than would be ambiguous.
 inline constexpr int kRefuted = 4;
@@ -56,9 +56,10 @@ inline constexpr int kInadmissible = 28;
 inline constexpr int kFirmSignal = 1'200'000;
 inline constexpr int kFirmMoment_um2 = 360'000;
 /// A contact's largest reading over a standard deviation of noise [squared] below which its place is not
-/// sure: a second contact or a gauge that failed does not show then. It is 1.7 N/m on the default finger; at
-/// half of it 42 more of the 140,905 disturbed touches of host/bench are silently wrong.
-inline constexpr int kWeakSignal = 6400;
+/// sure: a second contact or a gauge that failed does not show then. It is 1.3 N/m on the default finger;
+/// from 40 deviations on, 0.17 % of touches of 0.5 N/m are silently wrong there, none of 4,000 from these 60
+/// on.
+inline constexpr int kWeakSignal = 3600;
 /// A contact of a pair whose loads explain less than this much of chi-squared is none.
 inline constexpr int kFaint = 36;
 /// A contact of a pair is sure from so many of its load's standard errors on.
@@ -87,7 +88,9 @@ constexpr Wide energyOf(const ScaledReadings& readings, Wide chiSquared) {
 }
 
 /// Two answers are not told apart where the worse one leaves less than so much more. Noise is known; of a
-/// model's error only what it is at most, so it is taken to be what the better answer leaves.
+/// model's error only what it is at most, so it is taken to be what the better answer leaves: kAmbiguousRatio
+/// times that and a variance of the gate, a degree of freedom, within kAmbiguous variances of noise and of a
+/// reading.
 Wide ambiguity(const Variances& variances, const Solution& better);
 
 /// The contact presses and stays within the friction cone.
@@ -113,8 +116,8 @@ bool isAccepted(const TableConstants& constants, const Solution& solution, const
 /// The same within what leaves no doubt: noise alone seldom leaves more.
 bool isPlain(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings);
 
-/// The same with twice the model's error [squared], which leaves no doubt once gauges were left out: whether
-/// there are two contacts need not be looked at.
+/// Accepted, and the same with the model's part of the gate's variance doubled, as on a finger as built: that
+/// leaves no doubt once gauges were left out, and whether there are two contacts need not be looked at.
 bool isPlainAsBuilt(const TableConstants& constants, const Solution& solution,
                     const ScaledReadings& readings);
 

@@ -32,7 +32,8 @@ Hypothesis oneContact(const TableImage& tables, FitMode mode, GaugeSet gauges) {
   return {1, widthIsFree, gauges};
 }
 
-/// What a gauge that is left out changes is nobody's business while the place stays.
+/// Another number of contacts, or another place. What a gauge that is left out changes of load and width at
+/// the same place is no doubt.
 bool saysOther(const TableConstants& constants, const Solution& answer, const Solution& other) {
   const int contacts = answer.hypothesis.contacts;
   return contacts != other.hypothesis.contacts ||
@@ -239,20 +240,14 @@ bool Locator::conclude(const TableImage& tables) {
     return rankings[i]->best.residualEnergy + energyOf(readings, kPrice[i]);
   };
   std::array<bool, 3> explains{};
-  std::optional<std::size_t> best, next;
+  std::optional<std::size_t> best;
   for (std::size_t i = 0; i < rankings.size(); ++i) {
     if (!rankings[i]->anyBest) continue;
     explains[i] = isAccepted(tables.constants, rankings[i]->best, readings) &&
                   (i != kPair || areBothContacts(rankings[i]->best, readings));
-    const auto isBetter = [&](const std::optional<std::size_t>& other) {
-      return !other || explains[i] > explains[*other] ||
-             (explains[i] == explains[*other] && costOf(i) < costOf(*other));
-    };
-    if (isBetter(best)) {
-      next = std::exchange(best, i);
-    } else if (isBetter(next)) {
-      next = i;
-    }
+    if (!best || explains[i] > explains[*best] ||
+        (explains[i] == explains[*best] && costOf(i) < costOf(*best)))
+      best = i;
   }
   answer_.searching = answer_.doubtful = answer_.several = false;
   answer_.suspect = 0;
@@ -262,9 +257,10 @@ bool Locator::conclude(const TableImage& tables) {
   if (!best) return false;
   const bool faulty = explains[kWithoutOne], two = explains[kPair];
   const Solution& answer = rankings[*best]->best;
-  answer_.doubtful = !isPlainAsBuilt(tables.constants, answer, readings) ||
-                     (next && explains[*next] && saysOther(tables.constants, answer, rankings[*next]->best) &&
-                      costOf(*next) - costOf(*best) < ambiguity(readings.variances, answer));
+  answer_.doubtful = !isPlainAsBuilt(tables.constants, answer, readings);
+  for (std::size_t i = 0; i < rankings.size(); ++i)
+    answer_.doubtful |= i != *best && explains[i] && saysOther(tables.constants, answer, rankings[i]->best) &&
+                        costOf(i) - costOf(*best) < ambiguity(readings.variances, answer);
   answer_.several = *best == kPair || (!faulty && *best != kSingle);
   if (*best == kWithoutOne && !(two && answer_.doubtful)) answer_.suspect = culprit(tables);
   believe(tables, answer, readings);
@@ -315,7 +311,7 @@ void Locator::goOn(const TableImage& tables, const ScaledReadings& readings, int
   };
   if (stepsLeft() < 1) return;
   const Solution followed = answer_.solution;
-  isLookedInto_ = true;
+  isLookedInto_ = search_.withoutOne().anyBest;
   const bool isFound = conclude(tables);
   search_.stop();
   // The touch has gone on since the search began: what was found has moved as the answer that was followed.

@@ -88,7 +88,7 @@ class Locator {
   std::array<std::uint32_t, kMostContacts> slid_q32_{}, slidBefore_q32_{};
   FitMode mode_;
   bool tracking_ = false;
-  bool isLookedInto_ = false;     ///< by a search since the touch was found
+  bool isLookedInto_ = false;     ///< gauges were left out by the last search
   bool guessed_ = false;          ///< the answer is where a fit starts
   std::uint8_t setsInDoubt_ = 0;  ///< in a row, up to where a search begins
   std::uint8_t setsSinceRival_ = 0;

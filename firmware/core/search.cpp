@@ -364,7 +364,8 @@ void Search::withoutNext(const TableImage& tables) {
   beginTask(all_, Grid(tables, all_, readings_, Grid::Kind::kRing));
 }
 
-/// One contact explains the readings, on a finger as built, and no gauge that is left out moves it elsewhere.
+/// One contact explains the readings, on a finger as built, and the likeliest one without a gauge is not
+/// elsewhere.
 bool Search::isSettled(const TableConstants& constants) const {
   if (!single_.anyBest || !isPlainAsBuilt(constants, single_.best, readings_)) return false;
   return !withoutOne_.anyBest || !isAccepted(constants, withoutOne_.best, readings_) ||

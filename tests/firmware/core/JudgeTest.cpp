@@ -126,6 +126,18 @@ TEST(Judge, OnAFingerAsBuiltTwiceTheModelsErrorLeavesNoDoubt) {
   CHECK_FALSE(isPlainAt(29 * 100 + 1, true));
 }
 
+TEST(Judge, WhatIsPlainAsBuiltIsAccepted) {
+  readings.variances.noise_q4 = 0;
+  for (const int gauges : {8, 12, 16, 24, 32}) {
+    solution.hypothesis.gauges = allGauges(gauges);
+    for (Wide energy = 0; energy < 20'000; energy += 100) {
+      solution.residualEnergy = energy;
+      if (isPlainAsBuilt(constants, solution, readings))
+        CHECK_TRUE(isAccepted(constants, solution, readings));
+    }
+  }
+}
+
 TEST(Judge, AnswersAreToldApartByWhatTheBetterOneLeavesWithinNoiseAndModelError) {
   std::uint32_t noise = 10;
   const auto ambiguityAt = [&](Wide energy) {

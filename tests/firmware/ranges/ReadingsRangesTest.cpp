@@ -34,10 +34,10 @@ TEST_GROUP_BASE(ReadingsRanges, RangesGroup) {
                  scaled.variances.gate_q4 <= scaled.variances.reading_q4);
     });
   }
-  static ScaledReadings anyReadings() {
+  static ScaledReadings anyReadings(std::uint32_t noise_q4 = 0) {
     ScaledReadings any;
     any.value.fill(Short::any());
-    any.variances.reading_q4 = any.variances.gate_q4 = 0x7FFFFFFF;
+    any.variances = {0x7FFFFFFF, 0x7FFFFFFF, noise_q4};
     return any;
   }
   static Solution anySolution(int contacts) {
@@ -90,6 +90,14 @@ TEST(ReadingsRanges, ThresholdsOverflowNothing) {
       likelihoodEnergy(constants, solution, anyReadings());
     });
   forEachWay([&] { isAccepted(constants, anySolution(1), anyReadings()); });
+  for (const std::uint32_t noise_q4 : {0u, 0x7FFFFFFFu}) {
+    forEachWay([&] { isPlainAsBuilt(constants, anySolution(1), anyReadings(noise_q4)); });
+    for (const int contacts : {1, 2})
+      forEachWay([&] {
+        checkWithin(ambiguity(anyReadings(noise_q4).variances, anySolution(contacts)), 0,
+                    std::int64_t{1} << 31);
+      });
+  }
   forEachWay([&] { isFirm(constants, anySolution(2), anyReadings()); });
   checkNone();
 }

@@ -203,12 +203,6 @@ class FirstOfEach {
   long last_ = -1;
 };
 
-/// A few are ambiguous, or weak, as long as they last.
-void checkAlmostAllAreCertain(const Result& result) {
-  const auto certain = static_cast<int>(result.errors.arc_m.count());
-  CHECK(certain <= kTouches && certain > kTouches - kTouches / 100);
-}
-
 /// Lighter ones are told with sigmas that are only a guide.
 bool isFirm(const ComparedTouch& compared) {
   constexpr double kFirm_n_per_m = 2;
@@ -223,7 +217,9 @@ bool isFirm(const ComparedTouch& compared) {
 TEST(ClosedLoop, RandomContactsAreAtTheBoundAndHonest) {
   const std::uint64_t random = seed();
   const Result result = run(randomContacts(random), FitMode::kRefined, random, FirstOfEach());
-  checkAlmostAllAreCertain(result);
+  const auto certain = static_cast<int>(result.errors.arc_m.count());
+  CHECK(certain <= kTouches &&
+        certain > kTouches - kTouches / 100);  // a few are ambiguous as long as they last
   checkWithin(result, 1.15, 12);
   checkHonest(result);
 }
@@ -232,7 +228,8 @@ TEST(ClosedLoop, RandomContactsAreAtTheBoundAndHonest) {
 TEST(ClosedLoop, ThreeReadingsAreNearTheBoundAndHonest) {
   const std::uint64_t random = seed();
   const Result result = run(randomContacts(random), FitMode::kThreePoint, random, FirstOfEach());
-  checkAlmostAllAreCertain(result);
+  const auto certain = static_cast<int>(result.errors.arc_m.count());
+  CHECK(certain <= kTouches && certain >= kTouches - kTouches / 500);  // one is weak as long as it lasts
   checkWithin(result, 1.4, 15);
   checkHonest(result);
 }

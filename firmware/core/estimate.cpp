@@ -103,8 +103,7 @@ constexpr Wide reaching(Wide sigma, Wide far) { return std::max(sigma, magnitude
 /// Errors reach a rival that the readings hardly tell from the answer. Ambiguous: the rival is farther away
 /// than the answer's own errors reached.
 void coverRival(const TableConstants& constants, const Answer& answer, int contact, Contact& estimated) {
-  if (answer.rivalEnergy < 0) return;
-  if (answer.rivalEnergy >= ambiguity(answer.variances, answer.solution)) return;
+  if (!answer.rivalIsAsLikely) return;
   const ContactState& rival = answer.rival[at(contact)];
   const Wide turned_q32 = static_cast<std::int32_t>(rival.angle_q32 - estimated.angle.raw());
   const Wide sigma_q32 = reaching(estimated.sigmaAngle.raw(), turned_q32);

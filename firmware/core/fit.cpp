@@ -264,6 +264,12 @@ Residual residualOf(int gauges, GaugeSet counted, int expectedShift, Left leftOf
   return residual;
 }
 
+Residual residualOf(int gauges, const Linearisation& linearisation, const ScaledReadings& readings) {
+  return residualOf(gauges, linearisation.hypothesis.gauges, 0, [&](std::size_t gauge) {
+    return readings.value[gauge] - linearisation.predicted[gauge];
+  });
+}
+
 /// [units of an unknown] as a step of its column.
 Number stepOf(Number units, int exponent, int unitBits) {
   return shifted(units, exponent + kStepBits - unitBits, 1 << 28);
@@ -403,12 +409,16 @@ void move(const TableImage& tables, const ContactStates& contacts, Linearisation
   }
 }
 
+Wide energyLeft(const TableImage& tables, const Linearisation& linearisation,
+                const ScaledReadings& readings) {
+  const int gauges = tables.constants.gauge_count;
+  return residualOf(gauges, linearisation, readings).energy(rowsOf(gauges));
+}
+
 Solution step(const TableImage& tables, const Linearisation& linearisation, const ScaledReadings& readings) {
   const Hypothesis& hypothesis = linearisation.hypothesis;
   const int gauges = tables.constants.gauge_count, rows = rowsOf(gauges);
-  const Residual residual = residualOf(gauges, hypothesis.gauges, 0, [&](std::size_t gauge) {
-    return readings.value[gauge] - linearisation.predicted[gauge];
-  });
+  const Residual residual = residualOf(gauges, linearisation, readings);
   Vector low, high;
   setLimits(tables.constants, linearisation, low, high);
   const Step best = solve(linearisation.decomposition, linearisation.column, rows, residual, low, high);

@@ -51,6 +51,9 @@ void move(const TableImage& tables, const ContactStates& contacts, Linearisation
 /// The linear model holds for a contact that turns by so much; `farther`: so many times as far [log2].
 bool isShortTurn(const TableConstants& constants, std::uint32_t turned_q32, int farther = 0);
 
+/// Sum of squares of what the predictions leave of the readings that count.
+Wide energyLeft(const TableImage& tables, const Linearisation& linearisation, const ScaledReadings& readings);
+
 /// One step from a linearisation to these readings. `solution.converged`: the linear model holds that far.
 Solution step(const TableImage& tables, const Linearisation& linearisation, const ScaledReadings& readings);
 

@@ -59,6 +59,18 @@ ContactStates inOrderOf(const Solution& solution, ContactStates contacts) {
   return contacts;
 }
 
+ContactStates halfway(const ContactStates& from, const ContactStates& to) {
+  ContactStates middle = from;
+  for (std::size_t k = 0; k < middle.size(); ++k) {
+    ContactState& contact = middle[k];
+    contact.angle_q32 += wrapped(static_cast<Number>(to[k].angle_q32 - from[k].angle_q32) / 2);
+    contact.normal += (to[k].normal - from[k].normal) / 2;
+    contact.tangential += (to[k].tangential - from[k].tangential) / 2;
+    contact.moment_q20 += (to[k].moment_q20 - from[k].moment_q20) / 2;
+  }
+  return middle;
+}
+
 /// The reading of a gauge that was left out is far from what the others predict.
 bool isFarOff(const TableImage& tables, const Solution& solution, const ScaledReadings& readings,
               GaugeSet leftOut, Linearisation& scratch) {
@@ -122,11 +134,17 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
                              : steps < kFollowingSteps;
   };
   for (int steps = 1; isTimeForAnother(steps) && !solution.converged; ++steps, ++linearised) {
+    const ContactStates before = linearisation_.at;
+    const Wide left = energyLeft(tables, linearisation_, readings);
     move(tables, solution.contact, linearisation_);
+    if (energyLeft(tables, linearisation_, readings) > left) {
+      move(tables, halfway(before, solution.contact), linearisation_);
+      ++linearised;
+    }
     solution = step(tables, linearisation_, readings);
   }
   const bool wasAccepted = answer_.accepted;
-  rescaleRival(readings.shift);
+  answer_.rival = rescaled(answer_.rival, answer_.shift, readings.shift);
   slidBefore_q32_ = slid_q32_;
   for (std::size_t k = 0; k < solution.contact.size(); ++k) {
     slid_q32_[k] = solution.contact[k].angle_q32 - answer_.solution.contact[k].angle_q32;
@@ -139,15 +157,9 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
   return linearised * stepWork + takeBack(tables, readings, gauges) + followRival(tables, readings);
 }
 
-/// The rival, for readings of another scale than the answer's.
-void Locator::rescaleRival(int shift) {
-  if (shift == answer_.shift) return;
-  answer_.rival = rescaled(answer_.rival, answer_.shift, shift);
-  if (answer_.rivalEnergy < 0) return;
-  const int up = 2 * (answer_.shift - shift);
-  constexpr int kMostBits = 62;
-  answer_.rivalEnergy = up <= 0 ? answer_.rivalEnergy >> std::min(-up, kMostBits)
-                                : lesser(answer_.rivalEnergy, Wide{1} << (kMostBits - up)) << up;
+void Locator::forgetRival() {
+  answer_.anyRival = answer_.rivalIsAsLikely = answer_.rivalIsLost = false;
+  answer_.timesRefuted = 0;
 }
 
 /// Gauges that work, feel the touch and were left out count again, once an answer explains their readings as
@@ -175,7 +187,7 @@ int Locator::takeBack(const TableImage& tables, const ScaledReadings& readings, 
 /// show both answers in one sample set and one of them, perhaps the wrong one, in the next: what was said of
 /// the second holds until it is refuted several times, or a search has looked for it. The work it took.
 int Locator::followRival(const TableImage& tables, const ScaledReadings& readings) {
-  if (answer_.rivalEnergy < 0 || ++setsSinceRival_ % kRivalEvery != 0) return 0;
+  if (!answer_.anyRival || ++setsSinceRival_ % kRivalEvery != 0) return 0;
   const Solution answer = answer_.solution;
   const Hypothesis& hypothesis = answer.hypothesis;
   linearise(tables, hypothesis, answer_.rival, scratch_);
@@ -186,17 +198,18 @@ int Locator::followRival(const TableImage& tables, const ScaledReadings& reading
   const bool isMerged =
       areSame(tables.constants, contacts, answer.contact, rival.contact) ||
       (answer_.rivalIsElsewhere && !areElsewhere(tables.constants, contacts, answer.contact, rival.contact));
-  const bool isRefuted = more > threshold::kRefuted * ambiguity(readings.variances, answer);
+  const Wide ambiguous = ambiguity(readings.variances, more < 0 ? rival : answer);
+  const bool isRefuted = more > threshold::kRefuted * ambiguous;
   answer_.rivalIsLost = isMerged || isRefuted;
   if (answer_.rivalIsLost) {
     if (!isMerged) answer_.rival = rival.contact;
     const bool hasTold = isRefuted && rival.converged && ++answer_.timesRefuted == kTimesRefuted;
-    if (hasTold || isFirm(tables.constants, answer, readings)) answer_.rivalEnergy = -1;
+    if (hasTold || isFirm(tables.constants, answer, readings)) forgetRival();
     return Search::stepWork(tables, hypothesis);
   }
   answer_.timesRefuted = 0;
   answer_.rival = rival.contact;
-  answer_.rivalEnergy = magnitude(more);
+  answer_.rivalIsAsLikely = magnitude(more) < ambiguous;
   if (more < 0) {
     // The touch itself has not moved.
     searchedAt_q32_ += rival.contact[0].angle_q32 - answer.contact[0].angle_q32;
@@ -251,9 +264,7 @@ bool Locator::conclude(const TableImage& tables) {
   }
   answer_.searching = answer_.doubtful = answer_.several = false;
   answer_.suspect = 0;
-  answer_.rivalEnergy = -1;
-  answer_.rivalIsLost = false;
-  answer_.timesRefuted = 0;
+  forgetRival();
   if (!best) return false;
   const bool faulty = explains[kWithoutOne], two = explains[kPair];
   const Solution& answer = rankings[*best]->best;
@@ -283,8 +294,10 @@ void Locator::rememberRival(const TableImage& tables, const Ranking& ranking,
   answer_.rival = inOrderOf(ranking.best, ranking.second.contact);
   const Wide more = likelihoodEnergy(tables.constants, ranking.second, readings) -
                     likelihoodEnergy(tables.constants, ranking.best, readings);
-  if (more > threshold::kRefuted * ambiguity(readings.variances, ranking.best)) return;
-  answer_.rivalEnergy = more;
+  const Wide ambiguous = ambiguity(readings.variances, ranking.best);
+  if (more > threshold::kRefuted * ambiguous) return;
+  answer_.anyRival = true;
+  answer_.rivalIsAsLikely = more < ambiguous;
   answer_.rivalIsElsewhere =
       areElsewhere(tables.constants, ranking.best.hypothesis.contacts, ranking.best.contact, answer_.rival);
 }
@@ -298,8 +311,7 @@ void Locator::rememberFound(const TableConstants& constants, const Solution& fol
                                             threshold::kRefuted * ambiguity(readings.variances, followed))
     return;
   answer_.rival = inOrderOf(followed, found.contact);
-  answer_.rivalEnergy = 0;
-  answer_.rivalIsElsewhere = true;
+  answer_.anyRival = answer_.rivalIsAsLikely = answer_.rivalIsElsewhere = true;
 }
 
 /// Within what is left of an update's work.
@@ -317,7 +329,7 @@ void Locator::goOn(const TableImage& tables, const ScaledReadings& readings, int
   // The touch has gone on since the search began: what was found has moved as the answer that was followed.
   const Hypothesis hypothesis = answer_.solution.hypothesis;
   ContactStates from = rescaled(answer_.solution.contact, answer_.shift, readings.shift);
-  rescaleRival(readings.shift);
+  answer_.rival = rescaled(answer_.rival, answer_.shift, readings.shift);
   const std::uint32_t moved_q32 = isFound ? followed.contact[0].angle_q32 - searchedAt_q32_ : 0;
   for (ContactState& contact : from) contact.angle_q32 += moved_q32;
   for (ContactState& contact : answer_.rival) contact.angle_q32 += moved_q32;
@@ -420,7 +432,7 @@ void Locator::update(const TableImage& tables, std::span<const std::int32_t> str
   } else if (setsInDoubt_ == kNewDoubt && !answer_.doubtful) {
     answer_.searching = true;
     search(tables, readings, gauges);
-  } else if (!answer_.accepted || answer_.doubtful || (answer_.rivalIsLost && answer_.rivalEnergy >= 0) ||
+  } else if (!answer_.accepted || answer_.doubtful || answer_.rivalIsLost ||
              areTooNear(tables.constants, answer_.solution) ||
              (isLookOutdated(readings) && !isFirm(tables.constants, answer_.solution, readings))) {
     if (++setsSinceSearch_ >= kSearchAgainAfter) search(tables, readings, gauges);

@@ -23,7 +23,8 @@ struct Answer {
   std::int8_t shift = 0;  ///< of the readings
   Variances variances;
   ContactStates rival;            ///< another answer of the same hypothesis
-  Wide rivalEnergy = -1;          ///< what that answer leaves more [residual energy]; negative: there is none
+  bool anyRival = false;          ///< there is one
+  bool rivalIsAsLikely = false;   ///< nearly, when it was last fitted, see ambiguity()
   bool rivalIsElsewhere = false;  ///< when it was found, not another width of the same place
   bool rivalIsLost = false;       ///< a search is to look for it
   std::uint8_t timesRefuted = 0;
@@ -67,7 +68,7 @@ class Locator {
   void settle(const TableImage& tables, const ScaledReadings& readings);
   void goOn(const TableImage& tables, const ScaledReadings& readings, int workDone);
   void search(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
-  void rescaleRival(int shift);
+  void forgetRival();
   int takeBack(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
   bool conclude(const TableImage& tables);
   GaugeSet culprit(const TableImage& tables);

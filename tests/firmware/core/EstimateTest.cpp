@@ -144,11 +144,12 @@ TEST_GROUP_BASE(Estimate, Estimated) {
     const int left = freedoms(answer.solution.hypothesis);
     answer.solution.residualEnergy = static_cast<Wide>(times * left * answer.variances.gate_q4 / 16);
   }
-  void setRival(double pitches, double chiSquared) {
+  /// Nearly as likely.
+  void setRival(double pitches) {
     answer.rival[0].angle_q32 =
         answer.solution.contact[0].angle_q32 +
         static_cast<std::uint32_t>(static_cast<std::int64_t>(std::ldexp(pitches, 28)));
-    answer.rivalEnergy = static_cast<Wide>(chiSquared * answer.variances.gate_q4 / 16);
+    answer.anyRival = answer.rivalIsAsLikely = true;
   }
 };
 
@@ -242,7 +243,7 @@ TEST(Estimate, WhatCalibrationLeavesIsPartOfTheErrors) {
 }
 
 TEST(Estimate, ARivalIsAsAmbiguousWhateverErrorAllPlacesShare) {
-  setRival(0.9, 5);
+  setRival(0.9);
   constants.place_error_q32 = kMostPlaceError_q32;
   CHECK_TRUE(estimated().ambiguous);
 }
@@ -279,7 +280,7 @@ TEST(Estimate, TheLargestErrorsOfTablesSaturate) {
 TEST(Estimate, ErrorsCoverARivalThatIsNearlyAsLikely) {
   const double alone = sigmaAngle_pitch(ring, estimated());
   for (const double pitches : {0.9, -0.9}) {
-    setRival(pitches, 5);
+    setRival(pitches);
     const Contact contact = estimated();
     CHECK_TRUE(contact.ambiguous && contact.uncertain);
     DOUBLES_EQUAL(0.3, sigmaAngle_pitch(ring, contact), 1e-4);
@@ -298,7 +299,7 @@ TEST(Estimate, ErrorsOfLoadsAndWidthReachTheRivalToo) {
   const Contact other = estimated();
   told = kept;
   answer.rival[0] = rival;
-  setRival(0.9, 5);
+  setRival(0.9);
   const Contact contact = estimated();
   const auto isThird = [](double sigma, double own, double apart, double step) {
     CHECK_COMPARE(sigma, >, own);
@@ -312,14 +313,15 @@ TEST(Estimate, ErrorsOfLoadsAndWidthReachTheRivalToo) {
 }
 
 TEST(Estimate, ARivalThatIsFarLessLikelyIsNone) {
-  setRival(0.9, threshold::kAmbiguous + 1);
+  setRival(0.9);
+  answer.rivalIsAsLikely = false;
   CHECK_FALSE(estimated().ambiguous);
   CHECK_FALSE(estimated().uncertain);
 }
 
 TEST(Estimate, ARivalWithinTheAnswersOwnErrorsIsNoAmbiguity) {
   const double alone = sigmaAngle_pitch(ring, estimated());
-  setRival(2 * alone, 1);
+  setRival(2 * alone);
   CHECK_FALSE(estimated().ambiguous);
   DOUBLES_EQUAL(alone, sigmaAngle_pitch(ring, estimated()), 1e-9);
 }

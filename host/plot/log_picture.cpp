@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <span>
 
 #include "common/frames.hpp"
@@ -47,19 +49,34 @@ unset multiplot
 
 using Row = std::vector<double>;
 
-/// The rows of `points`, with an empty one where a curve and its band must break.
+/// Ends curves and bands; two empty rows would begin another table.
+void endCurves(std::vector<Row>& rows) {
+  if (!rows.empty() && !rows.back().empty()) rows.emplace_back();
+}
+
+/// The rows of `points`, with an empty one where a curve and its band must break: gnuplot fills a band across
+/// rows without values. A row's first `bandColumns` numbers are those that a band needs.
 template <typename RowOf, typename Breaks>
-std::vector<Row> brokenRows(const std::vector<LogPoint>& points, RowOf rowOf, Breaks breaks) {
+std::vector<Row> brokenRows(const std::vector<LogPoint>& points, std::ptrdiff_t bandColumns, RowOf rowOf,
+                            Breaks breaks) {
+  constexpr auto isUnknown = [](double value) { return std::isnan(value); };
   std::vector<Row> rows;
   const LogPoint* before = nullptr;
   for (const LogPoint& point : points) {
     if (before != nullptr && (point.time_s - before->time_s > kGap_s || breaks(*before, point)))
-      rows.emplace_back();
-    rows.push_back(rowOf(point));
+      endCurves(rows);
+    const Row row = rowOf(point);
+    if (!std::all_of(row.begin() + 1, row.end(), isUnknown)) rows.push_back(row);
+    if (std::any_of(row.begin(), row.begin() + bandColumns, isUnknown)) endCurves(rows);
     before = &point;
   }
   return rows;
 }
+
+/// `bound` or, beyond it, `most` or `least`; NaN stays NaN, which std::fmin and std::fmax would make a
+/// number.
+double atMost(double bound, double most) { return bound > most ? most : bound; }
+double atLeast(double bound, double least) { return bound < least ? least : bound; }
 
 bool never(const LogPoint&, const LogPoint&) { return false; }
 
@@ -71,13 +88,13 @@ bool turns(const LogPoint& before, const LogPoint& point) {
 DataFile angleData(const LogRecord& record) {
   const auto rowOf = [](const LogPoint& point) {
     const can::TouchReport& touch = point.touch;
-    return Row{point.time_s, touch.angle_deg, std::fmax(touch.angle_deg - touch.sigmaAngle_deg, 0),
-               std::fmin(touch.angle_deg + touch.sigmaAngle_deg, 360),
+    return Row{point.time_s, touch.angle_deg, atLeast(touch.angle_deg - touch.sigmaAngle_deg, 0),
+               atMost(touch.angle_deg + touch.sigmaAngle_deg, 360),
                touch.second ? touch.second->angle_deg : kNoValue};
   };
   return {"angle",
           {"time_s", "angle_deg", "angle_low_deg", "angle_high_deg", "angle2_deg"},
-          brokenRows(record.points, rowOf, turns)};
+          brokenRows(record.points, 4, rowOf, turns)};
 }
 
 DataFile forceData(const LogRecord& record) {
@@ -94,19 +111,19 @@ DataFile forceData(const LogRecord& record) {
   return {"force",
           {"time_s", "normal_n", "normal_low_n", "normal_high_n", "tangential_n", "tangential_low_n",
            "tangential_high_n"},
-          brokenRows(record.points, rowOf, never)};
+          brokenRows(record.points, 7, rowOf, never)};
 }
 
 DataFile widthData(const LogRecord& record) {
   const auto rowOf = [](const LogPoint& point) {
     const can::TouchReport& touch = point.touch;
     return Row{point.time_s, touch.width_m * kMmPerM,
-               std::fmax(touch.width_m - touch.sigmaWidth_m, 0) * kMmPerM,
+               atLeast(touch.width_m - touch.sigmaWidth_m, 0) * kMmPerM,
                (touch.width_m + touch.sigmaWidth_m) * kMmPerM};
   };
   return {"width",
           {"time_s", "width_mm", "width_low_mm", "width_high_mm"},
-          brokenRows(record.points, rowOf, never)};
+          brokenRows(record.points, 4, rowOf, never)};
 }
 
 /// A row of the last panel for each flag, in this order.

@@ -63,6 +63,31 @@ TEST(LogPicture, CurvesBreakWhereNothingWasSaid) {
   CHECK_TRUE(force[2].empty());
 }
 
+TEST(LogPicture, NoBandRunsFromOneTouchToTheNext) {
+  LogPoint end{.time_s = 0.1, .touch = {}};
+  end.touch.normal_n = end.touch.tangential_n = 0;
+  const std::vector<LogPoint> points{pointAt(0, 20), end, pointAt(0.2, 20), end};
+  for (const char* name : {"angle", "width"}) {
+    const auto file = rows(points, name);
+    LONGS_EQUAL(4, file.size());
+    CHECK_TRUE(file[1].empty());
+    CHECK_TRUE(file[3].empty());
+  }
+  const auto force = rows(points, "force");  // ends with its zero, which has no sigma
+  DOUBLES_EQUAL(0, force.at(1).at(1), 0);
+  CHECK_TRUE(std::isnan(force.at(1).at(2)));
+  CHECK_TRUE(force.at(2).empty());
+}
+
+TEST(LogPicture, AnAngleOfUnknownSigmaHasNoBand) {
+  point_.touch.sigmaAngle_deg = kNoValue;
+  const auto angle = rows({point_}, "angle");
+  DOUBLES_EQUAL(20, angle.at(0).at(1), 0);
+  CHECK_TRUE(std::isnan(angle.at(0).at(2)));
+  CHECK_TRUE(std::isnan(angle.at(0).at(3)));
+  CHECK_TRUE(angle.at(1).empty());
+}
+
 TEST(LogPicture, TheAngleBreaksWhereItRunsThroughZero) {
   const std::vector<LogPoint> points{pointAt(0, 359), pointAt(0.01, 1)};
   CHECK_TRUE(rows(points, "angle").at(1).empty());

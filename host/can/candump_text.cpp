@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <ctime>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 #include "host/can/line_cursor.hpp"
@@ -17,6 +18,8 @@ constexpr std::uint32_t kErrorFlag = 0x20000000;
 constexpr std::uint32_t kExtendedMask = 0x1FFFFFFF;
 constexpr std::size_t kClassicBytes = 8;
 constexpr std::size_t kFdBytes = 64;
+/// UTF-8's, as editors begin a file; of files one behind the other, in between too.
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::int64_t kLastSecond = 9'223'372'035;  // fits 64 bits of nanoseconds, whatever the fraction
 
 /// Reads a line from left to right. Every step returns false after it has noted what is wrong at at_.
@@ -31,7 +34,8 @@ class LineParser : private LineCursor {
 
  private:
   bool parseLine() {
-    if (!line_.empty() && line_.front() == '\t') return true;
+    skip(kByteOrderMark);
+    if (peek() == '\t') return true;
     skipBlanks();
     if (atEnd()) return true;
     if (skip("DROPCOUNT: dropped ")) return parseDropCount();

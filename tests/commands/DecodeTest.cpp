@@ -47,6 +47,12 @@ TEST(Decode, ReadsAnyFormOfCandump) {
   checkSays("(screen, no time)", run);
 }
 
+TEST(Decode, ReadsALogThatBeginsWithAByteOrderMark) {
+  const Run run = runProgram("decode", "\xEF\xBB\xBF(1609779922.655421) can0 285#22011EFF070981A3\n");
+  LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS("1609779922.655421,can0,5,FORCE,", run.out.c_str());
+}
+
 TEST(Decode, ReadsWhatCanUtilsMakesOfALog) {
   // log2long prints with the code that candump prints with; asc2log and log2asc are can-utils' too.
   const std::string log =

@@ -77,6 +77,13 @@ TEST(CandumpText, ReadsLineEndsOfAnyKind) {
   readOurs("  can0  185   [8]  E8 03 22 01 1E FF 01 A3\r\n");
 }
 
+TEST(CandumpText, PassesOverAByteOrderMark) {
+  readOurs("\xEF\xBB\xBF(1609779922.655421) can0 185#E80322011EFF01A3");
+  readOurs("\xEF\xBB\xBF  can0  185   [8]  E8 03 22 01 1E FF 01 A3");
+  CHECK(read("\xEF\xBB\xBF").kind == LineKind::kNothing);
+  checkError(28, "identifier", "\xEF\xBB\xBF(1609779922.655421) can0");
+}
+
 TEST(CandumpText, ReadsTheScreenForm) {
   const LogLine line = readOurs("  can0  185   [8]  E8 03 22 01 1E FF 01 A3");
   CHECK(line.form == LineForm::kScreen);

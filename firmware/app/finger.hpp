@@ -138,8 +138,8 @@ class Finger {
     state_ = FingerState::kZeroing;
     if (!zero_.add(codes())) return;
     state_ = FingerState::kRun;
-    if (tareStatus_ == CommandStatus::kDone && pipeline_.isTouchedDuring(zero_)) {
-      tareStatus_ = CommandStatus::kTouched;
+    if (isTouchRefused_ && pipeline_.isTouchedDuring(zero_)) {
+      if (tareStatus_) tareStatus_ = CommandStatus::kTouched;
       return;
     }
     beginAnew();
@@ -201,7 +201,10 @@ class Finger {
       ++counters_.touchesSent;
       maySecondStand_ = isSecond_;
     }
-    if (outcome == OwedFrames::Outcome::kDropped) ++counters_.touchesIncomplete;
+    if (outcome == OwedFrames::Outcome::kDropped) {
+      ++counters_.touchesIncomplete;
+      reporter_.lost();
+    }
   }
 
   void beat(std::uint32_t now_us) {
@@ -341,7 +344,8 @@ class Finger {
     if (state_ != FingerState::kRun || isConverterSilent(now_us)) return refused(CommandStatus::kBusy);
     if (tareWait_us_ != 0) return responseTo(Command::kTare, CommandStatus::kWait, 1);
     if (isTouched() && !evenWhileTouched) return refused(CommandStatus::kTouched);
-    tareStatus_ = isTouched() ? CommandStatus::kDoneTouched : CommandStatus::kDone;
+    isTouchRefused_ = !isTouched();
+    tareStatus_ = isTouchRefused_ ? CommandStatus::kDone : CommandStatus::kDoneTouched;
     tareWait_us_ = kTarePeriod_us;
     zero_ = {};
     state_ = FingerState::kZeroing;
@@ -370,6 +374,7 @@ class Finger {
   std::uint32_t busOffs_ = 0;  ///< of the port, at the last heartbeat
   RawSender raw_;
   std::optional<CommandStatus> tareStatus_;  ///< to answer when the zero is taken
+  bool isTouchRefused_ = false;              ///< for a zero that is asked for, whoever waits for the answer
   std::optional<ResponseFrame> response_;    ///< that the port hasn't taken yet
   FingerCounters counters_{};
   std::uint32_t uptime_s_ = 0;

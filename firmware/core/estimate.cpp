@@ -92,6 +92,11 @@ bool isWeak(const Answer& answer, const ContactState& state) {
   return 4 * amplitude * amplitude < Wide{threshold::kWeakSignal} * answer.variances.noise_q4;
 }
 
+/// Loads beyond what a fit holds: gauges at their rails leave them open.
+bool isLimited(const ContactState& state) {
+  return std::max(magnitude(state.normal), magnitude(state.tangential)) >= kMostLoad;
+}
+
 LineLoadQ12 loadOf(const TableConstants& constants, const Answer& answer, std::int64_t amplitude) {
   return LineLoadQ12::fromRaw(
       lineLoad(static_cast<Number>(amplitude), constants.load_scale, constants.load_exponent + answer.shift));
@@ -176,7 +181,8 @@ Contact estimate(const TableConstants& constants, const Answer& answer, const Un
   estimated.sigmaAngle = withPlaceError(constants, estimated.sigmaAngle);
   estimated.alternative = TurnQ32::fromRaw(answer.rival[at(contact)].angle_q32);
   estimated.uncertain = estimated.ambiguous || !answer.accepted || answer.searching || answer.doubtful ||
-                        areTooNear(constants, answer.solution) || tooWide || faint || isWeak(answer, state);
+                        areTooNear(constants, answer.solution) || tooWide || faint || isWeak(answer, state) ||
+                        isLimited(state);
   if (estimated.uncertain) estimated.quality = std::min<std::uint8_t>(estimated.quality, 20);
   return estimated;
 }

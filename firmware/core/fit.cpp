@@ -375,6 +375,17 @@ bool isConverged(const TableConstants& constants, const Linearisation& linearisa
   return hypothesis.exact == 0;
 }
 
+ContactStates halfway(const ContactStates& from, const ContactStates& to) {
+  ContactStates middle = from;
+  for (std::size_t k = 0; k < middle.size(); ++k) {
+    middle[k].angle_q32 += wrapped(static_cast<Number>(to[k].angle_q32 - from[k].angle_q32) / 2);
+    middle[k].normal += (to[k].normal - from[k].normal) / 2;
+    middle[k].tangential += (to[k].tangential - from[k].tangential) / 2;
+    middle[k].moment_q20 += (to[k].moment_q20 - from[k].moment_q20) / 2;
+  }
+  return middle;
+}
+
 }  // namespace
 
 bool isInReach(const TableImage& tables, const ContactState& contact, int gauge) {
@@ -409,12 +420,6 @@ void move(const TableImage& tables, const ContactStates& contacts, Linearisation
   }
 }
 
-Wide energyLeft(const TableImage& tables, const Linearisation& linearisation,
-                const ScaledReadings& readings) {
-  const int gauges = tables.constants.gauge_count;
-  return residualOf(gauges, linearisation, readings).energy(rowsOf(gauges));
-}
-
 Solution step(const TableImage& tables, const Linearisation& linearisation, const ScaledReadings& readings) {
   const Hypothesis& hypothesis = linearisation.hypothesis;
   const int gauges = tables.constants.gauge_count, rows = rowsOf(gauges);
@@ -426,6 +431,26 @@ Solution step(const TableImage& tables, const Linearisation& linearisation, cons
   take(tables.constants, linearisation, best, solution.contact);
   solution.converged = isConverged(tables.constants, linearisation, best, solution.contact, readings);
   return solution;
+}
+
+int descend(const TableImage& tables, const ScaledReadings& readings, Linearisation& linearisation,
+            Solution& solution) {
+  const int gauges = tables.constants.gauge_count;
+  const auto left = [&] { return residualOf(gauges, linearisation, readings).energy(rowsOf(gauges)); };
+  const ContactStates from = linearisation.at;
+  const bool isExact = linearisation.slopesAt == from;
+  const Wide before = left(), most = before + readings.variances.gate_q4 / 16;
+  for (int moves = 1; moves < (isExact ? kDescentMoves : 2); ++moves) {
+    move(tables, solution.contact, linearisation);
+    solution.residualEnergy = left();
+    if (solution.residualEnergy < most) return moves;
+    solution.contact = halfway(from, solution.contact);
+  }
+  linearise(tables, solution.hypothesis, from, linearisation);
+  solution.contact = from;
+  solution.residualEnergy = before;
+  solution.converged = isExact;
+  return isExact ? kDescentMoves : 2;
 }
 
 Solution fitLoads(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,

@@ -51,11 +51,15 @@ void move(const TableImage& tables, const ContactStates& contacts, Linearisation
 /// The linear model holds for a contact that turns by so much; `farther`: so many times as far [log2].
 bool isShortTurn(const TableConstants& constants, std::uint32_t turned_q32, int farther = 0);
 
-/// Sum of squares of what the predictions leave of the readings that count.
-Wide energyLeft(const TableImage& tables, const Linearisation& linearisation, const ScaledReadings& readings);
-
 /// One step from a linearisation to these readings. `solution.converged`: the linear model holds that far.
 Solution step(const TableImage& tables, const Linearisation& linearisation, const ScaledReadings& readings);
+
+/// Moves a linearisation to where a step leads, or half as far, or a quarter, so that less is left there than
+/// was; or leaves it where it was. True: less is left. `solution`: where it is now, and what is left there.
+int descend(const TableImage& tables, const ScaledReadings& readings, Linearisation& linearisation,
+            Solution& solution);
+/// Predictions that it takes at most.
+inline constexpr int kDescentMoves = 4;
 
 /// The best loads of contacts at these places and of these widths; their residual energy. Half of each
 /// contact is taken to slip. `scratch` is overwritten. Cost: a table lookup a gauge in reach and load,

@@ -41,7 +41,8 @@ bool saysOther(const TableConstants& constants, const Solution& answer, const So
 }
 
 /// Both contacts of a pair press by more than noise, and by a 16th of the other.
-bool areBothContacts(const Solution& pair, const ScaledReadings& readings) {
+bool areAllContacts(const Solution& pair, const ScaledReadings& readings) {
+  if (pair.hypothesis.contacts < 2) return true;
   const Number first = pair.contact[0].normal, second = pair.contact[1].normal;
   const Wide least = std::min(first, second) / 2;  // reading over a contact
   return std::min(first, second) >= std::max(first, second) >> 4 &&
@@ -57,18 +58,6 @@ ContactStates inOrderOf(const Solution& solution, ContactStates contacts) {
   if (solution.hypothesis.contacts == 2 && apart(0, 1) + apart(1, 0) < apart(0, 0) + apart(1, 1))
     std::swap(contacts[0], contacts[1]);
   return contacts;
-}
-
-ContactStates halfway(const ContactStates& from, const ContactStates& to) {
-  ContactStates middle = from;
-  for (std::size_t k = 0; k < middle.size(); ++k) {
-    ContactState& contact = middle[k];
-    contact.angle_q32 += wrapped(static_cast<Number>(to[k].angle_q32 - from[k].angle_q32) / 2);
-    contact.normal += (to[k].normal - from[k].normal) / 2;
-    contact.tangential += (to[k].tangential - from[k].tangential) / 2;
-    contact.moment_q20 += (to[k].moment_q20 - from[k].moment_q20) / 2;
-  }
-  return middle;
 }
 
 /// The reading of a gauge that was left out is far from what the others predict.
@@ -117,11 +106,13 @@ ContactStates Locator::expected(const TableConstants& constants) const {
 /// step found, where that is too far away. The work it took; nothing: the answer is lost.
 std::optional<int> Locator::follow(const TableImage& tables, const ScaledReadings& readings,
                                    GaugeSet gauges) {
-  const Hypothesis& hypothesis = answer_.solution.hypothesis;
-  if ((hypothesis.gauges & ~gauges) != 0) return std::nullopt;
+  Hypothesis& hypothesis = answer_.solution.hypothesis;
+  const bool areFewer = (hypothesis.gauges & ~gauges) != 0;
+  hypothesis.gauges &= gauges;
+  if ((hypothesis.exact & ~gauges) != 0 || freedoms(hypothesis) < 1) return std::nullopt;
   const ContactStates from = expected(tables.constants);
   int linearised = 1;
-  if (readings.shift != answer_.shift)
+  if (readings.shift != answer_.shift || areFewer)
     linearise(tables, hypothesis, rescaled(from, answer_.shift, readings.shift), linearisation_);
   else if (!isShortTurn(tables.constants, from[0].angle_q32 - linearisation_.at[0].angle_q32))
     move(tables, from, linearisation_);
@@ -129,18 +120,11 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
     linearised = 0;
   Solution solution = step(tables, linearisation_, readings);
   const int stepWork = Search::stepWork(tables, hypothesis);
-  const auto isTimeForAnother = [&](int steps) {
-    return search_.isBegun() ? steps < kStepsWhileSearching && (linearised + 2) * stepWork <= Search::kWork
-                             : steps < kFollowingSteps;
-  };
-  for (int steps = 1; isTimeForAnother(steps) && !solution.converged; ++steps, ++linearised) {
-    const ContactStates before = linearisation_.at;
-    const Wide left = energyLeft(tables, linearisation_, readings);
-    move(tables, solution.contact, linearisation_);
-    if (energyLeft(tables, linearisation_, readings) > left) {
-      move(tables, halfway(before, solution.contact), linearisation_);
-      ++linearised;
-    }
+  const int mostSteps = search_.isBegun() ? kStepsWhileSearching : kFollowingSteps;
+  for (int steps = 1; !solution.converged; ++steps) {
+    if (search_.isBegun() && (linearised + 1 + kDescentMoves) * stepWork > Search::kWork) break;
+    linearised += descend(tables, readings, linearisation_, solution);
+    if (solution.converged || steps == mostSteps) break;
     solution = step(tables, linearisation_, readings);
   }
   const bool wasAccepted = answer_.accepted;
@@ -178,6 +162,8 @@ int Locator::takeBack(const TableImage& tables, const ScaledReadings& readings, 
   const Solution solution = step(tables, scratch_, readings);
   if (isPlain(tables.constants, solution, readings)) {
     linearisation_ = scratch_;
+    answer_.doubtful = answer_.several = false;
+    answer_.suspect = 0;
     believe(tables, solution, readings);
   }
   return Search::stepWork(tables, hypothesis);
@@ -203,14 +189,14 @@ int Locator::followRival(const TableImage& tables, const ScaledReadings& reading
   answer_.rivalIsLost = isMerged || isRefuted;
   if (answer_.rivalIsLost) {
     if (!isMerged) answer_.rival = rival.contact;
-    const bool hasTold = isRefuted && rival.converged && ++answer_.timesRefuted == kTimesRefuted;
+    const bool hasTold = isRefuted && ++answer_.timesRefuted == kTimesRefuted;
     if (hasTold || isFirm(tables.constants, answer, readings)) forgetRival();
     return Search::stepWork(tables, hypothesis);
   }
   answer_.timesRefuted = 0;
   answer_.rival = rival.contact;
   answer_.rivalIsAsLikely = magnitude(more) < ambiguous;
-  if (more < 0) {
+  if (more < 0 && rival.converged) {
     // The touch itself has not moved.
     searchedAt_q32_ += rival.contact[0].angle_q32 - answer.contact[0].angle_q32;
     answer_.rival = answer.contact;
@@ -223,6 +209,7 @@ int Locator::followRival(const TableImage& tables, const ScaledReadings& reading
 void Locator::start(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges) {
   answer_ = {};
   isLookedInto_ = false;
+  setsInDoubt_ = 0;
   slid_q32_ = slidBefore_q32_ = {};
   search_.stop();
   const Hypothesis hypothesis = oneContact(tables, mode_, gauges);
@@ -257,7 +244,7 @@ bool Locator::conclude(const TableImage& tables) {
   for (std::size_t i = 0; i < rankings.size(); ++i) {
     if (!rankings[i]->anyBest) continue;
     explains[i] = isAccepted(tables.constants, rankings[i]->best, readings) &&
-                  (i != kPair || areBothContacts(rankings[i]->best, readings));
+                  areAllContacts(rankings[i]->best, readings);
     if (!best || explains[i] > explains[*best] ||
         (explains[i] == explains[*best] && costOf(i) < costOf(*best)))
       best = i;
@@ -335,7 +322,8 @@ void Locator::goOn(const TableImage& tables, const ScaledReadings& readings, int
   for (ContactState& contact : answer_.rival) contact.angle_q32 += moved_q32;
   const int steps = std::clamp(stepsLeft(), 1, kStepsAfterSearch);
   Solution now = fit(tables, hypothesis, from, readings, steps, linearisation_);
-  if (followed.hypothesis == hypothesis && followed.residualEnergy <= now.residualEnergy) {
+  if (followed.hypothesis == hypothesis && likelihoodEnergy(tables.constants, followed, readings) <=
+                                               likelihoodEnergy(tables.constants, now, readings)) {
     rememberFound(tables.constants, followed, now, readings);
     now = fit(tables, hypothesis, followed.contact, readings, 1, linearisation_);
   }
@@ -433,7 +421,7 @@ void Locator::update(const TableImage& tables, std::span<const std::int32_t> str
     answer_.searching = true;
     search(tables, readings, gauges);
   } else if (!answer_.accepted || answer_.doubtful || answer_.rivalIsLost ||
-             areTooNear(tables.constants, answer_.solution) ||
+             areTooNear(tables.constants, answer_.solution) || !areAllContacts(answer_.solution, readings) ||
              (isLookOutdated(readings) && !isFirm(tables.constants, answer_.solution, readings))) {
     if (++setsSinceSearch_ >= kSearchAgainAfter) search(tables, readings, gauges);
   }

@@ -55,6 +55,11 @@ class Locator {
   const Answer& answer() const { return answer_; }
   /// Other answers are being looked for, whether or not the answer is doubted meanwhile (Answer::searching).
   bool isSearching() const { return search_.isBegun(); }
+  /// Another update with the same readings would change nothing.
+  bool isSettled() const {
+    return answer_.accepted && answer_.solution.converged && !isSearching() && !answer_.searching &&
+           (setsInDoubt_ == 0 || answer_.doubtful);
+  }
   /// The linear model around the answer, of which its errors are.
   const Linearisation& linearisation() const { return linearisation_; }
   /// Work space between updates, so that who else fits needs none of its own.

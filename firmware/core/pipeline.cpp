@@ -60,6 +60,7 @@ bool Pipeline::isDisturbance(GaugeSet gauges) {
 void Pipeline::locate(GaugeSet gauges) {
   locator_.update(*tables_, strains(), gauges, noise_.variance_q4());
   observation_.touched = !isDisturbance(gauges);
+  if (!observation_.touched) return;
   const Answer& answer = locator_.answer();
   observation_.leftOut = allGauges(constants().gauge_count) & ~answer.solution.hypothesis.gauges;
   observation_.several = answer.several || answer.solution.hypothesis.contacts > 1;
@@ -95,8 +96,7 @@ void Pipeline::watchGauges() {
 
 /// The codes are those of the last set of a touch, and the answer to them is found.
 bool Pipeline::isKnown(Codes codes) const {
-  const Answer& answer = locator_.answer();
-  if (!answer.accepted || answer.searching) return false;
+  if (!locator_.isSettled()) return false;
   if (observation_.saturated != 0) return false;  // a second set may convict a gauge at a rail
   return !areZerosNew_ && std::equal(codes.begin(), codes.end(), codes_.begin());
 }

@@ -22,7 +22,7 @@ constexpr const char* kShapeHelp =
     "What pressed on the finger, from rows of gauge strains on stdin: as much as they tell, and no "
     "more.\n"
     "stdin: CSV, one strain a gauge in a row, a row a touch; a header row, blank lines and # comments "
-    "are passed over. Gains of the config's [calibration] are applied to them.\n"
+    "are passed over. The config's [calibration] says the gain, the angle and the depth of each gauge.\n"
     "stdout: one row a touch; what isn't known is empty. width_m: of the semi-ellipse with the load's "
     "second moment, if no line load fits (3 sigma); width_limit_m: the width is below it with 95 %. "
     "curvature_per_m: of a round indenter that makes this width under this load, 0: flat; "
@@ -121,9 +121,8 @@ template <typename Print>
 void forEachRow(const config::FingerConfig& config, Print print) {
   NumberRowReader rows(std::cin, "stdin", static_cast<std::size_t>(config.gauges.count),
                        strainLimit(config.gauges.count));
-  Eigen::VectorXd gains = Eigen::VectorXd::Ones(config.gauges.count);
-  for (std::size_t i = 0; i < config.calibration.gain.size(); ++i)
-    gains[static_cast<Eigen::Index>(i)] = config.calibration.gain[i];
+  Eigen::VectorXd gains(config.gauges.count);
+  for (int i = 0; i < config.gauges.count; ++i) gains[i] = config.calibrated(i).gain;
   std::int64_t sample = 0;
   for (std::vector<double> row; rows.next(row);) {
     const Eigen::VectorXd strains =

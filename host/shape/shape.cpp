@@ -30,7 +30,7 @@ Band bandOf(const Measured& curvature_per_m, double radius_m) {
 
 ShapeEstimator::ShapeEstimator(const config::FingerConfig& config)
     : noise_(config.gauges.noise_strain),
-      model_(config.finger, config.gauges),
+      model_(config),
       search_(model_, config.contact.friction_coefficient),
       curvature_(config.finger.annulus()) {}
 

@@ -1,44 +1,62 @@
 #include "host/shape/touch_model.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace strainfinger::shape {
+namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// sum even_n cos n psi + odd_n sin n psi, psi = a gauge's angle minus the touch's.
-struct TouchModel::Series {
-  VectorXd even, odd;
-};
-
-/// Cosines and sines of n times the touch's angle.
-struct TouchModel::Turn {
-  Eigen::ArrayXd cosine, sine;
-};
-
-TouchModel::TouchModel(const config::Finger& finger, const config::Gauges& gauges)
-    : line_(finger.annulus(), gauges.radius_m, gauges.component, gauges.arc_length_m),
-      angles_rad_(gauges.count),
-      orders_(VectorXd::LinSpaced(line_.harmonics() + 1, 0, line_.harmonics())),
-      outerRadius_m_(finger.outer_radius_m),
-      depth_(1 - gauges.radius_m / finger.outer_radius_m) {
-  for (int i = 0; i < gauges.count; ++i) angles_rad_[i] = gauges.angle_rad(i);
-  const MatrixXd phases = angles_rad_ * orders_.transpose();
-  cosines_ = phases.array().cos();
-  sines_ = phases.array().sin();
+/// Columns of cosines above as many of sines: what TouchModel's matrices are multiplied by.
+MatrixXd stacked(const MatrixXd& cosines, const MatrixXd& sines) {
+  MatrixXd both(cosines.rows() + sines.rows(), cosines.cols());
+  both << cosines, sines;
+  return both;
 }
 
-TouchModel::Turn TouchModel::turnBy(double angle_rad) const {
-  const Eigen::ArrayXd phases = orders_.array() * angle_rad;
-  return {phases.cos(), phases.sin()};
+std::vector<model::ImpulseResponse> linesOf(const config::FingerConfig& config) {
+  std::vector<model::ImpulseResponse> lines;
+  for (int i = 0; i < config.gauges.count; ++i)
+    lines.emplace_back(config.finger.annulus(), config.calibrated(i).radius_m, config.gauges.component,
+                       config.gauges.arc_length_m);
+  return lines;
 }
 
-VectorXd TouchModel::strainsOf(const Series& series, const Turn& turn) const {
-  const auto even = series.even.array(), odd = series.odd.array();
-  return cosines_ * (even * turn.cosine - odd * turn.sine).matrix() +
-         sines_ * (even * turn.sine + odd * turn.cosine).matrix();
+}  // namespace
+
+TouchModel::TouchModel(const config::FingerConfig& config)
+    : angles_rad_(config.gauges.count), outerRadius_m_(config.finger.outer_radius_m) {
+  const auto lines = linesOf(config);
+  int last = 0;
+  for (const model::ImpulseResponse& line : lines) last = std::max(last, line.harmonics());
+  orders_ = VectorXd::LinSpaced(last + 1, 0, last);
+  normal_ = tangential_ = MatrixXd::Zero(config.gauges.count, 2 * orders_.size());
+  VectorXd depths(config.gauges.count);
+  for (int i = 0; i < config.gauges.count; ++i) {
+    const model::PlacedGauge gauge = config.calibrated(i);
+    angles_rad_[i] = gauge.angle_rad;
+    depths[i] = 1 - gauge.radius_m / outerRadius_m_;
+    addGauge(i, lines[static_cast<std::size_t>(i)]);
+  }
+  depth_ = depths.mean();
+  leastDepth_ = depths.minCoeff();
+}
+
+/// Harmonics beyond those that the gauge feels stay 0.
+void TouchModel::addGauge(Index gauge, const model::ImpulseResponse& line) {
+  const Index felt = line.harmonics() + 1, sinesFrom = orders_.size();
+  const VectorXd phases = angles_rad_[gauge] * orders_.head(felt);
+  const VectorXd cosines = phases.array().cos(), sines = phases.array().sin();
+  auto even = (line.isEvenInNormal() ? normal_ : tangential_).row(gauge);
+  even.head(felt) = cosines.cwiseProduct(line.even()).transpose();
+  even.segment(sinesFrom, felt) = sines.cwiseProduct(line.even()).transpose();
+  auto odd = (line.isEvenInNormal() ? tangential_ : normal_).row(gauge);
+  odd.head(felt) = sines.cwiseProduct(line.odd()).transpose();
+  odd.segment(sinesFrom, felt) = -cosines.cwiseProduct(line.odd()).transpose();
 }
 
 TouchStrains TouchModel::respond(Profile profile, const Touch& touch) const {
@@ -49,37 +67,31 @@ TouchStrains TouchModel::respond(Profile profile, const Touch& touch) const {
     spread[n] = factor.value;
     spreadSlope[n] = factor.slope;
   }
-  const VectorXd even = line_.even().cwiseProduct(spread), odd = line_.odd().cwiseProduct(spread);
-  const bool isEven = line_.isEvenInNormal();
-  const double evenLoad = isEven ? touch.normal_n_per_m : touch.tangential_n_per_m;
-  const double oddLoad = isEven ? touch.tangential_n_per_m : touch.normal_n_per_m;
-  const VectorXd none = VectorXd::Zero(count);
-  const Series evenPart{even, none}, oddPart{none, odd};
-  const Series moved{-oddLoad * orders_.cwiseProduct(odd), evenLoad * orders_.cwiseProduct(even)};
-  const Series widened{evenLoad * line_.even().cwiseProduct(spreadSlope),
-                       oddLoad * line_.odd().cwiseProduct(spreadSlope)};
-  const Turn turn = turnBy(touch.angle_rad);
+  const VectorXd phases = orders_ * touch.angle_rad;
+  const VectorXd cosines = phases.array().cos(), sines = phases.array().sin();
+  // Columns: the load, moved, widened.
+  MatrixXd onCosines(count, 3), onSines(count, 3);
+  onCosines << cosines, -orders_.cwiseProduct(sines), cosines;
+  onSines << sines, orders_.cwiseProduct(cosines), sines;
+  MatrixXd weights(count, 3);
+  weights << spread, spread, spreadSlope;
+  const MatrixXd load = stacked(onCosines.cwiseProduct(weights), onSines.cwiseProduct(weights));
+  const MatrixXd ofNormal = normal_ * load, ofTangential = tangential_ * load;
+  const MatrixXd ofBoth = touch.normal_n_per_m * ofNormal + touch.tangential_n_per_m * ofTangential;
   TouchStrains result;
   result.slopes.resize(gauges(), 4);
-  result.slopes.col(0) = strainsOf(moved, turn);
-  result.slopes.col(1) = strainsOf(isEven ? evenPart : oddPart, turn);
-  result.slopes.col(2) = strainsOf(isEven ? oddPart : evenPart, turn);
-  result.slopes.col(3) = strainsOf(widened, turn);
-  result.strains =
-      touch.normal_n_per_m * result.slopes.col(1) + touch.tangential_n_per_m * result.slopes.col(2);
+  result.slopes << ofBoth.col(1), ofNormal.col(0), ofTangential.col(0), ofBoth.col(2);
+  result.strains = ofBoth.col(0);
   return result;
 }
 
 MatrixXd TouchModel::normalLineStrains(const VectorXd& angles_rad) const {
-  const VectorXd none = VectorXd::Zero(orders_.size());
-  const Series series = line_.isEvenInNormal() ? Series{line_.even(), none} : Series{none, line_.odd()};
-  MatrixXd strains(gauges(), angles_rad.size());
-  for (Index k = 0; k < angles_rad.size(); ++k) strains.col(k) = strainsOf(series, turnBy(angles_rad[k]));
-  return strains;
+  const MatrixXd phases = orders_ * angles_rad.transpose();
+  return normal_ * stacked(phases.array().cos(), phases.array().sin());
 }
 
 double TouchModel::leastMoment_rad2() const {
-  const double root = std::log1p(-depth_) / 4;
+  const double root = std::log1p(-leastDepth_) / 4;
   return -root * root;
 }
 

@@ -36,11 +36,13 @@ struct TouchStrains {
   Eigen::MatrixX4d slopes;
 };
 
-/// The finger's linear response at all its gauges: 1e-14 of the peak, for moments from leastMoment_rad2() on
-/// 1e-7. Immutable; costs 0.1 ms to make.
+/// The finger's linear response at all its gauges, each at the angle and depth that calibration found: 1e-14
+/// of the peak, for moments from leastMoment_rad2() on 1e-7. Immutable; costs 0.1 ms a gauge to make.
 class TouchModel {
  public:
-  TouchModel(const config::Finger& finger, const config::Gauges& gauges);
+  /// Of the config's finger, gauges and calibration, but for the gains: strains are those of gauges of
+  /// gain 1.
+  explicit TouchModel(const config::FingerConfig& config);
 
   /// Costs 20 us for 32 gauges in the default finger.
   TouchStrains respond(Profile profile, const Touch& touch) const;
@@ -48,10 +50,10 @@ class TouchModel {
   /// One column a place [rad]: what the gauges read per N/m of a normal line load there.
   Eigen::MatrixXd normalLineStrains(const Eigen::VectorXd& angles_rad) const;
 
-  int gauges() const { return static_cast<int>(cosines_.rows()); }
+  int gauges() const { return static_cast<int>(normal_.rows()); }
   double gaugeAngle_rad(int gauge) const { return angles_rad_[gauge]; }
   double outerRadius_m() const { return outerRadius_m_; }
-  /// Depth of the gauges below the surface over r_b: the scale of what they can tell apart.
+  /// Mean depth of the gauges below the surface over r_b: the scale of what they can tell apart.
   double depth() const { return depth_; }
   /// The ring's pitch, an arc at the surface, over the gauges' depth.
   double pitchInDepths() const { return 2 * std::numbers::pi / (gauges() * depth_); }
@@ -62,17 +64,15 @@ class TouchModel {
   static constexpr double kMostMoment_rad2 = momentOfWidth(1);
 
  private:
-  struct Series;
-  struct Turn;
-  Turn turnBy(double angle_rad) const;
-  Eigen::VectorXd strainsOf(const Series& series, const Turn& turn) const;
+  void addGauge(Eigen::Index gauge, const model::ImpulseResponse& line);
 
-  model::ImpulseResponse line_;
-  Eigen::VectorXd angles_rad_;
   Eigen::VectorXd orders_;
-  Eigen::MatrixXd cosines_, sines_;  // of n times each gauge's angle
+  Eigen::VectorXd angles_rad_;
+  /// What the gauges read of loads whose harmonics are cos n angle (left half) and sin n angle (right half).
+  Eigen::MatrixXd normal_, tangential_;
   double outerRadius_m_;
   double depth_;
+  double leastDepth_;  ///< of all gauges: the one that feels the highest harmonics
 };
 
 }  // namespace strainfinger::shape

@@ -112,28 +112,16 @@ TouchSearch::TouchSearch(const TouchModel& model, double friction) : model_(mode
   const auto moments = static_cast<Index>(moments_rad2_.size());
   normal_.resize(model.gauges(), moments * angles);
   tangential_.resize(model.gauges(), moments * angles);
-  for (Index moment = 0; moment < moments; ++moment)
-    for (Index angle = 0; angle < angles; ++angle) tabulate(moment, angle);
-  normalSquare_ = normal_.colwise().squaredNorm();
-  tangentialSquare_ = tangential_.colwise().squaredNorm();
-  product_ = normal_.cwiseProduct(tangential_).colwise().sum();
-}
-
-/// Computed over the first pitch; from there on the same, one gauge on: the ring is even.
-void TouchSearch::tabulate(Index moment, Index angle) {
-  const Index place = moment * static_cast<Index>(angles_rad_.size()) + angle, gauges = normal_.rows();
-  if (angle < kStepsPerPitch) {
-    const Touch touch{angles_rad_[static_cast<std::size_t>(angle)], 1, 1,
-                      moments_rad2_[static_cast<std::size_t>(moment)]};
+  for (Index place = 0; place < moments * angles; ++place) {
+    const Touch touch{angles_rad_[static_cast<std::size_t>(place % angles)], 1, 1,
+                      moments_rad2_[static_cast<std::size_t>(place / angles)]};
     const TouchStrains response = model_.respond(Profile::kEllipse, touch);
     normal_.col(place) = response.slopes.col(1);
     tangential_.col(place) = response.slopes.col(2);
-    return;
   }
-  for (Eigen::MatrixXd* table : {&normal_, &tangential_}) {
-    table->col(place).tail(gauges - 1) = table->col(place - kStepsPerPitch).head(gauges - 1);
-    (*table)(0, place) = (*table)(gauges - 1, place - kStepsPerPitch);
-  }
+  normalSquare_ = normal_.colwise().squaredNorm();
+  tangentialSquare_ = tangential_.colwise().squaredNorm();
+  product_ = normal_.cwiseProduct(tangential_).colwise().sum();
 }
 
 /// Least squares over both loads; where they break the law of friction, over one that just slides.

@@ -31,7 +31,7 @@ inline constexpr double kSure = 9;
 class TouchSearch {
  public:
   /// Keeps a reference to the model. |tangential| <= friction normal and a moment of 0 at least count
-  /// against a touch that breaks them by as many sigmas. Costs 1 ms.
+  /// against a touch that breaks them by as many sigmas. Costs 20 ms, 70 ms for 32 gauges.
   TouchSearch(const TouchModel& model, double friction);
 
   /// Nothing if readings are noise: no touch lowers chi squared by kTouched. Domain: a finite strain a gauge,
@@ -45,7 +45,6 @@ class TouchSearch {
  private:
   struct Start;
   Start bestLoads(Eigen::Index place, double alongNormal, double alongTangential) const;
-  void tabulate(Eigen::Index moment, Eigen::Index angle);
   std::vector<Start> starts(const Eigen::VectorXd& strains) const;
 
   const TouchModel& model_;

@@ -31,15 +31,19 @@ std::string rowOf(const std::string& arguments, const std::string& input) {
   return run.out.substr(begin, run.out.find('\n', begin) - begin);
 }
 
-std::vector<std::string> shapeOf(const std::string& arguments, const std::string& input) {
+std::vector<std::string> cellsOf(const std::string& row) {
   std::vector<std::string> fields(1);
-  for (const char c : rowOf(arguments, input)) {
+  for (const char c : row) {
     if (c == ',')
       fields.emplace_back();
     else
       fields.back().push_back(c);
   }
   return fields;
+}
+
+std::vector<std::string> shapeOf(const std::string& arguments, const std::string& input) {
+  return cellsOf(rowOf(arguments, input));
 }
 
 void refuses(int status, const std::string& arguments, const std::string& input, const char* named) {
@@ -62,6 +66,32 @@ TEST(ShapeCommand, TellsWhatPressed) {
   DOUBLES_EQUAL(5, std::stod(shape[3]), 0.02);
   DOUBLES_EQUAL(3.464e-3, std::stod(shape[4]), 0.05e-3);  // its fourth moment is another
   CHECK_TRUE(std::stod(shape[9]) > 1e-6 && std::stod(shape[9]) < 0.1e-3);
+}
+
+// Gauges off the drawing by a degree, 0.06 mm and 10 % in turn, so that as drawn nothing fits.
+TEST(ShapeCommand, TellsWhatPressedOnACalibratedFinger) {
+  const Run run = runShell(R"sh(folder=$(mktemp -d) && trap 'rm -rf "$folder"' EXIT && cd "$folder"
+inTurn() { echo "[$1, $2, $1, $2, $1, $2, $1, $2, $1, $2, $1, $2, $1, $2, $1, $2]"; }
+echo "schema = 1
+[calibration]
+gain = $(inTurn 0.9 1.1)
+angle_offset_deg = $(inTurn 1 -1)
+depth_offset_m = $(inTurn 6e-5 -6e-5)" >calibrated.toml
+echo "schema = 1
+[[touch]]
+start_s = 0.2
+end_s = 0.5
+angle_deg = 101
+normal_n_per_m = 20
+tangential_n_per_m = 5" >touch.toml
+"$STRAINFINGER" run -c calibrated.toml --scenario touch.toml --duration 0.45 --strains strains.csv >/dev/null 2>&1
+(head -1 strains.csv; tail -1 strains.csv) | "$STRAINFINGER" shape -c calibrated.toml)sh");
+  LONGS_EQUAL(0, run.status);
+  const auto shape = cellsOf(run.out.substr(run.out.find('\n') + 1));
+  DOUBLES_EQUAL(101, std::stod(shape[1]), 0.1);
+  DOUBLES_EQUAL(20, std::stod(shape[2]), 0.2);
+  DOUBLES_EQUAL(5, std::stod(shape[3]), 0.2);
+  STRCMP_EQUAL("", shape[17].c_str());
 }
 
 TEST(ShapeCommand, HasItsColumns) {

@@ -20,7 +20,7 @@ TEST_GROUP(PlausibleTouches) {
   /// Of a touch of 10 N/m whose place and width the ring tells well, or not.
   static PlausibleTouches around(int gauges, const Touch& touch, double noise, TouchFit* fit = nullptr) {
     const config::FingerConfig config = ringOf(0.7, gauges);
-    const TouchModel model(config.finger, config.gauges);
+    const TouchModel model(config);
     const double strain = noise * 10 * peakStrain(config);
     const Eigen::VectorXd strains = ellipseStrains(config, touch);
     const TouchFit end = refine(model, Profile::kEllipse, strains, strain, touch);
@@ -60,7 +60,7 @@ TEST(PlausibleTouches, FollowABentValley) {
 
 TEST(PlausibleTouches, OfAFitWithoutSigmasThereAreNone) {
   const config::FingerConfig config = ringOf(0.7, 16);
-  const TouchModel model(config.finger, config.gauges);
+  const TouchModel model(config);
   const TouchFit fit{{}, Eigen::Matrix4d::Constant(std::numeric_limits<double>::infinity()), 0, false};
   const auto places = plausibleTouches(model, Eigen::VectorXd::Zero(16), 1e-5, fit);
   CHECK_TRUE(places.touches.empty() && !places.areAll);

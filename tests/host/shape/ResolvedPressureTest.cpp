@@ -33,7 +33,7 @@ constexpr std::array kWidths_mm{2.0, 4.0, 6.0};
 
 int medianCount(const KnownCounts& known, double width_mm, double noise) {
   const config::FingerConfig config = ringOf(known.alpha, known.gauges);
-  const TouchModel model(config.finger, config.gauges);
+  const TouchModel model(config);
   std::vector<int> counts;
   for (int i = 0; i <= 20; ++i) {
     const double phase_rad = 2 * std::numbers::pi / known.gauges * i / 20;
@@ -49,7 +49,7 @@ int medianCount(const KnownCounts& known, double width_mm, double noise) {
 
 TEST_GROUP(ResolvedPressure) {
   const config::FingerConfig config = ringOf(0.7, 32);
-  const TouchModel model{config.finger, config.gauges};
+  const TouchModel model{config};
   const Touch touch{2, 10, 3, momentOfWidth(4e-3 / kSurface_m)};
   const double noise = 0.1 * peakStrain(config);
   const double half_rad = 2e-3 / kSurface_m;

@@ -32,7 +32,7 @@ TEST_GROUP(Shape) {
   /// What the gauges read of a solved contact whose normal is at angle_rad.
   Eigen::VectorXd contactStrains(const contact::Contact& contact) const {
     std::vector<double> angles_rad;
-    const TouchModel ring(config.finger, config.gauges);
+    const TouchModel ring(config);
     for (int i = 0; i < ring.gauges(); ++i) angles_rad.push_back(ring.gaugeAngle_rad(i) - angle_rad);
     const std::vector<model::Row> rows{model::kErr};
     return contact::computeContactField(contact::SurfaceKernel(config.finger.annulus()), contact.tractions,
@@ -121,7 +121,7 @@ TEST(Shape, NamesAClassTheReadingsSeparate) {
 
 // Without noise in the readings the profile that made them fits best: all is its own, or within the bands.
 TEST(Shape, WhatHangsOnTheProfileSaysSo) {
-  const TouchModel ring(config.finger, config.gauges);
+  const TouchModel ring(config);
   int warned = 0, named = 0;
   for (const Profile profile : allProfiles())
     for (const double width_mm : {2.0, 3.0, 4.0, 6.0})

@@ -14,7 +14,7 @@ using namespace strainfinger::testing;
 
 TEST_GROUP(TouchFit) {
   const config::FingerConfig config = ringOf(0.7, 32);
-  const TouchModel model{config.finger, config.gauges};
+  const TouchModel model{config};
   const double noise = 1e-2 * peakStrain(config);
 
   TouchFit fitOf(const Touch& truth, const Touch& start) const {

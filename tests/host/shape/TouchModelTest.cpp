@@ -16,7 +16,7 @@ TEST_GROUP(TouchModel) {
   config::FingerConfig config = ringOf(0.7, 16);
   const Touch touch{1.234, 10, -4, momentOfWidth(0.3)};
 
-  TouchModel model() const { return {config.finger, config.gauges}; }
+  TouchModel model() const { return TouchModel(config); }
   double peak() const { return 10 * peakStrain(ringOf(0.7, 16)); }
 };
 
@@ -25,6 +25,15 @@ TEST(TouchModel, ReadsWhatLineLoadsUnderTheEllipseAddUpTo) {
     config.gauges.component = component;
     config.gauges.arc_length_m = 1e-3;
     config.gauges.first_angle_deg = 7;
+    const Eigen::VectorXd strains = model().respond(Profile::kEllipse, touch).strains;
+    DOUBLES_EQUAL(0, (strains - ellipseStrains(config, touch)).cwiseAbs().maxCoeff(), 1e-12 * peak());
+  }
+}
+
+TEST(TouchModel, EachGaugeReadsFromWhereItsCalibrationHasIt) {
+  config = asBuilt(config);
+  for (const auto component : {StrainComponent::kRadial, StrainComponent::kShear}) {
+    config.gauges.component = component;
     const Eigen::VectorXd strains = model().respond(Profile::kEllipse, touch).strains;
     DOUBLES_EQUAL(0, (strains - ellipseStrains(config, touch)).cwiseAbs().maxCoeff(), 1e-12 * peak());
   }

@@ -24,12 +24,9 @@ TEST_GROUP(TouchSearch) {
   static double offBy(double a_rad, double b_rad) {
     return std::abs(std::remainder(a_rad - b_rad, 2 * std::numbers::pi));
   }
-};
 
-TEST(TouchSearch, FindsTouchesAllAroundTheRing) {
-  for (const int gauges : {16, 24, 32}) {
-    const config::FingerConfig config = ringOf(0.7, gauges);
-    const TouchModel model(config.finger, config.gauges);
+  static void findsTouchesAllAround(const config::FingerConfig& config) {
+    const TouchModel model(config);
     const TouchSearch search(model, 1);
     for (int i = 0; i < 40; ++i) {
       const Touch truth{0.157 * i + 0.01, 10, 10 * std::sin(i), momentOfWidth(0.008 * i)};
@@ -39,11 +36,23 @@ TEST(TouchSearch, FindsTouchesAllAroundTheRing) {
       DOUBLES_EQUAL(truth.moment_rad2, found->best.touch.moment_rad2, 1e-6);
     }
   }
+};
+
+TEST(TouchSearch, FindsTouchesAllAroundTheRing) {
+  for (const int gauges : {16, 24, 32}) findsTouchesAllAround(ringOf(0.7, gauges));
+}
+
+TEST(TouchSearch, FindsTouchesAllAroundAFingerAsBuilt) { findsTouchesAllAround(asBuilt(ringOf(0.7, 16))); }
+
+TEST(TouchSearch, FindsTouchesAllAroundAnUnevenRing) {
+  config::FingerConfig config = ringOf(0.7, 24);
+  for (int i = 0; i < 24; ++i) config.gauges.angles_deg.push_back(15 * i + 3 * (1 + std::sin(3.0 * i)));
+  findsTouchesAllAround(config);
 }
 
 TEST(TouchSearch, NoiseIsNoTouch) {
   const config::FingerConfig config = ringOf(0.7, 32);
-  const TouchModel model(config.finger, config.gauges);
+  const TouchModel model(config);
   const TouchSearch search(model, 1);
   for (std::uint64_t i = 0; i < 200; ++i) CHECK_FALSE(search.search(noiseOf(32, i, 1e-5), 1e-5).has_value());
   CHECK_FALSE(search.search(Eigen::VectorXd::Zero(32), 1e-5).has_value());
@@ -51,7 +60,7 @@ TEST(TouchSearch, NoiseIsNoTouch) {
 
 TEST(TouchSearch, ATouchThatPullsIsNone) {
   const config::FingerConfig config = ringOf(0.7, 32);
-  const TouchModel model(config.finger, config.gauges);
+  const TouchModel model(config);
   const auto found = TouchSearch(model, 0).search(ellipseStrains(config, {1, -10, 0, 0}), 1e-5);
   CHECK_TRUE(!found || offBy(1, found->best.touch.angle_rad) > 0.1);
 }
@@ -59,7 +68,7 @@ TEST(TouchSearch, ATouchThatPullsIsNone) {
 // 32 gauges over a layer that is thin for them: several touches fit, and the sigmas say so.
 TEST(TouchSearch, AnAmbiguousTouchNamesItsRival) {
   const config::FingerConfig config = ringOf(0.85, 32);
-  const TouchModel model(config.finger, config.gauges);
+  const TouchModel model(config);
   const TouchSearch search(model, 1);
   const double noise = 0.1 * peakStrain(config);
   int rivals = 0, covered = 0;
@@ -78,18 +87,19 @@ TEST(TouchSearch, AnAmbiguousTouchNamesItsRival) {
 // Of two touches that fit alike the one that friction allows: 16 gauges, nearly over one.
 TEST(TouchSearch, FrictionDecides) {
   const config::FingerConfig config = ringOf(0.7, 16);
-  const TouchModel model(config.finger, config.gauges);
+  const TouchModel model(config);
+  const TouchSearch slippery(model, 0.1), rough(model, 10);
   const double noise = 1e-2 * peakStrain(config) * 10;
   int slips = 0, slipsOfTheRough = 0;
   for (std::uint64_t i = 0; i < 60; ++i) {
     const Touch truth{0.0654 * static_cast<double>(i), 10, 0, 0};
     const Eigen::VectorXd strains = ellipseStrains(config, truth) + noiseOf(16, i, noise);
-    const auto ratio = [&](double friction) {
-      const auto found = TouchSearch(model, friction).search(strains, noise);
+    const auto ratio = [&](const TouchSearch& search) {
+      const auto found = search.search(strains, noise);
       return std::abs(found->best.touch.tangential_n_per_m) / found->best.touch.normal_n_per_m;
     };
-    slips += ratio(0.1) > 0.4;
-    slipsOfTheRough += ratio(10) > 0.4;
+    slips += ratio(slippery) > 0.4;
+    slipsOfTheRough += ratio(rough) > 0.4;
   }
   CHECK_TRUE(slips < slipsOfTheRough);
 }
@@ -98,7 +108,7 @@ TEST(TouchSearch, FrictionDecides) {
 // noise.
 TEST(TouchSearch, BandsHoldTheRival) {
   const config::FingerConfig config = ringOf(0.7, 16);
-  const TouchModel model(config.finger, config.gauges);
+  const TouchModel model(config);
   const TouchSearch search(model, 1);
   const double noise = 0.1 * peakStrain(config);
   int rivals = 0;

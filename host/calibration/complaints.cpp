@@ -146,13 +146,11 @@ void requireTouches(const config::Gauges& gauges, std::span<const RowUse> uses) 
 
 void requireAllAround(const config::Gauges& gauges, const std::vector<int>& untouched) {
   if (untouched.empty()) return;
-  std::string names;
-  for (const int gauge : untouched) names += (names.empty() ? "" : ", ") + placed(gauges, gauge);
   fail(fmt::format(
       "no touches, or hardly any, are near these gauges: {}; {}. Where the finger was touched there, "
       "press less if they read beyond full scale, else look for open wires: they and the gauges beside them "
       "read most in no row",
-      names, kTouchesToAdd));
+      placesOf(gauges, untouched), kTouchesToAdd));
 }
 
 void requireWiring(const std::vector<WiringFault>& faults) {
@@ -192,29 +190,30 @@ void refuseContradicted(const std::vector<std::size_t>& rows, const char* what, 
                   what, rowNames(rows), lookAt));
 }
 
-std::string untoldGauges(const CalibrationResult& result, std::initializer_list<GaugeUnknown> unknowns,
-                         double most) {
-  const config::Gauges& gauges = result.drawing().config().gauges;
+std::vector<int> untoldGauges(const CalibrationResult& result, GaugeUnknown unknown, double most) {
   const Eigen::MatrixXd covariance = withoutConventions(result.drawing(), result.covariance());
-  std::string names;
-  for (int gauge = 0; gauge < gauges.count; ++gauge) {
-    const bool isUntold = std::any_of(unknowns.begin(), unknowns.end(), [&](GaugeUnknown unknown) {
-      const Eigen::Index at = Drawing::at(gauge, unknown);
-      return std::sqrt(covariance(at, at)) > most;
-    });
-    if (isUntold) names += (names.empty() ? "" : ", ") + placed(gauges, gauge);
+  std::vector<int> untold;
+  for (int gauge = 0; gauge < result.drawing().gauges(); ++gauge) {
+    const Eigen::Index at = Drawing::at(gauge, unknown);
+    if (std::sqrt(covariance(at, at)) > most) untold.push_back(gauge);
   }
+  return untold;
+}
+
+std::string placesOf(const config::Gauges& gauges, const std::vector<int>& which) {
+  std::string names;
+  for (const int gauge : which) names += (names.empty() ? "" : ", ") + placed(gauges, gauge);
   return names;
 }
 
 void requireTold(const CalibrationResult& result) {
-  const std::string names = untoldGauges(result, {kAngleOffset}, kMostUntold);
-  if (names.empty()) return;
+  const std::vector<int> untold = untoldGauges(result, kAngleOffset, kMostUntold);
+  if (untold.empty()) return;
   fail(
       fmt::format("the touches don't tell where these gauges are: {}; {}. Where there are such touches, look "
                   "at the order "
                   "in which these gauges are connected",
-                  names, kTouchesToAdd));
+                  placesOf(result.drawing().config().gauges, untold), kTouchesToAdd));
 }
 
 void requireReadable(const CalibrationResult& result) {

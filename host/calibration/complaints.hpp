@@ -3,7 +3,6 @@
 // Failure(kFailure).
 
 #include <Eigen/Core>
-#include <initializer_list>
 #include <span>
 #include <string>
 #include <vector>
@@ -47,9 +46,10 @@ void requireTold(const CalibrationResult& result);
 /// and what to look at.
 void requireReadable(const CalibrationResult& result);
 
-/// "3 (at 67.5 deg), 5 (at 112.5 deg)": the gauges of which the touches tell one of `unknowns` no better than
-/// `most` of its tolerance. Empty if there are none.
-std::string untoldGauges(const CalibrationResult& result, std::initializer_list<GaugeUnknown> unknowns,
-                         double most);
+/// The gauges of which the touches tell `unknown` no better than `most` of its tolerance.
+std::vector<int> untoldGauges(const CalibrationResult& result, GaugeUnknown unknown, double most);
+
+/// "3 (at 67.5 deg), 5 (at 112.5 deg)".
+std::string placesOf(const config::Gauges& gauges, const std::vector<int>& which);
 
 }  // namespace strainfinger::calibration

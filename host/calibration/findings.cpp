@@ -113,6 +113,29 @@ void addFarOff(const CalibrationResult& result, const GaugeWords& words,
        words.lookAtIfMost);
 }
 
+/// An unknown of gauges that the touches may tell little of, and the touches that tell more: measured, a
+/// gain's sigma is less after more or firmer touches, wherever they are and however wide.
+struct UntoldWords {
+  GaugeUnknown unknown;
+  const char* name;
+  const char* whatTellsMore;
+};
+constexpr const char* kTouchesAbout = "Touches over them and beside them tell more";
+constexpr std::array kUntoldWords{
+    UntoldWords{kGain, "gain", "More touches, and firmer ones, tell more; gain and depth are told together"},
+    UntoldWords{kAngleOffset, "angle", kTouchesAbout}, UntoldWords{kDepthOffset, "depth", kTouchesAbout}};
+
+void addUntold(const CalibrationResult& result, const UntoldWords& words,
+               std::vector<std::string>& sentences) {
+  const config::Gauges& gauges = result.drawing().config().gauges;
+  const std::vector<int> untold = untoldGauges(result, words.unknown, kUntold);
+  if (untold.empty()) return;
+  const bool isAll = untold.size() == static_cast<std::size_t>(gauges.count);
+  sentences.push_back(fmt::format("Little is told of the {} of {}: what isn't is the drawing's. {}.",
+                                  words.name, isAll ? "all gauges" : "gauges " + placesOf(gauges, untold),
+                                  words.whatTellsMore));
+}
+
 }  // namespace
 
 bool isTouch(const RowResult& row) { return std::abs(row.touch[kNormalLoad]) > kTrace_n_per_m; }
@@ -144,12 +167,7 @@ std::vector<std::string> whatIsUntold(const CalibrationResult& result) {
     sentences.emplace_back(
         "No load is known of the fitted rows: forces are right as far as finger.shear_modulus_pa is. Some "
         "touches on a scale, with a known normal_n_per_m, mend that.");
-  const std::string names = untoldGauges(result, {kGain, kAngleOffset, kDepthOffset}, kUntold);
-  if (!names.empty())
-    sentences.push_back(
-        fmt::format("Little is told of gauges {}: what isn't is the drawing's. Touches over them and beside "
-                    "them tell more.",
-                    names));
+  for (const UntoldWords& words : kUntoldWords) addUntold(result, words, sentences);
   return sentences;
 }
 

@@ -44,8 +44,20 @@ TEST(Findings, AGaugeThatIsUntoldIsNamedWithTheTouchesThatTell) {
   covariance(depth, depth) = 0.8;
   const auto sentences = whatIsUntold(result());
   LONGS_EQUAL(1, sentences.size());
-  STRCMP_CONTAINS("gauges 7 (at 157.5 deg)", sentences.front().c_str());
+  STRCMP_CONTAINS("of the depth of gauges 7 (at 157.5 deg): ", sentences.front().c_str());
   STRCMP_CONTAINS("Touches over them", sentences.front().c_str());
+}
+
+TEST(Findings, WhatIsUntoldOfGaugesIsNamedUnknownByUnknown) {
+  for (int gauge = 0; gauge < drawing.gauges(); ++gauge)
+    covariance(Drawing::at(gauge, kGain), Drawing::at(gauge, kGain)) = 0.33;  // 0.57 of its tolerance
+  for (const int gauge : {2, 9})  // of one alone it would be the turn of the ring, which is given
+    covariance(Drawing::at(gauge, kAngleOffset), Drawing::at(gauge, kAngleOffset)) = 0.8;
+  const auto sentences = whatIsUntold(result());
+  LONGS_EQUAL(2, sentences.size());
+  STRCMP_CONTAINS("of the gain of all gauges: ", sentences[0].c_str());
+  STRCMP_CONTAINS("More touches, and firmer ones, tell more", sentences[0].c_str());
+  STRCMP_CONTAINS("of the angle of gauges 2 (at 45 deg), 9 (at 202.5 deg): ", sentences[1].c_str());
 }
 
 TEST(Findings, WhatIsFarOffTheDrawingIsToldWithWhatToLookAt) {

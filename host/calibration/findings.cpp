@@ -38,7 +38,8 @@ bool isDriftedZero(const CalibrationResult& result, const RowResult& row) {
 std::string reasonOf(RowUse use) {
   switch (use) {
     case RowUse::kWeak:
-      return "too weak to tell anything";
+      return "so weak that they tell less than a sixtieth of what strong ones tell, or little beside the "
+             "noise";
     case RowUse::kAmbiguous:
       return "explained by touches at two places or of two widths";
     case RowUse::kWide:

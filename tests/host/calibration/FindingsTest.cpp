@@ -111,6 +111,12 @@ TEST(Findings, RowsThatWereLeftOutAreListedByReason) {
   STRCMP_CONTAINS("slip", left.front().reason.c_str());
 }
 
+TEST(Findings, WeakRowsAreSaidToTellLittleBesideStrongOnes) {
+  rows = {row(RowUse::kFitted, 0), row(RowUse::kWeak, 0)};
+  STRCMP_CONTAINS("less than a sixtieth of what strong ones tell",
+                  rowsLeftOut(result()).front().reason.c_str());
+}
+
 TEST(Findings, UntouchedRowsOfOtherZerosAreToldForTheDrift) {
   RowResult drifted = row(RowUse::kContradicted, 1e-4);
   drifted.touch = {0, 1e-9, 0, 0};

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 #include "host/base/angles.hpp"
 #include "host/plot/style.hpp"
@@ -126,16 +128,24 @@ DataFile trackData(const TouchRecord& record) {
   return data;
 }
 
-/// What the error panel must show: 9 of 10 errors, rounded up to 1, 2 or 5 times a power of ten [mm].
+/// Not less than this share of the values; 0 of none.
+double quantile(std::vector<double> values, double share) {
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size()))];
+}
+
+/// What the error panel must show: 9 of 10 errors and every other sigma, as sigmas rise tenfold between
+/// gauges; rounded up to 1, 2 or 5 times a power of ten [mm].
 double errorRange_mm(const TouchRecord& record) {
-  std::vector<double> errors;
+  std::vector<double> errors, sigmas;
   for (const TrackPoint& point : record.track) {
-    const double error = std::fabs(arcError_m(point, record.outerRadius_m)) * kMilli;
-    if (std::isfinite(error) && error > 0) errors.push_back(error);
+    errors.push_back(std::fabs(arcError_m(point, record.outerRadius_m)) * kMilli);
+    sigmas.push_back(arcSigma_m(point, record.outerRadius_m) * kMilli);
   }
-  if (errors.empty()) return 1;
-  std::sort(errors.begin(), errors.end());
-  const double needed = errors[errors.size() * 9 / 10];
+  const double needed = std::max(quantile(std::move(errors), 0.9), quantile(std::move(sigmas), 0.5));
+  if (needed == 0) return 1;
   const double decade = std::pow(10.0, std::floor(std::log10(needed)));
   for (const double step : {1.0, 2.0, 5.0})
     if (needed <= step * decade) return step * decade;

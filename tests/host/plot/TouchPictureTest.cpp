@@ -60,6 +60,15 @@ TEST(TouchPicture, TheErrorGoesTheShortWayAround) {
   DOUBLES_EQUAL(-0.1 * std::numbers::pi / 18, file(touchPicture(record), "track").rows.at(0).at(7), 1e-9);
 }
 
+TEST(TouchPicture, TheErrorPanelReachesErrorsAndSigmas) {
+  TouchRecord record = slide();  // sigmas of 0.2 deg are 0.035 mm, twice the errors
+  STRCMP_CONTAINS("errorRange = 0.05\n", touchPicture(record).script.c_str());
+  for (TrackPoint& point : record.track) point.sigmaAngle_deg = 0.01;
+  STRCMP_CONTAINS("errorRange = 0.02\n", touchPicture(record).script.c_str());
+  for (TrackPoint& point : record.track) point.sigmaAngle_deg = strainfinger::kNoValue;
+  STRCMP_CONTAINS("errorRange = 0.02\n", touchPicture(record).script.c_str());
+}
+
 TEST(TouchPicture, NothingWithoutAValueIsDrawnAsANumber) {
   TouchRecord record = slide();
   record.track = {{0, {}, {}, strainfinger::kNoValue}, {1, {}, {}, strainfinger::kNoValue}};

@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
+#include "common/frames.hpp"
+#include "common/raw_share.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/strain_rows.hpp"
 #include "host/can/open_bus.hpp"
@@ -72,7 +75,42 @@ class StrainPrinter {
   std::uint64_t sets_ = 0;
 };
 
+/// How many gauges a finger has, by the pages of RAW that it sends.
+class SentGauges {
+ public:
+  explicit SentGauges(std::uint8_t node) : node_(node) {}
+
+  /// Takes any frame. Codes beyond the last gauge are 0, which a gauge at its rail may be too.
+  void take(const CanFrame& frame) {
+    if (nodeOf(frame.id, FunctionCode::kRaw) != node_) return;
+    const auto page = decode<RawFrame>(frame);
+    if (!page) return;
+    const int onPage = page->code_2 != 0 ? 3 : page->code_1 != 0 ? 2 : 1;
+    count_ = std::max(count_, int{kCodesPerPage} * page->page + onPage);
+  }
+
+  int count() const { return count_; }  ///< 0: it sends nothing
+
+ private:
+  std::uint8_t node_;
+  int count_ = 0;
+};
+
 using StrainClock = std::chrono::steady_clock;
+
+/// Why there is no whole set, and what to do.
+std::string whyNone(int gauges, const SentGauges& sent, double waited_s) {
+  if (sent.count() == 0) return fmt::format("no readings in {} s: is the bus free enough?", waited_s);
+  if (sent.count() < gauges)
+    return fmt::format(
+        "no whole set of readings: the config has gauges.count = {}, the finger sends {}: give "
+        "this finger's config, -c",
+        gauges, sent.count());
+  return fmt::format(
+      "no whole set of readings in {} s: is the bus free enough? A lower --rate or a longer "
+      "--duration may help",
+      waited_s);
+}
 
 void runStrains(const StrainsOptions& options) {
   const config::FingerConfig config = options.request.common.config();
@@ -83,28 +121,30 @@ void runStrains(const StrainsOptions& options) {
   RawStream stream(*bus, node, options.rate_hz);
   can::StrainReceiver receiver(node, config.gauges.count, config.gauges.full_scale_strain);
   StrainPrinter printer(config.gauges, options.request.common.format());
+  SentGauges sent(node);
+  const auto giveUp = [&](double waited_s) {
+    throw Failure(ExitCode::kNoNode, fmt::format("{} node {}: {}", bus->name(), node,
+                                                 whyNone(config.gauges.count, sent, waited_s)));
+  };
   const auto isWhole = [&] { return printer.sets() >= options.rows; };
   for (auto heard = StrainClock::now(); !stop.asked() && !isWhole() && StrainClock::now() < end;) {
     bus->waitReadable(std::chrono::milliseconds(50));
     while (!isWhole()) {
       const auto arrived = bus->receiveTimed();
       if (!arrived) break;
+      sent.take(arrived->frame);
       const auto set = receiver.take(arrived->frame);
       if (!set) continue;
       heard = StrainClock::now();
       printer.print(arrived->time_ns, *set);
     }
     receiver.requireAllGauges();
-    if (StrainClock::now() - heard > kSilence)
-      throw Failure(ExitCode::kNoNode,
-                    fmt::format("{} node {}: no whole set of readings for {} s: has it gauges.count = {}, as "
-                                "the config, and is "
-                                "the bus free enough? A lower --rate may help",
-                                bus->name(), node, kSilence.count() / 1000, config.gauges.count));
+    if (StrainClock::now() - heard > kSilence) giveUp(kSilence.count() / 1e3);
   }
   std::fflush(stdout);
   fmt::print(stderr, "strains: {} sets, {} incomplete\n", printer.sets(), receiver.incomplete());
   if (stop.asked()) throw Failure(ExitCode::kInterrupted, "strains: interrupted");
+  if (printer.sets() == 0) giveUp(options.duration_s);
 }
 
 }  // namespace

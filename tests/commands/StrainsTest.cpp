@@ -85,11 +85,22 @@ TEST(StrainsCommand, ARateBeyondTheBusIsRefusedWithTheFastest) {
 }
 
 TEST(StrainsCommand, AnotherRingThanTheConfigsIsTold) {
-  const Run run = withFinger("", R"("$STRAINFINGER" strains --can $BUS -c <(echo -e 'schema = 1
+  for (const std::string duration : {"1", "6"}) {
+    const Run run = withFinger("", R"("$STRAINFINGER" strains --can $BUS -c <(echo -e 'schema = 1
 [gauges]
-count = 24') --duration 6)");
+count = 24') --duration )" + duration);
+    LONGS_EQUAL(4, run.status);
+    STRCMP_CONTAINS(
+        "no whole set of readings: the config has gauges.count = 24, the finger sends 16: give this "
+        "finger's config, -c",
+        run.err.c_str());
+  }
+}
+
+TEST(StrainsCommand, NoReadingsInItsDurationIsNotSuccess) {
+  const Run run = withFinger("", R"("$STRAINFINGER" strains --can $BUS --rate 1 --duration 0.01)");
   LONGS_EQUAL(4, run.status);
-  STRCMP_CONTAINS("no whole set of readings for 3 s: has it gauges.count = 24", run.err.c_str());
+  STRCMP_CONTAINS(" in 0.01 s: is the bus free enough?", run.err.c_str());
 }
 
 TEST(StrainsCommand, NobodyThereIsTold) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -111,6 +112,9 @@ model::Profile readProfile(const toml::node& node) {
          fmt::format("touch.profile = \"{}\" is out of its domain; it must be one of hertz, uniform", name));
 }
 
+/// To the nanosecond: a difference of decimal times is not quite the decimal that a list ends with.
+double durationOf(double start_s, double end_s) { return std::round((end_s - start_s) * 1e9) / 1e9; }
+
 TouchCourse readTouch(const toml::node& node) {
   const toml::table& touch = config::sectionOf(node, "touch");
   config::checkKeys(touch, "touch.", touchKeys(), touchKeys());
@@ -120,7 +124,7 @@ TouchCourse readTouch(const toml::node& node) {
   if (end_s <= start_s)
     failAt(end.source(), fmt::format("touch.end_s = {} must be after touch.start_s = {}", end_s, start_s));
   const auto course = [&](const toml::node& value, std::string_view key, const Domain& domain) {
-    return readCourse(value, key, domain, end_s - start_s);
+    return readCourse(value, key, domain, durationOf(start_s, end_s));
   };
   const toml::node* rub = touch.get("tangential_n_per_m");
   TouchCourse read{start_s, end_s, course(demand(touch, "touch.angle_deg"), "touch.angle_deg", angleDomain()),

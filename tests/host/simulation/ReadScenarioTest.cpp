@@ -53,6 +53,25 @@ TEST(ReadScenario, PointsHaveTheirTimeSinceTheTouchsStart) {
   DOUBLES_EQUAL(30, angleAt_deg("[[0.5, 10], [1, 30]]", 2.5), 1e-13);
 }
 
+// 1.4 - 1 is less than 0.4.
+TEST(ReadScenario, AListMayEndWithTheTouchWhateverItsTimes) {
+  struct Life {
+    std::string start, end, duration;
+  };
+  for (const Life& life :
+       {Life{"1", "1.4", "0.4"}, Life{"0.1", "0.3", "0.2"}, Life{"86399.7", "86400.1", "0.4"}}) {
+    const auto endingAt = [&](const std::string& time) {
+      return "schema = 1\n[[touch]]\nstart_s = " + life.start + "\nend_s = " + life.end +
+             "\nangle_deg = 0\nnormal_n_per_m = [[0, 10], [" + time + ", 20]]\n";
+    };
+    STRCMP_EQUAL("accepted", complaintAbout(endingAt(life.duration)).c_str());
+    STRCMP_EQUAL(("s.toml:6:29: time in touch.normal_n_per_m = 0.41 is out of its domain; it must be 0 to " +
+                  life.duration)
+                     .c_str(),
+                 complaintAbout(endingAt("0.41")).c_str());
+  }
+}
+
 TEST(ReadScenario, TheTangentialLoadIsZeroWhenLeftOut) {
   const Touch touch = readScenario(withAngle("0"), "s").at(2).at(0);
   CHECK_TRUE((touch == Touch{0, 20, 0}));

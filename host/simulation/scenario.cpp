@@ -40,7 +40,7 @@ std::vector<Touch> Scenario::at(double time_s) const {
   for (const TouchCourse& course : touches_) {
     if (within_s < course.start_s || within_s >= course.end_s) continue;
     const Touch touch = touchAt(course, within_s);
-    if (touch.normal_n_per_m != 0 || touch.tangential_n_per_m != 0) inForce.push_back(touch);
+    if (touch.normal_n_per_m != 0) inForce.push_back(touch);
   }
   return inForce;
 }

@@ -53,7 +53,8 @@ class Scenario {
   /// `repeat_s` > 0: begin again after this time, which no touch outlasts.
   explicit Scenario(std::vector<TouchCourse> touches, std::optional<double> repeat_s = std::nullopt);
 
-  /// The touches in force: start <= time < end, and some load. Linear in the number of touches.
+  /// The touches in force: start <= time < end, and some normal load, without which nothing touches, whatever
+  /// the tangential one. Linear in the number of touches.
   std::vector<Touch> at(double time_s) const;
 
   /// When it begins again or is over.

@@ -139,6 +139,17 @@ rm -r $d)");
   STRCMP_CONTAINS("1.00", run.out.c_str());
 }
 
+// A load that begins at 0 while something already pulls, which would be no touch to `calibrate`.
+TEST(RunCommand, NothingTouchesUntilItPresses) {
+  const Run run =
+      withScenario("--rows-hz 10 --touches /dev/stderr 2>&1 >/dev/null",
+                   "schema = 1\n[[touch]]\nstart_s = 0.18\nend_s = 0.35\nangle_deg = 45\n"
+                   "normal_n_per_m = [[0, 0], [0.05, 0], [0.1, 20]]\ntangential_n_per_m = 1.06\n");
+  LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS("angle_deg,normal_n_per_m,tangential_n_per_m\n0,0,0\n0,0,0\n0,0,0\n45,20,1.06\n",
+                  run.out.c_str());
+}
+
 TEST(RunCommand, AFileThatCannotBeWrittenIsAFailure) {
   const Run run = runProgram("run --duration 0.2 --strains /nowhere/s.csv");
   LONGS_EQUAL(1, run.status);

@@ -97,7 +97,7 @@ std::string terminal(const Picture& picture, const std::string& ending) {
 std::string completeScript(const Picture& picture, const std::string& stem, const std::string& ending) {
   return fmt::format(
       "set terminal {}\nset output '{}{}'\nset datafile separator ','\n"
-      "data(name) = '{}-'.name.'.csv'\ngap(n) = strlen(strcol(n)) ? column(n) : NaN\n{}unset output\n",
+      "data(name) = '{}-'.name.'.csv'\ngap(n) = valid(n) ? column(n) : NaN\n{}unset output\n",
       terminal(picture, ending), stem, ending, stem, picture.script);
 }
 

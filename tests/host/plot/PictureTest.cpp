@@ -37,6 +37,14 @@ TEST_GROUP(Picture) {
   }
 };
 
+TEST(Picture, TheLastColumnMayHaveGaps) {
+  const double gap = std::numeric_limits<double>::quiet_NaN();
+  picture.data = {{"curve", {"x", "y"}, {{0, 0.25}, {1, 0.25}, {1.5, gap}, {1.75, gap}, {2, 5}}}};
+  picture.script = "set table 'points'\n" + picture.script + "unset table\n" + picture.script;
+  draw(picture, folder.file("a.svg"));
+  STRCMP_CONTAINS(" 1.5  NaN  u\n 1.75  NaN  u\n", contentOf("points").c_str());
+}
+
 TEST(Picture, APngIsDrawnInTheSizeAskedFor) {
   draw(picture, folder.file("a.png"));
   const std::string png = contentOf("a.png");

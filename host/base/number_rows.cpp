@@ -170,8 +170,10 @@ double NumberRowReader::numberOf(std::string_view field, std::size_t column) con
   return value;
 }
 
+std::string NumberRowReader::place() const { return fmt::format("{}:{}", name_, line_); }
+
 void NumberRowReader::fail(std::size_t column, const std::string& what) const {
-  throw Failure(ExitCode::kFailure, fmt::format("{}:{}:{}: {}", name_, line_, column, what));
+  throw Failure(ExitCode::kFailure, fmt::format("{}:{}: {}", place(), column, what));
 }
 
 }  // namespace strainfinger

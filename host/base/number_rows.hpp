@@ -42,6 +42,9 @@ class NumberRowReader {
   /// row of another length and for another header.
   bool next(std::vector<double>& row);
 
+  /// name:line of the last row, for messages about what it says.
+  std::string place() const;
+
   /// The columns beside Limit::columns: their names, known with the first row, and the last row's texts.
   const std::vector<std::string>& otherNames() const { return otherNames_; }
   const std::vector<std::string>& others() const { return others_; }

@@ -99,21 +99,20 @@ std::string leftOutText(std::span<const RowUse> uses) {
 
 bool isFinite(const std::optional<double>& value) { return std::isfinite(value.value_or(0)); }
 
-void requireTouch(const KnownTouch& touch, std::size_t row) {
+}  // namespace
+
+void requireTouch(const KnownTouch& touch, const std::string& place) {
   if (!isFinite(touch.angle_deg) || !isFinite(touch.normal_n_per_m) || !isFinite(touch.tangential_n_per_m))
-    fail(fmt::format("touch {}: its angle and loads must be finite numbers, or empty if they are unknown",
-                     row));
+    fail(fmt::format("{}: its angle and loads must be finite numbers, or empty if they are unknown", place));
   if (std::abs(touch.angle_deg.value_or(0)) > kMostAngle_deg)
-    fail(fmt::format("touch {}: angle_deg = {} must be within +-{}", row, *touch.angle_deg, kMostAngle_deg));
+    fail(fmt::format("{}: angle_deg = {} must be within +-{}", place, *touch.angle_deg, kMostAngle_deg));
   if (touch.normal_n_per_m.value_or(0) < 0)
-    fail(fmt::format("touch {} pulls: normal_n_per_m = {} must be positive, or 0 for no touch", row,
+    fail(fmt::format("{} pulls: normal_n_per_m = {} must be positive, or 0 for no touch", place,
                      *touch.normal_n_per_m));
   if (touch.normal_n_per_m == 0.0 && !touch.isUntouched())
-    fail(fmt::format("touch {} has normal_n_per_m = 0: then tangential_n_per_m must be 0 too, for no touch",
-                     row));
+    fail(
+        fmt::format("{} has normal_n_per_m = 0: then tangential_n_per_m must be 0 too, for no touch", place));
 }
-
-}  // namespace
 
 void requireRows(const config::Gauges& gauges, std::span<const KnownTouch> known,
                  const Eigen::MatrixXd& readings) {
@@ -129,7 +128,7 @@ void requireRows(const config::Gauges& gauges, std::span<const KnownTouch> known
   if (readings.cols() != gauges.count)
     fail(fmt::format("{} strains in a row; there must be one a gauge, gauges.count = {}", readings.cols(),
                      gauges.count));
-  for (std::size_t i = 0; i < known.size(); ++i) requireTouch(known[i], i + 1);
+  for (std::size_t i = 0; i < known.size(); ++i) requireTouch(known[i], fmt::format("touch {}", i + 1));
   for (Eigen::Index row = 0; row < readings.rows(); ++row)
     if (!readings.row(row).allFinite()) fail(fmt::format("row {}: a strain is no finite number", row + 1));
 }

@@ -13,6 +13,9 @@
 
 namespace strainfinger::calibration {
 
+/// Its numbers are finite and those of a touch, or of none; `place` is what a complaint begins with.
+void requireTouch(const KnownTouch& touch, const std::string& place);
+
 /// There are rows; a known touch a row or none at all; a column a gauge; finite readings; touches that can
 /// be.
 void requireRows(const config::Gauges& gauges, std::span<const KnownTouch> known,

@@ -16,6 +16,7 @@
 #include "host/base/no_value.hpp"
 #include "host/base/read_file.hpp"
 #include "host/base/strain_rows.hpp"
+#include "host/calibration/complaints.hpp"
 #include "host/calibration/expected_error.hpp"
 #include "host/calibration/findings.hpp"
 #include "host/calibration/page.hpp"
@@ -136,8 +137,12 @@ Rows readRows(const std::string& path, std::size_t columns, const NumberRowReade
 std::vector<calibration::KnownTouch> readTouches(const std::string& path) {
   std::vector<calibration::KnownTouch> touches;
   if (path.empty()) return touches;
-  for (const auto& row : readRows(path, 3, touchLimit()))
+  std::istringstream text(readFile(path, ExitCode::kFailure));
+  NumberRowReader reader(text, path, 3, touchLimit());
+  for (std::vector<double> row; reader.next(row);) {
     touches.push_back({valueOf(row[0]), valueOf(row[1]), valueOf(row[2])});
+    calibration::requireTouch(touches.back(), fmt::format("{}: touch {}", reader.place(), touches.size()));
+  }
   return touches;
 }
 

@@ -226,6 +226,9 @@ TEST(CalibrateCommand, SaysWhatIsWrongAndWhereAndWritesNothing) {
   refuses(2, "--load-error 2", readings, "--load-error");
   write("touches.csv", "0,0,0\n0,20\n");
   refuses(1, "", readings, "touches.csv:2:");
+  write("touches.csv", "angle_deg,normal_n_per_m,tangential_n_per_m\n0,0,0\n\n359.269,0,1.06\n");
+  refuses(1, "", readings,
+          "touches.csv:4: touch 2 has normal_n_per_m = 0: then tangential_n_per_m must be 0");
   write("touches.csv", ",,\n");
   refuses(1, "", readings.substr(0, readings.find('\n') + 1), "too few: at least 32");
 }

@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
+#include <iostream>
 #include <string_view>
 #include <utility>
 
@@ -99,7 +102,15 @@ bool NumberRowReader::next(std::vector<double>& row) {
     parse(line, row);
     return true;
   }
+  requireReadable();
   return false;
+}
+
+/// Its end, not an error of reading. std::cin reads through stdin, which alone knows of those.
+void NumberRowReader::requireReadable() const {
+  const bool isOfStdin = &stream_ == &std::cin && std::ferror(stdin) != 0;
+  if (stream_.bad() || isOfStdin)
+    throw Failure(ExitCode::kFailure, fmt::format("{}: cannot read: {}", name_, std::strerror(errno)));
 }
 
 void NumberRowReader::takeHeader(const std::string& line) {

@@ -39,7 +39,7 @@ class NumberRowReader {
 
   /// The next row; false at the end. Throws Failure(kFailure) with name:line:column, what is wrong and what
   /// would be right, for a field that is no finite number or beyond the limit, for a
-  /// row of another length and for another header.
+  /// row of another length and for another header; with the system's reason where the stream cannot be read.
   bool next(std::vector<double>& row);
 
   /// name:line of the last row, for messages about what it says.
@@ -50,6 +50,7 @@ class NumberRowReader {
   const std::vector<std::string>& others() const { return others_; }
 
  private:
+  void requireReadable() const;
   void takeHeader(const std::string& line);
   void chooseColumns(const std::string& names);
   void requireNoMore() const;

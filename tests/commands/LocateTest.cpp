@@ -178,6 +178,12 @@ TEST(LocateCommand, TablesOfAnotherFingerAreAMismatch) {
   STRCMP_CONTAINS("gauges.count", run.err.c_str());
 }
 
+TEST(LocateCommand, WhatCannotBeReadIsNoInputWithoutRows) {
+  const Run run = runShell("\"$STRAINFINGER\" locate </");
+  LONGS_EQUAL(1, run.status);
+  STRCMP_CONTAINS("stdin: cannot read: Is a directory", run.err.c_str());
+}
+
 TEST(LocateCommand, AnUnknownModeIsToldOfTheKnownOnes) {
   for (const std::string mode : {"guess", "0", "Refined"})
     checkRefused("locate --mode " + mode,

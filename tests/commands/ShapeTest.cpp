@@ -178,6 +178,12 @@ TEST(ShapeCommand, PrintsJson) {
   STRCMP_CONTAINS("{\"contact\":1,\"angle_deg\":", runProgram("shape --json", touch()).out.c_str());
 }
 
+TEST(ShapeCommand, WhatCannotBeReadIsNoInputWithoutRows) {
+  const Run run = runShell("\"$STRAINFINGER\" shape </");
+  LONGS_EQUAL(1, run.status);
+  STRCMP_CONTAINS("stdin: cannot read: Is a directory", run.err.c_str());
+}
+
 TEST(ShapeCommand, SaysWhatIsWrongAndWhere) {
   refuses(1, "", "1,2,3\n", "stdin:1:");
   refuses(2, "--noise-strain 0", "", "--noise-strain");

@@ -1,5 +1,6 @@
 #include "host/base/number_rows.hpp"
 
+#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -45,6 +46,18 @@ TEST(NumberRows, AHeaderBlankLinesAndCommentsArePassedOver) {
 
 TEST(NumberRows, AFirstRowWithANumberInItIsNoHeader) {
   STRCMP_EQUAL("stdin:1:1: \"foo\" is no number", complaintAbout("foo,2\n").c_str());
+}
+
+TEST(NumberRows, AnErrorOfReadingIsNoEnd) {
+  std::ifstream folder("/");
+  NumberRowReader reader(folder, "/", 2);
+  std::vector<double> row;
+  try {
+    reader.next(row);
+    FAIL("accepted");
+  } catch (const Failure& failure) {
+    STRCMP_EQUAL("/: cannot read: Is a directory", failure.what());
+  }
 }
 
 TEST(NumberRows, MoreOfTheColumnsThanAreWantedAreAnotherFiles) {

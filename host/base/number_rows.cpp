@@ -79,6 +79,16 @@ bool isAllNames(std::string_view line) {
   return std::all_of(fields.begin(), fields.end(), isName);
 }
 
+/// What a terminal would not show, or obey, as \xHH: a NUL would end the message.
+std::string printable(const std::string& text) {
+  std::string shown;
+  for (const char c : text) {
+    const bool isControl = (c >= 0 && c < ' ' && c != '\t') || c == 0x7F;
+    shown += isControl ? fmt::format("\\x{:02X}", int{c}) : std::string(1, c);
+  }
+  return shown;
+}
+
 bool isPassedOver(const std::string& line) {
   const std::string_view content = trimmed(line);
   return content.empty() || content.front() == '#';
@@ -184,7 +194,7 @@ double NumberRowReader::numberOf(std::string_view field, std::size_t column) con
 std::string NumberRowReader::place() const { return fmt::format("{}:{}", name_, line_); }
 
 void NumberRowReader::fail(std::size_t column, const std::string& what) const {
-  throw Failure(ExitCode::kFailure, fmt::format("{}:{}: {}", place(), column, what));
+  throw Failure(ExitCode::kFailure, fmt::format("{}:{}: {}", place(), column, printable(what)));
 }
 
 }  // namespace strainfinger

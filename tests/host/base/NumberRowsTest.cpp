@@ -48,6 +48,13 @@ TEST(NumberRows, AFirstRowWithANumberInItIsNoHeader) {
   STRCMP_EQUAL("stdin:1:1: \"foo\" is no number", complaintAbout("foo,2\n").c_str());
 }
 
+TEST(NumberRows, WhatATerminalWouldNotShowIsNamedByItsBytes) {
+  using namespace std::string_literals;
+  STRCMP_EQUAL("stdin:1:1: \"\\x00\\x01\" is no number", complaintAbout("\0\1\n"s).c_str());
+  STRCMP_EQUAL("stdin:1:3: \"\\x1B[2J\\x7F\" is no number", complaintAbout("1,\x1B[2J\x7F\n").c_str());
+  STRCMP_EQUAL("stdin:1:1: \"\xC3\xA9\" is no number", complaintAbout("\xC3\xA9,1\n").c_str());
+}
+
 TEST(NumberRows, AnErrorOfReadingIsNoEnd) {
   std::ifstream folder("/");
   NumberRowReader reader(folder, "/", 2);

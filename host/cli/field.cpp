@@ -1,7 +1,12 @@
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "host/base/angles.hpp"
+#include "host/base/failure.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/contact_options.hpp"
@@ -40,9 +45,23 @@ std::vector<double> evenly(double from, double to, int count) {
   return values;
 }
 
+/// Of radii evenly from the core to the surface the last but one is the closest to the surface.
+void requireDeep(int radii, const model::Annulus<double>& annulus) {
+  const double layer_m = annulus.outer_radius_m - annulus.core_radius_m;
+  const double least_m = annulus.outer_radius_m - contact::fieldLimit_m(annulus);
+  const int most = std::max(2, static_cast<int>(std::ceil(layer_m / least_m)));
+  if (radii <= most) return;
+  throw Failure(
+      ExitCode::kUsage,
+      fmt::format("--radii {}: the last radius below the surface would be closer to it than {:.2g} m, "
+                  "where the field needs too many harmonics; at most {} in this finger",
+                  radii, least_m, most));
+}
+
 void runField(const FieldOptions& options) {
   using namespace model;
   const config::FingerConfig config = options.common.config();
+  requireDeep(options.radii, config.finger.annulus());
   const contact::SurfaceKernel kernel(config.finger.annulus());
   const contact::Contact contact = contact::solveContact(kernel, options.contact.request(config));
   tellOf(contact, kernel.annulus());

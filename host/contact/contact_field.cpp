@@ -60,8 +60,7 @@ MatrixXd atSurface(const SurfaceKernel& kernel, const Tractions& tractions,
 }
 
 void requireDeep(const model::Annulus<double>& annulus, double radius_m, double tolerance) {
-  const double gamma = radius_m / annulus.outer_radius_m;
-  if (gamma > 1 || std::log(tolerance) / std::log(gamma) < kMostFieldHarmonics) return;
+  if (radius_m > annulus.outer_radius_m || radius_m < fieldLimit_m(annulus, tolerance)) return;
   throw Failure(ExitCode::kUsage,
                 fmt::format("radius {} m is too close to the surface at {} m: its field needs more than {} "
                             "harmonics; choose the surface itself, or 0.2 % less",
@@ -69,6 +68,10 @@ void requireDeep(const model::Annulus<double>& annulus, double radius_m, double 
 }
 
 }  // namespace
+
+double fieldLimit_m(const model::Annulus<double>& annulus, double tolerance) {
+  return annulus.outer_radius_m * std::pow(tolerance, 1.0 / kMostFieldHarmonics);
+}
 
 MatrixXd computeContactField(const SurfaceKernel& kernel, const Tractions& tractions, double radius_m,
                              std::span<const double> angles_rad, std::span<const Row> rows,

@@ -39,3 +39,16 @@ TEST(FieldCommand, RefusesGridsThatAreNone) {
     LONGS_EQUAL(2, run.status);
   }
 }
+
+TEST(FieldCommand, RefusesRadiiTooCloseToTheSurfaceBeforeTheFirstRow) {
+  const std::string field = "field --indenter flat --width-m 2e-3 --angles 2 --radii ";
+  const Run tooMany = runProgram(field + "175");
+  LONGS_EQUAL(2, tooMany.status);
+  STRCMP_EQUAL("", tooMany.out.c_str());
+  STRCMP_CONTAINS("--radii 175: the last radius below the surface would be closer to it than 2.2e-05 m",
+                  tooMany.err.c_str());
+  STRCMP_CONTAINS("; at most 174 in this finger", tooMany.err.c_str());
+  const Run most = runProgram(field + "174");
+  LONGS_EQUAL(0, most.status);
+  LONGS_EQUAL(2 * 174, tableOf(most.out).size());
+}

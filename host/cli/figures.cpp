@@ -25,17 +25,29 @@ constexpr const char* kFiguresHelp =
     "On stdout, and in claims.csv: what the paper says about them, what was computed for the paper's "
     "finger, and whether that bears the paper out. With --config the figures are those of another finger.";
 
+/// CLI11's own says nothing of what is no number.
+CLI::Validator isFigure() {
+  std::vector<int> numbers;
+  for (const paper::Figure& figure : paper::figures()) numbers.push_back(figure.number);
+  const std::string all = fmt::format("{{{}}}", fmt::join(numbers, ","));
+  const auto complaint = [numbers, all](const std::string& text) {
+    int number = 0;
+    const bool isOne =
+        CLI::detail::lexical_cast(text, number) && std::ranges::find(numbers, number) != numbers.end();
+    return isOne ? std::string{} : fmt::format("{} not in {}", text, all);
+  };
+  return {complaint, all};
+}
+
 struct FiguresOptions {
   explicit FiguresOptions(CLI::App& command) : common(command) {
-    std::vector<int> numbers;
-    for (const paper::Figure& figure : paper::figures()) numbers.push_back(figure.number);
     command.add_option("-o,--output", folder, "Folder for the files; made if it isn't there")
         ->required()
         ->type_name("DIR");
     command.add_option("--only", only, "Only these figures, separated by commas")
         ->type_name("N,N")
         ->delimiter(',')
-        ->check(CLI::IsMember(numbers));
+        ->check(isFigure());
   }
 
   bool wants(const paper::Figure& figure) const {

@@ -44,9 +44,11 @@ TEST(FiguresCommand, PrintsJson) {
 }
 
 TEST(FiguresCommand, RefusesFiguresThatAreNone) {
-  const Run run = figures("--only 1");
-  LONGS_EQUAL(2, run.status);
-  STRCMP_CONTAINS("--only", run.err.c_str());
+  for (const std::string figure : {"1", "11", "x", "2.5"}) {
+    const Run run = figures("--only 2," + figure);
+    LONGS_EQUAL(2, run.status);
+    STRCMP_CONTAINS(("--only: " + figure + " not in {2,3,4,5,6,7,8,9,10}\n").c_str(), run.err.c_str());
+  }
   CHECK_FALSE(std::filesystem::exists(folder.file("out")));
 }
 

@@ -13,8 +13,9 @@ namespace strainfinger {
 
 enum class TableFormat { kCsv, kJson };
 
-/// A value of a table. A NaN is an empty CSV field and a JSON null: "not known".
-using Cell = std::variant<double, std::int64_t, std::string>;
+/// A value of a table. A NaN is an empty CSV field and a JSON null: "not known". A list is one CSV field, as
+/// finger.toml writes it, and a JSON array.
+using Cell = std::variant<double, std::int64_t, std::string, std::vector<double>>;
 
 /// A text as a CSV field: quoted where it has to be.
 std::string csvField(const std::string& text);

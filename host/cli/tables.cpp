@@ -4,6 +4,7 @@
 
 #include "host/base/atomic_file.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/no_value.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/tables/self_check.hpp"
@@ -67,8 +68,9 @@ void showInfo(const TablesOptions& options) {
   table.row({"format", std::int64_t{image->format}});
   table.row({"bytes", std::int64_t{image->image_bytes}});
   table.row({"crc32", fmt::format("{:08X}", image->crc32)});
+  const bool isJson = options.common.format() == TableFormat::kJson;
   for (const tables::Parameter& parameter : tables::parametersOf(image->parameters))
-    table.row({parameter.key, parameter.value});
+    table.row({parameter.key, isJson && parameter.value == Cell("unknown") ? kNoValue : parameter.value});
   const int count = image->constants.gauge_count;
   for (const tables::Parameter& list :
        {tables::anglesOf(image->gauge_angle_q32, count), tables::gainsOf(image->gains, count),

@@ -1,11 +1,13 @@
 #include "host/tables/table_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstring>
 #include <iterator>
 #include <memory>
+#include <string>
 
 #include "common/fixed_real.hpp"
 #include "host/base/read_file.hpp"
@@ -49,6 +51,9 @@ std::string textOf(const Cell& value) {
   return std::visit([](const auto& content) { return fmt::format("{}", content); }, value);
 }
 
+/// To so many digits, as people read it.
+double rounded(double value, int digits) { return std::stod(fmt::format("{:.{}g}", value, digits)); }
+
 /// Nothing for what is no table image: nobody is told to write over it.
 std::string adviceOn(TableFault fault, const std::string& path) {
   if (fault == TableFault::kTooShort || fault == TableFault::kMagic) return {};
@@ -91,26 +96,25 @@ std::vector<Parameter> parametersOf(const TableParameters& p) {
 }
 
 Parameter anglesOf(const GaugeAngles& angles_q32, int count) {
-  std::vector<std::string> texts;
+  std::vector<double> angles_deg;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
-    texts.push_back(fmt::format("{:.6g}", 360 * toReal(TurnQ32::fromRaw(angles_q32[i]))));
-  return {"gauges.angle_deg", fmt::format("[{}]", fmt::join(texts, ", "))};
+    angles_deg.push_back(rounded(360 * toReal(TurnQ32::fromRaw(angles_q32[i])), 6));
+  return {"gauges.angle_deg", angles_deg};
 }
 
 Parameter gainsOf(const GaugeGains& gains, int count) {
-  std::vector<std::string> texts;
+  std::vector<double> known;
   if (gains.areKnown())
-    for (const double factor : correctionFactors(gains, count))
-      texts.push_back(fmt::format("{:.4g}", 1 / factor));
-  return {"calibration.gain", fmt::format("[{}]", fmt::join(texts, ", "))};
+    for (const double factor : correctionFactors(gains, count)) known.push_back(rounded(1 / factor, 4));
+  return {"calibration.gain", known};
 }
 
 Parameter depthsOf(const GaugeDepths& depths, int count) {
-  std::vector<std::string> texts;
+  std::vector<double> offsets_m;
   if (depths.areKnown())
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
-      texts.push_back(fmt::format("{:.3g}", 1e-9 * depths.steps[i] * depths.step_nm));
-  return {"calibration.depth_offset_m", fmt::format("[{}]", fmt::join(texts, ", "))};
+      offsets_m.push_back(rounded(1e-9 * depths.steps[i] * depths.step_nm, 3));
+  return {"calibration.depth_offset_m", offsets_m};
 }
 
 namespace {

@@ -25,12 +25,12 @@ struct Parameter {
   Cell value;
 };
 std::vector<Parameter> parametersOf(const TableParameters& parameters);
-/// Where the gauges are, as calibrated, to 6 digits: "[0, 22.5, ..]".
+/// Where the gauges are, as calibrated, to 6 digits.
 Parameter anglesOf(const GaugeAngles& angles_q32, int count);
-/// The gains as the image has them, to 4 digits: "[0.9501, 1.02, ..]", "[]" if not calibrated.
+/// The gains as the image has them, to 4 digits; an empty list if not calibrated.
 Parameter gainsOf(const GaugeGains& gains, int count);
 
-/// Depths as the image has them, to 3 digits: "[4.1e-05, 0, ..]", "[]" if not calibrated.
+/// Depths as the image has them, to 3 digits; an empty list if not calibrated.
 Parameter depthsOf(const GaugeDepths& depths, int count);
 
 /// The bytes of an image: a file's content.

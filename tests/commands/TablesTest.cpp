@@ -36,6 +36,18 @@ TEST(TablesCommand, InfoNamesTheFormatTheChecksumAndTheFinger) {
     STRCMP_CONTAINS(key, run.out.c_str());
 }
 
+TEST(TablesCommand, InfoHasListsAndWhatIsUnknownAsJsonHasThem) {
+  const Run run = inFolder("\"$STRAINFINGER\" tables info finger.tables --json");
+  LONGS_EQUAL(0, run.status);
+  for (const char* row :
+       {"{\"key\":\"gauges.angle_deg\",\"value\":[0.0,22.5,45.0,",
+        "{\"key\":\"calibration.gain\",\"value\":[]}\n", "{\"key\":\"contact.width_m\",\"value\":null}\n"})
+    STRCMP_CONTAINS(row, run.out.c_str());
+  const Run csv = inFolder("\"$STRAINFINGER\" tables info finger.tables");
+  STRCMP_CONTAINS("\ngauges.angle_deg,\"[0, 22.5, 45, ", csv.out.c_str());
+  STRCMP_CONTAINS("\ncontact.width_m,unknown\n", csv.out.c_str());
+}
+
 TEST(TablesCommand, ATruncatedImageFailsVerification) {
   checkEnds(6, "1000 bytes, and 24568 by its header, where an image has 24568",
             "head -c 1000 finger.tables >cut && \"$STRAINFINGER\" tables verify cut");

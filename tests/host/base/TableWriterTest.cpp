@@ -40,6 +40,13 @@ TEST(TableWriter, CsvRowsHoldNumbersAndText) {
   checkWritten("n,x,name\n-7,0.5,hoop\n");
 }
 
+TEST(TableWriter, AListIsOneFieldOrAnArray) {
+  const std::vector<Cell> row{std::vector<double>{0, 22.5, 4.1e-5}, std::vector<double>{}};
+  TableWriter(stream, TableFormat::kCsv, {"a", "b"}).row(row);
+  TableWriter(stream, TableFormat::kJson, {"a", "b"}).row(row);
+  checkWritten("a,b\n\"[0, 22.5, 4.1e-05]\",[]\n{\"a\":[0.0,22.5,4.1e-05],\"b\":[]}\n");
+}
+
 TEST(TableWriter, TextThatWouldBreakARowIsQuoted) {
   TableWriter table(stream, TableFormat::kCsv, {"a", "b", "c"});
   table.row({"x,y", "say \"no\"", "two\nlines"});

@@ -9,17 +9,29 @@
 namespace strainfinger::can {
 namespace {
 
+/// The field of a member.
+template <typename Frame, typename Member>
+FieldSpec fieldOf(Member Frame::*member) {
+  FieldSpec found{};
+  const auto take = [&](const auto& field) {
+    if constexpr (std::is_same_v<decltype(field.member), Member Frame::*>)
+      if (field.member == member) found = {field.bits, field.meaning};
+  };
+  std::apply([&take](const auto&... field) { (take(field), ...); }, kLayout<Frame>.fields);
+  return found;
+}
+
 /// A member's value in the unit of its field.
 template <typename Frame, typename Member>
 double physical(const Frame& frame, Member Frame::*member) {
-  double value = kNoValue;
-  const auto take = [&](const auto& field) {
-    if constexpr (std::is_same_v<decltype(field.member), Member Frame::*>)
-      if (field.member == member)
-        value = toPhysical({field.bits, field.meaning}, rawOf(frame.*member)).value_or(kNoValue);
-  };
-  std::apply([&take](const auto&... field) { (take(field), ...); }, kLayout<Frame>.fields);
-  return value;
+  return toPhysical(fieldOf(member), rawOf(frame.*member)).value_or(kNoValue);
+}
+
+/// The largest one.
+template <typename Frame, typename Member>
+double largest(Member Frame::*member) {
+  const FieldSpec field = fieldOf(member);
+  return toPhysical(field, maxRaw(field.bits)).value_or(kNoValue);
 }
 
 ContactReport reportOf(const ContactFrame& contact, const ForceFrame& force) {
@@ -34,6 +46,16 @@ ContactReport reportOf(const ContactFrame& contact, const ForceFrame& force) {
 }
 
 }  // namespace
+
+const LargestValues& largestValues() {
+  static const LargestValues values{.sigmaAngle_deg = largest(&ContactFrame::sigma_angle_cdeg),
+                                    .sigmaNormal_n = largest(&ForceFrame::sigma_normal_half_mN),
+                                    .sigmaTangential_n = largest(&ForceFrame::sigma_tangential_half_mN),
+                                    .width_m = largest(&PatchFrame::width_um),
+                                    .sigmaWidth_m = largest(&PatchFrame::sigma_width_um),
+                                    .chi = largest(&PatchFrame::chi_sixteenths)};
+  return values;
+}
 
 bool TouchReceiver::Touch::isComplete() const {
   return contact && force && patch && (patch->contacts < 2 || (contact2 && force2));

@@ -33,6 +33,18 @@ struct TouchReport : ContactReport {
   std::uint8_t sequence = 0;
 };
 
+/// The largest values that a finger can say of a touch, just as a report has them: each stands for anything
+/// beyond it too (BUS.md, "or more").
+struct LargestValues {
+  double sigmaAngle_deg;
+  double sigmaNormal_n;
+  double sigmaTangential_n;
+  double width_m;
+  double sigmaWidth_m;
+  double chi;
+};
+const LargestValues& largestValues();
+
 /// Listens to one node.
 class TouchReceiver {
  public:

@@ -38,6 +38,11 @@ std::string differenceText(const ComparedTouch& touch, const config::Finger& fin
                      error.tangential_n_per_m);
 }
 
+/// Over `unit`; the largest that a finger can say stands for anything beyond it too.
+std::string sigmaText(double sigma, double largest, double unit) {
+  return fmt::format("{}{:.2f}", sigma >= largest ? ">=" : "", sigma / unit);
+}
+
 }  // namespace
 
 TruthTable::TruthTable(std::FILE* stream, const config::Finger& finger) : stream_(stream), finger_(finger) {
@@ -58,12 +63,14 @@ void TruthTable::add(const simulation::Moment& moment) {
 
 void TruthTable::print(const ComparedTouch& touch) const {
   const can::TouchReport& report = touch.report;
+  const can::LargestValues& largest = can::largestValues();
   const double length_m = finger_.length_m;
-  fmt::print(stream_, "{:7.3f} | {} | {:7.2f} ± {:5.2f}   {:6.2f} ± {:5.2f}   {:+7.2f} ± {:5.2f} |{}{}\n",
-             touch.time_s, truthText(touch.truth), report.angle_deg, report.sigmaAngle_deg,
-             report.normal_n / length_m, report.sigmaNormal_n / length_m, report.tangential_n / length_m,
-             report.sigmaTangential_n / length_m, differenceText(touch, finger_),
-             report.flags.has(FingerFlag::kUncertain) ? "  uncertain" : "");
+  fmt::print(stream_, "{:7.3f} | {} | {:7.2f} ±{:>6}   {:6.2f} ±{:>6}   {:+7.2f} ±{:>6} |{}{}\n",
+             touch.time_s, truthText(touch.truth), report.angle_deg,
+             sigmaText(report.sigmaAngle_deg, largest.sigmaAngle_deg, 1), report.normal_n / length_m,
+             sigmaText(report.sigmaNormal_n, largest.sigmaNormal_n, length_m), report.tangential_n / length_m,
+             sigmaText(report.sigmaTangential_n, largest.sigmaTangential_n, length_m),
+             differenceText(touch, finger_), report.flags.has(FingerFlag::kUncertain) ? "  uncertain" : "");
 }
 
 }  // namespace strainfinger::cli

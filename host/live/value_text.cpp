@@ -11,10 +11,15 @@ namespace strainfinger::live {
 namespace {
 
 constexpr const char* kUnknown = "?";
+constexpr const char* kOrMore = ">=";  // not ≥: a screen may have ASCII alone
 
-std::string withSigma(const std::string& value, double sigma, int decimals, const char* unit) {
-  const std::string spread = std::isnan(sigma) ? kUnknown : fmt::format("{:.{}f}", sigma, decimals);
-  return fmt::format("{} ± {}{}{}", value, spread, *unit == '\0' ? "" : " ", unit);
+std::string numberText(const Said& said, int decimals) {
+  if (std::isnan(said.value)) return kUnknown;
+  return fmt::format("{}{:.{}f}", said.value >= said.largest ? kOrMore : "", said.value, decimals);
+}
+
+std::string withSigma(const std::string& value, const Said& sigma, int decimals, const char* unit) {
+  return fmt::format("{} ± {}{}{}", value, numberText(sigma, decimals), *unit == '\0' ? "" : " ", unit);
 }
 
 /// What keeps a finger's touches from being shown, if anything does.
@@ -43,35 +48,41 @@ std::string stateText(const FingerView& finger) {
 
 }  // namespace
 
-std::string measured(double value, double sigma, int decimals, const char* unit) {
-  if (std::isnan(value)) return kUnknown;
-  return withSigma(fmt::format("{:.{}f}", value, decimals), sigma, decimals, unit);
+std::string measured(const Said& value, const Said& sigma, int decimals, const char* unit) {
+  if (std::isnan(value.value)) return kUnknown;
+  return withSigma(numberText(value, decimals), sigma, decimals, unit);
 }
 
-std::string measuredSigned(double value, double sigma, int decimals, const char* unit) {
-  if (std::isnan(value)) return kUnknown;
-  return withSigma(fmt::format("{:+.{}f}", value, decimals), sigma, decimals, unit);
+std::string measuredSigned(const Said& value, const Said& sigma, int decimals, const char* unit) {
+  if (std::isnan(value.value)) return kUnknown;
+  return withSigma(fmt::format("{:+.{}f}", value.value, decimals), sigma, decimals, unit);
 }
 
 std::string angleText(const can::ContactReport& contact) {
-  return measured(contact.angle_deg, contact.sigmaAngle_deg, 2, "deg");
+  return measured({contact.angle_deg}, {contact.sigmaAngle_deg, can::largestValues().sigmaAngle_deg}, 2,
+                  "deg");
 }
 
 std::string normalText(const can::ContactReport& contact) {
-  return measured(contact.normal_n, contact.sigmaNormal_n, 3, "N");
+  return measured({contact.normal_n}, {contact.sigmaNormal_n, can::largestValues().sigmaNormal_n}, 3, "N");
 }
 
 std::string tangentialText(const can::ContactReport& contact) {
-  return measuredSigned(contact.tangential_n, contact.sigmaTangential_n, 3, "N");
+  return measuredSigned({contact.tangential_n},
+                        {contact.sigmaTangential_n, can::largestValues().sigmaTangential_n}, 3, "N");
 }
 
 std::string widthText(const can::TouchReport& touch) {
-  return measured(touch.width_m * 1e3, touch.sigmaWidth_m * 1e3, 2, "mm");
+  const can::LargestValues& largest = can::largestValues();
+  return measured({touch.width_m * 1e3, largest.width_m * 1e3},
+                  {touch.sigmaWidth_m * 1e3, largest.sigmaWidth_m * 1e3}, 2, "mm");
 }
 
 std::string durationText(std::uint16_t seconds) {
-  if (seconds == kNotKnown<std::uint16_t>) return kUnknown;
-  return fmt::format("{}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
+  constexpr std::uint16_t kNone = kNotKnown<std::uint16_t>;
+  if (seconds == kNone) return kUnknown;
+  return fmt::format("{}{}:{:02}:{:02}", seconds == kNone - 1 ? kOrMore : "", seconds / 3600,
+                     seconds / 60 % 60, seconds % 60);
 }
 
 std::string warningsText(const FingerView& finger) {

@@ -1,24 +1,31 @@
 #pragma once
 // Values of a view as people read them.
 
+#include <limits>
 #include <string>
 
 #include "host/live/finger_view.hpp"
 
 namespace strainfinger::live {
 
-/// "57.21 ± 0.01 deg"; "?" in place of what is not known. `unit` may be empty.
-std::string measured(double value, double sigma, int decimals, const char* unit);
+/// What a finger says: its `largest` value stands for anything beyond it too.
+struct Said {
+  double value;
+  double largest = std::numeric_limits<double>::infinity();
+};
+
+/// "57.21 ± 0.01 deg"; "?" in place of what is not known, ">=0.127" for that or more. `unit` may be empty.
+std::string measured(const Said& value, const Said& sigma, int decimals, const char* unit);
 
 /// The same, always with its sign: "+0.282 ± 0.004 N".
-std::string measuredSigned(double value, double sigma, int decimals, const char* unit);
+std::string measuredSigned(const Said& value, const Said& sigma, int decimals, const char* unit);
 
 std::string angleText(const can::ContactReport& contact);
 std::string normalText(const can::ContactReport& contact);
 std::string tangentialText(const can::ContactReport& contact);
 std::string widthText(const can::TouchReport& touch);
 
-/// "1:02:03", "2 d 3:04:05"; "?" where it is not known.
+/// "1:02:03"; "?" where it is not known, ">=18:12:14" for the largest that a finger can say.
 std::string durationText(std::uint16_t seconds);
 
 /// What is to be known of a finger besides its numbers: "faults: gauges, noisy", "gauges 5, 7 out of use",

@@ -1,6 +1,9 @@
 #include "host/live/view_json.hpp"
 
 #include <cmath>
+#include <concepts>
+#include <initializer_list>
+#include <utility>
 
 #include "host/live/words.hpp"
 
@@ -18,25 +21,48 @@ Json knownOrNull(Raw raw) {
   return raw == kNotKnown<Raw> ? Json() : Json(raw);
 }
 
+/// The keys of values that stand for themselves or more: the largest that a finger can say.
+Json keysOf(std::initializer_list<std::pair<const char*, bool>> isOrMore) {
+  Json keys = Json::array();
+  for (const auto& [key, is] : isOrMore)
+    if (is) keys.push_back(key);
+  return keys;
+}
+
+template <std::unsigned_integral Raw>
+bool isLargest(Raw raw) {
+  return raw == kNotKnown<Raw> - 1;
+}
+
 Json contactJson(const can::ContactReport& contact) {
-  return {{"angle_deg", numberOrNull(contact.angle_deg)},
-          {"sigma_angle_deg", numberOrNull(contact.sigmaAngle_deg)},
-          {"alternative_deg", numberOrNull(contact.alternative_deg)},
-          {"normal_n", numberOrNull(contact.normal_n)},
-          {"sigma_normal_n", numberOrNull(contact.sigmaNormal_n)},
-          {"tangential_n", numberOrNull(contact.tangential_n)},
-          {"sigma_tangential_n", numberOrNull(contact.sigmaTangential_n)},
-          {"quality_percent", numberOrNull(contact.quality_percent)}};
+  const can::LargestValues& largest = can::largestValues();
+  return {
+      {"angle_deg", numberOrNull(contact.angle_deg)},
+      {"sigma_angle_deg", numberOrNull(contact.sigmaAngle_deg)},
+      {"alternative_deg", numberOrNull(contact.alternative_deg)},
+      {"normal_n", numberOrNull(contact.normal_n)},
+      {"sigma_normal_n", numberOrNull(contact.sigmaNormal_n)},
+      {"tangential_n", numberOrNull(contact.tangential_n)},
+      {"sigma_tangential_n", numberOrNull(contact.sigmaTangential_n)},
+      {"quality_percent", numberOrNull(contact.quality_percent)},
+      {"or_more", keysOf({{"sigma_angle_deg", contact.sigmaAngle_deg >= largest.sigmaAngle_deg},
+                          {"sigma_normal_n", contact.sigmaNormal_n >= largest.sigmaNormal_n},
+                          {"sigma_tangential_n", contact.sigmaTangential_n >= largest.sigmaTangential_n}})}};
 }
 
 Json touchJson(const FingerView& finger) {
   const can::TouchReport& touch = *finger.touch;
+  const can::LargestValues& largest = can::largestValues();
   Json json = contactJson(touch);
   json["time_s"] = static_cast<double>(finger.touched_us) / 1e6;
   json["since_s"] = static_cast<double>(finger.since_us) / 1e6;
   json["width_m"] = numberOrNull(touch.width_m);
   json["sigma_width_m"] = numberOrNull(touch.sigmaWidth_m);
   json["chi"] = numberOrNull(touch.chi);
+  for (const Json& key : keysOf({{"width_m", touch.width_m >= largest.width_m},
+                                 {"sigma_width_m", touch.sigmaWidth_m >= largest.sigmaWidth_m},
+                                 {"chi", touch.chi >= largest.chi}}))
+    json["or_more"].push_back(key);
   json["touched"] = touch.flags.has(FingerFlag::kContact);
   json["flags"] = wordsFor(kFingerFlagNames, touch.flags.raw());
   json["sequence"] = touch.sequence;
@@ -55,7 +81,9 @@ Json gaugesJson(const GaugesFrame& gauges) {
   const Json rate = knownOrNull(gauges.zero_rate_nano_per_s);
   return {{"out_of_use", bitNumbers(gauges.out_of_use)},
           {"zero_age_s", knownOrNull(gauges.zero_age_s)},
-          {"zero_rate_per_s", rate.is_null() ? rate : Json(gauges.zero_rate_nano_per_s * 1e-9)}};
+          {"zero_rate_per_s", rate.is_null() ? rate : Json(gauges.zero_rate_nano_per_s * 1e-9)},
+          {"or_more", keysOf({{"zero_age_s", isLargest(gauges.zero_age_s)},
+                              {"zero_rate_per_s", isLargest(gauges.zero_rate_nano_per_s)}})}};
 }
 
 Json infoJson(const InfoFrame& info) {
@@ -88,7 +116,8 @@ Json fingerJson(const FingerView& finger) {
           {"strains", listOrNull(finger.strains)},
           {"fitted", listOrNull(finger.fitted)},
           {"gauges", finger.gauges ? gaugesJson(*finger.gauges) : Json()},
-          {"info", finger.info ? infoJson(*finger.info) : Json()}};
+          {"info", finger.info ? infoJson(*finger.info) : Json()},
+          {"or_more", keysOf({{"uptime_s", isLargest(heartbeat.uptime_s)}})}};
 }
 
 }  // namespace

@@ -61,12 +61,16 @@ class LivePage(unittest.TestCase):
         self.assertEqual("Finger 1", self.page.text("#finger-1 h2"))
         self.assertEqual("run", self.page.text("#finger-1 .state"))
         self.assertRegex(self.page.text("#finger-1 .angle"), r"^\d+\.\d\d ± \d+\.\d\d °$")
-        self.assertRegex(self.page.text("#finger-1 .normal"), r"^\d\.\d{3} ± \d\.\d{3} N$")
-        self.assertRegex(self.page.text("#finger-1 .tangential"), r"^[+-]?\d\.\d{3} ± \d\.\d{3} N$")
+        self.assertRegex(self.page.text("#finger-1 .normal"), r"^\d\.\d{3} ± ≥?\d\.\d{3} N$")
+        self.assertRegex(self.page.text("#finger-1 .tangential"), r"^[+-]?\d\.\d{3} ± ≥?\d\.\d{3} N$")
         self.assertRegex(self.page.text("#finger-1 .stats"), r"\d+ contacts/s · jitter .* 0 lost")
         self.assertIn("simulated", self.page.text("#finger-1 .chips"))
         self.assertRegex(self.page.text("#bus"), r"^udp:\d+ · \d+ frames/s · load \d")
         self.assertEqual("live", self.page.text("#link"))
+
+    def test_the_largest_that_a_finger_can_say_is_that_or_more(self):
+        touch = '{normal_n: 0.5, sigma_normal_n: 0.127, or_more: ["sigma_normal_n"]}'
+        self.assertEqual("0.500 <small>± ≥0.127 N</small>", self.page.value(f'valueHtml({touch}, "normal_n", 3, "N")'))
 
     def test_numbers_change(self):
         before = self.page.text("#finger-1 .angle")

@@ -46,6 +46,23 @@ TEST(TouchReceiver, GivesAllFramesInPhysicalUnits) {
   CHECK_TRUE(std::isnan(report->alternative_deg));
 }
 
+// BUS.md: 0..65534 and 0..254 "or more".
+TEST(TouchReceiver, TheLargestValuesAreAsAReportHasThem) {
+  receiver.take({0x185, 8, {0xE8, 0x03, 0xFE, 0xFF, 0x80, 0x81, 0x61, 0xA3}});
+  receiver.take({0x285, 8, {0x22, 0x01, 0x1E, 0xFF, 0xFE, 0xFE, 0x81, 0xA3}});
+  const auto report = receiver.take({0x385, 8, {0xFE, 0xFF, 0xFE, 0xFF, 0xFE, 0x01, 0x81, 0xA3}});
+  CHECK_TRUE(report.has_value());
+  const LargestValues& largest = largestValues();
+  DOUBLES_EQUAL(655.34, largest.sigmaAngle_deg, 0);
+  DOUBLES_EQUAL(0.127, largest.sigmaNormal_n, 0);
+  DOUBLES_EQUAL(report->sigmaAngle_deg, largest.sigmaAngle_deg, 0);
+  DOUBLES_EQUAL(report->sigmaNormal_n, largest.sigmaNormal_n, 0);
+  DOUBLES_EQUAL(report->sigmaTangential_n, largest.sigmaTangential_n, 0);
+  DOUBLES_EQUAL(report->width_m, largest.width_m, 0);
+  DOUBLES_EQUAL(report->sigmaWidth_m, largest.sigmaWidth_m, 0);
+  DOUBLES_EQUAL(report->chi, largest.chi, 0);
+}
+
 TEST(TouchReceiver, AnotherAngleThatFitsIsToldRelativeToTheFirst) {
   CanFrame ambiguous = contact;
   ambiguous.data[4] = 0xE9;  // -23

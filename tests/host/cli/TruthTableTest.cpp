@@ -54,6 +54,14 @@ TEST(TruthTable, ShowsTruthEstimateAndDifference) {
       lines().c_str());
 }
 
+TEST(TruthTable, TheLargestSigmaThatAFingerCanSayIsThatOrMore) {
+  simulation::Moment moment{0.25, touch, std::nullopt};
+  moment.compared = {0.25, touch, {{40.1, 655.34, 0.41, 0.127, -0.1, 0.127, 100}}};
+  moment.compared->report.flags = {FingerFlag::kContact};
+  table->add(moment);
+  STRCMP_CONTAINS("40.10 ±>=655.34    20.50 ±>=6.35     -5.00 ±>=6.35 |", lines().c_str());
+}
+
 TEST(TruthTable, HasALineAQuarterOfASecond) {
   for (int sample = 1; sample <= 1000; ++sample) silent(sample * 1e-3);
   const std::string all = lines();

@@ -174,9 +174,23 @@ TEST(Screen, AsciiIsAsciiAlone) {
 TEST_GROUP(ValueText){};
 
 TEST(ValueText, WhatIsNotKnownIsAQuestionMark) {
-  STRCMP_EQUAL("?", measured(kNoValue, 1, 2, "N").c_str());
-  STRCMP_EQUAL("1.00 ± ? N", measured(1, kNoValue, 2, "N").c_str());
+  STRCMP_EQUAL("?", measured({kNoValue}, {1}, 2, "N").c_str());
+  STRCMP_EQUAL("1.00 ± ? N", measured({1}, {kNoValue}, 2, "N").c_str());
   STRCMP_EQUAL("?", durationText(0xFFFF).c_str());
+}
+
+TEST(ValueText, TheLargestThatAFingerCanSayIsThatOrMore) {
+  can::TouchReport touch = *touchedFinger().touch;
+  touch.sigmaAngle_deg = 655.34;
+  touch.sigmaNormal_n = touch.sigmaTangential_n = 0.127;
+  touch.width_m = touch.sigmaWidth_m = 0.065534;
+  STRCMP_EQUAL("0.00 ± >=655.34 deg", angleText(touch).c_str());
+  STRCMP_EQUAL("0.282 ± >=0.127 N", normalText(touch).c_str());
+  STRCMP_EQUAL("-0.100 ± >=0.127 N", tangentialText(touch).c_str());
+  STRCMP_EQUAL(">=65.53 ± >=65.53 mm", widthText(touch).c_str());
+  STRCMP_EQUAL(">=18:12:14", durationText(0xFFFE).c_str());
+  touch.sigmaNormal_n = 0.1265;
+  STRCMP_EQUAL("0.282 ± 0.127 N", normalText(touch).c_str());
 }
 
 TEST(ValueText, APlainLineHasItAll) {

@@ -40,6 +40,26 @@ TEST(ViewJson, WhatIsNotKnownIsNull) {
   CHECK_TRUE(json.at("span").at("most_normal_n").is_null());
 }
 
+TEST(ViewJson, ValuesThatStandForThatOrMoreAreListedByTheirKeys) {
+  FingerView finger = touchedFinger();
+  STRCMP_EQUAL("[]", jsonOf(finger).at("or_more").dump().c_str());
+  STRCMP_EQUAL("[]", jsonOf(finger).at("touch").at("or_more").dump().c_str());
+  finger.touch->sigmaNormal_n = 0.127;
+  finger.touch->sigmaWidth_m = 0.065534;
+  finger.touch->chi = 15.875;
+  finger.touch->second = can::ContactReport{.sigmaAngle_deg = 655.34, .sigmaTangential_n = 0.127};
+  finger.heartbeat.uptime_s = 0xFFFE;
+  finger.gauges->zero_age_s = 0xFFFE;
+  const auto json = jsonOf(finger);
+  const auto& touch = json.at("touch");
+  STRCMP_EQUAL("[\"sigma_normal_n\",\"sigma_width_m\",\"chi\"]", touch.at("or_more").dump().c_str());
+  DOUBLES_EQUAL(0.127, touch.at("sigma_normal_n"), 0);
+  STRCMP_EQUAL("[\"sigma_angle_deg\",\"sigma_tangential_n\"]",
+               touch.at("second").at("or_more").dump().c_str());
+  STRCMP_EQUAL("[\"uptime_s\"]", json.at("or_more").dump().c_str());
+  STRCMP_EQUAL("[\"zero_age_s\"]", json.at("gauges").at("or_more").dump().c_str());
+}
+
 TEST(ViewJson, FlagsFaultsAndGaugesAreLists) {
   FingerView finger = touchedFinger();
   finger.heartbeat.faults = {FingerFault::kNoisy};

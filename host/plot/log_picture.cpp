@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <utility>
 
 #include "common/frames.hpp"
 #include "host/plot/style.hpp"
@@ -35,11 +36,15 @@ plot 0 with lines linewidth 1 linecolor rgb faint notitle, \
      data('force') using 1:(gap(3)):(gap(4)) skip 1 with filledcurves linecolor rgb lightBlue notitle, \
      '' using 1:(gap(6)):(gap(7)) skip 1 with filledcurves linecolor rgb orange notitle, \
      '' using 1:(gap(2)) skip 1 with lines linewidth 1.4 linecolor rgb blue title 'normal', \
-     '' using 1:(gap(5)) skip 1 with lines linewidth 1.4 linecolor rgb vermilion title 'tangential'
+     '' using 1:(gap(5)) skip 1 with lines linewidth 1.4 linecolor rgb vermilion title 'tangential', \
+     for [i=1:orMore] data('or-more') using 1:(gap(2)) skip 1 with points pointtype 7 pointsize 0.2 \
+       linecolor rgb faint title 'σ that or more'
 set tmargin at screen 0.41; set bmargin at screen 0.27
 set ylabel 'width (mm)'; set yrange [0:*]; set offsets 0,0,graph 0.05,0
 plot data('width') using 1:(gap(3)):(gap(4)) skip 1 with filledcurves linecolor rgb lightBlue notitle, \
-     '' using 1:(gap(2)) skip 1 with lines linewidth 1.4 linecolor rgb blue notitle
+     '' using 1:(gap(2)) skip 1 with lines linewidth 1.4 linecolor rgb blue notitle, \
+     for [i=1:orMore] data('or-more') using 1:(gap(3)) skip 1 with points pointtype 7 pointsize 0.2 \
+       linecolor rgb faint notitle
 unset offsets
 set tmargin at screen 0.23; set bmargin at screen 0.085
 set ylabel 'flags'; set yrange [flags - 0.5:-0.5]; set xtics format '%g'; set xlabel 'time (s)'
@@ -126,6 +131,27 @@ DataFile widthData(const LogRecord& record) {
           brokenRows(record.points, 4, rowOf, never)};
 }
 
+/// The edges of bands that stand for that or more, as the largest sigma that a finger can say does.
+DataFile orMoreData(const LogRecord& record) {
+  const can::LargestValues& largest = can::largestValues();
+  DataFile data{"or-more", {"time_s", "force_n", "width_mm"}, {}};
+  const auto add = [&](const LogPoint& point, bool isOrMore, double force_n, double width_m) {
+    if (isOrMore) data.rows.push_back({point.time_s, force_n, width_m * kMmPerM});
+  };
+  for (const LogPoint& point : record.points) {
+    const can::TouchReport& touch = point.touch;
+    for (const double side : {-1, 1}) {
+      add(point, touch.sigmaNormal_n >= largest.sigmaNormal_n, touch.normal_n + side * touch.sigmaNormal_n,
+          kNoValue);
+      add(point, touch.sigmaTangential_n >= largest.sigmaTangential_n,
+          touch.tangential_n + side * touch.sigmaTangential_n, kNoValue);
+    }
+    add(point, touch.width_m >= largest.width_m || touch.sigmaWidth_m >= largest.sigmaWidth_m, kNoValue,
+        touch.width_m + touch.sigmaWidth_m);
+  }
+  return data;
+}
+
 /// A row of the last panel for each flag, in this order.
 constexpr std::span kFlags(kFingerFlagNames);
 
@@ -159,13 +185,13 @@ Picture logPicture(const LogRecord& record) {
   const double first_s = record.points.empty() ? 0 : record.points.front().time_s;
   const double last_s = record.points.empty() ? 1 : record.points.back().time_s;
   std::string script = kStyle;
-  script += fmt::format("first = {}; last = {}; flags = {}; heading = '{}'\n", first_s,
-                        last_s > first_s ? last_s : first_s + 1, kFlags.size(), record.heading);
+  std::vector<DataFile> data{angleData(record), forceData(record), widthData(record), flagData(record)};
+  if (DataFile orMore = orMoreData(record); !orMore.rows.empty()) data.push_back(std::move(orMore));
+  script += fmt::format("first = {}; last = {}; flags = {}; orMore = {}; heading = '{}'\n", first_s,
+                        last_s > first_s ? last_s : first_s + 1, kFlags.size(), data.size() > 4 ? 1 : 0,
+                        record.heading);
   script += withFlagTics(kPanels);
-  return {1200,
-          900,
-          std::move(script),
-          {angleData(record), forceData(record), widthData(record), flagData(record)}};
+  return {1200, 900, std::move(script), std::move(data)};
 }
 
 }  // namespace strainfinger::plot

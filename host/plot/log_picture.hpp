@@ -19,7 +19,8 @@ struct LogRecord {
   std::vector<LogPoint> points;  ///< in order of time
 };
 
-/// Angle, forces and width with bands of one sigma, and the flags, over time. A gap of more than `kGap_s` and
+/// Angle, forces and width with bands of one sigma, and the flags, over time. Edges of bands of forces and
+/// width that stand for that or more are marked. A gap of more than `kGap_s` and
 /// the end of a touch are gaps in the bands.
 Picture logPicture(const LogRecord& record);
 

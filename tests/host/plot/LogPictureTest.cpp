@@ -94,6 +94,22 @@ TEST(LogPicture, TheAngleBreaksWhereItRunsThroughZero) {
   LONGS_EQUAL(2, rows(points, "force").size());
 }
 
+TEST(LogPicture, EdgesOfBandsThatStandForThatOrMoreAreMarked) {
+  point_.touch.sigmaTangential_n = 0.1265;
+  LONGS_EQUAL(4, logPicture({"heading", {point_}}).data.size());
+  point_.touch.sigmaNormal_n = 0.127;
+  point_.touch.sigmaWidth_m = 0.065534;
+  const auto marks = rows({point_}, "or-more");
+  LONGS_EQUAL(3, marks.size());
+  DOUBLES_EQUAL(0.373, marks[0][1], 1e-9);
+  DOUBLES_EQUAL(0.627, marks[1][1], 1e-9);
+  DOUBLES_EQUAL(67.534, marks[2][2], 1e-9);
+  const TemporaryFolder folder;
+  draw(logPicture({"heading", {point_}}), folder.file("marked.svg"));
+  point_.touch.sigmaNormal_n = 0.1;
+  draw(logPicture({"heading", {point_}}), folder.file("width.svg"));
+}
+
 TEST(LogPicture, FlagsAreRowsByTheirBits) {
   const auto flags = rows({point_}, "flags");
   LONGS_EQUAL(2, flags.size());

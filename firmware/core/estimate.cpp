@@ -86,12 +86,6 @@ TurnQ32 withPlaceError(const TableConstants& constants, TurnQ32 sigma) {
   return TurnQ32::fromRaw(static_cast<std::uint32_t>(lesser(both, Wide{kHalfTurn_q32})));
 }
 
-/// Where the contact is felt most, its normal load is read within so few standard deviations of noise.
-bool isWeak(const Answer& answer, const ContactState& state) {
-  const Wide amplitude = state.normal;  // a reading * 2
-  return 4 * amplitude * amplitude < Wide{threshold::kWeakSignal} * answer.variances.noise_q4;
-}
-
 /// Loads beyond what a fit holds: gauges at their rails leave them open.
 bool isLimited(const ContactState& state) {
   return std::max(magnitude(state.normal), magnitude(state.tangential)) >= kMostLoad;
@@ -181,7 +175,7 @@ Contact estimate(const TableConstants& constants, const Answer& answer, const Un
   estimated.sigmaAngle = withPlaceError(constants, estimated.sigmaAngle);
   estimated.alternative = TurnQ32::fromRaw(answer.rival[at(contact)].angle_q32);
   estimated.uncertain = estimated.ambiguous || !answer.accepted || answer.searching || answer.doubtful ||
-                        areTooNear(constants, answer.solution) || tooWide || faint || isWeak(answer, state) ||
+                        areTooNear(constants, answer.solution) || tooWide || faint || answer.weak ||
                         isLimited(state);
   if (estimated.uncertain) estimated.quality = std::min<std::uint8_t>(estimated.quality, 20);
   return estimated;

@@ -375,17 +375,6 @@ bool isConverged(const TableConstants& constants, const Linearisation& linearisa
   return hypothesis.exact == 0;
 }
 
-ContactStates halfway(const ContactStates& from, const ContactStates& to) {
-  ContactStates middle = from;
-  for (std::size_t k = 0; k < middle.size(); ++k) {
-    middle[k].angle_q32 += wrapped(static_cast<Number>(to[k].angle_q32 - from[k].angle_q32) / 2);
-    middle[k].normal += (to[k].normal - from[k].normal) / 2;
-    middle[k].tangential += (to[k].tangential - from[k].tangential) / 2;
-    middle[k].moment_q20 += (to[k].moment_q20 - from[k].moment_q20) / 2;
-  }
-  return middle;
-}
-
 }  // namespace
 
 bool isInReach(const TableImage& tables, const ContactState& contact, int gauge) {
@@ -433,24 +422,48 @@ Solution step(const TableImage& tables, const Linearisation& linearisation, cons
   return solution;
 }
 
+Wide energyLeft(const TableImage& tables, const Linearisation& linearisation,
+                const ScaledReadings& readings) {
+  const int gauges = tables.constants.gauge_count;
+  return residualOf(gauges, linearisation, readings).energy(rowsOf(gauges));
+}
+
+ContactStates partway(const ContactStates& from, const ContactStates& to, Wide promised, Wide missed) {
+  constexpr int kPartBits = 8;
+  const Wide both = promised + missed;
+  const Wide part_q8 = both > 0 ? (std::max<Wide>(promised, 0) << kPartBits) / both : 0;
+  const auto partOf = [&](Number way) { return static_cast<Number>((way * part_q8) >> kPartBits); };
+  ContactStates between = from;
+  for (std::size_t k = 0; k < between.size(); ++k) {
+    between[k].angle_q32 += wrapped(partOf(static_cast<Number>(to[k].angle_q32 - from[k].angle_q32)));
+    between[k].normal += partOf(to[k].normal - from[k].normal);
+    between[k].tangential += partOf(to[k].tangential - from[k].tangential);
+    between[k].moment_q20 += partOf(to[k].moment_q20 - from[k].moment_q20);
+  }
+  return between;
+}
+
 int descend(const TableImage& tables, const ScaledReadings& readings, Linearisation& linearisation,
             Solution& solution) {
-  const int gauges = tables.constants.gauge_count;
-  const auto left = [&] { return residualOf(gauges, linearisation, readings).energy(rowsOf(gauges)); };
+  const auto left = [&] { return energyLeft(tables, linearisation, readings); };
   const ContactStates from = linearisation.at;
   const bool isExact = linearisation.slopesAt == from;
-  const Wide before = left(), most = before + readings.variances.gate_q4 / 16;
-  for (int moves = 1; moves < (isExact ? kDescentMoves : 2); ++moves) {
+  const Wide before = left(), promised = solution.residualEnergy;
+  move(tables, solution.contact, linearisation);
+  solution.residualEnergy = left();
+  if (solution.residualEnergy < before) return 1;
+  if (isExact) {
+    solution.contact =
+        partway(from, solution.contact, before - promised, solution.residualEnergy - promised);
     move(tables, solution.contact, linearisation);
     solution.residualEnergy = left();
-    if (solution.residualEnergy < most) return moves;
-    solution.contact = halfway(from, solution.contact);
+    if (solution.residualEnergy < before) return 2;
   }
   linearise(tables, solution.hypothesis, from, linearisation);
   solution.contact = from;
   solution.residualEnergy = before;
   solution.converged = isExact;
-  return isExact ? kDescentMoves : 2;
+  return kDescentMoves;
 }
 
 Solution fitLoads(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,

@@ -54,12 +54,20 @@ bool isShortTurn(const TableConstants& constants, std::uint32_t turned_q32, int 
 /// One step from a linearisation to these readings. `solution.converged`: the linear model holds that far.
 Solution step(const TableImage& tables, const Linearisation& linearisation, const ScaledReadings& readings);
 
-/// Moves a linearisation to where a step leads, or half as far, or a quarter, so that less is left there than
-/// was; or leaves it where it was. True: less is left. `solution`: where it is now, and what is left there.
+/// Sum of squares of what the predictions leave of the readings that count.
+Wide energyLeft(const TableImage& tables, const Linearisation& linearisation, const ScaledReadings& readings);
+
+/// Of the way from one place to another, whose step promised to take off so much and `missed` that by so much:
+/// as far as the parabola through both places, with the slope of the promise, is lowest.
+ContactStates partway(const ContactStates& from, const ContactStates& to, Wide promised, Wide missed);
+
+/// Moves a linearisation to where a step led, or, where more is left there than was, a part of the way: to the
+/// lowest point of the parabola through both and the slope that was promised. Where that is no better either,
+/// or the columns were of another place, it is left where it was, with columns of there. `solution`: where it
+/// is and what is left there; `converged` if no step helps. The predictions that it took.
 int descend(const TableImage& tables, const ScaledReadings& readings, Linearisation& linearisation,
             Solution& solution);
-/// Predictions that it takes at most.
-inline constexpr int kDescentMoves = 4;
+inline constexpr int kDescentMoves = 3;  ///< at most
 
 /// The best loads of contacts at these places and of these widths; their residual energy. Half of each
 /// contact is taken to slip. `scratch` is overwritten. Cost: a table lookup a gauge in reach and load,

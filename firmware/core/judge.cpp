@@ -42,6 +42,15 @@ bool isPromising(const TableConstants& constants, const Solution& solution) {
   return true;
 }
 
+bool isWeak(const Solution& solution, const Variances& variances, bool was) {
+  const Wide least = energyOf(variances.noise_q4, was ? threshold::kNoLongerWeakSignal : threshold::kWeakSignal);
+  for (const ContactState& contact : solution.contacts()) {
+    const Wide reading = contact.normal / 2;  // where it is felt most
+    if (reading * reading < least) return true;
+  }
+  return false;
+}
+
 bool areTooNear(const TableConstants& constants, const Solution& solution) {
   if (solution.hypothesis.contacts < 2) return false;
   const std::uint32_t apart_q32 = solution.contact[0].angle_q32 - solution.contact[1].angle_q32;

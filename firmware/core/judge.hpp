@@ -52,14 +52,16 @@ inline constexpr int kOtherWidthBits = 2;
 /// An inadmissible answer is believed only if it explains so much more: noise may have moved it there.
 inline constexpr int kInadmissible = 28;
 /// Largest reading over a standard deviation [squared] and second moment of contacts that have no second
-/// answer near by: the gap of chi-squared is 80 at 14 N/m and 2 mm on the default finger.
+/// answer near by: the gap of chi-squared is 80 at 14 N/m and 2 mm on the default finger without model error.
+/// With one of 0.4 % or more no touch is firm.
 inline constexpr int kFirmSignal = 1'200'000;
 inline constexpr int kFirmMoment_um2 = 360'000;
 /// A contact's largest reading over a standard deviation of noise [squared] below which its place is not
-/// sure: a second contact or a gauge that failed does not show then. It is 1.3 N/m on the default finger;
-/// from 40 deviations on, 0.17 % of touches of 0.5 N/m are silently wrong there, none of 4,000 from these 60
-/// on.
+/// sure: a second contact or a gauge that failed does not show then. It is 1.3 N/m on the default finger.
+/// With 40 deviations 0.17 % of touches of 0.5 N/m were silently wrong, with these 60 none of 4,000.
 inline constexpr int kWeakSignal = 3600;
+/// A weak contact stays one up to here, so that its flag does not come and go with the noise of each set.
+inline constexpr int kNoLongerWeakSignal = 4500;
 /// A contact of a pair whose loads explain less than this much of chi-squared is none.
 inline constexpr int kFaint = 36;
 /// A contact of a pair is sure from so many of its load's standard errors on.
@@ -96,6 +98,9 @@ Wide ambiguity(const Variances& variances, const Solution& better);
 /// The contact presses and stays within the friction cone.
 bool isAdmissible(const TableConstants& constants, const ContactState& contact);
 bool isAdmissible(const TableConstants& constants, const Solution& solution);
+
+/// A contact is felt by so little more than noise that its place is not sure; `was`: in the set before.
+bool isWeak(const Solution& solution, const Variances& variances, bool was);
 
 /// Two contacts nearer than they can be told apart.
 bool areTooNear(const TableConstants& constants, const Solution& solution);

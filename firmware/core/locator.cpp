@@ -82,6 +82,7 @@ void Locator::believe(const TableImage& tables, const Solution& solution, const 
   answer_.shift = readings.shift;
   answer_.variances = readings.variances;
   answer_.accepted = isAccepted(tables.constants, solution, readings);
+  answer_.weak = isWeak(solution, readings.variances, answer_.weak);
   const bool leavesDoubt = isLookedInto_ ? !isPlainAsBuilt(tables.constants, solution, readings)
                                          : !isPlain(tables.constants, solution, readings);
   setsInDoubt_ = static_cast<std::uint8_t>(leavesDoubt ? std::min<int>(setsInDoubt_ + 1, kNewDoubt) : 0);
@@ -111,21 +112,22 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
   hypothesis.gauges &= gauges;
   if ((hypothesis.exact & ~gauges) != 0 || freedoms(hypothesis) < 1) return std::nullopt;
   const ContactStates from = expected(tables.constants);
-  int linearised = 1;
+  int passes = 2;  // predictions, with columns or without them, and steps
   if (readings.shift != answer_.shift || areFewer)
     linearise(tables, hypothesis, rescaled(from, answer_.shift, readings.shift), linearisation_);
   else if (!isShortTurn(tables.constants, from[0].angle_q32 - linearisation_.at[0].angle_q32))
     move(tables, from, linearisation_);
   else
-    linearised = 0;
+    passes = 1;
   Solution solution = step(tables, linearisation_, readings);
-  const int stepWork = Search::stepWork(tables, hypothesis);
+  const auto work = [&] { return (passes * Search::stepWork(tables, hypothesis) + 1) / 2; };
   const int mostSteps = search_.isBegun() ? kStepsWhileSearching : kFollowingSteps;
   for (int steps = 1; !solution.converged; ++steps) {
-    if (search_.isBegun() && (linearised + 1 + kDescentMoves) * stepWork > Search::kWork) break;
-    linearised += descend(tables, readings, linearisation_, solution);
+    if (search_.isBegun() && work() + (kDescentMoves + 1) * Search::stepWork(tables, hypothesis) / 2 > Search::kWork) break;
+    passes += descend(tables, readings, linearisation_, solution);
     if (solution.converged || steps == mostSteps) break;
     solution = step(tables, linearisation_, readings);
+    ++passes;
   }
   const bool wasAccepted = answer_.accepted;
   answer_.rival = rescaled(answer_.rival, answer_.shift, readings.shift);
@@ -135,10 +137,10 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
     answer_.rival[k].angle_q32 += slid_q32_[k];
   }
   believe(tables, solution, readings);
-  const bool isLost = wasAccepted && !answer_.accepted && !answer_.searching &&
+  const bool isLost = wasAccepted && !answer_.accepted &&
                       solution.residualEnergy > energyOf(readings, threshold::kLost * threshold::kGate);
   if (isLost) return std::nullopt;
-  return linearised * stepWork + takeBack(tables, readings, gauges) + followRival(tables, readings);
+  return work() + takeBack(tables, readings, gauges) + followRival(tables, readings);
 }
 
 void Locator::forgetRival() {

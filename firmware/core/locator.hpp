@@ -30,6 +30,7 @@ struct Answer {
   std::uint8_t timesRefuted = 0;
   bool doubtful = false;   ///< another hypothesis explains the readings nearly as well
   bool accepted = false;   ///< the hypothesis explains the readings
+  bool weak = false;       ///< a contact is felt by little more than noise
   bool searching = false;  ///< the search for other hypotheses goes on
   bool several = false;    ///< two contacts explain the readings as well as, or better than one
   GaugeSet suspect = 0;  ///< the gauge without which one contact explains the readings, and nothing else does

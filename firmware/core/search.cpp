@@ -25,6 +25,7 @@ constexpr int kMostRounds = 4;  ///< of looking for each contact of a pair again
 
 constexpr int kFirstSteps = 2;  ///< Gauss-Newton steps of every candidate, before the best are chosen
 constexpr int kMostSteps = 14;  ///< of these
+constexpr int kPatience = 4;    ///< steps after which one that does not keep its promise is shortened
 
 /// A look at a point, one at a pair of places, and what comes between two grids [units of Search::kWork].
 constexpr int kPointWork = 5, kPairWork = 12, kTaskWork = 9;
@@ -243,7 +244,7 @@ Search::Effort Search::effort() const {
     case Stage::kFirstOfPair:
       return {kRingFirsts, 0};
     case Stage::kPair:
-      return {20, 8};
+      return {Candidates::kMost, 8};
     case Stage::kFirstAgain:
     case Stage::kSecondAgain:
       return {12, kMostAnswers};
@@ -291,16 +292,27 @@ void Search::refineNext(const TableImage& tables, Linearisation& scratch) {
     return;
   }
   linearise(tables, hypothesis_, candidate.contact, scratch);
-  const Solution solution = step(tables, scratch, looked_);
-  candidate = {solution.contact, solution.residualEnergy};
-  if (solution.converged || ++steps_ == (first ? kFirstSteps : kMostSteps)) {
-    steps_ = 0;
-    ++refined_;
-    if (refined_ == candidates_.size()) candidates_.sort();
-    if (first) return;
-    ++kept_;
-    keep(tables.constants, solution);
+  const Wide left = energyLeft(tables, scratch, looked_);
+  const bool isWorse = steps_ >= kPatience && left >= reached_.residualEnergy;
+  Solution solution{hypothesis_, {}};
+  if (isWorse) {
+    const Wide promised = reached_.residualEnergy - candidate.residualEnergy;
+    solution.contact = partway(reached_.contact, candidate.contact, promised, left - candidate.residualEnergy);
+    solution.residualEnergy = candidate.residualEnergy;
+    solution.converged = solution.contact == reached_.contact;
+  } else {
+    reached_ = {candidate.contact, left};
+    solution = step(tables, scratch, looked_);
   }
+  candidate = {solution.contact, solution.residualEnergy};
+  if (!solution.converged && ++steps_ < (first ? kFirstSteps : kMostSteps)) return;
+  if (!first && !solution.converged) candidate = reached_;
+  steps_ = 0;
+  ++refined_;
+  if (refined_ == candidates_.size()) candidates_.sort();
+  if (first) return;
+  ++kept_;
+  keep(tables.constants, {hypothesis_, candidate.contact, solution.converged, candidate.residualEnergy});
 }
 
 void Search::keep(const TableConstants& constants, const Solution& solution) {

@@ -38,7 +38,7 @@ struct Candidate {
 };
 class Candidates {
  public:
-  static constexpr int kMost = 20;
+  static constexpr int kMost = 19;
 
   int size() const { return count_; }
   Candidate& operator[](int i) { return candidate_[order_[static_cast<std::size_t>(i)]]; }
@@ -176,6 +176,7 @@ class Search {
   Grid grid_;
   Ranking single_, withoutOne_, pair_;
   Candidates candidates_;
+  Candidate reached_;  ///< by the refinement that is under way, and what is left there, before its last step
   std::array<std::array<ContactState, kMostAnswers>, kMostContacts> again_;  ///< answers of each contact
   std::array<std::uint8_t, kMostContacts> answers_{};
   Wide leftBefore_ = 0;       ///< by the pair, before its contacts were looked for again

@@ -424,6 +424,266 @@ TEST(Locator, NoiseThatIsMeasuredWidensTheGate) {
   CHECK(accepted >= 48 && acceptedAsConfigured <= 5);
 }
 
+// With and without a gauge that is off by a few deviations one contact explains the readings, and of a faint
+// touch two contacts do.
+TEST(Locator, OnlyAnotherPlaceOrNumberOfContactsIsDoubt) {
+  struct Doubts {
+    int here = 0, hereDoubted = 0, elsewhere = 0, elsewhereDoubted = 0;
+  };
+  const auto doubts = [&](double load_n_per_m, int touches) {
+    Presses presses(16, load_n_per_m, 418, 0, 2);
+    Linearisation scratch;
+    Search search;
+    Doubts result;
+    for (int i = 0; i < touches; ++i) {
+      const Press press = presses.next();
+      auto strains = presses.noisy(ring.strains(press), ring.noise_strain());
+      strains[static_cast<std::size_t>(std::lround(press.position_pitch) + i % 3) % 16] +=
+          (i % 2 == 0 ? -6 : 6) * ring.noise_strain();
+      locateOnce(ring.tables(), ring.raw(strains), ring.allGauges(), locator);
+      const ScaledReadings readings = ring.scaled(strains);
+      search.begin(ring.tables(), readings, {1, true, ring.allGauges()});
+      while (search.isRunning()) search.advance(ring.tables(), Search::kWork, scratch);
+      const Solution &all = search.single().best, &without = search.withoutOne().best;
+      if (!search.withoutOne().anyBest || !firmware::isAccepted(ring.constants(), all, readings) ||
+          !firmware::isAccepted(ring.constants(), without, readings))
+        continue;
+      const Wide more = without.residualEnergy + energyOf(readings, threshold::kLeftOut) - all.residualEnergy;
+      if (magnitude(more) >= ambiguity(readings.variances, more > 0 ? all : without)) continue;
+      const bool isElsewhere = areElsewhere(ring.constants(), 1, all.contact, without.contact);
+      ++(isElsewhere ? result.elsewhere : result.here);
+      (isElsewhere ? result.elsewhereDoubted : result.hereDoubted) += locator.answer().doubtful;
+    }
+    return result;
+  };
+  const Doubts firm = doubts(20, 600), faint = doubts(2, 600);
+  std::printf("%d of %d, %d of %d, %d of %d ", firm.hereDoubted, firm.here, faint.hereDoubted, faint.here,
+              faint.elsewhereDoubted, faint.elsewhere);
+  CHECK_COMPARE(firm.here, >, 8);
+  CHECK_COMPARE(firm.hereDoubted, <=, firm.here / 3);
+  CHECK_COMPARE(faint.here, >, 30);
+  CHECK_COMPARE(faint.hereDoubted, >=, faint.here / 2);
+  CHECK_COMPARE(faint.elsewhere, >, 5);
+  LONGS_EQUAL(faint.elsewhere, faint.elsewhereDoubted);
+}
+
+TEST(Locator, OfAFaintTouchNoOtherGaugeIsSuspected) {
+  for (const double load_n_per_m : {1.0, 4.0}) {
+    Presses presses(16, load_n_per_m, 419, 0, 2);
+    int named = 0;
+    for (int i = 0; i < 300; ++i) {
+      const Press press = presses.next();
+      const auto gauge = static_cast<std::size_t>(std::lround(press.position_pitch) + i % 3) % 16;
+      auto strains = presses.noisy(ring.strains(press), ring.noise_strain());
+      strains[gauge] += (i % 2 == 0 ? -20 : 20) * ring.noise_strain();
+      locateOnce(ring.tables(), ring.raw(strains), ring.allGauges(), locator);
+      const GaugeSet suspect = locator.answer().suspect;
+      named += suspect != 0;
+      CHECK_TRUE(suspect == 0 || suspect == GaugeSet{1} << gauge);
+    }
+    CHECK_COMPARE(named, >, 15);
+  }
+}
+
+TEST(Locator, AGaugeThatIsALittleOffIsLeftOutButNotSuspected) {
+  Presses presses(16, 30, 427, 0, 1);
+  int leftOut = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Press press = presses.next();
+    auto strains = presses.noisy(ring.strains(press), ring.noise_strain());
+    strains[static_cast<std::size_t>(std::lround(press.position_pitch) + i % 3) % 16] +=
+        20 * ring.noise_strain();
+    locator.release();
+    settle(strains);
+    leftOut += locator.answer().solution.hypothesis.gauges != ring.allGauges();
+    LONGS_EQUAL(0, locator.answer().suspect);
+  }
+  CHECK_COMPARE(leftOut, >, 10);
+}
+
+TEST(Locator, ARivalMovesAlongBetweenItsFits) {
+  Presses presses(16, 3, 420, 5, 6);
+  int rivals = 0, moved = 0;
+  const auto apart_q32 = [&] {
+    return locator.answer().rival[0].angle_q32 - locator.answer().solution.contact[0].angle_q32;
+  };
+  for (int i = 0; i < 50; ++i) {
+    locator.release();
+    Press press = presses.next();
+    settle(ring.strains(press));
+    if (!locator.answer().anyRival) continue;
+    ++rivals;
+    const std::uint32_t before_q32 = apart_q32();
+    press.position_pitch += 0.02;
+    update(ring.strains(press));
+    moved += apart_q32() == before_q32;
+  }
+  CHECK_COMPARE(rivals, >, 10);
+  CHECK_COMPARE(moved, >, rivals / 2);  // the others' rivals were fitted to this set
+}
+
+TEST(Locator, AFirmTouchForgetsItsRivalAtOnce) {
+  Presses presses(16, 1, 422);
+  int rivals = 0;
+  for (int i = 0; i < 100; ++i) {
+    const auto hold = [&](double normal_n_per_m) {
+      return presses.noisy(ring.strains({4.727, normal_n_per_m, 0, 0.85}), ring.noise_strain());
+    };
+    locator.release();
+    settle(hold(1));
+    if (!locator.answer().anyRival || off_pitch({4.727, 1, 0}) > 0.3) continue;
+    ++rivals;
+    for (int set = 0; set < 8; ++set) update(hold(40));
+    CHECK_TRUE(locator.answer().accepted);
+    CHECK_FALSE(locator.answer().anyRival);
+  }
+  CHECK_COMPARE(rivals, >, 30);
+}
+
+TEST(Locator, ARivalIsForgottenWhenItIsRefutedThreeTimesInARow) {
+  Presses presses(16, 1, 421);
+  int rivals = 0, refuted = 0, twice = 0, thrice = 0, turns = 0, kept = 0;
+  const auto hold = [&](double normal_n_per_m, int sets) {  // a fit of the rival for every eight
+    for (int set = 0; set < sets; ++set)
+      update(presses.noisy(ring.strains({4.727, normal_n_per_m, 0, 0.85}), ring.noise_strain()));
+    return locator.answer().rivalIsLost;
+  };
+  for (int i = 0; i < 100; ++i) {
+    locator.release();
+    settle(presses.noisy(ring.strains({4.727, 1, 0, 0.85}), ring.noise_strain()));
+    if (!locator.answer().anyRival) continue;
+    ++rivals;
+    const Locator before = locator;
+    if (hold(14, 8) && hold(14, 8)) {
+      ++refuted;
+      twice += locator.answer().anyRival;
+      hold(14, 8);
+      thrice += locator.answer().anyRival;
+    }
+    locator = before;
+    bool inTurn = true;
+    for (int round = 0; round < 3; ++round) inTurn = inTurn && hold(14, 8) && !hold(1, 8);
+    if (!inTurn) continue;
+    ++turns;
+    kept += locator.answer().anyRival;
+  }
+  CHECK_COMPARE(rivals, >, 50);
+  CHECK_COMPARE(refuted, >, 20);
+  LONGS_EQUAL(refuted, twice);
+  LONGS_EQUAL(0, thrice);
+  CHECK_COMPARE(turns, >, 10);
+  LONGS_EQUAL(turns, kept);
+}
+
+TEST(Locator, OtherAnswersAreLookedForAgainOnceATouchIsFarWider) {
+  Presses presses(16, 1, 423);
+  const auto searchedWithin = [&](int sets, double from_mm, double to_mm) {
+    int searched = 0;
+    for (int set = 0; set < sets; ++set) {
+      const double width_mm = widthOf_mm(std::lerp(momentOf_mm2(from_mm), momentOf_mm2(to_mm), set / 400.0));
+      update(presses.noisy(ring.strains({5, 20, 0, width_mm}), ring.noise_strain()));
+      searched += locator.isSearching();
+    }
+    return searched;
+  };
+  LONGS_EQUAL(0, searchedWithin(200, 1, 1));
+  CHECK(searchedWithin(400, 1, 6) > 0);
+  LONGS_EQUAL(0, searchedWithin(200, 6, 6));
+}
+
+TEST(Locator, AFirmTouchIsNotLookedIntoHoweverItGrows) {
+  Presses presses(16, 1, 424);
+  for (const double normal_n_per_m : {18, 40})
+    for (int set = 0; set < 200; ++set) {
+      update(presses.noisy(ring.strains({5, normal_n_per_m, 0, 1}), ring.noise_strain()));
+      CHECK_FALSE(locator.isSearching());
+    }
+}
+
+// What is plain as built only leaves doubt until gauges were left out, of each touch anew.
+TEST(Locator, WhatAnEarlierTouchLeftOutIsNoReasonNotToLookIntoTheNext) {
+  config::FingerConfig config = ModelRing::asDrawn();
+  config.gauges.model_error = 0.002;
+  const ModelRing good{config};
+  const auto strainsOf = [&](double normal_n_per_m, double off_sigmas) {
+    auto strains = good.strains({5.2, normal_n_per_m, 2, 1});
+    strains[9] += off_sigmas * good.noise_strain();
+    return strains;
+  };
+  const auto searched = [&](const std::vector<double>& strains) {
+    bool any = false;
+    for (int set = 0; set < 4; ++set) {
+      update(good, strains, good.allGauges());
+      any |= locator.isSearching();
+    }
+    return any;
+  };
+  const auto lookedInto = strainsOf(30, 6e-3 / good.noise_strain());
+  int sets = 0;
+  do update(good, lookedInto, good.allGauges());
+  while (locator.answer().searching && ++sets < kLongestSearch);
+  CHECK_COMPARE(sets, >, 20);
+  locator.release();
+  CHECK_FALSE(searched(strainsOf(45, 0)));
+  const auto doubted = strainsOf(45, 19.25);
+  CHECK_TRUE(searched(doubted));
+  const Solution& answer = locator.answer().solution;
+  CHECK_TRUE(isPlainAsBuilt(good.constants(), answer, good.scaled(doubted)));
+  CHECK_FALSE(isPlain(good.constants(), answer, good.scaled(doubted)));
+}
+
+TEST(Locator, TwoContactsThatSlideTogetherAreWhereTheyAreWhenTheSearchEnds) {
+  Presses noise(16, 0, 425);
+  for (int i = 0; i < 20; ++i) {
+    locator.release();
+    Press one{3 + i * 0.77, 20, 3, 1}, other{8 + i * 0.77, 20, 0, 1};
+    int sets = 0;
+    do {
+      one.position_pitch += 0.01;
+      other.position_pitch += 0.01;
+      update(noise.noisy(ring.strains({one, other}), ring.noise_strain()));
+    } while ((sets < 3 || locator.answer().searching) && ++sets < kLongestSearch);
+    CHECK_COMPARE(sets, >, 20);
+    CHECK_TRUE(areBothFound(one, other, 0.05));
+  }
+}
+
+TEST(Locator, TwoContactsThatGrowDuringTheSearchAreFoundWhenItEnds) {
+  Presses noise(16, 0, 426);
+  for (int i = 0; i < 20; ++i) {
+    locator.release();
+    Press one, other;
+    int sets = 0;
+    do {
+      const double times = std::min(1.0, (sets + 1) / 60.0);
+      one = {i * 0.7, 20 * times, 3 * times, 1};
+      other = {i * 0.7 + 5, 20 * times, 0, 1};
+      update(noise.noisy(ring.strains({one, other}), ring.noise_strain()));
+    } while ((sets < 3 || locator.answer().searching) && ++sets < 2 * kLongestSearch);
+    CHECK_TRUE(areBothFound(one, other, 0.2));
+  }
+}
+
+TEST(Locator, EachContactOfAPairHasItsOwnRival) {
+  Presses presses(16, 3, 428, 3, 4);
+  int rivals = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Press one = presses.next();
+    Press other = presses.next();
+    other.position_pitch = one.position_pitch + 4 + i % 5;
+    locator.release();
+    settle(presses.noisy(ring.strains({one, other}), ring.noise_strain()));
+    const Answer& answer = locator.answer();
+    if (answer.solution.hypothesis.contacts < 2 || !answer.anyRival) continue;
+    ++rivals;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Press rival = ring.pressOf(answer.rival[k], answer.shift);
+      CHECK_COMPARE(off_pitch(rival, static_cast<int>(k)), <, 2);
+    }
+  }
+  CHECK_COMPARE(rivals, >, 30);
+}
+
 TEST_GROUP(ThreePointLocator) {
   const ModelRing ring{ModelRing::ofKnownWidth(0)};
   Locator locator{FitMode::kThreePoint};

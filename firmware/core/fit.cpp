@@ -453,8 +453,7 @@ int descend(const TableImage& tables, const ScaledReadings& readings, Linearisat
   solution.residualEnergy = left();
   if (solution.residualEnergy < before) return 1;
   if (isExact) {
-    solution.contact =
-        partway(from, solution.contact, before - promised, solution.residualEnergy - promised);
+    solution.contact = partway(from, solution.contact, before - promised, solution.residualEnergy - promised);
     move(tables, solution.contact, linearisation);
     solution.residualEnergy = left();
     if (solution.residualEnergy < before) return 2;

@@ -57,14 +57,14 @@ Solution step(const TableImage& tables, const Linearisation& linearisation, cons
 /// Sum of squares of what the predictions leave of the readings that count.
 Wide energyLeft(const TableImage& tables, const Linearisation& linearisation, const ScaledReadings& readings);
 
-/// Of the way from one place to another, whose step promised to take off so much and `missed` that by so much:
-/// as far as the parabola through both places, with the slope of the promise, is lowest.
+/// Of the way from one place to another, whose step promised to take off so much and `missed` that by so
+/// much: as far as the parabola through both places, with the slope of the promise, is lowest.
 ContactStates partway(const ContactStates& from, const ContactStates& to, Wide promised, Wide missed);
 
-/// Moves a linearisation to where a step led, or, where more is left there than was, a part of the way: to the
-/// lowest point of the parabola through both and the slope that was promised. Where that is no better either,
-/// or the columns were of another place, it is left where it was, with columns of there. `solution`: where it
-/// is and what is left there; `converged` if no step helps. The predictions that it took.
+/// Moves a linearisation to where a step led, or, where more is left there than was, a part of the way: to
+/// the lowest point of the parabola through both and the slope that was promised. Where that is no better
+/// either, or the columns were of another place, it is left where it was, with columns of there. `solution`:
+/// where it is and what is left there; `converged` if no step helps. The predictions that it took.
 int descend(const TableImage& tables, const ScaledReadings& readings, Linearisation& linearisation,
             Solution& solution);
 inline constexpr int kDescentMoves = 3;  ///< at most

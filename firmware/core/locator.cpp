@@ -123,7 +123,9 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
   const auto work = [&] { return (passes * Search::stepWork(tables, hypothesis) + 1) / 2; };
   const int mostSteps = search_.isBegun() ? kStepsWhileSearching : kFollowingSteps;
   for (int steps = 1; !solution.converged; ++steps) {
-    if (search_.isBegun() && work() + (kDescentMoves + 1) * Search::stepWork(tables, hypothesis) / 2 > Search::kWork) break;
+    if (search_.isBegun() &&
+        work() + (kDescentMoves + 1) * Search::stepWork(tables, hypothesis) / 2 > Search::kWork)
+      break;
     passes += descend(tables, readings, linearisation_, solution);
     if (solution.converged || steps == mostSteps) break;
     solution = step(tables, linearisation_, readings);

@@ -297,7 +297,8 @@ void Search::refineNext(const TableImage& tables, Linearisation& scratch) {
   Solution solution{hypothesis_, {}};
   if (isWorse) {
     const Wide promised = reached_.residualEnergy - candidate.residualEnergy;
-    solution.contact = partway(reached_.contact, candidate.contact, promised, left - candidate.residualEnergy);
+    solution.contact =
+        partway(reached_.contact, candidate.contact, promised, left - candidate.residualEnergy);
     solution.residualEnergy = candidate.residualEnergy;
     solution.converged = solution.contact == reached_.contact;
   } else {

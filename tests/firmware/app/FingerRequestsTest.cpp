@@ -186,6 +186,18 @@ TEST(FingerRequests, ATareWhoseSamplesComeLateIsDoneButNotAnswered) {
   LONGS_EQUAL(0, responses().size());
 }
 
+TEST(FingerRequests, ATareWhoseSamplesComeLateIsRefusedAsWellWhereATouchBegan) {
+  ask(tareRequest(false));
+  run(30);
+  clock.advance(500'000);
+  finger.step();
+  run(34, kTouch);
+  CHECK_TRUE(finger.state() == FingerState::kRun);
+  LONGS_EQUAL(0, responses().size());
+  run(100, kTouch);
+  CHECK_TRUE(sent<ContactFrame>().back().flags.has(FingerFlag::kContact));
+}
+
 TEST(FingerRequests, AHeartbeatTellsOfTheZero) {
   ask(tareRequest(false));
   can.sent.clear();

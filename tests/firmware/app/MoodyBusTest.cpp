@@ -159,6 +159,31 @@ TEST(FingerOnAMoodyBus, OwedFramesDoNotWaitForTheNextSampleSet) {
   LONGS_EQUAL(whole + 1, finger.counters().touchesSent);
 }
 
+TEST(FingerOnAMoodyBus, AnEndOfATouchWhoseForceWasDroppedIsSaidAgain) {
+  zeroed();
+  for (int i = 0; i < 40; ++i) {
+    can.refuses = 0;
+    for (int set = 0; set < 30; ++set) step({3.2, 20, 4});
+    const std::uint32_t dropped = finger.counters().touchesIncomplete;
+    can.refuses = 0.5;  // until CONTACT goes out and FORCE does not
+    for (int set = 0; set < 5; ++set) step({0, 0, 0});
+    can.refuses = 1;
+    for (int set = 0; set < 80; ++set) step({0, 0, 0});
+    can.refuses = 0;
+    const std::size_t before = can.sent.size();
+    for (int set = 0; set < 80; ++set) step({0, 0, 0});
+    if (finger.counters().touchesIncomplete == dropped) continue;
+    const auto isReleased = [](const MoodyCanPort::Sent& sent) {
+      const auto force = decode<ForceFrame>(sent.frame);
+      return force && force->normal_mN == 0 && !force->flags.has(FingerFlag::kContact);
+    };
+    CHECK_TRUE(
+        std::any_of(can.sent.begin() + static_cast<std::ptrdiff_t>(before), can.sent.end(), isReleased));
+    return;
+  }
+  FAIL("no FORCE was dropped");
+}
+
 TEST(FingerOnAMoodyBus, IncompleteTouchesAreAFaultOfTheBus) {
   zeroed();
   while (finger.counters().touchesIncomplete == 0) runFor(1, 0.97);

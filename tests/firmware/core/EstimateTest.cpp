@@ -189,6 +189,15 @@ TEST(Estimate, HugeLoadsSaturateWithTheirSign) {
   CHECK(estimated().tangential == LineLoadQ12::min());
 }
 
+TEST(Estimate, ALoadBeyondWhatAFitHoldsIsUncertain) {
+  CHECK_FALSE(estimated().uncertain);
+  answer.solution.contact[0].tangential = -kMostLoad;
+  CHECK_TRUE(estimated().uncertain);
+  answer.solution.contact[0].tangential = 0;
+  answer.solution.contact[0].normal = kMostLoad;
+  CHECK_TRUE(estimated().uncertain);
+}
+
 TEST(Estimate, ChiIsTheRootOfChiSquaredAFreedom) {
   for (const double times : {0.0, 0.25, 1.0, 4.0, 100.0}) {
     leave(times);

@@ -257,6 +257,49 @@ TEST(Fit, AStepWithColumnsFromNearByIsOffByAPartOfSigma) {
   CHECK(worst < 2.5);
 }
 
+// Of fingers as built Gauss-Newton's steps may go to and fro between two places for ever.
+TEST(Fit, AStepThatLeavesMoreThanWasIsShortened) {
+  const ModelRing built;
+  Presses presses(16, 20, 212, 0, 3);
+  int toAndFro = 0;
+  for (int i = 0; i < 600; ++i) {
+    const Press press = presses.next();
+    const ScaledReadings readings = built.scaled(built.strainsAsBuilt(press, presses));
+    const ContactStates start{built.stateOf(beside(press, 0.3, 0), readings.shift)};
+    toAndFro += !fit(built.tables(), hypothesis, start, readings, 60, linearisation).converged;
+
+    linearise(built.tables(), hypothesis, start, linearisation);
+    Wide left = energyLeft(built.tables(), linearisation, readings);
+    Solution solution = step(built.tables(), linearisation, readings);
+    for (int steps = 0; steps < 60 && !solution.converged; ++steps) {
+      CHECK_COMPARE(descend(built.tables(), readings, linearisation, solution), <=, kDescentMoves);
+      CHECK_COMPARE(solution.residualEnergy, <=, left);
+      left = solution.residualEnergy;
+      LONGS_EQUAL(left, energyLeft(built.tables(), linearisation, readings));
+      CHECK(solution.contact == linearisation.at);
+      if (!solution.converged) solution = step(built.tables(), linearisation, readings);
+    }
+    CHECK_TRUE(solution.converged);
+  }
+  std::printf("%d to and fro ", toAndFro);
+  CHECK_COMPARE(toAndFro, >=, 5);
+}
+
+// E(f) = E - 2 R f + c f^2 is lowest at R / c, of the way to f = 1 where R was to be taken off.
+TEST(Fit, AShortenedStepEndsWhereTheParabolaIsLowest) {
+  const ContactStates from{{{100, 1000, -400, 4096}}}, to{{{100 + 25600, 3560, 2160, 14336}}};
+  const ContactStates between = partway(from, to, 30, 90);  // a quarter
+  LONGS_EQUAL(100 + 6400, between[0].angle_q32);
+  LONGS_EQUAL(1640, between[0].normal);
+  LONGS_EQUAL(240, between[0].tangential);
+  LONGS_EQUAL(6656, between[0].moment_q20);
+  CHECK(partway(from, to, 0, 90) == from);
+  CHECK(partway(from, to, -5, 90) == from);
+  CHECK(partway(from, to, 0, 0) == from);
+  const ContactStates back = partway(to, from, 30, 90);
+  LONGS_EQUAL(100 + 19200, back[0].angle_q32);
+}
+
 TEST(Fit, TheBestLoadsOfAPlaceAreThoseOfLeastSquares) {
   Presses presses(16, 20, 209, 0.5, 4);
   for (int i = 0; i < 100; ++i) {

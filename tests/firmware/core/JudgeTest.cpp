@@ -162,6 +162,22 @@ TEST(Judge, WithoutModelErrorNoiseAloneTellsAnswersApart) {
   }
 }
 
+// 60 deviations, where the contact is felt most: half its amplitude.
+TEST(Judge, AWeakContactStaysOneUntilItIsAnEighthFirmer) {
+  const Variances noise{500 << 4, 300 << 4, 100 << 4};  // a deviation of 10
+  const auto isWeakAt = [&](Number amplitude, bool was) {
+    solution.contact[0].normal = amplitude;
+    return isWeak(solution, noise, was);
+  };
+  CHECK_TRUE(isWeakAt(1198, false));
+  CHECK_FALSE(isWeakAt(1200, false));
+  CHECK_TRUE(isWeakAt(1340, true));
+  CHECK_FALSE(isWeakAt(1342, true));
+  solution.hypothesis.contacts = 2;
+  solution.contact[1].normal = 1198;
+  CHECK_TRUE(isWeakAt(8000, false));
+}
+
 TEST(Judge, AnInadmissibleAnswerCountsAsLessLikely) {
   solution.residualEnergy = 1000;
   LONGS_EQUAL(1000, likelihoodEnergy(constants, solution, readings));

@@ -262,6 +262,69 @@ TEST(Locator, OnAFingerAsBuiltWhatWasLookedIntoIsNeitherDoubtedNorLookedIntoAgai
   CHECK_COMPARE(doubted, <=, settled / 3);
 }
 
+// Places a tenth of a pitch apart in two sets of one touch that nothing moves, both told without a flag.
+TEST(Locator, ATouchThatIsHeldOnAFingerAsBuiltSeldomJumps) {
+  const ModelRing built;
+  Presses presses(16, 5, 430, 0, 3);
+  constexpr int kTouches = kSanitized ? 60 : 1000, kSets = 200;
+  int jumps = 0, told = 0;
+  for (int i = 0; i < kTouches; ++i) {
+    const auto strains = built.strainsAsBuilt(presses.next(), presses);
+    locator.release();
+    settle(strains);
+    std::optional<double> last_pitch;
+    for (int set = 0; set < kSets; ++set) {
+      update(built, presses.noisy(strains, built.noise_strain()), built.allGauges());
+      const Contact contact =
+          estimate(built.constants(), locator.answer(), unitErrors(locator.linearisation()), 0);
+      const double now_pitch = foundBy(locator, built).position_pitch;
+      if (!contact.uncertain) {
+        ++told;
+        jumps += last_pitch && std::abs(built.between(*last_pitch, now_pitch)) > 0.1;
+        last_pitch = now_pitch;
+      }
+    }
+  }
+  std::printf("%d of %d ", jumps, told);
+  CHECK_COMPARE(told, >, kTouches * kSets / 2);
+  CHECK_COMPARE(jumps, <=, told / 2500);
+}
+
+// What it leaves behind is a pair whose second contact makes up for how the finger is built.
+TEST(Locator, AContactThatIsLiftedFromAFingerAsBuiltIsGoneWithinASecond) {
+  const ModelRing built;
+  Presses presses(16, 20, 431, 0, 2);
+  int gone = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Press first = presses.next(), second{first.position_pitch + 5, 20, 0, 1};
+    Presses same = presses;  // both are of one finger
+    const auto one = built.strainsAsBuilt(first, presses), other = built.strainsAsBuilt(second, same);
+    locator.release();
+    for (int set = 0; set < 1400; ++set) {
+      const double down = std::clamp((400.0 - set) / 50, 0.0, 1.0);
+      auto both = one;
+      for (std::size_t gauge = 0; gauge < both.size(); ++gauge) both[gauge] += down * other[gauge];
+      update(built, presses.noisy(both, built.noise_strain()), built.allGauges());
+    }
+    gone += locator.answer().solution.hypothesis.contacts == 1;
+  }
+  std::printf("%d gone ", gone);
+  LONGS_EQUAL(40, gone);
+}
+
+TEST(Locator, AGaugeAtTheEdgeOfItsRangeDoesNotBeginTheTouchAnew) {
+  Presses presses(16, 30, 432);
+  const Press press{6.3, 30, 5, 0.5};
+  settle(ring.strains(press));
+  for (int set = 0; set < 200; ++set) {
+    const GaugeSet edge = set % 3 == 0 ? GaugeSet{1} << 6 : 0;
+    update(ring, presses.noisy(ring.strains(press), ring.noise_strain()), ring.allGauges() & ~edge);
+    CHECK_FALSE(locator.answer().searching);
+    CHECK_FALSE(contains(locator.answer().solution.hypothesis.gauges & edge, 6));
+    DOUBLES_EQUAL(0, off_pitch(press), 0.02);
+  }
+}
+
 TEST(Locator, ARivalThatIsNearlyAsLikelyIsTold) {
   Presses presses(16, 3, 409, 5, 6);
   int rivals = 0;

@@ -5,8 +5,10 @@
 //   t1234DEADBEEF\r    frame 0x123 with 4 bytes                         either way
 //   O\r C\r S8\r       open, close, bit rate                            host to device; answer \r
 //   V\r N\r F\r        version, serial number, flags                    host to device; answers V1013\r
-//   N0001\r F00\r sp130004\r         state passive, 130 receive and 4 transmit errors device to host (a w p
-//   b: as hal::CanState) e2aO\r             2 errors: no acknowledge, transmit overrun       device to host
+//   N0001\r F00\r      serial number, flags                           device to host
+//   sp130004\r         state passive (a w p b: as hal::CanState),      device to host
+//                      130 receive and 4 transmit errors
+//   e2aO\r             2 errors: no acknowledge, transmit overrun      device to host
 //   \a                 not understood                                   device to host
 
 #include <array>

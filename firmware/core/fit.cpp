@@ -356,9 +356,9 @@ bool isShort(const TableConstants& constants, const ContactState& from, const Co
          magnitude(to.moment_q20 - from.moment_q20) <= moment;
 }
 
-/// A step reduces the residuals' squares by so little that another would not matter: its square is at most
-/// 256 times a reading's variance, or it is below 64 units. Three readings may tell so little that a small
-/// residual is a long step: for them 2 times, and 16 units.
+/// A step takes so little off the residuals' sum of squares that another would not matter: at most 64 squared
+/// reading units, or as many reading units times the noise's standard deviation. Three readings may tell so
+/// little that a small residual is a long step: for them 16, and 6 times.
 bool changesLittle(Wide reduction, const Hypothesis& hypothesis, const ScaledReadings& readings) {
   const Wide most = hypothesis.exact == 0 ? 256 : 2;
   return reduction < (hypothesis.exact == 0 ? 64 : 16) ||

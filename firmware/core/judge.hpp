@@ -1,5 +1,5 @@
 #pragma once
-// Which hypothesis is believed: every threshold of the estimator stands here.
+// Which hypothesis is believed, and by which thresholds.
 
 #include <cstdint>
 

@@ -32,7 +32,7 @@ struct Answer {
   bool accepted = false;   ///< the hypothesis explains the readings
   bool weak = false;       ///< a contact is felt by little more than noise
   bool searching = false;  ///< the search for other hypotheses goes on
-  bool several = false;    ///< two contacts explain the readings as well as, or better than one
+  bool several = false;    ///< two contacts, or nothing, explain the readings best
   GaugeSet suspect = 0;  ///< the gauge without which one contact explains the readings, and nothing else does
 };
 

@@ -41,6 +41,7 @@ ScaledReadings scaledReadings(const TableConstants& constants, std::span<const N
 
 ContactStates rescaled(const ContactStates& contacts, int from, int to) {
   ContactStates scaled = contacts;
+  if (from == to) return scaled;
   for (ContactState& contact : scaled) {
     contact.normal = shifted(contact.normal, from - to, kMostLoad);
     contact.tangential = shifted(contact.tangential, from - to, kMostLoad);

@@ -11,7 +11,8 @@ namespace {
 constexpr int kMostSteps = 9;       ///< of a fit from the readings
 constexpr int kFollowingSteps = 3;  ///< of one from the last answer
 constexpr int kStepsWhileSearching = 2, kStepsAfterSearch = 3;
-constexpr int kWorkAfterSearch = 170;  ///< of an update that concludes one, as Search::kWork counts
+/// Of an update that only follows, and of one that concludes a search, as Search::kWork counts.
+constexpr int kFollowingWork = 150, kWorkAfterSearch = 170;
 /// Sets of readings after which a second answer is fitted to them as well, or one to all gauges that work.
 constexpr std::uint8_t kRivalEvery = 8;
 constexpr std::uint8_t kTimesRefuted = 3;  ///< in a row, until a second answer is forgotten
@@ -110,7 +111,7 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
   Hypothesis& hypothesis = answer_.solution.hypothesis;
   const bool areFewer = (hypothesis.gauges & ~gauges) != 0;
   hypothesis.gauges &= gauges;
-  if ((hypothesis.exact & ~gauges) != 0 || freedoms(hypothesis) < 1) return std::nullopt;
+  if (areFewer && ((hypothesis.exact & ~gauges) != 0 || freedoms(hypothesis) < 1)) return std::nullopt;
   const ContactStates from = expected(tables.constants);
   int passes = 2;  // predictions, with columns or without them, and steps
   if (readings.shift != answer_.shift || areFewer)
@@ -120,12 +121,11 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
   else
     passes = 1;
   Solution solution = step(tables, linearisation_, readings);
-  const auto work = [&] { return (passes * Search::stepWork(tables, hypothesis) + 1) / 2; };
+  const auto workOf = [&](int of) { return (of * Search::stepWork(tables, hypothesis) + 1) / 2; };
   const int mostSteps = search_.isBegun() ? kStepsWhileSearching : kFollowingSteps;
+  const int mostWork = search_.isBegun() ? Search::kWork : kFollowingWork;
   for (int steps = 1; !solution.converged; ++steps) {
-    if (search_.isBegun() &&
-        work() + (kDescentMoves + 1) * Search::stepWork(tables, hypothesis) / 2 > Search::kWork)
-      break;
+    if (workOf(passes + kDescentMoves + 1) > mostWork) break;
     passes += descend(tables, readings, linearisation_, solution);
     if (solution.converged || steps == mostSteps) break;
     solution = step(tables, linearisation_, readings);
@@ -142,7 +142,7 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
   const bool isLost = wasAccepted && !answer_.accepted &&
                       solution.residualEnergy > energyOf(readings, threshold::kLost * threshold::kGate);
   if (isLost) return std::nullopt;
-  return work() + takeBack(tables, readings, gauges) + followRival(tables, readings);
+  return workOf(passes) + takeBack(tables, readings, gauges) + followRival(tables, readings);
 }
 
 void Locator::forgetRival() {

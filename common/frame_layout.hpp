@@ -81,8 +81,8 @@ constexpr std::uint64_t toWord(const CanFrame& frame) {
   return word;
 }
 
-/// The lowest `length` bytes of a word, of which the others are 0. In one piece: byte by byte it takes a tenth
-/// of an update.
+/// The lowest `length` bytes of a word, of which the others are 0. In one piece: byte by byte it takes 180
+/// instructions of an update more.
 constexpr CanFrame fromWord(std::uint16_t id, std::uint8_t length, std::uint64_t word) {
   static_assert(std::endian::native == std::endian::little);
   return {id, length, std::bit_cast<std::array<std::uint8_t, 8>>(word)};

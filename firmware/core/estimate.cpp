@@ -11,8 +11,6 @@
 namespace strainfinger::firmware {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 constexpr std::int64_t kHalfTurn_q32 = std::int64_t{1} << 31;
 /// Half nodes [* 2^kAngleBits] that are half a turn or more, whatever the number of nodes.
 constexpr int kAngleBits = 15 + 8;
@@ -103,7 +101,7 @@ constexpr Wide reaching(Wide sigma, Wide far) { return std::max(sigma, magnitude
 /// than the answer's own errors reached.
 void coverRival(const TableConstants& constants, const Answer& answer, int contact, Contact& estimated) {
   if (!answer.rivalIsAsLikely) return;
-  const ContactState& rival = answer.rival[at(contact)];
+  const ContactState& rival = answer.rival[index(contact)];
   const Wide turned_q32 = static_cast<std::int32_t>(rival.angle_q32 - estimated.angle.raw());
   const Wide sigma_q32 = reaching(estimated.sigmaAngle.raw(), turned_q32);
   if (sigma_q32 == estimated.sigmaAngle.raw()) return;
@@ -126,9 +124,9 @@ UnitErrors unitErrors(const Linearisation& linearisation) {
   UnitErrors errors{linearisation.hypothesis, linearisation.slopesAt};
   const auto variance_q50 = variances(linearisation.decomposition);
   for (int i = 0; i < linearisation.decomposition.unknowns; ++i) {
-    Floating variance = floatingOf(static_cast<std::uint64_t>(variance_q50[at(i)]));
-    variance.exponent -= 50 + 2 * linearisation.exponent[at(i)];
-    if (linearisation.decomposition.isDetermined(i)) errors.sigma[at(i)] = rootOf(variance);
+    Floating variance = floatingOf(static_cast<std::uint64_t>(variance_q50[index(i)]));
+    variance.exponent -= 50 + 2 * linearisation.exponent[index(i)];
+    if (linearisation.decomposition.isDetermined(i)) errors.sigma[index(i)] = rootOf(variance);
   }
   return errors;
 }
@@ -136,10 +134,10 @@ UnitErrors unitErrors(const Linearisation& linearisation) {
 Contact estimate(const TableConstants& constants, const Answer& answer, const UnitErrors& errors,
                  int contact) {
   const Hypothesis& hypothesis = answer.solution.hypothesis;
-  const ContactState& state = answer.solution.contact[at(contact)];
+  const ContactState& state = answer.solution.contact[index(contact)];
   const Root reading = rootOf(floatingOf(answer.variances.reading_q4));  // [* 2^2]
   const auto sigma = [&](int unknown, int unitBits, std::int64_t most) {
-    const Root& unit = errors.sigma[at(unknown)];
+    const Root& unit = errors.sigma[index(unknown)];
     if (unit.mantissa == 0) return most;
     return integerOf(std::uint32_t{reading.mantissa} * unit.mantissa,
                      reading.exponent + unit.exponent - 2 + unitBits, most);
@@ -173,7 +171,7 @@ Contact estimate(const TableConstants& constants, const Answer& answer, const Un
   estimated.quality = qualityOf(answer, left);
   coverRival(constants, answer, contact, estimated);
   estimated.sigmaAngle = withPlaceError(constants, estimated.sigmaAngle);
-  estimated.alternative = TurnQ32::fromRaw(answer.rival[at(contact)].angle_q32);
+  estimated.alternative = TurnQ32::fromRaw(answer.rival[index(contact)].angle_q32);
   estimated.uncertain = estimated.ambiguous || !answer.accepted || answer.searching || answer.doubtful ||
                         areTooNear(constants, answer.solution) || tooWide || faint || answer.weak ||
                         isLimited(state);

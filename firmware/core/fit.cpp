@@ -18,8 +18,6 @@ constexpr int kLoadStepBits = kLoadExponent + kStepBits - 16;  ///< a step of th
 /// Of what a step leaves, so that thresholds and other energies can be added to it.
 constexpr int kMostEnergyBits = 48;
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 /// |tangential| / (friction * normal) [* 2^15], at most 1: how much of the contact slips (Mindlin).
 Number slip_q15(const TableConstants& constants, const ContactState& contact) {
   const Number most = contact.normal > 0 ? scaled<8>(contact.normal, constants.friction_q8) : 0;
@@ -452,12 +450,10 @@ int descend(const TableImage& tables, const ScaledReadings& readings, Linearisat
   move(tables, solution.contact, linearisation);
   solution.residualEnergy = left();
   if (solution.residualEnergy < before) return 1;
-  if (isExact) {
-    solution.contact = partway(from, solution.contact, before - promised, solution.residualEnergy - promised);
-    move(tables, solution.contact, linearisation);
-    solution.residualEnergy = left();
-    if (solution.residualEnergy < before) return 2;
-  }
+  solution.contact = partway(from, solution.contact, before - promised, solution.residualEnergy - promised);
+  move(tables, solution.contact, linearisation);
+  solution.residualEnergy = left();
+  if (solution.residualEnergy < before) return 2;
   linearise(tables, solution.hypothesis, from, linearisation);
   solution.contact = from;
   solution.residualEnergy = before;

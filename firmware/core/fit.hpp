@@ -63,8 +63,8 @@ ContactStates partway(const ContactStates& from, const ContactStates& to, Wide p
 
 /// Moves a linearisation to where a step led, or, where more is left there than was, a part of the way: to
 /// the lowest point of the parabola through both and the slope that was promised. Where that is no better
-/// either, or the columns were of another place, it is left where it was, with columns of there. `solution`:
-/// where it is and what is left there; `converged` if no step helps. The predictions that it took.
+/// either it is left where it was, with columns of there. `solution`: where it is and what is left there;
+/// `converged` if no step helps, of columns that were of there before. The predictions that it took.
 int descend(const TableImage& tables, const ScaledReadings& readings, Linearisation& linearisation,
             Solution& solution);
 inline constexpr int kDescentMoves = 3;  ///< at most

@@ -12,7 +12,7 @@ constexpr std::uint32_t kOnePlace_q32 = (std::uint32_t{1} << 28) / 2;
 
 void GaugeWatch::suspect(GaugeSet gauge, std::uint32_t angle_q32) {
   if (gauge == 0) return;
-  const auto i = static_cast<std::size_t>(std::countr_zero(gauge));
+  const auto i = index(std::countr_zero(gauge));
   const std::uint32_t moved = angle_q32 - lastPlace_q32_[i];
   const bool isElsewhere = moved + kOnePlace_q32 > 2 * kOnePlace_q32;
   if ((suspects_ & gauge) != 0 && !isElsewhere) return;
@@ -24,10 +24,9 @@ void GaugeWatch::suspect(GaugeSet gauge, std::uint32_t angle_q32) {
 
 void GaugeWatch::vindicate(GaugeSet right, GaugeSet wrong) {
   suspects_ &= ~right | outOfUse_;
-  for (GaugeSet left = wrong; left != 0; left &= left - 1)
-    right_[static_cast<std::size_t>(std::countr_zero(left))] = 0;
+  for (GaugeSet left = wrong; left != 0; left &= left - 1) right_[index(std::countr_zero(left))] = 0;
   for (GaugeSet left = right & outOfUse_; left != 0; left &= left - 1) {
-    const auto i = static_cast<std::size_t>(std::countr_zero(left));
+    const auto i = index(std::countr_zero(left));
     if (++right_[i] < kConvincing) continue;
     right_[i] = 0;
     suspects_ &= ~(GaugeSet{1} << i);

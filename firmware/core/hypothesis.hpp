@@ -2,6 +2,7 @@
 // What may have made the readings: how many contacts, with which unknowns, read by which gauges.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -10,6 +11,9 @@
 #include "firmware/core/integers.hpp"
 
 namespace strainfinger::firmware {
+
+/// Of an array.
+constexpr std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 /// Bit i: gauge i.
 using GaugeSet = std::uint32_t;
@@ -42,6 +46,11 @@ struct Hypothesis {
   constexpr int unknowns() const { return contacts * (widthIsFree ? 4 : 3); }
   bool operator==(const Hypothesis&) const = default;
 };
+
+/// One contact, of unknown width where the tables don't know it and `isWidthFitted`.
+constexpr Hypothesis oneContact(const TableConstants& constants, GaugeSet gauges, bool isWidthFitted = true) {
+  return {1, constants.width_is_known == 0 && isWidthFitted, gauges};
+}
 
 using ContactStates = std::array<ContactState, kMostContacts>;
 

@@ -9,8 +9,7 @@ namespace {
 Number largestReading(const ScaledReadings& readings, GaugeSet gauges) {
   Number largest = 0;
   for (int i = 0; i < kMaxGauges; ++i)
-    if (contains(gauges, i))
-      largest = larger(largest, magnitude(Number{readings.value[static_cast<std::size_t>(i)]}));
+    if (contains(gauges, i)) largest = larger(largest, magnitude(Number{readings.value[index(i)]}));
   return largest;
 }
 

@@ -61,7 +61,7 @@ inline constexpr int kFirmMoment_um2 = 360'000;
 /// With 40 deviations 0.17 % of touches of 0.5 N/m were silently wrong, with these 60 none of 4,000.
 inline constexpr int kWeakSignal = 3600;
 /// A weak contact stays one up to here, so that its flag does not come and go with the noise of each set.
-inline constexpr int kNoLongerWeakSignal = 4500;
+inline constexpr int kNoLongerWeakSignal = 4000;
 /// A contact of a pair whose loads explain less than this much of chi-squared is none.
 inline constexpr int kFaint = 36;
 /// A contact of a pair is sure from so many of its load's standard errors on.

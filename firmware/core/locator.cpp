@@ -9,7 +9,7 @@ namespace strainfinger::firmware {
 namespace {
 
 constexpr int kMostSteps = 9;       ///< of a fit from the readings
-constexpr int kFollowingSteps = 3;  ///< of one from the last answer
+constexpr int kFollowingSteps = 8;  ///< of one from the last answer, if there is work left for them
 constexpr int kStepsWhileSearching = 2, kStepsAfterSearch = 3;
 /// Of an update that only follows, and of one that concludes a search, as Search::kWork counts.
 constexpr int kFollowingWork = 150, kWorkAfterSearch = 170;
@@ -23,15 +23,8 @@ constexpr std::uint16_t kSearchAgainAfter = 64;
 /// 6e-8.
 constexpr std::uint8_t kNewDoubt = 3;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// Kinds of hypotheses that a search compares.
 enum Kind : std::size_t { kSingle, kWithoutOne, kPair };
-
-Hypothesis oneContact(const TableImage& tables, FitMode mode, GaugeSet gauges) {
-  const bool widthIsFree = tables.constants.width_is_known == 0 && mode == FitMode::kRefined;
-  return {1, widthIsFree, gauges};
-}
 
 /// Another number of contacts, or another place. What a gauge that is left out changes of load and width at
 /// the same place is no doubt.
@@ -53,7 +46,7 @@ bool areAllContacts(const Solution& pair, const ScaledReadings& readings) {
 /// These contacts in the order in which they are nearest to a solution's.
 ContactStates inOrderOf(const Solution& solution, ContactStates contacts) {
   const auto apart = [&](int i, int j) {
-    const std::uint32_t turned = solution.contact[at(i)].angle_q32 - contacts[at(j)].angle_q32;
+    const std::uint32_t turned = solution.contact[index(i)].angle_q32 - contacts[index(j)].angle_q32;
     return magnitude(Wide{static_cast<std::int32_t>(turned)});
   };
   if (solution.hypothesis.contacts == 2 && apart(0, 1) + apart(1, 0) < apart(0, 0) + apart(1, 1))
@@ -65,7 +58,7 @@ ContactStates inOrderOf(const Solution& solution, ContactStates contacts) {
 bool isFarOff(const TableImage& tables, const Solution& solution, const ScaledReadings& readings,
               GaugeSet leftOut, Linearisation& scratch) {
   linearise(tables, solution.hypothesis, solution.contact, scratch);
-  const auto gauge = at(std::countr_zero(leftOut));
+  const auto gauge = index(std::countr_zero(leftOut));
   const Number off = magnitude(Number{readings.value[gauge]} - scratch.predicted[gauge]);
   return off >= threshold::kCulprit;
 }
@@ -91,7 +84,7 @@ void Locator::believe(const TableImage& tables, const Solution& solution, const 
 }
 
 void Locator::search(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges) {
-  search_.begin(tables, readings, oneContact(tables, mode_, gauges));
+  search_.begin(tables, readings, oneContact(tables.constants, gauges, mode_ == FitMode::kRefined));
   searchedAt_q32_ = answer_.solution.contact[0].angle_q32;
   setsSinceSearch_ = 0;
 }
@@ -139,7 +132,7 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
     answer_.rival[k].angle_q32 += slid_q32_[k];
   }
   believe(tables, solution, readings);
-  const bool isLost = wasAccepted && !answer_.accepted &&
+  const bool isLost = wasAccepted && !answer_.accepted && !answer_.searching &&
                       solution.residualEnergy > energyOf(readings, threshold::kLost * threshold::kGate);
   if (isLost) return std::nullopt;
   return workOf(passes) + takeBack(tables, readings, gauges) + followRival(tables, readings);
@@ -158,7 +151,7 @@ int Locator::takeBack(const TableImage& tables, const ScaledReadings& readings, 
   if (!answer_.accepted || ++setsLeftOut_ % kRivalEvery != 0) return 0;
   for (GaugeSet left = gauges & ~hypothesis.gauges; left != 0; left &= left - 1) {
     const int gauge = std::countr_zero(left);
-    if (magnitude(linearisation_.predicted[at(gauge)]) >= threshold::kFelt)
+    if (magnitude(linearisation_.predicted[index(gauge)]) >= threshold::kFelt)
       hypothesis.gauges |= GaugeSet{1} << gauge;
   }
   if (hypothesis == answer_.solution.hypothesis) return 0;
@@ -216,7 +209,7 @@ void Locator::start(const TableImage& tables, const ScaledReadings& readings, Ga
   setsInDoubt_ = 0;
   slid_q32_ = slidBefore_q32_ = {};
   search_.stop();
-  const Hypothesis hypothesis = oneContact(tables, mode_, gauges);
+  const Hypothesis hypothesis = oneContact(tables.constants, gauges, mode_ == FitMode::kRefined);
   const ContactStates guess = initialGuess(tables, hypothesis, readings, linearisation_);
   believe(tables, fit(tables, hypothesis, guess, readings, 1, linearisation_), readings);
   guessed_ = answer_.searching = true;
@@ -361,17 +354,17 @@ void Locator::solveExactly(const TableImage& tables, const ScaledReadings& readi
   int rows = 0;
   for (int gauge = 0; gauge < tables.constants.gauge_count; ++gauge)
     if (contains(hypothesis.gauges, gauge) && isInReach(tables, byAll.contact[0], gauge))
-      near[at(rows++)] = static_cast<std::uint8_t>(gauge);
+      near[index(rows++)] = static_cast<std::uint8_t>(gauge);
   Wide most = -1;
   for (int i = 0; i < rows; ++i)
     for (int j = i + 1; j < rows; ++j) {
-      const std::size_t a = near[at(i)], b = near[at(j)];
+      const std::size_t a = near[index(i)], b = near[index(j)];
       const auto minor = [&](std::size_t m, std::size_t n) {
         return column[m][a] * column[n][b] - column[n][a] * column[m][b];
       };
       const Number x = minor(1, 2), y = minor(2, 0), z = minor(0, 1);
       for (int k = j + 1; k < rows; ++k) {
-        const std::size_t c = near[at(k)];
+        const std::size_t c = near[index(k)];
         const Wide determinant =
             magnitude(Wide{x} * column[0][c] + Wide{y} * column[1][c] + Wide{z} * column[2][c]);
         if (determinant <= most) continue;

@@ -31,7 +31,7 @@ struct Decomposition {
   /// Where row i of L begins, of i entries.
   Number* lower(int i) { return lower_q20.data() + i * (i - 1) / 2; }
   const Number* lower(int i) const { return lower_q20.data() + i * (i - 1) / 2; }
-  bool isDetermined(int unknown) const { return reciprocal[static_cast<std::size_t>(unknown)].mantissa != 0; }
+  bool isDetermined(int unknown) const { return reciprocal[index(unknown)].mantissa != 0; }
 };
 
 /// What the readings differ by from what is predicted: value * 2^shift, a multiple of 4 of them, the last

@@ -17,8 +17,7 @@ constexpr int kSettled = 24;
 std::uint32_t energyOf(const TableConstants& constants, const Readings& readings, GaugeSet gauges) {
   Readings counted;
   for (int i = 0; i < constants.gauge_count; ++i)
-    if (contains(gauges, i))
-      counted.strain_q32[static_cast<std::size_t>(i)] = readings.strain_q32[static_cast<std::size_t>(i)];
+    if (contains(gauges, i)) counted.strain_q32[index(i)] = readings.strain_q32[index(i)];
   return gateEnergy(constants, counted.strains(constants.gauge_count));
 }
 
@@ -44,7 +43,7 @@ bool Pipeline::isDisturbance(GaugeSet gauges) {
   const Wide most = kDisturbance * readingNoise_q32(constants());
   bool weak = true;
   for (int i = 0; i < constants().gauge_count; ++i) {
-    const std::int32_t strain = readings_.strain_q32[static_cast<std::size_t>(i)];
+    const std::int32_t strain = readings_.strain_q32[index(i)];
     if (contains(gauges, i) && (strain > most || strain < -most)) weak = false;
   }
   if (!weak) {
@@ -76,7 +75,7 @@ void Pipeline::watchGauges() {
   const GaugeSet looked = watch_.watched() | answer.suspect | observation_.saturated;
   for (GaugeSet left = looked; left != 0; left &= left - 1) {
     const GaugeSet gauge = left & (0 - left);
-    const auto i = static_cast<std::size_t>(std::countr_zero(left));
+    const auto i = index(std::countr_zero(left));
     const std::int32_t predicted = fit.predicted[i];
     const std::int32_t measured = readings_.strain_q32[i] >> answer.shift;
     if ((observation_.saturated & gauge) != 0) {

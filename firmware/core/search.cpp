@@ -6,8 +6,6 @@
 namespace strainfinger::firmware {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// Second moments to look at, as fractions of the largest [* 2^20]. On the default finger 0.3, 0.9, 1.8, 3.1
 /// and 4.6 mm^2.
 constexpr std::array<Number, 5> kFineMoments_q20{40'000, 160'000, 340'000, 600'000, 900'000};
@@ -40,7 +38,7 @@ std::uint32_t pitch_q32(const TableConstants& constants) {
 std::uint32_t anchor_q32(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges) {
   const int count = tables.constants.gauge_count;
   const auto energy = [&](int i) {
-    return contains(gauges, i) ? Wide{readings.value[at(i)]} * readings.value[at(i)] : 0;
+    return contains(gauges, i) ? Wide{readings.value[index(i)]} * readings.value[index(i)] : 0;
   };
   Wide most = -1;
   std::uint32_t anchor = 0;
@@ -49,8 +47,8 @@ std::uint32_t anchor_q32(const TableImage& tables, const ScaledReadings& reading
     const Wide sum = energy(i) + energy(next);
     if (sum <= most) continue;
     most = sum;
-    const std::uint32_t before = tables.gauge_angle_q32[at(i)];
-    anchor = before + (tables.gauge_angle_q32[at(next)] - before) / 2;
+    const std::uint32_t before = tables.gauge_angle_q32[index(i)];
+    anchor = before + (tables.gauge_angle_q32[index(next)] - before) / 2;
   }
   return anchor;
 }
@@ -74,14 +72,15 @@ bool areNeighbours(const TableConstants& constants, int contacts, const ContactS
                    const ContactStates& b, std::uint32_t near_16) {
   const std::uint32_t near_q32 = pitch_q32(constants) / 16 * near_16;
   for (int k = 0; k < contacts; ++k)
-    if (apart_q32(a[at(k)], b[at(k)]) > near_q32 || a[at(k)].moment_q20 != b[at(k)].moment_q20) return false;
+    if (apart_q32(a[index(k)], b[index(k)]) > near_q32 || a[index(k)].moment_q20 != b[index(k)].moment_q20)
+      return false;
   return true;
 }
 
 }  // namespace
 
 bool areSame(const TableConstants& constants, int contacts, const ContactStates& a, const ContactStates& b) {
-  const auto match = [&](int i, int j) { return isSame(constants, a[at(i)], b[at(j)]); };
+  const auto match = [&](int i, int j) { return isSame(constants, a[index(i)], b[index(j)]); };
   if (contacts == 1) return match(0, 0);
   return (match(0, 0) && match(1, 1)) || (match(0, 1) && match(1, 0));
 }
@@ -89,7 +88,7 @@ bool areSame(const TableConstants& constants, int contacts, const ContactStates&
 bool areElsewhere(const TableConstants& constants, int contacts, const ContactStates& a,
                   const ContactStates& b) {
   const auto match = [&](int i, int j) {
-    return apart_q32(a[at(i)], b[at(j)]) < pitch_q32(constants) / 16 * threshold::kElsewhere_16;
+    return apart_q32(a[index(i)], b[index(j)]) < pitch_q32(constants) / 16 * threshold::kElsewhere_16;
   };
   if (contacts == 1) return !match(0, 0);
   return !(match(0, 0) && match(1, 1)) && !(match(0, 1) && match(1, 0));
@@ -148,10 +147,10 @@ void Candidates::clear() {
 }
 
 void Candidates::move(int from, int to) {
-  const std::uint8_t slot = order_[at(from)];
-  for (; from < to; ++from) order_[at(from)] = order_[at(from + 1)];
-  for (; from > to; --from) order_[at(from)] = order_[at(from - 1)];
-  order_[at(to)] = slot;
+  const std::uint8_t slot = order_[index(from)];
+  for (; from < to; ++from) order_[index(from)] = order_[index(from + 1)];
+  for (; from > to; --from) order_[index(from)] = order_[index(from - 1)];
+  order_[index(to)] = slot;
 }
 
 template <typename IsNeighbour>
@@ -185,12 +184,12 @@ Grid::Grid(const Grid& ring, const Candidates& firsts) : Grid(ring) {
   kind_ = Kind::kPairs;
   others_ = static_cast<std::int16_t>(firsts.size());
   for (int i = 0; i < firsts.size(); ++i)
-    firsts_[firmware::at(i)] = {firsts[i].contact[0].angle_q32, firsts[i].contact[0].moment_q20};
+    firsts_[index(i)] = {firsts[i].contact[0].angle_q32, firsts[i].contact[0].moment_q20};
 }
 
-ContactStates Grid::at(const TableImage& tables, int index) const {
-  const int place = index / others_;
-  const auto other = firmware::at(index % others_);
+ContactStates Grid::at(const TableImage& tables, int point) const {
+  const int place = point / others_;
+  const auto other = index(point % others_);
   const std::uint32_t place_q32 = first_q32_ + static_cast<std::uint32_t>(place) * step_q32_;
   const auto contact = [&](std::uint32_t angle_q32, Number moment_q20) {
     return ContactState{angle_q32, 0, 0,
@@ -318,7 +317,7 @@ void Search::refineNext(const TableImage& tables, Linearisation& scratch) {
 
 void Search::keep(const TableConstants& constants, const Solution& solution) {
   if (isLookingAgain()) {
-    const auto contact = at(stage_ == Stage::kFirstAgain ? 0 : 1);
+    const auto contact = index(stage_ == Stage::kFirstAgain ? 0 : 1);
     if (answers_[contact] < kMostAnswers) again_[contact][answers_[contact]++] = solution.contact[0];
   } else {
     ranking().take(constants, solution, readings_);
@@ -358,8 +357,8 @@ void Search::findSuspects(const TableImage& tables, Linearisation& scratch) {
   const Solution& best = single_.best;
   linearise(tables, best.hypothesis, best.contact, scratch);
   for (int i = 0; i < tables.constants.gauge_count; ++i) {
-    const ContactState gauge{tables.gauge_angle_q32[at(i)]};
-    const Wide left = Wide{readings_.value[at(i)]} - scratch.predicted[at(i)];
+    const ContactState gauge{tables.gauge_angle_q32[index(i)]};
+    const Wide left = Wide{readings_.value[index(i)]} - scratch.predicted[index(i)];
     if (apart_q32(best.contact[0], gauge) > kSuspectPitches * pitch_q32(tables.constants) &&
         left * left < best.residualEnergy / 4)
       suspects_ &= ~(GaugeSet{1} << i);
@@ -389,10 +388,11 @@ bool Search::isSettled(const TableConstants& constants) const {
 /// is a second answer, of another width.
 void Search::lookAgain(const TableImage& tables, int contact, Linearisation& scratch) {
   if (!pair_.anyBest) return finish();
-  linearise(tables, all_, {pair_.best.contact[at(1 - contact)]}, scratch);
+  linearise(tables, all_, {pair_.best.contact[index(1 - contact)]}, scratch);
   for (int i = 0; i < tables.constants.gauge_count; ++i)
-    looked_.value[at(i)] = saturate<std::int16_t>(readings_.value[at(i)] - Number{scratch.predicted[at(i)]});
-  answers_[at(contact)] = 0;
+    looked_.value[index(i)] =
+        saturate<std::int16_t>(readings_.value[index(i)] - Number{scratch.predicted[index(i)]});
+  answers_[index(contact)] = 0;
   beginTask(all_, Grid(tables, all_, looked_, Grid::Kind::kFine));
 }
 
@@ -402,7 +402,7 @@ void Search::tryTogether() {
   looked_ = readings_;
   beginTask({2, all_.widthIsFree, all_.gauges}, {});
   for (int i = 0; i < answers_[0]; ++i)
-    for (int j = 0; j < answers_[1]; ++j) candidates_.add({again_[0][at(i)], again_[1][at(j)]});
+    for (int j = 0; j < answers_[1]; ++j) candidates_.add({again_[0][index(i)], again_[1][index(j)]});
 }
 
 void Search::finishTask(const TableImage& tables, Linearisation& scratch) {

@@ -41,8 +41,8 @@ class Candidates {
   static constexpr int kMost = 19;
 
   int size() const { return count_; }
-  Candidate& operator[](int i) { return candidate_[order_[static_cast<std::size_t>(i)]]; }
-  const Candidate& operator[](int i) const { return candidate_[order_[static_cast<std::size_t>(i)]]; }
+  Candidate& operator[](int i) { return candidate_[order_[index(i)]]; }
+  const Candidate& operator[](int i) const { return candidate_[order_[index(i)]]; }
   void clear();
   /// Behind the others; at most kMost in all.
   void add(const ContactStates& contact, Wide residualEnergy = 0) {
@@ -79,7 +79,7 @@ class Grid {
 
   Kind kind() const { return kind_; }
   int size() const { return places_ * others_; }
-  ContactStates at(const TableImage& tables, int index) const;
+  ContactStates at(const TableImage& tables, int point) const;
 
  private:
   std::uint32_t first_q32_ = 0;  ///< the first place

@@ -12,11 +12,6 @@ inline Number lineLoad(Number amplitude, Number scale, int exponent) {
   return saturate<Number>((Wide{amplitude} * scale + (Wide{1} << (-exponent - 1))) >> -exponent);
 }
 
-/// Pitches * 2^20, not negative, in revolutions * 2^32, rounded to nearest; `pitch_q35` of 32 bits.
-inline Natural revolutions(Natural pitch_q35, Number pitches) {
-  return (Natural(pitches) * pitch_q35 + (Natural{1} << 22)) >> 23;
-}
-
 /// An angle [revolutions * 2^32] in hundredths of a degree, 0 .. 36000, rounded to nearest.
 inline Natural centidegrees(Natural turns_q32) { return (turns_q32 * 36000 + (Natural{1} << 31)) >> 32; }
 

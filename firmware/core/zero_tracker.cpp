@@ -24,8 +24,6 @@ constexpr int kLoadBits = 2;
 /// Fewer far gauges don't say what all have in common.
 constexpr int kLeastFar = 3;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// The code * 2^15 by which a strain is more than another.
 std::int32_t codeOf(std::int32_t strain_q32, std::int32_t gain) {
   return gain > 0 ? static_cast<std::int32_t>((std::int64_t{strain_q32} << 32) / gain) : 0;
@@ -47,7 +45,7 @@ bool ZeroTracker::rests(const TableConstants& constants, const Answer& answer) c
   const std::uint32_t near_q32 = (~std::uint32_t{0} / constants.gauge_count) >> kTurnBits;
   const ContactStates before = rescaled(rest_.contact, rest_.shift, answer.shift);
   for (int k = 0; k < rest_.contacts; ++k) {
-    const ContactState &was = before[at(k)], &is = answer.solution.contact[at(k)];
+    const ContactState &was = before[index(k)], &is = answer.solution.contact[index(k)];
     if (is.angle_q32 - was.angle_q32 + near_q32 > 2 * near_q32) return false;
     const Number most = was.normal >> kLoadBits;
     if (magnitude(is.normal - was.normal) > most || magnitude(is.tangential - was.tangential) > most)
@@ -66,13 +64,8 @@ bool ZeroTracker::isWorthFollowing(const TableConstants& constants, GaugeSet gau
   const Number noise = readingNoise_q32(constants) >> kDown;
   Wide energy = 0;
   for (int i = 0; i < constants.gauge_count; ++i)
-    if (contains(gauges, i)) energy += squareOf(sum_[at(i)] >> kDown);
+    if (contains(gauges, i)) energy += squareOf(sum_[index(i)] >> kDown);
   return energy > kWorthFollowing * squareOf(noise);
-}
-
-/// One contact made the averages of these gauges.
-Hypothesis ZeroTracker::oneContact(const TableConstants& constants, GaugeSet gauges) {
-  return {1, constants.width_is_known == 0, gauges};
 }
 
 void ZeroTracker::findStart(const TableImage& tables, GaugeSet gauges, Linearisation& scratch) {
@@ -87,7 +80,7 @@ bool ZeroTracker::looksLikeAContact(const TableImage& tables, GaugeSet gauges, L
   const ScaledReadings readings = averages(tables.constants, gauges);
   Wide energy = 0;
   for (int i = 0; i < tables.constants.gauge_count; ++i)
-    if (contains(gauges, i)) energy += squareOf(readings.value[at(i)]);
+    if (contains(gauges, i)) energy += squareOf(readings.value[index(i)]);
   const Solution solution =
       fit(tables, oneContact(tables.constants, gauges), {start_}, readings, kMostSteps, scratch);
   return isAdmissible(tables.constants, solution) && solution.residualEnergy < energy >> kContactBits;
@@ -114,12 +107,12 @@ std::int32_t ZeroTracker::commonChange_q32(const TableImage& tables, const Answe
   Wide sum = 0;
   for (int i = 0; i < kMaxGauges; ++i) {
     if (!contains(far, i)) continue;
-    const Wide predicted_q32 = Wide{scratch.predicted[at(i)]} << answer.shift;
-    const std::int32_t left = saturate<std::int32_t>(sum_[at(i)] - predicted_q32);
+    const Wide predicted_q32 = Wide{scratch.predicted[index(i)]} << answer.shift;
+    const std::int32_t left = saturate<std::int32_t>(sum_[index(i)] - predicted_q32);
     if (contains(known_, i)) {
-      sum += Wide{left} - before_[at(i)];
+      sum += Wide{left} - before_[index(i)];
     } else {
-      before_[at(i)] = left;
+      before_[index(i)] = left;
     }
   }
   known_ |= far;

@@ -79,7 +79,6 @@ class ZeroTracker {
   std::int32_t commonChange_q32(const TableImage& tables, const Answer& answer, GaugeSet far,
                                 Linearisation& scratch);
   bool isWorthFollowing(const TableConstants& constants, GaugeSet gauges) const;
-  static Hypothesis oneContact(const TableConstants& constants, GaugeSet gauges);
   ScaledReadings averages(const TableConstants& constants, GaugeSet gauges) const;
   void findStart(const TableImage& tables, GaugeSet gauges, Linearisation& scratch);
   bool looksLikeAContact(const TableImage& tables, GaugeSet gauges, Linearisation& scratch) const;

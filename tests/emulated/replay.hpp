@@ -61,8 +61,9 @@ inline void add(Hash& hash, const firmware::Pipeline& pipeline, std::uint32_t sa
   hash.add(answer.variances.noise_q4);
   hash.add(std::int32_t{answer.solution.converged} + 2 * std::int32_t{answer.accepted} +
            4 * std::int32_t{answer.searching} + 8 * std::int32_t{answer.several} +
-           16 * std::int32_t{answer.doubtful} + 128 * std::int32_t{answer.weak} + 32 * std::int32_t{answer.anyRival} +
-           64 * std::int32_t{answer.rivalIsAsLikely} + 256 * answer.shift);
+           16 * std::int32_t{answer.doubtful} + 128 * std::int32_t{answer.weak} +
+           32 * std::int32_t{answer.anyRival} + 64 * std::int32_t{answer.rivalIsAsLikely} +
+           256 * answer.shift);
   const auto contact = [&](int i) {
     return firmware::estimate(pipeline.constants(), answer, firmware::unitErrors(pipeline.linearisation()),
                               i);

@@ -163,7 +163,7 @@ TEST(Judge, WithoutModelErrorNoiseAloneTellsAnswersApart) {
 }
 
 // 60 deviations, where the contact is felt most: half its amplitude.
-TEST(Judge, AWeakContactStaysOneUntilItIsAnEighthFirmer) {
+TEST(Judge, AWeakContactStaysOneUntilItIsATwentiethFirmer) {
   const Variances noise{500 << 4, 300 << 4, 100 << 4};  // a deviation of 10
   const auto isWeakAt = [&](Number amplitude, bool was) {
     solution.contact[0].normal = amplitude;
@@ -171,8 +171,8 @@ TEST(Judge, AWeakContactStaysOneUntilItIsAnEighthFirmer) {
   };
   CHECK_TRUE(isWeakAt(1198, false));
   CHECK_FALSE(isWeakAt(1200, false));
-  CHECK_TRUE(isWeakAt(1340, true));
-  CHECK_FALSE(isWeakAt(1342, true));
+  CHECK_TRUE(isWeakAt(1264, true));
+  CHECK_FALSE(isWeakAt(1266, true));
   solution.hypothesis.contacts = 2;
   solution.contact[1].normal = 1198;
   CHECK_TRUE(isWeakAt(8000, false));

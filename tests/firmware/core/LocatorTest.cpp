@@ -265,7 +265,7 @@ TEST(Locator, OnAFingerAsBuiltWhatWasLookedIntoIsNeitherDoubtedNorLookedIntoAgai
 // Places a tenth of a pitch apart in two sets of one touch that nothing moves, both told without a flag.
 TEST(Locator, ATouchThatIsHeldOnAFingerAsBuiltSeldomJumps) {
   const ModelRing built;
-  Presses presses(16, 5, 430, 0, 3);
+  Presses presses(16, 10, 430, 0, 3);
   constexpr int kTouches = kSanitized ? 60 : 1000, kSets = 200;
   int jumps = 0, told = 0;
   for (int i = 0; i < kTouches; ++i) {

@@ -33,13 +33,13 @@ inline constexpr int kLost = 4;
 /// unflagged at most once in 11,000, however far apart they are.
 inline constexpr int kAmbiguous = 14;
 /// Nor within so many times what the better one leaves a degree of freedom, as far as that may be the model's
-/// error. Of 6,000 touches of fingers as built (host/bench) 11 are silently wrong and 14.5 % flagged; 18 and
-/// 15.4 % by kAmbiguous variances of the gate instead.
+/// error. Of 6,000 touches of fingers as built (host/bench) 12 are silently wrong and 15.3 % flagged; 19 and
+/// 16.4 % by kAmbiguous variances of the gate instead.
 inline constexpr int kAmbiguousRatio = 24;
 /// A second answer is refuted by a sample set of which it leaves so many times more than would be ambiguous.
 inline constexpr int kRefuted = 4;
 /// Of one contact, a search does not refine candidates which leave, after their first steps, so many times
-/// [log2] what the best one leaves and kRefuted * kAmbiguous. Without that limit searches take longer: 5 %
+/// [log2] what the best one leaves and kRefuted * kAmbiguous. Without that limit searches take longer: 4 %
 /// more of the disturbed touches of host/bench are flagged, and as many are silently wrong.
 inline constexpr int kHopelessBits = 2;
 /// Answers so many sixteenths of a pitch apart are at different places, rather than of different widths.

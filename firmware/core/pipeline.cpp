@@ -59,7 +59,6 @@ bool Pipeline::isDisturbance(GaugeSet gauges) {
 void Pipeline::locate(GaugeSet gauges) {
   locator_.update(*tables_, strains(), gauges, noise_.variance_q4());
   observation_.touched = !isDisturbance(gauges);
-  if (!observation_.touched) return;
   const Answer& answer = locator_.answer();
   observation_.leftOut = allGauges(constants().gauge_count) & ~answer.solution.hypothesis.gauges;
   observation_.several = answer.several || answer.solution.hypothesis.contacts > 1;

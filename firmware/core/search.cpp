@@ -282,6 +282,8 @@ void Search::lookAtPoint(const TableImage& tables, Linearisation& scratch) {
 }
 
 /// A Gauss-Newton step of the next candidate: each has kFirstSteps, then the best have as many as they need.
+/// Where the one before left more than was there it is shortened instead, as descend() does at once: so that
+/// each call costs one linearisation.
 void Search::refineNext(const TableImage& tables, Linearisation& scratch) {
   const bool first = refined_ < candidates_.size();
   const int i = first ? refined_ : refined_ - candidates_.size();

@@ -1,6 +1,7 @@
 #pragma once
 // What a finger says of a touch, put together again from its frames.
 
+#include <concepts>
 #include <cstdint>
 #include <optional>
 
@@ -44,6 +45,13 @@ struct LargestValues {
   double chi;
 };
 const LargestValues& largestValues();
+
+/// A raw value is the largest that its field can say, of fields that may be not known: it stands for anything
+/// beyond it too.
+template <std::unsigned_integral Raw>
+constexpr bool isLargest(Raw raw) {
+  return raw == kNotKnown<Raw> - 1;
+}
 
 /// Listens to one node.
 class TouchReceiver {

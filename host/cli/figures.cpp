@@ -25,18 +25,11 @@ constexpr const char* kFiguresHelp =
     "On stdout, and in claims.csv: what the paper says about them, what was computed for the paper's "
     "finger, and whether that bears the paper out. With --config the figures are those of another finger.";
 
-/// CLI11's own says nothing of what is no number.
-CLI::Validator isFigure() {
-  std::vector<int> numbers;
-  for (const paper::Figure& figure : paper::figures()) numbers.push_back(figure.number);
-  const std::string all = fmt::format("{{{}}}", fmt::join(numbers, ","));
-  const auto complaint = [numbers, all](const std::string& text) {
-    int number = 0;
-    const bool isOne =
-        CLI::detail::lexical_cast(text, number) && std::ranges::find(numbers, number) != numbers.end();
-    return isOne ? std::string{} : fmt::format("{} not in {}", text, all);
-  };
-  return {complaint, all};
+/// As texts: of numbers, CLI11 has no complaint about what is none.
+std::vector<std::string> figureNumbers() {
+  std::vector<std::string> numbers;
+  for (const paper::Figure& figure : paper::figures()) numbers.push_back(fmt::to_string(figure.number));
+  return numbers;
 }
 
 struct FiguresOptions {
@@ -47,7 +40,7 @@ struct FiguresOptions {
     command.add_option("--only", only, "Only these figures, separated by commas")
         ->type_name("N,N")
         ->delimiter(',')
-        ->check(isFigure());
+        ->check(CLI::IsMember(figureNumbers()));
   }
 
   bool wants(const paper::Figure& figure) const {

@@ -79,9 +79,8 @@ std::string widthText(const can::TouchReport& touch) {
 }
 
 std::string durationText(std::uint16_t seconds) {
-  constexpr std::uint16_t kNone = kNotKnown<std::uint16_t>;
-  if (seconds == kNone) return kUnknown;
-  return fmt::format("{}{}:{:02}:{:02}", seconds == kNone - 1 ? kOrMore : "", seconds / 3600,
+  if (seconds == kNotKnown<std::uint16_t>) return kUnknown;
+  return fmt::format("{}{}:{:02}:{:02}", can::isLargest(seconds) ? kOrMore : "", seconds / 3600,
                      seconds / 60 % 60, seconds % 60);
 }
 

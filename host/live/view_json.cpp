@@ -1,7 +1,6 @@
 #include "host/live/view_json.hpp"
 
 #include <cmath>
-#include <concepts>
 #include <initializer_list>
 #include <utility>
 
@@ -27,11 +26,6 @@ Json keysOf(std::initializer_list<std::pair<const char*, bool>> isOrMore) {
   for (const auto& [key, is] : isOrMore)
     if (is) keys.push_back(key);
   return keys;
-}
-
-template <std::unsigned_integral Raw>
-bool isLargest(Raw raw) {
-  return raw == kNotKnown<Raw> - 1;
 }
 
 Json contactJson(const can::ContactReport& contact) {
@@ -82,8 +76,8 @@ Json gaugesJson(const GaugesFrame& gauges) {
   return {{"out_of_use", bitNumbers(gauges.out_of_use)},
           {"zero_age_s", knownOrNull(gauges.zero_age_s)},
           {"zero_rate_per_s", rate.is_null() ? rate : Json(gauges.zero_rate_nano_per_s * 1e-9)},
-          {"or_more", keysOf({{"zero_age_s", isLargest(gauges.zero_age_s)},
-                              {"zero_rate_per_s", isLargest(gauges.zero_rate_nano_per_s)}})}};
+          {"or_more", keysOf({{"zero_age_s", can::isLargest(gauges.zero_age_s)},
+                              {"zero_rate_per_s", can::isLargest(gauges.zero_rate_nano_per_s)}})}};
 }
 
 Json infoJson(const InfoFrame& info) {
@@ -117,7 +111,7 @@ Json fingerJson(const FingerView& finger) {
           {"fitted", listOrNull(finger.fitted)},
           {"gauges", finger.gauges ? gaugesJson(*finger.gauges) : Json()},
           {"info", finger.info ? infoJson(*finger.info) : Json()},
-          {"or_more", keysOf({{"uptime_s", isLargest(heartbeat.uptime_s)}})}};
+          {"or_more", keysOf({{"uptime_s", can::isLargest(heartbeat.uptime_s)}})}};
 }
 
 }  // namespace

@@ -196,6 +196,8 @@ TEST(FingerRequests, ATareWhoseSamplesComeLateIsRefusedAsWellWhereATouchBegan) {
   LONGS_EQUAL(0, responses().size());
   run(100, kTouch);
   CHECK_TRUE(sent<ContactFrame>().back().flags.has(FingerFlag::kContact));
+  run(100);  // half of the touch would be the zero
+  CHECK_FALSE(sent<ContactFrame>().back().flags.has(FingerFlag::kContact));
 }
 
 TEST(FingerRequests, AHeartbeatTellsOfTheZero) {

@@ -109,6 +109,7 @@ TEST(Pipeline, CodesThatStayAreLookedIntoWhereTheyLeaveDoubt) {
     release();
   }
   std::printf("%d in doubt ", doubted);
+  CHECK(doubted > 0);
 }
 
 TEST(Pipeline, AGaugeThatIsOpenHidesNoTouch) {

@@ -1,0 +1,238 @@
+// The second answer that a locator follows beside its own.
+#include <bit>
+#include <cstdio>
+#include <optional>
+
+#include "firmware/core/estimate.hpp"
+#include "tests/firmware/core/located_finger.hpp"
+#include "tests/under_sanitizers.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::firmware;
+
+TEST_GROUP_BASE(LocatorRivals, LocatedFinger){};
+
+// Places a tenth of a pitch apart in two sets of one touch that nothing moves, both told without a flag.
+TEST(LocatorRivals, ATouchThatIsHeldOnAFingerAsBuiltSeldomJumps) {
+  const ModelRing built;
+  Presses presses(16, 10, 430, 0, 3);
+  constexpr int kTouches = kSanitized ? 60 : 1000, kSets = 200;
+  int jumps = 0, told = 0;
+  for (int i = 0; i < kTouches; ++i) {
+    const auto strains = built.strainsAsBuilt(presses.next(), presses);
+    locator.release();
+    settle(strains);
+    std::optional<double> last_pitch;
+    for (int set = 0; set < kSets; ++set) {
+      update(built, presses.noisy(strains, built.noise_strain()), built.allGauges());
+      const Contact contact =
+          estimate(built.constants(), locator.answer(), unitErrors(locator.linearisation()), 0);
+      const double now_pitch = foundBy(locator, built).position_pitch;
+      if (!contact.uncertain) {
+        ++told;
+        jumps += last_pitch && std::abs(built.between(*last_pitch, now_pitch)) > 0.1;
+        last_pitch = now_pitch;
+      }
+    }
+  }
+  std::printf("%d of %d ", jumps, told);
+  CHECK_COMPARE(told, >, kTouches * kSets / 2);
+  CHECK_COMPARE(jumps, <=, told / 2500);
+}
+
+TEST(LocatorRivals, ARivalThatIsNearlyAsLikelyIsTold) {
+  Presses presses(16, 3, 409, 5, 6);
+  int rivals = 0;
+  for (int i = 0; i < 50; ++i) {
+    locator.release();
+    settle(presses.noisy(ring.strains(presses.next()), ring.noise_strain()));
+    if (!locator.answer().anyRival) continue;
+    ++rivals;
+    CHECK(locator.answer().rival[0].angle_q32 != locator.answer().solution.contact[0].angle_q32);
+  }
+  CHECK(rivals > 10);
+}
+
+TEST(LocatorRivals, ARivalIsForgottenOnceTheTouchHasTold) {
+  Presses presses(16, 3, 412, 5, 6);
+  int rivals = 0, left = 0;
+  for (int i = 0; i < 50; ++i) {
+    locator.release();
+    Press press = presses.next();
+    settle(presses.noisy(ring.strains(press), ring.noise_strain()));
+    if (!locator.answer().anyRival) continue;
+    ++rivals;
+    for (int set = 0; set < 100; ++set, press.normal *= 1.03, press.tangential *= 1.03)
+      update(presses.noisy(ring.strains(press), ring.noise_strain()));
+    left += locator.answer().anyRival;
+    DOUBLES_EQUAL(0, off_pitch(press), 0.02);
+  }
+  CHECK(rivals > 10);
+  CHECK_COMPARE(left, <=, rivals / 5);
+}
+
+// Touches of which one set alone often doesn't tell which of two places is right, for half a second each.
+TEST(LocatorRivals, AFaintTouchThatIsHeldIsSeldomToldElsewhereUnflagged) {
+  constexpr int kTouches = kSanitized ? 4 : 300, kSets = 500;
+  Presses presses(16, 1, 415, 0, 2);
+  int silent = 0, told = 0;
+  for (int i = 0; i < kTouches; ++i) {
+    locator.release();
+    const Press press = presses.next();
+    for (int set = 0; set < kSets; ++set) {
+      update(presses.noisy(ring.strains(press), ring.noise_strain()));
+      const Contact contact =
+          estimate(ring.constants(), locator.answer(), unitErrors(locator.linearisation()), 0);
+      if (contact.uncertain) continue;
+      ++told;
+      silent += off_pitch(press) > 0.5;
+    }
+  }
+  std::printf("%d of %d ", silent, told);
+  CHECK_COMPARE(told, >, kTouches * kSets / 4);
+  CHECK_COMPARE(silent, <=, told / 500);
+}
+
+TEST(LocatorRivals, ARivalKeepsItsLoadWhenTheReadingsScaleChanges) {
+  Presses presses(16, 5, 413, 2, 6);
+  int rescaled = 0;
+  for (int i = 0; i < 400; ++i) {
+    locator.release();
+    const auto strains = ring.strains(presses.next());
+    settle(presses.noisy(strains, ring.noise_strain()));
+    const auto rivalsLoad = [&] {
+      return std::ldexp(locator.answer().rival[0].normal, locator.answer().shift);
+    };
+    for (double times = 1.01; times < 2.2 && locator.answer().anyRival; times *= 1.01) {
+      const double before = rivalsLoad();
+      const int shift = locator.answer().shift;
+      auto more = strains;
+      for (double& strain : more) strain *= times;
+      update(presses.noisy(more, ring.noise_strain()));
+      if (locator.answer().shift == shift || !locator.answer().anyRival) continue;
+      ++rescaled;
+      DOUBLES_EQUAL(1, rivalsLoad() / before, 0.2);  // it may have been fitted to the new readings
+    }
+  }
+  CHECK(rescaled > 10);
+}
+
+// The residual of a set jitters, and with it what would be told apart.
+TEST(LocatorRivals, WhetherARivalIsAsLikelyIsJudgedWhenItIsFitted) {
+  const ModelRing built{config::FingerConfig{}};
+  Presses presses(16, 5, 417, 2, 6);
+  int rivals = 0, cleared = 0, changes = 0;
+  for (int i = 0; i < 50; ++i) {
+    locator.release();
+    const auto strains = built.strains(presses.next());
+    for (int set = 0; set < 160; ++set) {
+      const bool wasSearching = locator.isSearching(), was = locator.answer().rivalIsAsLikely;
+      update(built, presses.noisy(strains, built.noise_strain()), built.allGauges());
+      const Answer& answer = locator.answer();
+      if (wasSearching || locator.isSearching() || !answer.anyRival) continue;
+      ++rivals;
+      changes += answer.rivalIsAsLikely != was;
+      cleared += was && !answer.rivalIsAsLikely;
+    }
+  }
+  std::printf("%d changes, %d to less likely, in %d sets ", changes, cleared, rivals);
+  CHECK_COMPARE(rivals, >, 1000);
+  CHECK_COMPARE(cleared, >, 0);
+  CHECK_COMPARE(changes, <=, rivals / 8);
+}
+
+TEST(LocatorRivals, ARivalMovesAlongBetweenItsFits) {
+  Presses presses(16, 3, 420, 5, 6);
+  int rivals = 0, moved = 0;
+  const auto apart_q32 = [&] {
+    return locator.answer().rival[0].angle_q32 - locator.answer().solution.contact[0].angle_q32;
+  };
+  for (int i = 0; i < 50; ++i) {
+    locator.release();
+    Press press = presses.next();
+    settle(ring.strains(press));
+    if (!locator.answer().anyRival) continue;
+    ++rivals;
+    const std::uint32_t before_q32 = apart_q32();
+    press.position_pitch += 0.02;
+    update(ring.strains(press));
+    moved += apart_q32() == before_q32;
+  }
+  CHECK_COMPARE(rivals, >, 10);
+  CHECK_COMPARE(moved, >, rivals / 2);  // the others' rivals were fitted to this set
+}
+
+TEST(LocatorRivals, AFirmTouchForgetsItsRivalAtOnce) {
+  Presses presses(16, 1, 422);
+  int rivals = 0;
+  for (int i = 0; i < 100; ++i) {
+    const auto hold = [&](double normal_n_per_m) {
+      return presses.noisy(ring.strains({4.727, normal_n_per_m, 0, 0.85}), ring.noise_strain());
+    };
+    locator.release();
+    settle(hold(1));
+    if (!locator.answer().anyRival || off_pitch({4.727, 1, 0}) > 0.3) continue;
+    ++rivals;
+    for (int set = 0; set < 8; ++set) update(hold(40));
+    CHECK_TRUE(locator.answer().accepted);
+    CHECK_FALSE(locator.answer().anyRival);
+  }
+  CHECK_COMPARE(rivals, >, 30);
+}
+
+TEST(LocatorRivals, ARivalIsForgottenWhenItIsRefutedThreeTimesInARow) {
+  Presses presses(16, 1, 421);
+  int rivals = 0, refuted = 0, twice = 0, thrice = 0, turns = 0, kept = 0;
+  const auto hold = [&](double normal_n_per_m, int sets) {  // a fit of the rival for every eight
+    for (int set = 0; set < sets; ++set)
+      update(presses.noisy(ring.strains({4.727, normal_n_per_m, 0, 0.85}), ring.noise_strain()));
+    return locator.answer().rivalIsLost;
+  };
+  for (int i = 0; i < 100; ++i) {
+    locator.release();
+    settle(presses.noisy(ring.strains({4.727, 1, 0, 0.85}), ring.noise_strain()));
+    if (!locator.answer().anyRival) continue;
+    ++rivals;
+    const Locator before = locator;
+    if (hold(14, 8) && hold(14, 8)) {
+      ++refuted;
+      twice += locator.answer().anyRival;
+      hold(14, 8);
+      thrice += locator.answer().anyRival;
+    }
+    locator = before;
+    bool inTurn = true;
+    for (int round = 0; round < 3; ++round) inTurn = inTurn && hold(14, 8) && !hold(1, 8);
+    if (!inTurn) continue;
+    ++turns;
+    kept += locator.answer().anyRival;
+  }
+  CHECK_COMPARE(rivals, >, 50);
+  CHECK_COMPARE(refuted, >, 20);
+  LONGS_EQUAL(refuted, twice);
+  LONGS_EQUAL(0, thrice);
+  CHECK_COMPARE(turns, >, 10);
+  LONGS_EQUAL(turns, kept);
+}
+
+TEST(LocatorRivals, EachContactOfAPairHasItsOwnRival) {
+  Presses presses(16, 3, 428, 3, 4);
+  int rivals = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Press one = presses.next();
+    Press other = presses.next();
+    other.position_pitch = one.position_pitch + 4 + i % 5;
+    locator.release();
+    settle(presses.noisy(ring.strains({one, other}), ring.noise_strain()));
+    const Answer& answer = locator.answer();
+    if (answer.solution.hypothesis.contacts < 2 || !answer.anyRival) continue;
+    ++rivals;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Press rival = ring.pressOf(answer.rival[k], answer.shift);
+      CHECK_COMPARE(off_pitch(rival, static_cast<int>(k)), <, 2);
+    }
+  }
+  CHECK_COMPARE(rivals, >, 30);
+}

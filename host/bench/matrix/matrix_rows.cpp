@@ -55,6 +55,15 @@ class Rows {
       row.failure = Failure::kGain;
       row.failedGain = gain;
     }
+    // Touches that outlast the search, so that three of them convict the gauge.
+    constexpr int kHalfSecond_sets = 500;
+    Disturbance& dead = add("a dead gauge, touches half a second long");
+    dead.failure = Failure::kDead;
+    dead.touched_sets = kHalfSecond_sets;
+    Disturbance& weak = add("gain of a gauge 0.5, touches half a second long");
+    weak.failure = Failure::kGain;
+    weak.failedGain = 0.5;
+    weak.touched_sets = kHalfSecond_sets;
   }
 
   /// What a builder or a calibration leaves: with tables that know of no error, and with the default's.

@@ -51,7 +51,7 @@ class Contest {
 };
 
 MethodResult& resultAt(std::vector<MethodResult>& results, std::size_t place, const Method& method) {
-  if (place == results.size()) results.push_back({std::string(method.name), method.usesFloat, false, {}, 0});
+  if (place == results.size()) results.push_back({std::string(method.name), method.usesFloat, {}, 0});
   return results[place];
 }
 
@@ -89,8 +89,8 @@ std::vector<MethodResult> locatorResults(const BenchFinger& finger, const Bundle
     levels[i] = {readingsOf(finger, kLevelSettings[i], contacts), &bundle.levels[i].tables};
   Contest contest(finger, std::move(levels));
   std::vector<MethodResult> results;
-  MethodResult reference{"global search in double", true, true, {}, 0};
-  MethodResult wideReference{"global search with the width in double", true, true, {}, 0};
+  MethodResult reference{"global search in double", true, {}, 0};
+  MethodResult wideReference{"global search with the width in double", true, {}, 0};
   for (std::size_t level = 0; level < kLevels; ++level) {
     std::size_t place = 0;
     const auto enter = [&](const Method& method, auto fit) {

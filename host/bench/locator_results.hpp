@@ -14,7 +14,6 @@ namespace strainfinger::bench {
 struct MethodResult {
   std::string name;
   bool usesFloat = false;
-  bool onThisMachineOnly = false;
   std::array<Score, kLevels> score;  ///< by kLevelSettings
   double time_ns = 0;                ///< a fit at kTimedLevel
 };
@@ -33,7 +32,7 @@ struct Count {
 };
 /// The emulated processors, as tables and pictures name them.
 inline constexpr std::array<const char*, 3> kCores{"Cortex-M4", "Cortex-M4 with FPU", "Cortex-M0+"};
-inline constexpr std::size_t kM4 = 0, kM4WithFpu = 1, kM0Plus = 2;
+inline constexpr std::size_t kM4 = 0, kM4WithFpu = 1;
 
 /// What count_instructions.py counted, by core, method and level.
 class Counts {

@@ -17,8 +17,6 @@ struct LevelSettings {
   double relativeNoise;
   std::uint64_t seed;
   evidence::Range width_m = {0, 0};
-
-  bool isOfLines() const { return width_m.most == 0; }
 };
 inline constexpr std::array<LevelSettings, kLevels> kLevelSettings{
     {{"clean", 0, 1001},

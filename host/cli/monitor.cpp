@@ -1,16 +1,13 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <poll.h>
-#include <unistd.h>
 
-#include <array>
-#include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "host/base/failure.hpp"
+#include "host/base/line_reader.hpp"
 #include "host/can/open_bus.hpp"
 #include "host/cli/bus_option.hpp"
 #include "host/cli/command.hpp"
@@ -171,36 +168,16 @@ void monitorBus(const MonitorOptions& options) {
   options.wantsScreen() ? LiveScreen(*port, config).run() : printLive(*port, config, options);
 }
 
-/// The lines that come on stdin, as they come.
-class StdinLines {
- public:
-  /// Waits for more, at most so long, and gives each whole line to take(line); false at the end. Throws
-  /// Failure(kFailure) when stdin cannot be read.
-  template <typename Take>
-  bool read(std::chrono::milliseconds longest, Take take) {
-    pollfd waiting{STDIN_FILENO, POLLIN, 0};
-    if (::poll(&waiting, 1, static_cast<int>(longest.count())) <= 0) return true;
-    std::array<char, 65536> block;
-    const ssize_t size = ::read(STDIN_FILENO, block.data(), block.size());
-    if (size < 0 && errno != EINTR)
-      throw Failure(ExitCode::kFailure, fmt::format("cannot read stdin: {}", std::strerror(errno)));
-    if (size > 0) rest_.append(block.data(), static_cast<std::size_t>(size));
-    if (size == 0 && !rest_.empty()) rest_.push_back('\n');  // the last line may lack its end
-    takeWhole(take);
-    return size != 0;
-  }
-
- private:
-  template <typename Take>
-  void takeWhole(Take take) {
-    std::size_t begin = 0;
-    for (std::size_t end; (end = rest_.find('\n', begin)) != rest_.npos; begin = end + 1)
-      take(std::string_view(rest_).substr(begin, end - begin));
-    rest_.erase(0, begin);
-  }
-
-  std::string rest_;  ///< of a line whose end is yet to come
-};
+/// Waits for more, at most so long, and gives each line to take(line), the last one too if it lacks its end;
+/// false at the end.
+template <typename Take>
+bool readLines(LineReader& reader, std::chrono::milliseconds longest, Take take) {
+  const bool isOver = reader.read(longest) == LineReader::Got::kEnd;
+  while (const auto line = reader.next()) take(*line);
+  if (!isOver) return true;
+  if (const auto last = reader.rest()) take(*last);
+  return false;
+}
 
 /// A log on stdin.
 class LogMonitor {
@@ -227,7 +204,7 @@ class LogMonitor {
       const auto due_us = watch_.time_us() ? report_.due(*watch_.time_us()) : std::nullopt;
       if (due_us) report_.print(watch_.views(*due_us));
     };
-    while (!stop.asked() && stdin_.read(kRedraw, takeAndPrint)) {
+    while (!stop.asked() && readLines(stdin_, kRedraw, takeAndPrint)) {
     }
   }
 
@@ -242,7 +219,7 @@ class LogMonitor {
         take(line);
         heard = Clock::now();
       };
-      more = stdin_.read(kRedraw, takeAndNote);
+      more = readLines(stdin_, kRedraw, takeAndNote);
       while (const auto key = terminal.key()) quit = quit || key == 'q';
       if (Clock::now() - drawn < kRedraw) continue;
       drawn = Clock::now();
@@ -261,7 +238,7 @@ class LogMonitor {
       firstError_ = fmt::format("stdin:{}:{}: {}", lines_, error->column, error->reason);
   }
 
-  StdinLines stdin_;
+  LineReader stdin_{"-"};
   live::LogWatch watch_;
   live::PlainReport report_;
   bool screen_;

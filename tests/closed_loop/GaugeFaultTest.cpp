@@ -117,7 +117,7 @@ TEST_GROUP(GaugeFault) {
   void checkNotBlamed(const evidence::Range& width_m, int count) {
     const evidence::TouchDraws draws{config.gauges, {.load_n_per_m = {2, 40}, .width_m = width_m}, 403};
     std::unique_ptr<SampledFinger> finger;
-    int blamed = 0, silent = 0;
+    int blamed = 0, silent = 0, missed = 0;
     for (int i = 0; i < count; ++i) {
       if (i % 20 == 0) finger = this->finger(i);
       const simulation::Touch touch = draws.at(static_cast<std::uint64_t>(i));
@@ -125,12 +125,15 @@ TEST_GROUP(GaugeFault) {
       finger->hold(ring.exact(touch), kTouch / 10);
       blamed += finger->observation().outOfUse != 0;
       const Told said = told(*finger, {&touch, 1});
-      silent += !said.right && !said.flagged && finger->observation().touched;
+      const bool isTold = finger->observation().touched;
+      silent += !said.right && !said.flagged && isTold;
+      missed += !isTold;
     }
-    std::printf("\n%g to %g mm: a gauge blamed in %d of %d, silent wrong places %d ", width_m.least * 1e3,
-                width_m.most * 1e3, blamed, count, silent);
+    std::printf("\n%g to %g mm: a gauge blamed in %d of %d, silent wrong places %d, missed %d ",
+                width_m.least * 1e3, width_m.most * 1e3, blamed, count, silent, missed);
     CHECK_COMPARE(blamed, <=, allowedCount(5e-4, count));
     CHECK_COMPARE(silent, <=, allowedCount(2e-4, count));
+    LONGS_EQUAL(0, missed);
   }
 
   /// Two contacts half a pitch to eight apart, 1:1 to 1:4, that come within so many sample sets: together, or
@@ -163,6 +166,7 @@ TEST_GROUP(GaugeFault) {
                 isSecondLater ? "second joins" : "two", rise, blamed, count, located, silent);
     CHECK_COMPARE(blamed, <=, allowedCount(2e-3, count));
     CHECK_COMPARE(silent, <=, allowedCount(1e-3, count));
+    CHECK_COMPARE(located, >=, count * 9 / 10);
   }
 };
 

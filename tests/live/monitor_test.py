@@ -202,7 +202,7 @@ class Log(unittest.TestCase):
         finally:
             os.close(folder)
         self.assertEqual(1, run.returncode)
-        self.assertIn("cannot read stdin: Is a directory", run.stderr)
+        self.assertIn("stdin: cannot read: Is a directory", run.stderr)
 
     def test_a_full_disk_is_a_failure(self):
         with open("/dev/full", "w") as full:

@@ -26,7 +26,7 @@ TEST_GROUP(LocatorReport) {
     score.overBound = {1.01, 1.02, 1.03};
     score.arc_um = score.arcOfAll_um = arc_um;
     score.arcBound_um = 10;
-    return {name, usesFloat, false, {score, score, score, score}, 12'345};
+    return {name, usesFloat, {score, score, score, score}, 12'345};
   }
   const std::vector<MethodResult> results{result("ours: refined", false, 0, 12),
                                           result("rough", true, 90, 900), result("fine", true, 0, 12.1),

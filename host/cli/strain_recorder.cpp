@@ -12,8 +12,10 @@
 namespace strainfinger::cli {
 
 void StrainRecorder::add(const simulation::Moment& moment, std::span<const std::int32_t> strains_q32) {
-  if (moment.time_s < static_cast<double>(taken_) * period_s_ || moment.truth.size() > 1) return;
-  taken_ = static_cast<std::uint64_t>(moment.time_s / period_s_) + 1;
+  constexpr double kRounding_period = 1e-6;  // times and periods are decimal fractions
+  const double periods = moment.time_s / period_s_ + kRounding_period;
+  if (periods < static_cast<double>(taken_) || moment.truth.size() > 1) return;
+  taken_ = static_cast<std::uint64_t>(periods) + 1;
   Row row{moment.time_s, {}, moment.truth.empty() ? simulation::Touch{} : moment.truth.front()};
   for (std::size_t i = 0; i < factors_.size(); ++i)
     row.strains.push_back(toReal(StrainQ32::fromRaw(strains_q32[i])) / factors_[i]);

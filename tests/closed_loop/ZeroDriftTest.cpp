@@ -63,7 +63,7 @@ TEST_GROUP(ZeroDrift) {
     int flagged = 0;                    ///< of those
     double normal = 0, tangential = 0;  ///< means [N/m]
 
-    /// A look at which nothing is told is none that warns.
+    /// Looks at which nothing is told do not count as flagged.
     bool isMostlyFlagged() const { return flagged >= 50; }
   };
   /// `strains(share)`: what the touch gives at that share of the second.

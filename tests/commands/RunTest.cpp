@@ -139,6 +139,25 @@ rm -r $d)");
   STRCMP_CONTAINS("1.00", run.out.c_str());
 }
 
+TEST(RunCommand, RowsAreAsManyASecondAsAskedAndEvenlySpaced) {
+  for (const int rate_hz : {100, 1000}) {
+    const Run run = runProgram("run --duration 2 --rows-hz " + std::to_string(rate_hz) +
+                               " --strains /dev/stderr 2>&1 >/dev/null");
+    LONGS_EQUAL(0, run.status);
+    std::istringstream lines(run.out.substr(run.out.find("time_s,")));
+    std::string line;
+    std::getline(lines, line);
+    double before_s = -1;
+    int rows = 0;
+    while (std::getline(lines, line)) {
+      const double time_s = std::stod(line);
+      if (rows++ > 1) DOUBLES_EQUAL(1.0 / rate_hz, time_s - before_s, 1e-6);
+      before_s = time_s;
+    }
+    CHECK_COMPARE(rows, >, 1.9 * rate_hz);  // the zero comes first, and may end between two rows
+  }
+}
+
 // A load that begins at 0 while something already pulls, which would be no touch to `calibrate`.
 TEST(RunCommand, NothingTouchesUntilItPresses) {
   const Run run =

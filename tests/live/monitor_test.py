@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 import time
 import tomllib
 import unittest
@@ -190,6 +191,24 @@ class Log(unittest.TestCase):
         self.assertIn("2 of ", run.stderr)
         self.assertIn("could not be read; the first: stdin:1:9: ", run.stderr)
         self.assertEqual(4, len(run.stdout.splitlines()))
+
+    def test_a_last_line_without_its_end_counts(self):
+        run = self.monitor(log="more")
+        self.assertEqual(1, run.returncode)
+        self.assertIn("1 of 1 lines could not be read; the first: stdin:1:", run.stderr)
+
+    def test_a_line_that_never_ends_takes_no_memory(self):
+        def most_kib(size):
+            with tempfile.TemporaryFile() as log:
+                log.write(b"x" * size)
+                log.seek(0)
+                process = subprocess.Popen([PROGRAM, "monitor"], stdin=log, stderr=subprocess.DEVNULL)
+                _, status, used = os.wait4(process.pid, 0)
+                self.assertEqual(1, os.waitstatus_to_exitcode(status))
+                process.returncode = 1  # it has been waited for
+                return used.ru_maxrss
+
+        self.assertLess(most_kib(50_000_000) - most_kib(100), 10_000)
 
     def test_no_log_is_no_line(self):
         run = self.monitor(log="")

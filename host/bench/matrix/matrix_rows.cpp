@@ -42,7 +42,21 @@ class Rows {
   }
 
   void failures() {
-    const auto fails = [this](const char* name, Failure failure) { add(name).failure = failure; };
+    const auto fails = [this](std::string name, Failure failure) -> Disturbance& {
+      Disturbance& row = add(std::move(name));
+      row.failure = failure;
+      return row;
+    };
+    const auto reads = [&](double gain) -> Disturbance& {
+      Disturbance& row = fails(fmt::format("gain of a gauge {:g}", gain), Failure::kGain);
+      row.failedGain = gain;
+      return row;
+    };
+    // Most searches have ended by then; of shorter touches they have not.
+    const auto held = [](Disturbance& row) {
+      row.name += ", touches half a second long";
+      row.touched_sets = 500;
+    };
     fails("a dead gauge", Failure::kDead);
     fails("two dead neighbours", Failure::kTwoDead);
     fails("a gauge at its rail", Failure::kOpen);
@@ -50,20 +64,9 @@ class Rows {
     fails("a noisy gauge", Failure::kNoisy);
     fails("wires of two neighbours swapped", Failure::kSwapped);
     fails("bad glue: a gauge feels 30 % of its neighbour", Failure::kBadGlue);
-    for (const double gain : {0.5, 0.8, 1.2, 1.5}) {
-      Disturbance& row = add(fmt::format("gain of a gauge {:g}", gain));
-      row.failure = Failure::kGain;
-      row.failedGain = gain;
-    }
-    // Touches that outlast the search, so that three of them convict the gauge.
-    constexpr int kHalfSecond_sets = 500;
-    Disturbance& dead = add("a dead gauge, touches half a second long");
-    dead.failure = Failure::kDead;
-    dead.touched_sets = kHalfSecond_sets;
-    Disturbance& weak = add("gain of a gauge 0.5, touches half a second long");
-    weak.failure = Failure::kGain;
-    weak.failedGain = 0.5;
-    weak.touched_sets = kHalfSecond_sets;
+    for (const double gain : {0.5, 0.8, 1.2, 1.5}) reads(gain);
+    held(fails("a dead gauge", Failure::kDead));
+    held(reads(0.5));
   }
 
   /// What a builder or a calibration leaves: with tables that know of no error, and with the default's.

@@ -138,9 +138,9 @@ class Finger {
     state_ = FingerState::kZeroing;
     if (!zero_.add(codes())) return;
     state_ = FingerState::kRun;
-    if (isTouchRefused_ && pipeline_.isTouchedDuring(zero_)) {
-      if (tareStatus_) tareStatus_ = CommandStatus::kTouched;
-      return;
+    if ((isTouchRefused_ || tareStatus_) && pipeline_.isTouchedDuring(zero_)) {
+      if (tareStatus_) tareStatus_ = isTouchRefused_ ? CommandStatus::kTouched : CommandStatus::kDoneTouched;
+      if (isTouchRefused_) return;
     }
     beginAnew();
   }
@@ -344,8 +344,8 @@ class Finger {
     if (state_ != FingerState::kRun || isConverterSilent(now_us)) return refused(CommandStatus::kBusy);
     if (tareWait_us_ != 0) return responseTo(Command::kTare, CommandStatus::kWait, 1);
     if (isTouched() && !evenWhileTouched) return refused(CommandStatus::kTouched);
-    isTouchRefused_ = !isTouched();
-    tareStatus_ = isTouchRefused_ ? CommandStatus::kDone : CommandStatus::kDoneTouched;
+    isTouchRefused_ = !evenWhileTouched;
+    tareStatus_ = isTouched() ? CommandStatus::kDoneTouched : CommandStatus::kDone;
     tareWait_us_ = kTarePeriod_us;
     zero_ = {};
     state_ = FingerState::kZeroing;

@@ -194,13 +194,20 @@ class LineParser : private LineCursor {
     if (!parseScreenLength(length)) return false;
     skipBlanks();
     if (skip("remote request")) return parseScreenRemote(length);
+    bool isReversed = false;  // -S, which marks the gaps
     while (result_.frame.length < length) {
+      const bool isMarked = result_.frame.length > 0 && skip("`");
+      if (result_.frame.length == 1) isReversed = isMarked;
+      if (result_.frame.length > 1 && isMarked != isReversed)
+        return fail("expected the same mark between all bytes");
       skipBlanks();
-      const bool binary = token().size() == 8 && token().find_first_not_of("01") == std::string_view::npos;
+      const std::string_view byte = token().substr(0, token().find('`'));
+      const bool binary = byte.size() == 8 && byte.find_first_not_of("01") == std::string_view::npos;
       if (!(binary ? parseByte(8, 2) : parseByte(2, 16))) return false;
-      if (peek() == '`') return fail("bytes in reverse order (candump -S): dump without -S");
-      if (!token().empty()) return fail("expected a blank after the byte");
+      if (!token().empty() && peek() != '`') return fail("expected a blank after the byte");
     }
+    if (isReversed)
+      std::reverse(result_.frame.data.begin(), result_.frame.data.begin() + result_.frame.length);
     return parseScreenEnd();
   }
 
@@ -235,9 +242,9 @@ class LineParser : private LineCursor {
   bool parseScreenEnd() {
     skipBlanks();
     if (result_.kind == LineKind::kError) skip("ERRORFRAME");
-    if (peek() == '\'') {
+    if (const char mark = peek(); mark == '\'' || mark == '`') {
       const std::size_t length = result_.frame.length + std::size_t{2};
-      if (peek(length - 1) != '\'') return fail("expected the data as text between quotation marks");
+      if (peek(length - 1) != mark) return fail("expected the data as text between quotation marks");
       at_ += length;
     }
     skipBlanks();

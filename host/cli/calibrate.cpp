@@ -74,7 +74,7 @@ struct CalibrateOptions {
             ->type_name("FILE")
             ->excludes(bus);
     auto* const output = command.add_option("-o,--output", outputPath, "Writes the calibrated config there")
-                             ->type_name("FILE");
+                             ->type_name("FILE.toml");
     bus->needs(output)->excludes(strains)->excludes(touches);
     command.add_option("-n,--node", node, "Of --can and of recordings: node number in place of the config's")
         ->check(CLI::Range(int{kFirstNode}, int{kLastNode}));

@@ -125,7 +125,7 @@ class LiveSession {
   /// Whether it was interrupted.
   bool collect() {
     const system::StopSignal stop;
-    RawStream stream(*port_, options_.node, options_.rate_hz);
+    RawStream stream(*port_, options_.node, options_.rate_hz, stop);
     missedBefore_ = port_->status().missed;
     heard_ = SessionClock::now();
     const auto face = makeFace();

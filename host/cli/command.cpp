@@ -2,18 +2,71 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/base/failure.hpp"
 #include "host/config/read_config.hpp"
 
 namespace strainfinger::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kConfigType = "FILE.toml";
+
+struct FileOption {
+  std::string option;
+  std::string type;
+  std::string path;
+};
+
+std::vector<FileOption> fileOptions(const CLI::App& command) {
+  std::vector<FileOption> files;
+  for (const CLI::Option* option : command.get_options())
+    if (option->get_type_name().starts_with("FILE"))
+      for (const std::string& path : option->results())
+        files.push_back({option->get_name(), option->get_type_name(), path});
+  return files;
+}
+
+/// Devices and pipes aside, of which nothing is lost.
+bool areOneFile(const std::string& one, const std::string& other) {
+  std::error_code notThere;
+  if (fs::exists(one, notThere) && fs::exists(other, notThere))
+    return fs::is_regular_file(one, notThere) && fs::equivalent(one, other, notThere);
+  return fs::weakly_canonical(one, notThere) == fs::weakly_canonical(other, notThere);
+}
+
+}  // namespace
 
 CommonOptions::CommonOptions(CLI::App& command) {
   command.add_option("-c,--config", path_, "The finger (finger.toml); the default finger without it")
-      ->type_name("FILE");
+      ->type_name(kConfigType);
   command.add_flag("--json", json_, "One JSON object a line in place of CSV");
 }
 
 config::FingerConfig CommonOptions::config() const {
   return path_.empty() ? config::FingerConfig{} : config::readConfigFile(path_);
+}
+
+void requireGoodFileNames(const CLI::App& command) {
+  const auto files = fileOptions(command);
+  for (auto file = files.begin(); file != files.end(); ++file) {
+    if (file->path.empty())
+      throw Failure(ExitCode::kUsage,
+                    fmt::format("{}: {}: the name of a file is missing", command.get_name(), file->option));
+    for (auto other = files.begin(); other != file; ++other) {
+      const bool mayBeOne =
+          other->option == file->option || (other->type == kConfigType && file->type == kConfigType);
+      if (mayBeOne || !areOneFile(other->path, file->path)) continue;
+      throw Failure(ExitCode::kUsage,
+                    fmt::format("{}: {} and {} name the same file, {}: name another for one",
+                                command.get_name(), other->option, file->option, file->path));
+    }
+  }
 }
 
 CLI::Validator isFrom(double least, double most) {

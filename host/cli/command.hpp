@@ -24,6 +24,11 @@ class CommonOptions {
   bool json_ = false;
 };
 
+/// Throws Failure(kUsage) where an option that names a file (of a type name that begins with FILE) is given
+/// an empty name, or two name one file, so that one would be lost: only a config (FILE.toml) may take the
+/// place of the config that it was made from.
+void requireGoodFileNames(const CLI::App& command);
+
 /// A check of an option that is a number from `least` to `most`. CLI11's own lets NaN through.
 CLI::Validator isFrom(double least, double most);
 
@@ -34,7 +39,10 @@ void addCommand(CLI::App& app, const std::string& name, const std::string& help,
                 void (*run)(const Options&)) {
   CLI::App& command = *app.add_subcommand(name, help);
   auto options = std::make_shared<Options>(command);
-  command.callback([options, run] { run(*options); });
+  command.callback([&command, options, run] {
+    requireGoodFileNames(command);
+    run(*options);
+  });
 }
 
 }  // namespace strainfinger::cli

@@ -45,6 +45,7 @@ struct DecodeOptions {
         ->type_name("FILE");
     command.add_option("-n,--node", nodes, "Only these nodes, as in 1,2,5")
         ->delimiter(',')
+        ->allow_extra_args(false)  // what follows is a FILE
         ->check(CLI::Range(int{kFirstNode}, int{kLastNode}));
     command.add_flag("--touches", touches, "A row a touch sample, not a row a frame");
     command.add_flag("--follow", follow, "Wait for what is yet to be written to FILE, until Ctrl-C");

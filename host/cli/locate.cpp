@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -38,7 +39,8 @@ constexpr const char* kLocateHelp =
     "code.\n"
     "stdin: CSV, one strain a gauge in a row, a row a sample; blank lines and # comments are passed over. "
     "With a header row the gauges' columns are strain_0, strain_1 .., and other columns, such as time_s, are "
-    "passed through: they come first. Gains that the tables have from a calibration are applied to them. A "
+    "passed through: they come first, those named as a column of stdout as input_NAME. Gains that the tables "
+    "have from a calibration are applied to them. A "
     "reading at the "
     "end of the converter's range (gauges.full_scale_strain) or beyond is left out and the contact found by "
     "the others, as the firmware does.\n"
@@ -47,7 +49,8 @@ constexpr const char* kLocateHelp =
     "  angle_deg: degrees, 0 to 360\n"
     "  normal_n_per_m, tangential_n_per_m: N/m\n"
     "  sigma_angle_deg, sigma_normal_n_per_m, sigma_tangential_n_per_m: standard errors, in the same units\n"
-    "  quality: percent, 20 or less when the answer is uncertain (another angle fits as well, or none fits)\n"
+    "  quality: percent, of this contact; 20 or less when it is uncertain (another angle fits as well, or "
+    "none fits)\n"
     "  width_m, sigma_width_m: of the uniform pressure with the same second moment; empty where the width is "
     "known (contact.width_m)\n"
     "  flags: as in CONTACT, joined by +\n"
@@ -202,6 +205,8 @@ std::vector<Cell> passedThrough(const std::vector<std::string>& texts, TableForm
 }
 
 std::vector<std::string> columnsBehind(std::vector<std::string> columns) {
+  for (std::string& column : columns)
+    if (std::ranges::find(kColumns, std::string_view(column)) != kColumns.end()) column.insert(0, "input_");
   columns.insert(columns.end(), kColumns.begin(), kColumns.end());
   return columns;
 }

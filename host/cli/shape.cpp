@@ -131,7 +131,8 @@ void forEachRow(const config::FingerConfig& config, Print print) {
   }
 }
 
-void printShapes(const ShapeOptions& options, const shape::ShapeEstimator& estimator) {
+void printShapes(const ShapeOptions& options, const config::FingerConfig& config,
+                 const shape::ShapeEstimator& estimator) {
   TableWriter table(stdout, options.common.format(),
                     {"contact",
                      "angle_deg",
@@ -153,16 +154,17 @@ void printShapes(const ShapeOptions& options, const shape::ShapeEstimator& estim
                      "warnings",
                      "curvature_low_per_m",
                      "curvature_high_per_m"});
-  forEachRow(options.config(), [&](std::int64_t, const Eigen::VectorXd& strains) {
+  forEachRow(config, [&](std::int64_t, const Eigen::VectorXd& strains) {
     const auto shape = estimator.estimate(strains);
     table.row(shape ? cellsOf(*shape) : noTouch());
   });
 }
 
-void printPressures(const ShapeOptions& options, const shape::ShapeEstimator& estimator) {
+void printPressures(const ShapeOptions& options, const config::FingerConfig& config,
+                    const shape::ShapeEstimator& estimator) {
   TableWriter table(stdout, options.common.format(),
                     {"sample", "angle_deg", "pressure_pa", "low_pa", "high_pa", "ellipse_pa"});
-  forEachRow(options.config(), [&](std::int64_t sample, const Eigen::VectorXd& strains) {
+  forEachRow(config, [&](std::int64_t sample, const Eigen::VectorXd& strains) {
     const auto shape = estimator.estimate(strains);
     if (!shape) return;
     const double half_rad = estimator.pressedHalf_rad(*shape);
@@ -180,11 +182,12 @@ void printPressures(const ShapeOptions& options, const shape::ShapeEstimator& es
 }
 
 void runShape(const ShapeOptions& options) {
-  const shape::ShapeEstimator estimator(options.config());
+  const config::FingerConfig config = options.config();
+  const shape::ShapeEstimator estimator(config);
   if (options.pressure)
-    printPressures(options, estimator);
+    printPressures(options, config, estimator);
   else
-    printShapes(options, estimator);
+    printShapes(options, config, estimator);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ struct StrainsOptions {
     command.add_option("--duration", duration_s, "Seconds; without it until Ctrl-C")
         ->type_name("S")
         ->check(isFrom(0.001, kLongestStrains_s));
-    command.add_option("--rows", rows, "So many rows at most")->type_name("N")->check(CLI::PositiveNumber);
+    command.add_option("--rows", rows, "So many rows at most")->type_name("N")->check(isFrom(1, 1e15));
   }
   RequestOptions request;
   int rate_hz = 100;
@@ -53,10 +53,10 @@ struct StrainsOptions {
 class StrainPrinter {
  public:
   StrainPrinter(const config::Gauges& gauges, TableFormat format)
-      : table_(stdout, format, columnsOf(gauges)) {}
+      : format_(format), table_(stdout, format, columnsOf(gauges)) {}
 
   void print(std::int64_t time_ns, const can::StrainSet& set) {
-    std::vector<Cell> cells{fmt::format("{}.{:06}", time_ns / 1'000'000'000, time_ns % 1'000'000'000 / 1000)};
+    std::vector<Cell> cells{timeCell(time_ns)};
     cells.insert(cells.end(), set.strains.begin(), set.strains.end());
     table_.row(cells);
     ++sets_;
@@ -65,12 +65,19 @@ class StrainPrinter {
   std::uint64_t sets() const { return sets_; }
 
  private:
+  /// [s], to the microsecond, which is what a double holds of the time since 1970.
+  Cell timeCell(std::int64_t time_ns) const {
+    if (format_ == TableFormat::kJson) return 1e-6 * static_cast<double>(time_ns / 1000);
+    return fmt::format("{}.{:06}", time_ns / 1'000'000'000, time_ns % 1'000'000'000 / 1000);
+  }
+
   static std::vector<std::string> columnsOf(const config::Gauges& gauges) {
     std::vector<std::string> columns = strainColumns(gauges.count);
     columns.insert(columns.begin(), "time_s");
     return columns;
   }
 
+  TableFormat format_;
   TableWriter table_;
   std::uint64_t sets_ = 0;
 };
@@ -118,7 +125,7 @@ void runStrains(const StrainsOptions& options) {
   const auto end = StrainClock::now() + std::chrono::microseconds(std::llround(options.duration_s * 1e6));
   const auto bus = can::openBus(options.request.bus, config.can.bitrate);
   const system::StopSignal stop;
-  RawStream stream(*bus, node, options.rate_hz);
+  RawStream stream(*bus, node, options.rate_hz, stop);
   can::StrainReceiver receiver(node, config.gauges.count, config.gauges.full_scale_strain);
   StrainPrinter printer(config.gauges, options.request.common.format());
   SentGauges sent(node);

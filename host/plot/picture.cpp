@@ -92,13 +92,24 @@ std::string terminal(const Picture& picture, const std::string& ending) {
   throw Failure(ExitCode::kUsage, fmt::format("pictures are .svg or .png, not \"{}\"", ending));
 }
 
+void replaceAll(std::string& text, const std::string& old, const std::string& with) {
+  for (std::size_t at = text.find(old); at != std::string::npos; at = text.find(old, at + with.size()))
+    text.replace(at, old.size(), with);
+}
+
+/// As gnuplot reads it.
+std::string quoted(std::string text) {
+  replaceAll(text, "'", "''");
+  return fmt::format("'{}'", text);
+}
+
 }  // namespace
 
 std::string completeScript(const Picture& picture, const std::string& stem, const std::string& ending) {
   return fmt::format(
-      "set terminal {}\nset output '{}{}'\nset datafile separator ','\n"
-      "data(name) = '{}-'.name.'.csv'\ngap(n) = valid(n) ? column(n) : NaN\n{}unset output\n",
-      terminal(picture, ending), stem, ending, stem, picture.script);
+      "set terminal {}\nset output {}\nset datafile separator ','\n"
+      "data(name) = {}.name.'.csv'\ngap(n) = valid(n) ? column(n) : NaN\n{}unset output\n",
+      terminal(picture, ending), quoted(stem + ending), quoted(stem + "-"), picture.script);
 }
 
 void requirePicturePath(const std::string& path) { terminal({}, fs::path(path).extension().string()); }
@@ -111,11 +122,6 @@ void drawIn(const Workshop& workshop, const Picture& picture, const std::string&
   for (const DataFile& data : picture.data)
     writeData(workshop.path() / fmt::format("{}-{}.csv", stem, data.name), data);
   runIn(workshop.path().string(), {"gnuplot", stem + ".gp"}, "gnuplot-nox");
-}
-
-void replaceAll(std::string& text, const std::string& old, const std::string& with) {
-  for (std::size_t at = text.find(old); at != std::string::npos; at = text.find(old, at + with.size()))
-    text.replace(at, old.size(), with);
 }
 
 }  // namespace

@@ -87,6 +87,8 @@ SessionFiles::SessionFiles(const std::string& outputPath, int gauges)
 }
 
 SessionFiles::~SessionFiles() {
+  if (!hasRows_)
+    for (const File* file : {&strains_, &touches_}) ::unlink(file->path.c_str());
   ::close(strains_.descriptor);
   ::close(touches_.descriptor);
 }
@@ -118,6 +120,7 @@ void SessionFiles::readRows(int gauges) {
   if (strains.empty()) append(strains_, strainsHeader(gauges) + "\n");
   if (touches.empty()) append(touches_, std::string(kTouchHeader) + "\n");
   for (std::size_t i = 0; i < unpaired; ++i) append(touches_, kNothingIsKnown);
+  hasRows_ = rows_.size() > 0;
 }
 
 void SessionFiles::append(const File& file, const std::string& line) {
@@ -137,6 +140,7 @@ std::string SessionFiles::named(std::string message) const {
 
 /// The strains first: a row without its touch is one of which nothing is known.
 void SessionFiles::add(double time_s, const Eigen::VectorXd& strains, const calibration::KnownTouch& known) {
+  hasRows_ = true;
   append(strains_, fmt::format("{:.6f},{}\n", time_s, fmt::join(strains.begin(), strains.end(), ",")));
   append(touches_, fmt::format("{},{},{}\n", cellText(known.angle_deg), cellText(known.normal_n_per_m),
                                cellText(known.tangential_n_per_m)));

@@ -12,8 +12,9 @@ class SessionFiles {
  public:
   /// Beside the config that the session is to write: of "cal.toml", cal.strains.csv and cal.touches.csv; of
   /// rings with so many gauges. Makes them, or goes on with what they hold; a row that a killed program left
-  /// half written is taken away. Throws Failure(kFailure), and changes nothing, when the config is there
-  /// already but not these, when they hold something else, or when another session writes them now.
+  /// half written is taken away. Files without a row don't stay. Throws Failure(kFailure), and changes
+  /// nothing, when the config is there already but not these, when they hold something else, or when another
+  /// session writes them now.
   SessionFiles(const std::string& outputPath, int gauges);
   ~SessionFiles();
   SessionFiles(const SessionFiles&) = delete;
@@ -40,6 +41,7 @@ class SessionFiles {
 
   File strains_, touches_;
   Rows rows_;
+  bool hasRows_ = false;
 };
 
 }  // namespace strainfinger::session

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "host/config/unseen_errors.hpp"
 #include "host/shape/quantiles.hpp"
 
 namespace strainfinger::shape {
@@ -29,17 +30,35 @@ Band bandOf(const Measured& curvature_per_m, double radius_m) {
 }  // namespace
 
 ShapeEstimator::ShapeEstimator(const config::FingerConfig& config)
-    : noise_(config.gauges.noise_strain),
+    : config_(config),
       model_(config),
       search_(model_, config.contact.friction_coefficient),
       curvature_(config.finger.annulus()) {}
+
+double ShapeEstimator::deviation(const Eigen::VectorXd& strains) const {
+  return std::hypot(config_.gauges.noise_strain,
+                    config_.gauges.model_error * strains.lpNorm<Eigen::Infinity>());
+}
+
+void ShapeEstimator::addUnseenErrors(TouchFit& fit) const {
+  const double radius_m = model_.outerRadius_m();
+  const auto [place_m, loadScale, normalShare, moment_m2] = config::unseenErrors(config_);
+  const auto load = [&](double load_n_per_m) {
+    return std::hypot(loadScale * load_n_per_m, normalShare * fit.touch.normal_n_per_m);
+  };
+  const Eigen::Vector4d errors{place_m / radius_m, load(fit.touch.normal_n_per_m),
+                               load(fit.touch.tangential_n_per_m), moment_m2 / (radius_m * radius_m)};
+  fit.covariance.diagonal() += errors.cwiseAbs2();
+}
 
 double ShapeEstimator::probability(double chiSquared) const {
   return boost::math::gamma_q((model_.gauges() - kFitted) / 2.0, chiSquared / 2);
 }
 
 /// Width and curvature by the first derivatives of what they are made of.
-void ShapeEstimator::addMeasures(const TouchFit& fit, Shape& shape) const {
+void ShapeEstimator::addMeasures(const TouchFit& noisy, Shape& shape) const {
+  TouchFit fit = noisy;
+  addUnseenErrors(fit);
   shape.angle_rad = measured(fit, fit.touch.angle_rad, 0);
   shape.normal_n_per_m = measured(fit, fit.touch.normal_n_per_m, 1);
   shape.tangential_n_per_m = measured(fit, fit.touch.tangential_n_per_m, 2);
@@ -66,7 +85,7 @@ void ShapeEstimator::addClass(const TouchFit& ellipse, const Eigen::VectorXd& st
   };
   std::vector<Fitted> fits;
   for (const Profile profile : allProfiles())
-    fits.push_back({profile, refine(model_, profile, strains, noise_, ellipse.touch)});
+    fits.push_back({profile, refine(model_, profile, strains, deviation(strains), ellipse.touch)});
   std::ranges::sort(fits, {}, [](const Fitted& fitted) { return fitted.fit.chiSquared; });
   const auto fitsToo = [&](const Fitted& fitted) {
     return fitted.fit.chiSquared < fits[0].fit.chiSquared + kSure;
@@ -83,7 +102,7 @@ void ShapeEstimator::addClass(const TouchFit& ellipse, const Eigen::VectorXd& st
 }
 
 std::optional<Shape> ShapeEstimator::estimate(const Eigen::VectorXd& strains) const {
-  const auto found = search_.search(strains, noise_);
+  const auto found = search_.search(strains, deviation(strains));
   if (!found) return std::nullopt;
   const TouchFit& fit = found->best;
   Shape shape;
@@ -92,7 +111,7 @@ std::optional<Shape> ShapeEstimator::estimate(const Eigen::VectorXd& strains) co
   addMeasures(fit, shape);
   if (shape.width_m && !found->rivalAngle_rad) addClass(fit, strains, shape);
   shape.rivalAngle_rad = found->rivalAngle_rad;
-  const ResolvedPressure resolved = resolution(shape);
+  const ResolvedPressure resolved = resolution(shape, strains);
   shape.directions = resolved.directions();
   shape.isOddResolved = resolved.isOddResolved();
   return shape;
@@ -102,13 +121,13 @@ double ShapeEstimator::pressedHalf_rad(const Shape& shape) const {
   return (shape.width_m ? shape.width_m->value : shape.widthLimit_m) / model_.outerRadius_m() / 2;
 }
 
-ResolvedPressure ShapeEstimator::resolution(const Shape& shape) const {
-  return {model_, shape.touch, pressedHalf_rad(shape), noise_};
+ResolvedPressure ShapeEstimator::resolution(const Shape& shape, const Eigen::VectorXd& strains) const {
+  return {model_, shape.touch, pressedHalf_rad(shape), deviation(strains)};
 }
 
 PressureEstimate ShapeEstimator::pressure(const Shape& shape, const Eigen::VectorXd& strains,
                                           const Eigen::VectorXd& offsets_rad) const {
-  return resolution(shape).estimate(strains, offsets_rad);
+  return resolution(shape, strains).estimate(strains, offsets_rad);
 }
 
 }  // namespace strainfinger::shape

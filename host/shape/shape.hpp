@@ -60,8 +60,8 @@ inline constexpr double kSparse = 2;
 /// The estimator of one finger. Immutable; costs 20 ms to make, 70 ms for 32 gauges.
 class ShapeEstimator {
  public:
-  /// Noise is that of config.gauges, friction and component are the config's, gauges where its calibration
-  /// says; its contact width isn't used.
+  /// Noise and model error are those of config.gauges, friction and component are the config's, gauges where
+  /// its calibration says; its contact width isn't used.
   explicit ShapeEstimator(const config::FingerConfig& config);
 
   /// Nothing if the finger isn't touched. Domain: a finite strain a gauge, less its zero and over its gain.
@@ -79,12 +79,15 @@ class ShapeEstimator {
   const TouchModel& model() const { return model_; }
 
  private:
-  ResolvedPressure resolution(const Shape& shape) const;
-  void addMeasures(const TouchFit& fit, Shape& shape) const;
+  ResolvedPressure resolution(const Shape& shape, const Eigen::VectorXd& strains) const;
+  void addMeasures(const TouchFit& noisy, Shape& shape) const;
   void addClass(const TouchFit& ellipse, const Eigen::VectorXd& strains, Shape& shape) const;
   double probability(double chiSquared) const;
+  void addUnseenErrors(TouchFit& fit) const;
+  /// Standard deviation of a reading from the model: noise, and the model error of these readings.
+  double deviation(const Eigen::VectorXd& strains) const;
 
-  double noise_;
+  config::FingerConfig config_;
   TouchModel model_;
   TouchSearch search_;
   CurvatureScale curvature_;

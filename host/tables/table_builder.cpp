@@ -11,6 +11,7 @@
 #include "firmware/core/judge.hpp"
 #include "host/base/failure.hpp"
 #include "host/config/keys.hpp"
+#include "host/config/unseen_errors.hpp"
 #include "host/tables/gauge_depths.hpp"
 #include "host/tables/gauge_gains.hpp"
 #include "host/tables/response_table.hpp"
@@ -113,28 +114,16 @@ std::uint32_t reach_q32(const std::vector<double>& gaps_turn) {
   return fromReal<TurnQ32>(std::max(kUsualReach, widest_turn / 2)).raw();
 }
 
-/// The scale of all loads is off by so many times the model error: a Poisson's ratio of 0.48 instead of 0.5
-/// makes the loads of the default finger a fifth smaller, and leaves no residuals.
-constexpr double kScaleErrorPerModelError = 4;
-
-/// All places near a gauge are off by so many times the model error and the gauges' depth: what a gauge that
-/// is beside its place reads is what one in its place reads of a touch beside, and leaves no residuals. Of
-/// 2,000 line touches of fingers as built 10 are beyond six sigma, without it 35 (closed_loop, AsBuilt).
-constexpr double kPlaceErrorPerModelError = 0.3;
-
 std::uint16_t fraction_q16(double value) { return rounded<std::uint16_t>(std::ldexp(value, 16)); }
 
 /// What standard errors have that no residual shows.
 void fillErrors(TableConstants& constants, const config::FingerConfig& config) {
-  const config::Calibration& left = config.calibration;
-  const double depth_m = config.finger.outer_radius_m - config.gauges.radius_m;
-  const double place_m =
-      std::hypot(left.place_error_m, kPlaceErrorPerModelError * config.gauges.model_error * depth_m);
-  const double turn = place_m / (2 * std::numbers::pi * config.finger.outer_radius_m);
+  const config::UnseenErrors errors = config::unseenErrors(config);
+  const double turn = errors.place_m / (2 * std::numbers::pi * config.finger.outer_radius_m);
   constants.place_error_q32 =
       rounded<std::uint32_t>(std::min(std::ldexp(turn, 32), double{kMostPlaceError_q32}));
-  constants.load_scale_error_q16 = fraction_q16(kScaleErrorPerModelError * config.gauges.model_error);
-  constants.load_error_q16 = fraction_q16(left.load_error);
+  constants.load_scale_error_q16 = fraction_q16(errors.loadScale);
+  constants.load_error_q16 = fraction_q16(errors.normalShare);
 }
 
 TableConstants tableConstants(const config::FingerConfig& config, const GaugeGains& gains,
@@ -170,7 +159,7 @@ void fillMoments(TableConstants& constants, const config::FingerConfig& config,
   constants.known_moment_q20 = contact.width_m.value_or(0) > 0 ? 1u << kMomentBits : 0;
   if (responses.largestMoment_m2 > 0)
     constants.moment_error_q16 =
-        fraction_q16(config.calibration.moment_error_m2 / responses.largestMoment_m2);
+        fraction_q16(config::unseenErrors(config).moment_m2 / responses.largestMoment_m2);
 }
 
 /// From each gauge to the next, in turns.

@@ -204,6 +204,18 @@ TEST(LocateCommand, OtherColumnsArePassedThroughAndTheGaugesFoundByName) {
   STRCMP_CONTAINS("{\"time_s\":0.1,\"note\":\"left\",\"contact\":0", json.out.c_str());
 }
 
+TEST(LocateCommand, ColumnsNamedAsItsOwnArePassedThroughUnderAnotherName) {
+  std::string header = "angle_deg,flags", row = "12.5,mine";
+  for (int gauge = 0; gauge < 16; ++gauge) {
+    header += ",strain_" + std::to_string(gauge);
+    row += ",0";
+  }
+  const Run json = runProgram("locate --json", header + "\n" + row + "\n");
+  STRCMP_CONTAINS("{\"input_angle_deg\":12.5,\"input_flags\":\"mine\",\"contact\":0,\"angle_deg\":null",
+                  json.out.c_str());
+  STRCMP_CONTAINS("input_angle_deg,input_flags,contact,", runProgram("locate", header + "\n").out.c_str());
+}
+
 TEST(LocateCommand, AHeaderWithoutTheGaugesIsRefused) {
   std::string header = "g0";
   for (int gauge = 1; gauge < 16; ++gauge) header += ",g" + std::to_string(gauge);

@@ -1,3 +1,5 @@
+#include <string>
+
 #include "tests/commands/program.hpp"
 
 // last: its macros redefine new
@@ -11,6 +13,7 @@ TEST(Main, WhatIsNoCommandIsNamed) {
   checkRefused("locat", "strainfinger: locat is no command; strainfinger --help lists them\n");
   checkRefused("locat --json -c x", "strainfinger: locat is no command");
   checkRefused("--jsn", "strainfinger: --jsn is no command");
+  checkRefused("locat --help", "strainfinger: locat is no command");
 }
 
 TEST(Main, AMissingCommandIsAUsageError) { checkRefused("", "A subcommand is required"); }
@@ -29,4 +32,41 @@ TEST(Main, HelpHasALineForEachCommand) {
                   run.out.c_str());
   CHECK_TRUE(run.out.find("Exit status") == std::string::npos);
   STRCMP_CONTAINS("--force takes the zero anyway", runProgram("tare --help").out.c_str());
+}
+
+TEST(Main, OutputThatCannotBeWrittenIsAFailure) {
+  for (const char* command : {"--help", "--version", "tare --help", "dbc"}) {
+    const Run run = runShell(std::string("\"$STRAINFINGER\" ") + command + " >/dev/full");
+    LONGS_EQUAL_TEXT(1, run.status, command);
+    STRCMP_CONTAINS("cannot write the output", run.err.c_str());
+  }
+}
+
+TEST(Main, AnEmptyFileNameIsRefused) {
+  checkRefused("dbc -c ''", "dbc: --config: the name of a file is missing");
+  checkRefused("dbc -o ''", "dbc: --output: the name of a file is missing");
+  checkRefused("locate --tables ''", "locate: --tables: the name of a file is missing");
+  checkRefused("run --scenario ''", "run: --scenario: the name of a file is missing");
+}
+
+TEST(Main, AFileIsNotOverwrittenByWhatIsMadeFromIt) {
+  const Run run = runShell(R"sh(folder=$(mktemp -d) && trap 'rm -rf "$folder"' EXIT && cd "$folder"
+printf 'schema = 1\n' >f.toml
+for command in "tables -c f.toml -o ./f.toml" "dbc -c f.toml -o $folder/f.toml" "calibrate --strains f.toml -o f.toml" \
+    "run --duration 0.1 --strains new.csv --touches new.csv"; do
+  "$STRAINFINGER" $command; echo $?
+done
+ls; cat f.toml; "$STRAINFINGER" run --duration 0.1 --strains /dev/null --touches /dev/null >/dev/null 2>&1; echo $?)sh");
+  STRCMP_EQUAL("2\n2\n2\n2\nf.toml\nschema = 1\n0\n", run.out.c_str());
+  STRCMP_CONTAINS("tables: --config and --output name the same file, ./f.toml: name another for one",
+                  run.err.c_str());
+}
+
+// What a terminal would obey.
+TEST(Main, ControlCharactersOfAFileDontReachTheTerminal) {
+  const Run run =
+      runShell(R"sh(printf 'schema = 1\n"a\\u001b[31m" = 1\n' | "$STRAINFINGER" dbc -c /dev/stdin)sh");
+  LONGS_EQUAL(2, run.status);
+  STRCMP_CONTAINS("\\x1B[31m", run.err.c_str());
+  CHECK_TRUE(run.err.find('\033') == std::string::npos);
 }

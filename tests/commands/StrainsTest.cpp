@@ -50,6 +50,15 @@ rm strains.$$.csv)");
   STRCMP_CONTAINS(" sets, 0 incomplete", run.err.c_str());
 }
 
+TEST(StrainsCommand, JsonHasTheTimeAsANumber) {
+  const Run run = withFinger("", R"(
+"$STRAINFINGER" strains --can $BUS --rate 100 --rows 1 --json)");
+  LONGS_EQUAL(0, run.status);
+  const std::string key = "{\"time_s\":";
+  STRCMP_EQUAL(key.c_str(), run.out.substr(0, key.size()).c_str());
+  CHECK_TRUE(std::stod(run.out.substr(key.size())) > 1.6e9);
+}
+
 TEST(StrainsCommand, EndsWithItsLastRow) {
   const Run run = withFinger("", R"(
 "$STRAINFINGER" strains --can $BUS --rate 100 --rows 7 | wc -l)");
@@ -107,6 +116,12 @@ TEST(StrainsCommand, NobodyThereIsTold) {
   const Run run = runProgram("strains --can udp:19998 --duration 1");
   LONGS_EQUAL(4, run.status);
   STRCMP_CONTAINS("udp:19998 node 1: no answer", run.err.c_str());
+}
+
+TEST(StrainsCommand, IsInterruptedWhileNobodyAnswers) {
+  const Run run = runShell(R"("$STRAINFINGER" strains --can udp:19997 & interrupt $!; wait $!)");
+  LONGS_EQUAL(130, run.status);
+  STRCMP_CONTAINS("interrupted while the finger was asked for its readings", run.err.c_str());
 }
 
 TEST(StrainsCommand, RefusesWhatIsOutsideTheDomain) {

@@ -162,6 +162,14 @@ TEST(FingerRequests, AForcedTareUntouchedIsAnOrdinaryOne) {
   checkAnswer(Command::kTare, CommandStatus::kDone);
 }
 
+TEST(FingerRequests, AForcedTareDuringWhichATouchBeginsIsDoneAndSaysSo) {
+  run(1100);
+  ask(tareRequest(true));
+  run(30);
+  run(34, kTouch);
+  checkAnswer(Command::kTare, CommandStatus::kDoneTouched);
+}
+
 TEST(FingerRequests, ASecondTareWhileTheZeroIsTakenIsRefused) {
   ask(tareRequest(false));
   run(10);

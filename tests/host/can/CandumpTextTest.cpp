@@ -91,6 +91,13 @@ TEST(CandumpText, ReadsTheScreenForm) {
   CHECK_FALSE(line.time_ns.has_value());
 }
 
+// As candump -S, -S -a and -S -i print them.
+TEST(CandumpText, ReadsBytesInReverseOrder) {
+  readOurs("  can0  185   [8]  A3`01`FF`1E`01`22`03`E8");
+  readOurs("  can0  185   [8]  A3`01`FF`1E`01`22`03`E8   `.....\"..`");
+  readOurs("  can0  185   [8]  10100011`00000001`11111111`00011110`00000001`00100010`00000011`11101000");
+}
+
 TEST(CandumpText, ReadsIdentifiersIndentedBesideExtendedOnes) {
   readOurs("  can0       185   [8]  E8 03 22 01 1E FF 01 A3");
 }
@@ -265,7 +272,8 @@ TEST(CandumpText, SaysWhereTheScreenFormIsWrong) {
   checkError(22, "blank", "  can0  185   [2]  E803");
   checkError(23, "unexpected", "  can0  185   [1]  E8 03");
   checkError(24, "as text", "  can0  185   [1]  E8  'ab'");
-  checkError(22, "candump -S", "  can0  185   [2]  03`E8");
+  checkError(25, "same mark", "  can0  185   [3]  22`03 E8");
+  checkError(26, "same mark", "  can0  185   [3]  22 03`E8");
   checkError(12, "-x", "  can0  RX X -  185   [1]  E8");
 }
 

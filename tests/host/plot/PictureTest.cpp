@@ -53,6 +53,11 @@ TEST(Picture, APngIsDrawnInTheSizeAskedFor) {
   LONGS_EQUAL(200, static_cast<unsigned char>(png[22]) * 256 + static_cast<unsigned char>(png[23]));
 }
 
+TEST(Picture, MayHaveAnApostropheInItsName) {
+  draw(picture, folder.file("Bob's finger.svg"));
+  STRCMP_CONTAINS("</svg>", contentOf("Bob's finger.svg").c_str());
+}
+
 TEST(Picture, AnSvgIsDrawnWhole) {
   draw(picture, folder.file("a.svg"));
   STRCMP_CONTAINS("</svg>", contentOf("a.svg").c_str());

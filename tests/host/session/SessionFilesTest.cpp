@@ -57,6 +57,11 @@ TEST(SessionFiles, AreNamedWhereCalibrateSpeaksOfTouches) {
   STRCMP_EQUAL("gauge 3 is dead", files.named("gauge 3 is dead").c_str());
 }
 
+TEST(SessionFiles, WithoutRowsDontStay) {
+  { const SessionFiles files(config_, 3); }
+  CHECK_FALSE(std::filesystem::exists(strains_) || std::filesystem::exists(touches_));
+}
+
 TEST(SessionFiles, GoOnWithWhatIsThere) {
   write(strains_, "time_s,strain_0,strain_1,strain_2\n1.5,0.1,-2e-06,0.3\n");
   write(touches_, "angle_deg,normal_n_per_m,tangential_n_per_m\n,24.5,\n");

@@ -163,3 +163,31 @@ TEST(Shape, ThePressureIsThatOfTheLoad) {
   DOUBLES_EQUAL(20, pressure.pressure_pa.mean() * 4e-3, 0.2);
   CHECK_TRUE(pressure.sigma_pa.minCoeff() > 0);
 }
+
+// The error of a model is a noise of its own, as large as the touch.
+TEST(Shape, ToleratesWhatAModelErrorAllows) {
+  Eigen::VectorXd strains = ellipse(0.5);
+  for (Eigen::Index i = 0; i < strains.size(); i += 2) strains[i] *= 1.03;
+  CHECK_TRUE(shapeOf(strains, 1e-4)->fitProbability < kUnlikely);
+  config.gauges.model_error = 0.03;
+  const auto tolerant = shapeOf(strains, 1e-4);
+  CHECK_TRUE(tolerant->fitProbability > 0.01);
+  DOUBLES_EQUAL(angle_rad, tolerant->angle_rad.value, 2 * tolerant->angle_rad.sigma);
+}
+
+TEST(Shape, SigmasHoldWhatNoResidualShows) {
+  config.calibration.place_error_m = 3e-4;
+  config.calibration.load_error = 0.01;
+  config.calibration.moment_error_m2 = 1e-7;
+  const auto known = shapeOf(ellipse(4), 1e-3);
+  config.calibration = {};
+  const auto shape = shapeOf(ellipse(4), 1e-3);
+  const auto added = [](const Measured& one, const Measured& other) {
+    return std::sqrt(one.sigma * one.sigma - other.sigma * other.sigma);
+  };
+  DOUBLES_EQUAL(3e-4 / kSurface_m, added(known->angle_rad, shape->angle_rad), 1e-9);
+  DOUBLES_EQUAL(0.01 * 20, added(known->normal_n_per_m, shape->normal_n_per_m), 1e-6);
+  DOUBLES_EQUAL(0.01 * 20, added(known->tangential_n_per_m, shape->tangential_n_per_m), 1e-6);
+  const double width_m = shape->width_m->value;  // 16 times the moment is its square
+  DOUBLES_EQUAL(8 * 1e-7 / width_m, added(*known->width_m, *shape->width_m), 1e-9);
+}

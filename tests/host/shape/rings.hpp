@@ -14,12 +14,13 @@ namespace strainfinger::testing {
 
 inline constexpr double kSurface_m = 12.7e-3;
 
-/// The default finger but for alpha = r_a / r_b and the number of gauges, 0.5 mm above the core.
+/// The default finger, perfect, but for alpha = r_a / r_b and the number of gauges, 0.5 mm above the core.
 inline config::FingerConfig ringOf(double alpha, int gauges) {
   config::FingerConfig config;
   config.finger.core_radius_m = alpha * kSurface_m;
   config.gauges.radius_m = config.finger.core_radius_m + 0.5e-3;
   config.gauges.count = gauges;
+  config.gauges.model_error = 0;
   return config;
 }
 

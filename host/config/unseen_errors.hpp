@@ -1,0 +1,20 @@
+#pragma once
+// Errors of what is told of a touch that no residual shows.
+
+#include "host/config/finger_config.hpp"
+
+namespace strainfinger::config {
+
+/// Standard errors that all touches of a finger have alike: of what its calibration left, and of how far a
+/// finger may be off its model (gauges.model_error) without a trace in the readings.
+struct UnseenErrors {
+  double place_m;      ///< an arc of the surface
+  double loadScale;    ///< of either load, over it
+  double normalShare;  ///< of either load, over the normal load
+  double moment_m2;    ///< of the pressure's second moment
+};
+
+/// Of a valid config.
+UnseenErrors unseenErrors(const FingerConfig& config);
+
+}  // namespace strainfinger::config

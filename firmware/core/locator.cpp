@@ -67,7 +67,6 @@ bool isFarOff(const TableImage& tables, const Solution& solution, const ScaledRe
 
 void Locator::forget() {
   tracking_ = guessed_ = false;
-  search_.stop();
   answer_ = {};
 }
 
@@ -325,6 +324,19 @@ void Locator::goOn(const TableImage& tables, const ScaledReadings& readings, int
   }
   believe(tables, now, readings);
   noteLook(search_.readings().shift);
+}
+
+std::optional<Suspect> Locator::lookBack(const TableImage& tables) {
+  if (!search_.isBegun()) return std::nullopt;
+  if (!search_.isDone()) {
+    search_.advance(tables, Search::kWork, scratch_);
+    return std::nullopt;
+  }
+  const bool isFound = conclude(tables);
+  const Answer found = answer_;
+  release();
+  if (!isFound || !found.accepted || found.suspect == 0) return std::nullopt;
+  return Suspect{found.suspect, found.solution.contact[0].angle_q32};
 }
 
 void Locator::noteLook(int shift) {

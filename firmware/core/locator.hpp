@@ -17,6 +17,12 @@ enum class FitMode : std::uint8_t {
   kRefined,     ///< all readings
 };
 
+/// A gauge without which one contact explains the readings, and nothing else does.
+struct Suspect {
+  GaugeSet gauge;
+  std::uint32_t angle_q32;  ///< of the contact
+};
+
 /// What the locator believes.
 struct Answer {
   Solution solution;
@@ -33,7 +39,7 @@ struct Answer {
   bool weak = false;       ///< a contact is felt by little more than noise
   bool searching = false;  ///< the search for other hypotheses goes on
   bool several = false;    ///< two contacts, or nothing, explain the readings best
-  GaugeSet suspect = 0;  ///< the gauge without which one contact explains the readings, and nothing else does
+  GaugeSet suspect = 0;    ///< as Suspect has it
 };
 
 /// Starts from the last answer where it still explains the readings, else from the readings; searches where
@@ -48,10 +54,18 @@ class Locator {
               std::uint32_t noise_q4 = kConfiguredNoise_q4);
   /// The whole of a search that update() began, with the same strains.
   void finishSearch(const TableImage& tables, std::span<const std::int32_t> strains_q32, GaugeSet gauges);
-  /// Nothing touches the finger any more.
+  /// Forgets the touch, and a search with it.
   void release() {
-    if (tracking_ || answer_.searching) forget();
+    forget();
+    search_.stop();
   }
+  /// Nothing touches the finger any more: the answer is forgotten, while a search goes on with the readings
+  /// that it has (lookBack()).
+  void endTouch() { forget(); }
+  /// After endTouch(), once a sample set: a part of the search that goes on. Once it is over, the gauge
+  /// without which one contact explains its readings, if there is one. Cost: that of an update, while it goes
+  /// on.
+  std::optional<Suspect> lookBack(const TableImage& tables);
 
   const Answer& answer() const { return answer_; }
   /// Other answers are being looked for, whether or not the answer is doubted meanwhile (Answer::searching).

@@ -13,11 +13,14 @@ namespace strainfinger::firmware {
 
 /// Compares readings kLag sample sets apart, once in kEvery: half a period of 50 Hz hum at 1 kHz, so that hum
 /// counts in full while drift and slow touches hardly do. What it finds raises the gate and the variance of
-/// the readings. Cost: two instructions a gauge and sample set.
+/// the readings. A comparison counts for kMostGrowth times the louder of the two before at most: a touch that
+/// is not told from a disturbance yet is a step in one of them, hum is in all. Cost: two instructions a gauge
+/// and sample set.
 class NoiseMeter {
  public:
   static constexpr int kEvery = 16;
   static constexpr int kLag = 10;
+  static constexpr std::uint32_t kMostGrowth = 4;
   static constexpr int kMemory = 4;         ///< sixteen comparisons: a quarter of a second [log2]
   static constexpr int kNoisy_q4 = 4 << 4;  ///< variance, in configured ones, from which the ring is noisy
 
@@ -43,6 +46,7 @@ class NoiseMeter {
   std::array<std::int32_t, kMaxGauges> before_q32_{};
   GaugeSet compared_ = 0;
   std::uint32_t mean_q8_ = 1 << 8;
+  std::array<std::uint32_t, 2> recent_q8_{1 << 8, 1 << 8};  ///< of the last comparisons
   std::uint8_t phase_ = 0;
 };
 

@@ -112,7 +112,8 @@ const Observation& Pipeline::process(Codes codes) {
   }
   areZerosNew_ = tracker_.take(*tables_, strains(), observation_.touched ? &locator_.answer() : nullptr,
                                observation_.leftOut | observation_.saturated | watch_.outOfUse(),
-                               calibration_, locator_.scratch(), observation_.touched || !gate_.touched());
+                               calibration_, locator_.scratch(),
+                               observation_.touched || (!gate_.touched() && !locator_.isSearching()));
   observation_.staleZero = tracker_.stale();
   observation_.noisy = noise_.isNoisy();
   observation_.uncertain = tooFewGauges();
@@ -127,6 +128,7 @@ bool Pipeline::isTouchedDuring(const ZeroAverage& zero) const {
 
 void Pipeline::observe(Codes codes) {
   condition(calibration_, codes, readings_);
+  const bool wasTouched = observation_.touched, wasOverGate = gate_.touched();
   observation_ = {};
   const GaugeSet working = allGauges(constants().gauge_count) & ~watch_.outOfUse();
   GaugeSet gauges = working;
@@ -145,8 +147,13 @@ void Pipeline::observe(Codes codes) {
   } else {
     gate_ = {};
     watch_.implausiblyAtRail(observation_.saturated & working);
-    locator_.release();
     settledSets_ = 0;
+    if (wasTouched)
+      locator_.endTouch();
+    else if (wasOverGate)
+      locator_.release();
+    else if (const auto suspect = locator_.lookBack(*tables_))
+      watch_.suspect(suspect->gauge, suspect->angle_q32);
   }
 }
 

@@ -11,7 +11,7 @@
 #include "host/calibration/joint_fit.hpp"
 #include "host/calibration/model_error.hpp"
 #include "host/calibration/noise_bias.hpp"
-#include "host/calibration/over_range.hpp"
+#include "host/config/over_range.hpp"
 #include "host/calibration/touch_fit.hpp"
 #include "host/model/pressure_profile.hpp"
 
@@ -150,7 +150,7 @@ class Calibration {
   RowUse useOf(const VectorXd& strains, const KnownTouch& touch) const {
     const config::Gauges& gauges = drawing_.config().gauges;
     const double largest = strains.cwiseAbs().maxCoeff();
-    if (isOverRange(gauges, largest)) return RowUse::kOverRange;
+    if (config::isOverRange(gauges, largest)) return RowUse::kOverRange;
     if (touch.isUntouched()) return RowUse::kUntouched;
     return largest < kWeakestTouch * gauges.noise_strain ? RowUse::kWeak : RowUse::kFitted;
   }

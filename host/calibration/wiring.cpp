@@ -9,7 +9,7 @@
 #include <numeric>
 #include <optional>
 
-#include "host/calibration/over_range.hpp"
+#include "host/config/over_range.hpp"
 #include "host/calibration/touch_fit.hpp"
 #include "host/calibration/wiring_turn.hpp"
 
@@ -75,7 +75,7 @@ RowsOfGauges rowsOfGauges(const config::Gauges& gauges, const MatrixXd& readings
   for (Index row = 0; row < readings.rows(); ++row) {
     Index gauge = 0;
     const double peak = readings.row(row).cwiseAbs().maxCoeff(&gauge);
-    if (!isOverRange(gauges, peak)) result[static_cast<std::size_t>(gauge)].emplace_back(peak, row);
+    if (!config::isOverRange(gauges, peak)) result[static_cast<std::size_t>(gauge)].emplace_back(peak, row);
   }
   for (auto& rows : result) std::sort(rows.begin(), rows.end());
   return result;

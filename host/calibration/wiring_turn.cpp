@@ -9,7 +9,7 @@
 #include "host/base/angles.hpp"
 #include "host/calibration/joint_fit.hpp"
 #include "host/calibration/model_error.hpp"
-#include "host/calibration/over_range.hpp"
+#include "host/config/over_range.hpp"
 #include "host/calibration/touch_fit.hpp"
 
 namespace strainfinger::calibration {
@@ -192,7 +192,7 @@ std::vector<std::size_t> tellingRows(const config::Gauges& gauges, std::span<con
   std::vector<std::size_t> rows;
   for (std::size_t row = 0; row < known.size(); ++row) {
     const double peak = peaks[static_cast<Index>(row)];
-    const bool isWithin = peak >= kWeakestTouch * gauges.noise_strain && !isOverRange(gauges, peak);
+    const bool isWithin = peak >= kWeakestTouch * gauges.noise_strain && !config::isOverRange(gauges, peak);
     if (known[row].angle_deg && isWithin) rows.push_back(row);
   }
   if (rows.size() <= kMostDirections) return rows;

@@ -24,7 +24,7 @@
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/firmware_options.hpp"
-#include "host/simulation/converter.hpp"
+#include "host/config/over_range.hpp"
 #include "host/tables/gauge_gains.hpp"
 #include "host/tables/readings.hpp"
 
@@ -41,9 +41,9 @@ constexpr const char* kLocateHelp =
     "With a header row the gauges' columns are strain_0, strain_1 .., and other columns, such as time_s, are "
     "passed through: they come first, those named as a column of stdout as input_NAME. Gains that the tables "
     "have from a calibration are applied to them. A "
-    "reading at the "
-    "end of the converter's range (gauges.full_scale_strain) or beyond is left out and the contact found by "
-    "the others, as the firmware does.\n"
+    "reading within 5 % of the end of the converter's range (gauges.full_scale_strain; zeros move it) or "
+    "beyond is "
+    "left out and the contact found by the others, as the firmware does.\n"
     "stdout: one row a sample, of\n"
     "  contact: 1 or 0; where it is 0, or too few readings are left to tell where, the others are empty\n"
     "  angle_deg: degrees, 0 to 360\n"
@@ -137,29 +137,15 @@ std::vector<Cell> nothingBut(bool contact) {
   return cells;
 }
 
-/// The gauges that the finger's converter has at a rail, where they may read anything beyond.
-class Rails {
- public:
-  explicit Rails(const TableImage& image) : constants_(image.constants), converter_(gaugesOf(image)) {}
-
-  /// `strains`: before gains.
-  GaugeSet of(std::span<const double> strains) const {
-    std::array<std::uint16_t, kMaxGauges> codes{};
-    for (std::size_t i = 0; i < strains.size(); ++i) codes[i] = converter_.codeOf(strains[i]);
-    return firmware::saturatedGauges(constants_, firmware::Codes(codes).first(strains.size()));
-  }
-
- private:
-  static config::Gauges gaugesOf(const TableImage& image) {
-    config::Gauges gauges;
-    gauges.full_scale_strain = image.parameters.full_scale_strain;
-    gauges.adc_bits = image.parameters.adc_bits;
-    return gauges;
-  }
-
-  const TableConstants& constants_;
-  simulation::Converter converter_;
-};
+/// The gauges that may be at the end of their range. `strains`: before gains.
+GaugeSet overRange(const TableImage& image, std::span<const double> strains) {
+  config::Gauges gauges;
+  gauges.full_scale_strain = image.parameters.full_scale_strain;
+  GaugeSet over = 0;
+  for (std::size_t i = 0; i < strains.size(); ++i)
+    if (config::isOverRange(gauges, strains[i])) over |= GaugeSet{1} << i;
+  return over;
+}
 
 /// Every gauge at a rail should read as much as it does, or more.
 bool areRailsPlausible(const firmware::Locator& locator, std::span<const std::int32_t> strains_q32,
@@ -215,7 +201,6 @@ void runLocate(const LocateOptions& options) {
   const auto image = tablesFor(options);
   const TableConstants& constants = image->constants;
   NumberRowReader rows(std::cin, "stdin", constants.gauge_count, strainLimit(constants.gauge_count));
-  const Rails rails(*image);
   firmware::ContactGate gate;
   firmware::Locator locator(options.firmware.mode());
   std::vector<std::int32_t> strains(constants.gauge_count);
@@ -227,7 +212,7 @@ void runLocate(const LocateOptions& options) {
     for (std::size_t i = 0; i < row.size(); ++i)
       strains[i] = tables::readingOf(constants, factors[i] * row[i]);
     const bool touched = gate.update(constants, firmware::gateEnergy(constants, strains));
-    const GaugeSet saturated = touched ? rails.of(row) : 0;
+    const GaugeSet saturated = touched ? overRange(*image, row) : 0;
     const bool enough = std::popcount(saturated) * 2 <= constants.gauge_count;
     std::vector<Cell> cells = passedThrough(rows.others(), options.common.format());
     for (Cell& cell : touched&& enough ? located(*image, locator, strains, saturated) : nothingBut(touched))

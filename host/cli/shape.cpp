@@ -13,6 +13,8 @@
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/model_options.hpp"
+#include "host/config/over_range.hpp"
+#include "host/shape/partial_ring.hpp"
 #include "host/shape/quantiles.hpp"
 
 namespace strainfinger::cli {
@@ -33,7 +35,9 @@ constexpr const char* kShapeHelp =
     "curvature_low_per_m and curvature_high_per_m: its band of 95 %, no upper end where empty. "
     "directions: of the pressure, above the noise. class: round, uniform, wedge or punch, if it fits "
     "better than the others by 9 in chi squared. unresolved: which of width, class and odd-part the "
-    "strains don't tell. warnings: ambiguous (another touch, at rival_angle_deg, fits about as well: "
+    "strains don't tell. warnings: saturated (gauges within 5 % of the end of the converter's range, or "
+    "beyond, were left out; with half of them nothing else is told), ambiguous (another touch, at "
+    "rival_angle_deg, fits about as well: "
     "bands of 95 % hold it, and no class is named), sparse (the gauges' pitch is twice their depth and "
     "more: no width, and answers may be farther off than the sigmas say), misfit (residuals are not "
     "noise: two touches, a bad gauge, another noise), profile (another class fits too, and has a value "
@@ -76,8 +80,11 @@ std::string unresolved(const shape::Shape& shape) {
   return fmt::format("{}", fmt::join(words, " "));
 }
 
-std::string warnings(const shape::Shape& shape) {
+constexpr const char* kClipped = "saturated";
+
+std::string warnings(const shape::Shape& shape, bool isClipped) {
   std::vector<std::string> words;
+  if (isClipped) words.emplace_back(kClipped);
   if (shape.rivalAngle_rad) words.emplace_back("ambiguous");
   if (shape.isSparse) words.emplace_back("sparse");
   if (shape.fitProbability < shape::kUnlikely) words.emplace_back("misfit");
@@ -86,7 +93,7 @@ std::string warnings(const shape::Shape& shape) {
   return fmt::format("{}", fmt::join(words, " "));
 }
 
-std::vector<Cell> cellsOf(const shape::Shape& shape) {
+std::vector<Cell> cellsOf(const shape::Shape& shape, bool isClipped) {
   const shape::Measured unknown{kNoValue, kNoValue};
   const shape::Measured width = shape.width_m.value_or(unknown);
   const shape::Measured curvature = shape.curvature_per_m.value_or(unknown);
@@ -108,35 +115,55 @@ std::vector<Cell> cellsOf(const shape::Shape& shape) {
           unresolved(shape),
           shape.fitProbability,
           shape.rivalAngle_rad ? degrees(*shape.rivalAngle_rad) : kNoValue,
-          warnings(shape),
+          warnings(shape, isClipped),
           band.low,
           std::isfinite(band.high) ? band.high : kNoValue};
 }
 
-std::vector<Cell> noTouch() {
+/// A row of which only these are known.
+std::vector<Cell> unknownTouch(std::int64_t contact, const std::string& warning) {
   std::vector<Cell> cells(20, kNoValue);
-  cells[0] = std::int64_t{0};
-  for (const std::size_t text : {13U, 14U, 17U}) cells[text] = std::string();
+  cells[0] = contact;
+  for (const std::size_t text : {13U, 14U}) cells[text] = std::string();
+  cells[17] = warning;
   return cells;
 }
 
-/// Calls print(sample, strains), samples from 1.
-template <typename Print>
-void forEachRow(const config::FingerConfig& config, Print print) {
-  NumberRowReader rows(std::cin, "stdin", static_cast<std::size_t>(config.gauges.count),
-                       strainLimit(config.gauges.count));
-  Eigen::VectorXd gains(config.gauges.count);
-  for (int i = 0; i < config.gauges.count; ++i) gains[i] = config.calibrated(i).gain;
-  std::int64_t sample = 0;
-  for (std::vector<double> row; rows.next(row);) {
-    const Eigen::VectorXd strains =
-        Eigen::Map<Eigen::VectorXd>(row.data(), config.gauges.count).cwiseQuotient(gains);
-    print(++sample, strains);
+/// One row of strains.
+struct Reading {
+  std::int64_t sample;      ///< from 1
+  std::vector<int> gauges;  ///< within their range
+  Eigen::VectorXd strains;  ///< of these gauges, over their gains
+
+  bool isClipped(const config::FingerConfig& config) const {
+    return static_cast<int>(gauges.size()) < config.gauges.count;
   }
+  /// Half of the gauges at the end of their range: the rest tells no touch.
+  bool isTooFew(const config::FingerConfig& config) const {
+    return 2 * static_cast<int>(gauges.size()) < config.gauges.count;
+  }
+};
+
+Reading readingOf(const config::FingerConfig& config, const std::vector<double>& row, std::int64_t sample) {
+  Reading reading{sample, {}, {}};
+  for (int i = 0; i < config.gauges.count; ++i)
+    if (!config::isOverRange(config.gauges, row[static_cast<std::size_t>(i)])) reading.gauges.push_back(i);
+  reading.strains.resize(static_cast<Eigen::Index>(reading.gauges.size()));
+  for (std::size_t k = 0; k < reading.gauges.size(); ++k)
+    reading.strains[static_cast<Eigen::Index>(k)] =
+        row[static_cast<std::size_t>(reading.gauges[k])] / config.calibrated(reading.gauges[k]).gain;
+  return reading;
 }
 
-void printShapes(const ShapeOptions& options, const config::FingerConfig& config,
-                 const shape::ShapeEstimator& estimator) {
+template <typename Print>
+void forEachReading(const config::FingerConfig& config, Print print) {
+  NumberRowReader rows(std::cin, "stdin", static_cast<std::size_t>(config.gauges.count),
+                       strainLimit(config.gauges.count));
+  std::int64_t sample = 0;
+  for (std::vector<double> row; rows.next(row);) print(readingOf(config, row, ++sample));
+}
+
+void printShapes(const ShapeOptions& options, const config::FingerConfig& config) {
   TableWriter table(stdout, options.common.format(),
                     {"contact",
                      "angle_deg",
@@ -158,40 +185,43 @@ void printShapes(const ShapeOptions& options, const config::FingerConfig& config
                      "warnings",
                      "curvature_low_per_m",
                      "curvature_high_per_m"});
-  forEachRow(config, [&](std::int64_t, const Eigen::VectorXd& strains) {
-    const auto shape = estimator.estimate(strains);
-    table.row(shape ? cellsOf(*shape) : noTouch());
+  shape::RingEstimators estimators(config);
+  forEachReading(config, [&](const Reading& reading) {
+    if (reading.isTooFew(config)) return table.row(unknownTouch(1, kClipped));
+    const auto shape = estimators.by(reading.gauges).estimate(reading.strains);
+    table.row(shape ? cellsOf(*shape, reading.isClipped(config)) : unknownTouch(0, ""));
   });
 }
 
-void printPressures(const ShapeOptions& options, const config::FingerConfig& config,
-                    const shape::ShapeEstimator& estimator) {
+void printPressures(const ShapeOptions& options, const config::FingerConfig& config) {
   TableWriter table(stdout, options.common.format(),
                     {"sample", "angle_deg", "pressure_pa", "low_pa", "high_pa", "ellipse_pa"});
-  forEachRow(config, [&](std::int64_t sample, const Eigen::VectorXd& strains) {
-    const auto shape = estimator.estimate(strains);
+  shape::RingEstimators estimators(config);
+  forEachReading(config, [&](const Reading& reading) {
+    if (reading.isTooFew(config)) return;
+    const shape::ShapeEstimator& estimator = estimators.by(reading.gauges);
+    const auto shape = estimator.estimate(reading.strains);
     if (!shape) return;
     const double half_rad = estimator.pressedHalf_rad(*shape);
     const auto offsets_rad = Eigen::VectorXd::LinSpaced(options.points, -half_rad, half_rad);
-    const auto pressure = estimator.pressure(*shape, strains, offsets_rad);
+    const auto pressure = estimator.pressure(*shape, reading.strains, offsets_rad);
     const double mean_pa = shape->normal_n_per_m.value / estimator.model().outerRadius_m();
     for (Eigen::Index i = 0; i < offsets_rad.size(); ++i) {
       const double band_pa = shape::kTwoSided95 * pressure.sigma_pa[i], value_pa = pressure.pressure_pa[i];
       const double ellipse_pa =
           mean_pa * density(model::Profile::kEllipse, model::momentOfWidth(2 * half_rad), offsets_rad[i]);
-      table.row({sample, degrees(shape->angle_rad.value + offsets_rad[i]), value_pa, value_pa - band_pa,
-                 value_pa + band_pa, ellipse_pa});
+      table.row({reading.sample, degrees(shape->angle_rad.value + offsets_rad[i]), value_pa,
+                 value_pa - band_pa, value_pa + band_pa, ellipse_pa});
     }
   });
 }
 
 void runShape(const ShapeOptions& options) {
   const config::FingerConfig config = options.config();
-  const shape::ShapeEstimator estimator(config);
   if (options.pressure)
-    printPressures(options, config, estimator);
+    printPressures(options, config);
   else
-    printShapes(options, config, estimator);
+    printShapes(options, config);
 }
 
 }  // namespace

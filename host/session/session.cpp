@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "host/calibration/over_range.hpp"
+#include "host/config/over_range.hpp"
 
 namespace strainfinger::session {
 
@@ -91,7 +91,7 @@ std::optional<Sample> Session::nowHeld(std::string& why) const {
   const double peak = mean.cwiseAbs().maxCoeff();
   if (peak < ThinningRules{}.weakest * gauges.noise_strain)
     why = "nothing presses the finger, or too little";
-  else if (calibration::isOverRange(gauges, peak))
+  else if (config::isOverRange(gauges, peak))
     why = "it is pressed beyond its range";
   else if (std::sqrt(squares.maxCoeff()) > std::max(holds_.noise * gauges.noise_strain, holds_.share * peak))
     why = "it is not held still";

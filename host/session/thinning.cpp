@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host/calibration/over_range.hpp"
+#include "host/config/over_range.hpp"
 
 namespace strainfinger::session {
 
@@ -38,7 +38,7 @@ Verdict Thinner::take(const Sample& sample) {
   const bool steady = isSteady(sample);
   recent_.push_back(sample);
   const double peak = sample.strains.cwiseAbs().maxCoeff();
-  if (calibration::isOverRange(gauges, peak)) return Verdict::kOverRange;
+  if (config::isOverRange(gauges, peak)) return Verdict::kOverRange;
   if (peak < rules_.weakest * gauges.noise_strain) return Verdict::kWeak;
   if (!steady) return Verdict::kUnsteady;
   if (sample.time_s - kept_s_ < rules_.closest_s - kClockJitter_s) return Verdict::kAlike;

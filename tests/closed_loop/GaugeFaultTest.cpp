@@ -39,6 +39,11 @@ std::function<void(SampledFinger::Codes&)> fault(Kind kind, std::uint16_t held) 
   };
 }
 
+/// Sample sets of a touch and of the rest before it.
+struct Rhythm {
+  int touch = kTouch, rest = kRest;
+};
+
 /// What is said of places.
 struct Told {
   bool right = true;     ///< each touch is told within half a pitch
@@ -82,7 +87,7 @@ TEST_GROUP(GaugeFault) {
 
   /// A gauge that failed, and so many touches that it should feel: by a third of what all gauges read
   /// together.
-  Outcome feel(Kind kind, int count, int trials) {
+  Outcome feel(Kind kind, int count, int trials, const Rhythm& rhythm = {}) {
     Outcome outcome;
     std::uint64_t number = 0;
     const auto untouched = ring.codes(Eigen::VectorXd::Zero(config.gauges.count), 0);
@@ -99,8 +104,8 @@ TEST_GROUP(GaugeFault) {
         const Eigen::VectorXd strains = ring.exact(next);
         if (std::abs(strains[kFaulty] - held_strain) < strains.norm() / 3) continue;
         ++touch;
-        if (kind != Kind::kStuck) finger->rest(kRest, fails);
-        finger->hold(strains, kTouch, fails);
+        if (kind != Kind::kStuck) finger->rest(rhythm.rest, fails);
+        finger->hold(strains, rhythm.touch, fails);
         const Told said = told(*finger, {&next, 1});
         outcome.silent += !said.right && !said.flagged;
       }
@@ -217,6 +222,13 @@ TEST(GaugeFault, ADeadGaugeIsNamedAfterSeveralTouchesThatItShouldFeel) {
   CHECK_COMPARE(outcome.named, >=, 0.95 * trials - 3 * std::sqrt(0.05 * trials));
   CHECK_COMPARE(outcome.wrong, <=, allowedCount(0.002, trials));
   CHECK_COMPARE(outcome.silent, <=, allowedCount(2e-4, 8 * trials));
+}
+
+// Touches that end before the search for other answers does, which goes on with what they read.
+TEST(GaugeFault, TapsNameADeadGaugeToo) {
+  const Outcome outcome = feel(Kind::kDead, 9, touchCount(300), {.touch = 60, .rest = 600});
+  CHECK_COMPARE(outcome.named, >=, touchCount(300) / 2);
+  LONGS_EQUAL(0, outcome.wrong);
 }
 
 TEST(GaugeFault, AStuckGaugeIsNamedAfterSeveralTouchesThatItShouldFeel) {

@@ -106,6 +106,16 @@ TEST(NoiseMeter, WhatWasBeforeATouchIsNotComparedWithWhatIsAfter) {
   CHECK_FALSE(meter.isNoisy());
 }
 
+// A touch that is not told from a disturbance yet is one step, wherever it meets the comparisons.
+TEST(NoiseMeter, AStepIsNoNoise) {
+  for (int first = 100; first < 100 + NoiseMeter::kEvery; ++first) {
+    meter = {};
+    for (int set = 0; set < 300; ++set)
+      take(random.noisy(std::vector<double>(16, set < first ? 0.0 : 1e-3), ring.noise_strain()));
+    CHECK_FALSE(meter.isNoisy());
+  }
+}
+
 TEST(NoiseMeter, TheLoudestNoiseThereCanBeSaturates) {
   for (int set = 0; set < 1000; ++set)
     take(std::vector<double>(16, set / NoiseMeter::kLag % 2 == 0 ? 0.06 : -0.06));

@@ -134,6 +134,18 @@ TEST(Pipeline, AGaugeThatIsOpenHidesNoTouch) {
   }
 }
 
+// As of a light touch beside a gauge that failed: it is not told, but no noise either.
+TEST(Pipeline, WhatNoContactExplainsIsNoNoise) {
+  std::vector<double> strains(16, 0.0);
+  for (std::size_t i = 0; i < strains.size(); i += 3) strains[i] = 150e-6;
+  for (int untouched = 300; untouched < 300 + NoiseMeter::kEvery; ++untouched) {
+    pipeline = Pipeline(ring.tables(), FitMode::kRefined);
+    process(std::vector<double>(16, 0.0), untouched);
+    CHECK_FALSE(process(strains, 60).touched);
+    CHECK_FALSE(pipeline.observation().noisy);
+  }
+}
+
 TEST(Pipeline, OneWrongReadingDoesNotEndALightTouch) {
   const auto strains = ring.strains(Press{5.4, 1.5, 0.2, 1});
   CHECK_TRUE(process(strains, 100).touched);

@@ -1,4 +1,4 @@
-#include "host/calibration/over_range.hpp"
+#include "host/config/over_range.hpp"
 
 #include <vector>
 
@@ -19,8 +19,8 @@ TEST_GROUP(OverRange) {
 TEST(OverRange, IsAlsoWhatIsLeftOfFullScaleByTheZero) {
   config.gauges.full_scale_strain = 0.03;
   for (const double ceiling_strain : {0.0294, 0.0297, 0.03, 0.0303})
-    CHECK_TRUE(isOverRange(config.gauges, ceiling_strain));
-  CHECK_FALSE(isOverRange(config.gauges, 0.028));
+    CHECK_TRUE(config::isOverRange(config.gauges, ceiling_strain));
+  CHECK_FALSE(config::isOverRange(config.gauges, 0.028));
 }
 
 TEST(OverRange, RowsThatAGaugeClipsBelowFullScaleAreToldAsSuch) {

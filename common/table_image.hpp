@@ -90,7 +90,7 @@ struct TableConstants {
   std::uint8_t cell_count;      ///< cells of the second moment
   std::uint8_t width_is_known;  ///< 1: known_moment_q20 holds, no width is fitted
   std::uint8_t gate_shift;      ///< the gate's energy is the sum of strain^2, >> (2 * gate_shift)
-  std::uint8_t reserved;        ///< 0
+  std::uint8_t is_sparse;       ///< 1: gauges too far apart to tell one that fails from a touch between two
   std::array<std::uint16_t, kMostCells + 1> cell_edge_q15;  ///< ascending from 0 to 2^15 (all of it)
   std::array<std::uint16_t, kMostCells> cell_rate_q8;       ///< 2 / (cell's width) [* 2^8]
   std::array<std::uint8_t, 4> reserved2;                    ///< 0
@@ -255,7 +255,7 @@ constexpr bool usable(const TableParameters& parameters, const TableConstants& c
          usableLoads(constants.load_exponent, constants.gate_shift) &&
          (constants.mirror_sign == 1 || constants.mirror_sign == -1) &&
          (constants.peak_sign == 1 || constants.peak_sign == -1) && constants.width_is_known <= 1 &&
-         constants.known_moment_q20 <= 1u << kMomentBits &&
+         constants.is_sparse <= 1 && constants.known_moment_q20 <= 1u << kMomentBits &&
          constants.place_error_q32 <= kMostPlaceError_q32 && constants.cone_q8 > 0 &&
          constants.reach_q32 < std::uint32_t{1} << 31 && usableCells(constants) &&
          constants.node_count >= kLeastNodes && constants.node_count * constants.cell_count <= kMostPatches;

@@ -255,7 +255,9 @@ bool Locator::conclude(const TableImage& tables) {
     answer_.doubtful |= i != *best && explains[i] && saysOther(tables.constants, answer, rankings[i]->best) &&
                         costOf(i) - costOf(*best) < ambiguity(readings.variances, answer);
   answer_.several = *best == kPair || (!faulty && *best != kSingle);
-  if (*best == kWithoutOne && !(two && answer_.doubtful)) answer_.suspect = culprit(tables);
+  const bool isSparse = tables.constants.is_sparse != 0;
+  answer_.doubtful |= isSparse && *best == kWithoutOne;
+  if (*best == kWithoutOne && !isSparse && !(two && answer_.doubtful)) answer_.suspect = culprit(tables);
   believe(tables, answer, readings);
   rememberRival(tables, *rankings[*best], readings);
   return true;

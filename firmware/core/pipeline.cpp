@@ -80,7 +80,7 @@ void Pipeline::watchGauges() {
     if ((observation_.saturated & gauge) != 0) {
       const bool beyond =
           measured < 0 ? predicted <= measured - measured / 4 : predicted >= measured - measured / 4;
-      if (!beyond) atRail |= gauge;
+      if (!beyond && constants().is_sparse == 0) atRail |= gauge;
       continue;
     }
     const std::int32_t off = magnitude(measured - predicted);

@@ -11,8 +11,8 @@
 #include "host/calibration/joint_fit.hpp"
 #include "host/calibration/model_error.hpp"
 #include "host/calibration/noise_bias.hpp"
-#include "host/config/over_range.hpp"
 #include "host/calibration/touch_fit.hpp"
+#include "host/config/over_range.hpp"
 #include "host/model/pressure_profile.hpp"
 
 namespace strainfinger::calibration {

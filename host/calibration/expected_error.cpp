@@ -80,8 +80,9 @@ ExpectedErrors expectedErrors(const CalibrationResult& result) {
     const auto variances = touchVariances(built, touch, result.covariance(), config.gauges.noise_strain);
     const TouchState found =
         refineTouch(drawn, {built.readings(touch), config.gauges.noise_strain, {}}, touch).touch;
-    sum.before += inMetres(found - touch, radius_m).cwiseAbs2();
-    sum.after += inMetres(variances.total.cwiseSqrt(), radius_m).cwiseAbs2();
+    const Eigen::Vector3d after = inMetres(variances.total.cwiseSqrt(), radius_m).cwiseAbs2();
+    sum.before += inMetres(found - touch, radius_m).cwiseAbs2() + after;
+    sum.after += after;
     sum.bound += inMetres(variances.noise.cwiseSqrt(), radius_m).cwiseAbs2();
   }
   for (Eigen::Vector3d* each : {&sum.before, &sum.after, &sum.bound})

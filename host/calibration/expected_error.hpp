@@ -25,9 +25,11 @@ Eigen::MatrixXd withoutConventions(const Drawing& drawing, const Eigen::MatrixXd
 
 /// Of the judged touches: RMS of place [m], normal and tangential load [N/m].
 struct ExpectedErrors {
-  Eigen::Vector3d before;  ///< located as if the finger were as drawn: what the calibrated one makes of that
-  Eigen::Vector3d after;   ///< located with the finger as calibrated: noise and what is not known of it
-  Eigen::Vector3d bound;   ///< noise alone
+  /// Located as if the finger were as drawn: by as much as the calibrated one is off that, and by what
+  /// `after` holds, which the calibration doesn't know of the drawing either.
+  Eigen::Vector3d before;
+  Eigen::Vector3d after;  ///< located with the finger as calibrated: noise and what is not known of it
+  Eigen::Vector3d bound;  ///< noise alone
 };
 
 /// Costs 0.1 s.

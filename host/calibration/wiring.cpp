@@ -9,9 +9,9 @@
 #include <numeric>
 #include <optional>
 
-#include "host/config/over_range.hpp"
 #include "host/calibration/touch_fit.hpp"
 #include "host/calibration/wiring_turn.hpp"
+#include "host/config/over_range.hpp"
 
 namespace strainfinger::calibration {
 namespace {

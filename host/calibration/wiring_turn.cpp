@@ -9,8 +9,8 @@
 #include "host/base/angles.hpp"
 #include "host/calibration/joint_fit.hpp"
 #include "host/calibration/model_error.hpp"
-#include "host/config/over_range.hpp"
 #include "host/calibration/touch_fit.hpp"
+#include "host/config/over_range.hpp"
 
 namespace strainfinger::calibration {
 namespace {

@@ -48,7 +48,8 @@ ContactReport reportOf(const ContactFrame& contact, const ForceFrame& force) {
 }  // namespace
 
 const LargestValues& largestValues() {
-  static const LargestValues values{.sigmaAngle_deg = largest(&ContactFrame::sigma_angle_cdeg),
+  static const LargestValues values{.normal_n = largest(&ForceFrame::normal_mN),
+                                    .sigmaAngle_deg = largest(&ContactFrame::sigma_angle_cdeg),
                                     .sigmaNormal_n = largest(&ForceFrame::sigma_normal_half_mN),
                                     .sigmaTangential_n = largest(&ForceFrame::sigma_tangential_half_mN),
                                     .width_m = largest(&PatchFrame::width_um),

@@ -37,6 +37,7 @@ struct TouchReport : ContactReport {
 /// The largest values that a finger can say of a touch, just as a report has them: each stands for anything
 /// beyond it too (BUS.md, "or more").
 struct LargestValues {
+  double normal_n;
   double sigmaAngle_deg;
   double sigmaNormal_n;
   double sigmaTangential_n;

@@ -262,15 +262,6 @@ std::uint8_t nodeOf(const CalibrateOptions& options, const config::FingerConfig&
   return static_cast<std::uint8_t>(options.node != 0 ? options.node : config.can.node);
 }
 
-/// Before the afternoon, or the fit, not at its end.
-void requireFolderOf(const char* option, const std::string& path) {
-  if (path.empty()) return;
-  const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
-  if (std::filesystem::is_directory(folder)) return;
-  throw Failure(ExitCode::kFailure, fmt::format("{} {}: there is no folder {}; make it, or name another",
-                                                option, path, folder.string()));
-}
-
 void runLiveCalibration(const CalibrateOptions& options, const config::FingerConfig& config) {
   LiveCalibration live = options.live;
   live.node = nodeOf(options, config);

@@ -69,6 +69,14 @@ void requireGoodFileNames(const CLI::App& command) {
   }
 }
 
+void requireFolderOf(const char* option, const std::string& path) {
+  if (path.empty()) return;
+  const fs::path folder = fs::absolute(path).parent_path();
+  if (fs::is_directory(folder)) return;
+  throw Failure(ExitCode::kFailure, fmt::format("{} {}: there is no folder {}; make it, or name another",
+                                                option, path, folder.string()));
+}
+
 CLI::Validator isFrom(double least, double most) {
   const auto complaint = [least, most](const std::string& text) {
     double value = 0;

@@ -29,6 +29,10 @@ class CommonOptions {
 /// place of the config that it was made from.
 void requireGoodFileNames(const CLI::App& command);
 
+/// Throws Failure(kFailure) where a file cannot be made for want of its folder: before long work, not at its
+/// end. An empty path is no file.
+void requireFolderOf(const char* option, const std::string& path);
+
 /// A check of an option that is a number from `least` to `most`. CLI11's own lets NaN through.
 CLI::Validator isFrom(double least, double most);
 

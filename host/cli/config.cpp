@@ -1,9 +1,12 @@
+#include <fmt/format.h>
+
 #include <optional>
 #include <vector>
 
 #include "host/base/failure.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/request.hpp"
+#include "host/config/bus_load.hpp"
 
 namespace strainfinger::cli {
 namespace {
@@ -32,10 +35,21 @@ struct ConfigOptions {
   bool force = false;
 };
 
+/// The finger doesn't know the bus' bit rate.
+void requireRoomOnTheBus(const config::Can& can, int rate_hz) {
+  const int fastest_hz = config::fastestContactRate_hz(can);
+  if (rate_hz <= fastest_hz) return;
+  throw Failure(ExitCode::kUsage,
+                fmt::format("config: --contact-rate-hz {}: at can.bitrate = {} the bus carries {} at most",
+                            rate_hz, can.bitrate, fastest_hz));
+}
+
 void runConfig(const ConfigOptions& options) {
   std::vector<RequestFrame> requests;
-  if (options.contactRate_hz)
+  if (options.contactRate_hz) {
+    requireRoomOnTheBus(options.request.common.config().can, *options.contactRate_hz);
     requests.push_back(contactRateRequest(static_cast<std::uint16_t>(*options.contactRate_hz)));
+  }
   if (options.keep) requests.push_back(keepRequest(options.force));
   if (options.node) requests.push_back(nodeRequest(static_cast<std::uint8_t>(*options.node), options.force));
   if (requests.empty())

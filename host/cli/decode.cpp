@@ -28,6 +28,7 @@ constexpr const char* kDecodeHelp =
     "CSV: time_s,interface,node,frame, then a column for each field of any frame, empty where the frame has "
     "no such field or the value is not known; flags are names joined by '+'.\n"
     "--json: one object a frame with its own fields, null where not known.\n"
+    "The largest value of a field stands for it or more (sigma_normal_n 0.127, sigma_width_m 0.065534 ..).\n"
     "--touches: a row for each touch sample in place of its frames: where, how hard, how wide, how sure.\n"
     "A line that cannot be read is reported as FILE:LINE:COLUMN on stderr and makes the exit status 1.\n"
     "At the end, or at Ctrl-C, stderr says what was read, skipped and lost.\n"

@@ -181,7 +181,12 @@ void runOn(Port& port, const config::FingerConfig& config, const RunOptions& opt
   simulation::SimulatedFinger finger(config, scenario, *tables, options.firmware.mode(), options.seed, port,
                                      faultsOf(options));
   Watchers watchers(options, config, *tables);
-  for (const std::string& path : options.pictures) plot::requirePicturePath(path);
+  for (const std::string& path : options.pictures) {
+    plot::requirePicturePath(path);
+    requireFolderOf("--picture", path);
+  }
+  requireFolderOf("--strains", options.strainsPath);
+  requireFolderOf("--touches", options.touchesPath);
   const system::StopSignal stop;
   while (finger.elapsed_us() < end_us && !stop.asked()) {
     finger.pass(wait(), [&](const simulation::Moment& moment) { watchers.watch(moment, finger.readings()); });

@@ -29,7 +29,7 @@ constexpr const char* kStrainsHelp =
     "read "
     "them, at nominal gain and less the finger's zero.\n"
     "The config's gauges must be those of the finger. At the end stderr says how many sets came whole. Exit "
-    "status: 1 refused, 3 no interface, 4 no such node or no readings.";
+    "status: 1 refused, 3 no interface, 4 no such node or no readings, 5 another ring's config.";
 
 constexpr std::chrono::milliseconds kSilence{3000};  ///< longer than the slowest rate's period
 constexpr double kLongestStrains_s = 1e6;

@@ -5,8 +5,10 @@
 #include "host/base/atomic_file.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/no_value.hpp"
+#include "host/can/touch_receiver.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
+#include "host/config/sparse_ring.hpp"
 #include "host/tables/self_check.hpp"
 #include "host/tables/table_file.hpp"
 
@@ -49,8 +51,28 @@ struct TablesOptions {
   std::string verifyPath;
 };
 
+/// What the tables are good for and the finger is not.
+void warn(const config::FingerConfig& config, const tables::SelfCheck& check) {
+  if (config::isSparse(config))
+    fmt::print(
+        stderr,
+        "tables: warning: at the surface the gauges are {:.2g} times their depth apart (gauges.count, "
+        "gauges.radius_m); beyond {} sigmas are too small between gauges, and no touch tells which gauge "
+        "fails: use more gauges, or deeper ones\n",
+        config::pitchInDepths(config), config::kSparse);
+  const double most_n = 2 * check.halfScale_n_per_m * config.finger.length_m;
+  const double told_n = can::largestValues().normal_n;
+  if (most_n > told_n)
+    fmt::print(
+        stderr,
+        "tables: warning: the gauges read forces up to {:.3g} N (finger.length_m = {}), FORCE tells {} N "
+        "at most\n",
+        most_n, config.finger.length_m, told_n);
+}
+
 void make(const TablesOptions& options) {
-  const auto [image, check] = tables::buildCheckedTables(options.common.config());
+  const config::FingerConfig config = options.common.config();
+  const auto [image, check] = tables::buildCheckedTables(config);
   if (!options.imagePath.empty()) writeFileAtomically(options.imagePath, tables::imageBytes(image));
   if (!options.headerPath.empty()) writeFileAtomically(options.headerPath, tables::imageHeader(image));
   fmt::print(
@@ -60,6 +82,7 @@ void make(const TablesOptions& options) {
       "none is misplaced\n",
       sizeof(image), image.constants.gauge_count, image.crc32, check.detected_n_per_m, check.contacts,
       100.0 * check.uncertain / check.contacts);
+  warn(config, check);
 }
 
 void showInfo(const TablesOptions& options) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/quantities.hpp"
@@ -128,6 +129,7 @@ struct FingerConfig {
   Calibration calibration;
   Tolerance tolerance;
   AsBuilt as_built;
+  std::string source = {};  ///< the file that it was read from, for messages; empty: none
 
   /// A gauge by the drawing.
   model::PlacedGauge drawn(int gauge) const { return {gauges.angle_rad(gauge), gauges.radius_m, 1}; }

@@ -60,10 +60,9 @@ std::vector<Key> makeKeys() {
       {"contact", "friction_coefficient", slot<&F::contact, &Contact::friction_coefficient>(),
        Domain::between(0, 10), "tangential load is at most this times the normal load"},
       {"contact", "width_m", slot<&F::contact, &Contact::width_m>(), Domain::between(0, 1),
-       "width over which a contact presses, uniformly, an arc of the surface (of a Hertzian contact 0.87 "
-       "times "
-       "its width); 0: a line load; at most largest_width_m; "
-       "left out: unknown, fitted with each touch"},
+       "known width of a contact, an arc of the surface: that of the uniform pressure with the same second "
+       "moment, 0.87 times a Hertzian contact's; readings are taken for those of a semi-ellipse with this "
+       "moment; 0: a line load; at most largest_width_m; left out: unknown, fitted with each touch"},
       {"contact", "largest_width_m", slot<&F::contact, &Contact::largest_width_m>(), Domain::above(0, 1),
        "widest contact that the tables cover; at most outer_radius_m"},
       {"can", "node", slot<&F::can, &Can::node>(), Domain::between(1, 63), "node number on the bus"},

@@ -91,6 +91,7 @@ FingerConfig readConfig(std::string_view text, const std::string& name) {
   checkSchema(root, kSchema);
   checkAllKeys(root);
   FingerConfig config;
+  config.source = name;
   for (const Key& key : keys())
     if (const toml::node* node = find(root, key.section, key.name))
       std::visit([&](auto slot) { readValue(*node, key, slot(config)); }, key.slot);

@@ -7,17 +7,13 @@
 #include <numeric>
 #include <vector>
 
+#include "host/config/bus_load.hpp"
 #include "host/config/keys.hpp"
 
 namespace strainfinger::config {
 namespace {
 
 using Config = const FingerConfig&;
-
-/// Bits on the bus of an 8-byte frame with an 11-bit identifier, stuffed at worst: 8 n + 44 fixed bits, 3 of
-/// interframe space, a stuff bit for every 4 of the 34 + 8 n - 1 that are subject to it.
-constexpr int kWorstFrame_bits = 8 * 8 + 44 + 3 + (34 + 8 * 8 - 1) / 4;
-constexpr int kFramesPerContact = 3;  ///< CONTACT, FORCE and PATCH; those of a second contact may wait
 
 /// Gaps between neighbours, over that of an even ring. Gauges that are nearer tell the same twice; in a gap
 /// that is wider a touch is nearly out of sight.
@@ -155,8 +151,7 @@ Relation contactsFitOnTheBus() {
             return fmt::format(
                 "can.contact_rate_hz = {} needs up to {} bit/s, more than can.bitrate = {}; it must be at "
                 "most {}",
-                c.can.contact_rate_hz, contactLoad_bps(c.can), c.can.bitrate,
-                c.can.bitrate / (kFramesPerContact * kWorstFrame_bits));
+                c.can.contact_rate_hz, contactLoad_bps(c.can), c.can.bitrate, fastestContactRate_hz(c.can));
           }};
 }
 

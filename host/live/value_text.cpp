@@ -64,7 +64,8 @@ std::string angleText(const can::ContactReport& contact) {
 }
 
 std::string normalText(const can::ContactReport& contact) {
-  return measured({contact.normal_n}, {contact.sigmaNormal_n, can::largestValues().sigmaNormal_n}, 3, "N");
+  return measured({contact.normal_n, can::largestValues().normal_n},
+                  {contact.sigmaNormal_n, can::largestValues().sigmaNormal_n}, 3, "N");
 }
 
 std::string tangentialText(const can::ContactReport& contact) {

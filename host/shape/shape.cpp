@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "host/config/sparse_ring.hpp"
 #include "host/config/unseen_errors.hpp"
 #include "host/shape/quantiles.hpp"
 
@@ -66,7 +67,7 @@ void ShapeEstimator::addMeasures(const TouchFit& noisy, Shape& shape) const {
   const double most = std::max(0.0, moment) + kOneSided95 * sigma, radius_m = model_.outerRadius_m();
   shape.widthLimit_m = radius_m * equivalentWidth_rad(std::min(most, TouchModel::kMostMoment_rad2));
   shape.isWidthAtLimit = fit.isAtLimit;
-  shape.isSparse = model_.pitchInDepths() > kSparse;
+  shape.isSparse = model_.pitchInDepths() > config::kSparse;
   if (shape.isSparse || !(moment * moment > kSure * sigma * sigma) || moment < 0) return;
   const double width_rad = equivalentWidth_rad(moment), logSlope = 1 / (2 * moment);
   shape.width_m = {radius_m * width_rad, radius_m * width_rad * logSlope * sigma};

@@ -41,8 +41,8 @@ struct Shape {
   /// Of residuals as large as these or larger from noise alone; with a width those of the best profile.
   double fitProbability = 0;
   std::optional<double> rivalAngle_rad;
-  /// The ring's pitch is above kSparse: then there is neither width nor class, and answers may be farther off
-  /// than their sigmas say.
+  /// The ring's pitch is above config::kSparse: then there is neither width nor class, and answers may be
+  /// farther off than their sigmas say.
   bool isSparse = false;
   /// Another profile fits the readings too, and has a load, place or width outside its band of 95 %: what is
   /// estimated is that of an elliptic pressure, if it is one.
@@ -52,10 +52,6 @@ struct Shape {
 
 /// Below this probability residuals are not noise: two touches, a bad gauge, another noise.
 inline constexpr double kUnlikely = 1e-3;
-
-/// Depths of the gauges: in a ring of that pitch at the surface and more a touch between two gauges is seen
-/// by both alike whatever its width.
-inline constexpr double kSparse = 2;
 
 /// The estimator of one finger. Immutable; costs 20 ms to make, 70 ms for 32 gauges.
 class ShapeEstimator {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "firmware/core/judge.hpp"
 #include "host/base/failure.hpp"
 #include "host/tables/self_check.hpp"
 
@@ -43,13 +44,17 @@ std::string figuresOf(const TableParameters& p) {
 }
 
 /// Wherever the gauges are, and however many.
-[[noreturn]] void refuseNoise(const TableParameters& p, const SelfCheck& check) {
-  throw Failure(
-      ExitCode::kUsage,
-      fmt::format("contacts cannot be located with this noise: where the gauges see it worst a "
-                  "contact drowns in noise up to {:.3g} N/m, beyond half of full scale ({:.3g} N/m); "
-                  "gauges.noise_strain = {} is too large for gauges.full_scale_strain = {}",
-                  check.detected_n_per_m, check.halfScale_n_per_m, p.noise_strain, p.full_scale_strain));
+[[noreturn]] void refuseNoise(const TableParameters& p, const std::string& reason) {
+  throw Failure(ExitCode::kUsage,
+                fmt::format("contacts cannot be located with this noise: {}; gauges.noise_strain = {} is too "
+                            "large for gauges.full_scale_strain = {}",
+                            reason, p.noise_strain, p.full_scale_strain));
+}
+
+/// The weaker contacts that are tried are too near the noise to be sure of, whatever the ring.
+bool areWeakOnesFaint(const TableParameters& p) {
+  const double reading_strain = SelfCheck::kWeakerLoad / 2 * p.full_scale_strain;
+  return reading_strain * reading_strain < firmware::threshold::kWeakSignal * p.noise_strain * p.noise_strain;
 }
 
 std::string placeOf(const TableParameters& p, const Misplaced& m) {
@@ -66,9 +71,19 @@ std::string placeOf(const TableParameters& p, const Misplaced& m) {
 
 void requireLocatable(const TableImage& image, const SelfCheck& check) {
   if (check.misplaced) refuse(image, placeOf(image.parameters, *check.misplaced));
-  if (!(check.detected_n_per_m <= check.halfScale_n_per_m)) refuseNoise(image.parameters, check);
-  if (check.uncertain > kMostUncertain * check.contacts)
-    refuse(image, fmt::format("{} of {} contacts have no certain answer", check.uncertain, check.contacts));
+  if (!(check.detected_n_per_m <= check.halfScale_n_per_m))
+    refuseNoise(
+        image.parameters,
+        fmt::format("where the gauges see it worst a contact drowns in noise up to {:.3g} N/m, beyond "
+                    "half of full scale ({:.3g} N/m)",
+                    check.detected_n_per_m, check.halfScale_n_per_m));
+  if (check.uncertain <= kMostUncertain * check.contacts) return;
+  const std::string reason =
+      fmt::format("{} of {} contacts have no certain answer", check.uncertain, check.contacts);
+  if (areWeakOnesFaint(image.parameters))
+    refuseNoise(image.parameters, fmt::format("{}, as those of {:.3g} N/m are too near it", reason,
+                                              SelfCheck::kWeakerLoad * check.halfScale_n_per_m));
+  refuse(image, reason);
 }
 
 }  // namespace strainfinger::tables

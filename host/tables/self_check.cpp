@@ -9,6 +9,7 @@
 #include "common/fixed_real.hpp"
 #include "firmware/core/detect.hpp"
 #include "firmware/core/estimate.hpp"
+#include "host/base/failure.hpp"
 #include "host/model/impulse_response.hpp"
 #include "host/model/touch_load.hpp"
 #include "host/tables/readings.hpp"
@@ -29,7 +30,7 @@ constexpr Grid kFitted{8, 4}, kKnown{16, 8};
 constexpr double kWrong_pitch = 1.0 / 8;  ///< right answers are a hundred times nearer
 constexpr double kModelTolerance = 1e-9;  ///< of the model: below a step of StrainQ32 at half of full scale
 /// Loads, of half of full scale: weak contacts are judged with more doubt, so the locator goes other ways.
-constexpr std::array kLoads{1.0, 1.0 / 8};
+constexpr std::array kLoads{1.0, SelfCheck::kWeakerLoad};
 /// Widths that are fitted, of the largest. Wider contacts have rivals that full scale does not tell apart.
 constexpr std::array kWidths{0.0, 3.0 / 8};
 
@@ -159,11 +160,14 @@ class Trials {
 
 SelfCheck selfCheck(const TableImage& image) { return Trials(image).run(); }
 
-CheckedTables buildCheckedTables(const config::FingerConfig& config) {
+CheckedTables buildCheckedTables(const config::FingerConfig& config) try {
   CheckedTables tables{buildTableImage(config), {}};
   tables.check = selfCheck(tables.image);
   requireLocatable(tables.image, tables.check);
   return tables;
+} catch (const Failure& failure) {
+  if (config.source.empty()) throw;
+  throw Failure(failure.code(), config.source + ": " + failure.what());
 }
 
 }  // namespace strainfinger::tables

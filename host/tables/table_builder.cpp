@@ -11,6 +11,7 @@
 #include "firmware/core/judge.hpp"
 #include "host/base/failure.hpp"
 #include "host/config/keys.hpp"
+#include "host/config/sparse_ring.hpp"
 #include "host/config/unseen_errors.hpp"
 #include "host/tables/gauge_depths.hpp"
 #include "host/tables/gauge_gains.hpp"
@@ -156,6 +157,7 @@ void fillMoments(TableConstants& constants, const config::FingerConfig& config,
         (2 << (15 + 8)) / (constants.cell_edge_q15[k + 1] - constants.cell_edge_q15[k]));
   constants.largest_moment_um2 = rounded<std::uint32_t>(responses.largestMoment_m2 * 1e12);
   constants.width_is_known = contact.width_m ? 1 : 0;
+  constants.is_sparse = config::isSparse(config) ? 1 : 0;
   constants.known_moment_q20 = contact.width_m.value_or(0) > 0 ? 1u << kMomentBits : 0;
   if (responses.largestMoment_m2 > 0)
     constants.moment_error_q16 =

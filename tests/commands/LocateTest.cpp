@@ -159,6 +159,11 @@ TEST(LocateCommand, ReadingsBeyondFullScaleAreLeftOutAsClippedOnesAre) {
   }
 }
 
+// Strains are less the finger's zero, so a gauge may stop before full scale.
+TEST(LocateCommand, ReadingsThatTheZeroMovedOffTheEndOfTheRangeAreLeftOut) {
+  CHECK_COMPARE(checkFirmTouches(1.1 * 0.03, {-0.0297, 0.0297}, "refined"), >=, 6);
+}
+
 TEST(LocateCommand, ATouchWithNoReadingLeftIsStillATouch) {
   std::string clipped;
   for (int gauge = 0; gauge < 16; ++gauge) clipped += gauge % 3 == 0 ? "0.03," : "-0.5,";

@@ -47,3 +47,14 @@ TEST(RequestCommands, ThereIsSomethingToConfigure) {
 TEST(RequestCommands, TheConfigFileIsRead) {
   checkRefused("tare --can nocan7 -c /nowhere.toml", 2, "/nowhere.toml");
 }
+
+// Which the finger does not know: it has no idea of the bit rate.
+TEST(RequestCommands, ARateThatTheBusCannotCarryIsRefused) {
+  const Run run = runShell(R"sh(config=$(mktemp) && trap 'rm $config' EXIT
+printf 'schema = 1\n[can]\nbitrate = 125000\ncontact_rate_hz = 200\n' >$config
+"$STRAINFINGER" config -c $config --can nocan7 --contact-rate-hz 309; echo $?
+"$STRAINFINGER" config -c $config --can nocan7 --contact-rate-hz 308; echo $?)sh");
+  STRCMP_EQUAL("2\n3\n", run.out.c_str());
+  STRCMP_CONTAINS("config: --contact-rate-hz 309: at can.bitrate = 125000 the bus carries 308 at most",
+                  run.err.c_str());
+}

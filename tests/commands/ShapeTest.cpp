@@ -119,6 +119,25 @@ TEST(ShapeCommand, ALineHasALimitOfItsWidthOnly) {
   STRCMP_EQUAL("width class odd-part", shape[14].c_str());
 }
 
+// The gauge next to the touch stops at the end of its range.
+TEST(ShapeCommand, ReadingsAtTheEndOfTheRangeAreLeftOut) {
+  std::string row = readings("--normal-n-per-m 60 --tangential-n-per-m 5 --contact-deg 91");
+  auto cells = cellsOf(row);
+  CHECK_TRUE(std::stod(cells[4]) < -0.027);
+  cells[4] = "-0.0297";
+  row.clear();
+  for (const std::string& cell : cells) row += (row.empty() ? "" : ",") + cell;
+  const auto shape = shapeOf("", row);
+  STRCMP_EQUAL("saturated", shape[17].c_str());
+  DOUBLES_EQUAL(91, std::stod(shape[1]), 3 * std::stod(shape[6]));
+  DOUBLES_EQUAL(60, std::stod(shape[2]), 3 * std::stod(shape[7]));
+}
+
+TEST(ShapeCommand, OfHalfTheGaugesAtTheEndOfTheirRangeNothingIsTold) {
+  STRCMP_EQUAL("1,,,,,,,,,,,,,,,,,saturated,,",
+               rowOf("", ".03,.03,.03,.03,.03,.03,.03,.03,.03,0,0,0,0,0,0,0\n").c_str());
+}
+
 TEST(ShapeCommand, AnUntouchedFingerHasNoShape) {
   const std::string none = "0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n";
   STRCMP_EQUAL("0,,,,,,,,,,,,,,,,,,,", rowOf("", none).c_str());

@@ -93,3 +93,28 @@ TEST(TablesCommand, NoiseBelowTheConvertersIsRefusedByEveryCommandThatNeedsTable
 }
 
 TEST(TablesCommand, WithoutAnythingToDoSaysHow) { checkEnds(2, "-o FILE", "\"$STRAINFINGER\" tables"); }
+
+// What a user finds out only when the finger is built.
+TEST(TablesCommand, WarnsOfSparseRingsAndOfForcesBeyondTheFrames) {
+  const Run sparse = inFolder(
+      "printf 'schema = 1\n[gauges]\ncount = 12\n' >few.toml && \"$STRAINFINGER\" tables -c few.toml -o "
+      "few.tables");
+  LONGS_EQUAL(0, sparse.status);
+  STRCMP_CONTAINS("tables: warning: at the surface the gauges are 2 times their depth apart",
+                  sparse.err.c_str());
+  const Run strong = inFolder(
+      "printf 'schema = 1\n[finger]\nlength_m = 1\n' >long.toml && \"$STRAINFINGER\" tables -c long.toml -o "
+      "l.tables");
+  STRCMP_CONTAINS("up to 65.1 N (finger.length_m = 1), FORCE tells 32.767 N at most", strong.err.c_str());
+  const Run plain = inFolder("\"$STRAINFINGER\" tables -o plain.tables");
+  CHECK_TRUE(plain.err.find("warning") == std::string::npos);
+}
+
+TEST(TablesCommand, WhatTheFirmwareCannotDoNamesTheConfig) {
+  checkEnds(2, "narrow.toml: contact.largest_width_m = 5e-05: the firmware fits widths when it is from",
+            "printf 'schema = 1\n[contact]\nlargest_width_m = 5e-5\n' >narrow.toml && "
+            "\"$STRAINFINGER\" tables -c narrow.toml -o x");
+  checkEnds(2, "gauges.noise_strain = 6e-06 is too large for gauges.full_scale_strain = 0.005",
+            "printf 'schema = 1\n[gauges]\nfull_scale_strain = 0.005\n' >low.toml && "
+            "\"$STRAINFINGER\" tables -c low.toml -o x");
+}

@@ -59,7 +59,7 @@ TEST(TableImage, TheChecksumIsOfEverythingBehindTheHeader) {
 }
 
 TEST(TableImage, WhatIsWrongFirstIsNamed) {
-  image_->constants.reserved = 1;
+  image_->constants.is_sparse = 1;
   checkFault(TableFault::kChecksum);
   image_->image_bytes -= 1;
   checkFault(TableFault::kLength);

@@ -1,5 +1,6 @@
 #include "firmware/core/pipeline.hpp"
 
+#include <memory>
 #include <numbers>
 
 #include "host/simulation/converter.hpp"
@@ -179,4 +180,21 @@ TEST(Pipeline, AGaugeThatWorksAgainCountsAgain) {
   UNSIGNED_LONGS_EQUAL(0, pipeline.observation().outOfUse);
   UNSIGNED_LONGS_EQUAL(0, pipeline.observation().leftOut);
   UNSIGNED_LONGS_EQUAL(ring.allGauges(), pipeline.linearisation().hypothesis.gauges);
+}
+
+// Where the gauges are too far apart for their depth, a touch between two may look like another gauge's
+// failure.
+TEST(Pipeline, NoTouchConvictsAGaugeOfASparseRing) {
+  const auto tables = std::make_unique<TableImage>(ring.tables());
+  for (const bool isSparse : {false, true}) {
+    tables->constants.is_sparse = isSparse;
+    pipeline = Pipeline(*tables, FitMode::kRefined);
+    for (double position_pitch = 3.6; position_pitch < 6.6; position_pitch += 0.2) {
+      auto strains = ring.strains(Press{position_pitch, 20, 3, 1});
+      strains[5] = 0;
+      process(strains, 600);
+      release();
+    }
+    UNSIGNED_LONGS_EQUAL(isSparse ? 0 : 1u << 5, pipeline.observation().outOfUse);
+  }
 }

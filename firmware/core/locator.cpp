@@ -329,7 +329,6 @@ void Locator::goOn(const TableImage& tables, const ScaledReadings& readings, int
 }
 
 std::optional<Suspect> Locator::lookBack(const TableImage& tables) {
-  if (!search_.isBegun()) return std::nullopt;
   if (!search_.isDone()) {
     search_.advance(tables, Search::kWork, scratch_);
     return std::nullopt;

@@ -62,9 +62,9 @@ class Locator {
   /// Nothing touches the finger any more: the answer is forgotten, while a search goes on with the readings
   /// that it has (lookBack()).
   void endTouch() { forget(); }
-  /// After endTouch(), once a sample set: a part of the search that goes on. Once it is over, the gauge
-  /// without which one contact explains its readings, if there is one. Cost: that of an update, while it goes
-  /// on.
+  /// After endTouch(), while isSearching(), once a sample set: a part of the search that goes on. Once it is
+  /// over, the gauge without which one contact explains its readings, if there is one. Cost: that of an
+  /// update, while it goes on.
   std::optional<Suspect> lookBack(const TableImage& tables);
 
   const Answer& answer() const { return answer_; }

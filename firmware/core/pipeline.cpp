@@ -92,6 +92,11 @@ void Pipeline::watchGauges() {
   watch_.vindicate(right & ~suspect, wrong);
 }
 
+/// What a touch that ended says of the gauges.
+void Pipeline::lookBack() {
+  if (const auto suspect = locator_.lookBack(*tables_)) watch_.suspect(suspect->gauge, suspect->angle_q32);
+}
+
 /// The codes are those of the last set of a touch, and the answer to them is found.
 bool Pipeline::isKnown(Codes codes) const {
   if (!locator_.isSettled()) return false;
@@ -148,12 +153,10 @@ void Pipeline::observe(Codes codes) {
     gate_ = {};
     watch_.implausiblyAtRail(observation_.saturated & working);
     settledSets_ = 0;
-    if (wasTouched)
-      locator_.endTouch();
-    else if (wasOverGate)
-      locator_.release();
-    else if (const auto suspect = locator_.lookBack(*tables_))
-      watch_.suspect(suspect->gauge, suspect->angle_q32);
+    if (wasOverGate)
+      wasTouched ? locator_.endTouch() : locator_.release();
+    else if (locator_.isSearching())
+      lookBack();
   }
 }
 

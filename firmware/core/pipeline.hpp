@@ -52,6 +52,7 @@ class Pipeline {
   std::span<const std::int32_t> strains() const { return readings_.strains(constants().gauge_count); }
   void locate(GaugeSet gauges);
   void watchGauges();
+  void lookBack();
   bool isKnown(Codes codes) const;
   void observe(Codes codes);
   bool isDisturbance(GaugeSet gauges);

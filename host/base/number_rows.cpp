@@ -14,13 +14,13 @@
 #include <string_view>
 #include <utility>
 
+#include "host/base/byte_order_mark.hpp"
 #include "host/base/failure.hpp"
 
 namespace strainfinger {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r";
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // UTF-8's, as spreadsheets begin their CSV
 constexpr std::array kOtherSeparators{std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}};
 /// What other programs write where there is no number; NaN and infinities are numbers to parseNumber().
 constexpr std::array kNoNumbers{"na", "n/a", "null", "none", "nil", "missing", "empty"};

@@ -8,6 +8,7 @@
 
 #include "host/base/atomic_file.hpp"
 #include "host/base/failure.hpp"
+#include "host/bench/csv_file.hpp"
 #include "host/bench/locator_report.hpp"
 
 using namespace strainfinger;
@@ -18,13 +19,6 @@ struct Options {
   std::string bundle, counts, folder;
   int contacts = 20'000;
 };
-
-void writeCsv(const std::string& path, const std::vector<bench::MethodResult>& results,
-              const bench::Counts& counts) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "w"), &std::fclose);
-  if (!file) throw Failure(ExitCode::kFailure, path + ": cannot write the file");
-  bench::writeLocatorCsv(file.get(), results, counts);
-}
 
 std::string textOf(const std::vector<bench::MethodResult>& results, const bench::Counts& counts,
                    int contacts) {
@@ -44,7 +38,8 @@ void run(const Options& options) {
   const std::string text = textOf(results, counts, options.contacts);
   std::fputs(text.c_str(), stdout);
   writeFileAtomically(options.folder + "/locators.md", text);
-  writeCsv(options.folder + "/locators.csv", results, counts);
+  bench::writeCsvFile(options.folder + "/locators.csv",
+                      [&](std::FILE* file) { bench::writeLocatorCsv(file, results, counts); });
   for (const char* ending : {".svg", ".png"})
     draw(locatorPicture(results, counts), options.folder + "/locators" + ending);
 }

@@ -5,6 +5,7 @@
 
 #include "host/base/atomic_file.hpp"
 #include "host/base/failure.hpp"
+#include "host/bench/csv_file.hpp"
 #include "host/bench/error_pages.hpp"
 
 using namespace strainfinger;
@@ -16,16 +17,11 @@ struct Options {
   bench::SweepSettings settings;
 };
 
-void writeCsv(const std::string& path, const std::vector<bench::ErrorCell>& cells) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "w"), &std::fclose);
-  if (!file) throw Failure(ExitCode::kFailure, path + ": cannot write the file");
-  bench::writeErrorCsv(file.get(), cells);
-}
-
 void run(const Options& options) {
   const auto cells = bench::errorSweeps(options.settings);
   const std::string page = errorPage(cells, options.settings);
-  writeCsv(options.folder + "/errors.csv", cells);
+  bench::writeCsvFile(options.folder + "/errors.csv",
+                      [&](std::FILE* file) { bench::writeErrorCsv(file, cells); });
   for (const char* ending : {".svg", ".png"}) {
     draw(bench::errorMapPicture(cells), options.folder + "/error_map" + ending);
     draw(bench::errorCurvesPicture(cells), options.folder + "/error_curves" + ending);

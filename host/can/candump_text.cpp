@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "host/base/byte_order_mark.hpp"
 #include "host/can/line_cursor.hpp"
 
 namespace strainfinger::can {
@@ -18,8 +19,6 @@ constexpr std::uint32_t kErrorFlag = 0x20000000;
 constexpr std::uint32_t kExtendedMask = 0x1FFFFFFF;
 constexpr std::size_t kClassicBytes = 8;
 constexpr std::size_t kFdBytes = 64;
-/// UTF-8's, as editors begin a file; of files one behind the other, in between too.
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::int64_t kLastSecond = 9'223'372'035;  // fits 64 bits of nanoseconds, whatever the fraction
 
 /// Reads a line from left to right. Every step returns false after it has noted what is wrong at at_.
@@ -34,7 +33,7 @@ class LineParser : private LineCursor {
 
  private:
   bool parseLine() {
-    skip(kByteOrderMark);
+    skip(kByteOrderMark);  // of files one behind the other, in between too
     if (peek() == '\t') return true;
     skipBlanks();
     if (atEnd()) return true;

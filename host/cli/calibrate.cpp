@@ -25,7 +25,6 @@
 #include "host/cli/calibrate_live.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/model_options.hpp"
 #include "host/config/write_config.hpp"
 #include "host/session/recorded.hpp"
 
@@ -89,11 +88,11 @@ struct CalibrateOptions {
         .add_option("--load-error", errors.load,
                     "Standard deviation of known loads, relative to the normal load (default 0.01)")
         ->type_name("SHARE")
-        ->check(realFrom(0, 1));
+        ->check(isFrom(0, 1));
     command
         .add_option("--angle-error-deg", errors.angle_deg, "Standard deviation of known angles (default 0.5)")
         ->type_name("DEG")
-        ->check(realFrom(0, 90));
+        ->check(isFrom(0, 90));
     auto* const whole = command.add_flag("--summary", summary, "Prints one row of the whole finger");
     auto* const each =
         command.add_flag("--rows", rows, "Prints what became of each row of strains")->excludes(whole);

@@ -33,7 +33,8 @@ void requireGoodFileNames(const CLI::App& command);
 /// end. An empty path is no file.
 void requireFolderOf(const char* option, const std::string& path);
 
-/// A check of an option that is a number from `least` to `most`. CLI11's own lets NaN through.
+/// A check of an option that is a number from `least` to `most`, on a list of each of its elements. CLI11's
+/// own lets NaN through.
 CLI::Validator isFrom(double least, double most);
 
 /// Adds a subcommand whose options live in an Options (constructed with the subcommand; its members are what

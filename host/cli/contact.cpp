@@ -10,7 +10,6 @@
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/contact_options.hpp"
-#include "host/cli/model_options.hpp"
 #include "host/contact/paper_method.hpp"
 #include "host/contact/surface_motion.hpp"
 
@@ -40,7 +39,7 @@ struct ContactCommand {
                          "Angles to look at, from the indenter's normal [degrees], separated by commas")
              ->type_name("a,b")
              ->delimiter(',')
-             ->check(realFrom(-180, 180));
+             ->check(isFrom(-180, 180));
     command.add_option("--points", points, "Or: so many, evenly over twice the contact's width (400)")
         ->type_name("N")
         ->check(CLI::Range(1, 1'000'000))
@@ -53,7 +52,7 @@ struct ContactCommand {
         command
             .add_option("--cutoff", paper.cutoff,
                         "Of --method paper: singular values from there on, relative (0.1)")
-            ->check(realFrom(0, 1)),
+            ->check(isFrom(0, 1)),
         command
             .add_option("--rows", rows,
                         "Of --method paper: printed, the paper's even points, or gauss: the continuum")

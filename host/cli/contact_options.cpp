@@ -9,7 +9,7 @@
 #include "host/base/failure.hpp"
 #include "host/base/number_rows.hpp"
 #include "host/base/read_file.hpp"
-#include "host/cli/model_options.hpp"
+#include "host/cli/command.hpp"
 
 namespace strainfinger::cli {
 namespace {
@@ -121,7 +121,7 @@ ContactOptions::ContactOptions(CLI::App& command) {
   hasCentre = command.add_option("--centre-deg", centre_deg,
                                  "Holds the contact's centre there, from the indenter's normal [degrees]");
   for (CLI::Option* option : {hasWidth, hasLoad, hasFriction, hasTangential, hasCentre})
-    option->type_name("NUMBER")->check(realFrom(-1e12, 1e12));
+    option->type_name("NUMBER")->check(isFrom(-1e12, 1e12));
   hasWidth->excludes(hasLoad);
 }
 

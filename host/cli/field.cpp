@@ -10,7 +10,6 @@
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/contact_options.hpp"
-#include "host/cli/model_options.hpp"
 #include "host/contact/contact_field.hpp"
 
 namespace strainfinger::cli {
@@ -26,7 +25,7 @@ struct FieldOptions {
     const auto count = CLI::Range(2, 10'000);
     command.add_option("--radii", radii, "Number of radii, core and surface included (20)")->check(count);
     command.add_option("--angles", angles, "Number of angles (81)")->check(count);
-    const auto angle = realFrom(-180, 180);
+    const auto angle = isFrom(-180, 180);
     command.add_option("--from-deg", from_deg, "First angle [degrees] (-20)")->check(angle);
     command.add_option("--to-deg", to_deg, "Last angle [degrees] (20)")->check(angle);
   }

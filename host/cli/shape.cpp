@@ -12,7 +12,6 @@
 #include "host/base/strain_rows.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/model_options.hpp"
 #include "host/config/over_range.hpp"
 #include "host/shape/partial_ring.hpp"
 #include "host/shape/quantiles.hpp"
@@ -50,7 +49,7 @@ struct ShapeOptions {
                    .add_option("--noise-strain", noise_strain,
                                "Standard deviation of a reading; the config's without it")
                    ->type_name("S")
-                   ->check(realFrom(1e-12, 0.1));
+                   ->check(isFrom(1e-12, 0.1));
     auto* const withPressure =
         command.add_flag("--pressure", pressure, "The pressure against the angle in place of the summary");
     command.add_option("--points", points, "Angles that --pressure prints a touch (41)")

@@ -29,8 +29,8 @@ constexpr int kMostPoints = 1'000'000;
 
 struct StrainOptions {
   explicit StrainOptions(CLI::App& command) : common(command) {
-    const auto load = realFrom(-kMostLoad_n_per_m, kMostLoad_n_per_m);
-    const auto angle = realFrom(-kMostAngle_deg, kMostAngle_deg);
+    const auto load = isFrom(-kMostLoad_n_per_m, kMostLoad_n_per_m);
+    const auto angle = isFrom(-kMostAngle_deg, kMostAngle_deg);
     command.add_option("--radius-m", radius_m, "Radius to look at [m]")->required()->type_name("R");
     command.add_option("--normal-n-per-m", normal_n_per_m, "Normal line load [N/m], positive when pressing")
         ->required()

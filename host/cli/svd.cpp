@@ -7,7 +7,6 @@
 #include "host/base/failure.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/model_options.hpp"
 #include "host/contact/slope_map.hpp"
 
 namespace strainfinger::cli {

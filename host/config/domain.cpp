@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace strainfinger::config {
 
@@ -21,10 +20,6 @@ Domain Domain::oneOf(std::vector<double> choices) {
   return domain;
 }
 
-Domain Domain::finite() {
-  return between(std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max());
-}
-
 bool Domain::contains(double value) const {
   const bool inside =
       (lowOpen_ ? value > low_ : value >= low_) && (highOpen_ ? value < high_ : value <= high_);
@@ -35,7 +30,6 @@ bool Domain::contains(double value) const {
 
 std::string Domain::text() const {
   if (!choices_.empty()) return fmt::format("one of {}", fmt::join(choices_, ", "));
-  if (high_ == std::numeric_limits<double>::max()) return "a finite number";
   if (even_) return fmt::format("even, {} to {}", low_, high_);
   if (lowOpen_) return fmt::format("greater than {}, at most {}", low_, high_);
   if (highOpen_) return fmt::format("at least {}, less than {}", low_, high_);

@@ -14,7 +14,6 @@ class Domain {
   static Domain below(double low, double high) { return {low, high, false, true}; }  ///< high excluded
   static Domain evenBetween(double low, double high);                                ///< whole even numbers
   static Domain oneOf(std::vector<double> choices);
-  static Domain finite();
 
   bool contains(double value) const;
   std::string text() const;  ///< completes "must be ..."

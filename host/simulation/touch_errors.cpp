@@ -24,10 +24,6 @@ TouchError errorOf(const can::TouchReport& report, const Touch& truth, const con
           .sigmaTangential_n_per_m = report.sigmaTangential_n / length_m};
 }
 
-double halfPitchArc_m(const config::FingerConfig& config) {
-  return std::numbers::pi / config.gauges.count * config.finger.outer_radius_m;
-}
-
 void Deviation::add(double value) {
   ++count_;
   squares_ += value * value;

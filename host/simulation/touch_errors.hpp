@@ -19,9 +19,6 @@ struct TouchError {
 };
 TouchError errorOf(const can::TouchReport& report, const Touch& truth, const config::Finger& finger);
 
-/// Half a pitch of the gauges as an arc of the surface: an answer that is off by more is on the wrong gauge.
-double halfPitchArc_m(const config::FingerConfig& config);
-
 /// Root mean square and largest magnitude of what was added.
 class Deviation {
  public:

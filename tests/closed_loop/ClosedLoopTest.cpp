@@ -109,7 +109,8 @@ TEST_GROUP(ClosedLoop) {
     const bool certain = report.flags.has(FingerFlag::kContact) && !report.flags.has(FingerFlag::kUncertain);
     if (!certain || report.quality_percent <= 20 || compared.truth.size() != 1) return;
     const TouchError error = errorOf(report, compared.truth[0], config.finger);
-    if (std::fabs(error.arc_m) > halfPitchArc_m(config)) ++result.gross;
+    const double halfPitch_m = std::numbers::pi / config.gauges.count * config.finger.outer_radius_m;
+    if (std::fabs(error.arc_m) > halfPitch_m) ++result.gross;
     const Triple errors(error.arc_m, error.normal_n_per_m, error.tangential_n_per_m);
     const Triple overBound = errors / bound.at(compared.truth[0]), pull = errors / bound.reported(error);
     for (int i = 0; i < 3; ++i) {

@@ -7,6 +7,7 @@
 
 #include "host/base/atomic_file.hpp"
 #include "host/base/failure.hpp"
+#include "host/bench/csv_file.hpp"
 #include "host/bench/matrix/matrix_page.hpp"
 #include "host/bench/matrix/matrix_rows.hpp"
 #include "host/bench/matrix/session.hpp"
@@ -21,19 +22,14 @@ struct Options {
   std::uint64_t seed = 3001;
 };
 
-void writeCsv(const std::string& path, const std::vector<bench::MatrixRow>& rows) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "w"), &std::fclose);
-  if (!file) throw Failure(ExitCode::kFailure, path + ": cannot write the file");
-  bench::writeMatrixCsv(file.get(), rows);
-}
-
 void run(const Options& options) {
   std::vector<bench::MatrixRow> rows;
   for (const bench::Disturbance& disturbance : bench::matrixRows())
     if (disturbance.name.find(options.only) != std::string::npos)
       rows.push_back({disturbance.name, tallyOf(disturbance, options.touches, options.seed)});
   const std::string page = matrixPage(rows, options.touches, options.seed);
-  writeCsv(options.folder + "/disturbances.csv", rows);
+  bench::writeCsvFile(options.folder + "/disturbances.csv",
+                      [&](std::FILE* file) { bench::writeMatrixCsv(file, rows); });
   writeFileAtomically(options.folder + "/disturbances.md", page);
   std::fputs(page.c_str(), stdout);
 }

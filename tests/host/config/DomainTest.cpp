@@ -26,9 +26,8 @@ TEST(Domain, EndsAreInOrOutAsSaid) {
 }
 
 TEST(Domain, NothingButFiniteNumbersIsEverInside) {
-  for (const auto& domain : {Domain::between(-1, 1), Domain::finite(), Domain::oneOf({1, 2})})
+  for (const auto& domain : {Domain::between(-1, 1), Domain::oneOf({1, 2})})
     for (const double value : {std::nan(""), HUGE_VAL, -HUGE_VAL}) CHECK_FALSE(domain.contains(value));
-  CHECK_TRUE(Domain::finite().contains(std::numeric_limits<double>::lowest()));
 }
 
 TEST(Domain, EvenAndListedNumbersOnly) {
@@ -45,5 +44,4 @@ TEST(Domain, WordsSayWhatIsInside) {
   checkText("at least 2, less than 4", Domain::below(2, 4));
   checkText("even, 12 to 32", Domain::evenBetween(12, 32));
   checkText("one of 1, 5", Domain::oneOf({1, 5}));
-  checkText("a finite number", Domain::finite());
 }

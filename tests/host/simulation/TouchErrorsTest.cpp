@@ -44,12 +44,6 @@ TEST(TouchErrors, TheArcIsTheShortWayAroundInAnyRevolution) {
   DOUBLES_EQUAL(2 * kRad * 0.01, errorOf(report(1), {(720 - 1) * kRad, 1, 0}, finger).arc_m, 1e-12);
 }
 
-TEST(TouchErrors, HalfAPitchOfSixteenGaugesIsAThirtySecondOfTheSurface) {
-  config::FingerConfig config;
-  config.finger.outer_radius_m = 0.016;
-  DOUBLES_EQUAL(std::numbers::pi * 1e-3, halfPitchArc_m(config), 1e-12);
-}
-
 TEST(TouchErrors, ADeviationHasRmsAndLargestMagnitude) {
   Deviation deviation;
   deviation.add(3);

@@ -336,7 +336,8 @@ std::optional<Suspect> Locator::lookBack(const TableImage& tables) {
   const bool isFound = conclude(tables);
   const Answer found = answer_;
   release();
-  if (!isFound || !found.accepted || found.suspect == 0) return std::nullopt;
+  // Without a contact that is felt firmly, one gauge's spike is all there was.
+  if (!isFound || !found.accepted || found.weak || found.suspect == 0) return std::nullopt;
   return Suspect{found.suspect, found.solution.contact[0].angle_q32};
 }
 

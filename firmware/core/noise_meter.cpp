@@ -30,9 +30,10 @@ void NoiseMeter::compare(const TableConstants& constants, std::span<const std::i
   const std::uint64_t ratio_q8 = (std::uint64_t{energy} << 9) / configuredEnergy(constants);
   const auto now_q8 = static_cast<std::uint32_t>(std::min<std::uint64_t>(ratio_q8, kLoudest_q8));
   const std::uint32_t most_q8 = kMostGrowth * std::max({recent_q8_[0], recent_q8_[1], kQuietest_q8});
-  const auto counted_q8 = static_cast<std::int32_t>(std::min(now_q8, most_q8));
-  recent_q8_ = {now_q8, recent_q8_[0]};
-  mean_q8_ += static_cast<std::uint32_t>((counted_q8 - static_cast<std::int32_t>(mean_q8_)) >> kMemory);
+  recent_q8_ = {std::min(now_q8, most_q8), recent_q8_[0]};
+  const std::int32_t change_q8 =
+      static_cast<std::int32_t>(recent_q8_[0]) - static_cast<std::int32_t>(mean_q8_);
+  mean_q8_ += static_cast<std::uint32_t>(change_q8 >> kMemory);
 }
 
 }  // namespace strainfinger::firmware

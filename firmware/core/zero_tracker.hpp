@@ -32,7 +32,8 @@ class ZeroTracker {
   /// `leftOut` teach nothing, and learn nothing of their own. `scratch` is overwritten at the end of an
   /// interval and in the sets up to kUntilFollowed. True: the zeros may have changed. Cost: two instructions
   /// a gauge in one of kEvery sets; after an untouched interval a coarse grid or a fit of at most kMostSteps
-  /// steps in one of kEvery sets, as soon as `isTimeLeft`: not while the locator looks at a disturbance.
+  /// steps in one of kEvery sets, as soon as `isTimeLeft`: not while the locator looks at a
+  /// disturbance, or back at a touch.
   bool take(const TableImage& tables, std::span<const std::int32_t> strains_q32, const Answer* answer,
             GaugeSet leftOut, Calibration& calibration, Linearisation& scratch, bool isTimeLeft = true) {
     if (age_sets_ != std::numeric_limits<std::uint32_t>::max()) ++age_sets_;

@@ -37,7 +37,8 @@ bool areOneFile(const std::string& one, const std::string& other) {
   std::error_code notThere;
   if (fs::exists(one, notThere) && fs::exists(other, notThere))
     return fs::is_regular_file(one, notThere) && fs::equivalent(one, other, notThere);
-  return fs::weakly_canonical(one, notThere) == fs::weakly_canonical(other, notThere);
+  const fs::path first = fs::weakly_canonical(one, notThere), second = fs::weakly_canonical(other, notThere);
+  return !first.empty() && first == second;
 }
 
 }  // namespace

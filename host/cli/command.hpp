@@ -25,8 +25,8 @@ class CommonOptions {
 };
 
 /// Throws Failure(kUsage) where an option that names a file (of a type name that begins with FILE) is given
-/// an empty name, or two name one file, so that one would be lost: only a config (FILE.toml) may take the
-/// place of the config that it was made from.
+/// an empty name, or two name one file: one would be lost, or is not what was meant; only a config
+/// (FILE.toml) may take the place of the config that it was made from.
 void requireGoodFileNames(const CLI::App& command);
 
 /// Throws Failure(kFailure) where a file cannot be made for want of its folder: before long work, not at its

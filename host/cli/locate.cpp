@@ -43,7 +43,7 @@ constexpr const char* kLocateHelp =
     "have from a calibration are applied to them. A "
     "reading within 5 % of the end of the converter's range (gauges.full_scale_strain; zeros move it) or "
     "beyond is "
-    "left out and the contact found by the others, as the firmware does.\n"
+    "left out and the contact found by the others, as the firmware does, which knows the rails themselves.\n"
     "stdout: one row a sample, of\n"
     "  contact: 1 or 0; where it is 0, or too few readings are left to tell where, the others are empty\n"
     "  angle_deg: degrees, 0 to 360\n"

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -17,12 +18,17 @@ using strainfinger::ExitCode;
 
 int finish(ExitCode code) { return static_cast<int>(code); }
 
-/// Control characters that came from a file or an argument, as text: they must not reach a terminal.
+/// Control characters that came from a file or an argument, as text: they must not reach a terminal. Those of
+/// Latin-1's upper half are C2 80 to C2 9F in UTF-8.
 std::string printable(std::string_view message) {
   std::string text;
-  for (const char c : message)
-    text += (static_cast<unsigned char>(c) >= 0x20 && c != 0x7F) || c == '\n' ? std::string(1, c)
-                                                                              : fmt::format("\\x{:02X}", c);
+  bool wasC2 = false;
+  for (const char each : message) {
+    const auto c = static_cast<unsigned char>(each);
+    const bool isControl = (c < 0x20 && c != '\n') || c == 0x7F || (wasC2 && c < 0xA0);
+    wasC2 = c == 0xC2;
+    text += isControl ? fmt::format("\\x{:02X}", c) : std::string(1, each);
+  }
   return text;
 }
 
@@ -70,7 +76,10 @@ int main(int argc, char** argv) {
     if (isUnknownCommand(app))
       return complain(ExitCode::kUsage,
                       app.remaining().front() + " is no command; strainfinger --help lists them");
-    return app.exit(error) == 0 ? finishOutput() : finish(ExitCode::kUsage);
+    std::ostringstream complaint;
+    const bool isHelp = app.exit(error, std::cout, complaint) == 0;
+    fmt::print(stderr, "{}", printable(complaint.str()));
+    return isHelp ? finishOutput() : finish(ExitCode::kUsage);
   } catch (const strainfinger::Failure& failure) {
     return complain(failure.code(), failure.what());
   } catch (const std::exception& error) {

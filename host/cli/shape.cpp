@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <string>
@@ -35,10 +36,11 @@ constexpr const char* kShapeHelp =
     "directions: of the pressure, above the noise. class: round, uniform, wedge or punch, if it fits "
     "better than the others by 9 in chi squared. unresolved: which of width, class and odd-part the "
     "strains don't tell. warnings: saturated (gauges within 5 % of the end of the converter's range, or "
-    "beyond, were left out; with half of them nothing else is told), ambiguous (another touch, at "
+    "beyond, were left out; with more than half of them nothing else is told), ambiguous (another touch, at "
     "rival_angle_deg, fits about as well: "
-    "bands of 95 % hold it, and no class is named), sparse (the gauges' pitch is twice their depth and "
-    "more: no width, and answers may be farther off than the sigmas say), misfit (residuals are not "
+    "bands of 95 % hold it, and no class is named), sparse (the gauges' pitch at the surface is more than "
+    "twice their depth: no width, and answers may be farther off than the sigmas say), misfit (residuals are "
+    "not "
     "noise: two touches, a bad gauge, another noise), profile (another class fits too, and has a value "
     "outside its band of 95 %), wide (wider than 1 rad, or narrower than a line).\n"
     "With --pressure: the resolved part of the pressure with its band of 95 %, and the ellipse fitted.";
@@ -133,20 +135,24 @@ struct Reading {
   std::int64_t sample;      ///< from 1
   std::vector<int> gauges;  ///< within their range
   Eigen::VectorXd strains;  ///< of these gauges, over their gains
+  double largest_strain;    ///< of all gauges, either sign, over its gain
 
   bool isClipped(const config::FingerConfig& config) const {
     return static_cast<int>(gauges.size()) < config.gauges.count;
   }
-  /// Half of the gauges at the end of their range: the rest tells no touch.
+  /// More than half of the gauges at the end of their range: the rest tells no touch.
   bool isTooFew(const config::FingerConfig& config) const {
     return 2 * static_cast<int>(gauges.size()) < config.gauges.count;
   }
 };
 
 Reading readingOf(const config::FingerConfig& config, const std::vector<double>& row, std::int64_t sample) {
-  Reading reading{sample, {}, {}};
-  for (int i = 0; i < config.gauges.count; ++i)
-    if (!config::isOverRange(config.gauges, row[static_cast<std::size_t>(i)])) reading.gauges.push_back(i);
+  Reading reading{sample, {}, {}, 0};
+  for (int i = 0; i < config.gauges.count; ++i) {
+    const double strain = row[static_cast<std::size_t>(i)];
+    reading.largest_strain = std::max(reading.largest_strain, std::abs(strain) / config.calibrated(i).gain);
+    if (!config::isOverRange(config.gauges, strain)) reading.gauges.push_back(i);
+  }
   reading.strains.resize(static_cast<Eigen::Index>(reading.gauges.size()));
   for (std::size_t k = 0; k < reading.gauges.size(); ++k)
     reading.strains[static_cast<Eigen::Index>(k)] =
@@ -187,8 +193,12 @@ void printShapes(const ShapeOptions& options, const config::FingerConfig& config
   shape::RingEstimators estimators(config);
   forEachReading(config, [&](const Reading& reading) {
     if (reading.isTooFew(config)) return table.row(unknownTouch(1, kClipped));
-    const auto shape = estimators.by(reading.gauges).estimate(reading.strains);
-    table.row(shape ? cellsOf(*shape, reading.isClipped(config)) : unknownTouch(0, ""));
+    const auto shape = estimators.by(reading.gauges).estimate(reading.strains, reading.largest_strain);
+    const bool isClipped = reading.isClipped(config);
+    if (shape)
+      table.row(cellsOf(*shape, isClipped));
+    else
+      table.row(isClipped ? unknownTouch(1, kClipped) : unknownTouch(0, ""));
   });
 }
 
@@ -199,7 +209,7 @@ void printPressures(const ShapeOptions& options, const config::FingerConfig& con
   forEachReading(config, [&](const Reading& reading) {
     if (reading.isTooFew(config)) return;
     const shape::ShapeEstimator& estimator = estimators.by(reading.gauges);
-    const auto shape = estimator.estimate(reading.strains);
+    const auto shape = estimator.estimate(reading.strains, reading.largest_strain);
     if (!shape) return;
     const double half_rad = estimator.pressedHalf_rad(*shape);
     const auto offsets_rad = Eigen::VectorXd::LinSpaced(options.points, -half_rad, half_rad);

@@ -54,12 +54,11 @@ struct TablesOptions {
 /// What the tables are good for and the finger is not.
 void warn(const config::FingerConfig& config, const tables::SelfCheck& check) {
   if (config::isSparse(config))
-    fmt::print(
-        stderr,
-        "tables: warning: at the surface the gauges are {:.2g} times their depth apart (gauges.count, "
-        "gauges.radius_m); beyond {} sigmas are too small between gauges, and no touch tells which gauge "
-        "fails: use more gauges, or deeper ones\n",
-        config::pitchInDepths(config), config::kSparse);
+    fmt::print(stderr,
+               "tables: warning: at the surface the gauges are {:.3g} times their depth apart (gauges.count, "
+               "gauges.radius_m); above {} times the errors told are too small between gauges, and no touch "
+               "tells which gauge fails: use more gauges, or deeper ones\n",
+               config::pitchInDepths(config), config::kSparse);
   const double most_n = 2 * check.halfScale_n_per_m * config.finger.length_m;
   const double told_n = can::largestValues().normal_n;
   if (most_n > told_n)

@@ -7,7 +7,7 @@
 
 namespace strainfinger::config {
 
-/// Depths of the gauges: in a ring of that pitch at the surface and more a touch between two gauges is seen
+/// Depths of the gauges: in a ring of a larger pitch at the surface a touch between two gauges is seen
 /// by both alike whatever its width.
 inline constexpr double kSparse = 2;
 

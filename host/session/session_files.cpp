@@ -74,6 +74,7 @@ std::string cellText(const std::optional<double>& value) { return value ? fmt::f
 
 SessionFiles::SessionFiles(const std::string& outputPath, int gauges)
     : strains_{besides(outputPath, ".strains.csv")}, touches_{besides(outputPath, ".touches.csv")} {
+  for (File* file : {&strains_, &touches_}) file->isNew = ::access(file->path.c_str(), F_OK) != 0;
   requireNoStranger(outputPath, strains_.path);
   strains_.descriptor = openToAppend(strains_.path);
   try {
@@ -88,7 +89,8 @@ SessionFiles::SessionFiles(const std::string& outputPath, int gauges)
 
 SessionFiles::~SessionFiles() {
   if (!hasRows_)
-    for (const File* file : {&strains_, &touches_}) ::unlink(file->path.c_str());
+    for (const File* file : {&strains_, &touches_})
+      if (file->isNew) ::unlink(file->path.c_str());
   ::close(strains_.descriptor);
   ::close(touches_.descriptor);
 }

@@ -12,7 +12,7 @@ class SessionFiles {
  public:
   /// Beside the config that the session is to write: of "cal.toml", cal.strains.csv and cal.touches.csv; of
   /// rings with so many gauges. Makes them, or goes on with what they hold; a row that a killed program left
-  /// half written is taken away. Files without a row don't stay. Throws Failure(kFailure), and changes
+  /// half written is taken away. New files without a row don't stay. Throws Failure(kFailure), and changes
   /// nothing, when the config is there already but not these, when they hold something else, or when another
   /// session writes them now.
   SessionFiles(const std::string& outputPath, int gauges);
@@ -34,6 +34,7 @@ class SessionFiles {
  private:
   struct File {
     std::string path;
+    bool isNew = true;
     int descriptor = -1;
   };
   void readRows(int gauges);

@@ -23,7 +23,8 @@ const ShapeEstimator& RingEstimators::by(const std::vector<int>& gauges) {
   auto& estimator = made_[gauges];
   if (!estimator) {
     const bool areAll = static_cast<int>(gauges.size()) == config_.gauges.count;
-    estimator = std::make_unique<const ShapeEstimator>(areAll ? config_ : withGauges(config_, gauges));
+    estimator = std::make_unique<const ShapeEstimator>(areAll ? config_ : withGauges(config_, gauges),
+                                                       config::isSparse(config_));
   }
   return *estimator;
 }

@@ -6,7 +6,6 @@
 #include <limits>
 #include <vector>
 
-#include "host/config/sparse_ring.hpp"
 #include "host/config/unseen_errors.hpp"
 #include "host/shape/quantiles.hpp"
 
@@ -30,16 +29,12 @@ Band bandOf(const Measured& curvature_per_m, double radius_m) {
 
 }  // namespace
 
-ShapeEstimator::ShapeEstimator(const config::FingerConfig& config)
+ShapeEstimator::ShapeEstimator(const config::FingerConfig& config, bool isSparse)
     : config_(config),
       model_(config),
       search_(model_, config.contact.friction_coefficient),
-      curvature_(config.finger.annulus()) {}
-
-double ShapeEstimator::deviation(const Eigen::VectorXd& strains) const {
-  return std::hypot(config_.gauges.noise_strain,
-                    config_.gauges.model_error * strains.lpNorm<Eigen::Infinity>());
-}
+      curvature_(config.finger.annulus()),
+      isSparse_(isSparse) {}
 
 void ShapeEstimator::addUnseenErrors(TouchFit& fit) const {
   const double radius_m = model_.outerRadius_m();
@@ -67,7 +62,7 @@ void ShapeEstimator::addMeasures(const TouchFit& noisy, Shape& shape) const {
   const double most = std::max(0.0, moment) + kOneSided95 * sigma, radius_m = model_.outerRadius_m();
   shape.widthLimit_m = radius_m * equivalentWidth_rad(std::min(most, TouchModel::kMostMoment_rad2));
   shape.isWidthAtLimit = fit.isAtLimit;
-  shape.isSparse = model_.pitchInDepths() > config::kSparse;
+  shape.isSparse = isSparse_;
   if (shape.isSparse || !(moment * moment > kSure * sigma * sigma) || moment < 0) return;
   const double width_rad = equivalentWidth_rad(moment), logSlope = 1 / (2 * moment);
   shape.width_m = {radius_m * width_rad, radius_m * width_rad * logSlope * sigma};
@@ -86,7 +81,7 @@ void ShapeEstimator::addClass(const TouchFit& ellipse, const Eigen::VectorXd& st
   };
   std::vector<Fitted> fits;
   for (const Profile profile : allProfiles())
-    fits.push_back({profile, refine(model_, profile, strains, deviation(strains), ellipse.touch)});
+    fits.push_back({profile, refine(model_, profile, strains, shape.deviation_strain, ellipse.touch)});
   std::ranges::sort(fits, {}, [](const Fitted& fitted) { return fitted.fit.chiSquared; });
   const auto fitsToo = [&](const Fitted& fitted) {
     return fitted.fit.chiSquared < fits[0].fit.chiSquared + kSure;
@@ -102,17 +97,19 @@ void ShapeEstimator::addClass(const TouchFit& ellipse, const Eigen::VectorXd& st
   }
 }
 
-std::optional<Shape> ShapeEstimator::estimate(const Eigen::VectorXd& strains) const {
-  const auto found = search_.search(strains, deviation(strains));
+std::optional<Shape> ShapeEstimator::estimate(const Eigen::VectorXd& strains, double largest_strain) const {
+  const double largest = std::max(largest_strain, strains.lpNorm<Eigen::Infinity>());
+  Shape shape;
+  shape.deviation_strain = std::hypot(config_.gauges.noise_strain, config_.gauges.model_error * largest);
+  const auto found = search_.search(strains, shape.deviation_strain);
   if (!found) return std::nullopt;
   const TouchFit& fit = found->best;
-  Shape shape;
   shape.touch = fit.touch;
   shape.fitProbability = probability(fit.chiSquared);
   addMeasures(fit, shape);
   if (shape.width_m && !found->rivalAngle_rad) addClass(fit, strains, shape);
   shape.rivalAngle_rad = found->rivalAngle_rad;
-  const ResolvedPressure resolved = resolution(shape, strains);
+  const ResolvedPressure resolved = resolution(shape);
   shape.directions = resolved.directions();
   shape.isOddResolved = resolved.isOddResolved();
   return shape;
@@ -122,13 +119,13 @@ double ShapeEstimator::pressedHalf_rad(const Shape& shape) const {
   return (shape.width_m ? shape.width_m->value : shape.widthLimit_m) / model_.outerRadius_m() / 2;
 }
 
-ResolvedPressure ShapeEstimator::resolution(const Shape& shape, const Eigen::VectorXd& strains) const {
-  return {model_, shape.touch, pressedHalf_rad(shape), deviation(strains)};
+ResolvedPressure ShapeEstimator::resolution(const Shape& shape) const {
+  return {model_, shape.touch, pressedHalf_rad(shape), shape.deviation_strain};
 }
 
 PressureEstimate ShapeEstimator::pressure(const Shape& shape, const Eigen::VectorXd& strains,
                                           const Eigen::VectorXd& offsets_rad) const {
-  return resolution(shape, strains).estimate(strains, offsets_rad);
+  return resolution(shape).estimate(strains, offsets_rad);
 }
 
 }  // namespace strainfinger::shape

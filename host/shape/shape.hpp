@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "host/config/sparse_ring.hpp"
 #include "host/shape/curvature.hpp"
 #include "host/shape/resolved_pressure.hpp"
 #include "host/shape/touch_search.hpp"
@@ -48,6 +49,8 @@ struct Shape {
   /// estimated is that of an elliptic pressure, if it is one.
   bool isOfEllipse = false;
   bool isWidthAtLimit = false;  ///< as wide or as narrow as the fit may go: the width is not to be trusted
+  /// Standard deviation of a reading from the model: noise, and the model error of these readings.
+  double deviation_strain = 0;
 };
 
 /// Below this probability residuals are not noise: two touches, a bad gauge, another noise.
@@ -58,11 +61,15 @@ class ShapeEstimator {
  public:
   /// Noise and model error are those of config.gauges, friction and component are the config's, gauges where
   /// its calibration says; its contact width isn't used.
-  explicit ShapeEstimator(const config::FingerConfig& config);
+  explicit ShapeEstimator(const config::FingerConfig& config)
+      : ShapeEstimator(config, config::isSparse(config)) {}
+  /// The same of a ring of which gauges were left out; whether it is sparse is a matter of the whole one.
+  ShapeEstimator(const config::FingerConfig& config, bool isSparse);
 
   /// Nothing if the finger isn't touched. Domain: a finite strain a gauge, less its zero and over its gain.
-  /// Costs 3 ms for 32 gauges in the default finger.
-  std::optional<Shape> estimate(const Eigen::VectorXd& strains) const;
+  /// `largest_strain`: of the touch, where it is a gauge's that was left out. Costs 3 ms for 32 gauges in the
+  /// default finger.
+  std::optional<Shape> estimate(const Eigen::VectorXd& strains, double largest_strain = 0) const;
 
   /// The resolved part of the pressure at offsets from the touch's angle, over its width, or over the limit
   /// of the width where there is none.
@@ -75,18 +82,17 @@ class ShapeEstimator {
   const TouchModel& model() const { return model_; }
 
  private:
-  ResolvedPressure resolution(const Shape& shape, const Eigen::VectorXd& strains) const;
+  ResolvedPressure resolution(const Shape& shape) const;
   void addMeasures(const TouchFit& noisy, Shape& shape) const;
   void addClass(const TouchFit& ellipse, const Eigen::VectorXd& strains, Shape& shape) const;
   double probability(double chiSquared) const;
   void addUnseenErrors(TouchFit& fit) const;
-  /// Standard deviation of a reading from the model: noise, and the model error of these readings.
-  double deviation(const Eigen::VectorXd& strains) const;
 
   config::FingerConfig config_;
   TouchModel model_;
   TouchSearch search_;
   CurvatureScale curvature_;
+  bool isSparse_;
 };
 
 }  // namespace strainfinger::shape

@@ -55,8 +55,6 @@ class TouchModel {
   double outerRadius_m() const { return outerRadius_m_; }
   /// Mean depth of the gauges below the surface over r_b: the scale of what they can tell apart.
   double depth() const { return depth_; }
-  /// The ring's pitch, an arc at the surface, over the gauges' depth.
-  double pitchInDepths() const { return 2 * std::numbers::pi / (gauges() * depth_); }
 
   /// Moments that a fit may try: down to where the series of the continued ellipse converges half as fast as
   /// a line load's, and up to a width of 1 rad.

@@ -62,6 +62,23 @@ ls; cat f.toml; "$STRAINFINGER" run --duration 0.1 --strains /dev/null --touches
                   run.err.c_str());
 }
 
+TEST(Main, AControlCharacterOfAnArgumentDoesntReachTheTerminal) {
+  for (const char* argument : {"\\033[31mX", "\\302\\23331mX"}) {
+    const Run run = runShell(std::string("\"$STRAINFINGER\" tables \"$(printf '") + argument +
+                             "')\"; "
+                             "\"$STRAINFINGER\" dbc -c \"$(printf '" +
+                             argument + "')\"");
+    LONGS_EQUAL(2, run.status);
+    CHECK_TRUE(run.err.find('\033') == std::string::npos && run.err.find('\233') == std::string::npos);
+    STRCMP_CONTAINS("31mX", run.err.c_str());
+  }
+}
+
+TEST(Main, NamesThatNoFileCanHaveAreNotTakenForOne) {
+  const std::string name(300, 'a');
+  checkRefused("dbc -c " + name + " -o b" + name, "cannot read");
+}
+
 // What a terminal would obey.
 TEST(Main, ControlCharactersOfAFileDontReachTheTerminal) {
   const Run run =

@@ -133,7 +133,24 @@ TEST(ShapeCommand, ReadingsAtTheEndOfTheRangeAreLeftOut) {
   DOUBLES_EQUAL(60, std::stod(shape[2]), 3 * std::stod(shape[7]));
 }
 
-TEST(ShapeCommand, OfHalfTheGaugesAtTheEndOfTheirRangeNothingIsTold) {
+// Of a finger that may be 5 % off, less readings tell less.
+TEST(ShapeCommand, WithoutItsLargestReadingATouchIsNoSurer) {
+  const std::string row = readings("--normal-n-per-m 64 --tangential-n-per-m 5 --contact-deg 90");
+  const auto sigmaOf = [&](const char* fullScale) {
+    const Run run = runShell(std::string("\"$STRAINFINGER\" shape -c <(printf 'schema = 1\n[gauges]\n"
+                                         "full_scale_strain = ") +
+                                 fullScale + "\n')",
+                             row);
+    return std::stod(cellsOf(run.out.substr(run.out.find('\n') + 1))[7]);
+  };
+  CHECK_COMPARE(sigmaOf("0.03"), >, 0.7 * sigmaOf("0.06"));
+}
+
+TEST(ShapeCommand, ATouchThatOnlyLeftOutGaugesFeelIsOne) {
+  STRCMP_EQUAL("1,,,,,,,,,,,,,,,,,saturated,,", rowOf("", ".03,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n").c_str());
+}
+
+TEST(ShapeCommand, OfMoreThanHalfTheGaugesAtTheEndOfTheirRangeNothingIsTold) {
   STRCMP_EQUAL("1,,,,,,,,,,,,,,,,,saturated,,",
                rowOf("", ".03,.03,.03,.03,.03,.03,.03,.03,.03,0,0,0,0,0,0,0\n").c_str());
 }

@@ -182,6 +182,32 @@ TEST(Pipeline, AGaugeThatWorksAgainCountsAgain) {
   UNSIGNED_LONGS_EQUAL(ring.allGauges(), pipeline.linearisation().hypothesis.gauges);
 }
 
+// A search goes on with what a tap read: three of them at three places convict.
+TEST(Pipeline, TapsConvictADeadGauge) {
+  for (const bool isSparse : {false, true}) {
+    const auto tables = std::make_unique<TableImage>(ring.tables());
+    tables->constants.is_sparse = isSparse;
+    pipeline = Pipeline(*tables, FitMode::kRefined);
+    for (const double position_pitch : {4.5, 5.3, 4.0, 5.9, 4.8, 5.5}) {
+      auto strains = ring.strains(Press{position_pitch, 30, 4, 0.5});
+      strains[5] = 0;
+      process(strains, 20);
+      process(std::vector<double>(16, 0.0), 700);
+    }
+    UNSIGNED_LONGS_EQUAL(isSparse ? 0 : 1u << 5, pipeline.observation().outOfUse);
+  }
+}
+
+TEST(Pipeline, SpikesOfAGaugeWithoutATouchConvictNone) {
+  for (int spike = 0; spike < 40; ++spike) {
+    std::vector<double> strains(16, 0.0);
+    strains[5] = spike % 2 == 0 ? 2e-3 : -2e-3;
+    process(strains, 2 + spike % 10);
+    process(std::vector<double>(16, 0.0), 700);
+    UNSIGNED_LONGS_EQUAL(0, pipeline.observation().outOfUse);
+  }
+}
+
 // Where the gauges are too far apart for their depth, a touch between two may look like another gauge's
 // failure.
 TEST(Pipeline, NoTouchConvictsAGaugeOfASparseRing) {

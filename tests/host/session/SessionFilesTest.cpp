@@ -57,9 +57,13 @@ TEST(SessionFiles, AreNamedWhereCalibrateSpeaksOfTouches) {
   STRCMP_EQUAL("gauge 3 is dead", files.named("gauge 3 is dead").c_str());
 }
 
-TEST(SessionFiles, WithoutRowsDontStay) {
+TEST(SessionFiles, WithoutRowsDontStayIfTheyAreNew) {
   { const SessionFiles files(config_, 3); }
   CHECK_FALSE(std::filesystem::exists(strains_) || std::filesystem::exists(touches_));
+  write(strains_, "");
+  { const SessionFiles files(config_, 3); }
+  CHECK_TRUE(std::filesystem::exists(strains_));
+  CHECK_FALSE(std::filesystem::exists(touches_));
 }
 
 TEST(SessionFiles, GoOnWithWhatIsThere) {

@@ -227,7 +227,7 @@ TEST(GaugeFault, ADeadGaugeIsNamedAfterSeveralTouchesThatItShouldFeel) {
 // Touches that end before the search for other answers does, which goes on with what they read.
 TEST(GaugeFault, TapsNameADeadGaugeToo) {
   const Outcome outcome = feel(Kind::kDead, 9, touchCount(300), {.touch = 60, .rest = 600});
-  CHECK_COMPARE(outcome.named, >=, touchCount(300) / 2);
+  CHECK_COMPARE(outcome.named, >=, 0.9 * touchCount(300));
   LONGS_EQUAL(0, outcome.wrong);
 }
 

@@ -33,6 +33,8 @@ SCENES = {
     "new_depths": "the same, depths known",
     "search": "the sets after it in which other answers are looked for",
     "search_depths": "the same, depths known",
+    "look_back": "untouched after a tap on a dead gauge, while the search goes on",
+    "look_back_depths": "the same, depths known",
 }
 KINDS = {
     "any_faint": "faint to firm, sliding",

@@ -178,6 +178,22 @@ void newTouches(const InstructionCounter& counter, const TableImage& tables, con
   }
 }
 
+/// Taps on a gauge that reads nothing, which end before the search for other answers: the untouched sets in
+/// which it goes on.
+void lookingBack(const InstructionCounter& counter, const TableImage& tables, const char* what) {
+  constexpr std::uint32_t kTaps = kUpdates / 40, kTapSets = 6, kLooked = 40;
+  CountedFinger& finger = newFinger(tables, counter);
+  for (std::uint32_t tap = 0; tap < kTaps; ++tap) {
+    Draws draws(tap);
+    const std::uint32_t angle = draws.next();
+    Deflections codes = pressed(firmContact(angle, kTwoMillimetres));
+    const auto nearest = static_cast<std::size_t>((std::uint64_t{angle} * kGauges + (1u << 31)) >> 32);
+    codes[nearest % kGauges] = 0;
+    for (std::uint32_t set = 0; set < kTapSets; ++set) finger.update(codes, draws.next());
+    for (std::uint32_t set = 0; set < kLooked; ++set) tell(what, finger.update(kUntouched, draws.next()));
+  }
+}
+
 /// What a finger may be given besides one contact, held for kTouch sets each.
 enum class Kind : std::uint8_t { kFaint, kPair, kDeadGauge, kHum, kAnyCodes, kEveryKind, kCount };
 constexpr const char* kKindNames[] = {"any_faint", "any_pair",  "any_dead",
@@ -264,6 +280,8 @@ void runBoard() {
   sliding(counter, tablesOfDepths(), kTwoMillimetres, "wide_depths");
   newTouches(counter, kLinkedTables, "new", "search");
   newTouches(counter, tablesOfDepths(), "new_depths", "search_depths");
+  lookingBack(counter, kLinkedTables, "look_back");
+  lookingBack(counter, tablesOfDepths(), "look_back_depths");
   constexpr auto kKinds = static_cast<std::uint32_t>(Kind::kCount);
   for (std::uint32_t kind = 0; kind < kKinds; ++kind)
     ofKind(counter, kLinkedTables, static_cast<Kind>(kind), kKindNames[kind], ofAnyKind / kKinds);

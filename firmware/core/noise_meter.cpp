@@ -15,8 +15,7 @@ std::uint64_t configuredEnergy(const TableConstants& constants) {
   return std::max<std::uint64_t>(constants.gauge_count * (variance_q1 + 1) / 2, 1);
 }
 
-/// What a comparison finds, over configured noise: as much as readings can differ; and as little as counts.
-constexpr std::uint32_t kLoudest_q8 = 1 << 24, kQuietest_q8 = 1 << 8;
+constexpr std::uint32_t kConfigured_q8 = 1 << 8;  ///< what configured noise makes of a comparison
 
 }  // namespace
 
@@ -29,10 +28,11 @@ void NoiseMeter::compare(const TableConstants& constants, std::span<const std::i
   // Halved changes of configured noise have half the energy of the noise itself.
   const std::uint64_t ratio_q8 = (std::uint64_t{energy} << 9) / configuredEnergy(constants);
   const auto now_q8 = static_cast<std::uint32_t>(std::min<std::uint64_t>(ratio_q8, kLoudest_q8));
-  const std::uint32_t most_q8 = kMostGrowth * std::max({recent_q8_[0], recent_q8_[1], kQuietest_q8});
-  recent_q8_ = {std::min(now_q8, most_q8), recent_q8_[0]};
-  const std::int32_t change_q8 =
-      static_cast<std::int32_t>(recent_q8_[0]) - static_cast<std::int32_t>(mean_q8_);
+  const auto [less_q8, more_q8] = std::minmax(recent_q8_[0], recent_q8_[1]);
+  const std::uint32_t median_q8 = std::clamp(recent_q8_[2], less_q8, more_q8);
+  const std::uint32_t counted_q8 = std::min(now_q8, kMostGrowth * std::max(median_q8, kConfigured_q8));
+  recent_q8_ = {now_q8, recent_q8_[0], recent_q8_[1]};
+  const std::int32_t change_q8 = static_cast<std::int32_t>(counted_q8) - static_cast<std::int32_t>(mean_q8_);
   mean_q8_ += static_cast<std::uint32_t>(change_q8 >> kMemory);
 }
 

@@ -13,9 +13,9 @@ namespace strainfinger::firmware {
 
 /// Compares readings kLag sample sets apart, once in kEvery: half a period of 50 Hz hum at 1 kHz, so that hum
 /// counts in full while drift and slow touches hardly do. What it finds raises the gate and the variance of
-/// the readings. A comparison counts for kMostGrowth
-/// times what the two before counted at most: a touch that is not told from a disturbance yet is a step or
-/// two, hum is in all of them. Cost: two instructions a gauge and sample set.
+/// the readings. A comparison counts for kMostGrowth times the median of the three before at most: a touch
+/// that is not told from a disturbance yet is a step or two, hum is in all of them. Cost: two instructions a
+/// gauge and sample set.
 class NoiseMeter {
  public:
   static constexpr int kEvery = 16;
@@ -41,12 +41,15 @@ class NoiseMeter {
   bool isNoisy() const { return variance_q4() >= kNoisy_q4; }
 
  private:
+  static constexpr std::uint32_t kLoudest_q8 = 1 << 24;  ///< of a comparison: readings differ no more
+
   void compare(const TableConstants& constants, std::span<const std::int32_t> strains_q32, GaugeSet gauges);
 
   std::array<std::int32_t, kMaxGauges> before_q32_{};
   GaugeSet compared_ = 0;
   std::uint32_t mean_q8_ = 1 << 8;
-  std::array<std::uint32_t, 2> recent_q8_{1 << 8, 1 << 8};  ///< what the last comparisons counted for
+  std::array<std::uint32_t, 3> recent_q8_{kLoudest_q8, kLoudest_q8,
+                                          kLoudest_q8};  ///< of the last comparisons
   std::uint8_t phase_ = 0;
 };
 

@@ -138,7 +138,7 @@ TEST(ShapeCommand, WithoutItsLargestReadingATouchIsNoSurer) {
   const std::string row = readings("--normal-n-per-m 64 --tangential-n-per-m 5 --contact-deg 90");
   const auto sigmaOf = [&](const char* fullScale) {
     const Run run = runShell(std::string("\"$STRAINFINGER\" shape -c <(printf 'schema = 1\n[gauges]\n"
-                                         "full_scale_strain = ") +
+                                         "adc_bits = 14\nfull_scale_strain = ") +
                                  fullScale + "\n')",
                              row);
     return std::stod(cellsOf(run.out.substr(run.out.find('\n') + 1))[7]);

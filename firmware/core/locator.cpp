@@ -65,7 +65,7 @@ bool isFarOff(const TableImage& tables, const Solution& solution, const ScaledRe
 
 }  // namespace
 
-void Locator::forget() {
+void Locator::endTouch() {
   tracking_ = guessed_ = false;
   answer_ = {};
 }

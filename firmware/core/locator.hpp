@@ -56,12 +56,12 @@ class Locator {
   void finishSearch(const TableImage& tables, std::span<const std::int32_t> strains_q32, GaugeSet gauges);
   /// Forgets the touch, and a search with it.
   void release() {
-    forget();
+    endTouch();
     search_.stop();
   }
   /// Nothing touches the finger any more: the answer is forgotten, while a search goes on with the readings
   /// that it has (lookBack()).
-  void endTouch() { forget(); }
+  void endTouch();
   /// After endTouch(), while isSearching(), once a sample set: a part of the search that goes on. Once it is
   /// over, the gauge without which one contact explains its readings, if there is one. Cost: that of an
   /// update, while it goes on.
@@ -83,7 +83,6 @@ class Locator {
  private:
   ContactStates expected(const TableConstants& constants) const;
   std::optional<int> follow(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
-  void forget();
   void start(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
   void settle(const TableImage& tables, const ScaledReadings& readings);
   void goOn(const TableImage& tables, const ScaledReadings& readings, int workDone);

@@ -2,7 +2,6 @@
 // What the ring's gauges read of a touch whose load is spread.
 
 #include <Eigen/Core>
-#include <numbers>
 
 #include "host/config/finger_config.hpp"
 #include "host/model/impulse_response.hpp"

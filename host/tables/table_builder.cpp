@@ -140,6 +140,7 @@ TableConstants tableConstants(const config::FingerConfig& config, const GaugeGai
   constants.cone_q8 = rounded<std::uint16_t>(frictionCone(config.contact) * 256);
   constants.model_error_q16 = fraction_q16(std::hypot(config.gauges.model_error, depthError));
   fillErrors(constants, config);
+  constants.is_sparse = config::isSparse(config) ? 1 : 0;
   constants.adc_rail = static_cast<std::uint16_t>(0xFFFF << (16 - config.gauges.adc_bits));
   constants.mirror_sign = config.gauges.component == StrainComponent::kShear ? -1 : 1;
   constants.peak_sign = static_cast<std::int8_t>(responses.peakSign);
@@ -157,7 +158,6 @@ void fillMoments(TableConstants& constants, const config::FingerConfig& config,
         (2 << (15 + 8)) / (constants.cell_edge_q15[k + 1] - constants.cell_edge_q15[k]));
   constants.largest_moment_um2 = rounded<std::uint32_t>(responses.largestMoment_m2 * 1e12);
   constants.width_is_known = contact.width_m ? 1 : 0;
-  constants.is_sparse = config::isSparse(config) ? 1 : 0;
   constants.known_moment_q20 = contact.width_m.value_or(0) > 0 ? 1u << kMomentBits : 0;
   if (responses.largestMoment_m2 > 0)
     constants.moment_error_q16 =

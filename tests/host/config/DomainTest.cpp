@@ -1,7 +1,6 @@
 #include "host/config/domain.hpp"
 
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include <CppUTest/TestHarness.h>

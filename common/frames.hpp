@@ -245,7 +245,8 @@ inline constexpr FrameLayout kLayout<ContactFrame>{
           {.lsb = 32, .width = 8, .unknowable = true},
           {.name = "alternative",
            .unit = "deg",
-           .comment = "Another angle that fits as well, relative to angle; not known: there is none"}},
+           .comment = "Another angle that fits as well, relative to angle; not known: there is none, or "
+                      "errors say enough"}},
     Field{&ContactFrame::flags,
           {.lsb = 40, .width = 8},
           {.name = "flags",

@@ -97,15 +97,15 @@ LineLoadQ12 loadOf(const TableConstants& constants, const Answer& answer, std::i
 /// A standard error of which three reach so far.
 constexpr Wide reaching(Wide sigma, Wide far) { return std::max(sigma, magnitude(far) / 3); }
 
-/// Errors reach a rival that the readings hardly tell from the answer. Ambiguous: the rival is farther away
-/// than the answer's own errors reached.
+/// Errors reach a rival that the readings hardly tell from the answer. Ambiguous: it is so far away that it
+/// is named as well, or noise may have told the wrong one, and the answer's own errors did not reach it.
 void coverRival(const TableConstants& constants, const Answer& answer, int contact, Contact& estimated) {
   if (!answer.rivalIsAsLikely) return;
   const ContactState& rival = answer.rival[index(contact)];
   const Wide turned_q32 = static_cast<std::int32_t>(rival.angle_q32 - estimated.angle.raw());
-  const Wide sigma_q32 = reaching(estimated.sigmaAngle.raw(), turned_q32);
-  if (sigma_q32 == estimated.sigmaAngle.raw()) return;
-  estimated.ambiguous = true;
+  const Wide own_q32 = estimated.sigmaAngle.raw(), sigma_q32 = reaching(own_q32, turned_q32);
+  estimated.ambiguous = magnitude(turned_q32) * constants.gauge_count >> 28 >= threshold::kNamed_16 ||
+                        (answer.rivalIsWithinNoise && sigma_q32 > own_q32);
   estimated.sigmaAngle = TurnQ32::fromRaw(static_cast<std::uint32_t>(sigma_q32));
   const auto cover = [&](LineLoadQ12& sigma, LineLoadQ12 told, Number amplitude) {
     const Wide off = Wide{loadOf(constants, answer, amplitude).raw()} - told.raw();

@@ -54,6 +54,12 @@ ContactStates inOrderOf(const Solution& solution, ContactStates contacts) {
   return contacts;
 }
 
+/// What is said of a rival that leaves so much more than the answer.
+void compare(Answer& answer, Wide more, Wide ambiguous, const Variances& variances) {
+  answer.rivalIsAsLikely = more < ambiguous;
+  answer.rivalIsWithinNoise = more < energyOf(variances.noise_q4, threshold::kAmbiguous);
+}
+
 /// The reading of a gauge that was left out is far from what the others predict.
 bool isFarOff(const TableImage& tables, const Solution& solution, const ScaledReadings& readings,
               GaugeSet leftOut, Linearisation& scratch) {
@@ -138,7 +144,7 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
 }
 
 void Locator::forgetRival() {
-  answer_.anyRival = answer_.rivalIsAsLikely = answer_.rivalIsLost = false;
+  answer_.anyRival = answer_.rivalIsAsLikely = answer_.rivalIsWithinNoise = answer_.rivalIsLost = false;
   answer_.timesRefuted = 0;
 }
 
@@ -191,7 +197,7 @@ int Locator::followRival(const TableImage& tables, const ScaledReadings& reading
   }
   answer_.timesRefuted = 0;
   answer_.rival = rival.contact;
-  answer_.rivalIsAsLikely = magnitude(more) < ambiguous;
+  compare(answer_, magnitude(more), ambiguous, readings.variances);
   if (more < 0 && rival.converged) {
     // The touch itself has not moved.
     searchedAt_q32_ += rival.contact[0].angle_q32 - answer.contact[0].angle_q32;
@@ -281,7 +287,7 @@ void Locator::rememberRival(const TableImage& tables, const Ranking& ranking,
   const Wide ambiguous = ambiguity(readings.variances, ranking.best);
   if (more > threshold::kRefuted * ambiguous) return;
   answer_.anyRival = true;
-  answer_.rivalIsAsLikely = more < ambiguous;
+  compare(answer_, more, ambiguous, readings.variances);
   answer_.rivalIsElsewhere =
       areElsewhere(tables.constants, ranking.best.hypothesis.contacts, ranking.best.contact, answer_.rival);
 }
@@ -295,7 +301,7 @@ void Locator::rememberFound(const TableConstants& constants, const Solution& fol
                                             threshold::kRefuted * ambiguity(readings.variances, followed))
     return;
   answer_.rival = inOrderOf(followed, found.contact);
-  answer_.anyRival = answer_.rivalIsAsLikely = answer_.rivalIsElsewhere = true;
+  answer_.anyRival = answer_.rivalIsAsLikely = answer_.rivalIsElsewhere = answer_.rivalIsWithinNoise = true;
 }
 
 /// Within what is left of an update's work.

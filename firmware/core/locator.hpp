@@ -28,11 +28,12 @@ struct Answer {
   Solution solution;
   std::int8_t shift = 0;  ///< of the readings
   Variances variances;
-  ContactStates rival;            ///< another answer of the same hypothesis
-  bool anyRival = false;          ///< there is one
-  bool rivalIsAsLikely = false;   ///< nearly, when it was last fitted, see ambiguity()
-  bool rivalIsElsewhere = false;  ///< when it was found, not another width of the same place
-  bool rivalIsLost = false;       ///< a search is to look for it
+  ContactStates rival;              ///< another answer of the same hypothesis
+  bool anyRival = false;            ///< there is one
+  bool rivalIsAsLikely = false;     ///< nearly, when it was last fitted, see ambiguity()
+  bool rivalIsWithinNoise = false;  ///< then: noise alone may have made the wrong one the likelier
+  bool rivalIsElsewhere = false;    ///< when it was found, not another width of the same place
+  bool rivalIsLost = false;         ///< a search is to look for it
   std::uint8_t timesRefuted = 0;
   bool doubtful = false;   ///< another hypothesis explains the readings nearly as well
   bool accepted = false;   ///< the hypothesis explains the readings

@@ -328,11 +328,54 @@ TEST(Estimate, ARivalThatIsFarLessLikelyIsNone) {
   CHECK_FALSE(estimated().uncertain);
 }
 
-TEST(Estimate, ARivalWithinTheAnswersOwnErrorsIsNoAmbiguity) {
+TEST(Estimate, ARivalWithinTheAnswersOwnErrorsDoesNotWidenThem) {
   const double alone = sigmaAngle_pitch(ring, estimated());
   setRival(2 * alone);
   CHECK_FALSE(estimated().ambiguous);
   DOUBLES_EQUAL(alone, sigmaAngle_pitch(ring, estimated()), 1e-9);
+}
+
+TEST(Estimate, ARivalNearByIsCoveredAndNotNamed) {
+  for (const double pitches : {0.37, -0.37}) {
+    setRival(pitches);
+    CHECK_FALSE(estimated().ambiguous);
+    CHECK_FALSE(estimated().uncertain);
+    DOUBLES_EQUAL(0.37 / 3, sigmaAngle_pitch(ring, estimated()), 1e-4);
+  }
+  for (const double pitches : {0.38, -0.38}) {
+    setRival(pitches);
+    CHECK_TRUE(estimated().ambiguous);
+  }
+}
+
+TEST(Estimate, ARivalNearByThatNoiseMayHaveHiddenIsNamed) {
+  const double alone = sigmaAngle_pitch(ring, estimated());
+  answer.rivalIsWithinNoise = true;
+  setRival(0.2);
+  CHECK_TRUE(estimated().ambiguous);
+  setRival(2 * alone);
+  CHECK_FALSE(estimated().ambiguous);
+}
+
+TEST(Estimate, ARivalFarAwayIsNamedHoweverLargeTheAnswersOwnErrorsAre) {
+  answer.variances.reading_q4 *= 1 << 16;
+  const double alone = sigmaAngle_pitch(ring, estimated());
+  CHECK_COMPARE(alone, >, 0.2);
+  setRival(0.5);
+  CHECK_TRUE(estimated().ambiguous);
+  DOUBLES_EQUAL(alone, sigmaAngle_pitch(ring, estimated()), 1e-9);
+}
+
+TEST(Estimate, ErrorsReachARivalOfAnotherWidthAtTheSamePlace) {
+  const Contact alone = estimated();
+  answer.rival[0] = answer.solution.contact[0];
+  answer.rival[0].moment_q20 += 1 << (kMomentBits - 2);
+  answer.rival[0].normal *= 2;
+  setRival(0);
+  const Contact contact = estimated();
+  CHECK_FALSE(contact.ambiguous);
+  CHECK_COMPARE(contact.sigmaWidth_um, >, 10 * alone.sigmaWidth_um);
+  DOUBLES_EQUAL(toReal(alone.normal) / 3, toReal(contact.sigmaNormal), 1e-3);
 }
 
 TEST(Estimate, WhatTheReadingsDoNotDetermineMayBeAnywhere) {

@@ -12,6 +12,7 @@ void addCommands(CLI::App& app) {
   addField(app);
   addShape(app);
   addCalibrate(app);
+  addDesign(app);
   addFingerCommands(app);
   addMonitor(app);
   addServe(app);

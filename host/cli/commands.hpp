@@ -18,6 +18,7 @@ void addSvd(CLI::App& app);
 void addField(CLI::App& app);
 void addShape(CLI::App& app);
 void addCalibrate(CLI::App& app);
+void addDesign(CLI::App& app);
 void addTables(CLI::App& app);
 void addLocate(CLI::App& app);
 void addRun(CLI::App& app);

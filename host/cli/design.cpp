@@ -1,0 +1,240 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/base/failure.hpp"
+#include "host/base/no_value.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/model_options.hpp"
+#include "host/design/bounds_picture.hpp"
+#include "host/plot/picture.hpp"
+#include "host/system/stop_signal.hpp"
+
+namespace strainfinger::cli {
+namespace {
+
+constexpr const char* kDesignHelp =
+    "Which finger to build: what gauges of some noise could tell of a touch, for numbers of gauges and radii "
+    "of their ring.\n"
+    "A row a finger as drawn, its ring even; all else is the config's, whose own gauges.radius_m must be a "
+    "good one too. Calibration and angle_deg count for nothing.\n"
+    "  ..._median, ..._worst   the least standard deviation that an unbiased fit can have (Cramer and Rao), "
+    "of "
+    "all places;\n"
+    "                          from noise alone, what the build is off (gauges.model_error) comes on top; "
+    "inf "
+    "(JSON: null):\n"
+    "                          undetermined; empty: no width, or a known one\n"
+    "  identifiable_share      of the places, where the readings determine place (within half a pitch) and "
+    "load (within itself)\n"
+    "  table_bytes             of the firmware's tables; empty like what follows where none can be made\n"
+    "  certain_share           of a grid of contacts without noise, how many the firmware tells for sure\n"
+    "  detected_n_per_m        from which load on the firmware sees a line contact anywhere\n"
+    "  full_scale_n_per_m      the line contact that the gauges' full scale allows\n"
+    "  problem                 why this is no finger for such a touch; empty: it is one";
+
+constexpr int kMostGauges = 128, kMostRadii = 1000;
+constexpr double kFaintestTouch_n_per_m = 1e-3, kFirmestTouch_n_per_m = 1e6;
+
+struct DesignOptions {
+  explicit DesignOptions(CLI::App& command) : common(command) {
+    command
+        .add_option("--noise-strain", noise_strain,
+                    "Standard deviation of a reading (the config's gauges.noise_strain)")
+        ->type_name("S")
+        ->check(isFrom(1e-12, 0.1));
+    command
+        .add_option("--gauges", gauges,
+                    "Numbers of gauges: one, or from a to b, every second or every step-th")
+        ->type_name("a[:b[:step]]")
+        ->capture_default_str();
+    command
+        .add_option("--radius-m", radii, "Radii of the ring [m]: one, or n evenly from a to b (the config's)")
+        ->type_name("a[:b:n]");
+    command.add_option("--normal-n-per-m", normal_n_per_m, "Normal load of the touch [N/m]")
+        ->type_name("P")
+        ->check(isFrom(kFaintestTouch_n_per_m, kFirmestTouch_n_per_m))
+        ->capture_default_str();
+    command.add_option("--tangential-n-per-m", tangential_n_per_m, "Its tangential load [N/m]")
+        ->type_name("Q")
+        ->check(isFrom(-kFirmestTouch_n_per_m, kFirmestTouch_n_per_m))
+        ->capture_default_str();
+    command
+        .add_option(
+            "--width-m", width_m,
+            "Its width [m], pressed evenly; known where the config knows one (contact.width_m, or 0.001)")
+        ->type_name("W")
+        ->check(isFrom(0, 1));
+    command.add_option("--picture", picturePath, "Draws the worst bounds there, .svg or .png; needs gnuplot")
+        ->type_name("FILE");
+  }
+  CommonOptions common;
+  std::optional<double> noise_strain;
+  std::string gauges = "12:32";
+  std::string radii;
+  double normal_n_per_m = 30;
+  double tangential_n_per_m = 0;
+  std::optional<double> width_m;
+  std::string picturePath;
+};
+
+/// The numbers between colons; nothing where one of them is none.
+std::optional<std::vector<double>> numbersOf(std::string_view text) {
+  std::vector<double> numbers;
+  while (true) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || !std::isfinite(value)) return std::nullopt;
+    numbers.push_back(value);
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    if (text.empty()) return numbers;
+    if (text.front() != ':') return std::nullopt;
+    text.remove_prefix(1);
+  }
+}
+
+std::vector<int> gaugesOf(const std::string& text) {
+  const auto numbers = numbersOf(text).value_or(std::vector<double>{});
+  const double first = numbers.empty() ? 0 : numbers[0], last = numbers.size() > 1 ? numbers[1] : first,
+               step = numbers.size() > 2 ? numbers[2] : 2;
+  bool isGood = !numbers.empty() && numbers.size() <= 3;
+  for (const double number : {first, last, step})
+    isGood = isGood && number == std::round(number) && number >= 1 && number <= kMostGauges;
+  if (!isGood || last < first)
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("--gauges {}: must be a, a:b or a:b:step, whole numbers from 1 to {}, such as "
+                              "8:32 or 12:32:4",
+                              text, kMostGauges));
+  std::vector<int> counts;
+  for (double count = first; count <= last; count += step) counts.push_back(static_cast<int>(count));
+  return counts;
+}
+
+std::vector<double> radiiOf(const std::string& text, const config::FingerConfig& config) {
+  if (text.empty()) return {config.gauges.radius_m};
+  const auto numbers = numbersOf(text).value_or(std::vector<double>{});
+  const bool isOne = numbers.size() == 1;
+  const double count = isOne ? 1 : numbers.size() == 3 ? numbers[2] : 0;
+  if (count != std::round(count) || count < (isOne ? 1 : 2) || count > kMostRadii)
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("--radius-m {}: must be a radius, or a:b:n with n from 2 to {}, such as "
+                              "9e-3:12e-3:7",
+                              text, kMostRadii));
+  std::vector<double> radii;
+  for (int i = 0; i < static_cast<int>(count); ++i)
+    radii.push_back(i == 0 ? numbers[0] : numbers[0] + (numbers[1] - numbers[0]) * i / (count - 1));
+  for (const double radius_m : radii) {
+    requireInRubber(radius_m, config.finger);
+    if (radius_m == config.finger.outer_radius_m)
+      throw Failure(ExitCode::kUsage,
+                    fmt::format("--radius-m: gauges at {} m would lie at the surface, where "
+                                "strains have no bounds; choose a smaller radius",
+                                radius_m));
+  }
+  return radii;
+}
+
+simulation::Touch touchOf(const DesignOptions& options, const config::Contact& contact) {
+  constexpr double kWidth_m = 1e-3;
+  const double width_m = options.width_m.value_or(contact.width_m.value_or(kWidth_m));
+  if (width_m > contact.largest_width_m)
+    throw Failure(ExitCode::kUsage, fmt::format("--width-m {}: must be at most contact.largest_width_m = {}",
+                                                width_m, contact.largest_width_m));
+  const double most_n_per_m = contact.friction_coefficient * options.normal_n_per_m;
+  if (std::abs(options.tangential_n_per_m) > most_n_per_m)
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("--tangential-n-per-m {}: the contact would slip; it must be within +-{}, "
+                              "contact.friction_coefficient times --normal-n-per-m",
+                              options.tangential_n_per_m, most_n_per_m));
+  return {0, options.normal_n_per_m, options.tangential_n_per_m, width_m, model::Profile::kUniform};
+}
+
+/// A row: the finger, its bounds, what the firmware makes of it.
+std::vector<Cell> cellsOf(const design::Candidate& finger) {
+  const design::Assessment& found = finger.found;
+  std::vector<Cell> cells{std::int64_t{finger.gauges}, finger.radius_m};
+  const auto add = [&](const std::optional<design::Bound>& bound) {
+    cells.emplace_back(bound ? bound->median : kNoValue);
+    cells.emplace_back(bound ? bound->worst : kNoValue);
+  };
+  const auto part = [&](auto member) {
+    return found.bounds ? std::optional<design::Bound>((*found.bounds).*member) : std::nullopt;
+  };
+  add(part(&design::Bounds::arc_m));
+  add(part(&design::Bounds::normal_n_per_m));
+  add(part(&design::Bounds::tangential_n_per_m));
+  add(found.bounds ? found.bounds->width_m : std::nullopt);
+  cells.emplace_back(found.bounds ? found.bounds->identifiableShare : kNoValue);
+  if (found.trial) {
+    cells.emplace_back(static_cast<std::int64_t>(found.trial->tableBytes));
+    for (const double value : {found.trial->certainShare.value_or(kNoValue), found.trial->detected_n_per_m,
+                               found.trial->fullScale_n_per_m})
+      cells.emplace_back(value);
+  } else {
+    cells.insert(cells.end(), 4, kNoValue);
+  }
+  cells.push_back(found.problem.empty() ? Cell(kNoValue) : Cell(found.problem));
+  return cells;
+}
+
+void tellBestOf(const std::vector<design::Candidate>& candidates) {
+  const design::Candidate* best = nullptr;
+  const auto worstArc_m = [](const design::Candidate& finger) { return finger.found.bounds->arc_m.worst; };
+  for (const design::Candidate& finger : candidates)
+    if (finger.found.problem.empty() && (best == nullptr || worstArc_m(finger) < worstArc_m(*best)))
+      best = &finger;
+  if (best == nullptr) {
+    fmt::print(stderr, "design: none of these fingers is without a problem for this touch, see there\n");
+    return;
+  }
+  fmt::print(stderr,
+             "design: of the fingers without a problem for this touch the one of {} gauges at {:.4g} m has "
+             "the least worst "
+             "error of places, {:.3g} m\n",
+             best->gauges, best->radius_m, worstArc_m(*best));
+}
+
+void runDesign(const DesignOptions& options) {
+  config::FingerConfig config = options.common.config();
+  const std::vector<int> counts = gaugesOf(options.gauges);
+  const std::vector<double> radii = radiiOf(options.radii, config);
+  const simulation::Touch touch = touchOf(options, config.contact);
+  if (!options.picturePath.empty()) plot::requirePicturePath(options.picturePath);
+  requireFolderOf("--picture", options.picturePath);
+  if (config.contact.width_m) config.contact.width_m = touch.width_m;
+  if (options.noise_strain) config.gauges.noise_strain = *options.noise_strain;
+  TableWriter table(stdout, options.common.format(),
+                    {"gauges", "radius_m", "arc_median_m", "arc_worst_m", "normal_median_n_per_m",
+                     "normal_worst_n_per_m", "tangential_median_n_per_m", "tangential_worst_n_per_m",
+                     "width_median_m", "width_worst_m", "identifiable_share", "table_bytes", "certain_share",
+                     "detected_n_per_m", "full_scale_n_per_m", "problem"});
+  const system::StopSignal stop;
+  std::vector<design::Candidate> candidates;
+  for (const double radius_m : radii)
+    for (const int count : counts) {
+      config.gauges.count = count;
+      config.gauges.radius_m = radius_m;
+      candidates.push_back({count, radius_m, design::assess(config, touch)});
+      table.row(cellsOf(candidates.back()));
+      std::fflush(stdout);
+      if (stop.asked())
+        throw Failure(ExitCode::kInterrupted, fmt::format("design: interrupted after {} of {} fingers",
+                                                          candidates.size(), radii.size() * counts.size()));
+    }
+  tellBestOf(candidates);
+  if (!options.picturePath.empty()) plot::draw(design::boundsPicture(candidates), options.picturePath);
+}
+
+}  // namespace
+
+void addDesign(CLI::App& app) { addCommand<DesignOptions>(app, "design", kDesignHelp, runDesign); }
+
+}  // namespace strainfinger::cli

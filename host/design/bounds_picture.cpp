@@ -1,0 +1,66 @@
+#include "host/design/bounds_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "host/base/no_value.hpp"
+#include "host/plot/style.hpp"
+
+namespace strainfinger::design {
+namespace {
+
+constexpr double kMilli = 1e3, kMicro = 1e6;
+
+constexpr const char* kBounds = R"(
+set multiplot
+set tmargin at screen 0.9; set bmargin at screen 0.14
+set logscale y; set format y '%g'; set xlabel 'gauges'; set offsets 0.6,0.6,graph 0.05,graph 0.05
+set palette defined (0 '#440154', 1 '#31688E', 2 '#35B779', 3 '#D9C52A'); set cblabel 'radius of the ring (mm)'; set cbtics scale 0.6
+unset colorbox
+set lmargin at screen 0.1; set rmargin at screen 0.44
+set ylabel 'place, worst standard deviation (um)'
+plot data('fingers') using 1:(gap(3)):2 skip 1 with lines linewidth 1.6 palette notitle, \
+     '' using 1:(gap(4)):2 skip 1 with points pointtype 7 pointsize 0.8 palette title 'no problem', \
+     '' using 1:(gap(5)):2 skip 1 with points pointtype 6 pointsize 0.8 palette title 'a problem'
+if (least < most) set colorbox user origin 0.89,0.14 size 0.015,0.76
+set lmargin at screen 0.53; set rmargin at screen 0.87
+set ylabel 'normal load, worst standard deviation (N/m)'
+plot data('fingers') using 1:(gap(6)):2 skip 1 with lines linewidth 1.6 palette notitle, \
+     '' using 1:(gap(7)):2 skip 1 with points pointtype 7 pointsize 0.8 palette notitle, \
+     '' using 1:(gap(8)):2 skip 1 with points pointtype 6 pointsize 0.8 palette notitle
+unset multiplot
+)";
+
+double shown(double bound) { return std::isfinite(bound) ? bound : kNoValue; }
+
+}  // namespace
+
+plot::Picture boundsPicture(const std::vector<Candidate>& candidates) {
+  plot::DataFile fingers{"fingers",
+                         {"gauges", "radius_mm", "arc_um", "arc_good_um", "arc_problem_um", "normal_n_per_m",
+                          "normal_good_n_per_m", "normal_problem_n_per_m"},
+                         {}};
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const Candidate& finger = candidates[i];
+    if (i > 0 && finger.radius_m != candidates[i - 1].radius_m) fingers.rows.push_back({});
+    const bool isGood = finger.found.problem.empty();
+    std::vector<double> row{static_cast<double>(finger.gauges), kMilli * finger.radius_m};
+    const auto add = [&](double bound) {
+      for (const double value : {bound, isGood ? bound : kNoValue, isGood ? kNoValue : bound})
+        row.push_back(shown(value));
+    };
+    add(finger.found.bounds ? kMicro * finger.found.bounds->arc_m.worst : kNoValue);
+    add(finger.found.bounds ? finger.found.bounds->normal_n_per_m.worst : kNoValue);
+    fingers.rows.push_back(row);
+  }
+  const auto [least, most] = std::ranges::minmax_element(candidates, {}, &Candidate::radius_m);
+  const double least_mm = kMilli * least->radius_m, most_mm = kMilli * most->radius_m;
+  const std::string range = fmt::format("least = {}; most = {}\nset cbrange [{}:{}]\n", least_mm, most_mm,
+                                        least_mm, most_mm > least_mm ? most_mm : least_mm + 1);
+  return {960, 420, plot::kStyle + range + kBounds, {fingers}};
+}
+
+}  // namespace strainfinger::design

@@ -1,0 +1,22 @@
+#pragma once
+// What fingers could tell, over the number of their gauges.
+
+#include <vector>
+
+#include "host/design/assessment.hpp"
+#include "host/plot/picture.hpp"
+
+namespace strainfinger::design {
+
+/// A finger that was looked at.
+struct Candidate {
+  int gauges;
+  double radius_m;  ///< of the ring
+  Assessment found;
+};
+
+/// Worst bounds of place and normal load, a curve a radius; hollow where there is a problem.
+/// `candidates`: at least one, those of a radius one after the other. Bounds that are infinite are gaps.
+plot::Picture boundsPicture(const std::vector<Candidate>& candidates);
+
+}  // namespace strainfinger::design

@@ -1,0 +1,73 @@
+#include <algorithm>
+#include <string>
+
+#include "tests/commands/program.hpp"
+
+// last: its macros redefine new
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+
+TEST_GROUP(DesignCommand){
+    static Run design(const std::string& options){return runShell("\"$STRAINFINGER\" design " + options);
+}
+static void checkRefused(const char* message, const std::string& options) {
+  const Run run = design(options);
+  LONGS_EQUAL_TEXT(2, run.status, options.c_str());
+  STRCMP_CONTAINS(message, run.err.c_str());
+  STRCMP_EQUAL("", run.out.c_str());
+}
+}
+;
+
+TEST(DesignCommand, ARowForEachFingerAndTheBestInWords) {
+  const Run run = design("--noise-strain 6e-6 --gauges 8:16:4 --radius-m 9.2e-3:9.6e-3:2");
+  LONGS_EQUAL_TEXT(0, run.status, run.err.c_str());
+  STRCMP_CONTAINS("gauges,radius_m,arc_median_m,arc_worst_m,normal_median_n_per_m,normal_worst_n_per_m,",
+                  run.out.c_str());
+  LONGS_EQUAL(1 + 6, std::count(run.out.begin(), run.out.end(), '\n'));
+  for (const char* row :
+       {"\n8,0.0091999999999999998,", "\n16,0.0095999999999999992,", "gauges.count = 8 must be"})
+    STRCMP_CONTAINS(row, run.out.c_str());
+  STRCMP_CONTAINS("design: of the fingers without a problem for this touch the one of 16 gauges at",
+                  run.err.c_str());
+}
+
+TEST(DesignCommand, WhatIsNotKnownIsNullInJson) {
+  const Run run = design("--gauges 8 --json");
+  LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS("\"table_bytes\":null", run.out.c_str());
+  STRCMP_CONTAINS("none of these fingers is without a problem", run.err.c_str());
+}
+
+TEST(DesignCommand, DrawsAPicture) {
+  const Run run = runShell(
+      "folder=$(mktemp -d) && trap 'rm -rf \"$folder\"' EXIT && cd \"$folder\" && "
+      "\"$STRAINFINGER\" design --gauges 8:16:4 --radius-m 9e-3:10e-3:2 --picture d.svg >d.csv && ls && grep "
+      "-c path d.svg");
+  LONGS_EQUAL_TEXT(0, run.status, run.err.c_str());
+  STRCMP_CONTAINS("d-fingers.csv\nd.csv\nd.gp\nd.svg\n", run.out.c_str());
+}
+
+TEST(DesignCommand, AnInterruptedSweepHasWholeRowsAndSaysSo) {
+  const Run run = runShell(
+      "timeout -s INT 1 \"$STRAINFINGER\" design --gauges 16 --radius-m 9e-3:11e-3:1000 >$$.csv 2>$$.err; "
+      "status=$?; "
+      "tail -c 1 $$.csv | od -An -c; cat $$.err; rm $$.csv $$.err; echo $status");
+  STRCMP_CONTAINS("design: interrupted after ", run.out.c_str());
+  STRCMP_CONTAINS(" of 1000 fingers", run.out.c_str());
+  STRCMP_CONTAINS("\\n\n", run.out.c_str());
+}
+
+TEST(DesignCommand, BadRangesAndTouchesAreNamed) {
+  for (const char* gauges : {"", "x", "8:", "32:8", "8:16:0", "8.5", "8:16:2:1", "nan", "0", "1000"})
+    checkRefused("--gauges", std::string("--gauges '") + gauges + "'");
+  for (const char* radii : {"x", "9e-3:10e-3", "9e-3:10e-3:1", "9e-3:10e-3:2.5", "1e-3", "12.7e-3", "inf"})
+    checkRefused("--radius-m", std::string("--radius-m ") + radii);
+  checkRefused("--noise-strain", "--noise-strain nan");
+  checkRefused("--noise-strain", "--noise-strain 0");
+  checkRefused("--normal-n-per-m", "--normal-n-per-m 0");
+  checkRefused("--width-m", "--width-m 0.009");
+  checkRefused("--tangential-n-per-m -31: the contact would slip", "--tangential-n-per-m -31");
+  checkRefused(".svg", "--picture bounds.jpg");
+}

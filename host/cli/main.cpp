@@ -32,8 +32,11 @@ std::string printable(std::string_view message) {
   return text;
 }
 
+/// Where stderr takes nothing either, the exit status still tells.
+void tell(std::string_view text) { std::fputs(printable(text).c_str(), stderr); }
+
 int complain(ExitCode code, std::string_view message) {
-  fmt::print(stderr, "strainfinger: {}\n", printable(message));
+  tell(fmt::format("strainfinger: {}\n", message));
   return finish(code);
 }
 
@@ -78,7 +81,7 @@ int main(int argc, char** argv) {
                       app.remaining().front() + " is no command; strainfinger --help lists them");
     std::ostringstream complaint;
     const bool isHelp = app.exit(error, std::cout, complaint) == 0;
-    fmt::print(stderr, "{}", printable(complaint.str()));
+    tell(complaint.str());
     return isHelp ? finishOutput() : finish(ExitCode::kUsage);
   } catch (const strainfinger::Failure& failure) {
     return complain(failure.code(), failure.what());

@@ -42,6 +42,12 @@ TEST(Main, OutputThatCannotBeWrittenIsAFailure) {
   }
 }
 
+TEST(Main, MessagesThatCannotBeWrittenLeaveTheExitStatus) {
+  LONGS_EQUAL(1, runShell("\"$STRAINFINGER\" tables --header /dev/null 2>/dev/full").status);
+  LONGS_EQUAL(2, runShell("\"$STRAINFINGER\" nosuch 2>/dev/full").status);
+  LONGS_EQUAL(2, runShell("\"$STRAINFINGER\" dbc -c '' 2>/dev/full").status);
+}
+
 TEST(Main, AnEmptyFileNameIsRefused) {
   checkRefused("dbc -c ''", "dbc: --config: the name of a file is missing");
   checkRefused("dbc -o ''", "dbc: --output: the name of a file is missing");

@@ -246,7 +246,7 @@ inline constexpr FrameLayout kLayout<ContactFrame>{
           {.name = "alternative",
            .unit = "deg",
            .comment = "Another angle that fits as well, relative to angle; not known: there is none, or "
-                      "errors say enough"}},
+                      "the sigmas cover it"}},
     Field{&ContactFrame::flags,
           {.lsb = 40, .width = 8},
           {.name = "flags",

@@ -97,8 +97,9 @@ LineLoadQ12 loadOf(const TableConstants& constants, const Answer& answer, std::i
 /// A standard error of which three reach so far.
 constexpr Wide reaching(Wide sigma, Wide far) { return std::max(sigma, magnitude(far) / 3); }
 
-/// Errors reach a rival that the readings hardly tell from the answer. Ambiguous: it is so far away that it
-/// is named as well, or noise may have told the wrong one, and the answer's own errors did not reach it.
+/// Errors reach a rival that the readings hardly tell from the answer. Ambiguous: it is kNamed_16 away or
+/// farther, whatever the errors; or nearer, beyond the answer's own errors, and noise alone may have told the
+/// wrong one.
 void coverRival(const TableConstants& constants, const Answer& answer, int contact, Contact& estimated) {
   if (!answer.rivalIsAsLikely) return;
   const ContactState& rival = answer.rival[index(contact)];

@@ -31,7 +31,7 @@ struct Answer {
   ContactStates rival;              ///< another answer of the same hypothesis
   bool anyRival = false;            ///< there is one
   bool rivalIsAsLikely = false;     ///< nearly, when it was last fitted, see ambiguity()
-  bool rivalIsWithinNoise = false;  ///< then: noise alone may have made the wrong one the likelier
+  bool rivalIsWithinNoise = false;  ///< besides: noise alone may have told the wrong one
   bool rivalIsElsewhere = false;    ///< when it was found, not another width of the same place
   bool rivalIsLost = false;         ///< a search is to look for it
   std::uint8_t timesRefuted = 0;

@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "host/base/failure.hpp"
@@ -14,33 +17,37 @@
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/model_options.hpp"
+#include "host/config/finger_config.hpp"
+#include "host/design/assessment.hpp"
 #include "host/design/bounds_picture.hpp"
 #include "host/plot/picture.hpp"
+#include "host/simulation/scenario.hpp"
 #include "host/system/stop_signal.hpp"
 
 namespace strainfinger::cli {
 namespace {
 
 constexpr const char* kDesignHelp =
-    "Which finger to build: what gauges of some noise could tell of a touch, for numbers of gauges and radii "
-    "of their ring.\n"
-    "A row a finger as drawn, its ring even; all else is the config's, whose own gauges.radius_m must be a "
-    "good one too. Calibration and angle_deg count for nothing.\n"
-    "  ..._median, ..._worst   the least standard deviation that an unbiased fit can have (Cramer and Rao), "
-    "of "
-    "all places;\n"
-    "                          from noise alone, what the build is off (gauges.model_error) comes on top; "
-    "inf "
-    "(JSON: null):\n"
-    "                          undetermined; empty: no width, or a known one\n"
+    "Which finger to build: what gauges of some noise could tell of a touch, for numbers of gauges and "
+    "radii.\n"
+    "A row a finger as drawn, its ring even; all else is the config's, whose own gauges.radius_m must be a\n"
+    "good one too. gauges.angle_deg, [calibration] and [as_built] count for nothing.\n"
+    "  ..._median, ..._worst   of all places: the least standard deviation that an unbiased fit can have "
+    "(Cramer\n"
+    "                          and Rao), from noise alone; what the build is off (gauges.model_error) comes "
+    "on\n"
+    "                          top. inf (JSON: null): undetermined; empty: no width, or a known one\n"
     "  identifiable_share      of the places, where the readings determine place (within half a pitch) and "
-    "load (within itself)\n"
+    "load\n"
+    "                          (within itself)\n"
     "  table_bytes             of the firmware's tables; empty like what follows where none can be made\n"
     "  certain_share           of a grid of contacts without noise, how many the firmware tells for sure\n"
     "  detected_n_per_m        from which load on the firmware sees a line contact anywhere\n"
     "  full_scale_n_per_m      the line contact that the gauges' full scale allows\n"
     "  problem                 why this is no finger for such a touch; empty: it is one";
 
+/// Of the outer radius. Nearer to the surface the elastic model takes seconds a finger.
+constexpr double kLeastDepth = 1e-3;
 constexpr int kMostGauges = 128, kMostRadii = 1000;
 constexpr double kFaintestTouch_n_per_m = 1e-3, kFirmestTouch_n_per_m = 1e6;
 
@@ -79,7 +86,7 @@ struct DesignOptions {
   CommonOptions common;
   std::optional<double> noise_strain;
   std::string gauges = "12:32";
-  std::string radii;
+  std::optional<std::string> radii;
   double normal_n_per_m = 30;
   double tangential_n_per_m = 0;
   std::optional<double> width_m;
@@ -109,42 +116,45 @@ std::vector<int> gaugesOf(const std::string& text) {
   for (const double number : {first, last, step})
     isGood = isGood && number == std::round(number) && number >= 1 && number <= kMostGauges;
   if (!isGood || last < first)
-    throw Failure(ExitCode::kUsage,
-                  fmt::format("--gauges {}: must be a, a:b or a:b:step, whole numbers from 1 to {}, such as "
-                              "8:32 or 12:32:4",
-                              text, kMostGauges));
+    throw Failure(
+        ExitCode::kUsage,
+        fmt::format(
+            "--gauges {}: must be a, a:b or a:b:step, whole numbers from 1 to {}, a at most b, such as "
+            "8:32 or 12:32:4",
+            text, kMostGauges));
   std::vector<int> counts;
   for (double count = first; count <= last; count += step) counts.push_back(static_cast<int>(count));
   return counts;
 }
 
-std::vector<double> radiiOf(const std::string& text, const config::FingerConfig& config) {
-  if (text.empty()) return {config.gauges.radius_m};
-  const auto numbers = numbersOf(text).value_or(std::vector<double>{});
+std::vector<double> radiiOf(const std::optional<std::string>& text, const config::FingerConfig& config) {
+  if (!text) return {config.gauges.radius_m};
+  const auto numbers = numbersOf(*text).value_or(std::vector<double>{});
   const bool isOne = numbers.size() == 1;
   const double count = isOne ? 1 : numbers.size() == 3 ? numbers[2] : 0;
   if (count != std::round(count) || count < (isOne ? 1 : 2) || count > kMostRadii)
     throw Failure(ExitCode::kUsage,
                   fmt::format("--radius-m {}: must be a radius, or a:b:n with n from 2 to {}, such as "
                               "9e-3:12e-3:7",
-                              text, kMostRadii));
+                              *text, kMostRadii));
   std::vector<double> radii;
   for (int i = 0; i < static_cast<int>(count); ++i)
     radii.push_back(i == 0 ? numbers[0] : numbers[0] + (numbers[1] - numbers[0]) * i / (count - 1));
   for (const double radius_m : radii) {
     requireInRubber(radius_m, config.finger);
-    if (radius_m == config.finger.outer_radius_m)
+    if (radius_m > (1 - kLeastDepth) * config.finger.outer_radius_m)
       throw Failure(ExitCode::kUsage,
-                    fmt::format("--radius-m: gauges at {} m would lie at the surface, where "
-                                "strains have no bounds; choose a smaller radius",
-                                radius_m));
+                    fmt::format("--radius-m: gauges at {} m would be nearer to the surface than {} of its "
+                                "radius, where no table holds what they feel; choose a smaller radius",
+                                radius_m, kLeastDepth));
   }
   return radii;
 }
 
 simulation::Touch touchOf(const DesignOptions& options, const config::Contact& contact) {
   constexpr double kWidth_m = 1e-3;
-  const double width_m = options.width_m.value_or(contact.width_m.value_or(kWidth_m));
+  const double width_m =
+      options.width_m.value_or(contact.width_m.value_or(std::min(kWidth_m, contact.largest_width_m)));
   if (width_m > contact.largest_width_m)
     throw Failure(ExitCode::kUsage, fmt::format("--width-m {}: must be at most contact.largest_width_m = {}",
                                                 width_m, contact.largest_width_m));
@@ -185,21 +195,25 @@ std::vector<Cell> cellsOf(const design::Candidate& finger) {
   return cells;
 }
 
-void tellBestOf(const std::vector<design::Candidate>& candidates) {
+/// Of the fingers without a problem, the one with the least worst error of places.
+const design::Candidate* bestOf(const std::vector<design::Candidate>& candidates) {
   const design::Candidate* best = nullptr;
   const auto worstArc_m = [](const design::Candidate& finger) { return finger.found.bounds->arc_m.worst; };
   for (const design::Candidate& finger : candidates)
     if (finger.found.problem.empty() && (best == nullptr || worstArc_m(finger) < worstArc_m(*best)))
       best = &finger;
+  return best;
+}
+
+void tellOf(const design::Candidate* best) {
   if (best == nullptr) {
-    fmt::print(stderr, "design: none of these fingers is without a problem for this touch, see there\n");
+    fmt::print(stderr, "design: each of these fingers has a problem with this touch, see there\n");
     return;
   }
   fmt::print(stderr,
-             "design: of the fingers without a problem for this touch the one of {} gauges at {:.4g} m has "
-             "the least worst "
-             "error of places, {:.3g} m\n",
-             best->gauges, best->radius_m, worstArc_m(*best));
+             "design: of the fingers without a problem with this touch, {} gauges at {:.4g} m have the least "
+             "worst error of places, {:.3g} m\n",
+             best->gauges, best->radius_m, best->found.bounds->arc_m.worst);
 }
 
 void runDesign(const DesignOptions& options) {
@@ -220,17 +234,17 @@ void runDesign(const DesignOptions& options) {
   std::vector<design::Candidate> candidates;
   for (const double radius_m : radii)
     for (const int count : counts) {
+      if (stop.asked())
+        throw Failure(ExitCode::kInterrupted, fmt::format("design: interrupted after {} of {} fingers",
+                                                          candidates.size(), radii.size() * counts.size()));
       config.gauges.count = count;
       config.gauges.radius_m = radius_m;
       candidates.push_back({count, radius_m, design::assess(config, touch)});
       table.row(cellsOf(candidates.back()));
       std::fflush(stdout);
-      if (stop.asked())
-        throw Failure(ExitCode::kInterrupted, fmt::format("design: interrupted after {} of {} fingers",
-                                                          candidates.size(), radii.size() * counts.size()));
     }
-  tellBestOf(candidates);
   if (!options.picturePath.empty()) plot::draw(design::boundsPicture(candidates), options.picturePath);
+  tellOf(bestOf(candidates));
 }
 
 }  // namespace

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <numbers>
+#include <string>
 #include <vector>
 
-#include "common/quantities.hpp"
+#include "common/table_image.hpp"
 #include "host/base/failure.hpp"
 #include "host/config/keys.hpp"
 #include "host/config/over_range.hpp"
@@ -87,8 +89,7 @@ std::string shortcomingOf(const config::FingerConfig& config, const simulation::
                           const Bounds& bounds, const Trial& trial) {
   if (config::isOverRange(config.gauges, bounds.largest_strain))
     return fmt::format(
-        "a gauge reads up to {:.3g} of this touch, at or near the end of gauges.full_scale_strain = {}: use "
-        "a "
+        "a gauge reads up to {:.3g} of this touch, too near the end of gauges.full_scale_strain = {}: use a "
         "larger full scale or deeper gauges",
         bounds.largest_strain, config.gauges.full_scale_strain);
   if (touch.normal_n_per_m < trial.detected_n_per_m)

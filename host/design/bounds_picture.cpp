@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "host/base/no_value.hpp"
 #include "host/plot/style.hpp"
@@ -22,6 +24,7 @@ set palette defined (0 '#440154', 1 '#31688E', 2 '#35B779', 3 '#D9C52A'); set cb
 unset colorbox
 set lmargin at screen 0.1; set rmargin at screen 0.44
 set ylabel 'place, worst standard deviation (um)'
+if (anyFinite) set yrange [*:*]; else set yrange [1:10]
 plot data('fingers') using 1:(gap(3)):2 skip 1 with lines linewidth 1.6 palette notitle, \
      '' using 1:(gap(4)):2 skip 1 with points pointtype 7 pointsize 0.8 palette title 'no problem', \
      '' using 1:(gap(5)):2 skip 1 with points pointtype 6 pointsize 0.8 palette title 'a problem'
@@ -43,6 +46,7 @@ plot::Picture boundsPicture(const std::vector<Candidate>& candidates) {
                          {"gauges", "radius_mm", "arc_um", "arc_good_um", "arc_problem_um", "normal_n_per_m",
                           "normal_good_n_per_m", "normal_problem_n_per_m"},
                          {}};
+  bool anyFinite = false;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Candidate& finger = candidates[i];
     if (i > 0 && finger.radius_m != candidates[i - 1].radius_m) fingers.rows.push_back({});
@@ -55,11 +59,13 @@ plot::Picture boundsPicture(const std::vector<Candidate>& candidates) {
     add(finger.found.bounds ? kMicro * finger.found.bounds->arc_m.worst : kNoValue);
     add(finger.found.bounds ? finger.found.bounds->normal_n_per_m.worst : kNoValue);
     fingers.rows.push_back(row);
+    anyFinite |= finger.found.bounds && std::isfinite(finger.found.bounds->arc_m.worst);
   }
   const auto [least, most] = std::ranges::minmax_element(candidates, {}, &Candidate::radius_m);
   const double least_mm = kMilli * least->radius_m, most_mm = kMilli * most->radius_m;
-  const std::string range = fmt::format("least = {}; most = {}\nset cbrange [{}:{}]\n", least_mm, most_mm,
-                                        least_mm, most_mm > least_mm ? most_mm : least_mm + 1);
+  const std::string range =
+      fmt::format("anyFinite = {}; least = {}; most = {}\nset cbrange [{}:{}]\n", anyFinite ? 1 : 0, least_mm,
+                  most_mm, least_mm, most_mm > least_mm ? most_mm : least_mm + 1);
   return {960, 420, plot::kStyle + range + kBounds, {fingers}};
 }
 

@@ -63,7 +63,7 @@ inline void add(Hash& hash, const firmware::Pipeline& pipeline, std::uint32_t sa
            4 * std::int32_t{answer.searching} + 8 * std::int32_t{answer.several} +
            16 * std::int32_t{answer.doubtful} + 128 * std::int32_t{answer.weak} +
            32 * std::int32_t{answer.anyRival} + 64 * std::int32_t{answer.rivalIsAsLikely} +
-           256 * answer.shift);
+           512 * std::int32_t{answer.rivalIsWithinNoise} + 1024 * answer.shift);
   const auto contact = [&](int i) {
     return firmware::estimate(pipeline.constants(), answer, firmware::unitErrors(pipeline.linearisation()),
                               i);

@@ -55,6 +55,29 @@ TEST(LocatorRivals, ARivalThatIsNearlyAsLikelyIsTold) {
   CHECK(rivals > 10);
 }
 
+// Without a model error noise is all that may mix answers up; with one of 5 % a firm touch's noise mixes up
+// hardly any, while the model's error may.
+TEST(LocatorRivals, WhetherNoiseAloneMayHaveToldTheWrongOneIsToldBeside) {
+  Presses presses(16, 3, 434, 5, 6);
+  for (int i = 0; i < 50; ++i) {
+    locator.release();
+    settle(presses.noisy(ring.strains(presses.next()), ring.noise_strain()));
+    CHECK_EQUAL(locator.answer().rivalIsAsLikely, locator.answer().rivalIsWithinNoise);
+  }
+  const ModelRing unsure{config::FingerConfig{}};
+  Presses firm(16, 30, 435, 0, 3);
+  int asLikely = 0, withinNoise = 0;
+  for (int i = 0; i < 300; ++i) {
+    locator.release();
+    const auto strains = firm.noisy(unsure.strains(firm.next()), unsure.noise_strain());
+    for (int set = 0; set < 200; ++set) update(unsure, strains, unsure.allGauges());
+    asLikely += locator.answer().rivalIsAsLikely;
+    withinNoise += locator.answer().rivalIsWithinNoise;
+  }
+  CHECK_COMPARE(asLikely, >, 10);
+  CHECK_COMPARE(withinNoise, <, asLikely / 2);
+}
+
 TEST(LocatorRivals, ARivalIsForgottenOnceTheTouchHasTold) {
   Presses presses(16, 3, 412, 5, 6);
   int rivals = 0, left = 0;

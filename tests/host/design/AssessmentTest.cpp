@@ -99,9 +99,8 @@ TEST(Assessment, FewerGaugesThanTheFirmwareFitsHaveBoundsAndAProblem) {
   STRCMP_CONTAINS("gauges.count = 8 must be", found.problem.c_str());
 }
 
-// Four readings hold four unknowns at best, three none.
 TEST(Assessment, BoundsOfMoreUnknownsThanReadingsAreInfinite) {
-  CHECK_TRUE(std::isinf(of(2, config.gauges.radius_m).bounds.value().arc_m.median));
+  CHECK_TRUE(std::isinf(of(3, config.gauges.radius_m).bounds.value().arc_m.median));
 }
 
 TEST(Assessment, GaugesTooShallowForTheirSpacingAreAProblem) {
@@ -129,6 +128,11 @@ TEST(Assessment, PlacesThatReadingsDoNotDetermineAreCounted) {
   const Assessment found = of(12, 12.3e-3);
   CHECK_COMPARE(found.bounds.value().identifiableShare, <, 0.7);
   CHECK_FALSE(found.problem.empty());
+}
+
+// 2 pi 12.7 mm / 12 over 3.3 mm.
+TEST(Assessment, ASparseRingIsAProblem) {
+  STRCMP_CONTAINS("2.02 times their depth apart", of(12, 9.4e-3).problem.c_str());
 }
 
 TEST(Assessment, NoiseBelowTheConvertersStepIsAProblem) {

@@ -33,8 +33,8 @@ inline constexpr int kLost = 4;
 /// unflagged at most once in 11,000, however far apart they are.
 inline constexpr int kAmbiguous = 14;
 /// Nor within so many times what the better one leaves a degree of freedom, as far as that may be the model's
-/// error. Before kNamed_16, of 6,000 touches of fingers as built (host/bench) 12 were silently wrong and 15.3
-/// % flagged; 19 and 16.4 % by kAmbiguous variances of the gate instead.
+/// error. Of 6,000 touches of fingers as built (host/bench) 9 are silently wrong and 12.8 % flagged; 16 and
+/// 13.3 % by kAmbiguous variances of the gate instead.
 inline constexpr int kAmbiguousRatio = 24;
 /// A second answer is refuted by a sample set of which it leaves so many times more than would be ambiguous.
 inline constexpr int kRefuted = 4;

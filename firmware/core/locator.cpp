@@ -55,7 +55,7 @@ ContactStates inOrderOf(const Solution& solution, ContactStates contacts) {
 }
 
 /// What is said of a rival that leaves so much more than the answer.
-void compare(Answer& answer, Wide more, Wide ambiguous, const Variances& variances) {
+void rateRival(Answer& answer, Wide more, Wide ambiguous, const Variances& variances) {
   answer.rivalIsAsLikely = more < ambiguous;
   answer.rivalIsWithinNoise = more < energyOf(variances.noise_q4, threshold::kAmbiguous);
 }
@@ -197,7 +197,7 @@ int Locator::followRival(const TableImage& tables, const ScaledReadings& reading
   }
   answer_.timesRefuted = 0;
   answer_.rival = rival.contact;
-  compare(answer_, magnitude(more), ambiguous, readings.variances);
+  rateRival(answer_, magnitude(more), ambiguous, readings.variances);
   if (more < 0 && rival.converged) {
     // The touch itself has not moved.
     searchedAt_q32_ += rival.contact[0].angle_q32 - answer.contact[0].angle_q32;
@@ -287,7 +287,7 @@ void Locator::rememberRival(const TableImage& tables, const Ranking& ranking,
   const Wide ambiguous = ambiguity(readings.variances, ranking.best);
   if (more > threshold::kRefuted * ambiguous) return;
   answer_.anyRival = true;
-  compare(answer_, more, ambiguous, readings.variances);
+  rateRival(answer_, more, ambiguous, readings.variances);
   answer_.rivalIsElsewhere =
       areElsewhere(tables.constants, ranking.best.hypothesis.contacts, ranking.best.contact, answer_.rival);
 }

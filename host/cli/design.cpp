@@ -28,23 +28,21 @@ namespace strainfinger::cli {
 namespace {
 
 constexpr const char* kDesignHelp =
-    "Which finger to build: what gauges of some noise could tell of a touch, for numbers of gauges and "
-    "radii.\n"
-    "A row a finger as drawn, its ring even; all else is the config's, whose own gauges.radius_m must be a\n"
-    "good one too. gauges.angle_deg, [calibration] and [as_built] count for nothing.\n"
-    "  ..._median, ..._worst   of all places: the least standard deviation that an unbiased fit can have "
-    "(Cramer\n"
-    "                          and Rao), from noise alone; what the build is off (gauges.model_error) comes "
-    "on\n"
-    "                          top. inf (JSON: null): undetermined; empty: no width, or a known one\n"
-    "  identifiable_share      of the places, where the readings determine place (within half a pitch) and "
-    "load\n"
-    "                          (within itself)\n"
-    "  table_bytes             of the firmware's tables; empty like what follows where none can be made\n"
-    "  certain_share           of a grid of contacts without noise, how many the firmware tells for sure\n"
-    "  detected_n_per_m        from which load on the firmware sees a line contact anywhere\n"
-    "  full_scale_n_per_m      the line contact that the gauges' full scale allows\n"
-    "  problem                 why this is no finger for such a touch; empty: it is one";
+    "Which finger to build: what gauges could tell of a touch, by their number and the radius of their "
+    "ring.\n"
+    "A row a finger as drawn, its ring even; all else is the config's, whose own gauges.radius_m must be\n"
+    "a good one too. gauges.angle_deg, [calibration] and [as_built] count for nothing.\n"
+    "  ..._median, ..._worst  of all places: the least standard deviation that an unbiased fit can have\n"
+    "                         (Cramer and Rao), from noise alone; what the build is off comes on top\n"
+    "                         (gauges.model_error). inf (JSON: null): undetermined; empty: no width, or\n"
+    "                         a known one\n"
+    "  identifiable_share     of the places, where the readings determine the touch: the place within\n"
+    "                         half a pitch, the load within itself\n"
+    "  table_bytes            of the firmware's tables; empty like what follows where none can be made\n"
+    "  certain_share          of a grid of contacts without noise, how many the firmware tells for sure\n"
+    "  detected_n_per_m       from which load on the firmware sees a line contact anywhere\n"
+    "  full_scale_n_per_m     the line contact that the gauges' full scale allows\n"
+    "  problem                why this is no finger for such a touch; empty: it is one";
 
 /// Of the outer radius. Nearer to the surface the elastic model takes seconds a finger.
 constexpr double kLeastDepth = 1e-3;
@@ -137,9 +135,7 @@ std::vector<double> radiiOf(const std::optional<std::string>& text, const config
                   fmt::format("--radius-m {}: must be a radius, or a:b:n with n from 2 to {}, such as "
                               "9e-3:12e-3:7",
                               *text, kMostRadii));
-  std::vector<double> radii;
-  for (int i = 0; i < static_cast<int>(count); ++i)
-    radii.push_back(i == 0 ? numbers[0] : numbers[0] + (numbers[1] - numbers[0]) * i / (count - 1));
+  const std::vector<double> radii = isOne ? numbers : evenly(numbers[0], numbers[1], static_cast<int>(count));
   for (const double radius_m : radii) {
     requireInRubber(radius_m, config.finger);
     if (radius_m > (1 - kLeastDepth) * config.finger.outer_radius_m)

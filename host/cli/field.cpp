@@ -10,6 +10,7 @@
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/contact_options.hpp"
+#include "host/cli/model_options.hpp"
 #include "host/contact/contact_field.hpp"
 
 namespace strainfinger::cli {
@@ -36,13 +37,6 @@ struct FieldOptions {
   double from_deg = -20;
   double to_deg = 20;
 };
-
-std::vector<double> evenly(double from, double to, int count) {
-  std::vector<double> values;
-  for (int i = 0; i < count; ++i) values.push_back(from + (to - from) * i / (count - 1));
-  values.back() = to;
-  return values;
-}
 
 /// Of radii evenly from the core to the surface the last but one is the closest to the surface.
 void requireDeep(int radii, const model::Annulus<double>& annulus) {

@@ -17,4 +17,11 @@ void requireInRubber(double radius_m, const config::Finger& finger) {
                   radius_m, finger.core_radius_m, finger.outer_radius_m));
 }
 
+std::vector<double> evenly(double from, double to, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) values.push_back(from + (to - from) * i / (count - 1));
+  values.back() = to;
+  return values;
+}
+
 }  // namespace strainfinger::cli

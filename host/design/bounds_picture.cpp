@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,15 +26,17 @@ unset colorbox
 set lmargin at screen 0.1; set rmargin at screen 0.44
 set ylabel 'place, worst standard deviation (um)'
 if (anyFinite) set yrange [*:*]; else set yrange [1:10]
+good(bound) = column(5) == 0 ? gap(bound) : NaN
+bad(bound) = column(5) == 0 ? NaN : gap(bound)
 plot data('fingers') using 1:(gap(3)):2 skip 1 with lines linewidth 1.6 palette notitle, \
-     '' using 1:(gap(4)):2 skip 1 with points pointtype 7 pointsize 0.8 palette title 'no problem', \
-     '' using 1:(gap(5)):2 skip 1 with points pointtype 6 pointsize 0.8 palette title 'a problem'
+     '' using 1:(good(3)):2 skip 1 with points pointtype 7 pointsize 0.8 palette title 'no problem', \
+     '' using 1:(bad(3)):2 skip 1 with points pointtype 6 pointsize 0.8 palette title 'a problem'
 if (least < most) set colorbox user origin 0.89,0.14 size 0.015,0.76
 set lmargin at screen 0.53; set rmargin at screen 0.87
 set ylabel 'normal load, worst standard deviation (N/m)'
-plot data('fingers') using 1:(gap(6)):2 skip 1 with lines linewidth 1.6 palette notitle, \
-     '' using 1:(gap(7)):2 skip 1 with points pointtype 7 pointsize 0.8 palette notitle, \
-     '' using 1:(gap(8)):2 skip 1 with points pointtype 6 pointsize 0.8 palette notitle
+plot data('fingers') using 1:(gap(4)):2 skip 1 with lines linewidth 1.6 palette notitle, \
+     '' using 1:(good(4)):2 skip 1 with points pointtype 7 pointsize 0.8 palette notitle, \
+     '' using 1:(bad(4)):2 skip 1 with points pointtype 6 pointsize 0.8 palette notitle
 unset multiplot
 )";
 
@@ -42,24 +45,17 @@ double shown(double bound) { return std::isfinite(bound) ? bound : kNoValue; }
 }  // namespace
 
 plot::Picture boundsPicture(const std::vector<Candidate>& candidates) {
-  plot::DataFile fingers{"fingers",
-                         {"gauges", "radius_mm", "arc_um", "arc_good_um", "arc_problem_um", "normal_n_per_m",
-                          "normal_good_n_per_m", "normal_problem_n_per_m"},
-                         {}};
+  plot::DataFile fingers{"fingers", {"gauges", "radius_mm", "arc_um", "normal_n_per_m", "problem"}, {}};
   bool anyFinite = false;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Candidate& finger = candidates[i];
     if (i > 0 && finger.radius_m != candidates[i - 1].radius_m) fingers.rows.push_back({});
-    const bool isGood = finger.found.problem.empty();
-    std::vector<double> row{static_cast<double>(finger.gauges), kMilli * finger.radius_m};
-    const auto add = [&](double bound) {
-      for (const double value : {bound, isGood ? bound : kNoValue, isGood ? kNoValue : bound})
-        row.push_back(shown(value));
-    };
-    add(finger.found.bounds ? kMicro * finger.found.bounds->arc_m.worst : kNoValue);
-    add(finger.found.bounds ? finger.found.bounds->normal_n_per_m.worst : kNoValue);
-    fingers.rows.push_back(row);
-    anyFinite |= finger.found.bounds && std::isfinite(finger.found.bounds->arc_m.worst);
+    const std::optional<Bounds>& bounds = finger.found.bounds;
+    fingers.rows.push_back({static_cast<double>(finger.gauges), kMilli * finger.radius_m,
+                            shown(bounds ? kMicro * bounds->arc_m.worst : kNoValue),
+                            shown(bounds ? bounds->normal_n_per_m.worst : kNoValue),
+                            finger.found.problem.empty() ? 0.0 : 1.0});
+    anyFinite |= bounds && std::isfinite(bounds->arc_m.worst);
   }
   const auto [least, most] = std::ranges::minmax_element(candidates, {}, &Candidate::radius_m);
   const double least_mm = kMilli * least->radius_m, most_mm = kMilli * most->radius_m;

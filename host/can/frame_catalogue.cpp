@@ -59,9 +59,22 @@ const FrameEntry* findCommand(const CanFrame& frame) {
   return nullptr;
 }
 
+const FrameEntry* findAnyFrame(const CanFrame& frame) {
+  if (const FrameEntry* const entry = findFrame(frame)) return entry;
+  if (!nodeOf(frame.id, FunctionCode::kRaw)) return findCommand(frame);
+  constexpr auto kFunctionOf = [](const FrameEntry& entry) { return entry.spec.function; };
+  const auto raw = std::ranges::find(commandCatalogue(), FunctionCode::kRaw, kFunctionOf);
+  return frame.length == raw->spec.length ? &*raw : nullptr;
+}
+
 const ValueName* findName(std::span<const ValueName> names, std::int64_t value) {
   const auto found = std::ranges::find(names, value, &ValueName::value);
   return found != names.end() ? &*found : nullptr;
+}
+
+std::string nameText(std::span<const ValueName> names, std::int64_t value) {
+  const ValueName* const name = findName(names, value);
+  return name != nullptr ? name->name : std::to_string(value);
 }
 
 double stepOf(const FieldMeaning& meaning) {

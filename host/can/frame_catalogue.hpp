@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "common/can_frame.hpp"
 #include "common/frame_layout.hpp"
@@ -34,8 +35,14 @@ const FrameEntry* findFrame(const CanFrame& frame);
 /// devices' frames of the same identifiers (CANopen's SDO) hardly ever look like one. Null if none.
 const FrameEntry* findCommand(const CanFrame& frame);
 
+/// Any of the above, or RAW; null if none.
+const FrameEntry* findAnyFrame(const CanFrame& frame);
+
 /// The name of a value, or of a bit; null if it has none.
 const ValueName* findName(std::span<const ValueName> names, std::int64_t value);
+
+/// That name; the number where it has none.
+std::string nameText(std::span<const ValueName> names, std::int64_t value);
 
 /// What one step of the raw value is, in the field's unit.
 double stepOf(const FieldMeaning& meaning);

@@ -3,39 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-
-#include "common/commands.hpp"
 
 namespace strainfinger::can {
 namespace {
-
-void appendName(std::string& out, const FieldMeaning& meaning, std::int64_t value) {
-  const ValueName* const name = findName(meaning.names, value);
-  out.append(name != nullptr ? name->name : fmt::format("{}", value));
-}
-
-void appendFlags(std::string& out, const FieldSpec& field, std::int64_t raw) {
-  const std::size_t start = out.size();
-  for (int bit = 0; bit < field.bits.width; ++bit) {
-    if ((raw >> bit & 1) == 0) continue;
-    if (out.size() > start) out.push_back('+');
-    appendName(out, field.meaning, bit);
-  }
-}
-
-void appendText(std::string& out, const FieldSpec& field, std::int64_t raw) {
-  if (field.meaning.kind == FieldKind::kFlags)
-    appendFlags(out, field, raw);
-  else
-    appendName(out, field.meaning, raw);
-}
-
-/// How a request is carried says nothing to a reader of the table.
-bool isShown(const FieldSpec& field) {
-  const std::string_view name = field.meaning.name;
-  return name != kLengthMeaning.name && name != kAnswerMeaning.name;
-}
 
 /// RAW has readers of its own: a row a page would say nothing.
 bool isPrinted(const FrameEntry& entry) { return entry.spec.function != FunctionCode::kRaw; }
@@ -52,12 +22,6 @@ std::vector<std::string> columnNames() {
   return all;
 }
 
-/// Bits that were sent: a command counts the bytes behind its first one that matter.
-int sentBits(const CanFrame& frame, const FrameEntry& entry) {
-  const bool counts = std::string_view(entry.fields.front().meaning.name) == kLengthMeaning.name;
-  return 8 * (counts ? 1 + frame.data[0] : frame.length);
-}
-
 /// Of fields of a byte at most, which are in most frames.
 std::vector<std::string> valueTexts(const FieldSpec& field) {
   std::vector<std::string> texts;
@@ -66,26 +30,7 @@ std::vector<std::string> valueTexts(const FieldSpec& field) {
   return texts;
 }
 
-bool isKnown(const FieldSpec& field, std::int64_t raw, int sentBits) {
-  return field.bits.lsb < sentBits &&
-         (field.meaning.kind != FieldKind::kNumber || isValidRaw(field.bits, raw));
-}
-
 }  // namespace
-
-std::string columnName(const FieldMeaning& meaning) {
-  std::string name = meaning.name;
-  if (*meaning.unit != '\0') name.append("_").append(meaning.unit);
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return name;
-}
-
-std::string valueText(const FieldSpec& field, std::int64_t raw) {
-  std::string text;
-  appendText(text, field, raw);
-  return text;
-}
 
 FramePrinter::FramePrinter(std::string& out, TableFormat format)
     : out_(out), format_(format), start_(format) {
@@ -170,7 +115,7 @@ void FramePrinter::appendValue(const Column& column, std::int64_t raw) {
   }
   if (json) out_.push_back('"');
   if (column.texts.empty())
-    appendText(out_, *column.field, raw);
+    out_.append(valueText(*column.field, raw));
   else
     out_.append(column.texts[static_cast<std::size_t>(raw)]);
   if (json) out_.push_back('"');

@@ -10,17 +10,11 @@
 #include "common/can_frame.hpp"
 #include "host/base/table_writer.hpp"
 #include "host/can/decimal_text.hpp"
+#include "host/can/field_text.hpp"
 #include "host/can/frame_catalogue.hpp"
 #include "host/can/row_start.hpp"
 
 namespace strainfinger::can {
-
-/// The column of a field: its name and its unit, "angle_deg".
-std::string columnName(const FieldMeaning& meaning);
-
-/// Choices and flags by name, joined by '+' ("contact+simulated"); a value or bit without a name by its
-/// number.
-std::string valueText(const FieldSpec& field, std::int64_t raw);
 
 /// Prints the frames of fingers, and requests to them. As CSV one table: time_s,interface,node,frame, then a
 /// column for each field of any frame, empty where the frame has no such field or the value is not known. As

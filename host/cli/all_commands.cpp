@@ -16,6 +16,9 @@ void addCommands(CLI::App& app) {
   addFingerCommands(app);
   addMonitor(app);
   addServe(app);
+  addDiscover(app);
+  addInfo(app);
+  addDoctor(app);
   addFigures(app);
 }
 

@@ -10,6 +10,7 @@ void addFingerCommands(CLI::App& app) {
   addReplay(app);
   addDecode(app);
   addPlot(app);
+  addExplain(app);
   addDbc(app);
   addStrains(app);
   addTare(app);

@@ -8,39 +8,20 @@
 #include "host/base/table_writer.hpp"
 #include "host/can/frame_catalogue.hpp"
 #include "host/can/open_bus.hpp"
+#include "host/can/remedies.hpp"
 #include "host/cli/bus_option.hpp"
 
 namespace strainfinger::cli {
 namespace {
 
-std::string nameOf(std::span<const ValueName> names, int value) {
-  const ValueName* name = can::findName(names, value);
-  return name != nullptr ? name->name : fmt::format("{}", value);
+std::string commandName(Command command) { return can::nameText(kCommandNames, static_cast<int>(command)); }
+std::string statusName(CommandStatus status) {
+  return can::nameText(kCommandStatusNames, static_cast<int>(status));
 }
-
-std::string commandName(Command command) { return nameOf(kCommandNames, static_cast<int>(command)); }
-std::string statusName(CommandStatus status) { return nameOf(kCommandStatusNames, static_cast<int>(status)); }
 
 /// Shows every finger of the bus, whatever carries it.
 std::string monitorCommand(const can::BusPort& bus) {
   return fmt::format("`strainfinger monitor --can {}`", bus.name());
-}
-
-std::string remedyFor(CommandStatus status, const can::BusPort& bus) {
-  switch (status) {
-    case CommandStatus::kTouched:
-      return "let go of it; if nothing touches it, its old zero is off: --force does it anyway";
-    case CommandStatus::kBusy:
-      return fmt::format("try again in a second; {} shows what it does", monitorCommand(bus));
-    case CommandStatus::kWait:
-      return "try again then";
-    case CommandStatus::kNotKept:
-      return "it goes on as before; an emulated or simulated finger has no memory to keep it in";
-    case CommandStatus::kTooFast:
-      return "ask for less, or use a bus with a higher bit rate";
-    default:
-      return "use the strainfinger of its firmware";
-  }
 }
 
 Failure silence(const can::Reply& reply, const can::BusPort& bus, const std::string& where) {
@@ -55,13 +36,12 @@ Failure silence(const can::Reply& reply, const can::BusPort& bus, const std::str
                     where, waited_ms, bus.hints().whenSilent, monitorCommand(bus)));
   const HeartbeatFrame& heartbeat = *reply.heartbeat;
   if (heartbeat.protocol != kProtocolVersion)
-    return Failure(ExitCode::kMismatch, fmt::format("{}: speaks protocol {}, this program {}: use the "
-                                                    "strainfinger of its firmware",
-                                                    where, heartbeat.protocol, kProtocolVersion));
-  return Failure(ExitCode::kNoNode,
-                 fmt::format("{}: no answer within {} ms, though it is alive: state {}; in state fault it "
-                             "obeys nothing, else its firmware may be older than this command",
-                             where, waited_ms, nameOf(kFingerStateNames, static_cast<int>(heartbeat.state))));
+    return Failure(ExitCode::kMismatch, fmt::format("{}: {}", where, can::foreignText(heartbeat.protocol)));
+  return Failure(
+      ExitCode::kNoNode,
+      fmt::format("{}: no answer within {} ms, though it is alive: state {}; in state fault it "
+                  "obeys nothing, else its firmware may be older than this command",
+                  where, waited_ms, can::nameText(kFingerStateNames, static_cast<int>(heartbeat.state))));
 }
 
 }  // namespace
@@ -84,9 +64,9 @@ void requireDone(const can::Reply& reply, Command command, const can::BusPort& b
     fmt::print(stderr, "strainfinger: {}: {}: {}\n", where, commandName(command),
                can::meaningOf(*reply.response));
   else if (status != CommandStatus::kDone)
-    throw Failure(ExitCode::kFailure,
-                  fmt::format("{}: {}: {} ({}): {}", where, commandName(command),
-                              can::meaningOf(*reply.response), statusName(status), remedyFor(status, bus)));
+    throw Failure(ExitCode::kFailure, fmt::format("{}: {}: {} ({}): {}", where, commandName(command),
+                                                  can::meaningOf(*reply.response), statusName(status),
+                                                  can::remedyFor(status, bus.name())));
 }
 
 void request(const RequestOptions& options, const std::vector<RequestFrame>& requests) {

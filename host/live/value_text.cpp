@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "host/can/remedies.hpp"
 #include "host/live/words.hpp"
 
 namespace strainfinger::live {
@@ -27,8 +28,7 @@ std::string trouble(const FingerView& finger) {
   if (finger.isSilent())
     return fmt::format("silent for {:.1f} s", static_cast<double>(finger.silence_us) / 1e6);
   if (finger.isForeign())
-    return fmt::format("speaks protocol {}, this program {}: use the strainfinger of its firmware",
-                       finger.heartbeat.protocol, kProtocolVersion);
+    return can::foreignText(finger.heartbeat.protocol);
   return {};
 }
 

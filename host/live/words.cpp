@@ -1,7 +1,5 @@
 #include "host/live/words.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "host/can/frame_catalogue.hpp"
@@ -9,8 +7,7 @@
 namespace strainfinger::live {
 
 std::string wordFor(std::span<const ValueName> names, int value) {
-  const ValueName* name = can::findName(names, value);
-  std::string word = name != nullptr ? name->name : fmt::format("{}", value);
+  std::string word = can::nameText(names, value);
   std::ranges::replace(word, '_', ' ');
   return word;
 }

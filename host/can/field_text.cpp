@@ -1,0 +1,67 @@
+#include "host/can/field_text.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+#include "common/commands.hpp"
+#include "host/can/decimal_text.hpp"
+
+namespace strainfinger::can {
+
+std::string columnName(const FieldMeaning& meaning) {
+  std::string name = meaning.name;
+  if (*meaning.unit != '\0') name.append("_").append(meaning.unit);
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return name;
+}
+
+std::string valueText(const FieldSpec& field, std::int64_t raw) {
+  if (field.meaning.kind != FieldKind::kFlags) return nameText(field.meaning.names, raw);
+  std::string text;
+  for (int bit = 0; bit < field.bits.width; ++bit) {
+    if ((raw >> bit & 1) == 0) continue;
+    if (!text.empty()) text.push_back('+');
+    text.append(nameText(field.meaning.names, bit));
+  }
+  return text;
+}
+
+bool isShown(const FieldSpec& field) {
+  const std::string_view name = field.meaning.name;
+  return name != kLengthMeaning.name && name != kAnswerMeaning.name;
+}
+
+int sentBits(const CanFrame& frame, const FrameEntry& entry) {
+  const bool counts = std::string_view(entry.fields.front().meaning.name) == kLengthMeaning.name;
+  return 8 * (counts ? 1 + frame.data[0] : frame.length);
+}
+
+bool isKnown(const FieldSpec& field, std::int64_t raw, int sentBits) {
+  return field.bits.lsb < sentBits &&
+         (field.meaning.kind != FieldKind::kNumber || isValidRaw(field.bits, raw));
+}
+
+std::vector<FieldValue> fieldValues(const FrameEntry& entry, const CanFrame& frame) {
+  const int bits = sentBits(frame, entry);
+  std::vector<FieldValue> values;
+  for (const FieldSpec& field : entry.fields) {
+    if (!isShown(field)) continue;
+    const std::int64_t raw = extractRaw(field.bits, toWord(frame));
+    const bool known = isKnown(field, raw, bits);
+    values.push_back({&field, raw, known, known && field.meaning.openEnded && raw == maxRaw(field.bits)});
+  }
+  return values;
+}
+
+std::string textOf(const FieldValue& value) {
+  const FieldMeaning& meaning = value.field->meaning;
+  if (!value.isKnown) return "?";
+  if (meaning.kind != FieldKind::kNumber) return valueText(*value.field, value.raw);
+  std::string text = value.isOrMore ? ">=" : "";
+  appendDecimal(text, value.raw * meaning.unitsPerStep, decimalScale(meaning.stepsPerUnit).value());
+  return text;
+}
+
+}  // namespace strainfinger::can

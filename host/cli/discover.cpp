@@ -1,0 +1,116 @@
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/base/failure.hpp"
+#include "host/base/no_value.hpp"
+#include "host/can/frame_catalogue.hpp"
+#include "host/can/open_bus.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/listening.hpp"
+#include "host/health/can_links.hpp"
+#include "host/live/words.hpp"
+
+namespace strainfinger::cli {
+namespace {
+
+constexpr const char* kDiscoverHelp =
+    "Which fingers are there: a row for each that is heard, by its HEARTBEAT. It sends nothing.\n"
+    "Without --can on every CAN interface of this machine that is up. Columns: "
+    "interface,node,state,faults,protocol,firmware,board,reset_cause,uptime_s,table_crc,note; empty where "
+    "the "
+    "finger didn't say.\n"
+    "Exit status: 3 no interface, 4 no finger heard.";
+
+const std::vector<std::string> kColumns{"interface", "node",      "state", "faults",
+                                        "protocol",  "firmware",  "board", "reset_cause",
+                                        "uptime_s",  "table_crc", "note"};
+
+struct DiscoverOptions {
+  explicit DiscoverOptions(CLI::App& command) : common(command), listening(command) {}
+  CommonOptions common;
+  ListeningOptions listening;
+};
+
+std::string noteOn(const live::FingerView& finger) {
+  if (finger.isForeign()) return "another protocol: use the strainfinger of its firmware";
+  if (finger.hasTwin) return "two fingers have this number";
+  return finger.isSilent() ? "silent" : "";
+}
+
+std::string faultsText(const HeartbeatFrame& heartbeat) {
+  std::vector<std::string> names;
+  for (const int bit : live::bitNumbers(heartbeat.faults.raw()))
+    names.push_back(can::nameText(kFingerFaultNames, bit));
+  return fmt::format("{}", fmt::join(names, "+"));
+}
+
+std::vector<Cell> rowOf(const live::BusView& bus, const live::FingerView& finger) {
+  const HeartbeatFrame& heartbeat = finger.heartbeat;
+  Cell state, faults, firmware, board, cause, uptime, tables;
+  for (Cell* const unknown : {&state, &faults, &firmware, &board, &cause, &uptime, &tables})
+    *unknown = kNoValue;
+  if (!finger.isForeign()) {  // else the fields may mean something else
+    state = can::nameText(kFingerStateNames, static_cast<int>(heartbeat.state));
+    faults = faultsText(heartbeat);
+    tables = std::int64_t{heartbeat.table_crc};
+    if (heartbeat.uptime_s != kNotKnown<std::uint16_t>) uptime = std::int64_t{heartbeat.uptime_s};
+  }
+  if (!finger.isForeign() && finger.info) {
+    firmware = fmt::format("{}.{}", finger.info->version_major, finger.info->version_minor);
+    board = std::int64_t{finger.info->board};
+    cause = can::nameText(kResetCauseNames, static_cast<int>(finger.info->reset_cause));
+  }
+  return {bus.name,
+          std::int64_t{finger.node},
+          state,
+          faults,
+          std::int64_t{heartbeat.protocol},
+          firmware,
+          board,
+          cause,
+          uptime,
+          tables,
+          noteOn(finger)};
+}
+
+/// Those of --can, or all CAN interfaces that are up.
+std::vector<std::string> busNames(const ListeningOptions& options) {
+  if (!options.bus.empty()) return {options.bus};
+  std::vector<std::string> names;
+  for (const health::CanLink& link : health::canLinks())
+    if (link.isUp) names.push_back(link.name);
+  if (names.empty())
+    throw Failure(
+        ExitCode::kNoInterface,
+        "discover: no CAN interface of this machine is up: `strainfinger doctor` says how to bring one up; "
+        "--can udp is a bus between the programs of this machine");
+  return names;
+}
+
+void runDiscover(const DiscoverOptions& options) {
+  const config::FingerConfig config = options.common.config();
+  const std::vector<std::string> names = busNames(options.listening);
+  std::vector<ListenedBus> buses;
+  for (const std::string& name : names) buses.emplace_back(can::openBus(name, config.can.bitrate), config);
+  std::optional<TableWriter> table;  // nothing is printed before there is a row
+  for (const live::BusView& bus : listenTo(buses, options.listening.duration(), "discover"))
+    for (const live::FingerView& finger : bus.fingers) {
+      if (!table) table.emplace(stdout, options.common.format(), kColumns);
+      table->row(rowOf(bus, finger));
+    }
+  if (!table)
+    throw Failure(
+        ExitCode::kNoNode,
+        fmt::format("discover: no finger heard on {} in {} s: `strainfinger doctor` looks for the cause",
+                    fmt::join(names, ", "), options.listening.duration_s));
+}
+
+}  // namespace
+
+void addDiscover(CLI::App& app) { addCommand<DiscoverOptions>(app, "discover", kDiscoverHelp, runDiscover); }
+
+}  // namespace strainfinger::cli

@@ -1,0 +1,142 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/commands.hpp"
+#include "host/base/failure.hpp"
+#include "host/base/no_value.hpp"
+#include "host/can/field_text.hpp"
+#include "host/can/open_bus.hpp"
+#include "host/can/remedies.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/field_row.hpp"
+#include "host/cli/request.hpp"
+#include "host/health/counts.hpp"
+#include "host/health/examine.hpp"
+#include "host/live/bus_watch.hpp"
+#include "host/system/stop_signal.hpp"
+#include "host/tables/table_builder.hpp"
+
+namespace strainfinger::cli {
+namespace {
+
+constexpr const char* kInfoHelp =
+    "What a finger tells of itself: state, faults, firmware, why it started, what the run before died of, "
+    "gauges "
+    "out of use, age of its zeros, and what it counts.\n"
+    "Prints interface,node,frame,field,value,meaning; a value that it doesn't know is empty. With -c "
+    "also "
+    "whether its tables are those of that config: exit status 5 if not.\n"
+    "Exit status: 3 no interface, 4 no such node, 5 another protocol or other tables.";
+
+/// INFO and GAUGES come each second.
+constexpr std::chrono::milliseconds kListenFor{2 * std::max(kInfoPeriod_ms, kGaugesPeriod_ms)};
+
+std::optional<live::FingerView> fingerOf(const live::BusView& bus, std::uint8_t node) {
+  const auto finger = std::ranges::find(bus.fingers, node, &live::FingerView::node);
+  return finger != bus.fingers.end() ? std::optional(*finger) : std::nullopt;
+}
+
+/// Listens until it has said everything, or for as long as that should take; nothing: it is not heard.
+std::optional<live::FingerView> listenFor(live::BusWatch& watch, std::uint8_t node) {
+  using Clock = std::chrono::steady_clock;
+  const system::StopSignal stop;
+  const Clock::time_point end = Clock::now() + kListenFor;
+  std::optional<live::FingerView> finger;
+  while (Clock::now() < end && !(finger && finger->info && finger->gauges)) {
+    watch.listen(system::StopSignal::kLookEvery);
+    if (stop.asked()) throw Failure(ExitCode::kInterrupted, "info: interrupted");
+    finger = fingerOf(watch.view(), node);
+  }
+  return finger;
+}
+
+class InfoTable {
+ public:
+  InfoTable(const RequestOptions& options, std::uint8_t node)
+      : bus_(options.bus), node_(node), table_(stdout, options.common.format(), columns()) {}
+
+  template <typename Frame>
+  void add(const Frame& frame) {
+    const CanFrame encoded = encode(frame, node_);
+    const can::FrameEntry& entry = *can::findFrame(encoded);
+    for (const can::FieldValue& value : can::fieldValues(entry, encoded))
+      add(entry.spec.name, fieldRow(value));
+  }
+
+  void add(const health::Counted& counted) {
+    const ValueName& name = *can::findName(kCountNames, static_cast<int>(counted.count));
+    const Cell value = counted.value ? Cell(std::int64_t{*counted.value}) : Cell(kNoValue);
+    add(kLayout<ResponseFrame>.spec.name, {name.name, value, name.comment});
+  }
+
+ private:
+  static std::vector<std::string> columns() {
+    std::vector<std::string> columns{"interface", "node", "frame"};
+    columns.insert(columns.end(), kFieldColumns.begin(), kFieldColumns.end());
+    return columns;
+  }
+  void add(const char* frame, const std::vector<Cell>& field) {
+    std::vector<Cell> row{bus_, std::int64_t{node_}, frame};
+    row.insert(row.end(), field.begin(), field.end());
+    table_.row(row);
+  }
+
+  std::string bus_;
+  std::uint8_t node_;
+  TableWriter table_;
+};
+
+void addCounts(can::BusPort& port, const live::FingerView& finger, InfoTable& table) {
+  bool areAllKnown = false;
+  if (health::canAnswer(finger)) {
+    const std::vector<health::Counted> counts = health::askForCounts(port, finger.node);
+    for (const health::Counted& counted : counts) table.add(counted);
+    areAllKnown = counts.back().value.has_value();
+  }
+  if (!areAllKnown)
+    fmt::print(stderr, "strainfinger: {} node {}: it answers no requests: what it counts is not known\n",
+               port.name(), finger.node);
+}
+
+void requireTables(const config::FingerConfig& config, const HeartbeatFrame& heartbeat,
+                   const std::string& where) {
+  const std::uint32_t crc32 = tables::buildTableImage(config).crc32;
+  if (!health::areTables(heartbeat, crc32))
+    throw Failure(ExitCode::kMismatch,
+                  fmt::format("{}: {}: {}", where, health::otherTablesText(heartbeat, crc32),
+                              health::kOtherTablesRemedy));
+}
+
+void runInfo(const RequestOptions& options) {
+  const config::FingerConfig config = options.common.config();
+  const std::uint8_t node = nodeOf(options, config.can);
+  const auto port = can::openBus(options.bus, config.can.bitrate);
+  live::BusWatch watch(*port, config);
+  const auto finger = listenFor(watch, node);
+  const std::string where = fmt::format("{} node {}", port->name(), node);
+  if (!finger)
+    throw Failure(ExitCode::kNoNode,
+                  fmt::format("{}: no HEARTBEAT in {} ms: {} `strainfinger discover --can {}` shows "
+                              "the fingers that are there",
+                              where, kListenFor.count(), port->hints().whenSilent, port->name()));
+  if (finger->isForeign())
+    throw Failure(ExitCode::kMismatch,
+                  fmt::format("{}: {}", where, can::foreignText(finger->heartbeat.protocol)));
+  InfoTable table(options, node);
+  table.add(finger->heartbeat);
+  if (finger->info) table.add(*finger->info);
+  if (finger->gauges) table.add(*finger->gauges);
+  addCounts(*port, *finger, table);
+  if (options.common.hasConfig()) requireTables(config, finger->heartbeat, where);
+}
+
+}  // namespace
+
+void addInfo(CLI::App& app) { addCommand<RequestOptions>(app, "info", kInfoHelp, runInfo); }
+
+}  // namespace strainfinger::cli

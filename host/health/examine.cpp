@@ -1,0 +1,279 @@
+#include "host/health/examine.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "host/can/frame_catalogue.hpp"
+#include "host/can/remedies.hpp"
+#include "host/live/value_text.hpp"
+#include "host/live/words.hpp"
+
+namespace strainfinger::health {
+namespace {
+
+/// Of the bit rate, without stuff bits: with as many of these as there can be, 135 bits a frame in place of
+/// 111 (common/BUS_LOAD.md), the bus is full.
+constexpr double kMostLoad = 111.0 / 135.0;
+
+/// ISO 11898's error warning and error passive.
+constexpr int kErrorWarning = 96, kErrorPassive = 128;
+
+/// Times that a page of the settings' memory may be erased (DS12589).
+constexpr std::uint32_t kEraseLife = 10'000;
+
+constexpr std::string_view kBusRemedy =
+    "check the bus: wiring, 120 ohm at both ends, one bit rate for all, somebody who acknowledges";
+
+/// Flags of a touch that somebody should know of.
+constexpr std::array kNotableFlags{FingerFlag::kSaturated, FingerFlag::kDegraded, FingerFlag::kUncertain,
+                                   FingerFlag::kStaleZero, FingerFlag::kUncalibrated};
+
+/// Faults with which its touches are not told, or not to be trusted.
+constexpr std::array kEndingFaults{FingerFault::kTables, FingerFault::kGauges, FingerFault::kConverter};
+
+/// Gathers findings about one thing.
+class Examination {
+ public:
+  explicit Examination(std::string where) : where_(std::move(where)) {}
+
+  void good(std::string what) { add(Severity::kGood, std::move(what), ""); }
+  void warning(std::string what, std::string_view remedy) {
+    add(Severity::kWarning, std::move(what), remedy);
+  }
+  void error(std::string what, std::string_view remedy, ExitCode status = ExitCode::kFailure) {
+    add(Severity::kError, std::move(what), remedy);
+    findings_.back().status = status;
+  }
+  bool isEmpty() const { return findings_.empty(); }
+  Findings findings() { return std::move(findings_); }
+
+ private:
+  void add(Severity severity, std::string what, std::string_view remedy) {
+    findings_.push_back({severity, where_, std::move(what), std::string(remedy)});
+  }
+  std::string where_;
+  Findings findings_;
+};
+
+std::string bringUpAnew(const CanLink& link, int bitrate) {
+  return fmt::format(
+      "`sudo ip link set {0} down && sudo ip link set {0} up type can bitrate {1} restart-ms 100`", link.name,
+      bitrate);
+}
+
+void examineController(const CanLink& link, Examination& examination) {
+  const std::string errors = fmt::format("its error counters: sent {}, received {}",
+                                         link.txErrors.value_or(0), link.rxErrors.value_or(0));
+  if (link.state == "BUS-OFF")
+    examination.error("the controller has left the bus (bus-off) after too many errors",
+                      fmt::format("{}; then `sudo ip link set {} type can restart`", kBusRemedy, link.name));
+  else if (link.state == "ERROR-PASSIVE")
+    examination.error(fmt::format("error-passive: frames are not acknowledged or not understood; {}", errors),
+                      kBusRemedy);
+  else if (link.state == "ERROR-WARNING")
+    examination.warning(fmt::format("many errors on the bus; {}", errors), kBusRemedy);
+}
+
+std::string describe(const CanLink& link) {
+  if (link.state.empty()) return "up; a virtual interface, or one that tells nothing of its controller";
+  std::string text = "up, " + link.state;
+  if (link.bitrate) text += fmt::format(", {} bit/s", *link.bitrate);
+  if (link.samplePoint) text += fmt::format(", sample point {:.1f} %", 100 * *link.samplePoint);
+  return text;
+}
+
+std::string nameFor(std::span<const ValueName> names, int value, const char* kind) {
+  return fmt::format("{} {}", kind, live::wordFor(names, value));
+}
+
+/// "fault noisy: The untouched gauges ..."
+template <std::size_t N>
+std::string said(const char* kind, const std::array<ValueName, N>& names, int value) {
+  const ValueName* const name = can::findName(names, value);
+  return fmt::format("{}: {}", nameFor(names, value, kind),
+                     name != nullptr ? name->comment : "unknown to this program");
+}
+
+void examineHeartbeat(const HeartbeatFrame& heartbeat, Examination& examination) {
+  const auto faults = live::bitNumbers(heartbeat.faults.raw());
+  for (const int bit : faults) {
+    const auto fault = static_cast<FingerFault>(bit);
+    const std::string what = said("fault", kFingerFaultNames, bit);
+    if (std::ranges::find(kEndingFaults, fault) != kEndingFaults.end())
+      examination.error(what, can::remedyFor(fault));
+    else
+      examination.warning(what, can::remedyFor(fault));
+  }
+  if (heartbeat.state != FingerState::kRun && faults.empty())
+    examination.warning(said("state", kFingerStateNames, static_cast<int>(heartbeat.state)),
+                        can::remedyFor(heartbeat.state));
+  int errors = 0;
+  for (const std::uint8_t steps : {heartbeat.tx_error_steps, heartbeat.rx_error_steps})
+    if (steps != kErrorStepsNotKnown) errors = std::max(errors, steps * kErrorsPerStep);
+  if (errors >= kErrorPassive)
+    examination.error("its CAN controller is error-passive", kBusRemedy);
+  else if (errors >= kErrorWarning)
+    examination.warning("its CAN controller has seen many errors", kBusRemedy);
+}
+
+void examineInfo(const InfoFrame& info, Examination& examination) {
+  if (info.crash != Crash::kNone)
+    examination.warning(fmt::format("{}, at 0x{:X}; {} crashes since power came on",
+                                    said("the run before died", kCrashNames, static_cast<int>(info.crash)),
+                                    info.crash_address, info.restarts),
+                        can::remedyFor(info.crash));
+  if (info.reset_cause == ResetCause::kBrownOut)
+    examination.warning(said("last reset", kResetCauseNames, static_cast<int>(info.reset_cause)),
+                        can::remedyFor(info.reset_cause));
+}
+
+void examineTraffic(const live::FingerView& finger, Examination& examination) {
+  if (finger.lost > 0)
+    examination.warning(fmt::format("{} of {} frames of touches were lost on the way", finger.lost,
+                                    finger.lost + finger.received),
+                        "is the bus too full (common/BUS_LOAD.md), or a program on it too slow?");
+  if (finger.restarts > 0)
+    examination.warning(fmt::format("it restarted {} times meanwhile", finger.restarts),
+                        "measure its supply; `strainfinger info` has the cause of the last reset");
+  if (finger.touch)
+    for (const FingerFlag flag : kNotableFlags)
+      if (finger.touch->flags.has(flag))
+        examination.warning(said("flag", kFingerFlagNames, static_cast<int>(flag)), can::remedyFor(flag));
+}
+
+std::string describe(const live::FingerView& finger) {
+  const HeartbeatFrame& heartbeat = finger.heartbeat;
+  std::string text = fmt::format("{}, up {}, tables ..{:02X}",
+                                 live::wordFor(kFingerStateNames, static_cast<int>(heartbeat.state)),
+                                 live::durationText(heartbeat.uptime_s), heartbeat.table_crc);
+  if (finger.info)
+    text += fmt::format(", firmware {}.{}", finger.info->version_major, finger.info->version_minor);
+  if (heartbeat.temperature_degC != kNotKnown<std::int8_t>)
+    text += fmt::format(", {} degC", heartbeat.temperature_degC);
+  if (finger.touch)
+    text += finger.isTouched() ? fmt::format(", touched ({} contacts a second)", finger.contactsPerSecond)
+                               : ", untouched";
+  return text;
+}
+
+}  // namespace
+
+const char* nameOf(Severity severity) {
+  switch (severity) {
+    case Severity::kGood:
+      return "ok";
+    case Severity::kWarning:
+      return "warning";
+    case Severity::kError:
+      break;
+  }
+  return "error";
+}
+
+bool areTables(const HeartbeatFrame& heartbeat, std::uint32_t crc32) {
+  return heartbeat.table_crc == (crc32 & 0xFF);
+}
+
+std::string otherTablesText(const HeartbeatFrame& heartbeat, std::uint32_t crc32) {
+  return fmt::format("its tables are not those of the config: their CRC-32 ends with {:02X}, not {:02X}",
+                     heartbeat.table_crc, crc32 & 0xFF);
+}
+
+Findings examineLink(const CanLink& link, int bitrate) {
+  Examination examination(link.name);
+  if (!link.isUp) {
+    examination.error(
+        "down",
+        link.state.empty() ? fmt::format("`sudo ip link set {} up`", link.name) : bringUpAnew(link, bitrate),
+        ExitCode::kNoInterface);
+    return examination.findings();
+  }
+  examineController(link, examination);
+  if (link.bitrate && *link.bitrate != bitrate)
+    examination.error(fmt::format("{} bit/s; the config's can.bitrate is {}", *link.bitrate, bitrate),
+                      fmt::format("{}, or mend can.bitrate", bringUpAnew(link, bitrate)));
+  if (link.restart_ms == 0)
+    examination.warning(
+        "a controller that leaves the bus stays off it (restart-ms 0)",
+        fmt::format("`sudo ip link set {} type can restart-ms 100`, while it is down", link.name));
+  if (examination.isEmpty()) examination.good(describe(link));
+  return examination.findings();
+}
+
+Findings examineBus(const live::BusView& bus, const can::BusHints& hints,
+                    std::chrono::milliseconds listened) {
+  Examination examination(bus.name);
+  if (bus.fingers.empty())
+    examination.error(
+        fmt::format("no finger heard in {:.1f} s, {}", static_cast<double>(listened.count()) / 1e3,
+                    bus.framesPerSecond > 0 ? "though others send" : "and nothing else"),
+        hints.whenSilent, ExitCode::kNoNode);
+  if (bus.load > kMostLoad)
+    examination.warning(
+        fmt::format("{:.0f} % of the bit rate are used: with stuff bits the bus may be full", 100 * bus.load),
+        "lower contact rates: `strainfinger config --contact-rate-hz HZ` (common/BUS_LOAD.md)");
+  if (bus.missed > 0)
+    examination.warning(fmt::format("this machine was too slow for {} frames", bus.missed),
+                        "what else does it do? lost frames may be its own");
+  if (examination.isEmpty())
+    examination.good(fmt::format("fingers: {}, frames a second: {}, {:.1f} % of the bit rate",
+                                 bus.fingers.size(), bus.framesPerSecond, 100 * bus.load));
+  return examination.findings();
+}
+
+bool canAnswer(const live::FingerView& finger) {
+  return !finger.isSilent() && !finger.isForeign() && !finger.hasTwin &&
+         finger.heartbeat.state != FingerState::kFault;
+}
+
+Findings examineFinger(const live::BusView& bus, const live::FingerView& finger,
+                       std::optional<std::uint32_t> tables_crc32) {
+  Examination examination(fmt::format("{} node {}", bus.name, finger.node));
+  if (finger.isForeign()) {
+    examination.error(can::foreignText(finger.heartbeat.protocol), "", ExitCode::kMismatch);
+    return examination.findings();
+  }
+  if (finger.hasTwin)
+    examination.error("two fingers have this number: what they say is mixed up",
+                      "take one off the bus; `strainfinger config --set-node` changes the other's number");
+  if (finger.isSilent())
+    examination.error(fmt::format("silent for {:.1f} s", static_cast<double>(finger.silence_us) / 1e6),
+                      "is it powered, and its plug in?", ExitCode::kNoNode);
+  examineHeartbeat(finger.heartbeat, examination);
+  if (tables_crc32 && !areTables(finger.heartbeat, *tables_crc32))
+    examination.error(otherTablesText(finger.heartbeat, *tables_crc32), kOtherTablesRemedy,
+                      ExitCode::kMismatch);
+  if (finger.info) examineInfo(*finger.info, examination);
+  const auto gauges = live::bitNumbers(finger.gauges ? finger.gauges->out_of_use : 0);
+  if (!gauges.empty())
+    examination.warning(
+        fmt::format("gauges out of use: {}", fmt::join(gauges, ", ")),
+        "check their wires (firmware/gauge_faults.md); `strainfinger tare` gives each another chance");
+  if (!finger.hasTwin) examineTraffic(finger, examination);
+  if (examination.isEmpty()) examination.good(describe(finger));
+  return examination.findings();
+}
+
+Findings examineCounts(const std::string& where, std::span<const Counted> counts) {
+  Examination examination(where);
+  for (const auto& [count, value] : counts) {
+    if (!value) {
+      examination.error("it is heard, but answers no request",
+                        "can this machine send (not listen-only)? is its firmware older than this program?",
+                        ExitCode::kNoNode);
+      break;
+    }
+    if (count == Count::kLostSets) continue;  // the fault `samples` tells
+    if (*value > (count == Count::kErases ? kEraseLife - 1 : 0))
+      examination.warning(fmt::format("{} {}", *value, said("counted", kCountNames, static_cast<int>(count))),
+                          can::remedyFor(count));
+  }
+  if (examination.isEmpty()) examination.good("answers requests, and counts nothing that would be wrong");
+  return examination.findings();
+}
+
+}  // namespace strainfinger::health

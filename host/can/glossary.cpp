@@ -43,7 +43,9 @@ class Glossary {
     for (const auto& catalogue : {frameCatalogue(), commandCatalogue()})
       for (const FrameEntry& entry : catalogue) addFrame(entry);
     for (const ValueName& count : kCountNames)
-      note(values_, {count.name, fmt::format("value {} of count's argument", count.value), count.comment, std::string(remedyFor(Count{count.value}))},
+      note(values_,
+           {count.name, fmt::format("value {} of count's argument", count.value), count.comment,
+            std::string(remedyFor(Count{count.value}))},
            kLayout<RequestFrame>.spec.name);
   }
 

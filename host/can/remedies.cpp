@@ -109,7 +109,7 @@ std::string_view remedyFor(Crash crash) {
 std::string_view remedyFor(Count count) {
   switch (count) {
     case Count::kErases:
-      return "";
+      return "at 40,000 its memory is worn out: change settings less often";
     case Count::kCorrected:
     case Count::kUnreadable:
       return "its memory wears out: replace the board before it forgets its settings";

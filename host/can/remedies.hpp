@@ -15,7 +15,7 @@ std::string_view remedyFor(FingerFlag flag);
 std::string_view remedyFor(FingerState state);
 std::string_view remedyFor(ResetCause cause);
 std::string_view remedyFor(Crash crash);
-std::string_view remedyFor(Count count);  ///< where it is not 0
+std::string_view remedyFor(Count count);  ///< where it is too high
 
 /// Of a finger whose HEARTBEAT has another protocol version: its other frames mean something else.
 std::string foreignText(std::uint8_t protocol);

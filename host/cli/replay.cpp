@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <thread>
@@ -65,7 +66,9 @@ struct LogExtent {
 
 /// Reads it all, so that nothing is sent of a log that cannot be read to its end.
 LogExtent measure(const std::string& path) {
-  if (path == "-") throw Failure(ExitCode::kUsage, "replay: the log must be a file: it is read twice");
+  const bool isPipe = std::filesystem::exists(path) && !std::filesystem::is_regular_file(path);
+  if (path == "-" || isPipe)
+    throw Failure(ExitCode::kUsage, "replay: the log must be a file, not a pipe: it is read twice");
   can::LogReader log(path);
   LogExtent extent;
   while (log.next()) ++extent.frames;

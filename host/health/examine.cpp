@@ -22,8 +22,8 @@ constexpr double kMostLoad = 111.0 / 135.0;
 /// ISO 11898's error warning and error passive.
 constexpr int kErrorWarning = 96, kErrorPassive = 128;
 
-/// Times that a page of the settings' memory may be erased (DS12589).
-constexpr std::uint32_t kEraseLife = 10'000;
+/// Erases of the settings' memory from which on its end is near: four pages last 10,000 times each (DS12589).
+constexpr std::uint32_t kNearlyWorn = 36'000;
 
 constexpr std::string_view kBusRemedy =
     "check the bus: wiring, 120 ohm at both ends, one bit rate for all, somebody who acknowledges";
@@ -268,7 +268,7 @@ Findings examineCounts(const std::string& where, std::span<const Counted> counts
       break;
     }
     if (count == Count::kLostSets) continue;  // the fault `samples` tells
-    if (*value > (count == Count::kErases ? kEraseLife - 1 : 0))
+    if (*value > (count == Count::kErases ? kNearlyWorn - 1 : 0))
       examination.warning(fmt::format("{} {}", *value, said("counted", kCountNames, static_cast<int>(count))),
                           can::remedyFor(count));
   }

@@ -27,8 +27,7 @@ std::string withSigma(const std::string& value, const Said& sigma, int decimals,
 std::string trouble(const FingerView& finger) {
   if (finger.isSilent())
     return fmt::format("silent for {:.1f} s", static_cast<double>(finger.silence_us) / 1e6);
-  if (finger.isForeign())
-    return can::foreignText(finger.heartbeat.protocol);
+  if (finger.isForeign()) return can::foreignText(finger.heartbeat.protocol);
   return {};
 }
 

@@ -127,6 +127,9 @@ TEST(Record, ReplaySendsNothingOfALogItCannotRead) {
 
 TEST(Record, ReplayRefusesWhatCannotBe) {
   checkRefused("replay - --can udp", "the log must be a file");
+  const Run pipe = runShell(R"("$STRAINFINGER" replay --can udp:19977 <(echo))");
+  LONGS_EQUAL(2, pipe.status);
+  STRCMP_CONTAINS("not a pipe: it is read twice", pipe.err.c_str());
   checkRefused("replay x.log", "give either --can");
   checkRefused("replay x.log --can udp --recompute", "give either --can");
   for (const std::string speed : {"0", "nan"})

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <string>
 #include <thread>
@@ -18,6 +19,7 @@ class FakeBusPort final : public BusPort {
  public:
   bool send(const CanFrame& frame) noexcept override {
     if (takes) sent.push_back(frame);
+    if (takes && onSend) onSend(frame);
     return takes;
   }
   std::optional<TimedFrame> receiveTimed() noexcept override {
@@ -46,6 +48,7 @@ class FakeBusPort final : public BusPort {
   std::uint32_t missed = 3;
   std::deque<TimedFrame> toHear;
   std::vector<CanFrame> sent;
+  std::function<void(const CanFrame&)> onSend;  ///< may hear() an answer
 
  private:
   std::string name_ = "fake0";

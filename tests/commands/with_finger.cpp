@@ -1,0 +1,38 @@
+#include "tests/commands/with_finger.hpp"
+
+#include <unistd.h>
+
+#include "CppUTest/TestHarness.h"
+
+namespace strainfinger {
+namespace {
+
+constexpr int kNotHeard = 97;
+
+}  // namespace
+
+Run withFinger(const std::string& options, const std::string& script) {
+  const std::string bus = "udp:" + std::to_string(20'000 + getpid() % 40'000);
+  const Run run = runShell("BUS=" + bus + "\n\"$STRAINFINGER\" run --can $BUS --duration 30 " + options +
+                           R"( 2>/dev/null & finger=$!
+heard=
+for _ in $(seq 100); do
+  "$STRAINFINGER" config --can $BUS --contact-rate-hz 100 >/dev/null 2>&1 && heard=yes && break
+  kill -0 $finger 2>/dev/null && sleep 0.1 || break
+done
+if [ -z "$heard" ]; then
+  echo "the finger on $BUS is not heard" >&2
+  kill -INT $finger 2>/dev/null; wait $finger; exit )" +
+                           std::to_string(kNotHeard) + "\nfi\n" + script +
+                           "\nstatus=$?; kill -INT $finger; wait $finger; exit $status\n");
+  if (run.status == kNotHeard) FAIL(run.err.c_str());
+  return run;
+}
+
+std::string interfacesAre(const std::string& json) {
+  return "tools=$(mktemp -d); trap 'rm -r $tools' EXIT\n"
+         "cat >$tools/ip <<'END'\n#!/bin/sh\ncat <<'JSON'\n" +
+         json + "\nJSON\nEND\nchmod +x $tools/ip; PATH=$tools:$PATH\n";
+}
+
+}  // namespace strainfinger

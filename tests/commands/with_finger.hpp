@@ -1,0 +1,17 @@
+#pragma once
+// A command beside a finger that runs on a bus between programs.
+
+#include <string>
+
+#include "tests/commands/program.hpp"
+
+namespace strainfinger {
+
+/// Runs a shell script in which $BUS is a bus of this test run's own, with a finger on it (`run` with these
+/// options) until the script ends.
+Run withFinger(const std::string& options, const std::string& script);
+
+/// In a script: `ip` prints this JSON in place of this machine's interfaces.
+std::string interfacesAre(const std::string& json);
+
+}  // namespace strainfinger

@@ -1,0 +1,28 @@
+# A finger on a real interface, found without being told where; then with the interface down.
+start_stroked_finger
+
+found=$(strainfinger discover --duration 1.2)
+echo "$found"
+expect "fingers found" 1 "$(grep -c '^vcan0,1,run,.*,2,0\.1,.*,power_on,' <<<"$found")"
+
+strainfinger info --can vcan0 >"$TMPDIR/info"
+for row in 'HEARTBEAT,protocol,2' 'INFO,reset_cause,power_on' 'GAUGES,zero_age_s,' 'RESPONSE,erases,0'; do
+  grep -q "^vcan0,1,$row" "$TMPDIR/info" || fail "no $row in $(cat "$TMPDIR/info")"
+done
+
+strainfinger doctor >"$TMPDIR/doctor" 2>"$TMPDIR/sum" || fail "$(cat "$TMPDIR/doctor" "$TMPDIR/sum")"
+cat "$TMPDIR/doctor"
+grep -q '^ok  *vcan0: up; a virtual interface' "$TMPDIR/doctor" || fail "the interface is not described"
+grep -q '^ok  *vcan0: fingers: 1, ' "$TMPDIR/doctor" || fail "the bus is not described"
+grep -q '^ok  *vcan0 node 1: answers requests' "$TMPDIR/doctor" || fail "the finger is not asked"
+
+kill -TERM $finger
+wait $finger || true
+stop_recording
+ip link set vcan0 down
+status=0
+strainfinger doctor >"$TMPDIR/doctor" 2>/dev/null || status=$?
+ip link set vcan0 up
+expect "exit status of an interface that is down" 3 $status
+grep -q '^error  *vcan0: down' "$TMPDIR/doctor" || fail "$(cat "$TMPDIR/doctor")"
+grep -qF 'what to do: `sudo ip link set vcan0 up`' "$TMPDIR/doctor" || fail "$(cat "$TMPDIR/doctor")"

@@ -15,6 +15,7 @@ constexpr std::chrono::milliseconds kRetry{10};
 void take(const CanFrame& frame, std::uint8_t node, Command command, Reply& reply) {
   const auto response = readSingleFrame<ResponseFrame>(frame, node);
   if (response && response->command == command) reply.response = response;
+  if (nodeOf(frame.id, FunctionCode::kRequest) == node) reply.othersAsk = true;
   if (nodeOf(frame.id, FunctionCode::kHeartbeat) != node) return;
   if (const auto heartbeat = decode<HeartbeatFrame>(frame)) reply.heartbeat = heartbeat;
 }

@@ -17,6 +17,7 @@ inline constexpr std::chrono::milliseconds kAskFor{2 * kAnswerWithin_ms};
 struct Reply {
   bool sent = false;  ///< false: the interface did not take the request in all that time
   std::optional<ResponseFrame> response{};
+  bool othersAsk = false;  ///< somebody else asked the same node meanwhile: the response may be theirs
   std::optional<HeartbeatFrame> heartbeat{};  ///< the last of that finger while nothing had come yet
 };
 

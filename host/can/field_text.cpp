@@ -38,6 +38,10 @@ int sentBits(const CanFrame& frame, const FrameEntry& entry) {
   return 8 * (counts ? 1 + frame.data[0] : frame.length);
 }
 
+std::uint64_t sentWord(const CanFrame& frame, const FrameEntry& entry) {
+  return toWord(frame) & ~std::uint64_t{0} >> (64 - sentBits(frame, entry));
+}
+
 bool isKnown(const FieldSpec& field, std::int64_t raw, int sentBits) {
   return field.bits.lsb < sentBits &&
          (field.meaning.kind != FieldKind::kNumber || isValidRaw(field.bits, raw));
@@ -48,7 +52,7 @@ std::vector<FieldValue> fieldValues(const FrameEntry& entry, const CanFrame& fra
   std::vector<FieldValue> values;
   for (const FieldSpec& field : entry.fields) {
     if (!isShown(field)) continue;
-    const std::int64_t raw = extractRaw(field.bits, toWord(frame));
+    const std::int64_t raw = extractRaw(field.bits, sentWord(frame, entry));
     const bool known = isKnown(field, raw, bits);
     values.push_back({&field, raw, known, known && field.meaning.openEnded && raw == maxRaw(field.bits)});
   }
@@ -58,6 +62,7 @@ std::vector<FieldValue> fieldValues(const FrameEntry& entry, const CanFrame& fra
 std::string textOf(const FieldValue& value) {
   const FieldMeaning& meaning = value.field->meaning;
   if (!value.isKnown) return "?";
+  if (meaning.kind == FieldKind::kFlags && value.raw == 0) return "none";
   if (meaning.kind != FieldKind::kNumber) return valueText(*value.field, value.raw);
   std::string text = value.isOrMore ? ">=" : "";
   appendDecimal(text, value.raw * meaning.unitsPerStep, decimalScale(meaning.stepsPerUnit).value());

@@ -23,6 +23,9 @@ bool isShown(const FieldSpec& field);
 /// Bits of the frame that were sent: a command counts the bytes behind its first one that matter.
 int sentBits(const CanFrame& frame, const FrameEntry& entry);
 
+/// The frame's bits, without what does not count: padding behind a command's bytes is 0.
+std::uint64_t sentWord(const CanFrame& frame, const FrameEntry& entry);
+
 /// The raw value was sent and is none that stands for "not known".
 bool isKnown(const FieldSpec& field, std::int64_t raw, int sentBits);
 
@@ -38,7 +41,7 @@ struct FieldValue {
 std::vector<FieldValue> fieldValues(const FrameEntry& entry, const CanFrame& frame);
 
 /// A value in its unit, exactly and without the unit: "102.1", ">=0.127" where it is that or more,
-/// "contact+simulated"; "?" where it is not known.
+/// "contact+simulated", "none"; "?" where it is not known.
 std::string textOf(const FieldValue& value);
 
 }  // namespace strainfinger::can

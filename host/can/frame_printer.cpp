@@ -70,7 +70,7 @@ bool FramePrinter::print(std::optional<std::int64_t> time_ns, std::string_view i
   const FrameSpec& spec = row->entry->spec;
   start_.append(out_, time_ns, interface, *nodeOf(frame.id, spec.function));
   const int bits = sentBits(frame, *row->entry);
-  const std::uint64_t word = toWord(frame) & ~std::uint64_t{0} >> (64 - bits);
+  const std::uint64_t word = sentWord(frame, *row->entry);
   if (format_ == TableFormat::kCsv)
     appendCsv(*row, word, bits);
   else

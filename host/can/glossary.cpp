@@ -16,23 +16,22 @@
 namespace strainfinger::can {
 namespace {
 
-constexpr std::string_view kAnyBus = "BUS";  ///< in remedies of no bus in particular
 constexpr std::size_t kMostLike = 3, kMostLettersOff = 3;
 
 /// What to do about a value of one of the lists of names; "" for lists without remedies.
-std::string remedyOf(const ValueName* names, std::uint8_t value) {
-  if (names == kFingerFaultNames.data()) return std::string(remedyFor(FingerFault{value}));
-  if (names == kFingerFlagNames.data()) return std::string(remedyFor(FingerFlag{value}));
-  if (names == kFingerStateNames.data()) return std::string(remedyFor(FingerState{value}));
-  if (names == kResetCauseNames.data()) return std::string(remedyFor(ResetCause{value}));
-  if (names == kCrashNames.data()) return std::string(remedyFor(Crash{value}));
-  if (names == kCommandStatusNames.data()) return remedyFor(CommandStatus{value}, kAnyBus);
-  return {};
+std::string_view remedyOf(const ValueName* names, std::uint8_t value) {
+  if (names == kFingerFaultNames.data()) return remedyFor(FingerFault{value});
+  if (names == kFingerFlagNames.data()) return remedyFor(FingerFlag{value});
+  if (names == kFingerStateNames.data()) return remedyFor(FingerState{value});
+  if (names == kResetCauseNames.data()) return remedyFor(ResetCause{value});
+  if (names == kCrashNames.data()) return remedyFor(Crash{value});
+  if (names == kCommandStatusNames.data()) return remedyFor(CommandStatus{value});
+  return "";
 }
 
 std::string sentWhen(const FrameSpec& spec) {
-  if (spec.onChange)
-    return fmt::format("on change, while there is something to say every {} ms", spec.period_ms);
+  if (spec.function == FunctionCode::kRequest) return "to the finger";
+  if (spec.onChange) return fmt::format("on change, in contact every {} ms at least", spec.period_ms);
   return spec.period_ms == 0 ? "on request" : fmt::format("every {} ms", spec.period_ms);
 }
 
@@ -76,13 +75,13 @@ class Glossary {
       if (!isShown(field)) continue;
       const FieldMeaning& meaning = field.meaning;
       const std::string unit = *meaning.unit == '\0' ? "" : fmt::format(" [{}]", meaning.unit);
-      note(fields_, {columnName(meaning), "field" + unit, meaning.comment, {}}, spec.name);
+      note(fields_, {columnName(meaning), "field" + unit, meaning.comment, {}, meaning.name}, spec.name);
       for (const ValueName& name : meaning.names)
         note(values_,
              {name.name,
               fmt::format("{} {} of {}", meaning.kind == FieldKind::kFlags ? "bit" : "value", name.value,
                           meaning.name),
-              name.comment, remedyOf(meaning.names.data(), name.value)},
+              name.comment, std::string(remedyOf(meaning.names.data(), name.value))},
              spec.name);
     }
   }
@@ -135,8 +134,9 @@ std::span<const Term> glossary() {
 
 std::vector<Term> termsNamed(std::string_view word) {
   std::vector<Term> found;
-  std::ranges::copy_if(glossary(), std::back_inserter(found),
-                       [&](const Term& term) { return normal(term.name) == normal(word); });
+  std::ranges::copy_if(glossary(), std::back_inserter(found), [&](const Term& term) {
+    return normal(term.name) == normal(word) || (!term.alias.empty() && term.alias == normal(word));
+  });
   return found;
 }
 

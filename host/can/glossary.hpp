@@ -13,6 +13,7 @@ struct Term {
   std::string kind;     ///< what it is, and where it is found: "bit 3 of flags in CONTACT, FORCE"
   std::string meaning;  ///< one sentence, without a full stop
   std::string remedy;   ///< what to do about it; empty: nothing
+  std::string alias{};  ///< another name: of a field, that without its unit
 };
 
 /// Frames first, then fields, then their values, in the order of the frames' tables.

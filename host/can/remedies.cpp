@@ -10,28 +10,30 @@ std::string_view remedyFor(FingerFault fault) {
       return "make them with `strainfinger tables -o FILE -c` this finger's config, and flash them "
              "(firmware/bring_up.md)";
     case FingerFault::kGauges:
-      return "`strainfinger info` names those out of use: check their wires and amplifiers, then "
-             "`strainfinger tare` gives each another chance";
+      return "`strainfinger info --can BUS` names those out of use: check their wires and amplifiers, then "
+             "`strainfinger tare --can BUS` gives each another chance";
     case FingerFault::kConverter:
       return "check the converter's supply, reference and wiring, then switch the finger off and on";
     case FingerFault::kCan:
-      return "check the bus: wiring, 120 ohm at both ends, one bit rate, its load";
+      return "check the bus: wiring, 120 ohm at both ends, one bit rate, its load, and that another node was "
+             "there to "
+             "acknowledge; the fault goes at the next start";
     case FingerFault::kConfiguration:
-      return "set it again: `strainfinger config --contact-rate-hz HZ --keep`, `strainfinger config "
-             "--set-node "
-             "NODE`";
+      return "set it again: `strainfinger config --can BUS --contact-rate-hz HZ --keep`, `strainfinger "
+             "config --can BUS "
+             "--set-node NODE`; the fault goes at the next start";
     case FingerFault::kWatchdogReset:
-      return "`strainfinger info` has what it died of and where; switching it off and on clears this";
+      return "`strainfinger info --can BUS` has what it died of; switching it off and on clears this";
     case FingerFault::kSamples:
-      return "a few do no harm; `strainfinger info` counts them (lost_sets): where they go on, the board is "
-             "too slow "
-             "for its sampling rate";
+      return "a few do no harm, as while settings are kept; `strainfinger info --can BUS` counts them "
+             "(lost_sets): where "
+             "they go on, sample more slowly (firmware/bring_up.md); the fault goes at the next start";
     case FingerFault::kClock:
       return "check the board's crystal: with the other clock it may not be heard on the bus when it warms "
              "up";
     case FingerFault::kNoisy:
       return "keep mains and motor cables away, check shield and ground; where it stays so, tell it: "
-             "gauges.noise_strain in the finger's config, and make its tables anew";
+             "gauges.noise_strain in the finger's config, and flash the tables of that";
   }
   return "";
 }
@@ -42,18 +44,24 @@ std::string_view remedyFor(FingerFlag flag) {
     case FingerFlag::kSimulated:
       return "";
     case FingerFlag::kSaturated:
-      return "press less, or have less gain before the converter and a larger gauges.full_scale_strain";
+      return "press less; or have less gain before the converter, a larger gauges.full_scale_strain, and the "
+             "tables of "
+             "that";
     case FingerFlag::kDegraded:
-      return "`strainfinger info` names gauges that are out of use; one that an answer left out for the "
+      return "`strainfinger info --can BUS` names gauges that are out of use; one that an answer left out "
+             "for the "
              "moment counts again when it fits";
     case FingerFlag::kUncertain:
-      return "wait while a search goes on (mostly 0.2 s or less); where it stays, take the answer for "
-             "one of two (alternative in CONTACT), or as no single contact (chi in PATCH)";
+      return "wait while a search goes on (mostly 0.2 s or less), or press more firmly: very light touches "
+             "stay "
+             "uncertain. Alternative in CONTACT may name another angle; chi in PATCH well above 1 says that "
+             "no contact "
+             "explains the readings; with the fault gauges every touch is uncertain";
     case FingerFlag::kSeveralContacts:
       return "read CONTACT2 and FORCE2 as well; with one in PATCH's contacts the two are too near to be told "
              "apart";
     case FingerFlag::kStaleZero:
-      return "let go of it; if nothing touches it, `strainfinger tare`";
+      return "let go of it; if nothing touches it, `strainfinger tare --can BUS --force`";
     case FingerFlag::kUncalibrated:
       return "`strainfinger calibrate`, then flash the tables of what it writes";
   }
@@ -82,7 +90,7 @@ std::string_view remedyFor(ResetCause cause) {
     case ResetCause::kSoftware:
       return "";
     case ResetCause::kWatchdog:
-      return "see what it died of: crash, crash_address";
+      return "see what it died of: crash";
     case ResetCause::kBrownOut:
       return "measure the supply at the board, under load";
   }
@@ -97,9 +105,9 @@ std::string_view remedyFor(Crash crash) {
     case Crash::kAssertion:
     case Crash::kStackOverflow:
     case Crash::kHang:
-      return "`arm-none-eabi-addr2line -e` the firmware's .elf, with crash_address, says where: please "
-             "report "
-             "it";
+      return "please report it; where crash_address is not 0, `arm-none-eabi-addr2line -e` the firmware's "
+             ".elf has the "
+             "line (on an STM32 add 0x08000000)";
     case Crash::kStarved:
       return "check the converter's supply, reference and wiring";
   }
@@ -109,24 +117,22 @@ std::string_view remedyFor(Crash crash) {
 std::string_view remedyFor(Count count) {
   switch (count) {
     case Count::kErases:
-      return "at 40,000 its memory is worn out: change settings less often";
+      return "at 40,000 its memory, of four pages, is worn out: change settings less often";
     case Count::kCorrected:
+      return "one or two do no harm; where they go on, the board's flash wears out";
     case Count::kUnreadable:
-      return "its memory wears out: replace the board before it forgets its settings";
+      return "a power cut may have ended a change of settings or tables: make it again; if it comes back, "
+             "the board's "
+             "flash is worn out";
     case Count::kLostSets:
       return remedyFor(FingerFault::kSamples);
     case Count::kResynchronised:
-      return remedyFor(FingerFault::kConverter);
+      return "a few do no harm; where they go on, sample more slowly (firmware/bring_up.md)";
   }
   return "";
 }
 
-std::string foreignText(std::uint8_t protocol) {
-  return fmt::format("speaks protocol {}, this program {}: use the strainfinger of its firmware", protocol,
-                     kProtocolVersion);
-}
-
-std::string remedyFor(CommandStatus status, std::string_view bus) {
+std::string_view remedyFor(CommandStatus status) {
   switch (status) {
     case CommandStatus::kDone:
     case CommandStatus::kDoneTouched:
@@ -134,7 +140,7 @@ std::string remedyFor(CommandStatus status, std::string_view bus) {
     case CommandStatus::kTouched:
       return "let go of it; if nothing touches it, its old zero is off: --force does it anyway";
     case CommandStatus::kBusy:
-      return fmt::format("try again in a second; `strainfinger monitor --can {}` shows what it does", bus);
+      return "try again in a second; `strainfinger monitor --can BUS` shows what it does";
     case CommandStatus::kWait:
       return "try again then";
     case CommandStatus::kNotKept:
@@ -146,6 +152,21 @@ std::string remedyFor(CommandStatus status, std::string_view bus) {
       break;
   }
   return "use the strainfinger of its firmware";
+}
+
+std::string foreignText(std::uint8_t protocol) {
+  return fmt::format("speaks protocol {}, this program {}: use the strainfinger of its firmware", protocol,
+                     kProtocolVersion);
+}
+
+std::string onBus(std::string_view remedy, std::string_view bus) {
+  constexpr std::string_view kPlace = "--can BUS";
+  std::string text(remedy);
+  const std::string option = fmt::format("--can {}", bus);
+  for (std::size_t at = text.find(kPlace); at != std::string::npos;
+       at = text.find(kPlace, at + option.size()))
+    text.replace(at, kPlace.size(), option);
+  return text;
 }
 
 }  // namespace strainfinger::can

@@ -1,5 +1,6 @@
 #pragma once
-// What to do about what a finger says of itself, for people. "" where there is nothing to do.
+// What to do about what a finger says of itself, for people. "" where there is nothing to do. Commands in
+// these texts have `--can BUS`: onBus() says which.
 
 #include <cstdint>
 #include <string>
@@ -15,12 +16,19 @@ std::string_view remedyFor(FingerFlag flag);
 std::string_view remedyFor(FingerState state);
 std::string_view remedyFor(ResetCause cause);
 std::string_view remedyFor(Crash crash);
-std::string_view remedyFor(Count count);  ///< where it is too high
+std::string_view remedyFor(Count count);           ///< where it is too high
+std::string_view remedyFor(CommandStatus status);  ///< of a request that was not done
+
+inline constexpr std::string_view kTwinText = "two fingers have this node number";
+inline constexpr std::string_view kTwinRemedy =
+    "take one off the bus; `strainfinger config --can BUS --set-node NODE` makes the other another node, "
+    "from its "
+    "next start on";
 
 /// Of a finger whose HEARTBEAT has another protocol version: its other frames mean something else.
 std::string foreignText(std::uint8_t protocol);
 
-/// Of a request that was not done; `bus` as --can takes it.
-std::string remedyFor(CommandStatus status, std::string_view bus);
+/// A remedy whose commands are for this bus.
+std::string onBus(std::string_view remedy, std::string_view bus);
 
 }  // namespace strainfinger::can

@@ -66,12 +66,6 @@ int openSocket(SocketCalls& calls, const std::string& interface, std::span<const
   return result;
 }
 
-std::string bringUpCommand(const std::string& interface, int bitrate) {
-  if (interface.starts_with("vcan") || interface.starts_with("slcan"))
-    return fmt::format("sudo ip link set {} up", interface);
-  return fmt::format("sudo ip link set {} up type can bitrate {} restart-ms 100", interface, bitrate);
-}
-
 std::string creationCommand(const std::string& interface, int bitrate) {
   const std::string bringUp = bringUpCommand(interface, bitrate);
   if (interface.starts_with("vcan"))
@@ -142,6 +136,12 @@ std::optional<CanFrame> fromKernel(const can_frame& raw) {
 }
 
 }  // namespace
+
+std::string bringUpCommand(const std::string& interface, int bitrate) {
+  if (interface.starts_with("vcan") || interface.starts_with("slcan"))
+    return fmt::format("sudo ip link set {} up", interface);
+  return fmt::format("sudo ip link set {} up type can bitrate {} restart-ms 100", interface, bitrate);
+}
 
 SocketCanPort::SocketCanPort(std::string interface, int bitrate, BusFilter filter, SocketCalls& calls)
     : interface_(std::move(interface)), filter_(filter), calls_(calls) {

@@ -61,4 +61,7 @@ class SocketCanPort final : public BusPort {
 
 static_assert(hal::CanPort<SocketCanPort>);
 
+/// Brings an interface up that is down; `bitrate` [bit/s] where it has a controller.
+std::string bringUpCommand(const std::string& interface, int bitrate);
+
 }  // namespace strainfinger::can

@@ -7,7 +7,8 @@ CLI::Option* addBusOption(CLI::App& command, std::string& name) {
       .add_option("--can", name,
                   "The bus: a CAN interface (can0, vcan0, slcan0), or udp: between the programs of this "
                   "machine, without CAN (udp:PORT: another such bus)")
-      ->type_name("BUS");
+      ->type_name("BUS")
+      ->check([](const std::string& text) { return text.empty() ? "give the name of a bus" : ""; });
 }
 
 }  // namespace strainfinger::cli

@@ -8,6 +8,7 @@
 #include "host/base/no_value.hpp"
 #include "host/can/frame_catalogue.hpp"
 #include "host/can/open_bus.hpp"
+#include "host/can/remedies.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/listening.hpp"
@@ -30,14 +31,15 @@ const std::vector<std::string> kColumns{"interface", "node",      "state", "faul
                                         "uptime_s",  "table_crc", "note"};
 
 struct DiscoverOptions {
-  explicit DiscoverOptions(CLI::App& command) : common(command), listening(command) {}
+  explicit DiscoverOptions(CLI::App& command)
+      : common(command), listening(command, 0.1, 3, "two fingers of one number show by then") {}
   CommonOptions common;
   ListeningOptions listening;
 };
 
 std::string noteOn(const live::FingerView& finger) {
-  if (finger.isForeign()) return "another protocol: use the strainfinger of its firmware";
-  if (finger.hasTwin) return "two fingers have this number";
+  if (finger.isForeign()) return can::foreignText(finger.heartbeat.protocol);
+  if (finger.hasTwin) return std::string(can::kTwinText);
   return finger.isSilent() ? "silent" : "";
 }
 
@@ -77,7 +79,7 @@ std::vector<Cell> rowOf(const live::BusView& bus, const live::FingerView& finger
           noteOn(finger)};
 }
 
-/// Those of --can, or all CAN interfaces that are up.
+/// That of --can, or all CAN interfaces that are up.
 std::vector<std::string> busNames(const ListeningOptions& options) {
   if (!options.bus.empty()) return {options.bus};
   std::vector<std::string> names;
@@ -91,13 +93,31 @@ std::vector<std::string> busNames(const ListeningOptions& options) {
   return names;
 }
 
+/// One of several that can't be opened doesn't keep the others from being listened to.
+std::vector<ListenedBus> openAll(const std::vector<std::string>& names, const config::FingerConfig& config) {
+  std::vector<ListenedBus> buses;
+  std::optional<Failure> failure;
+  for (const std::string& name : names) try {
+      buses.emplace_back(can::openBus(name, config.can.bitrate), config);
+    } catch (const Failure& each) {
+      if (names.size() > 1) fmt::print(stderr, "strainfinger: {}\n", each.what());
+      failure = each;
+    }
+  if (buses.empty()) throw *failure;
+  return buses;
+}
+
 void runDiscover(const DiscoverOptions& options) {
   const config::FingerConfig config = options.common.config();
   const std::vector<std::string> names = busNames(options.listening);
-  std::vector<ListenedBus> buses;
-  for (const std::string& name : names) buses.emplace_back(can::openBus(name, config.can.bitrate), config);
+  std::vector<ListenedBus> buses = openAll(names, config);
   std::optional<TableWriter> table;  // nothing is printed before there is a row
-  for (const live::BusView& bus : listenTo(buses, options.listening.duration(), "discover"))
+  const std::vector<live::BusView> views = listenTo(buses, options.listening.duration(), "discover");
+  for (ListenedBus& bus : buses)
+    if (bus.port().status().state == hal::CanState::kDown)
+      throw Failure(ExitCode::kNoInterface, fmt::format("discover: {} went down meanwhile: {}",
+                                                        bus.port().name(), bus.port().hints().whenBlocked));
+  for (const live::BusView& bus : views)
     for (const live::FingerView& finger : bus.fingers) {
       if (!table) table.emplace(stdout, options.common.format(), kColumns);
       table->row(rowOf(bus, finger));

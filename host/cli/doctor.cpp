@@ -36,7 +36,9 @@ constexpr const char* kDoctorHelp =
     "finger, 5 another protocol or other tables.";
 
 struct DoctorOptions {
-  explicit DoctorOptions(CLI::App& command) : common(command), listening(command) {}
+  explicit DoctorOptions(CLI::App& command)
+      : common(command),
+        listening(command, 1, 5, "two fingers of one number show in their INFOs, one a second") {}
   CommonOptions common;
   ListeningOptions listening;
 };
@@ -91,8 +93,30 @@ std::vector<health::CanLink> linksOf(const std::string& bus, Report& report) {
                    ExitCode::kNoInterface}});
     return links;
   } catch (const Failure& failure) {
-    report.add({{Severity::kWarning, "this machine", failure.what()}});
+    report.add({{bus.empty() ? Severity::kError : Severity::kWarning, "this machine", failure.what()}});
     return {};
+  }
+}
+
+/// Of several interfaces that nobody named, one that is down may not be in use.
+Findings onlyWarning(Findings findings) {
+  for (Finding& finding : findings) finding.severity = Severity::kWarning;
+  return findings;
+}
+
+/// Without -c any bit rate will do: it is the interface's.
+config::FingerConfig atRateOf(const health::CanLink& link, config::FingerConfig config) {
+  if (link.bitrate) config.can.bitrate = *link.bitrate;
+  return config;
+}
+
+void openBus(const std::string& name, const config::FingerConfig& config, std::vector<ListenedBus>& buses,
+             Report& report) {
+  try {
+    buses.emplace_back(can::openBus(name, config.can.bitrate), config);
+  } catch (const Failure& failure) {
+    if (failure.code() == ExitCode::kUsage) throw;
+    report.add({{Severity::kError, name, failure.what(), "", failure.code()}});
   }
 }
 
@@ -100,20 +124,17 @@ std::vector<health::CanLink> linksOf(const std::string& bus, Report& report) {
 std::vector<ListenedBus> openBuses(const DoctorOptions& options, const config::FingerConfig& config,
                                    Report& report) {
   const std::string& bus = options.listening.bus;
-  std::vector<std::string> names;
-  if (!bus.empty()) names.push_back(bus);
-  for (const health::CanLink& link : linksOf(bus, report)) {
-    report.add(health::examineLink(link, config.can.bitrate));
-    if (bus.empty() && link.isUp) names.push_back(link.name);
-    if (!bus.empty() && !link.isUp) names.clear();
-  }
+  const std::vector<health::CanLink> links = linksOf(bus, report);
+  const bool isAnyUp = std::ranges::any_of(links, &health::CanLink::isUp);
   std::vector<ListenedBus> buses;
-  for (const std::string& name : names) try {
-      buses.emplace_back(can::openBus(name, config.can.bitrate), config);
-    } catch (const Failure& failure) {
-      if (failure.code() == ExitCode::kUsage) throw;
-      report.add({{Severity::kError, name, failure.what(), "", failure.code()}});
-    }
+  for (const health::CanLink& link : links) {
+    const bool isGiven = options.common.hasConfig();
+    const auto bitrate = isGiven ? std::optional(config.can.bitrate) : std::nullopt;
+    const Findings findings = health::examineLink(link, bitrate);
+    report.add(bus.empty() && isAnyUp && !link.isUp ? onlyWarning(findings) : findings);
+    if (link.isUp) openBus(link.name, isGiven ? config : atRateOf(link, config), buses, report);
+  }
+  if (!bus.empty() && links.empty()) openBus(bus, config, buses, report);
   return buses;
 }
 
@@ -150,8 +171,8 @@ void examineFingers(ListenedBus& bus, const live::BusView& view, const Expected&
   for (const live::FingerView& finger : view.fingers) {
     report.add(health::examineFinger(view, finger, expected.tablesOf(finger)));
     if (health::canAnswer(finger))
-      report.add(health::examineCounts(fmt::format("{} node {}", view.name, finger.node),
-                                       health::askForCounts(bus.port(), finger.node)));
+      report.add(health::examineCounts(view.name, finger.node, health::askForCounts(bus.port(), finger.node),
+                                       bus.port().hints()));
   }
 }
 
@@ -162,7 +183,8 @@ void runDoctor(const DoctorOptions& options) {
   std::vector<ListenedBus> buses = openBuses(options, config, report);
   const std::vector<live::BusView> views = listenTo(buses, options.listening.duration(), "doctor");
   for (std::size_t i = 0; i < buses.size(); ++i) {
-    report.add(health::examineBus(views[i], buses[i].port().hints(), options.listening.duration()));
+    report.add(health::examineBus(views[i], buses[i].port().status().state, buses[i].port().hints(),
+                                  options.listening.duration()));
     examineFingers(buses[i], views[i], expected, report);
   }
   report.add(expected.findingsOn(views));

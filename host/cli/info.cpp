@@ -55,6 +55,14 @@ std::optional<live::FingerView> listenFor(live::BusWatch& watch, std::uint8_t no
   return finger;
 }
 
+/// What is wrong, beside the table: else an empty value, or an old one, would look like any other.
+void tell(const health::Findings& findings) {
+  for (const health::Finding& finding : findings)
+    if (finding.severity == health::Severity::kError)
+      fmt::print(stderr, "strainfinger: {}: {}{}{}\n", finding.where, finding.what,
+                 finding.remedy.empty() ? "" : ": ", finding.remedy);
+}
+
 class InfoTable {
  public:
   InfoTable(const RequestOptions& options, std::uint8_t node)
@@ -70,7 +78,8 @@ class InfoTable {
 
   void add(const health::Counted& counted) {
     const ValueName& name = *can::findName(kCountNames, static_cast<int>(counted.count));
-    const Cell value = counted.value ? Cell(std::int64_t{*counted.value}) : Cell(kNoValue);
+    const bool isTold = counted.answer == health::CountAnswer::kTold;
+    const Cell value = isTold ? Cell(std::int64_t{counted.value}) : Cell(kNoValue);
     add(kLayout<ResponseFrame>.spec.name, {name.name, value, name.comment});
   }
 
@@ -91,25 +100,15 @@ class InfoTable {
   TableWriter table_;
 };
 
+/// Empty where it can't be asked, which the findings on it tell.
 void addCounts(can::BusPort& port, const live::FingerView& finger, InfoTable& table) {
-  bool areAllKnown = false;
-  if (health::canAnswer(finger)) {
-    const std::vector<health::Counted> counts = health::askForCounts(port, finger.node);
-    for (const health::Counted& counted : counts) table.add(counted);
-    areAllKnown = counts.back().value.has_value();
+  if (!health::canAnswer(finger)) {
+    for (const ValueName& name : kCountNames) table.add({Count{name.value}, health::CountAnswer::kSilence});
+    return;
   }
-  if (!areAllKnown)
-    fmt::print(stderr, "strainfinger: {} node {}: it answers no requests: what it counts is not known\n",
-               port.name(), finger.node);
-}
-
-void requireTables(const config::FingerConfig& config, const HeartbeatFrame& heartbeat,
-                   const std::string& where) {
-  const std::uint32_t crc32 = tables::buildTableImage(config).crc32;
-  if (!health::areTables(heartbeat, crc32))
-    throw Failure(ExitCode::kMismatch,
-                  fmt::format("{}: {}: {}", where, health::otherTablesText(heartbeat, crc32),
-                              health::kOtherTablesRemedy));
+  const std::vector<health::Counted> counts = health::askForCounts(port, finger.node);
+  for (const health::Counted& counted : counts) table.add(counted);
+  tell(health::examineCounts(port.name(), finger.node, counts, port.hints()));
 }
 
 void runInfo(const RequestOptions& options) {
@@ -132,7 +131,13 @@ void runInfo(const RequestOptions& options) {
   if (finger->info) table.add(*finger->info);
   if (finger->gauges) table.add(*finger->gauges);
   addCounts(*port, *finger, table);
-  if (options.common.hasConfig()) requireTables(config, finger->heartbeat, where);
+  std::optional<std::uint32_t> crc32;
+  if (options.common.hasConfig()) crc32 = tables::buildTableImage(config).crc32;
+  const health::Findings findings = health::examineFinger(watch.view(), *finger, crc32);
+  tell(findings);
+  for (const health::Finding& finding : findings)
+    if (finding.severity == health::Severity::kError && finding.status != ExitCode::kFailure)
+      throw Failure(finding.status, fmt::format("{}: {}", where, finding.what));
 }
 
 }  // namespace

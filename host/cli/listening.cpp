@@ -11,11 +11,14 @@
 
 namespace strainfinger::cli {
 
-ListeningOptions::ListeningOptions(CLI::App& command) {
+ListeningOptions::ListeningOptions(CLI::App& command, double least_s, double default_s, const char* why)
+    : duration_s(default_s) {
   addBusOption(command, bus);
-  command.add_option("--duration", duration_s, "Listen for so long (default 2; INFO comes each second)")
+  command
+      .add_option("--duration", duration_s,
+                  fmt::format("Listen for so long (default {}: {})", default_s, why))
       ->type_name("S")
-      ->check(isFrom(0.1, 3600));
+      ->check(isFrom(least_s, 3600));
 }
 
 std::chrono::milliseconds ListeningOptions::duration() const {
@@ -26,6 +29,7 @@ std::vector<live::BusView> listenTo(std::vector<ListenedBus>& buses, std::chrono
                                     const char* command) {
   using Clock = std::chrono::steady_clock;
   constexpr std::chrono::milliseconds kTurn{20};
+  if (buses.empty()) return {};
   const system::StopSignal stop;
   const Clock::time_point end = Clock::now() + duration;
   while (Clock::now() < end && !stop.asked())

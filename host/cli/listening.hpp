@@ -14,11 +14,12 @@
 namespace strainfinger::cli {
 
 struct ListeningOptions {
-  explicit ListeningOptions(CLI::App& command);
+  /// `why`: of that default, for --help.
+  ListeningOptions(CLI::App& command, double least_s, double default_s, const char* why);
   std::chrono::milliseconds duration() const;
 
-  std::string bus;        ///< empty: not said
-  double duration_s = 2;  ///< INFO and GAUGES come each second
+  std::string bus;  ///< empty: not said
+  double duration_s;
 };
 
 /// A bus that is open.
@@ -34,7 +35,8 @@ class ListenedBus {
   std::unique_ptr<live::BusWatch> watch_;
 };
 
-/// What was heard on each in all that time. Throws Failure(kInterrupted) at Ctrl-C, in the name of `command`.
+/// What was heard on each in all that time, at once where there is none. Throws Failure(kInterrupted) at
+/// Ctrl-C, in the name of `command`.
 std::vector<live::BusView> listenTo(std::vector<ListenedBus>& buses, std::chrono::milliseconds duration,
                                     const char* command);
 

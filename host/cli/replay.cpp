@@ -66,8 +66,10 @@ struct LogExtent {
 
 /// Reads it all, so that nothing is sent of a log that cannot be read to its end.
 LogExtent measure(const std::string& path) {
-  const bool isPipe = std::filesystem::exists(path) && !std::filesystem::is_regular_file(path);
-  if (path == "-" || isPipe)
+  std::error_code notThere;
+  const auto type = std::filesystem::status(path, notThere).type();
+  if (path == "-" || type == std::filesystem::file_type::fifo ||
+      type == std::filesystem::file_type::character)
     throw Failure(ExitCode::kUsage, "replay: the log must be a file, not a pipe: it is read twice");
   can::LogReader log(path);
   LogExtent extent;

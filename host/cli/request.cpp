@@ -66,7 +66,7 @@ void requireDone(const can::Reply& reply, Command command, const can::BusPort& b
   else if (status != CommandStatus::kDone)
     throw Failure(ExitCode::kFailure, fmt::format("{}: {}: {} ({}): {}", where, commandName(command),
                                                   can::meaningOf(*reply.response), statusName(status),
-                                                  can::remedyFor(status, bus.name())));
+                                                  can::onBus(can::remedyFor(status), bus.name())));
 }
 
 void request(const RequestOptions& options, const std::vector<RequestFrame>& requests) {

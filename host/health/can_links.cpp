@@ -26,6 +26,7 @@ CanLink linkOf(const Json& json) {
   for (const Json& flag : json.at("flags")) link.isUp = link.isUp || flag == "UP";
   const Json info = json.value("linkinfo", Json::object()).value("info_data", Json::object());
   link.state = info.value("state", "");
+  for (const Json& mode : info.value("ctrlmode", Json::array())) link.isListenOnly |= mode == "LISTEN-ONLY";
   link.restart_ms = numberAt<int>(info, "restart_ms");
   const Json timing = info.value("bittiming", Json::object());
   link.bitrate = numberAt<int>(timing, "bitrate");
@@ -64,7 +65,8 @@ std::vector<CanLink> canLinks() {
   const auto text = outputOf("ip -details -json link show 2>/dev/null");
   if (!text)
     throw Failure(ExitCode::kFailure,
-                  "`ip` cannot be run, which shows the CAN interfaces: apt install iproute2");
+                  "`ip` cannot be run, which lists the CAN interfaces: apt install iproute2, or name the bus "
+                  "with --can");
   return parseCanLinks(*text);
 }
 

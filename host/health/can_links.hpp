@@ -12,7 +12,8 @@ namespace strainfinger::health {
 struct CanLink {
   std::string name;
   bool isUp = false;
-  std::string state{};           ///< of the controller: "ERROR-ACTIVE", "BUS-OFF"; empty: there is none
+  std::string state{};  ///< of the controller: "ERROR-ACTIVE", "BUS-OFF"; empty: there is none
+  bool isListenOnly = false;
   std::optional<int> bitrate{};  ///< [bit/s]
   std::optional<double> samplePoint{};
   std::optional<int> restart_ms{};  ///< after which a controller that left the bus comes back; 0: never

@@ -2,7 +2,6 @@
 // What a finger counts.
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "common/commands.hpp"
@@ -10,12 +9,22 @@
 
 namespace strainfinger::health {
 
-struct Counted {
-  Count count;
-  std::optional<std::uint32_t> value;  ///< nothing: it didn't say
+enum class CountAnswer {
+  kTold,
+  kNotCounted,  ///< by this firmware
+  kOthersAsk,   ///< so often that no response is surely of this count
+  kSilence,     ///< no answer, though it was asked twice
+  kNotSent,     ///< the bus took no request
 };
 
-/// Asks for each count, until one is not answered. Cost: a few milliseconds, a second where nobody answers.
+struct Counted {
+  Count count;
+  CountAnswer answer;
+  std::uint32_t value = 0;  ///< where it was told
+};
+
+/// Asks for each count; after silence, or where nothing can be sent, for no more. Cost: a few milliseconds,
+/// two seconds where nobody answers.
 std::vector<Counted> askForCounts(can::BusPort& port, std::uint8_t node);
 
 }  // namespace strainfinger::health

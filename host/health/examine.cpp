@@ -7,20 +7,25 @@
 #include <string_view>
 #include <utility>
 
+#include "common/raw_share.hpp"
 #include "host/can/frame_catalogue.hpp"
 #include "host/can/remedies.hpp"
+#include "host/can/socketcan_port.hpp"
+#include "host/config/bus_load.hpp"
 #include "host/live/value_text.hpp"
 #include "host/live/words.hpp"
 
 namespace strainfinger::health {
 namespace {
 
-/// Of the bit rate, without stuff bits: with as many of these as there can be, 135 bits a frame in place of
-/// 111 (common/BUS_LOAD.md), the bus is full.
-constexpr double kMostLoad = 111.0 / 135.0;
+/// Of the bit rate, without stuff bits: with as many of these as there can be the bus is full.
+constexpr double kMostLoad = double{kFrameBits} / config::kWorstFrame_bits;
 
 /// ISO 11898's error warning and error passive.
 constexpr int kErrorWarning = 96, kErrorPassive = 128;
+
+/// Of an adapter, as parts of a bit (firmware/bring_up.md), rounded.
+constexpr double kEarliestSample = 0.745, kLatestSample = 0.88;
 
 /// Erases of the settings' memory from which on its end is near: four pages last 10,000 times each (DS12589).
 constexpr std::uint32_t kNearlyWorn = 36'000;
@@ -38,7 +43,9 @@ constexpr std::array kEndingFaults{FingerFault::kTables, FingerFault::kGauges, F
 /// Gathers findings about one thing.
 class Examination {
  public:
-  explicit Examination(std::string where) : where_(std::move(where)) {}
+  explicit Examination(std::string bus) : bus_(std::move(bus)), where_(bus_) {}
+  Examination(std::string bus, std::uint8_t node)
+      : bus_(std::move(bus)), where_(fmt::format("{} node {}", bus_, node)) {}
 
   void good(std::string what) { add(Severity::kGood, std::move(what), ""); }
   void warning(std::string what, std::string_view remedy) {
@@ -53,29 +60,32 @@ class Examination {
 
  private:
   void add(Severity severity, std::string what, std::string_view remedy) {
-    findings_.push_back({severity, where_, std::move(what), std::string(remedy)});
+    findings_.push_back({severity, where_, std::move(what), can::onBus(remedy, bus_)});
   }
-  std::string where_;
+  std::string bus_, where_;
   Findings findings_;
 };
 
 std::string bringUpAnew(const CanLink& link, int bitrate) {
-  return fmt::format(
-      "`sudo ip link set {0} down && sudo ip link set {0} up type can bitrate {1} restart-ms 100`", link.name,
-      bitrate);
+  return fmt::format("`sudo ip link set {} down && {}`", link.name, can::bringUpCommand(link.name, bitrate));
+}
+
+std::string errorsOf(const CanLink& link) {
+  if (!link.txErrors || !link.rxErrors) return "";
+  return fmt::format("; its error counters: sent {}, received {}", *link.txErrors, *link.rxErrors);
 }
 
 void examineController(const CanLink& link, Examination& examination) {
-  const std::string errors = fmt::format("its error counters: sent {}, received {}",
-                                         link.txErrors.value_or(0), link.rxErrors.value_or(0));
   if (link.state == "BUS-OFF")
     examination.error("the controller has left the bus (bus-off) after too many errors",
-                      fmt::format("{}; then `sudo ip link set {} type can restart`", kBusRemedy, link.name));
+                      link.restart_ms == 0 ? fmt::format("{}; then `sudo ip link set {} type can restart`",
+                                                         kBusRemedy, link.name)
+                                           : fmt::format("{}; it comes back by itself", kBusRemedy));
   else if (link.state == "ERROR-PASSIVE")
-    examination.error(fmt::format("error-passive: frames are not acknowledged or not understood; {}", errors),
+    examination.error("error-passive: frames are not acknowledged or not understood" + errorsOf(link),
                       kBusRemedy);
   else if (link.state == "ERROR-WARNING")
-    examination.warning(fmt::format("many errors on the bus; {}", errors), kBusRemedy);
+    examination.warning("many errors on the bus" + errorsOf(link), kBusRemedy);
 }
 
 std::string describe(const CanLink& link) {
@@ -120,12 +130,26 @@ void examineHeartbeat(const HeartbeatFrame& heartbeat, Examination& examination)
     examination.warning("its CAN controller has seen many errors", kBusRemedy);
 }
 
+void examineTables(const HeartbeatFrame& heartbeat, std::uint32_t crc32, Examination& examination) {
+  const std::uint32_t wanted = crc32 & 0xFF;
+  if (heartbeat.faults.has(FingerFault::kTables) || heartbeat.table_crc == wanted) return;
+  examination.error(
+      fmt::format("its tables are not those of the config: their CRC-32 ends with {:02X}, not {:02X}",
+                  heartbeat.table_crc, wanted),
+      "give the config that its tables were made from (-c), or flash those that `strainfinger tables -o "
+      "FILE` "
+      "makes of this one",
+      ExitCode::kMismatch);
+}
+
 void examineInfo(const InfoFrame& info, Examination& examination) {
   if (info.crash != Crash::kNone)
-    examination.warning(fmt::format("{}, at 0x{:X}; {} crashes since power came on",
-                                    said("the run before died", kCrashNames, static_cast<int>(info.crash)),
-                                    info.crash_address, info.restarts),
-                        can::remedyFor(info.crash));
+    examination.warning(
+        fmt::format("{}{}; crashes since power came on: {}",
+                    said("the run before died", kCrashNames, static_cast<int>(info.crash)),
+                    info.crash_address == 0 ? "" : fmt::format(", at 0x{:X}", info.crash_address),
+                    info.restarts),
+        can::remedyFor(info.crash));
   if (info.reset_cause == ResetCause::kBrownOut)
     examination.warning(said("last reset", kResetCauseNames, static_cast<int>(info.reset_cause)),
                         can::remedyFor(info.reset_cause));
@@ -137,8 +161,9 @@ void examineTraffic(const live::FingerView& finger, Examination& examination) {
                                     finger.lost + finger.received),
                         "is the bus too full (common/BUS_LOAD.md), or a program on it too slow?");
   if (finger.restarts > 0)
-    examination.warning(fmt::format("it restarted {} times meanwhile", finger.restarts),
-                        "measure its supply; `strainfinger info` has the cause of the last reset");
+    examination.warning(
+        "its uptime went back: it restarted, or two fingers have this node number",
+        "measure its supply; `strainfinger doctor --can BUS --duration 10` tells two fingers apart");
   if (finger.touch)
     for (const FingerFlag flag : kNotableFlags)
       if (finger.touch->flags.has(flag))
@@ -174,39 +199,40 @@ const char* nameOf(Severity severity) {
   return "error";
 }
 
-bool areTables(const HeartbeatFrame& heartbeat, std::uint32_t crc32) {
-  return heartbeat.table_crc == (crc32 & 0xFF);
-}
-
-std::string otherTablesText(const HeartbeatFrame& heartbeat, std::uint32_t crc32) {
-  return fmt::format("its tables are not those of the config: their CRC-32 ends with {:02X}, not {:02X}",
-                     heartbeat.table_crc, crc32 & 0xFF);
-}
-
-Findings examineLink(const CanLink& link, int bitrate) {
+Findings examineLink(const CanLink& link, std::optional<int> bitrate) {
   Examination examination(link.name);
+  const int wanted = bitrate.value_or(link.bitrate.value_or(config::Can{}.bitrate));
   if (!link.isUp) {
-    examination.error(
-        "down",
-        link.state.empty() ? fmt::format("`sudo ip link set {} up`", link.name) : bringUpAnew(link, bitrate),
-        ExitCode::kNoInterface);
+    examination.error("down", fmt::format("`{}`", can::bringUpCommand(link.name, wanted)),
+                      ExitCode::kNoInterface);
     return examination.findings();
   }
   examineController(link, examination);
-  if (link.bitrate && *link.bitrate != bitrate)
-    examination.error(fmt::format("{} bit/s; the config's can.bitrate is {}", *link.bitrate, bitrate),
-                      fmt::format("{}, or mend can.bitrate", bringUpAnew(link, bitrate)));
-  if (link.restart_ms == 0)
+  if (link.bitrate && *link.bitrate != wanted)
+    examination.error(fmt::format("{} bit/s; the config's can.bitrate is {}", *link.bitrate, wanted),
+                      fmt::format("{}, or mend can.bitrate", bringUpAnew(link, wanted)));
+  if (link.samplePoint && (*link.samplePoint < kEarliestSample || *link.samplePoint > kLatestSample))
     examination.warning(
-        "a controller that leaves the bus stays off it (restart-ms 0)",
-        fmt::format("`sudo ip link set {} type can restart-ms 100`, while it is down", link.name));
+        fmt::format("bits are sampled at {:.1f} % of their length; 75 to 87.5 % goes with the finger's 83.3",
+                    100 * *link.samplePoint),
+        fmt::format("add `sample-point 0.8` to {}", bringUpAnew(link, wanted)));
+  if (link.isListenOnly)
+    examination.warning("listen-only: it acknowledges nothing, and no request can be sent",
+                        fmt::format("add `listen-only off` to {}", bringUpAnew(link, wanted)));
+  if (link.restart_ms == 0)
+    examination.warning("a controller that leaves the bus stays off it (restart-ms 0)",
+                        bringUpAnew(link, wanted));
   if (examination.isEmpty()) examination.good(describe(link));
   return examination.findings();
 }
 
-Findings examineBus(const live::BusView& bus, const can::BusHints& hints,
+Findings examineBus(const live::BusView& bus, hal::CanState state, const can::BusHints& hints,
                     std::chrono::milliseconds listened) {
   Examination examination(bus.name);
+  if (state == hal::CanState::kDown || state == hal::CanState::kBusOff)
+    examination.error(
+        state == hal::CanState::kDown ? "went down meanwhile" : "left the bus meanwhile (bus-off)",
+        hints.whenBlocked, ExitCode::kNoInterface);
   if (bus.fingers.empty())
     examination.error(
         fmt::format("no finger heard in {:.1f} s, {}", static_cast<double>(listened.count()) / 1e3,
@@ -215,7 +241,8 @@ Findings examineBus(const live::BusView& bus, const can::BusHints& hints,
   if (bus.load > kMostLoad)
     examination.warning(
         fmt::format("{:.0f} % of the bit rate are used: with stuff bits the bus may be full", 100 * bus.load),
-        "lower contact rates: `strainfinger config --contact-rate-hz HZ` (common/BUS_LOAD.md)");
+        "end RAW (`strainfinger strains`), or lower contact rates: `strainfinger config --can BUS "
+        "--contact-rate-hz HZ` (common/BUS_LOAD.md)");
   if (bus.missed > 0)
     examination.warning(fmt::format("this machine was too slow for {} frames", bus.missed),
                         "what else does it do? lost frames may be its own");
@@ -232,45 +259,48 @@ bool canAnswer(const live::FingerView& finger) {
 
 Findings examineFinger(const live::BusView& bus, const live::FingerView& finger,
                        std::optional<std::uint32_t> tables_crc32) {
-  Examination examination(fmt::format("{} node {}", bus.name, finger.node));
+  Examination examination(bus.name, finger.node);
   if (finger.isForeign()) {
     examination.error(can::foreignText(finger.heartbeat.protocol), "", ExitCode::kMismatch);
     return examination.findings();
   }
   if (finger.hasTwin)
-    examination.error("two fingers have this number: what they say is mixed up",
-                      "take one off the bus; `strainfinger config --set-node` changes the other's number");
+    examination.error(fmt::format("{}: what they say is mixed up", can::kTwinText), can::kTwinRemedy);
   if (finger.isSilent())
     examination.error(fmt::format("silent for {:.1f} s", static_cast<double>(finger.silence_us) / 1e6),
                       "is it powered, and its plug in?", ExitCode::kNoNode);
   examineHeartbeat(finger.heartbeat, examination);
-  if (tables_crc32 && !areTables(finger.heartbeat, *tables_crc32))
-    examination.error(otherTablesText(finger.heartbeat, *tables_crc32), kOtherTablesRemedy,
-                      ExitCode::kMismatch);
+  if (tables_crc32) examineTables(finger.heartbeat, *tables_crc32, examination);
   if (finger.info) examineInfo(*finger.info, examination);
   const auto gauges = live::bitNumbers(finger.gauges ? finger.gauges->out_of_use : 0);
   if (!gauges.empty())
-    examination.warning(
-        fmt::format("gauges out of use: {}", fmt::join(gauges, ", ")),
-        "check their wires (firmware/gauge_faults.md); `strainfinger tare` gives each another chance");
+    examination.warning(fmt::format("gauges out of use: {}", fmt::join(gauges, ", ")),
+                        "check their wires (firmware/gauge_faults.md); `strainfinger tare --can BUS` gives "
+                        "each another chance");
   if (!finger.hasTwin) examineTraffic(finger, examination);
   if (examination.isEmpty()) examination.good(describe(finger));
   return examination.findings();
 }
 
-Findings examineCounts(const std::string& where, std::span<const Counted> counts) {
-  Examination examination(where);
-  for (const auto& [count, value] : counts) {
-    if (!value) {
-      examination.error("it is heard, but answers no request",
-                        "can this machine send (not listen-only)? is its firmware older than this program?",
+Findings examineCounts(const std::string& bus, std::uint8_t node, std::span<const Counted> counts,
+                       const can::BusHints& hints) {
+  Examination examination(bus, node);
+  for (const Counted& counted : counts) {
+    const Count count = counted.count;
+    if (counted.answer == CountAnswer::kNotSent) {
+      examination.error("the bus takes no request to it", hints.whenBlocked, ExitCode::kNoInterface);
+      break;
+    }
+    if (counted.answer == CountAnswer::kSilence) {
+      examination.error("it is heard, but answers no request", "is its firmware older than this program?",
                         ExitCode::kNoNode);
       break;
     }
-    if (count == Count::kLostSets) continue;  // the fault `samples` tells
-    if (*value > (count == Count::kErases ? kNearlyWorn - 1 : 0))
-      examination.warning(fmt::format("{} {}", *value, said("counted", kCountNames, static_cast<int>(count))),
-                          can::remedyFor(count));
+    if (counted.answer != CountAnswer::kTold) continue;
+    if (counted.value > (count == Count::kErases ? kNearlyWorn - 1 : 0))
+      examination.warning(
+          fmt::format("{} {}", counted.value, said("counted", kCountNames, static_cast<int>(count))),
+          count == Count::kLostSets ? "" : can::remedyFor(count));  // the fault `samples` has it
   }
   if (examination.isEmpty()) examination.good("answers requests, and counts nothing that would be wrong");
   return examination.findings();

@@ -7,7 +7,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 
 #include "common/frames.hpp"
 #include "host/can/bus_port.hpp"
@@ -18,28 +17,24 @@
 
 namespace strainfinger::health {
 
-/// `bitrate`: that of the config [bit/s].
-Findings examineLink(const CanLink& link, int bitrate);
+/// `bitrate`: that of the config [bit/s]; nothing: there is none, any will do.
+Findings examineLink(const CanLink& link, std::optional<int> bitrate);
 
-/// The bus as a whole, listened to for so long. `hints`: of its port.
-Findings examineBus(const live::BusView& bus, const can::BusHints& hints, std::chrono::milliseconds listened);
+/// The bus as a whole, listened to for so long. `state`, `hints`: of its port.
+Findings examineBus(const live::BusView& bus, hal::CanState state, const can::BusHints& hints,
+                    std::chrono::milliseconds listened);
 
-/// `tables_crc32`: of the tables that it should have; nothing: not known.
+/// `tables_crc32`: of the tables that it should have, of which HEARTBEAT has the lowest byte; nothing: not
+/// known.
 Findings examineFinger(const live::BusView& bus, const live::FingerView& finger,
                        std::optional<std::uint32_t> tables_crc32);
-
-/// Whether its tables may be those of this CRC-32: HEARTBEAT has the lowest byte alone.
-bool areTables(const HeartbeatFrame& heartbeat, std::uint32_t crc32);
-std::string otherTablesText(const HeartbeatFrame& heartbeat, std::uint32_t crc32);
-inline constexpr std::string_view kOtherTablesRemedy =
-    "give the config that its tables were made from (-c), or flash those that `strainfinger tables -o FILE` "
-    "makes of this one";
 
 /// Whether requests to a finger can be answered: it is heard, speaks this protocol, has its node number to
 /// itself, and is not in state fault.
 bool canAnswer(const live::FingerView& finger);
 
-/// What came of askForCounts().
-Findings examineCounts(const std::string& where, std::span<const Counted> counts);
+/// What came of askForCounts(). `hints`: of the bus' port.
+Findings examineCounts(const std::string& bus, std::uint8_t node, std::span<const Counted> counts,
+                       const can::BusHints& hints);
 
 }  // namespace strainfinger::health

@@ -87,10 +87,7 @@ std::string durationText(std::uint16_t seconds) {
 std::string warningsText(const FingerView& finger) {
   std::vector<std::string> warnings;
   if (const std::string text = trouble(finger); !text.empty()) warnings.push_back(text);
-  if (finger.hasTwin)
-    warnings.emplace_back(
-        "another finger has this node number: take one off the bus, and `strainfinger config --set-node` "
-        "changes the other's");
+  if (finger.hasTwin) warnings.push_back(fmt::format("{}: {}", can::kTwinText, can::kTwinRemedy));
   const auto faults = wordsFor(kFingerFaultNames, finger.heartbeat.faults.raw());
   if (!faults.empty()) warnings.push_back(fmt::format("faults: {}", fmt::join(faults, ", ")));
   const auto gauges = bitNumbers(finger.gauges ? finger.gauges->out_of_use : 0);

@@ -8,21 +8,21 @@ using namespace strainfinger;
 
 TEST_GROUP(DoctorCommand){};
 
-TEST(DoctorCommand, FindsNothingWrongWithAFingerThatIsWell) {
-  const Run run = withFinger(
-      "",
-      R"("$STRAINFINGER" doctor --can $BUS -c <(echo 'schema = 1') | sed "s/$BUS/BUS/; s/ *what to do.*//")");
+// A machine that is late loses sample sets, which is a warning.
+TEST(DoctorCommand, FindsNoErrorInAFingerThatIsWell) {
+  const Run run =
+      withFinger("", R"("$STRAINFINGER" doctor --can $BUS -c <(echo 'schema = 1') | sed "s/$BUS/BUS/")");
   LONGS_EQUAL(0, run.status);
   STRCMP_CONTAINS("ok       BUS: fingers: 1, ", run.out.c_str());
   STRCMP_CONTAINS(" BUS node 1: ", run.out.c_str());
-  STRCMP_CONTAINS("ok       BUS node 1: answers requests", run.out.c_str());
+  CHECK_TEXT(run.out.find("error ") == std::string::npos, run.out.c_str());
   STRCMP_CONTAINS("doctor: errors: 0, ", run.err.c_str());
 }
 
 TEST(DoctorCommand, SaysWhatIsWrongAndWhatToDo) {
   const Run run = withFinger("", R"(
 "$STRAINFINGER" doctor --can $BUS --json -c <(printf 'schema = 1\n[gauges]\ncount = 18\n') | grep '"error"' | sed "s/$BUS/BUS/"
-exit ${PIPESTATUS[0]})");
+)");
   LONGS_EQUAL(5, run.status);
   STRCMP_CONTAINS(
       "{\"result\":\"error\",\"where\":\"BUS node 1\",\"finding\":\"its tables are not those of the config",
@@ -44,13 +44,13 @@ TEST(DoctorCommand, TwoFingersOfOneNumberAreFound) {
 "$STRAINFINGER" doctor --can $BUS --duration 4; status=$?
 kill -INT $second; wait $second; (exit $status))");
   LONGS_EQUAL(1, run.status);
-  STRCMP_CONTAINS("node 1: two fingers have this number", run.out.c_str());
+  STRCMP_CONTAINS("node 1: two fingers have this node number", run.out.c_str());
 }
 
 TEST(DoctorCommand, ASilentBusIsNoNode) {
-  const Run run = runProgram("doctor --can udp:19979 --duration 0.3");
+  const Run run = runProgram("doctor --can udp:19979 --duration 1");
   LONGS_EQUAL(4, run.status);
-  STRCMP_CONTAINS("error    udp:19979: no finger heard in 0.3 s, and nothing else\n", run.out.c_str());
+  STRCMP_CONTAINS("error    udp:19979: no finger heard in 1.0 s, and nothing else\n", run.out.c_str());
   STRCMP_CONTAINS("strainfinger run --can udp:19979", run.out.c_str());
 }
 
@@ -60,9 +60,11 @@ TEST(DoctorCommand, LooksAtEveryInterfaceOfTheMachine) {
 {"ifname":"nocan8","flags":["UP"],"link_type":"can","linkinfo":{"info_data":{"state":"ERROR-ACTIVE","bittiming":{"bitrate":500000}}}}])");
   const Run run = runShell(two + "\"$STRAINFINGER\" doctor");
   LONGS_EQUAL(3, run.status);
-  STRCMP_CONTAINS("error    nocan7: down\n", run.out.c_str());
+  STRCMP_CONTAINS("warning  nocan7: down\n", run.out.c_str());
   STRCMP_CONTAINS("sudo ip link set nocan7 up type can bitrate 1000000", run.out.c_str());
-  STRCMP_CONTAINS("error    nocan8: 500000 bit/s; the config's can.bitrate is 1000000\n", run.out.c_str());
+  STRCMP_CONTAINS("ok       nocan8: up, ERROR-ACTIVE, 500000 bit/s\n", run.out.c_str());
+  const Run config = runShell(two + "\"$STRAINFINGER\" doctor -c <(echo 'schema = 1')");
+  STRCMP_CONTAINS("error    nocan8: 500000 bit/s; the config's can.bitrate is 1000000\n", config.out.c_str());
   // And nocan8, which there isn't, is opened.
   const Run one = runShell(two + "\"$STRAINFINGER\" doctor --can nocan8");
   STRCMP_CONTAINS("nocan8", one.out.c_str());

@@ -15,7 +15,7 @@ TEST(ExplainCommand, SaysWhatANameMeansAndWhatToDo) {
   STRCMP_EQUAL(
       "stale_zero: bit 5 of flags in CONTACT, FORCE, PATCH, CONTACT2, FORCE2\n"
       "    The zero of the gauges is too old to be trusted\n"
-      "    What to do: let go of it; if nothing touches it, `strainfinger tare`\n",
+      "    What to do: let go of it; if nothing touches it, `strainfinger tare --can BUS --force`\n",
       run.out.c_str());
   STRCMP_EQUAL(run.out.c_str(), runProgram("explain stale zero").out.c_str());
 }
@@ -51,18 +51,46 @@ TEST(ExplainCommand, ReadsAnyLineOfCandump) {
     STRCMP_EQUAL(frame.c_str(), runProgram(std::string("explain ") + line).out.c_str());
 }
 
-TEST(ExplainCommand, JsonHasAnObjectANameOrAField) {
+TEST(ExplainCommand, ReadsALineOfTheScreenWithoutQuotes) {
+  const std::string frame = runProgram("explain 185#E8032201808161A3").out;
+  for (const char* line : {"can0 185 [8] E8 03 22 01 80 81 61 A3", "185 [8] E8 03 22 01 80 81 61 A3",
+                           "'185#E8032201808161A3 '", "'(000.000213)' can0 185 [8] E8 03 22 01 80 81 61 A3"})
+    STRCMP_EQUAL(frame.c_str(), runProgram(std::string("explain ") + line).out.c_str());
+}
+
+TEST(ExplainCommand, TakesSeveralFrames) {
+  const Run run = runProgram("explain 181#E2270200808164FF 281#45029F000F0581FF");
+  STRCMP_CONTAINS("CONTACT of node 1", run.out.c_str());
+  STRCMP_CONTAINS("FORCE of node 1", run.out.c_str());
+}
+
+TEST(ExplainCommand, TakesNamesAsOtherCommandsJoinThem) {
+  const Run run = runProgram("explain contact+uncertain noisy,");
+  LONGS_EQUAL(0, run.status);
+  for (const char* name : {"CONTACT: frame", "contact: bit 0", "uncertain: bit 3", "noisy: bit 8"})
+    STRCMP_CONTAINS(name, run.out.c_str());
+}
+
+TEST(ExplainCommand, AHeartbeatOfAnotherProtocolIsWarnedOf) {
+  const Run run = runProgram("explain 705#3200000D0E1900A7");
+  LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS("warning: it speaks protocol 3", run.err.c_str());
+}
+
+TEST(ExplainCommand, JsonHasAnObjectANameAFieldOrAFlag) {
   STRCMP_EQUAL(
-      "{\"name\":\"crash\",\"kind\":\"field in INFO\",\"meaning\":\"What the run before this one died "
-      "of\",\"remedy\":\"\"}\n",
+      R"({"name":"crash","kind":"field in INFO","meaning":"What the run before this one died of","remedy":""}
+)",
       runProgram("explain --json crash").out.c_str());
-  const std::string request = runProgram("explain --json 605#0302C80000000000").out;
   STRCMP_EQUAL(
-      "{\"frame\":\"REQUEST\",\"node\":5,\"field\":\"command\",\"value\":\"contact_rate\",\"meaning\":\"What "
-      "to do\"}\n"
-      "{\"frame\":\"REQUEST\",\"node\":5,\"field\":\"argument\",\"value\":200,\"meaning\":\"Of the command; "
-      "what length leaves out is 0\"}\n",
-      request.c_str());
+      R"({"frame":"REQUEST","node":5,"field":"command","value":"contact_rate","meaning":"What to do","remedy":""}
+{"frame":"REQUEST","node":5,"field":"command","value":"contact_rate","meaning":"Send at most so many CONTACT a second, until the next start","remedy":""}
+{"frame":"REQUEST","node":5,"field":"argument","value":200,"meaning":"Of the command; what length leaves out is 0","remedy":""}
+)",
+      runProgram("explain --json 605#0302C80000000000").out.c_str());
+  STRCMP_CONTAINS(
+      R"("field":"faults","value":"tables","meaning":"The lookup tables are absent, damaged or of another finger","remedy":"make them)",
+      runProgram("explain --json 705#220100FFFF80FF00").out.c_str());
 }
 
 TEST(ExplainCommand, ListsEveryNameWithoutOne) {
@@ -73,11 +101,19 @@ TEST(ExplainCommand, ListsEveryNameWithoutOne) {
 }
 
 TEST(ExplainCommand, RefusesWhatIsNoNameAndNoFrameOfAFinger) {
-  checkRefused("explain uncertian", "uncertian is no name on the bus (did you mean uncertain?)");
-  checkRefused("explain xylophone", "xylophone is no name on the bus; `strainfinger explain` lists them");
+  checkRefused("explain uncertian", "'uncertian' is no name on the bus (did you mean uncertain?)");
+  checkRefused("explain xylophone", "'xylophone' is no name on the bus; `strainfinger explain` lists them");
   checkRefused("explain noisy xylophone", "xylophone");
-  checkRefused("explain 123#00", "identifier 0x123, 1 bytes");
-  checkRefused("explain 181#0000", "identifier 0x181, 2 bytes: CONTACT has 8 bytes");
-  checkRefused("explain 12345678#0000", "none of a finger's frames");
-  checkRefused("explain 601#0117", "identifier 0x601");
+  checkRefused("explain ''", "'' is no name");
+  checkRefused("explain 123#00", "none of a finger's frames: identifier 0x123");
+  checkRefused("explain 181#0000", "CONTACT has 8 bytes, not 2");
+  checkRefused("explain 401#00", "RAW has 8 bytes, not 1");
+  checkRefused("explain 601#0117", "no REQUEST that there is");
+  checkRefused("explain 12345678#0000", "its identifier has 29 bits");
+  checkRefused("explain 181##1E227", "it is of CAN FD");
+  checkRefused("explain 181#R", "it is a remote request");
+  checkRefused("explain 20000004#0000000000000000", "it is an error frame");
+  checkRefused("explain 181#E22702008080F", "'181#E22702008080F' is no frame: ");
+  checkRefused("explain -c /nowhere.toml noisy", "/nowhere.toml");
+  checkRefused("explain 181#E2270200808164FF 181#00", "CONTACT has 8 bytes");
 }

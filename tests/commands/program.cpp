@@ -15,10 +15,10 @@ namespace {
 
 /// SigCgt is a mask of 16 hexadecimal digits, and SIGINT its second bit (proc(5)).
 constexpr const char* kInterrupt =
-    "interrupt() {\n"
-    "  until grep -q '^SigCgt:.*[2367abef]$' /proc/$1/status || ! kill -0 $1; do sleep 0.02; done\n"
-    "  sleep 0.3; kill -INT $1\n"
-    "}\n";
+    "isListening() { [ /proc/$1/exe -ef \"$STRAINFINGER\" ] && grep -q '^SigCgt:.*[2367abef]$' "
+    "/proc/$1/status; }\n"
+    "listening() { until isListening $1 || ! kill -0 $1; do sleep 0.02; done; }\n"
+    "interrupt() { listening $1; sleep 0.3; kill -INT $1; }\n";
 
 std::string read(const std::filesystem::path& path) {
   std::ostringstream text;

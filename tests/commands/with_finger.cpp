@@ -13,8 +13,10 @@ constexpr int kNotHeard = 97;
 
 Run withFinger(const std::string& options, const std::string& script) {
   const std::string bus = "udp:" + std::to_string(20'000 + getpid() % 40'000);
-  const Run run = runShell("BUS=" + bus + "\n\"$STRAINFINGER\" run --can $BUS --duration 30 " + options +
-                           R"( 2>/dev/null & finger=$!
+  const Run run =
+      runShell("BUS=" + bus + "\nset -o pipefail\n\"$STRAINFINGER\" run --can $BUS --duration 30 " + options +
+               R"( 2>/dev/null & finger=$!
+trap 'kill -INT $finger 2>/dev/null; wait $finger' EXIT  # however the script ends
 heard=
 for _ in $(seq 100); do
   "$STRAINFINGER" config --can $BUS --contact-rate-hz 100 >/dev/null 2>&1 && heard=yes && break
@@ -22,9 +24,8 @@ for _ in $(seq 100); do
 done
 if [ -z "$heard" ]; then
   echo "the finger on $BUS is not heard" >&2
-  kill -INT $finger 2>/dev/null; wait $finger; exit )" +
-                           std::to_string(kNotHeard) + "\nfi\n" + script +
-                           "\nstatus=$?; kill -INT $finger; wait $finger; exit $status\n");
+  exit )" + std::to_string(kNotHeard) +
+               "\nfi\n" + script + "\n");
   if (run.status == kNotHeard) FAIL(run.err.c_str());
   return run;
 }

@@ -52,7 +52,7 @@ TEST(FieldText, FlagsAndChoicesAreNames) {
   STRCMP_EQUAL(
       "contact+simulated",
       textOf(ContactFrame{.flags = {FingerFlag::kContact, FingerFlag::kSimulated}}, "flags").c_str());
-  STRCMP_EQUAL("", textOf(ContactFrame{}, "flags").c_str());
+  STRCMP_EQUAL("none", textOf(ContactFrame{}, "flags").c_str());
   STRCMP_EQUAL("hang", textOf(InfoFrame{.crash = Crash::kHang}, "crash").c_str());
   STRCMP_EQUAL("9", textOf(HeartbeatFrame{.state = FingerState{9}}, "state").c_str());
 }
@@ -60,6 +60,16 @@ TEST(FieldText, FlagsAndChoicesAreNames) {
 TEST(FieldText, WhatARequestLeavesOutIsNotKnown) {
   STRCMP_EQUAL("?", textOf(RequestFrame{.length = 1, .command = Command::kTare}, "argument").c_str());
   STRCMP_EQUAL("200", textOf(contactRateRequest(200), "argument").c_str());
+}
+
+// Other stacks pad (BUS_REQUESTS.md): what a command does not count is not there.
+TEST(FieldText, PaddingSaysNothing) {
+  const CanFrame forced{0x605, 8, {0x02, 0x01, 0x01, 0xCC, 0xCC, 0xCC, 0xCC, 0xCC}};
+  STRCMP_EQUAL("1", can::textOf(fieldValues(*findAnyFrame(forced), forced).back()).c_str());
+  const CanFrame tare{0x605, 8, {0x01, 0x01, 0xCC, 0xCC, 0xCC, 0xCC, 0xCC, 0xCC}};
+  STRCMP_EQUAL("?", can::textOf(fieldValues(*findAnyFrame(tare), tare).back()).c_str());
+  const CanFrame wait{0x585, 8, {0x03, 0x81, 0x07, 0x0A, 0xCC, 0xCC, 0xCC, 0xCC}};
+  STRCMP_EQUAL("10", can::textOf(fieldValues(*findAnyFrame(wait), wait).back()).c_str());
 }
 
 TEST(FieldText, RawIsAFrameToo) { STRCMP_EQUAL("1234", textOf(RawFrame{.code_1 = 1234}, "code_1").c_str()); }

@@ -7,6 +7,7 @@
 
 #include "common/commands.hpp"
 #include "common/frames.hpp"
+#include "host/can/field_text.hpp"
 #include "host/can/frame_catalogue.hpp"
 #include "host/can/remedies.hpp"
 
@@ -68,6 +69,14 @@ TEST(Glossary, NamesAreFoundHoweverTheyAreWritten) {
   CHECK_TRUE(termsNamed("stale").empty());
 }
 
+TEST(Glossary, FieldsAreFoundWithoutTheirUnitToo) {
+  for (const auto& catalogue : {frameCatalogue(), commandCatalogue()})
+    for (const FrameEntry& entry : catalogue)
+      for (const FieldSpec& field : entry.fields)
+        if (isShown(field)) CHECK_TEXT(!termsNamed(field.meaning.name).empty(), field.meaning.name);
+  STRCMP_EQUAL("zero_rate_per_s", only("zero rate").name.c_str());
+}
+
 TEST(Glossary, AWordThatIsNoneIsNearToSome) {
   STRCMP_EQUAL("uncertain", namesLike("uncertian").front().c_str());
   STRCMP_EQUAL("saturated", namesLike("saturatd").front().c_str());
@@ -78,5 +87,7 @@ TEST(Glossary, AWordThatIsNoneIsNearToSome) {
 }
 
 TEST(Glossary, ARemedyNamesTheBusItIsFor) {
-  STRCMP_CONTAINS("monitor --can can7", remedyFor(CommandStatus::kBusy, "can7").c_str());
+  STRCMP_CONTAINS("monitor --can can7` shows", onBus(remedyFor(CommandStatus::kBusy), "can7").c_str());
+  STRCMP_EQUAL("a --can udp b --can udp", onBus("a --can BUS b --can BUS", "udp").c_str());
+  STRCMP_EQUAL("", onBus("", "udp").c_str());
 }

@@ -42,6 +42,7 @@ TEST(CanLinks, TellOfTheirController) {
   LONGS_EQUAL(100, can0.restart_ms.value());
   LONGS_EQUAL(128, can0.txErrors.value());
   LONGS_EQUAL(7, can0.rxErrors.value());
+  CHECK_FALSE(can0.isListenOnly);
 }
 
 TEST(CanLinks, AVirtualOneHasNoController) {
@@ -54,10 +55,11 @@ TEST(CanLinks, AVirtualOneHasNoController) {
 TEST(CanLinks, FractionsMayBeNumbersAndBitRatesFixed) {
   const CanLink link = parseCanLinks(
       R"([{"ifname":"can1","flags":[],"link_type":"can","linkinfo":{"info_kind":"can","info_data":{
-      "state":"STOPPED","bittiming_bitrate":125000,"bitrate_const":[125000,250000],
+      "state":"STOPPED","ctrlmode":["LISTEN-ONLY","TRIPLE-SAMPLING"],"bittiming_bitrate":125000,"bitrate_const":[125000,250000],
       "bittiming":{"sample_point":0.8}}}}])")[0];
   LONGS_EQUAL(125'000, link.bitrate.value());
   DOUBLES_EQUAL(0.8, link.samplePoint.value(), 0);
+  CHECK_TRUE(link.isListenOnly);
 }
 
 TEST(CanLinks, WhatIsNoSuchListIsToldApart) {

@@ -78,8 +78,42 @@ TEST(Examine, AControllerInTroubleIsTold) {
   link.state = "ERROR-PASSIVE";
   checkOnly(Severity::kError, "not acknowledged", "120 ohm", examineLink(link, 1'000'000));
   link.state = "BUS-OFF";
-  checkOnly(Severity::kError, "bus-off", "sudo ip link set can0 type can restart",
-            examineLink(link, 1'000'000));
+  checkOnly(Severity::kError, "bus-off", "it comes back by itself", examineLink(link, 1'000'000));
+  link.restart_ms = 0;
+  STRCMP_CONTAINS("sudo ip link set can0 type can restart",
+                  examineLink(link, 1'000'000).front().remedy.c_str());
+}
+
+TEST(Examine, CountersThatAreNotKnownAreNotMadeUp) {
+  CanLink link = goodLink();
+  link.state = "ERROR-PASSIVE";
+  link.txErrors.reset();
+  CHECK_TRUE(examineLink(link, 1'000'000).front().what.find("counters") == std::string::npos);
+}
+
+TEST(Examine, WithoutAConfigAnyBitRateWillDo) {
+  CanLink link = goodLink();
+  link.bitrate = 500'000;
+  checkOnly(Severity::kGood, "500000 bit/s", "", examineLink(link, std::nullopt));
+}
+
+TEST(Examine, AnAdapterThatDoesNotGoWithTheFingerIsAWarning) {
+  CanLink link = goodLink();
+  link.samplePoint = 0.5;
+  checkOnly(Severity::kWarning, "sampled at 50.0 %", "sample-point 0.8", examineLink(link, 1'000'000));
+  link.samplePoint = 0.875;
+  checkOnly(Severity::kGood, "87.5 %", "", examineLink(link, 1'000'000));
+  link.isListenOnly = true;
+  checkOnly(Severity::kWarning, "acknowledges nothing", "listen-only off", examineLink(link, 1'000'000));
+}
+
+TEST(Examine, AnInterfaceThatGoesDownMeanwhileIsNotTheFingersFault) {
+  const live::BusView bus = live::busWith({wellFinger()});
+  for (const hal::CanState state : {hal::CanState::kDown, hal::CanState::kBusOff}) {
+    const Findings findings = examineBus(bus, state, hints, std::chrono::milliseconds(2000));
+    checkOnly(Severity::kError, "meanwhile", "blocked", findings);
+    checkStatus(ExitCode::kNoInterface, findings);
+  }
 }
 
 TEST(Examine, AControllerThatStaysOffTheBusIsAWarning) {
@@ -92,25 +126,28 @@ TEST(Examine, ABusWithoutFingersHasNoNode) {
   using std::chrono::milliseconds;
   live::BusView bus = live::busWith({});
   checkOnly(Severity::kError, "no finger heard in 2.0 s, though others send", "is it on the bus?",
-            examineBus(bus, hints, milliseconds(2000)));
+            examineBus(bus, hal::CanState::kActive, hints, milliseconds(2000)));
   bus.framesPerSecond = 0;
   checkOnly(Severity::kError, "no finger heard in 0.5 s, and nothing else", "is it on the bus?",
-            examineBus(bus, hints, milliseconds(500)));
-  checkStatus(ExitCode::kNoNode, examineBus(bus, hints, milliseconds(500)));
+            examineBus(bus, hal::CanState::kActive, hints, milliseconds(500)));
+  checkStatus(ExitCode::kNoNode, examineBus(bus, hal::CanState::kActive, hints, milliseconds(500)));
 }
 
 TEST(Examine, AFullBusAndASlowMachineAreWarnings) {
   using std::chrono::milliseconds;
   live::BusView bus = live::busWith({wellFinger()});
   checkOnly(Severity::kGood, "fingers: 1, frames a second: 1512, 16.8 % of the bit rate", "",
-            examineBus(bus, hints, milliseconds(2000)));
+            examineBus(bus, hal::CanState::kActive, hints, milliseconds(2000)));
   bus.load = 0.82;
-  checkOnly(Severity::kGood, "82.0 %", "", examineBus(bus, hints, milliseconds(2000)));
+  checkOnly(Severity::kGood, "82.0 %", "",
+            examineBus(bus, hal::CanState::kActive, hints, milliseconds(2000)));
   bus.load = 0.83;
-  checkOnly(Severity::kWarning, "83 %", "--contact-rate-hz", examineBus(bus, hints, milliseconds(2000)));
+  checkOnly(Severity::kWarning, "83 %", "--contact-rate-hz",
+            examineBus(bus, hal::CanState::kActive, hints, milliseconds(2000)));
   bus.load = 0.1;
   bus.missed = 3;
-  checkOnly(Severity::kWarning, "too slow for 3 frames", "", examineBus(bus, hints, milliseconds(2000)));
+  checkOnly(Severity::kWarning, "too slow for 3 frames", "",
+            examineBus(bus, hal::CanState::kActive, hints, milliseconds(2000)));
 }
 
 TEST(Examine, AFingerThatIsWellIsDescribed) {
@@ -135,7 +172,8 @@ TEST(Examine, TwoFingersOfOneNumberAreAnError) {
   FingerView finger = wellFinger();
   finger.hasTwin = true;
   finger.lost = 100;  // which means nothing then
-  checkOnly(Severity::kError, "two fingers have this number", "--set-node", of(finger));
+  checkOnly(Severity::kError, "two fingers have this node number", "config --can can0 --set-node",
+            of(finger));
 }
 
 TEST(Examine, ASilentFingerIsNoNode) {
@@ -145,7 +183,7 @@ TEST(Examine, ASilentFingerIsNoNode) {
   checkStatus(ExitCode::kNoNode, of(finger));
 }
 
-TEST(Examine, FaultsWithoutWhichNoTouchIsToldAreErrors) {
+TEST(Examine, FaultsWithWhichNoTouchIsToldAreErrors) {
   for (const auto& [fault, severity] :
        {std::pair{FingerFault::kTables, Severity::kError}, std::pair{FingerFault::kGauges, Severity::kError},
         std::pair{FingerFault::kConverter, Severity::kError},
@@ -188,12 +226,22 @@ TEST(Examine, OtherTablesThanTheConfigsAreAMismatch) {
   checkStatus(ExitCode::kMismatch, of(wellFinger(), 0x123456A8));
 }
 
+TEST(Examine, TablesThatAreNoneAreNotComparedWithAny) {
+  FingerView finger = wellFinger();
+  finger.heartbeat.faults = {FingerFault::kTables};
+  finger.heartbeat.table_crc = 0;
+  checkOnly(Severity::kError, "fault tables", "tables -o", of(finger, 0x123456A8));
+}
+
 TEST(Examine, WhatTheRunBeforeDiedOfIsAWarning) {
   FingerView finger = wellFinger();
   finger.info->crash = Crash::kHang;
   finger.info->restarts = 3;
   finger.info->crash_address = 0x2AB6;
-  checkOnly(Severity::kWarning, "did not come back in time, at 0x2AB6; 3 crashes", "addr2line", of(finger));
+  checkOnly(Severity::kWarning, "did not come back in time, at 0x2AB6; crashes since power came on: 3",
+            "addr2line", of(finger));
+  finger.info->crash_address = 0;
+  CHECK_TRUE(of(finger).front().what.find("at 0x") == std::string::npos);
   finger.info->crash = Crash::kNone;
   finger.info->reset_cause = ResetCause::kBrownOut;
   checkOnly(Severity::kWarning, "last reset brown out", "supply", of(finger));
@@ -208,7 +256,8 @@ TEST(Examine, GaugesLostFramesAndRestartsAreWarnings) {
   checkOnly(Severity::kWarning, "2 of 3002 frames", "BUS_LOAD", of(finger));
   finger = wellFinger();
   finger.restarts = 1;
-  checkOnly(Severity::kWarning, "restarted 1 times", "supply", of(finger));
+  checkOnly(Severity::kWarning, "it restarted, or two fingers have this node number",
+            "doctor --can can0 --duration 10", of(finger));
 }
 
 TEST(Examine, FlagsOfATouchAreTold) {
@@ -239,14 +288,28 @@ TEST(Examine, WhoCannotAnswerIsNotAsked) {
 }
 
 TEST(Examine, CountsThatDoHarmAreTold) {
-  const auto counted = [](Count count, std::optional<std::uint32_t> value) {
-    const Counted one[]{{count, value}};
-    return examineCounts("can0 node 1", one);
+  const auto of = [&](Count count, CountAnswer answer, std::uint32_t value = 0) {
+    const Counted counts[]{{Count::kErases, CountAnswer::kTold, 3}, {count, answer, value}};
+    return examineCounts("can0", 1, counts, hints);
   };
-  checkOnly(Severity::kGood, "answers requests", "", counted(Count::kErases, 35'999));
-  checkOnly(Severity::kWarning, "36000 counted erases", "40,000", counted(Count::kErases, 36'000));
-  checkOnly(Severity::kWarning, "1 counted corrected", "replace the board", counted(Count::kCorrected, 1));
-  checkOnly(Severity::kGood, "answers requests", "", counted(Count::kLostSets, 1));  // a fault of its own
-  checkOnly(Severity::kError, "answers no request", "listen-only", counted(Count::kErases, std::nullopt));
-  checkStatus(ExitCode::kNoNode, counted(Count::kErases, std::nullopt));
+  STRCMP_EQUAL("can0 node 1", of(Count::kErases, CountAnswer::kTold).front().where.c_str());
+  checkOnly(Severity::kGood, "answers requests", "", of(Count::kErases, CountAnswer::kTold, 35'999));
+  checkOnly(Severity::kWarning, "36000 counted erases", "40,000",
+            of(Count::kErases, CountAnswer::kTold, 36'000));
+  checkOnly(Severity::kWarning, "1 counted corrected", "flash wears out",
+            of(Count::kCorrected, CountAnswer::kTold, 1));
+  checkOnly(Severity::kWarning, "6262 counted lost sets", "", of(Count::kLostSets, CountAnswer::kTold, 6262));
+}
+
+TEST(Examine, CountsThatAreNotToldSayWhy) {
+  const auto of = [&](CountAnswer answer) {
+    const Counted counts[]{{Count::kErases, CountAnswer::kTold, 3}, {Count::kCorrected, answer}};
+    return examineCounts("can0", 1, counts, hints);
+  };
+  checkOnly(Severity::kGood, "answers requests", "", of(CountAnswer::kNotCounted));
+  checkOnly(Severity::kGood, "answers requests", "", of(CountAnswer::kOthersAsk));
+  checkOnly(Severity::kError, "answers no request", "firmware", of(CountAnswer::kSilence));
+  checkStatus(ExitCode::kNoNode, of(CountAnswer::kSilence));
+  checkOnly(Severity::kError, "takes no request", "blocked", of(CountAnswer::kNotSent));
+  checkStatus(ExitCode::kNoInterface, of(CountAnswer::kNotSent));
 }

@@ -110,7 +110,7 @@ TEST(Screen, FaultsAndGaugesStandInWords) {
 TEST(Screen, ATwinIsSaidToBeThere) {
   FingerView finger = touchedFinger();
   finger.hasTwin = true;
-  STRCMP_CONTAINS("another finger has this node number", textOf(finger).c_str());
+  STRCMP_CONTAINS("two fingers have this node number", textOf(finger).c_str());
 }
 
 TEST(Screen, ASilentFingerIsSaidToBeSilent) {

@@ -14,7 +14,8 @@ strainfinger doctor >"$TMPDIR/doctor" 2>"$TMPDIR/sum" || fail "$(cat "$TMPDIR/do
 cat "$TMPDIR/doctor"
 grep -q '^ok  *vcan0: up; a virtual interface' "$TMPDIR/doctor" || fail "the interface is not described"
 grep -q '^ok  *vcan0: fingers: 1, ' "$TMPDIR/doctor" || fail "the bus is not described"
-grep -q '^ok  *vcan0 node 1: answers requests' "$TMPDIR/doctor" || fail "the finger is not asked"
+# A machine that is late loses sample sets.
+grep -qE '^(ok +vcan0 node 1: answers requests|warning +vcan0 node 1: [0-9]+ counted lost sets)' "$TMPDIR/doctor" || fail "the finger is not asked"
 
 kill -TERM $finger
 wait $finger || true

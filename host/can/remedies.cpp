@@ -15,19 +15,17 @@ std::string_view remedyFor(FingerFault fault) {
     case FingerFault::kConverter:
       return "check the converter's supply, reference and wiring, then switch the finger off and on";
     case FingerFault::kCan:
-      return "check the bus: wiring, 120 ohm at both ends, one bit rate, its load, and that another node was "
-             "there to "
-             "acknowledge; the fault goes at the next start";
+      return "check the bus: wiring, 120 ohm at both ends, one bit rate, its load, and that another node "
+             "was there to acknowledge; the fault goes at the next start";
     case FingerFault::kConfiguration:
       return "set it again: `strainfinger config --can BUS --contact-rate-hz HZ --keep`, `strainfinger "
-             "config --can BUS "
-             "--set-node NODE`; the fault goes at the next start";
+             "config --can BUS --set-node NODE`; the fault goes at the next start";
     case FingerFault::kWatchdogReset:
       return "`strainfinger info --can BUS` has what it died of; switching it off and on clears this";
     case FingerFault::kSamples:
       return "a few do no harm, as while settings are kept; `strainfinger info --can BUS` counts them "
-             "(lost_sets): where "
-             "they go on, sample more slowly (firmware/bring_up.md); the fault goes at the next start";
+             "(lost_sets): where they go on, sample more slowly (firmware/bring_up.md); the fault goes at "
+             "the next start";
     case FingerFault::kClock:
       return "check the board's crystal: with the other clock it may not be heard on the bus when it warms "
              "up";
@@ -44,22 +42,18 @@ std::string_view remedyFor(FingerFlag flag) {
     case FingerFlag::kSimulated:
       return "";
     case FingerFlag::kSaturated:
-      return "press less; or have less gain before the converter, a larger gauges.full_scale_strain, and the "
-             "tables of "
-             "that";
+      return "press less; or have less gain before the converter, a larger gauges.full_scale_strain, and "
+             "the tables of that";
     case FingerFlag::kDegraded:
       return "`strainfinger info --can BUS` names gauges that are out of use; one that an answer left out "
-             "for the "
-             "moment counts again when it fits";
+             "for the moment counts again when it fits";
     case FingerFlag::kUncertain:
       return "wait while a search goes on (mostly 0.2 s or less), or press more firmly: very light touches "
-             "stay "
-             "uncertain. Alternative in CONTACT may name another angle; chi in PATCH well above 1 says that "
-             "no contact "
-             "explains the readings; with the fault gauges every touch is uncertain";
+             "stay uncertain. Alternative in CONTACT may name another angle; chi in PATCH well above 1 "
+             "says that no contact explains the readings; with the fault gauges every touch is uncertain";
     case FingerFlag::kSeveralContacts:
-      return "read CONTACT2 and FORCE2 as well; with one in PATCH's contacts the two are too near to be told "
-             "apart";
+      return "read CONTACT2 and FORCE2 as well; with one in PATCH's contacts the two are too near to be "
+             "told apart";
     case FingerFlag::kStaleZero:
       return "let go of it; if nothing touches it, `strainfinger tare --can BUS --force`";
     case FingerFlag::kUncalibrated:
@@ -106,8 +100,7 @@ std::string_view remedyFor(Crash crash) {
     case Crash::kStackOverflow:
     case Crash::kHang:
       return "please report it; where crash_address is not 0, `arm-none-eabi-addr2line -e` the firmware's "
-             ".elf has the "
-             "line (on an STM32 add 0x08000000)";
+             ".elf has the line (on an STM32 add 0x08000000)";
     case Crash::kStarved:
       return "check the converter's supply, reference and wiring";
   }
@@ -122,8 +115,7 @@ std::string_view remedyFor(Count count) {
       return "one or two do no harm; where they go on, the board's flash wears out";
     case Count::kUnreadable:
       return "a power cut may have ended a change of settings or tables: make it again; if it comes back, "
-             "the board's "
-             "flash is worn out";
+             "the board's flash is worn out";
     case Count::kLostSets:
       return remedyFor(FingerFault::kSamples);
     case Count::kResynchronised:

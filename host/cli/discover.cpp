@@ -20,10 +20,9 @@ namespace {
 
 constexpr const char* kDiscoverHelp =
     "Which fingers are there: a row for each that is heard, by its HEARTBEAT. It sends nothing.\n"
-    "Without --can on every CAN interface of this machine that is up. Columns: "
-    "interface,node,state,faults,protocol,firmware,board,reset_cause,uptime_s,table_crc,note; empty where "
-    "the "
-    "finger didn't say.\n"
+    "Without --can on every CAN interface of this machine that is up.\n"
+    "Prints interface,node,state,faults,protocol,firmware,board,reset_cause,uptime_s,table_crc,note; empty "
+    "where the finger didn't say.\n"
     "Exit status: 3 no interface, 4 no finger heard.";
 
 const std::vector<std::string> kColumns{"interface", "node",      "state", "faults",

@@ -24,16 +24,14 @@ using health::Findings;
 using health::Severity;
 
 constexpr const char* kDoctorHelp =
-    "Looks for what is wrong with fingers and their buses: interface, bit rate, controller, load, node "
-    "numbers, "
-    "protocol, faults, gauges, zeros, crashes, lost frames, requests; says what to do about it.\n"
-    "Without --can every CAN interface of this machine. With -c also whether the config's node is there, and "
-    "has "
-    "the config's tables. It listens, and asks fingers for their counts; it changes nothing.\n"
-    "A line for each finding, ok, warning or error, with what to do below it; with --json an object "
-    "result,where,finding,remedy. Exit status 0: no error; else that of the first error: 1, 3 no interface, "
-    "4 no "
-    "finger, 5 another protocol or other tables.";
+    "Looks for what is wrong with fingers and their buses, and says what to do about it: interface, "
+    "bit rate, controller, load, node numbers, protocol, faults, gauges, zeros, crashes, lost frames.\n"
+    "Without --can every CAN interface of this machine. With -c also whether the config's node is there and "
+    "has the config's tables. It listens, and asks fingers for their counts; it changes nothing.\n"
+    "A line for each finding (ok, warning or error) with what to do below it; with --json an object "
+    "result,where,finding,remedy.\n"
+    "Exit status 0: no error; else that of the first error: 1, 3 no interface, 4 no finger, "
+    "5 another protocol or other tables.";
 
 struct DoctorOptions {
   explicit DoctorOptions(CLI::App& command)
@@ -88,8 +86,7 @@ std::vector<health::CanLink> linksOf(const std::string& bus, Report& report) {
     if (bus.empty() && links.empty())
       report.add({{Severity::kError, "this machine", "there is no CAN interface",
                    "plug an adapter in (`ip -br link` shows it then); --can udp is a bus between the "
-                   "programs of this "
-                   "machine",
+                   "programs of this machine",
                    ExitCode::kNoInterface}});
     return links;
   } catch (const Failure& failure) {

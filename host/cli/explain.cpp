@@ -27,9 +27,9 @@ constexpr const char* kExplainHelp =
     "  explain                       every name: frames, fields, flags, faults, states, commands\n"
     "  explain uncertain             a name, in any case\n"
     "  explain 181#E2270200808164FF  a frame, or a whole line of candump, field by field\n"
-    "--json: a name is an object name,kind,meaning,remedy; a field of a frame one "
-    "frame,node,field,value,meaning,remedy, "
-    "and each flag or choice in it another. Exit status 2: no such name or frame.";
+    "--json: a name is an object name,kind,meaning,remedy; a field of a frame one of "
+    "frame,node,field,value,meaning,remedy, and each flag or choice in it another.\n"
+    "Exit status 2: no such name or frame.";
 
 struct ExplainOptions {
   explicit ExplainOptions(CLI::App& command) : common(command) {

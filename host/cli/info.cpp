@@ -26,10 +26,8 @@ namespace {
 
 constexpr const char* kInfoHelp =
     "What a finger tells of itself: state, faults, firmware, why it started, what the run before died of, "
-    "gauges "
-    "out of use, age of its zeros, and what it counts.\n"
-    "Prints interface,node,frame,field,value,meaning; a value that it doesn't know is empty. With -c "
-    "also "
+    "gauges out of use, age of its zeros, and what it counts.\n"
+    "Prints interface,node,frame,field,value,meaning; a value that it doesn't know is empty. With -c also "
     "whether its tables are those of that config: exit status 5 if not.\n"
     "Exit status: 3 no interface, 4 no such node, 5 another protocol or other tables.";
 
@@ -55,12 +53,28 @@ std::optional<live::FingerView> listenFor(live::BusWatch& watch, std::uint8_t no
   return finger;
 }
 
-/// What is wrong, beside the table: else an empty value, or an old one, would look like any other.
+std::string textOf(const health::Finding& finding) {
+  return fmt::format("{}: {}{}{}", finding.where, finding.what, finding.remedy.empty() ? "" : ": ",
+                     finding.remedy);
+}
+
+/// Beside the table what is wrong: else an empty value, or an old one, would look like any other.
 void tell(const health::Findings& findings) {
   for (const health::Finding& finding : findings)
     if (finding.severity == health::Severity::kError)
-      fmt::print(stderr, "strainfinger: {}: {}{}{}\n", finding.where, finding.what,
-                 finding.remedy.empty() ? "" : ": ", finding.remedy);
+      fmt::print(stderr, "strainfinger: {}\n", textOf(finding));
+}
+
+/// What is wrong with the finger; throws Failure for what ends with a status of its own.
+void tellOf(const health::Findings& findings) {
+  const auto isEnding = [](const health::Finding& finding) {
+    return finding.severity == health::Severity::kError && finding.status != ExitCode::kFailure;
+  };
+  health::Findings others;
+  std::ranges::remove_copy_if(findings, std::back_inserter(others), isEnding);
+  tell(others);
+  const auto ending = std::ranges::find_if(findings, isEnding);
+  if (ending != findings.end()) throw Failure(ending->status, textOf(*ending));
 }
 
 class InfoTable {
@@ -133,11 +147,7 @@ void runInfo(const RequestOptions& options) {
   addCounts(*port, *finger, table);
   std::optional<std::uint32_t> crc32;
   if (options.common.hasConfig()) crc32 = tables::buildTableImage(config).crc32;
-  const health::Findings findings = health::examineFinger(watch.view(), *finger, crc32);
-  tell(findings);
-  for (const health::Finding& finding : findings)
-    if (finding.severity == health::Severity::kError && finding.status != ExitCode::kFailure)
-      throw Failure(finding.status, fmt::format("{}: {}", where, finding.what));
+  tellOf(health::examineFinger(watch.view(), *finger, crc32));
 }
 
 }  // namespace

@@ -96,15 +96,11 @@ std::string describe(const CanLink& link) {
   return text;
 }
 
-std::string nameFor(std::span<const ValueName> names, int value, const char* kind) {
-  return fmt::format("{} {}", kind, live::wordFor(names, value));
-}
-
 /// "fault noisy: The untouched gauges ..."
 template <std::size_t N>
 std::string said(const char* kind, const std::array<ValueName, N>& names, int value) {
   const ValueName* const name = can::findName(names, value);
-  return fmt::format("{}: {}", nameFor(names, value, kind),
+  return fmt::format("{} {}: {}", kind, live::wordFor(names, value),
                      name != nullptr ? name->comment : "unknown to this program");
 }
 
@@ -137,8 +133,7 @@ void examineTables(const HeartbeatFrame& heartbeat, std::uint32_t crc32, Examina
       fmt::format("its tables are not those of the config: their CRC-32 ends with {:02X}, not {:02X}",
                   heartbeat.table_crc, wanted),
       "give the config that its tables were made from (-c), or flash those that `strainfinger tables -o "
-      "FILE` "
-      "makes of this one",
+      "FILE` makes of this one",
       ExitCode::kMismatch);
 }
 
@@ -146,7 +141,7 @@ void examineInfo(const InfoFrame& info, Examination& examination) {
   if (info.crash != Crash::kNone)
     examination.warning(
         fmt::format("{}{}; crashes since power came on: {}",
-                    said("the run before died", kCrashNames, static_cast<int>(info.crash)),
+                    said("crash of the run before,", kCrashNames, static_cast<int>(info.crash)),
                     info.crash_address == 0 ? "" : fmt::format(", at 0x{:X}", info.crash_address),
                     info.restarts),
         can::remedyFor(info.crash));

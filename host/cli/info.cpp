@@ -92,8 +92,8 @@ class InfoTable {
 
   void add(const health::Counted& counted) {
     const ValueName& name = *can::findName(kCountNames, static_cast<int>(counted.count));
-    const bool isTold = counted.answer == health::CountAnswer::kTold;
-    const Cell value = isTold ? Cell(std::int64_t{counted.value}) : Cell(kNoValue);
+    Cell value = kNoValue;
+    if (counted.answer == health::CountAnswer::kTold) value = std::int64_t{counted.value};
     add(kLayout<ResponseFrame>.spec.name, {name.name, value, name.comment});
   }
 

@@ -18,14 +18,9 @@ std::string columnName(const FieldMeaning& meaning) {
 }
 
 std::string valueText(const FieldSpec& field, std::int64_t raw) {
-  if (field.meaning.kind != FieldKind::kFlags) return nameText(field.meaning.names, raw);
-  std::string text;
-  for (int bit = 0; bit < field.bits.width; ++bit) {
-    if ((raw >> bit & 1) == 0) continue;
-    if (!text.empty()) text.push_back('+');
-    text.append(nameText(field.meaning.names, bit));
-  }
-  return text;
+  const auto& names = field.meaning.names;
+  const bool areFlags = field.meaning.kind == FieldKind::kFlags;
+  return areFlags ? flagsText(names, static_cast<std::uint32_t>(raw)) : nameText(names, raw);
 }
 
 bool isShown(const FieldSpec& field) {
@@ -49,10 +44,11 @@ bool isKnown(const FieldSpec& field, std::int64_t raw, int sentBits) {
 
 std::vector<FieldValue> fieldValues(const FrameEntry& entry, const CanFrame& frame) {
   const int bits = sentBits(frame, entry);
+  const std::uint64_t word = sentWord(frame, entry);
   std::vector<FieldValue> values;
   for (const FieldSpec& field : entry.fields) {
     if (!isShown(field)) continue;
-    const std::int64_t raw = extractRaw(field.bits, sentWord(frame, entry));
+    const std::int64_t raw = extractRaw(field.bits, word);
     const bool known = isKnown(field, raw, bits);
     values.push_back({&field, raw, known, known && field.meaning.openEnded && raw == maxRaw(field.bits)});
   }

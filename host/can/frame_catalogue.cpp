@@ -77,6 +77,16 @@ std::string nameText(std::span<const ValueName> names, std::int64_t value) {
   return name != nullptr ? name->name : std::to_string(value);
 }
 
+std::string flagsText(std::span<const ValueName> names, std::uint32_t bits) {
+  std::string text;
+  for (int bit = 0; bit < 32; ++bit) {
+    if ((bits >> bit & 1U) == 0) continue;
+    if (!text.empty()) text.push_back('+');
+    text.append(nameText(names, bit));
+  }
+  return text;
+}
+
 double stepOf(const FieldMeaning& meaning) {
   return static_cast<double>(meaning.unitsPerStep) / meaning.stepsPerUnit;
 }

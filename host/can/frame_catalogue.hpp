@@ -44,6 +44,9 @@ const ValueName* findName(std::span<const ValueName> names, std::int64_t value);
 /// That name; the number where it has none.
 std::string nameText(std::span<const ValueName> names, std::int64_t value);
 
+/// Names of the bits that are set, lowest first, joined by '+'.
+std::string flagsText(std::span<const ValueName> names, std::uint32_t bits);
+
 /// What one step of the raw value is, in the field's unit.
 double stepOf(const FieldMeaning& meaning);
 

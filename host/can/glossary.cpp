@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
+#include <iterator>
 #include <map>
-#include <numeric>
 
 #include "common/commands.hpp"
+#include "host/base/edit_distance.hpp"
 #include "host/can/field_text.hpp"
 #include "host/can/frame_catalogue.hpp"
 #include "host/can/remedies.hpp"
@@ -110,21 +110,6 @@ std::string normal(std::string_view word) {
   return text;
 }
 
-/// Letters to insert, delete or replace (Levenshtein).
-std::size_t lettersOff(std::string_view one, std::string_view other) {
-  std::vector<std::size_t> row(other.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < one.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 0; j < other.size(); ++j) {
-      const std::size_t replaced = diagonal + (one[i] == other[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
-    }
-  }
-  return row.back();
-}
-
 }  // namespace
 
 std::span<const Term> glossary() {
@@ -143,7 +128,7 @@ std::vector<Term> termsNamed(std::string_view word) {
 std::vector<std::string> namesLike(std::string_view word) {
   std::multimap<std::size_t, std::string> byDistance;
   for (const Term& term : glossary()) {
-    const std::size_t off = lettersOff(normal(word), normal(term.name));
+    const std::size_t off = editDistance(normal(word), normal(term.name));
     if (off <= std::min(kMostLettersOff, word.size() / 2)) byDistance.emplace(off, term.name);
   }
   std::vector<std::string> names;

@@ -13,7 +13,6 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/listening.hpp"
 #include "host/health/can_links.hpp"
-#include "host/live/words.hpp"
 
 namespace strainfinger::cli {
 namespace {
@@ -42,13 +41,6 @@ std::string noteOn(const live::FingerView& finger) {
   return finger.isSilent() ? "silent" : "";
 }
 
-std::string faultsText(const HeartbeatFrame& heartbeat) {
-  std::vector<std::string> names;
-  for (const int bit : live::bitNumbers(heartbeat.faults.raw()))
-    names.push_back(can::nameText(kFingerFaultNames, bit));
-  return fmt::format("{}", fmt::join(names, "+"));
-}
-
 std::vector<Cell> rowOf(const live::BusView& bus, const live::FingerView& finger) {
   const HeartbeatFrame& heartbeat = finger.heartbeat;
   Cell state, faults, firmware, board, cause, uptime, tables;
@@ -56,7 +48,7 @@ std::vector<Cell> rowOf(const live::BusView& bus, const live::FingerView& finger
     *unknown = kNoValue;
   if (!finger.isForeign()) {  // else the fields may mean something else
     state = can::nameText(kFingerStateNames, static_cast<int>(heartbeat.state));
-    faults = faultsText(heartbeat);
+    faults = can::flagsText(kFingerFaultNames, heartbeat.faults.raw());
     tables = std::int64_t{heartbeat.table_crc};
     if (heartbeat.uptime_s != kNotKnown<std::uint16_t>) uptime = std::int64_t{heartbeat.uptime_s};
   }

@@ -166,7 +166,7 @@ class Expected {
 
 void examineFingers(ListenedBus& bus, const live::BusView& view, const Expected& expected, Report& report) {
   for (const live::FingerView& finger : view.fingers) {
-    report.add(health::examineFinger(view, finger, expected.tablesOf(finger)));
+    report.add(health::examineFinger(view.name, finger, expected.tablesOf(finger)));
     if (health::canAnswer(finger))
       report.add(health::examineCounts(view.name, finger.node, health::askForCounts(bus.port(), finger.node),
                                        bus.port().hints()));

@@ -90,10 +90,10 @@ class InfoTable {
       add(entry.spec.name, fieldRow(value));
   }
 
-  void add(const health::Counted& counted) {
-    const ValueName& name = *can::findName(kCountNames, static_cast<int>(counted.count));
+  void add(Count count, std::optional<std::uint32_t> told) {
+    const ValueName& name = *can::findName(kCountNames, static_cast<int>(count));
     Cell value = kNoValue;
-    if (counted.answer == health::CountAnswer::kTold) value = std::int64_t{counted.value};
+    if (told) value = std::int64_t{*told};
     add(kLayout<ResponseFrame>.spec.name, {name.name, value, name.comment});
   }
 
@@ -117,11 +117,12 @@ class InfoTable {
 /// Empty where it can't be asked, which the findings on it tell.
 void addCounts(can::BusPort& port, const live::FingerView& finger, InfoTable& table) {
   if (!health::canAnswer(finger)) {
-    for (const ValueName& name : kCountNames) table.add({Count{name.value}, health::CountAnswer::kSilence});
+    for (const ValueName& name : kCountNames) table.add(Count{name.value}, std::nullopt);
     return;
   }
   const std::vector<health::Counted> counts = health::askForCounts(port, finger.node);
-  for (const health::Counted& counted : counts) table.add(counted);
+  for (const auto& [count, answer, value] : counts)
+    table.add(count, answer == health::CountAnswer::kTold ? std::optional(value) : std::nullopt);
   tell(health::examineCounts(port.name(), finger.node, counts, port.hints()));
 }
 
@@ -147,7 +148,7 @@ void runInfo(const RequestOptions& options) {
   addCounts(*port, *finger, table);
   std::optional<std::uint32_t> crc32;
   if (options.common.hasConfig()) crc32 = tables::buildTableImage(config).crc32;
-  tellOf(health::examineFinger(watch.view(), *finger, crc32));
+  tellOf(health::examineFinger(port->name(), *finger, crc32));
 }
 
 }  // namespace

@@ -2,11 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <numeric>
-#include <utility>
-#include <vector>
-
+#include "host/base/edit_distance.hpp"
 #include "host/base/failure.hpp"
 
 namespace strainfinger::config {
@@ -40,20 +36,6 @@ Number checked(Number value, const toml::node& node, std::string_view key, const
   if (domain.contains(static_cast<double>(value))) return value;
   failAt(node.source(),
          fmt::format("{} = {} is out of its domain; it must be {}", key, value, domain.text()));
-}
-
-/// Levenshtein's distance: insertions, deletions and replacements of one character.
-std::size_t editDistance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = std::exchange(row[j], std::min({replaced, row[j] + 1, row[j - 1] + 1}));
-    }
-  }
-  return row[b.size()];
 }
 
 std::string_view lastPart(std::string_view dotted) { return dotted.substr(dotted.rfind('.') + 1); }

@@ -252,9 +252,9 @@ bool canAnswer(const live::FingerView& finger) {
          finger.heartbeat.state != FingerState::kFault;
 }
 
-Findings examineFinger(const live::BusView& bus, const live::FingerView& finger,
+Findings examineFinger(const std::string& bus, const live::FingerView& finger,
                        std::optional<std::uint32_t> tables_crc32) {
-  Examination examination(bus.name, finger.node);
+  Examination examination(bus, finger.node);
   if (finger.isForeign()) {
     examination.error(can::foreignText(finger.heartbeat.protocol), "", ExitCode::kMismatch);
     return examination.findings();

@@ -26,7 +26,7 @@ Findings examineBus(const live::BusView& bus, hal::CanState state, const can::Bu
 
 /// `tables_crc32`: of the tables that it should have, of which HEARTBEAT has the lowest byte; nothing: not
 /// known.
-Findings examineFinger(const live::BusView& bus, const live::FingerView& finger,
+Findings examineFinger(const std::string& bus, const live::FingerView& finger,
                        std::optional<std::uint32_t> tables_crc32);
 
 /// Whether requests to a finger can be answered: it is heard, speaks this protocol, has its node number to

@@ -7,6 +7,13 @@
 
 using namespace strainfinger;
 
+namespace {
+
+/// A HEARTBEAT of protocol 3.
+constexpr const char* kForeign = "(1.000000) can0 701#39FFFFFFFFFFFF00\n";
+
+}  // namespace
+
 TEST_GROUP(DiscoverCommand){};
 
 TEST(DiscoverCommand, HasARowForEachFinger) {
@@ -20,11 +27,10 @@ TEST(DiscoverCommand, HasARowForEachFinger) {
 }
 
 TEST(DiscoverCommand, AnotherProtocolIsTold) {
-  const Run run = runShell(R"sh(log=$(mktemp); trap 'rm $log' EXIT; BUS=udp:19987
-"$STRAINFINGER" discover --can $BUS --duration 1 --json & listener=$!; listening $listener
-printf '(1.000000) can0 703#39FFFFFFFFFFFF00\n' >$log; "$STRAINFINGER" replay --can $BUS $log 2>/dev/null; wait $listener)sh");
-  STRCMP_EQUAL(
-      R"({"interface":"udp:19987","node":3,"state":null,"faults":null,"protocol":3,"firmware":null,"board":null,"reset_cause":null,"uptime_s":null,"table_crc":null,"note":"speaks protocol 3, this program 2: use the strainfinger of its firmware"}
+  const Run run = whileHearing(kForeign, "discover --duration 1 --json");
+  LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS(
+      R"(,"node":1,"state":null,"faults":null,"protocol":3,"firmware":null,"board":null,"reset_cause":null,"uptime_s":null,"table_crc":null,"note":"speaks protocol 3, this program 2: use the strainfinger of its firmware"}
 )",
       run.out.c_str());
 }
@@ -92,9 +98,10 @@ TEST(InfoCommand, NobodyThereIsTold) {
 }
 
 TEST(InfoCommand, AFingerThatOnlyTalksIsToldWithoutItsCounts) {
-  const Run run = runShell(R"sh(log=$(mktemp); trap 'rm $log' EXIT; BUS=udp:19982
-"$STRAINFINGER" info --can $BUS & listener=$!; listening $listener
-printf '(1.000000) can0 701#2200004D0E1900A7\n(1.100000) can0 481#44030001B62A005C\n(1.200000) can0 081#200000003D00FE01\n' >$log; "$STRAINFINGER" replay --can $BUS $log 2>/dev/null; wait $listener)sh");
+  const Run run = whileHearing(
+      "(1.000000) can0 701#2200004D0E1900A7\n(1.100000) can0 481#44030001B62A005C\n"
+      "(1.200000) can0 081#200000003D00FE01\n",
+      "info");
   LONGS_EQUAL(0, run.status);
   STRCMP_CONTAINS(",INFO,crash,hang,", run.out.c_str());
   STRCMP_CONTAINS(",GAUGES,out_of_use,5,", run.out.c_str());
@@ -103,23 +110,27 @@ printf '(1.000000) can0 701#2200004D0E1900A7\n(1.100000) can0 481#44030001B62A00
 }
 
 TEST(InfoCommand, AnotherProtocolIsAMismatch) {
-  const Run run = runShell(R"sh(log=$(mktemp); trap 'rm $log' EXIT; BUS=udp:19981
-"$STRAINFINGER" info --can $BUS & listener=$!; listening $listener
-printf '(1.000000) can0 701#39FFFFFFFFFFFF00\n' >$log; "$STRAINFINGER" replay --can $BUS $log 2>/dev/null; wait $listener)sh");
+  const Run run = whileHearing(kForeign, "info");
   LONGS_EQUAL(5, run.status);
   STRCMP_EQUAL("", run.out.c_str());
   STRCMP_CONTAINS("speaks protocol 3, this program 2", run.err.c_str());
 }
 
 TEST(InfoCommand, AFingerInFaultIsToldWithIt) {
-  const Run run = runShell(R"sh(log=$(mktemp); trap 'rm $log' EXIT; BUS=udp:19976
-"$STRAINFINGER" info --can $BUS -c <(echo 'schema = 1') & listener=$!; listening $listener
-printf '(1.000000) can0 701#2301004D0E190000\n(1.100000) can0 481#0100000100000000\n' >$log
-"$STRAINFINGER" replay --can $BUS $log 2>/dev/null; wait $listener)sh");
+  const Run run = whileHearing("(1.000000) can0 701#2301004D0E190000\n(1.100000) can0 481#0100000100000000\n",
+                               "info -c <(echo 'schema = 1')");
   STRCMP_CONTAINS(",HEARTBEAT,faults,tables,", run.out.c_str());
   STRCMP_CONTAINS(",RESPONSE,erases,,", run.out.c_str());
   STRCMP_CONTAINS("fault tables: ", run.err.c_str());
   CHECK_TRUE(run.err.find("of the config") == std::string::npos);
+}
+
+// One HEARTBEAT, two seconds ago.
+TEST(InfoCommand, AFingerThatFellSilentIsNotPassedOffAsThere) {
+  const Run run = whileHearing("(1.000000) can0 701#2200004D0E1900A7\n", "info");
+  LONGS_EQUAL(4, run.status);
+  STRCMP_CONTAINS(",HEARTBEAT,state,run,", run.out.c_str());
+  STRCMP_CONTAINS("node 1: silent for ", run.err.c_str());
 }
 
 TEST(InfoCommand, IsInterrupted) {

@@ -84,6 +84,13 @@ TEST(DoctorCommand, WithoutIpItGoesOn) {
   STRCMP_CONTAINS("warning  this machine: `ip -details -json link show` prints something unknown",
                   run.out.c_str());
   STRCMP_CONTAINS("error    nocan7: ", run.out.c_str());
+  // But it doesn't know where to look.
+  const Run nowhere = runShell(interfacesAre("") + "\"$STRAINFINGER\" doctor");
+  LONGS_EQUAL(1, nowhere.status);
+  STRCMP_CONTAINS("error    this machine: ", nowhere.out.c_str());
+  const Run none = runShell("PATH=/nowhere \"$STRAINFINGER\" doctor");
+  LONGS_EQUAL(1, none.status);
+  STRCMP_CONTAINS("apt install iproute2, or name the bus with --can", none.out.c_str());
 }
 
 TEST(DoctorCommand, IsInterrupted) {

@@ -9,12 +9,14 @@ namespace {
 
 constexpr int kNotHeard = 97;
 
+/// The shell's: of this test run's own.
+std::string ownBus() { return "BUS=udp:" + std::to_string(20'000 + getpid() % 40'000) + "\n"; }
+
 }  // namespace
 
 Run withFinger(const std::string& options, const std::string& script) {
-  const std::string bus = "udp:" + std::to_string(20'000 + getpid() % 40'000);
   const Run run =
-      runShell("BUS=" + bus + "\nset -o pipefail\n\"$STRAINFINGER\" run --can $BUS --duration 30 " + options +
+      runShell(ownBus() + "set -o pipefail\n\"$STRAINFINGER\" run --can $BUS --duration 30 " + options +
                R"( 2>/dev/null & finger=$!
 trap 'kill -INT $finger 2>/dev/null; wait $finger' EXIT  # however the script ends
 heard=
@@ -28,6 +30,13 @@ if [ -z "$heard" ]; then
                "\nfi\n" + script + "\n");
   if (run.status == kNotHeard) FAIL(run.err.c_str());
   return run;
+}
+
+Run whileHearing(const std::string& lines, const std::string& arguments) {
+  return runShell(ownBus() + "log=$(mktemp); trap 'rm $log' EXIT; cat >$log\n\"$STRAINFINGER\" " + arguments +
+                      R"( --can $BUS & listener=$!; listening $listener
+"$STRAINFINGER" replay --can $BUS $log 2>/dev/null; wait $listener)",
+                  lines);
 }
 
 std::string interfacesAre(const std::string& json) {

@@ -1,5 +1,5 @@
 #pragma once
-// A command beside a finger that runs on a bus between programs.
+// A command beside a finger, or frames of one, on a bus between programs.
 
 #include <string>
 
@@ -10,6 +10,9 @@ namespace strainfinger {
 /// Runs a shell script in which $BUS is a bus of this test run's own, with a finger on it (`run` with these
 /// options) until the script ends.
 Run withFinger(const std::string& options, const std::string& script);
+
+/// Runs `strainfinger <arguments> --can BUS`, which hears these lines of a log, and nobody who answers.
+Run whileHearing(const std::string& lines, const std::string& arguments);
 
 /// In a script: `ip` prints this JSON in place of this machine's interfaces.
 std::string interfacesAre(const std::string& json);

@@ -23,7 +23,7 @@ TEST_GROUP(Examine) {
     return finger;
   }
   static Findings of(const FingerView& finger, std::optional<std::uint32_t> crc32 = std::nullopt) {
-    return examineFinger(live::busWith({finger}), finger, crc32);
+    return examineFinger("can0", finger, crc32);
   }
   static CanLink goodLink() {
     return {.name = "can0",

@@ -17,9 +17,34 @@ grep -q '^ok  *vcan0: fingers: 1, ' "$TMPDIR/doctor" || fail "the bus is not des
 # A machine that is late loses sample sets.
 grep -qE '^(ok +vcan0 node 1: answers requests|warning +vcan0 node 1: [0-9]+ counted lost sets)' "$TMPDIR/doctor" || fail "the finger is not asked"
 
+# One of several interfaces that can't be opened doesn't keep the others from being listened to.
+mkdir "$TMPDIR/tools"
+cat >"$TMPDIR/tools/ip" <<'END'
+#!/bin/sh
+echo '[{"ifname":"vcan7","flags":["UP"],"link_type":"can"},{"ifname":"vcan0","flags":["UP"],"link_type":"can"}]'
+END
+chmod +x "$TMPDIR/tools/ip"
+found=$(PATH=$TMPDIR/tools:$PATH strainfinger discover --duration 1.2 2>"$TMPDIR/message")
+expect "fingers found beside an interface that is none" 1 "$(grep -c '^vcan0,1,run,' <<<"$found")"
+grep -q 'no CAN interface vcan7' "$TMPDIR/message" || fail "$(cat "$TMPDIR/message")"
+
+# expect_down COMMAND...: the interface goes down meanwhile, which is not the finger's fault
+expect_down() {
+  local status=0
+  (sleep 1; ip link set vcan0 down) &
+  "$@" >"$TMPDIR/out" 2>"$TMPDIR/message" || status=$?
+  wait $!
+  ip link set vcan0 up
+  expect "exit status of $2 while the interface goes down" 3 $status
+  grep -q 'vcan0:\? went down meanwhile' "$TMPDIR/out" "$TMPDIR/message" || fail "$(cat "$TMPDIR/out" "$TMPDIR/message")"
+}
+kill $candump_pid   # it does not outlive its interface
+wait $candump_pid || true
+expect_down strainfinger doctor --can vcan0 --duration 2
+expect_down strainfinger discover --can vcan0 --duration 2
+
 kill -TERM $finger
 wait $finger || true
-stop_recording
 ip link set vcan0 down
 status=0
 strainfinger doctor >"$TMPDIR/doctor" 2>/dev/null || status=$?

@@ -20,7 +20,7 @@ enum class CountAnswer {
 struct Counted {
   Count count;
   CountAnswer answer;
-  std::uint32_t value = 0;  ///< where it was told
+  std::uint32_t value = 0;  ///< 0 where it was not told
 };
 
 /// Asks for each count; after silence, or where nothing can be sent, for no more. Cost: a few milliseconds,

@@ -291,7 +291,6 @@ Findings examineCounts(const std::string& bus, std::uint8_t node, std::span<cons
                         ExitCode::kNoNode);
       break;
     }
-    if (counted.answer != CountAnswer::kTold) continue;
     if (counted.value > (count == Count::kErases ? kNearlyWorn - 1 : 0))
       examination.warning(
           fmt::format("{} {}", counted.value, said("counted", kCountNames, static_cast<int>(count))),

@@ -1,5 +1,7 @@
 #include "firmware/core/hypothesis.hpp"
 
+#include <algorithm>
+
 namespace strainfinger::firmware {
 namespace {
 

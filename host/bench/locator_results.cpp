@@ -1,5 +1,8 @@
 #include "host/bench/locator_results.hpp"
 
+#include <algorithm>
+#include <limits>
+
 #include <nlohmann/json.hpp>
 
 #include "host/base/failure.hpp"

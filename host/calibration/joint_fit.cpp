@@ -4,6 +4,7 @@
 #include <ceres/normal_prior.h>
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <memory>
 
 namespace strainfinger::calibration {

@@ -1,6 +1,9 @@
 #pragma once
 // A number with its derivatives to a gauge's radius, the core's radius and Poisson's ratio.
 
+#include <cmath>
+#include <limits>
+
 #include <ceres/jet.h>
 
 namespace strainfinger::calibration {

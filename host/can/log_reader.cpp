@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <utility>
+#include <variant>
 
 #include "host/base/failure.hpp"
 

@@ -1,6 +1,7 @@
 #pragma once
 // A bus between the programs of this machine, without a CAN interface: UDP_BUS.md has the datagrams.
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <span>

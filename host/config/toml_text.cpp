@@ -1,5 +1,7 @@
 #include "host/config/toml_text.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "host/base/edit_distance.hpp"

@@ -1,6 +1,7 @@
 #include "host/live/log_watch.hpp"
 
 #include <algorithm>
+#include <variant>
 
 namespace strainfinger::live {
 

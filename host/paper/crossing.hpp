@@ -1,6 +1,7 @@
 #pragma once
 // Where a function changes its sign.
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -1,5 +1,6 @@
 #include "host/paper/spectrum.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>

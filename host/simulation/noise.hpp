@@ -2,6 +2,7 @@
 // Random numbers that are the same on every machine, in any order.
 
 #include <cstdint>
+#include <random>
 
 namespace strainfinger::simulation {
 

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <memory>
 #include <string>
+#include <variant>
 
 #include "common/fixed_real.hpp"
 #include "host/base/read_file.hpp"

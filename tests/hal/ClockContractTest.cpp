@@ -1,3 +1,4 @@
+#include <chrono>
 #include <thread>
 
 #include "host/simulation/simulated_clock.hpp"

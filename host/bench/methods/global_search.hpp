@@ -2,6 +2,7 @@
 // Maximum likelihood over the whole ring and all places: what no estimator of these readings beats for long.
 
 #include <algorithm>
+#include <limits>
 
 #include "host/bench/methods/gauss_newton.hpp"
 #include "host/bench/methods/subspace.hpp"

@@ -1,6 +1,9 @@
 #pragma once
 // Maximum likelihood over the whole ring, all places and all widths.
 
+#include <algorithm>
+#include <limits>
+
 #include "host/bench/methods/width_fit.hpp"
 
 namespace strainfinger::bench {

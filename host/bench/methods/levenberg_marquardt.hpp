@@ -1,6 +1,9 @@
 #pragma once
 // Levenberg-Marquardt as the Eigen library has it: MINPACK's, with an analytic Jacobian, in float.
 
+#include <algorithm>
+#include <cmath>
+
 #include <unsupported/Eigen/NonLinearOptimization>
 
 #include "host/bench/methods/gauss_newton.hpp"

@@ -1,6 +1,8 @@
 #pragma once
 // The strongest alternatives that we could think of: the firmware's own idea with a floating-point unit.
 
+#include <cmath>
+
 #include "host/bench/methods/gauss_newton.hpp"
 #include "host/bench/methods/global_search.hpp"
 #include "host/bench/methods/starts.hpp"

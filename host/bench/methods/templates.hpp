@@ -1,6 +1,8 @@
 #pragma once
 // Template correlation: the normal response at 65 offsets over seven gauges, the best match wins.
 
+#include <algorithm>
+
 #include "host/bench/methods/peak.hpp"
 
 namespace strainfinger::bench {

@@ -1,6 +1,10 @@
 #pragma once
 // Gauss-Newton on place, loads and width together, and a start for it.
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "host/bench/methods/gauss_newton.hpp"
 #include "host/bench/methods/patch_table.hpp"
 #include "host/bench/methods/starts.hpp"

@@ -1,5 +1,7 @@
 #include "host/bench/model/precise.hpp"
 
+#include <algorithm>
+
 namespace strainfinger::bench {
 
 using namespace model;

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <boost/math/constants/constants.hpp>
+#include <cmath>
 #include <functional>
 #include <tuple>
 

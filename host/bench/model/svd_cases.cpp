@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
+#include <functional>
 
 #include "host/base/no_value.hpp"
 #include "host/bench/model/measured_case.hpp"

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <memory>
+
 #include "firmware/app/finger.hpp"
 
 #include "host/simulation/converter.hpp"

@@ -2,6 +2,7 @@
 
 #include "tests/doubles/fake_can_port.hpp"
 
+#include <limits>
 #include <numeric>
 #include <vector>
 

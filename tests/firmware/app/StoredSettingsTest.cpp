@@ -1,5 +1,6 @@
 #include "firmware/app/stored_settings.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "firmware/app/finger.hpp"

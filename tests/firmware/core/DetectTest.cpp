@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "tests/firmware/core/model_ring.hpp"
 

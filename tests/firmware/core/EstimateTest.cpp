@@ -1,5 +1,6 @@
 #include "firmware/core/estimate.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>

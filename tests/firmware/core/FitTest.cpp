@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "firmware/core/fit.hpp"
 
 #include "tests/firmware/core/exact_fit.hpp"

@@ -1,5 +1,6 @@
 #include "firmware/core/hypothesis.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>

@@ -1,5 +1,6 @@
 #include "firmware/core/integers.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>

@@ -1,6 +1,9 @@
 // When a locator looks for other answers, and which gauges and contacts it believes.
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdio>
+#include <numeric>
 
 #include "firmware/core/estimate.hpp"
 #include "tests/firmware/core/located_finger.hpp"

@@ -1,5 +1,6 @@
 // The second answer that a locator follows beside its own.
 #include <bit>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "firmware/core/locator.hpp"
 
 #include "firmware/core/estimate.hpp"

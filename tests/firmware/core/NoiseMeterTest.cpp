@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "firmware/core/noise_meter.hpp"
 
 #include "tests/firmware/core/model_ring.hpp"

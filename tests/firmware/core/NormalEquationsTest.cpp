@@ -1,6 +1,7 @@
 #include "firmware/core/normal_equations.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <random>

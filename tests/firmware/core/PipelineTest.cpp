@@ -1,5 +1,7 @@
 #include "firmware/core/pipeline.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numbers>
 

@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <cmath>
+#include <random>
+
 #include "firmware/core/report.hpp"
 
 #include "common/fixed_real.hpp"

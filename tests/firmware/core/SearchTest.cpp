@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "firmware/core/search.hpp"
 
 #include "tests/firmware/core/exact_fit.hpp"

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "firmware/core/locator.hpp"
 
 #include "tests/firmware/core/model_ring.hpp"

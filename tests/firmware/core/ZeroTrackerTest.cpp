@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "firmware/core/zero_tracker.hpp"
 
 #include "firmware/core/detect.hpp"

@@ -2,6 +2,7 @@
 // A locator on a finger as drawn, for tests of what it does set by set.
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "firmware/core/locator.hpp"

@@ -1,4 +1,6 @@
 // Table lookups with bounds for numbers: any tables, distances and second moments.
+#include <algorithm>
+
 #include "firmware/core/response.hpp"
 #include "tests/firmware/ranges/any_tables.hpp"
 #include "tests/firmware/ranges/ranges_group.hpp"

@@ -1,5 +1,6 @@
 #include "host/base/angles.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include <CppUTest/TestHarness.h>

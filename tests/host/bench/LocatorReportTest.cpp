@@ -1,8 +1,10 @@
 #include "host/bench/locator_report.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <limits>
+#include <memory>
 #include <string>
 
 #include "host/base/failure.hpp"

@@ -1,5 +1,6 @@
 #include "host/bench/readings.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/fixed_real.hpp"

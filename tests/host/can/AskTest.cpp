@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 
 #include "host/can/socketcan_port.hpp"
 #include "tests/doubles/fake_socket_calls.hpp"

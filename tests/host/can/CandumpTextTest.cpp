@@ -7,6 +7,7 @@
 #include <ctime>
 #include <random>
 #include <string>
+#include <variant>
 #include <vector>
 
 using namespace strainfinger;

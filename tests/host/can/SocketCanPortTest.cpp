@@ -2,6 +2,7 @@
 
 #include <linux/can/error.h>
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <random>
 #include <string>
+#include <variant>
 
 #include "host/config/keys.hpp"
 #include "tests/host/config/ConfigTest.hpp"

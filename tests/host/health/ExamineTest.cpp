@@ -2,6 +2,7 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include <chrono>
 #include <string>
 
 #include "tests/host/live/views.hpp"

@@ -1,5 +1,6 @@
 #include "host/model/field.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>

@@ -1,5 +1,6 @@
 #include "host/model/impulse_response.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>

@@ -1,5 +1,6 @@
 #include "host/model/pressure_profile.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numbers>

@@ -1,5 +1,6 @@
 #include "host/model/series.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

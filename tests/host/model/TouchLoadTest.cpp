@@ -1,5 +1,6 @@
 #include "host/model/touch_load.hpp"
 
+#include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <functional>

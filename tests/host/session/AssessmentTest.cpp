@@ -1,5 +1,6 @@
 #include "host/session/assessment.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "host/calibration/expected_error.hpp"

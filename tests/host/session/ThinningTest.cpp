@@ -1,6 +1,7 @@
 #include "host/session/thinning.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "tests/host/session/hands.hpp"
 

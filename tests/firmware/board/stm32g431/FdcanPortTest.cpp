@@ -1,5 +1,6 @@
 #include "firmware/board/stm32g431/fdcan_port.hpp"
 
+#include <algorithm>
 #include <bit>
 
 #include "firmware/board/stm32g431/can_rates.hpp"

@@ -1,6 +1,7 @@
 // The power goes at every operation of the flash memory while settings or tables are written; then the board
 // starts.
 
+#include <algorithm>
 #include <cstring>
 #include <memory>
 

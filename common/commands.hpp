@@ -12,6 +12,7 @@
 
 #include "common/frame_layout.hpp"
 #include "common/frames.hpp"
+#include "common/table_image.hpp"
 
 namespace strainfinger {
 
@@ -25,7 +26,17 @@ inline constexpr std::uint16_t kFastestContactRate_hz = 1000;
 inline constexpr std::uint16_t kFastestRaw_hz = 1000;
 
 /// Never reuse a number; 1 .. 127.
-enum class Command : std::uint8_t { kTare = 1, kContactRate = 2, kKeep = 3, kNode = 4, kCount = 5, kRaw = 6 };
+enum class Command : std::uint8_t {
+  kTare = 1,
+  kContactRate = 2,
+  kKeep = 3,
+  kNode = 4,
+  kCount = 5,
+  kRaw = 6,
+  kLoad = 7,
+  kWord = 8,
+  kRestart = 9
+};
 
 inline constexpr std::array kCommandNames{
     ValueName{1, "tare", "Take the zero of the gauges now; argument 1: even while touched"},
@@ -34,6 +45,9 @@ inline constexpr std::array kCommandNames{
     ValueName{4, "node", "Be this node from the next start on; with 256 added: even while touched"},
     ValueName{5, "count", "Tell one of the finger's counts"},
     ValueName{6, "raw", "Send so many sets of RAW a second, until the next start; 0: no more"},
+    ValueName{7, "load", "Stop, and take other tables from their first word on, until `restart`"},
+    ValueName{8, "word", "Four bytes of the tables, in value; argument: which of their words it is"},
+    ValueName{9, "restart", "Start anew; argument 1: even while touched"},
 };
 
 /// What a finger counts and tells when it is asked. Never reuse a number.
@@ -55,7 +69,10 @@ inline constexpr std::array kCountNames{
               "Times that the converters lost track of the gauges and began anew, since the start"},
 };
 
-/// What a command's argument may be. One that is absent is 0.
+/// Words of a table image, as `word` counts them.
+inline constexpr std::uint16_t kTableWords = sizeof(TableImage) / 4;
+
+/// What a command's argument may be. One that is absent is 0; of 6 bytes 4 are the request's value.
 struct ArgumentSpec {
   Command command;
   std::uint8_t leastBytes, mostBytes;
@@ -63,13 +80,17 @@ struct ArgumentSpec {
   std::uint16_t even = 0;  ///< may be added to it: even while touched
 };
 inline constexpr std::uint16_t kNodeEvenWhileTouched = 0x100;
-inline constexpr std::array kArguments{
+// Of a type that is deduced GCC 12 keeps a table in RAM.
+inline constexpr std::array<ArgumentSpec, 9> kArguments{
     ArgumentSpec{Command::kTare, 0, 1, 0, 1},
     ArgumentSpec{Command::kContactRate, 2, 2, kSlowestContactRate_hz, kFastestContactRate_hz},
     ArgumentSpec{Command::kKeep, 0, 1, 0, 1},
     ArgumentSpec{Command::kNode, 1, 2, kFirstNode, kLastNode, kNodeEvenWhileTouched},
     ArgumentSpec{Command::kCount, 1, 1, 0, kLastCount},
     ArgumentSpec{Command::kRaw, 2, 2, 0, kFastestRaw_hz},
+    ArgumentSpec{Command::kLoad, 0, 0, 0, 0},
+    ArgumentSpec{Command::kWord, 6, 6, 0, kTableWords - 1},
+    ArgumentSpec{Command::kRestart, 0, 1, 0, 1},
 };
 
 /// What became of a request. Never reuse a number.
@@ -83,6 +104,7 @@ enum class CommandStatus : std::uint8_t {
   kNotKept = 6,
   kWait = 7,
   kTooFast = 8,
+  kOutOfTurn = 9,
 };
 
 inline constexpr std::array kCommandStatusNames{
@@ -97,6 +119,8 @@ inline constexpr std::array kCommandStatusNames{
     ValueName{7, "wait",
               "Not yet: the memory would wear out, or the zero was taken just now; in value seconds"},
     ValueName{8, "too_fast", "Refused: more than RAW's share of the bus; in value the fastest rate"},
+    ValueName{9, "out_of_turn",
+              "Refused: words are taken after `load`, one after the other; in value the one that is due"},
 };
 
 /// To a finger.
@@ -106,6 +130,7 @@ struct RequestFrame {
   Command command{};
   bool answer = false;
   std::uint16_t argument = 0;
+  std::uint32_t value = 0;
   bool operator==(const RequestFrame&) const = default;
 };
 
@@ -145,6 +170,9 @@ inline constexpr FrameLayout kLayout<RequestFrame>{
     Field{&RequestFrame::argument,
           {.lsb = 16, .width = 16},
           {.name = "argument", .comment = "Of the command; what length leaves out is 0"}},
+    Field{&RequestFrame::value,
+          {.lsb = 32, .width = 32},
+          {.name = "value", .comment = "Four bytes of the tables; what length leaves out is 0"}},
 };
 static_assert(WireFrame<RequestFrame>);
 
@@ -173,7 +201,8 @@ inline constexpr FrameLayout kLayout<ResponseFrame>{
     Field{&ResponseFrame::value,
           {.lsb = 24, .width = 32},
           {.name = "value",
-           .comment = "What was counted; seconds to wait; fastest rate; what length leaves out is 0"}},
+           .comment = "What was counted; seconds to wait; fastest rate; word that is due; what length leaves "
+                      "out is 0"}},
 };
 static_assert(WireFrame<ResponseFrame>);
 
@@ -201,6 +230,15 @@ constexpr RequestFrame countRequest(Count count) {
 }
 constexpr RequestFrame rawRequest(std::uint16_t rate_hz) {
   return {.length = 3, .command = Command::kRaw, .argument = rate_hz};
+}
+constexpr RequestFrame loadRequest() { return {.length = 1, .command = Command::kLoad}; }
+/// `index` below kTableWords.
+constexpr RequestFrame wordRequest(std::uint16_t index, std::uint32_t word) {
+  return {.length = 7, .command = Command::kWord, .argument = index, .value = word};
+}
+constexpr RequestFrame restartRequest(bool evenWhileTouched = false) {
+  if (!evenWhileTouched) return {.length = 1, .command = Command::kRestart};
+  return {.length = 2, .command = Command::kRestart, .argument = 1};
 }
 constexpr ResponseFrame responseTo(Command command, CommandStatus status) {
   return {.command = command, .status = status};

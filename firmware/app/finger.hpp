@@ -10,6 +10,7 @@
 #include "common/commands.hpp"
 #include "common/frames.hpp"
 #include "common/raw_share.hpp"
+#include "firmware/app/next_request.hpp"
 #include "firmware/app/owed_frames.hpp"
 #include "firmware/app/raw_sender.hpp"
 #include "firmware/app/stored_settings.hpp"
@@ -31,7 +32,11 @@ struct FingerSettings {
   FingerFlags standingFlags{};    ///< simulated, uncalibrated: that one unless the tables have gains
   FingerFaults standingFaults{};  ///< configuration, clock
   std::uint8_t board = 0;         ///< tells boards apart; 0: not known
+  bool takesTables = false;       ///< there is memory for other tables
 };
+
+/// What a finger was told that it can't do while it runs.
+enum class Leaving : std::uint8_t { kStays, kLoads, kRestarts };
 
 /// Counts of what could not be returned. They only grow.
 struct FingerCounters {
@@ -86,6 +91,8 @@ class Finger {
   }
 
   FingerState state() const { return state_; }
+  /// Once it has answered; then it is to be stepped no more.
+  Leaving leaving() const { return response_ ? Leaving::kStays : leaving_; }
   const FingerCounters& counters() const { return counters_; }
   const Observation& lastObservation() const { return pipeline_.observation(); }
   const Answer& lastAnswer() const { return pipeline_.answer(); }    ///< while it is touched
@@ -269,9 +276,7 @@ class Finger {
   std::optional<ResponseFrame> nextResponse(std::uint32_t now_us) {
     if (tareStatus_ && state_ == FingerState::kRun)
       return responseTo(Command::kTare, *std::exchange(tareStatus_, std::nullopt));
-    const auto frame = can_.receive();
-    if (!frame) return std::nullopt;
-    const auto request = readSingleFrame<RequestFrame>(*frame, settings_.node);
+    const auto request = nextRequest(can_, settings_.node);
     if (!request) return std::nullopt;
     requestedAt_us_ = now_us;
     return obey(*request, now_us);
@@ -298,11 +303,26 @@ class Finger {
         return responseTo(command, CommandStatus::kDone, countOf(static_cast<Count>(request.argument)));
       case Command::kRaw:
         return startRaw(request.argument);
+      case Command::kLoad:
+        if (!settings_.takesTables) return responseTo(command, CommandStatus::kNotKept);
+        return leave(command, Leaving::kLoads, false);
+      case Command::kWord:
+        return responseTo(command, CommandStatus::kOutOfTurn);
+      case Command::kRestart:
+        return leave(command, Leaving::kRestarts, request.argument != 0);
     }
     return responseTo(command, CommandStatus::kUnknownCommand);
   }
 
   bool isTouched() const { return pipeline_.observation().touched; }
+
+  /// Nothing is left that listeners would take for a touch that goes on.
+  ResponseFrame leave(Command command, Leaving where, bool evenWhileTouched) {
+    if (isTouched() && !evenWhileTouched) return responseTo(command, CommandStatus::kTouched);
+    if (owed_.any() && !evenWhileTouched) return responseTo(command, CommandStatus::kBusy);
+    leaving_ = where;
+    return responseTo(command, CommandStatus::kDone);
+  }
 
   /// Memory that is erased stops the board, and with it the touch: only untouched, or if that is meant.
   ResponseFrame keep(Command command, const StoredSettings& settings, bool evenWhileTouched) {
@@ -375,6 +395,7 @@ class Finger {
   RawSender raw_;
   std::optional<CommandStatus> tareStatus_;  ///< to answer when the zero is taken
   bool isTouchRefused_ = false;              ///< for a zero that is asked for, whoever waits for the answer
+  Leaving leaving_ = Leaving::kStays;
   std::optional<ResponseFrame> response_;    ///< that the port hasn't taken yet
   FingerCounters counters_{};
   std::uint32_t uptime_s_ = 0;

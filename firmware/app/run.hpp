@@ -3,46 +3,71 @@
 
 #include "firmware/app/announce.hpp"
 #include "firmware/app/finger.hpp"
+#include "firmware/app/without_tables.hpp"
 
 namespace strainfinger::firmware {
 
 /// The version of this build, from the project's CMakeLists.txt.
 inline constexpr Version kFirmwareVersion{STRAINFINGER_VERSION_MAJOR, STRAINFINGER_VERSION_MINOR};
 
-/// Says that there are no tables, for ever. Not inlined: what it needs would be on the stack of every other
-/// run.
-template <hal::GaugeAdc Adc, hal::CanPort Can, hal::Clock Clock, hal::Watchdog Watchdog, typename Wait>
-[[noreturn, gnu::noinline]] void runWithoutTables(std::uint8_t node, Announcement<InfoFrame>& info, Adc& adc,
-                                                  Can& can, const Clock& clock, Watchdog& watchdog,
-                                                  Wait wait) {
-  Announcement<HeartbeatFrame> heartbeat(withoutTables(), node, clock.now_us());
-  hal::SampleSet unused{};
-  for (;;) {
-    if (adc.read(unused)) watchdog.feed();
-    static_cast<void>(can.receive());  // a port may stand still while a frame waits
-    heartbeat.step(can, clock.now_us());
-    info.step(can, clock.now_us());
-    wait();
-  }
+/// What a board does besides.
+/// `wait()` is called when there is nothing to do: it may sleep until the next interrupt. `restart()` resets
+/// the board.
+template <typename Wait, typename Restart>
+struct BoardActions {
+  Wait wait;
+  Restart restart;
+};
+
+/// Not at once: the answer to who asked for it is still on its way.
+template <hal::GaugeAdc Adc, hal::Clock Clock, typename Actions>
+[[noreturn, gnu::noinline]] void restartSoon(Adc& adc, const Clock& clock, Actions& board) {
+  constexpr std::uint32_t kAfter_us = 50'000;
+  hal::SampleSet unused;
+  const std::uint32_t asked_us = clock.now_us();
+  while (clock.now_us() - asked_us < kAfter_us)
+    if (!adc.read(unused)) board.wait();
+  for (;;) board.restart();
 }
 
-/// Runs the finger on these tables, which are whole, for ever. Without tables (nullptr) it says so in its
-/// heartbeats and does nothing else. `wait` is called when there is nothing to do: it may sleep until
-/// the next interrupt.
+/// Says that there are no tables, and takes some, until it is told to start anew. Not inlined: what it needs
+/// would be on the stack of every other run.
 template <hal::GaugeAdc Adc, hal::CanPort Can, hal::Clock Clock, hal::Watchdog Watchdog,
-          hal::NonVolatile Store, typename Wait>
+          hal::NonVolatile TableStore, typename Actions>
+[[noreturn, gnu::noinline]] void runWithoutTables(std::uint8_t node, Announcement<InfoFrame>& info, Adc& adc,
+                                                  Can& can, const Clock& clock, Watchdog& watchdog,
+                                                  TableStore& store, Actions& board) {
+  WithoutTables finger(node, can, store, clock.now_us());
+  hal::SampleSet unused{};
+  while (!finger.isLeaving()) {
+    if (adc.read(unused)) watchdog.feed();
+    finger.step(clock.now_us());
+    info.step(can, clock.now_us());
+    board.wait();
+  }
+  restartSoon(adc, clock, board);
+}
+
+/// Runs the finger on these tables, which are whole, until it is told to start anew. Without tables
+/// (nullptr), or when it is told to take others, it does so. The stores: for settings, and for tables, from
+/// their first byte on.
+template <hal::GaugeAdc Adc, hal::CanPort Can, hal::Clock Clock, hal::Watchdog Watchdog,
+          hal::NonVolatile Store, hal::NonVolatile TableStore, typename Actions>
 [[noreturn]] void runFinger(const TableImage* tables, const FingerSettings& settings, const LastRun& last,
                             Adc& adc, Can& can, const Clock& clock, Watchdog& watchdog, Store& store,
-                            Wait wait) {
+                            TableStore& tableStore, Actions board) {
   static Announcement<InfoFrame> info(
       infoFrame(watchdog.resetCause(), last, kFirmwareVersion, settings.board), settings.node,
       clock.now_us());
-  if (tables == nullptr) runWithoutTables(settings.node, info, adc, can, clock, watchdog, wait);
-  static Finger finger(*tables, settings, adc, can, clock, watchdog, store);
-  for (;;) {
-    if (!finger.step()) wait();
-    info.step(can, clock.now_us());
+  if (tables != nullptr) {
+    static Finger finger(*tables, settings, adc, can, clock, watchdog, store);
+    while (finger.leaving() == Leaving::kStays) {
+      if (!finger.step()) board.wait();
+      info.step(can, clock.now_us());
+    }
+    if (finger.leaving() == Leaving::kRestarts) restartSoon(adc, clock, board);
   }
+  runWithoutTables(settings.node, info, adc, can, clock, watchdog, tableStore, board);
 }
 
 }  // namespace strainfinger::firmware

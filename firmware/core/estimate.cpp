@@ -27,13 +27,6 @@ std::uint64_t moment_um2(const TableConstants& constants, std::int64_t moment_q2
          kMomentBits;
 }
 
-void setWidth(const TableConstants& constants, Number moment_q20, std::int64_t sigma_q20, Contact& contact) {
-  contact.width_um = widthOf_um(moment_um2(constants, moment_q20));
-  const std::uint32_t high = widthOf_um(moment_um2(constants, moment_q20 + sigma_q20));
-  const std::uint32_t low = widthOf_um(moment_um2(constants, moment_q20 - sigma_q20));
-  contact.sigmaWidth_um = std::max<std::uint32_t>((high - low) / 2, 1);
-}
-
 /// [Percent] of what is left, by what the gate allows.
 std::uint8_t qualityOf(const Answer& answer, int freedoms) {
   constexpr int kMostUncertain = 20;
@@ -62,6 +55,15 @@ Wide together(Wide one, Wide other) {
   if (other == 0) return one;
   const Root sum = rootOf(floatingOf(static_cast<std::uint64_t>(one * one + other * other)));
   return integerOf(sum.mantissa, sum.exponent, Wide{1} << 31);
+}
+
+/// The root of a moment m known to sigma is sigma^2 / (8 m^2) of itself too low in the mean (Taylor). This
+/// takes that back, and tells a line, whose moment is 0, as a width and a standard error of the same size.
+void setWidth(const TableConstants& constants, Number moment_q20, Wide sigma_q20, Contact& contact) {
+  const Wide mean_q20 = (moment_q20 + together(moment_q20, sigma_q20)) / 2;
+  contact.width_um = std::max<std::uint32_t>(widthOf_um(moment_um2(constants, mean_q20)), 1);
+  contact.sigmaWidth_um = static_cast<std::uint32_t>(
+      std::max<std::uint64_t>(6 * moment_um2(constants, sigma_q20) / contact.width_um, 1));
 }
 
 /// A load's standard error with those that no residual shows: of the scale of all loads, and what calibration

@@ -7,8 +7,7 @@ namespace strainfinger::can {
 std::string_view remedyFor(FingerFault fault) {
   switch (fault) {
     case FingerFault::kTables:
-      return "make them with `strainfinger tables -o FILE -c` this finger's config, and flash them "
-             "(firmware/bring_up.md)";
+      return "`strainfinger push --can BUS -c` this finger's config sends it its tables";
     case FingerFault::kGauges:
       return "`strainfinger info --can BUS` names those out of use: check their wires and amplifiers, then "
              "`strainfinger tare --can BUS` gives each another chance";
@@ -31,7 +30,7 @@ std::string_view remedyFor(FingerFault fault) {
              "up";
     case FingerFault::kNoisy:
       return "keep mains and motor cables away, check shield and ground; where it stays so, tell it: "
-             "gauges.noise_strain in the finger's config, and flash the tables of that";
+             "gauges.noise_strain in the finger's config, and `strainfinger push` the tables of that";
   }
   return "";
 }
@@ -43,7 +42,7 @@ std::string_view remedyFor(FingerFlag flag) {
       return "";
     case FingerFlag::kSaturated:
       return "press less; or have less gain before the converter, a larger gauges.full_scale_strain, and "
-             "the tables of that";
+             "`strainfinger push` the tables of that";
     case FingerFlag::kDegraded:
       return "`strainfinger info --can BUS` names gauges that are out of use; one that an answer left out "
              "for the moment counts again when it fits";
@@ -57,7 +56,7 @@ std::string_view remedyFor(FingerFlag flag) {
     case FingerFlag::kStaleZero:
       return "let go of it; if nothing touches it, `strainfinger tare --can BUS --force`";
     case FingerFlag::kUncalibrated:
-      return "`strainfinger calibrate`, then flash the tables of what it writes";
+      return "`strainfinger calibrate`, then `strainfinger push` with the config that it writes";
   }
   return "";
 }
@@ -71,7 +70,7 @@ std::string_view remedyFor(FingerState state) {
     case FingerState::kZeroing:
       return "do not touch it for 64 sample sets";
     case FingerState::kFault:
-      return "see its faults; it obeys no request until they are mended";
+      return "see its faults; until they are mended it only takes tables and restarts";
   }
   return "";
 }
@@ -130,15 +129,20 @@ std::string_view remedyFor(CommandStatus status) {
     case CommandStatus::kDoneTouched:
       return "";
     case CommandStatus::kTouched:
-      return "let go of it; if nothing touches it, its old zero is off: --force does it anyway";
+      return "let go of it; if nothing touches it, its old zero is off: `strainfinger tare --can BUS "
+             "--force` "
+             "takes a new one";
     case CommandStatus::kBusy:
       return "try again in a second; `strainfinger monitor --can BUS` shows what it does";
     case CommandStatus::kWait:
       return "try again then";
     case CommandStatus::kNotKept:
-      return "it goes on as before; an emulated or simulated finger has no memory to keep it in";
+      return "it goes on as before; an emulated finger has no memory to keep it in, a simulated one only for "
+             "tables";
     case CommandStatus::kTooFast:
       return "ask for less, or use a bus with a higher bit rate";
+    case CommandStatus::kOutOfTurn:
+      return "`strainfinger push --can BUS` sends tables from their first word on";
     case CommandStatus::kUnknownCommand:
     case CommandStatus::kBadArgument:
       break;

@@ -36,6 +36,7 @@ void addDbc(CLI::App& app);
 void addStrains(CLI::App& app);
 void addTare(CLI::App& app);
 void addConfig(CLI::App& app);
+void addPush(CLI::App& app);
 void addFigures(CLI::App& app);
 
 }  // namespace strainfinger::cli

@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kConfigHelp =
     "Changes settings of a finger on the bus: the contact rate until its next start, or for ever with "
     "--keep; its "
-    "node number from its next start on.\n"
+    "node number from its next start on; or has it start anew.\n"
     "Prints interface,node,command,status. Exit status: 1 refused, 3 no interface, 4 no such node.";
 
 struct ConfigOptions {
@@ -26,12 +26,15 @@ struct ConfigOptions {
     command.add_option("--set-node", node, "Be this node from the next start on")
         ->type_name("NODE")
         ->check(CLI::Range(int{kFirstNode}, int{kLastNode}));
-    command.add_flag("--force", force, "Keep it even while something touches the finger: it stops for 25 ms");
+    command.add_flag("--restart", restart,
+                     "Then start anew, so that a new node number holds at once; do not touch it");
+    command.add_flag("--force", force, "Keep it, or restart, even while something touches the finger");
   }
   RequestOptions request;
   std::optional<int> contactRate_hz;
   bool keep = false;
   std::optional<int> node;
+  bool restart = false;
   bool force = false;
 };
 
@@ -52,9 +55,10 @@ void runConfig(const ConfigOptions& options) {
   }
   if (options.keep) requests.push_back(keepRequest(options.force));
   if (options.node) requests.push_back(nodeRequest(static_cast<std::uint8_t>(*options.node), options.force));
+  if (options.restart) requests.push_back(restartRequest(options.force));
   if (requests.empty())
     throw Failure(ExitCode::kUsage,
-                  "config: nothing to change: give --contact-rate-hz, --keep or --set-node");
+                  "config: nothing to change: give --contact-rate-hz, --keep, --set-node or --restart");
   request(options.request, requests);
 }
 

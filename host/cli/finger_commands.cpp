@@ -15,6 +15,7 @@ void addFingerCommands(CLI::App& app) {
   addStrains(app);
   addTare(app);
   addConfig(app);
+  addPush(app);
 }
 
 }  // namespace strainfinger::cli

@@ -39,8 +39,8 @@ Failure silence(const can::Reply& reply, const can::BusPort& bus, const std::str
     return Failure(ExitCode::kMismatch, fmt::format("{}: {}", where, can::foreignText(heartbeat.protocol)));
   return Failure(
       ExitCode::kNoNode,
-      fmt::format("{}: no answer within {} ms, though it is alive: state {}; in state fault it "
-                  "obeys nothing, else its firmware may be older than this command",
+      fmt::format("{}: no answer within {} ms, though it is alive: state {}; its firmware may be older than "
+                  "this command",
                   where, waited_ms, can::nameText(kFingerStateNames, static_cast<int>(heartbeat.state))));
 }
 

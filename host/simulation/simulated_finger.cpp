@@ -16,9 +16,9 @@ void requireUntouchedStart(const Scenario& scenario) {
                                 time_s, kUntouched_s));
 }
 
-InfoFrame simulatedInfo() {
+InfoFrame simulatedInfo(ResetCause cause) {
   constexpr firmware::Version kVersion{STRAINFINGER_VERSION_MAJOR, STRAINFINGER_VERSION_MINOR};
-  return firmware::infoFrame(ResetCause::kPowerOn, {}, kVersion, 0);
+  return firmware::infoFrame(cause, {}, kVersion, 0);
 }
 
 }  // namespace strainfinger::simulation

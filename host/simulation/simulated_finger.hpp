@@ -2,7 +2,9 @@
 // The firmware, run against simulated gauges.
 
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -10,11 +12,14 @@
 #include "common/table_image.hpp"
 #include "firmware/app/announce.hpp"
 #include "firmware/app/finger.hpp"
+#include "firmware/app/whole_tables.hpp"
+#include "firmware/app/without_tables.hpp"
 #include "host/can/tapped_port.hpp"
 #include "host/can/touch_receiver.hpp"
 #include "host/config/finger_config.hpp"
 #include "host/simulation/simulated_clock.hpp"
 #include "host/simulation/simulated_gauges.hpp"
+#include "host/system/memory_store.hpp"
 #include "host/system/no_watchdog.hpp"
 
 namespace strainfinger::simulation {
@@ -28,9 +33,8 @@ static_assert(firmware::ZeroAverage::kSamples * SimulatedGauges::kSamplePeriod_u
 /// wrong.
 void requireUntouchedStart(const Scenario& scenario);
 
-/// What a finger on this machine says of itself at start: the program's version, power that has just come on
-/// and no board.
-InfoFrame simulatedInfo();
+/// What a finger on this machine says of itself at start: the program's version and no board.
+InfoFrame simulatedInfo(ResetCause cause);
 
 /// What the finger reported, and what was true when its gauges were read.
 struct ComparedTouch {
@@ -48,20 +52,22 @@ struct Moment {
 };
 
 struct RunCounts {
-  firmware::FingerCounters finger;
-  std::uint32_t overruns = 0;    ///< sample sets lost because the machine was late
-  std::uint64_t frames = 0;      ///< all that went to the bus
-  std::uint64_t heartbeats = 0;  ///< of these
+  firmware::FingerCounters finger;  ///< since its last start
+  std::uint32_t overruns = 0;       ///< sample sets lost because the machine was late
+  std::uint64_t frames = 0;         ///< all that went to the bus
+  std::uint64_t heartbeats = 0;     ///< of these
   firmware::GaugeSet outOfUse = 0;
 };
 
 /// A finger on `port`, which must outlive it like `tables`. Its gauges' zeros are off by `kZeroSpread` of
 /// full scale, so that they need the zero which the firmware takes; their gains are the
-/// config's, and reports are flagged uncalibrated when `tables` don't have them.
+/// config's, and reports are flagged uncalibrated when `tables` don't have them. Tables that it is sent take
+/// the place of `tables` from its next start on.
 template <hal::CanPort Port>
 class SimulatedFinger {
  public:
   static constexpr double kZeroSpread = 0.01;
+  static constexpr std::size_t kTablePages = 12;  ///< as many as the board has
 
   /// Throws Failure(kUsage) where SimulatedGauges and requireUntouchedStart() do.
   SimulatedFinger(const config::FingerConfig& config, Scenario scenario, const TableImage& tables,
@@ -71,9 +77,11 @@ class SimulatedFinger {
                  .zeroSpread_strain = kZeroSpread * config.gauges.full_scale_strain,
                  .faults = std::move(faults)}),
         port_(port),
-        receiver_(static_cast<std::uint8_t>(config.can.node)),
-        finger_(tables, settingsOf(config, mode), gauges_, port_, clock_, watchdog_),
-        info_(simulatedInfo(), static_cast<std::uint8_t>(config.can.node), clock_.now_us()) {}
+        tables_(tables),
+        settings_(settingsOf(config, mode)),
+        receiver_(settings_.node) {
+    start(&tables_, ResetCause::kPowerOn);
+  }
   SimulatedFinger(const SimulatedFinger&) = delete;
   SimulatedFinger& operator=(const SimulatedFinger&) = delete;
 
@@ -83,9 +91,9 @@ class SimulatedFinger {
   void pass(std::uint64_t periods, Visit visit) {
     clock_.advance_us(periods * SimulatedGauges::kSamplePeriod_us);
     for (bool sampled = true; sampled;) {
-      const bool isZeroing = finger_.state() != FingerState::kRun;
-      sampled = finger_.step();
-      info_.step(port_, clock_.now_us());
+      const bool isZeroing = !finger_ || finger_->state() != FingerState::kRun;
+      sampled = step();
+      info_->step(port_, clock_.now_us());
       Moment moment{gauges_.sampleTime_s(), gauges_.truth(), std::nullopt, isZeroing};
       listen(moment);
       if (sampled) visit(std::as_const(moment));
@@ -95,11 +103,13 @@ class SimulatedFinger {
   double elapsed_s() const { return static_cast<double>(clock_.elapsed_us()) * 1e-6; }
   std::uint64_t elapsed_us() const { return clock_.elapsed_us(); }
   RunCounts counts() const {
-    return {finger_.counters(), gauges_.overruns(), frames_, heartbeats_, finger_.lastObservation().outOfUse};
+    if (!finger_) return {{}, gauges_.overruns(), frames_, heartbeats_, 0};
+    return {finger_->counters(), gauges_.overruns(), frames_, heartbeats_,
+            finger_->lastObservation().outOfUse};
   }
   const GaugeStrains& strains() const { return gauges_.strains(); }
   /// The last sample set as the firmware's stages see it.
-  const firmware::Readings& readings() const { return finger_.readings(); }
+  const firmware::Readings& readings() const { return finger_ ? finger_->readings() : noReadings_; }
 
  private:
   static Scenario checked(Scenario scenario) {
@@ -115,7 +125,36 @@ class SimulatedFinger {
             .mode = mode,
             .standingFlags = config.calibration.isEmpty()
                                  ? FingerFlags{FingerFlag::kSimulated}
-                                 : FingerFlags{FingerFlag::kSimulated, FingerFlag::kUncalibrated}};
+                                 : FingerFlags{FingerFlag::kSimulated, FingerFlag::kUncalibrated},
+            .takesTables = true};
+  }
+
+  /// nullptr: without tables.
+  void start(const TableImage* tables, ResetCause cause) {
+    info_.emplace(simulatedInfo(cause), settings_.node, clock_.now_us());
+    waiting_.reset();
+    finger_.reset();
+    if (tables != nullptr) finger_.emplace(*tables, settings_, gauges_, port_, clock_, watchdog_);
+    if (tables == nullptr) waitForTables();
+  }
+
+  void waitForTables() {
+    finger_.reset();
+    waiting_.emplace(settings_.node, port_, tableStore_, clock_.now_us());
+  }
+
+  /// As runFinger() does. True: there was a sample set.
+  bool step() {
+    const bool sampled = finger_ ? finger_->step() : gauges_.read(unused_);
+    if (waiting_) waiting_->step(clock_.now_us());
+    if (finger_ && finger_->leaving() == firmware::Leaving::kLoads) waitForTables();
+    if (finger_ ? finger_->leaving() == firmware::Leaving::kRestarts : waiting_->isLeaving()) restart();
+    return sampled;
+  }
+
+  void restart() {
+    static_cast<void>(tableStore_.read(0, std::as_writable_bytes(std::span(sent_.get(), 1))));
+    start(firmware::ifWhole(firmware::tablesOf(*sent_, tables_)), ResetCause::kSoftware);
   }
 
   /// As a receiver on the bus would. A touch is compared with the truth of the set that its CONTACT is of,
@@ -136,9 +175,18 @@ class SimulatedFinger {
   SimulatedGauges gauges_;
   can::TappedPort<Port> port_;
   system::NoWatchdog watchdog_;
+  const TableImage& tables_;
+  firmware::FingerSettings settings_;
   can::TouchReceiver receiver_;
-  firmware::Finger<SimulatedGauges, can::TappedPort<Port>, SimulatedClock, system::NoWatchdog> finger_;
-  firmware::Announcement<InfoFrame> info_;
+  system::MemoryStore tableStore_{kTablePages};
+  std::unique_ptr<TableImage> sent_ = std::make_unique<TableImage>();  ///< on the heap, for its size
+  std::optional<firmware::Finger<SimulatedGauges, can::TappedPort<Port>, SimulatedClock, system::NoWatchdog>>
+      finger_;
+  std::optional<firmware::WithoutTables<can::TappedPort<Port>, system::MemoryStore>>
+      waiting_;  ///< or this one
+  hal::SampleSet unused_{};
+  firmware::Readings noReadings_;
+  std::optional<firmware::Announcement<InfoFrame>> info_;
   ComparedTouch reported_;
   std::uint64_t frames_ = 0;
   std::uint64_t heartbeats_ = 0;

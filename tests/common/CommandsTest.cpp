@@ -118,6 +118,12 @@ TEST(Commands, EveryCommandAndArgumentIsCheckedAgainstItsOwn) {
           expected = length == 2 && argument <= 4 ? CommandStatus::kDone : CommandStatus::kBadArgument;
         if (command == 6)
           expected = length == 3 && argument <= 1000 ? CommandStatus::kDone : CommandStatus::kBadArgument;
+        if (command == 7)
+          expected = length == 1 && argument == 0 ? CommandStatus::kDone : CommandStatus::kBadArgument;
+        if (command == 8)  // of 24,568 bytes
+          expected = length == 7 && argument < 6142 ? CommandStatus::kDone : CommandStatus::kBadArgument;
+        if (command == 9)
+          expected = length <= 2 && argument <= 1 ? CommandStatus::kDone : CommandStatus::kBadArgument;
         if (check(static_cast<std::uint8_t>(command), static_cast<std::uint8_t>(length),
                   static_cast<std::uint16_t>(argument)) != expected)
           FAIL("checked against another's");

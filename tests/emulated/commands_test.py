@@ -14,9 +14,11 @@ TOUCH = (-13624, 3844, 614, 239, 113, 50, 23, 12, 8)
 CONTACT, RESPONSE = "t1818", "t5818"
 TARE, FORCED_TARE, TARE_OF_ANOTHER = "t60120101", "t6013020101", "t60220101"
 ZERO_SETS = 64
-DONE, BAD_ARGUMENT, TOUCHED, DONE_TOUCHED = 0, 3, 4, 5  # CommandStatus, common/commands.hpp
+DONE, BAD_ARGUMENT, TOUCHED, DONE_TOUCHED, NOT_KEPT = 0, 3, 4, 5, 6  # CommandStatus, common/commands.hpp
 
-TARE_COMMAND, RATE_COMMAND = 1, 2
+TARE_COMMAND, RATE_COMMAND, LOAD_COMMAND, RESTART_COMMAND = 1, 2, 7, 9
+LOAD, RESTART, INFO = "t60120107", "t60120109", "t4818"
+SOFTWARE = 3  # ResetCause, common/frames.hpp
 
 
 def response(command, status):
@@ -107,6 +109,21 @@ class Commands(unittest.TestCase):
         self.run_for(1, drifted)  # says that the touch is over
         self.assertEqual([], self.contacts(100, drifted))
         self.assertTrue(self.contacts(1, MIDDLE))
+
+    def test_without_memory_for_tables_it_goes_on(self):
+        self.assertEqual(response(LOAD_COMMAND, NOT_KEPT), self.answer(LOAD))
+        self.assertTrue(self.contacts(1, touched_at(3)))
+
+    def test_it_starts_anew_and_goes_on_on_the_same_line(self):
+        self.assertEqual(response(RESTART_COMMAND, DONE), self.answer(RESTART))
+        before = len(self.lines())
+        for _ in range(50):  # its time is that of its samples
+            self.board.samples(MIDDLE)
+        self.board.wait_ready()
+        self.run_for(ZERO_SETS + 1, MIDDLE)
+        infos = [bytes.fromhex(line[5:]) for line in self.lines()[before:] if line.startswith(INFO)]
+        self.assertEqual([SOFTWARE], [info[0] for info in infos])
+        self.assertTrue(self.contacts(1, touched_at(3)), "it measures again")
 
     def test_another_fingers_tare_is_not_its_business(self):
         self.ask(TARE_OF_ANOTHER)

@@ -1,4 +1,5 @@
 #include <cassert>
+#include <utility>
 
 #include "firmware/app/run.hpp"
 #include "firmware/app/slcan_port.hpp"
@@ -59,6 +60,18 @@ void act(const WorldRecord& record, Can& can) {
   }
 }
 
+/// A restart that was asked for leaves it in memory that a reset leaves alone: the board has no register for
+/// that.
+[[gnu::section(".noinit")]] std::uint32_t restartMark;
+constexpr std::uint32_t kAskedFor = 0x4B534152;
+
+bool wasAskedToRestart() { return std::exchange(restartMark, 0) == kAskedFor; }
+
+[[noreturn]] void restart() {
+  restartMark = kAskedFor;
+  board::resetSystem();
+}
+
 [[gnu::noinline]] void greet(const firmware::LastRun& last) {
   Console console;
   console << "strainfinger on mps2: restarts " << last.restarts << ", crash "
@@ -96,10 +109,11 @@ Timer timer;
   greet(last);
   const Timer* chosenTimer = nullptr;
   static const firmware::FingerSettings settings = readSettings(chosenTimer);
-  static Can can(bus, last.restarts != 0);  // the host has not closed it
+  const bool wasAsked = wasAskedToRestart();
+  static Can can(bus, wasAsked || last.restarts != 0);  // the host has not closed it
   world_line.put(kReady);
   static TheWorld world(world_line, can, chosenTimer);
-  static Watchdog watchdog(world, firmware::resetCause(last));
+  static Watchdog watchdog(world, wasAsked ? ResetCause::kSoftware : firmware::resetCause(last));
   const auto wait = [] {
     bus.clearInterrupts();
     world_line.clearInterrupts();
@@ -115,7 +129,7 @@ Timer timer;
   };
   watchdog.run();
   firmware::runFinger(firmware::ifWhole(board::kLinkedTables), settings, last, world, can, world, watchdog,
-                      hal::noStore, wait);
+                      hal::noStore, hal::noStore, firmware::BoardActions{wait, [] { restart(); }});
 }
 
 }  // namespace strainfinger::mps2

@@ -32,7 +32,8 @@ using Watchdog = IndependentWatchdog<MemoryBus, Clock>;
 constexpr firmware::FingerSettings kSettings{.node = STRAINFINGER_NODE,
                                              .samplePeriod_us = 1'000'000 / STRAINFINGER_SAMPLE_RATE,
                                              .bitrate = STRAINFINGER_BITRATE,
-                                             .standingFlags = {FingerFlag::kUncalibrated}};
+                                             .standingFlags = {FingerFlag::kUncalibrated},
+                                             .takesTables = true};
 static_assert(kSettings.node >= kFirstNode && kSettings.node <= kLastNode);
 static_assert(canTiming(ClockSource::kCrystal, STRAINFINGER_BITRATE), "not a bit rate of can_rates.hpp");
 constexpr bool kCanFd = STRAINFINGER_CAN_FD;
@@ -54,8 +55,8 @@ bool ramSurvived() {
 
 [[gnu::noinline]] const TableImage* tables() {
   return readableTables(kBus, eccErrors, [] {
-    return firmware::ifWhole(
-        tablesOf(*reinterpret_cast<const TableImage*>(kTablePages.address()), board::kLinkedTables));
+    return firmware::ifWhole(firmware::tablesOf(*reinterpret_cast<const TableImage*>(kTablePages.address()),
+                                                board::kLinkedTables));
   });
 }
 
@@ -117,11 +118,14 @@ bool ramSurvived() {
   static Store store(kBus, eccErrors, kConfigurationPages.first, kConfigurationPages.count);
   const firmware::FingerSettings settings = settingsWith(store, isWatched && source == ClockSource::kCrystal);
   Can& can = startCan(clock, source, settings.node);
-  firmware::runFinger(tables(), settings, last, startAdc(), can, clock, watchdog, store, [&] {
+  static Store tableStore(kBus, eccErrors, kTablePages.first, kTablePages.count);
+  const auto wait = [&] {
     can.poll();
     noteEccErrors(kBus, eccErrors);
     if (watchdog.isStarved()) board::crash(Crash::kStarved, 0);
-  });
+  };
+  firmware::runFinger(tables(), settings, last, startAdc(), can, clock, watchdog, store, tableStore,
+                      firmware::BoardActions{wait, [] { board::resetSystem(); }});
 }
 
 /// Raised by the flash for words that it cannot read; otherwise by nothing that is known.

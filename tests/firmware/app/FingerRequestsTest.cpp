@@ -30,7 +30,7 @@ TEST_GROUP(FingerRequests) {
   SpyWatchdog watchdog;
   FakeNonVolatile store;
   Finger<FakeGaugeAdc, FakeCanPort, FakeClock, SpyWatchdog, FakeNonVolatile> finger{
-      ring.tables(), {.node = kNode}, adc, can, clock, watchdog, store};
+      ring.tables(), {.node = kNode, .takesTables = true}, adc, can, clock, watchdog, store};
 
   void setup() override {
     run(ZeroAverage::kSamples);
@@ -234,7 +234,7 @@ TEST(FingerRequests, WhatCannotBeDoneChangesNothing) {
   checkAnswered({.length = 2, .command = Command::kContactRate, .argument = 100},
                 CommandStatus::kBadArgument);
   checkAnswered({.length = 2, .command = Command::kTare, .argument = 2}, CommandStatus::kBadArgument);
-  checkAnswered({.length = 1, .command = static_cast<Command>(9)}, CommandStatus::kUnknownCommand);
+  checkAnswered({.length = 1, .command = static_cast<Command>(127)}, CommandStatus::kUnknownCommand);
   CHECK_TRUE(finger.state() == FingerState::kRun);
   LONGS_EQUAL(500, contactsOf(1000));
 }
@@ -454,4 +454,51 @@ TEST(FingerRequests, RawBeyondItsShareOfTheBusIsRefusedWithTheFastestRate) {
              responseTo(Command::kRaw, CommandStatus::kTooFast, 125));  // 67 % / (6 * 111 bits)
   CHECK_TRUE(askSlow(126) == responseTo(Command::kRaw, CommandStatus::kTooFast, 125));
   CHECK_TRUE(askSlow(125) == responseTo(Command::kRaw, CommandStatus::kDone));
+}
+
+TEST(FingerRequests, ItLeavesForOtherTablesWhenItHasAnswered) {
+  CHECK_TRUE(finger.leaving() == Leaving::kStays);
+  can.busy = true;
+  ask(loadRequest());
+  CHECK_TRUE(finger.leaving() == Leaving::kStays);
+  can.busy = false;
+  step();
+  checkAnswer(Command::kLoad, CommandStatus::kDone);
+  CHECK_TRUE(finger.leaving() == Leaving::kLoads);
+}
+
+TEST(FingerRequests, ATouchedFingerDoesNotLeaveUnlessARestartIsMeant) {
+  run(10, kTouch);
+  checkAnswered(loadRequest(), CommandStatus::kTouched);
+  checkAnswered(restartRequest(), CommandStatus::kTouched);
+  CHECK_TRUE(finger.leaving() == Leaving::kStays);
+  checkAnswered(restartRequest(true), CommandStatus::kDone);
+  CHECK_TRUE(finger.leaving() == Leaving::kRestarts);
+}
+
+// Listeners would take the touch for one that goes on.
+TEST(FingerRequests, ItDoesNotLeaveWhileTheEndOfATouchIsNotOut) {
+  run(10, kTouch);
+  responses();
+  can.room = 1;  // for CONTACT
+  run(1);
+  LONGS_EQUAL(1, sent<ContactFrame>().size());
+  ask(loadRequest());
+  can.room = SIZE_MAX;
+  step();
+  checkAnswer(Command::kLoad, CommandStatus::kBusy);
+  checkAnswered(loadRequest(), CommandStatus::kDone);
+}
+
+TEST(FingerRequests, WordsAreForAFingerThatWasToldToLoad) {
+  checkAnswered(wordRequest(0, 1), CommandStatus::kOutOfTurn);
+}
+
+TEST(FingerRequests, WithoutMemoryForTablesItStaysAndSaysSo) {
+  Finger<FakeGaugeAdc, FakeCanPort, FakeClock, SpyWatchdog, FakeNonVolatile> without{
+      ring.tables(), {.node = kNode}, adc, can, clock, watchdog, store};
+  can.deliver(encode(loadRequest(), kNode));
+  without.step();
+  checkAnswer(Command::kLoad, CommandStatus::kNotKept);
+  CHECK_TRUE(without.leaving() == Leaving::kStays);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <utility>
 
 #include "common/fixed_real.hpp"
@@ -140,6 +141,12 @@ TEST_GROUP_BASE(Estimate, Estimated) {
     answer.solution.residualEnergy = 0;
   }
   Contact estimated() { return estimate(constants, answer, unitErrors(linearisation), 0); }
+  /// Of the width's square, which does not depend on where the answer is: its slope times the width's error.
+  double sigmaOfSquare_mm2() {
+    const double width_mm = 1.5;
+    answer.solution.contact[0].moment_q20 = ring.stateOf({5.3, 20, 4, width_mm}, answer.shift).moment_q20;
+    return 2 * width_mm * 1e-3 * estimated().sigmaWidth_um;
+  }
   /// Leaves so many variances for each degree of freedom.
   void leave(double times) {
     const int left = freedoms(answer.solution.hypothesis);
@@ -164,7 +171,31 @@ TEST(Estimate, PlacesLoadsAndWidthsAreTheAnswers) {
     // Half a unit of an amplitude.
     DOUBLES_EQUAL(press.normal, toReal(contact.normal), 1e-3);
     DOUBLES_EQUAL(press.tangential, toReal(contact.tangential), 1e-3);
-    DOUBLES_EQUAL(press.width_mm * 1e3, contact.width_um, 2 + 10 / press.width_mm);
+    const double square_mm2 = press.width_mm * press.width_mm;
+    const double told_mm2 = (square_mm2 + std::hypot(square_mm2, sigmaOfSquare_mm2())) / 2;
+    DOUBLES_EQUAL(std::sqrt(told_mm2) * 1e3, contact.width_um, 2 + 10 / press.width_mm);
+  }
+}
+
+// Moments that noise scatters by up to a half of themselves. Their roots are up to 5 % too narrow in the
+// mean.
+TEST(Estimate, AWidthIsWhatTouchesHaveInTheMean) {
+  std::mt19937 random(703);
+  const double sigma_mm2 = sigmaOfSquare_mm2();
+  for (const double share : {0.1, 0.2, 0.3, 0.4, 0.5}) {
+    const double square_mm2 = sigma_mm2 / share, width_mm = std::sqrt(square_mm2);
+    std::normal_distribution scatter(square_mm2, sigma_mm2);
+    double sum_mm = 0, error_mm2 = 0;
+    constexpr int kTouches = 20'000;
+    for (int i = 0; i < kTouches; ++i) {
+      const Press press{5.3, 20, 4, std::sqrt(std::max(scatter(random), 0.0))};
+      answer.solution.contact[0].moment_q20 = ring.stateOf(press, answer.shift).moment_q20;
+      const double told_mm = 1e-3 * estimated().width_um;
+      sum_mm += told_mm;
+      error_mm2 += (told_mm - width_mm) * (told_mm - width_mm);
+    }
+    DOUBLES_EQUAL(width_mm, sum_mm / kTouches, 0.015 * width_mm);
+    CHECK_COMPARE(std::sqrt(error_mm2 / kTouches), <, 1.03 * sigma_mm2 / (2 * width_mm));
   }
 }
 
@@ -175,10 +206,11 @@ TEST(Estimate, AKnownWidthIsNotFitted) {
   LONGS_EQUAL(kWidthNotFitted, contact.sigmaWidth_um);
 }
 
-TEST(Estimate, ALinesWidthIs0WithinItsError) {
+TEST(Estimate, ALinesWidthIsItsError) {
   answer.solution.contact[0].moment_q20 = 0;
-  LONGS_EQUAL(0, estimated().width_um);
-  CHECK(estimated().sigmaWidth_um > 50);
+  const Contact contact = estimated();
+  DOUBLES_EQUAL(1e3 * std::sqrt(sigmaOfSquare_mm2() / 2), contact.width_um, 2);
+  DOUBLES_EQUAL(contact.width_um, contact.sigmaWidth_um, 2);
 }
 
 TEST(Estimate, HugeLoadsSaturateWithTheirSign) {

@@ -175,6 +175,8 @@ TEST(BusDocument, ItsExamplesAreWhatIsSent) {
   checkHas(line(tareRequest(true)));
   checkHas(line(responseTo(Command::kTare, CommandStatus::kTouched)));
   checkHas(line(responseTo(Command::kKeep, CommandStatus::kWait, 45)));
+  checkHas(line(wordRequest(4711, 0x11223344)));
+  checkHas(line(responseTo(Command::kWord, CommandStatus::kDone, 4712)));
 }
 
 TEST(BusDocument, ItsBusLoadsAreComputed) {

@@ -15,7 +15,7 @@
 namespace strainfinger::can {
 
 /// Hears what it is given, and keeps what is sent.
-class FakeBusPort final : public BusPort {
+class FakeBusPort : public BusPort {
  public:
   bool send(const CanFrame& frame) noexcept override {
     if (takes) sent.push_back(frame);

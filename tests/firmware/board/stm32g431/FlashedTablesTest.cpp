@@ -1,5 +1,7 @@
 #include "firmware/board/stm32g431/flashed_tables.hpp"
 
+#include "firmware/app/whole_tables.hpp"
+
 #include <cstring>
 #include <memory>
 
@@ -16,7 +18,7 @@ TEST_GROUP(FlashedTables) {
 
   void setup() override { std::memset(flashed.get(), 0xFF, sizeof(TableImage)); }
   unsigned char& flashedByte(std::size_t at) { return reinterpret_cast<unsigned char*>(flashed.get())[at]; }
-  const TableImage* chosen() { return &tablesOf(*flashed, *linked); }
+  const TableImage* chosen() { return &firmware::tablesOf(*flashed, *linked); }
 };
 
 TEST(FlashedTables, ErasedPagesLeaveTheImagesTables) { POINTERS_EQUAL(linked.get(), chosen()); }

@@ -70,7 +70,7 @@ class Board {
     TableImage flashed;
     const TableImage* const tables = readableTables(bus_, errors_, [&] {
       readTablePages(flashed);
-      return firmware::ifWhole(tablesOf(flashed, linked));
+      return firmware::ifWhole(firmware::tablesOf(flashed, linked));
     });
     if (tables != nullptr) found.tables = std::make_unique<TableImage>(*tables);
     found.hasCrashed = hasCrashed_;

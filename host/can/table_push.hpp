@@ -1,0 +1,32 @@
+#pragma once
+// Tables sent to a finger over the bus, as common/BUS_REQUESTS.md tells it.
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "common/table_image.hpp"
+#include "host/can/ask.hpp"
+
+namespace strainfinger::can {
+
+struct TablePush {
+  Command command = Command::kLoad;  ///< the last that was asked
+  Reply reply{};                     ///< to it
+  int words = 0;                     ///< of kTableWords, that the finger has
+  bool isStopped = false;            ///< by goOn()
+};
+
+/// Sends `load` and then word by word the image, until one is refused or not answered although it was said
+/// kAttempts times. `goOn(words)` is asked before each word; false ends it.
+TablePush pushTables(BusPort& port, std::uint8_t node, const TableImage& image,
+                     const std::function<bool(int words)>& goOn);
+
+inline constexpr int kAttempts = 3;
+
+/// The first heartbeat after the answer to a `restart`, if one comes in time.
+std::optional<HeartbeatFrame> heartbeatAfterRestart(BusPort& port, std::uint8_t node,
+                                                    std::chrono::milliseconds longest);
+
+}  // namespace strainfinger::can

@@ -1,0 +1,126 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "host/base/failure.hpp"
+#include "host/can/frame_catalogue.hpp"
+#include "host/can/open_bus.hpp"
+#include "host/can/remedies.hpp"
+#include "host/can/table_push.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/request.hpp"
+#include "host/system/stop_signal.hpp"
+#include "host/tables/self_check.hpp"
+#include "host/tables/table_file.hpp"
+
+namespace strainfinger::cli {
+namespace {
+
+constexpr const char* kPushHelp =
+    "Sends a finger the tables that it is to work with: those of FILE (`tables -o`), or those of the config. "
+    "It stops, takes them into its memory, starts anew and checks them.\n"
+    "Do not touch it: a finger that feels a touch refuses, and one that starts takes its zero.\n"
+    "A push that ends early leaves the finger without tables (state fault): push again. With -c and FILE, "
+    "FILE has to be of that config.\n"
+    "Prints interface,node,table_crc,bytes. Exit status: 1 refused, 3 no interface, 4 no such node, 5 FILE "
+    "is "
+    "another finger's or of another format, 6 FILE is damaged or the finger refuses what it took.";
+
+struct PushOptions {
+  explicit PushOptions(CLI::App& command) : request(command) {
+    command.add_option("FILE", path, "The tables; without it those of the config");
+  }
+  RequestOptions request;
+  std::string path;
+};
+
+std::unique_ptr<TableImage> tablesFor(const PushOptions& options) {
+  const CommonOptions& common = options.request.common;
+  if (options.path.empty())
+    return std::make_unique<TableImage>(tables::buildCheckedTables(common.config()).image);
+  auto image = tables::readTableFile(options.path);
+  if (common.hasConfig()) tables::requireTablesOf(*image, common.config(), options.path);
+  return image;
+}
+
+/// On a terminal only: how far it is.
+class Progress {
+ public:
+  void show(int words) {
+    const int percent = 100 * words / kTableWords;
+    if (!isShown_ || percent == percent_) return;
+    percent_ = percent;
+    fmt::print(stderr, "\rpush: {} %", percent);
+    std::fflush(stderr);
+  }
+  ~Progress() {
+    if (percent_ >= 0) fmt::print(stderr, "\r\x1b[K");
+  }
+
+ private:
+  bool isShown_ = isatty(STDERR_FILENO) == 1;
+  int percent_ = -1;
+};
+
+can::TablePush send(can::BusPort& port, std::uint8_t node, const TableImage& image) {
+  const system::StopSignal stop;
+  Progress progress;
+  return can::pushTables(port, node, image, [&](int words) {
+    progress.show(words);
+    return !stop.asked();
+  });
+}
+
+void requireWhole(const can::TablePush& push, const can::BusPort& bus, std::uint8_t node) {
+  if (push.words == kTableWords) return;
+  const std::string left =
+      push.words == 0 ? "the finger still has its old tables; it measures again once it has started anew"
+                      : "the finger has no tables until they are pushed again";
+  if (push.isStopped)
+    throw Failure(ExitCode::kInterrupted,
+                  fmt::format("push: interrupted after {} of {} words: {}", push.words, kTableWords, left));
+  if (push.command == Command::kWord)
+    fmt::print(stderr, "strainfinger: push: ended after {} of {} words: {}\n", push.words, kTableWords, left);
+  requireDone(push.reply, push.command, bus, node);
+}
+
+void requireRunning(can::BusPort& port, std::uint8_t node, const TableImage& image) {
+  constexpr std::chrono::seconds kStartsWithin{3};
+  const std::string where = fmt::format("{} node {}", port.name(), node);
+  const auto heartbeat = can::heartbeatAfterRestart(port, node, kStartsWithin);
+  if (!heartbeat)
+    throw Failure(ExitCode::kNoNode, fmt::format("{}: took the tables, but says nothing since it was told to "
+                                                 "start anew: switch it off and on",
+                                                 where));
+  const std::uint32_t wanted = image.crc32 & 0xFF;
+  if (heartbeat->state != FingerState::kFault && heartbeat->table_crc == wanted) return;
+  throw Failure(
+      ExitCode::kVerificationFailed,
+      fmt::format("{}: took the tables, but does not work with them: state {}, table_crc {:02X}, not "
+                  "{:02X}: push them again; if it comes back, its memory is worn out, or its firmware "
+                  "takes tables of another format",
+                  where, can::nameText(kFingerStateNames, static_cast<int>(heartbeat->state)),
+                  heartbeat->table_crc, wanted));
+}
+
+void runPush(const PushOptions& options) {
+  const config::Can can = options.request.common.config().can;
+  const std::uint8_t node = nodeOf(options.request, can);
+  const auto image = tablesFor(options);
+  const auto port = can::openBus(options.request.bus, can.bitrate);
+  requireWhole(send(*port, node, *image), *port, node);
+  requireDone(can::ask(*port, node, restartRequest()), Command::kRestart, *port, node);
+  requireRunning(*port, node, *image);
+  TableWriter table(stdout, options.request.common.format(), {"interface", "node", "table_crc", "bytes"});
+  table.row({options.request.bus, std::int64_t{node}, fmt::format("{:08X}", image->crc32),
+             std::int64_t{sizeof *image}});
+}
+
+}  // namespace
+
+void addPush(CLI::App& app) { addCommand<PushOptions>(app, "push", kPushHelp, runPush); }
+
+}  // namespace strainfinger::cli

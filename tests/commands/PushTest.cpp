@@ -1,0 +1,82 @@
+// `push`, to a finger that runs beside it.
+#include <CppUTest/TestHarness.h>
+
+#include "tests/commands/with_finger.hpp"
+
+using namespace strainfinger;
+
+namespace {
+
+/// Nothing touches the finger; another one's config.
+const std::string kUntouched = R"(--scenario <(echo "schema = 1"))";
+constexpr const char* kOther = R"(
+printf 'schema = 1\n[gauges]\nradius_m = 9.5e-3\n' >$other
+)";
+/// A file of its own, gone when the script ends.
+const std::string kFiles = "files=$(mktemp -d); other=$files/other.toml; tables=$files/tables\n";
+
+Run withUntouchedFinger(const std::string& script) {
+  return withFinger(kUntouched, kFiles + kOther + script + "\nstatus=$?; rm -r $files; exit $status");
+}
+
+}  // namespace
+
+TEST_GROUP(PushCommand){};
+
+TEST(PushCommand, AFingerWorksWithTheTablesOfAConfigFromItsNextStartOn) {
+  const Run run = withUntouchedFinger(R"(
+"$STRAINFINGER" push --can $BUS -c $other | sed "s/$BUS/BUS/"
+"$STRAINFINGER" tables -c $other -o $tables 2>&1 | grep -o 'CRC-32 .*'
+"$STRAINFINGER" info --can $BUS -c $other | grep -oE '(state|reset_cause),[a-z_]*')");
+  LONGS_EQUAL(0, run.status);
+  STRCMP_EQUAL(
+      "interface,node,table_crc,bytes\nBUS,1,F7BD734E,24568\nCRC-32 "
+      "F7BD734E\nstate,run\nreset_cause,software\n",
+      run.out.c_str());
+}
+
+TEST(PushCommand, AFileIsCheckedBeforeTheFingerIsStopped) {
+  const Run run = withUntouchedFinger(R"(
+"$STRAINFINGER" tables -o $tables 2>/dev/null
+"$STRAINFINGER" push $tables --can $BUS -c $other; echo "another finger's: $?"
+printf X | dd of=$tables bs=1 seek=9999 conv=notrunc 2>/dev/null
+"$STRAINFINGER" push $tables --can $BUS; echo "damaged: $?"
+"$STRAINFINGER" info --can $BUS | grep -o 'reset_cause,[a-z_]*')");
+  STRCMP_EQUAL("another finger's: 5\ndamaged: 6\nreset_cause,power_on\n", run.out.c_str());
+  STRCMP_CONTAINS("gauges.radius_m", run.err.c_str());
+}
+
+TEST(PushCommand, ATouchedFingerRefuses) {
+  const Run run = withFinger(
+      "--scenario <(printf 'schema = 1\\n[[touch]]\\nstart_s = 0.1\\nend_s = "
+      "100\\nangle_deg = 100\\nnormal_n_per_m = 20\\n')",
+      "sleep 0.5; \"$STRAINFINGER\" push --can $BUS");
+  LONGS_EQUAL(1, run.status);
+  STRCMP_EQUAL("", run.out.c_str());
+  STRCMP_CONTAINS("load: Refused: something touches the finger", run.err.c_str());
+}
+
+TEST(PushCommand, InterruptedItLeavesAFingerThatWaitsForTables) {
+  const Run run = withUntouchedFinger(R"(
+"$STRAINFINGER" push --can $BUS & interrupt $!; wait $!; echo "$?"
+"$STRAINFINGER" doctor --can $BUS --duration 1 | grep -A1 'fault tables'
+"$STRAINFINGER" tare --can $BUS; echo "$?"
+"$STRAINFINGER" push --can $BUS | sed "s/$BUS/BUS/"; "$STRAINFINGER" tare --can $BUS | sed "s/$BUS/BUS/")");
+  STRCMP_CONTAINS("130\n", run.out.c_str());
+  STRCMP_CONTAINS("has no tables until they are pushed again", run.err.c_str());
+  STRCMP_CONTAINS("what to do: `strainfinger push --can ", run.out.c_str());
+  STRCMP_CONTAINS("tare: Not now", run.err.c_str());
+  STRCMP_CONTAINS("BUS,1,BD9AC1C2,24568\ninterface,node,command,status\nBUS,1,tare,done\n", run.out.c_str());
+}
+
+TEST(PushCommand, NobodyThere) {
+  const Run run = runProgram("push --can udp:19984");
+  LONGS_EQUAL(4, run.status);
+  STRCMP_CONTAINS("no answer", run.err.c_str());
+}
+
+TEST(PushCommand, AFingerRestartsWhenItIsTold) {
+  const Run run = withUntouchedFinger(R"("$STRAINFINGER" config --can $BUS --restart | sed "s/$BUS/BUS/"
+"$STRAINFINGER" info --can $BUS | grep -o 'reset_cause,[a-z_]*')");
+  STRCMP_EQUAL("interface,node,command,status\nBUS,1,restart,done\nreset_cause,software\n", run.out.c_str());
+}

@@ -1,0 +1,139 @@
+// Tables sent to a finger that answers as it should, and as it should not.
+#include "host/can/table_push.hpp"
+
+#include <chrono>
+#include <cstring>
+#include <memory>
+#include <thread>
+#include <utility>
+
+#include "firmware/app/table_loader.hpp"
+#include "host/system/memory_store.hpp"
+#include "tests/host/can/fake_bus_port.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace strainfinger;
+using namespace strainfinger::can;
+
+TEST_GROUP(TablePush) {
+  static constexpr std::uint8_t kNode = 5;
+  FakeBusPort bus;
+  system::MemoryStore memory{12};
+  firmware::TableLoader<system::MemoryStore> finger{memory};
+  std::unique_ptr<TableImage> image = std::make_unique<TableImage>();
+  int asked = 0;
+  int lostAnswers = 0;  ///< of those to come
+
+  void setup() override {
+    auto* const bytes = reinterpret_cast<unsigned char*>(image.get());
+    for (std::size_t i = 0; i < sizeof *image; ++i) bytes[i] = static_cast<unsigned char>(i * 7 + i / 256);
+    bus.onSend = [this](const CanFrame& frame) {
+      ++asked;
+      const auto request = readSingleFrame<RequestFrame>(frame, kNode);
+      const ResponseFrame response = request->command == Command::kWord
+                                         ? finger.take(request->argument, request->value)
+                                         : responseTo(request->command, CommandStatus::kDone);
+      if (lostAnswers > 0)
+        --lostAnswers;
+      else
+        bus.hear(response, kNode);
+    };
+  }
+  TablePush push(int words = kTableWords) {
+    return pushTables(bus, kNode, *image, [words](int sent) { return sent < words; });
+  }
+};
+
+TEST(TablePush, TheFingerHasEveryByte) {
+  const TablePush done = push();
+  LONGS_EQUAL(kTableWords, done.words);
+  CHECK_FALSE(done.isStopped);
+  LONGS_EQUAL(kTableWords + 1, asked);
+  TableImage taken;
+  CHECK_TRUE(memory.read(0, std::as_writable_bytes(std::span(&taken, 1))) == hal::StoreResult::kOk);
+  MEMCMP_EQUAL(image.get(), &taken, sizeof taken);
+}
+
+TEST(TablePush, IsStopped) {
+  const TablePush stopped = push(10);
+  LONGS_EQUAL(10, stopped.words);
+  CHECK_TRUE(stopped.isStopped);
+  LONGS_EQUAL(11, asked);
+}
+
+TEST(TablePush, EndsWhereItIsRefused) {
+  bus.onSend = [this](const CanFrame&) {
+    ++asked;
+    bus.hear(responseTo(Command::kLoad, CommandStatus::kTouched), kNode);
+  };
+  const TablePush refused = push();
+  LONGS_EQUAL(1, asked);
+  LONGS_EQUAL(0, refused.words);
+  CHECK_TRUE(refused.command == Command::kLoad);
+  CHECK_TRUE(refused.reply.response->status == CommandStatus::kTouched);
+}
+
+TEST(TablePush, EndsAtAWordThatIsOutOfTurn) {
+  finger.take(0, 0);
+  finger.take(1, 0);
+  const TablePush refused = push();
+  LONGS_EQUAL(0, refused.words);
+  CHECK_TRUE(refused.command == Command::kWord);
+  CHECK_TRUE(refused.reply.response->status == CommandStatus::kOutOfTurn);
+  LONGS_EQUAL(2, refused.reply.response->value);
+}
+
+TEST(TablePush, AWordWhoseAnswerIsLostIsSaidAgain) {
+  const auto loses = [this](int words) {
+    if (words == 3) lostAnswers = 1;
+    return words < 6;
+  };
+  LONGS_EQUAL(6, pushTables(bus, kNode, *image, loses).words);
+  LONGS_EQUAL(1 + 6 + 1, asked);
+}
+
+TEST(TablePush, WhenNobodyAnswersItIsSaidThreeTimes) {
+  bus.onSend = [this](const CanFrame&) { ++asked; };
+  const TablePush unanswered = push();
+  LONGS_EQUAL(3, asked);
+  CHECK_FALSE(unanswered.reply.response.has_value());
+}
+
+TEST_GROUP(HeartbeatAfterRestart) {
+  static constexpr std::uint8_t kNode = 5;
+  static constexpr std::chrono::milliseconds kShort{60};
+};
+
+namespace {
+
+/// Says something when it has been listened to for a while.
+class LateBus : public FakeBusPort {
+ public:
+  bool waitReadable(std::chrono::milliseconds) noexcept override {
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    if (std::exchange(isSaid_, true)) return false;
+    hear(HeartbeatFrame{.state = FingerState::kFault}, 6);
+    hear(HeartbeatFrame{.state = FingerState::kZeroing, .table_crc = 0x5A}, 5);
+    return true;
+  }
+
+ private:
+  bool isSaid_ = false;
+};
+
+}  // namespace
+
+TEST(HeartbeatAfterRestart, IsNotOneThatWasSaidBefore) {
+  FakeBusPort bus;
+  bus.hear(HeartbeatFrame{.state = FingerState::kFault}, kNode);
+  CHECK_FALSE(heartbeatAfterRestart(bus, kNode, kShort).has_value());
+}
+
+TEST(HeartbeatAfterRestart, IsTheNextOneOfThatFinger) {
+  LateBus bus, another;
+  const auto heartbeat = heartbeatAfterRestart(bus, kNode, std::chrono::seconds(5));
+  CHECK_TRUE(heartbeat && heartbeat->state == FingerState::kZeroing);
+  LONGS_EQUAL(0x5A, heartbeat->table_crc);
+  CHECK_FALSE(heartbeatAfterRestart(another, kNode + 2, kShort).has_value());
+}

@@ -7,12 +7,15 @@
 namespace strainfinger::firmware {
 
 /// A few erases at once, then one a minute. A page of flash lasts 10,000 erases (DS12589): a bus that asks
-/// for one whenever it may takes 1,440 a day, and they are spread over all pages of the settings. Seconds
+/// for one whenever it may takes 1,440 a day; those for settings are spread over all their pages. Seconds
 /// count from the start.
 class EraseBudget {
  public:
   static constexpr std::uint32_t kBurst = 4;
   static constexpr std::uint32_t kPeriod_s = 60;
+
+  /// `left`: erases that are allowed at once, at most kBurst.
+  constexpr explicit EraseBudget(std::uint32_t left = kBurst) : paidUntil_s_((kBurst - left) * kPeriod_s) {}
 
   /// Until the next erase is allowed; 0: now.
   constexpr std::uint32_t wait_s(std::uint32_t now_s) const {
@@ -23,7 +26,7 @@ class EraseBudget {
   constexpr void spend(std::uint32_t now_s) { paidUntil_s_ = std::max(paidUntil_s_, now_s) + kPeriod_s; }
 
  private:
-  std::uint32_t paidUntil_s_ = 0;  ///< as if each erase took a whole period, one after the other
+  std::uint32_t paidUntil_s_;  ///< as if each erase took a whole period, one after the other
 };
 
 }  // namespace strainfinger::firmware

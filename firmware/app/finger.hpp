@@ -57,6 +57,7 @@ class Finger {
       : settings_(settings),
         kept_{settings.node, settings.contactRate_hz},
         settingsStore_(store),
+        eraseBudget_(watchdog.resetCause() == hal::ResetCause::kSoftware ? 0 : EraseBudget::kBurst),
         tables_(tables),
         pipeline_(tables, settings.mode),
         reporter_(periodOf(settings.contactRate_hz), standingFlagsOf(settings, tables)),
@@ -304,8 +305,7 @@ class Finger {
       case Command::kRaw:
         return startRaw(request.argument);
       case Command::kLoad:
-        if (!settings_.takesTables) return responseTo(command, CommandStatus::kNotKept);
-        return leave(command, Leaving::kLoads, false);
+        return load();
       case Command::kWord:
         return responseTo(command, CommandStatus::kOutOfTurn);
       case Command::kRestart:
@@ -322,6 +322,13 @@ class Finger {
     if (owed_.any() && !evenWhileTouched) return responseTo(command, CommandStatus::kBusy);
     leaving_ = where;
     return responseTo(command, CommandStatus::kDone);
+  }
+
+  ResponseFrame load() {
+    if (!settings_.takesTables) return responseTo(Command::kLoad, CommandStatus::kNotKept);
+    if (const std::uint32_t wait_s = eraseBudget_.wait_s(uptime_s_); wait_s > 0)
+      return responseTo(Command::kLoad, CommandStatus::kWait, wait_s);
+    return leave(Command::kLoad, Leaving::kLoads, false);
   }
 
   /// Memory that is erased stops the board, and with it the touch: only untouched, or if that is meant.
@@ -375,7 +382,7 @@ class Finger {
   FingerSettings settings_;
   StoredSettings kept_;  ///< for the next start
   SettingsStore<Store> settingsStore_;
-  EraseBudget eraseBudget_;
+  EraseBudget eraseBudget_;  ///< none at once after a restart that was asked for: no way round the budget
   const TableImage& tables_;
   Pipeline pipeline_;
   TouchReporter reporter_;
@@ -396,7 +403,7 @@ class Finger {
   std::optional<CommandStatus> tareStatus_;  ///< to answer when the zero is taken
   bool isTouchRefused_ = false;              ///< for a zero that is asked for, whoever waits for the answer
   Leaving leaving_ = Leaving::kStays;
-  std::optional<ResponseFrame> response_;    ///< that the port hasn't taken yet
+  std::optional<ResponseFrame> response_;  ///< that the port hasn't taken yet
   FingerCounters counters_{};
   std::uint32_t uptime_s_ = 0;
   std::uint32_t sinceSecond_us_ = 0;

@@ -36,8 +36,10 @@ template <hal::GaugeAdc Adc, hal::CanPort Can, hal::Clock Clock, hal::Watchdog W
           hal::NonVolatile TableStore, typename Actions>
 [[noreturn, gnu::noinline]] void runWithoutTables(std::uint8_t node, Announcement<InfoFrame>& info, Adc& adc,
                                                   Can& can, const Clock& clock, Watchdog& watchdog,
-                                                  TableStore& store, Actions& board) {
-  WithoutTables finger(node, can, store, clock.now_us());
+                                                  TableStore& store, bool isLoading, Actions& board) {
+  const bool hasBudget = !isLoading && watchdog.resetCause() != hal::ResetCause::kSoftware;
+  WithoutTables finger(node, can, store, clock.now_us(), isLoading,
+                       EraseBudget(hasBudget ? EraseBudget::kBurst : isLoading));
   hal::SampleSet unused{};
   while (!finger.isLeaving()) {
     if (adc.read(unused)) watchdog.feed();
@@ -67,7 +69,7 @@ template <hal::GaugeAdc Adc, hal::CanPort Can, hal::Clock Clock, hal::Watchdog W
     }
     if (finger.leaving() == Leaving::kRestarts) restartSoon(adc, clock, board);
   }
-  runWithoutTables(settings.node, info, adc, can, clock, watchdog, tableStore, board);
+  runWithoutTables(settings.node, info, adc, can, clock, watchdog, tableStore, tables != nullptr, board);
 }
 
 }  // namespace strainfinger::firmware

@@ -10,24 +10,29 @@
 
 namespace strainfinger::firmware {
 
-/// Words are taken in order, from the first one on; one that comes again, because its answer was lost, is
-/// answered again. The first word of a page erases it, so that tables which nobody began to replace stay
-/// whole. What a power cut leaves is found by checkTableImage() at the next start. Cost of a word: 8 bytes of
-/// the memory written, or a page erased.
+/// After begin() words are taken in order, from the first one on; one that comes again, because its answer
+/// was lost, is answered again. The first word of a page erases it, so that tables which nobody began to
+/// replace stay whole, and each page is erased once at most for each begin(). What a power cut leaves is
+/// found by checkTableImage() at the next start. Cost of a word: 8 bytes of the memory written, or a page
+/// erased.
 template <hal::NonVolatile Store>
 class TableLoader {
  public:
   explicit TableLoader(Store& store) : store_(store) {}
 
   /// The first word is due.
-  void begin() { due_ = 0; }
+  void begin() {
+    due_ = 0;
+    isOpen_ = true;
+  }
 
   /// `index` below kTableWords.
   ResponseFrame take(std::uint16_t index, std::uint32_t word) {
+    if (!isOpen_) return responseTo(Command::kWord, CommandStatus::kOutOfTurn);
     const bool isRepeated = index + 1 == due_;
     if (!isRepeated && index != due_) return answer(CommandStatus::kOutOfTurn);
-    if (!isRepeated && !put(word)) return answer(CommandStatus::kNotKept);
-    return answer(CommandStatus::kDone);
+    if (!isRepeated) isOpen_ = put(word);
+    return answer(isOpen_ ? CommandStatus::kDone : CommandStatus::kNotKept);
   }
 
  private:
@@ -52,6 +57,7 @@ class TableLoader {
   Store& store_;
   std::array<std::uint32_t, 2> unit_{};  ///< what a store writes at once: hal/non_volatile.hpp
   std::uint16_t due_ = 0;
+  bool isOpen_ = false;
 };
 static_assert(kTableWords % 2 == 0);
 

@@ -135,19 +135,20 @@ class SimulatedFinger {
     waiting_.reset();
     finger_.reset();
     if (tables != nullptr) finger_.emplace(*tables, settings_, gauges_, port_, clock_, watchdog_);
-    if (tables == nullptr) waitForTables();
+    if (tables == nullptr) waitForTables(false);
   }
 
-  void waitForTables() {
+  /// Its memory doesn't wear out.
+  void waitForTables(bool isLoading) {
     finger_.reset();
-    waiting_.emplace(settings_.node, port_, tableStore_, clock_.now_us());
+    waiting_.emplace(settings_.node, port_, tableStore_, clock_.now_us(), isLoading, firmware::EraseBudget());
   }
 
   /// As runFinger() does. True: there was a sample set.
   bool step() {
     const bool sampled = finger_ ? finger_->step() : gauges_.read(unused_);
     if (waiting_) waiting_->step(clock_.now_us());
-    if (finger_ && finger_->leaving() == firmware::Leaving::kLoads) waitForTables();
+    if (finger_ && finger_->leaving() == firmware::Leaving::kLoads) waitForTables(true);
     if (finger_ ? finger_->leaving() == firmware::Leaving::kRestarts : waiting_->isLeaving()) restart();
     return sampled;
   }

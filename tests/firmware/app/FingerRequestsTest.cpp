@@ -502,3 +502,24 @@ TEST(FingerRequests, WithoutMemoryForTablesItStaysAndSaysSo) {
   checkAnswer(Command::kLoad, CommandStatus::kNotKept);
   CHECK_TRUE(without.leaving() == Leaving::kStays);
 }
+
+// Else `restart` would be a way round the budget of erases.
+TEST(FingerRequests, AfterARestartThatWasAskedForNothingIsErasedForAMinute) {
+  SpyWatchdog after(hal::ResetCause::kSoftware);
+  Finger<FakeGaugeAdc, FakeCanPort, FakeClock, SpyWatchdog, FakeNonVolatile> restarted{
+      ring.tables(), {.node = kNode, .takesTables = true}, adc, can, clock, after, store};
+  const auto answer = [&](const RequestFrame& request) {
+    responses();
+    can.deliver(encode(request, kNode));
+    restarted.step();
+    return responses().front();
+  };
+  CHECK_TRUE(answer(nodeRequest(8)) == responseTo(Command::kNode, CommandStatus::kWait, 60));
+  CHECK_TRUE(answer(loadRequest()) == responseTo(Command::kLoad, CommandStatus::kWait, 60));
+  for (int second = 0; second < 60; ++second) {
+    clock.advance(1'000'000);
+    restarted.step();
+  }
+  CHECK_TRUE(answer(nodeRequest(8)) == responseTo(Command::kNode, CommandStatus::kDone));
+  CHECK_TRUE(answer(loadRequest()) == responseTo(Command::kLoad, CommandStatus::kWait, 60));
+}

@@ -40,6 +40,7 @@ TEST_GROUP(TableLoader) {
   FakeNonVolatile store{kTablePages, kTablePage_bytes};
   TableLoader<FakeNonVolatile> loader{store};
 
+  void setup() override { loader.begin(); }
   void checkTakes(int index) {
     CHECK_TRUE(loader.take(static_cast<std::uint16_t>(index), wordOf(defaultTables(), index)) ==
                responseTo(Command::kWord, CommandStatus::kDone, static_cast<std::uint32_t>(index) + 1));
@@ -79,6 +80,12 @@ TEST(TableLoader, WordsOutOfTurnAreRefusedWithTheOneThatIsDue) {
   checkTakes(5);
 }
 
+TEST(TableLoader, NothingIsTakenBeforeItBegins) {
+  TableLoader<FakeNonVolatile> closed(store);
+  CHECK_TRUE(closed.take(0, 1) == responseTo(Command::kWord, CommandStatus::kOutOfTurn));
+  LONGS_EQUAL(0, store.erases(0));
+}
+
 TEST(TableLoader, BegunAnewItTakesAnotherFingersFromTheFirstWordOn) {
   for (int index = 0; index < 1000; ++index) checkTakes(index);
   loader.begin();
@@ -90,9 +97,13 @@ TEST(TableLoader, AMemoryThatFailsIsTold) {
   store.wearOut(1);
   for (int index = 0; index < 512; ++index) checkTakes(index);
   checkRefuses(512, CommandStatus::kNotKept, 512);
-  checkRefuses(512, CommandStatus::kNotKept, 512);
+  LONGS_EQUAL(1, store.erases(1));
+  CHECK_TRUE(loader.take(512, 0) ==
+             responseTo(Command::kWord, CommandStatus::kOutOfTurn));  // it is not erased again
+  LONGS_EQUAL(1, store.erases(1));
   hal::NoStore none;
   TableLoader<hal::NoStore> nowhere(none);
+  nowhere.begin();
   CHECK_TRUE(nowhere.take(0, 1) == responseTo(Command::kWord, CommandStatus::kNotKept, 0));
 }
 
@@ -108,6 +119,7 @@ TEST(TableLoader, WhereverThePowerGoesTheTablesAreTheOldTheNewOrNone) {
     FakeNonVolatile memory{kTablePages, kTablePage_bytes};
     CHECK_TRUE(memory.write(0, std::as_bytes(std::span(&old, 1))) == hal::StoreResult::kOk);
     TableLoader<FakeNonVolatile> cutShort(memory);
+    cutShort.begin();
     memory.cutPowerAfter(cut);
     for (int index = 0; index < kTableWords && memory.hasPower(); ++index)
       cutShort.take(static_cast<std::uint16_t>(index), wordOf(defaultTables(), index));
@@ -130,7 +142,7 @@ TEST_GROUP(WithoutTables) {
   FakeNonVolatile store{kTablePages, kTablePage_bytes};
   FakeCanPort can;
   FakeClock clock{1'000'000};
-  WithoutTables<FakeCanPort, FakeNonVolatile> finger{kNode, can, store, clock.now_us()};
+  WithoutTables<FakeCanPort, FakeNonVolatile> finger{kNode, can, store, clock.now_us(), true, EraseBudget(1)};
 
   void step(std::uint32_t time_us = 1) {
     clock.advance(time_us);
@@ -168,6 +180,31 @@ TEST(WithoutTables, ItTakesTablesAndStartsAnewWithThem) {
   CHECK_TRUE(store.read(0, std::as_writable_bytes(std::span(&image, 1))) == hal::StoreResult::kOk);
   LONGS_EQUAL(defaultTables().crc32, image.crc32);
   CHECK_TRUE(checkTableImage(image) == TableFault::kNone);
+}
+
+TEST(WithoutTables, WithoutLoadNothingIsTaken) {
+  WithoutTables<FakeCanPort, FakeNonVolatile> started(kNode, can, store, clock.now_us(), false,
+                                                      EraseBudget());
+  can.deliver(encode(wordRequest(0, 7), kNode));
+  started.step(clock.now_us());
+  CHECK_TRUE(can.sent.back() == encode(responseTo(Command::kWord, CommandStatus::kOutOfTurn), kNode));
+}
+
+TEST(WithoutTables, ItsMemoryIsNotWornOutByWhoLoadsAllTheTime) {
+  step();
+  checkAnswered(loadRequest(), responseTo(Command::kLoad, CommandStatus::kDone));
+  checkAnswered(loadRequest(), responseTo(Command::kLoad, CommandStatus::kWait, EraseBudget::kPeriod_s));
+  for (int hour = 0; hour < 24; ++hour)
+    for (int half_s = 0; half_s < 7200; ++half_s) {
+      clock.advance(500'000);
+      can.deliver(encode(loadRequest(), kNode));
+      finger.step(clock.now_us());
+      can.deliver(encode(wordRequest(0, 7), kNode));
+      finger.step(clock.now_us());
+      can.sent.clear();
+    }
+  CHECK_COMPARE(store.erases(0), <=, 24 * 60 + 1);
+  CHECK_COMPARE(store.erases(0), >=, 24 * 60 - 1);
 }
 
 TEST(WithoutTables, LoadBeginsAnew) {

@@ -62,9 +62,9 @@ Wide together(Wide one, Wide other) {
 void setWidth(const TableConstants& constants, Number moment_q20, Wide sigma_q20, Contact& contact) {
   const Wide mean_q20 = (moment_q20 + together(moment_q20, sigma_q20)) / 2;
   contact.width_um = std::max<std::uint32_t>(widthOf_um(moment_um2(constants, mean_q20)), 1);
-  const std::uint64_t sigma_um2 = 6 * moment_um2(constants, sigma_q20);
-  contact.sigmaWidth_um = static_cast<std::uint32_t>(
-      std::max<std::uint64_t>((sigma_um2 + contact.width_um / 2) / contact.width_um, 1));
+  const auto sigma_um2 =
+      static_cast<std::uint32_t>(std::min<std::uint64_t>(6 * moment_um2(constants, sigma_q20), 1u << 31));
+  contact.sigmaWidth_um = std::max<std::uint32_t>((sigma_um2 + contact.width_um / 2) / contact.width_um, 1);
 }
 
 /// A load's standard error with those that no residual shows: of the scale of all loads, and what calibration

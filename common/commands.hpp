@@ -45,7 +45,9 @@ inline constexpr std::array kCommandNames{
     ValueName{4, "node", "Be this node from the next start on; with 256 added: even while touched"},
     ValueName{5, "count", "Tell one of the finger's counts"},
     ValueName{6, "raw", "Send so many sets of RAW a second, until the next start; 0: no more"},
-    ValueName{7, "load", "Stop, and take other tables from their first word on, until `restart`"},
+    ValueName{7, "load",
+              "Stop, and take other tables from their first word on, until `restart`; argument 1: even while "
+              "touched"},
     ValueName{8, "word", "Four bytes of the tables, in value; argument: which of their words it is"},
     ValueName{9, "restart", "Start anew; argument 1: even while touched"},
 };
@@ -88,7 +90,7 @@ inline constexpr std::array<ArgumentSpec, 9> kArguments{
     ArgumentSpec{Command::kNode, 1, 2, kFirstNode, kLastNode, kNodeEvenWhileTouched},
     ArgumentSpec{Command::kCount, 1, 1, 0, kLastCount},
     ArgumentSpec{Command::kRaw, 2, 2, 0, kFastestRaw_hz},
-    ArgumentSpec{Command::kLoad, 0, 0, 0, 0},
+    ArgumentSpec{Command::kLoad, 0, 1, 0, 1},
     ArgumentSpec{Command::kWord, 6, 6, 0, kTableWords - 1},
     ArgumentSpec{Command::kRestart, 0, 1, 0, 1},
 };
@@ -109,7 +111,7 @@ enum class CommandStatus : std::uint8_t {
 
 inline constexpr std::array kCommandStatusNames{
     ValueName{0, "done", "Done"},
-    ValueName{1, "busy", "Not now: the zero is being taken already, or there are no samples"},
+    ValueName{1, "busy", "Not now: the zero is being taken already, or there are no samples, or no tables"},
     ValueName{2, "unknown_command", "This firmware has no such command"},
     ValueName{3, "bad_argument", "The argument is absent, too long or outside its range"},
     ValueName{4, "touched",
@@ -119,8 +121,10 @@ inline constexpr std::array kCommandStatusNames{
     ValueName{7, "wait",
               "Not yet: the memory would wear out, or the zero was taken just now; in value seconds"},
     ValueName{8, "too_fast", "Refused: more than RAW's share of the bus; in value the fastest rate"},
-    ValueName{9, "out_of_turn",
-              "Refused: words are taken after `load`, one after the other; in value the one that is due"},
+    ValueName{
+        9, "out_of_turn",
+        "Refused: words are taken after `load`, one after the other; in value the one that is due, if one "
+        "is"},
 };
 
 /// To a finger.
@@ -231,7 +235,10 @@ constexpr RequestFrame countRequest(Count count) {
 constexpr RequestFrame rawRequest(std::uint16_t rate_hz) {
   return {.length = 3, .command = Command::kRaw, .argument = rate_hz};
 }
-constexpr RequestFrame loadRequest() { return {.length = 1, .command = Command::kLoad}; }
+constexpr RequestFrame loadRequest(bool evenWhileTouched = false) {
+  if (!evenWhileTouched) return {.length = 1, .command = Command::kLoad};
+  return {.length = 2, .command = Command::kLoad, .argument = 1};
+}
 /// `index` below kTableWords.
 constexpr RequestFrame wordRequest(std::uint16_t index, std::uint32_t word) {
   return {.length = 7, .command = Command::kWord, .argument = index, .value = word};

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "common/frames.hpp"
+
 namespace strainfinger::firmware {
 
 /// A few erases at once, then one a minute. A page of flash lasts 10,000 erases (DS12589): a bus that asks
@@ -16,6 +18,12 @@ class EraseBudget {
 
   /// `left`: erases that are allowed at once, at most kBurst.
   constexpr explicit EraseBudget(std::uint32_t left = kBurst) : paidUntil_s_((kBurst - left) * kPeriod_s) {}
+
+  /// Of a start for this reason: what resets a board over the bus, or again and again, is no way round it.
+  static constexpr EraseBudget after(ResetCause cause) {
+    const bool isByHand = cause == ResetCause::kPowerOn || cause == ResetCause::kPin;
+    return EraseBudget(isByHand || cause == ResetCause::kBrownOut ? kBurst : 0);
+  }
 
   /// Until the next erase is allowed; 0: now.
   constexpr std::uint32_t wait_s(std::uint32_t now_s) const {

@@ -57,7 +57,7 @@ class Finger {
       : settings_(settings),
         kept_{settings.node, settings.contactRate_hz},
         settingsStore_(store),
-        eraseBudget_(watchdog.resetCause() == hal::ResetCause::kSoftware ? 0 : EraseBudget::kBurst),
+        eraseBudget_(EraseBudget::after(watchdog.resetCause())),
         tables_(tables),
         pipeline_(tables, settings.mode),
         reporter_(periodOf(settings.contactRate_hz), standingFlagsOf(settings, tables)),
@@ -92,9 +92,11 @@ class Finger {
   }
 
   FingerState state() const { return state_; }
-  /// Once it has answered; then it is to be stepped no more.
+  /// Once it has answered, or could not in kAnswerWithin_ms; then it is to be stepped no more.
   Leaving leaving() const { return response_ ? Leaving::kStays : leaving_; }
   const FingerCounters& counters() const { return counters_; }
+  std::uint32_t uptime_s() const { return uptime_s_; }
+  const EraseBudget& eraseBudget() const { return eraseBudget_; }  ///< at uptime_s()
   const Observation& lastObservation() const { return pipeline_.observation(); }
   const Answer& lastAnswer() const { return pipeline_.answer(); }    ///< while it is touched
   const Readings& readings() const { return pipeline_.readings(); }  ///< of the last observation
@@ -132,7 +134,9 @@ class Finger {
   void take(std::uint32_t now_us) {
     sampledAt_us_ = now_us;
     ++counters_.sampleSets;
-    if (state_ == FingerState::kRun) {
+    if (leaving_ != Leaving::kStays) {
+      // A touch that began now would not be told to have ended.
+    } else if (state_ == FingerState::kRun) {
       observe(now_us);
       sayRaw(RawKind::kReadings);
     } else {
@@ -305,7 +309,7 @@ class Finger {
       case Command::kRaw:
         return startRaw(request.argument);
       case Command::kLoad:
-        return load();
+        return load(request.argument != 0);
       case Command::kWord:
         return responseTo(command, CommandStatus::kOutOfTurn);
       case Command::kRestart:
@@ -316,19 +320,21 @@ class Finger {
 
   bool isTouched() const { return pipeline_.observation().touched; }
 
-  /// Nothing is left that listeners would take for a touch that goes on.
+  /// Nothing is left that listeners would take for a touch that goes on, and nobody waits for an answer.
   ResponseFrame leave(Command command, Leaving where, bool evenWhileTouched) {
     if (isTouched() && !evenWhileTouched) return responseTo(command, CommandStatus::kTouched);
-    if (owed_.any() && !evenWhileTouched) return responseTo(command, CommandStatus::kBusy);
+    if (tareStatus_ || (owed_.any() && !evenWhileTouched)) return responseTo(command, CommandStatus::kBusy);
     leaving_ = where;
     return responseTo(command, CommandStatus::kDone);
   }
 
-  ResponseFrame load() {
+  ResponseFrame load(bool evenWhileTouched) {
     if (!settings_.takesTables) return responseTo(Command::kLoad, CommandStatus::kNotKept);
     if (const std::uint32_t wait_s = eraseBudget_.wait_s(uptime_s_); wait_s > 0)
       return responseTo(Command::kLoad, CommandStatus::kWait, wait_s);
-    return leave(Command::kLoad, Leaving::kLoads, false);
+    const ResponseFrame response = leave(Command::kLoad, Leaving::kLoads, evenWhileTouched);
+    if (leaving_ == Leaving::kLoads) eraseBudget_.spend(uptime_s_);
+    return response;
   }
 
   /// Memory that is erased stops the board, and with it the touch: only untouched, or if that is meant.
@@ -382,7 +388,7 @@ class Finger {
   FingerSettings settings_;
   StoredSettings kept_;  ///< for the next start
   SettingsStore<Store> settingsStore_;
-  EraseBudget eraseBudget_;  ///< none at once after a restart that was asked for: no way round the budget
+  EraseBudget eraseBudget_;
   const TableImage& tables_;
   Pipeline pipeline_;
   TouchReporter reporter_;

@@ -34,12 +34,10 @@ template <hal::GaugeAdc Adc, hal::Clock Clock, typename Actions>
 /// would be on the stack of every other run.
 template <hal::GaugeAdc Adc, hal::CanPort Can, hal::Clock Clock, hal::Watchdog Watchdog,
           hal::NonVolatile TableStore, typename Actions>
-[[noreturn, gnu::noinline]] void runWithoutTables(std::uint8_t node, Announcement<InfoFrame>& info, Adc& adc,
-                                                  Can& can, const Clock& clock, Watchdog& watchdog,
-                                                  TableStore& store, bool isLoading, Actions& board) {
-  const bool hasBudget = !isLoading && watchdog.resetCause() != hal::ResetCause::kSoftware;
-  WithoutTables finger(node, can, store, clock.now_us(), isLoading,
-                       EraseBudget(hasBudget ? EraseBudget::kBurst : isLoading));
+[[noreturn, gnu::noinline]] void runWithoutTables(const NoTables& from, Announcement<InfoFrame>& info,
+                                                  Adc& adc, Can& can, const Clock& clock, Watchdog& watchdog,
+                                                  TableStore& store, Actions& board) {
+  WithoutTables finger(from, can, store, clock.now_us());
   hal::SampleSet unused{};
   while (!finger.isLeaving()) {
     if (adc.read(unused)) watchdog.feed();
@@ -68,8 +66,11 @@ template <hal::GaugeAdc Adc, hal::CanPort Can, hal::Clock Clock, hal::Watchdog W
       info.step(can, clock.now_us());
     }
     if (finger.leaving() == Leaving::kRestarts) restartSoon(adc, clock, board);
+    runWithoutTables({settings.node, true, finger.eraseBudget(), finger.uptime_s()}, info, adc, can, clock,
+                     watchdog, tableStore, board);
   }
-  runWithoutTables(settings.node, info, adc, can, clock, watchdog, tableStore, tables != nullptr, board);
+  runWithoutTables({settings.node, false, EraseBudget::after(watchdog.resetCause()), 0}, info, adc, can,
+                   clock, watchdog, tableStore, board);
 }
 
 }  // namespace strainfinger::firmware

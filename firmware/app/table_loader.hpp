@@ -26,10 +26,13 @@ class TableLoader {
     isOpen_ = true;
   }
 
+  /// Since begin() nothing was taken.
+  bool isFresh() const { return isOpen_ && due_ == 0; }
+
   /// `index` below kTableWords.
   ResponseFrame take(std::uint16_t index, std::uint32_t word) {
     if (!isOpen_) return responseTo(Command::kWord, CommandStatus::kOutOfTurn);
-    const bool isRepeated = index + 1 == due_;
+    const bool isRepeated = index + 1 == due_ && word == unit_[index % unit_.size()];
     if (!isRepeated && index != due_) return answer(CommandStatus::kOutOfTurn);
     if (!isRepeated) isOpen_ = put(word);
     return answer(isOpen_ ? CommandStatus::kDone : CommandStatus::kNotKept);

@@ -13,25 +13,33 @@
 
 namespace strainfinger::firmware {
 
+/// How a finger comes to have none.
+struct NoTables {
+  std::uint8_t node;
+  bool isLoading;  ///< it was told to `load`, and has answered, while it had some
+  EraseBudget budget;
+  std::uint32_t uptime_s;
+};
+
 /// Obeys `load`, `word` and `restart`; to other requests it is busy. Port and store are held by reference.
-/// `isLoading`: it was told to `load`, and has answered, while it had tables. `budget`: of further ones.
 template <hal::CanPort Can, hal::NonVolatile Store>
 class WithoutTables {
  public:
-  WithoutTables(std::uint8_t node, Can& can, Store& store, std::uint32_t now_us, bool isLoading,
-                EraseBudget budget)
-      : node_(node),
+  WithoutTables(const NoTables& from, Can& can, Store& store, std::uint32_t now_us)
+      : node_(from.node),
+        hasMemory_(store.size() >= sizeof(TableImage)),
         can_(can),
         loader_(store),
-        budget_(budget),
-        heartbeat_(withoutTables(), node, now_us),
-        second_us_(now_us) {
-    if (isLoading) loader_.begin();
+        budget_(from.budget),
+        heartbeat_(withoutTables(), from.node, now_us),
+        second_us_(now_us),
+        uptime_s_(from.uptime_s) {
+    if (from.isLoading) loader_.begin();
   }
 
   /// One turn of the main loop. Blocks for as long as the memory takes to write 8 bytes or to erase a page.
   void step(std::uint32_t now_us) {
-    for (; now_us - second_us_ >= 1'000'000; second_us_ += 1'000'000) ++seconds_;
+    for (; now_us - second_us_ >= 1'000'000; second_us_ += 1'000'000) ++uptime_s_;
     heartbeat_.step(can_, now_us);
     if (response_ && now_us - answeredAt_us_ >= std::uint32_t{kAnswerWithin_ms} * 1000) response_.reset();
     if (!response_) {
@@ -41,7 +49,7 @@ class WithoutTables {
     if (response_ && can_.send(encode(*response_, node_))) response_.reset();
   }
 
-  /// It was told to start anew, and has answered.
+  /// It was told to start anew, and has answered, or could not in kAnswerWithin_ms.
   bool isLeaving() const { return isLeaving_ && !response_; }
 
  private:
@@ -50,28 +58,33 @@ class WithoutTables {
     if (fault != CommandStatus::kDone) return responseTo(request.command, fault);
     if (request.command == Command::kWord) return loader_.take(request.argument, request.value);
     if (request.command == Command::kLoad) return load();
-    isLeaving_ = request.command == Command::kRestart;
-    return responseTo(request.command, isLeaving_ ? CommandStatus::kDone : CommandStatus::kBusy);
+    if (request.command != Command::kRestart) return responseTo(request.command, CommandStatus::kBusy);
+    isLeaving_ = true;
+    return responseTo(request.command, CommandStatus::kDone);
   }
 
+  /// One whose answer was lost may be said again.
   ResponseFrame load() {
-    if (const std::uint32_t wait_s = budget_.wait_s(seconds_); wait_s > 0)
+    if (!hasMemory_) return responseTo(Command::kLoad, CommandStatus::kNotKept);
+    if (loader_.isFresh()) return responseTo(Command::kLoad, CommandStatus::kDone);
+    if (const std::uint32_t wait_s = budget_.wait_s(uptime_s_); wait_s > 0)
       return responseTo(Command::kLoad, CommandStatus::kWait, wait_s);
-    budget_.spend(seconds_);
+    budget_.spend(uptime_s_);
     loader_.begin();
     return responseTo(Command::kLoad, CommandStatus::kDone);
   }
 
   std::uint8_t node_;
   bool isLeaving_ = false;
+  bool hasMemory_;
   Can& can_;
   TableLoader<Store> loader_;
   EraseBudget budget_;
   Announcement<HeartbeatFrame> heartbeat_;
   std::optional<ResponseFrame> response_;  ///< that the port hasn't taken yet
   std::uint32_t answeredAt_us_ = 0;
-  std::uint32_t second_us_;    ///< when the last whole second ended
-  std::uint32_t seconds_ = 0;  ///< since it was made
+  std::uint32_t second_us_;  ///< when the last whole second ended
+  std::uint32_t uptime_s_;
 };
 
 }  // namespace strainfinger::firmware

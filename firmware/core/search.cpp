@@ -34,11 +34,15 @@ std::uint32_t pitch_q32(const TableConstants& constants) {
 }
 
 /// The middle of the two neighbouring gauges that read most energy: a contact is within two pitches of it,
-/// whatever its loads. A gauge that does not count reads none.
+/// whatever its loads. A gauge that does not count is taken to read what its neighbours do in the mean: with
+/// none, contacts beside it would be up to three pitches away.
 std::uint32_t anchor_q32(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges) {
   const int count = tables.constants.gauge_count;
-  const auto energy = [&](int i) {
+  const auto read = [&](int i) {
     return contains(gauges, i) ? Wide{readings.value[index(i)]} * readings.value[index(i)] : 0;
+  };
+  const auto energy = [&](int i) {
+    return contains(gauges, i) ? read(i) : (read((i + count - 1) % count) + read((i + 1) % count)) / 2;
   };
   Wide most = -1;
   std::uint32_t anchor = 0;

@@ -130,15 +130,15 @@ std::string_view remedyFor(CommandStatus status) {
       return "";
     case CommandStatus::kTouched:
       return "let go of it; if nothing touches it, its old zero is off: `strainfinger tare --can BUS "
-             "--force` "
-             "takes a new one";
+             "--force` takes a new one; other commands have --force, too";
     case CommandStatus::kBusy:
-      return "try again in a second; `strainfinger monitor --can BUS` shows what it does";
+      return "try again in a second; `strainfinger monitor --can BUS` shows what it does; in state fault it "
+             "needs tables first: `strainfinger push --can BUS`";
     case CommandStatus::kWait:
       return "try again then";
     case CommandStatus::kNotKept:
-      return "it goes on as before; an emulated finger has no memory to keep it in, a simulated one only for "
-             "tables";
+      return "an emulated finger has no memory to keep it in, a simulated one only for tables; another one's "
+             "memory is worn out";
     case CommandStatus::kTooFast:
       return "ask for less, or use a bus with a higher bit rate";
     case CommandStatus::kOutOfTurn:

@@ -5,29 +5,38 @@
 namespace strainfinger::can {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 std::uint32_t wordOf(const TableImage& image, std::uint16_t index) {
   std::uint32_t word = 0;
   std::memcpy(&word, reinterpret_cast<const char*>(&image) + std::size_t{index} * sizeof word, sizeof word);
   return word;
 }
 
+bool isDone(const Reply& reply) { return reply.response && reply.response->status == CommandStatus::kDone; }
+
+/// A word that the finger has is answered with the next one: else the answer was another word's.
+bool isStale(const Reply& reply, const RequestFrame& request) {
+  return isDone(reply) && request.command == Command::kWord &&
+         reply.response->value != std::uint32_t{request.argument} + 1;
+}
+
 /// A finger takes a word again whose answer was lost.
 Reply askAgain(BusPort& port, std::uint8_t node, const RequestFrame& request) {
   Reply reply;
-  for (int attempt = 0; attempt < kAttempts && !reply.response; ++attempt) reply = ask(port, node, request);
+  for (int attempt = 0; attempt < kAttempts && !reply.response; ++attempt) {
+    while (port.receive()) {
+    }
+    reply = ask(port, node, request);
+    if (isStale(reply, request)) reply.response.reset();
+  }
   return reply;
 }
 
-bool isDone(const Reply& reply) { return reply.response && reply.response->status == CommandStatus::kDone; }
-
 }  // namespace
 
-TablePush pushTables(BusPort& port, std::uint8_t node, const TableImage& image,
+TablePush pushTables(BusPort& port, std::uint8_t node, const TableImage& image, bool evenWhileTouched,
                      const std::function<bool(int words)>& goOn) {
   TablePush push;
-  push.reply = askAgain(port, node, loadRequest());
+  push.reply = askAgain(port, node, loadRequest(evenWhileTouched));
   while (isDone(push.reply) && push.words < kTableWords) {
     push.isStopped = !goOn(push.words);
     if (push.isStopped) break;
@@ -41,13 +50,15 @@ TablePush pushTables(BusPort& port, std::uint8_t node, const TableImage& image,
 
 std::optional<HeartbeatFrame> heartbeatAfterRestart(BusPort& port, std::uint8_t node,
                                                     std::chrono::milliseconds longest) {
-  constexpr std::chrono::milliseconds kOnItsWay{20};  // what it said before it started anew
-  const Clock::time_point begin = Clock::now(), end = begin + longest;
-  for (auto now = begin; now < end; now = Clock::now()) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point end = Clock::now() + longest;
+  int faults = 0;
+  for (auto now = Clock::now(); now < end; now = Clock::now()) {
     port.waitReadable(std::chrono::ceil<std::chrono::milliseconds>(end - now));
     while (const auto frame = port.receive()) {
-      if (nodeOf(frame->id, FunctionCode::kHeartbeat) != node || Clock::now() < begin + kOnItsWay) continue;
-      if (const auto heartbeat = decode<HeartbeatFrame>(*frame)) return heartbeat;
+      if (nodeOf(frame->id, FunctionCode::kHeartbeat) != node) continue;
+      const auto heartbeat = decode<HeartbeatFrame>(*frame);
+      if (heartbeat && (heartbeat->state != FingerState::kFault || ++faults == 2)) return heartbeat;
     }
   }
   return std::nullopt;

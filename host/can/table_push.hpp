@@ -19,13 +19,15 @@ struct TablePush {
 };
 
 /// Sends `load` and then word by word the image, until one is refused or not answered although it was said
-/// kAttempts times. `goOn(words)` is asked before each word; false ends it.
-TablePush pushTables(BusPort& port, std::uint8_t node, const TableImage& image,
+/// kAttempts times. `goOn(words)` is asked before each word; false ends it. What the port heard before is
+/// gone.
+TablePush pushTables(BusPort& port, std::uint8_t node, const TableImage& image, bool evenWhileTouched,
                      const std::function<bool(int words)>& goOn);
 
 inline constexpr int kAttempts = 3;
 
-/// The first heartbeat after the answer to a `restart`, if one comes in time.
+/// What a finger says of itself after it has answered a `restart`, if that comes in time. That it has no
+/// tables it must say twice: the first time may have been said before.
 std::optional<HeartbeatFrame> heartbeatAfterRestart(BusPort& port, std::uint8_t node,
                                                     std::chrono::milliseconds longest);
 

@@ -32,9 +32,12 @@ constexpr const char* kPushHelp =
 struct PushOptions {
   explicit PushOptions(CLI::App& command) : request(command) {
     command.add_option("FILE", path, "The tables; without it those of the config");
+    command.add_flag("--force", force,
+                     "Even while something touches the finger, as one with wrong tables may feel");
   }
   RequestOptions request;
   std::string path;
+  bool force = false;
 };
 
 std::unique_ptr<TableImage> tablesFor(const PushOptions& options) {
@@ -65,10 +68,10 @@ class Progress {
   int percent_ = -1;
 };
 
-can::TablePush send(can::BusPort& port, std::uint8_t node, const TableImage& image) {
+can::TablePush send(can::BusPort& port, std::uint8_t node, const TableImage& image, bool force) {
   const system::StopSignal stop;
   Progress progress;
-  return can::pushTables(port, node, image, [&](int words) {
+  return can::pushTables(port, node, image, force, [&](int words) {
     progress.show(words);
     return !stop.asked();
   });
@@ -76,9 +79,10 @@ can::TablePush send(can::BusPort& port, std::uint8_t node, const TableImage& ima
 
 void requireWhole(const can::TablePush& push, const can::BusPort& bus, std::uint8_t node) {
   if (push.words == kTableWords) return;
-  const std::string left =
-      push.words == 0 ? "the finger still has its old tables; it measures again once it has started anew"
-                      : "the finger has no tables until they are pushed again";
+  const std::string left = push.command == Command::kLoad
+                               ? "the finger still has its old tables; where it has stopped, `strainfinger "
+                                 "config --restart` goes on with them"
+                               : "the finger has no tables until they are pushed again";
   if (push.isStopped)
     throw Failure(ExitCode::kInterrupted,
                   fmt::format("push: interrupted after {} of {} words: {}", push.words, kTableWords, left));
@@ -111,8 +115,13 @@ void runPush(const PushOptions& options) {
   const std::uint8_t node = nodeOf(options.request, can);
   const auto image = tablesFor(options);
   const auto port = can::openBus(options.request.bus, can.bitrate);
-  requireWhole(send(*port, node, *image), *port, node);
-  requireDone(can::ask(*port, node, restartRequest()), Command::kRestart, *port, node);
+  requireWhole(send(*port, node, *image, options.force), *port, node);
+  const can::Reply restarted = can::ask(*port, node, restartRequest());
+  if (!restarted.response)
+    fmt::print(stderr,
+               "strainfinger: push: the finger has all words, and works with them from its next start "
+               "on: switch it off and on\n");
+  requireDone(restarted, Command::kRestart, *port, node);
   requireRunning(*port, node, *image);
   TableWriter table(stdout, options.request.common.format(), {"interface", "node", "table_crc", "bytes"});
   table.row({options.request.bus, std::int64_t{node}, fmt::format("{:08X}", image->crc32),

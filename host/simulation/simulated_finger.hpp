@@ -141,7 +141,8 @@ class SimulatedFinger {
   /// Its memory doesn't wear out.
   void waitForTables(bool isLoading) {
     finger_.reset();
-    waiting_.emplace(settings_.node, port_, tableStore_, clock_.now_us(), isLoading, firmware::EraseBudget());
+    waiting_.emplace(firmware::NoTables{settings_.node, isLoading, firmware::EraseBudget(), 0}, port_,
+                     tableStore_, clock_.now_us());
   }
 
   /// As runFinger() does. True: there was a sample set.

@@ -476,6 +476,44 @@ TEST(FingerRequests, ATouchedFingerDoesNotLeaveUnlessARestartIsMeant) {
   CHECK_TRUE(finger.leaving() == Leaving::kRestarts);
 }
 
+// One with wrong tables may feel a touch for ever.
+TEST(FingerRequests, ATouchedFingerLoadsOtherTablesWhereThatIsMeant) {
+  run(10, kTouch);
+  checkAnswered(loadRequest(true), CommandStatus::kDone);
+  CHECK_TRUE(finger.leaving() == Leaving::kLoads);
+}
+
+TEST(FingerRequests, WhileItsAnswerWaitsNoTouchBegins) {
+  can.busy = true;
+  ask(loadRequest());
+  can.busy = false;
+  responses();
+  run(1, kTouch);
+  LONGS_EQUAL(0, sent<ContactFrame>().size());
+}
+
+TEST(FingerRequests, WhoWaitsForATareIsAnsweredFirst) {
+  run(1100);
+  responses();
+  ask(tareRequest(false));
+  run(10);
+  checkAnswered(loadRequest(), CommandStatus::kBusy);
+  run(64);
+  checkAnswer(Command::kTare, CommandStatus::kDone);
+  checkAnswered(loadRequest(), CommandStatus::kDone);
+}
+
+TEST(FingerRequests, LoadingIsPaidFromTheBudgetOfErases) {
+  checkAnswered(loadRequest(), CommandStatus::kDone);
+  EraseBudget paid;
+  paid.spend(finger.uptime_s());
+  LONGS_EQUAL(paid.wait_s(0), finger.eraseBudget().wait_s(0));
+  paid.spend(finger.uptime_s());
+  paid.spend(finger.uptime_s());
+  paid.spend(finger.uptime_s());
+  LONGS_EQUAL(60, paid.wait_s(finger.uptime_s()));
+}
+
 // Listeners would take the touch for one that goes on.
 TEST(FingerRequests, ItDoesNotLeaveWhileTheEndOfATouchIsNotOut) {
   run(10, kTouch);
@@ -503,9 +541,14 @@ TEST(FingerRequests, WithoutMemoryForTablesItStaysAndSaysSo) {
   CHECK_TRUE(without.leaving() == Leaving::kStays);
 }
 
-// Else `restart` would be a way round the budget of erases.
-TEST(FingerRequests, AfterARestartThatWasAskedForNothingIsErasedForAMinute) {
-  SpyWatchdog after(hal::ResetCause::kSoftware);
+// Else restarts, asked for or forced, would be a way round the budget of erases.
+TEST(FingerRequests, AfterARestartNothingIsErasedForAMinuteUnlessItWasByHand) {
+  using hal::ResetCause;
+  for (const ResetCause cause : {ResetCause::kSoftware, ResetCause::kWatchdog, ResetCause::kUnknown})
+    LONGS_EQUAL(60, EraseBudget::after(cause).wait_s(0));
+  for (const ResetCause cause : {ResetCause::kPowerOn, ResetCause::kPin, ResetCause::kBrownOut})
+    LONGS_EQUAL(0, EraseBudget::after(cause).wait_s(0));
+  SpyWatchdog after(ResetCause::kSoftware);
   Finger<FakeGaugeAdc, FakeCanPort, FakeClock, SpyWatchdog, FakeNonVolatile> restarted{
       ring.tables(), {.node = kNode, .takesTables = true}, adc, can, clock, after, store};
   const auto answer = [&](const RequestFrame& request) {

@@ -72,11 +72,19 @@ TEST(TableLoader, AWordWhoseAnswerWasLostMayComeAgain) {
   for (std::size_t page = 0; page < kTablePages; ++page) LONGS_EQUAL(1, store.erases(page));
 }
 
+// Another host's.
+TEST(TableLoader, AnotherWordInThePlaceOfOneThatItHasIsRefused) {
+  checkTakes(0);
+  checkTakes(1);
+  CHECK_TRUE(loader.take(1, ~wordOf(defaultTables(), 1)) ==
+             responseTo(Command::kWord, CommandStatus::kOutOfTurn, 2));
+}
+
 TEST(TableLoader, WordsOutOfTurnAreRefusedWithTheOneThatIsDue) {
   checkRefuses(1, CommandStatus::kOutOfTurn, 0);
   LONGS_EQUAL(0, store.erases(0));
   for (int index = 0; index < 5; ++index) checkTakes(index);
-  for (const int index : {0, 3, 6, 7, kTableWords - 1}) checkRefuses(index, CommandStatus::kOutOfTurn, 5);
+  for (const int index : {0, 3, 4, 6, 7, kTableWords - 1}) checkRefuses(index, CommandStatus::kOutOfTurn, 5);
   checkTakes(5);
 }
 
@@ -139,10 +147,12 @@ TEST(TableLoader, WhereverThePowerGoesTheTablesAreTheOldTheNewOrNone) {
 
 TEST_GROUP(WithoutTables) {
   static constexpr std::uint8_t kNode = 5;
+  static constexpr std::uint32_t kUptime_s = 500;
   FakeNonVolatile store{kTablePages, kTablePage_bytes};
   FakeCanPort can;
   FakeClock clock{1'000'000};
-  WithoutTables<FakeCanPort, FakeNonVolatile> finger{kNode, can, store, clock.now_us(), true, EraseBudget(1)};
+  WithoutTables<FakeCanPort, FakeNonVolatile> finger{
+      {kNode, true, EraseBudget(1), kUptime_s}, can, store, clock.now_us()};
 
   void step(std::uint32_t time_us = 1) {
     clock.advance(time_us);
@@ -183,35 +193,53 @@ TEST(WithoutTables, ItTakesTablesAndStartsAnewWithThem) {
 }
 
 TEST(WithoutTables, WithoutLoadNothingIsTaken) {
-  WithoutTables<FakeCanPort, FakeNonVolatile> started(kNode, can, store, clock.now_us(), false,
-                                                      EraseBudget());
+  WithoutTables<FakeCanPort, FakeNonVolatile> started({kNode, false, EraseBudget(), 0}, can, store,
+                                                      clock.now_us());
   can.deliver(encode(wordRequest(0, 7), kNode));
   started.step(clock.now_us());
   CHECK_TRUE(can.sent.back() == encode(responseTo(Command::kWord, CommandStatus::kOutOfTurn), kNode));
 }
 
+TEST(WithoutTables, WithoutMemoryForThemItLoadsNone) {
+  FakeNonVolatile small{2, kTablePage_bytes};
+  WithoutTables<FakeCanPort, FakeNonVolatile> started({kNode, false, EraseBudget(), 0}, can, small,
+                                                      clock.now_us());
+  can.deliver(encode(loadRequest(), kNode));
+  started.step(clock.now_us());
+  CHECK_TRUE(can.sent.back() == encode(responseTo(Command::kLoad, CommandStatus::kNotKept), kNode));
+}
+
+// 60 s of the budget are used at 500 s of uptime: an erase a minute from there on.
 TEST(WithoutTables, ItsMemoryIsNotWornOutByWhoLoadsAllTheTime) {
   step();
-  checkAnswered(loadRequest(), responseTo(Command::kLoad, CommandStatus::kDone));
-  checkAnswered(loadRequest(), responseTo(Command::kLoad, CommandStatus::kWait, EraseBudget::kPeriod_s));
   for (int hour = 0; hour < 24; ++hour)
     for (int half_s = 0; half_s < 7200; ++half_s) {
       clock.advance(500'000);
-      can.deliver(encode(loadRequest(), kNode));
-      finger.step(clock.now_us());
-      can.deliver(encode(wordRequest(0, 7), kNode));
-      finger.step(clock.now_us());
+      for (const RequestFrame& request : {loadRequest(), wordRequest(0, 7)}) {
+        can.deliver(encode(request, kNode));
+        finger.step(clock.now_us());
+      }
       can.sent.clear();
     }
-  CHECK_COMPARE(store.erases(0), <=, 24 * 60 + 1);
+  CHECK_COMPARE(store.erases(0), <=, 24 * 60 + static_cast<int>(EraseBudget::kBurst) + 1);
   CHECK_COMPARE(store.erases(0), >=, 24 * 60 - 1);
 }
 
-TEST(WithoutTables, LoadBeginsAnew) {
-  step();
-  checkAnswered(wordRequest(0, 7), responseTo(Command::kWord, CommandStatus::kDone, 1));
-  checkAnswered(loadRequest(), responseTo(Command::kLoad, CommandStatus::kDone));
-  checkAnswered(wordRequest(1, 7), responseTo(Command::kWord, CommandStatus::kOutOfTurn, 0));
+TEST(WithoutTables, LoadBeginsAnewAsOftenAsItsBudgetAllows) {
+  WithoutTables<FakeCanPort, FakeNonVolatile> soon({kNode, true, EraseBudget(1), 0}, can, store,
+                                                   clock.now_us());
+  const auto answer = [&](const RequestFrame& request) {
+    can.deliver(encode(request, kNode));
+    soon.step(clock.now_us());
+    return readSingleFrame<ResponseFrame>(can.sent.back(), kNode).value();
+  };
+  CHECK_TRUE(answer(wordRequest(0, 7)) == responseTo(Command::kWord, CommandStatus::kDone, 1));
+  CHECK_TRUE(answer(loadRequest()) == responseTo(Command::kLoad, CommandStatus::kDone));
+  CHECK_TRUE(answer(wordRequest(1, 7)) == responseTo(Command::kWord, CommandStatus::kOutOfTurn, 0));
+  CHECK_TRUE(answer(loadRequest()) ==
+             responseTo(Command::kLoad, CommandStatus::kDone));  // said again: nothing is erased
+  CHECK_TRUE(answer(wordRequest(0, 7)) == responseTo(Command::kWord, CommandStatus::kDone, 1));
+  CHECK_TRUE(answer(loadRequest()) == responseTo(Command::kLoad, CommandStatus::kWait, 60));
 }
 
 TEST(WithoutTables, ItIsBusyToAllElse) {

@@ -199,6 +199,23 @@ TEST(Estimate, AWidthIsWhatTouchesHaveInTheMean) {
   }
 }
 
+// Cut off, they would be half a micrometre too small.
+TEST(Estimate, StandardErrorsOfWidthsAreRoundedToTheNearest) {
+  const auto told = [this](double width_mm) {
+    answer.solution.contact[0].moment_q20 = ring.stateOf({5.3, 20, 4, width_mm}, answer.shift).moment_q20;
+    return estimated();
+  };
+  const Contact narrow = told(0.3);
+  const double product_um2 = 1.0 * narrow.width_um * narrow.sigmaWidth_um;
+  double off_um = 0;
+  constexpr int kWidths = 400;
+  for (int i = 0; i < kWidths; ++i) {
+    const Contact contact = told(2 + 0.01 * i);
+    off_um += contact.sigmaWidth_um - product_um2 / contact.width_um;
+  }
+  DOUBLES_EQUAL(0, off_um / kWidths, 0.15);
+}
+
 TEST(Estimate, AKnownWidthIsNotFitted) {
   const ModelRing known(ModelRing::ofKnownWidth(2));
   const Contact contact = found(known, Press{5.3, 20, 4, 2});

@@ -5,7 +5,6 @@
 #include <cstring>
 #include <memory>
 #include <thread>
-#include <utility>
 
 #include "firmware/app/table_loader.hpp"
 #include "host/system/memory_store.hpp"
@@ -22,6 +21,7 @@ TEST_GROUP(TablePush) {
   system::MemoryStore memory{12};
   firmware::TableLoader<system::MemoryStore> finger{memory};
   std::unique_ptr<TableImage> image = std::make_unique<TableImage>();
+  bool begins = true;  ///< when it is told to
   int asked = 0;
   int lostAnswers = 0;  ///< of those to come
 
@@ -31,6 +31,7 @@ TEST_GROUP(TablePush) {
     bus.onSend = [this](const CanFrame& frame) {
       ++asked;
       const auto request = readSingleFrame<RequestFrame>(frame, kNode);
+      if (request->command == Command::kLoad && begins) finger.begin();
       const ResponseFrame response = request->command == Command::kWord
                                          ? finger.take(request->argument, request->value)
                                          : responseTo(request->command, CommandStatus::kDone);
@@ -41,7 +42,7 @@ TEST_GROUP(TablePush) {
     };
   }
   TablePush push(int words = kTableWords) {
-    return pushTables(bus, kNode, *image, [words](int sent) { return sent < words; });
+    return pushTables(bus, kNode, *image, false, [words](int sent) { return sent < words; });
   }
 };
 
@@ -75,6 +76,8 @@ TEST(TablePush, EndsWhereItIsRefused) {
 }
 
 TEST(TablePush, EndsAtAWordThatIsOutOfTurn) {
+  begins = false;
+  finger.begin();
   finger.take(0, 0);
   finger.take(1, 0);
   const TablePush refused = push();
@@ -89,8 +92,34 @@ TEST(TablePush, AWordWhoseAnswerIsLostIsSaidAgain) {
     if (words == 3) lostAnswers = 1;
     return words < 6;
   };
-  LONGS_EQUAL(6, pushTables(bus, kNode, *image, loses).words);
+  LONGS_EQUAL(6, pushTables(bus, kNode, *image, false, loses).words);
   LONGS_EQUAL(1 + 6 + 1, asked);
+}
+
+// A word that was said twice is answered twice.
+TEST(TablePush, AnAnswerThatIsLateIsNotTakenForTheNextWords) {
+  int late = 0;
+  const auto answer = bus.onSend;
+  bus.onSend = [&, answer](const CanFrame& frame) {
+    const auto request = readSingleFrame<RequestFrame>(frame, kNode);
+    if (request->command == Command::kWord && request->argument == 3 && late++ == 0) {
+      bus.hear(responseTo(Command::kWord, CommandStatus::kDone, 3), kNode);
+      return;  // and the word itself is lost
+    }
+    answer(frame);
+  };
+  LONGS_EQUAL(10, push(10).words);
+  LONGS_EQUAL(2, late);
+}
+
+TEST(TablePush, WhatWasHeardBeforeIsNoAnswer) {
+  bus.hear(responseTo(Command::kLoad, CommandStatus::kTouched), kNode);
+  LONGS_EQUAL(5, push(5).words);
+}
+
+TEST(TablePush, ATouchedFingerIsToldThatItIsMeant) {
+  pushTables(bus, kNode, *image, true, [](int) { return false; });
+  CHECK_TRUE(bus.sent[0] == encode(loadRequest(true), kNode));
 }
 
 TEST(TablePush, WhenNobodyAnswersItIsSaidThreeTimes) {
@@ -107,33 +136,41 @@ TEST_GROUP(HeartbeatAfterRestart) {
 
 namespace {
 
-/// Says something when it has been listened to for a while.
-class LateBus : public FakeBusPort {
+/// Says it has no tables, as it may have said before; then what it starts with.
+class RestartingBus : public FakeBusPort {
  public:
+  explicit RestartingBus(FingerState state) : state_(state) {}
   bool waitReadable(std::chrono::milliseconds) noexcept override {
-    std::this_thread::sleep_for(std::chrono::milliseconds(30));
-    if (std::exchange(isSaid_, true)) return false;
-    hear(HeartbeatFrame{.state = FingerState::kFault}, 6);
-    hear(HeartbeatFrame{.state = FingerState::kZeroing, .table_crc = 0x5A}, 5);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    hear(HeartbeatFrame{.state = FingerState::kRun}, 6);
+    hear(HeartbeatFrame{.state = said_++ == 0 ? FingerState::kFault : state_, .table_crc = 0x5A}, 5);
     return true;
   }
 
  private:
-  bool isSaid_ = false;
+  FingerState state_;
+  int said_ = 0;
 };
 
 }  // namespace
 
-TEST(HeartbeatAfterRestart, IsNotOneThatWasSaidBefore) {
-  FakeBusPort bus;
-  bus.hear(HeartbeatFrame{.state = FingerState::kFault}, kNode);
-  CHECK_FALSE(heartbeatAfterRestart(bus, kNode, kShort).has_value());
-}
-
-TEST(HeartbeatAfterRestart, IsTheNextOneOfThatFinger) {
-  LateBus bus, another;
+TEST(HeartbeatAfterRestart, IsTheNextOneOfThatFingerThatHasTables) {
+  RestartingBus bus(FingerState::kZeroing);
   const auto heartbeat = heartbeatAfterRestart(bus, kNode, std::chrono::seconds(5));
   CHECK_TRUE(heartbeat && heartbeat->state == FingerState::kZeroing);
   LONGS_EQUAL(0x5A, heartbeat->table_crc);
-  CHECK_FALSE(heartbeatAfterRestart(another, kNode + 2, kShort).has_value());
+}
+
+TEST(HeartbeatAfterRestart, ThatItHasNoTablesItSaysTwice) {
+  RestartingBus bus(FingerState::kFault);
+  const auto heartbeat = heartbeatAfterRestart(bus, kNode, std::chrono::seconds(5));
+  CHECK_TRUE(heartbeat && heartbeat->state == FingerState::kFault);
+  FakeBusPort once;
+  once.hear(HeartbeatFrame{.state = FingerState::kFault}, kNode);
+  CHECK_FALSE(heartbeatAfterRestart(once, kNode, kShort).has_value());
+}
+
+TEST(HeartbeatAfterRestart, MayNotCome) {
+  RestartingBus bus(FingerState::kRun);
+  CHECK_FALSE(heartbeatAfterRestart(bus, kNode + 2, kShort).has_value());
 }

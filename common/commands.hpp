@@ -48,7 +48,7 @@ inline constexpr std::array kCommandNames{
     ValueName{7, "load",
               "Stop, and take other tables from their first word on, until `restart`; argument 1: even while "
               "touched"},
-    ValueName{8, "word", "Four bytes of the tables, in value; argument: which of their words it is"},
+    ValueName{8, "word", "Four bytes of the tables; argument: which of their words it is"},
     ValueName{9, "restart", "Start anew; argument 1: even while touched"},
 };
 
@@ -74,7 +74,7 @@ inline constexpr std::array kCountNames{
 /// Words of a table image, as `word` counts them.
 inline constexpr std::uint16_t kTableWords = sizeof(TableImage) / 4;
 
-/// What a command's argument may be. One that is absent is 0; of 6 bytes 4 are the request's value.
+/// What a command's argument may be. One that is absent is 0; of 6 bytes 4 are a word.
 struct ArgumentSpec {
   Command command;
   std::uint8_t leastBytes, mostBytes;
@@ -134,7 +134,7 @@ struct RequestFrame {
   Command command{};
   bool answer = false;
   std::uint16_t argument = 0;
-  std::uint32_t value = 0;
+  std::uint32_t word = 0;
   bool operator==(const RequestFrame&) const = default;
 };
 
@@ -174,9 +174,9 @@ inline constexpr FrameLayout kLayout<RequestFrame>{
     Field{&RequestFrame::argument,
           {.lsb = 16, .width = 16},
           {.name = "argument", .comment = "Of the command; what length leaves out is 0"}},
-    Field{&RequestFrame::value,
+    Field{&RequestFrame::word,
           {.lsb = 32, .width = 32},
-          {.name = "value", .comment = "Four bytes of the tables; what length leaves out is 0"}},
+          {.name = "word", .comment = "Four bytes of the tables; what length leaves out is 0"}},
 };
 static_assert(WireFrame<RequestFrame>);
 
@@ -241,7 +241,7 @@ constexpr RequestFrame loadRequest(bool evenWhileTouched = false) {
 }
 /// `index` below kTableWords.
 constexpr RequestFrame wordRequest(std::uint16_t index, std::uint32_t word) {
-  return {.length = 7, .command = Command::kWord, .argument = index, .value = word};
+  return {.length = 7, .command = Command::kWord, .argument = index, .word = word};
 }
 constexpr RequestFrame restartRequest(bool evenWhileTouched = false) {
   if (!evenWhileTouched) return {.length = 1, .command = Command::kRestart};

@@ -56,7 +56,7 @@ class WithoutTables {
   ResponseFrame obey(const RequestFrame& request) {
     const CommandStatus fault = checkRequest(request);
     if (fault != CommandStatus::kDone) return responseTo(request.command, fault);
-    if (request.command == Command::kWord) return loader_.take(request.argument, request.value);
+    if (request.command == Command::kWord) return loader_.take(request.argument, request.word);
     if (request.command == Command::kLoad) return load();
     if (request.command != Command::kRestart) return responseTo(request.command, CommandStatus::kBusy);
     isLeaving_ = true;

@@ -7,7 +7,7 @@ namespace strainfinger::can {
 std::string_view remedyFor(FingerFault fault) {
   switch (fault) {
     case FingerFault::kTables:
-      return "`strainfinger push --can BUS -c` this finger's config sends it its tables";
+      return "`strainfinger push --can BUS -c FINGER.toml`, with this finger's config, sends it its tables";
     case FingerFault::kGauges:
       return "`strainfinger info --can BUS` names those out of use: check their wires and amplifiers, then "
              "`strainfinger tare --can BUS` gives each another chance";
@@ -30,7 +30,7 @@ std::string_view remedyFor(FingerFault fault) {
              "up";
     case FingerFault::kNoisy:
       return "keep mains and motor cables away, check shield and ground; where it stays so, tell it: "
-             "gauges.noise_strain in the finger's config, and `strainfinger push` the tables of that";
+             "gauges.noise_strain in the finger's config, and `strainfinger push --can BUS -c` that";
   }
   return "";
 }
@@ -42,7 +42,7 @@ std::string_view remedyFor(FingerFlag flag) {
       return "";
     case FingerFlag::kSaturated:
       return "press less; or have less gain before the converter, a larger gauges.full_scale_strain, and "
-             "`strainfinger push` the tables of that";
+             "`strainfinger push --can BUS -c` the config that says so";
     case FingerFlag::kDegraded:
       return "`strainfinger info --can BUS` names gauges that are out of use; one that an answer left out "
              "for the moment counts again when it fits";
@@ -56,7 +56,7 @@ std::string_view remedyFor(FingerFlag flag) {
     case FingerFlag::kStaleZero:
       return "let go of it; if nothing touches it, `strainfinger tare --can BUS --force`";
     case FingerFlag::kUncalibrated:
-      return "`strainfinger calibrate`, then `strainfinger push` with the config that it writes";
+      return "`strainfinger calibrate`, then `strainfinger push --can BUS -c` the config that it writes";
   }
   return "";
 }
@@ -133,7 +133,7 @@ std::string_view remedyFor(CommandStatus status) {
              "--force` takes a new one; other commands have --force, too";
     case CommandStatus::kBusy:
       return "try again in a second; `strainfinger monitor --can BUS` shows what it does; in state fault it "
-             "needs tables first: `strainfinger push --can BUS`";
+             "needs tables first: `strainfinger push --can BUS -c FINGER.toml`";
     case CommandStatus::kWait:
       return "try again then";
     case CommandStatus::kNotKept:
@@ -142,7 +142,9 @@ std::string_view remedyFor(CommandStatus status) {
     case CommandStatus::kTooFast:
       return "ask for less, or use a bus with a higher bit rate";
     case CommandStatus::kOutOfTurn:
-      return "`strainfinger push --can BUS` sends tables from their first word on";
+      return "one program at a time sends a finger tables; `strainfinger push --can BUS -c FINGER.toml` "
+             "begins "
+             "with their first word";
     case CommandStatus::kUnknownCommand:
     case CommandStatus::kBadArgument:
       break;

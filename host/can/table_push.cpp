@@ -1,5 +1,6 @@
 #include "host/can/table_push.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 namespace strainfinger::can {
@@ -23,9 +24,10 @@ bool isStale(const Reply& reply, const RequestFrame& request) {
 Reply askAgain(BusPort& port, std::uint8_t node, const RequestFrame& request) {
   Reply reply;
   for (int attempt = 0; attempt < kAttempts && !reply.response; ++attempt) {
-    while (port.receive()) {
-    }
+    bool othersAsk = reply.othersAsk;
+    while (const auto heard = port.receive()) othersAsk |= nodeOf(heard->id, FunctionCode::kRequest) == node;
     reply = ask(port, node, request);
+    reply.othersAsk |= othersAsk;
     if (isStale(reply, request)) reply.response.reset();
   }
   return reply;
@@ -36,25 +38,31 @@ Reply askAgain(BusPort& port, std::uint8_t node, const RequestFrame& request) {
 TablePush pushTables(BusPort& port, std::uint8_t node, const TableImage& image, bool evenWhileTouched,
                      const std::function<bool(int words)>& goOn) {
   TablePush push;
-  push.reply = askAgain(port, node, loadRequest(evenWhileTouched));
+  const auto say = [&](const RequestFrame& request) {
+    push.command = request.command;
+    push.reply = askAgain(port, node, request);
+    push.othersAsk |= push.reply.othersAsk;
+  };
+  say(loadRequest(evenWhileTouched));
   while (isDone(push.reply) && push.words < kTableWords) {
     push.isStopped = !goOn(push.words);
     if (push.isStopped) break;
     const auto index = static_cast<std::uint16_t>(push.words);
-    push.command = Command::kWord;
-    push.reply = askAgain(port, node, wordRequest(index, wordOf(image, index)));
+    say(wordRequest(index, wordOf(image, index)));
     push.words += isDone(push.reply);
   }
   return push;
 }
 
 std::optional<HeartbeatFrame> heartbeatAfterRestart(BusPort& port, std::uint8_t node,
-                                                    std::chrono::milliseconds longest) {
+                                                    std::chrono::milliseconds longest,
+                                                    const std::function<bool()>& goOn) {
   using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds kAskEvery{100};
   const Clock::time_point end = Clock::now() + longest;
   int faults = 0;
-  for (auto now = Clock::now(); now < end; now = Clock::now()) {
-    port.waitReadable(std::chrono::ceil<std::chrono::milliseconds>(end - now));
+  for (auto now = Clock::now(); now < end && goOn(); now = Clock::now()) {
+    port.waitReadable(std::min(std::chrono::ceil<std::chrono::milliseconds>(end - now), kAskEvery));
     while (const auto frame = port.receive()) {
       if (nodeOf(frame->id, FunctionCode::kHeartbeat) != node) continue;
       const auto heartbeat = decode<HeartbeatFrame>(*frame);

@@ -16,6 +16,7 @@ struct TablePush {
   Reply reply{};                     ///< to it
   int words = 0;                     ///< of kTableWords, that the finger has
   bool isStopped = false;            ///< by goOn()
+  bool othersAsk = false;            ///< somebody else asked the same node meanwhile
 };
 
 /// Sends `load` and then word by word the image, until one is refused or not answered although it was said
@@ -28,7 +29,9 @@ inline constexpr int kAttempts = 3;
 
 /// What a finger says of itself after it has answered a `restart`, if that comes in time. That it has no
 /// tables it must say twice: the first time may have been said before.
+/// `goOn()` is asked ten times a second or more often; false ends it.
 std::optional<HeartbeatFrame> heartbeatAfterRestart(BusPort& port, std::uint8_t node,
-                                                    std::chrono::milliseconds longest);
+                                                    std::chrono::milliseconds longest,
+                                                    const std::function<bool()>& goOn);
 
 }  // namespace strainfinger::can

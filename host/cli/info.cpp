@@ -70,10 +70,10 @@ void tellOf(const health::Findings& findings) {
   const auto isEnding = [](const health::Finding& finding) {
     return finding.severity == health::Severity::kError && finding.status != ExitCode::kFailure;
   };
-  health::Findings others;
-  std::ranges::remove_copy_if(findings, std::back_inserter(others), isEnding);
-  tell(others);
+  health::Findings others = findings;
   const auto ending = std::ranges::find_if(findings, isEnding);
+  if (ending != findings.end()) others.erase(others.begin() + (ending - findings.begin()));
+  tell(others);
   if (ending != findings.end()) throw Failure(ending->status, textOf(*ending));
 }
 

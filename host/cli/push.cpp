@@ -23,8 +23,10 @@ constexpr const char* kPushHelp =
     "Sends a finger the tables that it is to work with: those of FILE (`tables -o`), or those of the config. "
     "It stops, takes them into its memory, starts anew and checks them.\n"
     "Do not touch it: a finger that feels a touch refuses, and one that starts takes its zero.\n"
-    "A push that ends early leaves the finger without tables (state fault): push again. With -c and FILE, "
-    "FILE has to be of that config.\n"
+    "A push that ends early leaves the finger without tables (state fault): push again. Its memory wears "
+    "out: "
+    "four at once, then one a minute, and none for a minute after a restart. One program at a time asks a "
+    "finger. With -c and FILE, FILE has to be of that config.\n"
     "Prints interface,node,table_crc,bytes. Exit status: 1 refused, 3 no interface, 4 no such node, 5 FILE "
     "is "
     "another finger's or of another format, 6 FILE is damaged or the finger refuses what it took.";
@@ -42,8 +44,10 @@ struct PushOptions {
 
 std::unique_ptr<TableImage> tablesFor(const PushOptions& options) {
   const CommonOptions& common = options.request.common;
-  if (options.path.empty())
+  if (options.path.empty()) {
+    if (!common.hasConfig()) fmt::print(stderr, "push: neither FILE nor -c: the default finger's tables\n");
     return std::make_unique<TableImage>(tables::buildCheckedTables(common.config()).image);
+  }
   auto image = tables::readTableFile(options.path);
   if (common.hasConfig()) tables::requireTablesOf(*image, common.config(), options.path);
   return image;
@@ -68,8 +72,8 @@ class Progress {
   int percent_ = -1;
 };
 
-can::TablePush send(can::BusPort& port, std::uint8_t node, const TableImage& image, bool force) {
-  const system::StopSignal stop;
+can::TablePush send(can::BusPort& port, std::uint8_t node, const TableImage& image, bool force,
+                    const system::StopSignal& stop) {
   Progress progress;
   return can::pushTables(port, node, image, force, [&](int words) {
     progress.show(words);
@@ -88,13 +92,33 @@ void requireWhole(const can::TablePush& push, const can::BusPort& bus, std::uint
                   fmt::format("push: interrupted after {} of {} words: {}", push.words, kTableWords, left));
   if (push.command == Command::kWord)
     fmt::print(stderr, "strainfinger: push: ended after {} of {} words: {}\n", push.words, kTableWords, left);
+  if (push.othersAsk)
+    fmt::print(stderr, "strainfinger: push: another program asks this node, too: let one at a time do so\n");
   requireDone(push.reply, push.command, bus, node);
 }
 
-void requireRunning(can::BusPort& port, std::uint8_t node, const TableImage& image) {
+/// With all words there.
+void restart(can::BusPort& port, std::uint8_t node) {
+  const can::Reply reply = can::ask(port, node, restartRequest(true));
+  if (!reply.response || reply.response->status != CommandStatus::kDone)
+    fmt::print(stderr,
+               "strainfinger: push: the finger has all words, and works with them from its next start on: "
+               "`strainfinger config --can {} --restart`, or switch it off and on\n",
+               port.name());
+  requireDone(reply, Command::kRestart, port, node);
+}
+
+void requireRunning(can::BusPort& port, std::uint8_t node, const TableImage& image,
+                    const system::StopSignal& stop) {
   constexpr std::chrono::seconds kStartsWithin{3};
   const std::string where = fmt::format("{} node {}", port.name(), node);
-  const auto heartbeat = can::heartbeatAfterRestart(port, node, kStartsWithin);
+  const auto heartbeat =
+      can::heartbeatAfterRestart(port, node, kStartsWithin, [&stop] { return !stop.asked(); });
+  if (stop.asked())
+    throw Failure(ExitCode::kInterrupted,
+                  fmt::format("push: interrupted: {} has all words and starts with them; `strainfinger "
+                              "discover --can {}` shows whether it does",
+                              where, port.name()));
   if (!heartbeat)
     throw Failure(ExitCode::kNoNode, fmt::format("{}: took the tables, but says nothing since it was told to "
                                                  "start anew: switch it off and on",
@@ -115,14 +139,15 @@ void runPush(const PushOptions& options) {
   const std::uint8_t node = nodeOf(options.request, can);
   const auto image = tablesFor(options);
   const auto port = can::openBus(options.request.bus, can.bitrate);
-  requireWhole(send(*port, node, *image, options.force), *port, node);
-  const can::Reply restarted = can::ask(*port, node, restartRequest());
-  if (!restarted.response)
+  const system::StopSignal stop;
+  requireWhole(send(*port, node, *image, options.force, stop), *port, node);
+  restart(*port, node);
+  requireRunning(*port, node, *image, stop);
+  if (options.force)
     fmt::print(stderr,
-               "strainfinger: push: the finger has all words, and works with them from its next start "
-               "on: switch it off and on\n");
-  requireDone(restarted, Command::kRestart, *port, node);
-  requireRunning(*port, node, *image);
+               "push: what touches the finger now is part of its zero: `strainfinger tare --can {}` "
+               "once nothing does\n",
+               port->name());
   TableWriter table(stdout, options.request.common.format(), {"interface", "node", "table_crc", "bytes"});
   table.row({options.request.bus, std::int64_t{node}, fmt::format("{:08X}", image->crc32),
              std::int64_t{sizeof *image}});

@@ -38,7 +38,7 @@ constexpr const char* kRunHelp =
     "--can loopback (default): a bus that no other program hears, as fast as it can; prints what `candump "
     "-L` would, and the same seed gives the same output.\n"
     "--can BUS: for other programs, in real time, a sample set every millisecond; prints nothing on stdout. "
-    "It obeys `tare` and `config`.\n"
+    "It obeys `tare`, `config` and `push`, whose tables are gone when it ends; its memory doesn't wear out.\n"
     "The simulated finger is as the config's [as_built] says or, without it, as drawn and calibrated.\n"
     "At the end stderr has a summary with the errors against the truth (--json: as one object). Ctrl-C "
     "ends a run as its duration would, with exit status 130.";

@@ -110,7 +110,8 @@ void examineHeartbeat(const HeartbeatFrame& heartbeat, Examination& examination)
     const auto fault = static_cast<FingerFault>(bit);
     const std::string what = said("fault", kFingerFaultNames, bit);
     if (std::ranges::find(kEndingFaults, fault) != kEndingFaults.end())
-      examination.error(what, can::remedyFor(fault));
+      examination.error(what, can::remedyFor(fault),
+                        fault == FingerFault::kTables ? ExitCode::kMismatch : ExitCode::kFailure);
     else
       examination.warning(what, can::remedyFor(fault));
   }
@@ -132,8 +133,8 @@ void examineTables(const HeartbeatFrame& heartbeat, std::uint32_t crc32, Examina
   examination.error(
       fmt::format("its tables are not those of the config: their CRC-32 ends with {:02X}, not {:02X}",
                   heartbeat.table_crc, wanted),
-      "give the config that its tables were made from (-c), or flash those that `strainfinger tables -o "
-      "FILE` makes of this one",
+      "give the config that its tables were made from (-c), or send it those of this one: `strainfinger push "
+      "--can BUS -c FINGER.toml`",
       ExitCode::kMismatch);
 }
 

@@ -25,15 +25,15 @@ TEST(Decode, PrintsARowAFrame) {
   const Run run = runProgram("decode", contact_ + force_ + patch_ + contact2_ + force2_ + heartbeat_);
   LONGS_EQUAL(0, run.status);
   STRCMP_EQUAL(
-      "1609779922.655421,can0,5,CONTACT,10,2.9,,contact+simulated,97,163,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,\n"
+      "1609779922.655421,can0,5,CONTACT,10,2.9,,contact+simulated,97,163,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,\n"
       "1609779922.655421,can0,5,FORCE,,,,contact+simulated,,163,0.29,-0.226,0.0035,0.0045,,,,,,,,,,,,,,,,,,,,"
-      ",,,,,,\n"
+      ",,,,,,,\n"
       "1609779922.655421,can0,5,PATCH,,,,contact+simulated,,163,,,,,0.00204,0.00015,1.0625,2,,,,,,,,,,,,,,,,,"
-      ",,,,,\n"
-      "1609779922.655421,can0,5,CONTACT2,199.8,3.1,,contact+simulated,95,163,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,\n"
-      "1609779922.655421,can0,5,FORCE2,,,,contact+simulated,,163,0.41,0.035,0.0045,0.0045,,,,,,,,,,,,,,,,,,,,"
       ",,,,,,\n"
-      "1609779922.655421,can0,5,HEARTBEAT,,,,,,,,,,,,,,,run,2,,3661,25,0,0,167,,,,,,,,,,,,,,\n",
+      "1609779922.655421,can0,5,CONTACT2,199.8,3.1,,contact+simulated,95,163,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,\n"
+      "1609779922.655421,can0,5,FORCE2,,,,contact+simulated,,163,0.41,0.035,0.0045,0.0045,,,,,,,,,,,,,,,,,,,,"
+      ",,,,,,,\n"
+      "1609779922.655421,can0,5,HEARTBEAT,,,,,,,,,,,,,,,run,2,,3661,25,0,0,167,,,,,,,,,,,,,,,\n",
       rows(run).c_str());
 }
 
@@ -102,7 +102,7 @@ TEST(Decode, ShowsResponses) {
   const Run run = runProgram("decode", "(1609779922.655421) can0 585#0281040000000000\n");
   LONGS_EQUAL(0, run.status);
   STRCMP_CONTAINS("can0,5,RESPONSE,", run.out.c_str());
-  STRCMP_CONTAINS(",tare,,touched,\n", run.out.c_str());
+  STRCMP_CONTAINS(",tare,,,touched,\n", run.out.c_str());
   checkSays("1 frames decoded, 0 others skipped", run);
 }
 

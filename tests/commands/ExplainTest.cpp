@@ -40,7 +40,7 @@ TEST(ExplainCommand, SaysWhatAFrameSays) {
 TEST(ExplainCommand, SaysWhatToDoAboutWhatAFrameSays) {
   const Run run = runProgram("explain 705#220100FFFF80FF00");
   STRCMP_CONTAINS("        tables: The lookup tables are absent", run.out.c_str());
-  STRCMP_CONTAINS("        What to do: make them", run.out.c_str());
+  STRCMP_CONTAINS("        What to do: `strainfinger push --can BUS -c FINGER.toml`", run.out.c_str());
 }
 
 TEST(ExplainCommand, ReadsAnyLineOfCandump) {
@@ -86,10 +86,11 @@ TEST(ExplainCommand, JsonHasAnObjectANameAFieldOrAFlag) {
       R"({"frame":"REQUEST","node":5,"field":"command","value":"contact_rate","meaning":"What to do","remedy":""}
 {"frame":"REQUEST","node":5,"field":"command","value":"contact_rate","meaning":"Send at most so many CONTACT a second, until the next start","remedy":""}
 {"frame":"REQUEST","node":5,"field":"argument","value":200,"meaning":"Of the command; what length leaves out is 0","remedy":""}
+{"frame":"REQUEST","node":5,"field":"word","value":null,"meaning":"Four bytes of the tables; what length leaves out is 0","remedy":""}
 )",
       runProgram("explain --json 605#0302C80000000000").out.c_str());
   STRCMP_CONTAINS(
-      R"("field":"faults","value":"tables","meaning":"The lookup tables are absent, damaged or of another finger","remedy":"make them)",
+      R"("field":"faults","value":"tables","meaning":"The lookup tables are absent, damaged or of another finger","remedy":"`strainfinger push --can BUS -c FINGER.toml`)",
       runProgram("explain --json 705#220100FFFF80FF00").out.c_str());
 }
 

@@ -41,7 +41,7 @@ TEST(RequestCommands, RatesAreThoseAFingerTakes) {
 }
 
 TEST(RequestCommands, ThereIsSomethingToConfigure) {
-  checkRefused("config --can nocan7", 2, "give --contact-rate-hz, --keep or --set-node");
+  checkRefused("config --can nocan7", 2, "give --contact-rate-hz, --keep, --set-node or --restart");
 }
 
 TEST(RequestCommands, TheConfigFileIsRead) {

@@ -55,7 +55,7 @@ FRAMES = {
         ("zero_rate", 0, 65534, 65535, "1e-9")]),
     "REQUEST": (0x600, [
         ("length", 0, 7, None, "1"), ("command", 0, 127, None, "1"), ("answer", 0, 1, None, "1"),
-        ("argument", 0, 0xFFFF, None, "1")]),
+        ("argument", 0, 0xFFFF, None, "1"), ("word", 0, 0xFFFFFFFF, None, "1")]),
     "RESPONSE": (0x580, [
         ("length", 0, 7, None, "1"), ("command", 0, 127, None, "1"), ("answer", 0, 1, None, "1"),
         ("status", 0, 255, None, "1"), ("value", 0, 0xFFFFFFFF, None, "1")]),

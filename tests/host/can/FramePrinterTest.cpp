@@ -35,32 +35,33 @@ TEST(FramePrinter, TheTableHasAColumnForEachFieldOfAnyFrame) {
       "protocol,faults,uptime_s,temperature_"
       "degc,"
       "tx_errors,rx_errors,table_crc,reset_cause,crash,restarts,version_major,version_minor,crash_address,"
-      "board,out_of_use,zero_age_s,zero_rate_per_s,command,argument,status,value\n",
+      "board,out_of_use,zero_age_s,zero_rate_per_s,command,argument,word,status,value\n",
       printed_.c_str());
 }
 
 TEST(FramePrinter, PrintsContactAsARow) {
   print(TableFormat::kCsv, contact_);
-  STRCMP_EQUAL("0.001500,can0,5,CONTACT,35.73,,-90,contact+simulated,97,163,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,\n",
+  STRCMP_EQUAL("0.001500,can0,5,CONTACT,35.73,,-90,contact+simulated,97,163,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,\n",
                rows().c_str());
 }
 
 TEST(FramePrinter, PrintsForceAsARow) {
   print(TableFormat::kCsv, ForceFrame{.normal_mN = 290, .tangential_mN = -226, .sigma_normal_half_mN = 7});
-  STRCMP_EQUAL("0.001500,can0,5,FORCE,,,,,,0,0.29,-0.226,0.0035,,,,,,,,,,,,,,,,,,,,,,,,,,,\n",
+  STRCMP_EQUAL("0.001500,can0,5,FORCE,,,,,,0,0.29,-0.226,0.0035,,,,,,,,,,,,,,,,,,,,,,,,,,,,\n",
                rows().c_str());
 }
 
 TEST(FramePrinter, PrintsPatchAsARow) {
   print(TableFormat::kCsv,
         PatchFrame{.width_um = 2040, .chi_sixteenths = 17, .contacts = 1, .flags = {}, .sequence = 9});
-  STRCMP_EQUAL("0.001500,can0,5,PATCH,,,,,,9,,,,,0.00204,,1.0625,1,,,,,,,,,,,,,,,,,,,,,,\n", rows().c_str());
+  STRCMP_EQUAL("0.001500,can0,5,PATCH,,,,,,9,,,,,0.00204,,1.0625,1,,,,,,,,,,,,,,,,,,,,,,,\n", rows().c_str());
 }
 
 TEST(FramePrinter, PrintsASecondContactInTheColumnsOfTheFirst) {
   print(TableFormat::kCsv, Contact2Frame{contact_});
-  STRCMP_EQUAL("0.001500,can0,5,CONTACT2,35.73,,-90,contact+simulated,97,163,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,\n",
-               rows().c_str());
+  STRCMP_EQUAL(
+      "0.001500,can0,5,CONTACT2,35.73,,-90,contact+simulated,97,163,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,\n",
+      rows().c_str());
 }
 
 TEST(FramePrinter, StepsOfMoreThanAUnitAreWholeNumbers) {
@@ -75,8 +76,9 @@ TEST(FramePrinter, PrintsHeartbeatAsARow) {
                        .uptime_s = 12,
                        .tx_error_steps = 6,
                        .table_crc = 167});
-  STRCMP_EQUAL("0.001500,can0,5,HEARTBEAT,,,,,,,,,,,,,,,fault,2,tables+can+noisy,12,,96,,167,,,,,,,,,,,,,,\n",
-               rows().c_str());
+  STRCMP_EQUAL(
+      "0.001500,can0,5,HEARTBEAT,,,,,,,,,,,,,,,fault,2,tables+can+noisy,12,,96,,167,,,,,,,,,,,,,,,\n",
+      rows().c_str());
 }
 
 TEST(FramePrinter, PrintsInfoAsARow) {
@@ -85,7 +87,7 @@ TEST(FramePrinter, PrintsInfoAsARow) {
                                      .restarts = 2,
                                      .crash_address = 4096,
                                      .board = 77});
-  STRCMP_EQUAL("0.001500,can0,5,INFO,,,,,,,,,,,,,,,,,,,,,,,software,assertion,2,0,0,4096,77,,,,,,,\n",
+  STRCMP_EQUAL("0.001500,can0,5,INFO,,,,,,,,,,,,,,,,,,,,,,,software,assertion,2,0,0,4096,77,,,,,,,,\n",
                rows().c_str());
 }
 
@@ -111,7 +113,7 @@ TEST(FramePrinter, PrintsRequestsAndResponses) {
   CHECK(printer.print({}, "can0", {0x585, 8, {0x02, 0x81, 0x04, 0, 0, 0, 0, 0}}));
   STRCMP_EQUAL(
       "{\"time_s\":null,\"interface\":\"can0\",\"node\":5,\"frame\":\"REQUEST\",\"command\":"
-      "\"contact_rate\",\"argument\":200}\n"
+      "\"contact_rate\",\"argument\":200,\"word\":null}\n"
       "{\"time_s\":null,\"interface\":\"can0\",\"node\":5,\"frame\":\"RESPONSE\",\"command\":\"keep\","
       "\"status\":\"wait\",\"value\":45}\n"
       "{\"time_s\":null,\"interface\":\"can0\",\"node\":5,\"frame\":\"RESPONSE\",\"command\":\"tare\","
@@ -122,7 +124,7 @@ TEST(FramePrinter, PrintsRequestsAndResponses) {
 TEST(FramePrinter, AResponseHasColumnsOfItsOwn) {
   FramePrinter printer(printed_, TableFormat::kCsv);
   CHECK(printer.print(1500000, "can0", {0x585, 8, {0x06, 0x83, 0x07, 0x2D, 0, 0, 0, 0}}));
-  STRCMP_CONTAINS(",keep,,wait,45\n", printed_.c_str());
+  STRCMP_CONTAINS(",keep,,,wait,45\n", printed_.c_str());
 }
 
 TEST(FramePrinter, QuotesInterfacesWhereTheyNeedIt) {

@@ -49,7 +49,8 @@ TEST(Glossary, SaysWhatToDoAboutWhateverIsWrong) {
   STRCMP_EQUAL("done done_touched ", withoutRemedy(kCommandStatusNames).c_str());
   STRCMP_EQUAL("unknown power_on pin software ", withoutRemedy(kResetCauseNames).c_str());
   STRCMP_EQUAL("", withoutRemedy(kCountNames).c_str());
-  STRCMP_EQUAL("tare contact_rate keep node count raw load word restart ", withoutRemedy(kCommandNames).c_str());
+  STRCMP_EQUAL("tare contact_rate keep node count raw load word restart ",
+               withoutRemedy(kCommandNames).c_str());
 }
 
 TEST(Glossary, AFieldOfSeveralFramesIsOneTerm) {

@@ -33,7 +33,7 @@ TEST_GROUP(TablePush) {
       const auto request = readSingleFrame<RequestFrame>(frame, kNode);
       if (request->command == Command::kLoad && begins) finger.begin();
       const ResponseFrame response = request->command == Command::kWord
-                                         ? finger.take(request->argument, request->value)
+                                         ? finger.take(request->argument, request->word)
                                          : responseTo(request->command, CommandStatus::kDone);
       if (lostAnswers > 0)
         --lostAnswers;
@@ -117,6 +117,16 @@ TEST(TablePush, WhatWasHeardBeforeIsNoAnswer) {
   LONGS_EQUAL(5, push(5).words);
 }
 
+TEST(TablePush, AnotherWhoAsksTheSameNodeIsNoticed) {
+  CHECK_FALSE(push(5).othersAsk);
+  const auto answer = bus.onSend;
+  bus.onSend = [&, answer](const CanFrame& frame) {
+    bus.hear(wordRequest(7, 7), kNode);
+    answer(frame);
+  };
+  CHECK_TRUE(push(5).othersAsk);
+}
+
 TEST(TablePush, ATouchedFingerIsToldThatItIsMeant) {
   pushTables(bus, kNode, *image, true, [](int) { return false; });
   CHECK_TRUE(bus.sent[0] == encode(loadRequest(true), kNode));
@@ -130,6 +140,7 @@ TEST(TablePush, WhenNobodyAnswersItIsSaidThreeTimes) {
 }
 
 TEST_GROUP(HeartbeatAfterRestart) {
+  static bool goOn() { return true; }
   static constexpr std::uint8_t kNode = 5;
   static constexpr std::chrono::milliseconds kShort{60};
 };
@@ -156,21 +167,28 @@ class RestartingBus : public FakeBusPort {
 
 TEST(HeartbeatAfterRestart, IsTheNextOneOfThatFingerThatHasTables) {
   RestartingBus bus(FingerState::kZeroing);
-  const auto heartbeat = heartbeatAfterRestart(bus, kNode, std::chrono::seconds(5));
+  const auto heartbeat = heartbeatAfterRestart(bus, kNode, std::chrono::seconds(5), goOn);
   CHECK_TRUE(heartbeat && heartbeat->state == FingerState::kZeroing);
   LONGS_EQUAL(0x5A, heartbeat->table_crc);
 }
 
 TEST(HeartbeatAfterRestart, ThatItHasNoTablesItSaysTwice) {
   RestartingBus bus(FingerState::kFault);
-  const auto heartbeat = heartbeatAfterRestart(bus, kNode, std::chrono::seconds(5));
+  const auto heartbeat = heartbeatAfterRestart(bus, kNode, std::chrono::seconds(5), goOn);
   CHECK_TRUE(heartbeat && heartbeat->state == FingerState::kFault);
   FakeBusPort once;
   once.hear(HeartbeatFrame{.state = FingerState::kFault}, kNode);
-  CHECK_FALSE(heartbeatAfterRestart(once, kNode, kShort).has_value());
+  CHECK_FALSE(heartbeatAfterRestart(once, kNode, kShort, goOn).has_value());
+}
+
+TEST(HeartbeatAfterRestart, IsNoLongerWaitedForWhenItIsStopped) {
+  FakeBusPort bus;
+  int asked = 0;
+  CHECK_FALSE(
+      heartbeatAfterRestart(bus, kNode, std::chrono::hours(1), [&] { return ++asked < 3; }).has_value());
 }
 
 TEST(HeartbeatAfterRestart, MayNotCome) {
   RestartingBus bus(FingerState::kRun);
-  CHECK_FALSE(heartbeatAfterRestart(bus, kNode + 2, kShort).has_value());
+  CHECK_FALSE(heartbeatAfterRestart(bus, kNode + 2, kShort, goOn).has_value());
 }

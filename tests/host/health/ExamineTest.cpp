@@ -223,7 +223,7 @@ TEST(Examine, ErrorCountersOfTheFingersControllerAreIso11898s) {
 
 TEST(Examine, OtherTablesThanTheConfigsAreAMismatch) {
   checkOnly(Severity::kGood, "run", "", of(wellFinger(), 0x123456A7));
-  checkOnly(Severity::kError, "ends with A7, not A8", "tables -o", of(wellFinger(), 0x123456A8));
+  checkOnly(Severity::kError, "ends with A7, not A8", "push --can can0 -c", of(wellFinger(), 0x123456A8));
   checkStatus(ExitCode::kMismatch, of(wellFinger(), 0x123456A8));
 }
 
@@ -231,7 +231,7 @@ TEST(Examine, TablesThatAreNoneAreNotComparedWithAny) {
   FingerView finger = wellFinger();
   finger.heartbeat.faults = {FingerFault::kTables};
   finger.heartbeat.table_crc = 0;
-  checkOnly(Severity::kError, "fault tables", "tables -o", of(finger, 0x123456A8));
+  checkOnly(Severity::kError, "fault tables", "push --can can0 -c", of(finger, 0x123456A8));
 }
 
 TEST(Examine, WhatTheRunBeforeDiedOfIsAWarning) {

@@ -23,5 +23,5 @@ stop_recording
 # The words of the bus are the file.
 printf "$(recorded_frames | sed -n 's/^601#0708....//p' | sed 's/../\\x&/g' | tr -d '\n')" | cmp - "$TMPDIR/tables" || fail "other words than the file's"
 expect "answers" 6142 "$(recorded_frames | grep -c '^581#068800')"
-expect "the rest that was asked and answered" "601#0107000000000000 581#0287000000000000 601#0109000000000000 581#0289000000000000" \
+expect "the rest that was asked and answered" "601#0107000000000000 581#0287000000000000 601#0209010000000000 581#0289000000000000" \
   "$(recorded_frames | grep -E '^(601|581)#' | grep -vE '^(601#0708|581#0688|601#0205|581#0685)' | xargs)"

@@ -61,15 +61,19 @@ std::optional<HeartbeatFrame> heartbeatAfterRestart(BusPort& port, std::uint8_t 
   constexpr std::chrono::milliseconds kAskEvery{100};
   const Clock::time_point end = Clock::now() + longest;
   int faults = 0;
+  std::optional<HeartbeatFrame> last;
   for (auto now = Clock::now(); now < end && goOn(); now = Clock::now()) {
     port.waitReadable(std::min(std::chrono::ceil<std::chrono::milliseconds>(end - now), kAskEvery));
     while (const auto frame = port.receive()) {
       if (nodeOf(frame->id, FunctionCode::kHeartbeat) != node) continue;
       const auto heartbeat = decode<HeartbeatFrame>(*frame);
-      if (heartbeat && (heartbeat->state != FingerState::kFault || ++faults == 2)) return heartbeat;
+      if (!heartbeat) continue;
+      const bool isFault = heartbeat->state == FingerState::kFault;
+      if (heartbeat->state == FingerState::kRun || (isFault && ++faults == 2)) return heartbeat;
+      if (!isFault) last = heartbeat;
     }
   }
-  return std::nullopt;
+  return last;
 }
 
 }  // namespace strainfinger::can

@@ -27,8 +27,8 @@ TablePush pushTables(BusPort& port, std::uint8_t node, const TableImage& image, 
 
 inline constexpr int kAttempts = 3;
 
-/// What a finger says of itself after it has answered a `restart`, if that comes in time. That it has no
-/// tables it must say twice: the first time may have been said before.
+/// What a finger says of itself after it has answered a `restart`, once it measures; in time at least that it
+/// starts, or nothing. That it has no tables it must say twice: the first time may have been said before.
 /// `goOn()` is asked ten times a second or more often; false ends it.
 std::optional<HeartbeatFrame> heartbeatAfterRestart(BusPort& port, std::uint8_t node,
                                                     std::chrono::milliseconds longest,

@@ -165,11 +165,17 @@ class RestartingBus : public FakeBusPort {
 
 }  // namespace
 
-TEST(HeartbeatAfterRestart, IsTheNextOneOfThatFingerThatHasTables) {
-  RestartingBus bus(FingerState::kZeroing);
+TEST(HeartbeatAfterRestart, IsTheNextOneOfThatFingerThatMeasures) {
+  RestartingBus bus(FingerState::kRun);
   const auto heartbeat = heartbeatAfterRestart(bus, kNode, std::chrono::seconds(5), goOn);
-  CHECK_TRUE(heartbeat && heartbeat->state == FingerState::kZeroing);
+  CHECK_TRUE(heartbeat && heartbeat->state == FingerState::kRun);
   LONGS_EQUAL(0x5A, heartbeat->table_crc);
+}
+
+TEST(HeartbeatAfterRestart, OfAFingerThatOnlyStartsIsTheLast) {
+  RestartingBus bus(FingerState::kZeroing);
+  const auto heartbeat = heartbeatAfterRestart(bus, kNode, kShort, goOn);
+  CHECK_TRUE(heartbeat && heartbeat->state == FingerState::kZeroing);
 }
 
 TEST(HeartbeatAfterRestart, ThatItHasNoTablesItSaysTwice) {

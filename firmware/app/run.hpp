@@ -21,7 +21,7 @@ struct BoardActions {
 
 /// Not at once: the answer to who asked for it is still on its way.
 template <hal::GaugeAdc Adc, hal::Clock Clock, typename Actions>
-[[noreturn, gnu::noinline]] void restartSoon(Adc& adc, const Clock& clock, Actions& board) {
+[[noreturn]] void restartSoon(Adc& adc, const Clock& clock, Actions& board) {
   constexpr std::uint32_t kAfter_us = 50'000;
   hal::SampleSet unused;
   const std::uint32_t asked_us = clock.now_us();

@@ -1,5 +1,5 @@
 #pragma once
-// Tables sent to a finger over the bus, as common/BUS_REQUESTS.md tells it.
+// Tables sent to a finger over the bus, as common/BUS_TABLES.md tells it.
 
 #include <chrono>
 #include <cstdint>

@@ -10,20 +10,21 @@ namespace {
 /// and 4.6 mm^2.
 constexpr std::array<Number, 5> kFineMoments_q20{40'000, 160'000, 340'000, 600'000, 900'000};
 constexpr std::array<Number, 2> kCoarseMoments_q20{60'000, 400'000};
-constexpr Number kPairMoment_q20 = 60'000;
+constexpr Number kPairMoment_q20 = 80'000;
 
-constexpr int kFinePlaces = 33, kCoarsePlaces = 17;
-constexpr int kFineStep = 1, kCoarseStep = 2, kRingStep = 2;  ///< eighths of a pitch
+constexpr int kFinePlaces = 25, kCoarsePlaces = 17;
+constexpr std::uint32_t kFineStep = 2, kCoarseStep = 3, kPairStep = 6;  ///< twelfths of a pitch
 
 /// Leaving out a gauge further away from the contact changes nothing but what that gauge itself leaves.
 constexpr std::uint32_t kSuspectPitches = 2;
 
-constexpr int kRingFirsts = 6;  ///< first contacts of a pair from a grid, besides the best single ones
 constexpr int kMostRounds = 4;  ///< of looking for each contact of a pair again
 
-constexpr int kFirstSteps = 2;  ///< Gauss-Newton steps of every candidate, before the best are chosen
-constexpr int kMostSteps = 14;  ///< of these
+constexpr int kFirstSteps = 2;  ///< Gauss-Newton steps of the best points, before candidates are chosen
+constexpr int kMostSteps = 14;  ///< of a candidate
 constexpr int kPatience = 4;    ///< steps after which one that does not keep its promise is shortened
+
+constexpr int kPointEnergyBits = 4;  ///< 32 readings of 16 bits leave at most 2^35
 
 /// A look at a point, one at a pair of places, and what comes between two grids [units of Search::kWork].
 constexpr int kPointWork = 5, kPairWork = 12, kTaskWork = 9;
@@ -66,19 +67,6 @@ std::uint32_t apart_q32(const ContactState& a, const ContactState& b) {
 bool isSame(const TableConstants& constants, const ContactState& a, const ContactState& b) {
   return apart_q32(a, b) < pitch_q32(constants) / 16 &&
          magnitude(a.moment_q20 - b.moment_q20) < (1 << 15) + (a.moment_q20 + b.moment_q20) / 16;
-}
-
-/// Points of a grid nearer than so many sixteenths of a pitch, of the same width: the worse is on the way to
-/// the better.
-constexpr std::uint32_t kNearFirsts_16 = 6, kNearWide_16 = 3, kNearLines_16 = 1;
-
-bool areNeighbours(const TableConstants& constants, int contacts, const ContactStates& a,
-                   const ContactStates& b, std::uint32_t near_16) {
-  const std::uint32_t near_q32 = pitch_q32(constants) / 16 * near_16;
-  for (int k = 0; k < contacts; ++k)
-    if (apart_q32(a[index(k)], b[index(k)]) > near_q32 || a[index(k)].moment_q20 != b[index(k)].moment_q20)
-      return false;
-  return true;
 }
 
 }  // namespace
@@ -132,84 +120,51 @@ void Ranking::take(const TableConstants& constants, const Solution& solution,
 
 Grid::Grid(const TableImage& tables, const Hypothesis& hypothesis, const ScaledReadings& readings, Kind kind)
     : kind_(kind), widthIsFree_(hypothesis.widthIsFree) {
-  const int ring = (8 * tables.constants.gauge_count + kRingStep - 1) / kRingStep;
-  const std::uint32_t eighth_q32 = pitch_q32(tables.constants) / 8;
-  const bool fine = kind == Kind::kFine, around = fine || kind == Kind::kCoarse;
-  places_ = static_cast<std::int16_t>(fine ? kFinePlaces : around ? kCoarsePlaces : ring);
-  step_q32_ = eighth_q32 * static_cast<std::uint32_t>(fine ? kFineStep : around ? kCoarseStep : kRingStep);
-  if (around) {
-    first_q32_ =
-        anchor_q32(tables, readings, hypothesis.gauges) - static_cast<std::uint32_t>(places_ / 2) * step_q32_;
-    if (hypothesis.widthIsFree)
-      others_ = static_cast<std::int16_t>(fine ? kFineMoments_q20.size() : kCoarseMoments_q20.size());
-  }
+  const bool fine = kind == Kind::kFine;
+  step_q32_ = pitch_q32(tables.constants) / 12 * (fine ? kFineStep : kCoarseStep);
+  rows_ = fine ? kFinePlaces : kCoarsePlaces;
+  first_q32_ =
+      anchor_q32(tables, readings, hypothesis.gauges) - static_cast<std::uint32_t>(rows_ / 2) * step_q32_;
+  if (widthIsFree_)
+    columns_ = static_cast<std::int16_t>(fine ? kFineMoments_q20.size() : kCoarseMoments_q20.size());
 }
 
-void Candidates::clear() {
-  count_ = 0;
-  for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<std::uint8_t>(i);
-}
-
-void Candidates::move(int from, int to) {
-  const std::uint8_t slot = order_[index(from)];
-  for (; from < to; ++from) order_[index(from)] = order_[index(from + 1)];
-  for (; from > to; --from) order_[index(from)] = order_[index(from - 1)];
-  order_[index(to)] = slot;
-}
-
-template <typename IsNeighbour>
-void Candidates::insert(const Solution& solution, int most, IsNeighbour isNeighbour) {
-  int place = 0;
-  for (; place < count_ && (*this)[place].residualEnergy <= solution.residualEnergy; ++place)
-    if (isNeighbour((*this)[place])) return;
-  for (int i = place; i < count_;) {
-    if (isNeighbour((*this)[i])) {
-      move(i, --count_);
-    } else {
-      ++i;
-    }
-  }
-  if (place == most) return;
-  if (count_ == most) --count_;
-  add(solution.contact, solution.residualEnergy);
-  move(count_ - 1, place);
-}
-
-/// By insertion: std::sort recurses, and the depth of the stack must be known.
-void Candidates::sort() {
-  for (int i = 1; i < count_; ++i) {
-    int place = i;
-    while (place > 0 && (*this)[i].residualEnergy < (*this)[place - 1].residualEnergy) --place;
-    move(i, place);
-  }
-}
-
-Grid::Grid(const Grid& ring, const Candidates& firsts) : Grid(ring) {
-  kind_ = Kind::kPairs;
-  others_ = static_cast<std::int16_t>(firsts.size());
-  for (int i = 0; i < firsts.size(); ++i)
-    firsts_[index(i)] = {firsts[i].contact[0].angle_q32, firsts[i].contact[0].moment_q20};
+Grid::Grid(const TableConstants& constants, bool widthIsFree, const Ranking& single)
+    : step_q32_(pitch_q32(constants) / 12 * kPairStep),
+      columns_(static_cast<std::int16_t>(6 * constants.gauge_count / kPairStep)),
+      kind_(Kind::kPairs),
+      widthIsFree_(widthIsFree) {
+  int singles = 0;
+  const auto add = [&](const ContactState& contact) {
+    single_[index(singles++)] = {contact.angle_q32, contact.moment_q20};
+  };
+  if (single.anyBest) add(single.best.contact[0]);
+  if (single.anySecond) add(single.second.contact[0]);
+  rows_ = static_cast<std::int16_t>(2 * (columns_ + singles));
 }
 
 ContactStates Grid::at(const TableImage& tables, int point) const {
-  const int place = point / others_;
-  const auto other = index(point % others_);
-  const std::uint32_t place_q32 = first_q32_ + static_cast<std::uint32_t>(place) * step_q32_;
+  const int row = point / columns_, column = point % columns_;
   const auto contact = [&](std::uint32_t angle_q32, Number moment_q20) {
     return ContactState{angle_q32, 0, 0,
                         widthIsFree_ ? moment_q20 : static_cast<Number>(tables.constants.known_moment_q20)};
   };
+  const auto place = [&](int steps, Number moment_q20) {
+    return contact(first_q32_ + static_cast<std::uint32_t>(steps) * step_q32_, moment_q20);
+  };
   switch (kind_) {
     case Kind::kFine:
-      return {contact(place_q32, kFineMoments_q20[other])};
+      return {place(row, kFineMoments_q20[index(column)])};
     case Kind::kCoarse:
-      return {contact(place_q32, kCoarseMoments_q20[other])};
-    case Kind::kRing:
-      return {contact(place_q32, kPairMoment_q20)};
+      return {place(row, kCoarseMoments_q20[index(column)])};
     case Kind::kPairs:
       break;
   }
-  return {contact(firsts_[other].angle_q32, firsts_[other].moment_q20), contact(place_q32, kPairMoment_q20)};
+  const int beside = row - 2 * columns_;
+  if (beside < 0) return {place(row, kPairMoment_q20), place(row + column + 1, kPairMoment_q20)};
+  const Single& single = single_[index(beside / 2)];
+  return {contact(single.angle_q32, single.moment_q20),
+          place(beside % 2 * columns_ + column, kPairMoment_q20)};
 }
 
 ContactStates initialGuess(const TableImage& tables, const Hypothesis& hypothesis,
@@ -243,11 +198,9 @@ void Search::begin(const TableImage& tables, const ScaledReadings& readings, con
 Search::Effort Search::effort() const {
   switch (stage_) {
     case Stage::kSingle:
-      return {Candidates::kMost, 8};
-    case Stage::kFirstOfPair:
-      return {kRingFirsts, 0};
+      return {19, 8};
     case Stage::kPair:
-      return {Candidates::kMost, 8};
+      return {kMostPoints, kMostCandidates};
     case Stage::kFirstAgain:
     case Stage::kSecondAgain:
       return {12, kMostAnswers};
@@ -264,35 +217,57 @@ Search::Effort Search::effort() const {
 void Search::beginTask(const Hypothesis& hypothesis, const Grid& grid) {
   hypothesis_ = hypothesis;
   grid_ = grid;
-  point_ = 0;
+  points_.clear();
   candidates_.clear();
-  refined_ = steps_ = kept_ = 0;
+  point_ = 0;
+  tried_ = refined_ = steps_ = kept_ = 0;
 }
 
-/// Keeps the best points that are not neighbours of better ones, best first.
-void Search::consider(const TableConstants& constants, const Solution& point) {
-  const bool isFirst = stage_ == Stage::kFirstOfPair || stage_ == Stage::kPair;
-  const std::uint32_t near_16 = isFirst ? kNearFirsts_16 : all_.widthIsFree ? kNearWide_16 : kNearLines_16;
-  const auto neighbours = [&](const Candidate& other) {
-    return areNeighbours(constants, hypothesis_.contacts, point.contact, other.contact, near_16);
+int Search::points() const { return stage_ == Stage::kTogether ? answers_[0] * answers_[1] : grid_.size(); }
+
+Solution Search::look(const TableImage& tables, int point, Linearisation& scratch) const {
+  const auto together = [&]() -> ContactStates {
+    return {again_[0][index(point / answers_[1])], again_[1][index(point % answers_[1])]};
   };
-  candidates_.insert(point, effort().candidates, neighbours);
+  return fitLoads(tables, hypothesis_, stage_ == Stage::kTogether ? together() : grid_.at(tables, point),
+                  looked_, scratch);
 }
 
-void Search::lookAtPoint(const TableImage& tables, Linearisation& scratch) {
-  const Solution point = fitLoads(tables, hypothesis_, grid_.at(tables, point_++), looked_, scratch);
-  if (stage_ == Stage::kFirstOfPair || isPromising(tables.constants, point))
-    consider(tables.constants, point);
+/// Keeps the best points. Those of a fine grid that are neighbours of a better one lead to where that does.
+void Search::lookAtNext(const TableImage& tables, Linearisation& scratch) {
+  const Solution solution = look(tables, point_, scratch);
+  const Point point{static_cast<std::uint32_t>(solution.residualEnergy >> kPointEnergyBits), point_++};
+  if (!isPromising(tables.constants, solution)) return;
+  const auto isNeighbour = [&](const Point& other) {
+    return grid_.areNeighbours(point.number, other.number);
+  };
+  for (int i = 0; i < points_.size(); ++i)
+    if (points_[i].residualEnergy <= point.residualEnergy && isNeighbour(points_[i])) return;
+  points_.remove(isNeighbour);
+  points_.insert(point, effort().points);
 }
 
-/// A Gauss-Newton step of the next candidate: each has kFirstSteps, then the best have as many as they need.
-/// Where the one before left more than was there it is shortened instead, as descend() does at once: so that
-/// each call costs one linearisation.
+/// The first steps of the best points, a step with each call.
+void Search::tryNext(const TableImage& tables, Linearisation& scratch) {
+  if (steps_ == 0) {
+    reached_.contact = look(tables, points_[tried_].number, scratch).contact;
+    steps_ = 1;
+    return;
+  }
+  linearise(tables, hypothesis_, reached_.contact, scratch);
+  const Solution solution = step(tables, scratch, looked_);
+  reached_ = {solution.contact, solution.residualEnergy};
+  if (!solution.converged && ++steps_ <= kFirstSteps) return;
+  candidates_.insert(reached_);
+  steps_ = 0;
+  ++tried_;
+}
+
+/// A Gauss-Newton step of the next candidate. Where the one before left more than was there it is shortened
+/// instead, as descend() does at once: so that each call costs one linearisation.
 void Search::refineNext(const TableImage& tables, Linearisation& scratch) {
-  const bool first = refined_ < candidates_.size();
-  const int i = first ? refined_ : refined_ - candidates_.size();
-  Candidate& candidate = candidates_[i];
-  if (!first && steps_ == 0 && isWorseTwin(tables.constants, i)) {
+  Candidate& candidate = candidates_[refined_];
+  if (steps_ == 0 && isWorseTwin(tables.constants, refined_)) {
     ++refined_;
     return;
   }
@@ -311,12 +286,10 @@ void Search::refineNext(const TableImage& tables, Linearisation& scratch) {
     solution = step(tables, scratch, looked_);
   }
   candidate = {solution.contact, solution.residualEnergy};
-  if (!solution.converged && ++steps_ < (first ? kFirstSteps : kMostSteps)) return;
-  if (!first && !solution.converged) candidate = reached_;
+  if (!solution.converged && ++steps_ < kMostSteps) return;
+  if (!solution.converged) candidate = reached_;
   steps_ = 0;
   ++refined_;
-  if (refined_ == candidates_.size()) candidates_.sort();
-  if (first) return;
   ++kept_;
   keep(tables.constants, {hypothesis_, candidate.contact, solution.converged, candidate.residualEnergy});
 }
@@ -338,15 +311,12 @@ bool Search::isWorseTwin(const TableConstants& constants, int candidate) const {
   return false;
 }
 
-/// All candidates get their first steps, then the best are refined. Those whose first steps went where a
-/// better one is don't count. Of one contact, those that leave far more than the best lead nowhere; of pairs,
-/// whose first steps come less far, they may.
+/// Those whose first steps went where a better one is don't count. Of one contact, those that leave far more
+/// than the best lead nowhere; of pairs, whose first steps come less far, they may.
 bool Search::isRefining() const {
-  const int refined = effort().refined, next = refined_ - candidates_.size();
-  if (refined == 0 || next < 0) return refined > 0;
-  if (kept_ == refined || next == candidates_.size()) return false;
-  return steps_ > 0 || next == 0 || hypothesis_.contacts > 1 ||
-         candidates_[next].residualEnergy >> threshold::kHopelessBits <
+  if (kept_ == effort().refined || refined_ == candidates_.size()) return false;
+  return steps_ > 0 || refined_ == 0 || hypothesis_.contacts > 1 ||
+         candidates_[refined_].residualEnergy >> threshold::kHopelessBits <
              candidates_[0].residualEnergy + energyOf(looked_, threshold::kRefuted * threshold::kAmbiguous);
 }
 
@@ -378,8 +348,8 @@ void Search::withoutNext(const TableImage& tables) {
     return beginTask(without, Grid(tables, without, readings_, Grid::Kind::kCoarse));
   }
   if (isSettled(tables.constants)) return finish();
-  stage_ = Stage::kFirstOfPair;
-  beginTask(all_, Grid(tables, all_, readings_, Grid::Kind::kRing));
+  stage_ = Stage::kPair;
+  beginTask({2, all_.widthIsFree, all_.gauges}, Grid(tables.constants, all_.widthIsFree, single_));
 }
 
 /// One contact explains the readings, on a finger as built, and the likeliest one without a gauge is not
@@ -407,8 +377,6 @@ void Search::tryTogether() {
   stage_ = Stage::kTogether;
   looked_ = readings_;
   beginTask({2, all_.widthIsFree, all_.gauges}, {});
-  for (int i = 0; i < answers_[0]; ++i)
-    for (int j = 0; j < answers_[1]; ++j) candidates_.add({again_[0][index(i)], again_[1][index(j)]});
 }
 
 void Search::finishTask(const TableImage& tables, Linearisation& scratch) {
@@ -420,11 +388,6 @@ void Search::finishTask(const TableImage& tables, Linearisation& scratch) {
       return withoutNext(tables);
     case Stage::kWithoutOne:
       return withoutNext(tables);
-    case Stage::kFirstOfPair:
-      if (single_.anyBest) candidates_.add(single_.best.contact);
-      if (single_.anySecond) candidates_.add(single_.second.contact);
-      stage_ = Stage::kPair;
-      return beginTask({2, all_.widthIsFree, all_.gauges}, Grid(grid_, candidates_));
     case Stage::kPair:
       stage_ = Stage::kFirstAgain;
       leftBefore_ = pair_.best.residualEnergy;
@@ -448,15 +411,19 @@ void Search::finishTask(const TableImage& tables, Linearisation& scratch) {
 
 /// At most so much is next.
 int Search::nextWork(const TableImage& tables) const {
-  if (point_ < grid_.size()) return hypothesis_.contacts == 1 ? kPointWork : kPairWork;
-  return isRefining() ? stepWork(tables, hypothesis_) : kTaskWork;
+  const bool isTrying = tried_ < points_.size();
+  if (point_ < points() || (isTrying && steps_ == 0))
+    return hypothesis_.contacts == 1 ? kPointWork : kPairWork;
+  return isTrying || isRefining() ? stepWork(tables, hypothesis_) : kTaskWork;
 }
 
 void Search::advance(const TableImage& tables, int work, Linearisation& scratch) {
   for (int left = work; isRunning() && nextWork(tables) <= left;) {
     left -= nextWork(tables);
-    if (point_ < grid_.size()) {
-      lookAtPoint(tables, scratch);
+    if (point_ < points()) {
+      lookAtNext(tables, scratch);
+    } else if (tried_ < points_.size()) {
+      tryNext(tables, scratch);
     } else if (isRefining()) {
       refineNext(tables, scratch);
     } else {

@@ -2,6 +2,7 @@
 // Looks for the contacts that explain a set of readings of which nothing else is known, piece by piece.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -30,34 +31,33 @@ struct Ranking {
   void take(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings);
 };
 
-/// Contacts worth refining, the likeliest first. Their order is kept apart from them, so that sorting moves
-/// bytes.
-struct Candidate {
-  ContactStates contact;
-  Wide residualEnergy;
-};
-class Candidates {
+/// Some of those with the least residual energy, the best first.
+template <typename Entry, std::size_t most>
+class BestFirst {
  public:
-  static constexpr int kMost = 19;
-
   int size() const { return count_; }
-  Candidate& operator[](int i) { return candidate_[order_[index(i)]]; }
-  const Candidate& operator[](int i) const { return candidate_[order_[index(i)]]; }
-  void clear();
-  /// Behind the others; at most kMost in all.
-  void add(const ContactStates& contact, Wide residualEnergy = 0) {
-    (*this)[count_++] = {contact, residualEnergy};
+  Entry& operator[](int i) { return entry_[index(i)]; }
+  const Entry& operator[](int i) const { return entry_[index(i)]; }
+  void clear() { count_ = 0; }
+  /// `atMost` of them are kept, within `most`.
+  void insert(const Entry& entry, int atMost = static_cast<int>(most)) {
+    int place = count_;
+    while (place > 0 && entry.residualEnergy < (*this)[place - 1].residualEnergy) --place;
+    if (place == atMost) return;
+    if (count_ < atMost) ++count_;
+    for (int i = count_ - 1; i > place; --i) (*this)[i] = (*this)[i - 1];
+    (*this)[place] = entry;
   }
-  /// At its place, instead of worse ones that are its neighbours, unless a better one is; `most` in all.
-  template <typename IsNeighbour>
-  void insert(const Solution& solution, int most, IsNeighbour isNeighbour);
-  void sort();
+  template <typename IsRemoved>
+  void remove(IsRemoved isRemoved) {
+    int kept = 0;
+    for (int i = 0; i < count_; ++i)
+      if (!isRemoved((*this)[i])) (*this)[kept++] = (*this)[i];
+    count_ = static_cast<std::uint8_t>(kept);
+  }
 
  private:
-  void move(int from, int to);
-
-  std::array<Candidate, kMost> candidate_;
-  std::array<std::uint8_t, kMost> order_{};  ///< slots of candidate_: those in use, then the free ones
+  std::array<Entry, most> entry_;
   std::uint8_t count_ = 0;
 };
 
@@ -66,31 +66,35 @@ class Grid {
  public:
   enum class Kind : std::uint8_t {
     kCoarse,  ///< two pitches around where the ring reads most, by quarters of a pitch, two widths
-    kFine,    ///< by eighths, five widths
-    kRing,    ///< all round the ring by quarters of a pitch
-    kPairs,   ///< the same for a second contact beside each of some first ones
+    kFine,    ///< by sixths, five widths
+    kPairs,   ///< two places round the ring, or one beside a single contact, by halves of a pitch
   };
-  static constexpr int kMostFirsts = 8;
 
   Grid() = default;
+  /// For one contact.
   Grid(const TableImage& tables, const Hypothesis& hypothesis, const ScaledReadings& readings, Kind kind);
-  /// Pairs: one of `firsts`, at most kMostFirsts, and a place of a `ring`.
-  Grid(const Grid& ring, const Candidates& firsts);
+  /// For two, of which one may be as the answers of a single one are.
+  Grid(const TableConstants& constants, bool widthIsFree, const Ranking& single);
 
-  Kind kind() const { return kind_; }
-  int size() const { return places_ * others_; }
+  int size() const { return rows_ * columns_; }
   ContactStates at(const TableImage& tables, int point) const;
+  /// Of a fine grid: next to each other, and of the same width.
+  bool areNeighbours(int a, int b) const {
+    return kind_ == Kind::kFine && widthIsFree_ && a % columns_ == b % columns_ &&
+           magnitude(Number{a - b}) <= columns_;
+  }
 
  private:
-  std::uint32_t first_q32_ = 0;  ///< the first place
-  std::uint32_t step_q32_ = 0;
-  struct First {
+  struct Single {
     std::uint32_t angle_q32;
     Number moment_q20;
   };
-  std::array<First, kMostFirsts> firsts_{};
-  std::int16_t places_ = 0;
-  std::int16_t others_ = 1;  ///< widths, or first contacts
+
+  std::uint32_t first_q32_ = 0;  ///< the first place
+  std::uint32_t step_q32_ = 0;
+  std::array<Single, 2> single_{};
+  std::int16_t rows_ = 0;     ///< places; of pairs, those of the first contact, then two for each single one
+  std::int16_t columns_ = 1;  ///< widths; of pairs, steps to the second contact, half round the ring
   Kind kind_ = Kind::kCoarse;
   bool widthIsFree_ = true;
 };
@@ -135,7 +139,6 @@ class Search {
     kIdle,
     kSingle,
     kWithoutOne,
-    kFirstOfPair,
     kPair,
     kFirstAgain,
     kSecondAgain,
@@ -144,16 +147,30 @@ class Search {
   };
   static constexpr int kMostAnswers = 4;  ///< of one contact in what the other leaves, that are kept
 
-  /// How many candidates a grid leaves, and how many of them are refined to the end.
+  /// Of a grid, looked at.
+  struct Point {
+    std::uint32_t residualEnergy;  ///< / 2^kPointEnergyBits
+    std::int16_t number;
+  };
+  struct Candidate {
+    ContactStates contact;
+    Wide residualEnergy;
+  };
+  static constexpr int kMostPoints = 48, kMostCandidates = 12;
+
+  /// How many points get their first steps, and how many of the candidates that these lead to are refined to
+  /// the end.
   struct Effort {
-    int candidates, refined;
+    int points, refined;
   };
   Effort effort() const;
 
   void beginTask(const Hypothesis& hypothesis, const Grid& grid);
   int nextWork(const TableImage& tables) const;
-  void lookAtPoint(const TableImage& tables, Linearisation& scratch);
-  void consider(const TableConstants& constants, const Solution& point);
+  int points() const;
+  Solution look(const TableImage& tables, int point, Linearisation& scratch) const;
+  void lookAtNext(const TableImage& tables, Linearisation& scratch);
+  void tryNext(const TableImage& tables, Linearisation& scratch);
   void refineNext(const TableImage& tables, Linearisation& scratch);
   bool isWorseTwin(const TableConstants& constants, int candidate) const;
   bool isRefining() const;
@@ -175,14 +192,16 @@ class Search {
   GaugeSet suspects_ = 0;  ///< gauges that are left out, one by one
   Grid grid_;
   Ranking single_, withoutOne_, pair_;
-  Candidates candidates_;
-  Candidate reached_;  ///< by the refinement that is under way, and what is left there, before its last step
+  BestFirst<Point, kMostPoints> points_;
+  BestFirst<Candidate, kMostCandidates> candidates_;
+  Candidate reached_;  ///< by the steps that are under way, and what is left there
   std::array<std::array<ContactState, kMostAnswers>, kMostContacts> again_;  ///< answers of each contact
   std::array<std::uint8_t, kMostContacts> answers_{};
   Wide leftBefore_ = 0;       ///< by the pair, before its contacts were looked for again
   std::int16_t point_ = 0;    ///< of the grid, the next to be looked at
-  std::uint8_t refined_ = 0;  ///< refinements made: first steps of all candidates, then all of the best
-  std::uint8_t steps_ = 0;    ///< of the refinement that is under way
+  std::uint8_t tried_ = 0;    ///< points that got their first steps
+  std::uint8_t refined_ = 0;  ///< candidates
+  std::uint8_t steps_ = 0;    ///< of what is tried or refined
   std::uint8_t kept_ = 0;     ///< answers that refinements led to
   std::uint8_t leftOut_ = 0;  ///< gauge
   std::uint8_t rounds_ = 0;   ///< of looking for each contact of a pair again

@@ -192,6 +192,25 @@ TEST(Search, FindsTwoContacts) {
   CHECK(wrong <= 1);
 }
 
+// Half-way between gauges, of quite different loads that pull towards each other: what the ring reads most
+// lies between them.
+TEST(Search, FindsTwoContactsThatPullTowardsEachOther) {
+  Presses presses(16, 30, 309);
+  int wrong = 0, wrongAndAccepted = 0;
+  for (double place_pitch = 3.4; place_pitch <= 3.65; place_pitch += 0.05)
+    for (double normal = 6; normal <= 14; normal += 2)
+      for (double width_mm = 0; width_mm <= 3; width_mm += 0.5) {
+        const Press one{place_pitch, 27, 14, width_mm}, other{place_pitch + 4, normal, -0.9 * normal, 1};
+        searchOn(ring, presses.noisy(ring.strains({one, other}), ring.noise_strain()));
+        const Ranking& pair = search.pair();
+        if (pair.anyBest && isAt(pair.best, one, 0.5) && isAt(pair.best, other, 0.5)) continue;
+        ++wrong;
+        wrongAndAccepted += pair.anyBest && isAccepted(ring.constants(), pair.best, search.readings());
+      }
+  CHECK_COMPARE(wrong, <=, 4);  // of 210
+  LONGS_EQUAL(0, wrongAndAccepted);
+}
+
 TEST(Search, TakesItsTimeInParts) {
   searchOn(ring, ring.strains({{2.2, 20, 0, 1}, {9.7, 20, 0, 1}}));
   CHECK(advances > 5 && advances < 400);

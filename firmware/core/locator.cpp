@@ -271,6 +271,7 @@ bool Locator::conclude(const TableImage& tables) {
 
 /// The gauge that the best answer leaves out, if no other one would do and its reading is far off.
 GaugeSet Locator::culprit(const TableImage& tables) {
+  if (!search_.single().anyBest) return 0;
   const Ranking& without = search_.withoutOne();
   const GaugeSet leftOut = search_.single().best.hypothesis.gauges & ~without.best.hypothesis.gauges;
   const bool isOnlyOne = !without.anySecond || without.second.residualEnergy - without.best.residualEnergy >=

@@ -6,14 +6,15 @@
 namespace strainfinger::firmware {
 namespace {
 
-/// Second moments to look at, as fractions of the largest [* 2^20]. On the default finger 0.3, 0.9, 1.8, 3.1
-/// and 4.6 mm^2.
+/// Second moments to look at, as fractions of the largest [* 2^20]. On the default finger 0.2, 0.8, 1.7, 3.1
+/// and 4.6 mm^2; of pairs 0.4 mm^2, by the pairs that are found.
 constexpr std::array<Number, 5> kFineMoments_q20{40'000, 160'000, 340'000, 600'000, 900'000};
 constexpr std::array<Number, 2> kCoarseMoments_q20{60'000, 400'000};
 constexpr Number kPairMoment_q20 = 80'000;
 
 constexpr int kFinePlaces = 25, kCoarsePlaces = 17;
 constexpr std::uint32_t kFineStep = 2, kCoarseStep = 3, kPairStep = 6;  ///< twelfths of a pitch
+static_assert(12 % kPairStep == 0, "pairs are sought all round the ring");
 
 /// Leaving out a gauge further away from the contact changes nothing but what that gauge itself leaves.
 constexpr std::uint32_t kSuspectPitches = 2;
@@ -27,7 +28,7 @@ constexpr int kPatience = 4;    ///< steps after which one that does not keep it
 constexpr int kPointEnergyBits = 4;  ///< 32 readings of 16 bits leave at most 2^35
 
 /// A look at a point, one at a pair of places, and what comes between two grids [units of Search::kWork].
-constexpr int kPointWork = 5, kPairWork = 12, kTaskWork = 9;
+constexpr int kPointWork = 5, kPairWork = 12, kTaskWork = 15;
 
 std::uint32_t pitch_q32(const TableConstants& constants) {
   const std::uint32_t count = constants.gauge_count;
@@ -195,7 +196,9 @@ void Search::begin(const TableImage& tables, const ScaledReadings& readings, con
   beginTask(all_, Grid(tables, all_, readings_, Grid::Kind::kFine));
 }
 
+/// By the figures of LocateAccuracy and the disturbance matrix.
 Search::Effort Search::effort() const {
+  static_assert(kMostAnswers * kMostAnswers <= kMostPoints);
   switch (stage_) {
     case Stage::kSingle:
       return {19, 8};
@@ -217,13 +220,15 @@ Search::Effort Search::effort() const {
 void Search::beginTask(const Hypothesis& hypothesis, const Grid& grid) {
   hypothesis_ = hypothesis;
   grid_ = grid;
-  points_.clear();
+  bestPoints_.clear();
   candidates_.clear();
   point_ = 0;
   tried_ = refined_ = steps_ = kept_ = 0;
 }
 
-int Search::points() const { return stage_ == Stage::kTogether ? answers_[0] * answers_[1] : grid_.size(); }
+int Search::pointsToLookAt() const {
+  return stage_ == Stage::kTogether ? answers_[0] * answers_[1] : grid_.size();
+}
 
 Solution Search::look(const TableImage& tables, int point, Linearisation& scratch) const {
   const auto together = [&]() -> ContactStates {
@@ -233,7 +238,7 @@ Solution Search::look(const TableImage& tables, int point, Linearisation& scratc
                   looked_, scratch);
 }
 
-/// Keeps the best points. Those of a fine grid that are neighbours of a better one lead to where that does.
+/// Keeps the best points. Of neighbours, all but the best lead to where that does.
 void Search::lookAtNext(const TableImage& tables, Linearisation& scratch) {
   const Solution solution = look(tables, point_, scratch);
   const Point point{static_cast<std::uint32_t>(solution.residualEnergy >> kPointEnergyBits), point_++};
@@ -241,16 +246,17 @@ void Search::lookAtNext(const TableImage& tables, Linearisation& scratch) {
   const auto isNeighbour = [&](const Point& other) {
     return grid_.areNeighbours(point.number, other.number);
   };
-  for (int i = 0; i < points_.size(); ++i)
-    if (points_[i].residualEnergy <= point.residualEnergy && isNeighbour(points_[i])) return;
-  points_.remove(isNeighbour);
-  points_.insert(point, effort().points);
+  for (int i = 0; i < bestPoints_.size(); ++i)
+    if (bestPoints_[i].residualEnergy <= point.residualEnergy && isNeighbour(bestPoints_[i])) return;
+  bestPoints_.remove(isNeighbour);
+  bestPoints_.insert(point, effort().points);
 }
 
-/// The first steps of the best points, a step with each call.
+/// The loads of the next of the best points, then its first steps, one with each call. Of candidates that
+/// went the same way the best is kept.
 void Search::tryNext(const TableImage& tables, Linearisation& scratch) {
   if (steps_ == 0) {
-    reached_.contact = look(tables, points_[tried_].number, scratch).contact;
+    reached_.contact = look(tables, bestPoints_[tried_].number, scratch).contact;
     steps_ = 1;
     return;
   }
@@ -258,9 +264,15 @@ void Search::tryNext(const TableImage& tables, Linearisation& scratch) {
   const Solution solution = step(tables, scratch, looked_);
   reached_ = {solution.contact, solution.residualEnergy};
   if (!solution.converged && ++steps_ <= kFirstSteps) return;
-  candidates_.insert(reached_);
   steps_ = 0;
   ++tried_;
+  const auto isTwin = [&](const Candidate& other) {
+    return areSame(tables.constants, hypothesis_.contacts, reached_.contact, other.contact);
+  };
+  for (int i = 0; i < candidates_.size(); ++i)
+    if (candidates_[i].residualEnergy <= reached_.residualEnergy && isTwin(candidates_[i])) return;
+  candidates_.remove(isTwin);
+  candidates_.insert(reached_);
 }
 
 /// A Gauss-Newton step of the next candidate. Where the one before left more than was there it is shortened
@@ -311,7 +323,7 @@ bool Search::isWorseTwin(const TableConstants& constants, int candidate) const {
   return false;
 }
 
-/// Those whose first steps went where a better one is don't count. Of one contact, those that leave far more
+/// Those that are where a better one was refined to don't count. Of one contact, those that leave far more
 /// than the best lead nowhere; of pairs, whose first steps come less far, they may.
 bool Search::isRefining() const {
   if (kept_ == effort().refined || refined_ == candidates_.size()) return false;
@@ -411,8 +423,8 @@ void Search::finishTask(const TableImage& tables, Linearisation& scratch) {
 
 /// At most so much is next.
 int Search::nextWork(const TableImage& tables) const {
-  const bool isTrying = tried_ < points_.size();
-  if (point_ < points() || (isTrying && steps_ == 0))
+  const bool isTrying = tried_ < bestPoints_.size();
+  if (point_ < pointsToLookAt() || (isTrying && steps_ == 0))
     return hypothesis_.contacts == 1 ? kPointWork : kPairWork;
   return isTrying || isRefining() ? stepWork(tables, hypothesis_) : kTaskWork;
 }
@@ -420,9 +432,9 @@ int Search::nextWork(const TableImage& tables) const {
 void Search::advance(const TableImage& tables, int work, Linearisation& scratch) {
   for (int left = work; isRunning() && nextWork(tables) <= left;) {
     left -= nextWork(tables);
-    if (point_ < points()) {
+    if (point_ < pointsToLookAt()) {
       lookAtNext(tables, scratch);
-    } else if (tried_ < points_.size()) {
+    } else if (tried_ < bestPoints_.size()) {
       tryNext(tables, scratch);
     } else if (isRefining()) {
       refineNext(tables, scratch);

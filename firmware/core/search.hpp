@@ -78,7 +78,8 @@ class Grid {
 
   int size() const { return rows_ * columns_; }
   ContactStates at(const TableImage& tables, int point) const;
-  /// Of a fine grid: next to each other, and of the same width.
+  /// Of a fine grid where the width is free: next to each other, and of the same width. Lines are so narrow
+  /// that each place may lead elsewhere.
   bool areNeighbours(int a, int b) const {
     return kind_ == Kind::kFine && widthIsFree_ && a % columns_ == b % columns_ &&
            magnitude(Number{a - b}) <= columns_;
@@ -93,8 +94,10 @@ class Grid {
   std::uint32_t first_q32_ = 0;  ///< the first place
   std::uint32_t step_q32_ = 0;
   std::array<Single, 2> single_{};
-  std::int16_t rows_ = 0;     ///< places; of pairs, those of the first contact, then two for each single one
-  std::int16_t columns_ = 1;  ///< widths; of pairs, steps to the second contact, half round the ring
+  /// Places, each with so many widths. Of pairs: places of the first contact all round the ring, each with
+  /// second ones up to half round from there; then two rows, each of half the ring, beside each single
+  /// contact.
+  std::int16_t rows_ = 0, columns_ = 1;
   Kind kind_ = Kind::kCoarse;
   bool widthIsFree_ = true;
 };
@@ -106,8 +109,9 @@ ContactStates initialGuess(const TableImage& tables, const Hypothesis& hypothesi
                            std::optional<std::uint32_t> otherStart_q32 = {});
 
 /// One contact; if that leaves doubt, one contact without one of the gauges, and two contacts, of which each
-/// is looked for anew in what the other leaves, then both together. Of each hypothesis a grid is looked at,
-/// and its best points are refined. advance() does a part of it that fits into a sample period.
+/// is looked for anew in what the other leaves, then both together. Of each hypothesis many points are looked
+/// at, the best of them get their first steps, and the best candidates that these lead to are refined.
+/// advance() does a part of it that fits into a sample period.
 class Search {
  public:
   /// `hypothesis`: one contact, read by all gauges that work.
@@ -127,7 +131,7 @@ class Search {
   const Ranking& withoutOne() const { return withoutOne_; }
   const Ranking& pair() const { return pair_; }
 
-  /// What an update has time for, in units of 510 instructions of a Cortex-M4.
+  /// What an update has time for, in units of 510 instructions of a Cortex-M4 with 16 gauges.
   static constexpr int kWork = 128;
   /// Of a Gauss-Newton step and its linear model.
   static int stepWork(const TableImage& tables, const Hypothesis& hypothesis) {
@@ -167,7 +171,7 @@ class Search {
 
   void beginTask(const Hypothesis& hypothesis, const Grid& grid);
   int nextWork(const TableImage& tables) const;
-  int points() const;
+  int pointsToLookAt() const;
   Solution look(const TableImage& tables, int point, Linearisation& scratch) const;
   void lookAtNext(const TableImage& tables, Linearisation& scratch);
   void tryNext(const TableImage& tables, Linearisation& scratch);
@@ -192,15 +196,15 @@ class Search {
   GaugeSet suspects_ = 0;  ///< gauges that are left out, one by one
   Grid grid_;
   Ranking single_, withoutOne_, pair_;
-  BestFirst<Point, kMostPoints> points_;
+  BestFirst<Point, kMostPoints> bestPoints_;
   BestFirst<Candidate, kMostCandidates> candidates_;
-  Candidate reached_;  ///< by the steps that are under way, and what is left there
+  Candidate reached_;  ///< by first steps; by a candidate before its last step, and what is left there
   std::array<std::array<ContactState, kMostAnswers>, kMostContacts> again_;  ///< answers of each contact
   std::array<std::uint8_t, kMostContacts> answers_{};
   Wide leftBefore_ = 0;       ///< by the pair, before its contacts were looked for again
   std::int16_t point_ = 0;    ///< of the grid, the next to be looked at
   std::uint8_t tried_ = 0;    ///< points that got their first steps
-  std::uint8_t refined_ = 0;  ///< candidates
+  std::uint8_t refined_ = 0;  ///< candidates, or passed over
   std::uint8_t steps_ = 0;    ///< of what is tried or refined
   std::uint8_t kept_ = 0;     ///< answers that refinements led to
   std::uint8_t leftOut_ = 0;  ///< gauge

@@ -252,8 +252,7 @@ void Search::lookAtNext(const TableImage& tables, Linearisation& scratch) {
   bestPoints_.insert(point, effort().points);
 }
 
-/// The loads of the next of the best points, then its first steps, one with each call. Of candidates that
-/// went the same way the best is kept.
+/// The loads of the next of the best points, then its first steps, one with each call.
 void Search::tryNext(const TableImage& tables, Linearisation& scratch) {
   if (steps_ == 0) {
     reached_.contact = look(tables, bestPoints_[tried_].number, scratch).contact;
@@ -266,12 +265,6 @@ void Search::tryNext(const TableImage& tables, Linearisation& scratch) {
   if (!solution.converged && ++steps_ <= kFirstSteps) return;
   steps_ = 0;
   ++tried_;
-  const auto isTwin = [&](const Candidate& other) {
-    return areSame(tables.constants, hypothesis_.contacts, reached_.contact, other.contact);
-  };
-  for (int i = 0; i < candidates_.size(); ++i)
-    if (candidates_[i].residualEnergy <= reached_.residualEnergy && isTwin(candidates_[i])) return;
-  candidates_.remove(isTwin);
   candidates_.insert(reached_);
 }
 

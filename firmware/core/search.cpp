@@ -28,7 +28,7 @@ constexpr int kPatience = 4;    ///< steps after which one that does not keep it
 constexpr int kPointEnergyBits = 4;  ///< 32 readings of 16 bits leave at most 2^35
 
 /// A look at a point, one at a pair of places, and what comes between two grids [units of Search::kWork].
-constexpr int kPointWork = 5, kPairWork = 12, kTaskWork = 15;
+constexpr int kPointWork = 5, kPairWork = 12, kTaskWork = 9;
 
 std::uint32_t pitch_q32(const TableConstants& constants) {
   const std::uint32_t count = constants.gauge_count;

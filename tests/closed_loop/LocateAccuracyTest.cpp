@@ -272,8 +272,7 @@ TEST(LocateAccuracy, NoWidthIsGrosslyWrongAtAThousandthOfNoise) {
   LONGS_EQUAL(0, trial.suspects);
 }
 
-// Of two places that noise hardly tells apart the likelier is not always right: chosen by the exact model in
-// double precision, 0.92 % of 40,000 are wrong.
+// Of two places that noise hardly tells apart, the likelier is not always right.
 TEST(LocateAccuracy, WidthsAtAHundredthOfNoiseAreRarelyWrongAndHardlyEverSilently) {
   checkRarelyWrong(0.008, Trial(finger(1e-2)).run(touches(30, 0.5, 4), 206, touchCount(10'000)));
 }

@@ -42,8 +42,9 @@ bool isPromising(const TableConstants& constants, const Solution& solution) {
 }
 
 bool isWeak(const Solution& solution, const Variances& variances, bool was) {
+  const int weak = was ? threshold::kNoLongerWeakSignal : threshold::kWeakSignal;
   const Wide least =
-      energyOf(variances.noise_q4, was ? threshold::kNoLongerWeakSignal : threshold::kWeakSignal);
+      energyOf(variances.noise_q4, solution.hypothesis.contacts < 2 ? weak : threshold::kWeakOfTwo * weak);
   for (const ContactState& contact : solution.contacts()) {
     const Wide reading = contact.normal / 2;  // where it is felt most
     if (reading * reading < least) return true;
@@ -70,10 +71,10 @@ int freedoms(const Hypothesis& hypothesis) {
 
 namespace {
 
-bool explains(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings,
-              Wide allowed) {
+/// What the tables' pressure profiles lack is allowed for besides.
+bool isWithin(const Solution& solution, const ScaledReadings& readings, Wide allowed) {
   const int left = freedoms(solution.hypothesis);
-  if (left < 1 || !isAdmissible(constants, solution)) return false;
+  if (left < 1) return false;
   if (solution.residualEnergy <= allowed) return true;
   const Number off = largestReading(readings, solution.hypothesis.gauges) >> 5;
   const Wide profile = (Wide{off} * off * left) >> (2 * (threshold::kProfileErrorBits - 5));
@@ -86,21 +87,26 @@ int doubt(const Hypothesis& hypothesis) {
 
 }  // namespace
 
-bool isAccepted(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings) {
+bool isWithinGate(const Solution& solution, const ScaledReadings& readings) {
   const int left = freedoms(solution.hypothesis);
-  return explains(constants, solution, readings,
+  return isWithin(solution, readings,
                   energyOf(readings, threshold::kGatePerFreedom * left + threshold::kGate));
 }
 
+bool isAccepted(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings) {
+  return isAdmissible(constants, solution) && isWithinGate(solution, readings);
+}
+
 bool isPlain(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings) {
-  return explains(constants, solution, readings, energyOf(readings, doubt(solution.hypothesis)));
+  return isAdmissible(constants, solution) &&
+         isWithin(solution, readings, energyOf(readings, doubt(solution.hypothesis)));
 }
 
 bool isPlainAsBuilt(const TableConstants& constants, const Solution& solution,
                     const ScaledReadings& readings) {
   const Variances& variances = readings.variances;
   return isAccepted(constants, solution, readings) &&
-         explains(constants, solution, readings,
+         isWithin(solution, readings,
                   energyOf(2 * variances.gate_q4 - variances.noise_q4, doubt(solution.hypothesis)));
 }
 

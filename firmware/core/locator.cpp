@@ -240,12 +240,14 @@ bool Locator::conclude(const TableImage& tables) {
   const auto costOf = [&](std::size_t i) {
     return rankings[i]->best.residualEnergy + energyOf(readings, kPrice[i]);
   };
-  std::array<bool, 3> explains{};
+  // Noise takes the fit of a faint second contact beyond the friction cone: it may explain the readings
+  // still.
+  std::array<bool, 3> explains{}, mayExplain{};
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < rankings.size(); ++i) {
     if (!rankings[i]->anyBest) continue;
-    explains[i] = isAccepted(tables.constants, rankings[i]->best, readings) &&
-                  areAllContacts(rankings[i]->best, readings);
+    mayExplain[i] = isWithinGate(rankings[i]->best, readings) && areAllContacts(rankings[i]->best, readings);
+    explains[i] = mayExplain[i] && isAdmissible(tables.constants, rankings[i]->best);
     if (!best || explains[i] > explains[*best] ||
         (explains[i] == explains[*best] && costOf(i) < costOf(*best)))
       best = i;
@@ -258,7 +260,8 @@ bool Locator::conclude(const TableImage& tables) {
   const Solution& answer = rankings[*best]->best;
   answer_.doubtful = !isPlainAsBuilt(tables.constants, answer, readings);
   for (std::size_t i = 0; i < rankings.size(); ++i)
-    answer_.doubtful |= i != *best && explains[i] && saysOther(tables.constants, answer, rankings[i]->best) &&
+    answer_.doubtful |= i != *best && mayExplain[i] &&
+                        saysOther(tables.constants, answer, rankings[i]->best) &&
                         costOf(i) - costOf(*best) < ambiguity(readings.variances, answer);
   answer_.several = *best == kPair || (!faulty && *best != kSingle);
   const bool isSparse = tables.constants.is_sparse != 0;

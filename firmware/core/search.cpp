@@ -19,8 +19,6 @@ static_assert(12 % kPairStep == 0, "pairs are sought all round the ring");
 /// Leaving out a gauge further away from the contact changes nothing but what that gauge itself leaves.
 constexpr std::uint32_t kSuspectPitches = 2;
 
-constexpr int kMostRounds = 4;  ///< of looking for each contact of a pair again
-
 constexpr int kFirstSteps = 2;  ///< Gauss-Newton steps of the best points, before candidates are chosen
 constexpr int kMostSteps = 14;  ///< of a candidate
 constexpr int kPatience = 4;    ///< steps after which one that does not keep its promise is shortened
@@ -188,32 +186,17 @@ ContactStates initialGuess(const TableImage& tables, const Hypothesis& hypothesi
 }
 
 void Search::begin(const TableImage& tables, const ScaledReadings& readings, const Hypothesis& hypothesis) {
-  readings_ = looked_ = readings;
+  readings_ = readings;
   all_ = hypothesis;
   single_ = withoutOne_ = pair_ = {};
   stage_ = Stage::kSingle;
-  rounds_ = 0;
   beginTask(all_, Grid(tables, all_, readings_, Grid::Kind::kFine));
 }
 
 /// By the figures of LocateAccuracy and the disturbance matrix.
 Search::Effort Search::effort() const {
-  static_assert(kMostAnswers * kMostAnswers <= kMostPoints);
-  switch (stage_) {
-    case Stage::kSingle:
-      return {19, 8};
-    case Stage::kPair:
-      return {kMostPoints, kMostCandidates};
-    case Stage::kFirstAgain:
-    case Stage::kSecondAgain:
-      return {12, kMostAnswers};
-    case Stage::kTogether:
-      return {kMostAnswers * kMostAnswers, 4};
-    case Stage::kWithoutOne:
-    case Stage::kDone:
-    case Stage::kIdle:
-      break;
-  }
+  if (stage_ == Stage::kSingle) return {19, 8};
+  if (stage_ == Stage::kPair) return {kMostPoints, kMostCandidates};
   return {3, 1};
 }
 
@@ -226,21 +209,9 @@ void Search::beginTask(const Hypothesis& hypothesis, const Grid& grid) {
   tried_ = refined_ = steps_ = kept_ = 0;
 }
 
-int Search::pointsToLookAt() const {
-  return stage_ == Stage::kTogether ? answers_[0] * answers_[1] : grid_.size();
-}
-
-Solution Search::look(const TableImage& tables, int point, Linearisation& scratch) const {
-  const auto together = [&]() -> ContactStates {
-    return {again_[0][index(point / answers_[1])], again_[1][index(point % answers_[1])]};
-  };
-  return fitLoads(tables, hypothesis_, stage_ == Stage::kTogether ? together() : grid_.at(tables, point),
-                  looked_, scratch);
-}
-
 /// Keeps the best points. Of neighbours, all but the best lead to where that does.
 void Search::lookAtNext(const TableImage& tables, Linearisation& scratch) {
-  const Solution solution = look(tables, point_, scratch);
+  const Solution solution = fitLoads(tables, hypothesis_, grid_.at(tables, point_), readings_, scratch);
   const Point point{static_cast<std::uint32_t>(solution.residualEnergy >> kPointEnergyBits), point_++};
   if (!isPromising(tables.constants, solution)) return;
   const auto isNeighbour = [&](const Point& other) {
@@ -255,12 +226,13 @@ void Search::lookAtNext(const TableImage& tables, Linearisation& scratch) {
 /// The loads of the next of the best points, then its first steps, one with each call.
 void Search::tryNext(const TableImage& tables, Linearisation& scratch) {
   if (steps_ == 0) {
-    reached_.contact = look(tables, bestPoints_[tried_].number, scratch).contact;
+    const ContactStates at = grid_.at(tables, bestPoints_[tried_].number);
+    reached_.contact = fitLoads(tables, hypothesis_, at, readings_, scratch).contact;
     steps_ = 1;
     return;
   }
   linearise(tables, hypothesis_, reached_.contact, scratch);
-  const Solution solution = step(tables, scratch, looked_);
+  const Solution solution = step(tables, scratch, readings_);
   reached_ = {solution.contact, solution.residualEnergy};
   if (!solution.converged && ++steps_ <= kFirstSteps) return;
   steps_ = 0;
@@ -277,7 +249,7 @@ void Search::refineNext(const TableImage& tables, Linearisation& scratch) {
     return;
   }
   linearise(tables, hypothesis_, candidate.contact, scratch);
-  const Wide left = energyLeft(tables, scratch, looked_);
+  const Wide left = energyLeft(tables, scratch, readings_);
   const bool isWorse = steps_ >= kPatience && left >= reached_.residualEnergy;
   Solution solution{hypothesis_, {}};
   if (isWorse) {
@@ -288,7 +260,7 @@ void Search::refineNext(const TableImage& tables, Linearisation& scratch) {
     solution.converged = solution.contact == reached_.contact;
   } else {
     reached_ = {candidate.contact, left};
-    solution = step(tables, scratch, looked_);
+    solution = step(tables, scratch, readings_);
   }
   candidate = {solution.contact, solution.residualEnergy};
   if (!solution.converged && ++steps_ < kMostSteps) return;
@@ -296,16 +268,8 @@ void Search::refineNext(const TableImage& tables, Linearisation& scratch) {
   steps_ = 0;
   ++refined_;
   ++kept_;
-  keep(tables.constants, {hypothesis_, candidate.contact, solution.converged, candidate.residualEnergy});
-}
-
-void Search::keep(const TableConstants& constants, const Solution& solution) {
-  if (isLookingAgain()) {
-    const auto contact = index(stage_ == Stage::kFirstAgain ? 0 : 1);
-    if (answers_[contact] < kMostAnswers) again_[contact][answers_[contact]++] = solution.contact[0];
-  } else {
-    ranking().take(constants, solution, readings_);
-  }
+  ranking().take(tables.constants,
+                 {hypothesis_, candidate.contact, solution.converged, candidate.residualEnergy}, readings_);
 }
 
 /// A better candidate went to the same place.
@@ -322,7 +286,7 @@ bool Search::isRefining() const {
   if (kept_ == effort().refined || refined_ == candidates_.size()) return false;
   return steps_ > 0 || refined_ == 0 || hypothesis_.contacts > 1 ||
          candidates_[refined_].residualEnergy >> threshold::kHopelessBits <
-             candidates_[0].residualEnergy + energyOf(looked_, threshold::kRefuted * threshold::kAmbiguous);
+             candidates_[0].residualEnergy + energyOf(readings_, threshold::kRefuted * threshold::kAmbiguous);
 }
 
 Ranking& Search::ranking() {
@@ -352,8 +316,7 @@ void Search::withoutNext(const TableImage& tables) {
     const Hypothesis without{1, all_.widthIsFree, all_.gauges & ~(GaugeSet{1} << leftOut_++)};
     return beginTask(without, Grid(tables, without, readings_, Grid::Kind::kCoarse));
   }
-  if (isSettled(tables.constants)) return finish();
-  stage_ = Stage::kPair;
+  stage_ = isSettled(tables.constants) ? Stage::kDone : Stage::kPair;
   beginTask({2, all_.widthIsFree, all_.gauges}, Grid(tables.constants, all_.widthIsFree, single_));
 }
 
@@ -365,59 +328,22 @@ bool Search::isSettled(const TableConstants& constants) const {
          !areElsewhere(constants, 1, single_.best.contact, withoutOne_.best.contact);
 }
 
-/// One contact of the pair is sought anew in what the other leaves of the readings: near every contact there
-/// is a second answer, of another width.
-void Search::lookAgain(const TableImage& tables, int contact, Linearisation& scratch) {
-  if (!pair_.anyBest) return finish();
-  linearise(tables, all_, {pair_.best.contact[index(1 - contact)]}, scratch);
-  for (int i = 0; i < tables.constants.gauge_count; ++i)
-    looked_.value[index(i)] =
-        saturate<std::int16_t>(readings_.value[index(i)] - Number{scratch.predicted[index(i)]});
-  answers_[index(contact)] = 0;
-  beginTask(all_, Grid(tables, all_, looked_, Grid::Kind::kFine));
-}
-
-/// Each answer of one contact with each of the other: both may have been in their second answers.
-void Search::tryTogether() {
-  stage_ = Stage::kTogether;
-  looked_ = readings_;
-  beginTask({2, all_.widthIsFree, all_.gauges}, {});
-}
-
 void Search::finishTask(const TableImage& tables, Linearisation& scratch) {
-  switch (stage_) {
-    case Stage::kSingle:
-      if (single_.anyBest && isPlain(tables.constants, single_.best, readings_)) return finish();
-      stage_ = Stage::kWithoutOne;
-      findSuspects(tables, scratch);
-      return withoutNext(tables);
-    case Stage::kWithoutOne:
-      return withoutNext(tables);
-    case Stage::kPair:
-      stage_ = Stage::kFirstAgain;
-      leftBefore_ = pair_.best.residualEnergy;
-      return lookAgain(tables, 0, scratch);
-    case Stage::kFirstAgain:
-      stage_ = Stage::kSecondAgain;
-      return lookAgain(tables, 1, scratch);
-    case Stage::kSecondAgain:
-      return tryTogether();
-    case Stage::kTogether:
-      if (pair_.best.residualEnergy + energyOf(readings_, 1) >= leftBefore_ || ++rounds_ == kMostRounds)
-        return finish();
-      stage_ = Stage::kFirstAgain;
-      leftBefore_ = pair_.best.residualEnergy;
-      return lookAgain(tables, 0, scratch);
-    case Stage::kDone:
-    case Stage::kIdle:
-      return;
+  const bool isPlainSingle =
+      stage_ == Stage::kSingle && single_.anyBest && isPlain(tables.constants, single_.best, readings_);
+  if (isPlainSingle || stage_ == Stage::kPair) {
+    stage_ = Stage::kDone;
+    return;
   }
+  if (stage_ == Stage::kSingle) findSuspects(tables, scratch);
+  stage_ = Stage::kWithoutOne;
+  withoutNext(tables);
 }
 
 /// At most so much is next.
 int Search::nextWork(const TableImage& tables) const {
   const bool isTrying = tried_ < bestPoints_.size();
-  if (point_ < pointsToLookAt() || (isTrying && steps_ == 0))
+  if (point_ < grid_.size() || (isTrying && steps_ == 0))
     return hypothesis_.contacts == 1 ? kPointWork : kPairWork;
   return isTrying || isRefining() ? stepWork(tables, hypothesis_) : kTaskWork;
 }
@@ -425,7 +351,7 @@ int Search::nextWork(const TableImage& tables) const {
 void Search::advance(const TableImage& tables, int work, Linearisation& scratch) {
   for (int left = work; isRunning() && nextWork(tables) <= left;) {
     left -= nextWork(tables);
-    if (point_ < pointsToLookAt()) {
+    if (point_ < grid_.size()) {
       lookAtNext(tables, scratch);
     } else if (tried_ < bestPoints_.size()) {
       tryNext(tables, scratch);

@@ -108,10 +108,9 @@ ContactStates initialGuess(const TableImage& tables, const Hypothesis& hypothesi
                            const ScaledReadings& readings, Linearisation& scratch,
                            std::optional<std::uint32_t> otherStart_q32 = {});
 
-/// One contact; if that leaves doubt, one contact without one of the gauges, and two contacts, of which each
-/// is looked for anew in what the other leaves, then both together. Of each hypothesis many points are looked
-/// at, the best of them get their first steps, and the best candidates that these lead to are refined.
-/// advance() does a part of it that fits into a sample period.
+/// One contact; if that leaves doubt, one contact without one of the gauges, and two contacts. Of each
+/// hypothesis many points are looked at, the best of them get their first steps, and the best candidates that
+/// these lead to are refined. advance() does a part of it that fits into a sample period.
 class Search {
  public:
   /// `hypothesis`: one contact, read by all gauges that work.
@@ -139,17 +138,7 @@ class Search {
   }
 
  private:
-  enum class Stage : std::uint8_t {
-    kIdle,
-    kSingle,
-    kWithoutOne,
-    kPair,
-    kFirstAgain,
-    kSecondAgain,
-    kTogether,
-    kDone
-  };
-  static constexpr int kMostAnswers = 4;  ///< of one contact in what the other leaves, that are kept
+  enum class Stage : std::uint8_t { kIdle, kSingle, kWithoutOne, kPair, kDone };
 
   /// Of a grid, looked at.
   struct Point {
@@ -160,7 +149,7 @@ class Search {
     ContactStates contact;
     Wide residualEnergy;
   };
-  static constexpr int kMostPoints = 48, kMostCandidates = 12;
+  static constexpr int kMostPoints = 48, kMostCandidates = 16;
 
   /// How many points get their first steps, and how many of the candidates that these lead to are refined to
   /// the end.
@@ -171,8 +160,6 @@ class Search {
 
   void beginTask(const Hypothesis& hypothesis, const Grid& grid);
   int nextWork(const TableImage& tables) const;
-  int pointsToLookAt() const;
-  Solution look(const TableImage& tables, int point, Linearisation& scratch) const;
   void lookAtNext(const TableImage& tables, Linearisation& scratch);
   void tryNext(const TableImage& tables, Linearisation& scratch);
   void refineNext(const TableImage& tables, Linearisation& scratch);
@@ -183,14 +170,8 @@ class Search {
   void findSuspects(const TableImage& tables, Linearisation& scratch);
   void withoutNext(const TableImage& tables);
   bool isSettled(const TableConstants& constants) const;
-  void lookAgain(const TableImage& tables, int contact, Linearisation& scratch);
-  void tryTogether();
-  void finish() { stage_ = Stage::kDone; }
-  void keep(const TableConstants& constants, const Solution& solution);
-  bool isLookingAgain() const { return stage_ == Stage::kFirstAgain || stage_ == Stage::kSecondAgain; }
 
   ScaledReadings readings_;
-  ScaledReadings looked_;  ///< by the stage: the readings, or what a contact of the pair leaves of them
   Hypothesis all_;         ///< one contact, all gauges
   Hypothesis hypothesis_;  ///< that is looked at
   GaugeSet suspects_ = 0;  ///< gauges that are left out, one by one
@@ -198,17 +179,13 @@ class Search {
   Ranking single_, withoutOne_, pair_;
   BestFirst<Point, kMostPoints> bestPoints_;
   BestFirst<Candidate, kMostCandidates> candidates_;
-  Candidate reached_;  ///< by first steps; by a candidate before its last step, and what is left there
-  std::array<std::array<ContactState, kMostAnswers>, kMostContacts> again_;  ///< answers of each contact
-  std::array<std::uint8_t, kMostContacts> answers_{};
-  Wide leftBefore_ = 0;       ///< by the pair, before its contacts were looked for again
+  Candidate reached_;         ///< by first steps; by a candidate before its last step, and what is left there
   std::int16_t point_ = 0;    ///< of the grid, the next to be looked at
   std::uint8_t tried_ = 0;    ///< points that got their first steps
   std::uint8_t refined_ = 0;  ///< candidates, or passed over
   std::uint8_t steps_ = 0;    ///< of what is tried or refined
   std::uint8_t kept_ = 0;     ///< answers that refinements led to
   std::uint8_t leftOut_ = 0;  ///< gauge
-  std::uint8_t rounds_ = 0;   ///< of looking for each contact of a pair again
   Stage stage_ = Stage::kIdle;
 };
 

@@ -1,12 +1,15 @@
 #pragma once
-// Is the finger touched?
+// Is the finger touched, and how noisy is it while it is not?
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 
 #include "common/table_image.hpp"
-#include "firmware/core/integer_root.hpp"
+#include "firmware/core/hypothesis.hpp"
 #include "firmware/core/integers.hpp"
+#include "firmware/core/units.hpp"
 
 namespace strainfinger::firmware {
 
@@ -57,6 +60,74 @@ class ContactGate {
 
  private:
   bool touched_ = false;
+};
+
+/// What configured noise and the gate's rounding leave on average [gate energy]. Of any tables below 2^64.
+inline std::uint64_t configuredEnergy(const TableConstants& constants) {
+  constexpr int kMostUp = 25, kMostDown = 63;
+  const int up = constants.noise_variance_exponent - 2 * constants.gate_shift;
+  const std::uint64_t twice = std::uint64_t{constants.noise_variance} << 1;
+  const std::uint64_t variance_q1 =
+      up >= 0 ? twice << std::min(up, kMostUp) : twice >> std::min(-up, kMostDown);
+  return std::max<std::uint64_t>(constants.gauge_count * (variance_q1 + 1) / 2, 1);
+}
+
+/// Compares readings kLag sample sets apart, once in kEvery: half a period of 50 Hz hum at 1 kHz, so that hum
+/// counts in full while drift and slow touches hardly do. What it finds raises the gate and the variance of
+/// the readings. A comparison counts for kMostGrowth times the median of the three before at most: a touch
+/// that is not told from a disturbance yet is a step or two, hum is in all of them. Cost: two instructions a
+/// gauge and sample set.
+class NoiseMeter {
+ public:
+  static constexpr int kEvery = 16;
+  static constexpr int kLag = 10;
+  static constexpr std::uint32_t kMostGrowth = 4;
+  static constexpr int kMemory = 4;         ///< sixteen comparisons: a quarter of a second [log2]
+  static constexpr int kNoisy_q4 = 4 << 4;  ///< variance, in configured ones, from which the ring is noisy
+
+  /// One sample set of an untouched ring. `gauges`: those that work; the others' noise is nobody's.
+  void take(const TableConstants& constants, std::span<const std::int32_t> strains_q32, GaugeSet gauges) {
+    if (phase_ == 0) {
+      std::copy(strains_q32.begin(), strains_q32.end(), before_q32_.begin());
+      compared_ = gauges;
+    }
+    if (phase_ == kLag) compare(constants, strains_q32, compared_ & gauges);
+    phase_ = static_cast<std::uint8_t>((phase_ + 1) % kEvery);
+  }
+  /// The ring was touched in between: nothing to compare with.
+  void interrupt() { phase_ = 0; }
+
+  /// Variance of a reading in configured ones [* 2^4], at least 1.
+  std::uint32_t variance_q4() const { return std::max<std::uint32_t>(mean_q8_ >> 4, 1 << 4); }
+  bool isNoisy() const { return variance_q4() >= kNoisy_q4; }
+
+ private:
+  static constexpr std::uint32_t kConfigured_q8 = 1 << 8;  ///< what configured noise makes of a comparison
+  static constexpr std::uint32_t kLoudest_q8 = 1 << 24;    ///< of a comparison: readings differ no more
+
+  void compare(const TableConstants& constants, std::span<const std::int32_t> strains_q32, GaugeSet gauges) {
+    std::array<std::int32_t, kMaxGauges> change;
+    for (std::size_t i = 0; i < strains_q32.size(); ++i)
+      change[i] = contains(gauges, static_cast<int>(i)) ? (strains_q32[i] - before_q32_[i]) / 2 : 0;
+    const std::uint32_t energy = gateEnergy(constants, std::span(change).first(strains_q32.size()));
+    // Halved changes of configured noise have half the energy of the noise itself.
+    const std::uint64_t ratio_q8 = (std::uint64_t{energy} << 9) / configuredEnergy(constants);
+    const auto now_q8 = static_cast<std::uint32_t>(std::min<std::uint64_t>(ratio_q8, kLoudest_q8));
+    const auto [less_q8, more_q8] = std::minmax(recent_q8_[0], recent_q8_[1]);
+    const std::uint32_t median_q8 = std::clamp(recent_q8_[2], less_q8, more_q8);
+    const std::uint32_t counted_q8 = std::min(now_q8, kMostGrowth * std::max(median_q8, kConfigured_q8));
+    recent_q8_ = {now_q8, recent_q8_[0], recent_q8_[1]};
+    const std::int32_t change_q8 =
+        static_cast<std::int32_t>(counted_q8) - static_cast<std::int32_t>(mean_q8_);
+    mean_q8_ += static_cast<std::uint32_t>(change_q8 >> kMemory);
+  }
+
+  std::array<std::int32_t, kMaxGauges> before_q32_{};
+  GaugeSet compared_ = 0;
+  std::uint32_t mean_q8_ = kConfigured_q8;
+  std::array<std::uint32_t, 3> recent_q8_{kLoudest_q8, kLoudest_q8,
+                                          kLoudest_q8};  ///< of the last comparisons
+  std::uint8_t phase_ = 0;
 };
 
 }  // namespace strainfinger::firmware

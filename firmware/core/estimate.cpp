@@ -4,7 +4,6 @@
 #include <bit>
 #include <limits>
 
-#include "firmware/core/integer_root.hpp"
 #include "firmware/core/response.hpp"
 #include "firmware/core/units.hpp"
 

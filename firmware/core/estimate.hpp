@@ -2,8 +2,8 @@
 // An answer as quantities with units, and how far to trust them.
 
 #include "common/contact.hpp"
-#include "firmware/core/integer_root.hpp"
 #include "firmware/core/locator.hpp"
+#include "firmware/core/units.hpp"
 
 namespace strainfinger::firmware {
 

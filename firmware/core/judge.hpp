@@ -67,9 +67,9 @@ inline constexpr int kFirmMoment_um2 = 360'000;
 inline constexpr int kWeakSignal = 3600;
 /// A weak contact stays one up to here, so that its flag does not come and go with the noise of each set.
 inline constexpr int kNoLongerWeakSignal = 4000;
-/// So many times that [squared] each of two contacts must be felt: 1.3 N/m. Of 26,829 pairs of host/bench
-/// that were told without a flag 1.0 % had a fainter one and a wrong place, of the firmer ones 0.04 %.
-inline constexpr int kWeakOfTwo = 3;
+/// So many times that [squared] each of two contacts must be felt: 1.1 N/m. Of pairs of host/bench that were
+/// told without a flag 11 of 969 with a fainter one had a wrong place, of the firmer ones 17 of 25,860.
+inline constexpr int kWeakOfTwo = 2;
 /// A contact of a pair whose loads explain less than this much of chi-squared is none.
 inline constexpr int kFaint = 36;
 /// A contact of a pair is sure from so many of its load's standard errors on.

@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "firmware/core/hypothesis.hpp"
-#include "firmware/core/reciprocal.hpp"
 
 namespace strainfinger::firmware {
 

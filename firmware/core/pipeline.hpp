@@ -5,7 +5,6 @@
 #include "firmware/core/detect.hpp"
 #include "firmware/core/gauge_watch.hpp"
 #include "firmware/core/locator.hpp"
-#include "firmware/core/noise_meter.hpp"
 #include "firmware/core/zero_tracker.hpp"
 
 namespace strainfinger::firmware {

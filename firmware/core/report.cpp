@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "firmware/core/integer_root.hpp"
 #include "firmware/core/units.hpp"
 
 namespace strainfinger::firmware {

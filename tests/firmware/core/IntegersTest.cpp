@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "firmware/core/integer_root.hpp"
+#include "firmware/core/units.hpp"
 
 #include <CppUTest/TestHarness.h>
 

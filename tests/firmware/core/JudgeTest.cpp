@@ -173,12 +173,12 @@ TEST(Judge, AWeakContactStaysOneUntilItIsATwentiethFirmer) {
   CHECK_FALSE(isWeakAt(1200, false));
   CHECK_TRUE(isWeakAt(1264, true));
   CHECK_FALSE(isWeakAt(1266, true));
-  solution.hypothesis.contacts = 2;  // of two, each by 60 * sqrt(3) deviations
-  solution.contact[1].normal = 2079;
+  solution.hypothesis.contacts = 2;  // of two, each by 60 * sqrt(2) deviations
+  solution.contact[1].normal = 1697;
   CHECK_TRUE(isWeakAt(8000, false));
-  solution.contact[1].normal = 2080;
+  solution.contact[1].normal = 1698;
   CHECK_FALSE(isWeakAt(8000, false));
-  CHECK_TRUE(isWeakAt(2079, false));
+  CHECK_TRUE(isWeakAt(1697, false));
 }
 
 TEST(Judge, AnInadmissibleAnswerCountsAsLessLikely) {

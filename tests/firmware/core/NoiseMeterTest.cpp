@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "firmware/core/noise_meter.hpp"
+#include "firmware/core/detect.hpp"
 
 #include "tests/firmware/core/model_ring.hpp"
 

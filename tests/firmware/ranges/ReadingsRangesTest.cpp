@@ -3,8 +3,8 @@
 #include <limits>
 
 #include "firmware/core/condition.hpp"
-#include "firmware/core/hypothesis.cpp"  // NOLINT: its arithmetic is what is proved
-#include "firmware/core/judge.cpp"       // NOLINT
+#include "firmware/core/hypothesis.hpp"
+#include "firmware/core/judge.cpp"  // NOLINT: its arithmetic is what is proved
 #include "firmware/core/units.hpp"
 #include "tests/firmware/ranges/any_tables.hpp"
 #include "tests/firmware/ranges/ranges_group.hpp"

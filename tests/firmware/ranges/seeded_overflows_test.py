@@ -52,7 +52,7 @@ PROVED = [
          "ConvergenceOfAnyReductionOverflowsNothing"),
     Seed("Fit", "fit.cpp", "magnitude(to.normal - from.normal)", "magnitude((to.normal - from.normal) * 2048)",
          "ConvergenceOfAnyStepOverflowsNothing"),
-    Seed("Readings", "hypothesis.cpp", "error * error + noise", "error * error * error * error + noise",
+    Seed("Readings", "hypothesis.hpp", "error * error + noise", "error * error * error * error + noise",
          "AnyStrainsNoiseAndShiftOverflowNothing"),
     Seed("Readings", "condition.hpp", "code * (1 << kCodeBits) - zero", "code * (1 << kCodeBits) - 2 * zero",
          "AnyCodesZerosAndGainsOverflowNothing"),
@@ -61,7 +61,7 @@ PROVED = [
 # .. and those of which it has a model: that is no longer what they do.
 MODELLED = [
     Seed("", "integers.hpp", "sum += a[i] * b[i];", "sum += 4 * a[i] * b[i];", "AreWhatTheFirmwareDoesAtEveryCorner"),
-    Seed("", "reciprocal.hpp", "return {static_cast<std::int32_t>(mantissa >> 1)", "return {static_cast<std::int32_t>(mantissa)",
+    Seed("", "integers.hpp", "return {static_cast<std::int32_t>(mantissa >> 1)", "return {static_cast<std::int32_t>(mantissa)",
          "AreWhatTheFirmwareDoesAtEveryCorner"),
 ]
 

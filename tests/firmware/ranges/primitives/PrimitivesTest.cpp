@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware/core/reciprocal.hpp"
+#include "firmware/core/integers.hpp"
 #include "tests/firmware/ranges/primitives/primitive.hpp"
 #include "tests/firmware/ranges/ranges_group.hpp"
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "firmware/core/reciprocal.hpp"
+#include "firmware/core/integers.hpp"
 #include "tests/firmware/ranges/primitives/primitive.hpp"
 
 namespace strainfinger::firmware {

@@ -2,7 +2,7 @@
 // has bounds for numbers in that one.
 #include <concepts>
 
-#include "firmware/core/reciprocal.hpp"
+#include "firmware/core/integers.hpp"
 #include "tests/firmware/ranges/primitives/primitive.hpp"
 
 namespace strainfinger::firmware {

@@ -335,6 +335,21 @@ inline Number dot(const Short* a, const Short* b, int count) {
   return sum;
 }
 
+/// What the firmware says of its results.
+struct Reciprocal {
+  Number mantissa = 0;
+  Number exponent = 0;
+};
+
+inline Reciprocal reciprocalOf(const Number& value) {
+  if (value.least() < 1) ++overflows;
+  return {{(1 << 29) - 4, 1 << 30}, {-60, -30}};
+}
+
+inline Number divided(const Number& value, const Reciprocal& by, int bits, const Number& limit) {
+  return shifted(Wide{value} * by.mantissa, by.exponent + bits, limit);
+}
+
 using strainfinger::saturate;
 template <typename To, int kBits, bool kSigned>
 requires(kIsBounds<To>) To saturate(const Bounds<kBits, kSigned>& value) {

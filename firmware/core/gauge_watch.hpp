@@ -30,12 +30,13 @@ class GaugeWatch {
   /// those out of use come back after kConvincing such sets with none between in which they were `wrong`.
   void vindicate(GaugeSet right, GaugeSet wrong);
 
-  /// Places less than this apart are one and the same [turns * 2^32]: half a pitch of a ring of 16.
-  static constexpr std::uint32_t kOnePlace_q32 = (std::uint32_t{1} << 28) / 2;
   static constexpr int kPlaces = 3;       ///< that convict a gauge
   static constexpr int kConvincing = 64;  ///< sample sets that bring one back
 
  private:
+  /// Places less than this apart are one and the same [turns * 2^32]: half a pitch of a ring of 16.
+  static constexpr std::uint32_t kOnePlace_q32 = (std::uint32_t{1} << 28) / 2;
+
   std::array<std::uint8_t, kMaxGauges> places_{};
   std::array<std::uint8_t, kMaxGauges> right_{};  ///< sets in a row, of gauges out of use
   std::array<std::uint32_t, kMaxGauges> lastPlace_q32_{};

@@ -67,8 +67,9 @@ inline constexpr int kFirmMoment_um2 = 360'000;
 inline constexpr int kWeakSignal = 3600;
 /// A weak contact stays one up to here, so that its flag does not come and go with the noise of each set.
 inline constexpr int kNoLongerWeakSignal = 4000;
-/// So many times that [squared] each of two contacts must be felt: 1.1 N/m. Of pairs of host/bench that were
-/// told without a flag 11 of 969 with a fainter one had a wrong place, of the firmer ones 17 of 25,860.
+/// Each of two contacts must be felt by so many times kWeakSignal, or kNoLongerWeakSignal: 1.1 N/m on the
+/// default finger. Without that 40 of 73,125 pairs of host/bench (three seeds) end silently wrong, with
+/// it 24.
 inline constexpr int kWeakOfTwo = 2;
 /// A contact of a pair whose loads explain less than this much of chi-squared is none.
 inline constexpr int kFaint = 36;

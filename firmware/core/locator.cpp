@@ -240,8 +240,8 @@ bool Locator::conclude(const TableImage& tables) {
   const auto costOf = [&](std::size_t i) {
     return rankings[i]->best.residualEnergy + energyOf(readings, kPrice[i]);
   };
-  // Noise takes the fit of a faint second contact beyond the friction cone: it may explain the readings
-  // still.
+  // Noise may take a fit beyond the friction cone, that of a faint second contact most of all: it is not
+  // believed, but leaves doubt.
   std::array<bool, 3> explains{}, mayExplain{};
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < rankings.size(); ++i) {
@@ -256,7 +256,7 @@ bool Locator::conclude(const TableImage& tables) {
   answer_.suspect = 0;
   forgetRival();
   if (!best) return false;
-  const bool faulty = explains[kWithoutOne], two = explains[kPair];
+  const bool faulty = explains[kWithoutOne], two = mayExplain[kPair];
   const Solution& answer = rankings[*best]->best;
   answer_.doubtful = !isPlainAsBuilt(tables.constants, answer, readings);
   for (std::size_t i = 0; i < rankings.size(); ++i)

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "firmware/core/hypothesis.hpp"
+#include "firmware/core/integers.hpp"
 
 namespace strainfinger::firmware {
 

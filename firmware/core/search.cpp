@@ -14,6 +14,7 @@ constexpr Number kPairMoment_q20 = 80'000;
 
 constexpr int kFinePlaces = 25, kCoarsePlaces = 17;
 constexpr std::uint32_t kFineStep = 2, kCoarseStep = 3, kPairStep = 6;  ///< twelfths of a pitch
+constexpr int kBesideSteps = 2;  ///< each way from a contact of the best pair
 static_assert(12 % kPairStep == 0, "pairs are sought all round the ring");
 
 /// Leaving out a gauge further away from the contact changes nothing but what that gauge itself leaves.
@@ -135,11 +136,20 @@ Grid::Grid(const TableConstants& constants, bool widthIsFree, const Ranking& sin
       widthIsFree_(widthIsFree) {
   int singles = 0;
   const auto add = [&](const ContactState& contact) {
-    single_[index(singles++)] = {contact.angle_q32, contact.moment_q20};
+    known_[index(singles++)] = {contact.angle_q32, contact.moment_q20};
   };
   if (single.anyBest) add(single.best.contact[0]);
   if (single.anySecond) add(single.second.contact[0]);
   rows_ = static_cast<std::int16_t>(2 * (columns_ + singles));
+}
+
+Grid::Grid(const TableConstants& constants, bool widthIsFree, const ContactStates& pair)
+    : step_q32_(pitch_q32(constants) / 12 * kPairStep),
+      rows_(kMostContacts),
+      columns_(2 * kBesideSteps),
+      kind_(Kind::kBeside),
+      widthIsFree_(widthIsFree) {
+  for (std::size_t k = 0; k < known_.size(); ++k) known_[k] = {pair[k].angle_q32, pair[k].moment_q20};
 }
 
 ContactStates Grid::at(const TableImage& tables, int point) const {
@@ -157,13 +167,21 @@ ContactStates Grid::at(const TableImage& tables, int point) const {
     case Kind::kCoarse:
       return {place(row, kCoarseMoments_q20[index(column)])};
     case Kind::kPairs:
+    case Kind::kBeside:
       break;
+  }
+  const auto known = [&](int which, int steps) {
+    const Known& at = known_[index(which)];
+    return contact(at.angle_q32 + static_cast<std::uint32_t>(steps) * step_q32_,
+                   steps == 0 ? at.moment_q20 : kPairMoment_q20);
+  };
+  if (kind_ == Kind::kBeside) {
+    const int steps = column < kBesideSteps ? column - kBesideSteps : column - kBesideSteps + 1;
+    return {known(0, row == 0 ? steps : 0), known(1, row == 0 ? 0 : steps)};
   }
   const int beside = row - 2 * columns_;
   if (beside < 0) return {place(row, kPairMoment_q20), place(row + column + 1, kPairMoment_q20)};
-  const Single& single = single_[index(beside / 2)];
-  return {contact(single.angle_q32, single.moment_q20),
-          place(beside % 2 * columns_ + column, kPairMoment_q20)};
+  return {known(beside / 2, 0), place(beside % 2 * columns_ + column, kPairMoment_q20)};
 }
 
 ContactStates initialGuess(const TableImage& tables, const Hypothesis& hypothesis,
@@ -196,7 +214,7 @@ void Search::begin(const TableImage& tables, const ScaledReadings& readings, con
 /// By the figures of LocateAccuracy and the disturbance matrix.
 Search::Effort Search::effort() const {
   if (stage_ == Stage::kSingle) return {19, 8};
-  if (stage_ == Stage::kPair) return {kMostPoints, kMostCandidates};
+  if (stage_ == Stage::kPair || stage_ == Stage::kBeside) return {kMostPoints, kMostCandidates};
   return {3, 1};
 }
 
@@ -316,7 +334,8 @@ void Search::withoutNext(const TableImage& tables) {
     const Hypothesis without{1, all_.widthIsFree, all_.gauges & ~(GaugeSet{1} << leftOut_++)};
     return beginTask(without, Grid(tables, without, readings_, Grid::Kind::kCoarse));
   }
-  stage_ = isSettled(tables.constants) ? Stage::kDone : Stage::kPair;
+  if (isSettled(tables.constants)) return finish();
+  stage_ = Stage::kPair;
   beginTask({2, all_.widthIsFree, all_.gauges}, Grid(tables.constants, all_.widthIsFree, single_));
 }
 
@@ -329,15 +348,23 @@ bool Search::isSettled(const TableConstants& constants) const {
 }
 
 void Search::finishTask(const TableImage& tables, Linearisation& scratch) {
-  const bool isPlainSingle =
-      stage_ == Stage::kSingle && single_.anyBest && isPlain(tables.constants, single_.best, readings_);
-  if (isPlainSingle || stage_ == Stage::kPair) {
-    stage_ = Stage::kDone;
-    return;
+  switch (stage_) {
+    case Stage::kSingle:
+      if (single_.anyBest && isPlain(tables.constants, single_.best, readings_)) return finish();
+      stage_ = Stage::kWithoutOne;
+      findSuspects(tables, scratch);
+      return withoutNext(tables);
+    case Stage::kWithoutOne:
+      return withoutNext(tables);
+    case Stage::kPair:
+      if (!pair_.anyBest) return finish();
+      stage_ = Stage::kBeside;
+      return beginTask(hypothesis_, Grid(tables.constants, all_.widthIsFree, pair_.best.contact));
+    case Stage::kBeside:
+    case Stage::kDone:
+    case Stage::kIdle:
+      return finish();
   }
-  if (stage_ == Stage::kSingle) findSuspects(tables, scratch);
-  stage_ = Stage::kWithoutOne;
-  withoutNext(tables);
 }
 
 /// At most so much is next.

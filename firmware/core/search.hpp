@@ -68,6 +68,7 @@ class Grid {
     kCoarse,  ///< two pitches around where the ring reads most, by quarters of a pitch, two widths
     kFine,    ///< by sixths, five widths
     kPairs,   ///< two places round the ring, or one beside a single contact, by halves of a pitch
+    kBeside,  ///< a pair of which one contact lies elsewhere within a pitch, by halves of it
   };
 
   Grid() = default;
@@ -75,6 +76,8 @@ class Grid {
   Grid(const TableImage& tables, const Hypothesis& hypothesis, const ScaledReadings& readings, Kind kind);
   /// For two, of which one may be as the answers of a single one are.
   Grid(const TableConstants& constants, bool widthIsFree, const Ranking& single);
+  /// For two beside a pair.
+  Grid(const TableConstants& constants, bool widthIsFree, const ContactStates& pair);
 
   int size() const { return rows_ * columns_; }
   ContactStates at(const TableImage& tables, int point) const;
@@ -86,14 +89,14 @@ class Grid {
   }
 
  private:
-  struct Single {
+  struct Known {
     std::uint32_t angle_q32;
     Number moment_q20;
   };
 
   std::uint32_t first_q32_ = 0;  ///< the first place
   std::uint32_t step_q32_ = 0;
-  std::array<Single, 2> single_{};
+  std::array<Known, 2> known_{};  ///< single contacts, or those of a pair
   /// Places, each with so many widths. Of pairs: places of the first contact all round the ring, each with
   /// second ones up to half round from there; then two rows, each of half the ring, beside each single
   /// contact.
@@ -108,7 +111,8 @@ ContactStates initialGuess(const TableImage& tables, const Hypothesis& hypothesi
                            const ScaledReadings& readings, Linearisation& scratch,
                            std::optional<std::uint32_t> otherStart_q32 = {});
 
-/// One contact; if that leaves doubt, one contact without one of the gauges, and two contacts. Of each
+/// One contact; if that leaves doubt, one contact without one of the gauges, and two contacts, at last those
+/// beside the best pair: near every contact there may be a second answer, of another width. Of each
 /// hypothesis many points are looked at, the best of them get their first steps, and the best candidates that
 /// these lead to are refined. advance() does a part of it that fits into a sample period.
 class Search {
@@ -138,7 +142,7 @@ class Search {
   }
 
  private:
-  enum class Stage : std::uint8_t { kIdle, kSingle, kWithoutOne, kPair, kDone };
+  enum class Stage : std::uint8_t { kIdle, kSingle, kWithoutOne, kPair, kBeside, kDone };
 
   /// Of a grid, looked at.
   struct Point {
@@ -170,6 +174,7 @@ class Search {
   void findSuspects(const TableImage& tables, Linearisation& scratch);
   void withoutNext(const TableImage& tables);
   bool isSettled(const TableConstants& constants) const;
+  void finish() { stage_ = Stage::kDone; }
 
   ScaledReadings readings_;
   Hypothesis all_;         ///< one contact, all gauges

@@ -1,5 +1,5 @@
 #pragma once
-// From a fit's units to those of contacts, and from those to the integers of frames; roots for their errors.
+// From a fit's units to those of contacts, and from those to the integers of frames; roots.
 
 #include <algorithm>
 #include <bit>

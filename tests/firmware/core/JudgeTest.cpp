@@ -98,9 +98,10 @@ TEST(Judge, TheGateHasRoomForOtherProfiles) {
   CHECK_FALSE(isAcceptedAt(5201 + static_cast<Wide>(1.05 * room)));
 }
 
-TEST(Judge, InadmissibleContactsExplainNothing) {
+TEST(Judge, InadmissibleContactsExplainNothingThoughWhatTheyLeaveIsWithinTheGate) {
   solution.contact[0].normal = -8000;
   CHECK_FALSE(isAcceptedAt(0));
+  CHECK_TRUE(isWithinGate(solution, readings));
 }
 
 TEST(Judge, WithoutADegreeOfFreedomNothingIsExplained) {
@@ -179,6 +180,10 @@ TEST(Judge, AWeakContactStaysOneUntilItIsATwentiethFirmer) {
   solution.contact[1].normal = 1698;
   CHECK_FALSE(isWeakAt(8000, false));
   CHECK_TRUE(isWeakAt(1697, false));
+  solution.contact[1].normal = 1789;
+  CHECK_TRUE(isWeakAt(8000, true));
+  solution.contact[1].normal = 1790;
+  CHECK_FALSE(isWeakAt(8000, true));
 }
 
 TEST(Judge, AnInadmissibleAnswerCountsAsLessLikely) {

@@ -205,6 +205,38 @@ TEST(LocatorDoubt, OnlyAnotherPlaceOrNumberOfContactsIsDoubt) {
   LONGS_EQUAL(faint.elsewhere, faint.elsewhereDoubted);
 }
 
+// Of two contacts the fainter is read so badly that the fit of both may be beyond the friction cone.
+TEST(LocatorDoubt, APairBeyondTheFrictionConeIsDoubtWhereItExplainsTheReadings) {
+  Presses presses(16, 2, 420);
+  Linearisation scratch;
+  Search search;
+  int beyond = 0, doubted = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Press one = presses.next();
+    const Press other{one.position_pitch + 2.5, one.normal / 4, one.tangential / 4, 0};
+    const auto strains = presses.noisy(ring.strains({one, other}), ring.noise_strain());
+    locateOnce(ring.tables(), ring.raw(strains), ring.allGauges(), locator);
+    const ScaledReadings readings = ring.scaled(strains);
+    search.begin(ring.tables(), readings, {1, true, ring.allGauges()});
+    while (search.isRunning()) search.advance(ring.tables(), Search::kWork, scratch);
+    const Ranking &without = search.withoutOne(), &pair = search.pair();
+    if (!without.anyBest || !pair.anyBest || isAdmissible(ring.constants(), pair.best) ||
+        !firmware::isAccepted(ring.constants(), without.best, readings) || !isWithinGate(pair.best, readings))
+      continue;
+    const Number first = pair.best.contact[0].normal, second = pair.best.contact[1].normal;
+    const Wide more = pair.best.residualEnergy + energyOf(readings, threshold::kSecondContact) -
+                      without.best.residualEnergy - energyOf(readings, threshold::kLeftOut);
+    if (8 * std::min(first, second) < std::max(first, second) ||
+        more >= ambiguity(readings.variances, without.best))
+      continue;
+    ++beyond;
+    doubted += locator.answer().doubtful;
+  }
+  std::printf("%d of %d ", doubted, beyond);
+  CHECK_COMPARE(beyond, >, 5);
+  LONGS_EQUAL(beyond, doubted);
+}
+
 TEST(LocatorDoubt, OfAFaintTouchNoOtherGaugeIsSuspected) {
   for (const double load_n_per_m : {1.0, 4.0}) {
     Presses presses(16, load_n_per_m, 419, 0, 2);

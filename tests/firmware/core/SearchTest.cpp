@@ -217,8 +217,8 @@ TEST(Search, TakesItsTimeInParts) {
   const ModelRing large(ModelRing::asDrawn(32));
   searchOn(large, large.strains({{4.4, 20, 0, 1}, {19.4, 20, 0, 1}}));
   std::printf("in %d parts, with 32 gauges in %d ", ofSixteen, advances);
-  CHECK(ofSixteen > 5 && ofSixteen < 200);
-  CHECK(advances > ofSixteen && advances < 400);
+  CHECK(ofSixteen > 5 && ofSixteen < 170);
+  CHECK(advances > ofSixteen && advances < 320);
 }
 
 TEST(Search, CanBeStopped) {

@@ -87,6 +87,8 @@ TEST(ReadingsRanges, ThresholdsOverflowNothing) {
     forEachWay([&] {
       const Solution solution = anySolution(contacts);
       isPromising(constants, solution);
+      isWithinGate(solution, anyReadings());
+      for (const bool was : {false, true}) isWeak(solution, anyReadings(0x7FFFFFFF).variances, was);
       likelihoodEnergy(constants, solution, anyReadings());
     });
   forEachWay([&] { isAccepted(constants, anySolution(1), anyReadings()); });

@@ -335,12 +335,12 @@ inline Number dot(const Short* a, const Short* b, int count) {
   return sum;
 }
 
-/// What the firmware says of its results.
 struct Reciprocal {
   Number mantissa = 0;
   Number exponent = 0;
 };
 
+/// Of any divisor: what the firmware says of its results.
 inline Reciprocal reciprocalOf(const Number& value) {
   if (value.least() < 1) ++overflows;
   return {{(1 << 29) - 4, 1 << 30}, {-60, -30}};

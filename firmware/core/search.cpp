@@ -213,9 +213,10 @@ void Search::begin(const TableImage& tables, const ScaledReadings& readings, con
 
 /// By the figures of LocateAccuracy and the disturbance matrix.
 Search::Effort Search::effort() const {
-  if (stage_ == Stage::kSingle) return {19, 8};
-  if (stage_ == Stage::kPair || stage_ == Stage::kBeside) return {kMostPoints, kMostCandidates};
-  return {3, 1};
+  if (stage_ == Stage::kSingle) return {19, 12, 8};
+  if (stage_ == Stage::kPair || stage_ == Stage::kBeside)
+    return {kMostPoints, kMostCandidates, kMostCandidates};
+  return {3, 3, 1};
 }
 
 void Search::beginTask(const Hypothesis& hypothesis, const Grid& grid) {
@@ -255,7 +256,7 @@ void Search::tryNext(const TableImage& tables, Linearisation& scratch) {
   if (!solution.converged && ++steps_ <= kFirstSteps) return;
   steps_ = 0;
   ++tried_;
-  candidates_.insert(reached_);
+  candidates_.insert(reached_, effort().kept);
 }
 
 /// A Gauss-Newton step of the next candidate. Where the one before left more than was there it is shortened

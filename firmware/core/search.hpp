@@ -155,10 +155,10 @@ class Search {
   };
   static constexpr int kMostPoints = 48, kMostCandidates = 16;
 
-  /// How many points get their first steps, and how many of the candidates that these lead to are refined to
-  /// the end.
+  /// How many points get their first steps, how many of the candidates that these lead to are kept, and how
+  /// many of those are refined to the end.
   struct Effort {
-    int points, refined;
+    int points, kept, refined;
   };
   Effort effort() const;
 

@@ -63,16 +63,6 @@ class ContactGate {
   bool touched_ = false;
 };
 
-/// What configured noise and the gate's rounding leave on average [gate energy]. Of any tables below 2^64.
-inline std::uint64_t configuredEnergy(const TableConstants& constants) {
-  constexpr int kMostUp = 25, kMostDown = 63;
-  const int up = constants.noise_variance_exponent - 2 * constants.gate_shift;
-  const std::uint64_t twice = std::uint64_t{constants.noise_variance} << 1;
-  const std::uint64_t variance_q1 =
-      up >= 0 ? twice << std::min(up, kMostUp) : twice >> std::min(-up, kMostDown);
-  return std::max<std::uint64_t>(constants.gauge_count * (variance_q1 + 1) / 2, 1);
-}
-
 /// Compares readings kLag sample sets apart, once in kEvery: half a period of 50 Hz hum at 1 kHz, so that hum
 /// counts in full while drift and slow touches hardly do. What it finds raises the gate and the variance of
 /// the readings. A comparison counts for kMostGrowth times the median of the three before at most: a touch
@@ -105,6 +95,16 @@ class NoiseMeter {
  private:
   static constexpr std::uint32_t kConfigured_q8 = 1 << 8;  ///< what configured noise makes of a comparison
   static constexpr std::uint32_t kLoudest_q8 = 1 << 24;    ///< of a comparison: readings differ no more
+
+  /// What configured noise and the gate's rounding leave on average [gate energy]. Of any tables below 2^64.
+  static std::uint64_t configuredEnergy(const TableConstants& constants) {
+    constexpr int kMostUp = 25, kMostDown = 63;
+    const int up = constants.noise_variance_exponent - 2 * constants.gate_shift;
+    const std::uint64_t twice = std::uint64_t{constants.noise_variance} << 1;
+    const std::uint64_t variance_q1 =
+        up >= 0 ? twice << std::min(up, kMostUp) : twice >> std::min(-up, kMostDown);
+    return std::max<std::uint64_t>(constants.gauge_count * (variance_q1 + 1) / 2, 1);
+  }
 
   void compare(const TableConstants& constants, std::span<const std::int32_t> strains_q32, GaugeSet gauges) {
     std::array<std::int32_t, kMaxGauges> change;

@@ -256,7 +256,7 @@ void Search::tryNext(const TableImage& tables, Linearisation& scratch) {
   if (!solution.converged && ++steps_ <= kFirstSteps) return;
   steps_ = 0;
   ++tried_;
-  candidates_.insert(reached_, effort().kept);
+  candidates_.insert(reached_, effort().candidates);
 }
 
 /// A Gauss-Newton step of the next candidate. Where the one before left more than was there it is shortened

@@ -155,10 +155,10 @@ class Search {
   };
   static constexpr int kMostPoints = 48, kMostCandidates = 16;
 
-  /// How many points get their first steps, how many of the candidates that these lead to are kept, and how
-  /// many of those are refined to the end.
+  /// How many points get their first steps, of how many candidates that these lead to the shortlist is, and
+  /// how many of those are refined to the end.
   struct Effort {
-    int points, kept, refined;
+    int points, candidates, refined;
   };
   Effort effort() const;
 

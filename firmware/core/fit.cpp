@@ -361,8 +361,8 @@ bool isShort(const TableConstants& constants, const ContactState& from, const Co
 }
 
 /// A step takes so little off the residuals' sum of squares that another would not matter: at most 64 squared
-/// reading units, or as many reading units times the noise's standard deviation. Three readings may tell so
-/// little that a small residual is a long step: for them 16, and 6 times.
+/// units of weighted readings, or as many units times the noise's standard deviation. Three readings may tell
+/// so little that a small residual is a long step: for them 16, and 6 times.
 bool changesLittle(Wide reduction, const Hypothesis& hypothesis, const ScaledReadings& readings) {
   const Wide most = hypothesis.exact == 0 ? 256 : 2;
   return reduction < (hypothesis.exact == 0 ? 64 : 16) ||

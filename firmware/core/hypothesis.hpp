@@ -68,8 +68,8 @@ struct Variances {
 /// of this part [log2] of the largest reading, whatever it reads itself.
 inline constexpr int kNeighbourBits = 3, kLeastErrorBits = 4;
 
-/// By what a gauge's residual and columns are multiplied [* 2^14]: Variances::reading_q4 over its own
-/// variance, of which that is the root.
+/// By what each gauge's residual and columns are multiplied [* 2^14]: the standard deviation of a gauge that
+/// reads nothing over its own. Then Variances::reading_q4 is the variance of all.
 using Weights = std::array<Short, kMaxGauges>;
 inline constexpr int kWeightBits = 14;
 inline const Weights kAllAlike = [] {

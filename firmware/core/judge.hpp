@@ -126,7 +126,7 @@ bool isAccepted(const TableConstants& constants, const Solution& solution, const
 /// The same within what leaves no doubt: noise alone seldom leaves more.
 bool isPlain(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings);
 
-/// Accepted, and the same with the model's part of the gate's variance doubled, as on a finger as built: that
+/// Accepted, and the same with the model's part of the variance doubled, as on a finger as built: that
 /// leaves no doubt once gauges were left out, and whether there are two contacts need not be looked at.
 bool isPlainAsBuilt(const TableConstants& constants, const Solution& solution,
                     const ScaledReadings& readings);

@@ -15,10 +15,10 @@ constexpr int kStepsWhileSearching = 2, kStepsAfterSearch = 3;
 constexpr int kFollowingWork = 150, kWorkAfterSearch = 170;
 /// Sets of readings after which a second answer is fitted to them as well, or one to all gauges that work.
 constexpr std::uint8_t kRivalEvery = 8;
-/// Of those sets, in which one contact of a finger with a model error and its second answer were compared,
-/// about so many of the last ones count. Else each set counts alone: a pair, and a touch that is loud with
-/// noise, may have more answers than these two (of 18,000 touches with noise times ten 17 are silently wrong
-/// by the mean, 5 by single sets).
+/// What one contact and its second answer leave in those sets is compared in a fading mean of about so many,
+/// if the finger has a model error. A pair, and any touch of a finger without one, is compared anew in each:
+/// there may be more answers than these two (of 18,000 touches with noise times ten 17 are silently wrong by
+/// the mean, 5 by single sets).
 constexpr int kMostCompared = 4;
 constexpr std::uint8_t kTimesRefuted = 3;  ///< in a row, until a second answer is forgotten
 /// Sets of readings after which what is in doubt is looked into again.

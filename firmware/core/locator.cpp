@@ -18,7 +18,7 @@ constexpr std::uint8_t kRivalEvery = 8;
 /// What one contact and its second answer leave in those sets is compared in a fading mean of about so many,
 /// if the finger has a model error. A pair, and any touch of a finger without one, is compared anew in each:
 /// there may be more answers than these two (of 18,000 touches with noise times ten 17 are silently wrong by
-/// the mean, 5 by single sets).
+/// the mean, 6 by single sets).
 constexpr int kMostCompared = 4;
 constexpr std::uint8_t kTimesRefuted = 3;  ///< in a row, until a second answer is forgotten
 /// Sets of readings after which what is in doubt is looked into again.

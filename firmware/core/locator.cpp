@@ -161,7 +161,7 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
 
 void Locator::forgetRival() {
   answer_.anyRival = answer_.rivalIsAsLikely = answer_.rivalIsWithinNoise = answer_.rivalIsLost = false;
-  answer_.timesRefuted = answer_.setsCompared = setsSinceRival_ = 0;
+  answer_.timesRefuted = answer_.setsCompared = 0;
 }
 
 /// Gauges that work, feel the touch and were left out count again, once an answer explains their readings as
@@ -230,7 +230,6 @@ int Locator::followRival(const TableImage& tables, const ScaledReadings& reading
 void Locator::start(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges) {
   answer_ = {};
   isLookedInto_ = false;
-  setsLeftOut_ = 0;
   slid_q32_ = slidBefore_q32_ = {};
   search_.stop();
   const Hypothesis hypothesis = oneContact(tables.constants, gauges, mode_ == FitMode::kRefined);

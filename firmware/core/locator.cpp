@@ -230,6 +230,7 @@ int Locator::followRival(const TableImage& tables, const ScaledReadings& reading
 void Locator::start(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges) {
   answer_ = {};
   isLookedInto_ = false;
+  setsSinceRival_ = setsLeftOut_ = 0;
   slid_q32_ = slidBefore_q32_ = {};
   search_.stop();
   const Hypothesis hypothesis = oneContact(tables.constants, gauges, mode_ == FitMode::kRefined);

@@ -55,9 +55,7 @@ bool ZeroTracker::rests(const TableConstants& constants, const Answer& answer) c
 }
 
 ScaledReadings ZeroTracker::averages(const TableConstants& constants, GaugeSet gauges) const {
-  ScaledReadings readings = scaledReadings(constants, std::span(sum_).first(constants.gauge_count), gauges);
-  readings.weight_q14 = kAllAlike;  // drift is no error of the model
-  return readings;
+  return scaledReadings(constants, std::span(sum_).first(constants.gauge_count), gauges);
 }
 
 /// The averages have so much energy that their shape says where it comes from.

@@ -170,6 +170,7 @@ void Recomputer::end() {
   computed_.clear();
   firstSequence_.reset();
   before_.reset();
+  hasSecond_ = false;
 }
 
 void Recomputer::compute(const can::RawSet& set) {
@@ -180,8 +181,12 @@ void Recomputer::compute(const can::RawSet& set) {
   compareAll();
 }
 
-/// A touch that a tare was forced on ends after it: what began it is not known here.
+/// A touch that a tare was forced on ends after it, its second contact with the first frames of the next
+/// touch: what began them is not known here.
 bool Recomputer::isOfTouchBefore(const CanFrame& frame) {
+  const auto second = decode<Contact2Frame>(frame);
+  hasSecond_ |= second && second->flags.has(FingerFlag::kContact);
+  if (!hasSecond_ && (second || decode<Force2Frame>(frame))) return true;
   const auto contact = decode<ContactFrame>(frame);
   if (contact && !firstSequence_) {
     before_.reset();

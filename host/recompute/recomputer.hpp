@@ -76,6 +76,7 @@ class Recomputer {
   int zeroingSets_ = 0;
   std::optional<std::uint8_t> firstSequence_;  ///< recorded, of what the engine numbers 0
   std::optional<std::uint8_t> before_;         ///< sequence of the end of a touch from before the tare
+  bool hasSecond_ = false;                     ///< a second contact has begun since the tare
   std::map<std::uint16_t, std::deque<Recorded>> recorded_;  ///< by identifier
   std::map<std::uint16_t, std::deque<CanFrame>> computed_;
   RecomputeTally tally_;

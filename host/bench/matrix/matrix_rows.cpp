@@ -89,6 +89,7 @@ class Rows {
     Disturbance& two = built(0);
     two.name = "as built, two contacts 4 pitches apart, 1:0.5, model error 5 %";
     two.second = SecondContact{4, 0.5};
+    two.touched_sets = kLongestSearch_sets + two.rise_sets;
     Disturbance& dead = built(0);
     dead.name = "as built, a dead gauge, model error 5 %";
     dead.failure = Failure::kDead;

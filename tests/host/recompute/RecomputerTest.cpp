@@ -153,6 +153,19 @@ TEST(Recomputer, ATareThatIsForcedOnATouchIsOneToo) {
   checkSame(recording);
 }
 
+TEST(Recomputer, ASecondContactThatATareWasForcedOnEndsAfterIt) {
+  Recording pair(Scenario({TouchCourse{0.2, 1.5, from(60, 95, 1.2), steady(25), steady(2)},
+                           TouchCourse{0.2, 1.2, steady(250), steady(22), steady(0)}}));
+  constexpr bool kIsForced = true;
+  pair.runTared(1400, 1000, kIsForced);
+  const auto begins = [](const Recorded& recorded) {
+    const auto second = decode<Contact2Frame>(recorded.frame);
+    return second && second->flags.has(FingerFlag::kContact);
+  };
+  CHECK_TRUE(std::ranges::any_of(pair.frames, begins));
+  checkSame(pair);
+}
+
 TEST(Recomputer, AFrameThatIsNotWhatTheReadingsGiveIsFound) {
   recording.runTared(1000);
   contacts().at(20)->frame.data[0] ^= 1;

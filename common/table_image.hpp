@@ -75,9 +75,9 @@ struct TableConstants {
   std::uint32_t known_moment_q20;    ///< fraction of it, where the width is known
   std::uint32_t place_error_q32;     ///< standard error of all places that no residual shows, TurnQ32
   std::int16_t load_exponent;
-  std::uint16_t friction_q8;      ///< coefficient of friction [* 2^8]
-  std::uint16_t cone_q8;          ///< largest |tangential| / normal an answer may have [* 2^8]
-  std::uint16_t model_error_q16;  ///< standard deviation of a reading's model error over the largest reading
+  std::uint16_t friction_q8;           ///< coefficient of friction [* 2^8]
+  std::uint16_t cone_q8;               ///< largest |tangential| / normal an answer may have [* 2^8]
+  std::uint16_t model_error_q16;       ///< standard deviation of a reading's model error over that reading
   std::uint16_t load_scale_error_q16;  ///< standard error of the scale of all loads, at most 1
   std::uint16_t load_error_q16;        ///< that calibration leaves of both loads, over the normal load
   std::uint16_t moment_error_q16;      ///< that it leaves of second moments, a fraction of the largest

@@ -42,7 +42,7 @@ std::uint16_t chiOf_q4(const Answer& answer, int freedoms) {
   if (answer.solution.residualEnergy == 0) return 0;
   const Floating energy = floatingOf(static_cast<std::uint64_t>(answer.solution.residualEnergy));
   const Floating allowed =
-      floatingOf(std::uint64_t{answer.variances.gate_q4} * static_cast<std::uint32_t>(freedoms));
+      floatingOf(std::uint64_t{answer.variances.reading_q4} * static_cast<std::uint32_t>(freedoms));
   Floating ratio = floatingOf(energy.mantissa / (allowed.mantissa >> 16));  // * 2^16, to 2^-15
   ratio.exponent += energy.exponent - allowed.exponent - 16 + 4;
   const Root chi = rootOf(ratio);

@@ -194,28 +194,34 @@ void clearRows(const Hypothesis& hypothesis, int unknowns, int gauges,
 }
 
 /// `columns`: of the normal and the tangential load.
-void setLoads(const ContactModel::Loads& responses_q30, int gauge, Rows* columns) {
+void setLoads(const ContactModel::Loads& responses_q30, Number weight_q14, int gauge, Rows* columns) {
   constexpr int kDown = 15 + kLoadExponent, kHalf = 1 << (kDown - 1);
-  columns[0][index(gauge)] = static_cast<Short>((responses_q30.normal + kHalf) >> kDown);
-  columns[1][index(gauge)] = static_cast<Short>((responses_q30.tangential + kHalf) >> kDown);
+  const auto entry = [&](Number response_q30) {
+    return static_cast<Short>(scaled<kDown + kWeightBits>(response_q30 + kHalf, weight_q14));
+  };
+  columns[0][index(gauge)] = entry(responses_q30.normal);
+  columns[1][index(gauge)] = entry(responses_q30.tangential);
 }
 
 /// Another pass, which fingers without a calibration don't pay for.
-void addDepths(const TableImage& tables, const ContactModel& model, int contact,
+void addDepths(const TableImage& tables, const ContactModel& model, int contact, const Weights& weight_q14,
                Linearisation& linearisation) {
-  const auto add = [](Short& entry, Number response) {
-    entry = static_cast<Short>(saturated<kColumnBits>(entry + (response >> kLoadExponent)));
-  };
   for (int gauge = 0; gauge < tables.constants.gauge_count; ++gauge) {
     if (tables.depths.steps[index(gauge)] == 0) continue;
     const ContactModel::Depth depth = model.depthAt(gauge);
     linearisation.predicted[index(gauge)] += depth.predicted;
-    add(linearisation.column[index(loadsOf(contact))][index(gauge)], depth.loads.normal);
-    add(linearisation.column[index(loadsOf(contact) + 1)][index(gauge)], depth.loads.tangential);
+    const auto add = [&](Rows& column, Number response) {
+      Short& entry = column[index(gauge)];
+      const Number weighted = scaled<kLoadExponent + kWeightBits>(response, weight_q14[index(gauge)]);
+      entry = static_cast<Short>(saturated<kColumnBits>(entry + weighted));
+    };
+    add(linearisation.column[index(loadsOf(contact))], depth.loads.normal);
+    add(linearisation.column[index(loadsOf(contact) + 1)], depth.loads.tangential);
   }
 }
 
-void lineariseContact(const TableImage& tables, int contact, Linearisation& linearisation) {
+void lineariseContact(const TableImage& tables, int contact, const Weights& weight_q14,
+                      Linearisation& linearisation) {
   const Hypothesis& hypothesis = linearisation.hypothesis;
   const ContactState& state = linearisation.at[index(contact)];
   const ContactModel model(tables, state, slip_q15(tables.constants, state));
@@ -224,13 +230,14 @@ void lineariseContact(const TableImage& tables, int contact, Linearisation& line
   WideColumn angle, moment;
   for (int gauge = 0; gauge < gauges; ++gauge) {
     const ContactModel::Reading reading = model.at(gauge);
-    setLoads(reading.loads_q30, gauge, loads);
-    angle[index(gauge)] = reading.angle;
-    moment[index(gauge)] = reading.moment;
+    const Number weight = weight_q14[index(gauge)];
+    setLoads(reading.loads_q30, weight, gauge, loads);
+    angle[index(gauge)] = scaled<kWeightBits>(reading.angle, weight);
+    moment[index(gauge)] = scaled<kWeightBits>(reading.moment, weight);
     Number& predicted = linearisation.predicted[index(gauge)];
     predicted = reading.predicted + (contact == 0 ? 0 : predicted);
   }
-  if (tables.depths.areKnown()) addDepths(tables, model, contact, linearisation);
+  if (tables.depths.areKnown()) addDepths(tables, model, contact, weight_q14, linearisation);
   const auto set = [&](int unknown, const WideColumn& entries, int exponent) {
     setColumn(entries, gauges, exponent, linearisation.column[index(unknown)],
               linearisation.exponent[index(unknown)]);
@@ -241,8 +248,8 @@ void lineariseContact(const TableImage& tables, int contact, Linearisation& line
   if (hypothesis.widthIsFree) set(momentOf(hypothesis, contact), moment, model.momentExponent());
 }
 
-/// What is left of each reading [readings]; 0 of gauges that don't count. `expectedShift`: another one takes
-/// a second pass.
+/// What is left of each reading [weighted readings]; 0 of gauges that don't count. `expectedShift`: another
+/// one takes a second pass.
 template <typename Left>
 Residual residualOf(int gauges, GaugeSet counted, int expectedShift, Left leftOf) {
   Residual residual;
@@ -263,9 +270,8 @@ Residual residualOf(int gauges, GaugeSet counted, int expectedShift, Left leftOf
 }
 
 Residual residualOf(int gauges, const Linearisation& linearisation, const ScaledReadings& readings) {
-  return residualOf(gauges, linearisation.hypothesis.gauges, 0, [&](std::size_t gauge) {
-    return readings.value[gauge] - linearisation.predicted[gauge];
-  });
+  return residualOf(gauges, linearisation.hypothesis.gauges, 0,
+                    [&](std::size_t gauge) { return readings.left(gauge, linearisation.predicted[gauge]); });
 }
 
 /// [units of an unknown] as a step of its column.
@@ -355,8 +361,8 @@ bool isShort(const TableConstants& constants, const ContactState& from, const Co
 }
 
 /// A step takes so little off the residuals' sum of squares that another would not matter: at most 64 squared
-/// reading units, or as many reading units times the noise's standard deviation. Three readings may tell so
-/// little that a small residual is a long step: for them 16, and 6 times.
+/// units of weighted readings, or as many units times the noise's standard deviation. Three readings may tell
+/// so little that a small residual is a long step: for them 16, and 6 times.
 bool changesLittle(Wide reduction, const Hypothesis& hypothesis, const ScaledReadings& readings) {
   const Wide most = hypothesis.exact == 0 ? 256 : 2;
   return reduction < (hypothesis.exact == 0 ? 64 : 16) ||
@@ -381,20 +387,21 @@ bool isInReach(const TableImage& tables, const ContactState& contact, int gauge)
 }
 
 void linearise(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,
-               Linearisation& linearisation) {
+               Linearisation& linearisation, const Weights& weight_q14) {
   const int gauges = tables.constants.gauge_count, unknowns = hypothesis.unknowns();
   linearisation.hypothesis = hypothesis;
   linearisation.at = linearisation.slopesAt = contacts;
-  for (int k = 0; k < hypothesis.contacts; ++k) lineariseContact(tables, k, linearisation);
+  for (int k = 0; k < hypothesis.contacts; ++k) lineariseContact(tables, k, weight_q14, linearisation);
   clearRows(hypothesis, unknowns, gauges, linearisation.column);
   decompose(linearisation.column, rowsOf(gauges), unknowns, linearisation.decomposition);
 }
 
-void move(const TableImage& tables, const ContactStates& contacts, Linearisation& linearisation) {
+void move(const TableImage& tables, const ContactStates& contacts, Linearisation& linearisation,
+          const Weights& weight_q14) {
   const Hypothesis& hypothesis = linearisation.hypothesis;
   for (int k = 0; k < hypothesis.contacts; ++k)
     if (!isShort(tables.constants, linearisation.slopesAt[index(k)], contacts[index(k)], kSlopesHoldBits))
-      return linearise(tables, hypothesis, contacts, linearisation);
+      return linearise(tables, hypothesis, contacts, linearisation, weight_q14);
   linearisation.at = contacts;
   for (int k = 0; k < hypothesis.contacts; ++k) {
     const ContactState& state = contacts[index(k)];
@@ -447,22 +454,27 @@ int descend(const TableImage& tables, const ScaledReadings& readings, Linearisat
   const ContactStates from = linearisation.at;
   const bool isExact = linearisation.slopesAt == from;
   const Wide before = left(), promised = solution.residualEnergy;
-  move(tables, solution.contact, linearisation);
+  move(tables, solution.contact, linearisation, readings.weight_q14);
   solution.residualEnergy = left();
   if (solution.residualEnergy < before) return 1;
   solution.contact = partway(from, solution.contact, before - promised, solution.residualEnergy - promised);
-  move(tables, solution.contact, linearisation);
+  move(tables, solution.contact, linearisation, readings.weight_q14);
   solution.residualEnergy = left();
   if (solution.residualEnergy < before) return 2;
-  linearise(tables, solution.hypothesis, from, linearisation);
+  linearise(tables, solution.hypothesis, from, linearisation, readings.weight_q14);
   solution.contact = from;
   solution.residualEnergy = before;
   solution.converged = isExact;
   return kDescentMoves;
 }
 
+Residual allOf(const TableImage& tables, const Hypothesis& hypothesis, const ScaledReadings& readings) {
+  return residualOf(tables.constants.gauge_count, hypothesis.gauges, 15 - kColumnBits,
+                    [&](std::size_t gauge) { return readings.weighted(gauge); });
+}
+
 Solution fitLoads(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,
-                  const ScaledReadings& readings, Linearisation& scratch) {
+                  const Residual& readings, const Weights& weight_q14, Linearisation& scratch) {
   constexpr Number kHalfSlips_q15 = 1 << 14;
   const int gauges = tables.constants.gauge_count, rows = rowsOf(gauges), unknowns = 2 * hypothesis.contacts;
   for (int k = 0; k < hypothesis.contacts; ++k) {
@@ -470,18 +482,16 @@ Solution fitLoads(const TableImage& tables, const Hypothesis& hypothesis, const 
     for (int gauge = 0; gauge < gauges; ++gauge) {
       ContactModel::Loads loads_q30{0, 0};
       if (isInReach(tables, contacts[index(k)], gauge)) loads_q30 = model.loadsAt_q30(gauge);
-      setLoads(loads_q30, gauge, &scratch.column[index(loadsOf(k))]);
+      setLoads(loads_q30, weight_q14[index(gauge)], gauge, &scratch.column[index(loadsOf(k))]);
     }
   }
   clearRows(hypothesis, unknowns, gauges, scratch.column);
   decompose(scratch.column, rows, unknowns, scratch.decomposition);
-  const Residual residual = residualOf(gauges, hypothesis.gauges, 15 - kColumnBits,
-                                       [&](std::size_t gauge) -> Number { return readings.value[gauge]; });
   Vector low, high;
   low.fill(-(kMostLoad << kLoadStepBits));
   high.fill(kMostLoad << kLoadStepBits);
-  const Step best = solve(scratch.decomposition, scratch.column, rows, residual, low, high);
-  Solution solution{hypothesis, contacts, false, leftOf(residual.energy(rows), best.reduction)};
+  const Step best = solve(scratch.decomposition, scratch.column, rows, readings, low, high);
+  Solution solution{hypothesis, contacts, false, leftOf(readings.energy(rows), best.reduction)};
   for (int k = 0; k < hypothesis.contacts; ++k) {
     solution.contact[index(k)].normal = best.x_q14[index(loadsOf(k))] >> kLoadStepBits;
     solution.contact[index(k)].tangential = best.x_q14[index(loadsOf(k) + 1)] >> kLoadStepBits;
@@ -493,7 +503,7 @@ Solution fit(const TableImage& tables, const Hypothesis& hypothesis, const Conta
              const ScaledReadings& readings, int mostSteps, Linearisation& linearisation) {
   Solution solution{hypothesis, start};
   for (int i = 0; i < mostSteps && !solution.converged; ++i) {
-    linearise(tables, hypothesis, solution.contact, linearisation);
+    linearise(tables, hypothesis, solution.contact, linearisation, readings.weight_q14);
     solution = step(tables, linearisation, readings);
   }
   return solution;

@@ -16,9 +16,10 @@ namespace strainfinger::firmware {
 /// moments.
 struct Linearisation {
   Hypothesis hypothesis;
-  ContactStates at;                                   ///< where the predictions are of
-  ContactStates slopesAt;                             ///< where the columns are of
-  alignas(4) std::array<Rows, kMostUnknowns> column;  ///< * 2^exponent: readings per unit of the unknown
+  ContactStates at;        ///< where the predictions are of
+  ContactStates slopesAt;  ///< where the columns are of
+  alignas(
+      4) std::array<Rows, kMostUnknowns> column;  ///< * 2^exponent: weighted readings per unit of the unknown
   std::array<std::int8_t, kMostUnknowns> exponent;
   std::array<Number, kMaxGauges> predicted;  ///< of every gauge of the ring, not limited to what can be read
   Decomposition decomposition;
@@ -32,7 +33,7 @@ struct Solution {
   Hypothesis hypothesis;
   ContactStates contact;
   bool converged = false;
-  Wide residualEnergy = 0;  ///< sum of squared residuals of all gauges that count
+  Wide residualEnergy = 0;  ///< sum of squares of the weighted residuals of all gauges that count
 
   std::span<const ContactState> contacts() const { return std::span(contact).first(hypothesis.contacts); }
 };
@@ -40,13 +41,15 @@ struct Solution {
 /// The gauge is so near to the contact that it feels it: grids, three readings and drift go by that.
 bool isInReach(const TableImage& tables, const ContactState& contact, int gauge);
 
-/// Cost: two table lookups a gauge and contact, and the decomposition.
+/// `weight_q14`: that residuals will have. Cost: two table lookups a gauge and contact, and the
+/// decomposition.
 void linearise(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,
-               Linearisation& linearisation);
+               Linearisation& linearisation, const Weights& weight_q14 = kAllAlike);
 
 /// Predictions of contacts elsewhere; where its columns still hold, these stay as they are. Cost: a third of
 /// linearise() then.
-void move(const TableImage& tables, const ContactStates& contacts, Linearisation& linearisation);
+void move(const TableImage& tables, const ContactStates& contacts, Linearisation& linearisation,
+          const Weights& weight_q14 = kAllAlike);
 
 /// The linear model holds for a contact that turns by so much; `farther`: so many times as far [log2].
 bool isShortTurn(const TableConstants& constants, std::uint32_t turned_q32, int farther = 0);
@@ -54,7 +57,7 @@ bool isShortTurn(const TableConstants& constants, std::uint32_t turned_q32, int 
 /// One step from a linearisation to these readings. `solution.converged`: the linear model holds that far.
 Solution step(const TableImage& tables, const Linearisation& linearisation, const ScaledReadings& readings);
 
-/// Sum of squares of what the predictions leave of the readings that count.
+/// Sum of squares of what the predictions leave of the readings that count, by their weights.
 Wide energyLeft(const TableImage& tables, const Linearisation& linearisation, const ScaledReadings& readings);
 
 /// Of the way from one place to another, whose step promised to take off so much and `missed` that by so
@@ -69,11 +72,14 @@ int descend(const TableImage& tables, const ScaledReadings& readings, Linearisat
             Solution& solution);
 inline constexpr int kDescentMoves = 3;  ///< at most
 
-/// The best loads of contacts at these places and of these widths; their residual energy. Half of each
-/// contact is taken to slip. `scratch` is overwritten. Cost: a table lookup a gauge in reach and load,
-/// without slopes.
+/// What is left of the readings where nothing is predicted.
+Residual allOf(const TableImage& tables, const Hypothesis& hypothesis, const ScaledReadings& readings);
+
+/// The best loads of contacts at these places and of these widths, which leave least of these readings
+/// [allOf()]; their residual energy. Half of each contact is taken to slip. `scratch` is overwritten. Cost: a
+/// table lookup a gauge in reach and load, without slopes.
 Solution fitLoads(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,
-                  const ScaledReadings& readings, Linearisation& scratch);
+                  const Residual& readings, const Weights& weight_q14, Linearisation& scratch);
 
 /// Steps until they converge, `mostSteps` at most.
 Solution fit(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& start,

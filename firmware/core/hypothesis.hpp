@@ -10,6 +10,7 @@
 #include "common/quantities.hpp"
 #include "common/table_image.hpp"
 #include "firmware/core/integers.hpp"
+#include "firmware/core/units.hpp"
 
 namespace strainfinger::firmware {
 
@@ -57,22 +58,39 @@ using ContactStates = std::array<ContactState, kMostContacts>;
 
 /// Of one scaled reading [* 2^4].
 struct Variances {
-  std::uint32_t reading_q4 = 0;  ///< noise, rounding and the model's error
-  std::uint32_t gate_q4 = 0;     ///< the same by which hypotheses are judged, see kGateModelError
+  std::uint32_t reading_q4 = 0;  ///< noise, rounding and the least of the model's error: of weight 1
   std::uint32_t noise_q4 = 0;    ///< noise and rounding alone, which jitter from set to set
+  std::uint32_t largest_q4 = 0;  ///< noise, rounding and the model's error of the largest reading
 };
 
-/// A wrong build pulls the answer along rather than leaving residuals: of a model error of 5 % the fit leaves
-/// 0.6 % of the largest reading in the median and 3 % once in a hundred touches. Hypotheses are judged by a
-/// quarter of the model error [log2].
-inline constexpr int kGateModelError = 2;
+/// What the finger differs from the tables' puts a reading off by `model_error` of itself (gains), of this
+/// part [log2] of what each neighbour reads (a gauge that is glued off its place reads more like them), and
+/// of this part [log2] of the largest reading, whatever it reads itself.
+inline constexpr int kNeighbourBits = 3, kLeastErrorBits = 4;
+
+/// By what each gauge's residual and columns are multiplied [* 2^14]: the standard deviation of a gauge that
+/// reads nothing over its own. Then Variances::reading_q4 is the variance of all.
+using Weights = std::array<Short, kMaxGauges>;
+inline constexpr int kWeightBits = 14;
+inline const Weights kAllAlike = [] {
+  Weights weight_q14;
+  weight_q14.fill(1 << kWeightBits);
+  return weight_q14;
+}();
 
 /// The readings of a ring as 16-bit numbers: strain * 2^32 / 2^shift, the largest in [2^14, 2^15) unless all
 /// are tiny. Half a step of rounding is part of the variance.
 struct ScaledReadings {
   std::array<Short, kMaxGauges> value;  ///< of the gauges that there are
+  Weights weight_q14 = kAllAlike;
   Variances variances;
   std::int8_t shift = 0;
+
+  Number weighted(std::size_t gauge) const { return (value[gauge] * weight_q14[gauge]) >> kWeightBits; }
+  /// What a prediction leaves of a reading, by its weight.
+  Number left(std::size_t gauge, Number predicted) const {
+    return scaled<kWeightBits>(value[gauge] - predicted, weight_q14[gauge]);
+  }
 };
 
 /// Variance of a reading as configured [in configured ones * 2^4].
@@ -89,6 +107,26 @@ inline std::uint32_t noiseVariance_q4(const TableConstants& constants, int shift
   if (up < 0) return constants.noise_variance >> -up;
   if (up >= 8 || constants.noise_variance > kMostVariance_q4 >> up) return kMostVariance_q4;
   return constants.noise_variance << up;
+}
+
+/// How far each reading may be trusted, of variances that are known. Gauges that don't count may read as much
+/// as the largest of those that do.
+inline void weigh(const TableConstants& constants, GaugeSet counted, Number largest,
+                  ScaledReadings& readings) {
+  const int gauges = constants.gauge_count;
+  const auto least_q2 = static_cast<Number>(integerRoot(readings.variances.reading_q4));
+  const auto size = [&](int gauge) {
+    return contains(counted, gauge) ? magnitude(Number{readings.value[index(gauge)]}) : largest;
+  };
+  Number before = size(gauges - 1), here = size(0);
+  for (int gauge = 0; gauge < gauges; ++gauge) {
+    const Number next = size(gauge + 1 == gauges ? 0 : gauge + 1);
+    const Number reads = here + ((before + next) >> kNeighbourBits);
+    const Number own_q2 = ((reads >> 1) * constants.model_error_q16) >> 13;
+    readings.weight_q14[index(gauge)] = static_cast<Short>((least_q2 << kWeightBits) / (least_q2 + own_q2));
+    before = here;
+    here = next;
+  }
 }
 
 /// `gauges`: those that count when the scale and the model's error are chosen; others may saturate.
@@ -112,8 +150,9 @@ inline ScaledReadings scaledReadings(const TableConstants& constants, std::span<
   const auto withModelError = [&](Natural error) {
     return static_cast<std::uint32_t>(std::min<Natural>(error * error + noise, kMostVariance_q4));
   };
-  scaled.variances = {withModelError(modelError), withModelError(modelError >> kGateModelError),
-                      withModelError(0)};
+  scaled.variances = {withModelError(modelError >> kLeastErrorBits), withModelError(0),
+                      withModelError(modelError)};
+  if (constants.model_error_q16 != 0) weigh(constants, gauges, largest, scaled);
   return scaled;
 }
 

@@ -15,12 +15,9 @@ Number largestReading(const ScaledReadings& readings, GaugeSet gauges) {
 
 }  // namespace
 
-Wide ambiguity(const Variances& variances, const Solution& better) {
-  const Wide least = energyOf(variances.noise_q4, threshold::kAmbiguous),
-             most = energyOf(variances.reading_q4, threshold::kAmbiguous);
-  const Wide left = better.residualEnergy + energyOf(variances, 1);
-  return std::clamp(threshold::kAmbiguousRatio * left / std::max(freedoms(better.hypothesis), 1), least,
-                    most);
+Wide ambiguity(const Variances& variances, int sets) {
+  const Wide model_q4 = Wide{variances.reading_q4} - variances.noise_q4;
+  return (threshold::kAmbiguous * (model_q4 + Wide{variances.noise_q4} / sets)) >> 4;
 }
 
 bool isAdmissible(const TableConstants& constants, const ContactState& contact) {
@@ -107,13 +104,15 @@ bool isPlainAsBuilt(const TableConstants& constants, const Solution& solution,
   const Variances& variances = readings.variances;
   return isAccepted(constants, solution, readings) &&
          isWithin(solution, readings,
-                  energyOf(2 * variances.gate_q4 - variances.noise_q4, doubt(solution.hypothesis)));
+                  energyOf(2 * variances.reading_q4 - variances.noise_q4, doubt(solution.hypothesis)));
 }
 
 bool isFirm(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings) {
   if (solution.hypothesis.gauges != allGauges(constants.gauge_count)) return false;
   const Number largest = largestReading(readings, solution.hypothesis.gauges);
-  if (Wide{largest} * largest < energyOf(readings, threshold::kFirmSignal)) return false;
+  const Variances& variances = readings.variances;
+  const std::uint32_t aside_q4 = variances.noise_q4 + ((variances.largest_q4 - variances.noise_q4) >> 4);
+  if (Wide{largest} * largest < energyOf(aside_q4, threshold::kFirmSignal)) return false;
   for (const ContactState& contact : solution.contacts())
     if (solution.hypothesis.widthIsFree &&
         (Wide{contact.moment_q20} * constants.largest_moment_um2 >> kMomentBits) > threshold::kFirmMoment_um2)

@@ -29,13 +29,9 @@ inline constexpr int kLeftOut = 16;
 inline constexpr int kProfileErrorBits = 9;
 /// An answer that was followed is given up where it leaves so many times kGate: hysteresis.
 inline constexpr int kLost = 4;
-/// Two answers are not told apart within so many variances of noise: the wrong one of two is told
-/// unflagged at most once in 11,000, however far apart they are.
+/// Two answers are not told apart within so many variances of a reading: of one set, the wrong one of two is
+/// told unflagged at most once in 11,000, however far apart they are.
 inline constexpr int kAmbiguous = 14;
-/// Nor within so many times what the better one leaves a degree of freedom, as far as that may be the model's
-/// error. Of 6,000 touches of fingers as built (host/bench) 9 are silently wrong and 12.8 % flagged; 16 and
-/// 13.3 % by kAmbiguous variances of the gate instead.
-inline constexpr int kAmbiguousRatio = 24;
 /// A second answer is refuted by a sample set of which it leaves so many times more than would be ambiguous.
 inline constexpr int kRefuted = 4;
 /// Of one contact, a search does not refine candidates which leave, after their first steps, so many times
@@ -45,9 +41,7 @@ inline constexpr int kHopelessBits = 2;
 /// Answers so many sixteenths of a pitch apart are at different places, rather than of different widths.
 inline constexpr int kElsewhere_16 = 4;
 /// A second answer so many sixteenths of a pitch away, or farther, is named and flagged; a nearer one only if
-/// noise alone may have told the wrong one, else it is enough that errors reach it. Of 6,000 touches of
-/// fingers as built (host/bench) 9 are silently wrong and 12.8 % flagged; 12 and 14.6 % if all are named that
-/// errors of the answer alone don't reach.
+/// noise alone may have told the wrong one, else it is enough that errors reach it.
 inline constexpr int kNamed_16 = 6;
 /// A second start is so many sixteenths of a pitch away from the first: the coarse grid's next point but one.
 inline constexpr int kOtherStart_16 = 6;
@@ -58,7 +52,8 @@ inline constexpr int kOtherWidthBits = 2;
 inline constexpr int kInadmissible = 28;
 /// Largest reading over a standard deviation [squared] and second moment of contacts that have no second
 /// answer near by: the gap of chi-squared is 80 at 14 N/m and 2 mm on the default finger without model error.
-/// With one of 0.4 % or more no touch is firm.
+/// The deviation is that of the gauges that tell answers apart, which read a quarter of the largest reading:
+/// with a model error of 0.4 % or more no touch is firm.
 inline constexpr int kFirmSignal = 1'200'000;
 inline constexpr int kFirmMoment_um2 = 360'000;
 /// A contact's largest reading over a standard deviation of noise [squared] below which its place is not
@@ -92,17 +87,15 @@ constexpr Wide energyOf(std::uint32_t variance_q4, Wide chiSquared) {
   return (chiSquared * variance_q4) >> 4;
 }
 constexpr Wide energyOf(const Variances& variances, Wide chiSquared) {
-  return energyOf(variances.gate_q4, chiSquared);
+  return energyOf(variances.reading_q4, chiSquared);
 }
 constexpr Wide energyOf(const ScaledReadings& readings, Wide chiSquared) {
   return energyOf(readings.variances, chiSquared);
 }
 
-/// Two answers are not told apart where the worse one leaves less than so much more. Noise is known; of a
-/// model's error only what it is at most, so it is taken to be what the better answer leaves: kAmbiguousRatio
-/// times that and a variance of the gate, a degree of freedom, within kAmbiguous variances of noise and of a
-/// reading.
-Wide ambiguity(const Variances& variances, const Solution& better);
+/// Two answers are not told apart where the worse one leaves less than so much more, in the mean of so many
+/// sets: noise averages out, the model's error does not.
+Wide ambiguity(const Variances& variances, int sets = 1);
 
 /// The contact presses and stays within the friction cone.
 bool isAdmissible(const TableConstants& constants, const ContactState& contact);
@@ -133,7 +126,7 @@ bool isAccepted(const TableConstants& constants, const Solution& solution, const
 /// The same within what leaves no doubt: noise alone seldom leaves more.
 bool isPlain(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings);
 
-/// Accepted, and the same with the model's part of the gate's variance doubled, as on a finger as built: that
+/// Accepted, and the same with the model's part of the variance doubled, as on a finger as built: that
 /// leaves no doubt once gauges were left out, and whether there are two contacts need not be looked at.
 bool isPlainAsBuilt(const TableConstants& constants, const Solution& solution,
                     const ScaledReadings& readings);

@@ -35,12 +35,14 @@ struct Answer {
   bool rivalIsElsewhere = false;    ///< when it was found, not another width of the same place
   bool rivalIsLost = false;         ///< a search is to look for it
   std::uint8_t timesRefuted = 0;
-  bool doubtful = false;   ///< another hypothesis explains the readings nearly as well
-  bool accepted = false;   ///< the hypothesis explains the readings
-  bool weak = false;       ///< a contact is felt by little more than noise
-  bool searching = false;  ///< the search for other hypotheses goes on
-  bool several = false;    ///< two contacts, or nothing, explain the readings best
-  GaugeSet suspect = 0;    ///< as Suspect has it
+  std::uint8_t setsCompared = 0;  ///< sets of readings, as of now, to which both were fitted
+  Wide rivalMore = 0;             ///< energy that the rival leaves more than the answer, in their mean
+  bool doubtful = false;          ///< another hypothesis explains the readings nearly as well
+  bool accepted = false;          ///< the hypothesis explains the readings
+  bool weak = false;              ///< a contact is felt by little more than noise
+  bool searching = false;         ///< the search for other hypotheses goes on
+  bool several = false;           ///< two contacts, or nothing, explain the readings best
+  GaugeSet suspect = 0;           ///< as Suspect has it
 };
 
 /// Starts from the last answer where it still explains the readings, else from the readings; searches where

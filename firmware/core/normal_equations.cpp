@@ -73,13 +73,13 @@ Step solve(const Decomposition& decomposition, const std::array<Rows, kMostUnkno
 }
 
 std::array<Wide, kMostUnknowns> variances(const Decomposition& decomposition) {
-  constexpr int kWeightBits = 40, kSpareBits = 10;
+  constexpr int kInverseBits = 40, kSpareBits = 10;
   const int unknowns = decomposition.unknowns;
   Vector weight_q40;  // 1 / pivot: of columns with an entry that uses its bits, pivots are 2^10 or more
   for (int i = 0; i < unknowns; ++i) {
     const Reciprocal& reciprocal = decomposition.reciprocal[index(i)];
     weight_q40[index(i)] =
-        (shifted(reciprocal.mantissa, reciprocal.exponent + kWeightBits + 1, 0x7FFFFFFE) + 1) >> 1;
+        (shifted(reciprocal.mantissa, reciprocal.exponent + kInverseBits + 1, 0x7FFFFFFE) + 1) >> 1;
   }
   std::array<Wide, kMostUnknowns> variance;
   for (int i = 0; i < unknowns; ++i) {

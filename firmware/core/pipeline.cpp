@@ -105,6 +105,7 @@ bool Pipeline::isKnown(Codes codes) const {
 }
 
 const Observation& Pipeline::process(Codes codes) {
+  const bool wasSearching = locator_.isSearching();  // the set that concludes a search is dear, too
   if (observation_.touched && isKnown(codes)) {
     observation_.unchanged = true;
   } else {
@@ -118,7 +119,7 @@ const Observation& Pipeline::process(Codes codes) {
   areZerosNew_ = tracker_.take(*tables_, strains(), observation_.touched ? &locator_.answer() : nullptr,
                                observation_.leftOut | observation_.saturated | watch_.outOfUse(),
                                calibration_, locator_.scratch(),
-                               observation_.touched || (!gate_.touched() && !locator_.isSearching()));
+                               observation_.touched || (!gate_.touched() && !wasSearching));
   observation_.staleZero = tracker_.stale();
   observation_.noisy = noise_.isNoisy();
   observation_.uncertain = tooFewGauges();

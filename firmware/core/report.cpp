@@ -159,8 +159,8 @@ bool isNews(const TouchFrames& frames, const TouchFrames& last, std::uint32_t no
 
 /// Standard deviation of the noise over that of all that a reading may be off [* 2^8].
 std::uint32_t noiseShare_q8(const Answer& answer) {
-  const int down = std::max(16 - std::countl_zero(answer.variances.reading_q4), 0);  // to 16 bits
-  const std::uint32_t variance = answer.variances.reading_q4 >> down,
+  const int down = std::max(16 - std::countl_zero(answer.variances.largest_q4), 0);  // to 16 bits
+  const std::uint32_t variance = answer.variances.largest_q4 >> down,
                       noise = answer.variances.noise_q4 >> down;
   return integerRoot((noise << 16) / variance);
 }

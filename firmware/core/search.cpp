@@ -100,8 +100,7 @@ void Ranking::take(const TableConstants& constants, const Solution& solution,
            areSame(constants, of.hypothesis.contacts, of.contact, best.contact);
   };
   const auto isRival = [&](const Solution& of) {
-    return of.hypothesis == best.hypothesis &&
-           energy(of) - energy(best) < ambiguity(readings.variances, best) &&
+    return of.hypothesis == best.hypothesis && energy(of) - energy(best) < ambiguity(readings.variances) &&
            areElsewhere(constants, of.hypothesis.contacts, of.contact, best.contact);
   };
   Solution other = solution;
@@ -188,13 +187,14 @@ ContactStates initialGuess(const TableImage& tables, const Hypothesis& hypothesi
                            const ScaledReadings& readings, Linearisation& scratch,
                            std::optional<std::uint32_t> otherStart_q32) {
   const Grid grid(tables, hypothesis, readings, Grid::Kind::kCoarse);
+  const Residual all = allOf(tables, hypothesis, readings);
   const std::uint32_t away_q32 = pitch_q32(tables.constants) / 16 * threshold::kOtherStart_16;
   Solution best;
   bool any = false;
   for (int i = 0; i < grid.size(); ++i) {
     const ContactStates contacts = grid.at(tables, i);
     if (otherStart_q32 && apart_q32(contacts[0], {*otherStart_q32}) < away_q32) continue;
-    const Solution point = fitLoads(tables, hypothesis, contacts, readings, scratch);
+    const Solution point = fitLoads(tables, hypothesis, contacts, all, readings.weight_q14, scratch);
     if (!isPromising(tables.constants, point)) continue;
     if (any && point.residualEnergy >= best.residualEnergy) continue;
     best = point;
@@ -228,9 +228,17 @@ void Search::beginTask(const Hypothesis& hypothesis, const Grid& grid) {
   tried_ = refined_ = steps_ = kept_ = 0;
 }
 
+/// The points that there is work left for.
+void Search::lookAtPoints(const TableImage& tables, int& left, Linearisation& scratch) {
+  const Residual all = allOf(tables, hypothesis_, readings_);
+  const int work = nextWork(tables);
+  for (; point_ < grid_.size() && work <= left; left -= work) lookAtNext(tables, all, scratch);
+}
+
 /// Keeps the best points. Of neighbours, all but the best lead to where that does.
-void Search::lookAtNext(const TableImage& tables, Linearisation& scratch) {
-  const Solution solution = fitLoads(tables, hypothesis_, grid_.at(tables, point_), readings_, scratch);
+void Search::lookAtNext(const TableImage& tables, const Residual& all, Linearisation& scratch) {
+  const Solution solution =
+      fitLoads(tables, hypothesis_, grid_.at(tables, point_), all, readings_.weight_q14, scratch);
   const Point point{static_cast<std::uint32_t>(solution.residualEnergy >> kPointEnergyBits), point_++};
   if (!isPromising(tables.constants, solution)) return;
   const auto isNeighbour = [&](const Point& other) {
@@ -246,11 +254,12 @@ void Search::lookAtNext(const TableImage& tables, Linearisation& scratch) {
 void Search::tryNext(const TableImage& tables, Linearisation& scratch) {
   if (steps_ == 0) {
     const ContactStates at = grid_.at(tables, bestPoints_[tried_].number);
-    reached_.contact = fitLoads(tables, hypothesis_, at, readings_, scratch).contact;
+    const Residual all = allOf(tables, hypothesis_, readings_);
+    reached_.contact = fitLoads(tables, hypothesis_, at, all, readings_.weight_q14, scratch).contact;
     steps_ = 1;
     return;
   }
-  linearise(tables, hypothesis_, reached_.contact, scratch);
+  linearise(tables, hypothesis_, reached_.contact, scratch, readings_.weight_q14);
   const Solution solution = step(tables, scratch, readings_);
   reached_ = {solution.contact, solution.residualEnergy};
   if (!solution.converged && ++steps_ <= kFirstSteps) return;
@@ -267,7 +276,7 @@ void Search::refineNext(const TableImage& tables, Linearisation& scratch) {
     ++refined_;
     return;
   }
-  linearise(tables, hypothesis_, candidate.contact, scratch);
+  linearise(tables, hypothesis_, candidate.contact, scratch, readings_.weight_q14);
   const Wide left = energyLeft(tables, scratch, readings_);
   const bool isWorse = steps_ >= kPatience && left >= reached_.residualEnergy;
   Solution solution{hypothesis_, {}};
@@ -322,7 +331,7 @@ void Search::findSuspects(const TableImage& tables, Linearisation& scratch) {
   linearise(tables, best.hypothesis, best.contact, scratch);
   for (int i = 0; i < tables.constants.gauge_count; ++i) {
     const ContactState gauge{tables.gauge_angle_q32[index(i)]};
-    const Wide left = Wide{readings_.value[index(i)]} - scratch.predicted[index(i)];
+    const Wide left = readings_.left(index(i), scratch.predicted[index(i)]);
     if (apart_q32(best.contact[0], gauge) > kSuspectPitches * pitch_q32(tables.constants) &&
         left * left < best.residualEnergy / 4)
       suspects_ &= ~(GaugeSet{1} << i);
@@ -335,17 +344,9 @@ void Search::withoutNext(const TableImage& tables) {
     const Hypothesis without{1, all_.widthIsFree, all_.gauges & ~(GaugeSet{1} << leftOut_++)};
     return beginTask(without, Grid(tables, without, readings_, Grid::Kind::kCoarse));
   }
-  if (isSettled(tables.constants)) return finish();
+  if (single_.anyBest && isPlainAsBuilt(tables.constants, single_.best, readings_)) return finish();
   stage_ = Stage::kPair;
   beginTask({2, all_.widthIsFree, all_.gauges}, Grid(tables.constants, all_.widthIsFree, single_));
-}
-
-/// One contact explains the readings, on a finger as built, and the likeliest one without a gauge is not
-/// elsewhere.
-bool Search::isSettled(const TableConstants& constants) const {
-  if (!single_.anyBest || !isPlainAsBuilt(constants, single_.best, readings_)) return false;
-  return !withoutOne_.anyBest || !isAccepted(constants, withoutOne_.best, readings_) ||
-         !areElsewhere(constants, 1, single_.best.contact, withoutOne_.best.contact);
 }
 
 void Search::finishTask(const TableImage& tables, Linearisation& scratch) {
@@ -378,10 +379,12 @@ int Search::nextWork(const TableImage& tables) const {
 
 void Search::advance(const TableImage& tables, int work, Linearisation& scratch) {
   for (int left = work; isRunning() && nextWork(tables) <= left;) {
-    left -= nextWork(tables);
     if (point_ < grid_.size()) {
-      lookAtNext(tables, scratch);
-    } else if (tried_ < bestPoints_.size()) {
+      lookAtPoints(tables, left, scratch);
+      continue;
+    }
+    left -= nextWork(tables);
+    if (tried_ < bestPoints_.size()) {
       tryNext(tables, scratch);
     } else if (isRefining()) {
       refineNext(tables, scratch);

@@ -134,7 +134,7 @@ class Search {
   const Ranking& withoutOne() const { return withoutOne_; }
   const Ranking& pair() const { return pair_; }
 
-  /// What an update has time for, in units of 510 instructions of a Cortex-M4 with 16 gauges.
+  /// What an update has time for, in units of 530 instructions of a Cortex-M4 with 16 gauges.
   static constexpr int kWork = 128;
   /// Of a Gauss-Newton step and its linear model.
   static int stepWork(const TableImage& tables, const Hypothesis& hypothesis) {
@@ -164,7 +164,8 @@ class Search {
 
   void beginTask(const Hypothesis& hypothesis, const Grid& grid);
   int nextWork(const TableImage& tables) const;
-  void lookAtNext(const TableImage& tables, Linearisation& scratch);
+  void lookAtPoints(const TableImage& tables, int& left, Linearisation& scratch);
+  void lookAtNext(const TableImage& tables, const Residual& all, Linearisation& scratch);
   void tryNext(const TableImage& tables, Linearisation& scratch);
   void refineNext(const TableImage& tables, Linearisation& scratch);
   bool isWorseTwin(const TableConstants& constants, int candidate) const;
@@ -173,7 +174,6 @@ class Search {
   void finishTask(const TableImage& tables, Linearisation& scratch);
   void findSuspects(const TableImage& tables, Linearisation& scratch);
   void withoutNext(const TableImage& tables);
-  bool isSettled(const TableConstants& constants) const;
   void finish() { stage_ = Stage::kDone; }
 
   ScaledReadings readings_;

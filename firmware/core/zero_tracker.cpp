@@ -55,7 +55,9 @@ bool ZeroTracker::rests(const TableConstants& constants, const Answer& answer) c
 }
 
 ScaledReadings ZeroTracker::averages(const TableConstants& constants, GaugeSet gauges) const {
-  return scaledReadings(constants, std::span(sum_).first(constants.gauge_count), gauges);
+  ScaledReadings readings = scaledReadings(constants, std::span(sum_).first(constants.gauge_count), gauges);
+  readings.weight_q14 = kAllAlike;  // drift is no error of the model
+  return readings;
 }
 
 /// The averages have so much energy that their shape says where it comes from.

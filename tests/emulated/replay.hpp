@@ -57,8 +57,9 @@ inline void add(Hash& hash, const firmware::Pipeline& pipeline, std::uint32_t sa
   hash.add(hypothesis.exact);
   hash.add(answer.suspect);
   hash.add(answer.variances.reading_q4);
-  hash.add(answer.variances.gate_q4);
   hash.add(answer.variances.noise_q4);
+  hash.add(answer.variances.largest_q4);
+  add(hash, answer.rivalMore);
   hash.add(std::int32_t{answer.solution.converged} + 2 * std::int32_t{answer.accepted} +
            4 * std::int32_t{answer.searching} + 8 * std::int32_t{answer.several} +
            16 * std::int32_t{answer.doubtful} + 128 * std::int32_t{answer.weak} +

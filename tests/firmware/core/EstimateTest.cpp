@@ -120,18 +120,16 @@ TEST(EstimatedErrors, GrowWithTheModelsError) {
   config::FingerConfig config = ModelRing::asDrawn();
   config.gauges.model_error = 0.02;
   const ModelRing glued(config);
-  const Press press{5.3, 20, 4, 1};
-  double largest = 0;
-  for (const double strain : glued.strains(press)) largest = std::max(largest, std::abs(strain));
-  const double times = std::hypot(1, 0.02 * largest / glued.noise_strain());
-  CHECK_COMPARE(times, >, 10);
-  // Besides what no residual tells: all places and the scale of all loads.
-  const double place_pitch = std::ldexp(glued.constants().place_error_q32, -32) * glued.gauges(),
-               load = std::ldexp(glued.constants().load_scale_error_q16, -16);
-  const Eigen::Vector3d unseen(place_pitch, load * press.normal, load * press.tangential);
-  Eigen::Vector4d errors = times * glued.bound(press);
-  for (Eigen::Index i = 0; i < 3; ++i) errors[i] = std::hypot(errors[i], unseen[i]);
-  checkSigmas(glued, found(glued, press), errors, 0.1);
+  const double load = std::ldexp(glued.constants().load_scale_error_q16, -16),
+               place_pitch = std::ldexp(glued.constants().place_error_q32, -32) * 16;
+  for (double position = 5; position < 6; position += 0.1) {
+    const Press press{position, 20, 4, 1};
+    Eigen::Vector4d bound = glued.bound(press, glued.deviations(glued.strains(press)));
+    CHECK_COMPARE(bound[0], >, 2 * glued.bound(press)[0]);
+    const Eigen::Vector3d unseen(place_pitch, load * press.normal, load * press.tangential);
+    for (Eigen::Index i = 0; i < 3; ++i) bound[i] = std::hypot(bound[i], unseen[i]);
+    checkSigmas(glued, found(glued, press), bound, 0.1);
+  }
 }
 
 TEST_GROUP_BASE(Estimate, Estimated) {
@@ -157,7 +155,7 @@ TEST_GROUP_BASE(Estimate, Estimated) {
   /// Leaves so many variances for each degree of freedom.
   void leave(double times) {
     const int left = freedoms(answer.solution.hypothesis);
-    answer.solution.residualEnergy = static_cast<Wide>(times * left * answer.variances.gate_q4 / 16);
+    answer.solution.residualEnergy = static_cast<Wide>(times * left * answer.variances.reading_q4 / 16);
   }
   /// Nearly as likely.
   void setRival(double pitches) {
@@ -265,7 +263,7 @@ TEST(Estimate, ChiIsTheRootOfChiSquaredAFreedom) {
 TEST(Estimate, ChiSaturatesShortOfNone) {
   leave(1e9);
   CHECK(estimated().chi_q4 < kNoChi);
-  answer.variances.gate_q4 = 4;
+  answer.variances.reading_q4 = 4;
   answer.solution.residualEnergy = Wide{1} << 36;
   LONGS_EQUAL(kNoChi - 1, estimated().chi_q4);
 }

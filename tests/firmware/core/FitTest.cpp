@@ -74,6 +74,31 @@ TEST(Fit, StepsReachTheOptimumOfTheElasticModel) { checkAgainstExactFit(10, 0.5,
 
 TEST(Fit, SoTheyDoForFirmTouchesWithinTheTablesError) { checkAgainstExactFit(30, 0.5, 3, 0.4); }
 
+// Gauges are off their places and gains: those that read much are trusted less.
+TEST(Fit, GaugesAreWeighedByWhatTheyReadWhereTheFingerMayBeOff) {
+  constexpr int kTouches = 200;
+  config::FingerConfig config;
+  config.gauges.model_error = 0.03;
+  const ModelRing built(config);
+  Presses presses(16, 20, 204, 1, 3);
+  double squares = 0, ofEqualWeights = 0;
+  for (int i = 0; i < kTouches; ++i) {
+    const Press press = presses.next();
+    const auto strains = presses.noisy(built.strainsAsBuilt(press, presses), built.noise_strain());
+    const auto found = [&](const ModelRing& of) {
+      return pressOf(of, fitted(of, strains, {press}), strains);
+    };
+    const Press exact = ExactFit(built, strains).from({press}).presses[0];
+    const Eigen::Vector4d bound = built.bound(exact, built.deviations(strains));
+    squares += std::pow(sigmasBetween(built, exact, found(built), bound), 2);
+    ofEqualWeights += std::pow(sigmasBetween(built, exact, found(ring), bound), 2);
+  }
+  std::printf("%.3f, of equal weights %.2f ", std::sqrt(squares / kTouches),
+              std::sqrt(ofEqualWeights / kTouches));
+  CHECK_COMPARE(std::sqrt(squares / kTouches), <, 0.1);
+  CHECK_COMPARE(std::sqrt(ofEqualWeights / kTouches), >, 0.5);
+}
+
 TEST(Fit, AShortStepIsAlmostTheLast) {
   constexpr int kTouches = 1000;
   Presses presses(16, 30, 204, 0.5, 3);
@@ -271,7 +296,7 @@ TEST(Fit, AStepThatLeavesMoreThanWasIsShortened) {
     const ContactStates start{built.stateOf(beside(press, 0.3, 0), readings.shift)};
     toAndFro += !fit(built.tables(), hypothesis, start, readings, 60, linearisation).converged;
 
-    linearise(built.tables(), hypothesis, start, linearisation);
+    linearise(built.tables(), hypothesis, start, linearisation, readings.weight_q14);
     Wide left = energyLeft(built.tables(), linearisation, readings);
     Solution solution = step(built.tables(), linearisation, readings);
     for (int steps = 0; steps < 60 && !solution.converged; ++steps) {
@@ -311,7 +336,9 @@ TEST(Fit, TheBestLoadsOfAPlaceAreThoseOfLeastSquares) {
     const ContactState state = ring.stateOf(slid, readings.shift);
     ContactState place = state;
     place.normal = place.tangential = 0;
-    const Solution solution = fitLoads(ring.tables(), hypothesis, {place}, readings, linearisation);
+    const Solution solution =
+        fitLoads(ring.tables(), hypothesis, {place}, allOf(ring.tables(), hypothesis, readings),
+                 readings.weight_q14, linearisation);
     DOUBLES_EQUAL(state.normal, solution.contact[0].normal, 0.002 * state.normal);
     DOUBLES_EQUAL(state.tangential, solution.contact[0].tangential, 0.002 * state.normal);
     LONGS_EQUAL(state.angle_q32, solution.contact[0].angle_q32);

@@ -24,6 +24,7 @@ TEST_GROUP(ScaledReadings) {
   GaugeSet gauges = allGauges(16);
 
   ScaledReadings scaled(std::uint32_t noise_q4 = 16, int shift = -1) {
+    constants.gauge_count = static_cast<decltype(constants.gauge_count)>(strains.size());
     return scaledReadings(constants, strains, gauges, noise_q4, shift);
   }
   /// Configured variance of a reading [(strain * 2^32)^2].
@@ -95,7 +96,8 @@ TEST(ScaledReadings, TheVarianceIsThatOfNoiseAndRounding) {
     setNoise(variance);
     DOUBLES_EQUAL(variance / 4096 * 16 + kRounding_q4, scaled().variances.reading_q4, 1);
     DOUBLES_EQUAL(variance / 4096 * 16 * 5 + kRounding_q4, scaled(5 * 16).variances.reading_q4, 5);
-    LONGS_EQUAL(scaled().variances.reading_q4, scaled().variances.gate_q4);
+    LONGS_EQUAL(scaled().variances.reading_q4, scaled().variances.noise_q4);
+    LONGS_EQUAL(scaled().variances.reading_q4, scaled().variances.largest_q4);
   }
 }
 
@@ -103,8 +105,52 @@ TEST(ScaledReadings, TheModelErrorIsAPartOfTheLargestReading) {
   constants.model_error_q16 = 3277;  // 5 %
   strains[7] = -24'000;
   strains[8] = 12'000;
-  DOUBLES_EQUAL(1200.0 * 1200 * 16, scaled().variances.reading_q4, 1200.0 * 1200 * 16 / 500);
-  DOUBLES_EQUAL(300.0 * 300 * 16, scaled().variances.gate_q4, 300.0 * 300 * 16 / 200);
+  DOUBLES_EQUAL(1200.0 * 1200 * 16, scaled().variances.largest_q4, 1200.0 * 1200 * 16 / 500);
+  DOUBLES_EQUAL(75.0 * 75 * 16, scaled().variances.reading_q4, 75.0 * 75 * 16 / 200);
+  LONGS_EQUAL(kRounding_q4, scaled().variances.noise_q4);
+}
+
+TEST(ScaledReadings, AGaugeIsTrustedByWhatItAndItsNeighboursRead) {
+  std::mt19937 random(8);
+  setNoise(2e5);  // 112 of a reading
+  for (const int count : {3, 16, 32})
+    for (const double error : {0.0005, 0.003, 0.05, 0.3, 0.999}) {
+      constants.model_error_q16 = static_cast<std::uint16_t>(std::ldexp(error, 16));
+      strains.resize(static_cast<std::size_t>(count));
+      gauges = allGauges(count);
+      for (std::int32_t& strain : strains)
+        strain = std::uniform_int_distribution<>(-120'000, 120'000)(random) >> random() % 8;
+      strains[1] = -130'000;  // divided by 4
+      const ScaledReadings readings = scaled();
+      const auto reads = [&](int i) {
+        return std::abs(strains[static_cast<std::size_t>((i + count) % count)]);
+      };
+      const double least = std::hypot(std::sqrt(2e5), error * 130'000 / 16);
+      for (int i = 0; i < count; ++i) {
+        const double own = error * (reads(i) + (reads(i - 1) + reads(i + 1)) / 8.0);
+        DOUBLES_EQUAL(least / (least + own),
+                      std::ldexp(readings.weight_q14[static_cast<std::size_t>(i)], -14), 0.004);
+      }
+    }
+}
+
+TEST(ScaledReadings, BesideAGaugeThatDoesNotCountOneIsTrustedAsBesideTheLargestReading) {
+  constants.model_error_q16 = 3277;
+  strains[7] = strains[10] = 24'000;
+  const Weights weight_q14 = scaled().weight_q14;
+  CHECK_COMPARE(weight_q14[9], <, weight_q14[5]);
+  for (const std::int32_t strain : {0, 300, kMostStrain}) {
+    strains[10] = strain;
+    gauges = allGauges(16) & ~(GaugeSet{1} << 10);
+    LONGS_EQUAL(weight_q14[9], scaled().weight_q14[9]);
+    LONGS_EQUAL(weight_q14[11], scaled().weight_q14[11]);
+  }
+}
+
+TEST(ScaledReadings, WithoutModelErrorAllGaugesAreTrustedAlike) {
+  setNoise(2e5);
+  for (std::size_t i = 0; i < strains.size(); ++i) strains[i] = static_cast<std::int32_t>(i * i * 500);
+  for (const Short weight_q14 : scaled().weight_q14) LONGS_EQUAL(1 << 14, weight_q14);
 }
 
 TEST(ScaledReadings, TheModelErrorIsNotThatOfGaugesThatDoNotCount) {
@@ -123,9 +169,10 @@ TEST(ScaledReadings, VariancesSaturateForAnyConstants) {
         constants.noise_variance_exponent = static_cast<std::int8_t>(exponent);
         strains[0] = strain;
         const ScaledReadings readings = scaled(std::numeric_limits<std::uint32_t>::max());
-        CHECK(readings.variances.reading_q4 >= readings.variances.gate_q4 &&
-              readings.variances.reading_q4 <= 0x7FFFFFFF);
-        CHECK(readings.variances.gate_q4 >= kRounding_q4);
+        const Variances& variances = readings.variances;
+        CHECK(variances.largest_q4 >= variances.reading_q4 && variances.largest_q4 <= 0x7FFFFFFF);
+        CHECK(variances.reading_q4 >= variances.noise_q4 && variances.noise_q4 >= kRounding_q4);
+        for (const Short weight_q14 : readings.weight_q14) CHECK(weight_q14 > 0 && weight_q14 <= 1 << 14);
       }
 }
 

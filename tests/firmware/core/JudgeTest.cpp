@@ -16,7 +16,7 @@ TEST_GROUP(Judge) {
     constants.gauge_count = 16;
     constants.cone_q8 = 320;  // 1.25
     constants.largest_moment_um2 = 4'000'000;
-    readings.variances.reading_q4 = readings.variances.gate_q4 = 100 << 4;
+    readings.variances.reading_q4 = 100 << 4;
     solution.hypothesis = {1, true, allGauges(16)};
     solution.contact[0] = {0, 8000, 0, 0};
   }
@@ -86,7 +86,7 @@ TEST(Judge, ReadingsAreExplainedUpToTheGate) {
 }
 
 TEST(Judge, TheGateFollowsTheVariance) {
-  readings.variances.gate_q4 = 400 << 4;
+  readings.variances.reading_q4 = 400 << 4;
   CHECK_TRUE(isAcceptedAt(20'800));
   CHECK_FALSE(isAcceptedAt(20'801));
 }
@@ -122,7 +122,7 @@ TEST(Judge, OnAFingerAsBuiltTwiceTheModelsErrorLeavesNoDoubt) {
   CHECK_FALSE(isPlainAt(29 * 100 + 1, false));
   CHECK_TRUE(isPlainAt(29 * (30 + 2 * 70), true));
   CHECK_FALSE(isPlainAt(29 * (30 + 2 * 70) + 1, true));
-  readings.variances.noise_q4 = readings.variances.gate_q4;
+  readings.variances.noise_q4 = readings.variances.reading_q4;
   CHECK_TRUE(isPlainAt(29 * 100, true));
   CHECK_FALSE(isPlainAt(29 * 100 + 1, true));
 }
@@ -139,33 +139,17 @@ TEST(Judge, WhatIsPlainAsBuiltIsAccepted) {
   }
 }
 
-TEST(Judge, AnswersAreToldApartByWhatTheBetterOneLeavesWithinNoiseAndModelError) {
-  std::uint32_t noise = 10;
-  const auto ambiguityAt = [&](Wide energy) {
-    solution.residualEnergy = energy;
-    return ambiguity({1600 << 4, 100 << 4, noise << 4}, solution);
-  };
-  LONGS_EQUAL(2 * (0 + 100), ambiguityAt(0));  // 24 of 12 freedoms
-  LONGS_EQUAL(2 * (3000 + 100), ambiguityAt(3000));
-  LONGS_EQUAL(14 * 1600, ambiguityAt(1'000'000));
-  noise = 30;
-  LONGS_EQUAL(14 * 30, ambiguityAt(0));
-  solution.hypothesis.contacts = 2;
-  LONGS_EQUAL(3 * (3000 + 100), ambiguityAt(3000));
-  solution.hypothesis.gauges = allGauges(8);
-  LONGS_EQUAL(14 * 1600, ambiguityAt(3000));  // no freedom is left
-}
-
-TEST(Judge, WithoutModelErrorNoiseAloneTellsAnswersApart) {
-  for (const Wide energy : {0, 1000, 1'000'000}) {
-    solution.residualEnergy = energy;
-    LONGS_EQUAL(14 * 100, ambiguity({100 << 4, 100 << 4, 100 << 4}, solution));
-  }
+TEST(Judge, AnswersAreToldApartBeyondNoiseThatAveragesOutAndAModelErrorThatDoesNot) {
+  const Variances variances{1600 << 4, 600 << 4, 9000 << 4};
+  LONGS_EQUAL(14 * 1600, ambiguity(variances));
+  LONGS_EQUAL(14 * (1000 + 300), ambiguity(variances, 2));
+  LONGS_EQUAL(14 * (1000 + 150), ambiguity(variances, 4));
+  LONGS_EQUAL(14 * 25, ambiguity({100 << 4, 100 << 4, 100 << 4}, 4));
 }
 
 // 60 deviations, where the contact is felt most: half its amplitude.
 TEST(Judge, AWeakContactStaysOneUntilItIsATwentiethFirmer) {
-  const Variances noise{500 << 4, 300 << 4, 100 << 4};  // a deviation of 10
+  const Variances noise{500 << 4, 100 << 4, 900 << 4};  // a deviation of 10
   const auto isWeakAt = [&](Number amplitude, bool was) {
     solution.contact[0].normal = amplitude;
     return isWeak(solution, noise, was);
@@ -194,14 +178,18 @@ TEST(Judge, AnInadmissibleAnswerCountsAsLessLikely) {
 }
 
 TEST(Judge, FirmTouchesHaveMuchSignal) {
-  readings.variances.gate_q4 = 200 << 4;
-  CHECK_TRUE(isFirmWith(15'492, 0));  // 1,200,000 variances
-  CHECK_TRUE(isFirmWith(-15'492, 0));
-  CHECK_FALSE(isFirmWith(15'490, 0));
+  for (const Variances& variances :
+       {Variances{200 << 4, 200 << 4, 200 << 4}, Variances{150 << 4, 100 << 4, 1700 << 4}}) {
+    readings.variances = variances;
+    CHECK_TRUE(
+        isFirmWith(15'492, 0));  // 1,200,000 variances of a quarter of the largest reading's model error
+    CHECK_TRUE(isFirmWith(-15'492, 0));
+    CHECK_FALSE(isFirmWith(15'490, 0));
+  }
 }
 
 TEST(Judge, WideTouchesAreNotFirmUnlessTheirWidthIsKnown) {
-  readings.variances.gate_q4 = 16;
+  readings.variances = {16, 16, 16};
   CHECK_TRUE(isFirmWith(20'000, 360'000));
   CHECK_FALSE(isFirmWith(20'000, 361'000));
   solution.hypothesis.widthIsFree = false;
@@ -209,7 +197,7 @@ TEST(Judge, WideTouchesAreNotFirmUnlessTheirWidthIsKnown) {
 }
 
 TEST(Judge, ATouchThatNotAllGaugesReadIsNotFirm) {
-  readings.variances.gate_q4 = 16;
+  readings.variances = {16, 16, 16};
   CHECK_TRUE(isFirmWith(20'000, 0));
   solution.hypothesis.gauges &= ~GaugeSet{1 << 9};
   CHECK_FALSE(isFirmWith(20'000, 0));

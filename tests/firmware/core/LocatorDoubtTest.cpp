@@ -59,7 +59,7 @@ TEST(LocatorDoubt, AGaugeThatIsFarOffIsSuspectedAndLeftOut) {
   CHECK(back >= 40);
 }
 
-// Builds leave more than noise and a quarter of the model's error in every set.
+// Some builds leave more than noise and the model's error do, in every set.
 TEST(LocatorDoubt, OnAFingerAsBuiltWhatWasLookedIntoIsNeitherDoubtedNorLookedIntoAgain) {
   const ModelRing built;
   Presses presses(16, 20, 417, 0, 2);
@@ -88,7 +88,7 @@ TEST(LocatorDoubt, OnAFingerAsBuiltWhatWasLookedIntoIsNeitherDoubtedNorLookedInt
     if (!answer.doubtful && !answer.anyRival) LONGS_EQUAL(0, hold(200));
   }
   std::printf("%d settled, %d doubted ", settled, doubted);
-  CHECK_COMPARE(settled, >=, kTouches / 300);
+  CHECK_COMPARE(settled, >=, kTouches / 400);
   CHECK_COMPARE(doubted, <=, settled / 3);
 }
 
@@ -187,7 +187,7 @@ TEST(LocatorDoubt, OnlyAnotherPlaceOrNumberOfContactsIsDoubt) {
           !firmware::isAccepted(ring.constants(), without, readings))
         continue;
       const Wide more = without.residualEnergy + energyOf(readings, threshold::kLeftOut) - all.residualEnergy;
-      if (magnitude(more) >= ambiguity(readings.variances, more > 0 ? all : without)) continue;
+      if (magnitude(more) >= ambiguity(readings.variances)) continue;
       const bool isElsewhere = areElsewhere(ring.constants(), 1, all.contact, without.contact);
       ++(isElsewhere ? result.elsewhere : result.here);
       (isElsewhere ? result.elsewhereDoubted : result.hereDoubted) += locator.answer().doubtful;
@@ -226,8 +226,7 @@ TEST(LocatorDoubt, APairBeyondTheFrictionConeIsDoubtWhereItExplainsTheReadings) 
     const Number first = pair.best.contact[0].normal, second = pair.best.contact[1].normal;
     const Wide more = pair.best.residualEnergy + energyOf(readings, threshold::kSecondContact) -
                       without.best.residualEnergy - energyOf(readings, threshold::kLeftOut);
-    if (8 * std::min(first, second) < std::max(first, second) ||
-        more >= ambiguity(readings.variances, without.best))
+    if (8 * std::min(first, second) < std::max(first, second) || more >= ambiguity(readings.variances))
       continue;
     ++beyond;
     doubted += locator.answer().doubtful;
@@ -299,7 +298,7 @@ TEST(LocatorDoubt, AFirmTouchIsNotLookedIntoHoweverItGrows) {
 // What is plain as built only leaves doubt until gauges were left out, of each touch anew.
 TEST(LocatorDoubt, WhatAnEarlierTouchLeftOutIsNoReasonNotToLookIntoTheNext) {
   config::FingerConfig config = ModelRing::asDrawn();
-  config.gauges.model_error = 0.002;
+  config.gauges.model_error = 0.003;
   const ModelRing good{config};
   const auto strainsOf = [&](double normal_n_per_m, double off_sigmas) {
     auto strains = good.strains({5.2, normal_n_per_m, 2, 1});
@@ -315,15 +314,23 @@ TEST(LocatorDoubt, WhatAnEarlierTouchLeftOutIsNoReasonNotToLookIntoTheNext) {
     return any;
   };
   const auto lookedInto = strainsOf(30, 6e-3 / good.noise_strain());
-  int sets = 0;
-  do update(good, lookedInto, good.allGauges());
-  while (locator.answer().searching && ++sets < kLongestSearch);
-  CHECK_COMPARE(sets, >, 20);
-  locator.release();
-  CHECK_FALSE(searched(strainsOf(45, 0)));
-  const auto doubted = strainsOf(45, 19.25);
-  CHECK_TRUE(searched(doubted));
-  const Solution& answer = locator.answer().solution;
-  CHECK_TRUE(isPlainAsBuilt(good.constants(), answer, good.scaled(doubted)));
-  CHECK_FALSE(isPlain(good.constants(), answer, good.scaled(doubted)));
+  int plainAsBuiltOnly = 0;
+  for (double off_sigmas = 20; off_sigmas < 22; off_sigmas += 0.1) {
+    int sets = 0;
+    do update(good, lookedInto, good.allGauges());
+    while (locator.answer().searching && ++sets < kLongestSearch);
+    CHECK_COMPARE(sets, >, 20);
+    locator.release();
+    CHECK_FALSE(searched(strainsOf(45, 0)));
+    const auto doubted = strainsOf(45, off_sigmas);
+    const bool wasSearched = searched(doubted);
+    const Solution answer = locator.answer().solution;
+    const ScaledReadings readings = good.scaled(doubted);
+    locator.release();
+    if (isPlain(good.constants(), answer, readings) || !isPlainAsBuilt(good.constants(), answer, readings))
+      continue;
+    ++plainAsBuiltOnly;
+    CHECK_TRUE(wasSearched);
+  }
+  CHECK_COMPARE(plainAsBuiltOnly, >, 0);
 }

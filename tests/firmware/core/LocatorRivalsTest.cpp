@@ -68,7 +68,7 @@ TEST(LocatorRivals, WhetherNoiseAloneMayHaveToldTheWrongOneIsToldBeside) {
   const ModelRing unsure{config::FingerConfig{}};
   Presses firm(16, 30, 435, 0, 3);
   int asLikely = 0, withinNoise = 0;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 700; ++i) {
     locator.release();
     const auto strains = firm.noisy(unsure.strains(firm.next()), unsure.noise_strain());
     for (int set = 0; set < 200; ++set) update(unsure, strains, unsure.allGauges());

@@ -106,28 +106,21 @@ TEST(Search, ATouchThatOneContactExplainsIsNotLookedIntoFurther) {
   }
 }
 
-// Builds leave more than noise and a quarter of the model's error.
-TEST(Search, OnAFingerAsBuiltASecondContactIsLookedForWhereAGaugeLeftOutMovesTheFirst) {
+// Some builds leave more than noise and the model's error do.
+TEST(Search, OnAFingerAsBuiltASecondContactIsLookedForUnlessOneIsPlainAsBuilt) {
   const ModelRing built;
   Presses presses(16, 20, 308, 0, 2);
-  int settled = 0, moved = 0, unsettled = 0;
-  for (int i = 0; i < 1500; ++i) {
+  int settled = 0, unsettled = 0;
+  for (int i = 0; i < 3000; ++i) {
     searchOn(built, built.strainsAsBuilt(presses.next(), presses));
-    const Solution &one = search.single().best, &without = search.withoutOne().best;
+    const Solution& one = search.single().best;
     if (isPlain(built.constants(), one, search.readings())) continue;
-    if (!isPlainAsBuilt(built.constants(), one, search.readings())) {
-      ++unsettled;
-      CHECK_TRUE(search.pair().anyBest);
-      continue;
-    }
-    const bool isElsewhere = isAccepted(built.constants(), without, search.readings()) &&
-                             areElsewhere(built.constants(), 1, one.contact, without.contact);
-    ++(isElsewhere ? moved : settled);
-    CHECK_EQUAL(isElsewhere, search.pair().anyBest);
+    const bool isSettled = isPlainAsBuilt(built.constants(), one, search.readings());
+    ++(isSettled ? settled : unsettled);
+    CHECK_EQUAL(!isSettled, search.pair().anyBest);
   }
-  std::printf("%d settled, %d moved, %d unsettled ", settled, moved, unsettled);
+  std::printf("%d settled, %d unsettled ", settled, unsettled);
   CHECK(settled > 10);
-  CHECK(moved > 2);
   CHECK(unsettled > 10);
 }
 

@@ -13,7 +13,7 @@
 
 namespace strainfinger {
 
-/// Contacts and their chi-squared: residuals over the noise of a reading.
+/// Contacts and their chi-squared: residuals over what a reading may be off.
 struct Fitted {
   std::vector<Press> presses;
   double chiSquared;
@@ -23,7 +23,11 @@ class ExactFit {
  public:
   /// `gauges`: those whose strains count.
   ExactFit(const ModelRing& ring, std::vector<double> strains, firmware::GaugeSet gauges, bool isWidthFree)
-      : ring_(ring), strains_(std::move(strains)), gauges_(gauges), isWidthFree_(isWidthFree) {}
+      : ring_(ring),
+        strains_(std::move(strains)),
+        deviations_(ring.deviations(strains_)),
+        gauges_(gauges),
+        isWidthFree_(isWidthFree) {}
   ExactFit(const ModelRing& ring, std::vector<double> strains)
       : ExactFit(ring, std::move(strains), ring.allGauges(), ring.constants().width_is_known == 0) {}
 
@@ -52,14 +56,15 @@ class ExactFit {
     Eigen::VectorXd left = Eigen::VectorXd::Zero(ring_.gauges());
     for (int i = 0; i < ring_.gauges(); ++i)
       if (firmware::contains(gauges_, i))
-        left[i] = (strains_[static_cast<std::size_t>(i)] - predicted[static_cast<std::size_t>(i)]) /
-                  ring_.noise_strain();
+        left[i] =
+            (strains_[static_cast<std::size_t>(i)] - predicted[static_cast<std::size_t>(i)]) / deviations_[i];
     return left;
   }
   Eigen::MatrixXd slopes(std::span<const Press> presses) const {
     Eigen::MatrixXd all(ring_.gauges(), 4 * static_cast<Eigen::Index>(presses.size()));
     for (std::size_t k = 0; k < presses.size(); ++k)
-      all.middleCols<4>(4 * static_cast<Eigen::Index>(k)) = ring_.slopes(presses[k]) / ring_.noise_strain();
+      all.middleCols<4>(4 * static_cast<Eigen::Index>(k)) =
+          deviations_.cwiseInverse().asDiagonal() * ring_.slopes(presses[k]);
     for (int i = 0; i < ring_.gauges(); ++i)
       if (!firmware::contains(gauges_, i)) all.row(i).setZero();
     return all;
@@ -89,6 +94,7 @@ class ExactFit {
 
   const ModelRing& ring_;
   std::vector<double> strains_;
+  Eigen::VectorXd deviations_;
   firmware::GaugeSet gauges_;
   bool isWidthFree_;
 };

@@ -2,6 +2,7 @@
 // A finger as the elastic model has it, in double precision, and the tables made for it.
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -129,6 +130,26 @@ class ModelRing {
   }
   Eigen::Vector4d bound(const Press& press, bool isWidthFree = true) const {
     return bounds({&press, 1}, isWidthFree).front();
+  }
+
+  /// By how much each of these readings may be off: noise, and a model error of a part of the reading, an
+  /// eighth of that of each neighbour's, a sixteenth of that of the largest.
+  Eigen::VectorXd deviations(const std::vector<double>& strains) const {
+    const double error = config_.gauges.model_error;
+    const auto size = [&](int gauge) { return std::abs(strains[static_cast<std::size_t>(gauge)]); };
+    double largest = 0;
+    for (int i = 0; i < gauges(); ++i) largest = std::max(largest, size(i));
+    Eigen::VectorXd deviations(gauges());
+    for (int i = 0; i < gauges(); ++i)
+      deviations[i] =
+          std::hypot(noise_strain(), error * largest / 16) +
+          error * (size(i) + (size((i + 1) % gauges()) + size((i + gauges() - 1) % gauges())) / 8);
+    return deviations;
+  }
+  /// The bound of a press where readings are off by so much each.
+  Eigen::Vector4d bound(const Press& press, const Eigen::VectorXd& deviations) const {
+    const Eigen::MatrixX4d columns = deviations.cwiseInverse().asDiagonal() * slopes(press);
+    return (columns.transpose() * columns).inverse().diagonal().cwiseSqrt();
   }
 
   /// As conditioning would hand them on: rounded, within the locator's range.

@@ -97,10 +97,12 @@ TEST_GROUP_BASE(FitRanges, RangesGroup) {
       checkWithin(contact.moment_q20, 0, kMostMoment);
     }
   }
+  static Short anyWeight() { return Short(0, 1 << kWeightBits); }
   static ScaledReadings anyReadings() {
     ScaledReadings any;
     any.value.fill(Short::any());
-    any.variances.reading_q4 = any.variances.gate_q4 = 0x7FFFFFFF;
+    any.weight_q14.fill(anyWeight());
+    any.variances.reading_q4 = 0x7FFFFFFF;
     return any;
   }
 };
@@ -155,6 +157,16 @@ TEST(FitRanges, AColumnOfAnySlopesOverflowsNothing) {
       checkWithin(entry, -(1 << kColumnBits), (1 << kColumnBits) - 1);
   });
   CHECK_TRUE(ways > 15);
+  checkNone();
+}
+
+TEST(FitRanges, LoadsOfAnyResponsesAndWeightsOverflowNothing) {
+  forEachWay([&] {
+    std::array<Rows, 2> columns;
+    const Number weight_q14 = anyWeight();
+    setLoads({within(1 << 30), within(1 << 30)}, weight_q14, 0, columns.data());
+    for (const Rows& column : columns) checkWithin(column[0], -(1 << kColumnBits), 1 << kColumnBits);
+  });
   checkNone();
 }
 
@@ -219,7 +231,9 @@ TEST(FitRanges, LoadsOfTwoContactsOverflowNothing) {
   const ScaledReadings readings = anyReadings();
   Linearisation scratch;
   forEachWay([&] {
-    const Solution solution = fitLoads(*tables, {2, false, 0xFFFFFFFF}, contacts, readings, scratch);
+    const Hypothesis two{2, false, 0xFFFFFFFF};
+    const Solution solution =
+        fitLoads(*tables, two, contacts, allOf(*tables, two, readings), readings.weight_q14, scratch);
     for (const ContactState& contact : solution.contact) checkWithin(contact.normal, -(1 << 20), 1 << 20);
     checkWithin(solution.residualEnergy, 0, kMostLeft);
   });

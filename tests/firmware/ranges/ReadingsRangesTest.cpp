@@ -20,6 +20,7 @@ TEST_GROUP_BASE(ReadingsRanges, RangesGroup) {
     constants.noise_variance = variance;
     constants.noise_variance_exponent = static_cast<std::int8_t>(exponent);
     constants.model_error_q16 = 0xFFFF;
+    constants.gauge_count = 3;
     CHECK_TRUE(usableNoise(variance, exponent));
     return constants;
   }
@@ -30,14 +31,15 @@ TEST_GROUP_BASE(ReadingsRanges, RangesGroup) {
       const ScaledReadings scaled =
           scaledReadings(constants, strains, kAll, std::numeric_limits<std::uint32_t>::max(), shift);
       CHECK_TRUE(scaled.shift >= 0 && scaled.shift <= 18);
-      CHECK_TRUE(scaled.variances.reading_q4 <= 0x7FFFFFFF &&
-                 scaled.variances.gate_q4 <= scaled.variances.reading_q4);
+      CHECK_TRUE(scaled.variances.largest_q4 <= 0x7FFFFFFF);
+      for (const Short& weight_q14 : std::span(scaled.weight_q14).first(3))
+        checkWithin(weight_q14, 0, 1 << 14);
     });
   }
   static ScaledReadings anyReadings(std::uint32_t noise_q4 = 0) {
     ScaledReadings any;
     any.value.fill(Short::any());
-    any.variances = {0x7FFFFFFF, 0x7FFFFFFF, noise_q4};
+    any.variances = {0x7FFFFFFF, noise_q4, 0x7FFFFFFF};
     return any;
   }
   static Solution anySolution(int contacts) {
@@ -94,11 +96,9 @@ TEST(ReadingsRanges, ThresholdsOverflowNothing) {
   forEachWay([&] { isAccepted(constants, anySolution(1), anyReadings()); });
   for (const std::uint32_t noise_q4 : {0u, 0x7FFFFFFFu}) {
     forEachWay([&] { isPlainAsBuilt(constants, anySolution(1), anyReadings(noise_q4)); });
-    for (const int contacts : {1, 2})
-      forEachWay([&] {
-        checkWithin(ambiguity(anyReadings(noise_q4).variances, anySolution(contacts)), 0,
-                    std::int64_t{1} << 31);
-      });
+    for (const int sets : {1, 255})
+      forEachWay(
+          [&] { checkWithin(ambiguity(anyReadings(noise_q4).variances, sets), 0, std::int64_t{1} << 31); });
   }
   forEachWay([&] { isFirm(constants, anySolution(2), anyReadings()); });
   checkNone();

@@ -124,9 +124,9 @@ TEST(Assessment, ATouchThatTheGateMayMissIsAProblem) {
 // Sparse, shallow gauges hardly tell a wide touch's place from its width.
 TEST(Assessment, PlacesThatReadingsDoNotDetermineAreCounted) {
   DOUBLES_EQUAL(1, assess(config, touch).bounds->identifiableShare, 0);
-  touch = {0, 2, 0, 6e-3, model::Profile::kUniform};
-  const Assessment found = of(12, 11.5e-3);
-  DOUBLES_EQUAL(0.75, found.bounds.value().identifiableShare, 0.1);
+  touch = {0, 0.4, 0, 8e-3, model::Profile::kUniform};
+  const Assessment found = of(12, 10.9e-3);
+  DOUBLES_EQUAL(0.84, found.bounds.value().identifiableShare, 0.1);
   STRCMP_CONTAINS("% of the places the readings don't determine the touch", found.problem.c_str());
 }
 

@@ -100,13 +100,13 @@ TEST(SelfCheck, RingsOfAllCountsAndComponentsAtTheDefaultDepthAreLocated) {
 }
 
 TEST(SelfCheck, GaugesTooShallowForTheirSpacingAreRefusedWithWhatToChange) {
-  config_.gauges.radius_m = 11.8e-3;
+  config_.gauges.radius_m = 11.9e-3;
   const std::string message = refusal();
   STRCMP_CONTAINS("contacts cannot be located with these gauges: ", message.c_str());
   STRCMP_CONTAINS(" deg from a gauge over ", message.c_str());
   STRCMP_CONTAINS(" times that sideways, are found ", message.c_str());
   STRCMP_CONTAINS(
-      "the gauges lie 0.0009 m below the surface (gauges.radius_m = 0.0118), where they are 0.00499 m apart "
+      "the gauges lie 0.0008 m below the surface (gauges.radius_m = 0.0119), where they are 0.00499 m apart "
       "(gauges.count = 16): too shallow for their spacing; use more gauges, or deeper ones",
       message.c_str());
 }

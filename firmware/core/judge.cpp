@@ -99,12 +99,14 @@ bool isPlain(const TableConstants& constants, const Solution& solution, const Sc
          isWithin(solution, readings, energyOf(readings, doubt(solution.hypothesis)));
 }
 
-bool isPlainAsBuilt(const TableConstants& constants, const Solution& solution,
-                    const ScaledReadings& readings) {
-  const Variances& variances = readings.variances;
+bool isPlainAsBuilt(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings,
+                    bool was) {
+  const std::uint32_t noise_q4 = readings.variances.noise_q4,
+                      model_q4 = readings.variances.reading_q4 - noise_q4;
+  const std::uint32_t asBuilt_q4 =
+      noise_q4 + (was ? threshold::kStillAsBuilt : threshold::kAsBuilt) * model_q4;
   return isAccepted(constants, solution, readings) &&
-         isWithin(solution, readings,
-                  energyOf(2 * variances.reading_q4 - variances.noise_q4, doubt(solution.hypothesis)));
+         isWithin(solution, readings, energyOf(asBuilt_q4, doubt(solution.hypothesis)));
 }
 
 bool isFirm(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings) {

@@ -19,6 +19,11 @@ inline constexpr int kGate = 28;
 /// this one is accepted: one touch in 250 by noise alone, for 12 degrees of freedom.
 inline constexpr int kDoubtPerFreedom_q2 = 7;
 inline constexpr int kDoubt = 8;
+/// On a finger as built an answer leaves no doubt within that limit of chi-squared with the model's part of
+/// the variance times kAsBuilt. Once a search has looked into it, times kStillAsBuilt: at one and the same
+/// limit noise would begin search after search.
+inline constexpr int kAsBuilt = 2;
+inline constexpr int kStillAsBuilt = 3;
 /// What a second contact, or a gauge that is left out, must take off chi-squared to be believed: four more
 /// unknowns at the best of hundreds of places; one of sixteen gauges.
 inline constexpr int kSecondContact = 28;
@@ -126,10 +131,11 @@ bool isAccepted(const TableConstants& constants, const Solution& solution, const
 /// The same within what leaves no doubt: noise alone seldom leaves more.
 bool isPlain(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings);
 
-/// Accepted, and the same with the model's part of the variance doubled, as on a finger as built: that
-/// leaves no doubt once gauges were left out, and whether there are two contacts need not be looked at.
-bool isPlainAsBuilt(const TableConstants& constants, const Solution& solution,
-                    const ScaledReadings& readings);
+/// Accepted, and the same with the model's part of the variance times threshold::kAsBuilt, as on a finger as
+/// built: that leaves no doubt once gauges were left out, and whether there are two contacts need not be
+/// looked at. `was`: a search has looked into it.
+bool isPlainAsBuilt(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings,
+                    bool was = false);
 
 /// So much signal and so narrow a contact, read by all gauges, that no other answer explains the readings.
 bool isFirm(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings);

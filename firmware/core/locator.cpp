@@ -12,7 +12,7 @@ constexpr int kMostSteps = 9;       ///< of a fit from the readings
 constexpr int kFollowingSteps = 8;  ///< of one from the last answer, if there is work left for them
 constexpr int kStepsWhileSearching = 2, kStepsAfterSearch = 3;
 /// Of an update that only follows, and of one that concludes a search, as Search::kWork counts.
-constexpr int kFollowingWork = 150, kWorkAfterSearch = 170;
+constexpr int kFollowingWork = 130, kWorkAfterSearch = 170;
 /// Sets of readings after which a second answer is fitted to them as well, or one to all gauges that work.
 constexpr std::uint8_t kRivalEvery = 8;
 /// What one contact and its second answer leave in those sets is compared in a fading mean of about so many,
@@ -96,7 +96,7 @@ void Locator::believe(const TableImage& tables, const Solution& solution, const 
   answer_.variances = readings.variances;
   answer_.accepted = isAccepted(tables.constants, solution, readings);
   answer_.weak = isWeak(solution, readings.variances, answer_.weak);
-  const bool leavesDoubt = isLookedInto_ ? !isPlainAsBuilt(tables.constants, solution, readings)
+  const bool leavesDoubt = isLookedInto_ ? !isPlainAsBuilt(tables.constants, solution, readings, true)
                                          : !isPlain(tables.constants, solution, readings);
   setsInDoubt_ = static_cast<std::uint8_t>(leavesDoubt ? std::min<int>(setsInDoubt_ + 1, kNewDoubt) : 0);
   tracking_ = true;

@@ -116,10 +116,10 @@ const Observation& Pipeline::process(Codes codes) {
   } else if (settledSets_ == 0) {
     noise_.take(constants(), strains(), ~(observation_.saturated | watch_.outOfUse()));
   }
-  areZerosNew_ = tracker_.take(*tables_, strains(), observation_.touched ? &locator_.answer() : nullptr,
-                               observation_.leftOut | observation_.saturated | watch_.outOfUse(),
-                               calibration_, locator_.scratch(),
-                               observation_.touched || (!gate_.touched() && !wasSearching));
+  areZerosNew_ =
+      tracker_.take(*tables_, strains(), observation_.touched ? &locator_.answer() : nullptr,
+                    observation_.leftOut | observation_.saturated | watch_.outOfUse(), calibration_,
+                    locator_.scratch(), observation_.touched || (!gate_.touched() && !wasSearching));
   observation_.staleZero = tracker_.stale();
   observation_.noisy = noise_.isNoisy();
   observation_.uncertain = tooFewGauges();

@@ -53,7 +53,9 @@ int main(int count, char** arguments) {
   app.add_option("--counts", options.counts, "what count_instructions.py counted");
   app.add_option("--contacts", options.contacts, "readings of each level of noise")
       ->check(CLI::Range(bench::kCountedSamples, 10'000'000));
-  app.add_option("-o", options.folder, "where CSV and pictures go")->required();
+  app.add_option("-o", options.folder, "where CSV and pictures go")
+      ->required()
+      ->check(CLI::ExistingDirectory);
   CLI11_PARSE(app, count, arguments);
   try {
     run(options);

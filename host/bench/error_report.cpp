@@ -36,7 +36,9 @@ void run(const Options& options) {
 int main(int count, char** arguments) {
   CLI::App app{"Error of the finger over all that a user may meet", "error_report"};
   Options options;
-  app.add_option("-o", options.folder, "where pages, pictures and CSV go")->required();
+  app.add_option("-o", options.folder, "where pages, pictures and CSV go")
+      ->required()
+      ->check(CLI::ExistingDirectory);
   app.add_option("--contacts", options.settings.contacts, "contacts of each cell")
       ->check(CLI::Range(10, 1'000'000));
   app.add_option("--repeats", options.settings.repeats, "contacts of each cell of the map")

@@ -39,7 +39,7 @@ void run(const Options& options) {
 int main(int count, char** arguments) {
   CLI::App app{"What disturbs the finger, and what it says then", "bench_matrix"};
   Options options;
-  app.add_option("-o", options.folder, "where page and CSV go")->required();
+  app.add_option("-o", options.folder, "where page and CSV go")->required()->check(CLI::ExistingDirectory);
   app.add_option("--touches", options.touches, "touches of each row")->check(CLI::Range(1, 10'000'000));
   app.add_option("--seed", options.seed, "of fingers, touches and noise");
   app.add_option("--only", options.only, "rows whose names have this in them");

@@ -127,14 +127,30 @@ TEST(Judge, OnAFingerAsBuiltTwiceTheModelsErrorLeavesNoDoubt) {
   CHECK_FALSE(isPlainAt(29 * 100 + 1, true));
 }
 
+// So that noise does not begin search after search where chi-squared is at the limit.
+TEST(Judge, WhatWasLookedIntoStaysPlainUpToThreeTimesTheModelsError) {
+  const auto isPlainAt = [&](Wide energy, bool was) {
+    solution.residualEnergy = energy;
+    return isPlainAsBuilt(constants, solution, readings, was);
+  };
+  readings.variances.noise_q4 = 70 << 4;
+  CHECK_TRUE(isPlainAt(29 * (70 + 2 * 30), false));
+  CHECK_FALSE(isPlainAt(29 * (70 + 2 * 30) + 1, false));
+  CHECK_TRUE(isPlainAt(29 * (70 + 3 * 30), true));
+  CHECK_FALSE(isPlainAt(29 * (70 + 3 * 30) + 1, true));
+  readings.variances.noise_q4 = readings.variances.reading_q4;
+  CHECK_TRUE(isPlainAt(29 * 100, true));
+  CHECK_FALSE(isPlainAt(29 * 100 + 1, true));
+}
 TEST(Judge, WhatIsPlainAsBuiltIsAccepted) {
   readings.variances.noise_q4 = 0;
   for (const int gauges : {8, 12, 16, 24, 32}) {
     solution.hypothesis.gauges = allGauges(gauges);
     for (Wide energy = 0; energy < 20'000; energy += 100) {
       solution.residualEnergy = energy;
-      if (isPlainAsBuilt(constants, solution, readings))
-        CHECK_TRUE(isAccepted(constants, solution, readings));
+      for (const bool was : {false, true})
+        if (isPlainAsBuilt(constants, solution, readings, was))
+          CHECK_TRUE(isAccepted(constants, solution, readings));
     }
   }
 }

@@ -1,4 +1,5 @@
 // The second answer that a locator follows beside its own.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdio>
@@ -77,6 +78,31 @@ TEST(LocatorRivals, WhetherNoiseAloneMayHaveToldTheWrongOneIsToldBeside) {
   }
   CHECK_COMPARE(asLikely, >, 10);
   CHECK_COMPARE(withinNoise, <, asLikely / 2);
+}
+
+// With a model error one contact and its rival are compared in a fading mean, so that noise does not take the
+// flag back and forth; pairs, and fingers without one, by single sets.
+TEST(LocatorRivals, AModelErrorHasOneContactAndItsRivalComparedInAMeanOfSets) {
+  const ModelRing unsure{config::FingerConfig{}};
+  const auto mostCompared = [&](const ModelRing& finger, bool isPair) {
+    Presses presses(16, isPair ? 15 : 3, 436, 1, 3);
+    int most = 0;
+    for (int i = 0; i < 20; ++i) {
+      locator.release();
+      const Press press = presses.next(), second{press.position_pitch + 3, 15, 0, 2};
+      const auto strains = isPair ? finger.strains({press, second}) : finger.strains(press);
+      for (int set = 0; set < 400; ++set) {
+        update(finger, presses.noisy(strains, finger.noise_strain()), finger.allGauges());
+        const Answer& answer = locator.answer();
+        if (answer.anyRival && (answer.solution.hypothesis.contacts == 2) == isPair)
+          most = std::max(most, int{answer.setsCompared});
+      }
+    }
+    return most;
+  };
+  LONGS_EQUAL(4, mostCompared(unsure, false));
+  LONGS_EQUAL(1, mostCompared(ring, false));
+  LONGS_EQUAL(1, mostCompared(unsure, true));
 }
 
 TEST(LocatorRivals, ARivalIsForgottenOnceTheTouchHasTold) {

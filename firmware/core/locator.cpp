@@ -215,7 +215,7 @@ int Locator::followRival(const TableImage& tables, const ScaledReadings& reading
   answer_.timesRefuted = 0;
   answer_.rival = rival.contact;
   const bool isLikelier = answer_.rivalMore < 0 && (rival.converged || answer_.setsCompared > 1);
-  answer_.rivalMore = magnitude(answer_.rivalMore);
+  if (isLikelier) answer_.rivalMore = -answer_.rivalMore;
   rateRival(answer_, readings.variances);
   if (isLikelier) {
     // The touch itself has not moved.

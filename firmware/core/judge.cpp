@@ -103,10 +103,10 @@ bool isPlainAsBuilt(const TableConstants& constants, const Solution& solution, c
                     bool was) {
   const std::uint32_t noise_q4 = readings.variances.noise_q4,
                       model_q4 = readings.variances.reading_q4 - noise_q4;
-  const std::uint32_t asBuilt_q4 =
-      noise_q4 + (was ? threshold::kStillAsBuilt : threshold::kAsBuilt) * model_q4;
+  const int times = was ? threshold::kStillAsBuilt : threshold::kAsBuilt;
+  const int most = doubt(solution.hypothesis);
   return isAccepted(constants, solution, readings) &&
-         isWithin(solution, readings, energyOf(asBuilt_q4, doubt(solution.hypothesis)));
+         isWithin(solution, readings, energyOf(noise_q4, most) + times * energyOf(model_q4, most));
 }
 
 bool isFirm(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings) {

@@ -7,8 +7,8 @@
 
 namespace strainfinger::firmware {
 
-/// Thresholds. Chi-squared is a sum of squared residuals over a reading's variance (noise, rounding, model
-/// error); differences of it are twice those of the log-likelihood.
+/// Thresholds. Chi-squared is the sum of squared weighted residuals over the variance of a gauge that reads
+/// nothing (noise, rounding, model error); differences of it are twice those of the log-likelihood.
 namespace threshold {
 
 /// A hypothesis explains the readings up to chi-squared = kGatePerFreedom * freedoms + kGate: 5.0 standard
@@ -21,7 +21,7 @@ inline constexpr int kDoubtPerFreedom_q2 = 7;
 inline constexpr int kDoubt = 8;
 /// On a finger as built an answer leaves no doubt within that limit of chi-squared with the model's part of
 /// the variance times kAsBuilt. Once a search has looked into it, times kStillAsBuilt: at one and the same
-/// limit noise would begin search after search.
+/// limit noise would begin search after search. Never beyond the gate.
 inline constexpr int kAsBuilt = 2;
 inline constexpr int kStillAsBuilt = 3;
 /// What a second contact, or a gauge that is left out, must take off chi-squared to be believed: four more

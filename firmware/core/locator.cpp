@@ -16,9 +16,9 @@ constexpr int kFollowingWork = 130, kWorkAfterSearch = 170;
 /// Sets of readings after which a second answer is fitted to them as well, or one to all gauges that work.
 constexpr std::uint8_t kRivalEvery = 8;
 /// What one contact and its second answer leave in those sets is compared in a fading mean of about so many,
-/// if the finger has a model error. A pair, and any touch of a finger without one, is compared anew in each:
-/// there may be more answers than these two (of 18,000 touches with noise times ten 17 are silently wrong by
-/// the mean, 6 by single sets).
+/// if the finger has a model error: the plain mean of the first, then each new one counts a quarter. A pair,
+/// and any touch of a finger without one, is compared anew in each: there may be more answers than these two
+/// (of 18,000 touches with noise times ten 17 are silently wrong by the mean, 6 by single sets).
 constexpr int kMostCompared = 4;
 constexpr std::uint8_t kTimesRefuted = 3;  ///< in a row, until a second answer is forgotten
 /// Sets of readings after which what is in doubt is looked into again.
@@ -67,7 +67,7 @@ void compareRival(const TableConstants& constants, Answer& answer, Wide more) {
   answer.rivalMore += (more - answer.rivalMore) / answer.setsCompared;
 }
 
-/// What is said of a rival that leaves so much more than the answer.
+/// Flags of the rival, by that mean.
 void rateRival(Answer& answer, const Variances& variances) {
   const int sets = answer.setsCompared;
   answer.rivalIsAsLikely = answer.rivalMore < ambiguity(variances, sets);
@@ -145,7 +145,7 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
     ++passes;
   }
   const bool wasAccepted = answer_.accepted;
-  if (readings.shift != answer_.shift) answer_.setsCompared = 0;  // of another scale
+  if (readings.shift != answer_.shift || areFewer) answer_.setsCompared = 0;  // of other readings
   answer_.rival = rescaled(answer_.rival, answer_.shift, readings.shift);
   slidBefore_q32_ = slid_q32_;
   for (std::size_t k = 0; k < solution.contact.size(); ++k) {
@@ -156,7 +156,8 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
   const bool isLost = wasAccepted && !answer_.accepted && !answer_.searching &&
                       solution.residualEnergy > energyOf(readings, threshold::kLost * threshold::kGate);
   if (isLost) return std::nullopt;
-  return workOf(passes) + takeBack(tables, readings, gauges) + followRival(tables, readings);
+  const int back = takeBack(tables, readings, gauges);
+  return workOf(passes) + (back != 0 ? back : followRival(tables, readings));
 }
 
 void Locator::forgetRival() {
@@ -182,6 +183,7 @@ int Locator::takeBack(const TableImage& tables, const ScaledReadings& readings, 
     linearisation_ = scratch_;
     answer_.doubtful = answer_.several = false;
     answer_.suspect = 0;
+    answer_.setsCompared = 0;
     believe(tables, solution, readings);
   }
   return Search::stepWork(tables, hypothesis);
@@ -202,9 +204,10 @@ int Locator::followRival(const TableImage& tables, const ScaledReadings& reading
   const bool isMerged =
       areSame(tables.constants, contacts, answer.contact, rival.contact) ||
       (answer_.rivalIsElsewhere && !areElsewhere(tables.constants, contacts, answer.contact, rival.contact));
-  if (!isMerged) compareRival(tables.constants, answer_, more);
-  const Wide ambiguous = ambiguity(readings.variances);
-  const bool isRefuted = more > threshold::kRefuted * ambiguous;
+  const Wide refuted = threshold::kRefuted * ambiguity(readings.variances);
+  const bool isRefuted = more > refuted;
+  // One set that is far off, by a spike or while the touch moves, does not decide for the sets after it.
+  if (!isMerged) compareRival(tables.constants, answer_, std::min(more, refuted));
   answer_.rivalIsLost = isMerged || isRefuted;
   if (answer_.rivalIsLost) {
     if (!isMerged) answer_.rival = rival.contact;
@@ -344,6 +347,7 @@ void Locator::goOn(const TableImage& tables, const ScaledReadings& readings, int
   const Hypothesis hypothesis = answer_.solution.hypothesis;
   ContactStates from = rescaled(answer_.solution.contact, answer_.shift, readings.shift);
   answer_.rival = rescaled(answer_.rival, answer_.shift, readings.shift);
+  if (answer_.shift != readings.shift) answer_.setsCompared = 0;
   const std::uint32_t moved_q32 = isFound ? followed.contact[0].angle_q32 - searchedAt_q32_ : 0;
   for (ContactState& contact : from) contact.angle_q32 += moved_q32;
   for (ContactState& contact : answer_.rival) contact.angle_q32 += moved_q32;

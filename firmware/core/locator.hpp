@@ -35,7 +35,7 @@ struct Answer {
   bool rivalIsElsewhere = false;    ///< when it was found, not another width of the same place
   bool rivalIsLost = false;         ///< a search is to look for it
   std::uint8_t timesRefuted = 0;
-  std::uint8_t setsCompared = 0;  ///< sets of readings, as of now, to which both were fitted
+  std::uint8_t setsCompared = 0;  ///< differences in rivalMore, at most kMostCompared; 0: begin anew
   Wide rivalMore = 0;             ///< energy that the rival leaves more than the answer, in their mean
   bool doubtful = false;          ///< another hypothesis explains the readings nearly as well
   bool accepted = false;          ///< the hypothesis explains the readings

@@ -119,7 +119,7 @@ const Observation& Pipeline::process(Codes codes) {
   areZerosNew_ =
       tracker_.take(*tables_, strains(), observation_.touched ? &locator_.answer() : nullptr,
                     observation_.leftOut | observation_.saturated | watch_.outOfUse(), calibration_,
-                    locator_.scratch(), observation_.touched || (!gate_.touched() && !wasSearching));
+                    locator_.scratch(), !wasSearching && (observation_.touched || !gate_.touched()));
   observation_.staleZero = tracker_.stale();
   observation_.noisy = noise_.isNoisy();
   observation_.uncertain = tooFewGauges();

@@ -95,7 +95,8 @@ TEST(ReadingsRanges, ThresholdsOverflowNothing) {
     });
   forEachWay([&] { isAccepted(constants, anySolution(1), anyReadings()); });
   for (const std::uint32_t noise_q4 : {0u, 0x7FFFFFFFu}) {
-    forEachWay([&] { isPlainAsBuilt(constants, anySolution(1), anyReadings(noise_q4)); });
+    for (const bool was : {false, true})
+      forEachWay([&] { isPlainAsBuilt(constants, anySolution(1), anyReadings(noise_q4), was); });
     for (const int sets : {1, 255})
       forEachWay(
           [&] { checkWithin(ambiguity(anyReadings(noise_q4).variances, sets), 0, std::int64_t{1} << 31); });

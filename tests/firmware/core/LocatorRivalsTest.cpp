@@ -105,6 +105,60 @@ TEST(LocatorRivals, AModelErrorHasOneContactAndItsRivalComparedInAMeanOfSets) {
   LONGS_EQUAL(1, mostCompared(unsure, true));
 }
 
+// Energies are those of readings of one scale.
+TEST(LocatorRivals, AtAnotherScaleOfReadingsTheComparisonBeginsAnew) {
+  const ModelRing unsure{config::FingerConfig{}};
+  Presses presses(16, 4, 437, 1, 3);
+  int begun = 0;
+  for (int i = 0; i < 200; ++i) {
+    locator.release();
+    const auto strains = unsure.strains(presses.next());
+    for (int set = 0; set < 100; ++set)
+      update(unsure, presses.noisy(strains, unsure.noise_strain()), unsure.allGauges());
+    for (double times = 1.01; times < 2.2 && locator.answer().anyRival; times *= 1.01) {
+      const Answer before = locator.answer();
+      auto more = strains;
+      for (double& strain : more) strain *= times;
+      update(unsure, presses.noisy(more, unsure.noise_strain()), unsure.allGauges());
+      if (locator.answer().shift == before.shift || !locator.answer().anyRival) continue;
+      begun += before.setsCompared > 1;
+      CHECK_COMPARE(int{locator.answer().setsCompared}, <=, 1);
+    }
+  }
+  CHECK_COMPARE(begun, >, 5);
+}
+
+// A rival that such a set refutes is compared in it as if it left four times what would be ambiguous.
+TEST(LocatorRivals, OneSetThatIsFarOffDoesNotDecideTheMean) {
+  const ModelRing unsure{config::FingerConfig{}};
+  Presses presses(16, 4, 438, 0, 3);
+  int rivals = 0, limited = 0;
+  for (int i = 0; i < (kSanitized ? 300 : 1500); ++i) {
+    locator.release();
+    const auto strains = unsure.strainsAsBuilt(presses.next(), presses);
+    const auto press = [&](double times) {
+      auto pressed = strains;
+      for (double& strain : pressed) strain *= times;
+      update(unsure, presses.noisy(pressed, unsure.noise_strain()), unsure.allGauges());
+    };
+    for (int set = 0; set < 150; ++set) press(1);
+    const Wide compared = locator.answer().rivalMore;
+    for (int set = 0; set < 8 && locator.answer().rivalMore == compared; ++set) press(1);
+    for (int set = 0; set < 7; ++set) press(1);
+    const Answer before = locator.answer();
+    if (!before.anyRival || before.setsCompared < 4) continue;
+    press(2);
+    const Answer& after = locator.answer();
+    if (!after.anyRival || after.setsCompared < 4) continue;
+    ++rivals;
+    const Wide most = threshold::kRefuted * ambiguity(after.variances);
+    CHECK(after.rivalMore <= before.rivalMore + (most - before.rivalMore) / 4);
+    limited += after.rivalMore == before.rivalMore + (most - before.rivalMore) / 4;
+  }
+  std::printf("%d of %d limited ", limited, rivals);
+  CHECK_COMPARE(limited, >=, kSanitized ? 0 : 3);
+}
+
 TEST(LocatorRivals, ARivalIsForgottenOnceTheTouchHasTold) {
   Presses presses(16, 3, 412, 5, 6);
   int rivals = 0, left = 0;

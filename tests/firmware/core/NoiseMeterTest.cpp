@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "firmware/core/detect.hpp"
 
@@ -126,4 +128,94 @@ TEST(NoiseMeter, TheLoudestNoiseThereCanBeSaturates) {
   for (int set = 0; set < 1000; ++set)
     take(std::vector<double>(16, set / NoiseMeter::kLag % 2 == 0 ? 0.06 : -0.06));
   CHECK_TRUE(meter.isNoisy());
+}
+
+TEST(NoiseMeter, AGaugeThatIsNoisyByItselfIsNamedAndTheRingIsMeasuredWithoutIt) {
+  for (const int gauges : {12, 16, 32}) {
+    const ModelRing any{ModelRing::asDrawn(gauges)};
+    Presses noise{gauges, 1, 503};
+    int first_set = 0, last_set = 0;
+    constexpr int kFingers = 100;
+    for (int finger = 0; finger < kFingers; ++finger) {
+      meter = {};
+      const auto failed = static_cast<std::size_t>(finger % gauges);
+      int found_set = 0;
+      for (int set = 0; set < 1000; ++set) {
+        auto strains =
+            noise.noisy(std::vector<double>(static_cast<std::size_t>(gauges), 0.0), any.noise_strain());
+        strains[failed] *= 10;
+        meter.take(any.constants(), any.raw(strains), any.allGauges());
+        if (found_set == 0 && meter.noisyGauges() != 0) found_set = set;
+      }
+      UNSIGNED_LONGS_EQUAL(GaugeSet{1} << failed, meter.noisyGauges());
+      CHECK_TRUE(meter.isNoisy());
+      CHECK_COMPARE(found(), <, 1.6);
+      first_set = finger == 0 ? found_set : std::min(first_set, found_set);
+      last_set = std::max(last_set, found_set);
+    }
+    std::printf("%d gauges: found after %d to %d sets ", gauges, first_set, last_set);
+    CHECK_COMPARE(first_set, >, 4 * NoiseMeter::kEvery);
+    CHECK_COMPARE(last_set, <, 1000);
+  }
+}
+
+TEST(NoiseMeter, OfGaugesThatAreAlikeNoneIsNoisyByItself) {
+  for (const double times : {0.1, 1.0, 2.0, 30.0}) {
+    meter = {};
+    for (int second = 0; second < 60; ++second) {
+      takeNoise(times);
+      UNSIGNED_LONGS_EQUAL(0, meter.noisyGauges());
+    }
+  }
+}
+
+TEST(NoiseMeter, HumThatIsUnevenIsNoGaugesOwnNoise) {
+  for (int set = 0; set < 10'000; ++set) {
+    std::vector<double> strains(16);
+    const double hum = 60e-6 * std::sin(2 * std::numbers::pi * set / 20 + 0.3);
+    for (std::size_t i = 0; i < strains.size(); ++i) strains[i] = hum * static_cast<double>(i) / 15;
+    take(random.noisy(strains, ring.noise_strain()));
+    UNSIGNED_LONGS_EQUAL(0, meter.noisyGauges());
+  }
+}
+
+TEST(NoiseMeter, ACodeThatFlickersInARingWithoutNoiseIsNotNoisy) {
+  for (int set = 0; set < 2000; ++set) {
+    std::vector<double> strains(16, 0.0);
+    strains[7] = random.noisy({0.0}, 1.0)[0] > 0 ? ring.noise_strain() : 0;
+    take(strains);
+    UNSIGNED_LONGS_EQUAL(0, meter.noisyGauges());
+  }
+}
+
+// A touch of which a standard deviation of the noise is added with every set, again and again.
+TEST(NoiseMeter, WhatGrowsIsNoGaugesOwnNoise) {
+  for (int set = 0; set < 10'000; ++set) {
+    std::vector<double> strains(16, 0.0);
+    strains[7] = set % 200 * ring.noise_strain();
+    take(random.noisy(strains, ring.noise_strain()));
+    UNSIGNED_LONGS_EQUAL(0, meter.noisyGauges());
+  }
+}
+
+TEST(NoiseMeter, SpikesOfOneGaugeNowAndThenAreNotItsNoise) {
+  for (int set = 0; set < 20'000; ++set) {
+    std::vector<double> strains(16, 0.0);
+    if (set % (4 * NoiseMeter::kEvery) == 0) strains[3] = 1e-2;
+    take(random.noisy(strains, ring.noise_strain()));
+    UNSIGNED_LONGS_EQUAL(0, meter.noisyGauges());
+  }
+}
+
+TEST(NoiseMeter, AGaugeThatIsCalmAgainCountsAgainWithinTwoSeconds) {
+  for (int set = 0; set < 60'000; ++set) {
+    auto strains = random.noisy(std::vector<double>(16, 0.0), ring.noise_strain());
+    strains[9] *= 10;
+    take(strains);
+  }
+  UNSIGNED_LONGS_EQUAL(1 << 9, meter.noisyGauges());
+  takeNoise(1);
+  takeNoise(1);
+  UNSIGNED_LONGS_EQUAL(0, meter.noisyGauges());
+  CHECK_FALSE(meter.isNoisy());
 }

@@ -46,8 +46,8 @@ bool isInReach(const TableImage& tables, const ContactState& contact, int gauge)
 void linearise(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,
                Linearisation& linearisation, const Weights& weight_q14 = kAllAlike);
 
-/// Predictions of contacts elsewhere; where its columns still hold, these stay as they are. Cost: a third of
-/// linearise() then.
+/// Predictions of contacts elsewhere; where its columns still hold, these stay as they are, with the weights
+/// that they were made with. Cost: a third of linearise() then.
 void move(const TableImage& tables, const ContactStates& contacts, Linearisation& linearisation,
           const Weights& weight_q14 = kAllAlike);
 

@@ -75,7 +75,8 @@ Step solve(const Decomposition& decomposition, const std::array<Rows, kMostUnkno
 std::array<Wide, kMostUnknowns> variances(const Decomposition& decomposition) {
   constexpr int kInverseBits = 40, kSpareBits = 10;
   const int unknowns = decomposition.unknowns;
-  Vector weight_q40;  // 1 / pivot: of columns with an entry that uses its bits, pivots are 2^10 or more
+  Vector weight_q40;  // 1 / pivot, of 2^10 or more: of columns that use their bits, and of loads however
+                      // little they weigh
   for (int i = 0; i < unknowns; ++i) {
     const Reciprocal& reciprocal = decomposition.reciprocal[index(i)];
     weight_q40[index(i)] =

@@ -157,7 +157,7 @@ bool isNews(const TouchFrames& frames, const TouchFrames& last, std::uint32_t no
          news.in(frames.patch, last.patch) || (frames.second && news.in(*frames.second, *last.second));
 }
 
-/// Standard deviation of the noise over that of all that a reading may be off [* 2^8].
+/// Standard deviation of the noise over that of all that the largest reading may be off [* 2^8].
 std::uint32_t noiseShare_q8(const Answer& answer) {
   const int down = std::max(16 - std::countl_zero(answer.variances.largest_q4), 0);  // to 16 bits
   const std::uint32_t variance = answer.variances.largest_q4 >> down,

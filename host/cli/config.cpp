@@ -49,6 +49,10 @@ void requireRoomOnTheBus(const config::Can& can, int rate_hz) {
 
 void runConfig(const ConfigOptions& options) {
   std::vector<RequestFrame> requests;
+  if (options.contactRate_hz && options.restart && !options.keep)
+    throw Failure(
+        ExitCode::kUsage,
+        "config: --restart forgets --contact-rate-hz: give --keep as well, or leave one of them out");
   if (options.contactRate_hz) {
     requireRoomOnTheBus(options.request.common.config().can, *options.contactRate_hz);
     requests.push_back(contactRateRequest(static_cast<std::uint16_t>(*options.contactRate_hz)));

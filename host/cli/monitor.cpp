@@ -247,6 +247,9 @@ class LogMonitor {
 };
 
 void runMonitor(const MonitorOptions& options) {
+  if (options.bus.empty() && live::isKeyboard())
+    throw Failure(ExitCode::kUsage,
+                  "monitor: nothing to watch: give --can BUS, or a log: candump can0 | strainfinger monitor");
   options.bus.empty() ? LogMonitor(options).run() : monitorBus(options);
 }
 

@@ -94,7 +94,9 @@ Tracks readTracks(const PlotOptions& options) {
 
 void requireOne(const PlotOptions& options, const Tracks& tracks) {
   if (tracks.empty())
-    throw Failure(ExitCode::kFailure, fmt::format("{}: no touch in it to draw", options.path));
+    throw Failure(ExitCode::kFailure, options.node ? fmt::format("{}: no touch of node {} in it to draw",
+                                                                 options.path, *options.node)
+                                                   : fmt::format("{}: no touch in it to draw", options.path));
   if (tracks.size() == 1) return;
   std::vector<std::string> names;
   for (const auto& [name, track] : tracks)
@@ -104,6 +106,7 @@ void requireOne(const PlotOptions& options, const Tracks& tracks) {
 }
 
 void runPlot(const PlotOptions& options) {
+  options.common.config();  // a mistake in it is told, as everywhere
   plot::requirePicturePath(options.output);
   const Tracks tracks = readTracks(options);
   requireOne(options, tracks);

@@ -81,9 +81,10 @@ struct RunOptions {
         .add_option("--touches", touchesPath,
                     "At the end, what touched the finger, a row for each row of --strains (CSV)")
         ->type_name("FILE");
-    command.add_option("--rows-hz", rows_hz, "Rows of --strains and --touches a second (default 100)")
-        ->type_name("HZ")
-        ->check(CLI::Range(1, 1000));
+    rowsOption =
+        command.add_option("--rows-hz", rows_hz, "Rows of --strains and --touches a second (default 100)")
+            ->type_name("HZ")
+            ->check(CLI::Range(1, 1000));
     command
         .add_option("--picture", pictures,
                     "Draws the run (needs gnuplot); ends in .svg or .png, may be given twice")
@@ -101,19 +102,27 @@ struct RunOptions {
   bool truth = false;
   std::string strainsPath;
   std::string touchesPath;
+  CLI::Option* rowsOption;
   int rows_hz = 100;
   std::vector<std::string> pictures;
   std::vector<std::string> faults;
 };
 
 simulation::Scenario scenarioOf(const RunOptions& options) {
-  return options.scenarioPath.empty() ? simulation::builtInScenario()
-                                      : simulation::readScenarioFile(options.scenarioPath);
+  if (options.scenarioPath.empty()) return simulation::builtInScenario();
+  const simulation::Scenario scenario = simulation::readScenarioFile(options.scenarioPath);
+  simulation::requireUntouchedStart(scenario, options.scenarioPath);
+  return scenario;
 }
 
-std::vector<simulation::GaugeFault> faultsOf(const RunOptions& options) {
+/// Of a run that ends then.
+std::vector<simulation::GaugeFault> faultsOf(const RunOptions& options, double end_s) {
   std::vector<simulation::GaugeFault> faults;
-  for (const std::string& text : options.faults) faults.push_back(simulation::readGaugeFault(text));
+  for (const std::string& text : options.faults) {
+    faults.push_back(simulation::readGaugeFault(text));
+    if (faults.back().start_s >= end_s)
+      throw Failure(ExitCode::kUsage, fmt::format("--fault {}: the run ends before, at {} s", text, end_s));
+  }
   return faults;
 }
 
@@ -177,9 +186,10 @@ void runOn(Port& port, const config::FingerConfig& config, const RunOptions& opt
   }
   const auto tables = options.firmware.tablesOf(known);
   const simulation::Scenario scenario = scenarioOf(options);
-  const auto end_us = static_cast<std::uint64_t>(std::llround(durationOf(options, scenario) * 1e6));
+  const double end_s = durationOf(options, scenario);
+  const auto end_us = static_cast<std::uint64_t>(std::llround(end_s * 1e6));
   simulation::SimulatedFinger finger(config, scenario, *tables, options.firmware.mode(), options.seed, port,
-                                     faultsOf(options));
+                                     faultsOf(options, end_s));
   Watchers watchers(options, config, *tables);
   for (const std::string& path : options.pictures) {
     plot::requirePicturePath(path);
@@ -242,6 +252,8 @@ void runOnBus(const config::FingerConfig& config, const RunOptions& options) {
 }
 
 void runRun(const RunOptions& options) {
+  if (options.rowsOption->count() > 0 && options.strainsPath.empty() && options.touchesPath.empty())
+    throw Failure(ExitCode::kUsage, "run: --rows-hz is of --strains and --touches: give one of them");
   const config::FingerConfig config = options.common.config();
   options.isLoopback() ? runOnLoopback(config, options) : runOnBus(config, options);
 }

@@ -41,6 +41,8 @@ bool wantsColour() {
 
 bool hasTerminal() { return isatty(STDOUT_FILENO) == 1; }
 
+bool isKeyboard() { return isatty(STDIN_FILENO) == 1; }
+
 ScreenForm terminalForm() {
   ScreenForm form{.unicode = isUtf8()};
   winsize size{};

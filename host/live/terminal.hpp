@@ -15,6 +15,9 @@ namespace strainfinger::live {
 /// Whether stdout is a terminal.
 bool hasTerminal();
 
+/// stdin is a terminal: nothing is piped into it.
+bool isKeyboard();
+
 /// Size and abilities of the terminal on stdout as they are now.
 ScreenForm terminalForm();
 

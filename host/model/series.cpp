@@ -33,12 +33,12 @@ void requireDomain(const Annulus<double>& annulus, double radius_m, const Window
 namespace {
 
 Failure notConvergent(const Annulus<double>& annulus, double radius_m) {
-  return {
-      ExitCode::kUsage,
-      fmt::format("radius {} m is too close to the surface at {} m: the response to a line load is a delta "
-                  "function there and its series needs more than {} harmonics; choose a smaller radius or, "
-                  "at the surface itself, a load of some width",
-                  radius_m, annulus.outer_radius_m, kMaxHarmonics)};
+  return {ExitCode::kUsage,
+          fmt::format(
+              "radius {} m is too close to the surface at {} m, where the response to a line load is a "
+              "delta function: the series needs more than {} harmonics; choose a smaller radius or a wider "
+              "load or, for a load of some width, the surface itself",
+              radius_m, annulus.outer_radius_m, kMaxHarmonics)};
 }
 
 /// Sum of all harmonics after n, as a multiple of harmonic n.

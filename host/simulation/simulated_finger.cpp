@@ -6,14 +6,15 @@
 
 namespace strainfinger::simulation {
 
-void requireUntouchedStart(const Scenario& scenario) {
+void requireUntouchedStart(const Scenario& scenario, std::string_view name) {
   constexpr double kPeriod_s = SimulatedGauges::kSamplePeriod_us * 1e-6;
   for (double time_s = 0; time_s < kUntouched_s; time_s += kPeriod_s)
     if (!scenario.at(time_s).empty())
-      throw Failure(ExitCode::kUsage,
-                    fmt::format("the scenario touches the finger at {:.3f} s, while it takes the zero of its "
-                                "gauges: let the first touch start_s be {} or later",
-                                time_s, kUntouched_s));
+      throw Failure(
+          ExitCode::kUsage,
+          fmt::format("{} touches the finger at {:.3f} s, while it takes the zero of its gauges: let "
+                      "the first touch start_s be {} or later",
+                      name, time_s, kUntouched_s));
 }
 
 InfoFrame simulatedInfo(ResetCause cause) {

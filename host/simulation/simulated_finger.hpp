@@ -31,7 +31,7 @@ static_assert(firmware::ZeroAverage::kSamples * SimulatedGauges::kSamplePeriod_u
 
 /// Throws Failure(kUsage) when the scenario touches the finger before kUntouched_s: every answer would be
 /// wrong.
-void requireUntouchedStart(const Scenario& scenario);
+void requireUntouchedStart(const Scenario& scenario, std::string_view name = "the scenario");
 
 /// What a finger on this machine says of itself at start: the program's version and no board.
 InfoFrame simulatedInfo(ResetCause cause);

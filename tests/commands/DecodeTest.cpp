@@ -182,6 +182,10 @@ TEST(Decode, FollowsOneFile) {
   checkRefused("decode --follow a b", "--follow needs one FILE");
 }
 
+TEST(Decode, AMistakeInTheConfigIsToldAsEverywhere) {
+  checkRefused("decode -c /nowhere.toml", "/nowhere.toml");
+}
+
 TEST(Decode, NumbersThatCannotBeAreErrors) {
   const Run run =
       runProgram("decode",

@@ -54,7 +54,11 @@ TEST(Plot, SaysWhatItCannotDraw) {
   const Run unreadable = inFolder("\"$STRAINFINGER\" plot x.log -o a.png", "rubbish\n");
   LONGS_EQUAL(1, unreadable.status);
   STRCMP_CONTAINS("x.log:1:8: ", unreadable.err.c_str());
+  const Run another =
+      inFolder("\"$STRAINFINGER\" plot x.log -o a.png -n 5", "(1.000000) can0 705#2200004D0E1900A7\n");
+  STRCMP_CONTAINS("x.log: no touch of node 5 in it to draw", another.err.c_str());
   checkRefused("plot x.log -o a.pdf", "pictures are .svg or .png");
+  checkRefused("plot x.log -o a.png -c /nowhere.toml", "/nowhere.toml");
 }
 
 TEST(Plot, DrawsSomeOfTheTouchesOfALongLog) {

@@ -48,6 +48,11 @@ TEST(RequestCommands, TheConfigFileIsRead) {
   checkRefused("tare --can nocan7 -c /nowhere.toml", 2, "/nowhere.toml");
 }
 
+TEST(RequestCommands, ARateIsNotForgottenAtOnce) {
+  checkRefused("config --can nocan7 --contact-rate-hz 100 --restart", 2, "give --keep as well");
+  checkRefused("config --can nocan7 --contact-rate-hz 100 --keep --restart", 3, "nocan7");
+}
+
 // Which the finger does not know: it has no idea of the bit rate.
 TEST(RequestCommands, ARateThatTheBusCannotCarryIsRefused) {
   const Run run = runShell(R"sh(config=$(mktemp) && trap 'rm $config' EXIT

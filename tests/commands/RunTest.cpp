@@ -98,7 +98,7 @@ TEST(RunCommand, AScenarioWithoutAnEndNeedsADuration) {
 TEST(RunCommand, ATouchDuringTheZeroIsRefused) {
   checkRefused(
       withScenario("", kEarly), 2,
-      "the scenario touches the finger at 0.050 s, while it takes the zero of its gauges: let the first "
+      "/dev/stdin touches the finger at 0.050 s, while it takes the zero of its gauges: let the first "
       "touch start_s be 0.1 or later");
 }
 
@@ -243,9 +243,17 @@ TEST(RunCommand, NamesAGaugeThatFails) {
   STRCMP_CONTAINS("loopback 081#04000000", run.out.c_str());
 }
 
+TEST(RunCommand, NamesAGaugeThatIsNoisy) {
+  const Run run = runProgram("run --duration 3 --fault noisy:2");
+  STRCMP_CONTAINS("run: gauges out of use at the end: 2\n", run.err.c_str());
+  STRCMP_CONTAINS("loopback 081#04000000", run.out.c_str());
+}
+
 TEST(RunCommand, RefusesAFaultThatIsNone) {
   checkRefused(runProgram("run --fault dull:2"), 2, "--fault dull:2: must be KIND:GAUGE");
   checkRefused(runProgram("run --fault dead:16"), 2, "there is no gauge 16; they are 0 to 15");
+  checkRefused(runProgram("run --fault dead:5@9 --duration 0.5"), 2,
+               "--fault dead:5@9: the run ends before, at 0.5 s");
 }
 
 TEST(RunCommand, RefusesWhatIsOutsideTheDomain) {
@@ -255,6 +263,8 @@ TEST(RunCommand, RefusesWhatIsOutsideTheDomain) {
     checkRefused(runProgram("run --seed " + seed), 2,
                  ("--seed: " + seed + " is no whole number from 0 to 2^64 - 1\n").c_str());
   checkRefused(runProgram("run --mode best"), 2, "--mode");
+  checkRefused(runProgram("run --rows-hz 10"), 2,
+               "--rows-hz is of --strains and --touches: give one of them");
   checkRefused(runProgram("run --picture touch.bmp"), 2, "pictures are .svg or .png");
   checkRefused(runProgram("run --scenario /nowhere.toml"), 2, "/nowhere.toml");
 }

@@ -71,6 +71,10 @@ TEST(TablesCommand, AMissingFileIsAFailureThatNamesIt) {
   checkEnds(1, "gone.tables", "\"$STRAINFINGER\" tables verify gone.tables");
 }
 
+TEST(TablesCommand, AMissingConfigIsToldByInfoToo) {
+  checkEnds(2, "/nowhere.toml", "\"$STRAINFINGER\" tables info finger.tables -c /nowhere.toml");
+}
+
 TEST(TablesCommand, AMissingFolderIsAFailureAndLeavesNothing) {
   checkEnds(1, "nowhere/finger.tables", "\"$STRAINFINGER\" tables -o nowhere/finger.tables");
 }

@@ -185,6 +185,10 @@ class Log(unittest.TestCase):
                 terminal.press("q")
                 terminal.wait_for(r"(?s) s  loopback node 1  run  .*ended: 0")  # the last state stays
 
+    def test_without_a_bus_and_a_log_there_is_nothing_to_watch(self):
+        with Terminal(f"{PROGRAM} monitor") as terminal:
+            terminal.wait_for(r"(?s)nothing to watch: give --can BUS.*ended: 2")
+
     def test_lines_that_cannot_be_read_are_counted(self):
         run = self.monitor(log="nonsense\n" + self.log + "more\n")
         self.assertEqual(1, run.returncode)

@@ -38,4 +38,5 @@ TEST(ReadFile, SaysWhyItCannot) {
   checkRefusal("/nowhere/file", ExitCode::kUsage,
                "/nowhere/file: cannot read the file: No such file or directory");
   checkRefusal("/", ExitCode::kFailure, "/: cannot read the file: Is a directory");
+  checkRefusal("/dev/zero", ExitCode::kUsage, "/dev/zero: more than 268435456 bytes: is it the right file?");
 }

@@ -214,45 +214,6 @@ TEST(GaugeFault, AGaugeThatOpensUnderATouchIsNamedWhenItEndsAtTheLatest) {
   LONGS_EQUAL(0, wrong);
 }
 
-// Ten times the noise of the others: 65 codes. Touches are within two pitches of it.
-TEST(GaugeFault, ANoisyGaugeIsNamedBeforeAnythingTouchesAndTouchesAreToldWithoutIt) {
-  constexpr double kNoise_codes = 65, kNear_pitch = 2;
-  const double pitch_rad = 2 * std::numbers::pi / config.gauges.count;
-  const simulation::Noise draws(407);
-  std::uint64_t set = 0;
-  const auto noisy = [&](SampledFinger::Codes& codes) {
-    const double code = codes[kFaulty] + kNoise_codes * draws.at(set++, 0);
-    codes[kFaulty] = static_cast<std::uint16_t>(std::clamp(std::lround(code), 1L, 65'000L));
-  };
-  const int trials = touchCount(300);
-  int named = 0, wrong = 0, silent = 0, flagged = 0, missed = 0;
-  for (int trial = 0; trial < trials; ++trial) {
-    const auto finger = this->finger(trial);
-    const GaugeSet out = finger->rest(kSetsPerSecond, noisy).outOfUse;
-    named += out == kFaultySet;
-    wrong += (out & ~kFaultySet) != 0;
-    CHECK_TRUE(finger->observation().noisy);
-    simulation::Touch touch = touches.at(static_cast<std::uint64_t>(trial));
-    touch.angle_rad =
-        config.gauges.angle_rad(kFaulty) +
-        2 * kNear_pitch * pitch_rad * evidence::uniform(draws, static_cast<std::uint64_t>(trial), 2);
-    finger->hold(ring.exact(touch), kTouch, noisy);
-    const Told said = told(*finger, {&touch, 1});
-    silent += !said.right && !said.flagged;
-    flagged += said.flagged;
-    missed += !finger->observation().touched;
-  }
-  std::printf(
-      "\nnoisy: named in %d of %d trials, %d wrong; of touches near by %d flagged, %d missed, silent wrong "
-      "places %d ",
-      named, trials, wrong, flagged, missed, silent);
-  CHECK_COMPARE(named, >=, 0.99 * trials - 3 * std::sqrt(0.01 * trials));
-  LONGS_EQUAL(0, wrong);
-  LONGS_EQUAL(0, missed);
-  CHECK_COMPARE(silent, <=, allowedCount(2e-4, trials));
-  CHECK_COMPARE(flagged, <=, allowedCount(0.05, trials));
-}
-
 // A gauge that reads nothing, or still what an earlier touch left it at, explains alone what is wrong at
 // several places: one place could be a second contact as well.
 TEST(GaugeFault, ADeadGaugeIsNamedAfterSeveralTouchesThatItShouldFeel) {

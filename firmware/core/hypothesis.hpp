@@ -66,7 +66,7 @@ struct Variances {
 /// What the finger differs from the tables' puts a reading off by `model_error` of itself (gains), of this
 /// part [log2] of what each neighbour reads (a gauge that is glued off its place reads more like them), and
 /// of this part [log2] of the largest reading, whatever it reads itself. These standard deviations are added,
-/// not their squares: they are of one cause.
+/// not their squares.
 inline constexpr int kNeighbourBits = 3, kLeastErrorBits = 4;
 
 /// By what each gauge's residual and columns are multiplied [* 2^14]: the standard deviation of a gauge that

@@ -75,8 +75,9 @@ Step solve(const Decomposition& decomposition, const std::array<Rows, kMostUnkno
 std::array<Wide, kMostUnknowns> variances(const Decomposition& decomposition) {
   constexpr int kInverseBits = 40, kSpareBits = 10;
   const int unknowns = decomposition.unknowns;
-  Vector weight_q40;  // 1 / pivot, of 2^10 or more: of columns that use their bits, and of loads however
-                      // little they weigh
+  // 1 / pivot, at most 2^-10. Columns with an entry that uses its bits have pivots above 2^10; those of loads
+  // that weigh little may be lower, and then count as 2^10.
+  Vector weight_q40;
   for (int i = 0; i < unknowns; ++i) {
     const Reciprocal& reciprocal = decomposition.reciprocal[index(i)];
     weight_q40[index(i)] =

@@ -8,9 +8,10 @@
 
 namespace strainfinger {
 
+inline constexpr std::size_t kLargestFile = std::size_t{1} << 28;  ///< [bytes]: a device has no end
+
 /// All bytes of a file. Throws Failure(`unreadable`) with the path and the system's reason, or where there
 /// are more than kLargestFile.
-inline constexpr std::size_t kLargestFile = std::size_t{1} << 28;  ///< [bytes]: a device has no end
 std::string readFile(const std::string& path, ExitCode unreadable);
 
 }  // namespace strainfinger

@@ -53,6 +53,8 @@ config::FingerConfig CommonOptions::config() const {
   return path_.empty() ? config::FingerConfig{} : config::readConfigFile(path_);
 }
 
+void CommonOptions::requireGoodConfig() const { config(); }
+
 void requireGoodFileNames(const CLI::App& command) {
   const auto files = fileOptions(command);
   for (auto file = files.begin(); file != files.end(); ++file) {

@@ -16,6 +16,8 @@ class CommonOptions {
  public:
   explicit CommonOptions(CLI::App& command);
   config::FingerConfig config() const;  ///< the file of -c, or the default finger
+  /// Of a command that needs nothing of the config: a mistake in it is told all the same.
+  void requireGoodConfig() const;
   bool hasConfig() const { return !path_.empty(); }
   TableFormat format() const { return json_ ? TableFormat::kJson : TableFormat::kCsv; }
 

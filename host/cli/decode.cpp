@@ -171,7 +171,7 @@ void requireGoodPaths(const DecodeOptions& options) {
 }
 
 void runDecode(const DecodeOptions& options) {
-  options.common.config();  // a mistake in it is told, as everywhere
+  options.common.requireGoodConfig();
   requireGoodPaths(options);
   Decoder decoder(options);
   const auto paths = options.paths.empty() ? std::vector<std::string>{"-"} : options.paths;

@@ -238,7 +238,7 @@ std::vector<Explained> framesOf(const std::vector<std::string>& words) {
 }
 
 void runExplain(const ExplainOptions& options) {
-  options.common.config();  // a mistake in it is told, as everywhere
+  options.common.requireGoodConfig();
   const TableFormat format = options.common.format();
   if (options.words.empty()) return printTerms(can::glossary(), format);
   const std::vector<Explained> frames = framesOf(options.words);

@@ -106,7 +106,7 @@ void requireOne(const PlotOptions& options, const Tracks& tracks) {
 }
 
 void runPlot(const PlotOptions& options) {
-  options.common.config();  // a mistake in it is told, as everywhere
+  options.common.requireGoodConfig();
   plot::requirePicturePath(options.output);
   const Tracks tracks = readTracks(options);
   requireOne(options, tracks);

@@ -32,6 +32,7 @@ namespace strainfinger::cli {
 namespace {
 
 constexpr const char* kLoopback = "loopback";
+constexpr int kUsualRows_hz = 100;
 
 constexpr const char* kRunHelp =
     "The finger itself on this machine: the firmware's own code, simulated gauges, frames on CAN.\n"
@@ -82,10 +83,9 @@ struct RunOptions {
         .add_option("--touches", touchesPath,
                     "At the end, what touched the finger, a row for each row of --strains (CSV)")
         ->type_name("FILE");
-    rowsOption =
-        command.add_option("--rows-hz", rows_hz, "Rows of --strains and --touches a second (default 100)")
-            ->type_name("HZ")
-            ->check(CLI::Range(1, 1000));
+    command.add_option("--rows-hz", rows_hz, "Rows of --strains and --touches a second (default 100)")
+        ->type_name("HZ")
+        ->check(CLI::Range(1, 1000));
     command
         .add_option("--picture", pictures,
                     "Draws the run (needs gnuplot); ends in .svg or .png, may be given twice")
@@ -103,8 +103,7 @@ struct RunOptions {
   bool truth = false;
   std::string strainsPath;
   std::string touchesPath;
-  CLI::Option* rowsOption;
-  int rows_hz = 100;
+  std::optional<int> rows_hz;
   std::vector<std::string> pictures;
   std::vector<std::string> faults;
 };
@@ -142,7 +141,8 @@ class Watchers {
   Watchers(const RunOptions& options, const config::FingerConfig& config, const TableImage& tables)
       : config_(config), strainsPath_(options.strainsPath), touchesPath_(options.touchesPath) {
     if (!strainsPath_.empty() || !touchesPath_.empty())
-      strains_.emplace(tables::correctionFactors(tables.gains, config.gauges.count), options.rows_hz);
+      strains_.emplace(tables::correctionFactors(tables.gains, config.gauges.count),
+                       options.rows_hz.value_or(kUsualRows_hz));
     if (options.truth) table_.emplace(stderr, config.finger);
     if (!options.pictures.empty()) recorder_.emplace(config);
   }
@@ -253,7 +253,7 @@ void runOnBus(const config::FingerConfig& config, const RunOptions& options) {
 }
 
 void runRun(const RunOptions& options) {
-  if (options.rowsOption->count() > 0 && options.strainsPath.empty() && options.touchesPath.empty())
+  if (options.rows_hz && options.strainsPath.empty() && options.touchesPath.empty())
     throw Failure(ExitCode::kUsage, "run: --rows-hz is of --strains and --touches: give one of them");
   const config::FingerConfig config = options.common.config();
   options.isLoopback() ? runOnLoopback(config, options) : runOnBus(config, options);

@@ -85,7 +85,7 @@ void make(const TablesOptions& options) {
 }
 
 void showInfo(const TablesOptions& options) {
-  options.common.config();  // a mistake in it is told, as everywhere
+  options.common.requireGoodConfig();
   const auto image = tables::readTableFile(options.infoPath);
   TableWriter table(stdout, options.common.format(), {"key", "value"});
   table.row({"format", std::int64_t{image->format}});

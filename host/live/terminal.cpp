@@ -54,7 +54,7 @@ ScreenForm terminalForm() {
 }
 
 Terminal::Terminal() : isStyled_(wantsColour()) {
-  ownsKeys_ = isatty(STDIN_FILENO) != 1;
+  ownsKeys_ = !isKeyboard();
   keys_ = ownsKeys_ ? ::open("/dev/tty", O_RDONLY | O_CLOEXEC) : STDIN_FILENO;
   if (keys_ >= 0 && tcgetattr(keys_, &before_) == 0) {
     termios raw = before_;

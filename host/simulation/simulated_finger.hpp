@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,7 +31,7 @@ inline constexpr double kUntouched_s = 0.1;
 static_assert(firmware::ZeroAverage::kSamples * SimulatedGauges::kSamplePeriod_us * 1e-6 < kUntouched_s);
 
 /// Throws Failure(kUsage) when the scenario touches the finger before kUntouched_s: every answer would be
-/// wrong.
+/// wrong. `name`: what to call the scenario.
 void requireUntouchedStart(const Scenario& scenario, std::string_view name = "the scenario");
 
 /// What a finger on this machine says of itself at start: the program's version and no board.

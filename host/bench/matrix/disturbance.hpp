@@ -35,6 +35,13 @@ struct Hum {
   bool isEven = true;  ///< the same in all gauges; else each gauge has an even draw from 0 to the amplitude
 };
 
+/// What contacts do while they press.
+struct Motion {
+  double trembles_hz = 0;
+  double trembling = 0;  ///< amplitude of the loads over their mean
+  double slides_m_per_s = 0;
+};
+
 /// The firmware's search for two contacts takes so long at most; until it ends their answers are flagged.
 inline constexpr int kLongestSearch_sets = 600;
 
@@ -46,6 +53,7 @@ struct Disturbance {
   bool isCalibrated = false;  ///< its tables are made for what a calibration found; else for `told`
   evidence::TouchRanges touches{.load_n_per_m = {2, 40}};
   std::optional<SecondContact> second = {};
+  Motion motion = {};
   int rise_sets = 5;                    ///< of each contact's loads
   int touched_sets = 120;               ///< answers count at their end
   double gainSpread = 0;                ///< standard deviation of each gauge's gain, relative

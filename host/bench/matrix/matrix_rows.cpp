@@ -41,6 +41,23 @@ class Rows {
     wide.touches.width_m = {2e-3, 2e-3};
   }
 
+  /// As hands and machines press: nothing in the firmware knows of it.
+  void motions() {
+    const auto moves = [this](std::string name, Motion motion, int touched_sets) {
+      Disturbance& row = add(std::move(name));
+      row.motion = motion;
+      row.touched_sets = touched_sets;
+      row.rarer = 4;
+    };
+    for (const double hz : {5, 15, 50}) {
+      moves(fmt::format("loads tremble by 30 %, {:g} Hz", hz), {.trembles_hz = hz, .trembling = 0.3}, 600);
+      moves(fmt::format("contacts tap, {:g} Hz", hz), {.trembles_hz = hz, .trembling = 1}, 600);
+    }
+    for (const double speed_mm_per_s : {10, 50, 200})
+      moves(fmt::format("contacts slide, {:g} mm/s", speed_mm_per_s),
+            {.slides_m_per_s = speed_mm_per_s * 1e-3}, 300);
+  }
+
   void failures() {
     const auto fails = [this](std::string name, Failure failure) -> Disturbance& {
       Disturbance& row = add(std::move(name));
@@ -187,6 +204,7 @@ std::vector<Disturbance> matrixRows() {
   rows.add("nothing wrong");
   rows.widths();
   rows.pairs();
+  rows.motions();
   rows.failures();
   rows.builds();
   rows.electronics();

@@ -24,7 +24,18 @@ constexpr double kNear_pitch = 2;    ///< touches are within so much of a failed
 constexpr std::uint64_t kSetsPerSession = std::uint64_t{1} << 24, kTouchesPerSession = 64;
 
 /// What is drawn of a session, by gauge; the next are of its sample sets.
-enum Drawn : std::uint32_t { kGain, kZero, kDrift, kHumShare, kHumPhase, kFailed, kPlace, kSpike, kNoise };
+enum Drawn : std::uint32_t {
+  kGain,
+  kZero,
+  kDrift,
+  kHumShare,
+  kHumPhase,
+  kFailed,
+  kPlace,
+  kSpike,
+  kNoise,
+  kTremblePhase
+};
 constexpr std::uint64_t kDraws = 16;
 
 config::FingerConfig fingerOf(const Disturbance& disturbance, std::uint64_t number) {
@@ -119,9 +130,27 @@ std::vector<Session::Pressing> Session::drawTouch() {
 
 Eigen::VectorXd Session::pressed(Pressings pressings, int set) const {
   Eigen::VectorXd readings = Eigen::VectorXd::Zero(finger_.gauges.count);
+  const bool isMoving = disturbance_.motion.slides_m_per_s != 0;
   for (const Pressing& each : pressings)
-    readings += std::clamp((set + 1.0 - each.start_set) / disturbance_.rise_sets, 0.0, 1.0) * each.exact;
+    readings += isMoving ? ring_.exact(movedTouch(each, set)) : loadShare(each, set) * each.exact;
   return readings;
+}
+
+/// Of its mean loads, in this sample set.
+double Session::loadShare(const Pressing& pressing, int set) const {
+  const Motion& motion = disturbance_.motion;
+  const double turns = motion.trembles_hz * set / kSetsPerSecond + draw(kTremblePhase, touched_);
+  return std::clamp((set + 1.0 - pressing.start_set) / disturbance_.rise_sets, 0.0, 1.0) *
+         (1 + motion.trembling * std::sin(2 * std::numbers::pi * turns));
+}
+
+simulation::Touch Session::movedTouch(const Pressing& pressing, int set) const {
+  simulation::Touch touch = pressing.touch;
+  touch.angle_rad +=
+      disturbance_.motion.slides_m_per_s * set / kSetsPerSecond / finger_.finger.outer_radius_m;
+  touch.normal_n_per_m *= loadShare(pressing, set);
+  touch.tangential_n_per_m *= loadShare(pressing, set);
+  return touch;
 }
 
 void Session::disturb(Eigen::VectorXd& readings) const {
@@ -199,11 +228,13 @@ void Session::touch(Tally& tally) {
   ++touched_;
   tally.ghosts += ghost_;
   for (int set = 0; set < disturbance_.touched_sets; ++set) sample(pressings, set);
-  judge(pressings, tally);
+  std::vector<simulation::Touch> truths;
+  for (const Pressing& each : pressings) truths.push_back(movedTouch(each, disturbance_.touched_sets - 1));
+  judge(truths, tally);
   ghost_ = false;
 }
 
-void Session::judge(Pressings pressings, Tally& tally) const {
+void Session::judge(std::span<const simulation::Touch> truths, Tally& tally) const {
   ++tally.touches;
   const firmware::Observation& seen = pipeline_.observation();
   bool blamed = false;
@@ -217,7 +248,7 @@ void Session::judge(Pressings pressings, Tally& tally) const {
   const int contacts = pipeline_.answer().solution.hypothesis.contacts;
   bool isFlagged = seen.uncertain || (seen.several && contacts == 1);
   bool isFar = false, isBeyondSigmas = false;
-  std::vector<bool> found(pressings.size());
+  std::vector<bool> found(truths.size());
   const double half_rad = std::numbers::pi / finger_.gauges.count;
   for (int i = 0; i < contacts; ++i) {
     const Contact contact = estimate(pipeline_.constants(), pipeline_.answer(),
@@ -225,19 +256,17 @@ void Session::judge(Pressings pressings, Tally& tally) const {
     isFlagged |= contact.uncertain;
     const ToldContact told = toldContact(contact);
     const auto nearest =
-        std::min_element(pressings.begin(), pressings.end(), [&](const Pressing& a, const Pressing& b) {
-          return apart_rad(told, a.touch) < apart_rad(told, b.touch);
-        });
-    isFar |= apart_rad(told, nearest->touch) > half_rad;
-    isBeyondSigmas |= isBeyond(told, nearest->touch);
-    if (apart_rad(told, nearest->touch) <= half_rad)
-      found[static_cast<std::size_t>(nearest - pressings.begin())] = true;
+        std::ranges::min_element(truths, {}, [&](const auto& truth) { return apart_rad(told, truth); });
+    isFar |= apart_rad(told, *nearest) > half_rad;
+    isBeyondSigmas |= isBeyond(told, *nearest);
+    if (apart_rad(told, *nearest) <= half_rad)
+      found[static_cast<std::size_t>(nearest - truths.begin())] = true;
   }
   const bool all = std::all_of(found.begin(), found.end(), [](bool each) { return each; });
   tally.flagged += isFlagged;
   tally.silent += isFar && !isFlagged;
   tally.beyond += isBeyondSigmas && !isFlagged;
-  tally.located += all && contacts == static_cast<int>(pressings.size()) && !isFlagged;
+  tally.located += all && contacts == static_cast<int>(truths.size()) && !isFlagged;
 }
 
 Tally tallyOf(const Disturbance& disturbance, int touches, std::uint64_t seed) {

@@ -34,7 +34,7 @@ class Session {
  private:
   struct Pressing {
     simulation::Touch touch;
-    Eigen::VectorXd exact;
+    Eigen::VectorXd exact;  ///< at its place and loads when nothing moves
     int start_set;
   };
   using Pressings = std::span<const Pressing>;
@@ -43,9 +43,11 @@ class Session {
   Pressing pressing(const simulation::Touch& touch, int start_set) const;
   void sample(Pressings pressings, int set);
   Eigen::VectorXd pressed(Pressings pressings, int set) const;
+  double loadShare(const Pressing& pressing, int set) const;
+  simulation::Touch movedTouch(const Pressing& pressing, int set) const;
   void disturb(Eigen::VectorXd& readings) const;
   void fail(Eigen::VectorXd& readings) const;
-  void judge(Pressings pressings, Tally& tally) const;
+  void judge(std::span<const simulation::Touch> truths, Tally& tally) const;
   bool isHealthy(int gauge) const;
   double draw(std::uint32_t what, int gauge = 0) const;
 

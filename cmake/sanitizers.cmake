@@ -15,18 +15,11 @@ function(strainfinger_leave_unsanitized)
   endif()
 endfunction()
 
-# strainfinger_add_rooms_of_templates(): adds the folders that compile most of Eigen's templates, without the checks that
-# make a quarter of the time to compile them: of null pointers, which the address sanitizer stops when they are used, and
-# of alignment, sizes and virtual tables, which code that casts no pointers can't get wrong. The last that a folder adds.
-function(strainfinger_add_rooms_of_templates)
+# strainfinger_casts_no_pointers(): in this folder and those that it adds from here on, code is compiled without the checks
+# that make a quarter of the time to compile it: of null pointers, which the address sanitizer stops when they are used, and
+# of alignment, sizes and virtual tables, which code that casts no pointers can't get wrong.
+macro(strainfinger_casts_no_pointers)
   if(STRAINFINGER_SANITIZE)
     add_compile_options(-fno-sanitize=null,alignment,object-size,vptr)
   endif()
-  set(rooms model contact shape tables paper evidence)
-  if(STRAINFINGER_WHOLE)
-    list(APPEND rooms calibration design)
-  endif()
-  foreach(room IN LISTS rooms)
-    add_subdirectory(${room})
-  endforeach()
-endfunction()
+endmacro()

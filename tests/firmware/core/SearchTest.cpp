@@ -3,6 +3,7 @@
 #include "firmware/core/search.hpp"
 
 #include "tests/firmware/core/exact_fit.hpp"
+#include "tests/under_sanitizers.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -29,7 +30,7 @@ TEST_GROUP(Search) {
     const ExactSearch everywhere(of);
     Presses presses(of.gauges(), load, 301, leastWidth_mm, mostWidth_mm);
     int missed = 0;
-    for (int i = 0; i < touches; ++i) {
+    for (int i = 0; i < randomCases(touches); ++i) {
       const auto strains = presses.noisy(of.strains(presses.next()), of.noise_strain());
       searchOn(of, strains);
       const double best = everywhere.best(strains).chiSquared;

@@ -4,6 +4,7 @@
 
 #include "host/simulation/noise.hpp"
 #include "tests/host/shape/rings.hpp"
+#include "tests/under_sanitizers.hpp"
 
 // last: its macros redefine new
 #include <CppUTest/TestHarness.h>
@@ -28,7 +29,7 @@ TEST_GROUP(TouchSearch) {
   static void findsTouchesAllAround(const config::FingerConfig& config) {
     const TouchModel model(config);
     const TouchSearch search(model, 1);
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i < 40; i += kSanitized ? 8 : 1) {
       const Touch truth{0.157 * i + 0.01, 10, 10 * std::sin(i), momentOfWidth(0.008 * i)};
       const auto found = search.search(ellipseStrains(config, truth), 1e-6 * peakStrain(config));
       CHECK_TRUE(found.has_value());
@@ -54,7 +55,8 @@ TEST(TouchSearch, NoiseIsNoTouch) {
   const config::FingerConfig config = ringOf(0.7, 32);
   const TouchModel model(config);
   const TouchSearch search(model, 1);
-  for (std::uint64_t i = 0; i < 200; ++i) CHECK_FALSE(search.search(noiseOf(32, i, 1e-5), 1e-5).has_value());
+  for (int i = 0; i < randomCases(200); ++i)
+    CHECK_FALSE(search.search(noiseOf(32, static_cast<std::uint64_t>(i), 1e-5), 1e-5).has_value());
   CHECK_FALSE(search.search(Eigen::VectorXd::Zero(32), 1e-5).has_value());
 }
 

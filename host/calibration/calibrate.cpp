@@ -9,6 +9,7 @@
 #include "host/base/angles.hpp"
 #include "host/calibration/complaints.hpp"
 #include "host/calibration/joint_fit.hpp"
+#include "host/calibration/known_units.hpp"
 #include "host/calibration/model_error.hpp"
 #include "host/calibration/noise_bias.hpp"
 #include "host/calibration/touch_fit.hpp"
@@ -438,6 +439,7 @@ class Calibration {
 CalibrationResult calibrate(const config::FingerConfig& config, std::span<const KnownTouch> known,
                             const MatrixXd& readings, const KnownErrors& errors) {
   requireRows(config.gauges, known, readings);
+  requireUnits(config, known, readings);
   Calibration calibration(config, known, readings, errors);
   calibration.requireEnough();
   requireAllAround(config.gauges, untouchedGauges(config.gauges, readings));

@@ -1,18 +1,10 @@
 #include "host/calibration/model_error.hpp"
 
-#include <algorithm>
 #include <cmath>
 
+#include "host/base/median.hpp"
+
 namespace strainfinger::calibration {
-namespace {
-
-double medianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-}  // namespace
 
 double chiSquaredQuantile(double degreesOfFreedom, double deviations) {
   const double part = 2 / (9 * degreesOfFreedom);

@@ -196,4 +196,10 @@ TouchFit TouchSearch::find(const RingResponse& ring, const TouchData& data) cons
   return refineTouches(ring, data, starts(data.readings - ring.zeros(), data.prior));
 }
 
+TouchSearch drawnSearch(const config::FingerConfig& config) {
+  const Drawing drawing(config);
+  const RingResponse drawn(drawing, VectorXd::Zero(drawing.unknowns()), RingResponse::lastHarmonic(drawing));
+  return {drawn, config};
+}
+
 }  // namespace strainfinger::calibration

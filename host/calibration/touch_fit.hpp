@@ -81,4 +81,7 @@ class TouchSearch {
   Eigen::MatrixXd orthonormal_;  ///< two columns a node: a basis of what loads there make the gauges read
 };
 
+/// Of the finger as drawn.
+TouchSearch drawnSearch(const config::FingerConfig& config);
+
 }  // namespace strainfinger::calibration

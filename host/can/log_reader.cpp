@@ -36,8 +36,11 @@ std::optional<TextFrame> LogReader::next() {
 std::optional<TextFrame> LogReader::frameOf(std::string_view line) {
   if (const auto plain = parsePlainLine(line)) return plain;
   auto parsed = parseLogLine(line);
-  if (const auto* error = std::get_if<LogError>(&parsed))
+  if (const auto* error = std::get_if<LogError>(&parsed)) {
+    isCutOff_ = !isWhole_;
+    if (isCutOff_) return std::nullopt;
     throw Failure(ExitCode::kFailure, fmt::format("{}:{}: {}", place(), error->column, error->reason));
+  }
   parsed_ = std::move(std::get<LogLine>(parsed));
   const auto frame = classicFrame(parsed_);
   if (frame) return TextFrame{parsed_.time_ns, parsed_.interface, *frame};
@@ -48,8 +51,14 @@ std::optional<TextFrame> LogReader::frameOf(std::string_view line) {
 std::optional<std::string_view> LogReader::nextLine() {
   for (;;) {
     if (const auto line = lines_.next()) return line;
-    if (lines_.read(kAtATime) == LineReader::Got::kEnd) return lines_.rest();
+    if (lines_.read(kAtATime) != LineReader::Got::kEnd) continue;
+    isWhole_ = false;
+    return lines_.rest();
   }
+}
+
+std::string LogReader::cutOff() const {
+  return isCutOff_ ? fmt::format("{}: the log ends within this line, which is left out", place()) : "";
 }
 
 std::string LogReader::place() const { return fmt::format("{}:{}", lines_.name(), line_); }

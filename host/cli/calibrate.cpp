@@ -76,10 +76,10 @@ struct CalibrateOptions {
                              ->type_name("FILE.toml");
     bus->needs(output)->excludes(strains)->excludes(touches);
     command.add_option("-n,--node", node, "Of --can and of recordings: node number in place of the config's")
-        ->check(CLI::Range(int{kFirstNode}, int{kLastNode}));
+        ->check(isNode());
     command.add_option("--rate", live.rate_hz, "Of --can: sample sets a second (default 100)")
         ->type_name("HZ")
-        ->check(CLI::Range(10, int{kFastestRaw_hz}))
+        ->check(isWhole(10, int{kFastestRaw_hz}))
         ->needs(bus);
     command.add_flag("--plain", live.plain, "Of --can: lines, even in a terminal")->needs(bus);
     command.add_option("--page", pagePath, "Writes a page with pictures there; needs gnuplot")
@@ -288,6 +288,7 @@ Eigen::MatrixXd strainsOfRecording(const CalibrateOptions& options, const config
   const auto recorded = session::readRecording(options.strainsPath, config, nodeOf(options, config));
   fmt::print(stderr, "calibrate: {} of {} sample sets are touches that differ\n", recorded.rows.size(),
              recorded.sets);
+  warn("calibrate", recorded.cutOff);
   return recorded.rows.matrix();
 }
 

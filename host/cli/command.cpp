@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/frame_layout.hpp"
 #include "host/base/failure.hpp"
 #include "host/config/read_config.hpp"
 
@@ -39,6 +40,18 @@ bool areOneFile(const std::string& one, const std::string& other) {
     return fs::is_regular_file(one, notThere) && fs::equivalent(one, other, notThere);
   const fs::path first = fs::weakly_canonical(one, notThere), second = fs::weakly_canonical(other, notThere);
   return !first.empty() && first == second;
+}
+
+/// Of what can be read as the limits' type.
+template <typename Number>
+CLI::Validator isOfKind(const char* kind, Number least, Number most) {
+  return {[=](const std::string& text) {
+            Number value{};
+            const bool isWithin = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+            return isWithin ? std::string{}
+                            : fmt::format("{} is not {} from {} to {}", text, kind, least, most);
+          },
+          ""};
 }
 
 }  // namespace
@@ -80,13 +93,14 @@ void requireFolderOf(const char* option, const std::string& path) {
                                                 option, path, folder.string()));
 }
 
-CLI::Validator isFrom(double least, double most) {
-  const auto complaint = [least, most](const std::string& text) {
-    double value = 0;
-    const bool isWithin = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
-    return isWithin ? std::string{} : fmt::format("{} is not a number from {} to {}", text, least, most);
-  };
-  return CLI::Validator(complaint, "");
+void warn(const char* command, const std::string& what) {
+  if (!what.empty()) fmt::print(stderr, "{}: warning: {}\n", command, what);
 }
+
+CLI::Validator isFrom(double least, double most) { return isOfKind("a number", least, most); }
+
+CLI::Validator isWhole(int least, int most) { return isOfKind("a whole number", least, most); }
+
+CLI::Validator isNode() { return isWhole(kFirstNode, kLastNode); }
 
 }  // namespace strainfinger::cli

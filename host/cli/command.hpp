@@ -35,9 +35,18 @@ void requireGoodFileNames(const CLI::App& command);
 /// end. An empty path is no file.
 void requireFolderOf(const char* option, const std::string& path);
 
+/// Prints on stderr what a command goes on in spite of; nothing for an empty text.
+void warn(const char* command, const std::string& what);
+
 /// A check of an option that is a number from `least` to `most`, on a list of each of its elements. CLI11's
 /// own lets NaN through.
 CLI::Validator isFrom(double least, double most);
+
+/// The same of an option that is a whole number.
+CLI::Validator isWhole(int least, int most);
+
+/// The same of a node number.
+CLI::Validator isNode();
 
 /// Adds a subcommand whose options live in an Options (constructed with the subcommand; its members are what
 /// the options write to) and which runs `run(options)` when it was chosen.

@@ -21,11 +21,11 @@ struct ConfigOptions {
   explicit ConfigOptions(CLI::App& command) : request(command) {
     command.add_option("--contact-rate-hz", contactRate_hz, "Send at most so many CONTACT a second")
         ->type_name("HZ")
-        ->check(CLI::Range(int{kSlowestContactRate_hz}, int{kFastestContactRate_hz}));
+        ->check(isWhole(int{kSlowestContactRate_hz}, int{kFastestContactRate_hz}));
     command.add_flag("--keep", keep, "Keep the contact rate for the next starts");
     command.add_option("--set-node", node, "Be this node from the next start on")
         ->type_name("NODE")
-        ->check(CLI::Range(int{kFirstNode}, int{kLastNode}));
+        ->check(isNode());
     command.add_flag("--restart", restart,
                      "Then start anew, so that a new node number holds at once; do not touch it");
     command.add_flag("--force", force, "Keep it, or restart, even while something touches the finger");

@@ -42,13 +42,13 @@ struct ContactCommand {
              ->check(isFrom(-180, 180));
     command.add_option("--points", points, "Or: so many, evenly over twice the contact's width (400)")
         ->type_name("N")
-        ->check(CLI::Range(1, 1'000'000))
+        ->check(isWhole(1, 1'000'000))
         ->excludes(&list);
     command.add_option("--method", method, "spectral, or paper: windowed Fourier series, pseudo-inverse")
         ->check(CLI::IsMember({"spectral", "paper"}));
     ofPaper = {
         command.add_option("--harmonics", paper.harmonics, "Of --method paper: last harmonic n_c (300)")
-            ->check(CLI::Range(2, kMostHarmonics)),
+            ->check(isWhole(2, kMostHarmonics)),
         command
             .add_option("--cutoff", paper.cutoff,
                         "Of --method paper: singular values from there on, relative (0.1)")

@@ -13,8 +13,7 @@ namespace {
 
 struct DbcOptions {
   explicit DbcOptions(CLI::App& command) : common(command) {
-    command.add_option("-n,--node", node, "Node number in place of the config's")
-        ->check(CLI::Range(int{kFirstNode}, int{kLastNode}));
+    command.add_option("-n,--node", node, "Node number in place of the config's")->check(isNode());
     command.add_option("-o,--output", path, "File to write; stdout without it")->type_name("FILE");
   }
   CommonOptions common;

@@ -48,7 +48,7 @@ struct DecodeOptions {
     command.add_option("-n,--node", nodes, "Only these nodes, as in 1,2,5")
         ->delimiter(',')
         ->allow_extra_args(false)  // what follows is a FILE
-        ->check(CLI::Range(int{kFirstNode}, int{kLastNode}));
+        ->check(isNode());
     command.add_flag("--touches", touches, "A row a touch sample, not a row a frame");
     command.add_flag("--follow", follow, "Wait for what is yet to be written to FILE, until Ctrl-C");
     command.add_flag("--strict", strict, "Stop at the first line that cannot be read");

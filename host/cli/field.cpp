@@ -23,7 +23,7 @@ constexpr const char* kFieldHelp =
 
 struct FieldOptions {
   explicit FieldOptions(CLI::App& command) : common(command), contact(command) {
-    const auto count = CLI::Range(2, 10'000);
+    const auto count = isWhole(2, 10'000);
     command.add_option("--radii", radii, "Number of radii, core and surface included (20)")->check(count);
     command.add_option("--angles", angles, "Number of angles (81)")->check(count);
     const auto angle = isFrom(-180, 180);

@@ -36,8 +36,7 @@ struct PlotOptions {
     command.add_option("-o,--output", output, "The picture; ends in .svg or .png")
         ->type_name("FILE")
         ->required();
-    command.add_option("-n,--node", node, "Of this node, where the log has several")
-        ->check(CLI::Range(int{kFirstNode}, int{kLastNode}));
+    command.add_option("-n,--node", node, "Of this node, where the log has several")->check(isNode());
   }
   CommonOptions common;
   std::string path;
@@ -88,6 +87,7 @@ Tracks readTracks(const PlotOptions& options) {
     Track& track = tracks.try_emplace({std::string(text->interface), node}, node).first->second;
     track.take(static_cast<double>(*text->time_ns - *first_ns) * 1e-9, text->frame);
   }
+  warn("plot", log.cutOff());
   std::erase_if(tracks, [](const auto& track) { return track.second.points().empty(); });
   return tracks;
 }

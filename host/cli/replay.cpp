@@ -75,6 +75,7 @@ LogExtent measure(const std::string& path) {
   LogExtent extent;
   while (log.next()) ++extent.frames;
   extent.skipped = log.skipped();
+  warn("replay", log.cutOff());
   return extent;
 }
 
@@ -124,6 +125,7 @@ void recomputeLog(const ReplayOptions& options) {
       .contactRate_hz = static_cast<std::uint16_t>(std::lround(config.can.contact_rate_hz)),
       .mode = options.firmware.mode()};
   recompute(next, *options.firmware.tablesOf(config), finger, options.common.format());
+  warn("replay", log.cutOff());
 }
 
 void runReplay(const ReplayOptions& options) {

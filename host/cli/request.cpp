@@ -48,8 +48,7 @@ Failure silence(const can::Reply& reply, const can::BusPort& bus, const std::str
 
 RequestOptions::RequestOptions(CLI::App& command) : common(command) {
   addBusOption(command, bus)->required();
-  command.add_option("-n,--node", node, "Node number in place of the config's")
-      ->check(CLI::Range(int{kFirstNode}, int{kLastNode}));
+  command.add_option("-n,--node", node, "Node number in place of the config's")->check(isNode());
 }
 
 std::uint8_t nodeOf(const RequestOptions& options, const config::Can& can) {

@@ -24,7 +24,7 @@ struct ResponseOptions {
     command.add_option("--harmonics", harmonics, "Last n to print")
         ->required()
         ->type_name("N")
-        ->check(CLI::Range(0, kMostResponseHarmonics));
+        ->check(isWhole(0, kMostResponseHarmonics));
   }
   CommonOptions common;
   double radius_m = 0;

@@ -85,7 +85,7 @@ struct RunOptions {
         ->type_name("FILE");
     command.add_option("--rows-hz", rows_hz, "Rows of --strains and --touches a second (default 100)")
         ->type_name("HZ")
-        ->check(CLI::Range(1, 1000));
+        ->check(isWhole(1, 1000));
     command
         .add_option("--picture", pictures,
                     "Draws the run (needs gnuplot); ends in .svg or .png, may be given twice")

@@ -37,7 +37,7 @@ constexpr const char* kShapeHelp =
     "better than the others by 9 in chi squared. unresolved: which of width, class and odd-part the "
     "strains don't tell. warnings: saturated (gauges within 5 % of the end of the converter's range, or "
     "beyond, were left out; with more than half of them nothing else is told), ambiguous (another touch, at "
-    "rival_angle_deg, fits about as well: "
+    "rival_angle_deg, which is the same angle where it is of another width, fits about as well: "
     "bands of 95 % hold it, and no class is named), sparse (the gauges' pitch at the surface is more than "
     "twice their depth: no width, and answers may be farther off than the sigmas say), misfit (residuals are "
     "not "
@@ -57,7 +57,7 @@ struct ShapeOptions {
     command.add_option("--points", points, "Angles that --pressure prints a touch (41)")
         ->needs(withPressure)
         ->type_name("N")
-        ->check(CLI::Range(2, 100'000));
+        ->check(isWhole(2, 100'000));
   }
   config::FingerConfig config() const {
     config::FingerConfig config = common.config();
@@ -169,6 +169,7 @@ void forEachReading(const config::FingerConfig& config, Print print) {
 }
 
 void printShapes(const ShapeOptions& options, const config::FingerConfig& config) {
+  shape::RingEstimators estimators(config);  // before anything is printed
   TableWriter table(stdout, options.common.format(),
                     {"contact",
                      "angle_deg",
@@ -190,7 +191,6 @@ void printShapes(const ShapeOptions& options, const config::FingerConfig& config
                      "warnings",
                      "curvature_low_per_m",
                      "curvature_high_per_m"});
-  shape::RingEstimators estimators(config);
   forEachReading(config, [&](const Reading& reading) {
     if (reading.isTooFew(config)) return table.row(unknownTouch(1, kClipped));
     const auto shape = estimators.by(reading.gauges).estimate(reading.strains, reading.largest_strain);
@@ -203,9 +203,9 @@ void printShapes(const ShapeOptions& options, const config::FingerConfig& config
 }
 
 void printPressures(const ShapeOptions& options, const config::FingerConfig& config) {
+  shape::RingEstimators estimators(config);  // before anything is printed
   TableWriter table(stdout, options.common.format(),
                     {"sample", "angle_deg", "pressure_pa", "low_pa", "high_pa", "ellipse_pa"});
-  shape::RingEstimators estimators(config);
   forEachReading(config, [&](const Reading& reading) {
     if (reading.isTooFew(config)) return;
     const shape::ShapeEstimator& estimator = estimators.by(reading.gauges);

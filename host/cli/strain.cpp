@@ -52,7 +52,7 @@ struct StrainOptions {
         ->check(angle);
     command.add_option("--points", points, "Or: so many angles, evenly spread from 0")
         ->type_name("N")
-        ->check(CLI::Range(1, kMostPoints));
+        ->check(isWhole(1, kMostPoints));
   }
   CommonOptions common;
   double radius_m = 0;

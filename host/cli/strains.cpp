@@ -38,7 +38,7 @@ struct StrainsOptions {
   explicit StrainsOptions(CLI::App& command) : request(command) {
     command.add_option("--rate", rate_hz, "Sample sets a second (default 100)")
         ->type_name("HZ")
-        ->check(CLI::Range(1, int{kFastestRaw_hz}));
+        ->check(isWhole(1, int{kFastestRaw_hz}));
     command.add_option("--duration", duration_s, "Seconds; without it until Ctrl-C")
         ->type_name("S")
         ->check(isFrom(0.001, kLongestStrains_s));

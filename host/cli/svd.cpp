@@ -34,11 +34,11 @@ struct SvdOptions {
     auto* const withBasis =
         command.add_option("--basis", basis, "Prints the first K shape and pressure functions")
             ->type_name("K")
-            ->check(CLI::Range(1, 10'000));
+            ->check(isWhole(1, 10'000));
     command.add_option("--points", points, "Angles over the width that --basis prints (101)")
         ->needs(withBasis)
         ->type_name("N")
-        ->check(CLI::Range(2, 100'000));
+        ->check(isWhole(2, 100'000));
     command.add_option("--rows", rows, "gauss: the continuum's values; printed: the paper's even points")
         ->check(CLI::IsMember({"gauss", "printed"}));
     command.add_option("--window", window, "Last coefficient of the window: half of n_c, as printed, or all")

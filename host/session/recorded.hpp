@@ -15,6 +15,7 @@ bool isRecording(const std::string& path);
 struct Recorded {
   Rows rows;               ///< thinned, of unknown touches
   std::uint64_t sets = 0;  ///< that were whole
+  std::string cutOff;      ///< as can::LogReader has it
 };
 
 /// The readings (RAW) of the config's node, thinned as a session's are. Throws Failure(kFailure) as

@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "host/calibration/known_units.hpp"
 #include "host/config/over_range.hpp"
 
 namespace strainfinger::session {
@@ -18,7 +19,7 @@ Session::Session(const config::FingerConfig& config, Rows rows)
     : config_(config),
       rows_(std::move(rows)),
       thinner_(config),
-      search_(drawnSearch(config)),
+      search_(calibration::drawnSearch(config)),
       coverage_(coverageOf(config.gauges, search_, rows_)) {
   for (const VectorXd& strains : rows_.strains) thinner_.remember(strains);
 }
@@ -104,6 +105,13 @@ Obeyed Session::keepHeld(const KnownTouch& known, const std::string& what) {
   const auto sample = held_ ? std::exchange(held_, std::nullopt) : nowHeld(why);
   if (!sample)
     return {.message = fmt::format("{} was not taken: {}. Press, hold still, and enter it again", what, why)};
+  const double drawn_n_per_m = search_.guess(sample->strains)[calibration::kNormalLoad];
+  if (known.normal_n_per_m && drawn_n_per_m > 0 &&
+      calibration::isOfAnotherUnit(*known.normal_n_per_m, drawn_n_per_m))
+    return {.message =
+                fmt::format("{} was not taken: by the drawing the finger reads as under {:.2g} N/m. Look at "
+                            "its unit and at finger.length_m, and enter it again",
+                            what, drawn_n_per_m)};
   const NewRow row{sample->time_s, sample->strains, known};
   keep(row);
   knowsMore_ = true;

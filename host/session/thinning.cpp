@@ -18,17 +18,10 @@ constexpr double kClockJitter_s = 1e-3;
 
 }  // namespace
 
-calibration::TouchSearch drawnSearch(const config::FingerConfig& config) {
-  const calibration::Drawing drawing(config);
-  const calibration::RingResponse drawn(drawing, VectorXd::Zero(drawing.unknowns()),
-                                        calibration::RingResponse::lastHarmonic(drawing));
-  return {drawn, config};
-}
-
 Thinner::Thinner(const config::FingerConfig& config, const ThinningRules& rules)
     : config_(config),
       rules_(rules),
-      search_(drawnSearch(config)),
+      search_(calibration::drawnSearch(config)),
       kept_s_(-std::numeric_limits<double>::infinity()) {}
 
 Verdict Thinner::take(const Sample& sample) {

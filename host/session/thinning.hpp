@@ -55,7 +55,4 @@ class Thinner {
 std::vector<std::size_t> thin(const config::FingerConfig& config, std::span<const Sample> samples,
                               const ThinningRules& rules = {});
 
-/// The grid of touches of a finger as drawn.
-calibration::TouchSearch drawnSearch(const config::FingerConfig& config);
-
 }  // namespace strainfinger::session

@@ -1,5 +1,7 @@
 #include "host/shape/partial_ring.hpp"
 
+#include <numeric>
+
 namespace strainfinger::shape {
 
 config::FingerConfig withGauges(const config::FingerConfig& config, const std::vector<int>& gauges) {
@@ -17,6 +19,12 @@ config::FingerConfig withGauges(const config::FingerConfig& config, const std::v
       (partial.calibration.*list).push_back(all[static_cast<std::size_t>(gauge)]);
   }
   return partial;
+}
+
+RingEstimators::RingEstimators(const config::FingerConfig& config) : config_(config) {
+  std::vector<int> all(static_cast<std::size_t>(config.gauges.count));
+  std::iota(all.begin(), all.end(), 0);
+  by(all);
 }
 
 const ShapeEstimator& RingEstimators::by(const std::vector<int>& gauges) {

@@ -12,10 +12,12 @@ namespace strainfinger::shape {
 /// The finger with only these of its gauges: ascending, one at least.
 config::FingerConfig withGauges(const config::FingerConfig& config, const std::vector<int>& gauges);
 
-/// Estimators of a finger by some of its gauges, made when they are asked for; that is what they cost.
+/// Estimators of a finger by all of its gauges, and by some of them, made when they are asked for; that is
+/// what they cost.
 class RingEstimators {
  public:
-  explicit RingEstimators(const config::FingerConfig& config) : config_(config) {}
+  /// Throws as ShapeEstimator does.
+  explicit RingEstimators(const config::FingerConfig& config);
 
   /// `gauges` as in withGauges(), five at least. Stays where it is.
   const ShapeEstimator& by(const std::vector<int>& gauges);

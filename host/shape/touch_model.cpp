@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "host/config/strained_gauges.hpp"
+
 namespace strainfinger::shape {
 namespace {
 
@@ -42,6 +44,8 @@ TouchModel::TouchModel(const config::FingerConfig& config)
     depths[i] = 1 - gauge.radius_m / outerRadius_m_;
     addGauge(i, lines[static_cast<std::size_t>(i)]);
   }
+  config::requireStrain(config,
+                        std::max(normal_.lpNorm<Eigen::Infinity>(), tangential_.lpNorm<Eigen::Infinity>()));
   depth_ = depths.mean();
   leastDepth_ = depths.minCoeff();
 }

@@ -40,7 +40,7 @@ struct TouchStrains {
 class TouchModel {
  public:
   /// Of the config's finger, gauges and calibration, but for the gains: strains are those of gauges of
-  /// gain 1.
+  /// gain 1. Throws Failure(kUsage) where the gauges would read nothing.
   explicit TouchModel(const config::FingerConfig& config);
 
   /// Costs 20 us for 32 gauges in the default finger.

@@ -12,6 +12,7 @@
 #include "host/base/failure.hpp"
 #include "host/config/keys.hpp"
 #include "host/config/sparse_ring.hpp"
+#include "host/config/strained_gauges.hpp"
 #include "host/config/unseen_errors.hpp"
 #include "host/tables/gauge_depths.hpp"
 #include "host/tables/gauge_gains.hpp"
@@ -172,10 +173,6 @@ std::vector<double> gapsOf(const GaugeAngles& angles_q32, std::size_t count) {
   return gaps_turn;
 }
 
-/// Of the strain at the gauges to load / (shear modulus * radius): that of usual gauges is about one, what
-/// rounding leaves of none at all 1e-16.
-constexpr double kLeastResponse = 1e-12;
-
 /// Steps of load that a full scale must have at least, for errors of a few per thousand.
 constexpr double kLeastFullScale = 1024;
 
@@ -189,13 +186,7 @@ void requireFormats(const config::FingerConfig& config, double strainPerLoad) {
         fmt::format("gauges.noise_strain = {} is below the firmware's step of strain; it must be at "
                     "least {:.3g}",
                     gauges.noise_strain, step));
-  if (strainPerLoad * config.finger.shear_modulus_pa * config.finger.outer_radius_m < kLeastResponse)
-    throw Failure(
-        ExitCode::kUsage,
-        fmt::format("gauges.radius_m = {} is where the rubber has no {} strain, on the core "
-                    "(finger.core_radius_m = {}): move the gauges outwards, or read another "
-                    "gauges.component",
-                    gauges.radius_m, config::componentName(gauges.component), config.finger.core_radius_m));
+  config::requireStrain(config, strainPerLoad);
   const double fullScale_n_per_m = gauges.full_scale_strain / strainPerLoad;
   const double largest = toReal(LineLoadQ12::max()),
                least = kLeastFullScale * powerOfTwo(-LineLoadQ12::kFracBits);

@@ -18,6 +18,11 @@ TEST(Main, WhatIsNoCommandIsNamed) {
 
 TEST(Main, AMissingCommandIsAUsageError) { checkRefused("", "A subcommand is required"); }
 
+TEST(Main, AWholeNumberIsAskedForAsOne) {
+  checkRefused("strain --radius-m 0.008 --points 1e3", "1e3 is not a whole number from 1 to ");
+  checkRefused("dbc -n 64", "64 is not a whole number from 1 to 63");
+}
+
 TEST(Main, WhatIsLeftOverBehindACommandIsNamed) { checkRefused("dbc over", "over"); }
 
 TEST(Main, HelpIsNoError) {

@@ -33,6 +33,15 @@ TEST(Plot, DrawsALog) {
   STRCMP_EQUAL("", run.err.c_str());
 }
 
+TEST(Plot, OfALogThatWasCutOffTheRestIsDrawn) {
+  const std::string log = std::string(kTouch) + "(13.000000) can0 185#E803220";
+  const Run run =
+      inFolder("\"$STRAINFINGER\" plot x.log -o a.png && tail -n 1 a-force.csv | cut -c 1-5", log);
+  LONGS_EQUAL(0, run.status);
+  STRCMP_EQUAL("2.5,0\n", run.out.c_str());
+  STRCMP_EQUAL("plot: warning: x.log:5: the log ends within this line, which is left out\n", run.err.c_str());
+}
+
 TEST(Plot, OfSeveralFingersOneIsChosen) {
   std::string log = kTouch;
   for (const char* line :

@@ -228,6 +228,15 @@ TEST(ShapeCommand, WhatCannotBeReadIsNoInputWithoutRows) {
   STRCMP_CONTAINS("stdin: cannot read: Is a directory", run.err.c_str());
 }
 
+// Incompressible rubber has no radial strain where it is bonded.
+TEST(ShapeCommand, GaugesThatReadNothingAreRefused) {
+  const Run run =
+      runShell("\"$STRAINFINGER\" shape -c <(printf 'schema = 1\n[gauges]\nradius_m = 0.0089\n')", touch());
+  LONGS_EQUAL(2, run.status);
+  STRCMP_EQUAL("", run.out.c_str());
+  STRCMP_CONTAINS("gauges.radius_m = 0.0089 is where the rubber has no radial strain", run.err.c_str());
+}
+
 TEST(ShapeCommand, SaysWhatIsWrongAndWhere) {
   refuses(1, "", "1,2,3\n", "stdin:1:");
   refuses(2, "--noise-strain 0", "", "--noise-strain");

@@ -121,6 +121,23 @@ TEST(Calibrate, NewTouchesAreOffByWhatItSays) {
   CHECK_COMPARE(touches.error[0], <, 80e-6);
 }
 
+TEST(Calibrate, AnglesThatAreRadiansAreNamed) {
+  auto session =
+      study::sessionOf(finger, {.touches = kTouches, .knownLoads = 0, .knownDirections = 5}, kSeed);
+  for (KnownTouch& touch : session.known)
+    if (touch.angle_deg) *touch.angle_deg *= 3.14159265358979 / 180;
+  checkComplaint(session.known, session.readings, "the angle_deg of touches.csv are radians by the readings");
+}
+
+TEST(Calibrate, LoadsThatAreNewtonsAreNamed) {
+  auto session =
+      study::sessionOf(finger, {.touches = kTouches, .knownLoads = 5, .knownDirections = 0}, kSeed);
+  for (KnownTouch& touch : session.known)
+    for (auto* const load : {&touch.normal_n_per_m, &touch.tangential_n_per_m})
+      if (*load) **load *= finger.finger.length_m;
+  checkComplaint(session.known, session.readings, "they must be newtons per metre of its length");
+}
+
 TEST(Calibrate, TwoContactsSlipsAndSaturatedReadingsAreLeftOut) {
   const auto& session = careless().session;
   const auto& result = careless().result;
@@ -248,7 +265,7 @@ TEST(Calibrate, WhatContradictsTheReadingsIsLeftOutByRow) {
 TEST(Calibrate, KnownLoadsOfWhichTheReadingsBearOutNoneAreRefusedByRow) {
   auto session = study::sessionOf(finger, {.touches = 80}, kSeed);
   for (KnownTouch& touch : session.known)
-    if (touch.normal_n_per_m) *touch.normal_n_per_m *= 10;
+    if (touch.normal_n_per_m) *touch.normal_n_per_m *= 5;
   checkComplaint(session.known, session.readings,
                  "in rows 1, 2, 3, 4, 5, and none of the others is fitted; look at their unit");
 }

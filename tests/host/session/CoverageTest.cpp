@@ -56,7 +56,7 @@ TEST(Coverage, RowsAreCountedWhereTheyTouch) {
   rows.add(hand.touch(56, 20, 5), {std::nullopt, 20, std::nullopt});
   rows.add(hand.touch(90, 20), {90, std::nullopt, std::nullopt});
   rows.add(hand.nothing(), {std::nullopt, 0, 0});
-  const session::Coverage coverage = coverageOf(gauges, drawnSearch(config), rows);
+  const session::Coverage coverage = coverageOf(gauges, calibration::drawnSearch(config), rows);
   LONGS_EQUAL(1, coverage.touches[4]);
   LONGS_EQUAL(1, coverage.touches[5]);
   LONGS_EQUAL(1, coverage.touches[8]);

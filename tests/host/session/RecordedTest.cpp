@@ -72,6 +72,18 @@ TEST(Recorded, WithoutReadingsOfTheNodeItIsRefused) {
   }
 }
 
+// As a logger leaves it that is killed.
+TEST(Recorded, ALineThatIsCutOffAtTheEndIsLeftOut) {
+  write(stroke() + "(1.990000) can0 401#00");
+  STRCMP_EQUAL("", readRecording(path_, config, 1).cutOff.c_str());
+  write(stroke() + "(1.990000) can");
+  const auto recorded = readRecording(path_, config, 1);
+  LONGS_EQUAL(100, recorded.sets);
+  STRCMP_CONTAINS(":607: the log ends within this line", recorded.cutOff.c_str());
+  write(stroke() + "(1.990000) can\n");
+  CHECK_THROWS(Failure, readRecording(path_, config, 1));
+}
+
 TEST(Recorded, WithoutATouchItIsRefused) {
   std::string text;
   for (int i = 0; i < 20; ++i) text += pages(1'000'000 + 10'000 * i, i, RawKind::kReadings, hand.nothing());

@@ -103,6 +103,16 @@ TEST(GuidedSession, NoLoadIsTakenOfWhatIsNotHeld) {
   LONGS_EQUAL(0, session.coverage().loads);
 }
 
+// 24 N/m on a finger of 20 mm are 0.48 N.
+TEST(GuidedSession, ALoadOfAnotherUnitIsNotTaken) {
+  hold(45, 24);
+  STRCMP_CONTAINS("was not taken: by the drawing the finger reads as under 2", say("load 0.48 N/m").c_str());
+  STRCMP_CONTAINS("Look at its unit", say("load 24 kg").c_str());
+  LONGS_EQUAL(0, session.coverage().loads);
+  say("load 0.48 N");
+  LONGS_EQUAL(1, session.coverage().loads);
+}
+
 TEST(GuidedSession, AZeroIsTakenBeforeThereAreRowsAlone) {
   CHECK_TRUE(session.obey(Tare{}).tare);
   leaveAlone(5.1);

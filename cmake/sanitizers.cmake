@@ -17,9 +17,9 @@ endfunction()
 
 # strainfinger_casts_no_pointers(): in this folder and those that it adds from here on, code is compiled without the checks
 # that make a quarter of the time to compile it: of null pointers, which the address sanitizer stops when they are used, and
-# of alignment, sizes and virtual tables, which code that casts no pointers can't get wrong.
+# of alignment and sizes, which code that casts no pointers can't get wrong.
 macro(strainfinger_casts_no_pointers)
   if(STRAINFINGER_SANITIZE)
-    add_compile_options(-fno-sanitize=null,alignment,object-size,vptr)
+    add_compile_options(-fno-sanitize=null,alignment,object-size)
   endif()
 endmacro()

@@ -6,16 +6,19 @@
 #include <span>
 
 #include "host/calibration/calibrate.hpp"
+#include "host/calibration/touch_fit.hpp"
 
 namespace strainfinger::calibration {
 
-/// Whether a load is another one than that of a finger as drawn: ten times or more, either way. Newtons for
-/// newtons per metre are fifty times on a finger of 20 mm; the modulus is seldom twice the drawing's.
-bool isOfAnotherUnit(double said_n_per_m, double drawn_n_per_m);
+/// Whether a normal load is ten times more or less than that of the touch that explains the readings best, on
+/// a finger as drawn; never where no touch explains them. Newtons for newtons per metre are fifty times on a
+/// finger of 20 mm; the modulus is seldom twice the drawing's.
+bool isOfAnotherUnit(const TouchSearch& drawn, const Eigen::VectorXd& strains, double said_n_per_m);
 
 /// As calibrate() takes them. Throws Failure(kFailure) where the known angles are radians by the readings, or
-/// the known normal loads of another unit; where fewer than three are known there is nothing to tell it by.
-/// Cost: 5 ms, and 30 us a row of which something is known.
+/// the known normal loads of another unit. Asks rows alone that a touch of the drawn finger explains, so that
+/// faulty wires are not taken for units; of fewer than three there is nothing to tell it by, nor of angles in
+/// one place. Cost: 5 ms, and 50 us a row of which something is known.
 void requireUnits(const config::FingerConfig& config, std::span<const KnownTouch> known,
                   const Eigen::MatrixXd& readings);
 

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 #include <variant>
 
 #include "host/base/failure.hpp"
+#include "host/can/frame_catalogue.hpp"
 
 namespace strainfinger::can {
 namespace {
@@ -17,6 +19,13 @@ bool hasFrame(const LogLine& line) {
   return line.kind != LineKind::kNothing && line.kind != LineKind::kDropped;
 }
 
+/// Of a finger's identifier, and not one of its frames.
+bool isTooShort(const CanFrame& frame) {
+  const auto has = [&](const FrameEntry& entry) { return nodeOf(frame.id, entry.spec.function).has_value(); };
+  return (std::ranges::any_of(frameCatalogue(), has) || std::ranges::any_of(commandCatalogue(), has)) &&
+         findAnyFrame(frame) == nullptr;
+}
+
 }  // namespace
 
 std::optional<TextFrame> LogReader::next() {
@@ -24,6 +33,9 @@ std::optional<TextFrame> LogReader::next() {
     ++line_;
     const auto frame = frameOf(*line);
     if (!frame) continue;
+    isCutOff_ = !isWhole_ && isTooShort(frame->frame);
+    if (isCutOff_) continue;
+    anyFrame_ = true;
     if (!frame->time_ns)
       throw Failure(
           ExitCode::kFailure,
@@ -37,7 +49,7 @@ std::optional<TextFrame> LogReader::frameOf(std::string_view line) {
   if (const auto plain = parsePlainLine(line)) return plain;
   auto parsed = parseLogLine(line);
   if (const auto* error = std::get_if<LogError>(&parsed)) {
-    isCutOff_ = !isWhole_;
+    isCutOff_ = !isWhole_ && anyFrame_;
     if (isCutOff_) return std::nullopt;
     throw Failure(ExitCode::kFailure, fmt::format("{}:{}: {}", place(), error->column, error->reason));
   }
@@ -50,7 +62,9 @@ std::optional<TextFrame> LogReader::frameOf(std::string_view line) {
 
 std::optional<std::string_view> LogReader::nextLine() {
   for (;;) {
-    if (const auto line = lines_.next()) return line;
+    const auto line = lines_.next();
+    if (line) isWhole_ = true;
+    if (line) return line;
     if (lines_.read(kAtATime) != LineReader::Got::kEnd) continue;
     isWhole_ = false;
     return lines_.rest();
@@ -58,7 +72,7 @@ std::optional<std::string_view> LogReader::nextLine() {
 }
 
 std::string LogReader::cutOff() const {
-  return isCutOff_ ? fmt::format("{}: the log ends within this line, which is left out", place()) : "";
+  return isCutOff_ ? fmt::format("{}: the log breaks off in this line, which is left out", place()) : "";
 }
 
 std::string LogReader::place() const { return fmt::format("{}:{}", lines_.name(), line_); }

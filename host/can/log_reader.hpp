@@ -17,8 +17,9 @@ class LogReader {
   explicit LogReader(const std::string& path) : lines_(path) {}
 
   /// The next classic data frame of an 11-bit identifier; nothing at the end. Throws Failure(kFailure) with
-  /// file:line:column for a line that cannot be read, and for a frame without a time; but a last line that
-  /// ends within itself is left out: a logger that is killed or loses power leaves one.
+  /// file:line:column for a line that cannot be read, and for a frame without a time; but a last line behind
+  /// others that breaks off, so that it cannot be read or is a finger's frame cut short, is left out: a
+  /// logger that is killed or loses power leaves one.
   std::optional<TextFrame> next();
 
   /// Frames of other kinds so far.
@@ -38,7 +39,8 @@ class LogReader {
   LogLine parsed_;  ///< what the last frame points into where its line was not plain
   std::uint64_t line_ = 0;
   std::uint64_t skipped_ = 0;
-  bool isWhole_ = true;  ///< the last line ended with a line end
+  bool isWhole_ = true;    ///< the last line ended with a line end
+  bool anyFrame_ = false;  ///< was read
   bool isCutOff_ = false;
 };
 

@@ -44,14 +44,14 @@ bool areOneFile(const std::string& one, const std::string& other) {
 
 /// Of what can be read as the limits' type.
 template <typename Number>
-CLI::Validator isOfKind(const char* kind, Number least, Number most) {
+CLI::Validator isOfKind(const char* kind, Number least, Number most, const std::string& inHelp) {
   return {[=](const std::string& text) {
             Number value{};
             const bool isWithin = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
             return isWithin ? std::string{}
                             : fmt::format("{} is not {} from {} to {}", text, kind, least, most);
           },
-          ""};
+          inHelp};
 }
 
 }  // namespace
@@ -97,9 +97,11 @@ void warn(const char* command, const std::string& what) {
   if (!what.empty()) fmt::print(stderr, "{}: warning: {}\n", command, what);
 }
 
-CLI::Validator isFrom(double least, double most) { return isOfKind("a number", least, most); }
+CLI::Validator isFrom(double least, double most) { return isOfKind("a number", least, most, ""); }
 
-CLI::Validator isWhole(int least, int most) { return isOfKind("a whole number", least, most); }
+CLI::Validator isWhole(int least, int most) {
+  return isOfKind("a whole number", least, most, fmt::format("{} to {}", least, most));
+}
 
 CLI::Validator isNode() { return isWhole(kFirstNode, kLastNode); }
 

@@ -116,6 +116,7 @@ void recomputeLog(const ReplayOptions& options) {
   can::LogReader log(options.path);
   const auto next = [&log]() -> std::optional<can::TimedFrame> {
     const auto text = log.next();
+    if (!text) warn("replay", log.cutOff());
     if (!text) return std::nullopt;
     return can::TimedFrame{*text->time_ns, text->frame};
   };
@@ -125,7 +126,6 @@ void recomputeLog(const ReplayOptions& options) {
       .contactRate_hz = static_cast<std::uint16_t>(std::lround(config.can.contact_rate_hz)),
       .mode = options.firmware.mode()};
   recompute(next, *options.firmware.tablesOf(config), finger, options.common.format());
-  warn("replay", log.cutOff());
 }
 
 void runReplay(const ReplayOptions& options) {

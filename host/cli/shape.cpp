@@ -37,7 +37,7 @@ constexpr const char* kShapeHelp =
     "better than the others by 9 in chi squared. unresolved: which of width, class and odd-part the "
     "strains don't tell. warnings: saturated (gauges within 5 % of the end of the converter's range, or "
     "beyond, were left out; with more than half of them nothing else is told), ambiguous (another touch, at "
-    "rival_angle_deg, which is the same angle where it is of another width, fits about as well: "
+    "rival_angle_deg, the same angle if the two differ in width and loads only, fits about as well: "
     "bands of 95 % hold it, and no class is named), sparse (the gauges' pitch at the surface is more than "
     "twice their depth: no width, and answers may be farther off than the sigmas say), misfit (residuals are "
     "not "

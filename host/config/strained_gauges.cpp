@@ -19,7 +19,7 @@ void requireStrain(const FingerConfig& config, double strainPerLoad) {
   if (response >= kLeastResponse) return;
   throw Failure(
       ExitCode::kUsage,
-      fmt::format("gauges.radius_m = {} is where the rubber has no {} strain, on the core "
+      fmt::format("gauges.radius_m = {} is on the core, where the rubber has no {} strain "
                   "(finger.core_radius_m = {}): move the gauges outwards, or read another gauges.component",
                   config.gauges.radius_m, componentName(config.gauges.component),
                   config.finger.core_radius_m));

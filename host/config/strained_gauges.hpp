@@ -5,8 +5,9 @@
 
 namespace strainfinger::config {
 
-/// `strainPerLoad`: the largest at the gauges, of any touch [strain per N/m]. Throws Failure(kUsage) where it
-/// is none: on the core, of a component that bonding or incompressible rubber suppresses there.
+/// `strainPerLoad`: the largest at the gauges, of any line load or harmonic of one [strain per N/m]. Throws
+/// Failure(kUsage) where it is none: on the core, of a component that bonding or incompressible rubber
+/// suppresses there.
 void requireStrain(const FingerConfig& config, double strainPerLoad);
 
 }  // namespace strainfinger::config

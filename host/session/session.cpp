@@ -100,18 +100,27 @@ std::optional<Sample> Session::nowHeld(std::string& why) const {
   return why.empty() ? std::optional(Sample{recent_.back().time_s, mean}) : std::nullopt;
 }
 
+/// Entered twice it is meant.
+bool Session::isDoubtful(double said_n_per_m, const VectorXd& strains) const {
+  return doubted_n_per_m_ != said_n_per_m && calibration::isOfAnotherUnit(search_, strains, said_n_per_m);
+}
+
 Obeyed Session::keepHeld(const KnownTouch& known, const std::string& what) {
   std::string why;
-  const auto sample = held_ ? std::exchange(held_, std::nullopt) : nowHeld(why);
+  const bool wasHeld = held_.has_value();
+  const auto sample = wasHeld ? std::exchange(held_, std::nullopt) : nowHeld(why);
   if (!sample)
     return {.message = fmt::format("{} was not taken: {}. Press, hold still, and enter it again", what, why)};
-  const double drawn_n_per_m = search_.guess(sample->strains)[calibration::kNormalLoad];
-  if (known.normal_n_per_m && drawn_n_per_m > 0 &&
-      calibration::isOfAnotherUnit(*known.normal_n_per_m, drawn_n_per_m))
-    return {.message =
-                fmt::format("{} was not taken: by the drawing the finger reads as under {:.2g} N/m. Look at "
-                            "its unit and at finger.length_m, and enter it again",
-                            what, drawn_n_per_m)};
+  if (known.normal_n_per_m && isDoubtful(*known.normal_n_per_m, sample->strains)) {
+    doubted_n_per_m_ = known.normal_n_per_m;
+    if (wasHeld) held_ = sample;
+    return {
+        .message = fmt::format(
+            "{} was not taken: a finger as in the config reads so under about {:.3g} N/m. Look at the load's "
+            "unit, finger.length_m and finger.shear_modulus_pa, and enter it again; the same load is taken "
+            "then",
+            what, search_.guess(sample->strains)[calibration::kNormalLoad])};
+  }
   const NewRow row{sample->time_s, sample->strains, known};
   keep(row);
   knowsMore_ = true;

@@ -66,6 +66,7 @@ class Session {
   std::optional<Sample> nowHeld(std::string& why) const;
   Obeyed obeyLoad(double normal_n_per_m);
   Obeyed obeyAngle(double angle_deg);
+  bool isDoubtful(double said_n_per_m, const Eigen::VectorXd& strains) const;
   Obeyed keepHeld(const calibration::KnownTouch& known, const std::string& what);
   Obeyed obeyHold();
   Obeyed obeySkip();
@@ -82,11 +83,12 @@ class Session {
   Unavailable unavailable_;
   std::optional<FitOutcome> fit_;
   std::string complaint_;
-  std::size_t tried_ = 0;        ///< rows of the last fit
-  bool knowsMore_ = false;       ///< than at the last fit, of a touch
-  std::deque<Sample> recent_;    ///< of the last HoldRules::time_s
-  std::optional<Sample> held_;   ///< what the next load or angle is of, if that was said
-  std::vector<Sample> resting_;  ///< since the finger came to rest
+  std::size_t tried_ = 0;                  ///< rows of the last fit
+  bool knowsMore_ = false;                 ///< than at the last fit, of a touch
+  std::deque<Sample> recent_;              ///< of the last HoldRules::time_s
+  std::optional<Sample> held_;             ///< what the next load or angle is of, if that was said
+  std::optional<double> doubted_n_per_m_;  ///< the load that was refused last
+  std::vector<Sample> resting_;            ///< since the finger came to rest
   Eigen::VectorXd restSum_;
   std::optional<int> farGauge_;
 };

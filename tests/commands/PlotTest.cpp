@@ -39,7 +39,14 @@ TEST(Plot, OfALogThatWasCutOffTheRestIsDrawn) {
       inFolder("\"$STRAINFINGER\" plot x.log -o a.png && tail -n 1 a-force.csv | cut -c 1-5", log);
   LONGS_EQUAL(0, run.status);
   STRCMP_EQUAL("2.5,0\n", run.out.c_str());
-  STRCMP_EQUAL("plot: warning: x.log:5: the log ends within this line, which is left out\n", run.err.c_str());
+  STRCMP_EQUAL("plot: warning: x.log:5: the log breaks off in this line, which is left out\n",
+               run.err.c_str());
+}
+
+TEST(Plot, WhatIsNoLogIsNoneThatWasCutOff) {
+  const Run run = inFolder("\"$STRAINFINGER\" plot x.log -o a.png", "rubbish");
+  LONGS_EQUAL(1, run.status);
+  STRCMP_CONTAINS("x.log:1:8: ", run.err.c_str());
 }
 
 TEST(Plot, OfSeveralFingersOneIsChosen) {

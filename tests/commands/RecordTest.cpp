@@ -104,7 +104,7 @@ TEST(Record, ReplaySendsALogThatWasCutOffUpToItsLastWholeLine) {
       "record; \"$STRAINFINGER\" replay in --can $bus; stop INT; grep -c . x.log",
       "(1.000000) can0 181#0000000000000054\n(1.010000) can0 181#0000000000000055\n(1.020000) can0 181#000");
   STRCMP_EQUAL("2\n", run.out.c_str());
-  checkSays("in:3: the log ends within this line, which is left out", run);
+  checkSays("in:3: the log breaks off in this line, which is left out", run);
 }
 
 TEST(Record, ReplayKeepsTheTimesOfTheLog) {

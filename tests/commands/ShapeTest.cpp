@@ -234,7 +234,8 @@ TEST(ShapeCommand, GaugesThatReadNothingAreRefused) {
       runShell("\"$STRAINFINGER\" shape -c <(printf 'schema = 1\n[gauges]\nradius_m = 0.0089\n')", touch());
   LONGS_EQUAL(2, run.status);
   STRCMP_EQUAL("", run.out.c_str());
-  STRCMP_CONTAINS("gauges.radius_m = 0.0089 is where the rubber has no radial strain", run.err.c_str());
+  STRCMP_CONTAINS("gauges.radius_m = 0.0089 is on the core, where the rubber has no radial strain",
+                  run.err.c_str());
 }
 
 TEST(ShapeCommand, SaysWhatIsWrongAndWhere) {

@@ -33,7 +33,9 @@ within two pitches of it. Answers count in the last sample set of a touch.
 
 "As built": gauges glued 0.5 degrees and 0.05 mm off, gains off by 3 % (standard deviations), the core 0.1 mm thicker,
 Poisson's ratio 0.49; another finger for every six touches. "Calibrated": its own core, ratio, and each gauge's angle, depth and gain
-are known, as a calibration by thousands of touches comes near.
+are known, as a calibration by thousands of touches comes near. Loads that "tremble" swing about their mean as a sine; those of
+contacts that "tap" swing to nothing and to twice the mean; contacts that "slide" go along the surface: all are judged by what they
+are in the last sample set, in which a tap may press little.
 
 )";
 

@@ -23,7 +23,7 @@ constexpr int kSpikeEvery = 20;      ///< sample sets
 constexpr double kNear_pitch = 2;    ///< touches are within so much of a failed gauge
 constexpr std::uint64_t kSetsPerSession = std::uint64_t{1} << 24, kTouchesPerSession = 64;
 
-/// What is drawn of a session, by gauge; the next are of its sample sets.
+/// What is drawn of a session: by gauge, by touch (kPlace, kTremblePhase), by sample set (kNoise).
 enum Drawn : std::uint32_t {
   kGain,
   kZero,

@@ -56,6 +56,19 @@ TEST(Matrix, APlaceThatIsPitchesOffIsSilentlyWrong) {
   LONGS_EQUAL(0, tally(turned).located);
 }
 
+// 6 mm on, more than a pitch, where the touch is judged; of loads from a half to one and a half times their
+// mean.
+TEST(Matrix, WhatMovesIsJudgedByWhatItIsInTheLastSampleSet) {
+  Disturbance slides = firmTouches();
+  slides.motion.slides_m_per_s = 0.05;
+  LONGS_EQUAL(kTouches, tally(slides).located);
+  LONGS_EQUAL(0, tally(slides).beyond);
+  Disturbance trembles = firmTouches();
+  trembles.motion = {.trembles_hz = 10, .trembling = 0.5};
+  LONGS_EQUAL(kTouches, tally(trembles).located);
+  LONGS_EQUAL(0, tally(trembles).beyond);
+}
+
 // Second answers come and go with such noise: 0.9 % of the touches were told in the wrong one, unflagged,
 // while an answer forgot the other as soon as one sample set showed one of them only.
 TEST(Matrix, OfTwoAnswersThatNoiseMixesUpTheWrongOneIsFlagged) {

@@ -121,14 +121,6 @@ TEST(Calibrate, NewTouchesAreOffByWhatItSays) {
   CHECK_COMPARE(touches.error[0], <, 80e-6);
 }
 
-TEST(Calibrate, AnglesThatAreRadiansAreNamed) {
-  auto session =
-      study::sessionOf(finger, {.touches = kTouches, .knownLoads = 0, .knownDirections = 5}, kSeed);
-  for (KnownTouch& touch : session.known)
-    if (touch.angle_deg) *touch.angle_deg *= 3.14159265358979 / 180;
-  checkComplaint(session.known, session.readings, "the angle_deg of touches.csv are radians by the readings");
-}
-
 TEST(Calibrate, LoadsThatAreNewtonsAreNamed) {
   auto session =
       study::sessionOf(finger, {.touches = kTouches, .knownLoads = 5, .knownDirections = 0}, kSeed);

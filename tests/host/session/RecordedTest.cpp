@@ -74,12 +74,14 @@ TEST(Recorded, WithoutReadingsOfTheNodeItIsRefused) {
 
 // As a logger leaves it that is killed.
 TEST(Recorded, ALineThatIsCutOffAtTheEndIsLeftOut) {
-  write(stroke() + "(1.990000) can0 401#00");
+  write(stroke() + "(1.990000) can0 401#0000");
+  STRCMP_CONTAINS(":607: the log breaks off in this line", readRecording(path_, config, 1).cutOff.c_str());
+  write(stroke() + "(1.990000) can0 123#00");
   STRCMP_EQUAL("", readRecording(path_, config, 1).cutOff.c_str());
   write(stroke() + "(1.990000) can");
   const auto recorded = readRecording(path_, config, 1);
   LONGS_EQUAL(100, recorded.sets);
-  STRCMP_CONTAINS(":607: the log ends within this line", recorded.cutOff.c_str());
+  STRCMP_CONTAINS(":607: the log breaks off in this line", recorded.cutOff.c_str());
   write(stroke() + "(1.990000) can\n");
   CHECK_THROWS(Failure, readRecording(path_, config, 1));
 }

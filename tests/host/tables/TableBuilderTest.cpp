@@ -343,11 +343,11 @@ TEST(TableBuilder, LoadsUpToBothEndsOfTheFormatAreTaken) {
 
 TEST(TableBuilder, GaugesOnTheCoreThatFeelNothingAreRefused) {
   config_.gauges.radius_m = config_.finger.core_radius_m;
-  checkRefusal("gauges.radius_m = 0.0089 is where the rubber has no radial strain, on the core");
+  checkRefusal("gauges.radius_m = 0.0089 is on the core, where the rubber has no radial strain");
   config_.finger.poisson_ratio = 0.4;
   checkTaken();
   config_.gauges.component = StrainComponent::kHoop;
-  checkRefusal("gauges.radius_m = 0.0089 is where the rubber has no hoop strain, on the core");
+  checkRefusal("gauges.radius_m = 0.0089 is on the core, where the rubber has no hoop strain");
   config_.gauges.component = StrainComponent::kShear;
   checkTaken();
 }

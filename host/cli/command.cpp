@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -42,12 +43,21 @@ bool areOneFile(const std::string& one, const std::string& other) {
   return !first.empty() && first == second;
 }
 
-/// Of what can be read as the limits' type.
+bool read(const std::string& text, double& value) { return CLI::detail::lexical_cast(text, value); }
+
+/// Only where CLI11, which reads the option itself, does not take it for octal digits.
+bool read(const std::string& text, int& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  int again = 0;
+  return error == std::errc{} && end == text.data() + text.size() && CLI::detail::lexical_cast(text, again) &&
+         again == value;
+}
+
 template <typename Number>
 CLI::Validator isOfKind(const char* kind, Number least, Number most, const std::string& inHelp) {
   return {[=](const std::string& text) {
             Number value{};
-            const bool isWithin = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+            const bool isWithin = read(text, value) && value >= least && value <= most;
             return isWithin ? std::string{}
                             : fmt::format("{} is not {} from {} to {}", text, kind, least, most);
           },

@@ -365,7 +365,8 @@ std::string textOf(const WiringFault& fault) {
     case Kind::kReversed:
       return fmt::format(
           "the gauges are counted the wrong way round: gauge 0 is where gauge {0} should be, gauge 1 "
-          "one before it; reverse the connector{1}",
+          "one before it; reverse the connector, or the known angle_deg, if they count clockwise seen from "
+          "the tip{1}",
           fault.other, orTheMark(fault));
     case Kind::kTurnUnclear:
       break;

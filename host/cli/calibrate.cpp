@@ -7,6 +7,7 @@
 #include <iostream>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/commands.hpp"
@@ -248,12 +249,21 @@ void print(const CalibrateOptions& options, const calibration::CalibrationResult
   printGauges(format, result);
 }
 
+/// What is said of "touches.csv", of the file that it is.
+std::string named(std::string text, const std::string& touchesPath) {
+  constexpr std::string_view kAnyFile = "touches.csv";
+  if (touchesPath.empty()) return text;
+  for (auto at = text.find(kAnyFile); at != text.npos; at = text.find(kAnyFile, at + touchesPath.size()))
+    text.replace(at, kAnyFile.size(), touchesPath);
+  return text;
+}
+
 /// The config first: it is what the touches were for, and the rest can fail.
 void report(const CalibrateOptions& options, const calibration::CalibrationResult& result) {
   if (!options.outputPath.empty())
     writeFileAtomically(options.outputPath, config::writeConfig(result.applied()));
   print(options, result);
-  fmt::print(stderr, "{}", calibration::textReport(result));
+  fmt::print(stderr, "{}", named(calibration::textReport(result), options.touchesPath));
   if (!options.pagePath.empty()) writeFileAtomically(options.pagePath, calibration::htmlPage(result));
 }
 
@@ -301,7 +311,11 @@ void runCalibrate(const CalibrateOptions& options) {
   const auto known = isRecording ? std::vector<calibration::KnownTouch>{} : readTouches(options.touchesPath);
   const auto strains = isRecording ? strainsOfRecording(options, config)
                                    : readStrains(options.strainsPath, config.gauges.count);
-  report(options, calibration::calibrate(config, known, strains, options.errors));
+  try {
+    report(options, calibration::calibrate(config, known, strains, options.errors));
+  } catch (const Failure& failure) {
+    throw Failure(failure.code(), named(failure.what(), options.touchesPath));
+  }
 }
 
 }  // namespace

@@ -43,7 +43,10 @@ bool areOneFile(const std::string& one, const std::string& other) {
   return !first.empty() && first == second;
 }
 
-bool read(const std::string& text, double& value) { return CLI::detail::lexical_cast(text, value); }
+/// CLI11 takes nothing for 0.
+bool read(const std::string& text, double& value) {
+  return !text.empty() && CLI::detail::lexical_cast(text, value);
+}
 
 /// Only where CLI11, which reads the option itself, does not take it for octal digits.
 bool read(const std::string& text, int& value) {

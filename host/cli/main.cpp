@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -66,6 +67,7 @@ bool isUnknownCommand(const CLI::App& app) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the shell's limit is an error like a full disk
   CLI::App app{"Firmware tables, simulation and tools for strain-gauge tactile fingers", "strainfinger"};
   app.set_version_flag("--version", STRAINFINGER_VERSION);
   app.require_subcommand(1);

@@ -49,7 +49,8 @@ std::string complaintAboutSeed(const std::string& text) {
   std::uint64_t seed = 0;
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, seed);
-  if (error == std::errc{} && stop == end) return {};
+  const bool isOctal = text.size() > 1 && text.front() == '0';  // to CLI11, which reads the option itself
+  if (error == std::errc{} && stop == end && !isOctal) return {};
   return fmt::format("{} is no whole number from 0 to 2^64 - 1", text);
 }
 

@@ -31,7 +31,10 @@ struct StrainOptions {
   explicit StrainOptions(CLI::App& command) : common(command) {
     const auto load = isFrom(-kMostLoad_n_per_m, kMostLoad_n_per_m);
     const auto angle = isFrom(-kMostAngle_deg, kMostAngle_deg);
-    command.add_option("--radius-m", radius_m, "Radius to look at [m]")->required()->type_name("R");
+    command.add_option("--radius-m", radius_m, "Radius to look at [m]")
+        ->required()
+        ->type_name("R")
+        ->check(isFrom(0, 1));
     command.add_option("--normal-n-per-m", normal_n_per_m, "Normal line load [N/m], positive when pressing")
         ->required()
         ->type_name("P")
@@ -45,7 +48,8 @@ struct StrainOptions {
         ->type_name("A")
         ->check(angle);
     command.add_option("--width-m", width_m, "Width of the contact, an arc on the surface [m]; 0: line load")
-        ->type_name("W");
+        ->type_name("W")
+        ->check(isFrom(0, 1));
     command.add_option("--at-deg", at_deg, "Angles to look at [degrees], separated by commas")
         ->type_name("a,b")
         ->delimiter(',')

@@ -30,7 +30,8 @@ struct SvdOptions {
             "--harmonics", harmonics,
             fmt::format("Last harmonic n_c ({} to {})", contact::kLeastHarmonics, contact::kMostHarmonics))
         ->required()
-        ->type_name("N");
+        ->type_name("N")
+        ->check(isWhole(contact::kLeastHarmonics, contact::kMostHarmonics));
     auto* const withBasis =
         command.add_option("--basis", basis, "Prints the first K shape and pressure functions")
             ->type_name("K")

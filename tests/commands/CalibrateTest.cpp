@@ -136,6 +136,17 @@ TEST(CalibrateCommand, AConfigOfARingThatMarksTurnIsReadBackAndMakesTables) {
   LONGS_EQUAL(0, tables.status);
 }
 
+TEST(CalibrateCommand, WhatIsWrongWithKnownTouchesIsToldOfTheirFile) {
+  auto newtons = session.known;
+  for (auto& touch : newtons)
+    if (touch.normal_n_per_m) *touch.normal_n_per_m *= finger.finger.length_m;
+  write("newtons.csv", textOf(newtons));
+  const Run run =
+      runProgram("calibrate -c " + path("finger.toml") + " --touches " + path("newtons.csv"), readings);
+  LONGS_EQUAL(1, run.status);
+  STRCMP_CONTAINS(("the normal_n_per_m of " + path("newtons.csv") + " are ").c_str(), run.err.c_str());
+}
+
 TEST(CalibrateCommand, AGaugeTooWeakForAnyConfigIsRefusedAndNothingWritten) {
   auto weak = study::sessionOf(finger, {.touches = 150}, kSeed);
   write("touches.csv", textOf(weak.known));

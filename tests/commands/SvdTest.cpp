@@ -67,7 +67,7 @@ TEST(SvdCommand, RefusesWhatIsNone) {
   refuses("--harmonics 300 --width-m 0.05", "half the surface, 0.0398982 m");
   refuses("--width-m 2e-3 --harmonics 20 --basis 25", "there are 24 pairs");
   refuses("--width-m 2e-3 --harmonics 20 --points 5", "--points requires --basis");
-  refuses("--width-m 2e-3 --harmonics 1", "the harmonics must be from 2");
+  refuses("--width-m 2e-3 --harmonics 1", "1 is not a whole number from 2");
   refuses("--width-m 2e-3 --harmonics 300 --basis 0", "--basis");
   refuses("--width-m 2e-3 --harmonics 300 --rows x", "--rows");
 }

@@ -3,7 +3,7 @@
 # tests/architecture and checked there.
 
 # strainfinger_compile_together(TARGET) (but for files with the property SKIP_UNITY_BUILD_INCLUSION)
-# Whoever compiles everything compiles files in batches, which is sooner done: the program in 460 CPU-seconds, else in 730.
+# Whoever compiles everything compiles files in batches, which is sooner done: the program in six tenths of the CPU time.
 # That every file includes what it needs, the preset `dev` shows. So the files of a room have names of their own even for what only they use.
 function(strainfinger_compile_together target)
   if(STRAINFINGER_COMPILE_TOGETHER)

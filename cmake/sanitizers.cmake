@@ -16,7 +16,7 @@ function(strainfinger_leave_unsanitized)
 endfunction()
 
 # strainfinger_casts_no_pointers(): in this folder and those that it adds from here on, code is compiled without the checks
-# that make a quarter of the time to compile it: of null pointers, which the address sanitizer stops when they are used, and
+# that make a fifth of the time to compile it: of null pointers, which the address sanitizer stops when they are used, and
 # of alignment and sizes, which code that casts no pointers can't get wrong.
 macro(strainfinger_casts_no_pointers)
   if(STRAINFINGER_SANITIZE)

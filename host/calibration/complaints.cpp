@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string_view>
 #include <utility>
 
 #include "host/base/failure.hpp"
@@ -100,6 +101,14 @@ std::string leftOutText(std::span<const RowUse> uses) {
 bool isFinite(const std::optional<double>& value) { return std::isfinite(value.value_or(0)); }
 
 }  // namespace
+
+std::string ofFile(std::string message, const std::string& touchesPath) {
+  constexpr std::string_view kAnyFile = "touches.csv";
+  for (auto at = message.find(kAnyFile); at != message.npos;
+       at = message.find(kAnyFile, at + touchesPath.size()))
+    message.replace(at, kAnyFile.size(), touchesPath);
+  return message;
+}
 
 void requireTouch(const KnownTouch& touch, const std::string& place) {
   if (!isFinite(touch.angle_deg) || !isFinite(touch.normal_n_per_m) || !isFinite(touch.tangential_n_per_m))

@@ -13,6 +13,9 @@
 
 namespace strainfinger::calibration {
 
+/// What is said here of "touches.csv", of the file that it is.
+std::string ofFile(std::string message, const std::string& touchesPath);
+
 /// Its numbers are finite and those of a touch, or of none; `place` is what a complaint begins with.
 void requireTouch(const KnownTouch& touch, const std::string& place);
 

@@ -18,7 +18,8 @@ namespace {
 constexpr double kTurn_rad = 2 * std::numbers::pi;
 constexpr double kAnotherUnit = 10;
 constexpr std::size_t kLeastSaid = 3;
-/// Of a row's energy, that no touch of the drawn finger explains: with more it tells of wires or zeros.
+/// Of a row's energy, that no touch of the drawn finger explains: with more it tells of wires or zeros. Of a
+/// glued finger's rows a thousandth is left (kHealthy, wiring.cpp).
 constexpr double kMostUnexplainedShare = 0.1;
 
 double apart_rad(double one_rad, double other_rad) {

@@ -18,7 +18,7 @@ bool isOfAnotherUnit(const TouchSearch& drawn, const Eigen::VectorXd& strains, d
 /// As calibrate() takes them. Throws Failure(kFailure) where the known angles are radians by the readings, or
 /// the known normal loads of another unit. Asks rows alone that a touch of the drawn finger explains, so that
 /// faulty wires are not taken for units; of fewer than three there is nothing to tell it by, nor of angles in
-/// one place. Cost: 5 ms, and 50 us a row of which something is known.
+/// one place. Cost: a drawnSearch(), and two of its questions a row of which something is known.
 void requireUnits(const config::FingerConfig& config, std::span<const KnownTouch> known,
                   const Eigen::MatrixXd& readings);
 

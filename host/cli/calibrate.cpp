@@ -7,7 +7,6 @@
 #include <iostream>
 #include <sstream>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "common/commands.hpp"
@@ -249,21 +248,14 @@ void print(const CalibrateOptions& options, const calibration::CalibrationResult
   printGauges(format, result);
 }
 
-/// What is said of "touches.csv", of the file that it is.
-std::string named(std::string text, const std::string& touchesPath) {
-  constexpr std::string_view kAnyFile = "touches.csv";
-  if (touchesPath.empty()) return text;
-  for (auto at = text.find(kAnyFile); at != text.npos; at = text.find(kAnyFile, at + touchesPath.size()))
-    text.replace(at, kAnyFile.size(), touchesPath);
-  return text;
-}
-
 /// The config first: it is what the touches were for, and the rest can fail.
 void report(const CalibrateOptions& options, const calibration::CalibrationResult& result) {
   if (!options.outputPath.empty())
     writeFileAtomically(options.outputPath, config::writeConfig(result.applied()));
   print(options, result);
-  fmt::print(stderr, "{}", named(calibration::textReport(result), options.touchesPath));
+  const std::string told = calibration::textReport(result);
+  fmt::print(stderr, "{}",
+             options.touchesPath.empty() ? told : calibration::ofFile(told, options.touchesPath));
   if (!options.pagePath.empty()) writeFileAtomically(options.pagePath, calibration::htmlPage(result));
 }
 
@@ -302,6 +294,17 @@ Eigen::MatrixXd strainsOfRecording(const CalibrateOptions& options, const config
   return recorded.rows.matrix();
 }
 
+calibration::CalibrationResult calibrated(const CalibrateOptions& options, const config::FingerConfig& config,
+                                          const std::vector<calibration::KnownTouch>& known,
+                                          const Eigen::MatrixXd& strains) {
+  try {
+    return calibration::calibrate(config, known, strains, options.errors);
+  } catch (const Failure& failure) {
+    if (known.empty()) throw;
+    throw Failure(failure.code(), calibration::ofFile(failure.what(), options.touchesPath));
+  }
+}
+
 void runCalibrate(const CalibrateOptions& options) {
   const config::FingerConfig config = options.common.config();
   requireFolderOf("--page", options.pagePath);
@@ -311,11 +314,7 @@ void runCalibrate(const CalibrateOptions& options) {
   const auto known = isRecording ? std::vector<calibration::KnownTouch>{} : readTouches(options.touchesPath);
   const auto strains = isRecording ? strainsOfRecording(options, config)
                                    : readStrains(options.strainsPath, config.gauges.count);
-  try {
-    report(options, calibration::calibrate(config, known, strains, options.errors));
-  } catch (const Failure& failure) {
-    throw Failure(failure.code(), named(failure.what(), options.touchesPath));
-  }
+  report(options, calibrated(options, config, known, strains));
 }
 
 }  // namespace

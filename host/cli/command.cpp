@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <concepts>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,9 +52,10 @@ bool read(const std::string& text, double& value) {
 }
 
 /// Only where CLI11, which reads the option itself, does not take it for octal digits.
-bool read(const std::string& text, int& value) {
+template <std::integral Whole>
+bool read(const std::string& text, Whole& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  int again = 0;
+  Whole again = 0;
   return error == std::errc{} && end == text.data() + text.size() && CLI::detail::lexical_cast(text, again) &&
          again == value;
 }
@@ -114,6 +118,11 @@ CLI::Validator isFrom(double least, double most) { return isOfKind("a number", l
 
 CLI::Validator isWhole(int least, int most) {
   return isOfKind("a whole number", least, most, fmt::format("{} to {}", least, most));
+}
+
+CLI::Validator isSeed() {
+  return isOfKind("a whole number", std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max(),
+                  "0 to 2^64 - 1");
 }
 
 CLI::Validator isNode() { return isWhole(kFirstNode, kLastNode); }

@@ -48,6 +48,9 @@ CLI::Validator isWhole(int least, int most);
 /// The same of a node number.
 CLI::Validator isNode();
 
+/// The same of the seed of random numbers, which may be any of 64 bits.
+CLI::Validator isSeed();
+
 /// Adds a subcommand whose options live in an Options (constructed with the subcommand; its members are what
 /// the options write to) and which runs `run(options)` when it was chosen.
 template <typename Options>

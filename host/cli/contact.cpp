@@ -145,14 +145,15 @@ void tellErrors(const model::Annulus<double>& annulus, contact::ContactRequest r
       "centre, load by {:+.3g} %; outside the contact {:.2g} at worst, {:.1g} of the pressure's square\n",
       errors.inside, errors.centre, 100 * errors.load, errors.outside, errors.leakedShare);
   if (exact.residual_m > 1e-6 * std::abs(exact.depth_m))
-    fmt::print(stderr,
-               "contact: warning: no contact of this indenter is centred on its normal, where --method paper "
-               "holds it; --method spectral moves it to where it fits\n");
+    warn("contact",
+         "no contact of this indenter is centred on its normal, where --method paper holds it; --method "
+         "spectral "
+         "moves it to where it fits");
   if (!(found.depth_m > 0 && found.normal_n_per_m > 0))
-    fmt::print(stderr,
-               "contact: warning: depth {:.2g} m, load {:.2g} N/m: what pulls the surface out is no contact; "
-               "raise --cutoff, or take --method spectral\n",
-               found.depth_m, found.normal_n_per_m);
+    warn("contact",
+         fmt::format("depth {:.2g} m, load {:.2g} N/m: what pulls the surface out is no contact; raise "
+                     "--cutoff, or take --method spectral",
+                     found.depth_m, found.normal_n_per_m));
 }
 
 void runPaper(const ContactCommand& options, const model::Annulus<double>& annulus,
@@ -165,9 +166,9 @@ void runPaper(const ContactCommand& options, const model::Annulus<double>& annul
   const auto found =
       contact::solveByPaper(annulus, request.indenter, request.size.value, options.paperOptions());
   fmt::print(stderr,
-             "contact: residual {:.2g} m; {} singular values kept, {} of them with an even pressure\n"
-             "contact: warning: --method paper is inaccurate by its nature; --method spectral is not\n",
+             "contact: residual {:.2g} m; {} singular values kept, {} of them with an even pressure\n",
              found.residual_m, found.kept, found.keptEven);
+  warn("contact", "--method paper is inaccurate by its nature; --method spectral is not");
   tellErrors(annulus, request, found);
   printPaper(options, annulus, request.size.value, found);
 }

@@ -88,14 +88,13 @@ Indenter parseIndenter(const std::string& text) {
 void tellOf(const contact::Contact& contact, const model::Annulus<double>& annulus) {
   fmt::print(stderr, "contact: residual {:.2g} m, recomputed from the tractions; {} terms a patch{}\n",
              contact.residual_m, contact.terms, regionsOf(contact, annulus.outer_radius_m));
-  for (const std::string& warning : contact.warnings) fmt::print(stderr, "contact: warning: {}\n", warning);
+  for (const std::string& warning : contact.warnings) warn("contact", warning);
   constexpr double kMostLinear = 0.2;  // strains are about the depth over the thickness
   const double share = contact.deepest_m / (annulus.outer_radius_m - annulus.core_radius_m);
   if (share > kMostLinear)
-    fmt::print(stderr,
-               "contact: warning: {:.2g} of the rubber's thickness deep: strains are large, the model is for "
-               "small ones\n",
-               share);
+    warn("contact",
+         fmt::format("{:.2g} of the rubber's thickness deep: strains are large, the model is for small ones",
+                     share));
 }
 
 ContactOptions::ContactOptions(CLI::App& command) {

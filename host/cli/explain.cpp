@@ -184,8 +184,8 @@ void warnOfProtocol(const Explained& explained) {
   if (explained.entry->spec.function != FunctionCode::kHeartbeat) return;
   const auto heartbeat = decode<HeartbeatFrame>(explained.frame);
   if (heartbeat && heartbeat->protocol != kProtocolVersion)
-    fmt::print(stderr, "explain: warning: it {}; its other fields may mean something else\n",
-               can::foreignText(heartbeat->protocol));
+    warn("explain", fmt::format("it {}; its other fields may mean something else",
+                                can::foreignText(heartbeat->protocol)));
 }
 
 [[noreturn]] void refuse(const std::string& word) {

@@ -116,9 +116,9 @@ void recomputeLog(const ReplayOptions& options) {
   can::LogReader log(options.path);
   const auto next = [&log]() -> std::optional<can::TimedFrame> {
     const auto text = log.next();
-    if (!text) warn("replay", log.cutOff());
-    if (!text) return std::nullopt;
-    return can::TimedFrame{*text->time_ns, text->frame};
+    if (text) return can::TimedFrame{*text->time_ns, text->frame};
+    warn("replay", log.cutOff());
+    return std::nullopt;
   };
   const config::FingerConfig config = options.common.config();
   const recompute::RecordedFinger finger{

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -45,15 +44,6 @@ constexpr const char* kRunHelp =
     "At the end stderr has a summary with the errors against the truth (--json: as one object). Ctrl-C "
     "ends a run as its duration would, with exit status 130.";
 
-std::string complaintAboutSeed(const std::string& text) {
-  std::uint64_t seed = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, seed);
-  const bool isOctal = text.size() > 1 && text.front() == '0';  // to CLI11, which reads the option itself
-  if (error == std::errc{} && stop == end && !isOctal) return {};
-  return fmt::format("{} is no whole number from 0 to 2^64 - 1", text);
-}
-
 struct RunOptions {
   explicit RunOptions(CLI::App& command) : common(command), firmware(command) {
     addBusOption(command, bus);
@@ -61,8 +51,7 @@ struct RunOptions {
         .add_option("--scenario", scenarioPath,
                     "What touches the finger (TOML); the built-in scenario without it")
         ->type_name("FILE");
-    command.add_option("--seed", seed, "Of the noise and of the gauges' zeros (default 1)")
-        ->check(complaintAboutSeed);
+    command.add_option("--seed", seed, "Of the noise and of the gauges' zeros (default 1)")->check(isSeed());
     command
         .add_option("--duration", duration_s,
                     "Seconds; without it the loopback runs the scenario once, a bus until Ctrl-C")

@@ -52,21 +52,20 @@ struct TablesOptions {
 };
 
 /// What the tables are good for and the finger is not.
-void warn(const config::FingerConfig& config, const tables::SelfCheck& check) {
+void warnOf(const config::FingerConfig& config, const tables::SelfCheck& check) {
   if (config::isSparse(config))
-    fmt::print(stderr,
-               "tables: warning: at the surface the gauges are {:.3g} times their depth apart (gauges.count, "
-               "gauges.radius_m); above {} times the errors told are too small between gauges, and no touch "
-               "tells which gauge fails: use more gauges, or deeper ones\n",
-               config::pitchInDepths(config), config::kSparse);
+    warn("tables",
+         fmt::format(
+             "at the surface the gauges are {:.3g} times their depth apart (gauges.count, "
+             "gauges.radius_m); above {} times the errors told are too small between gauges, and no touch "
+             "tells which gauge fails: use more gauges, or deeper ones",
+             config::pitchInDepths(config), config::kSparse));
   const double most_n = 2 * check.halfScale_n_per_m * config.finger.length_m;
   const double told_n = can::largestValues().normal_n;
   if (most_n > told_n)
-    fmt::print(
-        stderr,
-        "tables: warning: the gauges read forces up to {:.3g} N (finger.length_m = {}), FORCE tells {} N "
-        "at most\n",
-        most_n, config.finger.length_m, told_n);
+    warn("tables",
+         fmt::format("the gauges read forces up to {:.3g} N (finger.length_m = {}), FORCE tells {} N at most",
+                     most_n, config.finger.length_m, told_n));
 }
 
 void make(const TablesOptions& options) {
@@ -81,7 +80,7 @@ void make(const TablesOptions& options) {
       "none is misplaced\n",
       sizeof(image), image.constants.gauge_count, image.crc32, check.detected_n_per_m, check.contacts,
       100.0 * check.uncertain / check.contacts);
-  warn(config, check);
+  warnOf(config, check);
 }
 
 void showInfo(const TablesOptions& options) {

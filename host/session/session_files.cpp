@@ -10,12 +10,13 @@
 #include <filesystem>
 #include <optional>
 #include <sstream>
-#include <string_view>
+#include <utility>
 
 #include "host/base/failure.hpp"
 #include "host/base/no_value.hpp"
 #include "host/base/read_file.hpp"
 #include "host/base/strain_rows.hpp"
+#include "host/calibration/complaints.hpp"
 
 namespace strainfinger::session {
 namespace {
@@ -134,10 +135,7 @@ void SessionFiles::append(const File& file, const std::string& line) {
 }
 
 std::string SessionFiles::named(std::string message) const {
-  constexpr std::string_view kAnyFile = "touches.csv";
-  if (const auto at = message.find(kAnyFile); at != message.npos)
-    message.replace(at, kAnyFile.size(), touches_.path);
-  return message;
+  return calibration::ofFile(std::move(message), touches_.path);
 }
 
 /// The strains first: a row without its touch is one of which nothing is known.

@@ -21,7 +21,7 @@ TEST(Main, AMissingCommandIsAUsageError) { checkRefused("", "A subcommand is req
 TEST(Main, AWholeNumberIsAskedForAsOne) {
   checkRefused("strain --radius-m 0.008 --points 1e3", "1e3 is not a whole number from 1 to ");
   checkRefused("dbc -n 010", "010 is not a whole number from 1 to 63");
-  checkRefused("run --seed 010", "010 is no whole number");
+  checkRefused("run --seed 010", "010 is not a whole number");
   checkRefused("strain --radius-m ''", " is not a number from 0 to 1");
   checkRefused("dbc -n 0x10", "0x10 is not a whole number from 1 to 63");
   checkRefused("dbc -n 64", "64 is not a whole number from 1 to 63");

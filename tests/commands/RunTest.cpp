@@ -255,7 +255,7 @@ TEST(RunCommand, RefusesWhatIsOutsideTheDomain) {
   checkRefused(runProgram("run --duration nan"), 2, "--duration");
   for (const std::string seed : {"-1", "1.5", "18446744073709551616", "x"})
     checkRefused(runProgram("run --seed " + seed), 2,
-                 ("--seed: " + seed + " is no whole number from 0 to 2^64 - 1\n").c_str());
+                 ("--seed: " + seed + " is not a whole number from 0 to 18446744073709551615\n").c_str());
   checkRefused(runProgram("run --mode best"), 2, "--mode");
   checkRefused(runProgram("run --rows-hz 10"), 2,
                "--rows-hz is of --strains and --touches: give one of them");

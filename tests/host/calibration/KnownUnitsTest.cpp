@@ -1,5 +1,7 @@
 #include "host/calibration/known_units.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -58,9 +60,16 @@ TEST(KnownUnits, AnglesOnARingThatIsTurnedAreNoRadians) {
   }
 }
 
-// 2 radians are 114.6 degrees: that is where five gauges further round a mark at 2 degrees seems to be.
+// A mark that is said to be where, in radians, it would be on a ring turned by five gauges.
 TEST(KnownUnits, OneMarkTellsNoRadians) {
-  changeAngles([](double) { return 2.0; });
+  const auto isMarked = [](const KnownTouch& touch) { return touch.angle_deg.has_value(); };
+  const auto first = std::ranges::find_if(session.known, isMarked) - session.known.begin();
+  const double said =
+      (*session.known[static_cast<std::size_t>(first)].angle_deg + 5 * 22.5) / kDegreesPerRadian;
+  for (std::size_t row = 0; row < session.known.size(); ++row)
+    if (isMarked(session.known[row]))
+      session.readings.row(static_cast<Eigen::Index>(row)) = session.readings.row(first).eval();
+  changeAngles([&](double) { return std::remainder(said, 2 * std::numbers::pi); });
   for (int by = 1; by < 16; ++by) {
     shiftRing(1);
     STRCMP_EQUAL("", complaint().c_str());
@@ -82,9 +91,12 @@ TEST(KnownUnits, LoadsOfASoftOrStiffFingerAreTaken) {
   STRCMP_EQUAL("", complaint().c_str());
 }
 
-// With all signs reversed no touch explains the readings.
-TEST(KnownUnits, WiresAreNotTakenForUnits) {
-  session.readings *= -1;
+// Of faint touches it makes firm ones, which no touch explains.
+TEST(KnownUnits, AZeroThatIsFarOffIsNotTakenForAUnit) {
+  session = study::sessionOf(
+      finger, {.touches = 40, .knownLoads = 5, .knownDirections = 5, .ranges = {.load_n_per_m = {1, 2}}},
+      kSeed);
+  session.readings.col(3).array() += 0.02;
   STRCMP_EQUAL("", complaint().c_str());
 }
 

@@ -77,8 +77,10 @@ inline constexpr std::array kFingerFaultNames{
     ValueName{5, "watchdog_reset", "The last reset was the watchdog's"},
     ValueName{6, "samples", "Sample sets were lost since the start: the finger was not back in time"},
     ValueName{7, "clock", "The clock is the inaccurate one of two: the bit rate may be off"},
-    ValueName{8, "noisy",
-              "The untouched gauges are noisier than the finger was made for: weak touches are missed"},
+    ValueName{
+        8, "noisy",
+        "Untouched gauges are noisier than the finger was made for: weak touches are missed, a gauge that is "
+        "noisy by itself is out of use"},
 };
 
 /// Why the finger started. Never reuse a number.
@@ -475,7 +477,8 @@ inline constexpr FrameLayout kLayout<GaugesFrame>{
     Field{&GaugesFrame::out_of_use,
           {.lsb = 0, .width = 32},
           {.name = "out_of_use",
-           .comment = "Gauges found not to work, which the estimates do without: bit i is gauge i",
+           .comment =
+               "Gauges found not to work or to be noisy, which the estimates do without: bit i is gauge i",
            .kind = FieldKind::kFlags}},
     Field{&GaugesFrame::zero_age_s,
           {.lsb = 32, .width = 16, .unknowable = true},

@@ -237,7 +237,7 @@ class Finger {
     HeartbeatFrame frame;
     frame.state = state_;
     frame.faults = settings_.standingFaults;
-    frame.faults.set(FingerFault::kGauges, pipeline_.tooFewGauges());
+    frame.faults.set(FingerFault::kGauges, pipeline_.observation().uncertain);
     frame.faults.set(FingerFault::kNoisy, pipeline_.observation().noisy);
     frame.faults.set(FingerFault::kConverter, isConverterSilent(now_us));
     frame.faults.set(FingerFault::kCan,

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "common/table_image.hpp"
+#include "firmware/core/condition.hpp"
 #include "firmware/core/hypothesis.hpp"
 #include "firmware/core/integers.hpp"
 #include "firmware/core/units.hpp"
@@ -63,36 +66,56 @@ class ContactGate {
   bool touched_ = false;
 };
 
-/// Compares readings kLag sample sets apart, once in kEvery: half a period of 50 Hz hum at 1 kHz, so that hum
-/// counts in full while drift and slow touches hardly do. What it finds raises the gate and the variance of
-/// the readings. A comparison counts for kMostGrowth times the median of the three before at most: a touch
-/// that is not told from a disturbance yet is a step or two, hum is in all of them. Cost: two instructions a
-/// gauge and sample set.
+/// Compares readings kLag sample sets apart, in a round of kEvery: half a period of 50 Hz hum at 1 kHz, so
+/// that hum counts in full while drift and slow touches hardly do. What it finds raises the gate and the
+/// variance of the readings. A comparison counts for kMostGrowth times the median of the three before at
+/// most: a touch that is not told from a disturbance yet is a step or two, hum is in all of them.
+///
+/// Twice in a round it looks for a gauge that is noisy by itself. One whose reading is a good part of what
+/// the whole ring reads is looked at in the next three sets, too: noise is rough from set to set, while hum,
+/// and touches that tap or tremble, are smooth up to a tenth of the sample rate; and noise is now above the
+/// zero and now below, while a contact pushes one way. The ring is measured without such gauges.
 class NoiseMeter {
  public:
   static constexpr int kEvery = 16;
   static constexpr int kLag = 10;
   static constexpr std::uint32_t kMostGrowth = 4;
-  static constexpr int kMemory = 4;         ///< sixteen comparisons: a quarter of a second [log2]
-  static constexpr int kNoisy_q4 = 4 << 4;  ///< variance, in configured ones, from which the ring is noisy
+  static constexpr int kMemory = 4;                   ///< sixteen comparisons: a quarter of a second [log2]
+  static constexpr std::uint32_t kNoisy_q8 = 4 << 8;  ///< variance, in configured ones, of a noisy ring
 
   /// One sample set of an untouched ring. `gauges`: those that work; the others' noise is nobody's.
-  void take(const TableConstants& constants, std::span<const std::int32_t> strains_q32, GaugeSet gauges) {
-    if (phase_ == 0) {
-      std::copy(strains_q32.begin(), strains_q32.end(), before_q32_.begin());
-      compared_ = gauges;
-    }
-    if (phase_ == kLag) compare(constants, strains_q32, compared_ & gauges);
-    phase_ = static_cast<std::uint8_t>((phase_ + 1) % kEvery);
+  /// `mayBeContact`: not told from a touch yet, so that it is no set to compare; noisy gauges are looked for.
+  void take(const TableConstants& constants, std::span<const std::int32_t> strains_q32, GaugeSet gauges,
+            bool mayBeContact = false) {
+    if (!mayBeContact && (kBusyPhases >> phase_ & 1) == 0)
+      ++phase_;
+    else
+      phase_ = attend(constants, strains_q32, gauges, mayBeContact);
   }
   /// The ring was touched in between: nothing to compare with.
   void interrupt() { phase_ = 0; }
 
   /// Variance of a reading in configured ones [* 2^4], at least 1.
   std::uint32_t variance_q4() const { return std::max<std::uint32_t>(mean_q8_ >> 4, 1 << 4); }
-  bool isNoisy() const { return variance_q4() >= kNoisy_q4; }
+  bool isNoisy() const { return isNoisy_; }
+  /// Those that are noisy by themselves.
+  GaugeSet noisyGauges() const { return noisyGauges_; }
 
  private:
+  /// A round, and three phases more in which a loud gauge is looked at; then the round goes on.
+  static constexpr int kLookCloser = kEvery, kMostPhases = kEvery + 3;
+  static constexpr std::uint32_t kBusyPhases = 1 | 1 << kLag | 1 << (kEvery - 1) | 7 << kLookCloser;
+
+  /// A gauge is loud in a set in which it makes more than so many times its share of the ring's energy, or of
+  /// configured noise if that is more: of 16 gauges, from three standard deviations of the others on.
+  static constexpr std::uint32_t kLoud = 6;
+  /// Loudness: kTurns more when a gauge is loud, rough, and of another sign than when it last was so; kCalms
+  /// less when it is not loud, or smooth. From kNoisyFrom on it is noisy, and its loudness kLoudest; it is no
+  /// more once that is down to 0, a second later, so that it does not come and go. Of 16 gauges with codes of
+  /// 12 bits one of ten times the others' noise is named after 50 sets in the mean, one of five times after
+  /// 260, one of four times after 2,300, one of twice theirs never.
+  static constexpr int kTurns = 8, kCalms = 2, kNoisyFrom = 24, kLoudest = 255;
+  static constexpr int kRoughBits = 4;  ///< lowest bits of a strain that don't count for a third difference
   static constexpr std::uint32_t kConfigured_q8 = 1 << 8;  ///< what configured noise makes of a comparison
   static constexpr std::uint32_t kLoudest_q8 = 1 << 24;    ///< of a comparison: readings differ no more
 
@@ -106,11 +129,106 @@ class NoiseMeter {
     return std::max<std::uint64_t>(constants.gauge_count * (variance_q1 + 1) / 2, 1);
   }
 
-  void compare(const TableConstants& constants, std::span<const std::int32_t> strains_q32, GaugeSet gauges) {
-    std::array<std::int32_t, kMaxGauges> change;
+  /// The next phase. Not inlined: few sets need its registers and its stack.
+  [[gnu::noinline]] std::uint8_t attend(const TableConstants& constants,
+                                        std::span<const std::int32_t> strains_q32, GaugeSet gauges,
+                                        bool mayBeContact) {
+    int next = mayBeContact ? phase_ : (phase_ + 1) % kEvery;
+    if (phase_ >= kLookCloser) {
+      next = lookCloser(strains_q32);
+    } else if (phase_ == 0 && !mayBeContact) {
+      std::copy(strains_q32.begin(), strains_q32.end(), before_q32_.begin());
+      compared_ = gauges;
+    } else {
+      const GaugeSet loud = loudGauges(constants, strains_q32, gauges);
+      if (phase_ == kLag && !mayBeContact) compare(constants, strains_q32, compared_ & gauges & ~suspects());
+      if (loud != 0) {
+        choose(constants, strains_q32, gauges, loud);
+        resume_ = static_cast<std::uint8_t>(next);
+        next = kLookCloser;
+      }
+    }
+    isNoisy_ = mean_q8_ >= kNoisy_q8 || noisyGauges_ != 0;
+    return static_cast<std::uint8_t>(next);
+  }
+
+  GaugeSet loudGauges(const TableConstants& constants, std::span<const std::int32_t> strains_q32,
+                      GaugeSet gauges) {
+    const std::int64_t limit = loudFrom(constants, strains_q32, gauges & ~noisyGauges_);
+    GaugeSet loud = 0;
+    for (std::size_t i = 0; i < strains_q32.size(); ++i) {
+      if (contains(gauges, static_cast<int>(i)) && squareOf(strains_q32[i]) > limit)
+        loud |= GaugeSet{1} << i;
+      else if (loudness_[i] != 0)
+        quieten(i);
+    }
+    return loud;
+  }
+
+  /// Square of a strain that is loud in a ring of these gauges. Below 2^60.
+  static std::int64_t loudFrom(const TableConstants& constants, std::span<const std::int32_t> strains_q32,
+                               GaugeSet gauges) {
+    Readings counted;
     for (std::size_t i = 0; i < strains_q32.size(); ++i)
-      change[i] = contains(gauges, static_cast<int>(i)) ? (strains_q32[i] - before_q32_[i]) / 2 : 0;
-    const std::uint32_t energy = gateEnergy(constants, std::span(change).first(strains_q32.size()));
+      if (contains(gauges, static_cast<int>(i))) counted.strain_q32[i] = strains_q32[i];
+    const std::uint64_t ring = gateEnergy(constants, counted.strains(constants.gauge_count));
+    const auto energy = static_cast<std::uint32_t>(std::min<std::uint64_t>(
+        std::max(ring, configuredEnergy(constants)), std::numeric_limits<std::uint32_t>::max()));
+    return std::int64_t{kLoud} * (energy / constants.gauge_count + 1) << 2 * constants.gate_shift;
+  }
+
+  /// Gauges that counted as noisy more than once lately.
+  GaugeSet suspects() const {
+    GaugeSet suspects = 0;
+    for (std::size_t i = 0; i < loudness_.size(); ++i)
+      if (loudness_[i] > kTurns) suspects |= GaugeSet{1} << i;
+    return suspects;
+  }
+
+  /// One of those that are loud, in turn.
+  void choose(const TableConstants& constants, std::span<const std::int32_t> strains_q32, GaugeSet gauges,
+              GaugeSet loud) {
+    constexpr std::int64_t kRough = 2 * (1 + 9 + 9 + 1);  // twice the variance that noise gives it
+    const GaugeSet after = loud & ~((GaugeSet{2} << chosen_) - 1);
+    chosen_ = static_cast<std::uint8_t>(std::countr_zero(after != 0 ? after : loud));
+    const GaugeSet others = gauges & ~noisyGauges_ & ~(GaugeSet{1} << chosen_);
+    const std::int64_t loudAlone = loudFrom(constants, strains_q32, others) >> 2 * kRoughBits;
+    thirdDifference_q28_ = strains_q32[chosen_] >> kRoughBits;
+    isNegative_ = thirdDifference_q28_ < 0;
+    smooth_ = std::max(squareOf(thirdDifference_q28_), kRough * loudAlone);
+  }
+
+  /// The next phase. A gauge that may be noisy is looked at again at once.
+  int lookCloser(std::span<const std::int32_t> strains_q32) {
+    constexpr std::array kFactors{-3, 3, -1};
+    thirdDifference_q28_ += kFactors[index(phase_ - kLookCloser)] * (strains_q32[chosen_] >> kRoughBits);
+    if (phase_ + 1 < kMostPhases) return phase_ + 1;
+    const GaugeSet gauge = GaugeSet{1} << chosen_;
+    const bool wasNegative = (wasNegative_ & gauge) != 0;
+    if (squareOf(thirdDifference_q28_) <= smooth_)
+      quieten(chosen_);
+    else if (isNegative_ != wasNegative) {
+      wasNegative_ ^= gauge;
+      const bool wasNoisy = (noisyGauges_ & gauge) != 0;
+      const int loudness = loudness_[chosen_] + kTurns;
+      const bool isNoisy = wasNoisy || loudness >= kNoisyFrom;
+      loudness_[chosen_] = static_cast<std::uint8_t>(isNoisy ? kLoudest : loudness);
+      if (isNoisy) noisyGauges_ |= gauge;
+      if (!wasNoisy) return kEvery - 1;
+    }
+    return resume_;
+  }
+
+  void quieten(std::size_t gauge) {
+    loudness_[gauge] = static_cast<std::uint8_t>(std::max(loudness_[gauge] - kCalms, 0));
+    if (loudness_[gauge] == 0) noisyGauges_ &= ~(GaugeSet{1} << gauge);
+  }
+
+  void compare(const TableConstants& constants, std::span<const std::int32_t> strains_q32, GaugeSet gauges) {
+    Readings change;  // half of it; 0 of gauges that don't count
+    for (std::size_t i = 0; i < strains_q32.size(); ++i)
+      if (contains(gauges, static_cast<int>(i))) change.strain_q32[i] = (strains_q32[i] - before_q32_[i]) / 2;
+    const std::uint32_t energy = gateEnergy(constants, change.strains(constants.gauge_count));
     // Halved changes of configured noise have half the energy of the noise itself.
     const std::uint64_t ratio_q8 = (std::uint64_t{energy} << 9) / configuredEnergy(constants);
     const auto now_q8 = static_cast<std::uint32_t>(std::min<std::uint64_t>(ratio_q8, kLoudest_q8));
@@ -124,11 +242,19 @@ class NoiseMeter {
   }
 
   std::array<std::int32_t, kMaxGauges> before_q32_{};
+  std::array<std::uint8_t, kMaxGauges> loudness_{};
+  GaugeSet noisyGauges_ = 0;
+  GaugeSet wasNegative_ = 0;  ///< when it last counted as noisy
   GaugeSet compared_ = 0;
   std::uint32_t mean_q8_ = kConfigured_q8;
   std::array<std::uint32_t, 3> recent_q8_{kLoudest_q8, kLoudest_q8,
                                           kLoudest_q8};  ///< of the last comparisons
-  std::uint8_t phase_ = 0;
+  std::int64_t smooth_ = 0;         ///< the largest square of a third difference that is not rough
+  Number thirdDifference_q28_ = 0;  ///< of four readings of the chosen gauge, once they are in
+  bool isNegative_ = false;         ///< the first of them
+  std::uint8_t chosen_ = 0;         ///< the loud gauge that is looked at
+  std::uint8_t phase_ = 0, resume_ = 0;
+  bool isNoisy_ = false;
 };
 
 }  // namespace strainfinger::firmware

@@ -34,12 +34,12 @@ class GaugeWatch {
   static constexpr int kConvincing = 64;  ///< sample sets that bring one back
 
  private:
-  /// Places less than this apart are one and the same [turns * 2^32]: half a pitch of a ring of 16.
-  static constexpr std::uint32_t kOnePlace_q32 = (std::uint32_t{1} << 28) / 2;
+  /// Places less than this apart are one and the same [turns * 2^16]: half a pitch of a ring of 16.
+  static constexpr std::uint16_t kOnePlace_q16 = (1 << 12) / 2;
 
   std::array<std::uint8_t, kMaxGauges> places_{};
   std::array<std::uint8_t, kMaxGauges> right_{};  ///< sets in a row, of gauges out of use
-  std::array<std::uint32_t, kMaxGauges> lastPlace_q32_{};
+  std::array<std::uint16_t, kMaxGauges> lastPlace_q16_{};
   GaugeSet outOfUse_ = 0;
   GaugeSet suspects_ = 0;  ///< of one place or more
   GaugeSet atRail_ = 0;    ///< in the last set
@@ -48,12 +48,13 @@ class GaugeWatch {
 inline void GaugeWatch::suspect(GaugeSet gauge, std::uint32_t angle_q32) {
   if (gauge == 0) return;
   const auto i = index(std::countr_zero(gauge));
-  const std::uint32_t moved = angle_q32 - lastPlace_q32_[i];
-  const bool isElsewhere = moved + kOnePlace_q32 > 2 * kOnePlace_q32;
+  const auto place_q16 = static_cast<std::uint16_t>(angle_q32 >> 16);
+  const auto moved_q16 = static_cast<std::uint16_t>(place_q16 - lastPlace_q16_[i] + kOnePlace_q16);
+  const bool isElsewhere = moved_q16 > 2 * kOnePlace_q16;
   if ((suspects_ & gauge) != 0 && !isElsewhere) return;
   if ((suspects_ & gauge) == 0) places_[i] = 0;
   suspects_ |= gauge;
-  lastPlace_q32_[i] = angle_q32;
+  lastPlace_q16_[i] = place_q16;
   if (++places_[i] >= kPlaces) outOfUse_ |= gauge;
 }
 

@@ -23,10 +23,6 @@ std::uint32_t energyOf(const TableConstants& constants, const Readings& readings
 
 }  // namespace
 
-bool Pipeline::tooFewGauges() const {
-  return watch_.outOfUse() != 0 && std::popcount(watch_.outOfUse()) * kGaugesPerOut > constants().gauge_count;
-}
-
 void Pipeline::takeZero(const ZeroAverage& zero) {
   zero.writeTo(calibration_);
   tracker_.restart();
@@ -113,22 +109,25 @@ const Observation& Pipeline::process(Codes codes) {
   }
   if (observation_.touched) {
     noise_.interrupt();
-  } else if (settledSets_ == 0) {
-    noise_.take(constants(), strains(), ~(observation_.saturated | watch_.outOfUse()));
+  } else {
+    noise_.take(constants(), strains(), ~(observation_.saturated | watch_.outOfUse()), settledSets_ != 0);
   }
+  const GaugeSet outOfUse = this->outOfUse();
+  // The zero of a noisy gauge follows on while nothing touches: it counts again once it is calm.
+  const GaugeSet unfollowed = observation_.touched ? outOfUse : watch_.outOfUse();
   areZerosNew_ =
       tracker_.take(*tables_, strains(), observation_.touched ? &locator_.answer() : nullptr,
-                    observation_.leftOut | observation_.saturated | watch_.outOfUse(), calibration_,
+                    observation_.leftOut | observation_.saturated | unfollowed, calibration_,
                     locator_.scratch(), !wasSearching && (observation_.touched || !gate_.touched()));
   observation_.staleZero = tracker_.stale();
   observation_.noisy = noise_.isNoisy();
-  observation_.uncertain = tooFewGauges();
-  observation_.outOfUse = watch_.outOfUse();
+  observation_.uncertain = outOfUse != 0 && std::popcount(outOfUse) * kGaugesPerOut > constants().gauge_count;
+  observation_.outOfUse = outOfUse;
   return observation_;
 }
 
 bool Pipeline::isTouchedDuring(const ZeroAverage& zero) const {
-  const std::uint32_t energy = energyOf(constants(), zero.change(calibration_), ~watch_.outOfUse());
+  const std::uint32_t energy = energyOf(constants(), zero.change(calibration_), ~outOfUse());
   return ContactGate().update(constants(), energy, noise_.variance_q4());
 }
 
@@ -136,7 +135,7 @@ void Pipeline::observe(Codes codes) {
   condition(calibration_, codes, readings_);
   const bool wasTouched = observation_.touched, wasOverGate = gate_.touched();
   observation_ = {};
-  const GaugeSet working = allGauges(constants().gauge_count) & ~watch_.outOfUse();
+  const GaugeSet working = allGauges(constants().gauge_count) & ~outOfUse();
   GaugeSet gauges = working;
   std::uint32_t energy = gateEnergy(constants(), strains());
   const bool mayBeTouched = energy >= constants().gate_off;

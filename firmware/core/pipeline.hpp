@@ -18,7 +18,7 @@ struct Observation {
   bool uncertain = false;  ///< too few gauges work for what is said to be sure
   bool noisy = false;      ///< the untouched ring is noisier than configured
   GaugeSet saturated = 0;  ///< at a rail
-  GaugeSet outOfUse = 0;   ///< known not to work
+  GaugeSet outOfUse = 0;   ///< known not to work, or noisy by themselves
   GaugeSet leftOut = 0;    ///< of the answer
 };
 
@@ -41,14 +41,13 @@ class Pipeline {
   void takeZero(const ZeroAverage& zero);
   /// The strains changed while the zero was taken, as by a touch that began or ended.
   bool isTouchedDuring(const ZeroAverage& zero) const;
-  /// So few gauges work that nothing is said for sure.
-  bool tooFewGauges() const;
   const ZeroTracker& zeroTracker() const { return tracker_; }
   /// Of the last sample set.
   const Readings& readings() const { return readings_; }
 
  private:
   std::span<const std::int32_t> strains() const { return readings_.strains(constants().gauge_count); }
+  GaugeSet outOfUse() const { return watch_.outOfUse() | noise_.noisyGauges(); }
   void locate(GaugeSet gauges);
   void watchGauges();
   void lookBack();

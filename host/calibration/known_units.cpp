@@ -21,6 +21,8 @@ constexpr std::size_t kLeastSaid = 3;
 /// Of a row's energy, that no touch of the drawn finger explains: with more it tells of wires or zeros. Of a
 /// glued finger's rows a thousandth is left (kHealthy, wiring.cpp).
 constexpr double kMostUnexplainedShare = 0.1;
+/// Of the normal load: a smaller tangential one may be of either sign by the readings.
+constexpr double kFirmRub = 0.2;
 
 double apart_rad(double one_rad, double other_rad) {
   return std::abs(std::remainder(one_rad - other_rad, kTurn_rad));
@@ -31,6 +33,7 @@ struct Compared {
   std::vector<double> angles;                        ///< in whatever unit
   std::vector<double> asDegrees_rad, asRadians_rad;  ///< between the places, with the angles as either
   std::vector<double> said_n_per_m, drawn_n_per_m, saidToDrawn;  ///< normal loads
+  std::vector<double> rubSaidToDrawn;                            ///< tangential loads that are firm
 };
 
 bool isExplained(const TouchSearch& drawn, const Eigen::VectorXd& strains) {
@@ -68,6 +71,10 @@ Compared comparedWithDrawing(const config::FingerConfig& config, std::span<const
     compared.said_n_per_m.push_back(*touch.normal_n_per_m);
     compared.drawn_n_per_m.push_back(drawn[kNormalLoad]);
     compared.saidToDrawn.push_back(*touch.normal_n_per_m / drawn[kNormalLoad]);
+    const double rub_n_per_m = touch.tangential_n_per_m.value_or(0);
+    if (drawn[kNormalLoad] > 0 && std::abs(rub_n_per_m) > kFirmRub * *touch.normal_n_per_m &&
+        std::abs(drawn[kTangentialLoad]) > kFirmRub * drawn[kNormalLoad])
+      compared.rubSaidToDrawn.push_back(rub_n_per_m / drawn[kTangentialLoad]);
   }
   return compared;
 }
@@ -79,6 +86,14 @@ bool areRadians(const Compared& compared, double pitch_rad) {
   const auto [least, most] = std::ranges::minmax(compared.angles);
   return least >= -kTurn_rad && most <= kTurn_rad && most - least > pitch_rad &&
          medianOf(compared.asRadians_rad) < pitch_rad / 2 && medianOf(compared.asDegrees_rad) > pitch_rad;
+}
+
+/// All push the other way than the readings say. Without angles that fit the drawing, gauges that are wired
+/// the other way round would look the same.
+bool areOpposite(const Compared& compared, double pitch_rad) {
+  if (compared.rubSaidToDrawn.size() < kLeastSaid || compared.angles.size() < kLeastSaid) return false;
+  return std::ranges::max(compared.rubSaidToDrawn) < 0 &&
+         std::ranges::max(compared.asDegrees_rad) < pitch_rad / 2;
 }
 
 std::size_t countSaid(std::span<const KnownTouch> known) {
@@ -100,6 +115,10 @@ void requireUnits(const config::FingerConfig& config, std::span<const KnownTouch
   if (areRadians(compared, kTurn_rad / config.gauges.count))
     throw Failure(ExitCode::kFailure,
                   "the angle_deg of touches.csv are radians by the readings: multiply them by 57.29578");
+  if (areOpposite(compared, kTurn_rad / config.gauges.count))
+    throw Failure(ExitCode::kFailure,
+                  "the tangential_n_per_m of touches.csv push the other way than the readings say, all of "
+                  "them: they are positive towards growing angles, so change their signs");
   if (compared.said_n_per_m.size() < kLeastSaid || !isOfAnotherUnit(medianOf(compared.saidToDrawn))) return;
   throw Failure(
       ExitCode::kFailure,

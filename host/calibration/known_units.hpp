@@ -15,10 +15,11 @@ namespace strainfinger::calibration {
 /// finger of 20 mm; the modulus is seldom twice the drawing's.
 bool isOfAnotherUnit(const TouchSearch& drawn, const Eigen::VectorXd& strains, double said_n_per_m);
 
-/// As calibrate() takes them. Throws Failure(kFailure) where the known angles are radians by the readings, or
-/// the known normal loads of another unit. Asks rows alone that a touch of the drawn finger explains, so that
-/// faulty wires are not taken for units; of fewer than three there is nothing to tell it by, nor of angles in
-/// one place. Cost: a drawnSearch(), and two of its questions a row of which something is known.
+/// As calibrate() takes them. Throws Failure(kFailure) where the known angles are radians by the readings,
+/// the known normal loads of another unit, or all known tangential loads of the other sign. Asks rows alone
+/// that a touch of the drawn finger explains, so that faulty wires are not taken for units; of fewer than
+/// three there is nothing to tell it by, nor of angles in one place. Cost: a drawnSearch(), and two of its
+/// questions a row of which something is known.
 void requireUnits(const config::FingerConfig& config, std::span<const KnownTouch> known,
                   const Eigen::MatrixXd& readings);
 

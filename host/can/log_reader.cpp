@@ -15,6 +15,9 @@ namespace {
 
 constexpr std::chrono::milliseconds kAtATime{1000};
 
+/// Frames of several interfaces may be logged a little out of order; clocks that are set jump by more.
+constexpr std::int64_t kOutOfOrder_ns = 1'000'000'000;
+
 bool hasFrame(const LogLine& line) {
   return line.kind != LineKind::kNothing && line.kind != LineKind::kDropped;
 }
@@ -40,9 +43,21 @@ std::optional<TextFrame> LogReader::next() {
       throw Failure(
           ExitCode::kFailure,
           fmt::format("{}: a frame without a time: log with `candump -L`, or `candump -ta`", place()));
+    watchTime(*frame->time_ns);
     return frame;
   }
   return std::nullopt;
+}
+
+void LogReader::watchTime(std::int64_t time_ns) {
+  const std::int64_t latest_ns = latest_ns_.value_or(time_ns);
+  if (timesGoBack_.empty() && time_ns < latest_ns - kOutOfOrder_ns)
+    timesGoBack_ = fmt::format(
+        "{}: the times go back by {:.3g} s here: the clock was set, logs of several runs were joined, or "
+        "they are "
+        "differences (candump -td)",
+        place(), 1e-9 * static_cast<double>(latest_ns - time_ns));
+  latest_ns_ = std::max(latest_ns, time_ns);
 }
 
 std::optional<TextFrame> LogReader::frameOf(std::string_view line) {
@@ -71,8 +86,12 @@ std::optional<std::string_view> LogReader::nextLine() {
   }
 }
 
-std::string LogReader::cutOff() const {
-  return isCutOff_ ? fmt::format("{}: the log breaks off in this line, which is left out", place()) : "";
+std::vector<std::string> LogReader::warnings() const {
+  std::vector<std::string> warnings;
+  if (!timesGoBack_.empty()) warnings.push_back(timesGoBack_);
+  if (isCutOff_)
+    warnings.push_back(fmt::format("{}: the log breaks off in this line, which is left out", place()));
+  return warnings;
 }
 
 std::string LogReader::place() const { return fmt::format("{}:{}", lines_.name(), line_); }

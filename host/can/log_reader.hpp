@@ -25,8 +25,8 @@ class LogReader {
   /// Frames of other kinds so far.
   std::uint64_t skipped() const { return skipped_; }
 
-  /// What to tell of a last line that was left out; empty: there was none.
-  std::string cutOff() const;
+  /// What to tell, once all is read, of a last line that was left out, and of times that run backwards.
+  std::vector<std::string> warnings() const;
 
   /// "x.log:3", of the last line.
   std::string place() const;
@@ -34,6 +34,7 @@ class LogReader {
  private:
   std::optional<std::string_view> nextLine();
   std::optional<TextFrame> frameOf(std::string_view line);
+  void watchTime(std::int64_t time_ns);
 
   LineReader lines_;
   LogLine parsed_;  ///< what the last frame points into where its line was not plain
@@ -42,6 +43,8 @@ class LogReader {
   bool isWhole_ = true;    ///< the last line ended with a line end
   bool anyFrame_ = false;  ///< was read
   bool isCutOff_ = false;
+  std::optional<std::int64_t> latest_ns_;
+  std::string timesGoBack_;  ///< where, first, and by how much
 };
 
 }  // namespace strainfinger::can

@@ -290,7 +290,7 @@ Eigen::MatrixXd strainsOfRecording(const CalibrateOptions& options, const config
   const auto recorded = session::readRecording(options.strainsPath, config, nodeOf(options, config));
   fmt::print(stderr, "calibrate: {} of {} sample sets are touches that differ\n", recorded.rows.size(),
              recorded.sets);
-  warn("calibrate", recorded.cutOff);
+  warn("calibrate", recorded.warnings);
   return recorded.rows.matrix();
 }
 

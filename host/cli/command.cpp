@@ -111,7 +111,11 @@ void requireFolderOf(const char* option, const std::string& path) {
 }
 
 void warn(const char* command, const std::string& what) {
-  if (!what.empty()) fmt::print(stderr, "{}: warning: {}\n", command, what);
+  fmt::print(stderr, "{}: warning: {}\n", command, what);
+}
+
+void warn(const char* command, const std::vector<std::string>& all) {
+  for (const std::string& each : all) warn(command, each);
 }
 
 CLI::Validator isFrom(double least, double most) { return isOfKind("a number", least, most, ""); }

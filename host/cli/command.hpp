@@ -35,8 +35,9 @@ void requireGoodFileNames(const CLI::App& command);
 /// end. An empty path is no file.
 void requireFolderOf(const char* option, const std::string& path);
 
-/// Prints on stderr what a command goes on in spite of; nothing for an empty text.
+/// Prints on stderr what a command goes on in spite of.
 void warn(const char* command, const std::string& what);
+void warn(const char* command, const std::vector<std::string>& all);
 
 /// A check of an option that is a number from `least` to `most`, on a list of each of its elements. CLI11's
 /// own lets NaN through.

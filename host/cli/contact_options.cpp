@@ -88,7 +88,7 @@ Indenter parseIndenter(const std::string& text) {
 void tellOf(const contact::Contact& contact, const model::Annulus<double>& annulus) {
   fmt::print(stderr, "contact: residual {:.2g} m, recomputed from the tractions; {} terms a patch{}\n",
              contact.residual_m, contact.terms, regionsOf(contact, annulus.outer_radius_m));
-  for (const std::string& warning : contact.warnings) warn("contact", warning);
+  warn("contact", contact.warnings);
   constexpr double kMostLinear = 0.2;  // strains are about the depth over the thickness
   const double share = contact.deepest_m / (annulus.outer_radius_m - annulus.core_radius_m);
   if (share > kMostLinear)

@@ -87,7 +87,7 @@ Tracks readTracks(const PlotOptions& options) {
     Track& track = tracks.try_emplace({std::string(text->interface), node}, node).first->second;
     track.take(static_cast<double>(*text->time_ns - *first_ns) * 1e-9, text->frame);
   }
-  warn("plot", log.cutOff());
+  warn("plot", log.warnings());
   std::erase_if(tracks, [](const auto& track) { return track.second.points().empty(); });
   return tracks;
 }

@@ -75,7 +75,7 @@ LogExtent measure(const std::string& path) {
   LogExtent extent;
   while (log.next()) ++extent.frames;
   extent.skipped = log.skipped();
-  warn("replay", log.cutOff());
+  warn("replay", log.warnings());
   return extent;
 }
 
@@ -117,7 +117,7 @@ void recomputeLog(const ReplayOptions& options) {
   const auto next = [&log]() -> std::optional<can::TimedFrame> {
     const auto text = log.next();
     if (text) return can::TimedFrame{*text->time_ns, text->frame};
-    warn("replay", log.cutOff());
+    warn("replay", log.warnings());
     return std::nullopt;
   };
   const config::FingerConfig config = options.common.config();

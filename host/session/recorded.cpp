@@ -39,7 +39,7 @@ Recorded readRecording(const std::string& path, const config::FingerConfig& conf
                         Eigen::Map<const Eigen::VectorXd>(set->strains.data(), config.gauges.count)};
     if (thinner.take(sample) == Verdict::kKept) found.rows.add(sample.strains, {});
   }
-  found.cutOff = log.cutOff();
+  found.warnings = log.warnings();
   receiver.requireAllGauges();
   if (found.rows.size() > 0) return found;
   if (found.sets > 0)

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "host/config/finger_config.hpp"
 #include "host/session/rows.hpp"
@@ -13,9 +14,9 @@ namespace strainfinger::session {
 bool isRecording(const std::string& path);
 
 struct Recorded {
-  Rows rows;               ///< thinned, of unknown touches
-  std::uint64_t sets = 0;  ///< that were whole
-  std::string cutOff;      ///< as can::LogReader has it
+  Rows rows;                          ///< thinned, of unknown touches
+  std::uint64_t sets = 0;             ///< that were whole
+  std::vector<std::string> warnings;  ///< as can::LogReader has them
 };
 
 /// The readings (RAW) of the config's node, thinned as a session's are. Throws Failure(kFailure) as

@@ -214,6 +214,115 @@ TEST(GaugeFault, AGaugeThatOpensUnderATouchIsNamedWhenItEndsAtTheLatest) {
   LONGS_EQUAL(0, wrong);
 }
 
+// Ten times the noise of the others: 65 codes. Touches are within two pitches of it.
+TEST(GaugeFault, ANoisyGaugeIsNamedBeforeAnythingTouchesAndTouchesAreToldWithoutIt) {
+  constexpr double kNoise_codes = 65, kNear_pitch = 2;
+  const double pitch_rad = 2 * std::numbers::pi / config.gauges.count;
+  const simulation::Noise draws(407);
+  std::uint64_t set = 0;
+  const auto noisy = [&](SampledFinger::Codes& codes) {
+    const double code = codes[kFaulty] + kNoise_codes * draws.at(set++, 0);
+    codes[kFaulty] = static_cast<std::uint16_t>(std::clamp(std::lround(code), 1L, 65'000L));
+  };
+  const int trials = touchCount(300);
+  int named = 0, wrong = 0, silent = 0, flagged = 0, missed = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    const auto finger = this->finger(trial);
+    const GaugeSet out = finger->rest(kSetsPerSecond, noisy).outOfUse;
+    named += out == kFaultySet;
+    wrong += (out & ~kFaultySet) != 0;
+    CHECK_TRUE(finger->observation().noisy);
+    simulation::Touch touch = touches.at(static_cast<std::uint64_t>(trial));
+    touch.angle_rad =
+        config.gauges.angle_rad(kFaulty) +
+        2 * kNear_pitch * pitch_rad * evidence::uniform(draws, static_cast<std::uint64_t>(trial), 2);
+    finger->hold(ring.exact(touch), kTouch, noisy);
+    const Told said = told(*finger, {&touch, 1});
+    silent += !said.right && !said.flagged;
+    flagged += said.flagged;
+    missed += !finger->observation().touched;
+  }
+  std::printf(
+      "\nnoisy: named in %d of %d trials, %d wrong; of touches near by %d flagged, %d missed, silent wrong "
+      "places %d ",
+      named, trials, wrong, flagged, missed, silent);
+  CHECK_COMPARE(named, >=, 0.99 * trials - 3 * std::sqrt(0.01 * trials));
+  LONGS_EQUAL(0, wrong);
+  LONGS_EQUAL(0, missed);
+  CHECK_COMPARE(silent, <=, allowedCount(2e-4, trials));
+  CHECK_COMPARE(flagged, <=, allowedCount(0.05, trials));
+}
+
+// Contacts about as light as the gate lets through, so that most of their sets count as untouched: what they
+// do to the gauge below looks most like noise of its own. Zeros that follow drift, or two contacts at once,
+// take half of a trembling load for zero, so that the gauge swings to both sides.
+TEST(GaugeFault, NoLightContactThatTremblesMakesAHealthyGaugeNoisy) {
+  const simulation::Noise draws(409);
+  const int trials = touchCount(120), sets = 10 * kSetsPerSecond;
+  const double pitch_rad = 2 * std::numbers::pi / config.gauges.count;
+  int wrong = 0, byTouches = 0, untouched_sets = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    const auto even = [&](std::uint32_t what) {  // in 0 .. 1
+      return 0.5 + evidence::uniform(draws, static_cast<std::uint64_t>(trial), 2 * what);
+    };
+    const auto lightly = [&](std::uint32_t what, double angle_rad) {
+      simulation::Touch touch = touches.at(static_cast<std::uint64_t>(2 * trial) + what);
+      const double normal = 0.05 + 0.2 * even(what);
+      touch.angle_rad = angle_rad;
+      touch.tangential_n_per_m *= normal / touch.normal_n_per_m;
+      touch.normal_n_per_m = normal;
+      return ring.exact(touch);
+    };
+    const bool areTwo = trial % 3 == 0, drift = trial % 3 == 1;
+    const double at_rad = config.gauges.angle_rad(kFaulty) + 0.3 * (even(2) - 0.5) * pitch_rad;
+    const Eigen::VectorXd one = lightly(0, at_rad),
+                          two = (areTwo ? 1 : 0) * lightly(1, at_rad + 5 * pitch_rad);
+    Eigen::VectorXd drift_per_set = Eigen::VectorXd::Zero(config.gauges.count);
+    if (drift)
+      for (Eigen::Index i = 0; i < drift_per_set.size(); ++i)
+        drift_per_set[i] = 1e-6 / kSetsPerSecond *
+                           draws.at(static_cast<std::uint64_t>(trial), 100 + static_cast<std::uint32_t>(i));
+    const auto finger = this->finger(trial);
+    const double share = trial % 2 == 0 ? 1 : 0.5;
+    const auto swing = [&](std::uint32_t what, int set) {
+      const double hertz = 5 * std::pow(20, even(3 + what));
+      return 1 + share * std::sin(2 * std::numbers::pi * hertz * set / kSetsPerSecond);
+    };
+    for (int set = 0; set < sets; ++set) {
+      const auto& seen = finger->hold(swing(0, set) * one + swing(1, set) * two + set * drift_per_set, 1);
+      untouched_sets += !seen.touched;
+      if (seen.outOfUse == 0) continue;
+      ++(seen.touched ? byTouches : wrong);
+      break;
+    }
+  }
+  std::printf("\nlight contacts: %d of %d make a gauge noisy, touches convict one in %d; %d s untouched ",
+              wrong, trials, byTouches, untouched_sets / kSetsPerSecond);
+  LONGS_EQUAL(0, wrong);
+}
+
+// A zero that stood still while its gauge was noisy would be a touch when it counts again.
+TEST(GaugeFault, ANoisyGaugeThatDriftsIsNoTouchOnceItIsCalm) {
+  constexpr double kNoise_codes = 65;
+  const simulation::Noise draws(410);
+  const auto finger = this->finger(1);
+  Eigen::VectorXd strains = Eigen::VectorXd::Zero(config.gauges.count);
+  constexpr int kSeconds = 60;
+  constexpr double kDrift_strain_per_s = 2e-6;
+  std::uint64_t set = 0;
+  for (int second = 0; second < kSeconds; ++second)
+    for (int i = 0; i < kSetsPerSecond; ++i, ++set) {
+      strains[kFaulty] = kDrift_strain_per_s * static_cast<double>(set) / kSetsPerSecond;
+      finger->hold(strains, 1, [&](SampledFinger::Codes& codes) {
+        codes[kFaulty] =
+            static_cast<std::uint16_t>(std::lround(codes[kFaulty] + kNoise_codes * draws.at(set, 0)));
+      });
+    }
+  LONGS_EQUAL(kFaultySet, finger->observation().outOfUse);
+  for (int i = 0; i < 2 * kSetsPerSecond; ++i) CHECK_FALSE(finger->hold(strains, 1).touched);
+  LONGS_EQUAL(0, finger->observation().outOfUse);
+}
+
 // A gauge that reads nothing, or still what an earlier touch left it at, explains alone what is wrong at
 // several places: one place could be a second contact as well.
 TEST(GaugeFault, ADeadGaugeIsNamedAfterSeveralTouchesThatItShouldFeel) {

@@ -243,6 +243,12 @@ TEST(RunCommand, NamesAGaugeThatFails) {
   STRCMP_CONTAINS("loopback 081#04000000", run.out.c_str());
 }
 
+TEST(RunCommand, NamesAGaugeThatIsNoisy) {
+  const Run run = runProgram("run --duration 3 --fault noisy:2");
+  STRCMP_CONTAINS("run: gauges out of use at the end: 2\n", run.err.c_str());
+  STRCMP_CONTAINS("loopback 081#04000000", run.out.c_str());
+}
+
 TEST(RunCommand, RefusesAFaultThatIsNone) {
   checkRefused(runProgram("run --fault dull:2"), 2, "--fault dull:2: must be KIND:GAUGE");
   checkRefused(runProgram("run --fault dead:16"), 2, "there is no gauge 16; they are 0 to 15");

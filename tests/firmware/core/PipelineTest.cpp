@@ -174,6 +174,32 @@ TEST(Pipeline, AGaugeThatWasSaturatedCountsAgain) {
   UNSIGNED_LONGS_EQUAL(0, pipeline.observation().leftOut);
 }
 
+TEST(Pipeline, AGaugeThatIsNoisyByItselfIsOutOfUseUntilItIsCalm) {
+  const std::vector<double> untouched(16, 0.0);
+  const auto processLoud = [&](const std::vector<double>& strains, int sets) {
+    for (int set = 0; set < sets; ++set) {
+      auto loud = strains;
+      loud[5] += 12 * (random.noisy({0.0}, noise_strain)[0]);
+      process(loud);
+    }
+  };
+  processLoud(untouched, 1000);
+  UNSIGNED_LONGS_EQUAL(1 << 5, pipeline.observation().outOfUse);
+  CHECK_FALSE(pipeline.observation().touched);
+  CHECK_FALSE(pipeline.observation().uncertain);
+  processLoud(ring.strains({5.4, 20, 3, 1}), 100);
+  CHECK_TRUE(pipeline.observation().touched);
+  UNSIGNED_LONGS_EQUAL(1 << 5, pipeline.observation().outOfUse);
+  UNSIGNED_LONGS_EQUAL(1 << 5, pipeline.observation().leftOut);
+  const auto& answer = pipeline.answer();
+  CHECK_TRUE(answer.accepted);
+  DOUBLES_EQUAL(5.4, ring.pressOf(answer.solution.contact[0], answer.shift).position_pitch, 0.03);
+  release();
+  process(untouched, 2000);
+  UNSIGNED_LONGS_EQUAL(0, pipeline.observation().outOfUse);
+  CHECK_FALSE(pipeline.observation().noisy);
+}
+
 TEST(Pipeline, AGaugeThatWorksAgainCountsAgain) {
   const std::vector<double> nothing(16, 0.0);
   for (int set = 0; set < 200; ++set) processWithFive(nothing, 0xFFFF);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/base/failure.hpp"
+#include "host/evidence/touched_ring.hpp"
 #include "host/study/calibration_session.hpp"
 
 // last: its macros redefine new
@@ -38,6 +39,18 @@ TEST_GROUP(KnownUnits) {
   void scaleLoads(double by) {
     for (KnownTouch& touch : session.known)
       if (touch.normal_n_per_m) *touch.normal_n_per_m *= by;
+  }
+  /// Six touches all around, pushed this way and that; their tangential loads are said times `by`.
+  void sayRubs(double by) {
+    const evidence::TouchedRing ring{finger, kSeed};
+    for (int row = 0; row < 6; ++row) {
+      const double normal_n_per_m = 20, tangential_n_per_m = row % 2 == 0 ? 8 : -12,
+                   angle_deg = 10 + 60 * row;
+      session.readings.row(row) = ring.exact({.angle_rad = angle_deg / kDegreesPerRadian,
+                                              .normal_n_per_m = normal_n_per_m,
+                                              .tangential_n_per_m = tangential_n_per_m});
+      session.known[static_cast<std::size_t>(row)] = {angle_deg, normal_n_per_m, by * tangential_n_per_m};
+    }
   }
   /// Gauge i is where gauge i + `by` should be.
   void shiftRing(int by) {
@@ -74,6 +87,34 @@ TEST(KnownUnits, OneMarkTellsNoRadians) {
     shiftRing(1);
     STRCMP_EQUAL("", complaint().c_str());
   }
+}
+
+TEST(KnownUnits, TangentialLoadsOfTheOtherSignAreNamed) {
+  sayRubs(1);
+  STRCMP_EQUAL("", complaint().c_str());
+  sayRubs(-1);
+  STRCMP_CONTAINS("the tangential_n_per_m of touches.csv push the other way than the readings say",
+                  complaint().c_str());
+}
+
+TEST(KnownUnits, OneTangentialLoadOfTheRightSignIsEnough) {
+  sayRubs(-1);
+  *session.known[3].tangential_n_per_m *= -1;
+  STRCMP_EQUAL("", complaint().c_str());
+}
+
+TEST(KnownUnits, GaugesThatAreAllWiredBackwardsAreNoWrongSign) {
+  sayRubs(1);
+  session.readings *= -1;
+  STRCMP_EQUAL("", complaint().c_str());
+}
+
+// Its touches seem to push the other way, too.
+TEST(KnownUnits, ARingThatIsWiredTheOtherWayRoundIsNoWrongSign) {
+  sayRubs(1);
+  const Eigen::MatrixXd drawn = session.readings;
+  for (int gauge = 0; gauge < 16; ++gauge) session.readings.col(gauge) = drawn.col((16 - gauge) % 16);
+  STRCMP_EQUAL("", complaint().c_str());
 }
 
 TEST(KnownUnits, LoadsOfAnotherUnitAreNamed) {

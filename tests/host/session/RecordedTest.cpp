@@ -40,6 +40,10 @@ TEST_GROUP(Recorded) {
     }
     return text;
   }
+  static std::string warningOf(const Recorded& recorded) {
+    CHECK_COMPARE(recorded.warnings.size(), <=, 1);
+    return recorded.warnings.empty() ? "" : recorded.warnings.front();
+  }
   std::string stroke() {
     const Eigen::VectorXd zero = Eigen::VectorXd::Constant(16, 1e-3);
     std::string text = pages(1'000'000, 0, RawKind::kZeros, zero);
@@ -75,15 +79,26 @@ TEST(Recorded, WithoutReadingsOfTheNodeItIsRefused) {
 // As a logger leaves it that is killed.
 TEST(Recorded, ALineThatIsCutOffAtTheEndIsLeftOut) {
   write(stroke() + "(1.990000) can0 401#0000");
-  STRCMP_CONTAINS(":607: the log breaks off in this line", readRecording(path_, config, 1).cutOff.c_str());
+  STRCMP_CONTAINS(":607: the log breaks off in this line",
+                  warningOf(readRecording(path_, config, 1)).c_str());
   write(stroke() + "(1.990000) can0 123#00");
-  STRCMP_EQUAL("", readRecording(path_, config, 1).cutOff.c_str());
+  STRCMP_EQUAL("", warningOf(readRecording(path_, config, 1)).c_str());
   write(stroke() + "(1.990000) can");
   const auto recorded = readRecording(path_, config, 1);
   LONGS_EQUAL(100, recorded.sets);
-  STRCMP_CONTAINS(":607: the log breaks off in this line", recorded.cutOff.c_str());
+  STRCMP_CONTAINS(":607: the log breaks off in this line", warningOf(recorded).c_str());
   write(stroke() + "(1.990000) can\n");
   CHECK_THROWS(Failure, readRecording(path_, config, 1));
+}
+
+// As of a computer that sets its clock when it finds the network, or of two logs that were joined.
+TEST(Recorded, TimesThatGoBackAreTold) {
+  const std::string later = pages(500'000, 100, RawKind::kReadings, hand.touch(30, 20));
+  write(stroke() + later + pages(100'000, 101, RawKind::kReadings, hand.touch(30, 20)));
+  STRCMP_CONTAINS(":607: the times go back by 1.49 s here",
+                  warningOf(readRecording(path_, config, 1)).c_str());
+  write(stroke() + pages(995'000, 100, RawKind::kReadings, hand.touch(30, 20)));
+  STRCMP_EQUAL("", warningOf(readRecording(path_, config, 1)).c_str());
 }
 
 TEST(Recorded, WithoutATouchItIsRefused) {

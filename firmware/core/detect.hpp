@@ -205,9 +205,9 @@ class NoiseMeter {
     if (phase_ + 1 < kMostPhases) return phase_ + 1;
     const GaugeSet gauge = GaugeSet{1} << chosen_;
     const bool wasNegative = (wasNegative_ & gauge) != 0;
-    if (squareOf(thirdDifference_q28_) <= smooth_)
+    if (squareOf(thirdDifference_q28_) <= smooth_) {
       quieten(chosen_);
-    else if (isNegative_ != wasNegative) {
+    } else if (isNegative_ != wasNegative) {
       wasNegative_ ^= gauge;
       const bool wasNoisy = (noisyGauges_ & gauge) != 0;
       const int loudness = loudness_[chosen_] + kTurns;

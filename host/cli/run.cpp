@@ -116,6 +116,18 @@ std::vector<simulation::GaugeFault> faultsOf(const RunOptions& options, double e
   return faults;
 }
 
+/// The firmware takes no touch that slips for one, so a user would look in vain for it.
+void warnOfSlip(const RunOptions& options, const simulation::Scenario& scenario,
+                double friction_coefficient) {
+  const auto slip = scenario.firstSlip(friction_coefficient);
+  if (!slip) return;
+  warn("run", fmt::format("{}: touch {} slips even where it presses most, {} N/m along at {} N/m of load, as "
+                          "contact.friction_coefficient is {}: the finger will not take it for a touch",
+                          options.scenarioPath.empty() ? "the built-in scenario" : options.scenarioPath,
+                          slip->number, slip->touch.tangential_n_per_m, slip->touch.normal_n_per_m,
+                          friction_coefficient));
+}
+
 constexpr double kForEver_s = 1e12;
 
 double durationOf(const RunOptions& options, const simulation::Scenario& scenario) {
@@ -188,6 +200,7 @@ void runOn(Port& port, const config::FingerConfig& config, const RunOptions& opt
   }
   requireFolderOf("--strains", options.strainsPath);
   requireFolderOf("--touches", options.touchesPath);
+  warnOfSlip(options, scenario, config.contact.friction_coefficient);
   const system::StopSignal stop;
   while (finger.elapsed_us() < end_us && !stop.asked()) {
     finger.pass(wait(), [&](const simulation::Moment& moment) { watchers.watch(moment, finger.readings()); });

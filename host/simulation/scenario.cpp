@@ -32,6 +32,8 @@ double Course::at(double time_s) const {
   return std::lerp(last->value, next->value, (time_s - last->time_s) / (next->time_s - last->time_s));
 }
 
+Course::Point Course::largest() const { return *std::ranges::max_element(points_, {}, &Point::value); }
+
 Scenario::Scenario(std::vector<TouchCourse> touches, std::optional<double> repeat_s)
     : touches_(std::move(touches)), repeat_s_(repeat_s) {}
 
@@ -44,6 +46,18 @@ std::vector<Touch> Scenario::at(double time_s) const {
     if (touch.normal_n_per_m != 0) inForce.push_back(touch);
   }
   return inForce;
+}
+
+std::optional<Scenario::Slip> Scenario::firstSlip(double friction_coefficient) const {
+  int number = 0;
+  for (const TouchCourse& course : touches_) {
+    ++number;
+    const Touch touch = touchAt(course, course.start_s + course.normal_n_per_m.largest().time_s);
+    if (touch.normal_n_per_m > 0 &&
+        std::abs(touch.tangential_n_per_m) > friction_coefficient * touch.normal_n_per_m)
+      return Slip{number, touch};
+  }
+  return std::nullopt;
 }
 
 double Scenario::duration_s() const {

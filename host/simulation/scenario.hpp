@@ -31,6 +31,8 @@ class Course {
   /// At least one point, in order of time; of two points at one time the later one counts from there on.
   explicit Course(std::vector<Point> points);
   double at(double time_s) const;
+  /// The point of the largest value, the first of equal ones.
+  Point largest() const;
 
  private:
   std::vector<Point> points_;
@@ -56,6 +58,14 @@ class Scenario {
   /// The touches in force: start <= time < end, and some normal load, without which nothing touches, whatever
   /// the tangential one. Linear in the number of touches.
   std::vector<Touch> at(double time_s) const;
+
+  /// The first touch, of those that press, that no friction holds even where it presses most; its number
+  /// counts from 1.
+  struct Slip {
+    int number;
+    Touch touch;
+  };
+  std::optional<Slip> firstSlip(double friction_coefficient) const;
 
   /// When it begins again or is over.
   double duration_s() const;

@@ -49,6 +49,20 @@ TEST(RunCommand, EachContactHasItsForceAndItsPatch) {
   }
 }
 
+TEST(RunCommand, WarnsOfATouchThatSlips) {
+  const auto errorsOf = [](const std::string& tangential_n_per_m) {
+    const std::string touch =
+        "schema = 1\n[[touch]]\nstart_s = 0.5\nend_s = 1\nangle_deg = 0\nnormal_n_per_m = 20\n"
+        "tangential_n_per_m = " +
+        tangential_n_per_m;
+    return withScenario("", touch.c_str()).err;
+  };
+  STRCMP_CONTAINS(
+      "run: warning: /dev/stdin: touch 1 slips even where it presses most, -30 N/m along at 20 N/m",
+      errorsOf("-30").c_str());
+  CHECK_TRUE(errorsOf("-20").find("slips") == std::string::npos);
+}
+
 TEST(RunCommand, DecodeReadsWhatItSends) {
   const Run run = runShell(R"("$STRAINFINGER" run --duration 2 | "$STRAINFINGER" decode)");
   LONGS_EQUAL(0, run.status);

@@ -29,6 +29,19 @@ TEST(Scenario, OfTwoPointsAtOneTimeTheLaterCountsFromThereOn) {
   DOUBLES_EQUAL(50, ramp.at(2), 0);
 }
 
+TEST(Scenario, ATouchThatNoFrictionHoldsWhereItPressesMostSlips) {
+  const Course press{{{0, 0}, {1, 20}, {2, 0}}}, rub{{{0, 20}, {1, 10}, {2, -20}}};
+  const TouchCourse held{0, 2, none, press, rub};
+  const Scenario scenario({held, {2, 4, none, press, Course{{{0, -11}}}}});
+  const auto slip = scenario.firstSlip(0.5);
+  CHECK_TRUE(slip.has_value());
+  LONGS_EQUAL(2, slip->number);
+  DOUBLES_EQUAL(20, slip->touch.normal_n_per_m, 0);
+  DOUBLES_EQUAL(-11, slip->touch.tangential_n_per_m, 0);
+  CHECK_FALSE(scenario.firstSlip(0.55).has_value());
+  CHECK_FALSE(Scenario({{0, 2, none, none, rub}}).firstSlip(0.5).has_value());
+}
+
 TEST(Scenario, ATouchIsInForceFromItsStartUpToItsEnd) {
   const Scenario scenario({touch(1, 3)});
   CHECK_TRUE(scenario.at(std::nextafter(1.0, 0.0)).empty());

@@ -97,7 +97,7 @@ class NoiseMeter {
 
   /// Variance of a reading in configured ones [* 2^4], at least 1.
   std::uint32_t variance_q4() const { return std::max<std::uint32_t>(mean_q8_ >> 4, 1 << 4); }
-  bool isNoisy() const { return isNoisy_; }
+  bool isNoisy() const { return mean_q8_ >= kNoisy_q8 || noisyGauges_ != 0; }
   /// Those that are noisy by themselves.
   GaugeSet noisyGauges() const { return noisyGauges_; }
 
@@ -112,8 +112,8 @@ class NoiseMeter {
   /// Loudness: kTurns more when a gauge is loud, rough, and of another sign than when it last was so; kCalms
   /// less when it is not loud, or smooth. From kNoisyFrom on it is noisy, and its loudness kLoudest; it is no
   /// more once that is down to 0, a second later, so that it does not come and go. Of 16 gauges with codes of
-  /// 12 bits one of ten times the others' noise is named after 50 sets in the mean, one of five times after
-  /// 260, one of four times after 2,300, one of twice theirs never.
+  /// 12 bits one of ten times the others' noise is named after 90 sets in the mean, one of four times after
+  /// 2,400, one of twice theirs not in 10,000 (GaugeFaultTest).
   static constexpr int kTurns = 8, kCalms = 2, kNoisyFrom = 24, kLoudest = 255;
   static constexpr int kRoughBits = 4;  ///< lowest bits of a strain that don't count for a third difference
   static constexpr std::uint32_t kConfigured_q8 = 1 << 8;  ///< what configured noise makes of a comparison
@@ -129,27 +129,22 @@ class NoiseMeter {
     return std::max<std::uint64_t>(constants.gauge_count * (variance_q1 + 1) / 2, 1);
   }
 
-  /// The next phase. Not inlined: few sets need its registers and its stack.
-  [[gnu::noinline]] std::uint8_t attend(const TableConstants& constants,
-                                        std::span<const std::int32_t> strains_q32, GaugeSet gauges,
-                                        bool mayBeContact) {
-    int next = mayBeContact ? phase_ : (phase_ + 1) % kEvery;
-    if (phase_ >= kLookCloser) {
-      next = lookCloser(strains_q32);
-    } else if (phase_ == 0 && !mayBeContact) {
+  /// The next phase.
+  std::uint8_t attend(const TableConstants& constants, std::span<const std::int32_t> strains_q32,
+                      GaugeSet gauges, bool mayBeContact) {
+    if (phase_ >= kLookCloser) return lookCloser(strains_q32);
+    const auto next = static_cast<std::uint8_t>(mayBeContact ? phase_ : (phase_ + 1) % kEvery);
+    if (phase_ == 0 && !mayBeContact) {
       std::copy(strains_q32.begin(), strains_q32.end(), before_q32_.begin());
       compared_ = gauges;
-    } else {
-      const GaugeSet loud = loudGauges(constants, strains_q32, gauges);
-      if (phase_ == kLag && !mayBeContact) compare(constants, strains_q32, compared_ & gauges & ~suspects());
-      if (loud != 0) {
-        choose(constants, strains_q32, gauges, loud);
-        resume_ = static_cast<std::uint8_t>(next);
-        next = kLookCloser;
-      }
+      return next;
     }
-    isNoisy_ = mean_q8_ >= kNoisy_q8 || noisyGauges_ != 0;
-    return static_cast<std::uint8_t>(next);
+    const GaugeSet loud = loudGauges(constants, strains_q32, gauges);
+    if (phase_ == kLag && !mayBeContact) compare(constants, strains_q32, compared_ & gauges & ~suspects());
+    if (loud == 0) return next;
+    choose(constants, strains_q32, gauges, loud);
+    resume_ = next;
+    return kLookCloser;
   }
 
   GaugeSet loudGauges(const TableConstants& constants, std::span<const std::int32_t> strains_q32,
@@ -199,10 +194,10 @@ class NoiseMeter {
   }
 
   /// The next phase. A gauge that may be noisy is looked at again at once.
-  int lookCloser(std::span<const std::int32_t> strains_q32) {
+  std::uint8_t lookCloser(std::span<const std::int32_t> strains_q32) {
     constexpr std::array kFactors{-3, 3, -1};
     thirdDifference_q28_ += kFactors[index(phase_ - kLookCloser)] * (strains_q32[chosen_] >> kRoughBits);
-    if (phase_ + 1 < kMostPhases) return phase_ + 1;
+    if (phase_ + 1 < kMostPhases) return static_cast<std::uint8_t>(phase_ + 1);
     const GaugeSet gauge = GaugeSet{1} << chosen_;
     const bool wasNegative = (wasNegative_ & gauge) != 0;
     if (squareOf(thirdDifference_q28_) <= smooth_) {
@@ -254,7 +249,6 @@ class NoiseMeter {
   bool isNegative_ = false;         ///< the first of them
   std::uint8_t chosen_ = 0;         ///< the loud gauge that is looked at
   std::uint8_t phase_ = 0, resume_ = 0;
-  bool isNoisy_ = false;
 };
 
 }  // namespace strainfinger::firmware

@@ -54,8 +54,7 @@ void LogReader::watchTime(std::int64_t time_ns) {
   if (timesGoBack_.empty() && time_ns < latest_ns - kOutOfOrder_ns)
     timesGoBack_ = fmt::format(
         "{}: the times go back by {:.3g} s here: the clock was set, logs of several runs were joined, or "
-        "they are "
-        "differences (candump -td)",
+        "they are differences (candump -td)",
         place(), 1e-9 * static_cast<double>(latest_ns - time_ns));
   latest_ns_ = std::max(latest_ns, time_ns);
 }

@@ -29,9 +29,8 @@ std::string_view remedyFor(FingerFault fault) {
       return "check the board's crystal: with the other clock it may not be heard on the bus when it warms "
              "up";
     case FingerFault::kNoisy:
-      return "keep mains and motor cables away, check shield and ground, and the wires of gauges that are "
-             "out of "
-             "use; where it stays so, tell it: gauges.noise_strain in the finger's config, and "
+      return "keep mains and motor cables away, check shield and ground, and the wires of gauges out of use; "
+             "where it stays so, tell it: gauges.noise_strain in the finger's config, and "
              "`strainfinger push --can BUS -c` that";
   }
   return "";

@@ -116,13 +116,13 @@ std::vector<simulation::GaugeFault> faultsOf(const RunOptions& options, double e
   return faults;
 }
 
-/// The firmware takes no touch that slips for one, so a user would look in vain for it.
+/// The finger may flag such a touch, and a user would look for the fault elsewhere.
 void warnOfSlip(const RunOptions& options, const simulation::Scenario& scenario,
                 double friction_coefficient) {
   const auto slip = scenario.firstSlip(friction_coefficient);
   if (!slip) return;
   warn("run", fmt::format("{}: touch {} slips even where it presses most, {} N/m along at {} N/m of load, as "
-                          "contact.friction_coefficient is {}: the finger will not take it for a touch",
+                          "contact.friction_coefficient is {}: it cannot hold, and may be told as uncertain",
                           options.scenarioPath.empty() ? "the built-in scenario" : options.scenarioPath,
                           slip->number, slip->touch.tangential_n_per_m, slip->touch.normal_n_per_m,
                           friction_coefficient));

@@ -253,6 +253,38 @@ TEST(GaugeFault, ANoisyGaugeIsNamedBeforeAnythingTouchesAndTouchesAreToldWithout
   CHECK_COMPARE(flagged, <=, allowedCount(0.05, trials));
 }
 
+TEST(GaugeFault, TheNoisierAGaugeIsTheSoonerItIsNamed) {
+  constexpr double kOthers_codes = 6.5;
+  const simulation::Noise draws(408);
+  std::uint64_t number = 0;
+  const int trials = touchCount(20);
+  const auto setsUntilNamed = [&](int trial, double times, int most) {
+    const auto finger = this->finger(trial);
+    for (int set = 0; set < most; ++set) {
+      const auto& seen = finger->rest(1, [&](SampledFinger::Codes& codes) {
+        const double code = codes[kFaulty] + times * kOthers_codes * draws.at(number++, 0);
+        codes[kFaulty] = static_cast<std::uint16_t>(std::clamp(std::lround(code), 1L, 65'000L));
+      });
+      CHECK_EQUAL(0, seen.outOfUse & ~kFaultySet);
+      if (seen.outOfUse != 0) return set;
+    }
+    return most;
+  };
+  const int most = 60 * kSetsPerSecond;
+  for (const double times : {4.0, 5.0, 10.0, 100.0}) {
+    double sum = 0;
+    for (int trial = 0; trial < trials; ++trial) {
+      const int sets = setsUntilNamed(trial, times, most);
+      CHECK_COMPARE(sets, <, most);
+      sum += sets;
+    }
+    std::printf("\n%g times the others' noise: named after %.2f s in the mean ", times,
+                sum / trials / kSetsPerSecond);
+  }
+  for (int trial = 0; trial < trials; ++trial)
+    LONGS_EQUAL(10 * kSetsPerSecond, setsUntilNamed(trial, 2, 10 * kSetsPerSecond));
+}
+
 // Contacts about as light as the gate lets through, so that most of their sets count as untouched: what they
 // do to the gauge below looks most like noise of its own. Zeros that follow drift, or two contacts at once,
 // take half of a trembling load for zero, so that the gauge swings to both sides.

@@ -173,6 +173,7 @@ class LiveSession {
   void obey(const std::string& text) {
     const session::Obeyed obeyed = session_.obey(session::parseCommand(text, config_.finger.length_m));
     if (obeyed.row) files_.add(obeyed.row->time_s, obeyed.row->strains, obeyed.row->known);
+    if (obeyed.takenBack) files_.rewriteTouches(session_.rows().known);
     message_ = obeyed.message;
     quit_ |= obeyed.quit;
     if (obeyed.tare) tare();

@@ -21,7 +21,8 @@ constexpr const char* kDiscoverHelp =
     "Which fingers are there: a row for each that is heard, by its HEARTBEAT. It sends nothing.\n"
     "Without --can on every CAN interface of this machine that is up.\n"
     "Prints interface,node,state,faults,protocol,firmware,board,reset_cause,uptime_s,table_crc,note; empty "
-    "where the finger didn't say.\n"
+    "where the finger didn't say. table_crc is how the CRC-32 of its tables ends, as `tables info` prints "
+    "it.\n"
     "Exit status: 3 no interface, 4 no finger heard.";
 
 const std::vector<std::string> kColumns{"interface", "node",      "state", "faults",
@@ -49,7 +50,7 @@ std::vector<Cell> rowOf(const live::BusView& bus, const live::FingerView& finger
   if (!finger.isForeign()) {  // else the fields may mean something else
     state = can::nameText(kFingerStateNames, static_cast<int>(heartbeat.state));
     faults = can::flagsText(kFingerFaultNames, heartbeat.faults.raw());
-    tables = std::int64_t{heartbeat.table_crc};
+    tables = fmt::format("{:02X}", heartbeat.table_crc);
     if (heartbeat.uptime_s != kNotKnown<std::uint16_t>) uptime = std::int64_t{heartbeat.uptime_s};
   }
   if (!finger.isForeign() && finger.info) {

@@ -95,7 +95,7 @@ void showInfo(const TablesOptions& options) {
     table.row({parameter.key, isJson && parameter.value == Cell("unknown") ? kNoValue : parameter.value});
   const int count = image->constants.gauge_count;
   for (const tables::Parameter& list :
-       {tables::anglesOf(image->gauge_angle_q32, count), tables::gainsOf(image->gains, count),
+       {tables::anglesOf(image->gauge_angle_q32, count), tables::gainsOf(*image),
         tables::depthsOf(image->depths, count)})
     table.row({list.key, list.value});
 }

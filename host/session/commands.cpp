@@ -64,8 +64,9 @@ Command parseCommand(std::string_view line, double length_m) {
   if (rest.empty() && word == "hold") return Hold{};
   if (rest.empty() && word == "tare") return Tare{};
   if (rest.empty() && word == "skip") return Skip{};
+  if (rest.empty() && word == "undo") return Undo{};
   if (rest.empty() && word == "quit") return Quit{};
-  return Unclear{fmt::format("\"{}\": say load, angle, hold, skip, tare or quit", text)};
+  return Unclear{fmt::format("\"{}\": say load, angle, hold, skip, undo, tare or quit", text)};
 }
 
 std::optional<std::string> KeyReader::press(unsigned char key) {
@@ -77,6 +78,7 @@ std::optional<std::string> KeyReader::press(unsigned char key) {
     if (key == 't') mode_ = Mode::kTare;
     if (isTyping()) return "hold";
     if (key == 's') return "skip";
+    if (key == 'u') return "undo";
     if (key == 'q') return "quit";
     return std::nullopt;
   }

@@ -18,15 +18,17 @@ struct AngleIs {
 struct Hold {};
 struct Tare {};
 struct Skip {};
+/// The last load or angle was a mistake.
+struct Undo {};
 struct Quit {};
 /// Not understood, and why.
 struct Unclear {
   std::string why;
 };
-using Command = std::variant<LoadIs, AngleIs, Hold, Tare, Skip, Quit, Unclear>;
+using Command = std::variant<LoadIs, AngleIs, Hold, Tare, Skip, Undo, Quit, Unclear>;
 
-/// "load 200 g", "load 2 N", "load 24.5 N/m", "angle 40", "hold", "tare", "skip", "quit"; blanks don't
-/// matter. `length_m`: of the finger, turns N into N/m.
+/// "load 200 g", "load 2 N", "load 24.5 N/m", "angle 40", "hold", "tare", "skip", "undo", "quit"; blanks
+/// don't matter. `length_m`: of the finger, turns N into N/m.
 Command parseCommand(std::string_view line, double length_m);
 
 /// What is typed on a terminal, key by key: `l` and `a` hold what is pressed and begin its load or angle,

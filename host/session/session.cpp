@@ -123,7 +123,7 @@ Obeyed Session::keepHeld(const KnownTouch& known, const std::string& what) {
   }
   const NewRow row{sample->time_s, sample->strains, known};
   keep(row);
-  knowsMore_ = true;
+  knowsOther_ = true;
   return {.row = row, .message = what + " is taken"};
 }
 
@@ -156,6 +156,24 @@ Obeyed Session::obeySkip() {
   return {.message = "this cannot be skipped: q ends the session"};
 }
 
+/// What the user said last, by the row that it is of.
+Obeyed Session::obeyUndo() {
+  for (std::size_t row = rows_.size(); row-- > 0;) {
+    KnownTouch& known = rows_.known[row];
+    const bool wasSaid = known.angle_deg || (known.normal_n_per_m && !known.isUntouched());
+    if (!wasSaid) continue;
+    const std::string what = known.angle_deg ? fmt::format("the angle of {:.4g} deg", *known.angle_deg)
+                                             : fmt::format("the load of {:.4g} N/m", *known.normal_n_per_m);
+    known = {};
+    coverage_ = coverageOf(config_.gauges, search_, rows_);
+    fit_.reset();
+    complaint_.clear();
+    knowsOther_ = isFitOutdated_ = true;
+    return {.message = what + " is taken back", .takenBack = true};
+  }
+  return {.message = "no load and no angle was entered yet"};
+}
+
 /// Rows that are there were read with the zero that the finger had then.
 Obeyed Session::obeyTare() {
   if (rows_.size() == 0) return {.message = "zeroing", .tare = true};
@@ -173,6 +191,7 @@ Obeyed Session::obey(const Command& command) {
     Obeyed operator()(const Hold&) const { return session.obeyHold(); }
     Obeyed operator()(const Tare&) const { return session.obeyTare(); }
     Obeyed operator()(const Skip&) const { return session.obeySkip(); }
+    Obeyed operator()(const Undo&) const { return session.obeyUndo(); }
     Obeyed operator()(const Quit&) const { return {.quit = true}; }
     Obeyed operator()(const Unclear& unclear) const { return {.message = unclear.why}; }
   };
@@ -187,17 +206,18 @@ bool Session::wantsFit() const {
   const int perGauge = isCovered || tried_ > 0 ? rules.firstPerGauge : rules.uncoveredPerGauge;
   const auto least = static_cast<std::size_t>(perGauge * config_.gauges.count);
   if (touches < least) return false;
-  return tried_ == 0 || knowsMore_ ||
+  return tried_ == 0 || knowsOther_ ||
          static_cast<double>(rows_.size()) >= rules.growth * static_cast<double>(tried_);
 }
 
 const Rows& Session::beginFit() {
   tried_ = rows_.size();
-  knowsMore_ = false;
+  knowsOther_ = isFitOutdated_ = false;
   return rows_;
 }
 
 void Session::takeFit(FitOutcome outcome) {
+  if (isFitOutdated_) return;
   complaint_ = outcome.complaint;
   if (outcome.result) fit_ = std::move(outcome);
 }

@@ -25,8 +25,9 @@ struct NewRow {
 /// What comes of a command.
 struct Obeyed {
   std::optional<NewRow> row{};
-  std::string message{};  ///< for the user
-  bool tare = false;      ///< the finger is to be asked for a new zero
+  std::string message{};   ///< for the user
+  bool takenBack = false;  ///< what was known of a row is known no more
+  bool tare = false;       ///< the finger is to be asked for a new zero
   bool quit = false;
 };
 
@@ -50,7 +51,7 @@ class Session {
   /// What the last set was.
   Verdict now() const { return now_; }
   const Coverage& coverage() const { return coverage_; }
-  /// Of the newest fit that succeeded.
+  /// Of the newest fit that succeeded and knew nothing that was taken back since.
   const std::optional<FitOutcome>& fit() const { return fit_; }
   /// Of the newest fit, where it failed.
   const std::string& complaint() const { return complaint_; }
@@ -70,6 +71,7 @@ class Session {
   Obeyed keepHeld(const calibration::KnownTouch& known, const std::string& what);
   Obeyed obeyHold();
   Obeyed obeySkip();
+  Obeyed obeyUndo();
   Obeyed obeyTare();
 
   config::FingerConfig config_;
@@ -84,7 +86,8 @@ class Session {
   std::optional<FitOutcome> fit_;
   std::string complaint_;
   std::size_t tried_ = 0;                  ///< rows of the last fit
-  bool knowsMore_ = false;                 ///< than at the last fit, of a touch
+  bool knowsOther_ = false;                ///< than at the last fit, of a touch
+  bool isFitOutdated_ = false;             ///< the one that is being made: it knows what was taken back
   std::deque<Sample> recent_;              ///< of the last HoldRules::time_s
   std::optional<Sample> held_;             ///< what the next load or angle is of, if that was said
   std::optional<double> doubted_n_per_m_;  ///< the load that was refused last

@@ -12,6 +12,7 @@
 #include <sstream>
 #include <utility>
 
+#include "host/base/atomic_file.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/no_value.hpp"
 #include "host/base/read_file.hpp"
@@ -70,6 +71,11 @@ void requireHeader(const std::string& text, const std::string& header, const std
 }
 
 std::string cellText(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; }
+
+std::string touchLine(const calibration::KnownTouch& known) {
+  return fmt::format("{},{},{}\n", cellText(known.angle_deg), cellText(known.normal_n_per_m),
+                     cellText(known.tangential_n_per_m));
+}
 
 }  // namespace
 
@@ -142,8 +148,14 @@ std::string SessionFiles::named(std::string message) const {
 void SessionFiles::add(double time_s, const Eigen::VectorXd& strains, const calibration::KnownTouch& known) {
   hasRows_ = true;
   append(strains_, fmt::format("{:.6f},{}\n", time_s, fmt::join(strains.begin(), strains.end(), ",")));
-  append(touches_, fmt::format("{},{},{}\n", cellText(known.angle_deg), cellText(known.normal_n_per_m),
-                               cellText(known.tangential_n_per_m)));
+  append(touches_, touchLine(known));
+}
+
+void SessionFiles::rewriteTouches(const std::vector<calibration::KnownTouch>& known) {
+  std::string text = std::string(kTouchHeader) + "\n";
+  for (const calibration::KnownTouch& touch : known) text += touchLine(touch);
+  writeFileAtomically(touches_.path, text);
+  ::close(std::exchange(touches_.descriptor, openToAppend(touches_.path)));
 }
 
 }  // namespace strainfinger::session

@@ -3,6 +3,7 @@
 // reads them. A row that was added is there whatever ends the program.
 
 #include <string>
+#include <vector>
 
 #include "host/session/rows.hpp"
 
@@ -30,6 +31,8 @@ class SessionFiles {
 
   /// `time_s`: since 1970. Throws Failure(kFailure) when the disk is full or broken.
   void add(double time_s, const Eigen::VectorXd& strains, const calibration::KnownTouch& known);
+  /// What is known of each row now, after something was taken back.
+  void rewriteTouches(const std::vector<calibration::KnownTouch>& known);
 
  private:
   struct File {

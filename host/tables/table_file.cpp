@@ -103,11 +103,19 @@ Parameter anglesOf(const GaugeAngles& angles_q32, int count) {
   return {"gauges.angle_deg", angles_deg};
 }
 
-Parameter gainsOf(const GaugeGains& gains, int count) {
+namespace {
+
+Parameter gainsOf(const GaugeGains& gains, bool areDepthsKnown, int count) {
   std::vector<double> known;
   if (gains.areKnown())
     for (const double factor : correctionFactors(gains, count)) known.push_back(rounded(1 / factor, 4));
-  return {"calibration.gain", known};
+  return {areDepthsKnown ? "gain_with_depth" : "calibration.gain", known};
+}
+
+}  // namespace
+
+Parameter gainsOf(const TableImage& image) {
+  return gainsOf(image.gains, image.depths.areKnown(), image.constants.gauge_count);
 }
 
 Parameter depthsOf(const GaugeDepths& depths, int count) {
@@ -142,9 +150,11 @@ void requireTablesOf(const TableImage& image, const config::FingerConfig& config
   if (isSameRing(image.parameters, wantedParameters) && image.gauge_angle_q32 != wantedAngles_q32)
     differences += differenceOf(anglesOf(image.gauge_angle_q32, count), anglesOf(wantedAngles_q32, count));
   const DepthFit wantedDepths = depthFit(config);
-  if (const GaugeGains wanted = gaugeGains(config, wantedDepths); image.gains != wanted)
-    differences += differenceOf(gainsOf(image.gains, count), gainsOf(wanted, config.gauges.count));
   const GaugeDepths depths = gaugeDepths(wantedDepths, responseTable(config, wantedDepths.growth));
+  const bool areDepthsKnown = image.depths.areKnown() || depths.areKnown();
+  if (const GaugeGains wanted = gaugeGains(config, wantedDepths); image.gains != wanted)
+    differences += differenceOf(gainsOf(image.gains, areDepthsKnown, count),
+                                gainsOf(wanted, areDepthsKnown, config.gauges.count));
   const Parameter hasDepths = depthsOf(image.depths, count),
                   wantsDepths = depthsOf(depths, config.gauges.count);
   if (hasDepths.value != wantsDepths.value) differences += differenceOf(hasDepths, wantsDepths);
@@ -169,8 +179,7 @@ std::string imageHeader(const TableImage& image) {
   for (const Parameter& parameter : parametersOf(image.parameters))
     fmt::format_to(std::back_inserter(text), "//   {} = {}\n", parameter.key, textOf(parameter.value));
   for (const Parameter& parameter : {anglesOf(image.gauge_angle_q32, image.constants.gauge_count),
-                                     gainsOf(image.gains, image.constants.gauge_count),
-                                     depthsOf(image.depths, image.constants.gauge_count)})
+                                     gainsOf(image), depthsOf(image.depths, image.constants.gauge_count)})
     fmt::format_to(std::back_inserter(text), "//   {} = {}\n", parameter.key, textOf(parameter.value));
   fmt::format_to(std::back_inserter(text),
                  "// CRC-32 0x{:08X}\n\n#include <cstdint>\n\nnamespace strainfinger {{\n\n"

@@ -27,8 +27,9 @@ struct Parameter {
 std::vector<Parameter> parametersOf(const TableParameters& parameters);
 /// Where the gauges are, as calibrated, to 6 digits.
 Parameter anglesOf(const GaugeAngles& angles_q32, int count);
-/// The gains as the image has them, to 4 digits; an empty list if not calibrated.
-Parameter gainsOf(const GaugeGains& gains, int count);
+/// The gains as the image has them, to 4 digits; an empty list if not calibrated. Where depths are known a
+/// gain is calibration.gain times what the gauge's depth adds, and named so.
+Parameter gainsOf(const TableImage& image);
 
 /// Depths as the image has them, to 3 digits; an empty list if not calibrated.
 Parameter depthsOf(const GaugeDepths& depths, int count);

@@ -243,6 +243,8 @@ class Resumed(unittest.TestCase):
         self.bench.until(lambda: session.next().startswith("Roll it"), 60)
         session.say("load 20")
         self.bench.until(lambda: any("say the unit" in line for line in session.said.lines))
+        session.say("undo")
+        self.bench.until(lambda: any("no load and no angle was entered yet" in line for line in session.said.lines))
         session.say("quit")
         self.assertEqual(1, session.ended(60))
         self.assertRegex(session.said.last, r"too few.*10 rows are kept in .*: the same command goes on with them")

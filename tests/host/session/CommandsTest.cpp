@@ -53,7 +53,7 @@ TEST(SessionCommands, WhatIsNotUnderstoodIsToldWithWhatWouldBe) {
   isUnclear("angle 400", "from -360 to 360");
   isUnclear("angle inf", "no angle");
   isUnclear("angle 4 rad", "degrees");
-  isUnclear("", "say load, angle, hold, skip, tare or quit");
+  isUnclear("", "say load, angle, hold, skip, undo, tare or quit");
   isUnclear("quit now", "say load");
 }
 
@@ -61,6 +61,7 @@ TEST(SessionCommands, WordsStandForThemselves) {
   CHECK(std::holds_alternative<Hold>(parseCommand("hold", 1)));
   CHECK(std::holds_alternative<Tare>(parseCommand("tare", 1)));
   CHECK(std::holds_alternative<Skip>(parseCommand("skip", 1)));
+  CHECK(std::holds_alternative<Undo>(parseCommand("undo", 1)));
   CHECK(std::holds_alternative<Quit>(parseCommand("quit\r", 1)));
 }
 
@@ -70,6 +71,7 @@ TEST(SessionCommands, KeysMakeTheSameCommands) {
                                  "45\n")
                                .c_str());
   STRCMP_EQUAL("skip", typed("s").c_str());
+  STRCMP_EQUAL("undo", typed("u").c_str());
   STRCMP_EQUAL("quit", typed("q").c_str());
 }
 

@@ -78,6 +78,18 @@ TEST(SessionFiles, GoOnWithWhatIsThere) {
   STRCMP_CONTAINS("0.3\n2.500000,0,0,0\n", contentOf(strains_).c_str());
 }
 
+TEST(SessionFiles, GoOnAfterSomethingWasTakenBack) {
+  SessionFiles files(config_, 3);
+  files.add(1.5, Eigen::Vector3d::Zero(), {std::nullopt, 24.5, std::nullopt});
+  files.add(2.5, Eigen::Vector3d::Zero(), {40, std::nullopt, std::nullopt});
+  files.add(3.5, Eigen::Vector3d::Zero(), {std::nullopt, 0, 0});
+  files.rewriteTouches({{std::nullopt, 24.5, std::nullopt}, {}, {std::nullopt, 0, 0}});
+  files.add(4.5, Eigen::Vector3d::Zero(), {50, std::nullopt, std::nullopt});
+  STRCMP_EQUAL("angle_deg,normal_n_per_m,tangential_n_per_m\n,24.5,\n,,\n,0,0\n50,,\n",
+               contentOf(touches_).c_str());
+  checkRefused("another session writes it now");
+}
+
 TEST(SessionFiles, ARowThatWasHalfWrittenIsTakenAway) {
   addTwo();
   const std::string touches = contentOf(touches_);

@@ -1,5 +1,7 @@
 #include "host/session/session.hpp"
 
+#include <algorithm>
+
 #include "tests/host/session/hands.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -29,6 +31,15 @@ TEST_GROUP(GuidedSession) {
   }
   void rollAround(double load_n_per_m = 20) {
     for (int i = 0; i < 1000; ++i) take(hand.touch(0.72 * i, load_n_per_m + 0.01 * i));
+  }
+  calibration::CalibrationResult poorlyTold() const {
+    const calibration::Drawing drawing(config);
+    return {drawing,
+            Eigen::VectorXd::Zero(drawing.unknowns()),
+            Eigen::MatrixXd::Identity(drawing.unknowns(), drawing.unknowns()),
+            {},
+            {0, 0},
+            true};
   }
   std::string say(const char* text) {
     return session.obey(parseCommand(text, config.finger.length_m)).message;
@@ -129,6 +140,41 @@ TEST(GuidedSession, ADoubtfulLoadThatIsEnteredTwiceIsTaken) {
   LONGS_EQUAL(1, session.coverage().loads);
 }
 
+TEST(GuidedSession, WhatWasEnteredIsTakenBackTheLastFirst) {
+  leaveAlone(5.1);
+  hold(45, 24);
+  say("load 24 N/m");
+  say("angle 45");
+  hold(90, 20);
+  const std::size_t rows = session.rows().size();
+  STRCMP_EQUAL("the angle of 45 deg is taken back", say("undo").c_str());
+  STRCMP_EQUAL("the load of 24 N/m is taken back", say("undo").c_str());
+  LONGS_EQUAL(0, session.coverage().loads);
+  STRCMP_EQUAL("no load and no angle was entered yet", say("undo").c_str());
+  CHECK_FALSE(session.obey(Undo{}).takenBack);
+  LONGS_EQUAL(rows, session.rows().size());
+  LONGS_EQUAL(10,
+              std::ranges::count_if(session.rows().known, [](const auto& of) { return of.isUntouched(); }));
+}
+
+TEST(GuidedSession, NoFitStandsThatKnewWhatWasTakenBack) {
+  leaveAlone(5.1);
+  rollAround();
+  hold(45, 24);
+  say("load 24 N/m");
+  session.takeFit({.rows = session.beginFit().size(), .result = poorlyTold()});
+  CHECK_TRUE(session.fit().has_value());
+  session.beginFit();
+  CHECK_TRUE(session.obey(Undo{}).takenBack);
+  CHECK_FALSE(session.fit().has_value());
+  CHECK_TRUE(session.wantsFit());
+  session.takeFit({.rows = 1, .result = poorlyTold()});  // was under way
+  CHECK_FALSE(session.fit().has_value());
+  session.beginFit();
+  session.takeFit({.rows = 1, .result = poorlyTold()});
+  CHECK_TRUE(session.fit().has_value());
+}
+
 // Nothing can be told by wires that are wrong.
 TEST(GuidedSession, NoLoadIsDoubtedOfReadingsThatNoTouchExplains) {
   for (int i = 0; i < 40; ++i) take(-hand.touch(45, 24));
@@ -159,14 +205,10 @@ TEST(GuidedSession, SkippingAnotherLoadLeavesWhatLoadsHaveTold) {
   leaveAlone(5.1);
   rollAround(10);
   rollAround(18);
-  const calibration::Drawing drawing(config);
-  const calibration::CalibrationResult poorlyTold(
-      drawing, Eigen::VectorXd::Zero(drawing.unknowns()),
-      Eigen::MatrixXd::Identity(drawing.unknowns(), drawing.unknowns()), {}, {0, 0}, true);
   Assessment assessment;
   assessment.unitOfForce = 0.05;
   assessment.unitAfterPress.assign(16, 0.03);
-  session.takeFit({.rows = session.rows().size(), .result = poorlyTold, .assessment = assessment});
+  session.takeFit({.rows = session.rows().size(), .result = poorlyTold(), .assessment = assessment});
   hold(45, 24);
   say("load 24 N/m");
   CHECK(session.advice().kind == Kind::kPress);

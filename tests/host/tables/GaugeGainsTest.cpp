@@ -16,7 +16,7 @@ using namespace strainfinger::tables;
 
 namespace {
 
-GaugeGains gainsOf(const config::FingerConfig& config) { return gaugeGains(config, depthFit(config)); }
+GaugeGains tabledGains(const config::FingerConfig& config) { return gaugeGains(config, depthFit(config)); }
 
 }  // namespace
 
@@ -28,7 +28,7 @@ return config;
 }
 
 void checkFactor(double gain, double tolerance) {
-  const auto factors = correctionFactors(gainsOf(configWith(gain, 1)), 16);
+  const auto factors = correctionFactors(tabledGains(configWith(gain, 1)), 16);
   DOUBLES_EQUAL(1 / gain, factors[0], tolerance);
   DOUBLES_EQUAL(1, factors[15], 0);
 }
@@ -36,9 +36,9 @@ void checkFactor(double gain, double tolerance) {
 ;
 
 TEST(GaugeGains, AreThereOnlyAfterCalibration) {
-  CHECK_FALSE(gainsOf({}).areKnown());
-  CHECK_TRUE(gainsOf(configWith(1, 1)).areKnown());
-  DOUBLES_EQUAL(1, correctionFactors(gainsOf({}), 16)[3], 0);
+  CHECK_FALSE(tabledGains({}).areKnown());
+  CHECK_TRUE(tabledGains(configWith(1, 1)).areKnown());
+  DOUBLES_EQUAL(1, correctionFactors(tabledGains({}), 16)[3], 0);
 }
 
 TEST(GaugeGains, HaveStepsOf60MillionthsFromAHalfToTwo) {
@@ -67,7 +67,7 @@ TEST(GaugeGains, AGaugeThatLiesTooDeepToReadAnythingIsNamed) {
   config.calibration.depth_offset_m.assign(16, 0);
   config.calibration.depth_offset_m[7] = 5e-4;  // on the core
   try {
-    gainsOf(config);
+    tabledGains(config);
     FAIL("accepted");
   } catch (const Failure& failure) {
     LONGS_EQUAL(static_cast<int>(ExitCode::kUsage), static_cast<int>(failure.code()));

@@ -177,7 +177,6 @@ def arguments():
     parser.add_argument("--report", help="file to write the figures to, too")
     parser.add_argument("--interrupt", action="append", default=[])
     parser.add_argument("--sources", help="folder whose path may not be in the image")
-    parser.add_argument("--entry", default="resetHandler")
     return parser.parse_args()
 
 
@@ -202,7 +201,7 @@ def main():
             complain(f"floating point: {name} is linked, called by {', '.join(callers) or 'nobody'}")
 
     stack = Stack(functions, complain)
-    deepest, path = stack.of(by_name[options.entry])
+    deepest, path = stack.of(by_name["resetHandler"])
     handlers = [stack.of(by_name[name]) for name in options.interrupt]
     if handlers:
         above = max(handlers, key=lambda found: found[0])

@@ -1,4 +1,4 @@
-# A room is a folder with one target; this is the only way targets of ours are made, so that all get the
+# A room is a folder with one target; the libraries of common, hal, firmware and host are made here, so that all get the
 # same warnings and the same include root ("common/fixed.hpp"). What a room may include is listed in
 # tests/architecture and checked there.
 

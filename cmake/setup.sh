@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# setup.sh [demo|test|bench]: installs the Debian packages that the workflow of that name needs; without a word, those
-# of all. Safe to run again: says nothing when there is nothing to do. Needs root, or sudo.
+# setup.sh [demo|test|bench]: installs the Debian packages that the workflow of that name needs; without an argument,
+# those of all. Safe to run again: says nothing when there is nothing to do. Needs root, or sudo.
 set -euo pipefail
 
 demo=(

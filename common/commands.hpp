@@ -82,7 +82,7 @@ struct ArgumentSpec {
   std::uint16_t even = 0;  ///< may be added to it: even while touched
 };
 inline constexpr std::uint16_t kNodeEvenWhileTouched = 0x100;
-// Of a type that is deduced GCC 12 keeps a table in RAM.
+// With a deduced type GCC 12 puts this table into RAM instead of flash.
 inline constexpr std::array<ArgumentSpec, 9> kArguments{
     ArgumentSpec{Command::kTare, 0, 1, 0, 1},
     ArgumentSpec{Command::kContactRate, 2, 2, kSlowestContactRate_hz, kFastestContactRate_hz},

@@ -259,7 +259,8 @@ inline constexpr FrameLayout kLayout<ContactFrame>{
           {.lsb = 48, .width = 8, .limit = 100, .unknowable = true},
           {.name = "quality",
            .unit = "percent",
-           .comment = "How well the contacts explain the strains: 100 is as well as the noise allows"}},
+           .comment = "How well the contacts explain the strains: 100 is as well as the noise allows; 20 or "
+                      "less where the flag uncertain is set"}},
     Field{&ContactFrame::sequence,
           {.lsb = 56, .width = 8},
           {.name = "sequence",

@@ -8,8 +8,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
-#include <optional>
 #include <span>
 #include <type_traits>
 
@@ -172,15 +170,15 @@ static_assert(sizeof(TableParameters) == 144 && sizeof(TableConstants) == 112 &&
 static_assert(sizeof(TableImage) == 16 + 144 + 112 + 4 * kMaxGauges + 72 + 96 + 24 * kMostPatches,
               "no padding anywhere");
 
-/// Why an image was refused. The numbers go on the bus and into exit statuses: never reuse one.
+/// Why an image was refused.
 enum class TableFault : std::uint8_t {
-  kNone = 0,
-  kTooShort = 1,  ///< not even a header
-  kMagic = 2,
-  kFormat = 3,  ///< another format than kTableFormat
-  kLength = 4,
-  kChecksum = 5,
-  kConstants = 6,  ///< checksum right, but a number is outside what the firmware can work with
+  kNone,
+  kTooShort,  ///< not even a header
+  kMagic,
+  kFormat,  ///< another format than kTableFormat
+  kLength,
+  kChecksum,
+  kConstants,  ///< checksum right, but a number is outside what the firmware can work with
 };
 
 /// Magic, format, length and checksum: what must be there before an image can be judged.

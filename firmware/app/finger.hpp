@@ -38,7 +38,7 @@ struct FingerSettings {
 /// What a finger was told that it can't do while it runs.
 enum class Leaving : std::uint8_t { kStays, kLoads, kRestarts };
 
-/// Counts of what could not be returned. They only grow.
+/// Counters of what happened that no return value reports. They only grow.
 struct FingerCounters {
   std::uint32_t sampleSets = 0;
   std::uint32_t fits = 0;

@@ -83,12 +83,6 @@ SlcanText slcanState(const hal::CanStatus& status) {
   return text;
 }
 
-SlcanText slcanError(SlcanError error) {
-  SlcanText text;
-  for (const char character : {'e', '1', static_cast<char>(error), '\r'}) text.add(character);
-  return text;
-}
-
 SlcanCommand slcanCommand(std::string_view line) {
   using Kind = SlcanCommand::Kind;
   if (line.empty()) return {Kind::kNothing, {}};

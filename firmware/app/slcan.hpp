@@ -8,7 +8,6 @@
 //   N0001\r F00\r      serial number, flags                           device to host
 //   sp130004\r         state passive (a w p b: as hal::CanState),      device to host
 //                      130 receive and 4 transmit errors
-//   e2aO\r             2 errors: no acknowledge, transmit overrun      device to host
 //   \a                 not understood                                   device to host
 
 #include <array>
@@ -45,19 +44,6 @@ SlcanText slcanFrame(const CanFrame& frame);
 /// The line that tells the host of the bus's state; nothing for kDown, which has none. Counters that are not
 /// known are sent as 0.
 SlcanText slcanState(const hal::CanStatus& status);
-
-/// What can go wrong with a frame, by the letters of the driver.
-enum class SlcanError : char {
-  kAcknowledge = 'a',
-  kBit0 = 'b',
-  kBit1 = 'B',
-  kChecksum = 'c',
-  kForm = 'f',
-  kReceiveOverrun = 'o',
-  kTransmitOverrun = 'O',
-  kStuff = 's',
-};
-SlcanText slcanError(SlcanError error);
 
 /// What a line from the host wants.
 struct SlcanCommand {

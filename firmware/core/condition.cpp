@@ -4,22 +4,12 @@
 
 namespace strainfinger::firmware {
 
-Calibration nominalCalibration(const TableConstants& constants) {
+Calibration tabledCalibration(const TableImage& tables) {
   Calibration calibration;
   calibration.zero_q15.fill(0x8000 << kCodeBits);
-  calibration.gain.fill(constants.reading_gain);
-  return calibration;
-}
-
-Calibration tabledCalibration(const TableImage& tables) {
-  Calibration calibration = nominalCalibration(tables.constants);
   for (std::size_t i = 0; i < calibration.gain.size(); ++i)
     calibration.gain[i] = static_cast<std::int32_t>(tables.gains.gainOf(tables.constants.reading_gain, i));
   return calibration;
-}
-
-std::int32_t strainOf(const Calibration& calibration, std::uint16_t code, std::size_t gauge) {
-  return conditioned(code, calibration.zero_q15[gauge], calibration.gain[gauge]);
 }
 
 void condition(const Calibration& calibration, Codes codes, Readings& readings) {

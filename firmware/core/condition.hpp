@@ -21,9 +21,6 @@ struct Calibration {
   std::array<std::int32_t, kMaxGauges> gain{};
 };
 
-/// Every gauge at nominal gain, the zero at mid-scale.
-Calibration nominalCalibration(const TableConstants& constants);
-
 /// Every gauge at the gain that the tables have for it, the zero at mid-scale. `tables` passed
 /// checkTableImage().
 Calibration tabledCalibration(const TableImage& tables);
@@ -34,9 +31,6 @@ inline constexpr int kCodeBits = 15;  ///< a code's fraction bits as a zero
 inline Number conditioned(Number code, Number zero, Number gain) {
   return mulHigh(code * (1 << kCodeBits) - zero, gain);
 }
-
-/// strain * 2^32 of one gauge's code; see condition().
-std::int32_t strainOf(const Calibration& calibration, std::uint16_t code, std::size_t gauge);
 
 struct Readings {
   std::array<std::int32_t, kMaxGauges> strain_q32{};

@@ -17,11 +17,19 @@
 
 namespace strainfinger::firmware {
 
-/// Energy of a ring's strains: the sum of their squares / 4^gate_shift, rounded down, saturating at 2^32 - 1.
-/// An even number of strains, up to 32, each smaller than 2^29 (usableGain()), so that the sum stays below
-/// 2^63.
-inline std::uint32_t gateEnergy(const TableConstants& constants, std::span<const std::int32_t> strains_q32) {
+/// A sum of squares of strains / 4^gate_shift, rounded down, saturating at 2^32 - 1.
+inline std::uint32_t gateEnergy(const TableConstants& constants, std::int64_t sumOfSquares) {
   static_assert(2 * kMostGateShift < 32);
+  const int down = 2 * constants.gate_shift;
+  const auto upper = static_cast<std::uint32_t>(sumOfSquares >> 32),
+             lower = static_cast<std::uint32_t>(sumOfSquares);
+  if (upper >> down != 0) return ~std::uint32_t{0};
+  return lower >> down | upper << (31 - down) << 1;
+}
+
+/// Energy of a ring's strains: an even number of them, up to 32, each smaller than 2^29 (usableGain()), so
+/// that the sum stays below 2^63.
+inline std::uint32_t gateEnergy(const TableConstants& constants, std::span<const std::int32_t> strains_q32) {
   const std::int32_t* strain = strains_q32.data();
   const std::int32_t* const end = strain + strains_q32.size();
   std::int64_t energy = 0;
@@ -35,10 +43,16 @@ inline std::uint32_t gateEnergy(const TableConstants& constants, std::span<const
     addTwo();
     addTwo();
   }
-  const int down = 2 * constants.gate_shift;
-  const auto upper = static_cast<std::uint32_t>(energy >> 32), lower = static_cast<std::uint32_t>(energy);
-  if (upper >> down != 0) return ~std::uint32_t{0};
-  return lower >> down | upper << (31 - down) << 1;
+  return gateEnergy(constants, energy);
+}
+
+/// The same of some gauges.
+inline std::uint32_t gateEnergy(const TableConstants& constants, std::span<const std::int32_t> strains_q32,
+                                GaugeSet gauges) {
+  std::int64_t energy = 0;
+  for (std::size_t i = 0; i < strains_q32.size(); ++i)
+    if (contains(gauges, static_cast<int>(i))) energy += squareOf(strains_q32[i]);
+  return gateEnergy(constants, energy);
 }
 
 /// Standard deviation of a reading [strain * 2^32], within 0.1 %.
@@ -56,7 +70,8 @@ class ContactGate {
  public:
   bool touched() const { return touched_; }
   /// `variance_q4`: of a reading, in configured ones [* 2^4], at least 1.
-  bool update(const TableConstants& constants, std::uint32_t energy, std::uint32_t variance_q4 = 1 << 4) {
+  bool update(const TableConstants& constants, std::uint32_t energy,
+              std::uint32_t variance_q4 = kConfiguredNoise_q4) {
     const std::uint32_t gate = touched_ ? constants.gate_off : constants.gate_on;
     touched_ = std::uint64_t{energy} << 4 >= std::uint64_t{gate} * variance_q4;
     return touched_;
@@ -96,7 +111,7 @@ class NoiseMeter {
   void interrupt() { phase_ = 0; }
 
   /// Variance of a reading in configured ones [* 2^4], at least 1.
-  std::uint32_t variance_q4() const { return std::max<std::uint32_t>(mean_q8_ >> 4, 1 << 4); }
+  std::uint32_t variance_q4() const { return std::max(mean_q8_ >> 4, kConfiguredNoise_q4); }
   bool isNoisy() const { return mean_q8_ >= kNoisy_q8 || noisyGauges_ != 0; }
   /// Those that are noisy by themselves.
   GaugeSet noisyGauges() const { return noisyGauges_; }
@@ -163,10 +178,7 @@ class NoiseMeter {
   /// Square of a strain that is loud in a ring of these gauges. Below 2^60.
   static std::int64_t loudFrom(const TableConstants& constants, std::span<const std::int32_t> strains_q32,
                                GaugeSet gauges) {
-    Readings counted;
-    for (std::size_t i = 0; i < strains_q32.size(); ++i)
-      if (contains(gauges, static_cast<int>(i))) counted.strain_q32[i] = strains_q32[i];
-    const std::uint64_t ring = gateEnergy(constants, counted.strains(constants.gauge_count));
+    const std::uint64_t ring = gateEnergy(constants, strains_q32, gauges);
     const auto energy = static_cast<std::uint32_t>(std::min<std::uint64_t>(
         std::max(ring, configuredEnergy(constants)), std::numeric_limits<std::uint32_t>::max()));
     return std::int64_t{kLoud} * (energy / constants.gauge_count + 1) << 2 * constants.gate_shift;

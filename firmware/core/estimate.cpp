@@ -28,13 +28,13 @@ std::uint64_t moment_um2(const TableConstants& constants, std::int64_t moment_q2
 
 /// [Percent] of what is left, by what the gate allows.
 std::uint8_t qualityOf(const Answer& answer, int freedoms) {
-  constexpr int kMostUncertain = 20;
   const std::int64_t allowed =
       energyOf(answer.variances, threshold::kGatePerFreedom * freedoms + threshold::kGate);
   const std::int64_t energy = answer.solution.residualEnergy;
   const auto quality = energy <= allowed ? 100 : std::max<std::int64_t>(100 * allowed / energy, 1);
-  if (!answer.accepted) return static_cast<std::uint8_t>(std::min<std::int64_t>(quality, kMostUncertain));
-  return static_cast<std::uint8_t>(std::max<std::int64_t>(quality, kMostUncertain + 1));
+  if (!answer.accepted)
+    return static_cast<std::uint8_t>(std::min<std::int64_t>(quality, kMostUncertainQuality));
+  return static_cast<std::uint8_t>(std::max<std::int64_t>(quality, kMostUncertainQuality + 1));
 }
 
 /// Square root of chi-squared a degree of freedom [* 2^4].
@@ -96,19 +96,19 @@ LineLoadQ12 loadOf(const TableConstants& constants, const Answer& answer, std::i
       lineLoad(static_cast<Number>(amplitude), constants.load_scale, constants.load_exponent + answer.shift));
 }
 
-/// A standard error of which three reach so far.
+/// The standard error, raised if need be so that three of it cover `far`.
 constexpr Wide reaching(Wide sigma, Wide far) { return std::max(sigma, magnitude(far) / 3); }
 
 /// Errors reach a rival that the readings hardly tell from the answer. Ambiguous: it is kNamed_16 away or
 /// farther, whatever the errors; or nearer, beyond the answer's own errors, and noise alone may have told the
 /// wrong one.
 void coverRival(const TableConstants& constants, const Answer& answer, int contact, Contact& estimated) {
-  if (!answer.rivalIsAsLikely) return;
-  const ContactState& rival = answer.rival[index(contact)];
+  if (!answer.rival.isAsLikely) return;
+  const ContactState& rival = answer.rival.contact[index(contact)];
   const Wide turned_q32 = static_cast<std::int32_t>(rival.angle_q32 - estimated.angle.raw());
   const Wide own_q32 = estimated.sigmaAngle.raw(), sigma_q32 = reaching(own_q32, turned_q32);
   estimated.ambiguous = magnitude(turned_q32) * constants.gauge_count >> 28 >= threshold::kNamed_16 ||
-                        (answer.rivalIsWithinNoise && sigma_q32 > own_q32);
+                        (answer.rival.isWithinNoise && sigma_q32 > own_q32);
   estimated.sigmaAngle = TurnQ32::fromRaw(static_cast<std::uint32_t>(sigma_q32));
   const auto cover = [&](LineLoadQ12& sigma, LineLoadQ12 told, Number amplitude) {
     const Wide off = Wide{loadOf(constants, answer, amplitude).raw()} - told.raw();
@@ -146,25 +146,26 @@ Contact estimate(const TableConstants& constants, const Answer& answer, const Un
                      reading.exponent + unit.exponent - 2 + unitBits, most);
   };
   const auto load = [&](std::int64_t amplitude) { return loadOf(constants, answer, amplitude); };
-  const int contacts = hypothesis.contacts;
   Contact estimated;
   estimated.angle = TurnQ32::fromRaw(state.angle_q32);
   const std::int64_t turn =
-      sigma(2 * contacts + contact, kAngleBits, kMostHalfNodes) * halfNode_q32(constants) >> kAngleBits;
+      sigma(angleOf(hypothesis, contact), kAngleBits, kMostHalfNodes) * halfNode_q32(constants) >> kAngleBits;
   estimated.sigmaAngle = TurnQ32::fromRaw(static_cast<std::uint32_t>(std::min(turn, kHalfTurn_q32)));
   estimated.normal = load(state.normal);
   estimated.tangential = load(state.tangential);
-  estimated.sigmaNormal = load(sigma(2 * contact, 16, kMostLoad));
-  estimated.sigmaTangential = load(sigma(2 * contact + 1, 16, kMostLoad));
+  estimated.sigmaNormal = load(sigma(loadsOf(contact), 16, kMostLoad));
+  estimated.sigmaTangential = load(sigma(loadsOf(contact) + 1, 16, kMostLoad));
   bool tooWide = false;
   if (hypothesis.widthIsFree) {
-    const std::int64_t sigma_q20 = together(sigma(3 * contacts + contact, kMomentBits, 1 << kMomentBits),
-                                            Wide{constants.moment_error_q16} << (kMomentBits - 16));
+    const std::int64_t sigma_q20 =
+        together(sigma(momentOf(hypothesis, contact), kMomentBits, 1 << kMomentBits),
+                 Wide{constants.moment_error_q16} << (kMomentBits - 16));
     setWidth(constants, state.moment_q20, sigma_q20, estimated);
     tooWide = state.moment_q20 > (1 << kMomentBits) - (1 << kMomentBits) / 64;
   }
-  const bool faint = contacts > 1 && estimated.normal.raw() <
-                                         threshold::kFewestSigmas * std::int64_t{estimated.sigmaNormal.raw()};
+  const bool faint =
+      hypothesis.contacts > 1 &&
+      estimated.normal.raw() < threshold::kFewestSigmas * std::int64_t{estimated.sigmaNormal.raw()};
   estimated.sigmaNormal =
       withCalibrationError(constants, estimated.sigmaNormal, estimated.normal, estimated.normal);
   estimated.sigmaTangential =
@@ -174,11 +175,11 @@ Contact estimate(const TableConstants& constants, const Answer& answer, const Un
   estimated.quality = qualityOf(answer, left);
   coverRival(constants, answer, contact, estimated);
   estimated.sigmaAngle = withPlaceError(constants, estimated.sigmaAngle);
-  estimated.alternative = TurnQ32::fromRaw(answer.rival[index(contact)].angle_q32);
+  estimated.alternative = TurnQ32::fromRaw(answer.rival.contact[index(contact)].angle_q32);
   estimated.uncertain = estimated.ambiguous || !answer.accepted || answer.searching || answer.doubtful ||
                         areTooNear(constants, answer.solution) || tooWide || faint || answer.weak ||
                         isLimited(state);
-  if (estimated.uncertain) estimated.quality = std::min<std::uint8_t>(estimated.quality, 20);
+  if (estimated.uncertain) estimated.quality = std::min(estimated.quality, kMostUncertainQuality);
   return estimated;
 }
 

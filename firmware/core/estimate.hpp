@@ -19,6 +19,9 @@ struct UnitErrors {
   }
 };
 
+/// The quality of an uncertain contact is at most this [percent].
+inline constexpr std::uint8_t kMostUncertainQuality = 20;
+
 /// Cost: a root an unknown, and the diagonal of the inverse.
 UnitErrors unitErrors(const Linearisation& linearisation);
 

@@ -164,10 +164,6 @@ class ContactModel {
   std::array<Side, 2> side_;
 };
 
-int loadsOf(int contact) { return 2 * contact; }
-int angleOf(const Hypothesis& hypothesis, int contact) { return 2 * hypothesis.contacts + contact; }
-int momentOf(const Hypothesis& hypothesis, int contact) { return 3 * hypothesis.contacts + contact; }
-
 /// Gauges that are fitted.
 GaugeSet fittedGauges(const Hypothesis& hypothesis) {
   return hypothesis.exact != 0 ? hypothesis.exact : hypothesis.gauges;
@@ -276,15 +272,15 @@ Residual residualOf(int gauges, const Linearisation& linearisation, const Scaled
 
 /// [units of an unknown] as a step of its column.
 Number stepOf(Number units, int exponent, int unitBits) {
-  return shifted(units, exponent + kStepBits - unitBits, 1 << 28);
+  return shifted(units, exponent + kStepBits - unitBits, 1 << kStepLimitBits);
 }
 
 void setLimits(const TableConstants& constants, const Linearisation& linearisation, Vector& low,
                Vector& high) {
   const Hypothesis& hypothesis = linearisation.hypothesis;
   for (int i = 0; i < angleOf(hypothesis, 0); ++i) {
-    low[index(i)] = -(1 << 28);
-    high[index(i)] = 1 << 28;
+    low[index(i)] = -(1 << kStepLimitBits);
+    high[index(i)] = 1 << kStepLimitBits;
   }
   for (int k = 0; k < hypothesis.contacts; ++k) {
     const int angle = angleOf(hypothesis, k);
@@ -305,16 +301,12 @@ Wide leftOf(Wide energy, Wide reduction) {
   return lesser(std::max<Wide>(energy - reduction, 0), Wide{1} << kMostEnergyBits);
 }
 
-/// A step of a column in units of its unknown.
-Number unitsOf(Number x_q14, int exponent, int unitBits, Number limit) {
-  return shifted(x_q14, unitBits - kStepBits - exponent, limit);
-}
-
 void take(const TableConstants& constants, const Linearisation& linearisation, const Step& step,
           ContactStates& contacts) {
   const Hypothesis& hypothesis = linearisation.hypothesis;
   const auto units = [&](int unknown, int unitBits) {
-    return unitsOf(step.x_q14[index(unknown)], linearisation.exponent[index(unknown)], unitBits, 1 << 28);
+    return shifted(step.x_q14[index(unknown)], unitBits - kStepBits - linearisation.exponent[index(unknown)],
+                   1 << kStepLimitBits);
   };
   for (int k = 0; k < hypothesis.contacts; ++k) {
     ContactState& contact = contacts[index(k)];
@@ -338,16 +330,6 @@ constexpr int kShortTurnBits = 8, kShortLoadBits = 7, kShortWideningBits = 6, kS
 /// Columns hold so many times [log2] as far: a touch that slides on is told within 0.13 of sigma RMS of what
 /// columns of each place tell (LocatorTest, FollowsAMovingTouchWithTheAnswersOfOneSetAlone).
 constexpr int kSlopesHoldBits = 3;
-
-}  // namespace
-
-bool isShortTurn(const TableConstants& constants, std::uint32_t turned_q32, int farther) {
-  const std::uint32_t short_q32 = (std::uint32_t{1} << (32 - kShortTurnBits)) / constants.gauge_count
-                                  << farther;
-  return turned_q32 + short_q32 <= 2 * short_q32;
-}
-
-namespace {
 
 /// `farther`: so many times as far [log2].
 bool isShort(const TableConstants& constants, const ContactState& from, const ContactState& to,
@@ -380,6 +362,12 @@ bool isConverged(const TableConstants& constants, const Linearisation& linearisa
 }
 
 }  // namespace
+
+bool isShortTurn(const TableConstants& constants, std::uint32_t turned_q32, int farther) {
+  const std::uint32_t short_q32 = (std::uint32_t{1} << (32 - kShortTurnBits)) / constants.gauge_count
+                                  << farther;
+  return turned_q32 + short_q32 <= 2 * short_q32;
+}
 
 bool isInReach(const TableImage& tables, const ContactState& contact, int gauge) {
   const std::uint32_t reach_q32 = tables.constants.reach_q32;

@@ -11,9 +11,15 @@
 
 namespace strainfinger::firmware {
 
+/// Unknowns are ordered normal and tangential load of each contact, angles, second moments.
+constexpr int loadsOf(int contact) { return 2 * contact; }
+constexpr int angleOf(const Hypothesis& hypothesis, int contact) { return 2 * hypothesis.contacts + contact; }
+constexpr int momentOf(const Hypothesis& hypothesis, int contact) {
+  return 3 * hypothesis.contacts + contact;
+}
+
 /// A hypothesis linearised at some contacts: what the gauges should read, and how that changes with each
-/// unknown, there or near by. Unknowns are ordered normal and tangential load of each contact, angles, second
-/// moments.
+/// unknown, there or near by.
 struct Linearisation {
   Hypothesis hypothesis;
   ContactStates at;        ///< where the predictions are of
@@ -60,14 +66,15 @@ Solution step(const TableImage& tables, const Linearisation& linearisation, cons
 /// Sum of squares of what the predictions leave of the readings that count, by their weights.
 Wide energyLeft(const TableImage& tables, const Linearisation& linearisation, const ScaledReadings& readings);
 
-/// Of the way from one place to another, whose step promised to take off so much and `missed` that by so
-/// much: as far as the parabola through both places, with the slope of the promise, is lowest.
+/// The point between `from` and `to` at which a parabola through the energies left at both is lowest.
+/// `promised`: by how much the linear model said the step lowers the energy; `missed`: by how much what is
+/// left at `to` exceeds that.
 ContactStates partway(const ContactStates& from, const ContactStates& to, Wide promised, Wide missed);
 
-/// Moves a linearisation to where a step led, or, where more is left there than was, a part of the way: to
-/// the lowest point of the parabola through both and the slope that was promised. Where that is no better
-/// either it is left where it was, with columns of there. `solution`: where it is and what is left there;
-/// `converged` if no step helps, of columns that were of there before. The predictions that it took.
+/// Moves a linearisation to where a step led, if less is left there; else to partway(), if less is left
+/// there; else back to where it was, with columns of that place. `solution`: where it is now, and what is
+/// left there; converged where neither helped although the columns had been of the starting point. Returns
+/// how many predictions it computed.
 int descend(const TableImage& tables, const ScaledReadings& readings, Linearisation& linearisation,
             Solution& solution);
 inline constexpr int kDescentMoves = 3;  ///< at most

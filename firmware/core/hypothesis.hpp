@@ -23,6 +23,17 @@ using GaugeSet = std::uint32_t;
 constexpr GaugeSet allGauges(int count) { return ~GaugeSet{0} >> (kMaxGauges - count); }
 constexpr bool contains(GaugeSet gauges, int gauge) { return (gauges >> gauge & 1) != 0; }
 
+/// The gap between two gauges of an even ring.
+constexpr std::uint32_t pitch_q32(const TableConstants& constants) {
+  const std::uint32_t count = constants.gauge_count;
+  return (0 - count) / count + 1;  // 2^32 / count
+}
+
+/// How far two angles are apart, the shorter way round.
+constexpr std::uint32_t apart_q32(std::uint32_t a_q32, std::uint32_t b_q32) {
+  return std::min(a_q32 - b_q32, b_q32 - a_q32);
+}
+
 inline constexpr int kMostContacts = 2;
 
 /// A contact in the units of the fit.
@@ -63,10 +74,10 @@ struct Variances {
   std::uint32_t largest_q4 = 0;  ///< noise, rounding and the model's error of the largest reading
 };
 
-/// What the finger differs from the tables' puts a reading off by `model_error` of itself (gains), of this
-/// part [log2] of what each neighbour reads (a gauge that is glued off its place reads more like them), and
-/// of this part [log2] of the largest reading, whatever it reads itself. These standard deviations are added,
-/// not their squares.
+/// The finger as it is built differs from the one in the tables. Besides noise and rounding a reading is
+/// therefore off by `model_error` of itself (gains), of this part [log2] of what each neighbour reads (a
+/// gauge that is glued off its place reads more like them), and of this part [log2] of the largest reading,
+/// whatever it reads itself. These standard deviations are added, not their squares.
 inline constexpr int kNeighbourBits = 3, kLeastErrorBits = 4;
 
 /// By what each gauge's residual and columns are multiplied [* 2^14]: the standard deviation of a gauge that

@@ -130,8 +130,8 @@ inline Number dot(const Short* a, const Short* b, int count) {
   return sum;
 }
 
-/// By which many numbers are divided as multiplications: mantissa * 2^exponent; 0, or a mantissa in [2^29 -
-/// 4, 2^30] and an exponent in [-60, -30].
+/// What numbers are multiplied by to divide them by one and the same: mantissa * 2^exponent; 0, or a mantissa
+/// in [2^29 - 4, 2^30] and an exponent in [-60, -30].
 struct Reciprocal {
   Number mantissa = 0;
   Number exponent = 0;

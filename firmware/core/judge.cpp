@@ -13,6 +13,20 @@ Number largestReading(const ScaledReadings& readings, GaugeSet gauges) {
   return largest;
 }
 
+/// What the tables' pressure profiles lack is allowed for besides.
+bool isWithin(const Solution& solution, const ScaledReadings& readings, Wide allowed) {
+  const int left = freedoms(solution.hypothesis);
+  if (left < 1) return false;
+  if (solution.residualEnergy <= allowed) return true;
+  const Number off = largestReading(readings, solution.hypothesis.gauges) >> 5;
+  const Wide profile = (Wide{off} * off * left) >> (2 * (threshold::kProfileErrorBits - 5));
+  return solution.residualEnergy <= allowed + profile;
+}
+
+int doubt(const Hypothesis& hypothesis) {
+  return (threshold::kDoubtPerFreedom_q2 * freedoms(hypothesis) >> 2) + threshold::kDoubt;
+}
+
 }  // namespace
 
 Wide ambiguity(const Variances& variances, int sets) {
@@ -51,9 +65,8 @@ bool isWeak(const Solution& solution, const Variances& variances, bool was) {
 
 bool areTooNear(const TableConstants& constants, const Solution& solution) {
   if (solution.hypothesis.contacts < 2) return false;
-  const std::uint32_t apart_q32 = solution.contact[0].angle_q32 - solution.contact[1].angle_q32;
-  const std::uint32_t sixteenth_q32 = (std::uint32_t{1} << 28) / constants.gauge_count;
-  return std::min(apart_q32, 0 - apart_q32) < threshold::kApart_16 * sixteenth_q32;
+  return apart_q32(solution.contact[0].angle_q32, solution.contact[1].angle_q32) <
+         threshold::kApart_16 * (pitch_q32(constants) / 16);
 }
 
 Wide likelihoodEnergy(const TableConstants& constants, const Solution& solution,
@@ -65,24 +78,6 @@ Wide likelihoodEnergy(const TableConstants& constants, const Solution& solution,
 int freedoms(const Hypothesis& hypothesis) {
   return std::popcount(hypothesis.gauges) - hypothesis.unknowns();
 }
-
-namespace {
-
-/// What the tables' pressure profiles lack is allowed for besides.
-bool isWithin(const Solution& solution, const ScaledReadings& readings, Wide allowed) {
-  const int left = freedoms(solution.hypothesis);
-  if (left < 1) return false;
-  if (solution.residualEnergy <= allowed) return true;
-  const Number off = largestReading(readings, solution.hypothesis.gauges) >> 5;
-  const Wide profile = (Wide{off} * off * left) >> (2 * (threshold::kProfileErrorBits - 5));
-  return solution.residualEnergy <= allowed + profile;
-}
-
-int doubt(const Hypothesis& hypothesis) {
-  return (threshold::kDoubtPerFreedom_q2 * freedoms(hypothesis) >> 2) + threshold::kDoubt;
-}
-
-}  // namespace
 
 bool isWithinGate(const Solution& solution, const ScaledReadings& readings) {
   const int left = freedoms(solution.hypothesis);

@@ -102,6 +102,13 @@ constexpr Wide energyOf(const ScaledReadings& readings, Wide chiSquared) {
 /// sets: noise averages out, the model's error does not.
 Wide ambiguity(const Variances& variances, int sets = 1);
 
+/// A reading at a rail is a bound: what the contacts should make it read is as much or more, within a
+/// quarter.
+constexpr bool isRailPlausible(std::int32_t measured, std::int32_t predicted) {
+  const std::int32_t least = measured - measured / 4;
+  return measured < 0 ? predicted <= least : predicted >= least;
+}
+
 /// The contact presses and stays within the friction cone.
 bool isAdmissible(const TableConstants& constants, const ContactState& contact);
 bool isAdmissible(const TableConstants& constants, const Solution& solution);
@@ -125,15 +132,15 @@ int freedoms(const Hypothesis& hypothesis);
 /// The hypothesis explains the readings within noise and model error, admissible or not.
 bool isWithinGate(const Solution& solution, const ScaledReadings& readings);
 
-/// The same by admissible contacts.
+/// isWithinGate(), and all contacts are admissible.
 bool isAccepted(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings);
 
-/// The same within what leaves no doubt: noise alone seldom leaves more.
+/// Admissible, and within what leaves no doubt: noise alone seldom leaves more.
 bool isPlain(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings);
 
-/// Accepted, and the same with the model's part of the variance times threshold::kAsBuilt, as on a finger as
-/// built: that leaves no doubt once gauges were left out, and whether there are two contacts need not be
-/// looked at. `was`: a search has looked into it.
+/// isAccepted(), and within what leaves no doubt with the model's part of the variance times
+/// threshold::kAsBuilt, as on a finger as built: that leaves no doubt once gauges were left out, and whether
+/// there are two contacts need not be looked at. `was`: a search has looked into it.
 bool isPlainAsBuilt(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings,
                     bool was = false);
 

@@ -51,8 +51,7 @@ bool areAllContacts(const Solution& pair, const ScaledReadings& readings) {
 /// These contacts in the order in which they are nearest to a solution's.
 ContactStates inOrderOf(const Solution& solution, ContactStates contacts) {
   const auto apart = [&](int i, int j) {
-    const std::uint32_t turned = solution.contact[index(i)].angle_q32 - contacts[index(j)].angle_q32;
-    return magnitude(Wide{static_cast<std::int32_t>(turned)});
+    return Wide{apart_q32(solution.contact[index(i)].angle_q32, contacts[index(j)].angle_q32)};
   };
   if (solution.hypothesis.contacts == 2 && apart(0, 1) + apart(1, 0) < apart(0, 0) + apart(1, 1))
     std::swap(contacts[0], contacts[1]);
@@ -63,15 +62,15 @@ ContactStates inOrderOf(const Solution& solution, ContactStates contacts) {
 void compareRival(const TableConstants& constants, Answer& answer, Wide more) {
   const bool isAveraged = answer.solution.hypothesis.contacts == 1 && constants.model_error_q16 != 0;
   const int most = isAveraged ? kMostCompared : 1;
-  answer.setsCompared = static_cast<std::uint8_t>(std::min(answer.setsCompared + 1, most));
-  answer.rivalMore += (more - answer.rivalMore) / answer.setsCompared;
+  Rival& rival = answer.rival;
+  rival.setsCompared = static_cast<std::uint8_t>(std::min(rival.setsCompared + 1, most));
+  rival.more += (more - rival.more) / rival.setsCompared;
 }
 
-/// Flags of the rival, by that mean.
-void rateRival(Answer& answer, const Variances& variances) {
-  const int sets = answer.setsCompared;
-  answer.rivalIsAsLikely = answer.rivalMore < ambiguity(variances, sets);
-  answer.rivalIsWithinNoise = answer.rivalMore < energyOf(variances.noise_q4, threshold::kAmbiguous) / sets;
+/// Its flags, by that mean.
+void rate(Rival& rival, const Variances& variances) {
+  rival.isAsLikely = rival.more < ambiguity(variances, rival.setsCompared);
+  rival.isWithinNoise = rival.more < energyOf(variances.noise_q4, threshold::kAmbiguous) / rival.setsCompared;
 }
 
 /// The reading of a gauge that was left out is far from what the others predict.
@@ -145,12 +144,12 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
     ++passes;
   }
   const bool wasAccepted = answer_.accepted;
-  if (readings.shift != answer_.shift || areFewer) answer_.setsCompared = 0;  // of other readings
-  answer_.rival = rescaled(answer_.rival, answer_.shift, readings.shift);
+  if (readings.shift != answer_.shift || areFewer) answer_.rival.setsCompared = 0;  // of other readings
+  answer_.rival.contact = rescaled(answer_.rival.contact, answer_.shift, readings.shift);
   slidBefore_q32_ = slid_q32_;
   for (std::size_t k = 0; k < solution.contact.size(); ++k) {
     slid_q32_[k] = solution.contact[k].angle_q32 - answer_.solution.contact[k].angle_q32;
-    answer_.rival[k].angle_q32 += slid_q32_[k];
+    answer_.rival.contact[k].angle_q32 += slid_q32_[k];
   }
   believe(tables, solution, readings);
   const bool isLost = wasAccepted && !answer_.accepted && !answer_.searching &&
@@ -158,11 +157,6 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
   if (isLost) return std::nullopt;
   const int back = takeBack(tables, readings, gauges);
   return workOf(passes) + (back != 0 ? back : followRival(tables, readings));
-}
-
-void Locator::forgetRival() {
-  answer_.anyRival = answer_.rivalIsAsLikely = answer_.rivalIsWithinNoise = answer_.rivalIsLost = false;
-  answer_.timesRefuted = answer_.setsCompared = 0;
 }
 
 /// Gauges that work, feel the touch and were left out count again, once an answer explains their readings as
@@ -183,7 +177,7 @@ int Locator::takeBack(const TableImage& tables, const ScaledReadings& readings, 
     linearisation_ = scratch_;
     answer_.doubtful = answer_.several = false;
     answer_.suspect = 0;
-    answer_.setsCompared = 0;
+    answer_.rival.setsCompared = 0;
     believe(tables, solution, readings);
   }
   return Search::stepWork(tables, hypothesis);
@@ -193,37 +187,37 @@ int Locator::takeBack(const TableImage& tables, const ScaledReadings& readings, 
 /// show both answers in one sample set and one of them, perhaps the wrong one, in the next: what was said of
 /// the second holds until it is refuted several times, or a search has looked for it. The work it took.
 int Locator::followRival(const TableImage& tables, const ScaledReadings& readings) {
-  if (!answer_.anyRival || ++setsSinceRival_ % kRivalEvery != 0) return 0;
+  if (!answer_.rival.any || ++setsSinceRival_ % kRivalEvery != 0) return 0;
   const Solution answer = answer_.solution;
   const Hypothesis& hypothesis = answer.hypothesis;
-  linearise(tables, hypothesis, answer_.rival, scratch_, readings.weight_q14);
+  linearise(tables, hypothesis, answer_.rival.contact, scratch_, readings.weight_q14);
   const Solution rival = step(tables, scratch_, readings);
   const Wide more = likelihoodEnergy(tables.constants, rival, readings) -
                     likelihoodEnergy(tables.constants, answer, readings);
   const int contacts = hypothesis.contacts;
   const bool isMerged =
       areSame(tables.constants, contacts, answer.contact, rival.contact) ||
-      (answer_.rivalIsElsewhere && !areElsewhere(tables.constants, contacts, answer.contact, rival.contact));
+      (answer_.rival.isElsewhere && !areElsewhere(tables.constants, contacts, answer.contact, rival.contact));
   const Wide refuted = threshold::kRefuted * ambiguity(readings.variances);
   const bool isRefuted = more > refuted;
   // One set that is far off, by a spike or while the touch moves, does not decide for the sets after it.
   if (!isMerged) compareRival(tables.constants, answer_, std::min(more, refuted));
-  answer_.rivalIsLost = isMerged || isRefuted;
-  if (answer_.rivalIsLost) {
-    if (!isMerged) answer_.rival = rival.contact;
-    const bool hasTold = isRefuted && ++answer_.timesRefuted == kTimesRefuted;
-    if (hasTold || isFirm(tables.constants, answer, readings)) forgetRival();
+  answer_.rival.isLost = isMerged || isRefuted;
+  if (answer_.rival.isLost) {
+    if (!isMerged) answer_.rival.contact = rival.contact;
+    const bool hasTold = isRefuted && ++answer_.rival.timesRefuted == kTimesRefuted;
+    if (hasTold || isFirm(tables.constants, answer, readings)) answer_.rival = {};
     return Search::stepWork(tables, hypothesis);
   }
-  answer_.timesRefuted = 0;
-  answer_.rival = rival.contact;
-  const bool isLikelier = answer_.rivalMore < 0 && (rival.converged || answer_.setsCompared > 1);
-  if (isLikelier) answer_.rivalMore = -answer_.rivalMore;
-  rateRival(answer_, readings.variances);
+  answer_.rival.timesRefuted = 0;
+  answer_.rival.contact = rival.contact;
+  const bool isLikelier = answer_.rival.more < 0 && (rival.converged || answer_.rival.setsCompared > 1);
+  if (isLikelier) answer_.rival.more = -answer_.rival.more;
+  rate(answer_.rival, readings.variances);
   if (isLikelier) {
     // The touch itself has not moved.
     searchedAt_q32_ += rival.contact[0].angle_q32 - answer.contact[0].angle_q32;
-    answer_.rival = answer.contact;
+    answer_.rival.contact = answer.contact;
     linearisation_ = scratch_;
     believe(tables, rival, readings);
   }
@@ -276,7 +270,7 @@ bool Locator::conclude(const TableImage& tables) {
   }
   answer_.searching = answer_.doubtful = answer_.several = false;
   answer_.suspect = 0;
-  forgetRival();
+  answer_.rival = {};
   if (!best) return false;
   const bool faulty = explains[kWithoutOne], two = mayExplain[kPair];
   const Solution& answer = rankings[*best]->best;
@@ -307,15 +301,15 @@ GaugeSet Locator::culprit(const TableImage& tables) {
 void Locator::rememberRival(const TableImage& tables, const Ranking& ranking,
                             const ScaledReadings& readings) {
   if (!ranking.anySecond || ranking.second.hypothesis != ranking.best.hypothesis) return;
-  answer_.rival = inOrderOf(ranking.best, ranking.second.contact);
+  answer_.rival.contact = inOrderOf(ranking.best, ranking.second.contact);
   const Wide more = likelihoodEnergy(tables.constants, ranking.second, readings) -
                     likelihoodEnergy(tables.constants, ranking.best, readings);
   if (more > threshold::kRefuted * ambiguity(readings.variances)) return;
-  answer_.anyRival = true;
+  answer_.rival.any = true;
   compareRival(tables.constants, answer_, more);
-  rateRival(answer_, readings.variances);
-  answer_.rivalIsElsewhere =
-      areElsewhere(tables.constants, ranking.best.hypothesis.contacts, ranking.best.contact, answer_.rival);
+  rate(answer_.rival, readings.variances);
+  answer_.rival.isElsewhere = areElsewhere(tables.constants, ranking.best.hypothesis.contacts,
+                                           ranking.best.contact, answer_.rival.contact);
 }
 
 /// What a search found is the rival of the answer that was followed, where that explains these readings
@@ -326,9 +320,10 @@ void Locator::rememberFound(const TableConstants& constants, const Solution& fol
   if (!isPromising(constants, found) ||
       found.residualEnergy - followed.residualEnergy > threshold::kRefuted * ambiguity(readings.variances))
     return;
-  answer_.rival = inOrderOf(followed, found.contact);
-  answer_.setsCompared = 0;
-  answer_.anyRival = answer_.rivalIsAsLikely = answer_.rivalIsElsewhere = answer_.rivalIsWithinNoise = true;
+  answer_.rival.contact = inOrderOf(followed, found.contact);
+  answer_.rival.setsCompared = 0;
+  answer_.rival.any = answer_.rival.isAsLikely = answer_.rival.isElsewhere = answer_.rival.isWithinNoise =
+      true;
 }
 
 /// Within what is left of an update's work.
@@ -346,11 +341,11 @@ void Locator::goOn(const TableImage& tables, const ScaledReadings& readings, int
   // The touch has gone on since the search began: what was found has moved as the answer that was followed.
   const Hypothesis hypothesis = answer_.solution.hypothesis;
   ContactStates from = rescaled(answer_.solution.contact, answer_.shift, readings.shift);
-  answer_.rival = rescaled(answer_.rival, answer_.shift, readings.shift);
-  if (answer_.shift != readings.shift) answer_.setsCompared = 0;
+  answer_.rival.contact = rescaled(answer_.rival.contact, answer_.shift, readings.shift);
+  if (answer_.shift != readings.shift) answer_.rival.setsCompared = 0;
   const std::uint32_t moved_q32 = isFound ? followed.contact[0].angle_q32 - searchedAt_q32_ : 0;
   for (ContactState& contact : from) contact.angle_q32 += moved_q32;
-  for (ContactState& contact : answer_.rival) contact.angle_q32 += moved_q32;
+  for (ContactState& contact : answer_.rival.contact) contact.angle_q32 += moved_q32;
   const int steps = std::clamp(stepsLeft(), 1, kStepsAfterSearch);
   Solution now = fit(tables, hypothesis, from, readings, steps, linearisation_);
   if (followed.hypothesis == hypothesis && likelihoodEnergy(tables.constants, followed, readings) <=
@@ -421,11 +416,9 @@ void Locator::solveExactly(const TableImage& tables, const ScaledReadings& readi
       }
     }
   const Solution byThree = fit(tables, hypothesis, byAll.contact, readings, kMostSteps / 2, linearisation_);
-  const std::uint32_t apart = byThree.contact[0].angle_q32 - byAll.contact[0].angle_q32;
-  const std::uint32_t near_q32 =
-      static_cast<std::uint32_t>((std::uint64_t{1} << 28) / tables.constants.gauge_count);
-  if (apart + near_q32 <= 2 * near_q32 && isAdmissible(tables.constants, byThree))
-    return believe(tables, byThree, readings);
+  const bool isSamePlace =
+      apart_q32(byThree.contact[0].angle_q32, byAll.contact[0].angle_q32) <= pitch_q32(tables.constants) / 16;
+  if (isSamePlace && isAdmissible(tables.constants, byThree)) return believe(tables, byThree, readings);
   linearise(tables, byAll.hypothesis, byAll.contact, linearisation_, readings.weight_q14);
 }
 
@@ -465,7 +458,7 @@ void Locator::update(const TableImage& tables, std::span<const std::int32_t> str
   } else if (setsInDoubt_ == kNewDoubt && !answer_.doubtful) {
     answer_.searching = true;
     search(tables, readings, gauges);
-  } else if (!answer_.accepted || answer_.doubtful || answer_.rivalIsLost ||
+  } else if (!answer_.accepted || answer_.doubtful || answer_.rival.isLost ||
              areTooNear(tables.constants, answer_.solution) || !areAllContacts(answer_.solution, readings) ||
              (isLookOutdated(readings) && !isFirm(tables.constants, answer_.solution, readings))) {
     if (++setsSinceSearch_ >= kSearchAgainAfter) search(tables, readings, gauges);

@@ -23,26 +23,31 @@ struct Suspect {
   std::uint32_t angle_q32;  ///< of the contact
 };
 
+/// Another answer of the same hypothesis.
+struct Rival {
+  ContactStates contact;
+  bool any = false;            ///< there is one
+  bool isAsLikely = false;     ///< nearly, when it was last fitted, see ambiguity()
+  bool isWithinNoise = false;  ///< besides: noise alone may have told the wrong one
+  bool isElsewhere = false;    ///< when it was found, not another width of the same place
+  bool isLost = false;         ///< a search is to look for it
+  std::uint8_t timesRefuted = 0;
+  std::uint8_t setsCompared = 0;  ///< differences in `more`, at most kMostCompared; 0: begin anew
+  Wide more = 0;                  ///< energy that it leaves more than the answer, in their mean
+};
+
 /// What the locator believes.
 struct Answer {
   Solution solution;
   std::int8_t shift = 0;  ///< of the readings
   Variances variances;
-  ContactStates rival;              ///< another answer of the same hypothesis
-  bool anyRival = false;            ///< there is one
-  bool rivalIsAsLikely = false;     ///< nearly, when it was last fitted, see ambiguity()
-  bool rivalIsWithinNoise = false;  ///< besides: noise alone may have told the wrong one
-  bool rivalIsElsewhere = false;    ///< when it was found, not another width of the same place
-  bool rivalIsLost = false;         ///< a search is to look for it
-  std::uint8_t timesRefuted = 0;
-  std::uint8_t setsCompared = 0;  ///< differences in rivalMore, at most kMostCompared; 0: begin anew
-  Wide rivalMore = 0;             ///< energy that the rival leaves more than the answer, in their mean
-  bool doubtful = false;          ///< another hypothesis explains the readings nearly as well
-  bool accepted = false;          ///< the hypothesis explains the readings
-  bool weak = false;              ///< a contact is felt by little more than noise
-  bool searching = false;         ///< the search for other hypotheses goes on
-  bool several = false;           ///< two contacts, or nothing, explain the readings best
-  GaugeSet suspect = 0;           ///< as Suspect has it
+  Rival rival;
+  bool doubtful = false;   ///< another hypothesis explains the readings nearly as well
+  bool accepted = false;   ///< the hypothesis explains the readings
+  bool weak = false;       ///< a contact is felt by little more than noise
+  bool searching = false;  ///< the search for other hypotheses goes on
+  bool several = false;    ///< two contacts, or nothing, explain the readings best
+  GaugeSet suspect = 0;    ///< as Suspect has it
 };
 
 /// Starts from the last answer where it still explains the readings, else from the readings; searches where
@@ -90,7 +95,6 @@ class Locator {
   void settle(const TableImage& tables, const ScaledReadings& readings);
   void goOn(const TableImage& tables, const ScaledReadings& readings, int workDone);
   void search(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
-  void forgetRival();
   int takeBack(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
   bool conclude(const TableImage& tables);
   GaugeSet culprit(const TableImage& tables);

@@ -9,7 +9,6 @@ constexpr int kUndeterminedBits = 12;
 constexpr int kSumBits = kColumnBits + kColumnBits + 5;  ///< of products of columns and residuals
 constexpr int kLowerLimitBits = 30;
 constexpr int kInverseLimitBits = 29;
-constexpr int kStepLimitBits = 28;
 
 /// Scalar product of the first `last` entries of a row of L and a vector: at most seven products below 2^60.
 Number product(const Number* lower_q20, const Vector& vector, int last) {

@@ -19,6 +19,7 @@ using Rows = std::array<Short, kMaxGauges>;
 inline constexpr int kColumnBits = 12;
 inline constexpr int kLowerBits = 20;
 inline constexpr int kStepBits = 14;
+inline constexpr int kStepLimitBits = 28;
 
 /// N = L D L^T. An unknown of which the others leave less than 2^-12 of its column's square is taken for
 /// undetermined: its pivot is 0 and it keeps its value.

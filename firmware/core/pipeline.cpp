@@ -13,14 +13,6 @@ constexpr int kGaugesPerOut = 8;
 constexpr Wide kDisturbance = 64;
 constexpr int kSettled = 24;
 
-/// Gate energy of some gauges.
-std::uint32_t energyOf(const TableConstants& constants, const Readings& readings, GaugeSet gauges) {
-  Readings counted;
-  for (int i = 0; i < constants.gauge_count; ++i)
-    if (contains(gauges, i)) counted.strain_q32[index(i)] = readings.strain_q32[index(i)];
-  return gateEnergy(constants, counted.strains(constants.gauge_count));
-}
-
 }  // namespace
 
 void Pipeline::takeZero(const ZeroAverage& zero) {
@@ -33,23 +25,21 @@ void Pipeline::takeZero(const ZeroAverage& zero) {
 /// The readings are small, and not for long those of contacts: hum or drift. A touch stays one until as many
 /// sets in a row are not those of contacts: one reading that is off in one set doesn't end it.
 bool Pipeline::isDisturbance(GaugeSet gauges) {
-  constexpr int kTouch = 2 * kSettled;
   const bool accepted = locator_.answer().accepted;
-  if (settledSets_ == kTouch && accepted) return false;
+  if (isTouch_ && accepted) {
+    contrarySets_ = 0;
+    return false;
+  }
   const Wide most = kDisturbance * readingNoise_q32(constants());
-  bool weak = true;
-  for (int i = 0; i < constants().gauge_count; ++i) {
-    const std::int32_t strain = readings_.strain_q32[index(i)];
-    if (contains(gauges, i) && (strain > most || strain < -most)) weak = false;
+  bool isStrong = false;
+  for (int i = 0; i < constants().gauge_count; ++i)
+    if (contains(gauges, i) && magnitude(Wide{readings_.strain_q32[index(i)]}) > most) isStrong = true;
+  contrarySets_ = isStrong || accepted == isTouch_ ? 0 : static_cast<std::uint8_t>(contrarySets_ + 1);
+  if (isStrong || contrarySets_ == kSettled) {
+    isTouch_ = isStrong || accepted;
+    contrarySets_ = 0;
   }
-  if (!weak) {
-    settledSets_ = kTouch;
-  } else if (accepted) {
-    settledSets_ = settledSets_ + 1 < kSettled ? static_cast<std::uint8_t>(settledSets_ + 1) : kTouch;
-  } else {
-    settledSets_ = settledSets_ > kSettled + 1 ? static_cast<std::uint8_t>(settledSets_ - 1) : 0;
-  }
-  return settledSets_ < kSettled;
+  return !isTouch_;
 }
 
 void Pipeline::locate(GaugeSet gauges) {
@@ -74,9 +64,7 @@ void Pipeline::watchGauges() {
     const std::int32_t predicted = fit.predicted[i];
     const std::int32_t measured = readings_.strain_q32[i] >> answer.shift;
     if ((observation_.saturated & gauge) != 0) {
-      const bool beyond =
-          measured < 0 ? predicted <= measured - measured / 4 : predicted >= measured - measured / 4;
-      if (!beyond && constants().is_sparse == 0) atRail |= gauge;
+      if (!isRailPlausible(measured, predicted) && constants().is_sparse == 0) atRail |= gauge;
       continue;
     }
     const std::int32_t off = magnitude(measured - predicted);
@@ -86,11 +74,6 @@ void Pipeline::watchGauges() {
   watch_.implausiblyAtRail(atRail);
   watch_.suspect(suspect, answer.solution.contact[0].angle_q32);
   watch_.vindicate(right & ~suspect, wrong);
-}
-
-/// What a touch that ended says of the gauges.
-void Pipeline::lookBack() {
-  if (const auto suspect = locator_.lookBack(*tables_)) watch_.suspect(suspect->gauge, suspect->angle_q32);
 }
 
 /// The codes are those of the last set of a touch, and the answer to them is found.
@@ -110,7 +93,7 @@ const Observation& Pipeline::process(Codes codes) {
   if (observation_.touched) {
     noise_.interrupt();
   } else {
-    noise_.take(constants(), strains(), ~(observation_.saturated | watch_.outOfUse()), settledSets_ != 0);
+    noise_.take(constants(), strains(), ~(observation_.saturated | watch_.outOfUse()), contrarySets_ != 0);
   }
   const GaugeSet outOfUse = this->outOfUse();
   // The zero of a noisy gauge follows on while nothing touches: it counts again once it is calm.
@@ -127,7 +110,8 @@ const Observation& Pipeline::process(Codes codes) {
 }
 
 bool Pipeline::isTouchedDuring(const ZeroAverage& zero) const {
-  const std::uint32_t energy = energyOf(constants(), zero.change(calibration_), ~outOfUse());
+  const Readings change = zero.change(calibration_);
+  const std::uint32_t energy = gateEnergy(constants(), change.strains(constants().gauge_count), ~outOfUse());
   return ContactGate().update(constants(), energy, noise_.variance_q4());
 }
 
@@ -142,7 +126,7 @@ void Pipeline::observe(Codes codes) {
   if (mayBeTouched) {
     observation_.saturated = saturatedGauges(constants(), codes);
     gauges &= ~observation_.saturated;
-    if (gauges != allGauges(constants().gauge_count)) energy = energyOf(constants(), readings_, gauges);
+    if (gauges != allGauges(constants().gauge_count)) energy = gateEnergy(constants(), strains(), gauges);
   }
   if (mayBeTouched && gate_.update(constants(), energy, noise_.variance_q4())) {
     locate(gauges);
@@ -152,11 +136,14 @@ void Pipeline::observe(Codes codes) {
   } else {
     gate_ = {};
     watch_.implausiblyAtRail(observation_.saturated & working);
-    settledSets_ = 0;
-    if (wasOverGate)
+    isTouch_ = false;
+    contrarySets_ = 0;
+    if (wasOverGate) {
       wasTouched ? locator_.endTouch() : locator_.release();
-    else if (locator_.isSearching())
-      lookBack();
+    } else if (locator_.isSearching()) {  // a touch that ended may speak against a gauge
+      if (const auto suspect = locator_.lookBack(*tables_))
+        watch_.suspect(suspect->gauge, suspect->angle_q32);
+    }
   }
 }
 

@@ -50,7 +50,6 @@ class Pipeline {
   GaugeSet outOfUse() const { return watch_.outOfUse() | noise_.noisyGauges(); }
   void locate(GaugeSet gauges);
   void watchGauges();
-  void lookBack();
   bool isKnown(Codes codes) const;
   void observe(Codes codes);
   bool isDisturbance(GaugeSet gauges);
@@ -62,7 +61,8 @@ class Pipeline {
   bool areZerosNew_ = false;                       ///< since then
   Observation observation_;
   ContactGate gate_;
-  std::uint8_t settledSets_ = 0;  ///< how sure it is that contacts make the readings, see isDisturbance()
+  bool isTouch_ = false;           ///< contacts make the readings, not a disturbance
+  std::uint8_t contrarySets_ = 0;  ///< in a row, that speak against that
   NoiseMeter noise_;
   Locator locator_;
   GaugeWatch watch_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdlib>
 
 #include "firmware/core/units.hpp"
 
@@ -9,10 +10,6 @@ namespace strainfinger::firmware {
 namespace {
 
 constexpr int kQualityStep = 10;  ///< percent that count as a change
-
-std::int32_t magnitude(std::int32_t value) { return value < 0 ? -value : value; }
-
-std::uint32_t centidegreesOf(TurnQ32 turns) { return static_cast<std::uint32_t>(centidegrees(turns.raw())); }
 
 std::int8_t alternativeDegrees(const Contact& contact) {
   const std::int32_t degrees =
@@ -41,7 +38,7 @@ Raw knownError(std::int64_t value) {
 }
 
 std::int32_t angleBetween_cdeg(std::uint16_t a, std::uint16_t b) {
-  const std::int32_t apart = magnitude(std::int32_t{a} - b);
+  const std::int32_t apart = std::abs(std::int32_t{a} - b);
   return apart > 18000 ? 36000 - apart : apart;
 }
 
@@ -52,16 +49,16 @@ class News {
 
   bool in(const ContactFrame& contact, const ContactFrame& last) const {
     return moved(angleBetween_cdeg(contact.angle_cdeg, last.angle_cdeg), contact.sigma_angle_cdeg) ||
-           magnitude(contact.quality_percent - last.quality_percent) >= kQualityStep;
+           std::abs(contact.quality_percent - last.quality_percent) >= kQualityStep;
   }
   bool in(const ForceFrame& force, const ForceFrame& last) const {
-    return moved(magnitude(force.normal_mN - last.normal_mN), force.sigma_normal_half_mN / 2) ||
-           moved(magnitude(force.tangential_mN - last.tangential_mN), force.sigma_tangential_half_mN / 2);
+    return moved(std::abs(force.normal_mN - last.normal_mN), force.sigma_normal_half_mN / 2) ||
+           moved(std::abs(force.tangential_mN - last.tangential_mN), force.sigma_tangential_half_mN / 2);
   }
   bool in(const PatchFrame& patch, const PatchFrame& last) const {
     constexpr std::uint16_t kUnknown = kNotKnown<std::uint16_t>;
     if ((patch.width_um == kUnknown) != (last.width_um == kUnknown)) return true;
-    return moved(magnitude(patch.width_um - last.width_um), patch.sigma_width_um);
+    return moved(std::abs(patch.width_um - last.width_um), patch.sigma_width_um);
   }
   bool in(const SecondContactFrames& second, const SecondContactFrames& last) const {
     return in(second.contact, last.contact) || in(second.force, last.force);
@@ -75,8 +72,8 @@ class News {
 
 ContactFrame contactFrame(const Contact& contact) {
   ContactFrame frame;
-  frame.angle_cdeg = static_cast<std::uint16_t>(centidegreesOf(contact.angle) % 36000);
-  frame.sigma_angle_cdeg = knownError<std::uint16_t>(centidegreesOf(contact.sigmaAngle));
+  frame.angle_cdeg = static_cast<std::uint16_t>(centidegrees(contact.angle.raw()) % 36000);
+  frame.sigma_angle_cdeg = knownError<std::uint16_t>(centidegrees(contact.sigmaAngle.raw()));
   if (contact.ambiguous) frame.alternative_deg = alternativeDegrees(contact);
   frame.quality_percent = contact.quality;
   return frame;

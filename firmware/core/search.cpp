@@ -29,11 +29,6 @@ constexpr int kPointEnergyBits = 4;  ///< 32 readings of 16 bits leave at most 2
 /// A look at a point, one at a pair of places, and what comes between two grids [units of Search::kWork].
 constexpr int kPointWork = 5, kPairWork = 12, kTaskWork = 9;
 
-std::uint32_t pitch_q32(const TableConstants& constants) {
-  const std::uint32_t count = constants.gauge_count;
-  return (0 - count) / count + 1;  // 2^32 / count
-}
-
 /// The middle of the two neighbouring gauges that read most energy: a contact is within two pitches of it,
 /// whatever its loads. A gauge that does not count is taken to read what its neighbours do in the mean: with
 /// none, contacts beside it would be up to three pitches away.
@@ -58,14 +53,9 @@ std::uint32_t anchor_q32(const TableImage& tables, const ScaledReadings& reading
   return anchor;
 }
 
-std::uint32_t apart_q32(const ContactState& a, const ContactState& b) {
-  const std::uint32_t difference = a.angle_q32 - b.angle_q32;
-  return std::min(difference, 0 - difference);
-}
-
 /// Closer than this in place and second moment, two fits went to the same answer.
 bool isSame(const TableConstants& constants, const ContactState& a, const ContactState& b) {
-  return apart_q32(a, b) < pitch_q32(constants) / 16 &&
+  return apart_q32(a.angle_q32, b.angle_q32) < pitch_q32(constants) / 16 &&
          magnitude(a.moment_q20 - b.moment_q20) < (1 << 15) + (a.moment_q20 + b.moment_q20) / 16;
 }
 
@@ -80,7 +70,8 @@ bool areSame(const TableConstants& constants, int contacts, const ContactStates&
 bool areElsewhere(const TableConstants& constants, int contacts, const ContactStates& a,
                   const ContactStates& b) {
   const auto match = [&](int i, int j) {
-    return apart_q32(a[index(i)], b[index(j)]) < pitch_q32(constants) / 16 * threshold::kElsewhere_16;
+    return apart_q32(a[index(i)].angle_q32, b[index(j)].angle_q32) <
+           pitch_q32(constants) / 16 * threshold::kElsewhere_16;
   };
   if (contacts == 1) return !match(0, 0);
   return !(match(0, 0) && match(1, 1)) && !(match(0, 1) && match(1, 0));
@@ -160,15 +151,8 @@ ContactStates Grid::at(const TableImage& tables, int point) const {
   const auto place = [&](int steps, Number moment_q20) {
     return contact(first_q32_ + static_cast<std::uint32_t>(steps) * step_q32_, moment_q20);
   };
-  switch (kind_) {
-    case Kind::kFine:
-      return {place(row, kFineMoments_q20[index(column)])};
-    case Kind::kCoarse:
-      return {place(row, kCoarseMoments_q20[index(column)])};
-    case Kind::kPairs:
-    case Kind::kBeside:
-      break;
-  }
+  if (kind_ == Kind::kFine) return {place(row, kFineMoments_q20[index(column)])};
+  if (kind_ == Kind::kCoarse) return {place(row, kCoarseMoments_q20[index(column)])};
   const auto known = [&](int which, int steps) {
     const Known& at = known_[index(which)];
     return contact(at.angle_q32 + static_cast<std::uint32_t>(steps) * step_q32_,
@@ -193,7 +177,7 @@ ContactStates initialGuess(const TableImage& tables, const Hypothesis& hypothesi
   bool any = false;
   for (int i = 0; i < grid.size(); ++i) {
     const ContactStates contacts = grid.at(tables, i);
-    if (otherStart_q32 && apart_q32(contacts[0], {*otherStart_q32}) < away_q32) continue;
+    if (otherStart_q32 && apart_q32(contacts[0].angle_q32, *otherStart_q32) < away_q32) continue;
     const Solution point = fitLoads(tables, hypothesis, contacts, all, readings.weight_q14, scratch);
     if (!isPromising(tables.constants, point)) continue;
     if (any && point.residualEnergy >= best.residualEnergy) continue;
@@ -330,9 +314,9 @@ void Search::findSuspects(const TableImage& tables, Linearisation& scratch) {
   const Solution& best = single_.best;
   linearise(tables, best.hypothesis, best.contact, scratch);
   for (int i = 0; i < tables.constants.gauge_count; ++i) {
-    const ContactState gauge{tables.gauge_angle_q32[index(i)]};
     const Wide left = readings_.left(index(i), scratch.predicted[index(i)]);
-    if (apart_q32(best.contact[0], gauge) > kSuspectPitches * pitch_q32(tables.constants) &&
+    if (apart_q32(best.contact[0].angle_q32, tables.gauge_angle_q32[index(i)]) >
+            kSuspectPitches * pitch_q32(tables.constants) &&
         left * left < best.residualEnergy / 4)
       suspects_ &= ~(GaugeSet{1} << i);
   }
@@ -350,23 +334,16 @@ void Search::withoutNext(const TableImage& tables) {
 }
 
 void Search::finishTask(const TableImage& tables, Linearisation& scratch) {
-  switch (stage_) {
-    case Stage::kSingle:
-      if (single_.anyBest && isPlain(tables.constants, single_.best, readings_)) return finish();
-      stage_ = Stage::kWithoutOne;
-      findSuspects(tables, scratch);
-      return withoutNext(tables);
-    case Stage::kWithoutOne:
-      return withoutNext(tables);
-    case Stage::kPair:
-      if (!pair_.anyBest) return finish();
-      stage_ = Stage::kBeside;
-      return beginTask(hypothesis_, Grid(tables.constants, all_.widthIsFree, pair_.best.contact));
-    case Stage::kBeside:
-    case Stage::kDone:
-    case Stage::kIdle:
-      return finish();
+  if (stage_ == Stage::kSingle && single_.anyBest && isPlain(tables.constants, single_.best, readings_))
+    return finish();
+  if (stage_ == Stage::kSingle) {
+    stage_ = Stage::kWithoutOne;
+    findSuspects(tables, scratch);
   }
+  if (stage_ == Stage::kWithoutOne) return withoutNext(tables);
+  if (stage_ == Stage::kBeside || !pair_.anyBest) return finish();
+  stage_ = Stage::kBeside;
+  beginTask(hypothesis_, Grid(tables.constants, all_.widthIsFree, pair_.best.contact));
 }
 
 /// At most so much is next.

@@ -17,7 +17,9 @@ inline Number lineLoad(Number amplitude, Number scale, int exponent) {
 }
 
 /// An angle [revolutions * 2^32] in hundredths of a degree, 0 .. 36000, rounded to nearest.
-inline Natural centidegrees(Natural turns_q32) { return (turns_q32 * 36000 + (Natural{1} << 31)) >> 32; }
+inline Number centidegrees(Natural turns_q32) {
+  return Number((turns_q32 * 36000 + (Natural{1} << 31)) >> 32);
+}
 
 /// A difference of angles [revolutions * 2^32] in degrees, rounded to nearest.
 inline Number wholeDegrees(Number turns_q32) {

@@ -42,11 +42,11 @@ void ZeroTracker::begin(bool touched) {
 
 bool ZeroTracker::rests(const TableConstants& constants, const Answer& answer) const {
   if (answer.solution.hypothesis.contacts != rest_.contacts) return false;
-  const std::uint32_t near_q32 = (~std::uint32_t{0} / constants.gauge_count) >> kTurnBits;
+  const std::uint32_t near_q32 = pitch_q32(constants) >> kTurnBits;
   const ContactStates before = rescaled(rest_.contact, rest_.shift, answer.shift);
   for (int k = 0; k < rest_.contacts; ++k) {
     const ContactState &was = before[index(k)], &is = answer.solution.contact[index(k)];
-    if (is.angle_q32 - was.angle_q32 + near_q32 > 2 * near_q32) return false;
+    if (apart_q32(is.angle_q32, was.angle_q32) > near_q32) return false;
     const Number most = was.normal >> kLoadBits;
     if (magnitude(is.normal - was.normal) > most || magnitude(is.tangential - was.tangential) > most)
       return false;

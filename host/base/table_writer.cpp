@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "host/base/failure.hpp"
+#include "host/base/text_output.hpp"
 
 namespace strainfinger {
 namespace {
@@ -62,9 +62,6 @@ void TableWriter::row(const std::vector<Cell>& cells) {
   write(line);
 }
 
-void TableWriter::write(std::string_view text) {
-  if (std::fwrite(text.data(), 1, text.size(), stream_) != text.size())
-    throw Failure(ExitCode::kFailure, "cannot write the output: disk full or reader gone");
-}
+void TableWriter::write(std::string_view text) { writeText(stream_, text); }
 
 }  // namespace strainfinger

@@ -4,11 +4,26 @@
 
 namespace strainfinger {
 
+namespace {
+
+void require(bool isWritten) {
+  if (!isWritten) throw Failure(ExitCode::kFailure, "cannot write the output: disk full or reader gone");
+}
+
+}  // namespace
+
+void writeText(std::FILE* stream, std::string_view text) {
+  require(std::fwrite(text.data(), 1, text.size(), stream) == text.size());
+}
+
+void writeAndFlush(std::FILE* stream, std::string_view text) {
+  writeText(stream, text);
+  require(std::fflush(stream) == 0);
+}
+
 void TextOutput::flush() {
-  const bool written = std::fwrite(text_.data(), 1, text_.size(), stream_) == text_.size();
+  writeAndFlush(stream_, text_);
   text_.clear();
-  if (!written || std::fflush(stream_) != 0)
-    throw Failure(ExitCode::kFailure, "cannot write the output: disk full or reader gone");
 }
 
 }  // namespace strainfinger

@@ -3,8 +3,14 @@
 
 #include <cstdio>
 #include <string>
+#include <string_view>
 
 namespace strainfinger {
+
+/// Throws Failure(kFailure) where not all of it can be written: the disk is full, or the reader gone.
+void writeText(std::FILE* stream, std::string_view text);
+/// The same, and of all that the stream holds back.
+void writeAndFlush(std::FILE* stream, std::string_view text);
 
 /// Who writes appends to text() and calls flush(): when a reader may be waiting, and at the end.
 class TextOutput {
@@ -13,7 +19,7 @@ class TextOutput {
 
   std::string& text() { return text_; }
 
-  /// Hands everything over. Throws Failure(kFailure) when the stream refuses (disk full, closed pipe).
+  /// Hands everything over, as writeAndFlush().
   void flush();
 
   /// The same if there is much of it.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <tuple>
 #include <type_traits>
 
@@ -94,14 +93,6 @@ double stepOf(const FieldMeaning& meaning) {
 std::optional<double> toPhysical(const FieldSpec& field, std::int64_t raw) {
   if (!isValidRaw(field.bits, raw)) return std::nullopt;
   return static_cast<double>(raw * field.meaning.unitsPerStep) / field.meaning.stepsPerUnit;
-}
-
-std::int64_t fromPhysical(const FieldSpec& field, std::optional<double> value) {
-  if (!value || std::isnan(*value))
-    return field.bits.unknowable ? invalidRaw(field.bits) : minRaw(field.bits);
-  const double raw = std::round(*value * field.meaning.stepsPerUnit / field.meaning.unitsPerStep);
-  return static_cast<std::int64_t>(
-      std::clamp(raw, static_cast<double>(minRaw(field.bits)), static_cast<double>(maxRaw(field.bits))));
 }
 
 }  // namespace strainfinger::can

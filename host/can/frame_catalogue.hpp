@@ -53,8 +53,4 @@ double stepOf(const FieldMeaning& meaning);
 /// The raw value in the field's unit; nothing where it is not a valid one (not known, or reserved).
 std::optional<double> toPhysical(const FieldSpec& field, std::int64_t raw);
 
-/// The raw value nearest to `value` (halves away from zero), at most the largest and at least the smallest
-/// valid one; nothing and NaN give "not known" (the smallest valid value where a field has none).
-std::int64_t fromPhysical(const FieldSpec& field, std::optional<double> value);
-
 }  // namespace strainfinger::can

@@ -25,6 +25,7 @@
 #include "host/cli/calibrate_live.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/request.hpp"
 #include "host/config/write_config.hpp"
 #include "host/session/recorded.hpp"
 
@@ -37,11 +38,13 @@ constexpr const char* kCalibrateHelp =
     "of every touch.\n"
     "--can: guided, with the finger on a bus: it says what to do next (leave it alone, roll it here, press "
     "it there with a known load, press it at a mark), shows what is covered and known, and ends when nothing "
-    "is left to gain. Keys: l keeps what is held and enters its load, a its angle, u takes the last of these back, "
+    "is left to gain. Keys: l keeps what is held and enters its load, a its angle, u takes the last of these "
+    "back, "
     "s skips what you cannot do, t takes a new zero (asks first), q ends. Where stdout is no terminal, and "
     "with --plain, lines on stderr; lines on stdin say load 200 g, angle 40, hold, undo, skip, tare or quit. "
     "The rows are kept beside -o as they come, in NAME.strains.csv and NAME.touches.csv, which --strains and "
-    "--touches read; the same command goes on with them. Nothing else is written to the finger than requests for its readings (RAW), but for the zero "
+    "--touches read; the same command goes on with them. Nothing else is written to the finger than requests "
+    "for its readings (RAW), but for the zero "
     "that you agree to.\n"
     "--strains: CSV, one strain a gauge in a row, as `strains` prints them, without an earlier calibration; "
     "hundreds of rows, all around the finger; or a recording of a bus with RAW in it, as `record` writes, of "
@@ -256,13 +259,9 @@ void report(const CalibrateOptions& options, const calibration::CalibrationResul
   if (!options.pagePath.empty()) writeFileAtomically(options.pagePath, calibration::htmlPage(result));
 }
 
-std::uint8_t nodeOf(const CalibrateOptions& options, const config::FingerConfig& config) {
-  return static_cast<std::uint8_t>(options.node != 0 ? options.node : config.can.node);
-}
-
 void runLiveCalibration(const CalibrateOptions& options, const config::FingerConfig& config) {
   LiveCalibration live = options.live;
-  live.node = nodeOf(options, config);
+  live.node = nodeOf(options.node, config.can);
   live.outputPath = options.outputPath;
   live.errors = options.errors;
   const LiveResult ended = calibrateLive(config, live);
@@ -284,7 +283,7 @@ Eigen::MatrixXd strainsOfRecording(const CalibrateOptions& options, const config
             "{} is a recording, of whose readings `calibrate` chooses the rows: leave --touches out, or "
             "give rows as `strains` prints them",
             options.strainsPath));
-  const auto recorded = session::readRecording(options.strainsPath, config, nodeOf(options, config));
+  const auto recorded = session::readRecording(options.strainsPath, config, nodeOf(options.node, config.can));
   fmt::print(stderr, "calibrate: {} of {} sample sets are touches that differ\n", recorded.rows.size(),
              recorded.sets);
   warn("calibrate", recorded.warnings);

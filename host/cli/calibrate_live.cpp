@@ -28,9 +28,7 @@ using namespace std::chrono_literals;
 
 constexpr auto kSessionRedraw = 100ms;  ///< between pictures
 constexpr auto kSessionWait = 20ms;     ///< for frames, before keys are looked at
-/// Between a frame's arrival and reading: those that come meanwhile cost one awakening for all.
-constexpr auto kSessionGather = 5ms;
-constexpr auto kSessionSilence = 3s;  ///< then the finger is asked again: it may have been off
+constexpr auto kSessionSilence = 3s;    ///< then the finger is asked again: it may have been off
 constexpr auto kSessionLine = 1s, kSessionSameLine = 10s;  ///< between lines: at least; when nothing is new
 
 double secondsSince(SessionClock::time_point then) {
@@ -130,7 +128,7 @@ class LiveSession {
     heard_ = SessionClock::now();
     const auto face = makeFace();
     while (!stop.asked() && !quit_ && session_.advice().kind != session::Advice::Kind::kDone) {
-      if (port_->waitReadable(kSessionWait)) std::this_thread::sleep_for(kSessionGather);
+      if (port_->waitReadable(kSessionWait)) std::this_thread::sleep_for(can::BusPort::kGather);
       takeFrames();
       followFit();
       while (const auto text = face->heard()) obey(*text);

@@ -4,9 +4,10 @@
 
 #include "common/frame_layout.hpp"
 #include "host/base/atomic_file.hpp"
-#include "host/base/failure.hpp"
+#include "host/base/text_output.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/request.hpp"
 
 namespace strainfinger::cli {
 namespace {
@@ -23,12 +24,11 @@ struct DbcOptions {
 
 void runDbc(const DbcOptions& options) {
   const config::Can can = options.common.config().can;
-  const int node = options.node != 0 ? options.node : can.node;
-  const std::string text = can::dbcText(static_cast<std::uint8_t>(node), can.contact_rate_hz);
+  const std::string text = can::dbcText(nodeOf(options.node, can), can.contact_rate_hz);
   if (!options.path.empty())
     writeFileAtomically(options.path, text);
-  else if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size())
-    throw Failure(ExitCode::kFailure, "cannot write the output: disk full or reader gone");
+  else
+    writeText(stdout, text);
 }
 
 }  // namespace

@@ -128,7 +128,7 @@ void addCounts(can::BusPort& port, const live::FingerView& finger, InfoTable& ta
 
 void runInfo(const RequestOptions& options) {
   const config::FingerConfig config = options.common.config();
-  const std::uint8_t node = nodeOf(options, config.can);
+  const std::uint8_t node = nodeOf(options.node, config.can);
   const auto port = can::openBus(options.bus, config.can.bitrate);
   live::BusWatch watch(*port, config);
   const auto finger = listenFor(watch, node);

@@ -21,6 +21,7 @@
 #include "firmware/core/locator.hpp"
 #include "host/base/no_value.hpp"
 #include "host/base/strain_rows.hpp"
+#include "host/can/frame_catalogue.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/firmware_options.hpp"
@@ -88,15 +89,6 @@ Cell widthCell(std::uint32_t width_um) {
   return width_um == kWidthNotFitted ? kNoValue : Cell{1e-6 * width_um};
 }
 
-/// As the names of CONTACT's flags, joined by +.
-std::string flagNames(FingerFlags flags) {
-  std::string names;
-  for (const ValueName& flag : kFingerFlagNames)
-    if (flags.has(static_cast<FingerFlag>(flag.value)))
-      names += (names.empty() ? "" : "+") + std::string(flag.name);
-  return names;
-}
-
 FingerFlags flagsOf(const Answer& answer, const std::vector<Contact>& contacts, GaugeSet saturated,
                     GaugeSet all) {
   FingerFlags flags{FingerFlag::kContact};
@@ -120,7 +112,7 @@ std::vector<Cell> cellsOf(const std::vector<Contact>& contacts, FingerFlags flag
                           std::int64_t{contact.quality},
                           widthCell(contact.width_um),
                           widthCell(contact.sigmaWidth_um),
-                          flagNames(flags)};
+                          can::flagsText(kFingerFlagNames, flags.raw())};
   if (contacts.size() > 1) {
     for (const double value :
          {degrees(contacts[1].angle), toReal(contacts[1].normal), toReal(contacts[1].tangential)})
@@ -150,12 +142,11 @@ GaugeSet overRange(const TableImage& image, std::span<const double> strains) {
 /// Every gauge at a rail should read as much as it does, or more.
 bool areRailsPlausible(const firmware::Locator& locator, std::span<const std::int32_t> strains_q32,
                        GaugeSet saturated) {
-  for (std::size_t i = 0; i < strains_q32.size(); ++i) {
-    if (!firmware::contains(saturated, static_cast<int>(i))) continue;
-    const std::int32_t measured = strains_q32[i] >> locator.answer().shift;
-    const std::int32_t predicted = locator.linearisation().predicted[i], least = measured - measured / 4;
-    if (measured < 0 ? predicted > least : predicted < least) return false;
-  }
+  for (std::size_t i = 0; i < strains_q32.size(); ++i)
+    if (firmware::contains(saturated, static_cast<int>(i)) &&
+        !firmware::isRailPlausible(strains_q32[i] >> locator.answer().shift,
+                                   locator.linearisation().predicted[i]))
+      return false;
   return true;
 }
 
@@ -172,7 +163,7 @@ std::vector<Cell> located(const TableImage& image, firmware::Locator& locator,
   if (!areRailsPlausible(locator, strains_q32, saturated))
     for (Contact& contact : contacts) {
       contact.uncertain = true;
-      contact.quality = std::min<std::uint8_t>(contact.quality, 20);
+      contact.quality = std::min(contact.quality, firmware::kMostUncertainQuality);
     }
   return cellsOf(contacts, flagsOf(answer, contacts, saturated, all));
 }

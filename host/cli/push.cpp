@@ -135,7 +135,7 @@ void requireRunning(can::BusPort& port, std::uint8_t node, const TableImage& ima
 
 void runPush(const PushOptions& options) {
   const config::Can can = options.request.common.config().can;
-  const std::uint8_t node = nodeOf(options.request, can);
+  const std::uint8_t node = nodeOf(options.request.node, can);
   const auto image = tablesFor(options);
   const auto port = can::openBus(options.request.bus, can.bitrate);
   const system::StopSignal stop;

@@ -28,10 +28,6 @@ constexpr const char* kRecordHelp =
     "full it says so and ends with status 1.\n"
     "The log is what `decode`, `plot` and `replay` read.";
 
-/// Between a frame's arrival and reading: the frames that come meanwhile cost one awakening for all. Sockets
-/// hold ten times what a full bus brings in it.
-constexpr auto kGather = 5ms;
-
 constexpr auto kFlushPeriod = 250ms;
 
 struct RecordOptions {
@@ -53,7 +49,7 @@ struct RecordOptions {
 void recordUntil(Clock::time_point end, const system::StopSignal& stop, can::BusPort& port,
                  Recording& recording) {
   for (Clock::time_point flushAt{}; !stop.asked() && Clock::now() < end;) {
-    if (port.waitReadable(system::StopSignal::kLookEvery)) std::this_thread::sleep_for(kGather);
+    if (port.waitReadable(system::StopSignal::kLookEvery)) std::this_thread::sleep_for(can::BusPort::kGather);
     while (const auto frame = port.receiveTimed()) recording.take(*frame);
     if (Clock::now() < flushAt) continue;
     recording.flush();

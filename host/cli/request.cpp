@@ -51,10 +51,6 @@ RequestOptions::RequestOptions(CLI::App& command) : common(command) {
   command.add_option("-n,--node", node, "Node number in place of the config's")->check(isNode());
 }
 
-std::uint8_t nodeOf(const RequestOptions& options, const config::Can& can) {
-  return static_cast<std::uint8_t>(options.node != 0 ? options.node : can.node);
-}
-
 void requireDone(const can::Reply& reply, Command command, const can::BusPort& bus, std::uint8_t node) {
   const std::string where = fmt::format("{} node {}", bus.name(), node);
   if (!reply.response) throw silence(reply, bus, where);
@@ -70,7 +66,7 @@ void requireDone(const can::Reply& reply, Command command, const can::BusPort& b
 
 void request(const RequestOptions& options, const std::vector<RequestFrame>& requests) {
   const config::Can can = options.common.config().can;
-  const std::uint8_t node = nodeOf(options, can);
+  const std::uint8_t node = nodeOf(options.node, can);
   const auto port = can::openBus(options.bus, can.bitrate);
   std::optional<TableWriter> table;  // nothing is printed before there is a row
   for (const RequestFrame& request : requests) {

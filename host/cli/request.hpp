@@ -23,8 +23,10 @@ struct RequestOptions {
 /// (kNoInterface), or the finger speaks another protocol (kMismatch).
 void request(const RequestOptions& options, const std::vector<RequestFrame>& requests);
 
-/// Node of -n, else of the config.
-std::uint8_t nodeOf(const RequestOptions& options, const config::Can& can);
+/// Node of -n, else (0) of the config.
+inline std::uint8_t nodeOf(int node, const config::Can& can) {
+  return static_cast<std::uint8_t>(node != 0 ? node : can.node);
+}
 
 /// What request() says of a reply that came over `bus`, without the printing.
 void requireDone(const can::Reply& reply, Command command, const can::BusPort& bus, std::uint8_t node);

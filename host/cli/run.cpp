@@ -10,6 +10,7 @@
 
 #include "host/base/atomic_file.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/text_output.hpp"
 #include "host/can/candump_text.hpp"
 #include "host/can/loopback_port.hpp"
 #include "host/can/open_bus.hpp"
@@ -221,8 +222,7 @@ class Candump {
   void print(std::uint64_t time_us) {
     while (const auto frame = port_.receive()) {
       const auto line = can::formatLogLine(static_cast<std::int64_t>(time_us), kLoopback, *frame) + "\n";
-      if (std::fwrite(line.data(), 1, line.size(), stdout) != line.size())
-        throw Failure(ExitCode::kFailure, "cannot write the output: disk full or reader gone");
+      writeText(stdout, line);
     }
   }
 

@@ -121,7 +121,7 @@ std::string whyNone(int gauges, const SentGauges& sent, double waited_s) {
 
 void runStrains(const StrainsOptions& options) {
   const config::FingerConfig config = options.request.common.config();
-  const std::uint8_t node = nodeOf(options.request, config.can);
+  const std::uint8_t node = nodeOf(options.request.node, config.can);
   const auto end = StrainClock::now() + std::chrono::microseconds(std::llround(options.duration_s * 1e6));
   const auto bus = can::openBus(options.request.bus, config.can.bitrate);
   const system::StopSignal stop;

@@ -94,9 +94,8 @@ void showInfo(const TablesOptions& options) {
   for (const tables::Parameter& parameter : tables::parametersOf(image->parameters))
     table.row({parameter.key, isJson && parameter.value == Cell("unknown") ? kNoValue : parameter.value});
   const int count = image->constants.gauge_count;
-  for (const tables::Parameter& list :
-       {tables::anglesOf(image->gauge_angle_q32, count), tables::gainsOf(*image),
-        tables::depthsOf(image->depths, count)})
+  for (const tables::Parameter& list : {tables::anglesOf(image->gauge_angle_q32, count),
+                                        tables::gainsOf(*image), tables::depthsOf(image->depths, count)})
     table.row({list.key, list.value});
 }
 

@@ -7,10 +7,6 @@
 namespace strainfinger::live {
 namespace {
 
-/// How many milliseconds' frames are fetched at once: at 8,000 frames a second, the most that 1 Mbit/s has,
-/// 40 of the hundreds that a socket holds.
-constexpr std::chrono::milliseconds kGather{5};
-
 /// The clock of TimedFrame.
 std::int64_t now_us() {
   using namespace std::chrono;
@@ -28,7 +24,7 @@ void BusWatch::listen(std::chrono::milliseconds time) {
   };
   do {
     sendRequests();
-    if (port_.waitReadable(left())) std::this_thread::sleep_for(std::min(kGather, left()));
+    if (port_.waitReadable(left())) std::this_thread::sleep_for(std::min(can::BusPort::kGather, left()));
     fetch();
   } while (Clock::now() < end);
 }

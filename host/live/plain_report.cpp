@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "host/base/failure.hpp"
+#include "host/base/text_output.hpp"
 #include "host/live/value_text.hpp"
 #include "host/live/view_json.hpp"
 
@@ -38,8 +38,7 @@ void PlainReport::print(std::span<const BusView> buses) const {
     else
       text += plainLines(bus);
   }
-  if (std::fwrite(text.data(), 1, text.size(), stream_) != text.size() || std::fflush(stream_) != 0)
-    throw Failure(ExitCode::kFailure, "cannot write the output: disk full or reader gone");
+  writeAndFlush(stream_, text);
 }
 
 }  // namespace strainfinger::live

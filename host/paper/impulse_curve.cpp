@@ -34,8 +34,7 @@ ImpulseCurve::ImpulseCurve(std::function<double(double)> strain) : strain_(std::
       best = angle;
     }
   }
-  peakAngle_ = best == 0 ? 0 : refinedPeakAngle(strain_, best);
-  peak_ = std::abs(strain_(peakAngle_));
+  if (best != 0) peak_ = std::abs(strain_(refinedPeakAngle(strain_, best)));
 }
 
 ImpulseCurve ImpulseCurve::ofCylinder(const model::Annulus<double>& annulus, double radius_m,
@@ -51,10 +50,6 @@ ImpulseCurve ImpulseCurve::ofHalfPlane(const model::Annulus<double>& annulus, do
   return ImpulseCurve([plane = halfPlaneOf(annulus, radius_m), r_b = annulus.outer_radius_m,
                        row = static_cast<int>(component),
                        load](double angle) { return plane.atArc(r_b * angle)(row, load); });
-}
-
-double ImpulseCurve::zeroAngle_rad() const {
-  return firstCrossing(strain_, 1e-9, std::numbers::pi, kStep_rad);
 }
 
 double partingAngle_rad(const ImpulseCurve& one, const ImpulseCurve& other, double share) {

@@ -23,14 +23,12 @@ class ImpulseCurve {
   double at(double angle_rad) const { return strain_(angle_rad); }
   double relative(double angle_rad) const { return strain_(angle_rad) / peak_; }
 
-  double peak() const { return peak_; }                ///< largest magnitude
-  double peakAngle_rad() const { return peakAngle_; }  ///< >= 0
-  double zeroAngle_rad() const;                        ///< of the first change of sign beyond 0; NaN without
+  double peak() const { return peak_; }  ///< largest magnitude
 
  private:
   explicit ImpulseCurve(std::function<double(double)> strain);
   std::function<double(double)> strain_;
-  double peak_ = 0, peakAngle_ = 0;
+  double peak_ = 0;
 };
 
 /// First angle >= 0 at which two curves, each over its own peak, differ by `share` of the peak; NaN without

@@ -169,16 +169,6 @@ TEST(TableImage, NoGaugeIsDeeperWithoutAStepAndShapesFitTheirWords) {
   checkDomain(depths.shape_shift, {0, 8}, {9, 255});
 }
 
-TEST(TableImage, FaultsKeepTheirNumbers) {
-  LONGS_EQUAL(0, static_cast<int>(TableFault::kNone));
-  LONGS_EQUAL(1, static_cast<int>(TableFault::kTooShort));
-  LONGS_EQUAL(2, static_cast<int>(TableFault::kMagic));
-  LONGS_EQUAL(3, static_cast<int>(TableFault::kFormat));
-  LONGS_EQUAL(4, static_cast<int>(TableFault::kLength));
-  LONGS_EQUAL(5, static_cast<int>(TableFault::kChecksum));
-  LONGS_EQUAL(6, static_cast<int>(TableFault::kConstants));
-}
-
 TEST(TableImage, PatchesWhoseSumsWouldNotFitAreRefused) {
   PatchPair& pair = image_->patches[kMostPatches - 1];
   checkDomain(pair.normal[0], {32767, -32767, 0}, {-32768});

@@ -35,6 +35,14 @@ class Guide(unittest.TestCase):
     def test_the_images_size(self):
         self.check_captured([f"    {SIZES.stem}: {SIZES.read_text().strip()} bytes"], rf"^    {SIZES.stem}: .*")
 
+    def test_the_largest_image(self):
+        """By its flash, RAM and stack, as the boards' page has them in KiB."""
+        sizes = [[int(size) for size in re.findall(r"\w+ (\d+) of", image.read_text())]
+                 for image in SIZES.parents[1].glob("*/*.txt") if "flash" in image.read_text()]
+        largest = [f"{max(size) / 1024:.1f} KiB" for size in zip(*sizes, strict=True)]
+        page = (Path(sys.argv[1]).parent / "board/README.md").read_text()
+        self.assertEqual(largest, re.findall(r"^\| (?:flash|RAM|worst-case stack).*\| ([\d.]+ KiB) \|$", page, re.MULTILINE))
+
     def test_the_default_tables(self):
         said = printed("tables", "-o", "/dev/null").splitlines()
         self.assertIn(f"CRC-32 {self.crc:08X}", said[0])

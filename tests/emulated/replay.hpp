@@ -51,7 +51,7 @@ inline void add(Hash& hash, const firmware::Pipeline& pipeline, std::uint32_t sa
   const firmware::Answer& answer = pipeline.answer();
   const firmware::Hypothesis& hypothesis = answer.solution.hypothesis;
   for (const firmware::ContactState& contact : answer.solution.contacts()) add(hash, contact);
-  for (const firmware::ContactState& contact : answer.rival) add(hash, contact);
+  for (const firmware::ContactState& contact : answer.rival.contact) add(hash, contact);
   add(hash, answer.solution.residualEnergy);
   hash.add(hypothesis.gauges);
   hash.add(hypothesis.exact);
@@ -59,12 +59,12 @@ inline void add(Hash& hash, const firmware::Pipeline& pipeline, std::uint32_t sa
   hash.add(answer.variances.reading_q4);
   hash.add(answer.variances.noise_q4);
   hash.add(answer.variances.largest_q4);
-  add(hash, answer.rivalMore);
+  add(hash, answer.rival.more);
   hash.add(std::int32_t{answer.solution.converged} + 2 * std::int32_t{answer.accepted} +
            4 * std::int32_t{answer.searching} + 8 * std::int32_t{answer.several} +
            16 * std::int32_t{answer.doubtful} + 128 * std::int32_t{answer.weak} +
-           32 * std::int32_t{answer.anyRival} + 64 * std::int32_t{answer.rivalIsAsLikely} +
-           512 * std::int32_t{answer.rivalIsWithinNoise} + 1024 * answer.shift);
+           32 * std::int32_t{answer.rival.any} + 64 * std::int32_t{answer.rival.isAsLikely} +
+           512 * std::int32_t{answer.rival.isWithinNoise} + 1024 * answer.shift);
   const auto contact = [&](int i) {
     return firmware::estimate(pipeline.constants(), answer, firmware::unitErrors(pipeline.linearisation()),
                               i);

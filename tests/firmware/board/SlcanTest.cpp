@@ -95,11 +95,6 @@ TEST(Slcan, CountersThatAreNotKnownAreZero) {
   CHECK_TRUE(slcanState({.state = hal::CanState::kActive}).view() == "sa000000\r");
 }
 
-TEST(Slcan, AnErrorIsALine) {
-  CHECK_TRUE(slcanError(SlcanError::kAcknowledge).view() == "e1a\r");
-  CHECK_TRUE(slcanError(SlcanError::kTransmitOverrun).view() == "e1O\r");
-}
-
 TEST(Slcan, LinesArePutTogether) {
   STRCMP_EQUAL("O|", linesOf("O\r").c_str());
   STRCMP_EQUAL("||t1000|C|", linesOf("\r\rt1000\rC\r").c_str());

@@ -19,8 +19,9 @@ constexpr int kAllCodes = 1 << 16;
 }  // namespace
 
 TEST_GROUP(Condition) {
-  TableConstants constants = tables::buildTableImage({}).constants;
-  Calibration calibration = nominalCalibration(constants);
+  const TableImage image = tables::buildTableImage({});
+  TableConstants constants = image.constants;
+  Calibration calibration = tabledCalibration(image);
   Readings readings;
 
   /// Conditions every code there is, and calls visit(code, strain [* 2^32]).

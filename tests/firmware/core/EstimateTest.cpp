@@ -159,10 +159,10 @@ TEST_GROUP_BASE(Estimate, Estimated) {
   }
   /// Nearly as likely.
   void setRival(double pitches) {
-    answer.rival[0].angle_q32 =
+    answer.rival.contact[0].angle_q32 =
         answer.solution.contact[0].angle_q32 +
         static_cast<std::uint32_t>(static_cast<std::int64_t>(std::ldexp(pitches, 28)));
-    answer.anyRival = answer.rivalIsAsLikely = true;
+    answer.rival.any = answer.rival.isAsLikely = true;
   }
 };
 
@@ -362,7 +362,7 @@ TEST(Estimate, ErrorsOfLoadsAndWidthReachTheRivalToo) {
   const ContactState kept = std::exchange(told, rival);
   const Contact other = estimated();
   told = kept;
-  answer.rival[0] = rival;
+  answer.rival.contact[0] = rival;
   setRival(0.9);
   const Contact contact = estimated();
   const auto isThird = [](double sigma, double own, double apart, double step) {
@@ -378,7 +378,7 @@ TEST(Estimate, ErrorsOfLoadsAndWidthReachTheRivalToo) {
 
 TEST(Estimate, ARivalThatIsFarLessLikelyIsNone) {
   setRival(0.9);
-  answer.rivalIsAsLikely = false;
+  answer.rival.isAsLikely = false;
   CHECK_FALSE(estimated().ambiguous);
   CHECK_FALSE(estimated().uncertain);
 }
@@ -405,7 +405,7 @@ TEST(Estimate, ARivalNearByIsCoveredAndNotNamed) {
 
 TEST(Estimate, ARivalNearByThatNoiseMayHaveHiddenIsNamed) {
   const double alone = sigmaAngle_pitch(ring, estimated());
-  answer.rivalIsWithinNoise = true;
+  answer.rival.isWithinNoise = true;
   setRival(0.2);
   CHECK_TRUE(estimated().ambiguous);
   setRival(2 * alone);
@@ -423,9 +423,9 @@ TEST(Estimate, ARivalFarAwayIsNamedHoweverLargeTheAnswersOwnErrorsAre) {
 
 TEST(Estimate, ErrorsReachARivalOfAnotherWidthAtTheSamePlace) {
   const Contact alone = estimated();
-  answer.rival[0] = answer.solution.contact[0];
-  answer.rival[0].moment_q20 += 1 << (kMomentBits - 2);
-  answer.rival[0].normal *= 2;
+  answer.rival.contact[0] = answer.solution.contact[0];
+  answer.rival.contact[0].moment_q20 += 1 << (kMomentBits - 2);
+  answer.rival.contact[0].normal *= 2;
   setRival(0);
   const Contact contact = estimated();
   CHECK_FALSE(contact.ambiguous);

@@ -85,7 +85,7 @@ TEST(LocatorDoubt, OnAFingerAsBuiltWhatWasLookedIntoIsNeitherDoubtedNorLookedInt
     if (!isSettled) continue;
     ++settled;
     doubted += answer.doubtful;
-    if (!answer.doubtful && !answer.anyRival) LONGS_EQUAL(0, hold(200));
+    if (!answer.doubtful && !answer.rival.any) LONGS_EQUAL(0, hold(200));
   }
   std::printf("%d settled, %d doubted ", settled, doubted);
   CHECK_COMPARE(settled, >=, kTouches / 400);
@@ -128,7 +128,7 @@ TEST(LocatorDoubt, OtherAnswersAreLookedForAgainOnceATouchIsTwiceAsFirm) {
   LONGS_EQUAL(0, searchedWithin(200, 4));
   CHECK(searchedWithin(200, 9) > 0);
   LONGS_EQUAL(0, searchedWithin(200, 9));
-  CHECK_FALSE(locator.answer().anyRival);
+  CHECK_FALSE(locator.answer().rival.any);
 }
 
 TEST(LocatorDoubt, AWeakTouchStaysOneWhileItGrowsByLessThanATwentieth) {

@@ -50,9 +50,9 @@ TEST(LocatorRivals, ARivalThatIsNearlyAsLikelyIsTold) {
   for (int i = 0; i < 50; ++i) {
     locator.release();
     settle(presses.noisy(ring.strains(presses.next()), ring.noise_strain()));
-    if (!locator.answer().anyRival) continue;
+    if (!locator.answer().rival.any) continue;
     ++rivals;
-    CHECK(locator.answer().rival[0].angle_q32 != locator.answer().solution.contact[0].angle_q32);
+    CHECK(locator.answer().rival.contact[0].angle_q32 != locator.answer().solution.contact[0].angle_q32);
   }
   CHECK(rivals > 10);
 }
@@ -64,7 +64,7 @@ TEST(LocatorRivals, WhetherNoiseAloneMayHaveToldTheWrongOneIsToldBeside) {
   for (int i = 0; i < 50; ++i) {
     locator.release();
     settle(presses.noisy(ring.strains(presses.next()), ring.noise_strain()));
-    CHECK_EQUAL(locator.answer().rivalIsAsLikely, locator.answer().rivalIsWithinNoise);
+    CHECK_EQUAL(locator.answer().rival.isAsLikely, locator.answer().rival.isWithinNoise);
   }
   const ModelRing unsure{config::FingerConfig{}};
   Presses firm(16, 30, 435, 0, 3);
@@ -73,8 +73,8 @@ TEST(LocatorRivals, WhetherNoiseAloneMayHaveToldTheWrongOneIsToldBeside) {
     locator.release();
     const auto strains = firm.noisy(unsure.strains(firm.next()), unsure.noise_strain());
     for (int set = 0; set < 200; ++set) update(unsure, strains, unsure.allGauges());
-    asLikely += locator.answer().rivalIsAsLikely;
-    withinNoise += locator.answer().rivalIsWithinNoise;
+    asLikely += locator.answer().rival.isAsLikely;
+    withinNoise += locator.answer().rival.isWithinNoise;
   }
   CHECK_COMPARE(asLikely, >, 10);
   CHECK_COMPARE(withinNoise, <, asLikely / 2);
@@ -94,8 +94,8 @@ TEST(LocatorRivals, AModelErrorHasOneContactAndItsRivalComparedInAMeanOfSets) {
       for (int set = 0; set < 400; ++set) {
         update(finger, presses.noisy(strains, finger.noise_strain()), finger.allGauges());
         const Answer& answer = locator.answer();
-        if (answer.anyRival && (answer.solution.hypothesis.contacts == 2) == isPair)
-          most = std::max(most, int{answer.setsCompared});
+        if (answer.rival.any && (answer.solution.hypothesis.contacts == 2) == isPair)
+          most = std::max(most, int{answer.rival.setsCompared});
       }
     }
     return most;
@@ -115,14 +115,14 @@ TEST(LocatorRivals, AtAnotherScaleOfReadingsTheComparisonBeginsAnew) {
     const auto strains = unsure.strains(presses.next());
     for (int set = 0; set < 100; ++set)
       update(unsure, presses.noisy(strains, unsure.noise_strain()), unsure.allGauges());
-    for (double times = 1.01; times < 2.2 && locator.answer().anyRival; times *= 1.01) {
+    for (double times = 1.01; times < 2.2 && locator.answer().rival.any; times *= 1.01) {
       const Answer before = locator.answer();
       auto more = strains;
       for (double& strain : more) strain *= times;
       update(unsure, presses.noisy(more, unsure.noise_strain()), unsure.allGauges());
-      if (locator.answer().shift == before.shift || !locator.answer().anyRival) continue;
-      begun += before.setsCompared > 1;
-      CHECK_COMPARE(int{locator.answer().setsCompared}, <=, 1);
+      if (locator.answer().shift == before.shift || !locator.answer().rival.any) continue;
+      begun += before.rival.setsCompared > 1;
+      CHECK_COMPARE(int{locator.answer().rival.setsCompared}, <=, 1);
     }
   }
   CHECK_COMPARE(begun, >, 5);
@@ -142,18 +142,18 @@ TEST(LocatorRivals, OneSetThatIsFarOffDoesNotDecideTheMean) {
       update(unsure, presses.noisy(pressed, unsure.noise_strain()), unsure.allGauges());
     };
     for (int set = 0; set < 150; ++set) press(1);
-    const Wide compared = locator.answer().rivalMore;
-    for (int set = 0; set < 8 && locator.answer().rivalMore == compared; ++set) press(1);
+    const Wide compared = locator.answer().rival.more;
+    for (int set = 0; set < 8 && locator.answer().rival.more == compared; ++set) press(1);
     for (int set = 0; set < 7; ++set) press(1);
     const Answer before = locator.answer();
-    if (!before.anyRival || before.setsCompared < 4) continue;
+    if (!before.rival.any || before.rival.setsCompared < 4) continue;
     press(2);
     const Answer& after = locator.answer();
-    if (!after.anyRival || after.setsCompared < 4) continue;
+    if (!after.rival.any || after.rival.setsCompared < 4) continue;
     ++rivals;
     const Wide most = threshold::kRefuted * ambiguity(after.variances);
-    CHECK(after.rivalMore <= before.rivalMore + (most - before.rivalMore) / 4);
-    limited += after.rivalMore == before.rivalMore + (most - before.rivalMore) / 4;
+    CHECK(after.rival.more <= before.rival.more + (most - before.rival.more) / 4);
+    limited += after.rival.more == before.rival.more + (most - before.rival.more) / 4;
   }
   std::printf("%d of %d limited ", limited, rivals);
   CHECK_COMPARE(limited, >, 2);
@@ -166,11 +166,11 @@ TEST(LocatorRivals, ARivalIsForgottenOnceTheTouchHasTold) {
     locator.release();
     Press press = presses.next();
     settle(presses.noisy(ring.strains(press), ring.noise_strain()));
-    if (!locator.answer().anyRival) continue;
+    if (!locator.answer().rival.any) continue;
     ++rivals;
     for (int set = 0; set < 100; ++set, press.normal *= 1.03, press.tangential *= 1.03)
       update(presses.noisy(ring.strains(press), ring.noise_strain()));
-    left += locator.answer().anyRival;
+    left += locator.answer().rival.any;
     DOUBLES_EQUAL(0, off_pitch(press), 0.02);
   }
   CHECK(rivals > 10);
@@ -207,15 +207,15 @@ TEST(LocatorRivals, ARivalKeepsItsLoadWhenTheReadingsScaleChanges) {
     const auto strains = ring.strains(presses.next());
     settle(presses.noisy(strains, ring.noise_strain()));
     const auto rivalsLoad = [&] {
-      return std::ldexp(locator.answer().rival[0].normal, locator.answer().shift);
+      return std::ldexp(locator.answer().rival.contact[0].normal, locator.answer().shift);
     };
-    for (double times = 1.01; times < 2.2 && locator.answer().anyRival; times *= 1.01) {
+    for (double times = 1.01; times < 2.2 && locator.answer().rival.any; times *= 1.01) {
       const double before = rivalsLoad();
       const int shift = locator.answer().shift;
       auto more = strains;
       for (double& strain : more) strain *= times;
       update(presses.noisy(more, ring.noise_strain()));
-      if (locator.answer().shift == shift || !locator.answer().anyRival) continue;
+      if (locator.answer().shift == shift || !locator.answer().rival.any) continue;
       ++rescaled;
       DOUBLES_EQUAL(1, rivalsLoad() / before, 0.2);  // it may have been fitted to the new readings
     }
@@ -232,13 +232,13 @@ TEST(LocatorRivals, WhetherARivalIsAsLikelyIsJudgedWhenItIsFitted) {
     locator.release();
     const auto strains = built.strains(presses.next());
     for (int set = 0; set < 160; ++set) {
-      const bool wasSearching = locator.isSearching(), was = locator.answer().rivalIsAsLikely;
+      const bool wasSearching = locator.isSearching(), was = locator.answer().rival.isAsLikely;
       update(built, presses.noisy(strains, built.noise_strain()), built.allGauges());
       const Answer& answer = locator.answer();
-      if (wasSearching || locator.isSearching() || !answer.anyRival) continue;
+      if (wasSearching || locator.isSearching() || !answer.rival.any) continue;
       ++rivals;
-      changes += answer.rivalIsAsLikely != was;
-      cleared += was && !answer.rivalIsAsLikely;
+      changes += answer.rival.isAsLikely != was;
+      cleared += was && !answer.rival.isAsLikely;
     }
   }
   std::printf("%d changes, %d to less likely, in %d sets ", changes, cleared, rivals);
@@ -251,13 +251,13 @@ TEST(LocatorRivals, ARivalMovesAlongBetweenItsFits) {
   Presses presses(16, 3, 420, 5, 6);
   int rivals = 0, moved = 0;
   const auto apart_q32 = [&] {
-    return locator.answer().rival[0].angle_q32 - locator.answer().solution.contact[0].angle_q32;
+    return locator.answer().rival.contact[0].angle_q32 - locator.answer().solution.contact[0].angle_q32;
   };
   for (int i = 0; i < 50; ++i) {
     locator.release();
     Press press = presses.next();
     settle(ring.strains(press));
-    if (!locator.answer().anyRival) continue;
+    if (!locator.answer().rival.any) continue;
     ++rivals;
     const std::uint32_t before_q32 = apart_q32();
     press.position_pitch += 0.02;
@@ -277,11 +277,11 @@ TEST(LocatorRivals, AFirmTouchForgetsItsRivalAtOnce) {
     };
     locator.release();
     settle(hold(1));
-    if (!locator.answer().anyRival || off_pitch({4.727, 1, 0}) > 0.3) continue;
+    if (!locator.answer().rival.any || off_pitch({4.727, 1, 0}) > 0.3) continue;
     ++rivals;
     for (int set = 0; set < 8; ++set) update(hold(40));
     CHECK_TRUE(locator.answer().accepted);
-    CHECK_FALSE(locator.answer().anyRival);
+    CHECK_FALSE(locator.answer().rival.any);
   }
   CHECK_COMPARE(rivals, >, 30);
 }
@@ -292,26 +292,26 @@ TEST(LocatorRivals, ARivalIsForgottenWhenItIsRefutedThreeTimesInARow) {
   const auto hold = [&](double normal_n_per_m, int sets) {  // a fit of the rival for every eight
     for (int set = 0; set < sets; ++set)
       update(presses.noisy(ring.strains({4.727, normal_n_per_m, 0, 0.85}), ring.noise_strain()));
-    return locator.answer().rivalIsLost;
+    return locator.answer().rival.isLost;
   };
   for (int i = 0; i < 100; ++i) {
     locator.release();
     settle(presses.noisy(ring.strains({4.727, 1, 0, 0.85}), ring.noise_strain()));
-    if (!locator.answer().anyRival) continue;
+    if (!locator.answer().rival.any) continue;
     ++rivals;
     const Locator before = locator;
     if (hold(14, 8) && hold(14, 8)) {
       ++refuted;
-      twice += locator.answer().anyRival;
+      twice += locator.answer().rival.any;
       hold(14, 8);
-      thrice += locator.answer().anyRival;
+      thrice += locator.answer().rival.any;
     }
     locator = before;
     bool inTurn = true;
     for (int round = 0; round < 3; ++round) inTurn = inTurn && hold(14, 8) && !hold(1, 8);
     if (!inTurn) continue;
     ++turns;
-    kept += locator.answer().anyRival;
+    kept += locator.answer().rival.any;
   }
   CHECK_COMPARE(rivals, >, 50);
   CHECK_COMPARE(refuted, >, 20);
@@ -331,10 +331,10 @@ TEST(LocatorRivals, EachContactOfAPairHasItsOwnRival) {
     locator.release();
     settle(presses.noisy(ring.strains({one, other}), ring.noise_strain()));
     const Answer& answer = locator.answer();
-    if (answer.solution.hypothesis.contacts < 2 || !answer.anyRival) continue;
+    if (answer.solution.hypothesis.contacts < 2 || !answer.rival.any) continue;
     ++rivals;
     for (std::size_t k = 0; k < 2; ++k) {
-      const Press rival = ring.pressOf(answer.rival[k], answer.shift);
+      const Press rival = ring.pressOf(answer.rival.contact[k], answer.shift);
       CHECK_COMPARE(off_pitch(rival, static_cast<int>(k)), <, 2);
     }
   }

@@ -24,8 +24,8 @@ class Seed(NamedTuple):
 
 # Files that are compiled with bounds: the proof's own tests fail ..
 PROVED = [
-    Seed("NormalEquations", "normal_equations.cpp", "dot(column, columns[at(j)].data(), rows) - product(",
-         "4 * dot(column, columns[at(j)].data(), rows) - product(", "ADecompositionOverflowsNothing"),
+    Seed("NormalEquations", "normal_equations.cpp", "dot(column, columns[index(j)].data(), rows) - product(",
+         "4 * dot(column, columns[index(j)].data(), rows) - product(", "ADecompositionOverflowsNothing"),
     Seed("NormalEquations", "normal_equations.cpp", "sum += Wide{lower_q20[m]}", "sum += 4 * Wide{lower_q20[m]}",
          "ADecompositionOverflowsNothing"),
     Seed("NormalEquations", "normal_equations.cpp", "kInverseLimitBits = 29", "kInverseLimitBits = 30",

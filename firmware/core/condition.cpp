@@ -69,6 +69,13 @@ void ZeroAverage::writeTo(Calibration& calibration) const {
   });
 }
 
+std::uint32_t ZeroAverage::gaugesAtRail(const TableConstants& constants) const {
+  std::array<std::uint16_t, kMaxGauges> mean;
+  std::transform(sum_.begin(), sum_.end(), mean.begin(),
+                 [](std::uint32_t sum) { return static_cast<std::uint16_t>(sum >> kSampleBits); });
+  return saturatedGauges(constants, std::span(mean).first(constants.gauge_count));
+}
+
 Readings ZeroAverage::change(const Calibration& calibration) const {
   Readings change;
   for (std::size_t i = 0; i < change.strain_q32.size(); ++i) {

@@ -58,6 +58,8 @@ class ZeroAverage {
   bool add(Codes codes);
   bool complete() const { return count_ >= kSamples; }
   void writeTo(Calibration& calibration) const;
+  /// Bit i: gauge i was at a rail of its converter in all of them.
+  std::uint32_t gaugesAtRail(const TableConstants& constants) const;
   /// What the strains of the second half of the sets are on average more than those of the first.
   Readings change(const Calibration& calibration) const;
 

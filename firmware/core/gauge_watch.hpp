@@ -9,16 +9,18 @@
 
 namespace strainfinger::firmware {
 
-/// Takes a gauge out of use when it alone explains what is wrong with the readings at several places, or when
-/// it is at a rail where the others leave no doubt that it should not be. A second contact, a wide one or a
-/// finger that is not as drawn may look like a failing gauge at one place; at the next they look like
-/// another's failure.
+/// Takes a gauge out of use when it alone explains what is wrong with the readings at several places, when it
+/// is at a rail where the others leave no doubt that it should not be, or when its zero is at a rail. A
+/// second contact, a wide one or a finger that is not as drawn may look like a failing gauge at one place; at
+/// the next they look like another's failure.
 class GaugeWatch {
  public:
   GaugeSet outOfUse() const { return outOfUse_; }
   /// Those that touches may speak for: suspects, and those out of use.
   GaugeSet watched() const { return suspects_ | outOfUse_; }
 
+  /// Gauges that are known not to work.
+  void takeOut(GaugeSet gauges) { outOfUse_ |= gauges; }
   /// Once a touched sample set: the gauge that it speaks against, if any, and where the contact is.
   void suspect(GaugeSet gauge, std::uint32_t angle_q32);
   /// Gauges at a rail that should be well within their range; two sets in a row convict them.

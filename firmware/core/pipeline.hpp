@@ -37,7 +37,8 @@ class Pipeline {
 
   const TableConstants& constants() const { return tables_->constants; }
   Calibration& calibration() { return calibration_; }
-  /// A new zero: what was learnt with the old one is forgotten, gauges out of use have another try.
+  /// A new zero: what was learnt with the old one is forgotten, gauges out of use have another try,
+  /// unless they are at a rail now.
   void takeZero(const ZeroAverage& zero);
   /// The strains changed while the zero was taken, as by a touch that began or ended.
   bool isTouchedDuring(const ZeroAverage& zero) const;

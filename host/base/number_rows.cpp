@@ -1,6 +1,7 @@
 #include "host/base/number_rows.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <strings.h>
 
 #include <algorithm>
@@ -38,19 +39,42 @@ bool parseNumber(std::string_view text, double& value) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
+/// Where a field that begins at `begin` ends: at the next comma, or, if it is quoted, the next behind its
+/// closing quote. A quote in it is written twice (RFC 4180).
+std::size_t endOfField(std::string_view line, std::size_t begin) {
+  bool isQuoted = false;
+  for (std::size_t i = begin; i < line.size(); ++i) {
+    if (line[i] == '"' && (isQuoted || trimmed(line.substr(begin, i - begin)).empty())) {
+      isQuoted = !isQuoted;
+      const bool isTwice = !isQuoted && i + 1 < line.size() && line[i + 1] == '"';
+      if (isTwice) isQuoted = true, ++i;
+    }
+    if (line[i] == ',' && !isQuoted) return i;
+  }
+  return line.size();
+}
+
 std::vector<std::string_view> fieldsOf(std::string_view line) {
   std::vector<std::string_view> fields;
   for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
+    const std::size_t end = endOfField(line, begin);
     fields.push_back(line.substr(begin, end - begin));
     begin = end + 1;
   }
   return fields;
 }
 
-std::string_view unquoted(std::string_view field) {
-  const bool isQuoted = field.size() >= 2 && field.starts_with('"') && field.ends_with('"');
-  return isQuoted ? field.substr(1, field.size() - 2) : field;
+/// Without the blanks around it, and its quotes.
+std::string textOf(std::string_view field) {
+  const std::string_view inside = trimmed(field);
+  const bool isQuoted = inside.size() >= 2 && inside.starts_with('"') && inside.ends_with('"');
+  if (!isQuoted) return std::string(inside);
+  std::string text;
+  for (std::size_t i = 1; i + 1 < inside.size(); ++i) {
+    text += inside[i];
+    if (inside[i] == '"' && i + 2 < inside.size() && inside[i + 1] == '"') ++i;
+  }
+  return text;
 }
 
 /// Of a field in its line, from 1.
@@ -66,7 +90,7 @@ bool isNoNumberOf(std::string_view field, const char* word) {
 
 /// Of a column: nothing that could have been meant as a value, or as several.
 bool isName(std::string_view field) {
-  const std::string_view name = unquoted(trimmed(field));
+  const std::string name = textOf(field);
   double value = 0;
   return !name.empty() && isLetter(name.front()) && name.find_first_of(";\t") == std::string_view::npos &&
          !parseNumber(name, value) &&
@@ -124,21 +148,22 @@ void NumberRowReader::requireReadable() const {
 }
 
 void NumberRowReader::takeHeader(const std::string& line) {
-  std::string names = line;
-  std::erase_if(names, [](char c) { return c == '"' || kBlanks.find(c) != std::string_view::npos; });
+  std::vector<std::string> names;
+  for (const std::string_view field : fieldsOf(line)) names.push_back(textOf(field));
   if (!limit_.columns.empty()) return chooseColumns(names);
-  if (!limit_.header.empty() && names != limit_.header)
-    fail(1, fmt::format("the header is \"{}\", not \"{}\"", names, limit_.header));
-  if (const std::size_t count = fieldsOf(line).size(); count != columns_)
-    fail(1, fmt::format("the header has {} columns where {} are needed", count, columns_));
+  if (const std::string all = fmt::format("{}", fmt::join(names, ","));
+      !limit_.header.empty() && all != limit_.header)
+    fail(1, fmt::format("the header is \"{}\", not \"{}\"", all, limit_.header));
+  if (names.size() != columns_)
+    fail(1, fmt::format("the header has {} columns where {} are needed", names.size(), columns_));
 }
 
-void NumberRowReader::chooseColumns(const std::string& names) {
+void NumberRowReader::chooseColumns(const std::vector<std::string>& names) {
   const auto& wanted = limit_.columns;
-  for (const std::string_view name : fieldsOf(names)) {
+  for (const std::string& name : names) {
     const auto place =
         static_cast<std::size_t>(std::find(wanted.begin(), wanted.end(), name) - wanted.begin());
-    if (place == wanted.size()) otherNames_.emplace_back(name);
+    if (place == wanted.size()) otherNames_.push_back(name);
     places_.push_back(place);
   }
   requireNoMore();
@@ -170,7 +195,7 @@ void NumberRowReader::parse(const std::string& line, std::vector<double>& row) {
     if (i == needed) fail(columnOf(fields[i], line), fmt::format("more than {} columns", needed));
     const std::size_t place = places_.empty() ? i : places_[i];
     if (place == columns_)
-      others_.emplace_back(unquoted(trimmed(fields[i])));
+      others_.push_back(textOf(fields[i]));
     else
       row[place] = numberOf(trimmed(fields[i]), columnOf(fields[i], line));
   }

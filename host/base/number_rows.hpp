@@ -13,8 +13,8 @@ namespace strainfinger {
 
 /// Reads rows of `columns` finite numbers, separated by commas (blanks around them are allowed). A first row
 /// of names is a header: they begin with a letter and are no word for a missing number (NA, nan, null ..),
-/// may be quoted, and are as many as the columns. Blank lines and lines that begin with # are passed over, as
-/// is a byte order mark.
+/// and are as many as the columns. Names and texts may be quoted, with commas in them (RFC 4180). Blank lines
+/// and lines that begin with # are passed over, as is a byte order mark.
 class NumberRowReader {
  public:
   /// What may be there: numbers of at most `most` in size (`hint` says what a larger one may have been meant
@@ -52,7 +52,7 @@ class NumberRowReader {
  private:
   void requireReadable() const;
   void takeHeader(const std::string& line);
-  void chooseColumns(const std::string& names);
+  void chooseColumns(const std::vector<std::string>& names);
   void requireNoMore() const;
   void parse(const std::string& line, std::vector<double>& row);
   double numberOf(std::string_view field, std::size_t column) const;

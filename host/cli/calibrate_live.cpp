@@ -42,6 +42,8 @@ class SessionFace {
   /// The text of a command, if one was given.
   virtual std::optional<std::string> heard() = 0;
   virtual void show(const session::SessionView& view) = 0;
+  /// What became of a command, or of the finger, at once.
+  virtual void say(const std::string& message) = 0;
 };
 
 class SessionScreen : public SessionFace {
@@ -60,6 +62,7 @@ class SessionScreen : public SessionFace {
     prompted.prompt = keys_.prompt();
     terminal_.show(session::drawSession(prompted, gauges_, live::terminalForm()));
   }
+  void say(const std::string&) override {}  // the view has it
 
  private:
   const config::Gauges& gauges_;
@@ -78,9 +81,6 @@ class SessionLines : public SessionFace {
     return std::nullopt;
   }
   void show(const session::SessionView& view) override {
-    if (!view.message.empty() && view.message != message_)
-      fmt::print(stderr, "calibrate: {}\n", view.message);
-    message_ = view.message;
     const auto since = SessionClock::now() - printed_;
     const std::string news =
         fmt::format("{}|{}|{}", view.next, view.complaint, view.assessment ? view.assessment->rows : 0);
@@ -89,11 +89,12 @@ class SessionLines : public SessionFace {
     news_ = news;
     fmt::print(stderr, "{}\n", session::sessionLine(view));
   }
+  void say(const std::string& message) override { fmt::print(stderr, "calibrate: {}\n", message); }
 
  private:
   LineReader stdin_{"-"};
   bool isOver_ = false;
-  std::string message_, news_;
+  std::string news_;
   SessionClock::time_point printed_{};
 };
 
@@ -126,14 +127,14 @@ class LiveSession {
     RawStream stream(*port_, options_.node, options_.rate_hz, stop);
     missedBefore_ = port_->status().missed;
     heard_ = SessionClock::now();
-    const auto face = makeFace();
+    face_ = makeFace();
     while (!stop.asked() && !quit_ && session_.advice().kind != session::Advice::Kind::kDone) {
       if (port_->waitReadable(kSessionWait)) std::this_thread::sleep_for(can::BusPort::kGather);
       takeFrames();
       followFit();
-      while (const auto text = face->heard()) obey(*text);
+      while (const auto text = face_->heard()) obey(*text);
       if (SessionClock::now() - heard_ > kSessionSilence) askAgain(stream);
-      face->show(view());
+      face_->show(view());
     }
     return stop.asked();
   }
@@ -172,16 +173,21 @@ class LiveSession {
     const session::Obeyed obeyed = session_.obey(session::parseCommand(text, config_.finger.length_m));
     if (obeyed.row) files_.add(obeyed.row->time_s, obeyed.row->strains, obeyed.row->known);
     if (obeyed.takenBack) files_.rewriteTouches(session_.rows().known);
-    message_ = obeyed.message;
+    tell(obeyed.message);
     quit_ |= obeyed.quit;
     if (obeyed.tare) tare();
+  }
+
+  void tell(const std::string& message) {
+    message_ = message;
+    if (!message.empty()) face_->say(message);
   }
 
   void tare() {
     const can::Reply reply = can::ask(*port_, options_.node, tareRequest(false));
     heard_ = SessionClock::now();
-    message_ = reply.response ? "tare: " + can::meaningOf(*reply.response)
-                              : "tare: no answer: is the finger on the bus still?";
+    tell(reply.response ? "tare: " + can::meaningOf(*reply.response)
+                        : "tare: no answer: is the finger on the bus still?");
   }
 
   void askAgain(RawStream& stream) {
@@ -194,7 +200,7 @@ class LiveSession {
                                 "it gauges.count = {}, as "
                                 "the config, and is the bus free enough? A lower --rate may help",
                                 port_->name(), options_.node, silence_s, config_.gauges.count));
-    message_ = "the finger sent nothing, and was asked again";
+    tell("the finger sent nothing, and was asked again");
   }
 
   session::SessionView view() const {
@@ -262,6 +268,7 @@ class LiveSession {
   std::uint32_t missedBefore_ = 0;
   std::uint64_t sets_ = 0;
   int silences_ = 0;
+  std::unique_ptr<SessionFace> face_;
   std::string message_;
   bool quit_ = false;
 };

@@ -32,18 +32,21 @@ constexpr int kMostHarmonics = 2000, kMostPrintedHarmonics = 1000;
 
 struct ContactCommand {
   explicit ContactCommand(CLI::App& command) : common(command), contact(command) {
-    command.add_flag("--summary", summary, "Loads, width, depth, offset and residual only, as one row");
+    CLI::Option* const alone =
+        command.add_flag("--summary", summary, "Loads, width, depth, offset and residual only, as one row");
     auto& list =
         *command
              .add_option("--at-deg", at_deg,
                          "Angles to look at, from the indenter's normal [degrees], separated by commas")
              ->type_name("a,b")
              ->delimiter(',')
-             ->check(isFrom(-180, 180));
+             ->check(isFrom(-180, 180))
+             ->excludes(alone);
     command.add_option("--points", points, "Or: so many, evenly over twice the contact's width (400)")
         ->type_name("N")
         ->check(isWhole(1, 1'000'000))
-        ->excludes(&list);
+        ->excludes(&list)
+        ->excludes(alone);
     command.add_option("--method", method, "spectral, or paper: windowed Fourier series, pseudo-inverse")
         ->check(CLI::IsMember({"spectral", "paper"}));
     ofPaper = {
@@ -182,7 +185,7 @@ void runContact(const ContactCommand& options) {
   if (options.method == "paper") return runPaper(options, config.finger.annulus(), request);
   const contact::SurfaceKernel kernel(config.finger.annulus());
   const contact::Contact contact = contact::solveContact(kernel, request);
-  tellOf(contact, kernel.annulus());
+  tellOf("contact", contact, kernel.annulus());
   if (options.summary)
     printSummary(options, contact);
   else

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iterator>
+#include <numbers>
 #include <sstream>
 
 #include "host/base/angles.hpp"
@@ -45,6 +47,9 @@ Indenter readShape(const std::string& path) {
     NumberRowReader reader(text, path, 2, {.header = "x_m,height_m"});
     std::vector<double> position_m, height_m;
     for (std::vector<double> row; reader.next(row);) {
+      if (!position_m.empty() && !(row[0] > position_m.back()))
+        throw Failure(ExitCode::kUsage, fmt::format("{}: x_m must rise from row to row: {} comes after {}",
+                                                    reader.place(), row[0], position_m.back()));
       position_m.push_back(row[0]);
       height_m.push_back(row[1]);
     }
@@ -53,6 +58,17 @@ Indenter readShape(const std::string& path) {
   } catch (const Failure& failure) {
     throw Failure(ExitCode::kUsage, where + failure.what());
   }
+}
+
+/// x_m is an arc along the finger: one in millimetres would go round it several times.
+void requireOnSurface(const Indenter& indenter, const std::string& path, double radius_m) {
+  const double half_m = std::numbers::pi * radius_m;
+  const double first_m = indenter.firstPosition_m(), last_m = indenter.lastPosition_m();
+  if (!std::isfinite(first_m) || (first_m >= -half_m && last_m <= half_m)) return;
+  throw Failure(ExitCode::kUsage,
+                fmt::format("{}: x_m goes from {} to {}: as an arc along this finger it is from -{:.4g} to "
+                            "{:.4g} m; are these metres?",
+                            path, first_m, last_m, half_m, half_m));
 }
 
 contact::Regime regimeOf(const std::string& name) {
@@ -85,14 +101,14 @@ Indenter parseIndenter(const std::string& text) {
   return readShape(text);
 }
 
-void tellOf(const contact::Contact& contact, const model::Annulus<double>& annulus) {
-  fmt::print(stderr, "contact: residual {:.2g} m, recomputed from the tractions; {} terms a patch{}\n",
+void tellOf(const char* command, const contact::Contact& contact, const model::Annulus<double>& annulus) {
+  fmt::print(stderr, "{}: residual {:.2g} m, recomputed from the tractions; {} terms a patch{}\n", command,
              contact.residual_m, contact.terms, regionsOf(contact, annulus.outer_radius_m));
-  warn("contact", contact.warnings);
+  warn(command, contact.warnings);
   constexpr double kMostLinear = 0.2;  // strains are about the depth over the thickness
   const double share = contact.deepest_m / (annulus.outer_radius_m - annulus.core_radius_m);
   if (share > kMostLinear)
-    warn("contact",
+    warn(command,
          fmt::format("{:.2g} of the rubber's thickness deep: strains are large, the model is for small ones",
                      share));
 }
@@ -133,6 +149,7 @@ contact::ContactRequest ContactOptions::request(const config::FingerConfig& conf
           "--friction goes with --regime sliding");
   contact::ContactRequest request;
   request.indenter = parseIndenter(indenter);
+  requireOnSurface(request.indenter, indenter, config.finger.outer_radius_m);
   request.regime = regimeOf(regime.empty() && hasFriction->count() ? "sliding" : regime);
   if (request.regime == contact::Regime::kSliding)
     request.friction = hasFriction->count() ? friction : config.contact.friction_coefficient;

@@ -4,6 +4,7 @@
 
 #include "common/frame_layout.hpp"
 #include "host/base/atomic_file.hpp"
+#include "host/base/failure.hpp"
 #include "host/base/text_output.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
@@ -23,6 +24,8 @@ struct DbcOptions {
 };
 
 void runDbc(const DbcOptions& options) {
+  if (options.common.format() == TableFormat::kJson)
+    throw Failure(ExitCode::kUsage, "dbc: --json: a DBC file is all that it prints");
   const config::Can can = options.common.config().can;
   const std::string text = can::dbcText(nodeOf(options.node, can), can.contact_rate_hz);
   if (!options.path.empty())

@@ -57,7 +57,7 @@ void runField(const FieldOptions& options) {
   requireDeep(options.radii, config.finger.annulus());
   const contact::SurfaceKernel kernel(config.finger.annulus());
   const contact::Contact contact = contact::solveContact(kernel, options.contact.request(config));
-  tellOf(contact, kernel.annulus());
+  tellOf("field", contact, kernel.annulus());
   constexpr std::array kRows{kErr, kEtt, kErt, kUr, kUt, kTrr, kTrt, kTtt};
   const std::vector<double> angles_rad =
       evenly(options.from_deg * kRadPerDeg, options.to_deg * kRadPerDeg, options.angles);

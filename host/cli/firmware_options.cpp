@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "host/cli/command.hpp"
 #include "host/tables/self_check.hpp"
 #include "host/tables/table_file.hpp"
 
@@ -34,7 +35,10 @@ std::string toMode(std::string& name) {
 FirmwareOptions::FirmwareOptions(CLI::App& command) {
   command.add_option("--tables", tablesPath_, "Table image (tables -o); made from the config without it")
       ->type_name("FILE");
-  command.add_option("--mode", mode_, "How it fits: refined (default) or three-point")
+  command
+      .add_option(
+          "--mode", mode_,
+          "How it fits: refined (default), or three-point, for contacts of a known width (contact.width_m)")
       ->type_name("MODE")
       ->transform(CLI::Validator(toMode, ""));
 }
@@ -48,6 +52,14 @@ std::unique_ptr<TableImage> FirmwareOptions::tablesOf(const config::FingerConfig
   auto image = tables(config);
   tables::requireTablesOf(*image, config, tablesPath_);
   return image;
+}
+
+void FirmwareOptions::warnOfMode(const char* command, const TableImage& image) const {
+  if (mode_ == FitMode::kThreePoint && image.constants.width_is_known == 0)
+    warn(command,
+         "--mode three-point takes every contact for a line, as contact.width_m is left out: wider ones are "
+         "off "
+         "by several of the errors that it tells; give contact.width_m, or --mode refined");
 }
 
 }  // namespace strainfinger::cli

@@ -20,6 +20,8 @@ class FirmwareOptions {
   /// The same; throws Failure(kMismatch) when the image is of another finger than the config's.
   std::unique_ptr<TableImage> tablesOf(const config::FingerConfig& config) const;
   firmware::FitMode mode() const { return mode_; }
+  /// Where the fit takes for a line what may be wide.
+  void warnOfMode(const char* command, const TableImage& image) const;
 
  private:
   std::string tablesPath_;

@@ -19,6 +19,7 @@
 #include "firmware/core/detect.hpp"
 #include "firmware/core/estimate.hpp"
 #include "firmware/core/locator.hpp"
+#include "host/base/failure.hpp"
 #include "host/base/no_value.hpp"
 #include "host/base/strain_rows.hpp"
 #include "host/can/frame_catalogue.hpp"
@@ -168,28 +169,43 @@ std::vector<Cell> located(const TableImage& image, firmware::Locator& locator,
   return cellsOf(contacts, flagsOf(answer, contacts, saturated, all));
 }
 
+/// A number as JSON has it: a whole one to its last digit. Text that is none, or that JSON would write
+/// otherwise (007, or more digits than 64 bits hold), stays text.
+Cell asNumber(const std::string& text) {
+  const auto isAll = [&](const std::from_chars_result& read) {
+    return read.ec == std::errc{} && read.ptr == text.data() + text.size();
+  };
+  std::int64_t whole = 0;
+  if (isAll(std::from_chars(text.data(), text.data() + text.size(), whole)))
+    return fmt::format("{}", whole) == text ? Cell(whole) : Cell(text);
+  const bool hasFraction = text.find_first_of(".eE") != text.npos;
+  double value = 0;
+  const bool isNumber = isAll(std::from_chars(text.data(), text.data() + text.size(), value));
+  return hasFraction && isNumber ? Cell(value) : Cell(text);
+}
+
 /// As they were; numbers are numbers in JSON.
 std::vector<Cell> passedThrough(const std::vector<std::string>& texts, TableFormat format) {
-  std::vector<Cell> cells(texts.begin(), texts.end());
-  for (Cell& cell : cells) {
-    const std::string& text = std::get<std::string>(cell);
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool isNumber = error == std::errc{} && end == text.data() + text.size();
-    if (format == TableFormat::kJson && isNumber) cell = value;
-  }
+  std::vector<Cell> cells;
+  for (const std::string& text : texts)
+    cells.push_back(format == TableFormat::kJson ? asNumber(text) : Cell(text));
   return cells;
 }
 
 std::vector<std::string> columnsBehind(std::vector<std::string> columns) {
   for (std::string& column : columns)
     if (std::ranges::find(kColumns, std::string_view(column)) != kColumns.end()) column.insert(0, "input_");
+  for (auto column = columns.begin(); column != columns.end(); ++column)
+    if (std::find(columns.begin(), column, *column) != column)
+      throw Failure(ExitCode::kFailure,
+                    fmt::format("stdin: two columns would be passed through as {}: rename one", *column));
   columns.insert(columns.end(), kColumns.begin(), kColumns.end());
   return columns;
 }
 
 void runLocate(const LocateOptions& options) {
   const auto image = tablesFor(options);
+  options.firmware.warnOfMode("locate", *image);
   const TableConstants& constants = image->constants;
   NumberRowReader rows(std::cin, "stdin", constants.gauge_count, strainLimit(constants.gauge_count));
   firmware::ContactGate gate;

@@ -13,8 +13,8 @@ namespace strainfinger::cli {
 /// Takes all frames of a recording, in order, from `next`, and prints what came of it on stdout: a row
 /// node,sets,left_out,gaps,compared,different,absent. Throws Failure(kVerificationFailed) when a frame
 /// differs from what the readings give or is absent, Failure(kFailure) when there was nothing to compare,
-/// Failure(kMismatch) when the finger had other tables.
+/// Failure(kMismatch) when the finger had other tables. `bitrate`: of the bus [bit/s].
 void recompute(const std::function<std::optional<can::TimedFrame>()>& next, const TableImage& tables,
-               const recompute::RecordedFinger& finger, TableFormat format);
+               const recompute::RecordedFinger& finger, std::uint32_t bitrate, TableFormat format);
 
 }  // namespace strainfinger::cli

@@ -27,8 +27,7 @@ std::string newNotesPath(const std::string& path) {
   if (std::filesystem::exists(notes, unknown))
     throw Failure(
         ExitCode::kFailure,
-        fmt::format("{}: cannot make the file: File exists: the log's notes belong there; remove it, or "
-                    "write to another file than {}",
+        fmt::format("{}: there is such a file already, where the notes of {} belong: write to another file",
                     notes, path));
   return notes;
 }

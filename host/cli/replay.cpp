@@ -28,8 +28,8 @@ using Clock = std::chrono::steady_clock;
 constexpr const char* kReplayHelp =
     "Sends the frames of a log (any candump text with times) on a bus, each in its time.\n"
     "Nothing is sent if a line of it cannot be read. Frames that are not classic data frames with 11-bit "
-    "identifiers "
-    "are left out and counted.\n"
+    "identifiers are left out and counted; so are requests to fingers (0x600 + node), unless --requests: a "
+    "finger that is on the bus obeys them, and takes a new zero or other tables.\n"
     "--recompute: sends nothing, but puts the RAW of a recording of -c's finger through the firmware's code, "
     "and compares "
     "the frames of touches, bit for bit. Exit status 6: they differ.";
@@ -47,6 +47,7 @@ struct ReplayOptions {
     addBusOption(command, bus);
     command.add_flag("--recompute", recompute,
                      "Compute what the finger must have said from its RAW, and compare");
+    command.add_flag("--requests", requests, "Send requests to fingers as well, which they obey");
     command.add_option("--speed", speed, "So many times as fast as it was (default 1)")
         ->check(isFrom(1e-3, 1e6));
   }
@@ -55,14 +56,18 @@ struct ReplayOptions {
   std::string path;
   std::string bus;  ///< empty: none
   bool recompute = false;
-  double speed = 1;
+  bool requests = false;
+  std::optional<double> speed;
 };
 
 /// What there is to send.
 struct LogExtent {
   std::uint64_t frames = 0;
+  std::uint64_t requests = 0;
   std::uint64_t skipped = 0;
 };
+
+bool isRequest(const CanFrame& frame) { return nodeOf(frame.id, FunctionCode::kRequest).has_value(); }
 
 /// Reads it all, so that nothing is sent of a log that cannot be read to its end.
 LogExtent measure(const std::string& path) {
@@ -73,7 +78,7 @@ LogExtent measure(const std::string& path) {
     throw Failure(ExitCode::kUsage, "replay: the log must be a file, not a pipe: it is read twice");
   can::LogReader log(path);
   LogExtent extent;
-  while (log.next()) ++extent.frames;
+  while (const auto text = log.next()) ++(isRequest(text->frame) ? extent.requests : extent.frames);
   extent.skipped = log.skipped();
   warn("replay", log.warnings());
   return extent;
@@ -103,7 +108,9 @@ std::uint64_t sendAll(const ReplayOptions& options, can::BusPort& port, const sy
   std::uint64_t sent = 0;
   while (const auto frame = log.next()) {
     if (!first_ns) first_ns = frame->time_ns;
-    const double since_s = static_cast<double>(*frame->time_ns - *first_ns) * 1e-9 / options.speed;
+    if (!options.requests && isRequest(frame->frame)) continue;
+    const double since_s =
+        static_cast<double>(*frame->time_ns - *first_ns) * 1e-9 / options.speed.value_or(1);
     const auto due = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(since_s));
     if (!sleepUntil(start + due, stop)) break;
     send(port, frame->frame);
@@ -125,20 +132,27 @@ void recomputeLog(const ReplayOptions& options) {
       .node = static_cast<std::uint8_t>(config.can.node),
       .contactRate_hz = static_cast<std::uint16_t>(std::lround(config.can.contact_rate_hz)),
       .mode = options.firmware.mode()};
-  recompute(next, *options.firmware.tablesOf(config), finger, options.common.format());
+  recompute(next, *options.firmware.tablesOf(config), finger, static_cast<std::uint32_t>(config.can.bitrate),
+            options.common.format());
 }
 
 void runReplay(const ReplayOptions& options) {
   if (options.bus.empty() == !options.recompute)
     throw Failure(ExitCode::kUsage,
                   "replay: give either --can, to send the log, or --recompute, to check it");
+  if (options.recompute && (options.speed || options.requests))
+    throw Failure(ExitCode::kUsage,
+                  "replay: --speed and --requests go with --can: --recompute sends nothing");
   if (options.recompute) return recomputeLog(options);
   const LogExtent extent = measure(options.path);
   const system::StopSignal stop;
   const auto port = can::openBus(options.bus, options.common.config().can.bitrate, kHearNothing);
   const std::uint64_t sent = sendAll(options, *port, stop);
-  fmt::print(stderr, "replay: {} of {} frames sent, {} of other kinds left out\n", sent, extent.frames,
-             extent.skipped);
+  fmt::print(stderr, "replay: {} of {} frames sent, {} of other kinds left out\n", sent,
+             extent.frames + (options.requests ? extent.requests : 0), extent.skipped);
+  if (extent.requests > 0 && !options.requests)
+    fmt::print(stderr, "replay: {} requests to fingers left out, too: --requests sends them\n",
+               extent.requests);
   if (stop.asked()) throw Failure(ExitCode::kInterrupted, "replay: interrupted");
 }
 

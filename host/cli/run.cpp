@@ -154,7 +154,7 @@ class Watchers {
     if (table_) table_->add(moment);
     if (recorder_) recorder_->add(moment, readings);
     if (strains_ && !moment.isZeroing) strains_->add(moment, readings.strain_q32);
-    if (moment.compared) errors_.add(*moment.compared, config_.finger);
+    errors_.add(moment, config_.finger);
   }
 
   void write() const {
@@ -184,11 +184,12 @@ template <typename Port, typename Wait, typename Afterwards>
 void runOn(Port& port, const config::FingerConfig& config, const RunOptions& options, Wait wait,
            Afterwards afterwards) {
   config::FingerConfig known = config;
-  if (options.uncalibrated && !known.calibration.isEmpty()) {
+  if (options.uncalibrated) {
     known.calibration = {};
     known.gauges.model_error = std::max(known.gauges.model_error, config::Gauges{}.model_error);
   }
   const auto tables = options.firmware.tablesOf(known);
+  options.firmware.warnOfMode("run", *tables);
   const simulation::Scenario scenario = scenarioOf(options);
   const double end_s = durationOf(options, scenario);
   const auto end_us = static_cast<std::uint64_t>(std::llround(end_s * 1e6));

@@ -31,6 +31,7 @@ void printText(std::FILE* stream, double duration_s, const simulation::RunCounts
   fmt::print(stream,
              "run: not counted there: {} flagged uncertain, {} of several touches, {} of none, {} missed\n",
              errors.uncertain, errors.several, errors.phantom, errors.missed);
+  fmt::print(stream, "run: touched for {:.3f} s without a contact told\n", errors.untold_s);
   if (counts.outOfUse != 0)
     fmt::print(stream, "run: gauges out of use at the end: {}\n", gaugesOf(counts.outOfUse));
 }
@@ -63,6 +64,7 @@ void printSummary(std::FILE* stream, TableFormat format, double duration_s,
                      "several",
                      "phantom",
                      "missed",
+                     "untold_s",
                      "gauges_out_of_use"});
   table.row({duration_s,
              number(finger.sampleSets),
@@ -84,6 +86,7 @@ void printSummary(std::FILE* stream, TableFormat format, double duration_s,
              number(errors.several),
              number(errors.phantom),
              number(errors.missed),
+             errors.untold_s,
              gaugesOf(counts.outOfUse)});
 }
 

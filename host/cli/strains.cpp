@@ -105,8 +105,11 @@ class SentGauges {
 
 using StrainClock = std::chrono::steady_clock;
 
-/// Why there is no whole set, and what to do.
-std::string whyNone(int gauges, const SentGauges& sent, double waited_s) {
+/// Why there is no whole set, or no further one, and what to do.
+std::string whyNone(int gauges, const SentGauges& sent, std::uint64_t sets, double waited_s) {
+  if (sets > 0)
+    return fmt::format("silent for {} s after {} sets: is it off, or unplugged? What came is printed",
+                       waited_s, sets);
   if (sent.count() == 0) return fmt::format("no readings in {} s: is the bus free enough?", waited_s);
   if (sent.count() < gauges)
     return fmt::format(
@@ -130,8 +133,10 @@ void runStrains(const StrainsOptions& options) {
   StrainPrinter printer(config.gauges, options.request.common.format());
   SentGauges sent(node);
   const auto giveUp = [&](double waited_s) {
-    throw Failure(ExitCode::kNoNode, fmt::format("{} node {}: {}", bus->name(), node,
-                                                 whyNone(config.gauges.count, sent, waited_s)));
+    const bool isOtherRing = sent.count() > 0 && sent.count() < config.gauges.count;
+    throw Failure(isOtherRing ? ExitCode::kMismatch : ExitCode::kNoNode,
+                  fmt::format("{} node {}: {}", bus->name(), node,
+                              whyNone(config.gauges.count, sent, printer.sets(), waited_s)));
   };
   const auto isWhole = [&] { return printer.sets() >= options.rows; };
   for (auto heard = StrainClock::now(); !stop.asked() && !isWhole() && StrainClock::now() < end;) {

@@ -295,7 +295,7 @@ Findings examineCounts(const std::string& bus, std::uint8_t node, std::span<cons
     if (counted.value > (count == Count::kErases ? kNearlyWorn - 1 : 0))
       examination.warning(
           fmt::format("{} {}", counted.value, said("counted", kCountNames, static_cast<int>(count))),
-          count == Count::kLostSets ? "" : can::remedyFor(count));  // the fault `samples` has it
+          can::remedyFor(count));
   }
   if (examination.isEmpty()) examination.good("answers requests, and counts nothing that would be wrong");
   return examination.findings();

@@ -117,6 +117,15 @@ class PageServer::Impl {
          {"Content-Security-Policy",
           "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
           "connect-src 'self'; img-src data:; frame-ancestors 'none'; base-uri 'none'"}});
+    server_.set_error_handler([](const httplib::Request& request, httplib::Response& response) {
+      if (!response.body.empty()) return;
+      const std::string what = request.method + " " + request.path;
+      if (response.status == 404 || response.status == 400)
+        say(response, response.status,
+            what + " is not known: GET /, /finger, /state, /events; POST /fingers/NODE/tare.");
+      else
+        say(response, response.status, what + " was refused.");
+    });
     if (isLocalAddress(options_.address))
       server_.set_pre_routing_handler([](const httplib::Request& request, httplib::Response& response) {
         if (isLocalHost(request.get_header_value("Host"))) return httplib::Server::HandlerResponse::Unhandled;

@@ -151,7 +151,9 @@ Obeyed Session::obeySkip() {
   }
   if (kind == Advice::Kind::kMark) {
     unavailable_.directions = true;
-    return {.message = "without known directions a ring that is turned or reversed is not noticed"};
+    return {.message = coverage_.directions_deg.empty()
+                           ? "without known directions a ring that is turned or reversed is not noticed"
+                           : "the zero of the angle is what the marks tell that were taken"};
   }
   return {.message = "this cannot be skipped: q ends the session"};
 }

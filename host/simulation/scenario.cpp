@@ -10,8 +10,11 @@
 namespace strainfinger::simulation {
 namespace {
 
+/// Without the rounding of the subtraction, which would leave 1e-14 N/m of a load that is over.
+double since(double start_s, double time_s) { return std::round(1e9 * (time_s - start_s)) / 1e9; }
+
 Touch touchAt(const TouchCourse& touch, double time_s) {
-  const double since_s = time_s - touch.start_s;
+  const double since_s = since(touch.start_s, time_s);
   Touch now{touch.angle_deg.at(since_s) * kRadPerDeg, touch.normal_n_per_m.at(since_s),
             touch.tangential_n_per_m.at(since_s)};
   if (touch.width_m) now.width_m = touch.width_m->at(since_s);

@@ -52,8 +52,14 @@ struct Moment {
   bool isZeroing = false;                 ///< the set went into the zero: there are no readings of it
 };
 
+inline firmware::FingerCounters operator+(const firmware::FingerCounters& a,
+                                          const firmware::FingerCounters& b) {
+  return {a.sampleSets + b.sampleSets, a.fits + b.fits, a.touchesSent + b.touchesSent,
+          a.touchesBusy + b.touchesBusy, a.touchesIncomplete + b.touchesIncomplete};
+}
+
 struct RunCounts {
-  firmware::FingerCounters finger;  ///< since its last start
+  firmware::FingerCounters finger;  ///< of all its starts
   std::uint32_t overruns = 0;       ///< sample sets lost because the machine was late
   std::uint64_t frames = 0;         ///< all that went to the bus
   std::uint64_t heartbeats = 0;     ///< of these
@@ -62,8 +68,8 @@ struct RunCounts {
 
 /// A finger on `port`, which must outlive it like `tables`. Its gauges' zeros are off by `kZeroSpread` of
 /// full scale, so that they need the zero which the firmware takes; their gains are the
-/// config's, and reports are flagged uncalibrated when `tables` don't have them. Tables that it is sent take
-/// the place of `tables` from its next start on.
+/// config's, and reports of a finger that is not as drawn are flagged uncalibrated when `tables` don't have
+/// them. Tables that it is sent take the place of `tables` from its next start on.
 template <hal::CanPort Port>
 class SimulatedFinger {
  public:
@@ -104,8 +110,8 @@ class SimulatedFinger {
   double elapsed_s() const { return static_cast<double>(clock_.elapsed_us()) * 1e-6; }
   std::uint64_t elapsed_us() const { return clock_.elapsed_us(); }
   RunCounts counts() const {
-    if (!finger_) return {{}, gauges_.overruns(), frames_, heartbeats_, 0};
-    return {finger_->counters(), gauges_.overruns(), frames_, heartbeats_,
+    if (!finger_) return {counted_, gauges_.overruns(), frames_, heartbeats_, 0};
+    return {counted_ + finger_->counters(), gauges_.overruns(), frames_, heartbeats_,
             finger_->lastObservation().outOfUse};
   }
   const GaugeStrains& strains() const { return gauges_.strains(); }
@@ -119,14 +125,14 @@ class SimulatedFinger {
   }
 
   static firmware::FingerSettings settingsOf(const config::FingerConfig& config, firmware::FitMode mode) {
+    const bool isAsDrawn = config.calibration.isEmpty() && config.as_built.isAsDrawn();
     return {.node = static_cast<std::uint8_t>(config.can.node),
             .contactRate_hz = static_cast<std::uint16_t>(config.can.contact_rate_hz),
             .samplePeriod_us = SimulatedGauges::kSamplePeriod_us,
             .bitrate = static_cast<std::uint32_t>(config.can.bitrate),
             .mode = mode,
-            .standingFlags = config.calibration.isEmpty()
-                                 ? FingerFlags{FingerFlag::kSimulated}
-                                 : FingerFlags{FingerFlag::kSimulated, FingerFlag::kUncalibrated},
+            .standingFlags = isAsDrawn ? FingerFlags{FingerFlag::kSimulated}
+                                       : FingerFlags{FingerFlag::kSimulated, FingerFlag::kUncalibrated},
             .takesTables = true};
   }
 
@@ -134,14 +140,19 @@ class SimulatedFinger {
   void start(const TableImage* tables, ResetCause cause) {
     info_.emplace(simulatedInfo(cause), settings_.node, clock_.now_us());
     waiting_.reset();
-    finger_.reset();
+    endFinger();
     if (tables != nullptr) finger_.emplace(*tables, settings_, gauges_, port_, clock_, watchdog_);
     if (tables == nullptr) waitForTables(false);
   }
 
+  void endFinger() {
+    if (finger_) counted_ = counted_ + finger_->counters();
+    finger_.reset();
+  }
+
   /// Its memory doesn't wear out.
   void waitForTables(bool isLoading) {
-    finger_.reset();
+    endFinger();
     waiting_.emplace(firmware::NoTables{settings_.node, isLoading, firmware::EraseBudget(), 0}, port_,
                      tableStore_, clock_.now_us());
   }
@@ -191,6 +202,7 @@ class SimulatedFinger {
   firmware::Readings noReadings_;
   std::optional<firmware::Announcement<InfoFrame>> info_;
   ComparedTouch reported_;
+  firmware::FingerCounters counted_;  ///< of the starts before
   std::uint64_t frames_ = 0;
   std::uint64_t heartbeats_ = 0;
 };

@@ -34,6 +34,14 @@ double Deviation::rms() const { return std::sqrt(squares_ / static_cast<double>(
 
 double Deviation::worst() const { return count_ > 0 ? worst_ : kNoValue; }
 
+void TouchErrors::add(const Moment& moment, const config::Finger& finger) {
+  if (moment.compared) {
+    add(*moment.compared, finger);
+    isTold_ = moment.compared->report.flags.has(FingerFlag::kContact);
+  }
+  if (!moment.truth.empty() && !isTold_) untold_s += SimulatedGauges::kSamplePeriod_us * 1e-6;
+}
+
 void TouchErrors::add(const ComparedTouch& compared, const config::Finger& finger) {
   const FingerFlags flags = compared.report.flags;
   if (!flags.has(FingerFlag::kContact)) {

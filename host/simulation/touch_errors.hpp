@@ -42,8 +42,14 @@ struct TouchErrors {
   std::uint64_t several = 0;    ///< reports while several touches were in force: there is no one truth
   std::uint64_t phantom = 0;    ///< reports of a contact while nothing touched
   std::uint64_t missed = 0;     ///< reports of no contact while something touched
+  double untold_s = 0;  ///< for which something touched and the last report, if any, was of no contact
 
+  /// A sample set, with the report that was complete with it, if any.
+  void add(const Moment& moment, const config::Finger& finger);
   void add(const ComparedTouch& compared, const config::Finger& finger);
+
+ private:
+  bool isTold_ = false;
 };
 
 }  // namespace strainfinger::simulation

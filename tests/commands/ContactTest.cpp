@@ -103,7 +103,10 @@ TEST(ContactCommand, SaysWhereAShapeIsWrong) {
   fails("x;y\n0;0\n", "/dev/stdin:1:1: \"x;y\" has semicolons");
   fails("0,0\n1e-3,x\n", "/dev/stdin:2:");
   fails("0,0\n1e-3,0\n", "four points");
-  fails("0,0\n1e-3,0\n1e-3,0\n2e-3,0\n", "must rise");
+  fails("0,0\n1e-3,0\n1e-3,0\n2e-3,0\n",
+        "/dev/stdin:3: x_m must rise from row to row: 0.001 comes after 0.001");
+  fails("-2,2\n-1,0.5\n1,0.5\n2,2\n",
+        "x_m goes from -2 to 2: as an arc along this finger it is from -0.0399 to");
 }
 
 TEST(ContactCommand, ThePapersMethodIsThereAndSaysWhatItIs) {
@@ -203,6 +206,8 @@ TEST(ContactCommand, RefusesOptionsThatDoNotGoTogether) {
     refuses(flat("--width-m 1e-3 ") + option, "goes with --method paper");
   refuses(flat("--width-m 1e-3 --regime glued"), "--regime");
   refuses(flat("--width-m 1e-3 --friction 11"), "friction");
+  for (const char* option : {"--points 3", "--at-deg 1"})
+    refuses(flat("--width-m 1e-3 --summary ") + option, "excludes");
   refuses(flat("--width-m 1e-3 --points 0"), "--points");
   refuses(flat("--width-m 1e-3 --at-deg 181"), "--at-deg");
 }

@@ -29,8 +29,8 @@ TEST(FieldCommand, PrintsAPolarGrid) {
 TEST(FieldCommand, TellsResidualAndWarnings) {
   const Run run =
       runProgram("field --indenter flat --width-m 2e-3 --friction 1 --centre-deg 0 --radii 2 --angles 2");
-  STRCMP_CONTAINS("contact: residual ", run.err.c_str());
-  STRCMP_CONTAINS("contact: warning: ", run.err.c_str());
+  STRCMP_CONTAINS("field: residual ", run.err.c_str());
+  STRCMP_CONTAINS("field: warning: ", run.err.c_str());
 }
 
 TEST(FieldCommand, RefusesGridsThatAreNone) {

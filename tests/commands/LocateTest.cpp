@@ -221,6 +221,31 @@ TEST(LocateCommand, ColumnsNamedAsItsOwnArePassedThroughUnderAnotherName) {
   STRCMP_CONTAINS("input_angle_deg,input_flags,contact,", runProgram("locate", header + "\n").out.c_str());
 }
 
+TEST(LocateCommand, OtherColumnsKeepTheirTextInJson) {
+  std::string header = "stamp,id,late,note",
+              row = "1764312967000000001,007,12345678901234567890,\"a,\"\"b\"\"\"";
+  for (int gauge = 0; gauge < 16; ++gauge) {
+    header += ",strain_" + std::to_string(gauge);
+    row += ",0";
+  }
+  STRCMP_CONTAINS(
+      "{\"stamp\":1764312967000000001,\"id\":\"007\",\"late\":\"12345678901234567890\","
+      "\"note\":\"a,\\\"b\\\"\",\"contact\":0",
+      runProgram("locate --json", header + "\n" + row + "\n").out.c_str());
+  STRCMP_CONTAINS("\n1764312967000000001,007,12345678901234567890,\"a,\"\"b\"\"\",0,,",
+                  runProgram("locate", header + "\n" + row + "\n").out.c_str());
+}
+
+TEST(LocateCommand, ColumnsOfOneNameAreRefused) {
+  std::string gauges;
+  for (int gauge = 0; gauge < 16; ++gauge) gauges += ",strain_" + std::to_string(gauge);
+  for (const std::string names : {"x,x", "input_flags,flags"}) {
+    const Run run = runProgram("locate", names + gauges + "\n");
+    LONGS_EQUAL(1, run.status);
+    STRCMP_CONTAINS("stdin: two columns would be passed through as ", run.err.c_str());
+  }
+}
+
 TEST(LocateCommand, AHeaderWithoutTheGaugesIsRefused) {
   std::string header = "g0";
   for (int gauge = 1; gauge < 16; ++gauge) header += ",g" + std::to_string(gauge);

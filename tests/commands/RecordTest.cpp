@@ -90,6 +90,16 @@ TEST(Record, NeverWritesOverAFile) {
   checkSays("x.log: cannot make the file: File exists: remove it, or write to another file", run);
 }
 
+TEST(Record, NeverWritesOverTheNotesOfAnotherLog) {
+  const Run run = inFolder(
+      "echo old >x.toml; \"$STRAINFINGER\" record --can $bus -o x.log; status=$?; cat x.toml; ls; exit "
+      "$status");
+  LONGS_EQUAL(1, run.status);
+  STRCMP_EQUAL("old\nin\nx.toml\n", run.out.c_str());
+  checkSays("x.toml: there is such a file already, where the notes of x.log belong: write to another file",
+            run);
+}
+
 TEST(Record, RefusesWhatCannotBe) {
   checkRefused("record --can udp -o x.toml", "a log cannot end in .toml");
   checkRefused("record -o x.log", "--can is required");
@@ -124,6 +134,40 @@ TEST(Record, ReplayLeavesOutWhatFingersDontSend) {
   checkSays("1 of 1 frames sent, 2 of other kinds left out", run);
 }
 
+// A finger that is there would take a new zero, or other tables.
+TEST(Record, ReplaySendsRequestsOnlyWhenAsked) {
+  const std::string log =
+      "(1.000000) can0 181#0000000000000055\n(1.000000) can0 601#01\n(1.000000) can0 201#11\n";
+  const Run run = inFolder("record; replay in; stop INT; cut -d' ' -f3 x.log", log);
+  STRCMP_EQUAL("181#0000000000000055\n201#11\n", run.out.c_str());
+  checkSays(
+      "replay: 2 of 2 frames sent, 0 of other kinds left out\n"
+      "replay: 1 requests to fingers left out, too: --requests sends them\n",
+      run);
+  const Run all = inFolder("record; replay in --requests; stop INT; cut -d' ' -f3 x.log", log);
+  STRCMP_EQUAL("181#0000000000000055\n601#01\n201#11\n", all.out.c_str());
+  checkSays("replay: 3 of 3 frames sent", all);
+}
+
+TEST(Record, WhatCannotBeComputedAgainIsToldWhy) {
+  const auto recomputed = [](const char* config, const char* log) {
+    const Run run = inFolder(std::string("printf 'schema = 1\\n") + config +
+                                 "' >c.toml; \"$STRAINFINGER\" replay in --recompute -c c.toml",
+                             log);
+    LONGS_EQUAL(1, run.status);
+    return run.err;
+  };
+  const char* const rawOfNode2 = "(1.000000) can0 402#0000000000000000\n";
+  STRCMP_CONTAINS("has no readings (RAW) of node 1: `strainfinger strains` asks",
+                  recomputed("", "(1.000000) can0 181#0000000000000055\n").c_str());
+  STRCMP_CONTAINS("has no readings (RAW) of node 1, but of 2: give that finger's config (-c)",
+                  recomputed("", rawOfNode2).c_str());
+  STRCMP_CONTAINS("nothing to compare: the recording needs RAW of every sample set of node 2",
+                  recomputed("[can]\\nnode = 2\\n", rawOfNode2).c_str());
+  STRCMP_CONTAINS("of 20 gauges a bus of 1000000 bit/s takes 862 sample sets a second, and not all 1000",
+                  recomputed("[gauges]\\ncount = 20\\n[can]\\nnode = 2\\n", rawOfNode2).c_str());
+}
+
 TEST(Record, ReplaySendsNothingOfALogItCannotRead) {
   const Run run = inFolder("record; replay in; echo $?; stop INT; cat x.log", frames(3) + "rubbish\n");
   STRCMP_EQUAL("1\n", run.out.c_str());
@@ -140,6 +184,7 @@ TEST(Record, ReplayRefusesWhatCannotBe) {
   STRCMP_CONTAINS("not a pipe: it is read twice", pipe.err.c_str());
   checkRefused("replay x.log", "give either --can");
   checkRefused("replay x.log --can udp --recompute", "give either --can");
+  checkRefused("replay x.log --recompute --speed 2", "--speed and --requests go with --can");
   for (const std::string speed : {"0", "nan"})
     checkRefused("replay x.log --can udp --speed " + speed, "--speed");
   LONGS_EQUAL(1, runProgram("replay /nonexistent --can udp").status);

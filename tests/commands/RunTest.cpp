@@ -257,6 +257,48 @@ TEST(RunCommand, NamesAGaugeThatFails) {
   STRCMP_CONTAINS("loopback 081#04000000", run.out.c_str());
 }
 
+// Its zero is taken at the rail, so that it seems to read nothing.
+TEST(RunCommand, NamesAGaugeThatFailedBeforeItsZeroWasTaken) {
+  for (const std::string kind : {"open", "short"}) {
+    const Run run = withScenario("--duration 2 --fault " + kind + ":2", kNoTouch);
+    STRCMP_CONTAINS("run: gauges out of use at the end: 2\n", run.err.c_str());
+    STRCMP_CONTAINS("loopback 081#04000000", run.out.c_str());
+  }
+}
+
+TEST(RunCommand, SaysForHowLongATouchWasNotTold) {
+  const char* const faint =
+      "schema = 1\n[[touch]]\nstart_s = 0.5\nend_s = 1.5\nangle_deg = 0\nnormal_n_per_m = 0.01\n";
+  STRCMP_CONTAINS("run: touched for 1.000 s without a contact told\n", withScenario("", faint).err.c_str());
+  STRCMP_CONTAINS("\"untold_s\":1.0", withScenario("--json", faint).err.c_str());
+}
+
+TEST(RunCommand, AFingerThatIsNotAsDrawnIsFlaggedUncalibrated) {
+  const auto flagsWith = [](const std::string& asBuilt) {
+    return runShell("\"$STRAINFINGER\" run --duration 1 -c <(printf 'schema = 1\\n" + asBuilt +
+                    "') 2>&- | \"$STRAINFINGER\" decode 2>&-")
+        .out;
+  };
+  STRCMP_CONTAINS("uncalibrated", flagsWith("[as_built]\\ngain = 0.03\\n").c_str());
+  CHECK_TRUE(flagsWith("").find("+uncalibrated") == std::string::npos);
+}
+
+TEST(RunCommand, UncalibratedModelErrorIsThatOfAnyFingerNobodyCalibrated) {
+  const Run run = runShell(R"(
+    told() { "$STRAINFINGER" run -c <(printf "schema = 1\n[gauges]\nmodel_error = $1\n") --duration 1 $2 2>/dev/null; }
+    cmp <(told 0.001 --uncalibrated) <(told 0.05) && echo same)");
+  STRCMP_EQUAL("same\n", run.out.c_str());
+}
+
+TEST(RunCommand, ThreePointModeOfAnUnknownWidthIsWarnedOf) {
+  STRCMP_CONTAINS("run: warning: --mode three-point takes every contact for a line",
+                  runProgram("run --duration 0.2 --mode three-point").err.c_str());
+  const Run known = runShell(
+      "\"$STRAINFINGER\" run --duration 0.2 --mode three-point -c <(printf "
+      "'schema = 1\\n[contact]\\nwidth_m = 0\\n')");
+  CHECK_TRUE(known.err.find("warning") == std::string::npos);
+}
+
 TEST(RunCommand, NamesAGaugeThatIsNoisy) {
   const Run run = runProgram("run --duration 3 --fault noisy:2");
   STRCMP_CONTAINS("run: gauges out of use at the end: 2\n", run.err.c_str());

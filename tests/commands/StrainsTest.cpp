@@ -70,7 +70,7 @@ TEST(StrainsCommand, AnotherRingThanTheConfigsIsTold) {
     const Run run = withFinger("", R"("$STRAINFINGER" strains --can $BUS -c <(echo -e 'schema = 1
 [gauges]
 count = 24') --duration )" + duration);
-    LONGS_EQUAL(4, run.status);
+    LONGS_EQUAL(5, run.status);
     STRCMP_CONTAINS(
         "no whole set of readings: the config has gauges.count = 24, the finger sends 16: give this "
         "finger's config, -c",
@@ -82,6 +82,18 @@ TEST(StrainsCommand, NoReadingsInItsDurationIsNotSuccess) {
   const Run run = withFinger("", R"("$STRAINFINGER" strains --can $BUS --rate 1 --duration 0.01)");
   LONGS_EQUAL(4, run.status);
   STRCMP_CONTAINS(" in 0.01 s: is the bus free enough?", run.err.c_str());
+}
+
+TEST(StrainsCommand, AFingerThatFallsSilentIsTold) {
+  const Run run = runShell(R"(
+bus=udp:$((20000 + $$ % 20000))
+"$STRAINFINGER" run --can $bus --duration 3 2>&- & finger=$!
+until "$STRAINFINGER" discover --can $bus --duration 0.3 >/dev/null 2>&1; do :; done
+"$STRAINFINGER" strains --can $bus --rate 50 | wc -l; status=${PIPESTATUS[0]}
+wait $finger; exit $status)");
+  LONGS_EQUAL(4, run.status);
+  STRCMP_CONTAINS(" node 1: silent for 3 s after ", run.err.c_str());
+  CHECK_COMPARE(std::stoi(run.out), >, 20);
 }
 
 TEST(StrainsCommand, NobodyThereIsTold) {

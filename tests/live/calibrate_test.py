@@ -241,10 +241,9 @@ class Resumed(unittest.TestCase):
         output = self.session_of(0)
         session = Session(self.bench, self.finger, output)
         self.bench.until(lambda: session.next().startswith("Roll it"), 60)
-        session.say("load 20")
-        self.bench.until(lambda: any("say the unit" in line for line in session.said.lines))
-        session.say("undo")
-        self.bench.until(lambda: any("no load and no angle was entered yet" in line for line in session.said.lines))
+        session.say("load 20\nbogus\nundo")  # each has its answer
+        for answer in ("say the unit", "say load, angle", "no load and no angle was entered yet"):
+            self.bench.until(lambda: any(answer in line for line in session.said.lines))
         session.say("quit")
         self.assertEqual(1, session.ended(60))
         self.assertRegex(session.said.last, r"too few.*10 rows are kept in .*: the same command goes on with them")

@@ -166,6 +166,12 @@ class Serve(unittest.TestCase):
         for node in ("0", "64", "99"):
             self.assertEqual(404, post(self.url + f"fingers/{node}/tare", {"X-Strainfinger": "-"})[0])
 
+    def test_what_is_not_there_is_told_with_what_is(self):
+        for path in ("nothing", "state", "fingers/abc/tare"):
+            status, text = post(self.url + path, {"X-Strainfinger": "-"})
+            self.assertIn(status, (400, 404))
+            self.assertIn(f"POST /{path} is not known: GET /, /finger, /state, /events; POST /fingers/NODE/tare", text)
+
     def test_another_page_cannot_command(self):
         self.assertEqual(403, post(self.url + "fingers/1/tare", {})[0])
         answer = raw(self.url, b"OPTIONS /fingers/1/tare HTTP/1.1\r\nHost: localhost\r\nOrigin: http://evil.example\r\n"

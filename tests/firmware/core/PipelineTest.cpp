@@ -94,6 +94,29 @@ TEST(Pipeline, ASaturatedGaugeIsNotFitted) {
   CHECK_FALSE(contains(pipeline.answer().solution.hypothesis.gauges, 5));
 }
 
+// Open or shorted since power came on: it then seems to read nothing.
+TEST(Pipeline, AGaugeWhoseZeroIsAtARailIsOutOfUseUntilAnotherZero) {
+  const auto takeZeroWithFiveAt = [&](int code) {
+    ZeroAverage zero;
+    while (!zero.complete()) {
+      convert(std::vector<double>(16, 0.0));
+      if (code >= 0) codes[5] = static_cast<std::uint16_t>(code);
+      zero.add(codes);
+    }
+    pipeline.takeZero(zero);
+  };
+  for (const std::uint16_t rail : {std::uint16_t{0}, ring.constants().adc_rail}) {
+    takeZeroWithFiveAt(rail);
+    for (int set = 0; set < 20; ++set)
+      UNSIGNED_LONGS_EQUAL(1u << 5, processWithFive(std::vector<double>(16, 0.0), rail).outOfUse);
+    for (int set = 0; set < 40; ++set) processWithFive(ring.strains({5.4, 20, 3, 1}), rail);
+    UNSIGNED_LONGS_EQUAL(1u << 5, pipeline.observation().outOfUse);
+    CHECK_FALSE(contains(pipeline.answer().solution.hypothesis.gauges, 5));
+    takeZeroWithFiveAt(-1);
+    UNSIGNED_LONGS_EQUAL(0, process(std::vector<double>(16, 0.0)).outOfUse);
+  }
+}
+
 // A second contact so light that the first alone is accepted, though it leaves doubt.
 TEST(Pipeline, CodesThatStayAreLookedIntoWhereTheyLeaveDoubt) {
   int doubted = 0;

@@ -95,6 +95,24 @@ TEST(NumberRows, NamedColumnsAreFoundAmongOthers) {
   CHECK_TRUE(reader.others() == (std::vector<std::string>{"0.2", ""}));
 }
 
+// RFC 4180, 2.6 and 2.7.
+TEST(NumberRows, QuotedTextsMayHoldCommasAndQuotes) {
+  std::istringstream stream("\"my, note\",a\n \"x, \"\"y\"\"\" ,1\n\"\",2\n\"open,3\n");
+  NumberRowReader reader(stream, "stdin", 1, {.columns = {"a"}});
+  std::vector<double> row;
+  CHECK_TRUE(reader.next(row));
+  CHECK_TRUE(reader.otherNames() == (std::vector<std::string>{"my, note"}));
+  CHECK_TRUE(reader.others() == (std::vector<std::string>{"x, \"y\""}));
+  CHECK_TRUE(reader.next(row));
+  CHECK_TRUE(reader.others() == (std::vector<std::string>{""}));
+  try {
+    reader.next(row);
+    FAIL("a quote without its end is taken");
+  } catch (const Failure& failure) {
+    STRCMP_CONTAINS("stdin:4:", failure.what());
+  }
+}
+
 TEST(NumberRows, WithoutAHeaderNamedColumnsAreAllThereIs) {
   std::istringstream stream("1,2\n");
   NumberRowReader reader(stream, "stdin", 2, {.columns = {"a", "b"}});

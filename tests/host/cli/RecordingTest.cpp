@@ -84,7 +84,7 @@ TEST(Recording, FilesThatAreThereAreLeftAlone) {
 
 TEST(Recording, AConfigIsNotReplacedByItsNotes) {
   std::ofstream(notes_) << "mine";
-  checkRefused(log_, ExitCode::kFailure, "the log's notes belong there");
+  checkRefused(log_, ExitCode::kFailure, ": there is such a file already, where the notes of ");
   STRCMP_EQUAL("mine", textOf(notes_).c_str());
   CHECK_FALSE(std::ifstream(log_).good());
 }

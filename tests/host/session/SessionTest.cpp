@@ -215,6 +215,17 @@ TEST(GuidedSession, SkippingAnotherLoadLeavesWhatLoadsHaveTold) {
   STRCMP_EQUAL("the unit of force is what the loads tell that were taken", say("skip").c_str());
 }
 
+TEST(GuidedSession, SkippingAnotherMarkLeavesWhatMarksHaveTold) {
+  leaveAlone(5.1);
+  rollAround(10);
+  rollAround(18);
+  hold(45, 24);
+  say("angle 45");
+  say("skip");  // loads
+  CHECK(session.advice().kind == Kind::kMark);
+  STRCMP_EQUAL("the zero of the angle is what the marks tell that were taken", say("skip").c_str());
+}
+
 TEST(GuidedSession, AFitIsWantedOfFourTouchesAGaugeThenOfAFifthMoreOrOfWhatIsKnown) {
   leaveAlone(5.1);
   CHECK_FALSE(session.wantsFit());

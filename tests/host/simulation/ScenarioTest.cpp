@@ -57,6 +57,12 @@ TEST(Scenario, CoursesCountTimeFromTheTouchsStart) {
   DOUBLES_EQUAL(1, touches.at(0).normal_n_per_m, 0);
 }
 
+// 1.1 - 0.8 is less than 0.3 in doubles.
+TEST(Scenario, ALoadThatIsOverIsNone) {
+  const Course press{{{0, 0}, {0.1, 1}, {0.3, 0}}};
+  CHECK_TRUE(Scenario({{0.8, 2, none, press, none}}).at(1.1).empty());
+}
+
 TEST(Scenario, OverlappingTouchesAreAllInForce) {
   const Scenario scenario({touch(0, 2), touch(1, 3)});
   LONGS_EQUAL(1, scenario.at(0.5).size());

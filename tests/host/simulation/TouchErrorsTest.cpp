@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <CppUTest/TestHarness.h>
 
@@ -66,4 +67,22 @@ TEST(TouchErrors, OnlyCertainReportsOfOneTouchCount) {
   LONGS_EQUAL(1, of(one, {}).missed);
   LONGS_EQUAL(0, of({}, {}).missed);
   LONGS_EQUAL(0, of(one, {FingerFlag::kContact, FingerFlag::kUncertain}).arc_m.count());
+}
+
+TEST(TouchErrors, TheTimeOfATouchThatIsNotToldIsCounted) {
+  const std::vector<Touch> one{{0, 20, 0}};
+  TouchErrors errors;
+  const auto pass = [&](const std::vector<Touch>& truth, std::optional<FingerFlags> told = {}) {
+    Moment moment{0, truth, std::nullopt};
+    if (told) moment.compared = ComparedTouch{0, truth, report(10, *told)};
+    errors.add(moment, finger);
+  };
+  pass({});
+  pass(one);
+  pass(one);
+  pass(one, FingerFlags{FingerFlag::kContact});
+  pass(one);
+  pass({}, FingerFlags{});
+  pass(one);
+  DOUBLES_EQUAL(3e-3, errors.untold_s, 1e-12);
 }

@@ -68,7 +68,7 @@ class Recompute(unittest.TestCase):
     def test_without_the_readings_there_is_nothing_to_compare(self):
         done = self.recomputed("".join(line + "\n" for line in self.log.splitlines() if "can0 401#" not in line))
         self.assertEqual(1, done.returncode)
-        self.assertIn("nothing to compare", done.stderr)
+        self.assertIn("the recording has no readings (RAW) of node 1", done.stderr)
 
     def test_the_readings_give_the_frames_bit_for_bit(self):
         done = self.recomputed(self.log)

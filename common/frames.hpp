@@ -260,7 +260,7 @@ inline constexpr FrameLayout kLayout<ContactFrame>{
           {.name = "quality",
            .unit = "percent",
            .comment = "How well the contacts explain the strains: 100 is as well as the noise allows; 20 or "
-                      "less where the flag uncertain is set"}},
+                      "less where this contact is uncertain"}},
     Field{&ContactFrame::sequence,
           {.lsb = 56, .width = 8},
           {.name = "sequence",

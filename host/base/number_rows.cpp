@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstring>
 #include <iostream>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -40,24 +41,20 @@ bool parseNumber(std::string_view text, double& value) {
 }
 
 /// Where a field that begins at `begin` ends: at the next comma, or, if it is quoted, the next behind its
-/// closing quote. A quote in it is written twice (RFC 4180).
-std::size_t endOfField(std::string_view line, std::size_t begin) {
-  bool isQuoted = false;
-  for (std::size_t i = begin; i < line.size(); ++i) {
-    if (line[i] == '"' && (isQuoted || trimmed(line.substr(begin, i - begin)).empty())) {
-      isQuoted = !isQuoted;
-      const bool isTwice = !isQuoted && i + 1 < line.size() && line[i + 1] == '"';
-      if (isTwice) isQuoted = true, ++i;
-    }
-    if (line[i] == ',' && !isQuoted) return i;
-  }
-  return line.size();
+/// closing quote. A quote in it is written twice (RFC 4180). Nothing: a quote is not closed.
+std::optional<std::size_t> endOfField(std::string_view line, std::size_t begin) {
+  const std::size_t first = std::min(line.find_first_not_of(kBlanks, begin), line.size());
+  if (first == line.size() || line[first] != '"') return std::min(line.find(',', first), line.size());
+  for (std::size_t quote = line.find('"', first + 1); quote != line.npos; quote = line.find('"', quote + 2))
+    if (quote + 1 == line.size() || line[quote + 1] != '"')
+      return std::min(line.find(',', quote), line.size());
+  return std::nullopt;
 }
 
 std::vector<std::string_view> fieldsOf(std::string_view line) {
   std::vector<std::string_view> fields;
   for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = endOfField(line, begin);
+    const std::size_t end = endOfField(line, begin).value_or(line.size());
     fields.push_back(line.substr(begin, end - begin));
     begin = end + 1;
   }
@@ -191,6 +188,7 @@ void NumberRowReader::parse(const std::string& line, std::vector<double>& row) {
   others_.clear();
   const std::size_t needed = columns_ + otherNames_.size();
   const auto fields = fieldsOf(line);
+  if (!endOfField(fields.back(), 0)) fail(columnOf(fields.back(), line), "a quote is not closed");
   for (std::size_t i = 0; i < fields.size(); ++i) {
     if (i == needed) fail(columnOf(fields[i], line), fmt::format("more than {} columns", needed));
     const std::size_t place = places_.empty() ? i : places_[i];

@@ -172,10 +172,19 @@ class LiveSession {
   void obey(const std::string& text) {
     const session::Obeyed obeyed = session_.obey(session::parseCommand(text, config_.finger.length_m));
     if (obeyed.row) files_.add(obeyed.row->time_s, obeyed.row->strains, obeyed.row->known);
-    if (obeyed.takenBack) files_.rewriteTouches(session_.rows().known);
+    if (obeyed.takenBack) takeBack();
     tell(obeyed.message);
     quit_ |= obeyed.quit;
     if (obeyed.tare) tare();
+  }
+
+  void takeBack() {
+    try {
+      files_.rewriteTouches(session_.rows().known);
+    } catch (const Failure& failure) {
+      throw Failure(failure.code(), fmt::format("{}: what was taken back is still there: take it back again",
+                                                failure.what()));
+    }
   }
 
   void tell(const std::string& message) {
@@ -251,7 +260,7 @@ class LiveSession {
     LiveResult ended{std::nullopt, session_.complaint(), kept(), interrupted};
     if (session_.fit() && (interrupted || session_.complaint().empty()))
       ended.result = session_.fit()->result;
-    if (ended.complaint.empty() && !ended.result) ended.complaint = "there was no fit yet";
+    if (ended.complaint.empty() && !ended.result) ended.complaint = "there is no fit of what is known now";
     return ended;
   }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -64,7 +65,8 @@ Indenter readShape(const std::string& path) {
 void requireOnSurface(const Indenter& indenter, const std::string& path, double radius_m) {
   const double half_m = std::numbers::pi * radius_m;
   const double first_m = indenter.firstPosition_m(), last_m = indenter.lastPosition_m();
-  if (!std::isfinite(first_m) || (first_m >= -half_m && last_m <= half_m)) return;
+  constexpr double kRounded = 1.001;
+  if (!std::isfinite(first_m) || std::max(-first_m, last_m) <= kRounded * half_m) return;
   throw Failure(ExitCode::kUsage,
                 fmt::format("{}: x_m goes from {} to {}: as an arc along this finger it is from -{:.4g} to "
                             "{:.4g} m; are these metres?",

@@ -19,6 +19,7 @@ class FirmwareOptions {
   std::unique_ptr<TableImage> tables(const config::FingerConfig& config) const;
   /// The same; throws Failure(kMismatch) when the image is of another finger than the config's.
   std::unique_ptr<TableImage> tablesOf(const config::FingerConfig& config) const;
+  bool hasTables() const { return !tablesPath_.empty(); }
   firmware::FitMode mode() const { return mode_; }
   /// Where the fit takes for a line what may be wide.
   void warnOfMode(const char* command, const TableImage& image) const;

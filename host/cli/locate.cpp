@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <iostream>
+#include <limits>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -72,6 +73,8 @@ constexpr std::array kColumns{"contact",
                               "angle2_deg",
                               "normal2_n_per_m",
                               "tangential2_n_per_m"};
+
+constexpr std::uint64_t kMostWhole = std::numeric_limits<std::int64_t>::max();
 
 struct LocateOptions {
   explicit LocateOptions(CLI::App& command) : common(command), firmware(command) {}
@@ -169,19 +172,13 @@ std::vector<Cell> located(const TableImage& image, firmware::Locator& locator,
   return cellsOf(contacts, flagsOf(answer, contacts, saturated, all));
 }
 
-/// A number as JSON has it: a whole one to its last digit. Text that is none, or that JSON would write
-/// otherwise (007, or more digits than 64 bits hold), stays text.
+/// A number, where the text is one as JSON writes it. What a reader would find changed stays text: 007, 12e4
+/// (which may be no number), and more digits than 64 bits hold.
 Cell asNumber(const std::string& text) {
-  const auto isAll = [&](const std::from_chars_result& read) {
-    return read.ec == std::errc{} && read.ptr == text.data() + text.size();
-  };
-  std::int64_t whole = 0;
-  if (isAll(std::from_chars(text.data(), text.data() + text.size(), whole)))
-    return fmt::format("{}", whole) == text ? Cell(whole) : Cell(text);
-  const bool hasFraction = text.find_first_of(".eE") != text.npos;
-  double value = 0;
-  const bool isNumber = isAll(std::from_chars(text.data(), text.data() + text.size(), value));
-  return hasFraction && isNumber ? Cell(value) : Cell(text);
+  const auto number = nlohmann::json::parse(text, nullptr, false);
+  const bool isTooLong = number.is_number_unsigned() && number.get<std::uint64_t>() > kMostWhole;
+  if (number.is_number_integer() && !isTooLong) return number.get<std::int64_t>();
+  return number.is_number_float() && text.find('.') != text.npos ? Cell(number.get<double>()) : Cell(text);
 }
 
 /// As they were; numbers are numbers in JSON.

@@ -257,6 +257,8 @@ void runOnBus(const config::FingerConfig& config, const RunOptions& options) {
 }
 
 void runRun(const RunOptions& options) {
+  if (options.uncalibrated && options.firmware.hasTables())
+    throw Failure(ExitCode::kUsage, "run: --uncalibrated makes tables of its own: leave --tables out");
   if (options.rows_hz && options.strainsPath.empty() && options.touchesPath.empty())
     throw Failure(ExitCode::kUsage, "run: --rows-hz is of --strains and --touches: give one of them");
   const config::FingerConfig config = options.common.config();

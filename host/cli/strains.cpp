@@ -82,6 +82,8 @@ class StrainPrinter {
   std::uint64_t sets_ = 0;
 };
 
+using StrainClock = std::chrono::steady_clock;
+
 /// How many gauges a finger has, by the pages of RAW that it sends.
 class SentGauges {
  public:
@@ -94,20 +96,21 @@ class SentGauges {
     if (!page) return;
     const int onPage = page->code_2 != 0 ? 3 : page->code_1 != 0 ? 2 : 1;
     count_ = std::max(count_, int{kCodesPerPage} * page->page + onPage);
+    heard_ = StrainClock::now();
   }
+  bool isSending() const { return StrainClock::now() - heard_ < kSilence / 2; }
 
   int count() const { return count_; }  ///< 0: it sends nothing
 
  private:
   std::uint8_t node_;
   int count_ = 0;
+  StrainClock::time_point heard_{};
 };
-
-using StrainClock = std::chrono::steady_clock;
 
 /// Why there is no whole set, or no further one, and what to do.
 std::string whyNone(int gauges, const SentGauges& sent, std::uint64_t sets, double waited_s) {
-  if (sets > 0)
+  if (sets > 0 && !sent.isSending())
     return fmt::format("silent for {} s after {} sets: is it off, or unplugged? What came is printed",
                        waited_s, sets);
   if (sent.count() == 0) return fmt::format("no readings in {} s: is the bus free enough?", waited_s);

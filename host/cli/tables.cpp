@@ -28,7 +28,10 @@ struct TablesOptions {
     auto& image = *command.add_option("-o,--output", imagePath, "Writes the flash image there");
     auto& header = *command.add_option("--header", headerPath, "Writes the image as a C++ header there");
     command.require_subcommand(0, 1);
-    auto& info = addFileCommand(command, "info", "What an image was made from", infoPath);
+    auto& info = addFileCommand(command, "info",
+                                "What an image was made from; gain_with_depth is calibration.gain with what "
+                                "calibration.depth_offset_m adds",
+                                infoPath);
     auto& check =
         addFileCommand(command, "verify", "Whether an image is whole and belongs to the config", verifyPath);
     for (CLI::Option* making : {image.type_name("FILE"), header.type_name("FILE")}) {

@@ -7,11 +7,11 @@
 #include <atomic>
 #include <charconv>
 #include <chrono>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "common/frame_layout.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/table_writer.hpp"
 #include "host/live/command_desk.hpp"
 #include "host/live/event_hub.hpp"
 
@@ -65,7 +65,7 @@ bool areSame(const std::string& one, const std::string& other) {
 
 void say(httplib::Response& response, int status, const std::string& text) {
   response.status = status;
-  response.set_content(nlohmann::json{{"text", text}}.dump() + "\n", "application/json");
+  response.set_content(R"({"text":)" + jsonString(text) + "}\n", "application/json");
 }
 
 }  // namespace
@@ -119,12 +119,12 @@ class PageServer::Impl {
           "connect-src 'self'; img-src data:; frame-ancestors 'none'; base-uri 'none'"}});
     server_.set_error_handler([](const httplib::Request& request, httplib::Response& response) {
       if (!response.body.empty()) return;
-      const std::string what = request.method + " " + request.path;
-      if (response.status == 404 || response.status == 400)
-        say(response, response.status,
-            what + " is not known: GET /, /finger, /state, /events; POST /fingers/NODE/tare.");
-      else
-        say(response, response.status, what + " was refused.");
+      const bool isNotKnown = response.status == 404 || (response.status == 400 && !request.path.empty());
+      say(response, response.status,
+          isNotKnown ? fmt::format("{} {} is not known: GET /, /finger, /state, /events; POST "
+                                   "/fingers/NODE/tare.",
+                                   request.method, request.path)
+                     : "The request was not understood, or is too large.");
     });
     if (isLocalAddress(options_.address))
       server_.set_pre_routing_handler([](const httplib::Request& request, httplib::Response& response) {

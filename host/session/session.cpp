@@ -20,7 +20,8 @@ Session::Session(const config::FingerConfig& config, Rows rows)
       rows_(std::move(rows)),
       thinner_(config),
       search_(calibration::drawnSearch(config)),
-      coverage_(coverageOf(config.gauges, search_, rows_)) {
+      coverage_(coverageOf(config.gauges, search_, rows_)),
+      firstRow_(rows_.size()) {
   for (const VectorXd& strains : rows_.strains) thinner_.remember(strains);
 }
 
@@ -164,8 +165,10 @@ Obeyed Session::obeyUndo() {
     KnownTouch& known = rows_.known[row];
     const bool wasSaid = known.angle_deg || (known.normal_n_per_m && !known.isUntouched());
     if (!wasSaid) continue;
-    const std::string what = known.angle_deg ? fmt::format("the angle of {:.4g} deg", *known.angle_deg)
-                                             : fmt::format("the load of {:.4g} N/m", *known.normal_n_per_m);
+    std::string what = known.angle_deg ? fmt::format("the angle of {:.4g} deg", *known.angle_deg) : "";
+    if (known.normal_n_per_m)
+      what += fmt::format("{}the load of {:.4g} N/m", what.empty() ? "" : " and ", *known.normal_n_per_m);
+    if (row < firstRow_) what += ", of an earlier session,";
     known = {};
     coverage_ = coverageOf(config_.gauges, search_, rows_);
     fit_.reset();

@@ -81,6 +81,7 @@ class Session {
   Thinner thinner_;
   calibration::TouchSearch search_;
   Coverage coverage_;
+  std::size_t firstRow_;  ///< of this session
   Verdict now_ = Verdict::kTooSoon;
   Unavailable unavailable_;
   std::optional<FitOutcome> fit_;

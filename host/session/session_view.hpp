@@ -34,7 +34,7 @@ struct SessionView {
 };
 
 /// What the keys are, for the foot of the screen.
-inline constexpr const char* kSessionKeys = "l load  a angle  s skip  t tare  q end";
+inline constexpr const char* kSessionKeys = "l load  a angle  u undo  s skip  t tare  q end";
 
 /// A gauge a row; those that have no room are counted.
 live::Canvas drawSession(const SessionView& view, const config::Gauges& gauges, const live::ScreenForm& form);

@@ -154,7 +154,8 @@ void requireTablesOf(const TableImage& image, const config::FingerConfig& config
   const bool areDepthsKnown = image.depths.areKnown() || depths.areKnown();
   if (const GaugeGains wanted = gaugeGains(config, wantedDepths); image.gains != wanted)
     differences += differenceOf(gainsOf(image.gains, areDepthsKnown, count),
-                                gainsOf(wanted, areDepthsKnown, config.gauges.count));
+                                gainsOf(wanted, areDepthsKnown, config.gauges.count)) +
+                   (areDepthsKnown ? " (calibration.gain with what calibration.depth_offset_m adds)" : "");
   const Parameter hasDepths = depthsOf(image.depths, count),
                   wantsDepths = depthsOf(depths, config.gauges.count);
   if (hasDepths.value != wantsDepths.value) differences += differenceOf(hasDepths, wantsDepths);

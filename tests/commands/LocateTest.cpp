@@ -222,7 +222,7 @@ TEST(LocateCommand, ColumnsNamedAsItsOwnArePassedThroughUnderAnotherName) {
 }
 
 TEST(LocateCommand, OtherColumnsKeepTheirTextInJson) {
-  std::string header = "stamp,id,late,note",
+  std::string header = "stamp,id,late,\"my, note\"",
               row = "1764312967000000001,007,12345678901234567890,\"a,\"\"b\"\"\"";
   for (int gauge = 0; gauge < 16; ++gauge) {
     header += ",strain_" + std::to_string(gauge);
@@ -230,10 +230,27 @@ TEST(LocateCommand, OtherColumnsKeepTheirTextInJson) {
   }
   STRCMP_CONTAINS(
       "{\"stamp\":1764312967000000001,\"id\":\"007\",\"late\":\"12345678901234567890\","
-      "\"note\":\"a,\\\"b\\\"\",\"contact\":0",
+      "\"my, note\":\"a,\\\"b\\\"\",\"contact\":0",
       runProgram("locate --json", header + "\n" + row + "\n").out.c_str());
+  STRCMP_CONTAINS("stamp,id,late,\"my, note\",contact,", runProgram("locate", header + "\n").out.c_str());
   STRCMP_CONTAINS("\n1764312967000000001,007,12345678901234567890,\"a,\"\"b\"\"\",0,,",
                   runProgram("locate", header + "\n" + row + "\n").out.c_str());
+}
+
+TEST(LocateCommand, WhatJsonWouldChangeStaysText) {
+  const auto noteOf = [](const std::string& note) {
+    std::string header = "n", row = note;
+    for (int gauge = 0; gauge < 16; ++gauge) {
+      header += ",strain_" + std::to_string(gauge);
+      row += ",0";
+    }
+    const std::string out = runProgram("locate --json", header + "\n" + row + "\n").out;
+    return out.substr(0, out.find(",\"contact\""));
+  };
+  for (const char* text : {"00e1", "12e4", "0x10", "1.", "+1", "nan", "[1]", "true"})
+    STRCMP_EQUAL(("{\"n\":\"" + std::string(text) + "\"").c_str(), noteOf(text).c_str());
+  for (const char* number : {"1.5", "-2", "1.5e-3"})
+    DOUBLES_EQUAL(std::stod(number), std::stod(noteOf(number).substr(5)), 0);
 }
 
 TEST(LocateCommand, ColumnsOfOneNameAreRefused) {

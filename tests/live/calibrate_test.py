@@ -249,6 +249,21 @@ class Resumed(unittest.TestCase):
         self.assertRegex(session.said.last, r"too few.*10 rows are kept in .*: the same command goes on with them")
         self.assertFalse(output.exists())
 
+    def test_what_was_mistyped_is_taken_back_in_the_file(self):
+        output = self.session_of(40)
+        touches = output.with_suffix(".touches.csv")
+        before = touches.read_text().splitlines()
+        session = Session(self.bench, self.finger, output)
+        self.bench.until(lambda: session.said.lines)
+        session.say("undo")
+        self.bench.until(lambda: any("of an earlier session, is taken back" in line for line in session.said.lines))
+        session.say("quit")
+        self.assertEqual(1, session.ended(60))
+        after = touches.read_text().splitlines()
+        changed = [new for old, new in zip(before, after) if [float(x) for x in old.split(",") if x and x[0] not in "ant"]
+                   != [float(x) for x in new.split(",") if x and x[0] not in "ant"]]
+        self.assertEqual([",,"], changed)
+
     def test_what_is_quit_before_any_row_is_not_said_to_be_fitted(self):
         output = self.bench.new_folder() / "none.toml"
         session = Session(self.bench, self.finger, output)

@@ -172,6 +172,13 @@ class Serve(unittest.TestCase):
             self.assertIn(status, (400, 404))
             self.assertIn(f"POST /{path} is not known: GET /, /finger, /state, /events; POST /fingers/NODE/tare", text)
 
+    def test_what_is_no_text_does_not_end_it(self):
+        answer = raw(self.url, b"GET /%ff HTTP/1.1\r\nHost: localhost\r\n\r\n")
+        self.assertEqual(404, status_of(answer))
+        self.assertIn(b" is not known", answer)
+        self.assertIn(b"was not understood", raw(self.url, b"GARBAGE\r\n\r\n"))
+        self.assertEqual(200, urllib.request.urlopen(self.url + "state", timeout=10).status)
+
     def test_another_page_cannot_command(self):
         self.assertEqual(403, post(self.url + "fingers/1/tare", {})[0])
         answer = raw(self.url, b"OPTIONS /fingers/1/tare HTTP/1.1\r\nHost: localhost\r\nOrigin: http://evil.example\r\n"

@@ -299,7 +299,8 @@ TEST(Examine, CountsThatDoHarmAreTold) {
             of(Count::kErases, CountAnswer::kTold, 36'000));
   checkOnly(Severity::kWarning, "1 counted corrected", "flash wears out",
             of(Count::kCorrected, CountAnswer::kTold, 1));
-  checkOnly(Severity::kWarning, "6262 counted lost sets", "", of(Count::kLostSets, CountAnswer::kTold, 6262));
+  checkOnly(Severity::kWarning, "6262 counted lost sets", "sample more slowly",
+            of(Count::kLostSets, CountAnswer::kTold, 6262));
 }
 
 TEST(Examine, CountsThatAreNotToldSayWhy) {

@@ -157,6 +157,15 @@ TEST(GuidedSession, WhatWasEnteredIsTakenBackTheLastFirst) {
               std::ranges::count_if(session.rows().known, [](const auto& of) { return of.isUntouched(); }));
 }
 
+TEST(GuidedSession, WhatAnEarlierSessionHasIsTakenBackAsSuch) {
+  Rows rows;
+  rows.add(hand.touch(45, 24), {45, 24, 3});
+  Session again(config, rows);
+  STRCMP_EQUAL("the angle of 45 deg and the load of 24 N/m, of an earlier session, is taken back",
+               again.obey(Undo{}).message.c_str());
+  CHECK_FALSE(again.rows().known[0].tangential_n_per_m.has_value());
+}
+
 TEST(GuidedSession, NoFitStandsThatKnewWhatWasTakenBack) {
   leaveAlone(5.1);
   rollAround();

@@ -98,6 +98,15 @@ TEST(SimulatedFinger, SaysWhatItIsAtStartAndOnceASecond) {
   LONGS_EQUAL(0, frame->frame.data[7]);     // no board
 }
 
+TEST(SimulatedFinger, CountsGoOnOverARestart) {
+  Bench bench(config, Scenario({}));
+  bench.run(0.5);
+  bench.port().deliver(encode(restartRequest(), 1));
+  bench.run(0.5);
+  LONGS_EQUAL(2, bench.timesOf(0x481).size());  // it says again what it is
+  LONGS_EQUAL(1000, bench.counts().finger.sampleSets);
+}
+
 TEST(SimulatedFinger, ReportsTheTouchThatIsThere) {
   Bench bench(config, hold(100));
   bench.run(0.5);

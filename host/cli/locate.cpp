@@ -74,8 +74,6 @@ constexpr std::array kColumns{"contact",
                               "normal2_n_per_m",
                               "tangential2_n_per_m"};
 
-constexpr std::uint64_t kMostWhole = std::numeric_limits<std::int64_t>::max();
-
 struct LocateOptions {
   explicit LocateOptions(CLI::App& command) : common(command), firmware(command) {}
   CommonOptions common;
@@ -175,6 +173,7 @@ std::vector<Cell> located(const TableImage& image, firmware::Locator& locator,
 /// A number, where the text is one as JSON writes it. What a reader would find changed stays text: 007, 12e4
 /// (which may be no number), and more digits than 64 bits hold.
 Cell asNumber(const std::string& text) {
+  constexpr std::uint64_t kMostWhole = std::numeric_limits<std::int64_t>::max();
   const auto number = nlohmann::json::parse(text, nullptr, false);
   const bool isTooLong = number.is_number_unsigned() && number.get<std::uint64_t>() > kMostWhole;
   if (number.is_number_integer() && !isTooLong) return number.get<std::int64_t>();

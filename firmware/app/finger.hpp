@@ -69,7 +69,9 @@ class Finger {
         steppedAt_us_(clock.now_us()),
         sampledAt_us_(steppedAt_us_),
         heartbeatAt_us_(steppedAt_us_ - kHeartbeatPeriod_us),
-        gaugesAt_us_(steppedAt_us_) {}
+        gaugesAt_us_(steppedAt_us_) {
+    if (watchdog.resetCause() != ResetCause::kPowerOn) reporter_.lost();
+  }
 
   /// One turn of the main loop: takes at most one sample set and one request, sends what is due. Never
   /// blocks. The watchdog is fed only by sample sets that went all the way through. True: there was a sample
@@ -320,7 +322,8 @@ class Finger {
 
   bool isTouched() const { return pipeline_.observation().touched; }
 
-  /// Nothing is left that listeners would take for a touch that goes on, and nobody waits for an answer.
+  /// Nothing is left that listeners would take for a touch that goes on, unless that is meant: then its end
+  /// is said after the restart. Nobody waits for an answer.
   ResponseFrame leave(Command command, Leaving where, bool evenWhileTouched) {
     if (isTouched() && !evenWhileTouched) return responseTo(command, CommandStatus::kTouched);
     if (tareStatus_ || (owed_.any() && !evenWhileTouched)) return responseTo(command, CommandStatus::kBusy);

@@ -59,8 +59,8 @@ class SettingsStore {
   /// Pages erased in the store's life, but for those whose erasing a power cut ended.
   std::uint32_t erases() const { return erases_; }
 
-  /// Nothing has to be erased to keep these.
-  bool has(const StoredSettings& settings) const { return found_.settings == settings; }
+  /// Nothing has to be erased to keep these, and nothing to be mended.
+  bool has(const StoredSettings& settings) const { return found_.settings == settings && !damagedPage_; }
 
   /// kWait: no page may be erased before budget.wait_s(now_s); nothing is lost. kFailed: no page takes them.
   SaveResult save(const StoredSettings& settings, EraseBudget& budget, std::uint32_t now_s) {
@@ -91,7 +91,9 @@ class SettingsStore {
     const bool whole = result == hal::StoreResult::kOk && record[kMagicWord] == kMagic &&
                        record[kCheck] == checkOf(record) && isPossible(settingsOf(record));
     if (!whole) {
-      found_.damaged |= result != hal::StoreResult::kOk || !isErased(record);
+      const bool isDamaged = result != hal::StoreResult::kOk || !isErased(record);
+      found_.damaged |= isDamaged;
+      if (isDamaged) damagedPage_ = page;
     } else if (!found_.settings || record[kErases] > erases_) {
       found_.settings = settingsOf(record);
       erases_ = record[kErases];
@@ -99,14 +101,17 @@ class SettingsStore {
     }
   }
 
-  /// The one after that which was erased last, but never the one that holds the newest record.
+  /// One that is damaged; else the one after that which was erased last, but never the one that holds the
+  /// newest record.
   std::size_t nextPage() const {
+    if (damagedPage_) return *damagedPage_;
     const std::size_t next = (lastPage_ + 1) % pages();
     return found_.settings && next == newestPage_ ? (next + 1) % pages() : next;
   }
 
   bool write(std::size_t page, const StoredSettings& settings) {
     lastPage_ = page;
+    if (damagedPage_ == page) damagedPage_.reset();  // mended, or worn
     ++erases_;
     if (store_.erase(page) != hal::StoreResult::kOk) return false;
     const Record record = recordOf(settings, erases_);
@@ -141,8 +146,9 @@ class SettingsStore {
   Store& store_;
   SettingsFound found_{};
   std::uint32_t erases_ = 0;
-  std::size_t newestPage_ = 0;  ///< if there are settings
-  std::size_t lastPage_ = 0;    ///< erased last
+  std::size_t newestPage_ = 0;              ///< if there are settings
+  std::size_t lastPage_ = 0;                ///< erased last
+  std::optional<std::size_t> damagedPage_;  ///< to be written next
 };
 
 }  // namespace strainfinger::firmware

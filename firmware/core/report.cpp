@@ -185,7 +185,7 @@ std::optional<TouchFrames> TouchReporter::frames(const TableConstants& constants
     return std::nullopt;
   }
   const auto next = static_cast<std::uint8_t>(last_.contact.sequence + (any_ ? 1 : 0));
-  if (!observation.touched && (!any_ || !last_.contact.flags.has(FingerFlag::kContact))) return std::nullopt;
+  if (!observation.touched && !last_.contact.flags.has(FingerFlag::kContact)) return std::nullopt;
   if (observation.unchanged && isLookedAt_ && !mustBeRepeated(now_us)) return std::nullopt;
   FingerFlags flags = flagsOf(observation);
   if (!observation.touched) return releaseFrames(flags, next);

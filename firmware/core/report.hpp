@@ -62,7 +62,8 @@ class TouchReporter {
   void sent(const TouchFrames& frames, std::uint32_t now_us);
   /// A set of readings that nothing could be said of.
   void missed() { isLookedAt_ = false; }
-  /// What was sent last may never have been on the bus: the end of a touch is said again.
+  /// What was said last is not known, as it may never have been on the bus, or by the run before: the end of
+  /// a touch is said again.
   void lost();
   void setShortestPeriod(std::uint32_t period_us) { shortestPeriod_us_ = period_us; }
 

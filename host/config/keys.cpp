@@ -49,7 +49,9 @@ std::vector<Key> makeKeys() {
       {"gauges", "full_scale_strain", slot<&F::gauges, &Gauges::full_scale_strain>(), Domain::above(0, 0.1),
        "the converter covers +- this"},
       {"gauges", "adc_bits", slot<&F::gauges, &Gauges::adc_bits>(), Domain::between(8, 16),
-       "resolution of the converter"},
+       "resolution of the converter, by which its upper end is known: of the board in firmware/board 12, "
+       "however "
+       "it oversamples"},
       {"gauges", "model_error", slot<&F::gauges, &Gauges::model_error>(), Domain::between(0, 1),
        "standard deviation of what a reading may be off what the model says (build tolerances, rubber), as a "
        "fraction of that reading; an eighth of that of its neighbours' and a sixteenth of that of the "

@@ -5,8 +5,8 @@
 
 namespace strainfinger::board {
 
-/// In flash, on pages of their own. What was linked there may have been replaced since: use them only after
-/// checkTableImage().
+/// In flash, in a section of their own. What was linked there may have been replaced since: use them only
+/// after checkTableImage().
 extern const TableImage kLinkedTables;
 
 }  // namespace strainfinger::board

@@ -11,6 +11,7 @@ extern std::uint32_t vectors_begin[], stack_bottom[], data_loaded_at[], data_beg
 namespace strainfinger::board {
 
 extern "C" [[noreturn]] void resetHandler() {
+  maskInterrupts();  // a bootloader may have left some of its own, of which the vectors here know nothing
   useVectors(reinterpret_cast<std::uint32_t>(vectors_begin));
   forbidBelow(reinterpret_cast<std::uint32_t>(stack_bottom));
   std::copy_n(data_loaded_at, data_end - data_begin, data_begin);

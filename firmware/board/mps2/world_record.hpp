@@ -38,9 +38,9 @@ enum class RecordKind : std::uint8_t {
 
 /// Ways for a firmware to go wrong.
 enum class Harm : std::uint8_t {
-  kHardFault = 1,      ///< reads where nothing is
+  kHardFault = 1,      ///< writes where nothing is
   kAssertion = 2,      ///< finds itself in a state that cannot be
-  kStackOverflow = 3,  ///< calls itself for ever
+  kStackOverflow = 3,  ///< pushes beyond its stack
   kHang = 4,           ///< never comes back
 };
 

@@ -55,8 +55,9 @@ bool ramSurvived() {
 
 [[gnu::noinline]] const TableImage* tables() {
   return readableTables(kBus, eccErrors, [] {
-    return firmware::ifWhole(firmware::tablesOf(*reinterpret_cast<const TableImage*>(kTablePages.address()),
-                                                board::kLinkedTables));
+    return firmware::ifWhole(
+        firmware::tablesOf(*reinterpret_cast<const TableImage*>(kTablePages.address()), board::kLinkedTables),
+        kGauges);
   });
 }
 
@@ -108,7 +109,6 @@ bool ramSurvived() {
 }
 
 [[noreturn]] void run() {
-  board::maskInterrupts();  // the bootloader in ROM may have left some of its own
   static Clock clock(kBus);
   const ResetCause flagged = takeResetCause(kBus, ramSurvived());
   const firmware::LastRun last = lastRun(flagged);
@@ -124,7 +124,9 @@ bool ramSurvived() {
     noteEccErrors(kBus, eccErrors);
     if (watchdog.isStarved()) board::crash(Crash::kStarved, 0);
   };
-  firmware::runFinger(tables(), settings, last, startAdc(), can, clock, watchdog, store, tableStore,
+  const TableImage* const image = tables();
+  Adc& adc = startAdc();  // last: sample sets come from here on
+  firmware::runFinger(image, settings, last, adc, can, clock, watchdog, store, tableStore,
                       firmware::BoardActions{wait, [] { board::resetSystem(); }});
 }
 

@@ -179,6 +179,25 @@ TEST(Finger, TheEndOfATouchThatWasLostToBusOffIsSaidAgain) {
   LONGS_EQUAL(1, sent<ForceFrame>().size());
 }
 
+// A crash, or a restart that was forced on a touched finger.
+TEST(Finger, ATouchOfTheRunBeforeIsSaidToHaveEnded) {
+  for (const auto cause :
+       {hal::ResetCause::kSoftware, hal::ResetCause::kWatchdog, hal::ResetCause::kPowerOn}) {
+    watchdog = SpyWatchdog(cause);
+    start();
+    runZeroed();
+    run(300);
+    const auto contacts = sent<ContactFrame>();
+    LONGS_EQUAL(cause == hal::ResetCause::kPowerOn ? 0 : 1, contacts.size());
+    LONGS_EQUAL(contacts.size(), sent<ForceFrame>().size());
+    if (contacts.empty()) continue;
+    CHECK_FALSE(contacts[0].flags.has(FingerFlag::kContact));
+    LONGS_EQUAL(0, sent<ForceFrame>()[0].normal_mN);
+    run(20, kTouch);
+    LONGS_EQUAL(1, sent<ContactFrame>()[1].sequence);
+  }
+}
+
 TEST(Finger, ABusOffBeforeAnyTouchIsNoEndOfOne) {
   runZeroed();
   ++can.bus.busOffs;

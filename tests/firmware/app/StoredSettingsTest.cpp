@@ -125,6 +125,19 @@ TEST(StoredSettings, ARecordThatCannotBeReadIsDamageAndTheOlderOneIsUsed) {
   checkHolds(first);
 }
 
+TEST(StoredSettings, SavingWhatIsThereMendsAPageThatIsDamaged) {
+  save(first);
+  save(second);
+  memory.damage((kNewestOfTwo - 1) * memory.pageSize());
+  CHECK_TRUE(found().damaged);
+  save(second);
+  CHECK_FALSE(found().damaged);
+  checkHolds(second);
+  const int steps = memory.steps();
+  save(second);
+  LONGS_EQUAL(steps, memory.steps());
+}
+
 TEST(StoredSettings, AnyFlippedBitMakesARecordDamage) {
   constexpr std::size_t kRecord_bytes = 16;
   save(first);

@@ -145,6 +145,11 @@ TEST(TableLoader, WhereverThePowerGoesTheTablesAreTheOldTheNewOrNone) {
   CHECK_TRUE(refused > 300);
 }
 
+TEST(TableLoader, TablesOfMoreGaugesThanABoardHasAreNotUsed) {
+  POINTERS_EQUAL(&defaultTables(), ifWhole(defaultTables(), 16));
+  POINTERS_EQUAL(nullptr, ifWhole(defaultTables(), 15));
+}
+
 TEST_GROUP(WithoutTables) {
   static constexpr std::uint8_t kNode = 5;
   static constexpr std::uint32_t kUptime_s = 500;

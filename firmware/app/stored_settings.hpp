@@ -77,6 +77,7 @@ class SettingsStore {
   }
 
  private:
+  using Page = std::uint16_t;
   enum Word : std::uint8_t { kMagicWord, kErases, kValues, kCheck, kWords };
   using Record = std::array<std::uint32_t, kWords>;
   static_assert(sizeof(Record) % 8 == 0, "a store is written in units of 8 bytes");
@@ -93,11 +94,11 @@ class SettingsStore {
     if (!whole) {
       const bool isDamaged = result != hal::StoreResult::kOk || !isErased(record);
       found_.damaged |= isDamaged;
-      if (isDamaged) damagedPage_ = page;
+      if (isDamaged) damagedPage_ = static_cast<Page>(page);
     } else if (!found_.settings || record[kErases] > erases_) {
       found_.settings = settingsOf(record);
       erases_ = record[kErases];
-      newestPage_ = lastPage_ = page;
+      newestPage_ = lastPage_ = static_cast<Page>(page);
     }
   }
 
@@ -110,8 +111,8 @@ class SettingsStore {
   }
 
   bool write(std::size_t page, const StoredSettings& settings) {
-    lastPage_ = page;
-    if (damagedPage_ == page) damagedPage_.reset();  // mended, or worn
+    lastPage_ = static_cast<Page>(page);
+    if (damagedPage_ == lastPage_) damagedPage_.reset();  // mended, or worn
     ++erases_;
     if (store_.erase(page) != hal::StoreResult::kOk) return false;
     const Record record = recordOf(settings, erases_);
@@ -146,9 +147,9 @@ class SettingsStore {
   Store& store_;
   SettingsFound found_{};
   std::uint32_t erases_ = 0;
-  std::size_t newestPage_ = 0;              ///< if there are settings
-  std::size_t lastPage_ = 0;                ///< erased last
-  std::optional<std::size_t> damagedPage_;  ///< to be written next
+  Page newestPage_ = 0;              ///< if there are settings
+  Page lastPage_ = 0;                ///< erased last
+  std::optional<Page> damagedPage_;  ///< to be written next
 };
 
 }  // namespace strainfinger::firmware

@@ -185,7 +185,7 @@ std::optional<TouchFrames> TouchReporter::frames(const TableConstants& constants
     return std::nullopt;
   }
   const auto next = static_cast<std::uint8_t>(last_.contact.sequence + (any_ ? 1 : 0));
-  if (!observation.touched && !last_.contact.flags.has(FingerFlag::kContact)) return std::nullopt;
+  if (!observation.touched && !isEndOwed_) return std::nullopt;
   if (observation.unchanged && isLookedAt_ && !mustBeRepeated(now_us)) return std::nullopt;
   FingerFlags flags = flagsOf(observation);
   if (!observation.touched) return releaseFrames(flags, next);
@@ -205,8 +205,9 @@ void TouchReporter::sent(const TouchFrames& frames, std::uint32_t now_us) {
   last_ = frames;
   sentAt_us_ = now_us;
   any_ = isLookedAt_ = true;
+  isEndOwed_ = frames.contact.flags.has(FingerFlag::kContact);
 }
 
-void TouchReporter::lost() { last_.contact.flags.set(FingerFlag::kContact, true); }
+void TouchReporter::lost() { isEndOwed_ = true; }
 
 }  // namespace strainfinger::firmware

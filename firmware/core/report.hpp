@@ -78,6 +78,7 @@ class TouchReporter {
   UnitErrors unitErrors_;  ///< of the last linearisation that frames were made of
   std::uint32_t sentAt_us_ = 0;
   bool any_ = false;
+  bool isEndOwed_ = false;   ///< what was said last is a touch, or not known
   bool isLookedAt_ = false;  ///< nothing is left to say of these codes
 };
 

@@ -60,7 +60,8 @@ class Finger {
         eraseBudget_(EraseBudget::after(watchdog.resetCause())),
         tables_(tables),
         pipeline_(tables, settings.mode),
-        reporter_(periodOf(settings.contactRate_hz), standingFlagsOf(settings, tables)),
+        reporter_(periodOf(settings.contactRate_hz), standingFlagsOf(settings, tables),
+                  watchdog.resetCause() != ResetCause::kPowerOn),
         adc_(adc),
         can_(can),
         clock_(clock),
@@ -69,9 +70,7 @@ class Finger {
         steppedAt_us_(clock.now_us()),
         sampledAt_us_(steppedAt_us_),
         heartbeatAt_us_(steppedAt_us_ - kHeartbeatPeriod_us),
-        gaugesAt_us_(steppedAt_us_) {
-    if (watchdog.resetCause() != ResetCause::kPowerOn) reporter_.lost();
-  }
+        gaugesAt_us_(steppedAt_us_) {}
 
   /// One turn of the main loop: takes at most one sample set and one request, sends what is due. Never
   /// blocks. The watchdog is fed only by sample sets that went all the way through. True: there was a sample

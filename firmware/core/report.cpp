@@ -208,6 +208,6 @@ void TouchReporter::sent(const TouchFrames& frames, std::uint32_t now_us) {
   isEndOwed_ = frames.contact.flags.has(FingerFlag::kContact);
 }
 
-void TouchReporter::lost() { isEndOwed_ = true; }
+void TouchReporter::lost() { isEndOwed_ |= any_; }
 
 }  // namespace strainfinger::firmware

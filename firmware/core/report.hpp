@@ -50,9 +50,10 @@ bool isNews(const TouchFrames& frames, const TouchFrames& last, std::uint32_t no
 /// in contact; once when contact ends. Otherwise never.
 class TouchReporter {
  public:
-  /// `standing`: flags that hold for every frame (simulated, uncalibrated ..).
-  TouchReporter(std::uint32_t shortestPeriod_us, FingerFlags standing)
-      : shortestPeriod_us_(shortestPeriod_us), standing_(standing) {}
+  /// `standing`: flags that hold for every frame (simulated, uncalibrated ..). `isEndOwed`: somebody may have
+  /// said a touch before.
+  TouchReporter(std::uint32_t shortestPeriod_us, FingerFlags standing, bool isEndOwed = false)
+      : shortestPeriod_us_(shortestPeriod_us), standing_(standing), isEndOwed_(isEndOwed) {}
 
   /// The frames to send for an observation, if any. The caller says with sent() that they went out;
   /// otherwise the next observation replaces them, so that nothing old is ever sent.
@@ -62,8 +63,7 @@ class TouchReporter {
   void sent(const TouchFrames& frames, std::uint32_t now_us);
   /// A set of readings that nothing could be said of.
   void missed() { isLookedAt_ = false; }
-  /// What was said last is not known, as it may never have been on the bus, or by the run before: the end of
-  /// a touch is said again.
+  /// What was sent last may never have been on the bus: the end of a touch is said again.
   void lost();
   void setShortestPeriod(std::uint32_t period_us) { shortestPeriod_us_ = period_us; }
 
@@ -78,7 +78,7 @@ class TouchReporter {
   UnitErrors unitErrors_;  ///< of the last linearisation that frames were made of
   std::uint32_t sentAt_us_ = 0;
   bool any_ = false;
-  bool isEndOwed_ = false;   ///< what was said last is a touch, or not known
+  bool isEndOwed_;           ///< what was said last is a touch, or not known
   bool isLookedAt_ = false;  ///< nothing is left to say of these codes
 };
 

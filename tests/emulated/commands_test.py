@@ -120,7 +120,7 @@ class Commands(unittest.TestCase):
         for _ in range(50):  # its time is that of its samples
             self.board.samples(MIDDLE)
         self.board.wait_ready()
-        self.run_for(ZERO_SETS + 1, MIDDLE)
+        self.assertEqual(1, len(self.contacts(ZERO_SETS + 3, MIDDLE)), "a touch of the run before has ended")
         infos = [bytes.fromhex(line[5:]) for line in self.lines()[before:] if line.startswith(INFO)]
         self.assertEqual([SOFTWARE], [info[0] for info in infos])
         self.assertTrue(self.contacts(1, touched_at(3)), "it measures again")

@@ -42,9 +42,10 @@ std::string jsonString(const std::string& text) { return dump(text); }
 
 TableWriter::TableWriter(std::FILE* stream, TableFormat format, std::vector<std::string> columns)
     : stream_(stream), format_(format), columns_(std::move(columns)) {
+  if (format_ != TableFormat::kCsv) return;
   std::vector<std::string> names;
   for (const std::string& column : columns_) names.push_back(csvField(column));
-  if (format_ == TableFormat::kCsv) write(fmt::format("{}\n", fmt::join(names, ",")));
+  write(fmt::format("{}\n", fmt::join(names, ",")));
 }
 
 void TableWriter::row(const std::vector<Cell>& cells) {

@@ -31,7 +31,8 @@ class SessionFiles {
 
   /// `time_s`: since 1970. Throws Failure(kFailure) when the disk is full or broken.
   void add(double time_s, const Eigen::VectorXd& strains, const calibration::KnownTouch& known);
-  /// What is known of each row now, after something was taken back.
+  /// What is known of each row now, after something was taken back. Throws as add(); the file then holds what
+  /// it did.
   void rewriteTouches(const std::vector<calibration::KnownTouch>& known);
 
  private:

@@ -28,6 +28,13 @@ TEST(DbcCommand, RefusesNodesThatDoNotExist) {
   }
 }
 
+TEST(DbcCommand, HasNoJson) {
+  const Run run = runProgram("dbc --json");
+  LONGS_EQUAL(2, run.status);
+  STRCMP_EQUAL("", run.out.c_str());
+  STRCMP_CONTAINS("dbc: --json: a DBC file is all that it prints", run.err.c_str());
+}
+
 TEST(DbcCommand, WritesAFile) {
   const Run run = runShell(
       "f=$(mktemp); \"$STRAINFINGER\" dbc -o $f && cmp $f <(\"$STRAINFINGER\" dbc) && echo same; rm $f");

@@ -97,12 +97,12 @@ TEST(NumberRows, NamedColumnsAreFoundAmongOthers) {
 
 // RFC 4180, 2.6 and 2.7.
 TEST(NumberRows, QuotedTextsMayHoldCommasAndQuotes) {
-  std::istringstream stream("\"my, note\",a\n \"x, \"\"y\"\"\" ,1\n\"\",2\n\"open,3\n");
+  std::istringstream stream("\"my, note\",a\n \"x, \"\"y\"\", z\" ,1\n\"\",2\n\"open,3\n");
   NumberRowReader reader(stream, "stdin", 1, {.columns = {"a"}});
   std::vector<double> row;
   CHECK_TRUE(reader.next(row));
   CHECK_TRUE(reader.otherNames() == (std::vector<std::string>{"my, note"}));
-  CHECK_TRUE(reader.others() == (std::vector<std::string>{"x, \"y\""}));
+  CHECK_TRUE(reader.others() == (std::vector<std::string>{"x, \"y\", z"}));
   CHECK_TRUE(reader.next(row));
   CHECK_TRUE(reader.others() == (std::vector<std::string>{""}));
   try {

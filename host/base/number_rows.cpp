@@ -195,17 +195,17 @@ void NumberRowReader::parse(const std::string& line, std::vector<double>& row) {
     if (place == columns_)
       others_.push_back(textOf(fields[i]));
     else
-      row[place] = numberOf(trimmed(fields[i]), columnOf(fields[i], line));
+      row[place] = numberOf(textOf(fields[i]), columnOf(fields[i], line));
   }
   if (fields.size() < needed)
     fail(line.size() + 1, fmt::format("{} columns where {} are needed", fields.size(), needed));
 }
 
-double NumberRowReader::numberOf(std::string_view field, std::size_t column) const {
+double NumberRowReader::numberOf(const std::string& field, std::size_t column) const {
   if (field.empty() && limit_.mayBeEmpty) return std::numeric_limits<double>::quiet_NaN();
   double value = 0;
   for (const auto& [separator, name] : kOtherSeparators)
-    if (field.find(separator) != std::string_view::npos)
+    if (field.find(separator) != std::string::npos)
       fail(column, fmt::format("\"{}\" has {}: separate columns by commas", field, name));
   if (!parseNumber(field, value)) fail(column, fmt::format("\"{}\" is no number", field));
   if (!std::isfinite(value)) fail(column, fmt::format("{} is no finite number", field));

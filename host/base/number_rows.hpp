@@ -55,7 +55,7 @@ class NumberRowReader {
   void chooseColumns(const std::vector<std::string>& names);
   void requireNoMore() const;
   void parse(const std::string& line, std::vector<double>& row);
-  double numberOf(std::string_view field, std::size_t column) const;
+  double numberOf(const std::string& field, std::size_t column) const;
   [[noreturn]] void fail(std::size_t column, const std::string& what) const;
 
   std::istream& stream_;

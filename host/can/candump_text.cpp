@@ -99,6 +99,9 @@ class LineParser : private LineCursor {
     result_.interface = token();
     if (result_.interface.empty()) return fail("expected the name of an interface");
     at_ += result_.interface.size();
+    const bool isFrame = atEnd() && result_.interface.find('#') != std::string::npos;
+    if (isFrame)
+      return failBack(result_.interface.size(), "expected an interface before the frame: can0 185#E803");
     skipBlanks();
     return true;
   }

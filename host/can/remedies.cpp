@@ -100,7 +100,8 @@ std::string_view remedyFor(Crash crash) {
     case Crash::kStackOverflow:
     case Crash::kHang:
       return "please report it; where crash_address is not 0, `arm-none-eabi-addr2line -e` the firmware's "
-             ".elf has the line of it in hexadecimal (on an STM32 add 0x08000000)";
+             ".elf has the line of it, given in hexadecimal as `doctor` shows it (on an STM32 add "
+             "0x08000000)";
     case Crash::kStarved:
       return "check the converter's supply, reference and wiring";
   }

@@ -96,6 +96,7 @@ void doInterruptibly(const system::StopSignal& stop, int figure, Work work) {
 
 void runFigures(const FiguresOptions& options) {
   const paper::Subject subject(options.common.config());
+  plot::requireGnuplot();
   makeFolder(options.folder);
   const system::StopSignal stop;
   std::vector<paper::Claim> claims;

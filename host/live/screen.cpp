@@ -13,17 +13,18 @@ namespace strainfinger::live {
 namespace {
 
 constexpr int kBlockRows = 9;    ///< of a finger with its dial, the empty row behind it included
+constexpr int kBriefRows = 3;    ///< of a finger with all its numbers
 constexpr int kHeadingRows = 2;  ///< of a bus, the empty row below it included
 constexpr int kDialRows = 3, kDialColumns = 6;  ///< its radii: a character is twice as high as wide
 constexpr int kTextColumn = 19, kBarColumn = 50;
 constexpr int kNarrowestBar = 8;
 
 struct Glyphs {
-  char32_t ring, spread, contact, centre, full, uncertain, empty, zero;
+  char32_t ring, spread, contact, second, centre, full, uncertain, empty, zero, more;
   const char* pick;
 };
-constexpr Glyphs kUnicode{U'·', U'○', U'●', U'+', U'█', U'▒', U'·', U'│', "▸"};
-constexpr Glyphs kAscii{'.', 'o', '@', '+', '#', '~', '.', '|', ">"};
+constexpr Glyphs kUnicode{U'·', U'○', U'●', U'◆', U'+', U'█', U'▒', U'·', U'│', U'…', "▸"};
+constexpr Glyphs kAscii{'.', 'o', '@', '%', '+', '#', '~', '.', '|', '>', ">"};
 
 /// 1, 2 or 5 times a power of ten, not below `value` nor 0.1 N.
 double barEnd_n(double value_n) {
@@ -95,15 +96,15 @@ class Painter {
   Canvas paint() {
     for (const BusView& bus : content_.buses)
       for (const FingerView& finger : bus.fingers) fingers_.push_back(&finger);
-    const bool blocksFit = rowsWith(kBlockRows) <= canvas_.rows() && canvas_.columns() >= kBarColumn;
+    const int fingerRows = roomForFinger();
     int row = 0;
     std::size_t index = 0;
     for (const BusView& bus : content_.buses) {
       heading(row, bus);
       row += kHeadingRows;
       for (std::size_t i = 0; i < bus.fingers.size(); ++i, ++index) {
-        if (row < canvas_.rows() - 1) blocksFit ? block(row, index) : line(row, index);
-        row += blocksFit ? kBlockRows : 1;
+        if (row < canvas_.rows() - 1) finger(row, index, fingerRows);
+        row += fingerRows;
       }
     }
     foot(row - (canvas_.rows() - 1));
@@ -111,18 +112,34 @@ class Painter {
   }
 
  private:
+  /// The most rows of a finger with which all of them are shown.
+  int roomForFinger() const {
+    if (canvas_.columns() < kBarColumn) return 1;
+    for (const int rows : {kBlockRows, kBriefRows})
+      if (rowsWith(rows) <= canvas_.rows()) return rows;
+    return 1;
+  }
+
+  void finger(int row, std::size_t index, int rows) {
+    if (rows == kBlockRows) return block(row, index);
+    if (rows == kBriefRows) return brief(row, index);
+    line(row, index);
+  }
+
   /// Rows of everything, where a finger has so many.
   int rowsWith(int fingerRows) const {
     return kHeadingRows * static_cast<int>(content_.buses.size()) +
            fingerRows * static_cast<int>(fingers_.size()) + 1;
   }
 
-  /// Canvas::text(), in ASCII where nothing else is to be had.
+  /// Canvas::text(), in ASCII where nothing else is to be had; a mark stands where its end is cut off.
   int say(int row, int column, std::string text, Style style = Style::kPlain) {
     constexpr std::string_view kPlusMinus = "±";
     for (std::size_t at = 0; !isUnicode_ && (at = text.find(kPlusMinus, at)) != text.npos;)
       text.replace(at, kPlusMinus.size(), "+-");
-    return canvas_.text(row, column, text, style);
+    const int end = canvas_.text(row, column, text, style);
+    if (end > canvas_.columns()) canvas_.put(row, canvas_.columns() - 1, glyphs_.more, style);
+    return end;
   }
 
   void heading(int row, const BusView& bus) {
@@ -139,8 +156,9 @@ class Painter {
   void foot(int hiddenRows) {
     const std::string more =
         hiddenRows > 0 ? fmt::format("{} more rows: make the window higher  ", hiddenRows) : "";
-    const int column = say(canvas_.rows() - 1, 0, more + content_.keys, Style::kFaint);
-    say(canvas_.rows() - 1, column + 2, content_.message, Style::kStrong);
+    int column = 0;
+    if (!content_.message.empty()) column = say(canvas_.rows() - 1, 0, content_.message, Style::kStrong) + 2;
+    say(canvas_.rows() - 1, column, more + content_.keys, Style::kFaint);
   }
 
   int name(int row, std::size_t index) {
@@ -148,25 +166,49 @@ class Painter {
     const bool isPicked = index == content_.selected && fingers_.size() > 1;
     say(row, 0, isPicked ? glyphs_.pick : " ", Style::kAccent);
     int column = say(row, 2, fmt::format("node {}", finger.node), Style::kStrong);
-    const std::string state = wordFor(kFingerStateNames, static_cast<int>(finger.heartbeat.state));
     const bool runs = finger.heartbeat.state == FingerState::kRun && !finger.isSilent();
-    return say(row, column + 2, state, runs ? Style::kGood : Style::kBad);
+    return say(row, column + 2, stateWord(finger), runs ? Style::kGood : Style::kBad);
   }
 
-  /// A finger in one row.
+  /// Name, angle and normal force; the column behind them.
+  int firstNumbers(int row, std::size_t index) {
+    const FingerView& finger = *fingers_[index];
+    const int column = name(row, index) + 2;
+    if (!finger.isTouched()) return say(row, column, "no touch", Style::kFaint) + 2;
+    return say(row, say(row, column, angleText(*finger.touch), Style::kAccent) + 2,
+               "normal " + normalText(*finger.touch)) +
+           2;
+  }
+
+  /// A finger in one row, what matters most first.
   void line(int row, std::size_t index) {
     const FingerView& finger = *fingers_[index];
-    int column = name(row, index);
-    const std::string warnings = warningsText(finger);
-    if (!warnings.empty()) column = say(row, column + 2, warnings, Style::kBad);
-    if (!finger.isTouched()) {
-      say(row, column + 2, "no touch", Style::kFaint);
-      return;
+    int column = firstNumbers(row, index);
+    if (finger.isTouched()) {
+      column = say(row, column, "tangential " + tangentialText(*finger.touch)) + 2;
+      column = say(row, column, flagsText(finger), Style::kFaint) + 2;
     }
-    column = say(row, column + 2, angleText(*finger.touch), Style::kAccent);
-    column = say(row, column + 2, "normal " + normalText(*finger.touch));
-    column = say(row, column + 2, "tangential " + tangentialText(*finger.touch));
-    say(row, column + 2, flagsText(finger), Style::kFaint);
+    say(row, column, warningsText(finger), Style::kBad);
+  }
+
+  /// A finger with all its numbers.
+  void brief(int top, std::size_t index) {
+    constexpr int kIndent = 4;
+    const FingerView& finger = *fingers_[index];
+    firstNumbers(top, index);
+    int column = kIndent;
+    if (finger.isTouched()) {
+      const can::TouchReport& touch = *finger.touch;
+      int second = say(top + 1, kIndent, "tangential " + tangentialText(touch)) + 2;
+      second = say(top + 1, second, "width " + widthText(touch)) + 2;
+      say(top + 1, second, flagsText(finger), Style::kFaint);
+      if (touch.second) column = say(top + 2, kIndent, "second " + contactText(*touch.second)) + 2;
+    }
+    say(top + 2, column, warningsText(finger), Style::kBad);
+  }
+
+  static std::string contactText(const can::ContactReport& contact) {
+    return fmt::format("{}  {}  {}", angleText(contact), normalText(contact), tangentialText(contact));
   }
 
   /// A finger with all that is known of it.
@@ -205,10 +247,9 @@ class Painter {
     bar(top + 2, -end_n, end_n, touch.tangential_n, touch.sigmaTangential_n);
     if (!std::isnan(touch.quality_percent))
       say(top, kBarColumn, fmt::format("quality {:.0f} %", touch.quality_percent), Style::kFaint);
-    if (touch.second)
-      label(top + 4, "second",
-            fmt::format("{}  {}  {}", angleText(*touch.second), normalText(*touch.second),
-                        tangentialText(*touch.second)));
+    if (!touch.second) return;
+    label(top + 4, "second", contactText(*touch.second));
+    canvas_.put(top + 4, kTextColumn + 7, glyphs_.second, Style::kAccent);
   }
 
   void label(int row, const char* name, const std::string& value) {
@@ -232,17 +273,17 @@ class Painter {
     dial.centre(glyphs_.centre);
     if (!finger.isTouched()) return;
     const can::TouchReport& touch = *finger.touch;
-    if (touch.second) contact(dial, *touch.second);
-    contact(dial, touch);
+    if (touch.second) contact(dial, *touch.second, glyphs_.second);
+    contact(dial, touch, glyphs_.contact);
   }
 
-  void contact(Dial& dial, const can::ContactReport& contact) {
+  void contact(Dial& dial, const can::ContactReport& contact, char32_t glyph) {
     if (std::isnan(contact.angle_deg)) return;
     if (!std::isnan(contact.alternative_deg))
       dial.put(contact.angle_deg + contact.alternative_deg, glyphs_.spread, Style::kAccent);
     if (!std::isnan(contact.sigmaAngle_deg))
       dial.arc(contact.angle_deg, contact.sigmaAngle_deg, glyphs_.spread, Style::kAccent);
-    dial.put(contact.angle_deg, glyphs_.contact, Style::kAccent);
+    dial.put(contact.angle_deg, glyph, Style::kAccent);
   }
 
   const ScreenContent& content_;

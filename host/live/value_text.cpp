@@ -84,6 +84,10 @@ std::string durationText(std::uint16_t seconds) {
                      seconds / 60 % 60, seconds % 60);
 }
 
+std::string stateWord(const FingerView& finger) {
+  return finger.isSilent() ? "silent" : wordFor(kFingerStateNames, static_cast<int>(finger.heartbeat.state));
+}
+
 std::string warningsText(const FingerView& finger) {
   std::vector<std::string> warnings;
   if (const std::string text = trouble(finger); !text.empty()) warnings.push_back(text);
@@ -105,8 +109,7 @@ std::string flagsText(const FingerView& finger) {
 std::string plainLine(const BusView& bus, const FingerView& finger) {
   std::string line = fmt::format("{:.3f} s  {} node {}  {}  {}  {} contacts/s  {} lost",
                                  static_cast<double>(bus.time_us) / 1e6, bus.name, finger.node,
-                                 wordFor(kFingerStateNames, static_cast<int>(finger.heartbeat.state)),
-                                 stateText(finger), finger.contactsPerSecond, finger.lost);
+                                 stateWord(finger), stateText(finger), finger.contactsPerSecond, finger.lost);
   for (const std::string& more : {flagsText(finger), warningsText(finger)})
     if (!more.empty()) line.append("  ").append(more);
   return line;

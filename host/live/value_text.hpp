@@ -28,6 +28,9 @@ std::string widthText(const can::TouchReport& touch);
 /// "1:02:03"; "?" where it is not known, ">=18:12:14" for the largest that a finger can say.
 std::string durationText(std::uint16_t seconds);
 
+/// "run"; "silent" for one that says nothing any more.
+std::string stateWord(const FingerView& finger);
+
 /// What is to be known of a finger besides its numbers: "faults: gauges, noisy", "gauges 5, 7 out of use",
 /// "silent for 2.3 s", "speaks protocol 3: use the strainfinger of its firmware"; joined by "; ", "" for
 /// nothing.

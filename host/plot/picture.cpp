@@ -112,19 +112,28 @@ std::string completeScript(const Picture& picture, const std::string& stem, cons
       terminal(picture, ending), quoted(stem + ending), quoted(stem + "-"), picture.script);
 }
 
-void requirePicturePath(const std::string& path) { terminal({}, fs::path(path).extension().string()); }
-
 namespace {
+
+void runGnuplot(const fs::path& folder, const std::string& argument) {
+  runIn(folder.string(), {"gnuplot", argument}, "gnuplot-nox");
+}
 
 void drawIn(const Workshop& workshop, const Picture& picture, const std::string& stem,
             const std::string& ending) {
   writeText(workshop.path() / (stem + ".gp"), completeScript(picture, stem, ending));
   for (const DataFile& data : picture.data)
     writeData(workshop.path() / fmt::format("{}-{}.csv", stem, data.name), data);
-  runIn(workshop.path().string(), {"gnuplot", stem + ".gp"}, "gnuplot-nox");
+  runGnuplot(workshop.path(), stem + ".gp");
 }
 
 }  // namespace
+
+void requireGnuplot() { runGnuplot(".", "--version"); }
+
+void requirePicturePath(const std::string& path) {
+  terminal({}, fs::path(path).extension().string());
+  requireGnuplot();
+}
 
 void draw(const Picture& picture, const std::string& path) {
   const fs::path file(path);

@@ -35,7 +35,10 @@ void draw(const Picture& picture, const std::string& path);
 /// begins all its ids. Throws as draw() does.
 std::string svgElement(const Picture& picture, const std::string& name);
 
-/// Throws Failure(kUsage) for a path that draw() would refuse: for who draws only after a long time.
+/// For who draws only after a long time: throws Failure(kFailure) where gnuplot is not installed.
+void requireGnuplot();
+
+/// The same, and throws Failure(kUsage) for a path that draw() would refuse.
 void requirePicturePath(const std::string& path);
 
 /// The script as draw() writes it, for a picture called `stem` + `ending`.

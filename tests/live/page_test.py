@@ -72,6 +72,21 @@ class LivePage(unittest.TestCase):
         touch = '{normal_n: 0.5, sigma_normal_n: 0.127, or_more: ["sigma_normal_n"]}'
         self.assertEqual("0.500 <small>± ≥0.127 N</small>", self.page.value(f'valueHtml({touch}, "normal_n", 3, "N")'))
 
+    def test_a_second_contact_has_all_its_numbers(self):
+        second = ('{angle_deg: 215, sigma_angle_deg: 0.25, normal_n: 0.36, sigma_normal_n: 0.01, tangential_n: 0.02, sigma_tangential_n: 0.03,'
+                  ' or_more: []}')
+        self.assertEqual("Second: 215.0 ± 0.3 °, 0.360 ± 0.010 N, +0.020 ± 0.030 N",
+                         self.page.value(f"(() => {{ const p = document.createElement('p'); p.innerHTML = secondHtml({second}); return p.textContent; }})()"))
+
+    def test_another_angle_that_fits_as_well_is_told(self):
+        self.assertEqual("20 <small>%</small> <small>or at 10°</small>",
+                         self.page.value("qualityHtml({quality_percent: 20, angle_deg: 350.2, alternative_deg: 20})"))
+
+    def test_flags_of_doubt_stand_out(self):
+        doubts = self.page.value("""(() => { const list = document.createElement('ul'); showChips(list, ['contact', 'uncertain', 'simulated', 'stale zero']);
+          return [...list.children].map(chip => [chip.textContent, chip.classList.contains('doubt')]); })()""")
+        self.assertEqual([["uncertain", True], ["simulated", False], ["stale zero", True]], doubts)
+
     def test_numbers_change(self):
         before = self.page.text("#finger-1 .angle")
         self.page.wait_for(f"document.querySelector('#finger-1 .angle').textContent !== '{before}'")
@@ -134,6 +149,10 @@ class LivePage(unittest.TestCase):
         self.page.wait_for("innerWidth === 360 || document.documentElement.clientWidth === 360")
         self.assertLessEqual(self.page.value("document.documentElement.scrollWidth"), 360)
         self.assertLess(self.page.value("document.querySelector('article').getBoundingClientRect().right"), 360)
+        self.page.resize(320, 780, phone=True)
+        self.page.wait_for("document.documentElement.clientWidth === 320")
+        self.assertEqual([], self.page.value("""[...document.querySelectorAll('dd')].filter(value =>
+          value.scrollWidth > value.clientWidth).map(value => value.textContent)"""))
         self.page.resize(1100, 900)
 
     def contrast(self, ink, paper):
@@ -149,7 +168,7 @@ class LivePage(unittest.TestCase):
         for scheme in ("light", "dark"):
             self.page.scheme(scheme)
             backgrounds.add(self.page.value("getComputedStyle(document.body).backgroundColor"))
-            for ink in ("--ink", "--soft", "--normal", "--tangential", "--second", "--bad", "--good"):
+            for ink in ("--ink", "--soft", "--normal", "--tangential", "--second", "--warn", "--bad", "--good"):
                 self.assertGreater(self.contrast(ink, "--card"), 4.5, (scheme, ink))  # WCAG 2.1, 1.4.3
         self.assertEqual(2, len(backgrounds))
         self.page.scheme("light")
@@ -199,9 +218,12 @@ class Ending(unittest.TestCase):
             bench.finger(1)
             process, url = bench.serve()
             with browser.Page(url) as page:
-                page.wait_for("document.querySelector('#link').textContent === 'live'")
+                page.wait_for("document.querySelector('#finger-1 .state')?.textContent === 'run'")
                 Bench._end(process)
                 page.wait_for("document.querySelector('#link').textContent.startsWith('connection lost')")
+                self.assertEqual(["not connected", "–", "–", ""], [page.text("#finger-1 " + part) for part in (".state", ".angle", ".normal", ".chips")])
+                self.assertEqual(0, page.value("document.querySelector('#finger-1 svg g').childElementCount"))
+                self.assertTrue(page.value("document.querySelector('#finger-1 button').disabled"))
 
     def test_without_its_token_the_page_commands_nothing(self):
         with Bench(PROGRAM) as bench:

@@ -241,6 +241,8 @@ TEST(CandumpText, SaysWhereATimeIsWrong) {
 
 TEST(CandumpText, SaysWhereAnIdentifierIsWrong) {
   checkError(20, "an interface", "(1609779922.655421)");
+  checkError(1, "an interface before the frame", "185#E803");
+  checkError(21, "an interface before the frame", "(1609779922.655421) 185#E803");
   checkError(25, "3 or 8", "(1609779922.655421) can0");
   checkError(26, "3 or 8", "(1609779922.655421) can0 85#00");
   checkError(26, "3 or 8", "(1609779922.655421) can0 0185#00");

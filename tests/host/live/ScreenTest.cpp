@@ -96,8 +96,9 @@ TEST(Screen, ASecondContactIsShown) {
   FingerView finger = touchedFinger();
   finger.touch->second = can::ContactReport{.angle_deg = 180, .sigmaAngle_deg = 3, .normal_n = 0.41};
   const auto lines = drawn({.buses = {busWith({finger})}}, {.unicode = false});
-  STRCMP_CONTAINS("second     180.00 +- 3.00 deg  0.410 +- ? N", lines[7].c_str());
-  LONGS_EQUAL('@', lines[6][3]);
+  STRCMP_CONTAINS("second %   180.00 +- 3.00 deg  0.410 +- ? N", lines[7].c_str());
+  LONGS_EQUAL('%', lines[6][3]);
+  LONGS_EQUAL('@', lines[6][15]);
 }
 
 TEST(Screen, FaultsAndGaugesStandInWords) {
@@ -117,6 +118,7 @@ TEST(Screen, ASilentFingerIsSaidToBeSilent) {
   FingerView finger = touchedFinger();
   finger.touch.reset();
   finger.silence_us = 2'300'000;
+  STRCMP_CONTAINS("node 1  silent", textOf(finger).c_str());
   STRCMP_CONTAINS("silent for 2.3 s", textOf(finger).c_str());
   STRCMP_CONTAINS("no touch known", textOf(finger).c_str());
 }
@@ -135,11 +137,35 @@ TEST(Screen, AReleasedFingerShowsNoNumbers) {
   CHECK_TRUE(shown.find("0.282") == std::string::npos);
 }
 
+TEST(Screen, WithLittleRoomAFingerHasAllItsNumbers) {
+  FingerView finger = touchedFinger();
+  finger.touch->second =
+      can::ContactReport{.angle_deg = 180, .sigmaAngle_deg = 3, .normal_n = 0.41, .sigmaNormal_n = 0.01};
+  finger.heartbeat.faults = {FingerFault::kSamples};
+  const auto lines = drawn({.buses = {busWith({finger, touchedFinger()})}}, {.rows = 20});
+  STRCMP_EQUAL("▸ node 1  run  0.00 ± 0.50 deg  normal 0.282 ± 0.004 N", lines[2].c_str());
+  STRCMP_EQUAL("    tangential -0.100 ± 0.003 N  width 2.04 ± 0.15 mm  stale zero, simulated",
+               lines[3].c_str());
+  STRCMP_EQUAL("    second 180.00 ± 3.00 deg  0.410 ± 0.010 N  ?  faults: samples", lines[4].c_str());
+  STRCMP_CONTAINS("  node 1  run", lines[5].c_str());
+}
+
+TEST(Screen, WhatIsCutOffEndsInAMark) {
+  const ScreenForm narrow{.rows = 24, .columns = 40};
+  STRCMP_EQUAL("  node 1  run  0.00 ± 0.50 deg  normal …",
+               drawn({.buses = {busWith({touchedFinger()})}}, narrow)[2].c_str());
+}
+
+TEST(Screen, AMessageStandsBeforeTheKeys) {
+  const auto lines = drawn({.buses = {busWith({})}, .message = "node 1: tare: Done", .keys = "q quit"});
+  STRCMP_EQUAL("node 1: tare: Done  q quit", lines.back().c_str());
+}
+
 TEST(Screen, WithoutRoomAFingerIsALine) {
   FingerView other = touchedFinger();
   other.node = 2;
   const auto lines =
-      drawn({.buses = {busWith({touchedFinger(), other})}, .selected = 1}, {.rows = 10, .columns = 120});
+      drawn({.buses = {busWith({touchedFinger(), other})}, .selected = 1}, {.rows = 8, .columns = 120});
   STRCMP_CONTAINS("  node 1  run  0.00 ± 0.50 deg  normal 0.282", lines[2].c_str());
   STRCMP_CONTAINS("▸ node 2  run", lines[3].c_str());
 }
@@ -205,6 +231,6 @@ TEST(ValueText, APlainLineOfASilentFingerSaysSo) {
   FingerView finger = touchedFinger();
   finger.touch.reset();
   finger.silence_us = 1'000'000;
-  STRCMP_EQUAL("12.300 s  can0 node 1  run  no touch known  500 contacts/s  2 lost  silent for 1.0 s",
+  STRCMP_EQUAL("12.300 s  can0 node 1  silent  no touch known  500 contacts/s  2 lost  silent for 1.0 s",
                plainLine(busWith({}), finger).c_str());
 }

@@ -1,5 +1,6 @@
 #include "host/plot/picture.hpp"
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -85,6 +86,20 @@ TEST(Picture, WhatGnuplotComplainsAboutIsPassedOn) {
   STRCMP_CONTAINS("undefined variable: nonsense",
                   complaintAbout(folder.file("a.png"), ExitCode::kFailure).c_str());
   CHECK_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(Picture, IsRefusedBeforeAnyWorkWithoutGnuplot) {
+  const std::string searchPath = std::getenv("PATH");
+  requirePicturePath("a.png");
+  setenv("PATH", folder.path().c_str(), 1);
+  std::string complaint = "none";
+  try {
+    requirePicturePath("a.png");
+  } catch (const Failure& failure) {
+    complaint = failure.what();
+  }
+  setenv("PATH", searchPath.c_str(), 1);
+  STRCMP_EQUAL("gnuplot is not installed: apt install gnuplot-nox", complaint.c_str());
 }
 
 TEST(Picture, LeavesNothingElseBehind) {

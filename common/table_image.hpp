@@ -19,7 +19,7 @@ namespace strainfinger {
 static_assert(std::endian::native == std::endian::little, "the image is little-endian and is read in place");
 
 inline constexpr std::uint32_t kTableMagic = 0x42544653;  ///< "SFTB" in the file's first four bytes
-inline constexpr std::uint16_t kTableFormat = 9;          ///< raised with every change of the layout
+inline constexpr std::uint16_t kTableFormat = 10;         ///< raised with every change of the layout
 
 /// What the image was made from, as in finger.toml. The firmware carries it and doesn't look at it.
 struct TableParameters {
@@ -58,6 +58,13 @@ inline constexpr int kLeastNodes = 8;
 /// [* 2^20]; that of a tangential load, up to twice as large, as a fraction of twice that.
 inline constexpr int kMomentBits = 20;
 
+/// How far the gauges of a ring are apart for their depth and the rubber.
+enum class RingSpacing : std::uint8_t {
+  kDense,
+  kLoose,   ///< a narrow touch may have a second answer near by, however firm it is
+  kSparse,  ///< too far to tell a gauge that fails from a touch between two
+};
+
 /// Integers the firmware works with, all derived from TableParameters and the calibration.
 struct TableConstants {
   std::uint32_t noise_variance;  ///< of a reading: sigma^2 = this (24 bits) * 2^noise_variance_exponent
@@ -88,7 +95,7 @@ struct TableConstants {
   std::uint8_t cell_count;      ///< cells of the second moment
   std::uint8_t width_is_known;  ///< 1: known_moment_q20 holds, no width is fitted
   std::uint8_t gate_shift;      ///< the gate's energy is the sum of strain^2, >> (2 * gate_shift)
-  std::uint8_t is_sparse;       ///< 1: gauges too far apart to tell one that fails from a touch between two
+  RingSpacing spacing;          ///< of the gauges, for their depth and rubber
   std::array<std::uint16_t, kMostCells + 1> cell_edge_q15;  ///< ascending from 0 to 2^15 (all of it)
   std::array<std::uint16_t, kMostCells> cell_rate_q8;       ///< 2 / (cell's width) [* 2^8]
   std::array<std::uint8_t, 4> reserved2;                    ///< 0
@@ -253,7 +260,7 @@ constexpr bool usable(const TableParameters& parameters, const TableConstants& c
          usableLoads(constants.load_exponent, constants.gate_shift) &&
          (constants.mirror_sign == 1 || constants.mirror_sign == -1) &&
          (constants.peak_sign == 1 || constants.peak_sign == -1) && constants.width_is_known <= 1 &&
-         constants.is_sparse <= 1 && constants.known_moment_q20 <= 1u << kMomentBits &&
+         constants.spacing <= RingSpacing::kSparse && constants.known_moment_q20 <= 1u << kMomentBits &&
          constants.place_error_q32 <= kMostPlaceError_q32 && constants.cone_q8 > 0 &&
          constants.reach_q32 < std::uint32_t{1} << 31 && usableCells(constants) &&
          constants.node_count >= kLeastNodes && constants.node_count * constants.cell_count <= kMostPatches;

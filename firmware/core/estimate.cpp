@@ -145,6 +145,7 @@ Contact estimate(const TableConstants& constants, const Answer& answer, const Un
     return integerOf(std::uint32_t{reading.mantissa} * unit.mantissa,
                      reading.exponent + unit.exponent - 2 + unitBits, most);
   };
+  const auto isOpen = [&](int unknown) { return errors.sigma[index(unknown)].mantissa == 0; };
   const auto load = [&](std::int64_t amplitude) { return loadOf(constants, answer, amplitude); };
   Contact estimated;
   estimated.angle = TurnQ32::fromRaw(state.angle_q32);
@@ -155,12 +156,16 @@ Contact estimate(const TableConstants& constants, const Answer& answer, const Un
   estimated.tangential = load(state.tangential);
   estimated.sigmaNormal = load(sigma(loadsOf(contact), 16, kMostLoad));
   estimated.sigmaTangential = load(sigma(loadsOf(contact) + 1, 16, kMostLoad));
+  // The errors of the others are those of a touch of which it is known.
+  bool isUndetermined =
+      isOpen(angleOf(hypothesis, contact)) || isOpen(loadsOf(contact)) || isOpen(loadsOf(contact) + 1);
   bool tooWide = false;
   if (hypothesis.widthIsFree) {
     const std::int64_t sigma_q20 =
         together(sigma(momentOf(hypothesis, contact), kMomentBits, 1 << kMomentBits),
                  Wide{constants.moment_error_q16} << (kMomentBits - 16));
     setWidth(constants, state.moment_q20, sigma_q20, estimated);
+    isUndetermined |= isOpen(momentOf(hypothesis, contact));
     tooWide = state.moment_q20 > (1 << kMomentBits) - (1 << kMomentBits) / 64;
   }
   const bool faint =
@@ -177,8 +182,8 @@ Contact estimate(const TableConstants& constants, const Answer& answer, const Un
   estimated.sigmaAngle = withPlaceError(constants, estimated.sigmaAngle);
   estimated.alternative = TurnQ32::fromRaw(answer.rival.contact[index(contact)].angle_q32);
   estimated.uncertain = estimated.ambiguous || !answer.accepted || answer.searching || answer.doubtful ||
-                        areTooNear(constants, answer.solution) || tooWide || faint || answer.weak ||
-                        isLimited(state);
+                        areTooNear(constants, answer.solution) || isUndetermined || tooWide || faint ||
+                        answer.weak || isLimited(state);
   if (estimated.uncertain) estimated.quality = std::min(estimated.quality, kMostUncertainQuality);
   return estimated;
 }

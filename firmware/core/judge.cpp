@@ -106,6 +106,7 @@ bool isPlainAsBuilt(const TableConstants& constants, const Solution& solution, c
 
 bool isFirm(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings) {
   if (solution.hypothesis.gauges != allGauges(constants.gauge_count)) return false;
+  if (constants.spacing != RingSpacing::kDense) return false;
   const Number largest = largestReading(readings, solution.hypothesis.gauges);
   const Variances& variances = readings.variances;
   const std::uint32_t aside_q4 = variances.noise_q4 + ((variances.largest_q4 - variances.noise_q4) >> 4);

@@ -280,7 +280,7 @@ bool Locator::conclude(const TableImage& tables) {
                         saysOther(tables.constants, answer, rankings[i]->best) &&
                         costOf(i) - costOf(*best) < ambiguity(readings.variances);
   answer_.several = *best == kPair || (!faulty && *best != kSingle);
-  const bool isSparse = tables.constants.is_sparse != 0;
+  const bool isSparse = tables.constants.spacing == RingSpacing::kSparse;
   answer_.doubtful |= isSparse && *best == kWithoutOne;
   if (*best == kWithoutOne && !isSparse && !(two && answer_.doubtful)) answer_.suspect = culprit(tables);
   believe(tables, answer, readings);

@@ -66,7 +66,8 @@ void Pipeline::watchGauges() {
     const std::int32_t predicted = fit.predicted[i];
     const std::int32_t measured = readings_.strain_q32[i] >> answer.shift;
     if ((observation_.saturated & gauge) != 0) {
-      if (!isRailPlausible(measured, predicted) && constants().is_sparse == 0) atRail |= gauge;
+      if (!isRailPlausible(measured, predicted) && constants().spacing != RingSpacing::kSparse)
+        atRail |= gauge;
       continue;
     }
     const std::int32_t off = magnitude(measured - predicted);

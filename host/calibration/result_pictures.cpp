@@ -41,9 +41,10 @@ unset multiplot
 )";
 
 constexpr const char* kCoverage = R"(
-set lmargin at screen 0.08; set rmargin at screen 0.97; set tmargin at screen 0.9; set bmargin at screen 0.17
+set lmargin at screen 0.08; set rmargin at screen 0.97; set tmargin at screen 0.9; set bmargin at screen 0.22
 set xrange [0:360]; set xtics 45 format '%g°'; set xlabel 'angle around the ring; grey lines: gauges'
 set ylabel 'normal load (N/m)'; set logscale y; set offsets 0,0,0,0
+set ytics (1,2,5,10,20,50,100,200,500,1000,2000,5000)
 plot data('gauges') using 1:2:(0):3 every ::1 with vectors nohead linecolor rgb '#CCCCCC' notitle, \
      data('touches') using 1:(gap(2)) every ::1 with points pointtype 7 pointsize 0.45 linecolor rgb blue title 'used', \
      '' using 1:(gap(3)) every ::1 with points pointtype 7 pointsize 0.45 linecolor rgb vermilion title 'left out'
@@ -51,8 +52,8 @@ plot data('gauges') using 1:2:(0):3 every ::1 with vectors nohead linecolor rgb 
 
 constexpr const char* kResiduals = R"(
 set multiplot
-set logscale y; set format y '10^{%T}'
-set tmargin at screen 0.9; set bmargin at screen 0.17
+set logscale y; set format y '10^{%T}'; set yrange [low:high]
+set tmargin at screen 0.9; set bmargin at screen 0.22
 set lmargin at screen 0.08; set rmargin at screen 0.40
 set ylabel 'left over (microstrain, RMS)'
 set xlabel 'gauge'; set xrange [-0.6:gauges-0.4]
@@ -116,9 +117,17 @@ plot::Picture residualPicture(const CalibrationResult& result, const Residuals& 
     return rows;
   };
   const std::vector<std::string> columns{"number", "before_microstrain", "after_microstrain"};
+  const double noise = kMicro * result.drawing().config().gauges.noise_strain;
+  double low = noise, high = noise;  // of both panels
+  for (const auto* all : {&residuals.gauges, &residuals.rows})
+    for (const Residuals::Of& each : *all)
+      for (const double left : {kMicro * each.before_strain, kMicro * each.after_strain}) {
+        if (left > 0) low = std::min(low, left);
+        high = std::max(high, left);
+      }
   const std::string values =
-      fmt::format("gauges = {}; rows = {}; noise = {}\n", residuals.gauges.size(), residuals.rows.size(),
-                  kMicro * result.drawing().config().gauges.noise_strain);
+      fmt::format("gauges = {}; rows = {}; noise = {}; low = {}; high = {}\n", residuals.gauges.size(),
+                  residuals.rows.size(), noise, low / 1.3, 1.3 * high);
   return {kWide_px,
           340,
           plot::kStyle + values + kResiduals,

@@ -8,7 +8,7 @@
 #include "host/can/touch_receiver.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
-#include "host/config/sparse_ring.hpp"
+#include "host/config/ring_spacing.hpp"
 #include "host/tables/self_check.hpp"
 #include "host/tables/table_file.hpp"
 
@@ -58,11 +58,11 @@ struct TablesOptions {
 void warnOf(const config::FingerConfig& config, const tables::SelfCheck& check) {
   if (config::isSparse(config))
     warn("tables",
-         fmt::format(
-             "at the surface the gauges are {:.3g} times their depth apart (gauges.count, "
-             "gauges.radius_m); above {} times the errors told are too small between gauges, and no touch "
-             "tells which gauge fails: use more gauges, or deeper ones",
-             config::pitchInDepths(config), config::kSparse));
+         fmt::format("at the surface the gauges are up to {:.3g} times their depth apart (gauges.count, "
+                     "gauges.angle_deg, gauges.radius_m); above {} times the errors told are too small "
+                     "between gauges, and no touch "
+                     "tells which gauge fails: use more gauges, or deeper ones",
+                     config::widestGapInDepths(config), config::kSparse));
   const double most_n = 2 * check.halfScale_n_per_m * config.finger.length_m;
   const double told_n = can::largestValues().normal_n;
   if (most_n > told_n)

@@ -46,8 +46,8 @@ std::vector<Key> makeKeys() {
        "length of a gauge along the ring, averaged over; 0: a point; at most one pitch"},
       {"gauges", "noise_strain", slot<&F::gauges, &Gauges::noise_strain>(), Domain::above(0, 0.1),
        "standard deviation of a conditioned reading, quantisation included"},
-      {"gauges", "full_scale_strain", slot<&F::gauges, &Gauges::full_scale_strain>(), Domain::above(0, 0.1),
-       "the converter covers +- this"},
+      {"gauges", "full_scale_strain", slot<&F::gauges, &Gauges::full_scale_strain>(),
+       Domain::above(0, kMostStrain), "the converter covers +- this"},
       {"gauges", "adc_bits", slot<&F::gauges, &Gauges::adc_bits>(), Domain::between(8, 16),
        "resolution of the converter, by which its upper end is known: of the board in firmware/board 12, "
        "however "
@@ -61,7 +61,9 @@ std::vector<Key> makeKeys() {
        "where each gauge is, counter-clockwise from gauge to gauge, for a ring that is not even; an empty "
        "list: the ring is even"},
       {"contact", "friction_coefficient", slot<&F::contact, &Contact::friction_coefficient>(),
-       Domain::between(0, 10), "tangential load is at most this times the normal load"},
+       Domain::between(0, 10),
+       "tangential load is at most this times the normal load, and as much of a contact sticks as it lets "
+       "(Mindlin): the real one, as an answer's errors don't hold another"},
       {"contact", "width_m", slot<&F::contact, &Contact::width_m>(), Domain::between(0, 1),
        "known width of a contact, an arc of the surface: that of the uniform pressure with the same second "
        "moment, 0.87 times a Hertzian contact's; readings are taken for those of a semi-ellipse with this "

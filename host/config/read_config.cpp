@@ -74,6 +74,12 @@ void readValue(const toml::node& node, const Key& key, std::optional<double>& va
   value = realIn(node, key.dotted(), key.domain);
 }
 
+/// That the first key of a broken relation is not in the file, which says nothing of the value complained of.
+std::string defaultOf(const Relation& relation, const toml::table& root) {
+  if (root.at_path(relation.keys.front())) return {};
+  return fmt::format(" ({} is not in the file, this is its default)", relation.keys.front());
+}
+
 /// Where a broken relation is reported: the defaults keep all of them, so the file has one of its keys.
 const toml::source_region& placeOf(const Relation& relation, const toml::table& root) {
   for (const std::string& dotted : relation.keys)
@@ -97,7 +103,8 @@ FingerConfig readConfig(std::string_view text, const std::string& name) {
     if (const toml::node* node = find(root, key.section, key.name))
       std::visit([&](auto slot) { readValue(*node, key, slot(config)); }, key.slot);
   for (const Relation& relation : relations())
-    if (!relation.holds(config)) failAt(placeOf(relation, root), relation.violation(config));
+    if (!relation.holds(config))
+      failAt(placeOf(relation, root), relation.violation(config) + defaultOf(relation, root));
   return config;
 }
 

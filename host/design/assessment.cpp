@@ -12,7 +12,7 @@
 #include "host/base/failure.hpp"
 #include "host/config/keys.hpp"
 #include "host/config/over_range.hpp"
-#include "host/config/sparse_ring.hpp"
+#include "host/config/ring_spacing.hpp"
 #include "host/evidence/bound.hpp"
 #include "host/tables/self_check.hpp"
 #include "host/tables/table_builder.hpp"
@@ -100,9 +100,10 @@ std::string shortcomingOf(const config::FingerConfig& config, const simulation::
                        100 * (1 - bounds.identifiableShare));
   if (config::isSparse(config))
     return fmt::format(
-        "at the surface the gauges are {:.3g} times their depth apart, more than {}: the errors told are too "
+        "at the surface the gauges are up to {:.3g} times their depth apart, more than {}: the errors told "
+        "are too "
         "small between gauges; use more gauges, or deeper ones",
-        config::pitchInDepths(config), config::kSparse);
+        config::widestGapInDepths(config), config::kSparse);
   return {};
 }
 

@@ -20,20 +20,25 @@ constexpr double kMilli = 1e3, kMicro = 1e6;
 constexpr const char* kBounds = R"(
 set multiplot
 set tmargin at screen 0.9; set bmargin at screen 0.14
-set logscale y; set format y '%g'; set xlabel 'gauges'; set offsets 0.6,0.6,graph 0.05,graph 0.05
+set logscale y; set format y '%g'
+set ytics (0.001,0.0015,0.002,0.003,0.005,0.007,0.01,0.015,0.02,0.03,0.05,0.07,0.1,0.15,0.2,0.3,0.5,0.7,1,1.5,2,3,5,7,10,15,20,30,50,70,100,150,200,300,500,700,1000,1500,2000,3000,5000,7000,10000,15000,20000,30000,50000,70000)
+set xlabel 'gauges'; set xtics 2; set offsets 0.6,0.6,graph 0.05,graph 0.05
 set palette defined (0 '#440154', 1 '#31688E', 2 '#35B779', 3 '#D9C52A'); set cblabel 'radius of the ring (mm)'; set cbtics scale 0.6
 unset colorbox
 set lmargin at screen 0.1; set rmargin at screen 0.44
-set ylabel 'place, worst standard deviation (um)'
-if (anyFinite) set yrange [*:*]; else set yrange [1:10]
+set ylabel 'worst sigma of the place (um)'; set autoscale yfix
+if (!anyFinite) set yrange [1:10]
 good(bound) = column(5) == 0 ? gap(bound) : NaN
 bad(bound) = column(5) == 0 ? NaN : gap(bound)
 plot data('fingers') using 1:(gap(3)):2 skip 1 with lines linewidth 1.6 palette notitle, \
-     '' using 1:(good(3)):2 skip 1 with points pointtype 7 pointsize 0.8 palette title 'no problem', \
-     '' using 1:(bad(3)):2 skip 1 with points pointtype 6 pointsize 0.8 palette title 'a problem'
+     '' using 1:(good(3)):2 skip 1 with points pointtype 7 pointsize 0.8 palette notitle, \
+     '' using 1:(bad(3)):2 skip 1 with points pointtype 6 pointsize 0.8 palette notitle, \
+     NaN with points pointtype 7 pointsize 0.8 linecolor rgb faint title 'no problem', \
+     NaN with points pointtype 6 pointsize 0.8 linecolor rgb faint title 'a problem'
 if (least < most) set colorbox user origin 0.89,0.14 size 0.015,0.76
 set lmargin at screen 0.53; set rmargin at screen 0.87
-set ylabel 'normal load, worst standard deviation (N/m)'
+set ylabel 'worst sigma of the normal load (N/m)'
+set label 1 heading at graph 0,1.06 left
 plot data('fingers') using 1:(gap(4)):2 skip 1 with lines linewidth 1.6 palette notitle, \
      '' using 1:(good(4)):2 skip 1 with points pointtype 7 pointsize 0.8 palette notitle, \
      '' using 1:(bad(4)):2 skip 1 with points pointtype 6 pointsize 0.8 palette notitle
@@ -59,9 +64,10 @@ plot::Picture boundsPicture(const std::vector<Candidate>& candidates) {
   }
   const auto [least, most] = std::ranges::minmax_element(candidates, {}, &Candidate::radius_m);
   const double least_mm = kMilli * least->radius_m, most_mm = kMilli * most->radius_m;
-  const std::string range =
-      fmt::format("anyFinite = {}; least = {}; most = {}\nset cbrange [{}:{}]\n", anyFinite ? 1 : 0, least_mm,
-                  most_mm, least_mm, most_mm > least_mm ? most_mm : least_mm + 1);
+  const std::string range = fmt::format(
+      "anyFinite = {}; least = {}; most = {}; heading = '{}'\nset cbrange [{}:{}]\n", anyFinite ? 1 : 0,
+      least_mm, most_mm, most_mm > least_mm ? "" : fmt::format("ring of {:.3g} mm", least_mm), least_mm,
+      most_mm > least_mm ? most_mm : least_mm + 1);
   return {960, 420, plot::kStyle + range + kBounds, {fingers}};
 }
 

@@ -21,7 +21,7 @@ set multiplot layout 4,3 margins 0.05,0.985,0.07,0.94 spacing 0.05,0.06
 set yrange [-1.15:1.15]
 do for [k = 1:4] {
   set xrange [-half:half]; set xlabel k == 4 ? 'θ (rad)' : ''
-  set label 1 sprintf('%d: slope and shape of the surface', k) at graph 0,1.09 left
+  set label 1 sprintf('%d: slope (full) and shape (dashed)', k) at graph 0,1.09 left
   plot 0 with lines linecolor rgb faint notitle, \
        data('functions') using 1:(column(4*k - 1)/slopes[k]) every ::1 with lines linewidth 1.6 linecolor rgb blue notitle, \
        '' using 1:(column(4*k - 2)/shapes[k]) every ::1 with lines dashtype 2 linewidth 1.2 linecolor rgb lightBlue notitle
@@ -29,7 +29,7 @@ do for [k = 1:4] {
   plot 0 with lines linecolor rgb faint notitle, \
        data('functions') using 1:(column(4*k)/pressures[k]) every ::1 with lines linewidth 1.6 linecolor rgb vermilion notitle
   set xrange [0:150]; set xlabel k == 4 ? 'harmonic n' : ''
-  set label 1 'coefficients of the pressure' at graph 0,1.09 left
+  set label 1 'its coefficients; grey: n up to 20' at graph 0,1.09 left
   set object 1 rectangle from 0,graph 0 to 20,graph 1 behind fillcolor rgb '#F3F3F3' fillstyle solid noborder
   plot 0 with lines linecolor rgb faint notitle, \
        data('coefficients') using 1:(column(k + 1)/coefficients[k]) every ::1 with lines linewidth 1.6 linecolor rgb vermilion notitle

@@ -21,7 +21,7 @@ using std::numbers::pi;
 constexpr std::array kPaperCutOffs{0.1, 0.01, 1e-3};
 
 constexpr const char* kIndenter = R"(
-set arrow 1 from indenterX,-indenterY to indenterX,indenterY nohead linewidth 2 linecolor rgb vermilion
+set arrow 1 from indenterX,-indenterY to indenterX,indenterY nohead linewidth 2 linecolor rgb vermilion; applied = 'indenter'
 )";
 
 constexpr const char* kStressPanel = R"(

@@ -20,7 +20,8 @@ constexpr int kClaimedLast = 20;
 constexpr const char* kFrequencyPanels = R"(
 set multiplot layout 1,2 margins 0.07,0.985,0.13,0.88 spacing 0.08
 set xlabel 'harmonic n (cycles per revolution)'; set xrange [0:last]; set yrange [-0.55:1.1]
-set ylabel 'coefficient / largest of the panel'
+set ylabel 'coefficient / largest of its model'
+set label 2 '10 %' at last,0.1 right offset 0,0.5 textcolor rgb faint
 set arrow 1 from 0,0.1 to last,0.1 nohead linecolor rgb faint dashtype 3
 set arrow 2 from 0,-0.1 to last,-0.1 nohead linecolor rgb faint dashtype 3
 panel(c) = c == 2 ? 'e_{rr}' : 'e_{rθ}'
@@ -29,11 +30,11 @@ do for [c in '2 6'] {
   cylinder = c == 2 ? cylinderRadial : cylinderShear; plane = c == 2 ? planeRadial : planeShear
   plot 0 with lines linecolor rgb faint notitle, \
        data('coefficients') using 1:(column(c + 0) / cylinder) every ::1 with linespoints pointtype 7 pointsize 0.5 \
-         linewidth 1.4 linecolor rgb blue title 'normal load', \
+         linewidth 1.4 linecolor rgb blue title 'finger: normal load', \
        '' using 1:(column(c + 1) / cylinder) every ::1 with linespoints pointtype 7 pointsize 0.5 \
          linewidth 1.4 linecolor rgb vermilion title 'tangential', \
-       '' using 1:(column(c + 6) / plane) every ::1 with lines dashtype 2 linewidth 1.4 linecolor rgb blue title 'half plane', \
-       '' using 1:(column(c + 7) / plane) every ::1 with lines dashtype 2 linewidth 1.4 linecolor rgb vermilion title 'half plane'
+       '' using 1:(column(c + 6) / plane) every ::1 with lines dashtype 2 linewidth 1.4 linecolor rgb blue title 'half plane: normal', \
+       '' using 1:(column(c + 7) / plane) every ::1 with lines dashtype 2 linewidth 1.4 linecolor rgb vermilion title 'tangential'
 }
 unset multiplot
 )";

@@ -22,7 +22,7 @@ constexpr double kLoad_n_per_m = 60;
 constexpr double kWidth_m = 0.1e-3;
 
 constexpr const char* kLoad = R"(
-set xrange [*:loadX]
+set xrange [*:loadX]; applied = '60 N/m at 45°'
 set arrow 1 from loadX,loadY to tipX,tipY linewidth 2 linecolor rgb vermilion
 )";
 

@@ -34,7 +34,7 @@ plot data('values') using 1:2 every ::1 with linespoints pointtype 7 linewidth 1
 )";
 
 constexpr const char* kCountsPanel = R"(
-set xlabel 'width of the contact (mm)'; set ylabel 'singular values'; set yrange [0:*]
+set xlabel 'width of the contact (mm)'; set ylabel 'singular values'; set yrange [0:*]; set offsets graph 0.03,graph 0.03,0,0
 plot data('counts') using ($1*1e3):2 every ::1 with points pointtype 7 linecolor rgb blue title 'above 1/10', \
      tenthAt + tenthPerMm * x with lines linecolor rgb blue notitle, \
      '' using ($1*1e3):3 every ::1 with points pointtype 7 linecolor rgb vermilion title 'above 1/100', \

@@ -28,7 +28,7 @@ set label 1 heading at graph 0,1.07 left font ',13'
 set ylabel 'angle'; set yrange [0:360]; set ytics 90 format '%g°'
 plot data('angle') using 1:(gap(3)):(gap(4)) skip 1 with filledcurves linecolor rgb lightBlue title '±σ', \
      '' using 1:(gap(2)) skip 1 with lines linewidth 1.4 linecolor rgb blue title 'contact', \
-     '' using 1:(gap(5)) skip 1 with points pointtype 7 pointsize 0.3 linecolor rgb green title 'second contact'
+     for [i=1:second] data('second') using 1:(gap(2)) skip 1 with lines linewidth 1.4 linecolor rgb green title 'second contact'
 unset label 1
 set tmargin at screen 0.67; set bmargin at screen 0.45
 set ylabel 'force (N)'; set yrange [*:*]; set ytics autofreq format '%g'; set offsets 0,0,graph 0.05,graph 0.05
@@ -37,6 +37,10 @@ plot 0 with lines linewidth 1 linecolor rgb faint notitle, \
      '' using 1:(gap(6)):(gap(7)) skip 1 with filledcurves linecolor rgb orange notitle, \
      '' using 1:(gap(2)) skip 1 with lines linewidth 1.4 linecolor rgb blue title 'normal', \
      '' using 1:(gap(5)) skip 1 with lines linewidth 1.4 linecolor rgb vermilion title 'tangential', \
+     for [i=1:second] data('second') using 1:(gap(3)) skip 1 with lines linewidth 1.4 linecolor rgb green \
+       title 'second: normal', \
+     for [i=1:second] data('second') using 1:(gap(4)) skip 1 with lines linewidth 1.4 dashtype (6,4) \
+       linecolor rgb green title 'tangential', \
      for [i=1:orMore] data('or-more') using 1:(gap(2)) skip 1 with points pointtype 7 pointsize 0.2 \
        linecolor rgb faint title 'σ that or more'
 set tmargin at screen 0.41; set bmargin at screen 0.27
@@ -86,20 +90,35 @@ double atLeast(double bound, double least) { return bound < least ? least : boun
 bool never(const LogPoint&, const LogPoint&) { return false; }
 
 /// Through 0 deg a line would cross the panel.
-bool turns(const LogPoint& before, const LogPoint& point) {
-  return std::fabs(point.touch.angle_deg - before.touch.angle_deg) > 180;
-}
+bool turns(double from_deg, double to_deg) { return std::fabs(to_deg - from_deg) > 180; }
 
 DataFile angleData(const LogRecord& record) {
   const auto rowOf = [](const LogPoint& point) {
     const can::TouchReport& touch = point.touch;
     return Row{point.time_s, touch.angle_deg, atLeast(touch.angle_deg - touch.sigmaAngle_deg, 0),
-               atMost(touch.angle_deg + touch.sigmaAngle_deg, 360),
-               touch.second ? touch.second->angle_deg : kNoValue};
+               atMost(touch.angle_deg + touch.sigmaAngle_deg, 360)};
   };
   return {"angle",
-          {"time_s", "angle_deg", "angle_low_deg", "angle_high_deg", "angle2_deg"},
-          brokenRows(record.points, 4, rowOf, turns)};
+          {"time_s", "angle_deg", "angle_low_deg", "angle_high_deg"},
+          brokenRows(record.points, 4, rowOf, [](const LogPoint& before, const LogPoint& point) {
+            return turns(before.touch.angle_deg, point.touch.angle_deg);
+          })};
+}
+
+DataFile secondData(const LogRecord& record) {
+  const auto angleOf = [](const LogPoint& point) {
+    return point.touch.second ? point.touch.second->angle_deg : kNoValue;
+  };
+  const auto rowOf = [&](const LogPoint& point) {
+    const auto& second = point.touch.second;
+    return Row{point.time_s, angleOf(point), second ? second->normal_n : kNoValue,
+               second ? second->tangential_n : kNoValue};
+  };
+  return {"second",
+          {"time_s", "angle_deg", "normal_n", "tangential_n"},
+          brokenRows(record.points, 4, rowOf, [&](const LogPoint& before, const LogPoint& point) {
+            return turns(angleOf(before), angleOf(point));
+          })};
 }
 
 DataFile forceData(const LogRecord& record) {
@@ -186,10 +205,16 @@ Picture logPicture(const LogRecord& record) {
   const double last_s = record.points.empty() ? 1 : record.points.back().time_s;
   std::string script = kStyle;
   std::vector<DataFile> data{angleData(record), forceData(record), widthData(record), flagData(record)};
-  if (DataFile orMore = orMoreData(record); !orMore.rows.empty()) data.push_back(std::move(orMore));
-  script += fmt::format("first = {}; last = {}; flags = {}; orMore = {}; heading = '{}'\n", first_s,
-                        last_s > first_s ? last_s : first_s + 1, kFlags.size(), data.size() > 4 ? 1 : 0,
-                        record.heading);
+  // What most logs don't have is neither a file nor in the key.
+  const auto addIfAny = [&](DataFile file) {
+    const bool isAny = !file.rows.empty();
+    if (isAny) data.push_back(std::move(file));
+    return isAny ? 1 : 0;
+  };
+  const int orMore = addIfAny(orMoreData(record)), second = addIfAny(secondData(record));
+  script +=
+      fmt::format("first = {}; last = {}; flags = {}; orMore = {}; second = {}; heading = '{}'\n", first_s,
+                  last_s > first_s ? last_s : first_s + 1, kFlags.size(), orMore, second, record.heading);
   script += withFlagTics(kPanels);
   return {1200, 900, std::move(script), std::move(data)};
 }

@@ -12,7 +12,7 @@ set encoding utf8
 set border 3 linecolor '#555555'
 set tics nomirror out scale 0.6 textcolor '#333333'
 set grid xtics ytics linecolor '#E6E6E6' linetype 1
-set key at graph 1,1.01 bottom right horizontal samplen 2 textcolor '#333333'
+set key at graph 1,1.01 bottom right horizontal samplen 2 textcolor '#333333'; set tmargin 2.5
 )";
 
 }  // namespace strainfinger::plot

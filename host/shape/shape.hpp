@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "host/config/sparse_ring.hpp"
+#include "host/config/ring_spacing.hpp"
 #include "host/shape/curvature.hpp"
 #include "host/shape/resolved_pressure.hpp"
 #include "host/shape/touch_search.hpp"

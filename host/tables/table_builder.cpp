@@ -11,7 +11,7 @@
 #include "firmware/core/judge.hpp"
 #include "host/base/failure.hpp"
 #include "host/config/keys.hpp"
-#include "host/config/sparse_ring.hpp"
+#include "host/config/ring_spacing.hpp"
 #include "host/config/strained_gauges.hpp"
 #include "host/config/unseen_errors.hpp"
 #include "host/tables/gauge_depths.hpp"
@@ -141,7 +141,7 @@ TableConstants tableConstants(const config::FingerConfig& config, const GaugeGai
   constants.cone_q8 = rounded<std::uint16_t>(frictionCone(config.contact) * 256);
   constants.model_error_q16 = fraction_q16(std::hypot(config.gauges.model_error, depthError));
   fillErrors(constants, config);
-  constants.is_sparse = config::isSparse(config) ? 1 : 0;
+  constants.spacing = config::spacingOf(config);
   constants.adc_rail = static_cast<std::uint16_t>(0xFFFF << (16 - config.gauges.adc_bits));
   constants.mirror_sign = config.gauges.component == StrainComponent::kShear ? -1 : 1;
   constants.peak_sign = static_cast<std::int8_t>(responses.peakSign);

@@ -73,7 +73,8 @@ TEST(FiguresCommand, SaysWhenGnuplotIsMissing) {
 
 // A gnuplot of ours interrupts the program that runs it, as Ctrl-C would, and dies of it too.
 TEST(FiguresCommand, AnInterruptionLeavesWholeFilesOnly) {
-  std::ofstream(folder.file("gnuplot")) << "#!/bin/sh\n[ $1 = --version ] && exit 0\nkill -INT $PPID\nexit 1\n";
+  std::ofstream(folder.file("gnuplot"))
+      << "#!/bin/sh\n[ $1 = --version ] && exit 0\nkill -INT $PPID\nexit 1\n";
   std::filesystem::permissions(folder.file("gnuplot"), std::filesystem::perms::owner_all);
   const Run run =
       runShell("PATH=" + folder.path() + ":$PATH $STRAINFINGER figures -o " + folder.path() + "/out");

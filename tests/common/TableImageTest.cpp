@@ -59,7 +59,7 @@ TEST(TableImage, TheChecksumIsOfEverythingBehindTheHeader) {
 }
 
 TEST(TableImage, WhatIsWrongFirstIsNamed) {
-  image_->constants.is_sparse = 1;
+  image_->constants.spacing = RingSpacing::kSparse;
   checkFault(TableFault::kChecksum);
   image_->image_bytes -= 1;
   checkFault(TableFault::kLength);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <span>
+
 namespace strainfinger::bench {
 namespace {
 
@@ -112,6 +114,32 @@ class Rows {
     dead.failure = Failure::kDead;
   }
 
+  /// Perfect, but on which a narrow touch and a wide one near by may read alike.
+  void otherFingers() {
+    const auto finger = [this](std::string name) -> config::FingerConfig& {
+      Disturbance& row = add(std::move(name));
+      row.touches.width_m = {0, 2e-3};
+      return row.actual;
+    };
+    finger("16 gauges up to 4 degrees off an even ring").gauges.angles_deg = {
+        3.929,   25.623,  52.387,  72.981,  95.497,  115.627, 141.584, 158.984,
+        188.773, 207.505, 227.522, 252.196, 276.712, 300.097, 322.956, 344.621};
+    for (const int count : {14, 16}) {
+      config::FingerConfig& shear = finger(fmt::format("{} gauges of shear", count));
+      shear.gauges.count = count;
+      shear.gauges.component = StrainComponent::kShear;
+      config::FingerConfig& soft = finger(fmt::format("{} gauges, Poisson's ratio 0.3", count));
+      soft.gauges.count = count;
+      soft.finger.poisson_ratio = 0.3;
+    }
+    config::FingerConfig& shallow = finger("32 gauges 1.5 mm below the surface, widths up to 4 mm");
+    shallow.gauges.count = 32;
+    shallow.gauges.radius_m = 11.2e-3;
+    shallow.contact.largest_width_m = 4e-3;
+    rows_.back().touches.load_n_per_m = {1, 15};  // half of what its gauges read
+    for (Disturbance& row : std::span(rows_).last(6)) row.told = row.actual;
+  }
+
   void electronics() {
     for (const double zero : {20, 50}) {
       add(fmt::format("zeros off by {:g} microstrain", zero)).zeroSpread_strain = zero * kMicro;
@@ -207,6 +235,7 @@ std::vector<Disturbance> matrixRows() {
   rows.motions();
   rows.failures();
   rows.builds();
+  rows.otherFingers();
   rows.electronics();
   rows.untouched();
   rows.slow();

@@ -440,3 +440,13 @@ TEST(Estimate, WhatTheReadingsDoNotDetermineMayBeAnywhere) {
   CHECK(toReal(contact.sigmaNormal) > 100);
   CHECK(toReal(contact.sigmaTangential) > 100);
 }
+
+// Where the readings don't tell the width, errors of place and loads are those of a known one.
+TEST(EstimatedErrors, OfATouchWhoseWidthTheReadingsDoNotTellAreUncertain) {
+  const ModelRing shear{ModelRing::asDrawn(14, StrainComponent::kShear)};
+  const Contact contact = found(shear, Press{1.6 / 360 * 14, 30, 15});
+  CHECK(contact.sigmaWidth_um > 4000);
+  CHECK_TRUE(contact.uncertain);
+  CHECK_COMPARE(contact.quality, <=, kMostUncertainQuality);
+  CHECK_FALSE(found(ring, Press{1.6 / 360 * 16, 30, 15}).uncertain);
+}

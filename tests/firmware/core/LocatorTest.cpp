@@ -225,3 +225,16 @@ TEST(Locator, TwoContactsThatGrowDuringTheSearchAreFoundWhenItEnds) {
     CHECK_TRUE(areBothFound(one, other, 0.2));
   }
 }
+
+// Such a touch has a second answer 0.1 pitch away that leaves chi-squared of 40 without noise.
+TEST(Locator, FirmNarrowTouchesOnALooseRingAreLookedInto) {
+  config::FingerConfig config = ModelRing::asDrawn(32);
+  config.gauges.radius_m = 11.2e-3;
+  config.contact.largest_width_m = 4e-3;
+  const ModelRing loose{config};
+  const Press press{305.394 / 11.25, 7.79, 4.84};
+  locateOnce(loose.tables(), loose.raw(press), loose.allGauges(), locator);
+  const Press found = foundBy(locator, loose);
+  DOUBLES_EQUAL(0, loose.between(press.position_pitch, found.position_pitch), 0.01);
+  DOUBLES_EQUAL(press.normal, found.normal, 0.02);
+}

@@ -237,7 +237,7 @@ TEST(Pipeline, AGaugeThatWorksAgainCountsAgain) {
 TEST(Pipeline, TapsConvictADeadGauge) {
   for (const bool isSparse : {false, true}) {
     const auto tables = std::make_unique<TableImage>(ring.tables());
-    tables->constants.is_sparse = isSparse;
+    tables->constants.spacing = isSparse ? RingSpacing::kSparse : RingSpacing::kDense;
     pipeline = Pipeline(*tables, FitMode::kRefined);
     for (const double position_pitch : {4.5, 5.3, 4.0, 5.9, 4.8, 5.5}) {
       auto strains = ring.strains(Press{position_pitch, 30, 4, 0.5});
@@ -264,7 +264,7 @@ TEST(Pipeline, SpikesOfAGaugeWithoutATouchConvictNone) {
 TEST(Pipeline, NoTouchConvictsAGaugeOfASparseRing) {
   const auto tables = std::make_unique<TableImage>(ring.tables());
   for (const bool isSparse : {false, true}) {
-    tables->constants.is_sparse = isSparse;
+    tables->constants.spacing = isSparse ? RingSpacing::kSparse : RingSpacing::kDense;
     pipeline = Pipeline(*tables, FitMode::kRefined);
     for (double position_pitch = 3.6; position_pitch < 6.6; position_pitch += 0.2) {
       auto strains = ring.strains(Press{position_pitch, 20, 3, 1});

@@ -177,9 +177,7 @@ TEST(NumberRows, AFirstRowWithOtherSeparatorsIsNoHeader) {
   STRCMP_EQUAL("stdin:1:1: \"1 2\" is no number", complaintAbout("1 2\n").c_str());
 }
 
-TEST(NumberRows, AFirstRowOfQuotedNumbersIsNoHeader) {
-  LONGS_EQUAL(1, read("\"1\",\"2\"\n").size());
-}
+TEST(NumberRows, AFirstRowOfQuotedNumbersIsNoHeader) { LONGS_EQUAL(1, read("\"1\",\"2\"\n").size()); }
 
 TEST(NumberRows, AFirstRowOfMissingNumbersIsNoHeader) {
   for (const std::string missing : {"NA", "n/a", "null", "None", "nil", "missing", "-", "", "*"})

@@ -60,7 +60,7 @@ const std::vector<DomainCase>& domainCases() {
       {"gauges.first_angle_deg", {"0", "359.999"}, {"-0.001", "360", "1e9"}},
       {"gauges.arc_length_m", {"0", "3.69e-3"}, {"-1e-9", "1.1"}},
       {"gauges.noise_strain", {"4.3e-6", "0.1"}, {"0", "-6e-6", "0.11"}},
-      {"gauges.full_scale_strain", {"1e-12", "0.0425"}, {"0", "-0.03", "0.11"}},
+      {"gauges.full_scale_strain", {"1e-12", "0.0425"}, {"0", "-0.03", "0.0601"}},
       {"gauges.adc_bits", {"12", "16"}, {"7", "17", "-12", "4294967304"}},
       {"gauges.model_error", {"0", "1", "0.003"}, {"-0.001", "1.001"}},
       {"gauges.angle_deg", {"[]", angles("337.5"), angles("326.25"), angles("348.75")}, {}},
@@ -255,13 +255,21 @@ TEST(ReadConfig, NoiseIsAtLeastThatOfTheConverter) {
       "smaller full scale or more noise");
   checkComplaint(settingOf("gauges.noise_strain", "4.229e-6"), "accepted");
   checkMention(settingOf("gauges.adc_bits", "8"), "f.toml:3:12: gauges.noise_strain = 6e-06 is less");
-  checkMention(settingOf("gauges.full_scale_strain", "0.1"),
+  checkMention(settingOf("gauges.full_scale_strain", "0.06"),
                "f.toml:3:21: gauges.noise_strain = 6e-06 is less");
 }
 
 TEST(ReadConfig, CoarseConvertersAndLargeFullScalesGoWithMoreNoise) {
   checkComplaint(settingOf("gauges.adc_bits", "8") + "\nnoise_strain = 7e-5", "accepted");
-  checkComplaint(settingOf("gauges.full_scale_strain", "0.1") + "\nnoise_strain = 2e-5", "accepted");
+  checkComplaint(settingOf("gauges.full_scale_strain", "0.06") + "\nnoise_strain = 2e-5", "accepted");
+}
+
+TEST(ReadConfig, ADullGaugesFullScaleIsHeldByTheFirmware) {
+  const std::string scale = "\n[gauges]\nnoise_strain = 2e-5\nfull_scale_strain = 0.04\n";
+  checkComplaint(settingOf("calibration.gain", gains("0.67")) + scale, "accepted");
+  checkMention(settingOf("calibration.gain", gains("0.66")) + scale,
+               "calibration.gain[15] = 0.66: with gauges.full_scale_strain = 0.04 the gauge reads strains of "
+               "up to 0.0606; the firmware holds 0.06");
 }
 
 TEST(ReadConfig, AGainOutOfItsDomainIsNamedWithItsPlace) {

@@ -110,6 +110,19 @@ TEST(LogPicture, EdgesOfBandsThatStandForThatOrMoreAreMarked) {
   draw(logPicture({"heading", {point_}}), folder.file("width.svg"));
 }
 
+TEST(LogPicture, ASecondContactHasItsAngleAndForces) {
+  const LogPoint alone = pointAt(0, 20);
+  point_.touch.second = can::ContactReport{.angle_deg = 200, .normal_n = 0.25, .tangential_n = -0.125};
+  const std::vector<LogPoint> points{alone, point_, pointAt(1.01, 21), alone};
+  const auto second = rows(points, "second");
+  checkRow({1, 200, 0.25, -0.125}, second.at(0));
+  LONGS_EQUAL(3, second.size());
+  CHECK_TRUE(second.at(2).empty());
+  const TemporaryFolder folder;
+  draw(logPicture({"heading", points}), folder.file("second.svg"));
+  for (const DataFile& file : logPicture({"heading", {alone}}).data) CHECK(file.name != "second");
+}
+
 TEST(LogPicture, FlagsAreRowsByTheirBits) {
   const auto flags = rows({point_}, "flags");
   LONGS_EQUAL(2, flags.size());

@@ -118,7 +118,7 @@ Rows constantRows(const TableConstants& c) {
   rows.add("cell_count", c.cell_count);
   rows.add("width_is_known", c.width_is_known);
   rows.add("gate_shift", c.gate_shift);
-  rows.add("is_sparse", c.is_sparse);
+  rows.add("spacing", c.spacing);
   rows.add("cell_edge_q15", c.cell_edge_q15);
   rows.add("cell_rate_q8", c.cell_rate_q8);
   rows.add("reserved2", c.reserved2);

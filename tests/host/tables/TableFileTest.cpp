@@ -237,5 +237,5 @@ TEST(TableFile, TheHeaderSaysWhatItIsOf) {
   STRCMP_CONTAINS("//   contact.width_m = unknown\n", header.c_str());
   STRCMP_CONTAINS("//   gauges.angle_deg = [0, 22.5, ", header.c_str());
   STRCMP_CONTAINS(fmt::format("// CRC-32 0x{:08X}\n", image_->crc32).c_str(), header.c_str());
-  STRCMP_CONTAINS("kDefaultTableBytes[24568] = {\n    83, 70, 84, 66, 9, 0,", header.c_str());
+  STRCMP_CONTAINS("kDefaultTableBytes[24568] = {\n    83, 70, 84, 66, 10, 0,", header.c_str());
 }

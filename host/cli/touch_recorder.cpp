@@ -41,13 +41,16 @@ void TouchRecorder::add(const simulation::Moment& moment, const firmware::Readin
 void TouchRecorder::addToTrack(const simulation::Moment& moment) {
   if (track_.empty() || moment.time_s >= periodEnd_s_) {
     periodEnd_s_ = moment.time_s + kTrackPeriod_s;
-    track_.push_back({moment.time_s, truthPoint(moment.truth), {}});
+    track_.push_back({.time_s = moment.time_s,
+                      .truth = truthPoint(moment.truth),
+                      .estimate = {},
+                      .areSeveral = moment.truth.size() > 1});
   }
   const auto& compared = moment.compared;
   if (!compared || !compared->report.flags.has(FingerFlag::kContact)) return;
   if (!std::isnan(track_.back().estimate.angle_deg)) return;
   track_.back() = {compared->time_s, truthPoint(compared->truth), pointOf(compared->report),
-                   compared->report.sigmaAngle_deg};
+                   compared->report.sigmaAngle_deg, compared->truth.size() > 1};
 }
 
 plot::ContactPoint TouchRecorder::pointOf(const can::TouchReport& report) const {

@@ -51,7 +51,9 @@ set tmargin at screen 0.92; set bmargin at screen 0.66
 set label 2 'The contact over time' at graph 0,1.06 left font ',13'
 set ylabel 'angle'; set yrange [0:360]; set ytics 90 format '%g°'
 plot data('track') using 1:(gap(5)) every ::1 with points pointtype 7 pointsize 0.4 linecolor rgb estimate title 'estimate', \
-     '' using 1:(gap(2)) every ::1 with lines linewidth 1 linecolor rgb truth title 'truth'
+     '' using 1:(gap(2)) every ::1 with lines linewidth 1 linecolor rgb truth title 'truth', \
+     for [i=1:several] '' using 1:(gap(10) * 350) every ::1 with points pointtype 5 pointsize 0.4 \
+       linecolor rgb faint title 'several touches: not compared'
 unset label 2
 set tmargin at screen 0.60; set bmargin at screen 0.44
 set ylabel 'error (mm)'; set yrange [-errorRange:errorRange]; set ytics errorRange format '%g'
@@ -105,11 +107,12 @@ std::vector<double> trackRow(const TrackPoint& point, double radius_m) {
           estimate.normal_n_per_m,
           estimate.tangential_n_per_m,
           arcError_m(point, radius_m) * kMilli,
-          arcSigma_m(point, radius_m) * kMilli};
+          arcSigma_m(point, radius_m) * kMilli,
+          point.areSeveral ? 1 : kNoValue};
 }
 
 std::vector<double> gapAt(double time_s) {
-  std::vector<double> row(9, kNoValue);
+  std::vector<double> row(10, kNoValue);
   row[0] = time_s;
   return row;
 }
@@ -117,7 +120,7 @@ std::vector<double> gapAt(double time_s) {
 DataFile trackData(const TouchRecord& record) {
   DataFile data{"track",
                 {"time_s", "true_angle_deg", "true_normal_n_per_m", "true_tangential_n_per_m", "angle_deg",
-                 "normal_n_per_m", "tangential_n_per_m", "arc_error_mm", "arc_sigma_mm"},
+                 "normal_n_per_m", "tangential_n_per_m", "arc_error_mm", "arc_sigma_mm", "several_touches"},
                 {}};
   for (const TrackPoint& point : record.track) {
     // A gap where the truth runs through 0 deg, or the line would cross the panel.
@@ -172,9 +175,11 @@ std::string profileText(const TouchRecord& record) {
 
 std::string trackText(const TouchRecord& record) {
   const bool any = record.track.size() > 1;
-  return fmt::format("first = {}; last = {}; moment = {}; errorRange = {}\n",
+  const bool anySeveral = std::any_of(record.track.begin(), record.track.end(),
+                                      [](const TrackPoint& point) { return point.areSeveral; });
+  return fmt::format("first = {}; last = {}; moment = {}; several = {}; errorRange = {}\n",
                      any ? record.track.front().time_s : 0, any ? record.track.back().time_s : 1,
-                     record.moment_s, errorRange_mm(record));
+                     record.moment_s, anySeveral ? 1 : 0, errorRange_mm(record));
 }
 
 }  // namespace

@@ -33,6 +33,7 @@ struct TrackPoint {
   ContactPoint truth;
   ContactPoint estimate;
   double sigmaAngle_deg = kNoValue;
+  bool areSeveral = false;  ///< there are more touches than one, and no truth to compare with
 };
 
 struct TouchRecord {

@@ -43,8 +43,19 @@ TEST(TouchPicture, ProfileAndReadingsAreInThousandthsAndMillionths) {
 
 TEST(TouchPicture, TheTrackHasErrorAndSigmaAsArcsInMillimetres) {
   const double mmPerDeg = std::numbers::pi / 180 * 10;
-  const auto track = file(touchPicture(slide()), "track");
-  checkRow({0.2, 2, 20, 5, 1.9, 19, 4, -0.1 * mmPerDeg, 0.2 * mmPerDeg}, track.rows.at(0));
+  auto row = file(touchPicture(slide()), "track").rows.at(0);
+  CHECK_TRUE(std::isnan(row.back()));  // no other touch
+  row.pop_back();
+  checkRow({0.2, 2, 20, 5, 1.9, 19, 4, -0.1 * mmPerDeg, 0.2 * mmPerDeg}, row);
+}
+
+TEST(TouchPicture, SeveralTouchesAreSaidToBeThere) {
+  STRCMP_CONTAINS("several = 0", touchPicture(slide()).script.c_str());
+  TouchRecord record = slide();
+  record.track.at(1).areSeveral = true;
+  STRCMP_CONTAINS("several = 1", touchPicture(record).script.c_str());
+  DOUBLES_EQUAL(1, file(touchPicture(record), "track").rows.at(1).back(), 0);
+  draw(touchPicture(record), folder.file("several.svg"));
 }
 
 TEST(TouchPicture, TheTrueAngleHasAGapWhereItRunsThroughZero) {

@@ -86,11 +86,6 @@ TurnQ32 withPlaceError(const TableConstants& constants, TurnQ32 sigma) {
   return TurnQ32::fromRaw(static_cast<std::uint32_t>(lesser(both, Wide{kHalfTurn_q32})));
 }
 
-/// Loads beyond what a fit holds: gauges at their rails leave them open.
-bool isLimited(const ContactState& state) {
-  return std::max(magnitude(state.normal), magnitude(state.tangential)) >= kMostLoad;
-}
-
 LineLoadQ12 loadOf(const TableConstants& constants, const Answer& answer, std::int64_t amplitude) {
   return LineLoadQ12::fromRaw(
       lineLoad(static_cast<Number>(amplitude), constants.load_scale, constants.load_exponent + answer.shift));

@@ -23,6 +23,11 @@ using GaugeSet = std::uint32_t;
 constexpr GaugeSet allGauges(int count) { return ~GaugeSet{0} >> (kMaxGauges - count); }
 constexpr bool contains(GaugeSet gauges, int gauge) { return (gauges >> gauge & 1) != 0; }
 
+/// Those beside gauges of a ring of so many.
+constexpr GaugeSet neighboursOf(GaugeSet gauges, int count) {
+  return (gauges << 1 | gauges >> (count - 1) | gauges >> 1 | gauges << (count - 1)) & allGauges(count);
+}
+
 /// The gap between two gauges of an even ring.
 constexpr std::uint32_t pitch_q32(const TableConstants& constants) {
   const std::uint32_t count = constants.gauge_count;
@@ -47,6 +52,11 @@ struct ContactState {
 };
 
 inline constexpr Number kMostLoad = 1 << 20;
+
+/// A load may be beyond what a fit holds: gauges at their rails leave it open.
+inline bool isLimited(const ContactState& contact) {
+  return larger(magnitude(contact.normal), magnitude(contact.tangential)) >= kMostLoad;
+}
 
 /// Which contacts are sought with which unknowns. Line or wide contact, one or two, with or without some
 /// gauges: all are solved by the same fit.

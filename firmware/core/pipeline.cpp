@@ -58,6 +58,13 @@ void Pipeline::watchGauges() {
   const Answer& answer = locator_.answer();
   if (!answer.accepted || answer.searching) return;
   const Linearisation& fit = locator_.linearisation();
+  // What a touch beyond what a fit holds should make them read may be far more than is predicted, and of
+  // neighbours at their rails the others don't tell what is between them.
+  const auto contacts = answer.solution.contacts();
+  const bool isRailJudged = constants().spacing != RingSpacing::kSparse &&
+                            std::none_of(contacts.begin(), contacts.end(), isLimited);
+  const GaugeSet judgedAtRail =
+      isRailJudged ? ~neighboursOf(observation_.saturated, constants().gauge_count) : 0;
   GaugeSet atRail = 0, right = 0, wrong = 0, suspect = 0;
   const GaugeSet looked = watch_.watched() | answer.suspect | observation_.saturated;
   for (GaugeSet left = looked; left != 0; left &= left - 1) {
@@ -66,8 +73,7 @@ void Pipeline::watchGauges() {
     const std::int32_t predicted = fit.predicted[i];
     const std::int32_t measured = readings_.strain_q32[i] >> answer.shift;
     if ((observation_.saturated & gauge) != 0) {
-      if (!isRailPlausible(measured, predicted) && constants().spacing != RingSpacing::kSparse)
-        atRail |= gauge;
+      if (!isRailPlausible(measured, predicted)) atRail |= gauge & judgedAtRail;
       continue;
     }
     const std::int32_t off = magnitude(measured - predicted);

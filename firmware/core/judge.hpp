@@ -144,7 +144,8 @@ bool isPlain(const TableConstants& constants, const Solution& solution, const Sc
 bool isPlainAsBuilt(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings,
                     bool was = false);
 
-/// So much signal and so narrow a contact, read by all gauges, that no other answer explains the readings.
+/// So much signal and so narrow a contact, read by all gauges of a dense ring, that no other answer explains
+/// the readings.
 bool isFirm(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings);
 
 }  // namespace strainfinger::firmware

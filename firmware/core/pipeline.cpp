@@ -13,6 +13,16 @@ constexpr int kGaugesPerOut = 8;
 constexpr Wide kDisturbance = 64;
 constexpr int kSettled = 24;
 
+/// Of gauges at their rails those of which an answer tells whether they should be. What a touch beyond what a
+/// fit holds should make them read may be far more than is predicted; of neighbours at their rails the others
+/// don't tell what is between them.
+GaugeSet judgedAtRail(const TableConstants& constants, const Solution& answer, GaugeSet atRail) {
+  const auto contacts = answer.contacts();
+  if (constants.spacing == RingSpacing::kSparse || std::any_of(contacts.begin(), contacts.end(), isLimited))
+    return 0;
+  return atRail & ~neighboursOf(atRail, constants.gauge_count);
+}
+
 }  // namespace
 
 void Pipeline::takeZero(const ZeroAverage& zero) {
@@ -58,13 +68,6 @@ void Pipeline::watchGauges() {
   const Answer& answer = locator_.answer();
   if (!answer.accepted || answer.searching) return;
   const Linearisation& fit = locator_.linearisation();
-  // What a touch beyond what a fit holds should make them read may be far more than is predicted, and of
-  // neighbours at their rails the others don't tell what is between them.
-  const auto contacts = answer.solution.contacts();
-  const bool isRailJudged = constants().spacing != RingSpacing::kSparse &&
-                            std::none_of(contacts.begin(), contacts.end(), isLimited);
-  const GaugeSet judgedAtRail =
-      isRailJudged ? ~neighboursOf(observation_.saturated, constants().gauge_count) : 0;
   GaugeSet atRail = 0, right = 0, wrong = 0, suspect = 0;
   const GaugeSet looked = watch_.watched() | answer.suspect | observation_.saturated;
   for (GaugeSet left = looked; left != 0; left &= left - 1) {
@@ -73,13 +76,14 @@ void Pipeline::watchGauges() {
     const std::int32_t predicted = fit.predicted[i];
     const std::int32_t measured = readings_.strain_q32[i] >> answer.shift;
     if ((observation_.saturated & gauge) != 0) {
-      if (!isRailPlausible(measured, predicted)) atRail |= gauge & judgedAtRail;
+      if (!isRailPlausible(measured, predicted)) atRail |= gauge;
       continue;
     }
     const std::int32_t off = magnitude(measured - predicted);
     if (off >= threshold::kCulprit) suspect |= answer.suspect & gauge;
     if (magnitude(predicted) >= threshold::kFelt) (off <= magnitude(predicted) / 4 ? right : wrong) |= gauge;
   }
+  if (atRail != 0) atRail &= judgedAtRail(constants(), answer.solution, observation_.saturated);
   watch_.implausiblyAtRail(atRail);
   watch_.suspect(suspect, answer.solution.contact[0].angle_q32);
   watch_.vindicate(right & ~suspect, wrong);

@@ -58,7 +58,7 @@ struct TablesOptions {
 void warnOf(const config::FingerConfig& config, const tables::SelfCheck& check) {
   if (config::isSparse(config))
     warn("tables",
-         fmt::format("at the surface the gauges are up to {:.3g} times their depth apart (gauges.count, "
+         fmt::format("at the surface the gauges are up to {:.4g} times their depth apart (gauges.count, "
                      "gauges.angle_deg, gauges.radius_m); above {} times the errors told are too small "
                      "between gauges, and no touch "
                      "tells which gauge fails: use more gauges, or deeper ones",

@@ -27,10 +27,6 @@ struct Finger {
   }
 };
 
-/// What a reading may be at most: as strain * 2^32 it is summed and squared in 30 bits, its zero anywhere in
-/// the converter's range (usableGain() in common/table_image.hpp, which ends at 0.0625).
-inline constexpr double kMostStrain = 0.06;
-
 struct Gauges {
   int count = 16;
   double radius_m = 9.4e-3;

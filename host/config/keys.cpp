@@ -46,8 +46,8 @@ std::vector<Key> makeKeys() {
        "length of a gauge along the ring, averaged over; 0: a point; at most one pitch"},
       {"gauges", "noise_strain", slot<&F::gauges, &Gauges::noise_strain>(), Domain::above(0, 0.1),
        "standard deviation of a conditioned reading, quantisation included"},
-      {"gauges", "full_scale_strain", slot<&F::gauges, &Gauges::full_scale_strain>(),
-       Domain::above(0, kMostStrain), "the converter covers +- this"},
+      {"gauges", "full_scale_strain", slot<&F::gauges, &Gauges::full_scale_strain>(), Domain::above(0, 0.06),
+       "the converter covers +- this"},
       {"gauges", "adc_bits", slot<&F::gauges, &Gauges::adc_bits>(), Domain::between(8, 16),
        "resolution of the converter, by which its upper end is known: of the board in firmware/board 12, "
        "however "

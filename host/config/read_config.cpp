@@ -74,7 +74,7 @@ void readValue(const toml::node& node, const Key& key, std::optional<double>& va
   value = realIn(node, key.dotted(), key.domain);
 }
 
-/// That the first key of a broken relation is not in the file, which says nothing of the value complained of.
+/// What to add where the value complained of is a default, which nobody finds in the file.
 std::string defaultOf(const Relation& relation, const toml::table& root) {
   if (root.at_path(relation.keys.front())) return {};
   return fmt::format(" ({} is not in the file, this is its default)", relation.keys.front());

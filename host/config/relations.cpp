@@ -177,28 +177,6 @@ Relation calibratedGaugesInRubber() {
           }};
 }
 
-/// The gauge that reads least for its strain, whose full scale is the largest one.
-std::size_t dullestGauge(Config c) {
-  const auto& gain = c.calibration.gain;
-  return static_cast<std::size_t>(std::min_element(gain.begin(), gain.end()) - gain.begin());
-}
-
-Relation calibratedScaleHeld() {
-  return {[](Config c) {
-            const auto& gain = c.calibration.gain;
-            return gain.empty() || c.gauges.full_scale_strain <= kMostStrain * gain[dullestGauge(c)];
-          },
-          {"calibration.gain", "gauges.full_scale_strain"},
-          [](Config c) {
-            const std::size_t gauge = dullestGauge(c);
-            return fmt::format(
-                "calibration.gain[{}] = {}: with gauges.full_scale_strain = {} the gauge reads strains of up "
-                "to {:.3g}; the firmware holds {}",
-                gauge, c.calibration.gain[gauge], c.gauges.full_scale_strain,
-                c.gauges.full_scale_strain / c.calibration.gain[gauge], kMostStrain);
-          }};
-}
-
 Relation builtCoreBelowGauges() {
   return {[](Config c) {
             const double core_m = c.finger.core_radius_m + c.as_built.core_radius_m;
@@ -252,7 +230,6 @@ std::vector<Relation> makeRelations() {
       onePerGauge("calibration.angle_offset_deg", [](Config c) { return c.calibration.angle_offset_deg; }),
       onePerGauge("calibration.depth_offset_m", [](Config c) { return c.calibration.depth_offset_m; }),
       calibratedGaugesInRubber(),
-      calibratedScaleHeld(),
       builtCoreBelowGauges(),
       builtRubberPossible(),
       builtRubberStiff()};

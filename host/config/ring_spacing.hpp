@@ -2,7 +2,6 @@
 // How far the gauges are apart for their depth and the rubber.
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "common/table_image.hpp"
@@ -13,21 +12,18 @@ namespace strainfinger::config {
 /// Depths of the gauges that the widest gap of a dense ring has at most, an arc at the surface: 1.51 on the
 /// default finger. From 1.66 on firm touches of narrow contacts were found with a second answer near by.
 inline constexpr double kDense = 1.6;
-/// Poisson's ratio from which on that holds: of softer volume, narrow and wide touches read more alike (0.45:
-/// answers wrong by up to 8 sigmas, 0.3: by 29).
-inline constexpr double kVolumeKept = 0.48;
 /// The same of a ring that is not sparse: in a wider gap a touch is seen by the gauges on both sides alike,
 /// whatever its width.
 inline constexpr double kSparse = 2;
+/// Poisson's ratio from which on kDense holds: of softer volume, narrow and wide touches read more alike
+/// (0.45: answers wrong by up to 8 sigmas, 0.3: by 29).
+inline constexpr double kVolumeKept = 0.48;
 
 /// The widest gap between two gauges at the surface, over the gauges' depth by the drawing.
 inline double widestGapInDepths(const FingerConfig& config) {
   const Gauges& gauges = config.gauges;
   double widest_deg = 0;
-  for (int gauge = 0; gauge < gauges.count; ++gauge) {
-    const double gap_deg = gauges.angle_deg((gauge + 1) % gauges.count) - gauges.angle_deg(gauge);
-    widest_deg = std::max(widest_deg, std::fmod(gap_deg + 360, 360));
-  }
+  for (int gauge = 0; gauge < gauges.count; ++gauge) widest_deg = std::max(widest_deg, gauges.gap_deg(gauge));
   const double outer_m = config.finger.outer_radius_m;
   return widest_deg / 180 * std::numbers::pi * outer_m / (outer_m - gauges.radius_m);
 }

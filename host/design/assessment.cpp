@@ -100,7 +100,7 @@ std::string shortcomingOf(const config::FingerConfig& config, const simulation::
                        100 * (1 - bounds.identifiableShare));
   if (config::isSparse(config))
     return fmt::format(
-        "at the surface the gauges are up to {:.3g} times their depth apart, more than {}: the errors told "
+        "at the surface the gauges are up to {:.4g} times their depth apart, more than {}: the errors told "
         "are too "
         "small between gauges; use more gauges, or deeper ones",
         config::widestGapInDepths(config), config::kSparse);

@@ -114,10 +114,8 @@ class Painter {
  private:
   /// The most rows of a finger with which all of them are shown.
   int roomForFinger() const {
-    if (canvas_.columns() < kBarColumn) return 1;
-    for (const int rows : {kBlockRows, kBriefRows})
-      if (rowsWith(rows) <= canvas_.rows()) return rows;
-    return 1;
+    if (rowsWith(kBlockRows) <= canvas_.rows() && canvas_.columns() >= kBarColumn) return kBlockRows;
+    return rowsWith(kBriefRows) <= canvas_.rows() ? kBriefRows : 1;
   }
 
   void finger(int row, std::size_t index, int rows) {
@@ -138,7 +136,8 @@ class Painter {
     for (std::size_t at = 0; !isUnicode_ && (at = text.find(kPlusMinus, at)) != text.npos;)
       text.replace(at, kPlusMinus.size(), "+-");
     const int end = canvas_.text(row, column, text, style);
-    if (end > canvas_.columns()) canvas_.put(row, canvas_.columns() - 1, glyphs_.more, style);
+    if (!text.empty() && end > canvas_.columns())
+      canvas_.put(row, canvas_.columns() - 1, glyphs_.more, style);
     return end;
   }
 
@@ -170,39 +169,42 @@ class Painter {
     return say(row, column + 2, stateWord(finger), runs ? Style::kGood : Style::kBad);
   }
 
-  /// Name, angle and normal force; the column behind them.
-  int firstNumbers(int row, std::size_t index) {
-    const FingerView& finger = *fingers_[index];
-    const int column = name(row, index) + 2;
-    if (!finger.isTouched()) return say(row, column, "no touch", Style::kFaint) + 2;
-    return say(row, say(row, column, angleText(*finger.touch), Style::kAccent) + 2,
-               "normal " + normalText(*finger.touch)) +
-           2;
+  /// Angle and normal force; the column behind them.
+  int numbersOf(int row, int column, const can::TouchReport& touch) {
+    column = say(row, column, angleText(touch), Style::kAccent) + 2;
+    return say(row, column, "normal " + normalText(touch)) + 2;
   }
 
-  /// A finger in one row, what matters most first.
+  /// A finger in one row: what is wrong, whether the numbers are to be trusted, and as many of them as fit.
   void line(int row, std::size_t index) {
     const FingerView& finger = *fingers_[index];
-    int column = firstNumbers(row, index);
-    if (finger.isTouched()) {
-      column = say(row, column, "tangential " + tangentialText(*finger.touch)) + 2;
-      column = say(row, column, flagsText(finger), Style::kFaint) + 2;
+    int column = name(row, index) + 2;
+    const std::string warnings = warningsText(finger), flags = flagsText(finger);
+    if (!warnings.empty()) column = say(row, column, warnings, Style::kBad) + 2;
+    if (!finger.isTouched()) {
+      say(row, column, "no touch", Style::kFaint);
+      return;
     }
-    say(row, column, warningsText(finger), Style::kBad);
+    if (!flags.empty()) column = say(row, column, flags, Style::kFaint) + 2;
+    column = numbersOf(row, column, *finger.touch);
+    say(row, column, "tangential " + tangentialText(*finger.touch));
   }
 
   /// A finger with all its numbers.
   void brief(int top, std::size_t index) {
     constexpr int kIndent = 4;
     const FingerView& finger = *fingers_[index];
-    firstNumbers(top, index);
+    const int named = name(top, index) + 2;
     int column = kIndent;
     if (finger.isTouched()) {
       const can::TouchReport& touch = *finger.touch;
-      int second = say(top + 1, kIndent, "tangential " + tangentialText(touch)) + 2;
-      second = say(top + 1, second, "width " + widthText(touch)) + 2;
-      say(top + 1, second, flagsText(finger), Style::kFaint);
+      say(top, numbersOf(top, named, touch), flagsText(finger), Style::kFaint);
+      int next = say(top + 1, kIndent, "tangential " + tangentialText(touch)) + 2;
+      next = say(top + 1, next, "width " + widthText(touch)) + 2;
+      say(top + 1, next, qualityText(touch), Style::kFaint);
       if (touch.second) column = say(top + 2, kIndent, "second " + contactText(*touch.second)) + 2;
+    } else {
+      say(top, named, "no touch", Style::kFaint);
     }
     say(top + 2, column, warningsText(finger), Style::kBad);
   }
@@ -245,8 +247,7 @@ class Painter {
     label(top + 3, "width", widthText(touch));
     bar(top + 1, 0, end_n, touch.normal_n, touch.sigmaNormal_n);
     bar(top + 2, -end_n, end_n, touch.tangential_n, touch.sigmaTangential_n);
-    if (!std::isnan(touch.quality_percent))
-      say(top, kBarColumn, fmt::format("quality {:.0f} %", touch.quality_percent), Style::kFaint);
+    say(top, kBarColumn, qualityText(touch), Style::kFaint);
     if (!touch.second) return;
     label(top + 4, "second", contactText(*touch.second));
     canvas_.put(top + 4, kTextColumn + 7, glyphs_.second, Style::kAccent);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "host/base/angles.hpp"
 #include "host/can/remedies.hpp"
 #include "host/live/words.hpp"
 
@@ -82,6 +83,14 @@ std::string durationText(std::uint16_t seconds) {
   if (seconds == kNotKnown<std::uint16_t>) return kUnknown;
   return fmt::format("{}{}:{:02}:{:02}", can::isLargest(seconds) ? kOrMore : "", seconds / 3600,
                      seconds / 60 % 60, seconds % 60);
+}
+
+std::string qualityText(const can::ContactReport& contact) {
+  if (std::isnan(contact.quality_percent)) return {};
+  const std::string quality = fmt::format("quality {:.0f} %", contact.quality_percent);
+  if (std::isnan(contact.alternative_deg)) return quality;
+  return fmt::format("{} or at {:.0f} deg", quality,
+                     withinATurn_deg(contact.angle_deg + contact.alternative_deg));
 }
 
 std::string stateWord(const FingerView& finger) {

@@ -23,6 +23,8 @@ std::string measuredSigned(const Said& value, const Said& sigma, int decimals, c
 std::string angleText(const can::ContactReport& contact);
 std::string normalText(const can::ContactReport& contact);
 std::string tangentialText(const can::ContactReport& contact);
+/// "quality 20 % or at 95 deg": what else fits as well; "" where it is not known.
+std::string qualityText(const can::ContactReport& contact);
 std::string widthText(const can::TouchReport& touch);
 
 /// "1:02:03"; "?" where it is not known, ">=18:12:14" for the largest that a finger can say.

@@ -28,7 +28,8 @@ set label 1 heading at graph 0,1.07 left font ',13'
 set ylabel 'angle'; set yrange [0:360]; set ytics 90 format '%g°'
 plot data('angle') using 1:(gap(3)):(gap(4)) skip 1 with filledcurves linecolor rgb lightBlue title '±σ', \
      '' using 1:(gap(2)) skip 1 with lines linewidth 1.4 linecolor rgb blue title 'contact', \
-     for [i=1:second] data('second') using 1:(gap(2)) skip 1 with lines linewidth 1.4 linecolor rgb green title 'second contact'
+     for [i=1:second] data('second') using 1:(gap(2)) skip 1 with linespoints pointtype 7 pointsize 0.15 linewidth 1.4 \
+       linecolor rgb green title 'second contact'
 unset label 1
 set tmargin at screen 0.67; set bmargin at screen 0.45
 set ylabel 'force (N)'; set yrange [*:*]; set ytics autofreq format '%g'; set offsets 0,0,graph 0.05,graph 0.05
@@ -37,9 +38,9 @@ plot 0 with lines linewidth 1 linecolor rgb faint notitle, \
      '' using 1:(gap(6)):(gap(7)) skip 1 with filledcurves linecolor rgb orange notitle, \
      '' using 1:(gap(2)) skip 1 with lines linewidth 1.4 linecolor rgb blue title 'normal', \
      '' using 1:(gap(5)) skip 1 with lines linewidth 1.4 linecolor rgb vermilion title 'tangential', \
-     for [i=1:second] data('second') using 1:(gap(3)) skip 1 with lines linewidth 1.4 linecolor rgb green \
+     for [i=1:second] data('second') using 1:(gap(3)) skip 1 with linespoints pointtype 7 pointsize 0.15 linewidth 1.4 linecolor rgb green \
        title 'second: normal', \
-     for [i=1:second] data('second') using 1:(gap(4)) skip 1 with lines linewidth 1.4 dashtype (6,4) \
+     for [i=1:second] data('second') using 1:(gap(4)) skip 1 with linespoints pointtype 7 pointsize 0.1 linewidth 1.4 dashtype (6,4) \
        linecolor rgb green title 'tangential', \
      for [i=1:orMore] data('or-more') using 1:(gap(2)) skip 1 with points pointtype 7 pointsize 0.2 \
        linecolor rgb faint title 'σ that or more'

@@ -15,6 +15,20 @@ namespace {
 const double kLeastGain =
     1 / (1 + std::ldexp(std::numeric_limits<std::int16_t>::max(), -GaugeGains::kFracBits));
 
+/// The largest full scale of a gauge that the firmware's words hold, of 2^34 for a gain of 1.
+const double kMostFullScale = std::ldexp(std::ldexp(1, 16 + kMostGateShift) - 2, -34);
+
+void requireHeld(const config::FingerConfig& config, std::size_t gauge, double gain) {
+  const double fullScale = config.gauges.full_scale_strain / gain;
+  if (fullScale <= kMostFullScale) return;
+  throw Failure(ExitCode::kUsage,
+                fmt::format("gauges.full_scale_strain = {}: gauge {} reads {:.3g} of what the others do "
+                            "(calibration.gain, calibration.depth_offset_m), which makes its full scale "
+                            "{:.4g}; the firmware holds {:.4g}: amplify more, so that the full scale is "
+                            "smaller",
+                            config.gauges.full_scale_strain, gauge, gain, fullScale, kMostFullScale));
+}
+
 /// What each gauge reads over what the tables say it does.
 std::vector<double> totalGains(const config::FingerConfig& config, const DepthFit& depths) {
   std::vector<double> gains = depths.gain;
@@ -28,6 +42,7 @@ std::vector<double> totalGains(const config::FingerConfig& config, const DepthFi
                       "calibrate anew, or leave that gauge's depth out",
                       i, config.calibration.depth_offset_m.empty() ? 0 : config.calibration.depth_offset_m[i],
                       gains[i], kLeastGain));
+    requireHeld(config, i, gains[i]);
   }
   return gains;
 }

@@ -97,6 +97,7 @@ TEST(TableImage, ConstantsThatLoopsAndShiftsRelyOnStayInTheirDomain) {
   TableConstants& constants = image_->constants;
   checkDomain(constants.gauge_count, {12, 14, 32, 16}, {0, 10, 13, 33, 34, 255});
   checkDomain(constants.gate_shift, {0, 14}, {15, 32, 255});
+  checkDomain(constants.spacing, {0, 1, 2}, {3, 255});
   constants.gate_shift = 13;
   checkDomain(constants.reading_gain, {0, 1, (1 << 29) - 2},
               {-1, (1 << 29) - 1, std::numeric_limits<int>::max()});

@@ -23,7 +23,7 @@ within two pitches of it. Answers count in the last sample set of a touch.
 
 | column | of all touches, how many end with |
 |--|--|
-| silent | a contact told more than half a pitch (2.5 mm) from every true one, and no flag |
+| silent | a contact told more than half a pitch (2.5 mm on the default finger) from every true one, and no flag |
 | beyond 6 sigma | place or a load off by more than six reported standard errors, and no flag |
 | flagged | a flag: uncertain, or more contacts than the one that is told |
 | blamed | a healthy gauge out of use |
@@ -33,7 +33,7 @@ within two pitches of it. Answers count in the last sample set of a touch.
 
 "As built": gauges glued 0.5 degrees and 0.05 mm off, gains off by 3 % (standard deviations), the core 0.1 mm thicker,
 Poisson's ratio 0.49; another finger for every six touches. "Calibrated": its own core, ratio, and each gauge's angle, depth and gain
-are known, as a calibration by thousands of touches comes near. Loads that "tremble" swing about their mean as a sine; those of
+are known, as a calibration by thousands of touches comes near. "Other fingers" are perfect, and touched by contacts 0 to 2 mm wide. Loads that "tremble" swing about their mean as a sine; those of
 contacts that "tap" swing to nothing and to twice the mean; contacts that "slide" go along the surface: all are judged by what they
 are in the last sample set, in which a tap may press little.
 

@@ -249,6 +249,24 @@ TEST(Pipeline, TapsConvictADeadGauge) {
   }
 }
 
+// Several gauges are at their rails then, and what the others tell of them is not to be trusted.
+TEST(Pipeline, TouchesFarBeyondFullScaleConvictNoGauge) {
+  for (const double load : {100.0, 300.0, 1000.0, 3000.0})
+    for (double position_pitch = 4; position_pitch < 6; position_pitch += 0.2) {
+      for (const double share : {0.02, 0.1, 0.3, 1.0, 0.3, 0.02})
+        process(ring.strains(Press{position_pitch, share * load, share * load / 4, 2}), 20);
+      UNSIGNED_LONGS_EQUAL(0, pipeline.observation().outOfUse);
+      release();
+    }
+}
+
+TEST(Pipeline, AGaugeAtItsRailBetweenGaugesThatAreNotIsOutOfUse) {
+  auto strains = ring.strains(Press{4.6, 20, 3, 1});
+  strains[7] = 1;
+  process(strains, 600);
+  UNSIGNED_LONGS_EQUAL(1u << 7, pipeline.observation().outOfUse);
+}
+
 TEST(Pipeline, SpikesOfAGaugeWithoutATouchConvictNone) {
   for (int spike = 0; spike < 40; ++spike) {
     std::vector<double> strains(16, 0.0);

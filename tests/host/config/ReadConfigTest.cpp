@@ -264,12 +264,17 @@ TEST(ReadConfig, CoarseConvertersAndLargeFullScalesGoWithMoreNoise) {
   checkComplaint(settingOf("gauges.full_scale_strain", "0.06") + "\nnoise_strain = 2e-5", "accepted");
 }
 
-TEST(ReadConfig, ADullGaugesFullScaleIsHeldByTheFirmware) {
-  const std::string scale = "\n[gauges]\nnoise_strain = 2e-5\nfull_scale_strain = 0.04\n";
-  checkComplaint(settingOf("calibration.gain", gains("0.67")) + scale, "accepted");
-  checkMention(settingOf("calibration.gain", gains("0.66")) + scale,
-               "calibration.gain[15] = 0.66: with gauges.full_scale_strain = 0.04 the gauge reads strains of "
-               "up to 0.0606; the firmware holds 0.06");
+TEST(ReadConfig, ADefaultThatARelationBreaksIsSaidToBeOne) {
+  checkMention(
+      "schema = 1\n[finger]\ncore_radius_m = 1e-3\nouter_radius_m = 3e-3\n[gauges]\nradius_m = 2e-3\n",
+      "(contact.largest_width_m is not in the file, this is its default)");
+  const std::string both = "schema = 1\n[contact]\nlargest_width_m = 0.1\n";
+  checkMention(both, "contact.largest_width_m = 0.1 must be at most");
+  try {
+    readConfig(both, "f.toml");
+  } catch (const Failure& failure) {
+    CHECK(std::string_view(failure.what()).find("default") == std::string_view::npos);
+  }
 }
 
 TEST(ReadConfig, AGainOutOfItsDomainIsNamedWithItsPlace) {

@@ -30,7 +30,7 @@ TEST_GROUP(WriteConfig) {
                   0,
                   uniform(0, 1e-3),
                   uniform(1e-3, 0.1),
-                  uniform(1e-9, 0.03),
+                  uniform(1e-9, 0.06),
                   9};
     any.contact = {uniform(0, 10), {}, uniform(0.01, 0.0126)};
     if (random() % 2 == 0) any.contact.width_m = uniform(0, 0.01);

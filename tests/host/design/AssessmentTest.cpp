@@ -132,7 +132,7 @@ TEST(Assessment, PlacesThatReadingsDoNotDetermineAreCounted) {
 
 // 2 pi 12.7 mm / 12 over 3.3 mm.
 TEST(Assessment, ASparseRingIsAProblem) {
-  STRCMP_CONTAINS("2.02 times their depth apart", of(12, 9.4e-3).problem.c_str());
+  STRCMP_CONTAINS("2.015 times their depth apart", of(12, 9.4e-3).problem.c_str());
 }
 
 TEST(Assessment, NoiseBelowTheConvertersStepIsAProblem) {

@@ -143,17 +143,50 @@ TEST(Screen, WithLittleRoomAFingerHasAllItsNumbers) {
       can::ContactReport{.angle_deg = 180, .sigmaAngle_deg = 3, .normal_n = 0.41, .sigmaNormal_n = 0.01};
   finger.heartbeat.faults = {FingerFault::kSamples};
   const auto lines = drawn({.buses = {busWith({finger, touchedFinger()})}}, {.rows = 20});
-  STRCMP_EQUAL("▸ node 1  run  0.00 ± 0.50 deg  normal 0.282 ± 0.004 N", lines[2].c_str());
-  STRCMP_EQUAL("    tangential -0.100 ± 0.003 N  width 2.04 ± 0.15 mm  stale zero, simulated",
-               lines[3].c_str());
+  STRCMP_EQUAL("▸ node 1  run  0.00 ± 0.50 deg  normal 0.282 ± 0.004 N  stale zero, simulated",
+               lines[2].c_str());
+  STRCMP_EQUAL("    tangential -0.100 ± 0.003 N  width 2.04 ± 0.15 mm  quality 97 %", lines[3].c_str());
   STRCMP_EQUAL("    second 180.00 ± 3.00 deg  0.410 ± 0.010 N  ?  faults: samples", lines[4].c_str());
   STRCMP_CONTAINS("  node 1  run", lines[5].c_str());
 }
 
 TEST(Screen, WhatIsCutOffEndsInAMark) {
-  const ScreenForm narrow{.rows = 24, .columns = 40};
-  STRCMP_EQUAL("  node 1  run  0.00 ± 0.50 deg  normal …",
-               drawn({.buses = {busWith({touchedFinger()})}}, narrow)[2].c_str());
+  const auto rowAt = [&](int columns) {
+    return drawn({.buses = {busWith({touchedFinger()})}}, {.rows = 7, .columns = columns})[3];
+  };
+  const int whole = 68;  // columns
+  STRCMP_EQUAL("    tangential -0.100 ± 0.003 N  width …", rowAt(40).c_str());
+  STRCMP_EQUAL("    tangential -0.100 ± 0.003 N  width 2.04 ± 0.15 mm  quality 97 …",
+               rowAt(whole - 1).c_str());
+}
+
+TEST(Screen, WhatFitsExactlyHasNoMark) {
+  FingerView finger = touchedFinger();
+  finger.touch->flags = FingerFlags{FingerFlag::kContact};
+  const std::string whole = "  node 1  run  0.00 ± 0.50 deg  normal 0.282 ± 0.004 N";
+  const ScreenForm exact{.rows = 4, .columns = static_cast<int>(whole.size()) - 2};  // of 2 bytes a sign
+  STRCMP_CONTAINS("normal 0.282 ± 0.004 …", drawn({.buses = {busWith({finger})}}, exact)[2].c_str());
+  finger.touch->tangential_n = finger.touch->sigmaTangential_n = kNoValue;
+  STRCMP_EQUAL(whole.c_str(),
+               drawn({.buses = {busWith({finger})}}, {.rows = 6, .columns = exact.columns})[2].c_str());
+}
+
+TEST(Screen, ARowOfAFingerBeginsWithWhatIsWrong) {
+  FingerView finger = touchedFinger();
+  finger.heartbeat.faults = {FingerFault::kGauges};
+  finger.touch->flags.set(FingerFlag::kUncertain, true);
+  const std::vector<FingerView> fingers(8, finger);
+  STRCMP_CONTAINS("node 1  run  faults: gauges  uncertain, stale zero, simulated  0.00 ± 0.50 deg",
+                  drawn({.buses = {busWith(fingers)}}, {.rows = 24, .columns = 90})[2].c_str());
+}
+
+TEST(Screen, AnotherAngleThatFitsAsWellIsTold) {
+  FingerView finger = touchedFinger();
+  finger.touch->angle_deg = 350;
+  finger.touch->alternative_deg = 20;
+  finger.touch->quality_percent = 20;
+  STRCMP_CONTAINS("quality 20 % or at 10 deg", textOf(finger).c_str());
+  STRCMP_CONTAINS("quality 20 % or at 10 deg", textOf(finger, {.rows = 7}).c_str());
 }
 
 TEST(Screen, AMessageStandsBeforeTheKeys) {
@@ -166,7 +199,7 @@ TEST(Screen, WithoutRoomAFingerIsALine) {
   other.node = 2;
   const auto lines =
       drawn({.buses = {busWith({touchedFinger(), other})}, .selected = 1}, {.rows = 8, .columns = 120});
-  STRCMP_CONTAINS("  node 1  run  0.00 ± 0.50 deg  normal 0.282", lines[2].c_str());
+  STRCMP_CONTAINS("  node 1  run  stale zero, simulated  0.00 ± 0.50 deg  normal 0.282", lines[2].c_str());
   STRCMP_CONTAINS("▸ node 2  run", lines[3].c_str());
 }
 

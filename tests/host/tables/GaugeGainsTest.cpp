@@ -62,6 +62,22 @@ TEST(GaugeGains, AFullScaleThatIsAPowerOfTwoMakesTablesThatTheFirmwareTakes) {
   CHECK(checkTableImage(buildTableImage(config)) == TableFault::kNone);
 }
 
+TEST(GaugeGains, AFullScaleThatTheFirmwareDoesNotHoldIsNamed) {
+  for (const double gain : {0.97, 0.95}) {
+    config::FingerConfig config = configWith(1, gain);
+    config.gauges.full_scale_strain = 0.06;
+    config.gauges.noise_strain = 2e-5;
+    try {
+      CHECK(checkTableImage(buildTableImage(config)) == TableFault::kNone);
+      CHECK(gain > 0.96);  // 0.06 / 0.0625
+    } catch (const Failure& failure) {
+      CHECK(gain < 0.96);
+      LONGS_EQUAL(static_cast<int>(ExitCode::kUsage), static_cast<int>(failure.code()));
+      STRCMP_CONTAINS("makes its full scale 0.06316; the firmware holds 0.0625", failure.what());
+    }
+  }
+}
+
 TEST(GaugeGains, AGaugeThatLiesTooDeepToReadAnythingIsNamed) {
   config::FingerConfig config = configWith(1, 1);
   config.calibration.depth_offset_m.assign(16, 0);

@@ -47,7 +47,7 @@ class Live(unittest.TestCase):
         with Terminal(self.command) as terminal:
             terminal.wait_for(r"contacts/s")
             terminal.resize(110, 8)
-            screen = terminal.wait_for(r"node 1  run  (faults: \w+  )?\d+\.\d\d ± .*\n  node 2")
+            screen = terminal.wait_for(r"node 1  run  (faults: \w+  )?simulated  \d+\.\d\d ± .*\n  node 2")
             self.assertNotIn("contacts/s", screen)
             terminal.resize(110, 30)
             terminal.wait_for(r"contacts/s")

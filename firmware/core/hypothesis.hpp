@@ -154,10 +154,11 @@ inline void weigh(const TableConstants& constants, GaugeSet counted, Number larg
 /// `gauges`: those that count when the scale and the model's error are chosen; others may saturate.
 /// `noise_q4`: variance of a reading in configured ones [* 2^4].
 /// `shift`: the one to keep while the largest reading stays in [2^13, 2^15); negative: none.
+/// `beyond_q32`: size of the largest reading at a rail, which does not count and is part of the touch.
 inline ScaledReadings scaledReadings(const TableConstants& constants, std::span<const Number> strains_q32,
                                      GaugeSet gauges, std::uint32_t noise_q4 = kConfiguredNoise_q4,
-                                     int shift = -1) {
-  Number largest = 0;
+                                     int shift = -1, Number beyond_q32 = 0) {
+  Number largest = beyond_q32;
   for (std::size_t i = 0; i < strains_q32.size(); ++i)
     if (contains(gauges, static_cast<int>(i))) largest = larger(largest, signlessBits(strains_q32[i]));
   ScaledReadings scaled;

@@ -438,9 +438,9 @@ void Locator::finishSearch(const TableImage& tables, std::span<const std::int32_
 }
 
 void Locator::update(const TableImage& tables, std::span<const std::int32_t> strains_q32, GaugeSet gauges,
-                     std::uint32_t noise_q4) {
-  const ScaledReadings readings =
-      scaledReadings(tables.constants, strains_q32, gauges, noise_q4, tracking_ ? answer_.shift : -1);
+                     std::uint32_t noise_q4, Number beyond_q32) {
+  const ScaledReadings readings = scaledReadings(tables.constants, strains_q32, gauges, noise_q4,
+                                                 tracking_ ? answer_.shift : -1, beyond_q32);
   if (!tracking_ || (guessed_ && (answer_.solution.hypothesis.gauges & ~gauges) != 0))
     return start(tables, readings, gauges);
   if (guessed_) return settle(tables, readings);

@@ -57,9 +57,9 @@ class Locator {
   explicit Locator(FitMode mode) : mode_(mode) {}
 
   /// One set of strains of a touched ring. `gauges`: those that work and are within their range; `noise_q4`:
-  /// variance of a reading in configured ones [* 2^4].
+  /// variance of a reading in configured ones [* 2^4]; `beyond_q32`: see scaledReadings().
   void update(const TableImage& tables, std::span<const std::int32_t> strains_q32, GaugeSet gauges,
-              std::uint32_t noise_q4 = kConfiguredNoise_q4);
+              std::uint32_t noise_q4 = kConfiguredNoise_q4, Number beyond_q32 = 0);
   /// The whole of a search that update() began, with the same strains.
   void finishSearch(const TableImage& tables, std::span<const std::int32_t> strains_q32, GaugeSet gauges);
   /// Forgets the touch, and a search with it.

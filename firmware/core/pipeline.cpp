@@ -55,7 +55,10 @@ bool Pipeline::isDisturbance(GaugeSet gauges) {
 }
 
 void Pipeline::locate(GaugeSet gauges) {
-  locator_.update(*tables_, strains(), gauges, noise_.variance_q4());
+  Number beyond_q32 = 0;
+  for (GaugeSet left = observation_.saturated & ~outOfUse(); left != 0; left &= left - 1)
+    beyond_q32 = larger(beyond_q32, signlessBits(readings_.strain_q32[index(std::countr_zero(left))]));
+  locator_.update(*tables_, strains(), gauges, noise_.variance_q4(), beyond_q32);
   observation_.touched = !isDisturbance(gauges);
   const Answer& answer = locator_.answer();
   observation_.leftOut = allGauges(constants().gauge_count) & ~answer.solution.hypothesis.gauges;

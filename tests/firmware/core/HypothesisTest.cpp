@@ -160,6 +160,19 @@ TEST(ScaledReadings, TheModelErrorIsNotThatOfGaugesThatDoNotCount) {
   LONGS_EQUAL(kRounding_q4, scaled().variances.reading_q4);
 }
 
+TEST(ScaledReadings, AReadingAtARailIsPartOfTheTouch) {
+  constants.gauge_count = 16;
+  constants.model_error_q16 = 3277;
+  strains[5] = 1 << 20;
+  const ScaledReadings rail = scaledReadings(constants, strains, gauges, 16, -1, 1 << 22);
+  LONGS_EQUAL(1 << (20 - rail.shift), rail.value[5]);
+  strains[6] = 1 << 22;
+  const ScaledReadings read = scaled();
+  LONGS_EQUAL(read.shift, rail.shift);
+  UNSIGNED_LONGS_EQUAL(read.variances.largest_q4, rail.variances.largest_q4);
+  UNSIGNED_LONGS_EQUAL(read.variances.reading_q4, rail.variances.reading_q4);
+}
+
 TEST(ScaledReadings, VariancesSaturateForAnyConstants) {
   constants.model_error_q16 = 0xFFFF;
   for (const std::uint32_t variance : {std::uint32_t{0}, std::uint32_t{1}, kMostNoiseVariance})

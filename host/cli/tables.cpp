@@ -60,8 +60,7 @@ void warnOf(const config::FingerConfig& config, const tables::SelfCheck& check) 
     warn("tables",
          fmt::format("at the surface the gauges are up to {:.4g} times their depth apart (gauges.count, "
                      "gauges.angle_deg, gauges.radius_m); above {} times the errors told are too small "
-                     "between gauges, and no touch "
-                     "tells which gauge fails: use more gauges, or deeper ones",
+                     "between gauges, and no touch tells which gauge fails: use more gauges, or deeper ones",
                      config::widestGapInDepths(config), config::kSparse));
   const double most_n = 2 * check.halfScale_n_per_m * config.finger.length_m;
   const double told_n = can::largestValues().normal_n;

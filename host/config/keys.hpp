@@ -46,8 +46,8 @@ const Key& keyOf(std::string_view dotted);
 /// A condition between keys. Its text names them all.
 struct Relation {
   std::function<bool(const FingerConfig&)> holds;
-  std::vector<std::string>
-      keys;  ///< dotted, the one complained of first; a message points at the first the file has
+  /// Dotted, the one complained of first; a message points at the first that the file has.
+  std::vector<std::string> keys;
   std::function<std::string(const FingerConfig&)> violation;  ///< names, values, and what would be right
 };
 

@@ -15,8 +15,7 @@ inline constexpr double kDense = 1.6;
 /// The same of a ring that is not sparse: in a wider gap a touch is seen by the gauges on both sides alike,
 /// whatever its width.
 inline constexpr double kSparse = 2;
-/// Poisson's ratio from which on kDense holds: of softer volume, narrow and wide touches read more alike
-/// (0.45: answers wrong by up to 8 sigmas, 0.3: by 29).
+/// Poisson's ratio from which on kDense holds: of softer volume, narrow and wide touches read more alike.
 inline constexpr double kVolumeKept = 0.48;
 
 /// The widest gap between two gauges at the surface, over the gauges' depth by the drawing.

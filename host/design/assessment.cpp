@@ -101,8 +101,7 @@ std::string shortcomingOf(const config::FingerConfig& config, const simulation::
   if (config::isSparse(config))
     return fmt::format(
         "at the surface the gauges are up to {:.4g} times their depth apart, more than {}: the errors told "
-        "are too "
-        "small between gauges; use more gauges, or deeper ones",
+        "are too small between gauges; use more gauges, or deeper ones",
         config::widestGapInDepths(config), config::kSparse);
   return {};
 }

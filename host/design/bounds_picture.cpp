@@ -21,7 +21,7 @@ constexpr const char* kBounds = R"(
 set multiplot
 set tmargin at screen 0.9; set bmargin at screen 0.14
 set logscale y; set format y '%g'
-set ytics (0.001,0.0015,0.002,0.003,0.005,0.007,0.01,0.015,0.02,0.03,0.05,0.07,0.1,0.15,0.2,0.3,0.5,0.7,1,1.5,2,3,5,7,10,15,20,30,50,70,100,150,200,300,500,700,1000,1500,2000,3000,5000,7000,10000,15000,20000,30000,50000,70000)
+set ytics (); set for [k=-3:4] for [m in '1 1.5 2 3 5 7'] ytics add (m * 10.0**k)
 set xlabel 'gauges'; set xtics 2; set offsets 0.6,0.6,graph 0.05,graph 0.05
 set palette defined (0 '#440154', 1 '#31688E', 2 '#35B779', 3 '#D9C52A'); set cblabel 'radius of the ring (mm)'; set cbtics scale 0.6
 unset colorbox

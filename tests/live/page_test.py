@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """page_test.py PROGRAM [PICTURE]: the live page in headless Chromium. With PICTURE, a screenshot of it is left there."""
+import contextlib
 import signal
 import subprocess
 import sys
@@ -213,44 +214,43 @@ class Strains(unittest.TestCase):
                 page.wait_for("document.querySelector('#finger-1 .raw').hidden")
 
 
+@contextlib.contextmanager
+def shown_finger():
+    """A page that shows a finger, and the program that serves it."""
+    with Bench(PROGRAM) as bench:
+        bench.finger(1)
+        process, url = bench.serve()
+        with browser.Page(url) as page:
+            page.wait_for("document.querySelector('#finger-1 .state')?.textContent === 'run'")
+            yield page, process
+
+
 class Ending(unittest.TestCase):
     def test_a_page_whose_program_ended_says_so(self):
-        with Bench(PROGRAM) as bench:
-            bench.finger(1)
-            process, url = bench.serve()
-            with browser.Page(url) as page:
-                page.wait_for("document.querySelector('#finger-1 .state')?.textContent === 'run'")
-                Bench._end(process)
-                page.wait_for("document.querySelector('#link').textContent.startsWith('connection lost')")
-                self.assertEqual(["not connected", "–", "–", ""], [page.text("#finger-1 " + part) for part in (".state", ".angle", ".normal", ".chips")])
-                self.assertEqual(["", ""], [page.text("#bus"), page.text("#finger-1 .stats")])
-                self.assertEqual(0, page.value("document.querySelector('#finger-1 svg g').childElementCount"))
-                self.assertTrue(page.value("document.querySelector('#finger-1 button').disabled"))
+        with shown_finger() as (page, process):
+            Bench._end(process)
+            page.wait_for("document.querySelector('#link').textContent.startsWith('connection lost')")
+            self.assertEqual(["not connected", "–", "–", ""], [page.text("#finger-1 " + part) for part in (".state", ".angle", ".normal", ".chips")])
+            self.assertEqual(["", ""], [page.text("#bus"), page.text("#finger-1 .stats")])
+            self.assertEqual(0, page.value("document.querySelector('#finger-1 svg g').childElementCount"))
+            self.assertTrue(page.value("document.querySelector('#finger-1 button').disabled"))
 
     def test_a_page_finds_back_when_its_program_goes_on(self):
-        with Bench(PROGRAM) as bench:
-            bench.finger(1)
-            process, url = bench.serve()
-            with browser.Page(url) as page:
-                page.wait_for("document.querySelector('#finger-1 .state')?.textContent === 'run'")
-                process.send_signal(signal.SIGSTOP)
-                page.wait_for("document.querySelector('#finger-1 .state').textContent === 'not connected'")
-                process.send_signal(signal.SIGCONT)
-                page.wait_for("document.querySelector('#finger-1 .state').textContent === 'run'")
-                self.assertEqual("live", page.text("#link"))
-                self.assertFalse(page.value("document.body.classList.contains('lost') || document.querySelector('#finger-1 button').disabled"))
-                apart_s = page.value("runs(cards.get(1).points, point => point.normal).map(run => Math.max(0, ...run.slice(1).map((point, i) => point.t - run[i].t)))")
-                self.assertLess(max(apart_s), 0.35)
+        with shown_finger() as (page, process):
+            process.send_signal(signal.SIGSTOP)
+            page.wait_for("document.querySelector('#finger-1 .state').textContent === 'not connected'")
+            process.send_signal(signal.SIGCONT)
+            page.wait_for("document.querySelector('#finger-1 .state').textContent === 'run'")
+            self.assertEqual("live", page.text("#link"))
+            self.assertFalse(page.value("document.body.classList.contains('lost') || document.querySelector('#finger-1 button').disabled"))
+            apart_s = page.value("runs(cards.get(1).points, point => point.normal).map(run => Math.max(0, ...run.slice(1).map((point, i) => point.t - run[i].t)))")
+            self.assertLess(max(apart_s), 0.35)
 
     def test_a_page_that_was_refused_tries_again(self):
-        with Bench(PROGRAM) as bench:
-            bench.finger(1)
-            _, url = bench.serve()
-            with browser.Page(url) as page:
-                page.wait_for("document.querySelector('#finger-1 .state')?.textContent === 'run'")
-                page.value("stream.close()")  # as the browser does after an answer that is no stream
-                page.wait_for("document.querySelector('#link').textContent.startsWith('connection lost')")
-                page.wait_for("document.querySelector('#link').textContent === 'live'")
+        with shown_finger() as (page, _):
+            page.value("stream.close()")  # as the browser does after an answer that is no stream
+            page.wait_for("document.querySelector('#link').textContent.startsWith('connection lost')")
+            page.wait_for("document.querySelector('#link').textContent === 'live'")
 
     def test_without_its_token_the_page_commands_nothing(self):
         with Bench(PROGRAM) as bench:

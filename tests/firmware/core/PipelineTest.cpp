@@ -260,6 +260,17 @@ TEST(Pipeline, TouchesFarBeyondFullScaleConvictNoGauge) {
     }
 }
 
+TEST(Pipeline, AReadingBeyondFullScaleIsPartOfTheModelError) {
+  const config::FingerConfig config;  // which has one
+  const ModelRing built{config};
+  pipeline = Pipeline(built.tables(), FitMode::kRefined);
+  process(built.strains(Press{5, 100, 0, 1}), 60);
+  UNSIGNED_LONGS_EQUAL(1u << 5, pipeline.observation().saturated);
+  const Answer& answer = pipeline.answer();
+  const double deviation = std::ldexp(std::sqrt(answer.variances.largest_q4 / 16.0), answer.shift - 32);
+  DOUBLES_EQUAL(config.gauges.model_error * config.gauges.full_scale_strain, deviation, 2e-5);
+}
+
 TEST(Pipeline, AGaugeAtItsRailBetweenGaugesThatAreNotIsOutOfUse) {
   auto strains = ring.strains(Press{4.6, 20, 3, 1});
   strains[7] = 1;

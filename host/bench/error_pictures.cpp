@@ -34,7 +34,7 @@ set style line 1 linecolor rgb blue linewidth 2 pointtype 7 pointsize 0.8
 set style line 2 linecolor rgb blue linewidth 1.4 dashtype 3 pointtype 6 pointsize 0.8
 set style line 3 linecolor rgb vermilion linewidth 2 pointtype 7 pointsize 0.8
 set style line 4 linecolor rgb vermilion linewidth 1.4 dashtype 3 pointtype 6 pointsize 0.8
-set logscale y; set format y '%g'
+set logscale y; set format y '%g'; set yrange [0.001:4]
 set multiplot layout 2,3 margins 0.06,0.985,0.08,0.96 spacing 0.06,0.11
 )";
 

@@ -40,7 +40,7 @@ struct Area {
   }
 };
 Area around(const Point& point) {
-  return {point.cost / 1.25, point.cost * 2.6, point.arc_um / 1.4, point.arc_um * 4.6};
+  return {point.cost / 1.25, point.cost * 4, point.arc_um / 1.4, point.arc_um * 4.6};
 }
 
 /// What is drawn of one level.
@@ -53,18 +53,47 @@ struct LevelPanel {
 
 const char* colourOf(bool ours) { return ours ? "blue" : "vermilion"; }
 
-/// Its number, two lines above it, one above and one below in turn: neighbours are often of one family.
-std::string label(const Point& point) {
-  constexpr std::array<const char*, 3> kAway{"0,1.9", "0,0.9", "0,-0.9"};
-  return fmt::format("set label \"{}\" at first {},first {} center offset {} font ',10' textcolor rgb {}\n",
-                     point.number, point.cost, point.arc_um, kAway[point.number % kAway.size()],
-                     colourOf(point.ours));
+/// In the panel: 0 to 1 from the left and from below.
+struct Place {
+  double x, y;
+};
+
+bool areNear(const Place& a, const Place& b) {
+  return std::abs(a.x - b.x) < 0.05 && std::abs(a.y - b.y) < 0.04;  // a number of two digits
 }
 
-std::string labels(const LevelPanel& panel, bool ofCloseUp) {
+Place placeOf(const Point& point, const Area& shown) {
+  return {std::log(point.cost / shown.leastCost) / std::log(shown.mostCost / shown.leastCost),
+          std::log(point.arc_um / shown.least_um) / std::log(shown.most_um / shown.least_um)};
+}
+
+/// The number of each point that is drawn, beside it where fewest other points and numbers are.
+std::string labels(const LevelPanel& panel, const Area& shown, bool ofCloseUp) {
+  constexpr std::array<Place, 8> kBeside{{{0, 0.045},
+                                          {0, -0.045},
+                                          {-0.055, 0},
+                                          {0.055, 0},
+                                          {0.04, 0.04},
+                                          {-0.04, 0.04},
+                                          {0.04, -0.04},
+                                          {-0.04, -0.04}}};
+  std::vector<Place> taken;
+  for (const Point& point : panel.points) taken.push_back(placeOf(point, shown));
   std::string script;
-  for (const Point& point : panel.points)
-    if (panel.closeUp.holds(point) == ofCloseUp) script += label(point);
+  for (const Point& point : panel.points) {
+    if (panel.closeUp.holds(point) != ofCloseUp) continue;
+    const Place at = placeOf(point, shown);
+    const auto inTheWay = [&](const Place& beside) {
+      return std::ranges::count_if(taken, [&](const Place& other) {
+        return areNear({at.x + beside.x, at.y + beside.y}, other);
+      });
+    };
+    const Place& beside = *std::ranges::min_element(kBeside, {}, inTheWay);
+    taken.push_back({at.x + beside.x, at.y + beside.y});
+    script += fmt::format(
+        "set label \"{}\" at first {},first {} center offset graph {},graph {} font ',10' textcolor rgb {}\n",
+        point.number, point.cost, point.arc_um, beside.x, beside.y, colourOf(point.ours));
+  }
   return script;
 }
 
@@ -109,19 +138,28 @@ std::string plotOf(const LevelPanel& panel) {
       panel.bound_um, panel.number);
 }
 
+/// Whole decades of cost; of errors from half the bound.
+Area everything(const LevelPanel& panel) {
+  const auto [cheapest, dearest] = std::ranges::minmax(panel.points, {}, &Point::cost);
+  const double worst_um = std::ranges::max(panel.points, {}, &Point::arc_um).arc_um;
+  const auto decade = [](double exponent) { return std::pow(10, exponent); };
+  return {decade(std::floor(std::log10(cheapest.cost))), decade(std::ceil(std::log10(dearest.cost))),
+          panel.bound_um / 2, decade(std::ceil(std::log10(worst_um)))};
+}
+
 /// Everything, with a frame around what the close-up shows.
 std::string overview(const LevelPanel& panel) {
   const Area& area = panel.closeUp;
+  const Area shown = everything(panel);
   return fmt::format(
-             "set title 'noise {}'\nset xrange [*:*]\nset yrange [{}:*]\n"
+             "set title 'noise {}'\nset xrange [{}:{}]\nset yrange [{}:{}]\n"
              "set format x '10^{{%L}}'; set format y '%g'\n"
              "set object 1 rectangle from {},{} to {},{} fillstyle empty border linecolor '#555555'\n"
-             "set label \"Cramer-Rao bound\" at graph 0.99,first {} right offset 0,-0.7 font ',10' textcolor "
-             "rgb "
-             "faint\n",
-             kLevelSettings[panel.number].name, panel.bound_um / 2, area.leastCost, area.least_um,
-             area.mostCost, area.most_um, panel.bound_um) +
-         labels(panel, false) + plotOf(panel) + "unset object 1\n";
+             "set label \"Cramer-Rao bound\" at graph 0.01,first {} left offset 0,-0.7 font ',10' textcolor "
+             "rgb faint\n",
+             kLevelSettings[panel.number].name, shown.leastCost, shown.mostCost, shown.least_um,
+             shown.most_um, area.leastCost, area.least_um, area.mostCost, area.most_um, panel.bound_um) +
+         labels(panel, shown, false) + plotOf(panel) + "unset object 1\n";
 }
 
 /// A range, with tics at 1, 1.5, 2, 3, 5 and 7 times powers of ten.
@@ -141,7 +179,7 @@ std::string closeUp(const LevelPanel& panel, bool counted) {
                      counted ? "instructions a fit, median, Cortex-M4 (float methods: with FPU)"
                              : "ns a fit on this machine") +
          range("x", area.leastCost, area.mostCost) + range("y", area.least_um, area.most_um) +
-         labels(panel, true) + plotOf(panel);
+         labels(panel, area, true) + plotOf(panel);
 }
 
 }  // namespace

@@ -157,21 +157,27 @@ class Guided(unittest.TestCase):
 
             session = Session(bench, finger, output)
             bench.until(lambda: session.rows() >= kept)
-            loads, angles = [], []
-            for _ in range(4 * 400):  # as a user does what it asks for, for at most 400 s
+            loads, angles, told = [], [], False
+            for _ in range(4 * 700):  # as a user does what it asks for, for at most 700 s: a press tells one thing
                 time.sleep(0.25)
                 if session.process.poll() is not None:  # nothing is left to gain already
                     break
                 held = finger.truth.held()
-                if held and held[1] not in loads and session.next().startswith("Press it with a known weight"):
+                if not held:
+                    told = False
+                elif not told and session.next().startswith("Press it with a known weight"):
                     session.say(f"load {held[1]} N/m")
                     loads.append(held[1])
-                elif held and held[1] not in angles and session.next().startswith("Press it at a mark"):
+                    told = True
+                elif not told and session.next().startswith("Press it at a mark"):
                     session.say(f"angle {held[0]}")
-                    angles.append(held[1])
+                    angles.append(held[0])
+                    told = True
                 known = re.search(r"unit of force ([0-9.]+) %", session.states()[-1])
                 if known and float(known.group(1)) <= 1 and session.next().startswith(("Roll", "Nothing")):
                     break
+            else:
+                self.fail(f"loads {loads}, angles {angles}: {session.said.lines[-3:]}")
             self.assertGreaterEqual(len(loads), 2)
             self.assertGreaterEqual(len(angles), 2)
             self.assertRegex(session.states()[-1], r"errors to come: place 0\.\d+ mm \(drawn 0\.\d+, noise alone 0\.0\d\d\)")

@@ -238,7 +238,7 @@ plot::Picture heatMaps(const Surveys& surveys) {
   script +=
       R"(set multiplot layout 2,3 margins 0.08,0.99,0.1,0.92 spacing 0.08,0.22 title 'log_{10} of the worst error'
 unset grid; unset key; set tics scale 0
-set palette defined (-17 '#f7fbff', -16 '#9ecae1', -15 '#2171b5', -14 '#fdd0a2', -12 '#fdae6b', -8 '#d94801', 0 '#7f2704')
+set palette defined (-17 '#f7fbff', -16 '#deebf7', -15 '#9ecae1', -14 '#6baed6', -13 '#fff5eb', -8 '#fdbe85', 0 '#e6550d')
 set cbrange [-17:0]; unset colorbox; set offsets 0.5,0.5,0.5,0.5
 )";
   plot::Picture picture{1700, 1000, {}, {}};

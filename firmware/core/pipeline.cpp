@@ -34,6 +34,13 @@ void Pipeline::takeZero(const ZeroAverage& zero) {
   locator_.release();
 }
 
+bool Pipeline::isStrong(GaugeSet gauges) const {
+  const Wide most = kDisturbance * readingNoise_q32(constants());
+  for (int i = 0; i < constants().gauge_count; ++i)
+    if (contains(gauges, i) && magnitude(Wide{readings_.strain_q32[index(i)]}) > most) return true;
+  return false;
+}
+
 /// The readings are small, and not for long those of contacts: hum or drift. A touch stays one until as many
 /// sets in a row are not those of contacts: one reading that is off in one set doesn't end it.
 bool Pipeline::isDisturbance(GaugeSet gauges) {
@@ -42,13 +49,10 @@ bool Pipeline::isDisturbance(GaugeSet gauges) {
     contrarySets_ = 0;
     return false;
   }
-  const Wide most = kDisturbance * readingNoise_q32(constants());
-  bool isStrong = false;
-  for (int i = 0; i < constants().gauge_count; ++i)
-    if (contains(gauges, i) && magnitude(Wide{readings_.strain_q32[index(i)]}) > most) isStrong = true;
-  contrarySets_ = isStrong || accepted == isTouch_ ? 0 : static_cast<std::uint8_t>(contrarySets_ + 1);
-  if (isStrong || contrarySets_ == kSettled) {
-    isTouch_ = isStrong || accepted;
+  const bool strong = isStrong(gauges);
+  contrarySets_ = strong || accepted == isTouch_ ? 0 : static_cast<std::uint8_t>(contrarySets_ + 1);
+  if (strong || contrarySets_ == kSettled) {
+    isTouch_ = strong || accepted;
     contrarySets_ = 0;
   }
   return !isTouch_;
@@ -101,10 +105,11 @@ bool Pipeline::isKnown(Codes codes) const {
 
 const Observation& Pipeline::process(Codes codes) {
   const bool wasSearching = locator_.isSearching();  // the set that concludes a search is dear, too
+  bool isLocated = false;
   if (observation_.touched && isKnown(codes)) {
     observation_.unchanged = true;
   } else {
-    observe(codes);
+    isLocated = observe(codes);
   }
   if (observation_.touched) {
     noise_.interrupt();
@@ -114,10 +119,9 @@ const Observation& Pipeline::process(Codes codes) {
   const GaugeSet outOfUse = this->outOfUse();
   // The zero of a noisy gauge follows on while nothing touches: it counts again once it is calm.
   const GaugeSet unfollowed = observation_.touched ? outOfUse : watch_.outOfUse();
-  areZerosNew_ =
-      tracker_.take(*tables_, strains(), observation_.touched ? &locator_.answer() : nullptr,
-                    observation_.leftOut | observation_.saturated | unfollowed, calibration_,
-                    locator_.scratch(), !wasSearching && (observation_.touched || !gate_.touched()));
+  areZerosNew_ = tracker_.take(*tables_, strains(), observation_.touched ? &locator_ : nullptr,
+                               observation_.leftOut | observation_.saturated | unfollowed, calibration_,
+                               locator_.scratch(), observation_.touched ? !wasSearching : !isLocated);
   observation_.staleZero = tracker_.stale();
   observation_.noisy = noise_.isNoisy();
   observation_.uncertain = outOfUse != 0 && std::popcount(outOfUse) * kGaugesPerOut > constants().gauge_count;
@@ -131,7 +135,8 @@ bool Pipeline::isTouchedDuring(const ZeroAverage& zero) const {
   return ContactGate().update(constants(), energy, noise_.variance_q4());
 }
 
-void Pipeline::observe(Codes codes) {
+/// False: no locating was done. In a disturbance it gives way to zeros that may follow it.
+bool Pipeline::observe(Codes codes) {
   condition(calibration_, codes, readings_);
   const bool wasTouched = observation_.touched, wasOverGate = gate_.touched();
   observation_ = {};
@@ -145,22 +150,25 @@ void Pipeline::observe(Codes codes) {
     if (gauges != allGauges(constants().gauge_count)) energy = gateEnergy(constants(), strains(), gauges);
   }
   if (mayBeTouched && gate_.update(constants(), energy, noise_.variance_q4())) {
+    if (wasOverGate && !wasTouched && tracker_.isDue() && !isStrong(gauges)) return false;
     locate(gauges);
-    if (!observation_.touched) return;
+    if (!observation_.touched) return true;
     watchGauges();
     std::copy(codes.begin(), codes.end(), codes_.begin());
-  } else {
-    gate_ = {};
-    watch_.implausiblyAtRail(observation_.saturated & working);
-    isTouch_ = false;
-    contrarySets_ = 0;
-    if (wasOverGate) {
-      wasTouched ? locator_.endTouch() : locator_.release();
-    } else if (locator_.isSearching()) {  // a touch that ended may speak against a gauge
-      if (const auto suspect = locator_.lookBack(*tables_))
-        watch_.suspect(suspect->gauge, suspect->angle_q32);
-    }
+    return true;
   }
+  gate_ = {};
+  watch_.implausiblyAtRail(observation_.saturated & working);
+  isTouch_ = false;
+  contrarySets_ = 0;
+  if (wasOverGate) {
+    wasTouched ? locator_.endTouch() : locator_.release();
+    return false;
+  }
+  if (!locator_.isSearching()) return false;
+  // A touch that ended may speak against a gauge.
+  if (const auto suspect = locator_.lookBack(*tables_)) watch_.suspect(suspect->gauge, suspect->angle_q32);
+  return true;
 }
 
 }  // namespace strainfinger::firmware

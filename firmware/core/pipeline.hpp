@@ -52,7 +52,8 @@ class Pipeline {
   void locate(GaugeSet gauges);
   void watchGauges();
   bool isKnown(Codes codes) const;
-  void observe(Codes codes);
+  bool observe(Codes codes);
+  bool isStrong(GaugeSet gauges) const;
   bool isDisturbance(GaugeSet gauges);
 
   const TableImage* tables_;

@@ -102,47 +102,46 @@ GaugeSet ZeroTracker::farGauges(const TableImage& tables) const {
 
 /// By how much far gauges changed, in the mean, since the contacts came to rest, but for what the contacts do
 /// even there.
-std::int32_t ZeroTracker::commonChange_q32(const TableImage& tables, const Answer& answer, GaugeSet far,
-                                           Linearisation& scratch) {
-  linearise(tables, answer.solution.hypothesis, answer.solution.contact, scratch);
+std::int32_t ZeroTracker::commonChange_q32(GaugeSet far) {
   const GaugeSet both = far & known_;
   Wide sum = 0;
   for (int i = 0; i < kMaxGauges; ++i) {
-    if (!contains(far, i)) continue;
-    const Wide predicted_q32 = Wide{scratch.predicted[index(i)]} << answer.shift;
-    const std::int32_t left = saturate<std::int32_t>(sum_[index(i)] - predicted_q32);
-    if (contains(known_, i)) {
-      sum += Wide{left} - before_[index(i)];
-    } else {
-      before_[index(i)] = left;
+    if (contains(both, i)) {
+      sum += Wide{sum_[index(i)]} - before_[index(i)];
+    } else if (contains(far, i)) {
+      before_[index(i)] = sum_[index(i)];
     }
   }
   known_ |= far;
   return std::popcount(both) < kLeastFar ? 0 : saturate<std::int32_t>(sum / std::popcount(both));
 }
 
+/// All by the same part of their changes: what is left still is no contact.
 void ZeroTracker::follow(const TableConstants& constants, const Strains& changes_q32, GaugeSet gauges,
                          Calibration& calibration) {
-  lastChange_q32_ = 0;
   const Number limit = limited(Wide{readingNoise_q32(constants)} * 2, std::numeric_limits<Number>::max());
-  for (std::size_t i = 0; i < constants.gauge_count; ++i) {
-    if (!contains(gauges, static_cast<int>(i))) continue;
-    const std::int32_t change = std::clamp(changes_q32[i], -limit, limit);
-    std::int32_t& zero = calibration.zero_q15[i];
+  Number most = 0;
+  for (int i = 0; i < constants.gauge_count; ++i)
+    if (contains(gauges, i)) most = larger(most, magnitude(changes_q32[index(i)]));
+  const Number part_q15 = limit < most ? static_cast<Number>((Wide{limit} << 15) / most) : 1 << 15;
+  for (int i = 0; i < constants.gauge_count; ++i) {
+    if (!contains(gauges, i)) continue;
+    const auto change = static_cast<std::int32_t>(Wide{changes_q32[index(i)]} * part_q15 >> 15);
+    std::int32_t& zero = calibration.zero_q15[index(i)];
     zero = static_cast<std::int32_t>(
-        std::clamp<std::int64_t>(std::int64_t{zero} + codeOf(change, calibration.gain[i]), 0,
+        std::clamp<std::int64_t>(std::int64_t{zero} + codeOf(change, calibration.gain[index(i)]), 0,
                                  std::numeric_limits<std::int32_t>::max()));
-    lastChange_q32_ = std::max(*lastChange_q32_, magnitude(change));
   }
+  lastChange_q32_ = std::min(most, limit);
 }
 
 /// False: there is no time for the rest in this sample set.
-bool ZeroTracker::finish(const TableImage& tables, const Answer* answer, Calibration& calibration,
+bool ZeroTracker::finish(const TableImage& tables, bool touched, Calibration& calibration,
                          Linearisation& scratch) {
   const GaugeSet gauges = allGauges(tables.constants.gauge_count) & ~leftOut_;
-  if (answer != nullptr) {
+  if (touched) {
     Strains changes;
-    changes.fill(commonChange_q32(tables, *answer, farGauges(tables) & gauges, scratch));
+    changes.fill(commonChange_q32(farGauges(tables) & gauges));
     follow(tables.constants, changes, allGauges(tables.constants.gauge_count), calibration);
     return true;
   }
@@ -165,19 +164,35 @@ void ZeroTracker::interrupt(bool touched) {
   rest_ = {};
 }
 
+/// What contacts explain is what they are predicted to do in the same set: their loads may change while they
+/// rest.
+void ZeroTracker::add(std::span<const std::int32_t> strains_q32, const Locator* locator) {
+  constexpr std::int32_t kHalf = 1 << (kTakenBits - 1);
+  if (locator == nullptr) {
+    for (std::size_t i = 0; i < strains_q32.size(); ++i) sum_[i] += (strains_q32[i] + kHalf) >> kTakenBits;
+    return;
+  }
+  constexpr Number kMost = (1 << (31 - kTakenBits)) - 1;  // keeps the sum below 2^31
+  const auto& predicted = locator->linearisation().predicted;
+  const int shift = locator->answer().shift;
+  const Number half = 1 << shift >> 1;
+  for (std::size_t i = 0; i < strains_q32.size(); ++i)
+    sum_[i] += shifted(((strains_q32[i] + half) >> shift) - predicted[i], shift - kTakenBits, kMost);
+}
+
 bool ZeroTracker::average(const TableImage& tables, std::span<const std::int32_t> strains_q32,
-                          const Answer* answer, Calibration& calibration, Linearisation& scratch) {
-  if (answer != nullptr && !rests(tables.constants, *answer)) {
+                          const Locator* locator, Calibration& calibration, Linearisation& scratch) {
+  const bool touched = locator != nullptr;
+  if (touched && !rests(tables.constants, locator->answer())) {
+    const Answer& answer = locator->answer();
     begin(true);
     known_ = 0;
-    rest_ = {answer->solution.hypothesis.contacts, answer->shift, answer->solution.contact};
+    rest_ = {answer.solution.hypothesis.contacts, answer.shift, answer.solution.contact};
     return false;
   }
-  constexpr std::int32_t kHalf = 1 << (kTakenBits - 1);
-  if (sets_ <= kInterval)
-    for (std::size_t i = 0; i < strains_q32.size(); ++i) sum_[i] += (strains_q32[i] + kHalf) >> kTakenBits;
-  if (sets_ < kInterval || !finish(tables, answer, calibration, scratch)) return false;
-  begin(answer != nullptr);
+  if (sets_ <= kInterval) add(strains_q32, locator);
+  if (sets_ < kInterval || !finish(tables, touched, calibration, scratch)) return false;
+  begin(touched);
   return true;
 }
 

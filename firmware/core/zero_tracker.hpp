@@ -17,8 +17,8 @@ namespace strainfinger::firmware {
 ///     of them: a touch that grows over minutes looks like that, drift does not. The fit starts where a
 ///     coarse grid is best and, if it finds no contact, once more elsewhere: at some places the first leads
 ///     to another answer.
-///   - Touched: while the contacts rest, what the gauges that they don't reach change by in common, as warmth
-///     does it. What each gauge drifts by on its own is not told from the touch.
+///   - Touched: while the contacts rest, by how much what they leave of the gauges that they don't reach
+///     changes in common, as warmth does it. What each gauge drifts by on its own is not told from the touch.
 /// How old the zeros are is told (stale()).
 class ZeroTracker {
  public:
@@ -28,24 +28,26 @@ class ZeroTracker {
   static constexpr int kUntilFollowed = kInterval + 3 * kEvery;
   static constexpr std::uint32_t kStaleSets = 600'000;  ///< ten minutes
 
-  /// One sample set. `answer`: what explains it; nothing where nothing touches the finger. Gauges in
+  /// One sample set. `locator`: whose answer explains it; nothing where nothing touches the finger. Gauges in
   /// `leftOut` teach nothing, and learn nothing of their own. `scratch` is overwritten at the end of an
-  /// interval and in the sets up to kUntilFollowed. True: the zeros may have changed. Cost: two instructions
-  /// a gauge in one of kEvery sets; after an untouched interval a coarse grid or a fit of at most kMostSteps
-  /// steps in one of kEvery sets, as soon as `isTimeLeft`: not while the locator looks at a
-  /// disturbance, or back at a touch.
-  bool take(const TableImage& tables, std::span<const std::int32_t> strains_q32, const Answer* answer,
+  /// untouched interval and in the sets up to kUntilFollowed. True: the zeros may have changed. Cost: two
+  /// instructions a gauge in one of kEvery sets, six while touched; after an untouched interval a coarse grid
+  /// or a fit of at most kMostSteps steps in one of kEvery sets, as soon as `isTimeLeft`: not in a set that
+  /// the locator looks into, or back from at a touch.
+  bool take(const TableImage& tables, std::span<const std::int32_t> strains_q32, const Locator* locator,
             GaugeSet leftOut, Calibration& calibration, Linearisation& scratch, bool isTimeLeft = true) {
     if (age_sets_ != std::numeric_limits<std::uint32_t>::max()) ++age_sets_;
-    const bool touched = answer != nullptr;
-    if (touched != touched_ || (touched && (!answer->accepted || answer->searching))) {
+    const bool touched = locator != nullptr;
+    if (touched != touched_ || (touched && !isExplained(locator->answer()))) {
       interrupt(touched);
       return false;
     }
     leftOut_ |= leftOut;
-    if (sets_ + 1 >= kInterval && !isTimeLeft) return false;
-    return ++sets_ % kEvery == 0 && average(tables, strains_q32, answer, calibration, scratch);
+    if (isDue() && !isTimeLeft) return false;
+    return ++sets_ % kEvery == 0 && average(tables, strains_q32, locator, calibration, scratch);
   }
+  /// With the next set zeros follow, or a fit tells whether they do.
+  bool isDue() const { return sets_ + 1 >= kInterval && (sets_ + 1) % kEvery == 0; }
 
   /// Forgets everything: the zeros are new.
   void restart() { *this = {}; }
@@ -69,16 +71,16 @@ class ZeroTracker {
     ContactStates contact{};
   };
 
+  static bool isExplained(const Answer& answer) { return answer.accepted && !answer.searching; }
   void begin(bool touched);
   void interrupt(bool touched);
-  bool average(const TableImage& tables, std::span<const std::int32_t> strains_q32, const Answer* answer,
+  bool average(const TableImage& tables, std::span<const std::int32_t> strains_q32, const Locator* locator,
                Calibration& calibration, Linearisation& scratch);
+  void add(std::span<const std::int32_t> strains_q32, const Locator* locator);
   bool rests(const TableConstants& constants, const Answer& answer) const;
-  bool finish(const TableImage& tables, const Answer* answer, Calibration& calibration,
-              Linearisation& scratch);
+  bool finish(const TableImage& tables, bool touched, Calibration& calibration, Linearisation& scratch);
   GaugeSet farGauges(const TableImage& tables) const;
-  std::int32_t commonChange_q32(const TableImage& tables, const Answer& answer, GaugeSet far,
-                                Linearisation& scratch);
+  std::int32_t commonChange_q32(GaugeSet far);
   bool isWorthFollowing(const TableConstants& constants, GaugeSet gauges) const;
   ScaledReadings averages(const TableConstants& constants, GaugeSet gauges) const;
   void findStart(const TableImage& tables, GaugeSet gauges, Linearisation& scratch);
@@ -86,8 +88,8 @@ class ZeroTracker {
   void follow(const TableConstants& constants, const Strains& changes_q32, GaugeSet gauges,
               Calibration& calibration);
 
-  Strains sum_{};       ///< of strains * kEvery / kInterval
-  Strains before_{};    ///< what the contacts left in the first interval of a rest
+  Strains sum_{};       ///< of strains, less what contacts explain of them, * kEvery / kInterval
+  Strains before_{};    ///< the same, of the first interval of a rest
   GaugeSet known_ = 0;  ///< the gauges that before_ is of
   Rest rest_;
   std::uint32_t age_sets_ = 0;

@@ -31,7 +31,7 @@ poisson_ratio = -0.012
 """
 CORE_M = 8.9e-3 + 6e-5  # the default drawing's, and what it is off
 
-QUIET_S, ROLLED_S, HELD_S, HOLDS = 8, 60, 5, 6
+QUIET_S, ROLLED_S, HELD_S, HOLDS = 8, 60, 5, 10
 
 
 def touch(start_s, end_s, angle_deg, normal, tangential, width_m):

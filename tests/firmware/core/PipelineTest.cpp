@@ -172,6 +172,36 @@ TEST(Pipeline, WhatNoContactExplainsIsNoNoise) {
   }
 }
 
+// As warmth leaves it that came while the finger was touched.
+TEST(Pipeline, ZerosThatAreOffComeBackWhileNothingTouches) {
+  std::vector<double> uneven(16), common(16, -40e-6);
+  for (std::size_t i = 0; i < uneven.size(); ++i)
+    uneven[i] = i % 3 == 0 ? 60e-6 : i % 3 == 1 ? -50e-6 : 20e-6;
+  for (const std::vector<double>& off : {common, uneven}) {
+    pipeline = Pipeline(ring.tables(), FitMode::kRefined);
+    process(std::vector<double>(16, 0.0), 2000);
+    CHECK_FALSE(process(off, 20'000).touched);
+    for (const std::int32_t strain_q32 : pipeline.readings().strains(16))
+      CHECK_COMPARE(std::abs(std::ldexp(strain_q32, -32)), <, 6 * ring.noise_strain());
+    LONGS_EQUAL(0, pipeline.observation().outOfUse);
+    const Press press{5.4, 20, 3, 1};
+    CHECK_TRUE(process(ring.strains(press), 30).touched);
+  }
+}
+
+// The readings that a zero follows in a disturbance are not those of a touch that begins meanwhile.
+TEST(Pipeline, ATouchInADisturbanceIsToldAtOnce) {
+  std::vector<double> off(16, -40e-6);
+  for (int set = 0; set < 40; ++set) {
+    pipeline = Pipeline(ring.tables(), FitMode::kRefined);
+    process(std::vector<double>(16, 0.0), 10);
+    process(off, ZeroTracker::kInterval - 30 + set);
+    auto strains = ring.strains({5.4, 20, 3, 1});
+    for (double& strain : strains) strain += off[0];
+    CHECK_TRUE(process(strains).touched);
+  }
+}
+
 TEST(Pipeline, OneWrongReadingDoesNotEndALightTouch) {
   const auto strains = ring.strains(Press{5.4, 1.5, 0.2, 1});
   CHECK_TRUE(process(strains, 100).touched);

@@ -17,7 +17,7 @@ void condition(const Calibration& calibration, Codes codes, Readings& readings) 
   const std::int32_t* zero = calibration.zero_q15.data();
   const std::int32_t* gain = calibration.gain.data();
   std::int32_t* strain = readings.strain_q32.data();
-  const auto conditionTwo = [&](std::ptrdiff_t i) {  // in this order: loads and stores of two words
+  const auto conditionTwo = [&](std::ptrdiff_t i) {  // in this order two words are loaded and stored at once
     const std::int32_t zero1 = zero[i], zero2 = zero[i + 1];
     const std::int32_t gain1 = gain[i], gain2 = gain[i + 1];
     const std::int32_t first = conditioned(code[i], zero1, gain1);

@@ -14,8 +14,8 @@ namespace strainfinger::firmware {
 /// Left-justified 16-bit codes, one a gauge (hal/gauge_adc.hpp).
 using Codes = std::span<const std::uint16_t>;
 
-/// What turns a gauge's code into its strain. Zeros are codes * 2^15, so they hold what averaging adds;
-/// gains are TableConstants::reading_gain for a gauge of nominal gain.
+/// What turns a gauge's code into its strain. Zeros are codes * 2^15, fine enough to hold averages; gains are
+/// TableConstants::reading_gain for a gauge of nominal gain.
 struct Calibration {
   std::array<std::int32_t, kMaxGauges> zero_q15{};
   std::array<std::int32_t, kMaxGauges> gain{};
@@ -25,9 +25,9 @@ struct Calibration {
 /// checkTableImage().
 Calibration tabledCalibration(const TableImage& tables);
 
-inline constexpr int kCodeBits = 15;  ///< a code's fraction bits as a zero
+inline constexpr int kCodeBits = 15;  ///< fraction bits of a zero
 
-/// strain * 2^32 of a code. Any code, zero and gain that are not negative.
+/// strain * 2^32 of a code, for any code and any zero and gain that are not negative.
 inline Number conditioned(Number code, Number zero, Number gain) {
   return mulHigh(code * (1 << kCodeBits) - zero, gain);
 }
@@ -45,7 +45,7 @@ struct Readings {
 /// and gain >= 0.
 void condition(const Calibration& calibration, Codes codes, Readings& readings);
 
-/// Bit i: gauge i is at a rail of its converter, its strain is a bound.
+/// Bit i: gauge i is at a rail of its converter, so its strain is only a bound.
 std::uint32_t saturatedGauges(const TableConstants& constants, Codes codes);
 
 /// Averages sample sets into zeros. Nothing may touch the finger meanwhile; change() tells whether something
@@ -60,7 +60,7 @@ class ZeroAverage {
   void writeTo(Calibration& calibration) const;
   /// Bit i: gauge i was at a rail of its converter in all of them.
   std::uint32_t gaugesAtRail(const TableConstants& constants) const;
-  /// What the strains of the second half of the sets are on average more than those of the first.
+  /// Mean strains of the second half of the sets minus those of the first half.
   Readings change(const Calibration& calibration) const;
 
  private:

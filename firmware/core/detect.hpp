@@ -46,7 +46,6 @@ inline std::uint32_t gateEnergy(const TableConstants& constants, std::span<const
   return gateEnergy(constants, energy);
 }
 
-/// The same of some gauges.
 inline std::uint32_t gateEnergy(const TableConstants& constants, std::span<const std::int32_t> strains_q32,
                                 GaugeSet gauges) {
   std::int64_t energy = 0;
@@ -64,12 +63,12 @@ inline std::int32_t readingNoise_q32(const TableConstants& constants) {
   return up >= 0 ? root << up : root >> -up;
 }
 
-/// A contact begins where noise alone would raise the energy once in 10^9 samples, and ends where it would
-/// once in a thousand: the hysteresis keeps a weak touch from flickering.
+/// A contact begins at an energy that noise alone reaches once in 10^9 samples, and ends below one that it
+/// reaches once in a thousand: the hysteresis keeps a weak touch from flickering.
 class ContactGate {
  public:
   bool touched() const { return touched_; }
-  /// `variance_q4`: of a reading, in configured ones [* 2^4], at least 1.
+  /// `variance_q4`: the noise's variance over the configured one [* 2^4], at least 1.
   bool update(const TableConstants& constants, std::uint32_t energy,
               std::uint32_t variance_q4 = kConfiguredNoise_q4) {
     const std::uint32_t gate = touched_ ? constants.gate_off : constants.gate_on;
@@ -81,25 +80,26 @@ class ContactGate {
   bool touched_ = false;
 };
 
-/// Compares readings kLag sample sets apart, in a round of kEvery: half a period of 50 Hz hum at 1 kHz, so
-/// that hum counts in full while drift and slow touches hardly do. What it finds raises the gate and the
-/// variance of the readings. A comparison counts for kMostGrowth times the median of the three before at
-/// most: a touch that is not told from a disturbance yet is a step or two, hum is in all of them.
+/// Measures the noise of the untouched ring. Once in a round of kEvery sample sets it compares readings kLag
+/// sets apart: at 1 kHz half a period of 50 Hz hum, so that hum counts in full, but drift and slow touches
+/// hardly. The result raises the gate and the variance of the readings. A comparison counts for at most
+/// kMostGrowth times the median of the three before it: a touch that is not reported shows in few
+/// comparisons, when it begins or ends, while hum shows in all.
 ///
-/// Twice in a round it looks for a gauge that is noisy by itself. One whose reading is a good part of what
-/// the whole ring reads is looked at in the next three sets, too: noise is rough from set to set, while hum,
-/// and touches that tap or tremble, are smooth up to a tenth of the sample rate; and noise is now above the
-/// zero and now below, while a contact pushes one way. The ring is measured without such gauges.
+/// Twice in a round it looks for a gauge that is noisy by itself. A gauge with a good part of the whole
+/// ring's energy is looked at in the next three sets, too. Noise is rough from set to set, while hum, and
+/// touches that tap or tremble at up to a tenth of the sample rate, are smooth; and noise is now above the
+/// zero and now below, while a contact pushes one way. The ring's noise is measured without noisy gauges.
 class NoiseMeter {
  public:
   static constexpr int kEvery = 16;
   static constexpr int kLag = 10;
   static constexpr std::uint32_t kMostGrowth = 4;
-  static constexpr int kMemory = 4;                   ///< sixteen comparisons: a quarter of a second [log2]
-  static constexpr std::uint32_t kNoisy_q8 = 4 << 8;  ///< variance, in configured ones, of a noisy ring
+  static constexpr int kMemory = 4;  ///< [log2] comparisons in the mean: a quarter of a second
+  static constexpr std::uint32_t kNoisy_q8 = 4 << 8;  ///< variance, over the configured one, of a noisy ring
 
-  /// One sample set of an untouched ring. `gauges`: those that work; the others' noise is nobody's.
-  /// `mayBeContact`: not told from a touch yet, so that it is no set to compare; noisy gauges are looked for.
+  /// One sample set of an untouched ring. `gauges`: those that work; only their noise counts. `mayBeContact`:
+  /// this may be a touch, so the set is not compared, but noisy gauges are looked for.
   void take(const TableConstants& constants, std::span<const std::int32_t> strains_q32, GaugeSet gauges,
             bool mayBeContact = false) {
     if (!mayBeContact && (kBusyPhases >> phase_ & 1) == 0)
@@ -107,34 +107,33 @@ class NoiseMeter {
     else
       phase_ = attend(constants, strains_q32, gauges, mayBeContact);
   }
-  /// The ring was touched in between: nothing to compare with.
+  /// The ring was touched in between: there is no set left to compare with.
   void interrupt() { phase_ = 0; }
 
-  /// Variance of a reading in configured ones [* 2^4], at least 1.
+  /// The noise's variance over the configured one [* 2^4], at least 1.
   std::uint32_t variance_q4() const { return std::max(mean_q8_ >> 4, kConfiguredNoise_q4); }
   bool isNoisy() const { return mean_q8_ >= kNoisy_q8 || noisyGauges_ != 0; }
-  /// Those that are noisy by themselves.
   GaugeSet noisyGauges() const { return noisyGauges_; }
 
  private:
-  /// A round, and three phases more in which a loud gauge is looked at; then the round goes on.
+  /// Phases: those of a round, and three more in which a loud gauge is looked at before the round goes on.
   static constexpr int kLookCloser = kEvery, kMostPhases = kEvery + 3;
   static constexpr std::uint32_t kBusyPhases = 1 | 1 << kLag | 1 << (kEvery - 1) | 7 << kLookCloser;
 
-  /// A gauge is loud in a set in which it makes more than so many times its share of the ring's energy, or of
-  /// configured noise if that is more: of 16 gauges, from three standard deviations of the others on.
+  /// A gauge is loud in a set in which its energy is more than kLoud times its share of the ring's, or of
+  /// configured noise if that is more: with 16 gauges, from three standard deviations of the others on.
   static constexpr std::uint32_t kLoud = 6;
-  /// Loudness: kTurns more when a gauge is loud, rough, and of another sign than when it last was so; kCalms
-  /// less when it is not loud, or smooth. From kNoisyFrom on it is noisy, and its loudness kLoudest; it is no
-  /// more once that is down to 0, a second later, so that it does not come and go. Of 16 gauges with codes of
-  /// 12 bits one of ten times the others' noise is named after 90 sets in the mean, one of four times after
-  /// 2,400, one of twice theirs not in 10,000 (GaugeFaultTest).
+  /// A gauge's loudness rises by kTurns when it is loud, rough, and of another sign than when it last was so.
+  /// It falls by kCalms when the gauge is not loud, or smooth. From kNoisyFrom on the gauge is noisy and its
+  /// loudness kLoudest. It stays noisy until that is down to 0, a second later, so that it does not come and
+  /// go. Of 16 gauges with codes of 12 bits one of ten times the others' noise is named after 90 sets in the
+  /// mean, one of four times after 2,400, one of twice theirs not in 10,000 (GaugeFaultTest).
   static constexpr int kTurns = 8, kCalms = 2, kNoisyFrom = 24, kLoudest = 255;
-  static constexpr int kRoughBits = 4;  ///< lowest bits of a strain that don't count for a third difference
-  static constexpr std::uint32_t kConfigured_q8 = 1 << 8;  ///< what configured noise makes of a comparison
-  static constexpr std::uint32_t kLoudest_q8 = 1 << 24;    ///< of a comparison: readings differ no more
+  static constexpr int kRoughBits = 4;  ///< lowest bits of a strain, dropped for third differences
+  static constexpr std::uint32_t kConfigured_q8 = 1 << 8;  ///< result of a comparison with configured noise
+  static constexpr std::uint32_t kLoudest_q8 = 1 << 24;    ///< largest result of a comparison
 
-  /// What configured noise and the gate's rounding leave on average [gate energy]. Of any tables below 2^64.
+  /// Mean gate energy of configured noise, rounding included. Below 2^64 for any tables.
   static std::uint64_t configuredEnergy(const TableConstants& constants) {
     constexpr int kMostUp = 25, kMostDown = 63;
     const int up = constants.noise_variance_exponent - 2 * constants.gate_shift;
@@ -144,7 +143,7 @@ class NoiseMeter {
     return std::max<std::uint64_t>(constants.gauge_count * (variance_q1 + 1) / 2, 1);
   }
 
-  /// The next phase.
+  /// Looks at the set of a busy phase; returns the next phase.
   std::uint8_t attend(const TableConstants& constants, std::span<const std::int32_t> strains_q32,
                       GaugeSet gauges, bool mayBeContact) {
     if (phase_ >= kLookCloser) return lookCloser(strains_q32);
@@ -175,7 +174,7 @@ class NoiseMeter {
     return loud;
   }
 
-  /// Square of a strain that is loud in a ring of these gauges. Below 2^60.
+  /// Square of a strain above which a gauge is loud in a ring of these gauges. Below 2^60.
   static std::int64_t loudFrom(const TableConstants& constants, std::span<const std::int32_t> strains_q32,
                                GaugeSet gauges) {
     const std::uint64_t ring = gateEnergy(constants, strains_q32, gauges);
@@ -184,7 +183,7 @@ class NoiseMeter {
     return std::int64_t{kLoud} * (energy / constants.gauge_count + 1) << 2 * constants.gate_shift;
   }
 
-  /// Gauges that counted as noisy more than once lately.
+  /// Gauges that were found rough, with alternating signs, more than once lately.
   GaugeSet suspects() const {
     GaugeSet suspects = 0;
     for (std::size_t i = 0; i < loudness_.size(); ++i)
@@ -192,10 +191,10 @@ class NoiseMeter {
     return suspects;
   }
 
-  /// One of those that are loud, in turn.
+  /// Chooses one of the loud gauges, each in turn, to be looked at in the next sets.
   void choose(const TableConstants& constants, std::span<const std::int32_t> strains_q32, GaugeSet gauges,
               GaugeSet loud) {
-    constexpr std::int64_t kRough = 2 * (1 + 9 + 9 + 1);  // twice the variance that noise gives it
+    constexpr std::int64_t kRough = 2 * (1 + 9 + 9 + 1);  // twice the variance of a third difference
     const GaugeSet after = loud & ~((GaugeSet{2} << chosen_) - 1);
     chosen_ = static_cast<std::uint8_t>(std::countr_zero(after != 0 ? after : loud));
     const GaugeSet others = gauges & ~noisyGauges_ & ~(GaugeSet{1} << chosen_);
@@ -205,7 +204,7 @@ class NoiseMeter {
     smooth_ = std::max(squareOf(thirdDifference_q28_), kRough * loudAlone);
   }
 
-  /// The next phase. A gauge that may be noisy is looked at again at once.
+  /// Returns the next phase. A gauge that may be noisy is looked at again with the next set.
   std::uint8_t lookCloser(std::span<const std::int32_t> strains_q32) {
     constexpr std::array kFactors{-3, 3, -1};
     thirdDifference_q28_ += kFactors[index(phase_ - kLookCloser)] * (strains_q32[chosen_] >> kRoughBits);
@@ -232,7 +231,7 @@ class NoiseMeter {
   }
 
   void compare(const TableConstants& constants, std::span<const std::int32_t> strains_q32, GaugeSet gauges) {
-    Readings change;  // half of it; 0 of gauges that don't count
+    Readings change;  // half of the change; 0 for gauges that don't count
     for (std::size_t i = 0; i < strains_q32.size(); ++i)
       if (contains(gauges, static_cast<int>(i))) change.strain_q32[i] = (strains_q32[i] - before_q32_[i]) / 2;
     const std::uint32_t energy = gateEnergy(constants, change.strains(constants.gauge_count));
@@ -251,14 +250,14 @@ class NoiseMeter {
   std::array<std::int32_t, kMaxGauges> before_q32_{};
   std::array<std::uint8_t, kMaxGauges> loudness_{};
   GaugeSet noisyGauges_ = 0;
-  GaugeSet wasNegative_ = 0;  ///< when it last counted as noisy
+  GaugeSet wasNegative_ = 0;  ///< when it was last loud and rough
   GaugeSet compared_ = 0;
   std::uint32_t mean_q8_ = kConfigured_q8;
   std::array<std::uint32_t, 3> recent_q8_{kLoudest_q8, kLoudest_q8,
                                           kLoudest_q8};  ///< of the last comparisons
-  std::int64_t smooth_ = 0;         ///< the largest square of a third difference that is not rough
+  std::int64_t smooth_ = 0;         ///< the largest square of a third difference that is still smooth
   Number thirdDifference_q28_ = 0;  ///< of four readings of the chosen gauge, once they are in
-  bool isNegative_ = false;         ///< the first of them
+  bool isNegative_ = false;         ///< the first of these readings
   std::uint8_t chosen_ = 0;         ///< the loud gauge that is looked at
   std::uint8_t phase_ = 0, resume_ = 0;
 };

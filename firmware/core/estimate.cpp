@@ -26,7 +26,7 @@ std::uint64_t moment_um2(const TableConstants& constants, std::int64_t moment_q2
          kMomentBits;
 }
 
-/// [Percent] of what is left, by what the gate allows.
+/// [Percent] What the gate allows over what is left; above kMostUncertainQuality if accepted, else not.
 std::uint8_t qualityOf(const Answer& answer, int freedoms) {
   const std::int64_t allowed =
       energyOf(answer.variances, threshold::kGatePerFreedom * freedoms + threshold::kGate);
@@ -37,7 +37,7 @@ std::uint8_t qualityOf(const Answer& answer, int freedoms) {
   return static_cast<std::uint8_t>(std::max<std::int64_t>(quality, kMostUncertainQuality + 1));
 }
 
-/// Square root of chi-squared a degree of freedom [* 2^4].
+/// Square root of chi-squared per degree of freedom [* 2^4].
 std::uint16_t chiOf_q4(const Answer& answer, int freedoms) {
   if (answer.solution.residualEnergy == 0) return 0;
   const Floating energy = floatingOf(static_cast<std::uint64_t>(answer.solution.residualEnergy));
@@ -49,15 +49,15 @@ std::uint16_t chiOf_q4(const Answer& answer, int freedoms) {
   return static_cast<std::uint16_t>(integerOf(chi.mantissa, chi.exponent + 4, kNoChi - 1));
 }
 
-/// The standard error of a sum of two independent errors. Domain: up to 2^31 and 2^30, or 2^31 - 1 each.
+/// The standard error of a sum of two independent errors. Their sizes: up to 2^31 and 2^30, or 2^31 - 1 each.
 Wide together(Wide one, Wide other) {
   if (other == 0) return one;
   const Root sum = rootOf(floatingOf(static_cast<std::uint64_t>(one * one + other * other)));
   return integerOf(sum.mantissa, sum.exponent, Wide{1} << 31);
 }
 
-/// The root of a moment m known to sigma is sigma^2 / (8 m^2) of itself too low in the mean (Taylor). This
-/// takes that back, and tells a line, whose moment is 0, as a width and a standard error of the same size.
+/// If a moment m has the standard error s, its root is too low in the mean by the fraction s^2/(8m^2)
+/// (Taylor). This corrects that, and gives a line, whose moment is 0, a width with an equal standard error.
 void setWidth(const TableConstants& constants, Number moment_q20, Wide sigma_q20, Contact& contact) {
   const Wide mean_q20 = (moment_q20 + together(moment_q20, sigma_q20)) / 2;
   contact.width_um = std::max<std::uint32_t>(widthOf_um(moment_um2(constants, mean_q20)), 1);
@@ -66,8 +66,8 @@ void setWidth(const TableConstants& constants, Number moment_q20, Wide sigma_q20
   contact.sigmaWidth_um = std::max<std::uint32_t>((sigma_um2 + contact.width_um / 2) / contact.width_um, 1);
 }
 
-/// A load's standard error with those that no residual shows: of the scale of all loads, and what calibration
-/// leaves.
+/// A load's standard error together with two that no residual shows: of the scale of all loads, and what the
+/// calibration leaves.
 LineLoadQ12 withCalibrationError(const TableConstants& constants, LineLoadQ12 sigma, LineLoadQ12 load,
                                  LineLoadQ12 normal) {
   constexpr Wide kMost = std::numeric_limits<Number>::max();
@@ -80,7 +80,7 @@ LineLoadQ12 withCalibrationError(const TableConstants& constants, LineLoadQ12 si
       static_cast<Number>(lesser(together(sigma.raw(), lesser(unseen, kMost)), kMost)));
 }
 
-/// All places of a touch are off by the same: that tells nothing of which of two answers is right.
+/// Adds the error that all places share, which tells nothing of which of two answers is right.
 TurnQ32 withPlaceError(const TableConstants& constants, TurnQ32 sigma) {
   const Wide both = together(sigma.raw(), constants.place_error_q32);
   return TurnQ32::fromRaw(static_cast<std::uint32_t>(lesser(both, Wide{kHalfTurn_q32})));
@@ -94,9 +94,9 @@ LineLoadQ12 loadOf(const TableConstants& constants, const Answer& answer, std::i
 /// The standard error, raised if need be so that three of it cover `far`.
 constexpr Wide reaching(Wide sigma, Wide far) { return std::max(sigma, magnitude(far) / 3); }
 
-/// Errors reach a rival that the readings hardly tell from the answer. Ambiguous: it is kNamed_16 away or
-/// farther, whatever the errors; or nearer, beyond the answer's own errors, and noise alone may have told the
-/// wrong one.
+/// Raises the errors to cover a rival that the readings hardly tell from the answer. Ambiguous: it is
+/// kNamed_16 away or farther, whatever the errors; or nearer, but beyond three of the answer's own errors,
+/// and noise alone may have favoured the wrong one.
 void coverRival(const TableConstants& constants, const Answer& answer, int contact, Contact& estimated) {
   if (!answer.rival.isAsLikely) return;
   const ContactState& rival = answer.rival.contact[index(contact)];
@@ -151,7 +151,7 @@ Contact estimate(const TableConstants& constants, const Answer& answer, const Un
   estimated.tangential = load(state.tangential);
   estimated.sigmaNormal = load(sigma(loadsOf(contact), 16, kMostLoad));
   estimated.sigmaTangential = load(sigma(loadsOf(contact) + 1, 16, kMostLoad));
-  // The errors of the others are those of a touch of which it is known.
+  // If one unknown is undetermined, the others' errors are those for a known value of it.
   bool isUndetermined =
       isOpen(angleOf(hypothesis, contact)) || isOpen(loadsOf(contact)) || isOpen(loadsOf(contact) + 1);
   bool tooWide = false;

@@ -7,13 +7,13 @@
 
 namespace strainfinger::firmware {
 
-/// Standard errors of a linearisation's unknowns [their units], of readings of variance 1; 0: undetermined.
+/// Standard errors of a linearisation's unknowns [their units] for readings of variance 1; 0: undetermined.
 struct UnitErrors {
   Hypothesis hypothesis;
   ContactStates slopesAt;
   std::array<Root, kMostUnknowns> sigma{};
 
-  /// Neither the hypothesis nor the columns are others.
+  /// The linearisation's hypothesis and columns are still those that the errors were computed from.
   bool areOf(const Linearisation& linearisation) const {
     return hypothesis == linearisation.hypothesis && slopesAt == linearisation.slopesAt;
   }
@@ -22,13 +22,13 @@ struct UnitErrors {
 /// The quality of an uncertain contact is at most this [percent].
 inline constexpr std::uint8_t kMostUncertainQuality = 20;
 
-/// Cost: a root an unknown, and the diagonal of the inverse.
+/// Cost: the diagonal of the inverse, and a root for each unknown.
 UnitErrors unitErrors(const Linearisation& linearisation);
 
 /// Place, loads, width, their standard errors, and quality of one of the answer's contacts. The errors are
-/// the Cramer-Rao bound of the readings used at their variance (noise, rounding and model error) with what no
-/// residual shows (the tables' errors of places, loads and second moments), widened to cover a rival that is
-/// nearly as likely. Cost: some square roots, so only for what is reported.
+/// the Cramer-Rao bound for the readings used and their variance (noise, rounding and model error), together
+/// with what no residual shows (errors of places, loads and second moments, from the tables), and are raised
+/// to cover a rival that is nearly as likely. Cost: some square roots, so only for what is reported.
 Contact estimate(const TableConstants& constants, const Answer& answer, const UnitErrors& errors,
                  int contact);
 

@@ -10,12 +10,12 @@ namespace {
 
 /// A step turns a contact by at most 2.8 degrees, where the responses are still nearly linear.
 constexpr Number kMostTurn_q32 = 1 << 25;
-/// A step changes the second moment by at most 1/16 + 5/16 of it.
+/// A step changes the second moment by at most 1/16 of the largest one and 5/16 of its own value.
 constexpr Number kMostWidening_q20 = 1 << (kMomentBits - 4);
 
-constexpr int kLoadExponent = 3;  ///< of the loads' columns: responses of 15 bits as entries of 12
-constexpr int kLoadStepBits = kLoadExponent + kStepBits - 16;  ///< a step of theirs is an amplitude * 2^this
-/// Of what a step leaves, so that thresholds and other energies can be added to it.
+constexpr int kLoadExponent = 3;  ///< of the loads' columns: responses of 15 bits become entries of 12
+constexpr int kLoadStepBits = kLoadExponent + kStepBits - 16;  ///< a step of a load is an amplitude * 2^this
+/// Limit of a residual energy, so that thresholds and other energies can be added to it.
 constexpr int kMostEnergyBits = 48;
 
 /// |tangential| / (friction * normal) [* 2^15], at most 1: how much of the contact slips (Mindlin).
@@ -27,8 +27,8 @@ Number slip_q15(const TableConstants& constants, const ContactState& contact) {
   return ((pull >> down) << 15) / (most >> down);
 }
 
-/// A contact with what its lookups share. The pressure's second moment is m, that of the tangential traction
-/// m (2 - slip), here as a fraction of twice the largest m.
+/// A contact, with what its lookups at all gauges share. The pressure's second moment is m, the tangential
+/// traction's m (2 - slip), kept as a fraction of twice the largest m.
 class ContactModel {
  public:
   struct Loads {
@@ -66,7 +66,7 @@ class ContactModel {
     side_[1] = {mirrored(seen), mirrored(angle), mirrored(moment), sign, -sign};
   }
 
-  static constexpr int kAngleBits = 10;  ///< that loads have to spare, so that columns use their bits
+  static constexpr int kAngleBits = 10;  ///< spare bits of the loads, by which columns get more digits
   static constexpr int kAngleExponent = 1 - kAngleBits;
   int momentExponent() const { return momentExponent_; }
 
@@ -95,7 +95,7 @@ class ContactModel {
     Loads loads;
     Number predicted;
   };
-  /// What a gauge's own depth adds.
+  /// What a gauge adds because it lies deeper, or less deep, than in the drawing.
   Depth depthAt(int gauge) const {
     const GaugeDepths& depths = tables_.depths;
     const AngleNode node = nodeOf(gauge);
@@ -119,20 +119,21 @@ class ContactModel {
 
  private:
   static constexpr int kDepthBits = 7;
-  static constexpr int kFactorBits = 30;  ///< of what slopes are multiplied by
+  static constexpr int kFactorBits = 30;  ///< of the factors of slopes
   static constexpr Number kMostValue = (1 << 15) - 1;
 
-  /// What responses as they are on the side that isn't mirrored are multiplied by, on either side.
+  /// Factors of the tables' responses for gauges on one side of the contact. The tables have the responses of
+  /// the side that isn't mirrored.
   struct Side {
     Loads loads;   ///< * 2
-    Loads angle;   ///< of slopes; turning the contact forward brings a gauge beyond it nearer
-    Loads moment;  ///< with what second moments change s by
+    Loads angle;   ///< of slopes; negative where turning the contact forward brings it nearer to the gauge
+    Loads moment;  ///< of slopes; they include ds / d(moment)
     int normalSign, tangentialSign;  ///< of responses on this side
   };
 
   std::uint32_t distance_q32(int gauge) const { return tables_.gauge_angle_q32[index(gauge)] - angle_q32_; }
   AngleNode nodeOf(int gauge) const { return angleNode(tables_.constants, distance_q32(gauge)); }
-  /// Of all cells.
+  /// The patches of all cells at a node.
   const PatchPair* patchesOf(const AngleNode& node) const { return &tables_.patch(node.node, 0); }
   Response normalAt(const AngleNode& node) const {
     return responseOf(patchesOf(node)[normalCell_.cell].normal, normalCell_.s_q15, node.t_q15);
@@ -144,7 +145,7 @@ class ContactModel {
     return static_cast<Number>((Wide{loads.normal} * normal_q30 + Wide{loads.tangential} * tangential_q30) >>
                                32);
   }
-  /// On the mirrored side one of the two has the other sign.
+  /// On the mirrored side the response to one of the two loads has the opposite sign.
   Loads mirrored(const Loads& loads) const {
     const int sign = tables_.constants.mirror_sign;
     return {sign * loads.normal, -sign * loads.tangential};
@@ -158,20 +159,19 @@ class ContactModel {
   std::uint32_t angle_q32_;
   MomentCell normalCell_;
   MomentCell tangentialCell_;
-  MomentCell asNormal_{};      ///< of a tangential load, at the pressure's second moment
-  MomentCell asTangential_{};  ///< of a normal load, at the tangential one's
+  MomentCell asNormal_{};      ///< to look up tangential responses at the pressure's second moment
+  MomentCell asTangential_{};  ///< to look up normal responses at the traction's second moment
   int momentExponent_;
   std::array<Side, 2> side_;
 };
 
-/// Gauges that are fitted.
 GaugeSet fittedGauges(const Hypothesis& hypothesis) {
   return hypothesis.exact != 0 ? hypothesis.exact : hypothesis.gauges;
 }
 
 using WideColumn = std::array<Number, kMaxGauges>;
 
-/// A column as numbers of kColumnBits, scaled by a power of two. `exponent`: of the entries.
+/// Scales a column by a power of two to entries of kColumnBits. `exponent`: that of `entries`.
 void setColumn(const WideColumn& entries, int gauges, int exponent, Rows& column, std::int8_t& scaledBy) {
   Number bits = 1;
   for (int gauge = 0; gauge < gauges; ++gauge) bits |= signlessBits(entries[index(gauge)]);
@@ -181,7 +181,7 @@ void setColumn(const WideColumn& entries, int gauges, int exponent, Rows& column
     column[index(gauge)] = static_cast<Short>(saturated<kColumnBits>(entries[index(gauge)] >> down));
 }
 
-/// Zeroes the rows of gauges that are not fitted, and those that fill the columns up.
+/// Zeroes the rows of gauges that are not fitted, and those that fill columns up to a multiple of 4.
 void clearRows(const Hypothesis& hypothesis, int unknowns, int gauges,
                std::array<Rows, kMostUnknowns>& column) {
   const GaugeSet out = ~fittedGauges(hypothesis) & allGauges(rowsOf(gauges));
@@ -189,7 +189,7 @@ void clearRows(const Hypothesis& hypothesis, int unknowns, int gauges,
     for (int i = 0; i < unknowns; ++i) column[index(i)][index(std::countr_zero(left))] = 0;
 }
 
-/// `columns`: of the normal and the tangential load.
+/// `columns`: those of the normal and the tangential load, one behind the other.
 void setLoads(const ContactModel::Loads& responses_q30, Number weight_q14, int gauge, Rows* columns) {
   constexpr int kDown = 15 + kLoadExponent, kHalf = 1 << (kDown - 1);
   const auto entry = [&](Number response_q30) {
@@ -199,7 +199,7 @@ void setLoads(const ContactModel::Loads& responses_q30, Number weight_q14, int g
   columns[1][index(gauge)] = entry(responses_q30.tangential);
 }
 
-/// Another pass, which fingers without a calibration don't pay for.
+/// A pass of its own, so that fingers without calibrated depths don't pay for it.
 void addDepths(const TableImage& tables, const ContactModel& model, int contact, const Weights& weight_q14,
                Linearisation& linearisation) {
   for (int gauge = 0; gauge < tables.constants.gauge_count; ++gauge) {
@@ -244,8 +244,8 @@ void lineariseContact(const TableImage& tables, int contact, const Weights& weig
   if (hypothesis.widthIsFree) set(momentOf(hypothesis, contact), moment, model.momentExponent());
 }
 
-/// What is left of each reading [weighted readings]; 0 of gauges that don't count. `expectedShift`: another
-/// one takes a second pass.
+/// Weighted residuals; 0 for gauges that don't count. `expectedShift`: if the residuals need another shift,
+/// they are computed a second time.
 template <typename Left>
 Residual residualOf(int gauges, GaugeSet counted, int expectedShift, Left leftOf) {
   Residual residual;
@@ -256,7 +256,7 @@ Residual residualOf(int gauges, GaugeSet counted, int expectedShift, Left leftOf
     for (int gauge = 0; gauge < gauges; ++gauge) {
       const Number left = leftOf(index(gauge)) * static_cast<Number>(counted >> gauge & 1);
       residual.value[index(gauge)] = static_cast<Short>(saturated<kColumnBits>((left + half) >> shift));
-      bits |= signlessBits(Number{left});  // a copy: `left` is gone when the bits are counted
+      bits |= signlessBits(Number{left});  // a copy: the overflow proof would keep the address of `left`
     }
     return std::clamp(bitWidth(bits) - kColumnBits, 0, kMostResidualShift);
   };
@@ -270,7 +270,7 @@ Residual residualOf(int gauges, const Linearisation& linearisation, const Scaled
                     [&](std::size_t gauge) { return readings.left(gauge, linearisation.predicted[gauge]); });
 }
 
-/// [units of an unknown] as a step of its column.
+/// A change of an unknown, in its own units, as a step in units of its column.
 Number stepOf(Number units, int exponent, int unitBits) {
   return shifted(units, exponent + kStepBits - unitBits, 1 << kStepLimitBits);
 }
@@ -296,7 +296,7 @@ void setLimits(const TableConstants& constants, const Linearisation& linearisati
   }
 }
 
-/// What a step leaves of a residual's energy.
+/// The residual energy after a step, by the linear model.
 Wide leftOf(Wide energy, Wide reduction) {
   return lesser(std::max<Wide>(energy - reduction, 0), Wide{1} << kMostEnergyBits);
 }
@@ -322,16 +322,16 @@ void take(const TableConstants& constants, const Linearisation& linearisation, c
   }
 }
 
-/// The linear model holds for a step that turns a contact by at most this part of a pitch, changes its loads
-/// by at most this part of the larger one, and its second moment by at most this part of it and of the
-/// largest [log2]. What the model neglects grows with the step's square. On the default finger at 30 N/m it
-/// is 0.06 of sigma RMS, at most 0.9 (FitTest, AShortStepIsAlmostTheLast).
+/// [log2] A step is short, so that the linear model holds, if it turns a contact by at most this part of a
+/// pitch, changes its loads by at most this part of the larger one, and its second moment by at most these
+/// parts of itself and of the largest one. The error of the model grows with the step's square: on the
+/// default finger at 30 N/m it is 0.06 of sigma RMS, at most 0.9 (FitTest, AShortStepIsAlmostTheLast).
 constexpr int kShortTurnBits = 8, kShortLoadBits = 7, kShortWideningBits = 6, kShortMomentBits = 8;
-/// Columns hold so many times [log2] as far: a touch that slides on is told within 0.13 of sigma RMS of what
-/// columns of each place tell (LocatorTest, FollowsAMovingTouchWithTheAnswersOfOneSetAlone).
+/// [log2] Columns are kept for steps so many times longer: answers to a sliding touch are within 0.13 of
+/// sigma RMS of those by new columns (LocatorTest, FollowsAMovingTouchWithTheAnswersOfOneSetAlone).
 constexpr int kSlopesHoldBits = 3;
 
-/// `farther`: so many times as far [log2].
+/// `farther`: [log2] of a factor on the limits.
 bool isShort(const TableConstants& constants, const ContactState& from, const ContactState& to,
              int farther = 0) {
   const Number load = larger(from.normal, magnitude(from.tangential)) >> (kShortLoadBits - farther);
@@ -342,16 +342,16 @@ bool isShort(const TableConstants& constants, const ContactState& from, const Co
          magnitude(to.moment_q20 - from.moment_q20) <= moment;
 }
 
-/// A step takes so little off the residuals' sum of squares that another would not matter: at most 64 squared
-/// units of weighted readings, or as many units times the noise's standard deviation. Three readings may tell
-/// so little that a small residual is a long step: for them 16, and 6 times.
+/// A step reduces the sum of squares so little that another would not matter: by less than 64 squared units
+/// of weighted readings, or by at most 64 units times the noise's standard deviation. Three readings may
+/// depend so little on an unknown that a small residual makes a long step: for them 16, and 6 times.
 bool changesLittle(Wide reduction, const Hypothesis& hypothesis, const ScaledReadings& readings) {
   const Wide most = hypothesis.exact == 0 ? 256 : 2;
   return reduction < (hypothesis.exact == 0 ? 64 : 16) ||
          (reduction < Wide{1} << 31 && reduction * reduction <= most * readings.variances.noise_q4);
 }
 
-/// A step after which another would not matter. That of three readings is long where they tell little.
+/// Another step would not matter. For three readings only the change of the energy says so.
 bool isConverged(const TableConstants& constants, const Linearisation& linearisation, const Step& step,
                  const ContactStates& to, const ScaledReadings& readings) {
   const Hypothesis& hypothesis = linearisation.hypothesis;

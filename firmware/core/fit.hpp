@@ -1,5 +1,5 @@
 #pragma once
-// Gauss-Newton: the contacts of a hypothesis that explain the readings best, near where one starts.
+// Gauss-Newton: the contacts of a hypothesis that fit the readings best, near an initial guess.
 
 #include <array>
 #include <cstdint>
@@ -11,30 +11,29 @@
 
 namespace strainfinger::firmware {
 
-/// Unknowns are ordered normal and tangential load of each contact, angles, second moments.
+/// Order of the unknowns: normal and tangential load of each contact, then the angles, then second moments.
 constexpr int loadsOf(int contact) { return 2 * contact; }
 constexpr int angleOf(const Hypothesis& hypothesis, int contact) { return 2 * hypothesis.contacts + contact; }
 constexpr int momentOf(const Hypothesis& hypothesis, int contact) {
   return 3 * hypothesis.contacts + contact;
 }
 
-/// A hypothesis linearised at some contacts: what the gauges should read, and how that changes with each
-/// unknown, there or near by.
+/// A hypothesis linearised at some contacts: the readings that they predict, and the derivatives of these by
+/// each unknown (the columns), which may be those of contacts near by.
 struct Linearisation {
   Hypothesis hypothesis;
-  ContactStates at;        ///< where the predictions are of
-  ContactStates slopesAt;  ///< where the columns are of
-  alignas(
-      4) std::array<Rows, kMostUnknowns> column;  ///< * 2^exponent: weighted readings per unit of the unknown
+  ContactStates at;                                   ///< what is predicted from
+  ContactStates slopesAt;                             ///< where the columns were computed
+  alignas(4) std::array<Rows, kMostUnknowns> column;  ///< * 2^exponent: weighted readings per unit of unknown
   std::array<std::int8_t, kMostUnknowns> exponent;
-  std::array<Number, kMaxGauges> predicted;  ///< of every gauge of the ring, not limited to what can be read
+  std::array<Number, kMaxGauges> predicted;  ///< of every gauge of the ring, beyond the rails as well
   Decomposition decomposition;
 };
 
-/// Entries of a column: one a gauge, up to a multiple of 4.
+/// Entries of a column: one for each gauge, filled up to a multiple of 4.
 constexpr int rowsOf(int gauges) { return (gauges + 3) & ~3; }
 
-/// Where a fit stands.
+/// The state of a fit.
 struct Solution {
   Hypothesis hypothesis;
   ContactStates contact;
@@ -44,51 +43,52 @@ struct Solution {
   std::span<const ContactState> contacts() const { return std::span(contact).first(hypothesis.contacts); }
 };
 
-/// The gauge is so near to the contact that it feels it: grids, three readings and drift go by that.
+/// The gauge is near enough to feel the contact. Grids and the fit of three readings look at such gauges
+/// only, common drift at the others only.
 bool isInReach(const TableImage& tables, const ContactState& contact, int gauge);
 
-/// `weight_q14`: that residuals will have. Cost: two table lookups a gauge and contact, and the
-/// decomposition.
+/// `weight_q14`: that of the residuals. Cost: two table lookups for each gauge and contact, decomposition.
 void linearise(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,
                Linearisation& linearisation, const Weights& weight_q14 = kAllAlike);
 
-/// Predictions of contacts elsewhere; where its columns still hold, these stay as they are, with the weights
-/// that they were made with. Cost: a third of linearise() then.
+/// Moves the predictions to other contacts. If the columns still hold there they are kept, with the weights
+/// that they were made with, at a third of the cost of linearise(); else all is linearised anew.
 void move(const TableImage& tables, const ContactStates& contacts, Linearisation& linearisation,
           const Weights& weight_q14 = kAllAlike);
 
-/// The linear model holds for a contact that turns by so much; `farther`: so many times as far [log2].
+/// The linear model holds for a contact that turns by this; `farther`: [log2] of a factor on the limit.
 bool isShortTurn(const TableConstants& constants, std::uint32_t turned_q32, int farther = 0);
 
-/// One step from a linearisation to these readings. `solution.converged`: the linear model holds that far.
+/// One step towards these readings. `solution.converged`: another step would not matter; `residualEnergy`:
+/// what the linear model expects after the step.
 Solution step(const TableImage& tables, const Linearisation& linearisation, const ScaledReadings& readings);
 
-/// Sum of squares of what the predictions leave of the readings that count, by their weights.
+/// Sum of squares of the weighted residuals of the gauges that count.
 Wide energyLeft(const TableImage& tables, const Linearisation& linearisation, const ScaledReadings& readings);
 
-/// The point between `from` and `to` at which a parabola through the energies left at both is lowest.
-/// `promised`: by how much the linear model said the step lowers the energy; `missed`: by how much what is
-/// left at `to` exceeds that.
+/// The minimum, between `from` and `to`, of a parabola through the energies at both, with the linear model's
+/// slope at `from`. `promised`: by how much that model lowers the energy at `to`; `missed`: by how much the
+/// true energy there exceeds the model's.
 ContactStates partway(const ContactStates& from, const ContactStates& to, Wide promised, Wide missed);
 
-/// Moves a linearisation to where a step led, if less is left there; else to partway(), if less is left
-/// there; else back to where it was, with columns of that place. `solution`: where it is now, and what is
-/// left there; converged where neither helped although the columns had been of the starting point. Returns
-/// how many predictions it computed.
+/// Moves a linearisation to where a step led, if the energy is lower there; else to partway(), if it is lower
+/// there; else back, with columns of the starting point. `solution` becomes the point reached and its energy;
+/// it is converged if neither helped although the columns had been those of the starting point. Returns how
+/// many predictions were computed.
 int descend(const TableImage& tables, const ScaledReadings& readings, Linearisation& linearisation,
             Solution& solution);
 inline constexpr int kDescentMoves = 3;  ///< at most
 
-/// What is left of the readings where nothing is predicted.
+/// The residual of a prediction of 0: the weighted readings themselves.
 Residual allOf(const TableImage& tables, const Hypothesis& hypothesis, const ScaledReadings& readings);
 
-/// The best loads of contacts at these places and of these widths, which leave least of these readings
-/// [allOf()]; their residual energy. Half of each contact is taken to slip. `scratch` is overwritten. Cost: a
-/// table lookup a gauge in reach and load, without slopes.
+/// The best loads of contacts of these places and widths, and the residual energy. `readings`: of allOf().
+/// Half of each contact is assumed to slip. `scratch` is overwritten. Cost: a table lookup without slopes for
+/// each gauge in reach and each load.
 Solution fitLoads(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,
                   const Residual& readings, const Weights& weight_q14, Linearisation& scratch);
 
-/// Steps until they converge, `mostSteps` at most.
+/// Gauss-Newton steps until they converge, at most `mostSteps`.
 Solution fit(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& start,
              const ScaledReadings& readings, int mostSteps, Linearisation& linearisation);
 

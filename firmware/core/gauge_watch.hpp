@@ -10,40 +10,40 @@
 namespace strainfinger::firmware {
 
 /// Takes a gauge out of use when it alone explains what is wrong with the readings at several places, when it
-/// is at a rail where the others leave no doubt that it should not be, or when its zero is at a rail. A
-/// second contact, a wide one or a finger that is not as drawn may look like a failing gauge at one place; at
-/// the next they look like another's failure.
+/// is at a rail and the others leave no doubt that it should not be, or when its zero is at a rail. Several
+/// places, because a second contact, a wide one or a finger that differs from its drawing may look like a
+/// failing gauge at one place, but like another gauge's failure at the next.
 class GaugeWatch {
  public:
   GaugeSet outOfUse() const { return outOfUse_; }
-  /// Those that touches may speak for: suspects, and those out of use.
+  /// Gauges that touches may clear: suspects, and those out of use.
   GaugeSet watched() const { return suspects_ | outOfUse_; }
 
   /// Gauges that are known not to work.
   void takeOut(GaugeSet gauges) { outOfUse_ |= gauges; }
-  /// Once a touched sample set: the gauge that it speaks against, if any, and where the contact is.
+  /// Once a touched sample set, and after lookBack(): the suspect, if there is one, and the contact's angle.
   void suspect(GaugeSet gauge, std::uint32_t angle_q32);
-  /// Gauges at a rail that should be well within their range; two sets in a row convict them.
+  /// Gauges at a rail that should be well within their range: two sets in a row take them out of use.
   void implausiblyAtRail(GaugeSet gauges) {
     outOfUse_ |= gauges & atRail_;
     atRail_ = gauges;
   }
-  /// Gauges that read what they should of a touch that they feel: of those in use it clears a suspicion,
-  /// those out of use come back after kConvincing such sets with none between in which they were `wrong`.
+  /// Gauges that feel a touch and read what they should, or are `wrong`. A right one in use is no longer
+  /// suspect; one out of use comes back after kConvincing such sets with none between in which it was wrong.
   void vindicate(GaugeSet right, GaugeSet wrong);
 
-  static constexpr int kPlaces = 3;       ///< that convict a gauge
-  static constexpr int kConvincing = 64;  ///< sample sets that bring one back
+  static constexpr int kPlaces = 3;       ///< at which a gauge is suspected before it is out of use
+  static constexpr int kConvincing = 64;  ///< right sets that bring one back
 
  private:
-  /// Places less than this apart are one and the same [turns * 2^16]: half a pitch of a ring of 16.
+  /// Places less than this apart count as one [turns * 2^16]: half a pitch of a ring of 16.
   static constexpr std::uint16_t kOnePlace_q16 = (1 << 12) / 2;
 
   std::array<std::uint8_t, kMaxGauges> places_{};
-  std::array<std::uint8_t, kMaxGauges> right_{};  ///< sets in a row, of gauges out of use
+  std::array<std::uint8_t, kMaxGauges> right_{};  ///< right sets of gauges out of use
   std::array<std::uint16_t, kMaxGauges> lastPlace_q16_{};
   GaugeSet outOfUse_ = 0;
-  GaugeSet suspects_ = 0;  ///< of one place or more
+  GaugeSet suspects_ = 0;  ///< at one place or more
   GaugeSet atRail_ = 0;    ///< in the last set
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What may have made the readings: how many contacts, with which unknowns, read by which gauges.
+// Hypotheses (how many contacts, with which unknowns, read by which gauges), and readings as integers.
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,6 @@
 
 namespace strainfinger::firmware {
 
-/// Of an array.
 constexpr std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 /// Bit i: gauge i.
@@ -23,7 +22,7 @@ using GaugeSet = std::uint32_t;
 constexpr GaugeSet allGauges(int count) { return ~GaugeSet{0} >> (kMaxGauges - count); }
 constexpr bool contains(GaugeSet gauges, int gauge) { return (gauges >> gauge & 1) != 0; }
 
-/// Those beside gauges of a ring of so many.
+/// The gauges next to these, in a ring of `count` gauges.
 constexpr GaugeSet neighboursOf(GaugeSet gauges, int count) {
   return (gauges << 1 | gauges >> (count - 1) | gauges >> 1 | gauges << (count - 1)) & allGauges(count);
 }
@@ -44,8 +43,8 @@ inline constexpr int kMostContacts = 2;
 /// A contact in the units of the fit.
 struct ContactState {
   std::uint32_t angle_q32 = 0;  ///< TurnQ32
-  Number normal = 0;      ///< amplitude: scaled readings * 2 where the response is largest, within kMostLoad
-  Number tangential = 0;  ///< the same
+  Number normal = 0;  ///< amplitude: twice the scaled reading where the response is largest; within kMostLoad
+  Number tangential = 0;  ///< the same for the tangential load
   Number moment_q20 = 0;  ///< second moment of the pressure, see kMomentBits
 
   bool operator==(const ContactState&) const = default;
@@ -53,45 +52,45 @@ struct ContactState {
 
 inline constexpr Number kMostLoad = 1 << 20;
 
-/// A load may be beyond what a fit holds: gauges at their rails leave it open.
+/// A load is at the fit's limit and may be larger in truth: gauges at their rails leave that open.
 inline bool isLimited(const ContactState& contact) {
   return larger(magnitude(contact.normal), magnitude(contact.tangential)) >= kMostLoad;
 }
 
-/// Which contacts are sought with which unknowns. Line or wide contact, one or two, with or without some
-/// gauges: all are solved by the same fit.
+/// How many contacts are fitted to which gauges, with which unknowns. Line or wide contact, one or two, with
+/// or without some gauges: all are solved by the same fit.
 struct Hypothesis {
   std::uint8_t contacts = 1;
   bool widthIsFree = true;
   GaugeSet gauges = 0;  ///< whose readings count
-  GaugeSet exact = 0;   ///< if any, only these are fitted; the others judge
+  GaugeSet exact = 0;   ///< if any, only these are fitted; the residuals of the others still count
 
   constexpr int unknowns() const { return contacts * (widthIsFree ? 4 : 3); }
   bool operator==(const Hypothesis&) const = default;
 };
 
-/// One contact, of unknown width where the tables don't know it and `isWidthFitted`.
+/// One contact. Its width is an unknown unless the tables know it or `isWidthFitted` is false.
 constexpr Hypothesis oneContact(const TableConstants& constants, GaugeSet gauges, bool isWidthFitted = true) {
   return {1, constants.width_is_known == 0 && isWidthFitted, gauges};
 }
 
 using ContactStates = std::array<ContactState, kMostContacts>;
 
-/// Of one scaled reading [* 2^4].
+/// Variances of one scaled reading [* 2^4].
 struct Variances {
-  std::uint32_t reading_q4 = 0;  ///< noise, rounding and the least of the model's error: of weight 1
-  std::uint32_t noise_q4 = 0;    ///< noise and rounding alone, which jitter from set to set
-  std::uint32_t largest_q4 = 0;  ///< noise, rounding and the model's error of the largest reading
+  std::uint32_t reading_q4 = 0;  ///< noise, rounding, model error of a gauge that reads nothing: weight 1
+  std::uint32_t noise_q4 = 0;    ///< noise and rounding alone, which differ from set to set
+  std::uint32_t largest_q4 = 0;  ///< noise, rounding and the model error of the largest reading
 };
 
-/// The finger as it is built differs from the one in the tables. Besides noise and rounding a reading is
-/// therefore off by `model_error` of itself (gains), of this part [log2] of what each neighbour reads (a
-/// gauge that is glued off its place reads more like them), and of this part [log2] of the largest reading,
-/// whatever it reads itself. These standard deviations are added, not their squares.
+/// The finger as it is built differs from the one in the tables. A reading's model error is therefore a sum
+/// of three standard deviations (not of their squares): `model_error` times the reading itself (gains), times
+/// 1/2^kNeighbourBits of each neighbour's (a gauge glued off its place reads more like them), and times
+/// 1/2^kLeastErrorBits of the largest reading, whatever the gauge reads itself.
 inline constexpr int kNeighbourBits = 3, kLeastErrorBits = 4;
 
-/// By what each gauge's residual and columns are multiplied [* 2^14]: the standard deviation of a gauge that
-/// reads nothing over its own. Then Variances::reading_q4 is the variance of all.
+/// What each gauge's residual and columns are multiplied by [* 2^14]: the standard deviation of a gauge that
+/// reads nothing over the gauge's own. Then Variances::reading_q4 is the variance of all of them.
 using Weights = std::array<Short, kMaxGauges>;
 inline constexpr int kWeightBits = 14;
 inline const Weights kAllAlike = [] {
@@ -101,28 +100,28 @@ inline const Weights kAllAlike = [] {
 }();
 
 /// The readings of a ring as 16-bit numbers: strain * 2^32 / 2^shift, the largest in [2^14, 2^15) unless all
-/// are tiny. Half a step of rounding is part of the variance.
+/// are tiny or an earlier shift is kept. The variances include rounding.
 struct ScaledReadings {
-  std::array<Short, kMaxGauges> value;  ///< of the gauges that there are
+  std::array<Short, kMaxGauges> value;  ///< only of the ring's gauges; the rest is not set
   Weights weight_q14 = kAllAlike;
   Variances variances;
   std::int8_t shift = 0;
 
   Number weighted(std::size_t gauge) const { return (value[gauge] * weight_q14[gauge]) >> kWeightBits; }
-  /// What a prediction leaves of a reading, by its weight.
+  /// The weighted residual of a reading.
   Number left(std::size_t gauge, Number predicted) const {
     return scaled<kWeightBits>(value[gauge] - predicted, weight_q14[gauge]);
   }
 };
 
-/// Variance of a reading as configured [in configured ones * 2^4].
+/// The noise's variance is given over the configured one [* 2^4]; this stands for the configured one itself.
 inline constexpr std::uint32_t kConfiguredNoise_q4 = 1 << 4;
 
-/// Rounding of a reading and of its prediction: 1/12 each, and what is lost in the columns [* 2^4].
+/// Variance of rounding [* 2^4]: 1/12 each for a reading and its prediction, the rest for the columns.
 inline constexpr std::uint32_t kRoundingVariance_q4 = 4;
 inline constexpr std::uint32_t kMostVariance_q4 = 0x7FFFFFFF;
 
-/// Of configured noise in readings divided by 2^shift [* 2^4].
+/// Variance of the configured noise in readings divided by 2^shift [* 2^4].
 inline std::uint32_t noiseVariance_q4(const TableConstants& constants, int shift) {
   const int up = constants.noise_variance_exponent + 4 - 2 * shift;
   if (up <= -32) return 0;
@@ -131,8 +130,8 @@ inline std::uint32_t noiseVariance_q4(const TableConstants& constants, int shift
   return constants.noise_variance << up;
 }
 
-/// How far each reading may be trusted, of variances that are known. Gauges that don't count may read as much
-/// as the largest of those that do.
+/// Sets the weights, from variances that are set already. A gauge that doesn't count may read as much as
+/// `largest`, which matters for its neighbours' model errors.
 inline void weigh(const TableConstants& constants, GaugeSet counted, Number largest,
                   ScaledReadings& readings) {
   const int gauges = constants.gauge_count;
@@ -151,10 +150,10 @@ inline void weigh(const TableConstants& constants, GaugeSet counted, Number larg
   }
 }
 
-/// `gauges`: those that count when the scale and the model's error are chosen; others may saturate.
-/// `noise_q4`: variance of a reading in configured ones [* 2^4].
-/// `shift`: the one to keep while the largest reading stays in [2^13, 2^15); negative: none.
-/// `beyond_q32`: size of the largest reading at a rail, which does not count and is part of the touch.
+/// `gauges`: those by which the scale and the model error are chosen; others may saturate.
+/// `noise_q4`: the noise's variance over the configured one [* 2^4].
+/// `shift`: kept if it leaves the largest reading in [2^13, 2^15); negative: none to keep.
+/// `beyond_q32`: magnitude of the largest reading at a rail, which is not fitted but is part of the touch.
 inline ScaledReadings scaledReadings(const TableConstants& constants, std::span<const Number> strains_q32,
                                      GaugeSet gauges, std::uint32_t noise_q4 = kConfiguredNoise_q4,
                                      int shift = -1, Number beyond_q32 = 0) {
@@ -179,7 +178,7 @@ inline ScaledReadings scaledReadings(const TableConstants& constants, std::span<
   return scaled;
 }
 
-/// The same contacts where readings are divided by 2^to instead of 2^from.
+/// The same contacts for readings divided by 2^to instead of 2^from.
 inline ContactStates rescaled(const ContactStates& contacts, int from, int to) {
   ContactStates scaled = contacts;
   if (from == to) return scaled;

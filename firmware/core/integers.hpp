@@ -1,6 +1,6 @@
 #pragma once
-// The integers that the estimator computes with. The proof that nothing overflows puts intervals in their
-// place (tests/firmware/ranges).
+// The integer types and operations of the estimator. The proof that nothing overflows replaces the integers
+// by intervals (tests/firmware/ranges).
 
 #include <algorithm>
 #include <bit>
@@ -14,7 +14,7 @@
 
 namespace strainfinger::firmware {
 
-using Short = std::int16_t;  ///< kept, not computed with
+using Short = std::int16_t;  ///< for storage only: sums and products are computed as Number or Wide
 using Number = std::int32_t;
 using Wide = std::int64_t;
 using Natural = std::uint64_t;
@@ -22,10 +22,10 @@ using Natural = std::uint64_t;
 constexpr Number magnitude(Number value) { return value < 0 ? -value : value; }
 constexpr Wide magnitude(Wide value) { return value < 0 ? -value : value; }
 
-/// An angle's change [turns * 2^32] as its bits: angles wrap.
+/// A change of angle [turns * 2^32] as an unsigned number, because angles wrap.
 constexpr std::uint32_t wrapped(Number turns_q32) { return static_cast<std::uint32_t>(turns_q32); }
 
-/// How many bits a number that is not negative has.
+/// Number of bits of a value that is not negative.
 constexpr int bitWidth(Number value) {
   return static_cast<int>(std::bit_width(static_cast<std::uint32_t>(value)));
 }
@@ -33,14 +33,12 @@ constexpr int bitWidth(Wide value) {
   return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(value)));
 }
 
-/// The bits of a number that its sign does not tell.
+/// The value or, if it is negative, ~value: its magnitude to within 1, and the lowest number can't overflow.
 constexpr Number signlessBits(Number value) { return value < 0 ? ~value : value; }
 
 constexpr Wide lesser(Wide a, Wide b) { return std::min(a, b); }
 constexpr Number larger(Number a, Number b) { return std::max(a, b); }
-/// To the nearest within low .. high.
 constexpr Number clamped(Number value, Number low, Number high) { return std::clamp(value, low, high); }
-/// To the nearest within +-limit.
 constexpr Number limited(Number value, Number limit) { return std::clamp(value, -limit, limit); }
 constexpr Number limited(Wide value, Number limit) {
   return static_cast<Number>(std::clamp<Wide>(value, -limit, limit));
@@ -52,7 +50,7 @@ constexpr Number scaled(Number value, Number factor) {
   return static_cast<Number>((Wide{value} * factor) >> bits);
 }
 
-/// value / 2^bits, rounded down and to the nearest within +-2^limitBits.
+/// value / 2^bits, rounded down, then clamped to +-2^limitBits.
 template <int bits, int limitBits>
 constexpr Number narrowed(Wide value) {
   static_assert(bits <= 32 && bits + limitBits >= 32 && limitBits < 31);
@@ -63,32 +61,32 @@ constexpr Number narrowed(Wide value) {
   return static_cast<Number>(value >> bits);
 }
 
-/// What value >> bits drops; of a value that is not negative.
+/// The bits that value >> bits drops, of a value that is not negative.
 template <int bits>
 constexpr Number lowBits(Wide value) {
   return static_cast<Number>(value & ((Wide{1} << bits) - 1));
 }
 
-/// To the nearest of -2^bits .. 2^bits - 1.
+/// Clamps to -2^bits .. 2^bits - 1.
 template <int bits>
 inline Number saturated(Number value) {
 #if defined(__ARM_FEATURE_SAT)
-  return static_cast<Number>(__builtin_arm_ssat(value, bits + 1));  // __ssat() of GCC 12 warns
+  return static_cast<Number>(__builtin_arm_ssat(value, bits + 1));  // GCC 12 warns about __ssat()
 #else
   return std::clamp<Number>(value, -(1 << bits), (1 << bits) - 1);
 #endif
 }
 
-/// To the nearest that 16 bits hold.
+/// Clamps to 16 bits.
 inline Short shortened(Number value) { return static_cast<Short>(saturated<15>(value)); }
 
-/// value * 2^up for any sign of `up`, rounded down and to the nearest within +-limit.
+/// value * 2^up, where `up` may be negative, rounded down and clamped to +-limit.
 constexpr Number shifted(Wide value, int up, Number limit) {
   if (up <= 0) return limited(value >> std::min(-up, 63), limit);
   const Wide most = Wide{limit} >> std::min(up, 62);
   if (value > most) return limit;
   if (value < -most) return -limit;
-  return static_cast<Number>(value << std::min(up, 62));  // by more only 0
+  return static_cast<Number>(value << std::min(up, 62));  // only a 0 is shifted by more
 }
 
 constexpr Number shifted(Number value, int up, Number limit) {
@@ -96,10 +94,10 @@ constexpr Number shifted(Number value, int up, Number limit) {
   const Number most = limit >> std::min(up, 31);
   if (value > most) return limit;
   if (value < -most) return -limit;
-  return value << std::min(up, 31);  // by more only 0
+  return value << std::min(up, 31);  // only a 0 is shifted by more
 }
 
-/// value^2, exactly. Cores without long products make it of three short ones.
+/// value^2, exactly. Cores without products of 64 bits make it of three products of 32 bits.
 constexpr Wide squareOf(Number value) {
 #if defined(__ARM_ARCH_6M__)
   const std::int32_t upper = value >> 16;
@@ -111,8 +109,9 @@ constexpr Wide squareOf(Number value) {
 #endif
 }
 
-/// Sum of a[i] * b[i]; `count` is a multiple of 4, both start at multiples of 4 bytes. Two products an
-/// instruction where the core has Arm's DSP extension. The caller keeps the sum within 32 bits.
+/// Sum of a[i] * b[i]. `count` is a multiple of 4 and both arrays start at multiples of 4 bytes, so that
+/// cores with Arm's DSP extension compute two products with one instruction. The caller keeps the sum within
+/// 32 bits.
 inline Number dot(const Short* a, const Short* b, int count) {
   Number sum = 0;
 #if defined(__ARM_FEATURE_DSP)
@@ -130,8 +129,8 @@ inline Number dot(const Short* a, const Short* b, int count) {
   return sum;
 }
 
-/// What numbers are multiplied by to divide them by one and the same: mantissa * 2^exponent; 0, or a mantissa
-/// in [2^29 - 4, 2^30] and an exponent in [-60, -30].
+/// 1 / divisor as mantissa * 2^exponent, for several divisions by the same number. Either 0, or the mantissa
+/// is in [2^29 - 4, 2^30] and the exponent in [-60, -30].
 struct Reciprocal {
   Number mantissa = 0;
   Number exponent = 0;
@@ -147,7 +146,7 @@ constexpr Reciprocal reciprocalOf(std::int32_t value) {
   return {static_cast<std::int32_t>(mantissa >> 1), up - 60};
 }
 
-/// value * by * 2^bits, rounded down and to the nearest within +-limit.
+/// value * by * 2^bits, rounded down and clamped to +-limit.
 constexpr Number divided(Number value, const Reciprocal& by, int bits, Number limit) {
   const Wide product = Wide{value} * by.mantissa;
   const int up = by.exponent + bits;

@@ -13,7 +13,7 @@ Number largestReading(const ScaledReadings& readings, GaugeSet gauges) {
   return largest;
 }
 
-/// What the tables' pressure profiles lack is allowed for besides.
+/// Allows in addition for the error of the tables' pressure profiles.
 bool isWithin(const Solution& solution, const ScaledReadings& readings, Wide allowed) {
   const int left = freedoms(solution.hypothesis);
   if (left < 1) return false;

@@ -7,87 +7,87 @@
 
 namespace strainfinger::firmware {
 
-/// Thresholds. Chi-squared is the sum of squared weighted residuals over the variance of a gauge that reads
-/// nothing (noise, rounding, model error); differences of it are twice those of the log-likelihood.
+/// Chi-squared is the sum of squared weighted residuals over the variance of a gauge that reads nothing
+/// (noise, rounding, model error); a difference of it is twice that of the log-likelihood.
 namespace threshold {
 
-/// A hypothesis explains the readings up to chi-squared = kGatePerFreedom * freedoms + kGate: 5.0 standard
-/// normal deviates for 12 degrees of freedom (Wilson & Hilferty 1931).
+/// A hypothesis is within the gate, so that it explains the readings, up to chi-squared = kGatePerFreedom *
+/// freedoms + kGate: 5.0 standard normal deviates for 12 degrees of freedom (Wilson & Hilferty 1931).
 inline constexpr int kGatePerFreedom = 2;
 inline constexpr int kGate = 28;
-/// Above kDoubtPerFreedom_q2 / 4 * freedoms + kDoubt the other hypotheses are looked at as well, although
-/// this one is accepted: one touch in 250 by noise alone, for 12 degrees of freedom.
+/// Above chi-squared = kDoubtPerFreedom_q2 / 4 * freedoms + kDoubt an answer leaves doubt, even if accepted,
+/// and other hypotheses are looked at as well: one touch in 250 by noise alone, for 12 degrees of freedom.
 inline constexpr int kDoubtPerFreedom_q2 = 7;
 inline constexpr int kDoubt = 8;
-/// On a finger as built an answer leaves no doubt within that limit of chi-squared with the model's part of
-/// the variance times kAsBuilt. Once a search has looked into it, times kStillAsBuilt: at one and the same
-/// limit noise would begin search after search. Never beyond the gate.
+/// The same limit for a finger as built: the model error's part of the variance counts kAsBuilt times. Once a
+/// search has looked into an answer it counts kStillAsBuilt times: with only one limit noise would begin
+/// search after search. The limit is never beyond the gate.
 inline constexpr int kAsBuilt = 2;
 inline constexpr int kStillAsBuilt = 3;
-/// What a second contact, or a gauge that is left out, must take off chi-squared to be believed: four more
-/// unknowns at the best of hundreds of places; one of sixteen gauges.
+/// What a second contact, or leaving out a gauge, must take off chi-squared to be believed. A second contact
+/// has four more unknowns and the best of hundreds of places; leaving one out, the best of sixteen gauges.
 inline constexpr int kSecondContact = 28;
 inline constexpr int kLeftOut = 16;
-/// What no pressure profile of the tables has: part of the largest reading, as a power of two, by which each
-/// reading may be off besides [log2]. Uniform pressures read as semi-ellipses, partial slip as a wider
-/// ellipse.
+/// [log2] Each reading may also be off by this part of the largest one, because the real pressure has another
+/// profile than the tables': uniform pressures read as semi-ellipses, partial slip as a wider ellipse.
 inline constexpr int kProfileErrorBits = 9;
-/// An answer that was followed is given up where it leaves so many times kGate: hysteresis.
+/// An answer that is followed is given up only if it leaves kLost times kGate: hysteresis.
 inline constexpr int kLost = 4;
-/// Two answers are not told apart within so many variances of a reading: of one set, the wrong one of two is
-/// told unflagged at most once in 11,000, however far apart they are.
+/// Two answers are not told apart if their chi-squared differs by less than this. Of one set, the wrong one
+/// of two is then reported without a flag at most once in 11,000, however far apart they are.
 inline constexpr int kAmbiguous = 14;
-/// A second answer is refuted by a sample set of which it leaves so many times more than would be ambiguous.
+/// A sample set refutes the rival (the second best answer) if the rival leaves more than the answer by
+/// kRefuted times what ambiguity() allows.
 inline constexpr int kRefuted = 4;
-/// Of one contact, a search does not refine candidates which leave, after their first steps, so many times
-/// [log2] what the best one leaves and kRefuted * kAmbiguous. Without that limit searches take longer: 4 %
-/// more of the disturbed touches of host/bench are flagged, and as many are silently wrong.
+/// A search for one contact does not refine candidates that leave, after their first steps, 2^this times the
+/// sum of what the best one leaves and kRefuted * kAmbiguous. Without this limit searches take longer: 4 %
+/// more of the disturbed touches of host/bench are flagged, and as many as with it are wrong without a flag.
 inline constexpr int kHopelessBits = 2;
-/// Answers so many sixteenths of a pitch apart are at different places, rather than of different widths.
+/// Answers this many sixteenths of a pitch apart are at different places; nearer ones differ in width only.
 inline constexpr int kElsewhere_16 = 4;
-/// A second answer so many sixteenths of a pitch away, or farther, is named and flagged; a nearer one only if
-/// noise alone may have told the wrong one, else it is enough that errors reach it.
+/// A rival that is nearly as likely is named and flagged if it is this many sixteenths of a pitch away or
+/// more; if nearer, only where noise alone may have favoured the wrong one, else the errors cover it.
 inline constexpr int kNamed_16 = 6;
-/// A second start is so many sixteenths of a pitch away from the first: the coarse grid's next point but one.
+/// A second initial guess is this many sixteenths of a pitch away: the coarse grid's next point but one.
 inline constexpr int kOtherStart_16 = 6;
-/// A touch does not change its second moment by more than this part of the largest [log2] while it is
-/// followed: the fit went to another answer.
+/// [log2] A touch whose second moment has changed by more than this part of the largest while it was followed
+/// has been followed to another answer.
 inline constexpr int kOtherWidthBits = 2;
-/// An inadmissible answer is believed only if it explains so much more: noise may have moved it there.
+/// What an inadmissible answer must take off chi-squared beyond an admissible one to be preferred. It is not
+/// ruled out, because noise may have moved it beyond the friction cone.
 inline constexpr int kInadmissible = 28;
-/// Largest reading over a standard deviation [squared] and second moment of contacts that have no second
-/// answer near by: the gap of chi-squared is 80 at 14 N/m and 2 mm on the default finger without model error.
-/// The deviation is that of the gauges that tell answers apart, which read a quarter of the largest reading:
-/// with a model error of 0.4 % or more no touch is firm.
+/// From this ratio of the largest reading to a standard deviation on [squared], and up to this second moment,
+/// a contact has no second answer near by: the gap of chi-squared is 80 at 14 N/m and 2 mm on the default
+/// finger without model error. The deviation is that of the gauges that tell answers apart, which read a
+/// quarter of the largest reading: with a model error of 0.4 % or more no touch is firm.
 inline constexpr int kFirmSignal = 1'200'000;
 inline constexpr int kFirmMoment_um2 = 360'000;
-/// A contact's largest reading over a standard deviation of noise [squared] below which its place is not
-/// sure: a second contact or a gauge that failed does not show then. It is 0.77 N/m on the default finger.
-/// With 40 deviations 0.17 % of touches of 0.5 N/m were silently wrong, with these 60 none of 4,000.
+/// Below this ratio of a contact's largest reading to the noise's standard deviation [squared] its place is
+/// not sure, as a second contact or a failed gauge would not show. It is 0.77 N/m on the default finger. With
+/// 40 deviations 0.17 % of touches of 0.5 N/m were wrong without a flag, with these 60 none of 4,000.
 inline constexpr int kWeakSignal = 3600;
-/// A weak contact stays one up to here, so that its flag does not come and go with the noise of each set.
+/// A contact that was weak stays so up to here: its flag does not come and go with the noise of each set.
 inline constexpr int kNoLongerWeakSignal = 4000;
-/// Each of two contacts must be felt by so many times kWeakSignal, or kNoLongerWeakSignal: 1.1 N/m on the
+/// Each of two contacts must be felt by this many times kWeakSignal, or kNoLongerWeakSignal: 1.1 N/m on the
 /// default finger. Of 73,125 pairs (`bench_matrix --only "two contacts" --seed N`, N 3001 to 3003) 24 end
-/// silently wrong with it and 41 without; 1,123 more are flagged.
+/// wrong without a flag with it and 41 without it; 1,123 more are flagged.
 inline constexpr int kWeakOfTwo = 2;
-/// A contact of a pair whose loads explain less than this much of chi-squared is none.
+/// A contact of a pair is none if its largest reading squared is below this many of a reading's variances.
 inline constexpr int kFaint = 36;
-/// A contact of a pair is sure from so many of its load's standard errors on.
+/// A pair is flagged if one of its normal loads is less than this many of its standard errors.
 inline constexpr int kFewestSigmas = 5;
-/// Two contacts are told apart from so many sixteenths of a pitch on; nearer ones are flagged.
+/// Two contacts this many sixteenths of a pitch apart are told apart; nearer ones are flagged.
 inline constexpr int kApart_16 = 37;
-/// A gauge is a suspect only if leaving it out takes this much more off chi-squared than any other gauge.
+/// A gauge is a suspect only if leaving out any other one takes at least this much less off chi-squared.
 inline constexpr int kCulpritMargin = 12;
-/// A suspect's reading is off by at least so much: a 16th of what readings are scaled to [scaled reading].
+/// A suspect's reading is off by at least this: a 16th of 2^15, which readings are scaled to.
 inline constexpr Number kCulprit = 1 << 11;
-/// What a gauge reads speaks for or against it where it should read so much: an eighth of the largest
-/// reading, or more [scaled reading].
+/// What a gauge reads speaks for or against it if it should read at least this, also a 16th of 2^15.
 inline constexpr Number kFelt = 1 << 11;
 
 }  // namespace threshold
 
-/// Sum of squares that is so much of chi-squared.
+/// The residual energy that stands for this chi-squared.
 constexpr Wide energyOf(std::uint32_t variance_q4, Wide chiSquared) {
   return (chiSquared * variance_q4) >> 4;
 }
@@ -98,12 +98,11 @@ constexpr Wide energyOf(const ScaledReadings& readings, Wide chiSquared) {
   return energyOf(readings.variances, chiSquared);
 }
 
-/// Two answers are not told apart where the worse one leaves less than so much more, in the mean of so many
-/// sets: noise averages out, the model's error does not.
+/// Two answers are not told apart if the residual energy of the worse one is higher by less than this, in the
+/// mean of this many sets: noise averages out, the model error does not.
 Wide ambiguity(const Variances& variances, int sets = 1);
 
-/// A reading at a rail is a bound: what the contacts should make it read is as much or more, within a
-/// quarter.
+/// A reading at a rail is only a bound: it is plausible if at least three quarters of it are predicted.
 constexpr bool isRailPlausible(std::int32_t measured, std::int32_t predicted) {
   const std::int32_t least = measured - measured / 4;
   return measured < 0 ? predicted <= least : predicted >= least;
@@ -113,13 +112,14 @@ constexpr bool isRailPlausible(std::int32_t measured, std::int32_t predicted) {
 bool isAdmissible(const TableConstants& constants, const ContactState& contact);
 bool isAdmissible(const TableConstants& constants, const Solution& solution);
 
-/// A contact is felt by so little more than noise that its place is not sure; `was`: in the set before.
+/// A contact is felt by so little more than noise that its place is not sure; `was`: it was weak before.
 bool isWeak(const Solution& solution, const Variances& variances, bool was);
 
 /// Two contacts nearer than they can be told apart.
 bool areTooNear(const TableConstants& constants, const Solution& solution);
 
-/// A fit from these contacts may lead to admissible ones: beside the right place loads are far off.
+/// A fit from these contacts may lead to admissible ones. Away from the right place loads are far off, so
+/// that four times the friction cone is allowed.
 bool isPromising(const TableConstants& constants, const Solution& solution);
 
 /// Residual energy, with threshold::kInadmissible added where the solution is not admissible.
@@ -135,12 +135,12 @@ bool isWithinGate(const Solution& solution, const ScaledReadings& readings);
 /// isWithinGate(), and all contacts are admissible.
 bool isAccepted(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings);
 
-/// Admissible, and within what leaves no doubt: noise alone seldom leaves more.
+/// Admissible, and within the limit of doubt, which noise alone seldom exceeds.
 bool isPlain(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings);
 
-/// isAccepted(), and within what leaves no doubt with the model's part of the variance times
-/// threshold::kAsBuilt, as on a finger as built: that leaves no doubt once gauges were left out, and whether
-/// there are two contacts need not be looked at. `was`: a search has looked into it.
+/// isAccepted(), and within the limit of doubt as on a finger as built (threshold::kAsBuilt). After gauges
+/// were left out, two contacts need not be looked for if this holds. `was`: a search has looked into the
+/// answer (threshold::kStillAsBuilt).
 bool isPlainAsBuilt(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings,
                     bool was = false);
 

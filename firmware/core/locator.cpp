@@ -8,42 +8,42 @@
 namespace strainfinger::firmware {
 namespace {
 
-constexpr int kMostSteps = 9;       ///< of a fit from the readings
-constexpr int kFollowingSteps = 8;  ///< of one from the last answer, if there is work left for them
+constexpr int kMostSteps = 9;       ///< of a fit from an initial guess
+constexpr int kFollowingSteps = 8;  ///< of a fit from the last answer, if there is work left for them
 constexpr int kStepsWhileSearching = 2, kStepsAfterSearch = 3;
-/// Of an update that only follows, and of one that concludes a search, as Search::kWork counts.
+/// Work of an update that only follows, and of one that concludes a search, in the units of Search::kWork.
 constexpr int kFollowingWork = 130, kWorkAfterSearch = 170;
-/// Sets of readings after which a second answer is fitted to them as well, or one to all gauges that work.
+/// The rival, or an answer to all gauges that work, is fitted once in this many sets of readings.
 constexpr std::uint8_t kRivalEvery = 8;
-/// What one contact and its second answer leave in those sets is compared in a fading mean of about so many,
-/// if the finger has a model error: the plain mean of the first, then each new one counts a quarter. A pair,
-/// and any touch of a finger without one, is compared anew in each: there may be more answers than these two
-/// (of 18,000 touches with noise times ten 17 are silently wrong by the mean, 6 by single sets).
+/// One contact and its rival are compared by a fading mean of about this many of those sets if the finger has
+/// a model error: the plain mean of the first, then each new one counts a quarter. A pair, and any touch of a
+/// finger without one, is compared anew in each set, as there may be more answers than these two (of 18,000
+/// touches with ten times the noise 17 are wrong without a flag by the mean, 6 by single sets).
 constexpr int kMostCompared = 4;
-constexpr std::uint8_t kTimesRefuted = 3;  ///< in a row, until a second answer is forgotten
-/// Sets of readings after which what is in doubt is looked into again.
+constexpr std::uint8_t kTimesRefuted = 3;  ///< in a row, until the rival is forgotten
+/// Sets of readings after which others are looked for again while an answer is in doubt.
 constexpr std::uint16_t kSearchAgainAfter = 64;
-/// What was not in doubt is looked into after so many sets in a row that leave doubt. Noise alone:
-/// chi-squared of 12 freedoms is beyond 29 (threshold::kDoubt) with p = 0.004, three times in a row with
-/// 6e-8.
+/// If the answer was not in doubt, others are looked for after this many sets in a row that leave doubt. By
+/// noise alone, chi-squared of 12 degrees of freedom is beyond 29 (threshold::kDoubt) with p = 0.004, three
+/// times in a row with 6e-8.
 constexpr std::uint8_t kNewDoubt = 3;
 
 /// Kinds of hypotheses that a search compares.
 enum Kind : std::size_t { kSingle, kWithoutOne, kPair };
 
-/// Another number of contacts, or another place. What a gauge that is left out changes of load and width at
-/// the same place is no doubt.
+/// The other solution has another number of contacts, or another place. It is no doubt that leaving a gauge
+/// out changes loads and width at the same place.
 bool saysOther(const TableConstants& constants, const Solution& answer, const Solution& other) {
   const int contacts = answer.hypothesis.contacts;
   return contacts != other.hypothesis.contacts ||
          areElsewhere(constants, contacts, answer.contact, other.contact);
 }
 
-/// Both contacts of a pair press by more than noise, and by a 16th of the other.
+/// Both contacts of a pair press by more than noise (threshold::kFaint), and by a 16th of the other or more.
 bool areAllContacts(const Solution& pair, const ScaledReadings& readings) {
   if (pair.hypothesis.contacts < 2) return true;
   const Number first = pair.contact[0].normal, second = pair.contact[1].normal;
-  const Wide least = std::min(first, second) / 2;  // reading over a contact
+  const Wide least = std::min(first, second) / 2;  // the largest reading of the lighter one
   return std::min(first, second) >= std::max(first, second) >> 4 &&
          least * least >= energyOf(readings, threshold::kFaint);
 }
@@ -58,7 +58,7 @@ ContactStates inOrderOf(const Solution& solution, ContactStates contacts) {
   return contacts;
 }
 
-/// One more set, of which the rival leaves so much more than the answer.
+/// Takes one more set into the mean, in which the rival leaves this much more than the answer.
 void compareRival(const TableConstants& constants, Answer& answer, Wide more) {
   const bool isAveraged = answer.solution.hypothesis.contacts == 1 && constants.model_error_q16 != 0;
   const int most = isAveraged ? kMostCompared : 1;
@@ -67,7 +67,7 @@ void compareRival(const TableConstants& constants, Answer& answer, Wide more) {
   rival.more += (more - rival.more) / rival.setsCompared;
 }
 
-/// Its flags, by that mean.
+/// Sets the rival's flags by that mean.
 void rate(Rival& rival, const Variances& variances) {
   rival.isAsLikely = rival.more < ambiguity(variances, rival.setsCompared);
   rival.isWithinNoise = rival.more < energyOf(variances.noise_q4, threshold::kAmbiguous) / rival.setsCompared;
@@ -107,7 +107,7 @@ void Locator::search(const TableImage& tables, const ScaledReadings& readings, G
   setsSinceSearch_ = 0;
 }
 
-/// Where the contacts are expected: one that slid as far in the last two sets goes on.
+/// Where the contacts are expected: one that slid equally far in the last two sets is taken to slide on.
 ContactStates Locator::expected(const TableConstants& constants) const {
   ContactStates contacts = answer_.solution.contact;
   for (std::size_t k = 0; k < contacts.size(); ++k)
@@ -115,8 +115,8 @@ ContactStates Locator::expected(const TableConstants& constants) const {
   return contacts;
 }
 
-/// From the linear model around an earlier answer, moved to where the contacts are expected, or to what a
-/// step found, where that is too far away. The work it took; nothing: the answer is lost.
+/// Steps from the linear model around an earlier answer, moved to where the contacts are expected, or to
+/// where a step led, if that is too far away for it. Returns the work it took; nothing if the answer is lost.
 std::optional<int> Locator::follow(const TableImage& tables, const ScaledReadings& readings,
                                    GaugeSet gauges) {
   Hypothesis& hypothesis = answer_.solution.hypothesis;
@@ -124,7 +124,7 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
   hypothesis.gauges &= gauges;
   if (areFewer && ((hypothesis.exact & ~gauges) != 0 || freedoms(hypothesis) < 1)) return std::nullopt;
   const ContactStates from = expected(tables.constants);
-  int passes = 2;  // predictions, with columns or without them, and steps
+  int passes = 2;  // counts predictions, with columns or without them, and steps
   if (readings.shift != answer_.shift || areFewer)
     linearise(tables, hypothesis, rescaled(from, answer_.shift, readings.shift), linearisation_,
               readings.weight_q14);
@@ -159,8 +159,8 @@ std::optional<int> Locator::follow(const TableImage& tables, const ScaledReading
   return workOf(passes) + (back != 0 ? back : followRival(tables, readings));
 }
 
-/// Gauges that work, feel the touch and were left out count again, once an answer explains their readings as
-/// well. The work it took.
+/// Gauges that work, feel the touch and were left out count again once an answer explains their readings,
+/// too. Returns the work it took.
 int Locator::takeBack(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges) {
   Hypothesis hypothesis = answer_.solution.hypothesis;
   if (hypothesis.gauges == gauges || hypothesis.exact != 0 || search_.isBegun()) return 0;
@@ -183,9 +183,9 @@ int Locator::takeBack(const TableImage& tables, const ScaledReadings& readings, 
   return Search::stepWork(tables, hypothesis);
 }
 
-/// The second answer is fitted now and then, until the touch has told which of them is right. Weak readings
-/// show both answers in one sample set and one of them, perhaps the wrong one, in the next: what was said of
-/// the second holds until it is refuted several times, or a search has looked for it. The work it took.
+/// Fits the rival now and then, until the touch has told which of the two is right. Weak readings may allow
+/// both in one sample set and only one, perhaps the wrong one, in the next: the rival's flags hold until it
+/// is refuted several times in a row, or a search has looked for it. Returns the work it took.
 int Locator::followRival(const TableImage& tables, const ScaledReadings& readings) {
   if (!answer_.rival.any || ++setsSinceRival_ % kRivalEvery != 0) return 0;
   const Solution answer = answer_.solution;
@@ -200,7 +200,7 @@ int Locator::followRival(const TableImage& tables, const ScaledReadings& reading
       (answer_.rival.isElsewhere && !areElsewhere(tables.constants, contacts, answer.contact, rival.contact));
   const Wide refuted = threshold::kRefuted * ambiguity(readings.variances);
   const bool isRefuted = more > refuted;
-  // One set that is far off, by a spike or while the touch moves, does not decide for the sets after it.
+  // One set with a large difference, by a spike or while the touch moves, must not outweigh those after it.
   if (!isMerged) compareRival(tables.constants, answer_, std::min(more, refuted));
   answer_.rival.isLost = isMerged || isRefuted;
   if (answer_.rival.isLost) {
@@ -215,7 +215,7 @@ int Locator::followRival(const TableImage& tables, const ScaledReadings& reading
   if (isLikelier) answer_.rival.more = -answer_.rival.more;
   rate(answer_.rival, readings.variances);
   if (isLikelier) {
-    // The touch itself has not moved.
+    // The answers change places, which is no motion of the touch since the search began.
     searchedAt_q32_ += rival.contact[0].angle_q32 - answer.contact[0].angle_q32;
     answer_.rival.contact = answer.contact;
     linearisation_ = scratch_;
@@ -235,7 +235,7 @@ void Locator::start(const TableImage& tables, const ScaledReadings& readings, Ga
   guessed_ = answer_.searching = true;
 }
 
-/// The fit that start() began; a search where it leaves doubt.
+/// Completes the fit that start() began; begins a search if that leaves doubt or is not firm.
 void Locator::settle(const TableImage& tables, const ScaledReadings& readings) {
   guessed_ = false;
   const Hypothesis hypothesis = answer_.solution.hypothesis;
@@ -247,8 +247,8 @@ void Locator::settle(const TableImage& tables, const ScaledReadings& readings) {
   noteLook(readings.shift);
 }
 
-/// The most likely hypothesis of those that were looked at: each must take more off chi-squared than its
-/// additional unknowns would by chance. False: there is none.
+/// The most likely of the hypotheses that were looked at: each must take more off chi-squared than its
+/// additional unknowns would by chance. Returns false if there is none.
 bool Locator::conclude(const TableImage& tables) {
   const ScaledReadings& readings = search_.readings();
   const std::array rankings{&search_.single(), &search_.withoutOne(), &search_.pair()};
@@ -256,7 +256,7 @@ bool Locator::conclude(const TableImage& tables) {
   const auto costOf = [&](std::size_t i) {
     return rankings[i]->best.residualEnergy + energyOf(readings, kPrice[i]);
   };
-  // Noise may take a fit beyond the friction cone, that of a faint second contact most of all: it is not
+  // Noise may move a fit beyond the friction cone, most of all that of a faint second contact: it is not
   // believed, but leaves doubt.
   std::array<bool, 3> explains{}, mayExplain{};
   std::optional<std::size_t> best;
@@ -288,7 +288,7 @@ bool Locator::conclude(const TableImage& tables) {
   return true;
 }
 
-/// The gauge that the best answer leaves out, if no other one would do and its reading is far off.
+/// The gauge that the best answer leaves out, if no other one would do as well and its reading is far off.
 GaugeSet Locator::culprit(const TableImage& tables) {
   if (!search_.single().anyBest) return 0;
   const Ranking& without = search_.withoutOne();
@@ -312,8 +312,8 @@ void Locator::rememberRival(const TableImage& tables, const Ranking& ranking,
                                            ranking.best.contact, answer_.rival.contact);
 }
 
-/// What a search found is the rival of the answer that was followed, where that explains these readings
-/// better: one that isn't told apart, until it is followed itself.
+/// The answer that was followed explains these readings better than what a search found, which then is its
+/// rival and counts as not told apart until it is fitted itself.
 void Locator::rememberFound(const TableConstants& constants, const Solution& followed, const Solution& found,
                             const ScaledReadings& readings) {
   if (!areElsewhere(constants, followed.hypothesis.contacts, followed.contact, found.contact)) return;
@@ -326,10 +326,10 @@ void Locator::rememberFound(const TableConstants& constants, const Solution& fol
       true;
 }
 
-/// Within what is left of an update's work.
+/// Goes on with the search, or concludes it, with what is left of an update's work.
 void Locator::goOn(const TableImage& tables, const ScaledReadings& readings, int workDone) {
   if (!search_.isDone()) return search_.advance(tables, Search::kWork - workDone, scratch_);
-  // A set after which the second answer was fitted may leave no room: then with the next one.
+  // If the rival was fitted to this set, there may be no work left: then with the next set.
   const auto stepsLeft = [&] {
     return (kWorkAfterSearch - workDone) / Search::stepWork(tables, answer_.solution.hypothesis) - 1;
   };
@@ -338,7 +338,7 @@ void Locator::goOn(const TableImage& tables, const ScaledReadings& readings, int
   isLookedInto_ = search_.withoutOne().anyBest;
   const bool isFound = conclude(tables);
   search_.stop();
-  // The touch has gone on since the search began: what was found has moved as the answer that was followed.
+  // The touch may have moved since the search began: what was found is moved as the followed answer was.
   const Hypothesis hypothesis = answer_.solution.hypothesis;
   ContactStates from = rescaled(answer_.solution.contact, answer_.shift, readings.shift);
   answer_.rival.contact = rescaled(answer_.rival.contact, answer_.shift, readings.shift);
@@ -365,7 +365,7 @@ std::optional<Suspect> Locator::lookBack(const TableImage& tables) {
   const bool isFound = conclude(tables);
   const Answer found = answer_;
   release();
-  // Without a contact that is felt firmly, one gauge's spike is all there was.
+  // If the contact is weak or not accepted, one gauge's spike may be all there was.
   if (!isFound || !found.accepted || found.weak || found.suspect == 0) return std::nullopt;
   return Suspect{found.suspect, found.solution.contact[0].angle_q32};
 }
@@ -375,17 +375,17 @@ void Locator::noteLook(int shift) {
   lookedMoment_q20_ = answer_.solution.contact[0].moment_q20;
 }
 
-/// Since other answers were looked for, the readings have outgrown their scale, by a factor of two at most,
-/// so that others may be told apart; or the touch has quite another width: then it was followed to another
-/// answer.
+/// Since others were last looked for, the readings have outgrown their scale, by two at most (four if it was
+/// kept while they fell), so that others may be told apart; or the touch has quite another width, because it
+/// was followed to another answer.
 bool Locator::isLookOutdated(const ScaledReadings& readings) const {
   return readings.shift > lookedShift_ ||
          magnitude(answer_.solution.contact[0].moment_q20 - lookedMoment_q20_) >
              1 << (kMomentBits - threshold::kOtherWidthBits);
 }
 
-/// Three readings that see the place and both loads well, solved exactly, unless they lead elsewhere than all
-/// of them do.
+/// Solves exactly the three readings that determine the place and both loads best, unless that leads to
+/// another place than all readings do.
 void Locator::solveExactly(const TableImage& tables, const ScaledReadings& readings) {
   Hypothesis hypothesis = answer_.solution.hypothesis;
   if (hypothesis.contacts > 1 || hypothesis.exact != 0 || !answer_.accepted) return;
@@ -446,7 +446,7 @@ void Locator::update(const TableImage& tables, std::span<const std::int32_t> str
   if (guessed_) return settle(tables, readings);
   const std::optional<int> workDone = follow(tables, readings, gauges);
   if (!workDone) {
-    tracking_ = false;  // with the next set
+    tracking_ = false;  // start() with the next set
     search_.stop();
     answer_.searching = true;
     return;

@@ -13,27 +13,27 @@ namespace strainfinger::firmware {
 
 /// How the contacts are fitted.
 enum class FitMode : std::uint8_t {
-  kThreePoint,  ///< the paper's: three readings are solved exactly, the others decide; the width is known
-  kRefined,     ///< all readings
+  kThreePoint,  ///< as in the paper: three readings are solved exactly, the others judge; the width is known
+  kRefined,     ///< all readings are fitted
 };
 
-/// A gauge without which one contact explains the readings, and nothing else does.
+/// A gauge without which one contact explains the readings, if nothing else does.
 struct Suspect {
   GaugeSet gauge;
   std::uint32_t angle_q32;  ///< of the contact
 };
 
-/// Another answer of the same hypothesis.
+/// The second best answer, of the same hypothesis.
 struct Rival {
   ContactStates contact;
   bool any = false;            ///< there is one
-  bool isAsLikely = false;     ///< nearly, when it was last fitted, see ambiguity()
-  bool isWithinNoise = false;  ///< besides: noise alone may have told the wrong one
-  bool isElsewhere = false;    ///< when it was found, not another width of the same place
-  bool isLost = false;         ///< a search is to look for it
+  bool isAsLikely = false;     ///< nearly as likely as the answer when it was last fitted: see ambiguity()
+  bool isWithinNoise = false;  ///< so nearly that noise alone may have favoured the wrong one
+  bool isElsewhere = false;    ///< it was found at another place, not with another width at the same place
+  bool isLost = false;         ///< it was refuted, or merged with the answer: a search is to look for it
   std::uint8_t timesRefuted = 0;
-  std::uint8_t setsCompared = 0;  ///< differences in `more`, at most kMostCompared; 0: begin anew
-  Wide more = 0;                  ///< energy that it leaves more than the answer, in their mean
+  std::uint8_t setsCompared = 0;  ///< sets in the mean of `more`, at most kMostCompared; 0: begin anew
+  Wide more = 0;                  ///< mean energy that it leaves more than the answer
 };
 
 /// What the locator believes.
@@ -42,50 +42,50 @@ struct Answer {
   std::int8_t shift = 0;  ///< of the readings
   Variances variances;
   Rival rival;
-  bool doubtful = false;   ///< another hypothesis explains the readings nearly as well
+  bool doubtful = false;   ///< it leaves doubt, or another hypothesis explains the readings nearly as well
   bool accepted = false;   ///< the hypothesis explains the readings
   bool weak = false;       ///< a contact is felt by little more than noise
   bool searching = false;  ///< the search for other hypotheses goes on
-  bool several = false;    ///< two contacts, or nothing, explain the readings best
-  GaugeSet suspect = 0;    ///< as Suspect has it
+  bool several = false;    ///< two contacts explain the readings best; or one without a gauge, but not well
+  GaugeSet suspect = 0;    ///< see Suspect; 0: none
 };
 
-/// Starts from the last answer where it still explains the readings, else from the readings; searches where
-/// that leaves doubt, over several sets of readings. Cost of an update: see firmware/cost.md.
+/// Follows the last answer while it explains the readings, else starts from the readings alone; where the
+/// answer leaves doubt, searches for others over several sets of readings. Cost of an update: see
+/// firmware/cost.md.
 class Locator {
  public:
   explicit Locator(FitMode mode) : mode_(mode) {}
 
   /// One set of strains of a touched ring. `gauges`: those that work and are within their range; `noise_q4`:
-  /// variance of a reading in configured ones [* 2^4]; `beyond_q32`: see scaledReadings().
+  /// the noise's variance over the configured one [* 2^4]; `beyond_q32`: see scaledReadings().
   void update(const TableImage& tables, std::span<const std::int32_t> strains_q32, GaugeSet gauges,
               std::uint32_t noise_q4 = kConfiguredNoise_q4, Number beyond_q32 = 0);
-  /// The whole of a search that update() began, with the same strains.
+  /// Completes the search that update() began, with the same strains.
   void finishSearch(const TableImage& tables, std::span<const std::int32_t> strains_q32, GaugeSet gauges);
-  /// Forgets the touch, and a search with it.
+  /// Forgets the touch and ends its search.
   void release() {
     endTouch();
     search_.stop();
   }
-  /// Nothing touches the finger any more: the answer is forgotten, while a search goes on with the readings
-  /// that it has (lookBack()).
+  /// The touch has ended: the answer is forgotten, but a search goes on with the readings that it has: see
+  /// lookBack().
   void endTouch();
-  /// After endTouch(), while isSearching(), once a sample set: a part of the search that goes on. Once it is
-  /// over, the gauge without which one contact explains its readings, if there is one. Cost: that of an
-  /// update, while it goes on.
+  /// Does a part of the search that goes on after endTouch(): once a sample set, while isSearching(). When
+  /// the search is over, returns the suspect, if there is one. Cost: that of an update, while it goes on.
   std::optional<Suspect> lookBack(const TableImage& tables);
 
   const Answer& answer() const { return answer_; }
-  /// Other answers are being looked for, whether or not the answer is doubted meanwhile (Answer::searching).
+  /// Other answers are being looked for, whether or not Answer::searching says that the answer is doubted.
   bool isSearching() const { return search_.isBegun(); }
   /// Another update with the same readings would change nothing.
   bool isSettled() const {
     return answer_.accepted && answer_.solution.converged && !isSearching() && !answer_.searching &&
            (setsInDoubt_ == 0 || answer_.doubtful);
   }
-  /// The linear model around the answer, of which its errors are.
+  /// The linear model around the answer, from which the answer's errors are computed.
   const Linearisation& linearisation() const { return linearisation_; }
-  /// Work space between updates, so that who else fits needs none of its own.
+  /// Work space that other fits may use between updates, so that they need none of their own.
   Linearisation& scratch() { return scratch_; }
 
  private:
@@ -111,18 +111,18 @@ class Locator {
   Linearisation linearisation_;
   Linearisation scratch_;
   Answer answer_;
-  /// By how much the contacts turned from set to set, the last time and before.
+  /// By how much the contacts turned with the last set, and with the one before it.
   std::array<std::uint32_t, kMostContacts> slid_q32_{}, slidBefore_q32_{};
   FitMode mode_;
   bool tracking_ = false;
-  bool isLookedInto_ = false;     ///< gauges were left out by the last search
-  bool guessed_ = false;          ///< the answer is where a fit starts
-  std::uint8_t setsInDoubt_ = 0;  ///< in a row, up to where a search begins
+  bool isLookedInto_ = false;     ///< the last search tried leaving gauges out
+  bool guessed_ = false;          ///< the answer is an initial guess that settle() is to fit
+  std::uint8_t setsInDoubt_ = 0;  ///< in a row, counted up to where a search begins
   std::uint8_t setsSinceRival_ = 0;
-  std::uint8_t setsLeftOut_ = 0;  ///< in which the answer left gauges out
+  std::uint8_t setsLeftOut_ = 0;  ///< sets in which the answer left gauges out
   std::uint16_t setsSinceSearch_ = 0;
   std::uint32_t searchedAt_q32_ = 0;  ///< where the answer was when the search began
-  Number lookedMoment_q20_ = 0;       ///< of the answer when others had been looked for
+  Number lookedMoment_q20_ = 0;       ///< of the answer when others were last looked for
   std::int8_t lookedShift_ = 0;       ///< of the readings then
 };
 

@@ -6,7 +6,7 @@ namespace strainfinger::firmware {
 namespace {
 
 constexpr int kUndeterminedBits = 12;
-constexpr int kSumBits = kColumnBits + kColumnBits + 5;  ///< of products of columns and residuals
+constexpr int kSumBits = kColumnBits + kColumnBits + 5;  ///< of a sum of 32 products of columns and residuals
 constexpr int kLowerLimitBits = 30;
 constexpr int kInverseLimitBits = 29;
 
@@ -74,8 +74,8 @@ Step solve(const Decomposition& decomposition, const std::array<Rows, kMostUnkno
 std::array<Wide, kMostUnknowns> variances(const Decomposition& decomposition) {
   constexpr int kInverseBits = 40, kSpareBits = 10;
   const int unknowns = decomposition.unknowns;
-  // 1 / pivot, at most 2^-10. Columns with an entry that uses its bits have pivots above 2^10; those of loads
-  // that weigh little may be lower, and then count as 2^10.
+  // 1 / pivot, limited to 2^-10. A column scaled to use its 12 bits has a pivot above 2^10. The loads'
+  // columns have a fixed scale and may have lower pivots where weights are small; these count as 2^10.
   Vector weight_q40;
   for (int i = 0; i < unknowns; ++i) {
     const Reciprocal& reciprocal = decomposition.reciprocal[index(i)];

@@ -12,31 +12,30 @@ namespace strainfinger::firmware {
 inline constexpr int kMostUnknowns = 4 * kMostContacts;
 
 using Vector = std::array<Number, kMostUnknowns>;
-/// One entry a gauge of the ring, in its order.
+/// One entry for each gauge, in the ring's order.
 using Rows = std::array<Short, kMaxGauges>;
 
-/// Entries of columns and residuals lie within +-2^12: sums of 32 products of two stay within 2^29.
+/// Entries of columns and residuals lie within +-2^12, so that a sum of 32 products of two stays within 2^29.
 inline constexpr int kColumnBits = 12;
 inline constexpr int kLowerBits = 20;
 inline constexpr int kStepBits = 14;
 inline constexpr int kStepLimitBits = 28;
 
-/// N = L D L^T. An unknown of which the others leave less than 2^-12 of its column's square is taken for
-/// undetermined: its pivot is 0 and it keeps its value.
+/// The normal matrix as N = L D L^T. An unknown counts as undetermined if the unknowns before it leave less
+/// than 2^-12 of its column's sum of squares: its pivot is set to 0 and no step changes it.
 struct Decomposition {
   std::array<Number, kMostUnknowns*(kMostUnknowns - 1) / 2> lower_q20;  ///< L below its diagonal, row by row
   Vector pivot;
   std::array<Reciprocal, kMostUnknowns> reciprocal;  ///< of the pivots; 0 of an undetermined unknown's
   std::uint8_t unknowns;
 
-  /// Where row i of L begins, of i entries.
+  /// Row i of L, which has i entries.
   Number* lower(int i) { return lower_q20.data() + i * (i - 1) / 2; }
   const Number* lower(int i) const { return lower_q20.data() + i * (i - 1) / 2; }
   bool isDetermined(int unknown) const { return reciprocal[index(unknown)].mantissa != 0; }
 };
 
-/// What the readings differ by from what is predicted: value * 2^shift, a multiple of 4 of them, the last
-/// ones 0.
+/// Readings minus predictions, as value * 2^shift. Zeros fill the entries up to a multiple of 4.
 struct Residual {
   alignas(4) Rows value;
   int shift;  ///< at most kMostResidualShift
@@ -46,18 +45,19 @@ struct Residual {
 };
 inline constexpr int kMostResidualShift = 11;
 
-/// `columns`: of the unknowns, `rows` entries each, a multiple of 4. Cost: unknowns^2 / 2 scalar products.
+/// `columns`: one for each unknown, with `rows` entries, a multiple of 4. Cost: unknowns^2 / 2 scalar
+/// products.
 void decompose(const std::array<Rows, kMostUnknowns>& columns, int rows, int unknowns,
                Decomposition& decomposition);
 
 /// A step in units of the columns [* 2^kStepBits].
 struct Step {
   Vector x_q14;
-  Wide reduction;  ///< of the residuals' sum of squares, by the linear model
+  Wide reduction;  ///< by which the residuals' sum of squares falls, if the linear model holds
 };
 
-/// The least-squares step to `residual`, each unknown's within low .. high, given those behind it: an unknown
-/// at its limit stays there and those before it are solved anew.
+/// The least-squares step that explains `residual`. Back-substitution clamps each unknown to low .. high and
+/// then solves the unknowns before it for the clamped value.
 Step solve(const Decomposition& decomposition, const std::array<Rows, kMostUnknowns>& columns, int rows,
            const Residual& residual, const Vector& low_q14, const Vector& high_q14);
 

@@ -6,16 +6,16 @@
 namespace strainfinger::firmware {
 namespace {
 
-/// More gauges out than one in eight: too few work.
+/// Too few gauges work if more than one in eight is out of use.
 constexpr int kGaugesPerOut = 8;
-/// Readings up to so many standard deviations are a touch only if contacts explain so many sets of them in a
-/// row, a period of 50 Hz hum at 1 kHz and a bit: else they are a disturbance.
+/// Readings up to kDisturbance standard deviations are a touch only if contacts explain kSettled sets in a
+/// row, a bit more than a period of 50 Hz hum at 1 kHz: else they are a disturbance.
 constexpr Wide kDisturbance = 64;
 constexpr int kSettled = 24;
 
-/// Of gauges at their rails those of which an answer tells whether they should be. What a touch beyond what a
-/// fit holds should make them read may be far more than is predicted; of neighbours at their rails the others
-/// don't tell what is between them.
+/// The gauges at a rail of which the answer tells whether they should be there. It doesn't tell if a load is
+/// at the fit's limit, because the touch may make gauges read far more than is predicted, nor of gauges at
+/// rails side by side, because the others don't tell what is between them.
 GaugeSet judgedAtRail(const TableConstants& constants, const Solution& answer, GaugeSet atRail) {
   const auto contacts = answer.contacts();
   if (constants.spacing == RingSpacing::kSparse || std::any_of(contacts.begin(), contacts.end(), isLimited))
@@ -29,7 +29,7 @@ void Pipeline::takeZero(const ZeroAverage& zero) {
   zero.writeTo(calibration_);
   tracker_.restart();
   watch_ = {};
-  // Open or shorted all along: with such a zero it seems to read nothing.
+  // These are open or shorted; with such a zero they would seem to read nothing.
   watch_.takeOut(zero.gaugesAtRail(constants()));
   locator_.release();
 }
@@ -41,8 +41,8 @@ bool Pipeline::isStrong(GaugeSet gauges) const {
   return false;
 }
 
-/// The readings are small, and not for long those of contacts: hum or drift. A touch stays one until as many
-/// sets in a row are not those of contacts: one reading that is off in one set doesn't end it.
+/// Small readings are a disturbance (hum or drift) until contacts explain kSettled sets in a row. A touch
+/// stays one until contacts fail to explain as many: one reading that is off in one set doesn't end it.
 bool Pipeline::isDisturbance(GaugeSet gauges) {
   const bool accepted = locator_.answer().accepted;
   if (isTouch_ && accepted) {
@@ -69,8 +69,8 @@ void Pipeline::locate(GaugeSet gauges) {
   observation_.several = answer.several || answer.solution.hypothesis.contacts > 1;
 }
 
-/// What the answer says of each gauge. A suspect stays one only as long as its own reading is off: it may
-/// have been wrong for a moment only.
+/// Passes on what the answer says of each gauge. A suspect counts only in sets in which its own reading is
+/// off, because it may have been wrong for a moment only.
 void Pipeline::watchGauges() {
   const Answer& answer = locator_.answer();
   if (!answer.accepted || answer.searching) return;
@@ -99,12 +99,12 @@ void Pipeline::watchGauges() {
 /// The codes are those of the last set of a touch, and the answer to them is found.
 bool Pipeline::isKnown(Codes codes) const {
   if (!locator_.isSettled()) return false;
-  if (observation_.saturated != 0) return false;  // a second set may convict a gauge at a rail
+  if (observation_.saturated != 0) return false;  // a second set may take a gauge at a rail out of use
   return !areZerosNew_ && std::equal(codes.begin(), codes.end(), codes_.begin());
 }
 
 const Observation& Pipeline::process(Codes codes) {
-  const bool wasSearching = locator_.isSearching();  // the set that concludes a search is dear, too
+  const bool wasSearching = locator_.isSearching();  // the set that concludes a search costs much, too
   bool isLocated = false;
   if (observation_.touched && isKnown(codes)) {
     observation_.unchanged = true;
@@ -117,7 +117,7 @@ const Observation& Pipeline::process(Codes codes) {
     noise_.take(constants(), strains(), ~(observation_.saturated | watch_.outOfUse()), contrarySets_ != 0);
   }
   const GaugeSet outOfUse = this->outOfUse();
-  // The zero of a noisy gauge follows on while nothing touches: it counts again once it is calm.
+  // The zero of a noisy gauge goes on following while nothing touches, as the gauge counts again once calm.
   const GaugeSet unfollowed = observation_.touched ? outOfUse : watch_.outOfUse();
   areZerosNew_ = tracker_.take(*tables_, strains(), observation_.touched ? &locator_ : nullptr,
                                observation_.leftOut | observation_.saturated | unfollowed, calibration_,
@@ -135,7 +135,7 @@ bool Pipeline::isTouchedDuring(const ZeroAverage& zero) const {
   return ContactGate().update(constants(), energy, noise_.variance_q4());
 }
 
-/// False: no locating was done. In a disturbance it gives way to zeros that may follow it.
+/// Returns whether the locator did any work. In a disturbance it leaves a few sets to the zeros that follow.
 bool Pipeline::observe(Codes codes) {
   condition(calibration_, codes, readings_);
   const bool wasTouched = observation_.touched, wasOverGate = gate_.touched();

@@ -12,14 +12,14 @@ namespace strainfinger::firmware {
 /// What one sample set shows.
 struct Observation {
   bool touched = false;
-  bool unchanged = false;  ///< the codes are those of the set before, of which all is said
+  bool unchanged = false;  ///< the codes are those of the set before, and so is the answer
   bool several = false;    ///< the readings are not those of one contact
   bool staleZero = false;  ///< the finger has not been seen untouched for too long
-  bool uncertain = false;  ///< too few gauges work for what is said to be sure
+  bool uncertain = false;  ///< too few gauges work for the answer to be sure
   bool noisy = false;      ///< the untouched ring is noisier than configured
   GaugeSet saturated = 0;  ///< at a rail
   GaugeSet outOfUse = 0;   ///< known not to work, or noisy by themselves
-  GaugeSet leftOut = 0;    ///< of the answer
+  GaugeSet leftOut = 0;    ///< not used by the answer
 };
 
 class Pipeline {
@@ -27,7 +27,7 @@ class Pipeline {
   Pipeline(const TableImage& tables, FitMode mode)
       : tables_(&tables), calibration_(tabledCalibration(tables)), locator_(mode) {}
 
-  /// Costs conditioning and the gate when nothing touches; else an update of the locator.
+  /// Cost: conditioning and the gate if nothing touches, else also an update of the locator.
   const Observation& process(Codes codes);
 
   /// What the last sample set showed, and the answer if it is touched.
@@ -37,10 +37,10 @@ class Pipeline {
 
   const TableConstants& constants() const { return tables_->constants; }
   Calibration& calibration() { return calibration_; }
-  /// A new zero: what was learnt with the old one is forgotten, gauges out of use have another try,
-  /// unless they are at a rail now.
+  /// Takes a new zero. What was learnt with the old one is forgotten, and gauges out of use have another try
+  /// unless the new zero is at a rail.
   void takeZero(const ZeroAverage& zero);
-  /// The strains changed while the zero was taken, as by a touch that began or ended.
+  /// The strains changed while the zero was taken, as when a touch begins or ends.
   bool isTouchedDuring(const ZeroAverage& zero) const;
   const ZeroTracker& zeroTracker() const { return tracker_; }
   /// Of the last sample set.
@@ -59,12 +59,12 @@ class Pipeline {
   const TableImage* tables_;
   Calibration calibration_;
   Readings readings_;
-  std::array<std::uint16_t, kMaxGauges> codes_{};  ///< the last of a touch
-  bool areZerosNew_ = false;                       ///< since then
+  std::array<std::uint16_t, kMaxGauges> codes_{};  ///< the last ones of a touch
+  bool areZerosNew_ = false;                       ///< zeros may have changed since then
   Observation observation_;
   ContactGate gate_;
-  bool isTouch_ = false;           ///< contacts make the readings, not a disturbance
-  std::uint8_t contrarySets_ = 0;  ///< in a row, that speak against that
+  bool isTouch_ = false;           ///< the readings are those of contacts, not of a disturbance
+  std::uint8_t contrarySets_ = 0;  ///< sets in a row that contradict isTouch_
   NoiseMeter noise_;
   Locator locator_;
   GaugeWatch watch_;

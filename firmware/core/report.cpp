@@ -22,7 +22,7 @@ std::int64_t forceOf(const TableConstants& constants, LineLoadQ12 load, int halv
   return force(constants.force_per_load_q16, load.raw(), halvings);
 }
 
-/// Into a field whose extreme value is reserved for "not known".
+/// Saturates into a field, without the extreme value that is reserved for "not known".
 template <typename Raw>
 Raw known(std::int64_t value) {
   constexpr Raw kReserved = kNotKnown<Raw>;
@@ -31,7 +31,7 @@ Raw known(std::int64_t value) {
   return static_cast<Raw>(kReserved < 0 ? kReserved + 1 : kReserved - 1);
 }
 
-/// An error is never 0: the field's own step is part of it.
+/// An error is at least 1: the field's own step is part of it.
 template <typename Raw>
 Raw knownError(std::int64_t value) {
   return known<Raw>(value < 1 ? 1 : value);
@@ -42,7 +42,7 @@ std::int32_t angleBetween_cdeg(std::uint16_t a, std::uint16_t b) {
   return apart > 18000 ? 36000 - apart : apart;
 }
 
-/// What a value has moved by is news beyond the part of its error that jitters.
+/// A change of a value is news if it exceeds the part of the value's error that is noise.
 class News {
  public:
   explicit News(std::uint32_t noiseShare_q8) : noiseShare_q8_(static_cast<std::int32_t>(noiseShare_q8)) {}
@@ -98,7 +98,7 @@ PatchFrame patchFrame(const Contact& contact) {
   return frame;
 }
 
-/// The same flags and number in each frame.
+/// Gives each frame the same flags and sequence number.
 void label(TouchFrames& frames, FingerFlags flags, std::uint8_t sequence) {
   const auto each = [flags, sequence](auto& frame) {
     frame.flags = flags;
@@ -136,8 +136,8 @@ GaugesFrame gaugesFrame(GaugeSet outOfUse, const ZeroTracker& tracker, std::uint
   if (setsPerSecond == 0) return frame;
   frame.zero_age_s = known<std::uint16_t>(tracker.age_sets() / setsPerSecond);
   if (!tracker.lastChange_q32()) return frame;
-  // 10^9 changes / 2^32 an interval, with 10^9 = 1953125 * 2^9; a change of 2^28 is beyond every gauge's
-  // range
+  // 10^-9 strain an interval: 10^9 * change / 2^32, with 10^9 = 1953125 * 2^9. A change of 2^28 is beyond
+  // every gauge's range.
   const std::int64_t change =
       std::min<std::int32_t>(*tracker.lastChange_q32(), 1 << 28) * std::int64_t{1953125};
   constexpr int kDown = 32 - 9;
@@ -154,7 +154,7 @@ bool isNews(const TouchFrames& frames, const TouchFrames& last, std::uint32_t no
          news.in(frames.patch, last.patch) || (frames.second && news.in(*frames.second, *last.second));
 }
 
-/// Standard deviation of the noise over that of all that the largest reading may be off [* 2^8].
+/// Standard deviation of the noise over that of all errors of the largest reading [* 2^8].
 std::uint32_t noiseShare_q8(const Answer& answer) {
   const int down = std::max(16 - std::countl_zero(answer.variances.largest_q4), 0);  // to 16 bits
   const std::uint32_t variance = answer.variances.largest_q4 >> down,

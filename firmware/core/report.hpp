@@ -32,26 +32,25 @@ struct TouchFrames {
 TouchFrames touchFrames(const TableConstants& constants, const Contact& contact,
                         const std::optional<Contact>& second, FingerFlags flags, std::uint8_t sequence);
 
-/// What is said once when nothing touches the finger any more: no force, and a place and a width that are not
-/// known.
+/// What is sent once when a touch has ended: no force; place and width are not known.
 TouchFrames releaseFrames(FingerFlags flags, std::uint8_t sequence);
 
-/// What a GAUGES frame says; age and rate are not known before there are sample sets by the second.
+/// The contents of a GAUGES frame. Age and rate of the zeros are not known while `setsPerSecond` is 0.
 GaugesFrame gaugesFrame(GaugeSet outOfUse, const ZeroTracker& tracker, std::uint32_t setsPerSecond);
 
-/// All of a value's error is noise.
+/// The noise's share of an error that is nothing but noise.
 inline constexpr std::uint32_t kOnlyNoise_q8 = 1 << 8;
 
-/// Whether something changed by more than its own error's part that is noise, a quality by ten percent, or a
-/// flag, the number of contacts or whether the width is known at all.
+/// Whether a value changed by more than the noise's share of its standard error, a quality by ten percent, or
+/// a flag, the number of contacts, or whether the width is known.
 bool isNews(const TouchFrames& frames, const TouchFrames& last, std::uint32_t noiseShare_q8 = kOnlyNoise_q8);
 
-/// When to say something: at most at the contact rate; when there is news; at least every kContactPeriod_ms
-/// in contact; once when contact ends. Otherwise never.
+/// Decides when to send: when there is news, but at most at the contact rate; at least every
+/// kContactPeriod_ms in contact; once when contact ends.
 class TouchReporter {
  public:
-  /// `standing`: flags that hold for every frame (simulated, uncalibrated ..). `isEndOwed`: somebody may have
-  /// said a touch before.
+  /// `standing`: flags that hold for every frame (simulated, uncalibrated ..). `isEndOwed`: a touch may have
+  /// been sent before, by an earlier run, so that its end is to be sent.
   TouchReporter(std::uint32_t shortestPeriod_us, FingerFlags standing, bool isEndOwed = false)
       : shortestPeriod_us_(shortestPeriod_us), standing_(standing), isEndOwed_(isEndOwed) {}
 
@@ -61,9 +60,9 @@ class TouchReporter {
                                     const Answer& answer, const Linearisation& linearisation,
                                     std::uint32_t now_us);
   void sent(const TouchFrames& frames, std::uint32_t now_us);
-  /// A set of readings that nothing could be said of.
+  /// Nothing could be sent about this set of readings.
   void missed() { isLookedAt_ = false; }
-  /// What was sent last may never have been on the bus: the end of a touch is said again.
+  /// What was sent last may have been lost before the bus: the end of a touch is sent again.
   void lost();
   void setShortestPeriod(std::uint32_t period_us) { shortestPeriod_us_ = period_us; }
 
@@ -75,11 +74,11 @@ class TouchReporter {
   std::uint32_t shortestPeriod_us_;
   FingerFlags standing_;
   TouchFrames last_{};
-  UnitErrors unitErrors_;  ///< of the last linearisation that frames were made of
+  UnitErrors unitErrors_;  ///< of the last linearisation that frames were made from
   std::uint32_t sentAt_us_ = 0;
   bool any_ = false;
-  bool isEndOwed_;           ///< what was said last is a touch, or not known
-  bool isLookedAt_ = false;  ///< nothing is left to say of these codes
+  bool isEndOwed_;           ///< what was sent last is a touch, or not known
+  bool isLookedAt_ = false;  ///< nothing is left to send about these codes
 };
 
 }  // namespace strainfinger::firmware

@@ -7,7 +7,7 @@ namespace strainfinger::firmware {
 namespace {
 
 /// Second moments to look at, as fractions of the largest [* 2^20]. On the default finger 0.2, 0.8, 1.7, 3.1
-/// and 4.6 mm^2; of pairs 0.4 mm^2, by the pairs that are found.
+/// and 4.6 mm^2; for pairs 0.4 mm^2, chosen by how many pairs are found.
 constexpr std::array<Number, 5> kFineMoments_q20{40'000, 160'000, 340'000, 600'000, 900'000};
 constexpr std::array<Number, 2> kCoarseMoments_q20{60'000, 400'000};
 constexpr Number kPairMoment_q20 = 80'000;
@@ -17,21 +17,21 @@ constexpr std::uint32_t kFineStep = 2, kCoarseStep = 3, kPairStep = 6;  ///< twe
 constexpr int kBesideSteps = 2;  ///< each way from a contact of the best pair
 static_assert(12 % kPairStep == 0, "pairs are sought all round the ring");
 
-/// Leaving out a gauge further away from the contact changes nothing but what that gauge itself leaves.
+/// Leaving out a gauge further away from the contact than this removes nothing but that gauge's own residual.
 constexpr std::uint32_t kSuspectPitches = 2;
 
 constexpr int kFirstSteps = 2;  ///< Gauss-Newton steps of the best points, before candidates are chosen
 constexpr int kMostSteps = 14;  ///< of a candidate
-constexpr int kPatience = 4;    ///< steps after which one that does not keep its promise is shortened
+constexpr int kPatience = 4;    ///< steps after which one that raises the energy is shortened
 
-constexpr int kPointEnergyBits = 4;  ///< 32 readings of 16 bits leave at most 2^35
+constexpr int kPointEnergyBits = 4;  ///< the energy of 32 readings of 16 bits is at most 2^35
 
-/// A look at a point, one at a pair of places, and what comes between two grids [units of Search::kWork].
+/// Work for a point, for a pair of places, and between two grids [units of Search::kWork].
 constexpr int kPointWork = 5, kPairWork = 12, kTaskWork = 9;
 
-/// The middle of the two neighbouring gauges that read most energy: a contact is within two pitches of it,
-/// whatever its loads. A gauge that does not count is taken to read what its neighbours do in the mean: with
-/// none, contacts beside it would be up to three pitches away.
+/// The middle of the two neighbouring gauges with the most energy: a contact is within two pitches of it,
+/// whatever its loads. A gauge that does not count is given the mean energy of its neighbours, because with
+/// no energy contacts beside it would be up to three pitches away.
 std::uint32_t anchor_q32(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges) {
   const int count = tables.constants.gauge_count;
   const auto read = [&](int i) {
@@ -53,7 +53,7 @@ std::uint32_t anchor_q32(const TableImage& tables, const ScaledReadings& reading
   return anchor;
 }
 
-/// Closer than this in place and second moment, two fits went to the same answer.
+/// Two fits nearer to each other than this in place and second moment led to the same answer.
 bool isSame(const TableConstants& constants, const ContactState& a, const ContactState& b) {
   return apart_q32(a.angle_q32, b.angle_q32) < pitch_q32(constants) / 16 &&
          magnitude(a.moment_q20 - b.moment_q20) < (1 << 15) + (a.moment_q20 + b.moment_q20) / 16;
@@ -195,7 +195,7 @@ void Search::begin(const TableImage& tables, const ScaledReadings& readings, con
   beginTask(all_, Grid(tables, all_, readings_, Grid::Kind::kFine));
 }
 
-/// By the figures of LocateAccuracy and the disturbance matrix.
+/// Chosen by the figures of LocateAccuracy and of the disturbance matrix.
 Search::Effort Search::effort() const {
   if (stage_ == Stage::kSingle) return {19, 12, 8};
   if (stage_ == Stage::kPair || stage_ == Stage::kBeside)
@@ -212,14 +212,14 @@ void Search::beginTask(const Hypothesis& hypothesis, const Grid& grid) {
   tried_ = refined_ = steps_ = kept_ = 0;
 }
 
-/// The points that there is work left for.
+/// As many points as there is work left for.
 void Search::lookAtPoints(const TableImage& tables, int& left, Linearisation& scratch) {
   const Residual all = allOf(tables, hypothesis_, readings_);
   const int work = nextWork(tables);
   for (; point_ < grid_.size() && work <= left; left -= work) lookAtNext(tables, all, scratch);
 }
 
-/// Keeps the best points. Of neighbours, all but the best lead to where that does.
+/// Keeps the best points, and of neighbours only the best one, because the others lead to the same answer.
 void Search::lookAtNext(const TableImage& tables, const Residual& all, Linearisation& scratch) {
   const Solution solution =
       fitLoads(tables, hypothesis_, grid_.at(tables, point_), all, readings_.weight_q14, scratch);
@@ -234,7 +234,7 @@ void Search::lookAtNext(const TableImage& tables, const Residual& all, Linearisa
   bestPoints_.insert(point, effort().points);
 }
 
-/// The loads of the next of the best points, then its first steps, one with each call.
+/// Fits the loads of the next of the best points, then takes its first steps, one with each call.
 void Search::tryNext(const TableImage& tables, Linearisation& scratch) {
   if (steps_ == 0) {
     const ContactStates at = grid_.at(tables, bestPoints_[tried_].number);
@@ -252,8 +252,8 @@ void Search::tryNext(const TableImage& tables, Linearisation& scratch) {
   candidates_.insert(reached_, effort().candidates);
 }
 
-/// A Gauss-Newton step of the next candidate. Where the one before left more than was there it is shortened
-/// instead, as descend() does at once: so that each call costs one linearisation.
+/// Takes a Gauss-Newton step of the next candidate, or shortens its last step where that raised the energy.
+/// descend() does both at once; here each call costs only one linearisation.
 void Search::refineNext(const TableImage& tables, Linearisation& scratch) {
   Candidate& candidate = candidates_[refined_];
   if (steps_ == 0 && isWorseTwin(tables.constants, refined_)) {
@@ -284,7 +284,7 @@ void Search::refineNext(const TableImage& tables, Linearisation& scratch) {
                  {hypothesis_, candidate.contact, solution.converged, candidate.residualEnergy}, readings_);
 }
 
-/// A better candidate went to the same place.
+/// A better candidate led to the same answer.
 bool Search::isWorseTwin(const TableConstants& constants, int candidate) const {
   for (int better = 0; better < candidate; ++better)
     if (areSame(constants, hypothesis_.contacts, candidates_[candidate].contact, candidates_[better].contact))
@@ -292,8 +292,8 @@ bool Search::isWorseTwin(const TableConstants& constants, int candidate) const {
   return false;
 }
 
-/// Those that are where a better one was refined to don't count. Of one contact, those that leave far more
-/// than the best lead nowhere; of pairs, whose first steps come less far, they may.
+/// A candidate is left to refine. Twins of a better one don't count. Of one contact, candidates with far more
+/// energy than the best lead nowhere; of pairs, whose first steps come less far, they may.
 bool Search::isRefining() const {
   if (kept_ == effort().refined || refined_ == candidates_.size()) return false;
   return steps_ > 0 || refined_ == 0 || hypothesis_.contacts > 1 ||
@@ -306,7 +306,7 @@ Ranking& Search::ranking() {
   return stage_ == Stage::kWithoutOne ? withoutOne_ : pair_;
 }
 
-/// Gauges near the best single contact, and those that have most of what it leaves.
+/// Suspects: gauges near the best single contact, and those with a quarter or more of its residual energy.
 void Search::findSuspects(const TableImage& tables, Linearisation& scratch) {
   suspects_ = all_.gauges;
   leftOut_ = 0;
@@ -346,7 +346,7 @@ void Search::finishTask(const TableImage& tables, Linearisation& scratch) {
   beginTask(hypothesis_, Grid(tables.constants, all_.widthIsFree, pair_.best.contact));
 }
 
-/// At most so much is next.
+/// The next piece takes at most this much work.
 int Search::nextWork(const TableImage& tables) const {
   const bool isTrying = tried_ < bestPoints_.size();
   if (point_ < grid_.size() || (isTrying && steps_ == 0))

@@ -1,5 +1,5 @@
 #pragma once
-// Looks for the contacts that explain a set of readings of which nothing else is known, piece by piece.
+// Searches, in pieces that fit into sample periods, for the contacts that explain one set of readings.
 
 #include <array>
 #include <cstddef>
@@ -11,27 +11,27 @@
 
 namespace strainfinger::firmware {
 
-/// Two fits of so many contacts went to the same answer, in whichever order.
+/// Two fits of this many contacts led to the same answer, whatever the order of their contacts.
 bool areSame(const TableConstants& constants, int contacts, const ContactStates& a, const ContactStates& b);
 
-/// Some contact of the one fit is so far from those of the other that it is another touch, whatever the
-/// widths.
+/// Some contact of one fit is at another place than those of the other (threshold::kElsewhere_16), whatever
+/// their widths.
 bool areElsewhere(const TableConstants& constants, int contacts, const ContactStates& a,
                   const ContactStates& b);
 
-/// The most likely solution of a hypothesis, and another: the likeliest elsewhere, if the readings hardly
-/// tell it from the best, else the next best, which may be another width of the same place.
+/// The most likely solution and a second one: the most likely at another place if the readings hardly tell it
+/// from the best, else the next best, which may be another width at the same place.
 struct Ranking {
   Solution best;
   Solution second;
   bool anyBest = false;
   bool anySecond = false;
 
-  /// Takes a solution in. One that is not admissible counts as if it left threshold::kInadmissible more.
+  /// Enters a solution. One that is not admissible counts as if it left threshold::kInadmissible more.
   void take(const TableConstants& constants, const Solution& solution, const ScaledReadings& readings);
 };
 
-/// Some of those with the least residual energy, the best first.
+/// The entries with the least residual energy, the best first.
 template <typename Entry, std::size_t most>
 class BestFirst {
  public:
@@ -61,28 +61,28 @@ class BestFirst {
   std::uint8_t count_ = 0;
 };
 
-/// Where to look for the contacts of a hypothesis.
+/// The points, places and widths, at which the contacts of a hypothesis are looked for.
 class Grid {
  public:
   enum class Kind : std::uint8_t {
-    kCoarse,  ///< two pitches around where the ring reads most, by quarters of a pitch, two widths
-    kFine,    ///< by sixths, five widths
-    kPairs,   ///< two places round the ring, or one beside a single contact, by halves of a pitch
-    kBeside,  ///< a pair of which one contact lies elsewhere within a pitch, by halves of it
+    kCoarse,  ///< within two pitches of where the ring reads most, by quarters of a pitch, two widths
+    kFine,    ///< the same by sixths of a pitch, five widths
+    kPairs,   ///< two places round the ring, or one with a single contact's answer, by half pitches
+    kBeside,  ///< a pair with one contact moved by half a pitch or a pitch
   };
 
   Grid() = default;
   /// For one contact.
   Grid(const TableImage& tables, const Hypothesis& hypothesis, const ScaledReadings& readings, Kind kind);
-  /// For two, of which one may be as the answers of a single one are.
+  /// For two contacts anywhere, one of which may be as in the answers with a single contact.
   Grid(const TableConstants& constants, bool widthIsFree, const Ranking& single);
-  /// For two beside a pair.
+  /// For two contacts beside the best pair.
   Grid(const TableConstants& constants, bool widthIsFree, const ContactStates& pair);
 
   int size() const { return rows_ * columns_; }
   ContactStates at(const TableImage& tables, int point) const;
-  /// Of a fine grid where the width is free: next to each other, and of the same width. Lines are so narrow
-  /// that each place may lead elsewhere.
+  /// Neighbours are adjacent places with the same width, of a fine grid with free width. Where the width is
+  /// known none are: lines are so narrow that each place may lead elsewhere.
   bool areNeighbours(int a, int b) const {
     return kind_ == Kind::kFine && widthIsFree_ && a % columns_ == b % columns_ &&
            magnitude(Number{a - b}) <= columns_;
@@ -96,25 +96,25 @@ class Grid {
 
   std::uint32_t first_q32_ = 0;  ///< the first place
   std::uint32_t step_q32_ = 0;
-  std::array<Known, 2> known_{};  ///< single contacts, or those of a pair
-  /// Places, each with so many widths. Of pairs: places of the first contact all round the ring, each with
-  /// second ones up to half round from there; then two rows, each of half the ring, beside each single
-  /// contact.
+  std::array<Known, 2> known_{};  ///< single contacts' answers, or the contacts of a pair
+  /// One contact: a row is a place, its columns are widths. Pairs: a row is a place of the first contact
+  /// round the ring, its columns are second places up to half way round from there. Two more rows, each with
+  /// half of the ring, are for each single contact's answer.
   std::int16_t rows_ = 0, columns_ = 1;
   Kind kind_ = Kind::kCoarse;
   bool widthIsFree_ = true;
 };
 
-/// Where to start without knowing anything: the best point of a coarse grid, apart from another start, if any
-/// (threshold::kOtherStart_16).
+/// An initial guess from the readings alone: the best point of a coarse grid. If there was another guess
+/// before, points nearer to it than threshold::kOtherStart_16 are passed over.
 ContactStates initialGuess(const TableImage& tables, const Hypothesis& hypothesis,
                            const ScaledReadings& readings, Linearisation& scratch,
                            std::optional<std::uint32_t> otherStart_q32 = {});
 
-/// One contact; if that leaves doubt, one contact without one of the gauges, and two contacts, at last those
-/// beside the best pair: near every contact there may be a second answer, of another width. Of each
-/// hypothesis many points are looked at, the best of them get their first steps, and the best candidates that
-/// these lead to are refined. advance() does a part of it that fits into a sample period.
+/// Looks at one contact; if that leaves doubt, at one contact without each gauge in turn, then at two
+/// contacts, and last beside the best pair, because near every contact there may be a second answer of
+/// another width. For each hypothesis many points are looked at, the best of them get their first
+/// Gauss-Newton steps, and the best candidates that these lead to are refined. advance() does a part of that.
 class Search {
  public:
   /// `hypothesis`: one contact, read by all gauges that work.
@@ -126,7 +126,7 @@ class Search {
   bool isRunning() const { return isBegun() && !isDone(); }
   /// All was looked at; its rankings hold until stop().
   bool isDone() const { return stage_ == Stage::kDone; }
-  /// Goes on for at most so much work.
+  /// Goes on for at most this much work, in the units of kWork.
   void advance(const TableImage& tables, int work, Linearisation& scratch);
 
   const ScaledReadings& readings() const { return readings_; }
@@ -134,9 +134,9 @@ class Search {
   const Ranking& withoutOne() const { return withoutOne_; }
   const Ranking& pair() const { return pair_; }
 
-  /// What an update has time for, in units of 530 instructions of a Cortex-M4 with 16 gauges.
+  /// The work that an update has time for, in units of 530 instructions of a Cortex-M4 with 16 gauges.
   static constexpr int kWork = 128;
-  /// Of a Gauss-Newton step and its linear model.
+  /// The work of a Gauss-Newton step with its linearisation.
   static int stepWork(const TableImage& tables, const Hypothesis& hypothesis) {
     return (hypothesis.contacts == 1 ? 12 : 31) + (tables.depths.areKnown() ? 6 * hypothesis.contacts : 0);
   }
@@ -144,7 +144,7 @@ class Search {
  private:
   enum class Stage : std::uint8_t { kIdle, kSingle, kWithoutOne, kPair, kBeside, kDone };
 
-  /// Of a grid, looked at.
+  /// A grid's point that was looked at.
   struct Point {
     std::uint32_t residualEnergy;  ///< / 2^kPointEnergyBits
     std::int16_t number;
@@ -155,8 +155,8 @@ class Search {
   };
   static constexpr int kMostPoints = 48, kMostCandidates = 16;
 
-  /// How many points get their first steps, of how many candidates that these lead to the shortlist is, and
-  /// how many of those are refined to the end.
+  /// How many points get their first steps, how many of the candidates that these lead to are kept, and how
+  /// many of those are refined to the end.
   struct Effort {
     int points, candidates, refined;
   };
@@ -178,19 +178,19 @@ class Search {
 
   ScaledReadings readings_;
   Hypothesis all_;         ///< one contact, all gauges
-  Hypothesis hypothesis_;  ///< that is looked at
+  Hypothesis hypothesis_;  ///< the one that is looked at
   GaugeSet suspects_ = 0;  ///< gauges that are left out, one by one
   Grid grid_;
   Ranking single_, withoutOne_, pair_;
   BestFirst<Point, kMostPoints> bestPoints_;
   BestFirst<Candidate, kMostCandidates> candidates_;
-  Candidate reached_;         ///< by first steps; by a candidate before its last step, and what is left there
+  Candidate reached_;         ///< where first steps led; when refining, the candidate before its last step
   std::int16_t point_ = 0;    ///< of the grid, the next to be looked at
   std::uint8_t tried_ = 0;    ///< points that got their first steps
-  std::uint8_t refined_ = 0;  ///< candidates, or passed over
-  std::uint8_t steps_ = 0;    ///< of what is tried or refined
-  std::uint8_t kept_ = 0;     ///< answers that refinements led to
-  std::uint8_t leftOut_ = 0;  ///< gauge
+  std::uint8_t refined_ = 0;  ///< candidates that were refined or passed over
+  std::uint8_t steps_ = 0;    ///< of the point or candidate at hand
+  std::uint8_t kept_ = 0;     ///< candidates that were refined to the end
+  std::uint8_t leftOut_ = 0;  ///< the next gauge that may be left out
   Stage stage_ = Stage::kIdle;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// From a fit's units to those of contacts, and from those to the integers of frames; roots.
+// Conversions from the fit's units to those of contacts, and from those to the integers of CAN frames; roots.
 
 #include <algorithm>
 #include <bit>
@@ -32,7 +32,7 @@ inline Wide force(Wide perLoad_q16, Number load_q12, int halvings) {
   return (Wide{load_q12} * perLoad_q16 + (Wide{1} << (down - 1))) >> down;
 }
 
-/// Square root, rounded down: Newton's steps from above, five of them at most.
+/// Square root, rounded down, by at most five Newton steps from above.
 constexpr std::uint32_t integerRoot(std::uint32_t value) {
   if (value == 0) return 0;
   std::uint32_t root = 1u << ((33 - std::countl_zero(value)) / 2);
@@ -43,7 +43,7 @@ constexpr std::uint32_t integerRoot(std::uint32_t value) {
   }
 }
 
-/// A number above 0: mantissa * 2^exponent, the mantissa's highest bit set; or 0.
+/// A positive number, mantissa * 2^exponent with the mantissa's highest bit set; or 0.
 struct Floating {
   std::uint32_t mantissa = 0;
   int exponent = 0;
@@ -55,7 +55,7 @@ constexpr Floating floatingOf(std::uint64_t value) {
   return {static_cast<std::uint32_t>(value << up >> 32), 32 - up};
 }
 
-/// A square root, rounded down: mantissa * 2^exponent, the mantissa's highest bit set; or 0.
+/// A square root, rounded down: mantissa * 2^exponent with the mantissa's highest bit set; or 0.
 struct Root {
   std::uint16_t mantissa = 0;
   std::int16_t exponent = 0;
@@ -69,7 +69,7 @@ constexpr Root rootOf(const Floating& number) {
 }
 
 /// mantissa * 2^exponent as an integer, rounded down, at most `most`, which is below 2^45. The mantissa is 0
-/// or 2^15 or more.
+/// or at least 2^15.
 constexpr std::int64_t integerOf(std::uint32_t mantissa, int exponent, std::int64_t most) {
   if (mantissa == 0) return 0;
   if (exponent <= 0) return std::min<std::int64_t>(exponent <= -32 ? 0 : mantissa >> -exponent, most);

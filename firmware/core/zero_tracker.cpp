@@ -8,23 +8,23 @@
 namespace strainfinger::firmware {
 namespace {
 
-constexpr int kTakenBits = 8;  ///< of an interval, sample sets that are averaged [log2]
+constexpr int kTakenBits = 8;  ///< [log2] sample sets averaged in an interval
 static_assert(ZeroTracker::kInterval == ZeroTracker::kEvery << kTakenBits);
 
-/// What one contact leaves of a contact's averages: less than this part [log2] of their energy.
+/// [log2] Averages are taken for a contact's if one contact leaves less than this part of their energy.
 constexpr int kContactBits = 4;
 /// Averages whose energy is below so many of a reading's variances are left alone: their shape says too
 /// little.
 constexpr int kWorthFollowing = 2;
-/// Contacts rest that turn by less than this part of a pitch, and whose loads change by less than this part
-/// of the normal load [log2].
+/// [log2] Contacts rest while they turn by no more than this part of a pitch and their loads change by no
+/// more than this part of the normal load.
 constexpr int kTurnBits = 2;
 constexpr int kLoadBits = 2;
 
-/// Fewer far gauges don't say what all have in common.
+/// Fewer far gauges than this don't say what all have in common.
 constexpr int kLeastFar = 3;
 
-/// The code * 2^15 by which a strain is more than another.
+/// A difference of strains as one of codes * 2^15.
 std::int32_t codeOf(std::int32_t strain_q32, std::int32_t gain) {
   return gain > 0 ? static_cast<std::int32_t>((std::int64_t{strain_q32} << 32) / gain) : 0;
 }
@@ -100,8 +100,8 @@ GaugeSet ZeroTracker::farGauges(const TableImage& tables) const {
   return far;
 }
 
-/// By how much far gauges changed, in the mean, since the contacts came to rest, but for what the contacts do
-/// even there.
+/// By how much far gauges changed, in the mean, since the contacts came to rest, without what the contacts
+/// themselves make them read.
 std::int32_t ZeroTracker::commonChange_q32(GaugeSet far) {
   const GaugeSet both = far & known_;
   Wide sum = 0;
@@ -116,7 +116,8 @@ std::int32_t ZeroTracker::commonChange_q32(GaugeSet far) {
   return std::popcount(both) < kLeastFar ? 0 : saturate<std::int32_t>(sum / std::popcount(both));
 }
 
-/// All by the same part of their changes: what is left still is no contact.
+/// All zeros follow by the same part of their changes, so that what is left keeps its shape: that of no
+/// contact.
 void ZeroTracker::follow(const TableConstants& constants, const Strains& changes_q32, GaugeSet gauges,
                          Calibration& calibration) {
   const Number limit = limited(Wide{readingNoise_q32(constants)} * 2, std::numeric_limits<Number>::max());
@@ -135,7 +136,7 @@ void ZeroTracker::follow(const TableConstants& constants, const Strains& changes
   lastChange_q32_ = std::min(most, limit);
 }
 
-/// False: there is no time for the rest in this sample set.
+/// Returns false if the rest has to wait for a later sample set.
 bool ZeroTracker::finish(const TableImage& tables, bool touched, Calibration& calibration,
                          Linearisation& scratch) {
   const GaugeSet gauges = allGauges(tables.constants.gauge_count) & ~leftOut_;
@@ -164,8 +165,7 @@ void ZeroTracker::interrupt(bool touched) {
   rest_ = {};
 }
 
-/// What contacts explain is what they are predicted to do in the same set: their loads may change while they
-/// rest.
+/// While touched, each set's residual: the loads may change within an interval.
 void ZeroTracker::add(std::span<const std::int32_t> strains_q32, const Locator* locator) {
   constexpr std::int32_t kHalf = 1 << (kTakenBits - 1);
   if (locator == nullptr) {

@@ -12,28 +12,28 @@
 
 namespace strainfinger::firmware {
 
-/// Zeros follow what no contact can explain, by two standard deviations of a reading an interval at most.
-///   - Untouched: the averages of all gauges, once they are worth it, unless one contact explains nearly all
-///     of them: a touch that grows over minutes looks like that, drift does not. The fit starts where a
-///     coarse grid is best and, if it finds no contact, once more elsewhere: at some places the first leads
-///     to another answer.
-///   - Touched: while the contacts rest, by how much what they leave of the gauges that they don't reach
-///     changes in common, as warmth does it. What each gauge drifts by on its own is not told from the touch.
-/// How old the zeros are is told (stale()).
+/// Zeros follow what no contact can explain, by at most two standard deviations of a reading an interval.
+///   - Untouched: the averages of all gauges, if they are large enough, unless one contact explains nearly
+///     all of them: a touch that grows over minutes looks like a contact, drift does not. The fit begins at
+///     the best point of a coarse grid and, if it finds no contact, once more elsewhere, because at some
+///     places the first guess leads to another answer.
+///   - Touched: while the contacts rest, what the residuals of the gauges out of their reach change by in
+///     common, as by warmth. A gauge's own drift is not told from the touch.
+/// How old the zeros are is told by stale().
 class ZeroTracker {
  public:
   static constexpr int kInterval = 1024;  ///< sample sets: a second at 1 kHz
-  static constexpr int kEvery = 4;        ///< which of them are averaged: each so many
-  /// Sample sets after which zeros have followed, if there was time: two starts, each with its fit.
+  static constexpr int kEvery = 4;        ///< one in this many is averaged
+  /// Sample sets after which zeros have followed, if there was time: two initial guesses, each with its fit.
   static constexpr int kUntilFollowed = kInterval + 3 * kEvery;
   static constexpr std::uint32_t kStaleSets = 600'000;  ///< ten minutes
 
-  /// One sample set. `locator`: whose answer explains it; nothing where nothing touches the finger. Gauges in
-  /// `leftOut` teach nothing, and learn nothing of their own. `scratch` is overwritten at the end of an
-  /// untouched interval and in the sets up to kUntilFollowed. True: the zeros may have changed. Cost: two
-  /// instructions a gauge in one of kEvery sets, six while touched; after an untouched interval a coarse grid
-  /// or a fit of at most kMostSteps steps in one of kEvery sets, as soon as `isTimeLeft`: not in a set that
-  /// the locator looks into, or back from at a touch.
+  /// One sample set. `locator`: its answer explains the set; null if nothing touches the finger. Averages of
+  /// gauges in `leftOut` don't count; these gauges follow only what others change by in common. `scratch` is
+  /// overwritten at the end of an untouched interval and in the sets up to kUntilFollowed. Returns true if
+  /// zeros may have changed. Cost: two instructions a gauge in one of kEvery sets, ten while touched; after
+  /// an untouched interval a coarse grid or a fit of at most kMostSteps steps in one of kEvery sets, if
+  /// `isTimeLeft`: not in a set in which the locator looks at a disturbance, or back at a touch.
   bool take(const TableImage& tables, std::span<const std::int32_t> strains_q32, const Locator* locator,
             GaugeSet leftOut, Calibration& calibration, Linearisation& scratch, bool isTimeLeft = true) {
     if (age_sets_ != std::numeric_limits<std::uint32_t>::max()) ++age_sets_;
@@ -55,8 +55,8 @@ class ZeroTracker {
   /// Sample sets since all zeros were last seen untouched; saturating.
   std::uint32_t age_sets() const { return age_sets_; }
   bool stale() const { return age_sets_ > kStaleSets; }
-  /// The most that a zero followed in the last interval that taught anything [strain * 2^32]; nothing before
-  /// there was one.
+  /// The largest change of a zero in the last interval in which zeros followed [strain * 2^32]; none before
+  /// the first one.
   std::optional<std::int32_t> lastChange_q32() const { return lastChange_q32_; }
 
  private:
@@ -88,15 +88,15 @@ class ZeroTracker {
   void follow(const TableConstants& constants, const Strains& changes_q32, GaugeSet gauges,
               Calibration& calibration);
 
-  Strains sum_{};       ///< of strains, less what contacts explain of them, * kEvery / kInterval
-  Strains before_{};    ///< the same, of the first interval of a rest
-  GaugeSet known_ = 0;  ///< the gauges that before_ is of
+  Strains sum_{};       ///< of strains, or while touched of residuals, * kEvery / kInterval
+  Strains before_{};    ///< residuals of far gauges in the first interval of a rest
+  GaugeSet known_ = 0;  ///< the gauges of before_
   Rest rest_;
   std::uint32_t age_sets_ = 0;
   std::optional<std::int32_t> lastChange_q32_;
-  ContactState start_;       ///< of the last fit of these averages, or of the next
-  std::uint8_t starts_ = 0;  ///< of fits of these averages
-  bool isFitNext_ = false;   ///< from start_
+  ContactState start_;       ///< initial guess of the last fit of these averages, or of the next
+  std::uint8_t starts_ = 0;  ///< initial guesses for these averages
+  bool isFitNext_ = false;   ///< next is a fit from start_
   std::uint16_t sets_ = 0;
   GaugeSet leftOut_ = 0;  ///< in any set of the interval
   bool touched_ = false;

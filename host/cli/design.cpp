@@ -39,7 +39,8 @@ constexpr const char* kDesignHelp =
     "  identifiable_share     of the places, where the readings determine the touch: the place within\n"
     "                         half a pitch, the load within itself\n"
     "  table_bytes            of the firmware's tables; empty like what follows where none can be made\n"
-    "  certain_share          of a grid of contacts without noise, how many the firmware tells for sure\n"
+    "  certain_share          of the places, at how many the firmware tells the touch without a flag,\n"
+    "                         from readings without noise\n"
     "  detected_n_per_m       from which load on the firmware sees a line contact anywhere\n"
     "  full_scale_n_per_m     the line contact that the gauges' full scale allows\n"
     "  problem                why this is no finger for such a touch; empty: it is one";
@@ -181,8 +182,8 @@ std::vector<Cell> cellsOf(const design::Candidate& finger) {
   cells.emplace_back(found.bounds ? found.bounds->identifiableShare : kNoValue);
   if (found.trial) {
     cells.emplace_back(static_cast<std::int64_t>(found.trial->tableBytes));
-    for (const double value : {found.trial->certainShare.value_or(kNoValue), found.trial->detected_n_per_m,
-                               found.trial->fullScale_n_per_m})
+    for (const double value :
+         {found.trial->certainShare, found.trial->detected_n_per_m, found.trial->fullScale_n_per_m})
       cells.emplace_back(value);
   } else {
     cells.insert(cells.end(), 4, kNoValue);

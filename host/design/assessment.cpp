@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "host/config/over_range.hpp"
 #include "host/config/ring_spacing.hpp"
 #include "host/evidence/bound.hpp"
+#include "host/tables/readings.hpp"
 #include "host/tables/self_check.hpp"
 #include "host/tables/table_builder.hpp"
 
@@ -22,12 +24,18 @@ namespace {
 
 /// Places within one pitch; an even ring has no others.
 constexpr int kPlaces = 32;
+/// A finger that flags a touch at more places than not is none for it.
+constexpr double kLeastCertain = 0.5;
 
 config::FingerConfig asDrawn(config::FingerConfig config) {
   config.calibration = {};
   config.as_built = {};
   config.gauges.angles_deg = {};
   return config;
+}
+
+double placeOf(const config::FingerConfig& config, int place) {
+  return config.gauges.angle_rad(0) + 2 * std::numbers::pi / config.gauges.count * place / kPlaces;
 }
 
 Bound boundOf(std::vector<double> values) {
@@ -44,7 +52,7 @@ Bounds boundsOf(const config::FingerConfig& config, simulation::Touch touch) {
   int identifiable = 0;
   double largest_strain = 0;
   for (int i = 0; i < kPlaces; ++i) {
-    touch.angle_rad = config.gauges.angle_rad(0) + 2 * std::numbers::pi / config.gauges.count * i / kPlaces;
+    touch.angle_rad = placeOf(config, i);
     const evidence::FittedContact contact = model.describe(touch);
     const evidence::Parameters sigma =
         cramerRaoBound(model, contact, isFitted ? evidence::kWidthUnknown : evidence::kWidthKnown,
@@ -77,11 +85,18 @@ std::string violationOf(const config::FingerConfig& config) {
   return {};
 }
 
-Trial trialOf(const tables::SelfCheck& check) {
-  Trial trial{sizeof(TableImage), {}, check.detected_n_per_m, 2 * check.halfScale_n_per_m};
-  if (check.contacts > 0)
-    trial.certainShare = static_cast<double>(check.contacts - check.uncertain) / check.contacts;
-  return trial;
+double certainShare(const config::FingerConfig& config, simulation::Touch touch, const TableImage& image) {
+  const evidence::FitModel model(config);
+  int certain = 0;
+  for (int i = 0; i < kPlaces; ++i) {
+    touch.angle_rad = placeOf(config, i);
+    const evidence::FittedContact contact = model.describe(touch);
+    std::vector<std::int32_t> readings_q32;
+    for (const double strain : model.readings({&contact, 1}))
+      readings_q32.push_back(tables::readingOf(image.constants, strain));
+    certain += tables::locateAlone(image, readings_q32, firmware::FitMode::kRefined).isCertain ? 1 : 0;
+  }
+  return static_cast<double>(certain) / kPlaces;
 }
 
 /// Of a finger that the firmware can work with: why it is none for this touch, or nothing.
@@ -98,6 +113,10 @@ std::string shortcomingOf(const config::FingerConfig& config, const simulation::
   if (bounds.identifiableShare < 1)
     return fmt::format("at {:.0f} % of the places the readings don't determine the touch",
                        100 * (1 - bounds.identifiableShare));
+  if (trial.certainShare < kLeastCertain)
+    return fmt::format(
+        "at {:.0f} % of the places the firmware flags this touch as uncertain, even without noise",
+        100 * (1 - trial.certainShare));
   if (config::isSparse(config))
     return fmt::format(
         "at the surface the gauges are up to {:.4g} times their depth apart, more than {}: the errors told "
@@ -117,7 +136,8 @@ Assessment assess(const config::FingerConfig& finger, const simulation::Touch& t
     if (!found.problem.empty()) return found;
     const TableImage image = tables::buildTableImage(config);
     const tables::SelfCheck check = tables::selfCheck(image);
-    found.trial = trialOf(check);
+    found.trial = Trial{sizeof(TableImage), certainShare(config, touch, image), check.detected_n_per_m,
+                        2 * check.halfScale_n_per_m};
     tables::requireLocatable(image, check);
     found.problem = shortcomingOf(config, touch, *found.bounds, *found.trial);
   } catch (const Failure& failure) {

@@ -27,10 +27,11 @@ struct Bounds {
   double largest_strain = 0;  ///< that a gauge reads at any of the places
 };
 
-/// The firmware's own locator, tried on the finger (tables::SelfCheck).
+/// The firmware's own locator, tried on the finger.
 struct Trial {
   std::size_t tableBytes = 0;
-  std::optional<double> certainShare;  ///< of contacts without noise, how many are told for sure, 0 to 1
+  /// Of the places, at how many it tells the touch without a flag, from readings without noise; 0 to 1.
+  double certainShare = 0;
   double detected_n_per_m = 0;
   double fullScale_n_per_m = 0;
 };

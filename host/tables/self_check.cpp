@@ -133,17 +133,13 @@ class Trials {
   }
 
   void locate(Misplaced trial) {
-    firmware::Locator locator(trial.mode);
-    firmware::locateOnce(image_, readings_, firmware::allGauges(image_.constants.gauge_count), locator);
+    const Located located = locateAlone(image_, readings_, trial.mode);
     ++check_.contacts;
-    const firmware::Answer& answer = locator.answer();
-    const Contact found =
-        firmware::estimate(image_.constants, answer, firmware::unitErrors(locator.linearisation()), 0);
-    if (found.uncertain || answer.several || answer.suspect != 0) {
+    if (!located.isCertain) {
       ++check_.uncertain;
       return;
     }
-    const std::uint32_t turned_q32 = found.angle.raw() - image_.gauge_angle_q32[middleOf(image_)];
+    const std::uint32_t turned_q32 = located.contact.angle.raw() - image_.gauge_angle_q32[middleOf(image_)];
     const double turned_pitch = toReal(TurnQ32::fromRaw(turned_q32)) * image_.constants.gauge_count;
     trial.error_pitch = std::remainder(turned_pitch - trial.offset_pitch, image_.constants.gauge_count);
     const double worst = check_.misplaced ? std::abs(check_.misplaced->error_pitch) : kWrong_pitch;
@@ -157,6 +153,15 @@ class Trials {
 };
 
 }  // namespace
+
+Located locateAlone(const TableImage& image, std::span<const std::int32_t> readings_q32, FitMode mode) {
+  firmware::Locator locator(mode);
+  firmware::locateOnce(image, readings_q32, firmware::allGauges(image.constants.gauge_count), locator);
+  const firmware::Answer& answer = locator.answer();
+  const Contact found =
+      firmware::estimate(image.constants, answer, firmware::unitErrors(locator.linearisation()), 0);
+  return {found, !found.uncertain && !answer.several && answer.suspect == 0};
+}
 
 SelfCheck selfCheck(const TableImage& image) { return Trials(image).run(); }
 

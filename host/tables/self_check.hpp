@@ -1,13 +1,24 @@
 #pragma once
 // Can the firmware's locator work with these tables? Its own code is asked, before anyone relies on them.
 
+#include <cstdint>
 #include <optional>
+#include <span>
 
+#include "common/contact.hpp"
 #include "common/table_image.hpp"
 #include "firmware/core/locator.hpp"
 #include "host/config/finger_config.hpp"
 
 namespace strainfinger::tables {
+
+/// What the firmware tells from one set of readings alone.
+struct Located {
+  Contact contact;
+  bool isCertain = false;  ///< one contact, without a flag
+};
+Located locateAlone(const TableImage& image, std::span<const std::int32_t> readings_q32,
+                    firmware::FitMode mode);
 
 /// A noise-free contact that the firmware puts in a wrong place.
 struct Misplaced {

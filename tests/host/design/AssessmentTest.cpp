@@ -87,7 +87,7 @@ TEST(Assessment, ALineHasNoWidthToBeOff) {
 TEST(Assessment, WhatTheFirmwareMakesOfTheFingerIsToldBeside) {
   const Trial trial = assess(config, touch).trial.value();
   LONGS_EQUAL(24568, trial.tableBytes);
-  CHECK_TRUE(trial.certainShare.value() > 0.5 && trial.certainShare.value() <= 1);
+  DOUBLES_EQUAL(1, trial.certainShare, 0);
   DOUBLES_EQUAL(65, trial.fullScale_n_per_m, 1);
   CHECK_COMPARE(trial.detected_n_per_m, <, 1);
 }
@@ -119,6 +119,18 @@ TEST(Assessment, ATouchBeyondFullScaleIsAProblem) {
 TEST(Assessment, ATouchThatTheGateMayMissIsAProblem) {
   touch.normal_n_per_m = 0.5;
   STRCMP_CONTAINS("may go unnoticed", assess(config, touch).problem.c_str());
+}
+
+// Below 60 times the noise where it is felt most a touch is flagged.
+TEST(Assessment, ATouchThatTheFirmwareFlagsIsAProblem) {
+  config.gauges.noise_strain = 2e-4;
+  touch.width_m = 3e-3;
+  touch.normal_n_per_m = 25;
+  const Assessment weak = assess(config, touch);
+  DOUBLES_EQUAL(0, weak.trial.value().certainShare, 0);
+  STRCMP_CONTAINS("the firmware flags this touch as uncertain", weak.problem.c_str());
+  touch.normal_n_per_m = 50;
+  STRCMP_EQUAL("", assess(config, touch).problem.c_str());
 }
 
 // Sparse, shallow gauges hardly tell a wide touch's place from its width.

@@ -135,7 +135,8 @@ bool Pipeline::isTouchedDuring(const ZeroAverage& zero) const {
   return ContactGate().update(constants(), energy, noise_.variance_q4());
 }
 
-/// Returns whether the locator did any work. In a disturbance it leaves a few sets to the zeros that follow.
+/// Returns whether the locator did any work. It leaves a few sets to the zeros, which follow what a touch has
+/// left, but not what came by itself: that may be a light touch, too wide to be located.
 bool Pipeline::observe(Codes codes) {
   condition(calibration_, codes, readings_);
   const bool wasTouched = observation_.touched, wasOverGate = gate_.touched();
@@ -150,16 +151,17 @@ bool Pipeline::observe(Codes codes) {
     if (gauges != allGauges(constants().gauge_count)) energy = gateEnergy(constants(), strains(), gauges);
   }
   if (mayBeTouched && gate_.update(constants(), energy, noise_.variance_q4())) {
-    if (wasOverGate && !wasTouched && tracker_.isDue() && !isStrong(gauges)) return false;
+    if (wasFelt_ && !wasTouched && tracker_.isDue() && !isStrong(gauges)) return false;
     locate(gauges);
     if (!observation_.touched) return true;
+    wasFelt_ |= !locator_.answer().weak;
     watchGauges();
     std::copy(codes.begin(), codes.end(), codes_.begin());
     return true;
   }
   gate_ = {};
   watch_.implausiblyAtRail(observation_.saturated & working);
-  isTouch_ = false;
+  isTouch_ = wasFelt_ = false;
   contrarySets_ = 0;
   if (wasOverGate) {
     wasTouched ? locator_.endTouch() : locator_.release();

@@ -64,6 +64,7 @@ class Pipeline {
   Observation observation_;
   ContactGate gate_;
   bool isTouch_ = false;           ///< the readings are those of contacts, not of a disturbance
+  bool wasFelt_ = false;           ///< by more than noise, since the readings were last within it
   std::uint8_t contrarySets_ = 0;  ///< sets in a row that contradict isTouch_
   NoiseMeter noise_;
   Locator locator_;

@@ -11,11 +11,13 @@ namespace {
 constexpr int kTakenBits = 8;  ///< [log2] sample sets averaged in an interval
 static_assert(ZeroTracker::kInterval == ZeroTracker::kEvery << kTakenBits);
 
-/// [log2] Averages are taken for a contact's if one contact leaves less than this part of their energy.
-constexpr int kContactBits = 4;
+/// Averages are taken for a contact's if one contact leaves less than this part of their energy: of faint
+/// ones, that may be a touch that grows, and of strong ones, that may be a wider contact than the tables know
+/// (of uniform ones 12 to 24 mm wide one contact leaves 0.14 to 0.42, of uneven drift 0.46 and more).
+constexpr int kFaintLeft_16 = 1, kStrongLeft_16 = 7;
 /// Averages whose energy is below so many of a reading's variances are left alone: their shape says too
-/// little.
-constexpr int kWorthFollowing = 2;
+/// little. From where the gate opens, about, they are strong.
+constexpr int kWorthFollowing = 2, kStrong = 32;
 /// [log2] Contacts rest while they turn by no more than this part of a pitch and their loads change by no
 /// more than this part of the normal load.
 constexpr int kTurnBits = 2;
@@ -60,14 +62,14 @@ ScaledReadings ZeroTracker::averages(const TableConstants& constants, GaugeSet g
   return readings;
 }
 
-/// The averages have so much energy that their shape says where it comes from.
-bool ZeroTracker::isWorthFollowing(const TableConstants& constants, GaugeSet gauges) const {
+/// The averages have more energy than so many of a reading's variances.
+bool ZeroTracker::isBeyond(const TableConstants& constants, GaugeSet gauges, int variances) const {
   constexpr int kDown = 4;  // keeps the sum below 2^63
   const Number noise = readingNoise_q32(constants) >> kDown;
   Wide energy = 0;
   for (int i = 0; i < constants.gauge_count; ++i)
     if (contains(gauges, i)) energy += squareOf(sum_[index(i)] >> kDown);
-  return energy > kWorthFollowing * squareOf(noise);
+  return energy > variances * squareOf(noise);
 }
 
 void ZeroTracker::findStart(const TableImage& tables, GaugeSet gauges, Linearisation& scratch) {
@@ -85,7 +87,9 @@ bool ZeroTracker::looksLikeAContact(const TableImage& tables, GaugeSet gauges, L
     if (contains(gauges, i)) energy += squareOf(readings.value[index(i)]);
   const Solution solution =
       fit(tables, oneContact(tables.constants, gauges), {start_}, readings, kMostSteps, scratch);
-  return isAdmissible(tables.constants, solution) && solution.residualEnergy < energy >> kContactBits;
+  const bool isStrong = isBeyond(tables.constants, gauges, kStrong);
+  return (isStrong || isAdmissible(tables.constants, solution)) &&
+         solution.residualEnergy < (energy >> 4) * (isStrong ? kStrongLeft_16 : kFaintLeft_16);
 }
 
 /// Gauges that no contact reaches.
@@ -146,7 +150,7 @@ bool ZeroTracker::finish(const TableImage& tables, bool touched, Calibration& ca
     follow(tables.constants, changes, allGauges(tables.constants.gauge_count), calibration);
     return true;
   }
-  if (isWorthFollowing(tables.constants, gauges)) {
+  if (isBeyond(tables.constants, gauges, kWorthFollowing)) {
     isFitNext_ = !isFitNext_;
     if (isFitNext_) {
       findStart(tables, gauges, scratch);

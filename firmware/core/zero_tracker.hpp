@@ -14,9 +14,9 @@ namespace strainfinger::firmware {
 
 /// Zeros follow what no contact can explain, by at most two standard deviations of a reading an interval.
 ///   - Untouched: the averages of all gauges, if they are large enough, unless one contact explains nearly
-///     all of them: a touch that grows over minutes looks like a contact, drift does not. The fit begins at
-///     the best point of a coarse grid and, if it finds no contact, once more elsewhere, because at some
-///     places the first guess leads to another answer.
+///     all of them, or of strong ones more than half: a touch looks like a contact, drift does not. The fit
+///     begins at the best point of a coarse grid and, if it finds no contact, once more elsewhere, because at
+///     some places the first guess leads to another answer.
 ///   - Touched: while the contacts rest, what the residuals of the gauges out of their reach change by in
 ///     common, as by warmth. A gauge's own drift is not told from the touch.
 /// How old the zeros are is told by stale().
@@ -81,7 +81,7 @@ class ZeroTracker {
   bool finish(const TableImage& tables, bool touched, Calibration& calibration, Linearisation& scratch);
   GaugeSet farGauges(const TableImage& tables) const;
   std::int32_t commonChange_q32(GaugeSet far);
-  bool isWorthFollowing(const TableConstants& constants, GaugeSet gauges) const;
+  bool isBeyond(const TableConstants& constants, GaugeSet gauges, int variances) const;
   ScaledReadings averages(const TableConstants& constants, GaugeSet gauges) const;
   void findStart(const TableImage& tables, GaugeSet gauges, Linearisation& scratch);
   bool looksLikeAContact(const TableImage& tables, GaugeSet gauges, Linearisation& scratch) const;

@@ -105,7 +105,7 @@ class LiveSession {
       : config_(config),
         options_(options),
         port_(can::openBus(options.bus, config.can.bitrate)),
-        files_(options.outputPath, config.gauges.count),
+        files_(options.outputPath, config),
         session_(config, files_.rows()),
         fit_(config, options.errors),
         receiver_(options.node, config.gauges.count, config.gauges.full_scale_strain) {}

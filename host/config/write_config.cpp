@@ -5,10 +5,10 @@
 #include <optional>
 #include <variant>
 
-#include "host/config/keys.hpp"
-
 namespace strainfinger::config {
 namespace {
+
+constexpr const char* kLeftOut = "left out";
 
 std::string valueText(double value) { return fmt::format("{}", value); }
 std::string valueText(int value) { return fmt::format("{}", value); }
@@ -16,14 +16,13 @@ std::string valueText(const std::vector<double>& values) {
   return fmt::format("[{}]", fmt::join(values, ", "));
 }
 std::string valueText(StrainComponent value) { return fmt::format("\"{}\"", componentName(value)); }
+std::string valueText(const std::optional<double>& value) { return value ? valueText(*value) : kLeftOut; }
 
 /// "key = value", or a comment for a value that is left out.
-template <typename Value>
-std::string lineOf(const Key& key, const Value& value) {
-  return fmt::format("{} = {}", key.name, valueText(value));
-}
-std::string lineOf(const Key& key, const std::optional<double>& value) {
-  return value ? lineOf(key, *value) : fmt::format("# {} is left out", key.name);
+std::string lineOf(const Key& key, const FingerConfig& config) {
+  const std::string value = valueText(key, config);
+  return value == kLeftOut ? fmt::format("# {} is {}", key.name, value)
+                           : fmt::format("{} = {}", key.name, value);
 }
 
 std::string domainText(const Key& key) {
@@ -36,14 +35,17 @@ std::string domainText(const Key& key) {
 
 }  // namespace
 
+std::string valueText(const Key& key, const FingerConfig& config) {
+  FingerConfig copy = config;  // a slot gives what may be written
+  return std::visit([&](auto slot) { return valueText(slot(copy)); }, key.slot);
+}
+
 std::string writeConfig(const FingerConfig& config) {
-  FingerConfig copy = config;
   std::string text = fmt::format("schema = {}\n", kSchema);
   std::string_view section;
   for (const Key& key : keys()) {
     if (key.section != section) text += fmt::format("\n[{}]\n", section = key.section);
-    const auto line = std::visit([&](auto slot) { return lineOf(key, slot(copy)); }, key.slot);
-    text += fmt::format("# {} [{}]\n{}\n", key.doc, domainText(key), line);
+    text += fmt::format("# {} [{}]\n{}\n", key.doc, domainText(key), lineOf(key, config));
   }
   return text;
 }

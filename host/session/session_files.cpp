@@ -5,11 +5,14 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <optional>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "host/base/atomic_file.hpp"
@@ -18,11 +21,32 @@
 #include "host/base/read_file.hpp"
 #include "host/base/strain_rows.hpp"
 #include "host/calibration/complaints.hpp"
+#include "host/config/keys.hpp"
+#include "host/config/read_config.hpp"
+#include "host/config/write_config.hpp"
 
 namespace strainfinger::session {
 namespace {
 
 constexpr const char* kNothingIsKnown = ",,\n";
+
+/// How well a finger reads, not what: who is told to mend these goes on with the rows.
+constexpr std::array<std::string_view, 2> kNotOfRows{"gauges.noise_strain", "gauges.model_error"};
+
+/// The full scale is in each strain, the finger's length in each load in newtons, the rest in where rows are
+/// kept and what is asked for.
+bool isOfRows(const config::Key& key) {
+  return (key.section == "finger" || key.section == "gauges") &&
+         std::ranges::find(kNotOfRows, key.dotted()) == kNotOfRows.end();
+}
+
+config::FingerConfig keptConfig(const std::string& path) {
+  try {
+    return config::readConfigFile(path);
+  } catch (const Failure& failure) {
+    throw Failure(ExitCode::kFailure, failure.what());
+  }
+}
 
 std::string strainsHeader(int gauges) {
   return fmt::format("time_s,{}", fmt::join(strainColumns(gauges), ","));
@@ -79,14 +103,17 @@ std::string touchLine(const calibration::KnownTouch& known) {
 
 }  // namespace
 
-SessionFiles::SessionFiles(const std::string& outputPath, int gauges)
-    : strains_{besides(outputPath, ".strains.csv")}, touches_{besides(outputPath, ".touches.csv")} {
+SessionFiles::SessionFiles(const std::string& outputPath, const config::FingerConfig& config)
+    : config_(config),
+      configPath_(besides(outputPath, ".session.toml")),
+      strains_{besides(outputPath, ".strains.csv")},
+      touches_{besides(outputPath, ".touches.csv")} {
   for (File* file : {&strains_, &touches_}) file->isNew = ::access(file->path.c_str(), F_OK) != 0;
   requireNoStranger(outputPath, strains_.path);
   strains_.descriptor = openToAppend(strains_.path);
   try {
     touches_.descriptor = openToAppend(touches_.path);
-    readRows(gauges);
+    readRows();
   } catch (...) {
     ::close(strains_.descriptor);
     if (touches_.descriptor >= 0) ::close(touches_.descriptor);
@@ -102,7 +129,23 @@ SessionFiles::~SessionFiles() {
   ::close(touches_.descriptor);
 }
 
-void SessionFiles::readRows(int gauges) {
+/// Strains of another full scale would be wrong by its ratio, and nothing else would tell.
+void SessionFiles::requireSameFinger() const {
+  if (rows_.size() == 0 || ::access(configPath_.c_str(), F_OK) != 0) return;
+  const config::FingerConfig kept = keptConfig(configPath_);
+  for (const config::Key& key : config::keys()) {
+    const std::string then = valueText(key, kept), now = valueText(key, config_);
+    if (!isOfRows(key) || then == now) continue;
+    throw Failure(
+        ExitCode::kFailure,
+        fmt::format("{}: its rows were collected with {} = {}, and the config now has {}: go on with "
+                    "-c {}, or give another -o",
+                    strains_.path, key.dotted(), then, now, configPath_));
+  }
+}
+
+void SessionFiles::readRows() {
+  const int gauges = config_.gauges.count;
   const std::string strains = wholeLines(strains_.path), touches = wholeLines(touches_.path);
   requireHeader(strains, strainsHeader(gauges), strains_.path);
   requireHeader(touches, kTouchHeader, touches_.path);
@@ -122,6 +165,7 @@ void SessionFiles::readRows(int gauges) {
     throw Failure(ExitCode::kFailure, fmt::format("{}: more rows than in {}, to whose rows they belong: take "
                                                   "the last ones away, or give another -o",
                                                   touches_.path, strains_.path));
+  requireSameFinger();
   if (::ftruncate(strains_.descriptor, static_cast<off_t>(strains.size())) != 0)
     cannot(strains_.path, "write");
   if (::ftruncate(touches_.descriptor, static_cast<off_t>(touches.size())) != 0)
@@ -144,9 +188,10 @@ std::string SessionFiles::named(std::string message) const {
   return calibration::ofFile(std::move(message), touches_.path);
 }
 
-/// The strains first: a row without its touch is one of which nothing is known.
+/// The config before the first row, so that no row is without it; then the strains: a row without its touch
+/// is one of which nothing is known.
 void SessionFiles::add(double time_s, const Eigen::VectorXd& strains, const calibration::KnownTouch& known) {
-  hasRows_ = true;
+  if (!std::exchange(hasRows_, true)) writeFileAtomically(configPath_, config::writeConfig(config_));
   append(strains_, fmt::format("{:.6f},{}\n", time_s, fmt::join(strains.begin(), strains.end(), ",")));
   append(touches_, touchLine(known));
 }

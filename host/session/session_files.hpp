@@ -1,22 +1,26 @@
 #pragma once
 // The files of a session: rows of strains and of what is known of them, as `calibrate --strains --touches`
-// reads them. A row that was added is there whatever ends the program.
+// reads them, and the config that they were collected with. A row that was added is there whatever ends the
+// program.
 
 #include <string>
 #include <vector>
 
+#include "host/config/finger_config.hpp"
 #include "host/session/rows.hpp"
 
 namespace strainfinger::session {
 
 class SessionFiles {
  public:
-  /// Beside the config that the session is to write: of "cal.toml", cal.strains.csv and cal.touches.csv; of
-  /// rings with so many gauges. Makes them, or goes on with what they hold; a row that a killed program left
-  /// half written is taken away. New files without a row don't stay. Throws Failure(kFailure), and changes
-  /// nothing, when the config is there already but not these, when they hold something else, or when another
-  /// session writes them now.
-  SessionFiles(const std::string& outputPath, int gauges);
+  /// Beside the config that the session is to write: of "cal.toml", cal.strains.csv, cal.touches.csv and,
+  /// from the first row on, cal.session.toml. Makes them, or goes on with what they hold; a row that a killed
+  /// program left half written is taken away. New files without a row don't stay. Throws Failure(kFailure),
+  /// and changes nothing, when the config is there already but not these, when they hold something else, when
+  /// their rows were collected with another [finger] or other [gauges] (noise and model error apart, which
+  /// rows don't depend on), or when another session writes them now. Rows without a cal.session.toml, of
+  /// older programs, are taken for this config's.
+  SessionFiles(const std::string& outputPath, const config::FingerConfig& config);
   ~SessionFiles();
   SessionFiles(const SessionFiles&) = delete;
   SessionFiles& operator=(const SessionFiles&) = delete;
@@ -41,9 +45,12 @@ class SessionFiles {
     bool isNew = true;
     int descriptor = -1;
   };
-  void readRows(int gauges);
+  void readRows();
+  void requireSameFinger() const;
   static void append(const File& file, const std::string& line);
 
+  config::FingerConfig config_;
+  std::string configPath_;
   File strains_, touches_;
   Rows rows_;
   bool hasRows_ = false;

@@ -331,6 +331,13 @@ class Resumed(unittest.TestCase):
         self.assertIn("precious.toml: there is such a file already", run.stderr)
         self.assertEqual("schema = 1\n", output.read_text())
 
+    def test_rows_of_another_finger_are_refused_by_the_key_that_differs(self):
+        output = self.session_of(40)
+        output.with_suffix(".session.toml").write_text(FINGER + "[gauges]\nfull_scale_strain = 0.04\n")
+        run = subprocess.run(self.command(output).split(), capture_output=True, text=True, stdin=subprocess.DEVNULL)
+        self.assertEqual(1, run.returncode)
+        self.assertIn("were collected with gauges.full_scale_strain = 0.04, and the config now has 0.03: go on with -c ", run.stderr)
+
     def test_a_finger_that_is_not_there_is_told(self):
         run = subprocess.run(self.command(self.session_of(0)).split() + ["-n", "9"], capture_output=True, text=True, stdin=subprocess.DEVNULL)
         self.assertEqual(4, run.returncode)

@@ -78,6 +78,9 @@ struct HoldRules {
   /// Each gauge may move by the larger of these, RMS: a hand is no clamp.
   double noise = 3;     ///< [noise]
   double share = 0.01;  ///< [1] of the largest reading
+  /// [1] Of what was held, RMS: readings that are off it by less are still that touch's. A hand that tires
+  /// and rubber that creeps change them by a tenth, letting go by all of it.
+  double stillHeld = 0.5;
 };
 
 }  // namespace strainfinger::session

@@ -101,6 +101,18 @@ std::optional<Sample> Session::nowHeld(std::string& why) const {
   return why.empty() ? std::optional(Sample{recent_.back().time_s, mean}) : std::nullopt;
 }
 
+std::optional<int> Session::farGauge() const {
+  const Advice::Kind kind = advice().kind;
+  const bool isAskedFor = kind == Advice::Kind::kPress || kind == Advice::Kind::kMark;
+  return isAskedFor || isPressed() ? std::nullopt : farGauge_;
+}
+
+/// What was held last still is.
+bool Session::isPressed() const {
+  if (!pressed_ || recent_.empty()) return false;
+  return (recent_.back().strains - *pressed_).norm() < holds_.stillHeld * pressed_->norm();
+}
+
 /// Entered twice it is meant.
 bool Session::isDoubtful(double said_n_per_m, const VectorXd& strains) const {
   return doubted_n_per_m_ != said_n_per_m && calibration::isOfAnotherUnit(search_, strains, said_n_per_m);
@@ -122,6 +134,7 @@ Obeyed Session::keepHeld(const KnownTouch& known, const std::string& what) {
             "then",
             what, search_.guess(sample->strains)[calibration::kNormalLoad])};
   }
+  pressed_ = sample->strains;
   const NewRow row{sample->time_s, sample->strains, known};
   keep(row);
   knowsOther_ = true;
@@ -140,6 +153,7 @@ Obeyed Session::obeyAngle(double angle_deg) {
 Obeyed Session::obeyHold() {
   std::string why;
   held_ = nowHeld(why);
+  if (held_) pressed_ = held_->strains;
   return {.message = held_ ? "held" : why + ": hold it still"};
 }
 

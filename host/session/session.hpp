@@ -56,8 +56,9 @@ class Session {
   /// Of the newest fit, where it failed.
   const std::string& complaint() const { return complaint_; }
   Advice advice() const;
-  /// A gauge that is far from its zero though the finger is at rest.
-  std::optional<int> farGauge() const { return farGauge_; }
+  /// A gauge that is far from its zero though the finger is at rest; none while a press is asked for, nor
+  /// while one that was entered is still held.
+  std::optional<int> farGauge() const;
   /// Seconds for which the finger has been at rest.
   double atRest_s() const;
 
@@ -67,6 +68,7 @@ class Session {
   std::optional<Sample> nowHeld(std::string& why) const;
   Obeyed obeyLoad(double normal_n_per_m);
   Obeyed obeyAngle(double angle_deg);
+  bool isPressed() const;
   bool isDoubtful(double said_n_per_m, const Eigen::VectorXd& strains) const;
   Obeyed keepHeld(const calibration::KnownTouch& known, const std::string& what);
   Obeyed obeyHold();
@@ -86,13 +88,14 @@ class Session {
   Unavailable unavailable_;
   std::optional<FitOutcome> fit_;
   std::string complaint_;
-  std::size_t tried_ = 0;                  ///< rows of the last fit
-  bool knowsOther_ = false;                ///< than at the last fit, of a touch
-  bool isFitOutdated_ = false;             ///< the one that is being made: it knows what was taken back
-  std::deque<Sample> recent_;              ///< of the last HoldRules::time_s
-  std::optional<Sample> held_;             ///< what the next load or angle is of, if that was said
-  std::optional<double> doubted_n_per_m_;  ///< the load that was refused last
-  std::vector<Sample> resting_;            ///< since the finger came to rest
+  std::size_t tried_ = 0;                   ///< rows of the last fit
+  bool knowsOther_ = false;                 ///< than at the last fit, of a touch
+  bool isFitOutdated_ = false;              ///< the one that is being made: it knows what was taken back
+  std::deque<Sample> recent_;               ///< of the last HoldRules::time_s
+  std::optional<Sample> held_;              ///< what the next load or angle is of, if that was said
+  std::optional<Eigen::VectorXd> pressed_;  ///< the strains of what was held, or entered, last
+  std::optional<double> doubted_n_per_m_;   ///< the load that was refused last
+  std::vector<Sample> resting_;             ///< since the finger came to rest
   Eigen::VectorXd restSum_;
   std::optional<int> farGauge_;
 };

@@ -29,6 +29,9 @@ TEST_GROUP(GuidedSession) {
   void hold(double angle_deg, double normal_n_per_m, int sets = 40) {
     for (int i = 0; i < sets; ++i) take(hand.touch(angle_deg, normal_n_per_m));
   }
+  void holdStill(double angle_deg, double normal_n_per_m, double duration_s) {
+    hold(angle_deg, normal_n_per_m, static_cast<int>(100 * duration_s));
+  }
   void rollAround(double load_n_per_m = 20) {
     for (int i = 0; i < 1000; ++i) take(hand.touch(0.72 * i, load_n_per_m + 0.01 * i));
   }
@@ -72,6 +75,30 @@ TEST(GuidedSession, AFingerThatRestsFarFromItsZeroIsTold) {
   take(hand.nothing() + off);
   LONGS_EQUAL(5, session.farGauge().value_or(-1));
   take(hand.nothing());
+  CHECK_FALSE(session.farGauge().has_value());
+}
+
+TEST(GuidedSession, APressThatIsAskedForIsNoZeroThatIsOff) {
+  leaveAlone(5.1);
+  rollAround(10);
+  rollAround(18);
+  CHECK(session.advice().kind == Kind::kPress);
+  holdStill(45, 24, 6);
+  CHECK_FALSE(session.farGauge().has_value());
+}
+
+TEST(GuidedSession, APressThatWasEnteredIsNoZeroThatIsOffUntilItIsLetGo) {
+  leaveAlone(5.1);
+  CHECK(session.advice().kind == Kind::kRoll);
+  holdStill(45, 24, 6);
+  LONGS_EQUAL(2, session.farGauge().value_or(-1));
+  say("load 24 N/m");
+  CHECK_FALSE(session.farGauge().has_value());
+  holdStill(45, 23, 6);  // a hand that tires
+  CHECK_FALSE(session.farGauge().has_value());
+  holdStill(200, 24, 6);
+  CHECK_TRUE(session.farGauge().has_value());
+  say("hold");
   CHECK_FALSE(session.farGauge().has_value());
 }
 

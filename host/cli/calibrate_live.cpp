@@ -238,10 +238,9 @@ class LiveSession {
     return session::textOf(session_.advice(), config_.gauges);
   }
 
-  std::string kept() const {
-    if (session_.rows().size() == 0) return "no rows were collected";
-    return fmt::format("{} rows are kept in {} and {}: the same command goes on with them",
-                       session_.rows().size(), files_.strainsPath(), files_.touchesPath());
+  /// `fittedRows`: of the fit that is reported, if one is.
+  std::string kept(std::optional<std::size_t> fittedRows = {}) const {
+    return session::keptText(session_.rows().size(), fittedRows, files_.strainsPath(), files_.touchesPath());
   }
 
   /// A last fit of all rows, unless there is one or nobody waits for it.
@@ -258,8 +257,10 @@ class LiveSession {
       takeFit(session::fitRows(config_, session_.beginFit(), options_.errors));
     }
     LiveResult ended{std::nullopt, session_.complaint(), kept(), interrupted};
-    if (session_.fit() && (interrupted || session_.complaint().empty()))
+    if (session_.fit() && (interrupted || session_.complaint().empty())) {
       ended.result = session_.fit()->result;
+      ended.kept = kept(session_.fit()->rows);
+    }
     if (ended.complaint.empty() && !ended.result) ended.complaint = "there is no fit of what is known now";
     return ended;
   }

@@ -157,6 +157,18 @@ std::string errorsText(const TouchesToCome& errors) {
          each("tangential", 2, 1, "N/m", 2);
 }
 
+std::string keptText(std::size_t rows, std::optional<std::size_t> fittedRows, const std::string& strainsPath,
+                     const std::string& touchesPath) {
+  if (rows == 0) return "no rows were collected";
+  const std::size_t newer = rows - std::min(rows, fittedRows.value_or(rows));
+  const std::string notFitted = newer == 0
+                                    ? ""
+                                    : fmt::format("the last {} kept, but not in this fit; ",
+                                                  newer == 1 ? "row is" : fmt::format("{} rows are", newer));
+  return fmt::format("{}{} rows are kept in {} and {}: the same command goes on with them", notFitted, rows,
+                     strainsPath, touchesPath);
+}
+
 std::string nowText(const SessionView& view) {
   if (view.sets == 0) return "waiting for readings";
   if (view.silent_s > kSilentAfter_s) return fmt::format("no readings for {:.0f} s", view.silent_s);

@@ -45,6 +45,11 @@ std::string sessionLine(const SessionView& view);
 /// "place 0.025 mm (drawn 0.640, noise alone 0.010), normal ..": what is to be expected of touches to come.
 std::string errorsText(const TouchesToCome& errors);
 
+/// How much is kept in the session's files, and how to go on; with what of it the newest fit, if there is
+/// one, is not of.
+std::string keptText(std::size_t rows, std::optional<std::size_t> fittedRows, const std::string& strainsPath,
+                     const std::string& touchesPath);
+
 /// What the finger does now: "nothing touches it", "too quick" ..
 std::string nowText(const SessionView& view);
 

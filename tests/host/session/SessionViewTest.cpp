@@ -37,6 +37,16 @@ TEST_GROUP(SessionView) {
   }
 };
 
+TEST(SessionView, SaysWhichRowsAreKeptButNotInTheFit) {
+  STRCMP_EQUAL("no rows were collected", keptText(0, {}, "s", "t").c_str());
+  const std::string all = "487 rows are kept in s and t: the same command goes on with them";
+  STRCMP_EQUAL(all.c_str(), keptText(487, {}, "s", "t").c_str());
+  STRCMP_EQUAL(all.c_str(), keptText(487, 487, "s", "t").c_str());
+  STRCMP_EQUAL(("the last 74 rows are kept, but not in this fit; " + all).c_str(),
+               keptText(487, 413, "s", "t").c_str());
+  STRCMP_CONTAINS("the last row is kept, but not in this fit; ", keptText(487, 486, "s", "t").c_str());
+}
+
 TEST(SessionView, SaysWhatToDoAndWhatIsThere) {
   STRCMP_EQUAL("can0 node 3  62 rows: 10 untouched, 1 of known load, 1 of known angle", lines()[0].c_str());
   STRCMP_EQUAL("Leave it alone for 5 s.", lines()[1].c_str());

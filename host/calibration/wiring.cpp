@@ -343,7 +343,8 @@ std::string textOf(const WiringFault& fault) {
       return fmt::format("gauge {} reads with the wrong sign: exchange the two ends of its bridge",
                          fault.gauge);
     case Kind::kAllSigns:
-      return "all gauges read with the wrong sign: exchange the ends of the bridges' supply";
+      return "all gauges read with the wrong sign: exchange the ends of the bridges' supply; or "
+             "gauges.component is wrong, as radial and hoop strains have opposite signs";
     case Kind::kDead:
       return fmt::format("gauge {} is dead: look for an open wire or joint", fault.gauge);
     case Kind::kGlued:

@@ -158,6 +158,12 @@ TEST(Wiring, WrongSignsOfAllAreOneFault) {
   checkOnly({Kind::kAllSigns});
 }
 
+TEST(Wiring, RadialGaugesThatAreDrawnAsHoopGaugesAreToldForTheirComponentToo) {
+  session.finger.gauges.component = StrainComponent::kHoop;
+  checkOnly({Kind::kAllSigns});
+  STRCMP_CONTAINS("; or gauges.component is wrong", textOf(faults().front()).c_str());
+}
+
 TEST(Wiring, ADeadGaugeIsNamed) {
   session.readings.col(5) *= 0.001;
   checkOnly({Kind::kDead, 5});

@@ -41,6 +41,11 @@ constexpr double kMomentSpread = 10;
 /// Standard deviation of a known untouched finger's loads [N/m] and of a known width's moment [rad^2].
 constexpr double kExactly = 1e-6;
 
+/// [rows] Of which the readings contradict what is known, for each of which they bear it out: where columns
+/// are exchanged, or touches belong to other rows, nine in ten are contradicted and chance bears out the
+/// others; of honest marks and weights with slips among them, the smaller part is.
+constexpr std::size_t kMostContradicted = 2;
+
 enum class Loss { kRobust, kSquares };
 enum class Search { kEverywhere, kNearby };
 
@@ -337,20 +342,21 @@ class Calibration {
     return chiSquared > mostChiSquared ? RowUse::kUnexplained : RowUse::kContradicted;
   }
 
-  /// Of the known directions, and of the known loads, the readings bear out some, or contradict fewer than
-  /// half.
+  /// Of the known directions, and of the known loads, the readings contradict fewer than half, or fewer than
+  /// kMostContradicted for each that they bear out.
   void requireBorneOut() const {
     const auto require = [&](auto isSaid, const char* what, const char* lookAt) {
       Rows contradicted;
-      std::size_t said = 0;
+      std::size_t said = 0, borneOut = 0;
       for (std::size_t row = 0; row < rows_.size(); ++row) {
         if (known_[row].isUntouched() || !isSaid(row)) continue;
-        if (rows_[row].use == RowUse::kFitted) return;
         if (rows_[row].use == RowUse::kContradicted) contradicted.push_back(row + 1);
+        borneOut += rows_[row].use == RowUse::kFitted;
         ++said;
       }
-      if (!contradicted.empty() && 2 * contradicted.size() >= said)
-        refuseContradicted(contradicted, what, lookAt);
+      const bool isRefuted = contradicted.size() >= kMostContradicted * borneOut;
+      if (!contradicted.empty() && 2 * contradicted.size() >= said && isRefuted)
+        refuseContradicted(contradicted, borneOut, what, lookAt);
     };
     require([&](std::size_t row) { return isDirectionKnown(row); }, "angle_deg",
             "the angles themselves, gauges.first_angle_deg, the order of the gauges and --angle-error-deg");

@@ -191,11 +191,16 @@ void requireStill(const std::vector<MovedZero>& moved, double shareOfRowsUnexpla
       textOf(moved), 100 * shareOfRowsUnexplained));
 }
 
-void refuseContradicted(const std::vector<std::size_t>& rows, const char* what, const char* lookAt) {
-  fail(
-      fmt::format("the {} of touches.csv are not what the readings say in rows {}, and none of the others is "
-                  "fitted; look at {}",
-                  what, rowNames(rows), lookAt));
+void refuseContradicted(const std::vector<std::size_t>& rows, std::size_t borneOut, const char* what,
+                        const char* lookAt) {
+  const std::string others =
+      borneOut == 0 ? "none of the others is"
+                    : fmt::format("of the others only {} {}", borneOut, borneOut == 1 ? "is" : "are");
+  fail(fmt::format(
+      "the {} of touches.csv are not what the readings say in {} rows ({}), and {} fitted; look at {}; "
+      "and whether each value is in the column that its header names, and each touch in its row "
+      "of strains",
+      what, rows.size(), rowNames(rows), others, lookAt));
 }
 
 std::vector<int> untoldGauges(const CalibrationResult& result, GaugeUnknown unknown, double most) {

@@ -40,9 +40,10 @@ void requireExplained(double modelError, double shareOfRowsUnexplained);
 /// Most rows are of one zero of each gauge, so that it is known which of them moved.
 void requireStill(const std::vector<MovedZero>& moved, double shareOfRowsUnexplained);
 
-/// Of these rows (counted from 1) the readings contradict `what` touches.csv says; what to look at.
-[[noreturn]] void refuseContradicted(const std::vector<std::size_t>& rows, const char* what,
-                                     const char* lookAt);
+/// Of these rows (counted from 1) the readings contradict `what` touches.csv says, and bear out so many
+/// others; what to look at.
+[[noreturn]] void refuseContradicted(const std::vector<std::size_t>& rows, std::size_t borneOut,
+                                     const char* what, const char* lookAt);
 
 /// Of every gauge the touches tell where it is, better than its tolerance does; names those of which they
 /// don't and the touches that would.

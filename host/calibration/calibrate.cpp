@@ -68,6 +68,7 @@ class Calibration {
       const KnownTouch& touch = known_[row];
       const VectorXd strains = readings.row(static_cast<Index>(row));
       rows_[row].use = useOf(strains, touch);
+      strains.cwiseAbs().maxCoeff(&rows_[row].peakGauge);
       data_.push_back({strains, config.gauges.noise_strain, priorOf(touch, errors)});
     }
     leaveOutWeak();
@@ -76,10 +77,10 @@ class Calibration {
 
   /// Domain: before run(), or within it.
   void requireEnough() const {
-    std::vector<RowUse> uses;
-    for (std::size_t row = 0; row < rows_.size(); ++row)
-      uses.push_back(isMoved_[row] ? RowUse::kUnexplained : rows_[row].use);
-    requireTouches(drawing_.config().gauges, uses);
+    std::vector<RowResult> rows = rows_;
+    for (std::size_t row = 0; row < rows.size(); ++row)
+      if (isMoved_[row]) rows[row].use = RowUse::kUnexplained;
+    requireTouches(drawing_.config().gauges, rows);
   }
 
   CalibrationResult run() {
@@ -445,6 +446,7 @@ class Calibration {
 CalibrationResult calibrate(const config::FingerConfig& config, std::span<const KnownTouch> known,
                             const MatrixXd& readings, const KnownErrors& errors) {
   requireRows(config.gauges, known, readings);
+  requireWorking(findFailedGauges(config.gauges, readings));
   requireUnits(config, known, readings);
   Calibration calibration(config, known, readings, errors);
   calibration.requireEnough();

@@ -49,6 +49,7 @@ struct RowResult {
   TouchState touch = TouchState::Zero();
   double chiSquared = 0;
   Eigen::VectorXd residual_strain;  ///< readings less the model's; empty where nothing was fitted
+  int peakGauge = 0;                ///< that reads most, of either sign
 };
 
 struct Estimate {

@@ -31,6 +31,9 @@ constexpr double kMostUntold = 0.7;
 /// A known angle; beyond it another unit or a slip of the keyboard.
 constexpr double kMostAngle_deg = 360;
 
+/// [rows] Over range at one gauge: fewer are so by chance, of touches that are one after the other.
+constexpr std::size_t kLeastAlike = 3;
+
 /// Rows that a message names, at most.
 constexpr std::size_t kMostNamed = 10;
 
@@ -39,6 +42,15 @@ constexpr const char* kTouchesToAdd =
     "loads, some rubbed to either side";
 
 [[noreturn]] void fail(const std::string& message) { throw Failure(ExitCode::kFailure, message); }
+
+/// Tells all faults, if there are any.
+template <typename Fault>
+void failOf(const std::vector<Fault>& faults) {
+  if (faults.empty()) return;
+  std::string text;
+  for (const Fault& fault : faults) text += (text.empty() ? "" : "; ") + textOf(fault);
+  fail(text);
+}
 
 std::string rowNames(const std::vector<std::size_t>& rows) {
   const auto named = rows.begin() + static_cast<std::ptrdiff_t>(std::min(kMostNamed, rows.size()));
@@ -65,7 +77,7 @@ void requireWithin(const config::Gauges& gauges, const char* key, const std::vec
 }
 
 /// What to do where most rows are of no use for this reason.
-const char* mendOf(RowUse use) {
+std::string mendOf(RowUse use, std::span<const RowResult> rows) {
   switch (use) {
     case RowUse::kUntouched:
       return "touch the finger in more of them";
@@ -76,7 +88,7 @@ const char* mendOf(RowUse use) {
     case RowUse::kWide:
       return "press with an edge, in one place at a time";
     case RowUse::kOverRange:
-      return "press less";
+      return mendOfOverRange(rows);
     case RowUse::kContradicted:
       return "look at the angles and loads of touches.csv";
     default:
@@ -85,17 +97,18 @@ const char* mendOf(RowUse use) {
 }
 
 /// "of 300 rows 200 are wide, 9 untouched: press with an edge; "; empty where no row is left out.
-std::string leftOutText(std::span<const RowUse> uses) {
+std::string leftOutText(std::span<const RowResult> rows) {
   std::vector<std::pair<std::ptrdiff_t, RowUse>> counts;
   for (const RowUse use : {RowUse::kUntouched, RowUse::kWeak, RowUse::kAmbiguous, RowUse::kWide,
                            RowUse::kOverRange, RowUse::kContradicted, RowUse::kUnexplained})
-    if (const auto count = std::ranges::count(uses, use); count > 0) counts.emplace_back(count, use);
+    if (const auto count = std::ranges::count(rows, use, &RowResult::use); count > 0)
+      counts.emplace_back(count, use);
   if (counts.empty()) return {};
   std::ranges::stable_sort(counts, std::ranges::greater{}, &std::pair<std::ptrdiff_t, RowUse>::first);
   std::string text;
   for (const auto& [count, use] : counts)
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, nameOf(use));
-  return fmt::format("of {} rows are {}: {}; ", uses.size(), text, mendOf(counts.front().second));
+  return fmt::format("of {} rows are {}: {}; ", rows.size(), text, mendOf(counts.front().second, rows));
 }
 
 bool isFinite(const std::optional<double>& value) { return std::isfinite(value.value_or(0)); }
@@ -142,14 +155,29 @@ void requireRows(const config::Gauges& gauges, std::span<const KnownTouch> known
     if (!readings.row(row).allFinite()) fail(fmt::format("row {}: a strain is no finite number", row + 1));
 }
 
-void requireTouches(const config::Gauges& gauges, std::span<const RowUse> uses) {
+void requireWorking(const std::vector<FailedGauge>& failed) { failOf(failed); }
+
+std::string mendOfOverRange(std::span<const RowResult> rows) {
+  std::vector<int> gauges;
+  for (const RowResult& row : rows)
+    if (row.use == RowUse::kOverRange) gauges.push_back(row.peakGauge);
+  const bool isOne = gauges.size() >= kLeastAlike &&
+                     std::ranges::all_of(gauges, [&](int gauge) { return gauge == gauges.front(); });
+  if (!isOne) return "press less";
+  return fmt::format(
+      "it is always gauge {}: look at its zero, its wires and its amplifier; where it was pressed "
+      "so hard, press less",
+      gauges.front());
+}
+
+void requireTouches(const config::Gauges& gauges, std::span<const RowResult> rows) {
   const std::ptrdiff_t least = kLeastTouchesPerGauge * gauges.count;
-  const auto touches = std::ranges::count(uses, RowUse::kFitted);
+  const auto touches = std::ranges::count(rows, RowUse::kFitted, &RowResult::use);
   if (touches >= least) return;
   fail(
       fmt::format("{} rows with a touch are too few: at least {}, all around the ring, tell anything, 300 "
                   "tell it well; {}roll the finger along an edge while `strains` records",
-                  touches, least, leftOutText(uses)));
+                  touches, least, leftOutText(rows)));
 }
 
 void requireAllAround(const config::Gauges& gauges, const std::vector<int>& untouched) {
@@ -161,12 +189,7 @@ void requireAllAround(const config::Gauges& gauges, const std::vector<int>& unto
       placesOf(gauges, untouched), kTouchesToAdd));
 }
 
-void requireWiring(const std::vector<WiringFault>& faults) {
-  if (faults.empty()) return;
-  std::string text;
-  for (const WiringFault& fault : faults) text += (text.empty() ? "" : "; ") + textOf(fault);
-  fail(text);
-}
+void requireWiring(const std::vector<WiringFault>& faults) { failOf(faults); }
 
 void requireExplained(double modelError, double shareOfRowsUnexplained) {
   const char* const hint =

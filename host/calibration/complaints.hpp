@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/calibration/calibrate.hpp"
+#include "host/calibration/failed_gauges.hpp"
 #include "host/calibration/moved_zero.hpp"
 #include "host/calibration/wiring.hpp"
 
@@ -24,8 +25,14 @@ void requireTouch(const KnownTouch& touch, const std::string& place);
 void requireRows(const config::Gauges& gauges, std::span<const KnownTouch> known,
                  const Eigen::MatrixXd& readings);
 
+/// All gauges read the finger; names those that don't.
+void requireWorking(const std::vector<FailedGauge>& failed);
+
 /// Enough rows are fitted; else says what the others are, and the mend of what most of them are.
-void requireTouches(const config::Gauges& gauges, std::span<const RowUse> uses);
+void requireTouches(const config::Gauges& gauges, std::span<const RowResult> rows);
+
+/// What to do about the rows that are over range; where it is always the same gauge, that one is named.
+std::string mendOfOverRange(std::span<const RowResult> rows);
 
 /// There are touches near every gauge; names the `untouched` ones and the touches that are missing.
 void requireAllAround(const config::Gauges& gauges, const std::vector<int>& untouched);

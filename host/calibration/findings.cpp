@@ -35,7 +35,7 @@ bool isDriftedZero(const CalibrationResult& result, const RowResult& row) {
          row.residual_strain.cwiseAbs().maxCoeff() < most_strain;
 }
 
-std::string reasonOf(RowUse use) {
+std::string reasonOf(RowUse use, const std::vector<RowResult>& rows) {
   switch (use) {
     case RowUse::kWeak:
       return "so weak that they tell less than a sixtieth of what strong ones tell, or little beside the "
@@ -45,7 +45,7 @@ std::string reasonOf(RowUse use) {
     case RowUse::kWide:
       return "as wide as a slip or two contacts look: press with an edge";
     case RowUse::kOverRange:
-      return "over range: press less";
+      return "over range: " + mendOfOverRange(rows);
     case RowUse::kContradicted:
       return "not as touches.csv has them: look at their angles and loads";
     case RowUse::kUnexplained:
@@ -206,7 +206,7 @@ std::vector<LeftOut> rowsLeftOut(const CalibrationResult& result) {
   std::vector<LeftOut> all;
   for (const RowUse use : {RowUse::kWeak, RowUse::kAmbiguous, RowUse::kWide, RowUse::kOverRange,
                            RowUse::kContradicted, RowUse::kUnexplained}) {
-    LeftOut left{use, reasonOf(use), {}};
+    LeftOut left{use, reasonOf(use, result.rows()), {}};
     bool isDrifted = use == RowUse::kContradicted;
     for (std::size_t row = 0; row < result.rows().size(); ++row)
       if (result.rows()[row].use == use) {

@@ -394,13 +394,15 @@ class Calibration {
     for (const std::size_t row : rows)
       rows_[row].touch = refineTouch(ring, data_[row], rows_[row].touch).touch;
     keepResiduals(rows);
-    keepResiduals(unexplained());
+    keepResiduals(refuted());
   }
 
-  Rows unexplained() const {
+  /// Rows that no touch explains, or none as it is known.
+  Rows refuted() const {
     Rows rows;
     for (std::size_t row = 0; row < rows_.size(); ++row)
-      if (rows_[row].use == RowUse::kUnexplained) rows.push_back(row);
+      if (rows_[row].use == RowUse::kUnexplained || rows_[row].use == RowUse::kContradicted)
+        rows.push_back(row);
     return rows;
   }
 

@@ -11,6 +11,7 @@
 #include "host/base/no_value.hpp"
 #include "host/calibration/complaints.hpp"
 #include "host/calibration/expected_error.hpp"
+#include "host/calibration/noise_found.hpp"
 #include "host/calibration/touch_fit.hpp"
 
 namespace strainfinger::calibration {
@@ -27,13 +28,7 @@ constexpr double kTrace_n_per_m = 1e-3;
 constexpr const char* kZerosDrifted =
     "known to be untouched, with other zeros than the rest of the session has: the zeros drifted; tare, and "
     "touch the finger anew";
-
-/// Of a row that isn't what is known of it: nothing pressed, and what it reads is too little for a touch.
-bool isDriftedZero(const CalibrationResult& result, const RowResult& row) {
-  const double most_strain = kWeakestTouch * result.drawing().config().gauges.noise_strain;
-  return !isTouch(row) && row.residual_strain.size() > 0 &&
-         row.residual_strain.cwiseAbs().maxCoeff() < most_strain;
-}
+constexpr const char* kNoisy = "known to be untouched, and noisier than gauges.noise_strain has it";
 
 std::string reasonOf(RowUse use, const std::vector<RowResult>& rows) {
   switch (use) {
@@ -57,8 +52,9 @@ std::string reasonOf(RowUse use, const std::vector<RowResult>& rows) {
 
 /// Of its tolerance: of 67 unknowns one is further off the drawing in 4 fingers of 1,000 by chance.
 constexpr double kFarOff = 4;
-/// The same of the modulus alone, in 3 of 1,000: known loads that are off by a factor of 2 make it 3.5.
-constexpr double kFarOffModulus = 3;
+/// The same of the modulus alone, in one finger of 20: a full scale or known loads that are off by a factor
+/// of 1.5 make it 2.
+constexpr double kFarOffModulus = 2;
 
 /// An unknown of gauges, in people's units: what to look at where it is far off at a gauge, and where it is
 /// at most of them.
@@ -139,10 +135,17 @@ void addUntold(const CalibrationResult& result, const UntoldWords& words,
 
 }  // namespace
 
+bool isDriftedZero(const CalibrationResult& result, const RowResult& row) {
+  const double most_strain = kWeakestTouch * result.drawing().config().gauges.noise_strain;
+  return row.use == RowUse::kContradicted && !isTouch(row) && row.residual_strain.size() > 0 &&
+         row.residual_strain.cwiseAbs().maxCoeff() < most_strain;
+}
+
 bool isTouch(const RowResult& row) { return std::abs(row.touch[kNormalLoad]) > kTrace_n_per_m; }
 
 std::vector<std::string> whatIsFarOff(const CalibrationResult& result) {
   std::vector<std::string> sentences;
+  if (const std::string noise = noiseText(result); !noise.empty()) sentences.push_back(noise);
   for (const GaugeWords& words : kGaugeWords) addFarOff(result, words, sentences);
   const auto add = [&](RubberUnknown unknown, const char* name, const Estimate& found, double perUnit,
                        const char* unit, const char* lookAt, double most = kFarOff) {
@@ -154,7 +157,8 @@ std::vector<std::string> whatIsFarOff(const CalibrationResult& result) {
   add(kCoreRadius, "Core radius", result.coreRadius_m(), 1e-3, " mm", "check finger.core_radius_m");
   add(kPoissonRatio, "Poisson's ratio", result.poissonRatio(), 1, "", "check finger.poisson_ratio");
   add(kShearModulus, "Shear modulus", result.shearModulus_pa(), 1e3, " kPa",
-      "check finger.length_m, the known loads and finger.shear_modulus_pa", kFarOffModulus);
+      "check finger.length_m, the known loads, gauges.full_scale_strain and finger.shear_modulus_pa",
+      kFarOffModulus);
   return sentences;
 }
 
@@ -204,6 +208,8 @@ std::vector<Correlation> correlationsWorthKnowing(const CalibrationResult& resul
 
 std::vector<LeftOut> rowsLeftOut(const CalibrationResult& result) {
   std::vector<LeftOut> all;
+  const auto noise = noiseFound(result);
+  const bool isNoisy = noise && noise->isNoisier();
   for (const RowUse use : {RowUse::kWeak, RowUse::kAmbiguous, RowUse::kWide, RowUse::kOverRange,
                            RowUse::kContradicted, RowUse::kUnexplained}) {
     LeftOut left{use, reasonOf(use, result.rows()), {}};
@@ -213,7 +219,7 @@ std::vector<LeftOut> rowsLeftOut(const CalibrationResult& result) {
         left.rows.push_back(row + 1);
         isDrifted &= isDriftedZero(result, result.rows()[row]);
       }
-    if (isDrifted) left.reason = kZerosDrifted;
+    if (isDrifted) left.reason = isNoisy ? kNoisy : kZerosDrifted;
     if (!left.rows.empty()) all.push_back(std::move(left));
   }
   return all;

@@ -19,9 +19,12 @@ std::vector<Correlation> correlationsWorthKnowing(const CalibrationResult& resul
 /// What the touches left untold, and which touches would tell it: sentences.
 std::vector<std::string> whatIsUntold(const CalibrationResult& result);
 
-/// What is more than four tolerances off the drawing, of the modulus more than three, each with what to look
-/// at: sentences. Of angles the ring's own turn is left out.
+/// What is more than four tolerances off the drawing, of the modulus more than two, and noise that is another
+/// than the config's, each with what to look at: sentences. Of angles the ring's own turn is left out.
 std::vector<std::string> whatIsFarOff(const CalibrationResult& result);
+
+/// Of a row that isn't what is known of it: nothing pressed, and what it reads is too little for a touch.
+bool isDriftedZero(const CalibrationResult& result, const RowResult& row);
 
 /// Whether the row's touch is one: the fit leaves a trace of a load where nothing is known to have pressed.
 bool isTouch(const RowResult& row);

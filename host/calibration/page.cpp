@@ -84,6 +84,16 @@ std::string figure(const plot::Picture& picture, const char* name, const char* c
   return fmt::format("<figure id=\"{}\">{}<figcaption>{}</figcaption></figure>\n", name, svg, caption);
 }
 
+std::string sourceParagraph(const CalibrationResult& result, const ResultSource& source) {
+  const auto named = [](const std::string& path, const char* otherwise) {
+    return path.empty() ? std::string(otherwise) : escaped(path);
+  };
+  return fmt::format("<p id=\"source\">Config: {}. Rows: {}. Known touches: {}. Calibrated {}.</p>\n",
+                     named(result.drawing().config().source, "the default finger"),
+                     named(source.strainsPath, "stdin"), named(source.touchesPath, "none"),
+                     escaped(source.time));
+}
+
 std::string worthSection(const CalibrationResult& result) {
   const ExpectedErrors errors = expectedErrors(result);
   const auto line = [](const char* name, const char* when, const Eigen::Vector3d& error) {
@@ -132,8 +142,8 @@ std::string gaugeSection(const CalibrationResult& result, const Residuals& resid
   return heading("The gauges") + (turn.empty() ? "" : "<p id=\"turn\">" + escaped(turn) + "</p>\n") +
          figure(ringPicture(result), "ring", "Each gauge as found, beside what the drawing allows.") +
          table("gauges",
-               {"gauge", "gain", "zero, microstrain", "angle off, deg", "too deep, um", "left over before",
-                "after, microstrain"},
+               {"gauge", "gain", "zero, microstrain", "angle off, deg", "too deep, um",
+                "left over before, microstrain", "after, microstrain"},
                rows);
 }
 
@@ -189,11 +199,12 @@ std::string untoldSection(const CalibrationResult& result) {
 
 }  // namespace
 
-std::string htmlPage(const CalibrationResult& result) {
+std::string htmlPage(const CalibrationResult& result, const ResultSource& source) {
   const Residuals residuals = residualsOf(result);
-  return kHead + std::string("<h1>A finger as it was built</h1>\n") + worthSection(result) +
-         farOffSection(result) + untoldSection(result) + gaugeSection(result, residuals) +
-         rubberSection(result) + togetherSection(result) + heading("The touches") +
+  return kHead + std::string("<h1>A finger as it was built</h1>\n") + sourceParagraph(result, source) +
+         worthSection(result) + farOffSection(result) + untoldSection(result) +
+         gaugeSection(result, residuals) + rubberSection(result) + togetherSection(result) +
+         heading("The touches") +
          figure(coveragePicture(result), "coverage", "Where the finger was touched, and how hard.") +
          figure(residualPicture(result, residuals), "residuals",
                 "What is left over of the readings, by gauge and by row, before and after.") +

@@ -7,9 +7,16 @@
 
 namespace strainfinger::calibration {
 
+/// Where a calibration comes from, besides the config.
+struct ResultSource {
+  std::string strainsPath;  ///< the rows' file; empty: stdin
+  std::string touchesPath;  ///< what is known of them; empty: nothing
+  std::string time;         ///< when it was made, as people read it
+};
+
 /// HTML that is XML as well. Every number is a <data> element whose value has all its digits, in the units of
 /// the tables that `calibrate` prints, and whose class is the table's column. Throws Failure(kFailure)
 /// without gnuplot. Costs 1 s.
-std::string htmlPage(const CalibrationResult& result);
+std::string htmlPage(const CalibrationResult& result, const ResultSource& source);
 
 }  // namespace strainfinger::calibration

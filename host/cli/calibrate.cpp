@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <sstream>
@@ -16,6 +17,7 @@
 #include "host/base/no_value.hpp"
 #include "host/base/read_file.hpp"
 #include "host/base/strain_rows.hpp"
+#include "host/base/utc_text.hpp"
 #include "host/calibration/complaints.hpp"
 #include "host/calibration/expected_error.hpp"
 #include "host/calibration/findings.hpp"
@@ -249,14 +251,18 @@ void print(const CalibrateOptions& options, const calibration::CalibrationResult
 }
 
 /// The config first: it is what the touches were for, and the rest can fail.
-void report(const CalibrateOptions& options, const calibration::CalibrationResult& result) {
+void report(const CalibrateOptions& options, const calibration::CalibrationResult& result,
+            const std::string& strainsPath, const std::string& touchesPath) {
   if (!options.outputPath.empty())
     writeFileAtomically(options.outputPath, config::writeConfig(result.applied()));
   print(options, result);
   const std::string told = calibration::textReport(result);
-  fmt::print(stderr, "{}",
-             options.touchesPath.empty() ? told : calibration::ofFile(told, options.touchesPath));
-  if (!options.pagePath.empty()) writeFileAtomically(options.pagePath, calibration::htmlPage(result));
+  fmt::print(stderr, "{}", touchesPath.empty() ? told : calibration::ofFile(told, touchesPath));
+  if (options.pagePath.empty()) return;
+  const auto since1970 = std::chrono::system_clock::now().time_since_epoch();
+  const auto time_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(since1970).count();
+  writeFileAtomically(options.pagePath,
+                      calibration::htmlPage(result, {strainsPath, touchesPath, utcText(time_ns)}));
 }
 
 void runLiveCalibration(const CalibrateOptions& options, const config::FingerConfig& config) {
@@ -266,7 +272,7 @@ void runLiveCalibration(const CalibrateOptions& options, const config::FingerCon
   live.errors = options.errors;
   const LiveResult ended = calibrateLive(config, live);
   try {
-    if (ended.result) report(options, *ended.result);
+    if (ended.result) report(options, *ended.result, ended.strainsPath, ended.touchesPath);
   } catch (const Failure& failure) {
     throw Failure(failure.code(), fmt::format("{}; {}", failure.what(), ended.kept));
   }
@@ -310,7 +316,7 @@ void runCalibrate(const CalibrateOptions& options) {
   const auto known = isRecording ? std::vector<calibration::KnownTouch>{} : readTouches(options.touchesPath);
   const auto strains = isRecording ? strainsOfRecording(options, config)
                                    : readStrains(options.strainsPath, config.gauges.count);
-  report(options, calibrated(options, config, known, strains));
+  report(options, calibrated(options, config, known, strains), options.strainsPath, options.touchesPath);
 }
 
 }  // namespace

@@ -251,12 +251,14 @@ class LiveSession {
       takeFit(*fit_.wait());
     }
     const bool isNewest = session_.fit() && session_.fit()->rows == session_.rows().size();
-    if (session_.rows().size() == 0) return {std::nullopt, "there is nothing to fit", kept(), interrupted};
+    if (session_.rows().size() == 0)
+      return {std::nullopt, "there is nothing to fit", "", "", kept(), interrupted};
     if (!interrupted && !isNewest) {
       fmt::print(stderr, "calibrate: fitting {} rows\n", session_.rows().size());
       takeFit(session::fitRows(config_, session_.beginFit(), options_.errors));
     }
-    LiveResult ended{std::nullopt, session_.complaint(), kept(), interrupted};
+    LiveResult ended{std::nullopt, session_.complaint(), files_.strainsPath(), files_.touchesPath(),
+                     kept(),       interrupted};
     if (session_.fit() && (interrupted || session_.complaint().empty())) {
       ended.result = session_.fit()->result;
       ended.kept = kept(session_.fit()->rows);

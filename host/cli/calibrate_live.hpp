@@ -21,9 +21,10 @@ struct LiveCalibration {
 /// What a session ended with.
 struct LiveResult {
   std::optional<calibration::CalibrationResult> result;
-  std::string complaint;     ///< why there is none
-  std::string kept;          ///< where the rows are, and how to go on
-  bool interrupted = false;  ///< by Ctrl-C
+  std::string complaint;                 ///< why there is none
+  std::string strainsPath, touchesPath;  ///< of the rows
+  std::string kept;                      ///< where the rows are, and how to go on
+  bool interrupted = false;              ///< by Ctrl-C
 };
 
 /// Runs until nothing is left to gain, or the user ends it. Throws Failure as the bus, the finger and the

@@ -1,23 +1,16 @@
 #include "host/cli/recording_notes.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include <chrono>
 #include <span>
 #include <utility>
 
 #include "common/crc32.hpp"
+#include "host/base/utc_text.hpp"
 #include "host/config/write_config.hpp"
 
 namespace strainfinger::cli {
 namespace {
-
-std::string utcText(std::int64_t time_ns) {
-  using namespace std::chrono;
-  const auto time = sys_time<nanoseconds>(nanoseconds(time_ns));
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(system_clock::to_time_t(floor<seconds>(time))));
-}
 
 /// A TOML string that holds any bytes but control characters, which a bus' name hasn't.
 std::string quoted(const std::string& text) {

@@ -63,6 +63,10 @@ TEST_GROUP(CalibrateCommand) {
 
   void write(const char* name, const std::string& text) { std::ofstream(path(name)) << text; }
   std::string path(const char* name) { return folder + "/" + name; }
+  std::string contentOf(const char* name) {
+    std::ifstream file(path(name));
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
   Run calibrate(const std::string& arguments, const std::string& input) {
     return runProgram("calibrate --touches " + path("touches.csv") + " " + arguments, input);
   }
@@ -113,8 +117,7 @@ TEST(CalibrateCommand, WritesAConfigThatIsReadBackAndMakesTables) {
                                path("out.toml"),
                            "")
                      .status);
-  std::ifstream file(path("out.toml"));
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = contentOf("out.toml");
   for (const char* const part :
        {"[calibration]\n", "\ngain = [", "\nangle_offset_deg = [", "\ndepth_offset_m = [",
         "\nplace_error_m = ", "\nload_error = 0.0", "\nmoment_error_m2 = ", "\nmodel_error = 0.0"})
@@ -170,6 +173,12 @@ TEST(CalibrateCommand, WritesAPageThatSaysWhatTheTablesSay) {
                              "");
   STRCMP_EQUAL("", check.err.c_str());
   LONGS_EQUAL(0, check.status);
+  const std::string page = contentOf("page.html");
+  const std::string source =
+      fmt::format("<p id=\"source\">Config: the default finger. Rows: {}. Known touches: {}. Calibrated 20",
+                  path("strains.csv"), path("touches.csv"));
+  STRCMP_CONTAINS(source.c_str(), page.c_str());
+  STRCMP_CONTAINS("<th>left over before, microstrain</th>", page.c_str());
 }
 
 TEST(CalibrateCommand, WritesTheConfigAlthoughThePageCannotBeMade) {

@@ -1,0 +1,20 @@
+#pragma once
+// Times as people and files read them.
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace strainfinger {
+
+/// "2026-11-28T14:04:01Z"; `time_ns`: since 1970.
+inline std::string utcText(std::int64_t time_ns) {
+  using namespace std::chrono;
+  const auto time = sys_time<nanoseconds>(nanoseconds(time_ns));
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(system_clock::to_time_t(floor<seconds>(time))));
+}
+
+}  // namespace strainfinger

@@ -220,6 +220,7 @@ class LiveSession {
     view.rows = session_.rows().size();
     view.coverage = session_.coverage();
     view.now = session_.now();
+    view.peakGauge = session_.peakGauge();
     view.silent_s = secondsSince(heard_);
     view.atRest_s = session_.atRest_s();
     view.next = nextText();

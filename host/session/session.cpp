@@ -101,6 +101,12 @@ std::optional<Sample> Session::nowHeld(std::string& why) const {
   return why.empty() ? std::optional(Sample{recent_.back().time_s, mean}) : std::nullopt;
 }
 
+int Session::peakGauge() const {
+  Eigen::Index gauge = 0;
+  if (!recent_.empty()) recent_.back().strains.cwiseAbs().maxCoeff(&gauge);
+  return static_cast<int>(gauge);
+}
+
 std::optional<int> Session::farGauge() const {
   const Advice::Kind kind = advice().kind;
   const bool isAskedFor = kind == Advice::Kind::kPress || kind == Advice::Kind::kMark;

@@ -50,6 +50,8 @@ class Session {
 
   /// What the last set was.
   Verdict now() const { return now_; }
+  /// The gauge that read most in it, of either sign; 0 before the first.
+  int peakGauge() const;
   const Coverage& coverage() const { return coverage_; }
   /// Of the newest fit that succeeded and knew nothing that was taken back since.
   const std::optional<FitOutcome>& fit() const { return fit_; }

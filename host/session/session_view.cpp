@@ -178,7 +178,7 @@ std::string nowText(const SessionView& view) {
     case Verdict::kKept:
       return "kept";
     case Verdict::kOverRange:
-      return "beyond its range: press less";
+      return fmt::format("gauge {} is beyond its range: press less", view.peakGauge);
     case Verdict::kWeak:
       return view.atRest_s >= 1 ? fmt::format("at rest for {:.0f} s", view.atRest_s)
                                 : "nothing touches it, or hardly";

@@ -23,6 +23,7 @@ struct SessionView {
   std::size_t rows = 0;
   Coverage coverage{};
   Verdict now = Verdict::kWeak;
+  int peakGauge = 0;    ///< that reads most now, of either sign
   double silent_s = 0;  ///< since the last set
   double atRest_s = 0;
   std::string next{};  ///< what to do

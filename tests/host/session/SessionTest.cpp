@@ -138,6 +138,9 @@ TEST(GuidedSession, NoLoadIsTakenOfWhatIsNotHeld) {
   STRCMP_CONTAINS("it is not held still", say("load 20 N/m").c_str());
   hold(0, 100);
   STRCMP_CONTAINS("beyond its range", say("load 20 N/m").c_str());
+  LONGS_EQUAL(0, session.peakGauge());
+  hold(90, 100);
+  LONGS_EQUAL(4, session.peakGauge());
   LONGS_EQUAL(0, session.coverage().loads);
 }
 

@@ -106,9 +106,11 @@ TEST(SessionView, WhatIsTypedStandsInPlaceOfTheKeys) {
 }
 
 TEST(SessionView, TheFingerIsSaidToBeAsItIs) {
+  view.peakGauge = 7;
   for (const auto& [verdict, words] :
-       {std::pair{Verdict::kOverRange, "press less"}, std::pair{Verdict::kUnsteady, "more slowly"},
-        std::pair{Verdict::kEnough, "harder or softer"}, std::pair{Verdict::kWeak, "nothing touches it"}}) {
+       {std::pair{Verdict::kOverRange, "gauge 7 is beyond its range: press less"},
+        std::pair{Verdict::kUnsteady, "more slowly"}, std::pair{Verdict::kEnough, "harder or softer"},
+        std::pair{Verdict::kWeak, "nothing touches it"}}) {
     view.now = verdict;
     STRCMP_CONTAINS(words, nowText(view).c_str());
   }

@@ -141,20 +141,21 @@ double durationOf(const RunOptions& options, const simulation::Scenario& scenari
 /// What watches a run: the table, the picture, the statistics.
 class Watchers {
  public:
-  Watchers(const RunOptions& options, const config::FingerConfig& config, const TableImage& tables)
-      : config_(config), strainsPath_(options.strainsPath), touchesPath_(options.touchesPath) {
+  /// `known`: what the tables know of the finger.
+  Watchers(const RunOptions& options, const config::FingerConfig& known, const TableImage& tables)
+      : finger_(known.finger), strainsPath_(options.strainsPath), touchesPath_(options.touchesPath) {
+    const auto factors = tables::correctionFactors(tables.gains, known.gauges.count);
     if (!strainsPath_.empty() || !touchesPath_.empty())
-      strains_.emplace(tables::correctionFactors(tables.gains, config.gauges.count),
-                       options.rows_hz.value_or(kUsualRows_hz));
-    if (options.truth) table_.emplace(stderr, config.finger);
-    if (!options.pictures.empty()) recorder_.emplace(config);
+      strains_.emplace(factors, options.rows_hz.value_or(kUsualRows_hz));
+    if (options.truth) table_.emplace(stderr, finger_);
+    if (!options.pictures.empty()) recorder_.emplace(known, factors);
   }
 
   void watch(const simulation::Moment& moment, const firmware::Readings& readings) {
     if (table_) table_->add(moment);
     if (recorder_) recorder_->add(moment, readings);
     if (strains_ && !moment.isZeroing) strains_->add(moment, readings.strain_q32);
-    errors_.add(moment, config_.finger);
+    errors_.add(moment, finger_);
   }
 
   void write() const {
@@ -169,7 +170,7 @@ class Watchers {
   const simulation::TouchErrors& errors() const { return errors_; }
 
  private:
-  config::FingerConfig config_;
+  config::Finger finger_;
   std::optional<TruthTable> table_;
   std::optional<TouchRecorder> recorder_;
   std::optional<StrainRecorder> strains_;
@@ -195,7 +196,7 @@ void runOn(Port& port, const config::FingerConfig& config, const RunOptions& opt
   const auto end_us = static_cast<std::uint64_t>(std::llround(end_s * 1e6));
   simulation::SimulatedFinger finger(config, scenario, *tables, options.firmware.mode(), options.seed, port,
                                      faultsOf(options, end_s));
-  Watchers watchers(options, config, *tables);
+  Watchers watchers(options, known, *tables);
   for (const std::string& path : options.pictures) {
     plot::requirePicturePath(path);
     requireFolderOf("--picture", path);

@@ -12,9 +12,9 @@
 #include "host/cli/commands.hpp"
 #include "host/live/bus_watch.hpp"
 #include "host/live/page_server.hpp"
-#include "host/live/strain_fit.hpp"
 #include "host/live/view_json.hpp"
 #include "host/live/words.hpp"
+#include "host/simulation/strain_fit.hpp"
 #include "host/system/stop_signal.hpp"
 
 namespace strainfinger::cli {
@@ -80,14 +80,14 @@ std::string urlOf(const live::PageServerOptions& server, int port) {
 }
 
 /// The newest view as JSON.
-std::string viewJson(live::BusWatch& watch, const live::StrainFit& fit) {
+std::string viewJson(live::BusWatch& watch, const simulation::StrainFit& fit) {
   live::BusView view = watch.view();
   for (live::FingerView& finger : view.fingers)
     if (!finger.strains.empty() && finger.isTouched()) finger.fitted = fit.readings(*finger.touch);
   return live::toJson(view).dump();
 }
 
-void serve(live::BusWatch& watch, live::PageServer& server, const live::StrainFit& fit) {
+void serve(live::BusWatch& watch, live::PageServer& server, const simulation::StrainFit& fit) {
   const system::StopSignal stop;
   while (!stop.asked()) {
     for (const std::uint8_t node : server.takeTares()) watch.request(node, tareRequest(false));
@@ -105,7 +105,7 @@ void runServe(const ServeOptions& options) {
   live::PageServer server(serverOptionsNow);
   fmt::print(stderr, "serve: {} shows {}; Ctrl-C ends\n", urlOf(serverOptionsNow, server.port()),
              options.bus);
-  serve(watch, server, live::StrainFit(config));
+  serve(watch, server, simulation::StrainFit(config));
   throw Failure(ExitCode::kInterrupted, "serve: interrupted");
 }
 

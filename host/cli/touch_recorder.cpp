@@ -19,10 +19,6 @@ plot::ContactPoint truthPoint(const std::vector<Touch>& truth) {
   return {touch.angle_rad * kDegPerRad, touch.normal_n_per_m, touch.tangential_n_per_m};
 }
 
-Touch touchAt(const plot::ContactPoint& point) {
-  return {point.angle_deg / kDegPerRad, point.normal_n_per_m, point.tangential_n_per_m};
-}
-
 }  // namespace
 
 void TouchRecorder::add(const simulation::Moment& moment, const firmware::Readings& readings) {
@@ -54,7 +50,7 @@ void TouchRecorder::addToTrack(const simulation::Moment& moment) {
 }
 
 plot::ContactPoint TouchRecorder::pointOf(const can::TouchReport& report) const {
-  const double length_m = config_.finger.length_m;
+  const double length_m = told_.finger.length_m;
   return {report.angle_deg, report.normal_n / length_m, report.tangential_n / length_m};
 }
 
@@ -65,18 +61,18 @@ plot::TouchRecord TouchRecorder::record(const simulation::GaugeStrains& strains)
                            .profile = {},
                            .readings = {},
                            .track = track_,
-                           .outerRadius_m = config_.finger.outer_radius_m};
-  const Touch fitted[] = {touchAt(record.estimateThen)};
+                           .outerRadius_m = told_.finger.outer_radius_m};
   for (int step = 0; step <= kProfileSteps; ++step) {
     const double angle_rad = 2 * std::numbers::pi * step / kProfileSteps;
     record.profile.push_back(
-        {angle_rad * kDegPerRad, strains.at(angle_rad, hardest_.truth), strains.at(angle_rad, fitted)});
+        {angle_rad * kDegPerRad, strains.at(angle_rad, hardest_.truth), fit_.at(angle_rad, hardest_.report)});
   }
+  const std::vector<double> fitted = fit_.readings(hardest_.report);
   for (int gauge = 0; gauge < strains.count(); ++gauge) {
-    const double angle_rad = strains.gaugeAngle_rad(gauge);
-    const auto read = StrainQ32::fromRaw(readings_.strain_q32[static_cast<std::size_t>(gauge)]);
-    record.readings.push_back(
-        {angle_rad * kDegPerRad, toReal(read), strains.at(angle_rad, fitted), config_.gauges.noise_strain});
+    const auto i = static_cast<std::size_t>(gauge);
+    record.readings.push_back({strains.gaugeAngle_rad(gauge) * kDegPerRad,
+                               toReal(StrainQ32::fromRaw(readings_.strain_q32[i])), fitted[i] * factors_[i],
+                               told_.gauges.noise_strain});
   }
   return record;
 }

@@ -1,11 +1,12 @@
 #pragma once
 // What of a run is needed for its picture.
 
+#include <utility>
 #include <vector>
 
-#include "common/table_image.hpp"
 #include "host/plot/touch_picture.hpp"
 #include "host/simulation/simulated_finger.hpp"
+#include "host/simulation/strain_fit.hpp"
 
 namespace strainfinger::cli {
 
@@ -15,19 +16,25 @@ class TouchRecorder {
  public:
   static constexpr double kTrackPeriod_s = 0.025;  ///< 10 s make an SVG of 250 kB
 
-  explicit TouchRecorder(const config::FingerConfig& config) : config_(config) {}
+  /// `told`: what the firmware knows of the finger; `factors`: what it multiplies the strains by, one a gauge
+  /// (tables::correctionFactors()).
+  TouchRecorder(const config::FingerConfig& told, std::vector<double> factors)
+      : told_(told), fit_(told), factors_(std::move(factors)) {}
 
   /// `readings`: the firmware's of that moment.
   void add(const simulation::Moment& moment, const firmware::Readings& readings);
 
-  /// What there is to draw; `strains` of the finger that was recorded.
+  /// What there is to draw: the truth is of `strains`, of the finger that was recorded, and the fit of what
+  /// the firmware knows of it, so that gauge less fit is what the firmware could not explain.
   plot::TouchRecord record(const simulation::GaugeStrains& strains) const;
 
  private:
   void addToTrack(const simulation::Moment& moment);
   plot::ContactPoint pointOf(const can::TouchReport& report) const;
 
-  config::FingerConfig config_;
+  config::FingerConfig told_;
+  simulation::StrainFit fit_;
+  std::vector<double> factors_;
   std::vector<plot::TrackPoint> track_;
   double periodEnd_s_ = 0;
   simulation::ComparedTouch hardest_;

@@ -130,6 +130,17 @@ TEST(RunCommand, DrawsPictures) {
   STRCMP_EQUAL("PNG1\n", run.out.c_str());
 }
 
+TEST(RunCommand, TheDrawnFitKnowsHowDeepEachGaugeIs) {
+  const Run run = runShell(R"(
+d=$(mktemp -d); cd $d
+depths=$(printf '5e-5, -5e-5, %.0s' 1 2 3 4 5 6 7 8)
+printf 'schema = 1\n[gauges]\nmodel_error = 0.0005\n[calibration]\ndepth_offset_m = [%s]\n' "${depths%, }" >f.toml
+"$STRAINFINGER" run -c f.toml --picture a.svg >/dev/null 2>&1
+tail -n +2 a-readings.csv | awk -F, '{ if ($3 > 5 * $4 || $3 < -5 * $4) ++many } END { print NR, many + 0 }'
+rm -r $d)");
+  STRCMP_EQUAL("16 0\n", run.out.c_str());
+}
+
 TEST(RunCommand, KeepsTimeOnABusAndObeys) {
   const Run run = runShell(R"(
 "$STRAINFINGER" run --can udp:19997 --duration 4 & finger=$!

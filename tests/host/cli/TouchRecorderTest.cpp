@@ -2,6 +2,10 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
+
+#include "common/fixed_real.hpp"
+#include "common/quantities.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -12,7 +16,7 @@ TEST_GROUP(TouchRecorder) {
   config::FingerConfig config;
   simulation::GaugeStrains strains{config};
   firmware::Readings readings;
-  TouchRecorder recorder{config};
+  TouchRecorder recorder{config, std::vector(16, 1.0)};
   static constexpr double kRad = std::numbers::pi / 180;
 
   /// A moment with a report that is 0.1 deg ahead of the truth.
@@ -76,4 +80,24 @@ TEST(TouchRecorder, TruthAndFitAreTheModelAllTheWayAround) {
     DOUBLES_EQUAL(strains.at(point.angle_deg * kRad, truth), point.true_strain, 1e-12);
     DOUBLES_EQUAL(strains.at(point.angle_deg * kRad, fitted), point.fitted_strain, 1e-12);
   }
+}
+
+// The firmware knows a gauge's gain and depth: what it makes of the reading is no error of the fit.
+TEST(TouchRecorder, WhatACalibrationKnowsOfEachGaugeIsInTheFit) {
+  config.calibration.gain = std::vector(16, 1.0);
+  config.calibration.depth_offset_m = std::vector(16, 0.0);
+  config.calibration.gain[4] = 1.05;
+  config.calibration.depth_offset_m[4] = 1e-4;
+  config.calibration.depth_offset_m[5] = -1e-4;
+  const simulation::GaugeStrains built{config};
+  std::vector<double> factors(16, 1.0);
+  factors[4] = 0.9;
+  recorder = TouchRecorder(config, factors);
+  const simulation::Touch touch[] = {{90.1 * kRad, 30, 0}};
+  const auto read = built.readings(touch);
+  for (std::size_t i = 0; i < factors.size(); ++i)
+    readings.strain_q32[i] = fromReal<StrainQ32>(read[static_cast<Eigen::Index>(i)] * factors[i]).raw();
+  reported(2, 90, 30);
+  for (const auto& reading : recorder.record(built).readings)
+    DOUBLES_EQUAL(reading.strain, reading.fitted_strain, 1e-9);
 }

@@ -1,9 +1,10 @@
-#include "host/live/strain_fit.hpp"
+#include "host/simulation/strain_fit.hpp"
 
 #include <cmath>
-#include <numbers>
 
-namespace strainfinger::live {
+#include "host/base/angles.hpp"
+
+namespace strainfinger::simulation {
 namespace {
 
 /// A finger that is told of is the drawing and its calibration.
@@ -24,19 +25,27 @@ StrainFit::StrainFit(const config::FingerConfig& config)
     : length_m_(config.finger.length_m), strains_(asTold(config)) {}
 
 std::vector<double> StrainFit::readings(const can::TouchReport& touch) const {
-  std::vector<simulation::Touch> touches;
-  if (isKnown(touch)) touches.push_back(touchOf(touch, touch.width_m));
-  if (touch.second && isKnown(*touch.second)) touches.push_back(touchOf(*touch.second, 0));
-  const Eigen::VectorXd readings = strains_.readings(touches);
+  const Eigen::VectorXd readings = strains_.readings(touchesOf(touch));
   return {readings.begin(), readings.end()};
 }
 
-simulation::Touch StrainFit::touchOf(const can::ContactReport& contact, double width_m) const {
-  return {.angle_rad = contact.angle_deg * std::numbers::pi / 180,
+double StrainFit::at(double angle_rad, const can::TouchReport& touch) const {
+  return strains_.at(angle_rad, touchesOf(touch));
+}
+
+std::vector<Touch> StrainFit::touchesOf(const can::TouchReport& report) const {
+  std::vector<Touch> touches;
+  if (isKnown(report)) touches.push_back(touchOf(report, report.width_m));
+  if (report.second && isKnown(*report.second)) touches.push_back(touchOf(*report.second, 0));
+  return touches;
+}
+
+Touch StrainFit::touchOf(const can::ContactReport& contact, double width_m) const {
+  return {.angle_rad = contact.angle_deg * kRadPerDeg,
           .normal_n_per_m = contact.normal_n / length_m_,
           .tangential_n_per_m = orZero(contact.tangential_n) / length_m_,
           .width_m = orZero(width_m),
           .profile = model::Profile::kUniform};
 }
 
-}  // namespace strainfinger::live
+}  // namespace strainfinger::simulation

@@ -1,11 +1,11 @@
-#include "host/live/strain_fit.hpp"
+#include "host/simulation/strain_fit.hpp"
 
 #include <algorithm>
 
 #include <CppUTest/TestHarness.h>
 
 using namespace strainfinger;
-using namespace strainfinger::live;
+using namespace strainfinger::simulation;
 
 TEST_GROUP(StrainFit) {
   config::FingerConfig config_;

@@ -6,8 +6,9 @@
 #include "host/can/touch_receiver.hpp"
 #include "host/simulation/gauge_strains.hpp"
 
-namespace strainfinger::live {
+namespace strainfinger::simulation {
 
+/// Of the finger that the config tells of, the drawing and its calibration, whatever was built.
 class StrainFit {
  public:
   explicit StrainFit(const config::FingerConfig& config);
@@ -16,11 +17,15 @@ class StrainFit {
   /// is not known there is nothing.
   std::vector<double> readings(const can::TouchReport& touch) const;
 
+  /// The strain at any angle of the ring, as deep as drawn.
+  double at(double angle_rad, const can::TouchReport& touch) const;
+
  private:
-  simulation::Touch touchOf(const can::ContactReport& contact, double width_m) const;
+  std::vector<Touch> touchesOf(const can::TouchReport& report) const;
+  Touch touchOf(const can::ContactReport& contact, double width_m) const;
 
   double length_m_;
-  simulation::GaugeStrains strains_;
+  GaugeStrains strains_;
 };
 
-}  // namespace strainfinger::live
+}  // namespace strainfinger::simulation

@@ -71,8 +71,10 @@ struct RunOptions {
                     "At the end, what the gauges read, as `calibrate`, `shape` and `locate` take it (CSV)")
         ->type_name("FILE");
     command
-        .add_option("--touches", touchesPath,
-                    "At the end, what touched the finger, a row for each row of --strains (CSV)")
+        .add_option(
+            "--touches", touchesPath,
+            "At the end, what touched the finger, a row for each row of --strains (CSV); its cells are "
+            "empty while several touches do, which a row cannot say")
         ->type_name("FILE");
     command.add_option("--rows-hz", rows_hz, "Rows of --strains and --touches a second (default 100)")
         ->type_name("HZ")

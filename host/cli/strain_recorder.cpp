@@ -10,13 +10,28 @@
 #include "host/base/strain_rows.hpp"
 
 namespace strainfinger::cli {
+namespace {
+
+/// Without loads where nothing touches; nothing of several, which a row of touches can't say.
+std::optional<simulation::Touch> onlyTouch(const std::vector<simulation::Touch>& touches) {
+  if (touches.empty()) return simulation::Touch{};
+  return touches.size() == 1 ? std::optional(touches.front()) : std::nullopt;
+}
+
+std::string touchRow(const std::optional<simulation::Touch>& touch) {
+  if (!touch) return ",,";
+  return fmt::format("{},{},{}", withinATurn_deg(touch->angle_rad / kRadPerDeg), touch->normal_n_per_m,
+                     touch->tangential_n_per_m);
+}
+
+}  // namespace
 
 void StrainRecorder::add(const simulation::Moment& moment, std::span<const std::int32_t> strains_q32) {
   constexpr double kRounding_period = 1e-6;  // times and periods are decimal fractions
   const double periods = moment.time_s / period_s_ + kRounding_period;
-  if (periods < static_cast<double>(taken_) || moment.truth.size() > 1) return;
+  if (periods < static_cast<double>(taken_)) return;
   taken_ = static_cast<std::uint64_t>(periods) + 1;
-  Row row{moment.time_s, {}, moment.truth.empty() ? simulation::Touch{} : moment.truth.front()};
+  Row row{moment.time_s, {}, onlyTouch(moment.truth)};
   for (std::size_t i = 0; i < factors_.size(); ++i)
     row.strains.push_back(toReal(StrainQ32::fromRaw(strains_q32[i])) / factors_[i]);
   rows_.push_back(std::move(row));
@@ -32,9 +47,7 @@ std::string StrainRecorder::strains() const {
 
 std::string StrainRecorder::touches() const {
   std::string text = fmt::format("{}\n", kTouchHeader);
-  for (const auto& [time_s, strains, touch] : rows_)
-    fmt::format_to(std::back_inserter(text), "{},{},{}\n", withinATurn_deg(touch.angle_rad / kRadPerDeg),
-                   touch.normal_n_per_m, touch.tangential_n_per_m);
+  for (const Row& row : rows_) text.append(touchRow(row.touch)).append("\n");
   return text;
 }
 

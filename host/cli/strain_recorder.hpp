@@ -2,6 +2,7 @@
 // What a run's gauges read and what touched them, for `calibrate`, `shape` and `locate`.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,8 +12,7 @@
 namespace strainfinger::cli {
 
 /// Keeps rows of strains, at nominal gain and less the zero, and of the touch that was there, so many a
-/// second; none while several touches are there, which a row of touches can't say. Memory: 10 MB a minute at
-/// 1000 rows a second.
+/// second. Memory: 10 MB a minute at 1000 rows a second.
 class StrainRecorder {
  public:
   /// `factors`: what the firmware multiplies the strains by, one a gauge (tables::correctionFactors()).
@@ -23,14 +23,15 @@ class StrainRecorder {
   void add(const simulation::Moment& moment, std::span<const std::int32_t> strains_q32);
 
   std::string strains() const;  ///< CSV: time_s, strain_0, strain_1 ..
-  std::string touches()
-      const;  ///< CSV: angle_deg, normal_n_per_m, tangential_n_per_m; both loads 0: untouched
+  /// CSV: angle_deg, normal_n_per_m, tangential_n_per_m; both loads 0: untouched; empty: several touches,
+  /// which a row can't say.
+  std::string touches() const;
 
  private:
   struct Row {
     double time_s;
     std::vector<double> strains;
-    simulation::Touch touch;
+    std::optional<simulation::Touch> touch;  ///< empty: several
   };
   std::vector<double> factors_;
   double period_s_;

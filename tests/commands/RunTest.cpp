@@ -194,6 +194,17 @@ TEST(RunCommand, NothingTouchesUntilItPresses) {
                   run.out.c_str());
 }
 
+// `locate` is tested with them; a row of touches has room for one.
+TEST(RunCommand, WhileSeveralTouchesActThereAreRowsToo) {
+  constexpr const char* kTwo =
+      "schema = 1\n[[touch]]\nstart_s = 0.12\nend_s = 0.38\nangle_deg = 45\nnormal_n_per_m = 20\n"
+      "[[touch]]\nstart_s = 0.25\nend_s = 0.38\nangle_deg = 225\nnormal_n_per_m = 20\n";
+  const Run touches = withScenario("--rows-hz 10 --touches /dev/stderr 2>&1 >/dev/null", kTwo);
+  STRCMP_CONTAINS("tangential_n_per_m\n0,0,0\n0,0,0\n45,20,0\n,,\n", touches.out.c_str());
+  const Run strains = withScenario("--rows-hz 10 --strains /dev/stderr 2>&1 >/dev/null", kTwo);
+  STRCMP_CONTAINS("\n0.300000,", strains.out.c_str());
+}
+
 TEST(RunCommand, AFileThatCannotBeWrittenIsAFailure) {
   const Run run = runProgram("run --duration 0.2 --strains /nowhere/s.csv");
   LONGS_EQUAL(1, run.status);

@@ -39,8 +39,8 @@ constexpr const char* kRunHelp =
     "--can loopback (default): a bus that no other program hears, as fast as it can; prints what `candump "
     "-L` would, and the same seed gives the same output.\n"
     "--can BUS: for other programs, in real time, a sample set every millisecond; prints nothing on stdout. "
-    "It obeys `tare`, `config` and `push`; what it is sent is gone when it ends, so that it refuses to keep "
-    "settings.\n"
+    "It obeys `tare`, `config` and `push`, and like a board takes no other tables in the minute after a "
+    "restart; what it is sent is gone when it ends, so that it refuses to keep settings.\n"
     "The simulated finger is as the config's [as_built] says or, without it, as drawn and calibrated.\n"
     "At the end stderr has a summary with the errors against the truth (--json: as one object). Ctrl-C "
     "ends a run as its duration would, with exit status 130.";

@@ -141,8 +141,9 @@ class SimulatedFinger {
     info_.emplace(simulatedInfo(cause), settings_.node, clock_.now_us());
     waiting_.reset();
     endFinger();
+    watchdog_ = system::NoWatchdog(cause);
     if (tables != nullptr) finger_.emplace(*tables, settings_, gauges_, port_, clock_, watchdog_);
-    if (tables == nullptr) waitForTables(false);
+    if (tables == nullptr) waitForTables({settings_.node, false, firmware::EraseBudget::after(cause), 0});
   }
 
   void endFinger() {
@@ -150,18 +151,17 @@ class SimulatedFinger {
     finger_.reset();
   }
 
-  /// Its memory doesn't wear out.
-  void waitForTables(bool isLoading) {
+  void waitForTables(const firmware::NoTables& from) {
     endFinger();
-    waiting_.emplace(firmware::NoTables{settings_.node, isLoading, firmware::EraseBudget(), 0}, port_,
-                     tableStore_, clock_.now_us());
+    waiting_.emplace(from, port_, tableStore_, clock_.now_us());
   }
 
   /// As runFinger() does. True: there was a sample set.
   bool step() {
     const bool sampled = finger_ ? finger_->step() : gauges_.read(unused_);
     if (waiting_) waiting_->step(clock_.now_us());
-    if (finger_ && finger_->leaving() == firmware::Leaving::kLoads) waitForTables(true);
+    if (finger_ && finger_->leaving() == firmware::Leaving::kLoads)
+      waitForTables({settings_.node, true, finger_->eraseBudget(), finger_->uptime_s()});
     if (finger_ ? finger_->leaving() == firmware::Leaving::kRestarts : waiting_->isLeaving()) restart();
     return sampled;
   }

@@ -7,8 +7,13 @@ namespace strainfinger::system {
 
 class NoWatchdog {
  public:
+  /// `cause`: why what runs here started.
+  explicit NoWatchdog(hal::ResetCause cause = hal::ResetCause::kPowerOn) noexcept : cause_(cause) {}
   void feed() noexcept {}
-  hal::ResetCause resetCause() const noexcept { return hal::ResetCause::kPowerOn; }
+  hal::ResetCause resetCause() const noexcept { return cause_; }
+
+ private:
+  hal::ResetCause cause_;
 };
 
 static_assert(hal::Watchdog<NoWatchdog>);

@@ -107,6 +107,16 @@ TEST(SimulatedFinger, CountsGoOnOverARestart) {
   LONGS_EQUAL(1000, bench.counts().finger.sampleSets);
 }
 
+// Listeners may still have the touch of before: BUS.md promises its end.
+TEST(SimulatedFinger, RestartedItSaysThatNothingTouchesIt) {
+  Bench bench(config, Scenario({}));
+  bench.run(0.5);
+  LONGS_EQUAL(0, bench.timesOf(0x181).size());
+  bench.port().deliver(encode(restartRequest(), 1));
+  bench.run(0.5);
+  LONGS_EQUAL(1, bench.timesOf(0x181).size());
+}
+
 TEST(SimulatedFinger, ReportsTheTouchThatIsThere) {
   Bench bench(config, hold(100));
   bench.run(0.5);

@@ -44,7 +44,7 @@ std::optional<TextFrame> LogReader::next() {
           ExitCode::kFailure,
           fmt::format("{}: a frame without a time: log with `candump -L`, or `candump -ta`", place()));
     watchTime(*frame->time_ns);
-    return frame;
+    if (interface_.empty() || frame->interface == interface_) return frame;
   }
   return std::nullopt;
 }

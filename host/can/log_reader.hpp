@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "host/base/line_reader.hpp"
 #include "host/can/candump_text.hpp"
@@ -12,9 +14,10 @@ namespace strainfinger::can {
 
 class LogReader {
  public:
-  /// Reads `path`, in any text form of candump; "-" is stdin. Throws Failure(kFailure) if it cannot be
-  /// opened.
-  explicit LogReader(const std::string& path) : lines_(path) {}
+  /// Reads `path`, in any text form of candump; "-" is stdin. `interface`: give the frames of this one alone;
+  /// "": of all. Throws Failure(kFailure) if it cannot be opened.
+  explicit LogReader(const std::string& path, std::string interface = "")
+      : lines_(path), interface_(std::move(interface)) {}
 
   /// The next classic data frame of an 11-bit identifier; nothing at the end. Throws Failure(kFailure) with
   /// file:line:column for a line that cannot be read, and for a frame without a time; but a last line behind
@@ -37,6 +40,7 @@ class LogReader {
   void watchTime(std::int64_t time_ns);
 
   LineReader lines_;
+  std::string interface_;
   LogLine parsed_;  ///< what the last frame points into where its line was not plain
   std::uint64_t line_ = 0;
   std::uint64_t skipped_ = 0;

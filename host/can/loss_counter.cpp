@@ -1,5 +1,8 @@
 #include "host/can/loss_counter.hpp"
 
+#include <fmt/format.h>
+
+#include "host/base/failure.hpp"
 #include "host/can/frame_catalogue.hpp"
 
 namespace strainfinger::can {
@@ -26,6 +29,14 @@ bool isOfEveryTouch(FunctionCode function) {
 std::size_t indexOf(FunctionCode function) { return static_cast<std::uint16_t>(function) / kIdsPerFunction; }
 
 }  // namespace
+
+void requireOurProtocol(const NodeCount& node) {
+  if (!node.protocol || *node.protocol == kProtocolVersion) return;
+  throw Failure(ExitCode::kMismatch,
+                fmt::format("{} node {} speaks protocol {}, this program {}: its frames mean something else; "
+                            "use the strainfinger of its firmware",
+                            node.interface, node.node, *node.protocol, kProtocolVersion));
+}
 
 bool LossCounter::Evidence::isOfTwo() const {
   return returns >= kFewestReturns && returns * kGapsPerReturn >= gaps;

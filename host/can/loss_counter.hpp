@@ -28,6 +28,9 @@ struct NodeCount {
   bool twoSenders = false;     ///< two fingers are this node: the other counts mean nothing then
 };
 
+/// Throws Failure(kMismatch) where the node speaks another protocol.
+void requireOurProtocol(const NodeCount& node);
+
 class LossCounter {
  public:
   /// Takes any frame; those that are no finger's are ignored.

@@ -1,5 +1,6 @@
 #pragma once
-// The option --can of every subcommand that listens or speaks on a bus.
+// Which bus: the option --can of every subcommand that listens or speaks on one, and --interface of those
+// that read a log of several.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -8,5 +9,8 @@ namespace strainfinger::cli {
 
 /// Adds --can: a name for can::openBus(). The option, for what else holds of it (required()).
 CLI::Option* addBusOption(CLI::App& command, std::string& name);
+
+/// Adds --interface: the name, in a log, of the interface whose frames are meant; "" without it: all.
+void addInterfaceOption(CLI::App& command, std::string& name);
 
 }  // namespace strainfinger::cli

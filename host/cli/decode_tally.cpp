@@ -75,13 +75,7 @@ void DecodeTally::requireGood() const {
   if (unreadable_ > 0)
     throw Failure(ExitCode::kFailure, fmt::format("{} of {} lines could not be read; the others are decoded",
                                                   unreadable_, lines_));
-  for (const can::NodeCount& node : losses_.counts())
-    if (node.protocol && *node.protocol != kProtocolVersion)
-      throw Failure(
-          ExitCode::kMismatch,
-          fmt::format("{} node {} speaks protocol {}, this program {}: its frames mean something else; use "
-                      "the strainfinger of its firmware",
-                      node.interface, node.node, *node.protocol, kProtocolVersion));
+  for (const can::NodeCount& node : losses_.counts()) can::requireOurProtocol(node);
 }
 
 }  // namespace strainfinger::cli

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,7 +13,10 @@
 #include "host/base/failure.hpp"
 #include "host/can/frame_catalogue.hpp"
 #include "host/can/log_reader.hpp"
+#include "host/can/loss_counter.hpp"
+#include "host/can/remedies.hpp"
 #include "host/can/touch_receiver.hpp"
+#include "host/cli/bus_option.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/plot/log_picture.hpp"
@@ -37,11 +41,13 @@ struct PlotOptions {
         ->type_name("FILE")
         ->required();
     command.add_option("-n,--node", node, "Of this node, where the log has several")->check(isNode());
+    addInterfaceOption(command, interface);
   }
   CommonOptions common;
   std::string path;
   std::string output;
   std::optional<int> node;
+  std::string interface;  ///< empty: any
 };
 
 /// What one finger said. Keeps every touch up to twice kMostPoints, then every second of them, and so on.
@@ -71,12 +77,17 @@ class Track {
   std::vector<plot::LogPoint> points_;
 };
 
-/// By interface and node.
-using Tracks = std::map<std::pair<std::string, int>, Track>;
+/// Interface and node.
+using Name = std::pair<std::string, int>;
 
-Tracks readTracks(const PlotOptions& options) {
-  can::LogReader log(options.path);
-  Tracks tracks;
+struct Heard {
+  std::map<Name, Track> tracks;  ///< that have touches
+  can::LossCounter losses;
+};
+
+Heard readLog(const PlotOptions& options) {
+  can::LogReader log(options.path, options.interface);
+  Heard heard;
   std::optional<std::int64_t> first_ns;
   while (const auto text = log.next()) {
     if (!first_ns) first_ns = text->time_ns;
@@ -84,33 +95,62 @@ Tracks readTracks(const PlotOptions& options) {
     if (entry == nullptr) continue;
     const std::uint8_t node = *nodeOf(text->frame.id, entry->spec.function);
     if (options.node && node != *options.node) continue;
-    Track& track = tracks.try_emplace({std::string(text->interface), node}, node).first->second;
+    heard.losses.count(text->interface, text->frame);
+    Track& track = heard.tracks.try_emplace({std::string(text->interface), node}, node).first->second;
     track.take(static_cast<double>(*text->time_ns - *first_ns) * 1e-9, text->frame);
   }
   warn("plot", log.warnings());
-  std::erase_if(tracks, [](const auto& track) { return track.second.points().empty(); });
-  return tracks;
+  std::erase_if(heard.tracks, [](const auto& track) { return track.second.points().empty(); });
+  return heard;
 }
 
-void requireOne(const PlotOptions& options, const Tracks& tracks) {
-  if (tracks.empty())
-    throw Failure(ExitCode::kFailure, options.node ? fmt::format("{}: no touch of node {} in it to draw",
-                                                                 options.path, *options.node)
-                                                   : fmt::format("{}: no touch in it to draw", options.path));
-  if (tracks.size() == 1) return;
+/// The options that tell these fingers apart.
+std::string choiceOf(const std::map<Name, Track>& tracks) {
+  std::set<std::string> interfaces;
+  std::set<int> nodes;
+  for (const auto& [name, track] : tracks) {
+    interfaces.insert(name.first);
+    nodes.insert(name.second);
+  }
+  if (nodes.size() == tracks.size()) return "--node";
+  return interfaces.size() == tracks.size() ? "--interface" : "--interface and --node";
+}
+
+void requireNotSeveral(const PlotOptions& options, const std::map<Name, Track>& tracks) {
+  if (tracks.size() < 2) return;
   std::vector<std::string> names;
   for (const auto& [name, track] : tracks)
     names.push_back(fmt::format("{} node {}", name.first, name.second));
-  throw Failure(ExitCode::kUsage, fmt::format("{}: several fingers ({}): choose one with --node",
-                                              options.path, fmt::join(names, ", ")));
+  throw Failure(ExitCode::kUsage, fmt::format("{}: several fingers ({}): choose one with {}", options.path,
+                                              fmt::join(names, ", "), choiceOf(tracks)));
+}
+
+/// Whether what is drawn is what a finger meant; without anything to draw, whether that is why.
+void judge(const PlotOptions& options, const Heard& heard) {
+  for (const can::NodeCount& count : heard.losses.counts()) {
+    if (!heard.tracks.empty() && !heard.tracks.contains({count.interface, count.node})) continue;
+    can::requireOurProtocol(count);
+    if (count.twoSenders)
+      warn("plot", fmt::format("{}: {} node {}: {}, and the picture mixes what they say: {}", options.path,
+                               count.interface, count.node, can::kTwinText, can::kTwinRemedy));
+  }
+}
+
+void requireAny(const PlotOptions& options, const std::map<Name, Track>& tracks) {
+  if (!tracks.empty()) return;
+  std::string whose = options.interface.empty() ? "" : fmt::format(" of {}", options.interface);
+  if (options.node) whose += fmt::format(" of node {}", *options.node);
+  throw Failure(ExitCode::kFailure, fmt::format("{}: no touch{} in it to draw", options.path, whose));
 }
 
 void runPlot(const PlotOptions& options) {
   options.common.requireGoodConfig();
   plot::requirePicturePath(options.output);
-  const Tracks tracks = readTracks(options);
-  requireOne(options, tracks);
-  const auto& [name, track] = *tracks.begin();
+  const Heard heard = readLog(options);
+  requireNotSeveral(options, heard.tracks);
+  judge(options, heard);
+  requireAny(options, heard.tracks);
+  const auto& [name, track] = *heard.tracks.begin();
   plot::draw(plot::logPicture(
                  {.heading = fmt::format("{}, node {}", name.first, name.second), .points = track.points()}),
              options.output);

@@ -1,5 +1,7 @@
 #include <CppUTest/TestHarness.h>
 
+#include <fmt/format.h>
+
 #include <string>
 
 #include "tests/commands/program.hpp"
@@ -60,6 +62,43 @@ TEST(Plot, OfSeveralFingersOneIsChosen) {
   STRCMP_EQUAL("x.log\n", both.out.c_str());
   STRCMP_CONTAINS("several fingers (can0 node 2, can0 node 5): choose one with --node", both.err.c_str());
   LONGS_EQUAL(0, inFolder("\"$STRAINFINGER\" plot x.log -o a.png -n 2", log).status);
+}
+
+TEST(Plot, OfOneNodeOnSeveralInterfacesOneIsChosen) {
+  std::string log = kTouch, other = kTouch;
+  for (auto at = other.find("can0"); at != std::string::npos; at = other.find("can0", at))
+    other[at + 3] = '1';
+  const Run both = inFolder("\"$STRAINFINGER\" plot x.log -o a.png -n 5", log + other);
+  LONGS_EQUAL(2, both.status);
+  STRCMP_CONTAINS("several fingers (can0 node 5, can1 node 5): choose one with --interface",
+                  both.err.c_str());
+  const Run one =
+      inFolder("\"$STRAINFINGER\" plot x.log -o a.svg --interface can1 && grep -c can1 a.gp", log + other);
+  STRCMP_EQUAL("1\n", one.out.c_str());
+  const Run none = inFolder("\"$STRAINFINGER\" plot x.log -o a.svg --interface can2", log);
+  LONGS_EQUAL(1, none.status);
+  STRCMP_CONTAINS("x.log: no touch of can2 in it to draw", none.err.c_str());
+}
+
+TEST(Plot, WarnsOfTwoFingersOfOneNumber) {
+  std::string log;
+  for (int i = 0; i < 40; ++i)
+    for (const int sequence : {i, i + 100})
+      for (const char* frame : {"185#E803220180816100", "285#22011EFF07098100", "385#F807960011018100"})
+        log += fmt::format("(10.{:06}) can0 {:.18}{:02X}\n", i * 1000, frame, sequence);
+  const Run run = inFolder("\"$STRAINFINGER\" plot x.log -o a.svg", log);
+  LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS("plot: warning: x.log: can0 node 5: two fingers have this node number", run.err.c_str());
+}
+
+TEST(Plot, OfAnotherProtocolNothingIsDrawn) {
+  for (const char* touch : {kTouch, ""}) {
+    const Run run = inFolder("\"$STRAINFINGER\" plot x.log -o a.svg; status=$?; ls; exit $status",
+                             std::string(touch) + "(13.000000) can0 705#4200004D0E1900A7\n");
+    LONGS_EQUAL(5, run.status);
+    STRCMP_CONTAINS("can0 node 5 speaks protocol 4, this program 2", run.err.c_str());
+    STRCMP_EQUAL("x.log\n", run.out.c_str());
+  }
 }
 
 TEST(Plot, SaysWhatItCannotDraw) {

@@ -1,15 +1,20 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 
+#include "common/frames.hpp"
 #include "host/base/failure.hpp"
+#include "host/can/frame_catalogue.hpp"
 #include "host/can/log_reader.hpp"
 #include "host/can/open_bus.hpp"
 #include "host/cli/bus_option.hpp"
@@ -29,7 +34,8 @@ constexpr const char* kReplayHelp =
     "Sends the frames of a log (any candump text with times) on a bus, each in its time.\n"
     "Nothing is sent if a line of it cannot be read. Frames that are not classic data frames with 11-bit "
     "identifiers are left out and counted; so are requests to fingers (0x600 + node), unless --requests: a "
-    "finger that is on the bus obeys them, and takes a new zero or other tables.\n"
+    "finger that is on the bus obeys them, and takes a new zero or other tables. What a log has of several "
+    "interfaces goes to the one bus, with a warning; --interface sends what it has of one.\n"
     "--recompute: sends nothing, but puts the RAW of a recording of -c's finger through the firmware's code, "
     "and compares "
     "the frames of touches, bit for bit. Exit status 6: they differ.";
@@ -45,6 +51,7 @@ struct ReplayOptions {
   explicit ReplayOptions(CLI::App& command) : common(command), firmware(command) {
     command.add_option("log", path, "The log")->type_name("FILE")->required();
     addBusOption(command, bus);
+    addInterfaceOption(command, interface);
     command.add_flag("--recompute", recompute,
                      "Compute what the finger must have said from its RAW, and compare");
     command.add_flag("--requests", requests, "Send requests to fingers as well, which they obey");
@@ -54,7 +61,8 @@ struct ReplayOptions {
   CommonOptions common;
   FirmwareOptions firmware;
   std::string path;
-  std::string bus;  ///< empty: none
+  std::string bus;        ///< empty: none
+  std::string interface;  ///< empty: all
   bool recompute = false;
   bool requests = false;
   std::optional<double> speed;
@@ -65,22 +73,37 @@ struct LogExtent {
   std::uint64_t frames = 0;
   std::uint64_t requests = 0;
   std::uint64_t skipped = 0;
+  std::set<std::string, std::less<>> interfaces;
 };
 
 bool isRequest(const CanFrame& frame) { return nodeOf(frame.id, FunctionCode::kRequest).has_value(); }
 
-/// Reads it all, so that nothing is sent of a log that cannot be read to its end.
-LogExtent measure(const std::string& path) {
+void requireFile(const std::string& path) {
   std::error_code notThere;
   const auto type = std::filesystem::status(path, notThere).type();
   if (path == "-" || type == std::filesystem::file_type::fifo ||
       type == std::filesystem::file_type::character)
     throw Failure(ExitCode::kUsage, "replay: the log must be a file, not a pipe: it is read twice");
-  can::LogReader log(path);
+}
+
+/// Reads it all, so that nothing is sent of a log that cannot be read to its end.
+LogExtent measure(const ReplayOptions& options) {
+  requireFile(options.path);
+  can::LogReader log(options.path, options.interface);
   LogExtent extent;
-  while (const auto text = log.next()) ++(isRequest(text->frame) ? extent.requests : extent.frames);
+  while (const auto text = log.next()) {
+    ++(isRequest(text->frame) ? extent.requests : extent.frames);
+    if (!extent.interfaces.contains(text->interface)) extent.interfaces.emplace(text->interface);
+  }
   extent.skipped = log.skipped();
   warn("replay", log.warnings());
+  if (!options.interface.empty() && extent.interfaces.empty())
+    throw Failure(ExitCode::kFailure,
+                  fmt::format("{}: no frame of {} in it", options.path, options.interface));
+  if (extent.interfaces.size() > 1)
+    warn("replay", fmt::format("{}: what it has of several interfaces ({}) all goes to {}: --interface sends "
+                               "what it has of one",
+                               options.path, fmt::join(extent.interfaces, ", "), options.bus));
   return extent;
 }
 
@@ -102,7 +125,7 @@ void send(can::BusPort& port, const CanFrame& frame) {
 
 /// How many frames were sent.
 std::uint64_t sendAll(const ReplayOptions& options, can::BusPort& port, const system::StopSignal& stop) {
-  can::LogReader log(options.path);
+  can::LogReader log(options.path, options.interface);
   const auto start = Clock::now();
   std::optional<std::int64_t> first_ns;
   std::uint64_t sent = 0;
@@ -119,15 +142,43 @@ std::uint64_t sendAll(const ReplayOptions& options, can::BusPort& port, const sy
   return sent;
 }
 
+/// A node that speaks on several interfaces is several fingers: their readings must not be mixed.
+class OneFinger {
+ public:
+  explicit OneFinger(int node) : node_(node) {}
+
+  /// Takes any frame of the log. Throws Failure(kUsage) at the first of another finger with the node.
+  void watch(const std::string& path, const can::TextFrame& text) {
+    const bool isItsOwn = can::findFrame(text.frame) != nullptr || decode<RawFrame>(text.frame);
+    if (!isItsOwn || nodeOf(text.frame) != node_) return;
+    if (interface_.empty()) interface_ = text.interface;
+    if (text.interface == interface_) return;
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("{}: there is a node {} on {} and one on {}: choose with --interface", path,
+                              node_, interface_, text.interface));
+  }
+
+ private:
+  /// The low seven bits of a finger's identifier are the node, whatever the function.
+  static int nodeOf(const CanFrame& frame) { return frame.id & 0x7F; }
+
+  int node_;
+  std::string interface_;  ///< of its first frame
+};
+
 void recomputeLog(const ReplayOptions& options) {
-  can::LogReader log(options.path);
-  const auto next = [&log]() -> std::optional<can::TimedFrame> {
+  const config::FingerConfig config = options.common.config();
+  can::LogReader log(options.path, options.interface);
+  OneFinger one(config.can.node);
+  const auto next = [&]() -> std::optional<can::TimedFrame> {
     const auto text = log.next();
-    if (text) return can::TimedFrame{*text->time_ns, text->frame};
+    if (text) {
+      one.watch(options.path, *text);
+      return can::TimedFrame{*text->time_ns, text->frame};
+    }
     warn("replay", log.warnings());
     return std::nullopt;
   };
-  const config::FingerConfig config = options.common.config();
   const recompute::RecordedFinger finger{
       .node = static_cast<std::uint8_t>(config.can.node),
       .contactRate_hz = static_cast<std::uint16_t>(std::lround(config.can.contact_rate_hz)),
@@ -144,7 +195,7 @@ void runReplay(const ReplayOptions& options) {
     throw Failure(ExitCode::kUsage,
                   "replay: --speed and --requests go with --can: --recompute sends nothing");
   if (options.recompute) return recomputeLog(options);
-  const LogExtent extent = measure(options.path);
+  const LogExtent extent = measure(options);
   const system::StopSignal stop;
   const auto port = can::openBus(options.bus, options.common.config().can.bitrate, kHearNothing);
   const std::uint64_t sent = sendAll(options, *port, stop);

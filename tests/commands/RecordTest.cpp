@@ -168,6 +168,29 @@ TEST(Record, WhatCannotBeComputedAgainIsToldWhy) {
                   recomputed("[gauges]\\ncount = 20\\n[can]\\nnode = 2\\n", rawOfNode2).c_str());
 }
 
+TEST(Record, ReplayOfSeveralInterfacesSaysThatTheyMix) {
+  const char* const log = "(1.000000) can0 181#0000000000000055\n(1.000000) can1 181#0000000000000056\n";
+  const Run run = inFolder("replay in", log);
+  LONGS_EQUAL(0, run.status);
+  checkSays("replay: warning: in: what it has of several interfaces (can0, can1) all goes to udp:", run);
+  const Run one = inFolder("record; replay in --interface can1; stop INT; cut -d' ' -f3 x.log", log);
+  STRCMP_EQUAL("181#0000000000000056\n", one.out.c_str());
+  CHECK(one.err.find("warning") == std::string::npos);
+  const Run none = inFolder("replay in --interface can2", log);
+  LONGS_EQUAL(1, none.status);
+  checkSays("in: no frame of can2 in it", none);
+}
+
+TEST(Record, OfOneNodeOnSeveralInterfacesOneIsComputedAgain) {
+  const char* const log = "(1.000000) can0 401#0000000000000000\n(1.000000) can1 181#0000000000000055\n";
+  const Run both = inFolder("\"$STRAINFINGER\" replay in --recompute", log);
+  LONGS_EQUAL(2, both.status);
+  checkSays("in: there is a node 1 on can0 and one on can1: choose with --interface", both);
+  const Run other = inFolder("\"$STRAINFINGER\" replay in --recompute --interface can1", log);
+  LONGS_EQUAL(1, other.status);
+  checkSays("has no readings (RAW) of node 1", other);
+}
+
 TEST(Record, ReplaySendsNothingOfALogItCannotRead) {
   const Run run = inFolder("record; replay in; echo $?; stop INT; cat x.log", frames(3) + "rubbish\n");
   STRCMP_EQUAL("1\n", run.out.c_str());

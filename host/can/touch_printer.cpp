@@ -32,9 +32,36 @@ void TouchPrinter::print(std::optional<std::int64_t> time_ns, std::string_view i
   if (entry == nullptr) return;
   const std::uint8_t node = *nodeOf(frame.id, entry->spec.function);
   Listener& listener = listeners_.at(interface, node);
+  const FunctionCode function = entry->spec.function;
   if (!listener.receiver) listener.receiver.emplace(node);
-  if (entry->spec.function == FunctionCode::kContact) listener.contactTime_ns = time_ns;
-  const auto touch = listener.receiver->take(frame);
+  if (showsEnd(listener, function, frame)) giveUp(interface, node, listener);
+  if (function == FunctionCode::kContact) {
+    listener.contact = frame;
+    listener.contactTime_ns = time_ns;
+    listener.heartbeats = 0;
+  }
+  appendRow(listener.receiver->take(frame), interface, node, listener);
+}
+
+void TouchPrinter::finish() {
+  listeners_.forEach([this](const std::string& interface, std::uint8_t node, Listener& listener) {
+    giveUp(interface, node, listener);
+  });
+}
+
+/// A touch's frames go out together, and a frame that comes twice is no other one. One HEARTBEAT may get in
+/// between: of the end of a touch, which no CONTACT follows, the next one shows that there is no more.
+bool TouchPrinter::showsEnd(Listener& listener, FunctionCode function, const CanFrame& frame) {
+  if (function == FunctionCode::kHeartbeat) return ++listener.heartbeats >= 2;
+  return function == FunctionCode::kContact && !(frame == listener.contact);
+}
+
+void TouchPrinter::giveUp(std::string_view interface, std::uint8_t node, Listener& listener) {
+  appendRow(listener.receiver->giveUp(), interface, node, listener);
+}
+
+void TouchPrinter::appendRow(const std::optional<TouchReport>& touch, std::string_view interface,
+                             std::uint8_t node, const Listener& listener) {
   if (!touch) return;
   start_.append(out_, listener.contactTime_ns, interface, node);
   append(*touch);

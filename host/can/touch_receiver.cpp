@@ -62,12 +62,21 @@ bool TouchReceiver::Touch::isComplete() const {
   return contact && force && patch && (patch->contacts < 2 || (contact2 && force2));
 }
 
+/// Where the PATCH that would say so was lost, its frames do.
+bool TouchReceiver::Touch::hasSecond() const {
+  if (patch) return patch->contacts >= 2;
+  return (contact2 && contact2->flags.has(FingerFlag::kContact)) ||
+         (force2 && force2->flags.has(FingerFlag::kContact));
+}
+
 TouchReport TouchReceiver::Touch::report() const {
-  TouchReport report{reportOf(*contact, *force)};
-  report.width_m = physical(*patch, &PatchFrame::width_um);
-  report.sigmaWidth_m = physical(*patch, &PatchFrame::sigma_width_um);
-  report.chi = physical(*patch, &PatchFrame::chi_sixteenths);
-  if (patch->contacts >= 2) report.second = reportOf(*contact2, *force2);
+  const PatchFrame known = patch.value_or(PatchFrame{});
+  TouchReport report{reportOf(*contact, force.value_or(ForceFrame{}))};
+  report.width_m = physical(known, &PatchFrame::width_um);
+  report.sigmaWidth_m = physical(known, &PatchFrame::sigma_width_um);
+  report.chi = physical(known, &PatchFrame::chi_sixteenths);
+  if (hasSecond())
+    report.second = reportOf(contact2.value_or(Contact2Frame{}), force2.value_or(Force2Frame{}));
   report.flags = contact->flags;
   report.sequence = contact->sequence;
   return report;
@@ -90,6 +99,11 @@ std::optional<TouchReport> TouchReceiver::take(const CanFrame& frame) {
   const bool kept = keep(frame, touch_.force) || keep(frame, touch_.patch) || keep(frame, touch_.contact2) ||
                     keep(frame, touch_.force2);
   if (!kept || !touch_.isComplete()) return std::nullopt;
+  return std::exchange(touch_, {}).report();
+}
+
+std::optional<TouchReport> TouchReceiver::giveUp() {
+  if (!touch_.contact) return std::nullopt;
   return std::exchange(touch_, {}).report();
 }
 

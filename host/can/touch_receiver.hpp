@@ -61,11 +61,15 @@ class TouchReceiver {
 
   /// Takes any frame in the order of the bus; a report when it completes what the last CONTACT began. What
   /// follows a CONTACT may come in any order: a controller sends the lowest identifier first. Frames of
-  /// another sequence number than that CONTACT's are left out; a touch that lost a frame gives nothing.
+  /// another sequence number than that CONTACT's are left out; a touch that lost a frame gives nothing here.
   std::optional<TouchReport> take(const CanFrame& frame);
 
+  /// What there is of the last CONTACT's touch, if it is not complete: what was lost is kNoValue. It is given
+  /// up then: of what comes of it later nothing is given.
+  std::optional<TouchReport> giveUp();
+
  private:
-  /// The frames of one sequence number so far.
+  /// The frames of one sequence number so far. A report needs the CONTACT.
   struct Touch {
     std::optional<ContactFrame> contact{};
     std::optional<ForceFrame> force{};
@@ -73,6 +77,7 @@ class TouchReceiver {
     std::optional<Contact2Frame> contact2{};
     std::optional<Force2Frame> force2{};
     bool isComplete() const;
+    bool hasSecond() const;
     TouchReport report() const;
   };
   template <typename Frame>

@@ -30,7 +30,10 @@ constexpr const char* kDecodeHelp =
     "no such field or the value is not known; flags are names joined by '+'.\n"
     "--json: one object a frame with its own fields, null where not known.\n"
     "The largest value of a field stands for it or more (sigma_normal_n 0.127, sigma_width_m 0.065534 ..).\n"
-    "--touches: a row for each touch sample in place of its frames: where, how hard, how wide, how sure.\n"
+    "--touches: a row for each touch sample in place of its frames: where, how hard, how wide, how sure. "
+    "What "
+    "of it was lost is empty; a sample that lost its CONTACT has no row. The last row of a touch has no flag "
+    "contact.\n"
     "A line that cannot be read is reported as FILE:LINE:COLUMN on stderr and makes the exit status 1.\n"
     "At the end, or at Ctrl-C, stderr says what was read, skipped and lost.\n"
     "Other devices can use the same identifiers (CANopen drives do): --node says which nodes are fingers.\n"
@@ -85,6 +88,12 @@ class Decoder {
     }
     const auto last = stopped() ? std::nullopt : lines.rest();
     if (last) decodeLine(*last);
+    output_.flush();
+  }
+
+  /// Prints what was held back for more of it.
+  void finish() {
+    if (touches_) touches_->finish();
     output_.flush();
   }
 
@@ -177,6 +186,7 @@ void runDecode(const DecodeOptions& options) {
   const auto paths = options.paths.empty() ? std::vector<std::string>{"-"} : options.paths;
   for (const std::string& path : paths)
     if (!decoder.stopped()) decoder.decodeAll(path);
+  decoder.finish();
   decoder.tally().summarise();
   decoder.tally().requireGood();
   if (decoder.stopped()) throw Failure(ExitCode::kInterrupted, "decode: interrupted");

@@ -120,6 +120,13 @@ TEST(Decode, PrintsARowATouch) {
       run.out.c_str());
 }
 
+TEST(Decode, ARowHasWhatIsLeftOfATouch) {
+  const Run run = runProgram("decode --touches", contact_ + patch_);
+  LONGS_EQUAL(0, run.status);
+  STRCMP_EQUAL("1609779922.655421,can0,5,10,,,0.00204,2.9,,,0.00015,97,1.0625,contact+simulated,163,,,\n",
+               rows(run).c_str());
+}
+
 TEST(Decode, TellsTwoFingersOfOneNumberFromLosses) {
   const Run run = runShell(
       "\"$STRAINFINGER\" run --duration 2 >a; \"$STRAINFINGER\" run --seed 2 --duration 2 | tail -n +2 >b\n"

@@ -100,10 +100,44 @@ TEST(TouchPrinter, FingersDontMix) {
   STRCMP_EQUAL(kRow, rows().c_str());
 }
 
-TEST(TouchPrinter, ATouchThatLostAFrameHasNoRow) {
+TEST(TouchPrinter, WhatATouchLostIsEmptyOnceTheNextComes) {
   TouchPrinter printer(printed_, TableFormat::kCsv);
   take(printer, contact_), take(printer, patch_);
-  take(printer, HeartbeatFrame{});
   printer.print(0, "can0", {0x7FF, 0, {}});
   STRCMP_EQUAL("", rows().c_str());
+  ContactFrame next = contact_;
+  ++next.sequence;
+  take(printer, next, 1'600'000'000);
+  STRCMP_EQUAL("1.500000,can0,5,35.73,,,0.00204,0.12,,,0.00015,97,1.0625,contact+simulated,163,,,\n",
+               rows().c_str());
+}
+
+// Nothing follows but HEARTBEATs, of which one may get between the frames of a touch.
+TEST(TouchPrinter, TheEndOfATouchIsToldWhateverOfItWasLost) {
+  TouchPrinter printer(printed_, TableFormat::kCsv);
+  take(printer, ContactFrame{.flags = {FingerFlag::kSimulated}, .sequence = 7});
+  take(printer, HeartbeatFrame{}, 1'510'000'000);
+  STRCMP_EQUAL("", rows().c_str());
+  take(printer, HeartbeatFrame{}, 1'610'000'000);
+  STRCMP_EQUAL("1.500000,can0,5,,,,,,,,,,,simulated,7,,,\n", rows().c_str());
+  take(printer, ForceFrame{.sequence = 7}), take(printer, PatchFrame{.sequence = 7});
+  printer.finish();
+  STRCMP_EQUAL("1.500000,can0,5,,,,,,,,,,,simulated,7,,,\n", rows().c_str());
+}
+
+TEST(TouchPrinter, AtTheEndOfTheLogWhatIsThereIsPrinted) {
+  TouchPrinter printer(printed_, TableFormat::kCsv);
+  take(printer, contact_), take(printer, contact_), take(printer, force_);
+  printer.finish();
+  STRCMP_EQUAL("1.500000,can0,5,35.73,0.29,-0.226,,0.12,0.0035,0.0045,,97,,contact+simulated,163,,,\n",
+               rows().c_str());
+}
+
+TEST(TouchPrinter, ASecondContactIsPrintedWhereThePatchWasLost) {
+  TouchPrinter printer(printed_, TableFormat::kCsv);
+  ContactFrame contact = contact_;
+  contact.angle_cdeg = 18000;
+  take(printer, contact_), take(printer, Contact2Frame{contact});
+  printer.finish();
+  STRCMP_CONTAINS(",163,180,,\n", rows().c_str());
 }

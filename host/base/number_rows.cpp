@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "host/base/byte_order_mark.hpp"
+#include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 
 namespace strainfinger {
@@ -150,7 +151,7 @@ void NumberRowReader::takeHeader(const std::string& line) {
   if (!limit_.columns.empty()) return chooseColumns(names);
   if (const std::string all = fmt::format("{}", fmt::join(names, ","));
       !limit_.header.empty() && all != limit_.header)
-    fail(1, fmt::format("the header is \"{}\", not \"{}\"", all, limit_.header));
+    fail(1, fmt::format("the header is \"{}\", not \"{}\"", excerpt(all), limit_.header));
   if (names.size() != columns_)
     fail(1, fmt::format("the header has {} columns where {} are needed", names.size(), columns_));
 }
@@ -179,8 +180,8 @@ void NumberRowReader::requireNoMore() const {
         name.find_first_not_of("0123456789", limit_.family.size()) == std::string::npos)
       more.push_back(name);
   if (more.empty()) return;
-  fail(1, fmt::format("the file has {}{}, {}", more.front(),
-                      more.size() > 1 ? fmt::format(" .. {}", more.back()) : "", limit_.familyHint));
+  fail(1, fmt::format("the file has {}{}, {}", excerpt(more.front()),
+                      more.size() > 1 ? fmt::format(" .. {}", excerpt(more.back())) : "", limit_.familyHint));
 }
 
 void NumberRowReader::parse(const std::string& line, std::vector<double>& row) {
@@ -206,11 +207,11 @@ double NumberRowReader::numberOf(const std::string& field, std::size_t column) c
   double value = 0;
   for (const auto& [separator, name] : kOtherSeparators)
     if (field.find(separator) != std::string::npos)
-      fail(column, fmt::format("\"{}\" has {}: separate columns by commas", field, name));
-  if (!parseNumber(field, value)) fail(column, fmt::format("\"{}\" is no number", field));
-  if (!std::isfinite(value)) fail(column, fmt::format("{} is no finite number", field));
+      fail(column, fmt::format("\"{}\" has {}: separate columns by commas", excerpt(field), name));
+  if (!parseNumber(field, value)) fail(column, fmt::format("\"{}\" is no number", excerpt(field)));
+  if (!std::isfinite(value)) fail(column, fmt::format("{} is no finite number", excerpt(field)));
   if (std::abs(value) > limit_.most)
-    fail(column, fmt::format("{} is beyond +-{}: {}", field, limit_.most, limit_.hint));
+    fail(column, fmt::format("{} is beyond +-{}: {}", excerpt(field), limit_.most, limit_.hint));
   return value;
 }
 

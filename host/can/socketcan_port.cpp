@@ -12,6 +12,7 @@
 #include <span>
 #include <utility>
 
+#include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 
 namespace strainfinger::can {
@@ -147,7 +148,7 @@ SocketCanPort::SocketCanPort(std::string interface, int bitrate, BusFilter filte
     : interface_(std::move(interface)), filter_(filter), calls_(calls) {
   if (interface_.empty() || interface_.size() >= IFNAMSIZ)
     throw Failure(ExitCode::kNoInterface, fmt::format("no CAN interface '{}': a name has 1 to {} characters",
-                                                      interface_, IFNAMSIZ - 1));
+                                                      excerpt(interface_), IFNAMSIZ - 1));
   const int error = open();
   if (error < 0) throw openingFailure(interface_, bitrate, error);
   if (status_.state != CanState::kDown) return;

@@ -16,6 +16,7 @@
 #include <cstring>
 #include <utility>
 
+#include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 #include "host/can/receive_notes.hpp"
 
@@ -46,7 +47,7 @@ std::uint16_t portOf(std::string_view name) {
   if (error == std::errc{} && end == digits.data() + digits.size() && port >= kLeastPort && port <= kMostPort)
     return static_cast<std::uint16_t>(port);
   throw Failure(ExitCode::kUsage, fmt::format("{} is no bus: udp, or udp:PORT with a port from {} to {}",
-                                              name, kLeastPort, kMostPort));
+                                              excerpt(name), kLeastPort, kMostPort));
 }
 
 sockaddr_in addressOf(const char* host, std::uint16_t port) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/frame_layout.hpp"
+#include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 #include "host/config/read_config.hpp"
 
@@ -66,7 +67,7 @@ CLI::Validator isOfKind(const char* kind, Number least, Number most, const std::
             Number value{};
             const bool isWithin = read(text, value) && value >= least && value <= most;
             return isWithin ? std::string{}
-                            : fmt::format("{} is not {} from {} to {}", text, kind, least, most);
+                            : fmt::format("{} is not {} from {} to {}", excerpt(text), kind, least, most);
           },
           inHelp};
 }

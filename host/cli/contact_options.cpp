@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "host/base/angles.hpp"
+#include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/number_rows.hpp"
 #include "host/base/read_file.hpp"
@@ -25,7 +26,7 @@ double parameterOf(const std::string& text, const std::string& kind, double leas
   const std::string number = text.substr(kind.size() + 1);
   if (CLI::detail::lexical_cast(number, value) && value > least && value < most) return value;
   throw Failure(ExitCode::kUsage, fmt::format("--indenter: {}: {} is not a number between {} and {}", kind,
-                                              number, least, most));
+                                              excerpt(number), least, most));
 }
 
 std::string textOf(const std::string& path) {

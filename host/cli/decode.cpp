@@ -34,12 +34,17 @@ constexpr const char* kDecodeHelp =
     "What "
     "of it was lost is empty; a sample that lost its CONTACT has no row. The last row of a touch has no flag "
     "contact.\n"
-    "A line that cannot be read is reported as FILE:LINE:COLUMN on stderr and makes the exit status 1.\n"
+    "A line that cannot be read is reported as FILE:LINE:COLUMN on stderr, of each file the first 20, and "
+    "makes "
+    "the exit status 1.\n"
     "At the end, or at Ctrl-C, stderr says what was read, skipped and lost.\n"
     "Other devices can use the same identifiers (CANopen drives do): --node says which nodes are fingers.\n"
     "Live: candump vcan0 | strainfinger decode --touches\n"
     "or, from a bus between programs: strainfinger record --can udp -o x.log & strainfinger decode --follow "
     "x.log";
+
+/// Lines of a file that are told of one by one where they cannot be read.
+constexpr std::uint64_t kMostTold = 20;
 
 /// How often a file that is followed is looked at.
 constexpr std::chrono::milliseconds kFollowPeriod{50};
@@ -79,6 +84,7 @@ class Decoder {
     LineReader lines(path);
     name_ = lines.name();
     line_ = 0;
+    unreadable_ = 0;
     while (!stop_.asked()) {
       while (const auto text = lines.next()) decodeLine(*text);
       output_.flush();  // before more is waited for: candump may be live
@@ -89,6 +95,8 @@ class Decoder {
     const auto last = stopped() ? std::nullopt : lines.rest();
     if (last) decodeLine(*last);
     output_.flush();
+    if (unreadable_ > kMostTold)
+      fmt::print(stderr, "{}: and {} more lines that cannot be read\n", name_, unreadable_ - kMostTold);
   }
 
   /// Prints what was held back for more of it.
@@ -127,7 +135,7 @@ class Decoder {
     output_.flush();  // what stands before it
     if (strict_) throw Failure(ExitCode::kFailure, message);
     tally_.countUnreadable();
-    fmt::print(stderr, "{}\n", message);
+    if (++unreadable_ <= kMostTold) fmt::print(stderr, "{}\n", message);
   }
 
   void take(const can::LogLine& line) {
@@ -168,8 +176,9 @@ class Decoder {
   bool follow_;
   bool strict_;
   std::vector<int> nodes_;
-  std::string name_;        ///< of the file that is read
-  std::uint64_t line_ = 0;  ///< of it
+  std::string name_;              ///< of the file that is read
+  std::uint64_t line_ = 0;        ///< of it
+  std::uint64_t unreadable_ = 0;  ///< lines of it
   DecodeTally tally_;
 };
 

@@ -73,8 +73,10 @@ void DecodeTally::summariseSkipped() const {
 
 void DecodeTally::requireGood() const {
   if (unreadable_ > 0)
-    throw Failure(ExitCode::kFailure, fmt::format("{} of {} lines could not be read; the others are decoded",
-                                                  unreadable_, lines_));
+    throw Failure(ExitCode::kFailure,
+                  fmt::format("{} of {} lines could not be read{}", unreadable_, lines_,
+                              knowsForm() ? "; the others are decoded"
+                                          : ": this is no text of candump; `candump -L` writes one"));
   for (const can::NodeCount& node : losses_.counts()) can::requireOurProtocol(node);
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/frames.hpp"
+#include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 #include "host/can/candump_text.hpp"
 #include "host/can/field_text.hpp"
@@ -89,7 +90,8 @@ std::optional<can::LogLine> frameOf(const std::vector<std::string>& words) {
   const auto line = lineOf(text);
   const auto* const error = std::get_if<can::LogError>(&line);
   if (error != nullptr && text.find('#') != std::string::npos)
-    throw Failure(ExitCode::kUsage, fmt::format("explain: '{}' is no frame: {}", text, error->reason));
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("explain: '{}' is no frame: {}", excerpt(text), error->reason));
   return std::nullopt;
 }
 
@@ -190,9 +192,10 @@ void warnOfProtocol(const Explained& explained) {
 
 [[noreturn]] void refuse(const std::string& word) {
   const std::vector<std::string> like = can::namesLike(word);
-  throw Failure(ExitCode::kUsage,
-                fmt::format("explain: '{}' is no name on the bus{}; `strainfinger explain` lists them", word,
-                            like.empty() ? "" : fmt::format(" (did you mean {}?)", fmt::join(like, ", "))));
+  throw Failure(
+      ExitCode::kUsage,
+      fmt::format("explain: '{}' is no name on the bus{}; `strainfinger explain` lists them", excerpt(word),
+                  like.empty() ? "" : fmt::format(" (did you mean {}?)", fmt::join(like, ", "))));
 }
 
 /// Names, however they are joined: "contact+uncertain", "noisy,".

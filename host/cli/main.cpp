@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 #include "host/cli/commands.hpp"
 
@@ -79,11 +80,11 @@ int main(int argc, char** argv) {
     return finishOutput();
   } catch (const CLI::ParseError& error) {
     if (isUnknownCommand(app))
-      return complain(ExitCode::kUsage,
-                      app.remaining().front() + " is no command; strainfinger --help lists them");
+      return complain(ExitCode::kUsage, strainfinger::excerpt(app.remaining().front()) +
+                                            " is no command; strainfinger --help lists them");
     std::ostringstream complaint;
     const bool isHelp = app.exit(error, std::cout, complaint) == 0;
-    tell(complaint.str());
+    tell(isHelp ? complaint.str() : strainfinger::excerptWords(complaint.str()));
     return isHelp ? finishOutput() : finish(ExitCode::kUsage);
   } catch (const strainfinger::Failure& failure) {
     return complain(failure.code(), failure.what());

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "host/base/excerpt.hpp"
 #include "host/base/read_file.hpp"
 #include "host/config/keys.hpp"
 #include "host/config/toml_text.hpp"
@@ -62,7 +63,7 @@ void readValue(const toml::node& node, const Key& key, StrainComponent& value) {
   const auto name = std::find(kComponentNames.begin(), kComponentNames.end(), text);
   if (name == kComponentNames.end())
     failAt(node.source(), fmt::format("{} = \"{}\" is out of its domain; it must be one of {}", key.dotted(),
-                                      text, fmt::join(kComponentNames, ", ")));
+                                      excerpt(text), fmt::join(kComponentNames, ", ")));
   value = static_cast<StrainComponent>(name - kComponentNames.begin());
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "host/base/edit_distance.hpp"
+#include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 
 namespace strainfinger::config {
@@ -56,7 +57,7 @@ toml::table parseToml(std::string_view text, const std::string& name) {
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
-    failAt(error.source(), error.description());
+    failAt(error.source(), excerptWords(error.description()));
   }
 }
 
@@ -86,9 +87,10 @@ void checkKeys(const toml::table& table, std::string_view prefix, std::span<cons
     dotted += key.str();
     if (std::find(known.begin(), known.end(), dotted) != known.end()) continue;
     const std::string nearest = nearestTo(dotted, suggestions);
-    failAt(key.source(), nearest.empty()
-                             ? fmt::format("unknown key {}; known here: {}", dotted, fmt::join(known, ", "))
-                             : fmt::format("unknown key {}; did you mean {}?", dotted, nearest));
+    failAt(key.source(),
+           nearest.empty()
+               ? fmt::format("unknown key {}; known here: {}", excerpt(dotted), fmt::join(known, ", "))
+               : fmt::format("unknown key {}; did you mean {}?", excerpt(dotted), nearest));
   }
 }
 

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/read_file.hpp"
 #include "host/base/table_writer.hpp"
@@ -89,7 +90,7 @@ std::string terminal(const Picture& picture, const std::string& ending) {
   if (ending == ".svg")
     return fmt::format("svg size {},{} dynamic font 'sans-serif,14' background '#ffffff'", picture.width_px,
                        picture.height_px);
-  throw Failure(ExitCode::kUsage, fmt::format("pictures are .svg or .png, not \"{}\"", ending));
+  throw Failure(ExitCode::kUsage, fmt::format("pictures are .svg or .png, not \"{}\"", excerpt(ending)));
 }
 
 void replaceAll(std::string& text, const std::string& old, const std::string& with) {

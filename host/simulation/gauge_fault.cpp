@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 
 namespace strainfinger::simulation {
@@ -52,7 +53,7 @@ GaugeFault readGaugeFault(const std::string& text) {
     throw Failure(ExitCode::kUsage,
                   fmt::format("--fault {}: must be KIND:GAUGE or KIND:GAUGE@SECOND, KIND one of dead, open, "
                               "short, stuck, noisy; for example stuck:5@2.5",
-                              text));
+                              excerpt(text)));
   fault.kind = *kind;
   return fault;
 }

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host/base/excerpt.hpp"
 #include "host/base/read_file.hpp"
 #include "host/config/toml_text.hpp"
 
@@ -109,7 +110,8 @@ model::Profile readProfile(const toml::node& node) {
   for (const ProfileName& each : kProfileNames)
     if (each.name == name) return each.profile;
   failAt(node.source(),
-         fmt::format("touch.profile = \"{}\" is out of its domain; it must be one of hertz, uniform", name));
+         fmt::format("touch.profile = \"{}\" is out of its domain; it must be one of hertz, uniform",
+                     excerpt(name)));
 }
 
 /// To the nanosecond: a difference of decimal times is not quite the decimal that a list ends with.

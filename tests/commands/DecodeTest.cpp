@@ -229,6 +229,19 @@ TEST(Decode, GoesOnAfterALineItCannotRead) {
   STRCMP_CONTAINS("FORCE", run.out.c_str());
 }
 
+TEST(Decode, OfManyLinesThatItCannotReadSomeAreTold) {
+  std::string rubbish;
+  for (int i = 0; i < 25; ++i) rubbish += "rubbish\n";
+  const Run run = runProgram("decode", rubbish + "\n");
+  LONGS_EQUAL(1, run.status);
+  checkSays("stdin:20:8: ", run);
+  CHECK(run.err.find("stdin:21:8: ") == std::string::npos);
+  checkSays("\nstdin: and 5 more lines that cannot be read\n", run);
+  checkSays("25 of 26 lines could not be read: this is no text of candump", run);
+  checkSays("25 of 26 lines could not be read; the others are decoded",
+            runProgram("decode", rubbish + contact_));
+}
+
 TEST(Decode, StrictStopsAtALineItCannotRead) {
   const Run run = runProgram("decode --strict", contact_ + "rubbish\n" + force_);
   LONGS_EQUAL(1, run.status);

@@ -102,3 +102,14 @@ TEST(Main, ControlCharactersOfAFileDontReachTheTerminal) {
   STRCMP_CONTAINS("\\x1B[31m", run.err.c_str());
   CHECK_TRUE(run.err.find('\033') == std::string::npos);
 }
+
+TEST(Main, OfALongWordThatIsWrongTheBeginningIsSaid) {
+  const std::string word(5000, 'a');
+  for (const std::string& arguments :
+       {word, "explain " + word, "explain 185#" + word, "run --fault " + word, "run --can " + word,
+        "run --seed " + word, "decode --" + word, "decode --node " + word}) {
+    const Run run = runProgram(arguments);
+    CHECK_COMPARE(run.err.size(), <, 300);
+    STRCMP_CONTAINS("aaaa..", run.err.c_str());
+  }
+}

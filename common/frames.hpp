@@ -264,7 +264,8 @@ inline constexpr FrameLayout kLayout<ContactFrame>{
     Field{&ContactFrame::sequence,
           {.lsb = 56, .width = 8},
           {.name = "sequence",
-           .comment = "Goes up by one with each CONTACT, 255 is followed by 0: gaps are lost frames"}},
+           .comment = "Goes up by one with each CONTACT, 255 is followed by 0: gaps in CONTACT are lost "
+                      "frames; a CONTACT2 has its CONTACT's"}},
 };
 static_assert(WireFrame<ContactFrame>);
 
@@ -315,7 +316,7 @@ inline constexpr FrameLayout kLayout<ForceFrame>{
     Field{&ForceFrame::flags,
           {.lsb = 48, .width = 8},
           {.name = "flags",
-           .comment = "The same as in its CONTACT",
+           .comment = "The same as in its CONTACT or CONTACT2",
            .kind = FieldKind::kFlags,
            .names = kFingerFlagNames}},
     Field{&ForceFrame::sequence,

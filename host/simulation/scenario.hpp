@@ -14,7 +14,8 @@ struct Touch {
   double angle_rad = 0;
   double normal_n_per_m = 0;
   double tangential_n_per_m = 0;
-  /// Width of the contact, an arc of the surface; 0: a line load. Empty: contact.width_m of the finger's
+  /// Width of the contact, the full base of its pressure as an arc of the surface (fingers report 0.87 of a
+  /// semi-ellipse's); 0: a line load. Empty: contact.width_m of the finger's
   /// config, pressed uniformly; where that is unknown too, a line load.
   std::optional<double> width_m = {};
   model::Profile profile = model::Profile::kEllipse;

@@ -12,6 +12,9 @@ namespace {
 /// How long to wait for room in the interface's queue before the next attempt.
 constexpr std::chrono::milliseconds kRetry{10};
 
+/// How long to wait before looking again whether to go on.
+constexpr std::chrono::milliseconds kLookEvery{100};
+
 void take(const CanFrame& frame, std::uint8_t node, Command command, Reply& reply) {
   const auto response = readSingleFrame<ResponseFrame>(frame, node);
   if (response && response->command == command) reply.response = response;
@@ -35,18 +38,22 @@ std::string meaningOf(const ResponseFrame& response) {
   return name != nullptr ? name->comment : fmt::format("status {}, unknown to this program", status);
 }
 
-Reply ask(BusPort& port, std::uint8_t node, const RequestFrame& request, std::chrono::milliseconds longest) {
+Reply ask(BusPort& port, std::uint8_t node, const RequestFrame& request, const Patience& patience) {
   using Clock = std::chrono::steady_clock;
-  const Clock::time_point end = Clock::now() + longest;
+  using std::chrono::milliseconds;
+  const Clock::time_point begin = Clock::now();
+  const Clock::time_point end = begin + patience.longest;
   const CanFrame frame = encode(request, node);
+  const auto goesOn = [&patience] { return !patience.goOn || patience.goOn(); };
   Reply reply;
-  for (auto now = Clock::now(); now < end && !reply.response; now = Clock::now()) {
+  for (auto now = begin; now < end && !reply.response && goesOn(); now = Clock::now()) {
     if (!reply.sent) reply.sent = port.send(frame);
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - now);
-    port.waitReadable(reply.sent ? left : std::min(left, kRetry));
+    const auto left = std::chrono::ceil<milliseconds>(end - now);
+    port.waitReadable(std::min(left, reply.sent ? kLookEvery : kRetry));
     while (const auto heard = port.receive())
       if (reply.sent) take(*heard, node, request.command, reply);
   }
+  reply.waited = std::min(std::chrono::floor<milliseconds>(Clock::now() - begin), patience.longest);
   return reply;
 }
 

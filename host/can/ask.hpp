@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -14,19 +15,24 @@ namespace strainfinger::can {
 /// Twice the time a finger has to answer; ten heartbeats.
 inline constexpr std::chrono::milliseconds kAskFor{2 * kAnswerWithin_ms};
 
+struct Patience {
+  std::chrono::milliseconds longest = kAskFor;
+  std::function<bool()> goOn{};  ///< asked ten times a second; false ends it; empty: go on
+};
+
 struct Reply {
   bool sent = false;  ///< false: the interface did not take the request in all that time
   std::optional<ResponseFrame> response{};
   bool othersAsk = false;  ///< somebody else asked the same node meanwhile: the response may be theirs
   std::optional<HeartbeatFrame> heartbeat{};  ///< the last of that finger while nothing had come yet
+  std::chrono::milliseconds waited{0};        ///< for a response
 };
 
 /// What became of a request, for people: "Refused: something touches the finger", with what its value means.
 std::string meaningOf(const ResponseFrame& response);
 
-/// Sends the request to node 1 .. 63 and waits for its response, at most so long. Fingers tell callers apart
-/// by nothing: one at a time asks a node. Frames of others meanwhile are read and gone.
-Reply ask(BusPort& port, std::uint8_t node, const RequestFrame& request,
-          std::chrono::milliseconds longest = kAskFor);
+/// Sends the request to node 1 .. 63 and waits for its response. Fingers tell callers apart by nothing: one
+/// at a time asks a node. Frames of others meanwhile are read and gone.
+Reply ask(BusPort& port, std::uint8_t node, const RequestFrame& request, const Patience& patience = {});
 
 }  // namespace strainfinger::can

@@ -21,13 +21,16 @@ bool isStale(const Reply& reply, const RequestFrame& request) {
 }
 
 /// A finger takes a word again whose answer was lost.
-Reply askAgain(BusPort& port, std::uint8_t node, const RequestFrame& request) {
+Reply askAgain(BusPort& port, std::uint8_t node, const RequestFrame& request,
+               const std::function<bool()>& goOn) {
   Reply reply;
-  for (int attempt = 0; attempt < kAttempts && !reply.response; ++attempt) {
+  for (int attempt = 0; attempt < kAttempts && !reply.response && goOn(); ++attempt) {
+    const auto waited = reply.waited;
     bool othersAsk = reply.othersAsk;
     while (const auto heard = port.receive()) othersAsk |= nodeOf(heard->id, FunctionCode::kRequest) == node;
-    reply = ask(port, node, request);
+    reply = ask(port, node, request, {.goOn = goOn});
     reply.othersAsk |= othersAsk;
+    reply.waited += waited;
     if (isStale(reply, request)) reply.response.reset();
   }
   return reply;
@@ -38,15 +41,17 @@ Reply askAgain(BusPort& port, std::uint8_t node, const RequestFrame& request) {
 TablePush pushTables(BusPort& port, std::uint8_t node, const TableImage& image, bool evenWhileTouched,
                      const std::function<bool(int words)>& goOn) {
   TablePush push;
+  const auto goesOn = [&] {
+    push.isStopped = !goOn(push.words);
+    return !push.isStopped;
+  };
   const auto say = [&](const RequestFrame& request) {
     push.command = request.command;
-    push.reply = askAgain(port, node, request);
+    push.reply = askAgain(port, node, request, goesOn);
     push.othersAsk |= push.reply.othersAsk;
   };
   say(loadRequest(evenWhileTouched));
-  while (isDone(push.reply) && push.words < kTableWords) {
-    push.isStopped = !goOn(push.words);
-    if (push.isStopped) break;
+  while (isDone(push.reply) && push.words < kTableWords && goesOn()) {
     const auto index = static_cast<std::uint16_t>(push.words);
     say(wordRequest(index, wordOf(image, index)));
     push.words += isDone(push.reply);

@@ -20,8 +20,8 @@ struct TablePush {
 };
 
 /// Sends `load` and then word by word the image, until one is refused or not answered although it was said
-/// kAttempts times. `goOn(words)` is asked before each word; false ends it. What the port heard before is
-/// gone.
+/// kAttempts times. `goOn(words)` is asked before each word, and ten times a second while an answer is
+/// awaited; false ends it. What the port heard before is gone.
 TablePush pushTables(BusPort& port, std::uint8_t node, const TableImage& image, bool evenWhileTouched,
                      const std::function<bool(int words)>& goOn);
 

@@ -25,7 +25,7 @@ std::string monitorCommand(const can::BusPort& bus) {
 }
 
 Failure silence(const can::Reply& reply, const can::BusPort& bus, const std::string& where) {
-  const auto waited_ms = can::kAskFor.count();
+  const auto waited_ms = reply.waited.count();
   if (!reply.sent)
     return Failure(ExitCode::kNoInterface, fmt::format("{}: {} took no frame in {} ms: {}", where, bus.name(),
                                                        waited_ms, bus.hints().whenBlocked));

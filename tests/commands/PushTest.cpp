@@ -71,6 +71,12 @@ TEST(PushCommand, InterruptedItLeavesAFingerThatWaitsForTables) {
   STRCMP_CONTAINS("BUS,1,BD9AC1C2,24568\ninterface,node,command,status\nBUS,1,tare,done\n", run.out.c_str());
 }
 
+TEST(PushCommand, InterruptedWhileNobodyAnswersItEndsAtOnce) {
+  const Run run = runShell(R"("$STRAINFINGER" push --can udp:19984 -n 9 & interrupt $!; wait $!)");
+  LONGS_EQUAL(130, run.status);
+  STRCMP_CONTAINS("interrupted", run.err.c_str());
+}
+
 TEST(PushCommand, NobodyThere) {
   const Run run = runProgram("push --can udp:19984");
   LONGS_EQUAL(4, run.status);

@@ -26,7 +26,7 @@ TEST_GROUP(Ask) {
     std::copy_n(frame.data.begin(), frame.length, raw.data);
     calls.frames.push_back({.frame = raw});
   }
-  Reply tare() { return ask(port, kNode, tareRequest(false), kShort); }
+  Reply tare() { return ask(port, kNode, tareRequest(false), {.longest = kShort}); }
 };
 
 TEST(Ask, SendsTheRequestOnceAndGivesTheResponse) {
@@ -44,6 +44,7 @@ TEST(Ask, NobodyAnswers) {
   const Reply reply = tare();
   CHECK_TRUE(std::chrono::steady_clock::now() - begin >= kShort);
   CHECK_TRUE(reply.sent);
+  CHECK_TRUE(reply.waited >= kShort);
   CHECK_FALSE(reply.response.has_value());
   CHECK_FALSE(reply.heartbeat.has_value());
   LONGS_EQUAL(1, calls.written.size());
@@ -80,4 +81,12 @@ TEST(Ask, WhatCameBeforeTheRequestIsNoAnswer) {
   calls.writeResults = {-ENOBUFS};
   arrives(encode(responseTo(Command::kTare, CommandStatus::kDone), kNode));
   CHECK_FALSE(tare().response.has_value());
+}
+
+TEST(Ask, EndsWhenItIsStopped) {
+  int asked = 0;
+  const Reply reply = ask(port, kNode, tareRequest(false),
+                          {.longest = std::chrono::hours(1), .goOn = [&] { return ++asked < 3; }});
+  CHECK_TRUE(reply.sent);
+  CHECK_FALSE(reply.response.has_value());
 }

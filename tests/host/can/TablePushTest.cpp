@@ -5,6 +5,7 @@
 #include <cstring>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include "firmware/app/table_loader.hpp"
 #include "host/system/memory_store.hpp"
@@ -88,8 +89,9 @@ TEST(TablePush, EndsAtAWordThatIsOutOfTurn) {
 }
 
 TEST(TablePush, AWordWhoseAnswerIsLostIsSaidAgain) {
-  const auto loses = [this](int words) {
-    if (words == 3) lostAnswers = 1;
+  bool isLost = false;
+  const auto loses = [this, &isLost](int words) {
+    if (words == 3 && !std::exchange(isLost, true)) lostAnswers = 1;
     return words < 6;
   };
   LONGS_EQUAL(6, pushTables(bus, kNode, *image, false, loses).words);
@@ -128,13 +130,22 @@ TEST(TablePush, AnotherWhoAsksTheSameNodeIsNoticed) {
 }
 
 TEST(TablePush, ATouchedFingerIsToldThatItIsMeant) {
-  pushTables(bus, kNode, *image, true, [](int) { return false; });
+  pushTables(bus, kNode, *image, true, [](int words) { return words < 1; });
   CHECK_TRUE(bus.sent[0] == encode(loadRequest(true), kNode));
+}
+
+TEST(TablePush, IsStoppedWhileNobodyAnswers) {
+  bus.onSend = [this](const CanFrame&) { ++asked; };
+  const TablePush stopped = pushTables(bus, kNode, *image, false, [this](int) { return asked == 0; });
+  CHECK_TRUE(stopped.isStopped);
+  CHECK_TRUE(stopped.reply.waited < kAskFor);
+  LONGS_EQUAL(1, asked);
 }
 
 TEST(TablePush, WhenNobodyAnswersItIsSaidThreeTimes) {
   bus.onSend = [this](const CanFrame&) { ++asked; };
   const TablePush unanswered = push();
+  CHECK_TRUE(unanswered.reply.waited >= 3 * kAskFor);
   LONGS_EQUAL(3, asked);
   CHECK_FALSE(unanswered.reply.response.has_value());
 }

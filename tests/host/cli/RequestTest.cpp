@@ -50,7 +50,8 @@ TEST(Request, ARefusalNamesItsReasonAndTheRemedy) {
 }
 
 TEST(Request, NobodyThereIsToldFromAFingerThatDoesNotAnswer) {
-  checkFails({.sent = true}, ExitCode::kNoNode, "no answer within 1000 ms and no HEARTBEAT: start it");
+  checkFails({.sent = true, .waited = std::chrono::seconds(3)}, ExitCode::kNoNode,
+             "no answer within 3000 ms and no HEARTBEAT: start it");
   checkFails(alive({.state = FingerState::kFault}), ExitCode::kNoNode, "alive: state fault");
 }
 
@@ -59,5 +60,5 @@ TEST(Request, AnotherProtocolIsAMismatch) {
 }
 
 TEST(Request, AnInterfaceThatTakesNothingIsNamed) {
-  checkFails({}, ExitCode::kNoInterface, "took no frame in 1000 ms: free it");
+  checkFails({.waited = can::kAskFor}, ExitCode::kNoInterface, "took no frame in 1000 ms: free it");
 }

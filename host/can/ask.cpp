@@ -17,7 +17,10 @@ constexpr std::chrono::milliseconds kLookEvery{100};
 
 void take(const CanFrame& frame, std::uint8_t node, Command command, Reply& reply) {
   const auto response = readSingleFrame<ResponseFrame>(frame, node);
-  if (response && response->command == command) reply.response = response;
+  if (response && response->command == command) {
+    reply.response = response;
+    ++reply.responses;
+  }
   if (nodeOf(frame.id, FunctionCode::kRequest) == node) reply.othersAsk = true;
   if (nodeOf(frame.id, FunctionCode::kHeartbeat) != node) return;
   if (const auto heartbeat = decode<HeartbeatFrame>(frame)) reply.heartbeat = heartbeat;
@@ -42,19 +45,30 @@ Reply ask(BusPort& port, std::uint8_t node, const RequestFrame& request, const P
   using Clock = std::chrono::steady_clock;
   using std::chrono::milliseconds;
   const Clock::time_point begin = Clock::now();
-  const Clock::time_point end = begin + patience.longest;
+  Clock::time_point end = begin + patience.longest;
   const CanFrame frame = encode(request, node);
   const auto goesOn = [&patience] { return !patience.goOn || patience.goOn(); };
   Reply reply;
-  for (auto now = begin; now < end && !reply.response && goesOn(); now = Clock::now()) {
+  for (auto now = begin; now < end && goesOn(); now = Clock::now()) {
     if (!reply.sent) reply.sent = port.send(frame);
     const auto left = std::chrono::ceil<milliseconds>(end - now);
     port.waitReadable(std::min(left, reply.sent ? kLookEvery : kRetry));
+    const bool wasAnswered = reply.response.has_value();
     while (const auto heard = port.receive())
       if (reply.sent) take(*heard, node, request.command, reply);
+    if (!wasAnswered && reply.response) end = Clock::now() + patience.afterwards;
   }
   reply.waited = std::min(std::chrono::floor<milliseconds>(Clock::now() - begin), patience.longest);
   return reply;
+}
+
+/// A second answer may be one frame that came twice, or one to somebody else: hardly so two times.
+Reply askWhoIsThere(BusPort& port, std::uint8_t node, const std::function<bool()>& goOn) {
+  const auto askOnce = [&] {
+    return ask(port, node, countRequest(Count::kErases), {.afterwards = kTwinWithin, .goOn = goOn});
+  };
+  const Reply reply = askOnce();
+  return reply.responses > 1 ? askOnce() : reply;
 }
 
 }  // namespace strainfinger::can

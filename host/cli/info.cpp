@@ -29,7 +29,8 @@ constexpr const char* kInfoHelp =
     "gauges out of use, age of its zeros, and what it counts.\n"
     "Prints interface,node,frame,field,value,meaning; a value that it doesn't know is empty. With -c also "
     "whether its tables are those of that config: exit status 5 if not.\n"
-    "Exit status: 3 no interface, 4 no such node, 5 another protocol or other tables.";
+    "Exit status: 1 two fingers have this node number, 3 no interface, 4 no such node, 5 another protocol or "
+    "other tables.";
 
 /// INFO and GAUGES come each second.
 constexpr std::chrono::milliseconds kListenFor{2 * std::max(kInfoPeriod_ms, kGaugesPeriod_ms)};
@@ -51,6 +52,12 @@ std::optional<live::FingerView> listenFor(live::BusWatch& watch, std::uint8_t no
     finger = fingerOf(watch.view(), node);
   }
   return finger;
+}
+
+/// By what was heard or by who answers.
+bool hasTwin(can::BusPort& bus, const live::FingerView& finger) {
+  if (finger.hasTwin || finger.isSilent()) return finger.hasTwin;
+  return can::askWhoIsThere(bus, finger.node).hasTwin();
 }
 
 std::string textOf(const health::Finding& finding) {
@@ -141,6 +148,7 @@ void runInfo(const RequestOptions& options) {
   if (finger->isForeign())
     throw Failure(ExitCode::kMismatch,
                   fmt::format("{}: {}", where, can::foreignText(finger->heartbeat.protocol)));
+  if (hasTwin(*port, *finger)) throw twinFailure(*port, node);
   InfoTable table(options, node);
   table.add(finger->heartbeat);
   if (finger->info) table.add(*finger->info);

@@ -139,6 +139,7 @@ void runPush(const PushOptions& options) {
   const auto image = tablesFor(options);
   const auto port = can::openBus(options.request.bus, can.bitrate);
   const system::StopSignal stop;
+  requireOneFinger(*port, node, [&stop] { return !stop.asked(); });
   requireWhole(send(*port, node, *image, options.force, stop), *port, node);
   restart(*port, node);
   requireRunning(*port, node, *image, stop);

@@ -4,7 +4,6 @@
 #include <cstdint>
 
 #include "common/commands.hpp"
-#include "host/base/failure.hpp"
 #include "host/can/ask.hpp"
 #include "host/cli/request.hpp"
 #include "host/system/stop_signal.hpp"
@@ -14,13 +13,11 @@ namespace strainfinger::cli {
 /// From the request for RAW to its end.
 class RawStream {
  public:
-  /// Throws as requireDone() does, or Failure(kInterrupted) where it was asked to stop and nothing answered.
+  /// Throws as requireOneFinger() and requireDone() do.
   RawStream(can::BusPort& bus, std::uint8_t node, int rate_hz, const system::StopSignal& stop)
       : bus_(bus), node_(node), rate_hz_(rate_hz) {
-    const can::Reply reply = ask(rate_hz_);
-    if (!reply.response && stop.asked())
-      throw Failure(ExitCode::kInterrupted, "interrupted while the finger was asked for its readings");
-    requireDone(reply, Command::kRaw, bus_, node_);
+    requireOneFinger(bus_, node_, [&stop] { return !stop.asked(); });
+    askAgain();
   }
   /// Best effort: whoever ends it by force leaves the finger sending until its next start.
   ~RawStream() { ask(0); }

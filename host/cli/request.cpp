@@ -24,6 +24,14 @@ std::string monitorCommand(const can::BusPort& bus) {
   return fmt::format("`strainfinger monitor --can {}`", bus.name());
 }
 
+std::string placeOf(const can::BusPort& bus, std::uint8_t node) {
+  return fmt::format("{} node {}", bus.name(), node);
+}
+
+std::string twinText(const can::BusPort& bus) {
+  return fmt::format("{}: {}", can::kTwinText, can::onBus(can::kTwinRemedy, bus.name()));
+}
+
 Failure silence(const can::Reply& reply, const can::BusPort& bus, const std::string& where) {
   const auto waited_ms = reply.waited.count();
   if (!reply.sent)
@@ -52,8 +60,11 @@ RequestOptions::RequestOptions(CLI::App& command) : common(command) {
 }
 
 void requireDone(const can::Reply& reply, Command command, const can::BusPort& bus, std::uint8_t node) {
-  const std::string where = fmt::format("{} node {}", bus.name(), node);
+  const std::string where = placeOf(bus, node);
   if (!reply.response) throw silence(reply, bus, where);
+  if (reply.hasTwin())
+    throw Failure(ExitCode::kFailure,
+                  fmt::format("{}: {}: both have answered: {}", where, commandName(command), twinText(bus)));
   const CommandStatus status = reply.response->status;
   if (status == CommandStatus::kDoneTouched)
     fmt::print(stderr, "strainfinger: {}: {}: {}\n", where, commandName(command),
@@ -64,10 +75,25 @@ void requireDone(const can::Reply& reply, Command command, const can::BusPort& b
                                                   can::onBus(can::remedyFor(status), bus.name())));
 }
 
+Failure twinFailure(const can::BusPort& bus, std::uint8_t node) {
+  return Failure(ExitCode::kFailure, fmt::format("{}: {}", placeOf(bus, node), twinText(bus)));
+}
+
+void requireOneFinger(can::BusPort& bus, std::uint8_t node, const std::function<bool()>& goOn) {
+  const can::Reply reply = can::askWhoIsThere(bus, node, goOn);
+  if (reply.hasTwin()) throw twinFailure(bus, node);
+  if (reply.response) return;
+  if (goOn && !goOn())
+    throw Failure(ExitCode::kInterrupted,
+                  fmt::format("{}: interrupted before it answered", placeOf(bus, node)));
+  throw silence(reply, bus, placeOf(bus, node));
+}
+
 void request(const RequestOptions& options, const std::vector<RequestFrame>& requests) {
   const config::Can can = options.common.config().can;
   const std::uint8_t node = nodeOf(options.node, can);
   const auto port = can::openBus(options.bus, can.bitrate);
+  requireOneFinger(*port, node);
   std::optional<TableWriter> table;  // nothing is printed before there is a row
   for (const RequestFrame& request : requests) {
     const can::Reply reply = can::ask(*port, node, request);

@@ -2,9 +2,11 @@
 // What subcommands that ask something of a finger share.
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "host/base/failure.hpp"
 #include "host/can/ask.hpp"
 #include "host/cli/command.hpp"
 
@@ -20,7 +22,8 @@ struct RequestOptions {
 /// Sends the requests one after the other and prints what became of each: a row
 /// interface,node,command,status. Stops at the first that fails and throws Failure with what to do about it
 /// when it was refused (kFailure), nobody answered (kNoNode), the interface is none or takes nothing
-/// (kNoInterface), or the finger speaks another protocol (kMismatch).
+/// (kNoInterface), or the finger speaks another protocol (kMismatch). Sends none where two fingers would obey
+/// (kFailure).
 void request(const RequestOptions& options, const std::vector<RequestFrame>& requests);
 
 /// Node of -n, else (0) of the config.
@@ -30,5 +33,12 @@ inline std::uint8_t nodeOf(int node, const config::Can& can) {
 
 /// What request() says of a reply that came over `bus`, without the printing.
 void requireDone(const can::Reply& reply, Command command, const can::BusPort& bus, std::uint8_t node);
+
+/// Before a request that changes something: throws as request() does where nobody would obey, or two fingers;
+/// Failure(kInterrupted) where `goOn()`, asked ten times a second, is false before an answer.
+void requireOneFinger(can::BusPort& bus, std::uint8_t node, const std::function<bool()>& goOn = {});
+
+/// That two fingers have this number.
+Failure twinFailure(const can::BusPort& bus, std::uint8_t node);
 
 }  // namespace strainfinger::cli

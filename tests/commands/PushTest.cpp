@@ -71,10 +71,18 @@ TEST(PushCommand, InterruptedItLeavesAFingerThatWaitsForTables) {
   STRCMP_CONTAINS("BUS,1,BD9AC1C2,24568\ninterface,node,command,status\nBUS,1,tare,done\n", run.out.c_str());
 }
 
+// The first finger to answer would not notice, and both would lose their tables.
+TEST(PushCommand, TwoFingersOfOneNumberKeepTheirTables) {
+  const Run run = withFingerAndTwin(kUntouched, R"("$STRAINFINGER" push --can $BUS; echo "push: $?"
+endTwin; "$STRAINFINGER" info --can $BUS | grep -oE '(state|reset_cause),[a-z_]*')");
+  STRCMP_EQUAL("push: 1\nstate,run\nreset_cause,power_on\n", run.out.c_str());
+  STRCMP_CONTAINS("node 1: two fingers have this node number: take one off the bus", run.err.c_str());
+}
+
 TEST(PushCommand, InterruptedWhileNobodyAnswersItEndsAtOnce) {
   const Run run = runShell(R"("$STRAINFINGER" push --can udp:19984 -n 9 & interrupt $!; wait $!)");
   LONGS_EQUAL(130, run.status);
-  STRCMP_CONTAINS("interrupted", run.err.c_str());
+  STRCMP_CONTAINS("udp:19984 node 9: interrupted before it answered", run.err.c_str());
 }
 
 TEST(PushCommand, NobodyThere) {

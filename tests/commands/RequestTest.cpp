@@ -1,9 +1,9 @@
-// `tare` and `config` as far as they go without a bus; with one: tests/vcan/scenarios.
+// `tare` and `config` as far as they go without CAN; with it: tests/vcan/scenarios.
 #include <CppUTest/TestHarness.h>
 
 #include <string>
 
-#include "tests/commands/program.hpp"
+#include "tests/commands/with_finger.hpp"
 
 using namespace strainfinger;
 
@@ -62,4 +62,14 @@ printf 'schema = 1\n[can]\nbitrate = 125000\ncontact_rate_hz = 200\n' >$config
   STRCMP_EQUAL("2\n3\n", run.out.c_str());
   STRCMP_CONTAINS("config: --contact-rate-hz 309: at can.bitrate = 125000 the bus carries 308 at most",
                   run.err.c_str());
+}
+
+TEST(RequestCommands, TwoFingersOfOneNumberAreToldNothing) {
+  const Run run = withFingerAndTwin("", R"(
+for command in "tare --force" "config --contact-rate-hz 50" info "strains --rows 3"; do
+  "$STRAINFINGER" $command --can $BUS; echo "$command: $?"
+done)");
+  STRCMP_EQUAL("tare --force: 1\nconfig --contact-rate-hz 50: 1\ninfo: 1\nstrains --rows 3: 1\n",
+               run.out.c_str());
+  STRCMP_CONTAINS("node 1: two fingers have this node number: take one off the bus", run.err.c_str());
 }

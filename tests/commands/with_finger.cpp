@@ -32,6 +32,15 @@ if [ -z "$heard" ]; then
   return run;
 }
 
+Run withFingerAndTwin(const std::string& options, const std::string& script) {
+  return withFinger(options, "\"$STRAINFINGER\" run --can $BUS --duration 30 --seed 3 " + options +
+                                 " 2>/dev/null & twin=$!\n"
+                                 "endTwin() { kill -INT $twin 2>/dev/null; wait $twin 2>/dev/null; }\n"
+                                 "trap 'endTwin; kill -INT $finger 2>/dev/null; wait $finger' EXIT\n"
+                                 "listening $twin; sleep 0.3\n" +
+                                 script);
+}
+
 Run whileHearing(const std::string& lines, const std::string& arguments) {
   return runShell(ownBus() + "log=$(mktemp); trap 'rm $log' EXIT; cat >$log\n\"$STRAINFINGER\" " + arguments +
                       R"( --can $BUS & listener=$!; listening $listener

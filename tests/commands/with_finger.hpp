@@ -11,6 +11,9 @@ namespace strainfinger {
 /// options) until the script ends.
 Run withFinger(const std::string& options, const std::string& script);
 
+/// With a second finger of the same node number; `endTwin` in the script ends it.
+Run withFingerAndTwin(const std::string& options, const std::string& script);
+
 /// Runs `strainfinger <arguments> --can BUS`, which hears these lines of a log, and nobody who answers.
 Run whileHearing(const std::string& lines, const std::string& arguments);
 

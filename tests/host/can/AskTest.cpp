@@ -6,6 +6,7 @@
 
 #include "host/can/socketcan_port.hpp"
 #include "tests/doubles/fake_socket_calls.hpp"
+#include "tests/host/can/fake_bus_port.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -89,4 +90,67 @@ TEST(Ask, EndsWhenItIsStopped) {
                           {.longest = std::chrono::hours(1), .goOn = [&] { return ++asked < 3; }});
   CHECK_TRUE(reply.sent);
   CHECK_FALSE(reply.response.has_value());
+}
+
+TEST(Ask, AFingerAnswersOnce) {
+  arrives(encode(responseTo(Command::kTare, CommandStatus::kDone), kNode));
+  CHECK_FALSE(tare().hasTwin());
+  for (int twins = 0; twins < 2; ++twins)
+    arrives(encode(responseTo(Command::kTare, CommandStatus::kDone), kNode));
+  CHECK_TRUE(tare().hasTwin());
+}
+
+TEST(Ask, AnAnswerToSomebodyElseIsNoTwins) {
+  arrives(encode(tareRequest(false), kNode));
+  for (int answers = 0; answers < 2; ++answers)
+    arrives(encode(responseTo(Command::kTare, CommandStatus::kDone), kNode));
+  CHECK_FALSE(tare().hasTwin());
+}
+
+namespace {
+
+/// On which each request is answered, the first `twinUntil` of them by a twin as well, a little later.
+class TwinBus : public FakeBusPort {
+ public:
+  explicit TwinBus(int twinUntil) : twinUntil_(twinUntil) {
+    onSend = [this](const CanFrame&) { due_ = ++asked <= twinUntil_ ? 2 : 1; };
+  }
+  bool waitReadable(std::chrono::milliseconds timeout) noexcept override {
+    if (due_-- > 0)
+      hear(responseTo(Command::kCount, CommandStatus::kDone), kNode);
+    else
+      std::this_thread::sleep_for(timeout);
+    return !toHear.empty();
+  }
+
+  static constexpr std::uint8_t kNode = 5;
+  int asked = 0;
+
+ private:
+  int twinUntil_, due_ = 0;
+};
+
+}  // namespace
+
+TEST_GROUP(AskWhoIsThere){};
+
+TEST(AskWhoIsThere, ASecondAnswerIsWaitedFor) {
+  TwinBus bus(2);
+  CHECK_TRUE(askWhoIsThere(bus, TwinBus::kNode).hasTwin());
+  for (const CanFrame& frame : bus.sent) CHECK_TRUE(frame == encode(countRequest(Count::kErases), bus.kNode));
+}
+
+TEST(AskWhoIsThere, OneFingerIsAskedOnceAndSoonHeard) {
+  TwinBus bus(0);
+  const Reply reply = askWhoIsThere(bus, TwinBus::kNode);
+  CHECK_TRUE(reply.response.has_value());
+  CHECK_FALSE(reply.hasTwin());
+  LONGS_EQUAL(1, bus.asked);
+  CHECK_TRUE(reply.waited < kAskFor / 2);
+}
+
+TEST(AskWhoIsThere, AnAnswerThatCameTwiceByChanceIsNoTwins) {
+  TwinBus bus(1);
+  CHECK_FALSE(askWhoIsThere(bus, TwinBus::kNode).hasTwin());
+  LONGS_EQUAL(2, bus.asked);
 }

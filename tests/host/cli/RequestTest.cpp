@@ -15,6 +15,23 @@ TEST_GROUP(Request) {
   static can::Reply answered(CommandStatus status) {
     return {.sent = true, .response = responseTo(Command::kTare, status)};
   }
+  /// So many fingers do so.
+  void answer(int fingers) {
+    bus.onSend = [this, fingers](const CanFrame&) {
+      for (int finger = 0; finger < fingers; ++finger)
+        bus.hear(responseTo(Command::kCount, CommandStatus::kDone), kNode);
+    };
+  }
+  void checkRefused(ExitCode code, const char* message, const std::function<bool()>& goOn = {}) {
+    try {
+      requireOneFinger(bus, kNode, goOn);
+    } catch (const Failure& failure) {
+      LONGS_EQUAL(static_cast<int>(code), static_cast<int>(failure.code()));
+      STRCMP_CONTAINS(message, failure.what());
+      return;
+    }
+    FAIL("no failure");
+  }
   static can::Reply alive(const HeartbeatFrame& heartbeat) { return {.sent = true, .heartbeat = heartbeat}; }
 
   void checkFails(const can::Reply& reply, ExitCode code, const char* message) {
@@ -61,4 +78,21 @@ TEST(Request, AnotherProtocolIsAMismatch) {
 
 TEST(Request, AnInterfaceThatTakesNothingIsNamed) {
   checkFails({.waited = can::kAskFor}, ExitCode::kNoInterface, "took no frame in 1000 ms: free it");
+}
+
+TEST(Request, ThatTwoFingersObeyedIsTold) {
+  can::Reply reply = answered(CommandStatus::kDone);
+  reply.responses = 2;
+  checkFails(reply, ExitCode::kFailure,
+             "tare: both have answered: two fingers have this node number: take one off the bus");
+}
+
+TEST(Request, OneFingerIsNeeded) {
+  answer(1);
+  requireOneFinger(bus, kNode);
+  answer(2);
+  checkRefused(ExitCode::kFailure, "fake0 node 5: two fingers have this node number: take one off the bus");
+  answer(0);
+  checkRefused(ExitCode::kNoNode, "fake0 node 5: no answer within 1000 ms and no HEARTBEAT");
+  checkRefused(ExitCode::kInterrupted, "interrupted", [] { return false; });
 }

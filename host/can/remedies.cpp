@@ -3,26 +3,37 @@
 #include <fmt/format.h>
 
 namespace strainfinger::can {
+namespace {
+
+std::string replaced(std::string text, std::string_view place, std::string_view by) {
+  for (std::size_t at = text.find(place); at != std::string::npos; at = text.find(place, at + by.size()))
+    text.replace(at, place.size(), by);
+  return text;
+}
+
+}  // namespace
 
 std::string_view remedyFor(FingerFault fault) {
   switch (fault) {
     case FingerFault::kTables:
-      return "`strainfinger push --can BUS -c FINGER.toml`, with this finger's config, sends it its tables";
+      return "`strainfinger push --can BUS -n N -c FINGER.toml`, with this finger's config, sends it its "
+             "tables";
     case FingerFault::kGauges:
-      return "`strainfinger info --can BUS` names those out of use: check their wires and amplifiers, then "
-             "`strainfinger tare --can BUS` gives each another chance";
+      return "`strainfinger info --can BUS -n N` names those out of use: check their wires and amplifiers, "
+             "then "
+             "`strainfinger tare --can BUS -n N` gives each another chance";
     case FingerFault::kConverter:
       return "check the converter's supply, reference and wiring, then switch the finger off and on";
     case FingerFault::kCan:
       return "check the bus: wiring, 120 ohm at both ends, one bit rate, its load, and that another node "
              "was there to acknowledge; the fault goes at the next start";
     case FingerFault::kConfiguration:
-      return "set it again: `strainfinger config --can BUS --contact-rate-hz HZ --keep`, `strainfinger "
-             "config --can BUS --set-node NODE`; the fault goes at the next start";
+      return "set it again: `strainfinger config --can BUS -n N --contact-rate-hz HZ --keep`, `strainfinger "
+             "config --can BUS -n N --set-node NODE`; the fault goes at the next start";
     case FingerFault::kWatchdogReset:
-      return "`strainfinger info --can BUS` has what it died of; switching it off and on clears this";
+      return "`strainfinger info --can BUS -n N` has what it died of; switching it off and on clears this";
     case FingerFault::kSamples:
-      return "a few do no harm, as while settings are kept; `strainfinger info --can BUS` counts them "
+      return "a few do no harm, as while settings are kept; `strainfinger info --can BUS -n N` counts them "
              "(lost_sets): where they go on, sample more slowly (firmware/bring_up.md); the fault goes at "
              "the next start";
     case FingerFault::kClock:
@@ -31,7 +42,7 @@ std::string_view remedyFor(FingerFault fault) {
     case FingerFault::kNoisy:
       return "keep mains and motor cables away, check shield and ground, and the wires of gauges out of use; "
              "where it stays so, tell it: gauges.noise_strain in the finger's config, and "
-             "`strainfinger push --can BUS -c` that";
+             "`strainfinger push --can BUS -n N -c` that";
   }
   return "";
 }
@@ -43,9 +54,10 @@ std::string_view remedyFor(FingerFlag flag) {
       return "";
     case FingerFlag::kSaturated:
       return "press less; or have less gain before the converter, a larger gauges.full_scale_strain, and "
-             "`strainfinger push --can BUS -c` the config that says so";
+             "`strainfinger push --can BUS -n N -c` the config that says so";
     case FingerFlag::kDegraded:
-      return "`strainfinger info --can BUS` names gauges that are out of use; one that an answer left out "
+      return "`strainfinger info --can BUS -n N` names gauges that are out of use; one that an answer left "
+             "out "
              "for the moment counts again when it fits";
     case FingerFlag::kUncertain:
       return "wait while a search goes on (mostly 0.2 s or less), or press more firmly: very light touches "
@@ -55,9 +67,9 @@ std::string_view remedyFor(FingerFlag flag) {
       return "read CONTACT2 and FORCE2 as well; with one in PATCH's contacts the two are too near to be "
              "told apart";
     case FingerFlag::kStaleZero:
-      return "let go of it; if nothing touches it, `strainfinger tare --can BUS --force`";
+      return "let go of it; if nothing touches it, `strainfinger tare --can BUS -n N --force`";
     case FingerFlag::kUncalibrated:
-      return "`strainfinger calibrate`, then `strainfinger push --can BUS -c` the config that it writes";
+      return "`strainfinger calibrate`, then `strainfinger push --can BUS -n N -c` the config that it writes";
   }
   return "";
 }
@@ -131,11 +143,12 @@ std::string_view remedyFor(CommandStatus status) {
     case CommandStatus::kDoneTouched:
       return "";
     case CommandStatus::kTouched:
-      return "let go of it; if nothing touches it, its old zero is off: `strainfinger tare --can BUS "
-             "--force` takes a new one; other commands have --force, too";
+      return "let go of it; if nothing touches it, its old zero is off: `strainfinger tare --can BUS -n N "
+             "--force` "
+             "takes a new one; other commands have --force, too";
     case CommandStatus::kBusy:
       return "try again in a second; `strainfinger monitor --can BUS` shows what it does; in state fault it "
-             "needs tables first: `strainfinger push --can BUS -c FINGER.toml`";
+             "needs tables first: `strainfinger push --can BUS -n N -c FINGER.toml`";
     case CommandStatus::kWait:
       return "try again then";
     case CommandStatus::kNotKept:
@@ -144,7 +157,7 @@ std::string_view remedyFor(CommandStatus status) {
     case CommandStatus::kTooFast:
       return "ask for less, or use a bus with a higher bit rate";
     case CommandStatus::kOutOfTurn:
-      return "one program at a time sends a finger tables; `strainfinger push --can BUS -c FINGER.toml` "
+      return "one program at a time sends a finger tables; `strainfinger push --can BUS -n N -c FINGER.toml` "
              "begins "
              "with their first word";
     case CommandStatus::kUnknownCommand:
@@ -160,13 +173,11 @@ std::string foreignText(std::uint8_t protocol) {
 }
 
 std::string onBus(std::string_view remedy, std::string_view bus) {
-  constexpr std::string_view kPlace = "--can BUS";
-  std::string text(remedy);
-  const std::string option = fmt::format("--can {}", bus);
-  for (std::size_t at = text.find(kPlace); at != std::string::npos;
-       at = text.find(kPlace, at + option.size()))
-    text.replace(at, kPlace.size(), option);
-  return text;
+  return replaced(std::string(remedy), "--can BUS", fmt::format("--can {}", bus));
+}
+
+std::string forNode(std::string_view remedy, std::string_view bus, std::uint8_t node) {
+  return replaced(onBus(remedy, bus), "-n N", fmt::format("-n {}", node));
 }
 
 }  // namespace strainfinger::can

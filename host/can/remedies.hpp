@@ -1,6 +1,6 @@
 #pragma once
 // What to do about what a finger says of itself, for people. "" where there is nothing to do. Commands in
-// these texts have `--can BUS`: onBus() says which.
+// these texts have `--can BUS`, those to one finger also `-n N`: forNode() says which.
 
 #include <cstdint>
 #include <string>
@@ -21,13 +21,18 @@ std::string_view remedyFor(CommandStatus status);  ///< of a request that was no
 
 inline constexpr std::string_view kTwinText = "two fingers have this node number";
 inline constexpr std::string_view kTwinRemedy =
-    "take one off the bus; `strainfinger config --can BUS --set-node NODE` makes the other another node, "
+    "take one off the bus; `strainfinger config --can BUS -n N --set-node NODE` makes the other another "
+    "node, "
     "from its next start on";
 
 /// Of a finger whose HEARTBEAT has another protocol version: its other frames mean something else.
 std::string foreignText(std::uint8_t protocol);
 
-/// A remedy whose commands are for this bus.
+/// A remedy whose commands are for this bus, and for any finger on it.
 std::string onBus(std::string_view remedy, std::string_view bus);
+
+/// A remedy whose commands are for this finger. Its number is in them even where it is that of the default
+/// config: they may be given with another one.
+std::string forNode(std::string_view remedy, std::string_view bus, std::uint8_t node);
 
 }  // namespace strainfinger::can

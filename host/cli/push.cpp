@@ -82,10 +82,13 @@ can::TablePush send(can::BusPort& port, std::uint8_t node, const TableImage& ima
 
 void requireWhole(const can::TablePush& push, const can::BusPort& bus, std::uint8_t node) {
   if (push.words == kTableWords) return;
-  const std::string left = push.command == Command::kLoad
-                               ? "the finger still has its old tables; where it has stopped, `strainfinger "
-                                 "config --restart` goes on with them"
-                               : "the finger has no tables until they are pushed again";
+  const std::string left =
+      push.command == Command::kLoad
+          ? can::forNode(
+                "the finger still has its old tables; where it has stopped, `strainfinger config "
+                "--can BUS -n N --restart` goes on with them",
+                bus.name(), node)
+          : "the finger has no tables until they are pushed again";
   if (push.isStopped)
     throw Failure(ExitCode::kInterrupted,
                   fmt::format("push: interrupted after {} of {} words: {}", push.words, kTableWords, left));
@@ -102,8 +105,8 @@ void restart(can::BusPort& port, std::uint8_t node) {
   if (!reply.response || reply.response->status != CommandStatus::kDone)
     fmt::print(stderr,
                "strainfinger: push: the finger has all words, and works with them from its next start on: "
-               "`strainfinger config --can {} --restart`, or switch it off and on\n",
-               port.name());
+               "`strainfinger config --can {} -n {} --restart`, or switch it off and on\n",
+               port.name(), node);
   requireDone(reply, Command::kRestart, port, node);
 }
 
@@ -145,9 +148,9 @@ void runPush(const PushOptions& options) {
   requireRunning(*port, node, *image, stop);
   if (options.force)
     fmt::print(stderr,
-               "push: what touches the finger now is part of its zero: `strainfinger tare --can {}` "
+               "push: what touches the finger now is part of its zero: `strainfinger tare --can {} -n {}` "
                "once nothing does\n",
-               port->name());
+               port->name(), node);
   TableWriter table(stdout, options.request.common.format(), {"interface", "node", "table_crc", "bytes"});
   table.row({options.request.bus, std::int64_t{node}, fmt::format("{:08X}", image->crc32),
              std::int64_t{sizeof *image}});

@@ -28,8 +28,8 @@ std::string placeOf(const can::BusPort& bus, std::uint8_t node) {
   return fmt::format("{} node {}", bus.name(), node);
 }
 
-std::string twinText(const can::BusPort& bus) {
-  return fmt::format("{}: {}", can::kTwinText, can::onBus(can::kTwinRemedy, bus.name()));
+std::string twinText(const can::BusPort& bus, std::uint8_t node) {
+  return fmt::format("{}: {}", can::kTwinText, can::forNode(can::kTwinRemedy, bus.name(), node));
 }
 
 Failure silence(const can::Reply& reply, const can::BusPort& bus, const std::string& where) {
@@ -63,8 +63,8 @@ void requireDone(const can::Reply& reply, Command command, const can::BusPort& b
   const std::string where = placeOf(bus, node);
   if (!reply.response) throw silence(reply, bus, where);
   if (reply.hasTwin())
-    throw Failure(ExitCode::kFailure,
-                  fmt::format("{}: {}: both have answered: {}", where, commandName(command), twinText(bus)));
+    throw Failure(ExitCode::kFailure, fmt::format("{}: {}: both have answered: {}", where,
+                                                  commandName(command), twinText(bus, node)));
   const CommandStatus status = reply.response->status;
   if (status == CommandStatus::kDoneTouched)
     fmt::print(stderr, "strainfinger: {}: {}: {}\n", where, commandName(command),
@@ -72,11 +72,11 @@ void requireDone(const can::Reply& reply, Command command, const can::BusPort& b
   else if (status != CommandStatus::kDone)
     throw Failure(ExitCode::kFailure, fmt::format("{}: {}: {} ({}): {}", where, commandName(command),
                                                   can::meaningOf(*reply.response), statusName(status),
-                                                  can::onBus(can::remedyFor(status), bus.name())));
+                                                  can::forNode(can::remedyFor(status), bus.name(), node)));
 }
 
 Failure twinFailure(const can::BusPort& bus, std::uint8_t node) {
-  return Failure(ExitCode::kFailure, fmt::format("{}: {}", placeOf(bus, node), twinText(bus)));
+  return Failure(ExitCode::kFailure, fmt::format("{}: {}", placeOf(bus, node), twinText(bus, node)));
 }
 
 void requireOneFinger(can::BusPort& bus, std::uint8_t node, const std::function<bool()>& goOn) {

@@ -45,7 +45,7 @@ class Examination {
  public:
   explicit Examination(std::string bus) : bus_(std::move(bus)), where_(bus_) {}
   Examination(std::string bus, std::uint8_t node)
-      : bus_(std::move(bus)), where_(fmt::format("{} node {}", bus_, node)) {}
+      : bus_(std::move(bus)), where_(fmt::format("{} node {}", bus_, node)), node_(node) {}
 
   void good(std::string what) { add(Severity::kGood, std::move(what), ""); }
   void warning(std::string what, std::string_view remedy) {
@@ -60,9 +60,11 @@ class Examination {
 
  private:
   void add(Severity severity, std::string what, std::string_view remedy) {
-    findings_.push_back({severity, where_, std::move(what), can::onBus(remedy, bus_)});
+    findings_.push_back({severity, where_, std::move(what),
+                         node_ ? can::forNode(remedy, bus_, *node_) : can::onBus(remedy, bus_)});
   }
   std::string bus_, where_;
+  std::optional<std::uint8_t> node_;  ///< nothing: it is about a bus
   Findings findings_;
 };
 
@@ -134,7 +136,7 @@ void examineTables(const HeartbeatFrame& heartbeat, std::uint32_t crc32, Examina
       fmt::format("its tables are not those of the config: their CRC-32 ends with {:02X}, not {:02X}",
                   heartbeat.table_crc, wanted),
       "give the config that its tables were made from (-c), or send it those of this one: `strainfinger push "
-      "--can BUS -c FINGER.toml`",
+      "--can BUS -n N -c FINGER.toml`",
       ExitCode::kMismatch);
 }
 
@@ -238,7 +240,7 @@ Findings examineBus(const live::BusView& bus, hal::CanState state, const can::Bu
     examination.warning(
         fmt::format("{:.0f} % of the bit rate are used: with stuff bits the bus may be full", 100 * bus.load),
         "end RAW (`strainfinger strains`), or lower contact rates: `strainfinger config --can BUS "
-        "--contact-rate-hz HZ` (common/BUS_LOAD.md)");
+        "-n N --contact-rate-hz HZ` (common/BUS_LOAD.md)");
   if (bus.missed > 0)
     examination.warning(fmt::format("this machine was too slow for {} frames", bus.missed),
                         "what else does it do? lost frames may be its own");
@@ -270,9 +272,10 @@ Findings examineFinger(const std::string& bus, const live::FingerView& finger,
   if (finger.info) examineInfo(*finger.info, examination);
   const auto gauges = live::bitNumbers(finger.gauges ? finger.gauges->out_of_use : 0);
   if (!gauges.empty())
-    examination.warning(fmt::format("gauges out of use: {}", fmt::join(gauges, ", ")),
-                        "check their wires (firmware/gauge_faults.md); `strainfinger tare --can BUS` gives "
-                        "each another chance");
+    examination.warning(
+        fmt::format("gauges out of use: {}", fmt::join(gauges, ", ")),
+        "check their wires (firmware/gauge_faults.md); `strainfinger tare --can BUS -n N` gives "
+        "each another chance");
   if (!finger.hasTwin) examineTraffic(finger, examination);
   if (examination.isEmpty()) examination.good(describe(finger));
   return examination.findings();

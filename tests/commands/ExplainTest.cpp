@@ -15,7 +15,7 @@ TEST(ExplainCommand, SaysWhatANameMeansAndWhatToDo) {
   STRCMP_EQUAL(
       "stale_zero: bit 5 of flags in CONTACT, FORCE, PATCH, CONTACT2, FORCE2\n"
       "    The zero of the gauges is too old to be trusted\n"
-      "    What to do: let go of it; if nothing touches it, `strainfinger tare --can BUS --force`\n",
+      "    What to do: let go of it; if nothing touches it, `strainfinger tare --can BUS -n N --force`\n",
       run.out.c_str());
   STRCMP_EQUAL(run.out.c_str(), runProgram("explain stale zero").out.c_str());
 }
@@ -40,7 +40,7 @@ TEST(ExplainCommand, SaysWhatAFrameSays) {
 TEST(ExplainCommand, SaysWhatToDoAboutWhatAFrameSays) {
   const Run run = runProgram("explain 705#220100FFFF80FF00");
   STRCMP_CONTAINS("        tables: The lookup tables are absent", run.out.c_str());
-  STRCMP_CONTAINS("        What to do: `strainfinger push --can BUS -c FINGER.toml`", run.out.c_str());
+  STRCMP_CONTAINS("        What to do: `strainfinger push --can BUS -n N -c FINGER.toml`", run.out.c_str());
 }
 
 TEST(ExplainCommand, ReadsAnyLineOfCandump) {
@@ -90,7 +90,7 @@ TEST(ExplainCommand, JsonHasAnObjectANameAFieldOrAFlag) {
 )",
       runProgram("explain --json 605#0302C80000000000").out.c_str());
   STRCMP_CONTAINS(
-      R"("field":"faults","value":"tables","meaning":"The lookup tables are absent, damaged or of another finger","remedy":"`strainfinger push --can BUS -c FINGER.toml`)",
+      R"("field":"faults","value":"tables","meaning":"The lookup tables are absent, damaged or of another finger","remedy":"`strainfinger push --can BUS -n N -c FINGER.toml`)",
       runProgram("explain --json 705#220100FFFF80FF00").out.c_str());
 }
 

@@ -91,4 +91,5 @@ TEST(Glossary, ARemedyNamesTheBusItIsFor) {
   STRCMP_CONTAINS("monitor --can can7` shows", onBus(remedyFor(CommandStatus::kBusy), "can7").c_str());
   STRCMP_EQUAL("a --can udp b --can udp", onBus("a --can BUS b --can BUS", "udp").c_str());
   STRCMP_EQUAL("", onBus("", "udp").c_str());
+  STRCMP_EQUAL("a --can udp -n 2 b --can udp", forNode("a --can BUS -n N b --can BUS", "udp", 2).c_str());
 }

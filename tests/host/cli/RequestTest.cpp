@@ -56,7 +56,8 @@ TEST(Request, ARefusalNamesItsReasonAndTheRemedy) {
   checkFails(answered(CommandStatus::kTouched), ExitCode::kFailure,
              "tare: Refused: something touches the finger; the request can say that it is meant even so "
              "(touched): let go of it");
-  checkFails(answered(CommandStatus::kTouched), ExitCode::kFailure, "--force");
+  checkFails(answered(CommandStatus::kTouched), ExitCode::kFailure,
+             "`strainfinger tare --can fake0 -n 5 --force`");
   checkFails(answered(CommandStatus::kBusy), ExitCode::kFailure, "(busy): try again");
   checkFails(answered(CommandStatus::kBusy), ExitCode::kFailure, "`strainfinger monitor --can fake0` shows");
   checkFails(answered(CommandStatus::kUnknownCommand), ExitCode::kFailure, "firmware");
@@ -91,7 +92,9 @@ TEST(Request, OneFingerIsNeeded) {
   answer(1);
   requireOneFinger(bus, kNode);
   answer(2);
-  checkRefused(ExitCode::kFailure, "fake0 node 5: two fingers have this node number: take one off the bus");
+  checkRefused(ExitCode::kFailure,
+               "fake0 node 5: two fingers have this node number: take one off the bus; "
+               "`strainfinger config --can fake0 -n 5 --set-node NODE`");
   answer(0);
   checkRefused(ExitCode::kNoNode, "fake0 node 5: no answer within 1000 ms and no HEARTBEAT");
   checkRefused(ExitCode::kInterrupted, "interrupted", [] { return false; });

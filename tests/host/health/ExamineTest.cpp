@@ -173,7 +173,7 @@ TEST(Examine, TwoFingersOfOneNumberAreAnError) {
   FingerView finger = wellFinger();
   finger.hasTwin = true;
   finger.lost = 100;  // which means nothing then
-  checkOnly(Severity::kError, "two fingers have this node number", "config --can can0 --set-node",
+  checkOnly(Severity::kError, "two fingers have this node number", "config --can can0 -n 1 --set-node",
             of(finger));
 }
 
@@ -223,7 +223,8 @@ TEST(Examine, ErrorCountersOfTheFingersControllerAreIso11898s) {
 
 TEST(Examine, OtherTablesThanTheConfigsAreAMismatch) {
   checkOnly(Severity::kGood, "run", "", of(wellFinger(), 0x123456A7));
-  checkOnly(Severity::kError, "ends with A7, not A8", "push --can can0 -c", of(wellFinger(), 0x123456A8));
+  checkOnly(Severity::kError, "ends with A7, not A8", "push --can can0 -n 1 -c",
+            of(wellFinger(), 0x123456A8));
   checkStatus(ExitCode::kMismatch, of(wellFinger(), 0x123456A8));
 }
 
@@ -231,7 +232,7 @@ TEST(Examine, TablesThatAreNoneAreNotComparedWithAny) {
   FingerView finger = wellFinger();
   finger.heartbeat.faults = {FingerFault::kTables};
   finger.heartbeat.table_crc = 0;
-  checkOnly(Severity::kError, "fault tables", "push --can can0 -c", of(finger, 0x123456A8));
+  checkOnly(Severity::kError, "fault tables", "push --can can0 -n 1 -c", of(finger, 0x123456A8));
 }
 
 TEST(Examine, WhatTheRunBeforeDiedOfIsAWarning) {
@@ -286,6 +287,16 @@ TEST(Examine, WhoCannotAnswerIsNotAsked) {
   finger = wellFinger();
   finger.silence_us = 1'000'000;
   CHECK_FALSE(canAnswer(finger));
+}
+
+TEST(Examine, RemediesAreForTheFingerThatIsExamined) {
+  FingerView finger = wellFinger();
+  finger.node = 2;
+  finger.gauges->out_of_use = 1;
+  STRCMP_CONTAINS("`strainfinger tare --can can0 -n 2` gives", of(finger).front().remedy.c_str());
+  const Counted lost[]{{Count::kLostSets, CountAnswer::kTold, 1}};
+  STRCMP_CONTAINS("`strainfinger info --can can0 -n 2` counts",
+                  examineCounts("can0", 2, lost, hints).front().remedy.c_str());
 }
 
 TEST(Examine, CountsThatDoHarmAreTold) {

@@ -1,22 +1,24 @@
 #pragma once
 // Being asked to stop.
 
+#include <array>
 #include <chrono>
 #include <csignal>
 
 namespace strainfinger::system {
 
-/// While it lives, SIGINT (Ctrl-C) and SIGTERM don't end the process but are remembered. One at a time.
+/// While it lives, SIGINT (Ctrl-C), SIGTERM and SIGHUP (the terminal is closed) don't end the process but are
+/// remembered. One at a time.
 class StopSignal {
  public:
   StopSignal() {
     asked_ = 0;
-    previousInterrupt_ = std::signal(SIGINT, remember);
-    previousTerminate_ = std::signal(SIGTERM, remember);
+    for (Handled& each : handled_) each.previous = std::signal(each.number, remember);
+    Handled& hangUp = handled_.back();
+    if (hangUp.previous == SIG_IGN) std::signal(hangUp.number, SIG_IGN);  // nohup: it is to go on
   }
   ~StopSignal() {
-    std::signal(SIGINT, previousInterrupt_);
-    std::signal(SIGTERM, previousTerminate_);
+    for (const Handled& each : handled_) std::signal(each.number, each.previous);
   }
   StopSignal(const StopSignal&) = delete;
   StopSignal& operator=(const StopSignal&) = delete;
@@ -28,12 +30,14 @@ class StopSignal {
   bool asked() const { return asked_ != 0; }
 
  private:
-  using Handler = void (*)(int);
+  struct Handled {
+    int number;
+    void (*previous)(int) = SIG_DFL;
+  };
   static void remember(int) { asked_ = 1; }
 
   inline static volatile std::sig_atomic_t asked_ = 0;
-  Handler previousInterrupt_;
-  Handler previousTerminate_;
+  std::array<Handled, 3> handled_{Handled{SIGINT}, Handled{SIGTERM}, Handled{SIGHUP}};
 };
 
 }  // namespace strainfinger::system

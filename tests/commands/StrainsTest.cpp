@@ -39,10 +39,10 @@ TEST(StrainsCommand, EndsWithItsLastRow) {
   STRCMP_CONTAINS("strains: 7 sets, 0 incomplete", run.err.c_str());
 }
 
-TEST(StrainsCommand, TheFingerSendsNoMoreWhenItEnds) {
-  const Run run = withFinger("", R"(
-"$STRAINFINGER" strains --can $BUS --rate 100 --duration 0.5 >/dev/null || exit
-/usr/bin/python3 - $BUS <<'END'
+namespace {
+
+/// In a script: says whether HEARTBEATs, and whether RAW, come.
+const std::string kListen = R"(listen() { /usr/bin/python3 - $BUS <<'END'
 import socket, sys, time
 group = "239.255.67.65"
 bus = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
@@ -53,8 +53,25 @@ end, functions = time.monotonic() + 0.5, set()
 while time.monotonic() < end:
     functions.add(int.from_bytes(bus.recv(16)[1:3], "big") & 0x780)
 print(0x700 in functions, 0x400 in functions)
-END)");
+END
+}
+)";
+
+}  // namespace
+
+TEST(StrainsCommand, TheFingerSendsNoMoreWhenItEnds) {
+  const Run run = withFinger("", kListen + R"(
+"$STRAINFINGER" strains --can $BUS --rate 100 --duration 0.5 >/dev/null || exit
+listen)");
   STRCMP_EQUAL("True False\n", run.out.c_str());
+}
+
+TEST(StrainsCommand, TheFingerSendsNoMoreWhenTheTerminalIsClosed) {
+  const Run run = withFinger("", kListen + R"(
+env --default-signal=HUP "$STRAINFINGER" strains --can $BUS --rate 100 >/dev/null & strains=$!
+listening $strains; sleep 0.5; listen; kill -HUP $strains; wait $strains; echo $?
+listen)");
+  STRCMP_EQUAL("True True\n130\nTrue False\n", run.out.c_str());
 }
 
 TEST(StrainsCommand, ARateBeyondTheBusIsRefusedWithTheFastest) {

@@ -15,12 +15,24 @@ TEST_GROUP(StopSignal){};
 
 TEST(StopSignal, NobodyAskedAtFirst) { CHECK_FALSE(StopSignal().asked()); }
 
-TEST(StopSignal, InterruptAndTerminateAskToStop) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+TEST(StopSignal, InterruptTerminateAndHangUpAskToStop) {
+  const auto before = std::signal(SIGHUP, SIG_DFL);  // the test may run under nohup
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const StopSignal stop;
     std::raise(signal);
     CHECK_TRUE(stop.asked());
   }
+  std::signal(SIGHUP, before);
+}
+
+TEST(StopSignal, UnderNohupAHangUpIsNoReasonToStop) {
+  const auto before = std::signal(SIGHUP, SIG_IGN);
+  {
+    const StopSignal stop;
+    std::raise(SIGHUP);
+    CHECK_FALSE(stop.asked());
+  }
+  CHECK_TRUE(std::signal(SIGHUP, before) == SIG_IGN);
 }
 
 TEST(StopSignal, LaterOnesStartAfresh) {

@@ -202,7 +202,7 @@ BusHints SocketCanPort::hints() const {
   return {.whenBlocked = fmt::format("it is down, bus-off, nobody acknowledges or its queue is full; `ip "
                                      "-details -statistics link show {}` shows which",
                                      interface_),
-          .whenSilent = "is it on the bus, with this bit rate and this --node?"};
+          .whenSilent = "is it on the bus, with this bit rate and node number?"};
 }
 
 bool SocketCanPort::waitReadable(std::chrono::milliseconds timeout) noexcept {

@@ -195,8 +195,11 @@ std::optional<TimedFrame> UdpPort::receiveTimed() noexcept {
 hal::CanStatus UdpPort::status() noexcept { return {.state = hal::CanState::kActive, .missed = missed_}; }
 
 BusHints UdpPort::hints() const {
-  return {.whenBlocked = "the loopback interface has no IPv4 or is down; `ip address show lo` shows it",
-          .whenSilent = fmt::format("does it run (`strainfinger run --can {}`), with this --node?", name_)};
+  return {
+      .whenBlocked = "the loopback interface has no IPv4 or is down; `ip address show lo` shows it",
+      .whenSilent = fmt::format(
+          "does it run (`strainfinger run --can {} -c FINGER.toml`; can.node in that config is its number)?",
+          name_)};
 }
 
 bool UdpPort::waitReadable(std::chrono::milliseconds timeout) noexcept {

@@ -218,6 +218,12 @@ TEST(UdpPort, ANameThatIsNoneIsRefused) {
   CHECK_FALSE(can::isUdpName("udp0") || can::isUdpName("can0") || can::isUdpName(""));
 }
 
+TEST(UdpPort, ASilentFingerMayNotRunOrHaveAnotherNumber) {
+  UdpPort port(ownBus());
+  STRCMP_CONTAINS(("`strainfinger run --can " + ownBus() + " -c FINGER.toml`; can.node").c_str(),
+                  port.hints().whenSilent.c_str());
+}
+
 TEST(UdpPort, WhereThereAreNoSocketsItSaysSo) {
   rlimit before{};
   getrlimit(RLIMIT_NOFILE, &before);

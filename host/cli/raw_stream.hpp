@@ -6,6 +6,7 @@
 #include "common/commands.hpp"
 #include "host/can/ask.hpp"
 #include "host/cli/request.hpp"
+#include "host/system/postponed_signal.hpp"
 #include "host/system/stop_signal.hpp"
 
 namespace strainfinger::cli {
@@ -32,6 +33,7 @@ class RawStream {
     return can::ask(bus_, node_, rawRequest(static_cast<std::uint16_t>(rate_hz)));
   }
 
+  system::PostponedSignal readerGone_{SIGPIPE};  // until the finger has been told to stop: `strains | head`
   can::BusPort& bus_;
   std::uint8_t node_;
   int rate_hz_;

@@ -74,6 +74,14 @@ listen)");
   STRCMP_EQUAL("True True\n130\nTrue False\n", run.out.c_str());
 }
 
+TEST(StrainsCommand, TheFingerSendsNoMoreWhenTheReaderLeaves) {
+  const Run run = withFinger("", kListen + R"(
+"$STRAINFINGER" strains --can $BUS --rate 500 | head -1 >/dev/null; echo ${PIPESTATUS[0]}
+listen)");
+  STRCMP_EQUAL("141\nTrue False\n", run.out.c_str());  // 128 + SIGPIPE, as filters end
+  STRCMP_EQUAL("", run.err.c_str());
+}
+
 TEST(StrainsCommand, ARateBeyondTheBusIsRefusedWithTheFastest) {
   const Run run = withFinger("-c <(echo -e 'schema = 1\n[can]\nbitrate = 125000\ncontact_rate_hz = 200')",
                              R"("$STRAINFINGER" strains --can $BUS --rate 1000 --duration 1)");

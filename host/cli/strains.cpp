@@ -5,12 +5,14 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "common/frames.hpp"
 #include "common/raw_share.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/strain_rows.hpp"
+#include "host/can/frame_catalogue.hpp"
 #include "host/can/open_bus.hpp"
 #include "host/can/strain_receiver.hpp"
 #include "host/cli/commands.hpp"
@@ -84,41 +86,74 @@ class StrainPrinter {
 
 using StrainClock = std::chrono::steady_clock;
 
-/// How many gauges a finger has, by the pages of RAW that it sends.
-class SentGauges {
+/// What tells why no whole sets come: by the pages of RAW how many gauges a finger has, whether it is alive,
+/// and what others told it.
+class Circumstances {
  public:
-  explicit SentGauges(std::uint8_t node) : node_(node) {}
+  explicit Circumstances(std::uint8_t node) : node_(node) {}
 
-  /// Takes any frame. Codes beyond the last gauge are 0, which a gauge at its rail may be too.
+  /// Takes any frame.
   void take(const CanFrame& frame) {
+    if (nodeOf(frame.id, FunctionCode::kHeartbeat) == node_) alive_ = StrainClock::now();
+    if (const auto request = readSingleFrame<RequestFrame>(frame, node_);
+        request && changesRaw(request->command))
+      othersCommand_ = request->command;
+    takeRaw(frame);
+  }
+  bool isSending() const { return isRecent(sent_); }
+  bool isAlive() const { return isRecent(alive_); }
+  /// Of another program, after which RAW ends or has another rate.
+  std::optional<Command> othersCommand() const { return othersCommand_; }
+  int gauges() const { return gauges_; }  ///< 0: it sends nothing
+
+ private:
+  static bool isRecent(StrainClock::time_point time) { return StrainClock::now() - time < kSilence / 2; }
+  static bool changesRaw(Command command) {
+    return command == Command::kRaw || command == Command::kLoad || command == Command::kRestart;
+  }
+
+  /// Codes beyond the last gauge are 0, which a gauge at its rail may be too.
+  void takeRaw(const CanFrame& frame) {
     if (nodeOf(frame.id, FunctionCode::kRaw) != node_) return;
     const auto page = decode<RawFrame>(frame);
     if (!page) return;
     const int onPage = page->code_2 != 0 ? 3 : page->code_1 != 0 ? 2 : 1;
-    count_ = std::max(count_, int{kCodesPerPage} * page->page + onPage);
-    heard_ = StrainClock::now();
+    gauges_ = std::max(gauges_, int{kCodesPerPage} * page->page + onPage);
+    sent_ = StrainClock::now();
   }
-  bool isSending() const { return StrainClock::now() - heard_ < kSilence / 2; }
 
-  int count() const { return count_; }  ///< 0: it sends nothing
-
- private:
   std::uint8_t node_;
-  int count_ = 0;
-  StrainClock::time_point heard_{};
+  int gauges_ = 0;
+  StrainClock::time_point sent_{}, alive_{};
+  std::optional<Command> othersCommand_{};
 };
 
-/// Why there is no whole set, or no further one, and what to do.
-std::string whyNone(int gauges, const SentGauges& sent, std::uint64_t sets, double waited_s) {
-  if (sets > 0 && !sent.isSending())
+/// What another program did; "" where none did.
+std::string othersText(const Circumstances& finger) {
+  if (!finger.othersCommand()) return "";
+  return fmt::format("another program asked this finger, too ({}): let one at a time do so",
+                     can::nameText(kCommandNames, static_cast<int>(*finger.othersCommand())));
+}
+
+/// Why readings that came come no more.
+std::string whyEnded(const Circumstances& finger, std::uint64_t sets, double waited_s) {
+  if (!finger.isAlive())
     return fmt::format("silent for {} s after {} sets: is it off, or unplugged? What came is printed",
                        waited_s, sets);
-  if (sent.count() == 0) return fmt::format("no readings in {} s: is the bus free enough?", waited_s);
-  if (sent.count() < gauges)
+  const std::string others = othersText(finger);
+  return fmt::format("no readings for {} s after {} sets, though it is alive: {}. What came is printed",
+                     waited_s, sets, others.empty() ? "it started anew meanwhile: ask it again" : others);
+}
+
+/// Why there is no whole set, or no further one, and what to do.
+std::string whyNone(int gauges, const Circumstances& finger, std::uint64_t sets, double waited_s) {
+  if (sets > 0 && !finger.isSending()) return whyEnded(finger, sets, waited_s);
+  if (finger.gauges() == 0) return fmt::format("no readings in {} s: is the bus free enough?", waited_s);
+  if (finger.gauges() < gauges)
     return fmt::format(
         "no whole set of readings: the config has gauges.count = {}, the finger sends {}: give "
         "this finger's config, -c",
-        gauges, sent.count());
+        gauges, finger.gauges());
   return fmt::format(
       "no whole set of readings in {} s: is the bus free enough? A lower --rate or a longer "
       "--duration may help",
@@ -134,12 +169,12 @@ void runStrains(const StrainsOptions& options) {
   RawStream stream(*bus, node, options.rate_hz, stop);
   can::StrainReceiver receiver(node, config.gauges.count, config.gauges.full_scale_strain);
   StrainPrinter printer(config.gauges, options.request.common.format());
-  SentGauges sent(node);
+  Circumstances finger(node);
   const auto giveUp = [&](double waited_s) {
-    const bool isOtherRing = sent.count() > 0 && sent.count() < config.gauges.count;
+    const bool isOtherRing = finger.gauges() > 0 && finger.gauges() < config.gauges.count;
     throw Failure(isOtherRing ? ExitCode::kMismatch : ExitCode::kNoNode,
                   fmt::format("{} node {}: {}", bus->name(), node,
-                              whyNone(config.gauges.count, sent, printer.sets(), waited_s)));
+                              whyNone(config.gauges.count, finger, printer.sets(), waited_s)));
   };
   const auto isWhole = [&] { return printer.sets() >= options.rows; };
   for (auto heard = StrainClock::now(); !stop.asked() && !isWhole() && StrainClock::now() < end;) {
@@ -147,7 +182,7 @@ void runStrains(const StrainsOptions& options) {
     while (!isWhole()) {
       const auto arrived = bus->receiveTimed();
       if (!arrived) break;
-      sent.take(arrived->frame);
+      finger.take(arrived->frame);
       const auto set = receiver.take(arrived->frame);
       if (!set) continue;
       heard = StrainClock::now();
@@ -158,6 +193,8 @@ void runStrains(const StrainsOptions& options) {
   }
   std::fflush(stdout);
   fmt::print(stderr, "strains: {} sets, {} incomplete\n", printer.sets(), receiver.incomplete());
+  if (const std::string others = othersText(finger); !others.empty())
+    fmt::print(stderr, "strains: {}: the rate may not be --rate\n", others);
   if (stop.asked()) throw Failure(ExitCode::kInterrupted, "strains: interrupted");
   if (printer.sets() == 0) giveUp(options.duration_s);
 }

@@ -121,6 +121,38 @@ wait $finger; exit $status)");
   CHECK_COMPARE(std::stoi(run.out), >, 20);
 }
 
+TEST(StrainsCommand, AnotherProgramThatEndsTheReadingsIsTold) {
+  const Run run = withFinger("", R"(
+"$STRAINFINGER" strains --can $BUS --rate 50 >/dev/null & first=$!
+listening $first; sleep 0.5
+"$STRAINFINGER" strains --can $BUS --rate 50 --rows 5 >/dev/null; wait $first)");
+  LONGS_EQUAL(4, run.status);
+  STRCMP_CONTAINS(
+      " sets, though it is alive: another program asked this finger, too (raw): let one at a time",
+      run.err.c_str());
+  CHECK_TRUE(run.err.find("unplugged") == std::string::npos);
+}
+
+TEST(StrainsCommand, AnotherProgramThatMayHaveChangedTheRateIsTold) {
+  const Run run = withFinger("", R"(
+"$STRAINFINGER" strains --can $BUS --rate 50 --duration 2 >/dev/null & first=$!
+listening $first; sleep 0.5
+"$STRAINFINGER" strains --can $BUS --rate 50 --rows 5 >/dev/null; wait $first)");
+  LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS("let one at a time do so: the rate may not be --rate", run.err.c_str());
+}
+
+TEST(StrainsCommand, AFingerThatStartedAnewIsToldFromOneThatIsOff) {
+  const Run run = runShell(R"(
+bus=udp:$((20000 + $$ % 20000))
+for seconds in 3 6; do "$STRAINFINGER" run --can $bus --duration $seconds 2>&-; done &
+until "$STRAINFINGER" discover --can $bus --duration 0.3 >/dev/null 2>&1; do :; done
+"$STRAINFINGER" strains --can $bus --rate 50 >/dev/null; status=$?
+wait; exit $status)");
+  LONGS_EQUAL(4, run.status);
+  STRCMP_CONTAINS("though it is alive: it started anew", run.err.c_str());
+}
+
 TEST(StrainsCommand, NobodyThereIsTold) {
   const Run run = runProgram("strains --can udp:19998 --duration 1");
   LONGS_EQUAL(4, run.status);

@@ -158,6 +158,10 @@ void examineTraffic(const live::FingerView& finger, Examination& examination) {
     examination.warning(fmt::format("{} of {} frames of touches were lost on the way", finger.lost,
                                     finger.lost + finger.received),
                         "is the bus too full (common/BUS_LOAD.md), or a program on it too slow?");
+  if (finger.rawLoad > 0)
+    examination.warning(
+        fmt::format("it sends its gauges' readings (RAW), {:.1f} % of the bit rate", 100 * finger.rawLoad),
+        "if nobody reads them, `strainfinger strains --can BUS -n N --rows 1` ends that");
   if (finger.restarts > 0)
     examination.warning(
         "its uptime went back: it restarted, or two fingers have this node number",
@@ -239,8 +243,9 @@ Findings examineBus(const live::BusView& bus, hal::CanState state, const can::Bu
   if (bus.load > kMostLoad)
     examination.warning(
         fmt::format("{:.0f} % of the bit rate are used: with stuff bits the bus may be full", 100 * bus.load),
-        "end RAW (`strainfinger strains`), or lower contact rates: `strainfinger config --can BUS "
-        "-n N --contact-rate-hz HZ` (common/BUS_LOAD.md)");
+        "end RAW (`strainfinger strains --can BUS -n N --rows 1`), or lower contact rates: `strainfinger "
+        "config "
+        "--can BUS -n N --contact-rate-hz HZ` (common/BUS_LOAD.md)");
   if (bus.missed > 0)
     examination.warning(fmt::format("this machine was too slow for {} frames", bus.missed),
                         "what else does it do? lost frames may be its own");

@@ -32,6 +32,7 @@ struct FingerView {
   std::int64_t since_us = 0;    ///< when the first was that says "touched" as that one does, or doesn't
   /// What its gauges read by its newest RAW, less their zeros; empty where none came in the last 1.5 s.
   std::vector<double> strains{};
+  double rawLoad = 0;            ///< share of the bit rate that its RAW took over the last second
   std::vector<double> fitted{};  ///< what they should read under that touch; empty: not worked out
   ForceSpan span{};
   double strongest_n = 0;               ///< largest force so far, of either direction: to scale a bar by

@@ -48,6 +48,7 @@ void Fleet::take(std::int64_t time_us, const CanFrame& frame) {
   losses_.count(name_, frame);
   Node& node = nodeAt(number);
   if (decode<ContactFrame>(frame)) node.contacts.add(now_us_);
+  if (decode<RawFrame>(frame)) node.rawBits.add(now_us_, bitsOf(frame));
   if (const auto touch = node.receiver.take(frame)) takeTouch(node, now_us_, *touch);
   if (const auto set = node.raw.take(frame)) {
     node.strains = set->strains;
@@ -80,7 +81,7 @@ void Fleet::takeTouch(Node& node, std::int64_t time_us, const can::TouchReport& 
 BusView Fleet::view(std::int64_t now_us) {
   now_us_ = std::max(now_us_, now_us);
   BusView view{.name = name_, .time_us = now_us_, .framesPerSecond = frames_.perSecond(now_us_)};
-  view.load = static_cast<double>(bits_.perSecond(now_us_)) / bitrate_;
+  view.load = loadOf(bits_);
   for (auto& [number, node] : nodes_)
     if (node.heartbeat) view.fingers.push_back(viewOf(number, node));
   for (const can::NodeCount& count : losses_.counts()) {
@@ -92,6 +93,10 @@ BusView Fleet::view(std::int64_t now_us) {
     finger->hasTwin = count.twoSenders;
   }
   return view;
+}
+
+double Fleet::loadOf(RateMeter& bits) const {
+  return static_cast<double>(bits.perSecond(now_us_)) / bitrate_;
 }
 
 FingerView Fleet::viewOf(std::uint8_t number, Node& node) {
@@ -108,6 +113,7 @@ FingerView Fleet::viewOf(std::uint8_t number, Node& node) {
                   .strongest_n = node.strongest_n,
                   .contactsPerSecond = node.contacts.perSecond(now_us_),
                   .jitter_s = jitterOf(std::span(node.intervals_us).first(intervals))};
+  view.rawLoad = loadOf(node.rawBits);
   const bool isOld = view.isTouched() && now_us_ - node.touched_us > kTouchLasts_us;
   if (view.isSilent() || view.isForeign() || isOld) view.touch.reset();
   if (!view.isForeign() && now_us_ - node.strained_us <= kRawLasts_us) view.strains = node.strains;

@@ -48,13 +48,14 @@ class Fleet {
     std::int64_t strained_us = 0;  ///< when these came
     ForceSpan span{};
     double strongest_n = 0;
-    RateMeter contacts{};
+    RateMeter contacts{}, rawBits{};
     std::array<std::int64_t, 10> intervals_us{};  ///< between HEARTBEATs
     std::size_t intervals = 0;                    ///< so many so far
   };
   Node& nodeAt(std::uint8_t number);
   static void takeHeartbeat(Node& node, std::int64_t time_us, const HeartbeatFrame& heartbeat);
   static void takeTouch(Node& node, std::int64_t time_us, const can::TouchReport& touch);
+  double loadOf(RateMeter& bits) const;  ///< share of the bit rate, now
   FingerView viewOf(std::uint8_t number, Node& node);
 
   std::string name_;

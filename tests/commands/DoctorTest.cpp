@@ -47,6 +47,15 @@ kill -INT $second; wait $second; (exit $status))");
   STRCMP_CONTAINS("node 1: two fingers have this node number", run.out.c_str());
 }
 
+TEST(DoctorCommand, AFingerThatSendsRawIsToldAndCanBeStopped) {
+  const Run run = withFinger("", R"("$STRAINFINGER" strains --can $BUS >/dev/null & strains=$!
+listening $strains; sleep 0.5; kill -KILL $strains; wait $strains
+"$STRAINFINGER" doctor --can $BUS --duration 1.5 | grep -c '(RAW)'
+"$STRAINFINGER" strains --can $BUS -n 1 --rows 1 >/dev/null
+"$STRAINFINGER" doctor --can $BUS --duration 1.5 | grep -c '(RAW)')");
+  STRCMP_EQUAL("1\n0\n", run.out.c_str());
+}
+
 TEST(DoctorCommand, ASilentBusIsNoNode) {
   const Run run = runProgram("doctor --can udp:19979 --duration 1");
   LONGS_EQUAL(4, run.status);

@@ -262,6 +262,13 @@ TEST(Examine, GaugesLostFramesAndRestartsAreWarnings) {
             "doctor --can can0 --duration 10", of(finger));
 }
 
+TEST(Examine, AFingerThatSendsRawIsTold) {
+  FingerView finger = wellFinger();
+  finger.rawLoad = 0.0666;
+  checkOnly(Severity::kWarning, "it sends its gauges' readings (RAW), 6.7 % of the bit rate",
+            "`strainfinger strains --can can0 -n 1 --rows 1` ends that", of(finger));
+}
+
 TEST(Examine, FlagsOfATouchAreTold) {
   for (const ValueName& flag : kFingerFlagNames) {
     FingerView finger = wellFinger();

@@ -216,6 +216,17 @@ TEST(Fleet, StrainsThatNoMoreComeOfAreNotShown) {
   CHECK_TRUE(only().strains.empty());
 }
 
+// Of six frames of 111 bits, at 1 Mbit/s.
+TEST(Fleet, TellsHowMuchOfTheBusRawTakes) {
+  heartbeat();
+  DOUBLES_EQUAL(0, only().rawLoad, 0);
+  rawSet(RawKind::kReadings, 1000);
+  now_us_ += 500'000;
+  DOUBLES_EQUAL(666e-6, only().rawLoad, 1e-12);
+  now_us_ += 1'000'000;
+  DOUBLES_EQUAL(0, only().rawLoad, 0);
+}
+
 TEST(Fleet, ATimeThatGoesBackIsTakenForTheLast) {
   heartbeat();
   fleet_.take(0, encode(HeartbeatFrame{}, 1));

@@ -19,6 +19,7 @@
 #include "host/cli/raw_stream.hpp"
 #include "host/cli/request.hpp"
 #include "host/system/stop_signal.hpp"
+#include "host/tables/table_builder.hpp"
 
 namespace strainfinger::cli {
 namespace {
@@ -94,7 +95,10 @@ class Circumstances {
 
   /// Takes any frame.
   void take(const CanFrame& frame) {
-    if (nodeOf(frame.id, FunctionCode::kHeartbeat) == node_) alive_ = StrainClock::now();
+    if (nodeOf(frame.id, FunctionCode::kHeartbeat) == node_) {
+      alive_ = StrainClock::now();
+      if (const auto heartbeat = decode<HeartbeatFrame>(frame)) tableCrc_ = heartbeat->table_crc;
+    }
     if (const auto request = readSingleFrame<RequestFrame>(frame, node_);
         request && changesRaw(request->command))
       othersCommand_ = request->command;
@@ -105,6 +109,8 @@ class Circumstances {
   /// Of another program, after which RAW ends or has another rate.
   std::optional<Command> othersCommand() const { return othersCommand_; }
   int gauges() const { return gauges_; }  ///< 0: it sends nothing
+  /// How the CRC-32 of its tables ends, once it was heard to say so.
+  std::optional<std::uint8_t> tableCrc() const { return tableCrc_; }
 
  private:
   static bool isRecent(StrainClock::time_point time) { return StrainClock::now() - time < kSilence / 2; }
@@ -126,6 +132,7 @@ class Circumstances {
   int gauges_ = 0;
   StrainClock::time_point sent_{}, alive_{};
   std::optional<Command> othersCommand_{};
+  std::optional<std::uint8_t> tableCrc_{};
 };
 
 /// What another program did; "" where none did.
@@ -133,6 +140,16 @@ std::string othersText(const Circumstances& finger) {
   if (!finger.othersCommand()) return "";
   return fmt::format("another program asked this finger, too ({}): let one at a time do so",
                      can::nameText(kCommandNames, static_cast<int>(*finger.othersCommand())));
+}
+
+/// The config says by what the codes are multiplied: one that is not the finger's gives wrong strains.
+void warnOfOtherTables(const Circumstances& finger, const config::FingerConfig& config) {
+  const auto wanted = static_cast<std::uint8_t>(tables::buildTableImage(config).crc32);
+  if (!finger.tableCrc() || *finger.tableCrc() == wanted) return;
+  warn("strains", fmt::format("the finger's tables are not those of {} (their CRC-32 ends with {:02X}, not "
+                              "{:02X}): where gauges.full_scale_strain is another, all strains are off by as "
+                              "much",
+                              config.source, *finger.tableCrc(), wanted));
 }
 
 /// Why readings that came come no more.
@@ -192,6 +209,7 @@ void runStrains(const StrainsOptions& options) {
     if (StrainClock::now() - heard > kSilence) giveUp(kSilence.count() / 1e3);
   }
   std::fflush(stdout);
+  if (options.request.common.hasConfig()) warnOfOtherTables(finger, config);
   fmt::print(stderr, "strains: {} sets, {} incomplete\n", printer.sets(), receiver.incomplete());
   if (const std::string others = othersText(finger); !others.empty())
     fmt::print(stderr, "strains: {}: the rate may not be --rate\n", others);

@@ -31,6 +31,20 @@ TEST(StrainsCommand, JsonHasTheTimeAsANumber) {
   CHECK_TRUE(std::stod(run.out.substr(key.size())) > 1.6e9);
 }
 
+TEST(StrainsCommand, AConfigThatIsNotTheFingersIsNamed) {
+  const Run run = withFinger("", R"(
+printf 'schema = 1\n[gauges]\nfull_scale_strain = 0.015\n' >half.$$.toml
+printf 'schema = 1\n' >own.$$.toml
+"$STRAINFINGER" strains --can $BUS --duration 0.5 -c half.$$.toml >strains.$$.csv && echo taken
+"$STRAINFINGER" strains --can $BUS --duration 0.5 -c own.$$.toml >strains.$$.csv
+rm half.$$.toml own.$$.toml strains.$$.csv)");
+  STRCMP_CONTAINS("taken", run.out.c_str());
+  const std::string said = "the finger's tables are not those of half.";
+  STRCMP_CONTAINS(said.c_str(), run.err.c_str());
+  STRCMP_CONTAINS("gauges.full_scale_strain", run.err.c_str());
+  CHECK_EQUAL(std::string::npos, run.err.find("those of own."));
+}
+
 TEST(StrainsCommand, EndsWithItsLastRow) {
   const Run run = withFinger("", R"(
 "$STRAINFINGER" strains --can $BUS --rate 100 --rows 7 | wc -l)");

@@ -34,13 +34,6 @@ void Pipeline::takeZero(const ZeroAverage& zero) {
   locator_.release();
 }
 
-bool Pipeline::isStrong(GaugeSet gauges) const {
-  const Wide most = kDisturbance * readingNoise_q32(constants());
-  for (int i = 0; i < constants().gauge_count; ++i)
-    if (contains(gauges, i) && magnitude(Wide{readings_.strain_q32[index(i)]}) > most) return true;
-  return false;
-}
-
 /// Small readings are a disturbance (hum or drift) until contacts explain kSettled sets in a row. A touch
 /// stays one until contacts fail to explain as many: one reading that is off in one set doesn't end it.
 bool Pipeline::isDisturbance(GaugeSet gauges) {
@@ -49,10 +42,13 @@ bool Pipeline::isDisturbance(GaugeSet gauges) {
     contrarySets_ = 0;
     return false;
   }
-  const bool strong = isStrong(gauges);
-  contrarySets_ = strong || accepted == isTouch_ ? 0 : static_cast<std::uint8_t>(contrarySets_ + 1);
-  if (strong || contrarySets_ == kSettled) {
-    isTouch_ = strong || accepted;
+  const Wide most = kDisturbance * readingNoise_q32(constants());
+  bool isStrong = false;
+  for (int i = 0; i < constants().gauge_count; ++i)
+    if (contains(gauges, i) && magnitude(Wide{readings_.strain_q32[index(i)]}) > most) isStrong = true;
+  contrarySets_ = isStrong || accepted == isTouch_ ? 0 : static_cast<std::uint8_t>(contrarySets_ + 1);
+  if (isStrong || contrarySets_ == kSettled) {
+    isTouch_ = isStrong || accepted;
     contrarySets_ = 0;
   }
   return !isTouch_;
@@ -105,11 +101,10 @@ bool Pipeline::isKnown(Codes codes) const {
 
 const Observation& Pipeline::process(Codes codes) {
   const bool wasSearching = locator_.isSearching();  // the set that concludes a search costs much, too
-  bool isLocated = false;
   if (observation_.touched && isKnown(codes)) {
     observation_.unchanged = true;
   } else {
-    isLocated = observe(codes);
+    observe(codes);
   }
   if (observation_.touched) {
     noise_.interrupt();
@@ -119,9 +114,10 @@ const Observation& Pipeline::process(Codes codes) {
   const GaugeSet outOfUse = this->outOfUse();
   // The zero of a noisy gauge goes on following while nothing touches, as the gauge counts again once calm.
   const GaugeSet unfollowed = observation_.touched ? outOfUse : watch_.outOfUse();
-  areZerosNew_ = tracker_.take(*tables_, strains(), observation_.touched ? &locator_ : nullptr,
-                               observation_.leftOut | observation_.saturated | unfollowed, calibration_,
-                               locator_.scratch(), observation_.touched ? !wasSearching : !isLocated);
+  areZerosNew_ =
+      tracker_.take(*tables_, strains(), observation_.touched ? &locator_ : nullptr,
+                    observation_.leftOut | observation_.saturated | unfollowed, calibration_,
+                    locator_.scratch(), !wasSearching && (observation_.touched || !gate_.touched()));
   observation_.staleZero = tracker_.stale();
   observation_.noisy = noise_.isNoisy();
   observation_.uncertain = outOfUse != 0 && std::popcount(outOfUse) * kGaugesPerOut > constants().gauge_count;
@@ -135,9 +131,7 @@ bool Pipeline::isTouchedDuring(const ZeroAverage& zero) const {
   return ContactGate().update(constants(), energy, noise_.variance_q4());
 }
 
-/// Returns whether the locator did any work. It leaves a few sets to the zeros, which follow what a touch has
-/// left, but not what came by itself: that may be a light touch, too wide to be located.
-bool Pipeline::observe(Codes codes) {
+void Pipeline::observe(Codes codes) {
   condition(calibration_, codes, readings_);
   const bool wasTouched = observation_.touched, wasOverGate = gate_.touched();
   observation_ = {};
@@ -151,26 +145,22 @@ bool Pipeline::observe(Codes codes) {
     if (gauges != allGauges(constants().gauge_count)) energy = gateEnergy(constants(), strains(), gauges);
   }
   if (mayBeTouched && gate_.update(constants(), energy, noise_.variance_q4())) {
-    if (wasFelt_ && !wasTouched && tracker_.isDue() && !isStrong(gauges)) return false;
     locate(gauges);
-    if (!observation_.touched) return true;
-    wasFelt_ |= !locator_.answer().weak;
+    if (!observation_.touched) return;
     watchGauges();
     std::copy(codes.begin(), codes.end(), codes_.begin());
-    return true;
+  } else {
+    gate_ = {};
+    watch_.implausiblyAtRail(observation_.saturated & working);
+    isTouch_ = false;
+    contrarySets_ = 0;
+    if (wasOverGate) {
+      wasTouched ? locator_.endTouch() : locator_.release();
+    } else if (locator_.isSearching()) {  // a touch that ended may speak against a gauge
+      if (const auto suspect = locator_.lookBack(*tables_))
+        watch_.suspect(suspect->gauge, suspect->angle_q32);
+    }
   }
-  gate_ = {};
-  watch_.implausiblyAtRail(observation_.saturated & working);
-  isTouch_ = wasFelt_ = false;
-  contrarySets_ = 0;
-  if (wasOverGate) {
-    wasTouched ? locator_.endTouch() : locator_.release();
-    return false;
-  }
-  if (!locator_.isSearching()) return false;
-  // A touch that ended may speak against a gauge.
-  if (const auto suspect = locator_.lookBack(*tables_)) watch_.suspect(suspect->gauge, suspect->angle_q32);
-  return true;
 }
 
 }  // namespace strainfinger::firmware

@@ -52,8 +52,7 @@ class Pipeline {
   void locate(GaugeSet gauges);
   void watchGauges();
   bool isKnown(Codes codes) const;
-  bool observe(Codes codes);
-  bool isStrong(GaugeSet gauges) const;
+  void observe(Codes codes);
   bool isDisturbance(GaugeSet gauges);
 
   const TableImage* tables_;
@@ -64,7 +63,6 @@ class Pipeline {
   Observation observation_;
   ContactGate gate_;
   bool isTouch_ = false;           ///< the readings are those of contacts, not of a disturbance
-  bool wasFelt_ = false;           ///< by more than noise, since the readings were last within it
   std::uint8_t contrarySets_ = 0;  ///< sets in a row that contradict isTouch_
   NoiseMeter noise_;
   Locator locator_;

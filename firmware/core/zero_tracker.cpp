@@ -11,13 +11,11 @@ namespace {
 constexpr int kTakenBits = 8;  ///< [log2] sample sets averaged in an interval
 static_assert(ZeroTracker::kInterval == ZeroTracker::kEvery << kTakenBits);
 
-/// Averages are taken for a contact's if one contact leaves less than this part of their energy: of faint
-/// ones, that may be a touch that grows, and of strong ones, that may be a wider contact than the tables know
-/// (of uniform ones 12 to 24 mm wide one contact leaves 0.14 to 0.42, of uneven drift 0.46 and more).
-constexpr int kFaintLeft_16 = 1, kStrongLeft_16 = 7;
+/// [log2] Averages are taken for a contact's if one contact leaves less than this part of their energy.
+constexpr int kContactBits = 4;
 /// Averages whose energy is below so many of a reading's variances are left alone: their shape says too
-/// little. From where the gate opens, about, they are strong.
-constexpr int kWorthFollowing = 2, kStrong = 32;
+/// little.
+constexpr int kWorthFollowing = 2;
 /// [log2] Contacts rest while they turn by no more than this part of a pitch and their loads change by no
 /// more than this part of the normal load.
 constexpr int kTurnBits = 2;
@@ -62,14 +60,14 @@ ScaledReadings ZeroTracker::averages(const TableConstants& constants, GaugeSet g
   return readings;
 }
 
-/// The averages have more energy than so many of a reading's variances.
-bool ZeroTracker::isBeyond(const TableConstants& constants, GaugeSet gauges, int variances) const {
+/// The averages have so much energy that their shape says where it comes from.
+bool ZeroTracker::isWorthFollowing(const TableConstants& constants, GaugeSet gauges) const {
   constexpr int kDown = 4;  // keeps the sum below 2^63
   const Number noise = readingNoise_q32(constants) >> kDown;
   Wide energy = 0;
   for (int i = 0; i < constants.gauge_count; ++i)
     if (contains(gauges, i)) energy += squareOf(sum_[index(i)] >> kDown);
-  return energy > variances * squareOf(noise);
+  return energy > kWorthFollowing * squareOf(noise);
 }
 
 void ZeroTracker::findStart(const TableImage& tables, GaugeSet gauges, Linearisation& scratch) {
@@ -87,9 +85,7 @@ bool ZeroTracker::looksLikeAContact(const TableImage& tables, GaugeSet gauges, L
     if (contains(gauges, i)) energy += squareOf(readings.value[index(i)]);
   const Solution solution =
       fit(tables, oneContact(tables.constants, gauges), {start_}, readings, kMostSteps, scratch);
-  const bool isStrong = isBeyond(tables.constants, gauges, kStrong);
-  return (isStrong || isAdmissible(tables.constants, solution)) &&
-         solution.residualEnergy < (energy >> 4) * (isStrong ? kStrongLeft_16 : kFaintLeft_16);
+  return isAdmissible(tables.constants, solution) && solution.residualEnergy < energy >> kContactBits;
 }
 
 /// Gauges that no contact reaches.
@@ -117,7 +113,9 @@ std::int32_t ZeroTracker::commonChange_q32(GaugeSet far) {
     }
   }
   known_ |= far;
-  return std::popcount(both) < kLeastFar ? 0 : saturate<std::int32_t>(sum / std::popcount(both));
+  return std::popcount(both) < kLeastFar
+             ? 0
+             : limited(sum / std::popcount(both), std::numeric_limits<Number>::max());
 }
 
 /// All zeros follow by the same part of their changes, so that what is left keeps its shape: that of no
@@ -150,7 +148,7 @@ bool ZeroTracker::finish(const TableImage& tables, bool touched, Calibration& ca
     follow(tables.constants, changes, allGauges(tables.constants.gauge_count), calibration);
     return true;
   }
-  if (isBeyond(tables.constants, gauges, kWorthFollowing)) {
+  if (isWorthFollowing(tables.constants, gauges)) {
     isFitNext_ = !isFitNext_;
     if (isFitNext_) {
       findStart(tables, gauges, scratch);

@@ -14,7 +14,7 @@ namespace strainfinger::firmware {
 
 /// Zeros follow what no contact can explain, by at most two standard deviations of a reading an interval.
 ///   - Untouched: the averages of all gauges, if they are large enough, unless one contact explains nearly
-///     all of them, or of strong ones more than half: a touch looks like a contact, drift does not. The fit
+///     all of them: a touch that grows over minutes looks like a contact, drift does not. The fit
 ///     begins at the best point of a coarse grid and, if it finds no contact, once more elsewhere, because at
 ///     some places the first guess leads to another answer.
 ///   - Touched: while the contacts rest, what the residuals of the gauges out of their reach change by in
@@ -43,11 +43,9 @@ class ZeroTracker {
       return false;
     }
     leftOut_ |= leftOut;
-    if (isDue() && !isTimeLeft) return false;
+    if (sets_ + 1 >= kInterval && !isTimeLeft) return false;
     return ++sets_ % kEvery == 0 && average(tables, strains_q32, locator, calibration, scratch);
   }
-  /// With the next set zeros follow, or a fit tells whether they do.
-  bool isDue() const { return sets_ + 1 >= kInterval && (sets_ + 1) % kEvery == 0; }
 
   /// Forgets everything: the zeros are new.
   void restart() { *this = {}; }
@@ -81,7 +79,7 @@ class ZeroTracker {
   bool finish(const TableImage& tables, bool touched, Calibration& calibration, Linearisation& scratch);
   GaugeSet farGauges(const TableImage& tables) const;
   std::int32_t commonChange_q32(GaugeSet far);
-  bool isBeyond(const TableConstants& constants, GaugeSet gauges, int variances) const;
+  bool isWorthFollowing(const TableConstants& constants, GaugeSet gauges) const;
   ScaledReadings averages(const TableConstants& constants, GaugeSet gauges) const;
   void findStart(const TableImage& tables, GaugeSet gauges, Linearisation& scratch);
   bool looksLikeAContact(const TableImage& tables, GaugeSet gauges, Linearisation& scratch) const;

@@ -62,12 +62,13 @@ std::vector<FailedGauge> findFailedGauges(const config::Gauges& gauges, const Ma
   for (int gauge = 0; gauge < gauges.count; ++gauge) {
     const ArrayXd column = readings.col(gauge);
     const FailedGauge still{How::kConstant, gauge, column.mean(), column.size()};
+    const bool isTouchedAround =
+        isLoudBeside(scatter, loud, gauge, 1) && isLoudBeside(scatter, loud, gauge, -1);
     if (const auto end = atEnd(gauges, readings, gauge))
       failed.push_back(*end);
-    else if (column.maxCoeff() == column.minCoeff())
+    else if (isTouchedAround && column.maxCoeff() == column.minCoeff())
       failed.push_back(still);
-    else if (scatter[gauge] < kQuiet * gauges.noise_strain && isLoudBeside(scatter, loud, gauge, 1) &&
-             isLoudBeside(scatter, loud, gauge, -1))
+    else if (isTouchedAround && scatter[gauge] < kQuiet * gauges.noise_strain)
       failed.push_back({How::kNoise, gauge, still.strain, still.rows});
   }
   const bool isAll = failed.size() == static_cast<std::size_t>(gauges.count);

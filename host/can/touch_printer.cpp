@@ -34,7 +34,8 @@ void TouchPrinter::print(std::optional<std::int64_t> time_ns, std::string_view i
   Listener& listener = listeners_.at(interface, node);
   const FunctionCode function = entry->spec.function;
   if (!listener.receiver) listener.receiver.emplace(node);
-  if (showsEnd(listener, function, frame)) giveUp(interface, node, listener);
+  if (isRepeated(listener, function, frame)) return;
+  if (showsEnd(listener, function)) giveUp(interface, node, listener);
   if (function == FunctionCode::kContact) {
     listener.contact = frame;
     listener.contactTime_ns = time_ns;
@@ -49,11 +50,16 @@ void TouchPrinter::finish() {
   });
 }
 
-/// A touch's frames go out together, and a frame that comes twice is no other one. One HEARTBEAT may get in
-/// between: of the end of a touch, which no CONTACT follows, the next one shows that there is no more.
-bool TouchPrinter::showsEnd(Listener& listener, FunctionCode function, const CanFrame& frame) {
+/// The CONTACT before came twice. One that says the same later is another: of a finger that started anew.
+bool TouchPrinter::isRepeated(const Listener& listener, FunctionCode function, const CanFrame& frame) {
+  return function == FunctionCode::kContact && frame == listener.contact && listener.heartbeats < 2;
+}
+
+/// A touch's frames go out together. One HEARTBEAT may get in between: of the end of a touch, which no
+/// CONTACT follows, the next one shows that there is no more.
+bool TouchPrinter::showsEnd(Listener& listener, FunctionCode function) {
   if (function == FunctionCode::kHeartbeat) return ++listener.heartbeats >= 2;
-  return function == FunctionCode::kContact && !(frame == listener.contact);
+  return function == FunctionCode::kContact;
 }
 
 void TouchPrinter::giveUp(std::string_view interface, std::uint8_t node, Listener& listener) {

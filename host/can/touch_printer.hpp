@@ -38,7 +38,8 @@ class TouchPrinter {
     std::optional<std::int64_t> contactTime_ns;
     int heartbeats = 0;  ///< since then
   };
-  static bool showsEnd(Listener& listener, FunctionCode function, const CanFrame& frame);
+  static bool isRepeated(const Listener& listener, FunctionCode function, const CanFrame& frame);
+  static bool showsEnd(Listener& listener, FunctionCode function);
   void giveUp(std::string_view interface, std::uint8_t node, Listener& listener);
   void appendRow(const std::optional<TouchReport>& touch, std::string_view interface, std::uint8_t node,
                  const Listener& listener);

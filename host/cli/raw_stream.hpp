@@ -18,7 +18,12 @@ class RawStream {
   RawStream(can::BusPort& bus, std::uint8_t node, int rate_hz, const system::StopSignal& stop)
       : bus_(bus), node_(node), rate_hz_(rate_hz) {
     requireOneFinger(bus_, node_, [&stop] { return !stop.asked(); });
-    askAgain();
+    try {
+      askAgain();
+    } catch (...) {
+      ask(0);  // its answer may be what was lost
+      throw;
+    }
   }
   /// Best effort: whoever ends it by force leaves the finger sending until its next start.
   ~RawStream() { ask(0); }

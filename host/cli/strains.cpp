@@ -180,10 +180,10 @@ std::string whyNone(int gauges, const Circumstances& finger, std::uint64_t sets,
 void runStrains(const StrainsOptions& options) {
   const config::FingerConfig config = options.request.common.config();
   const std::uint8_t node = nodeOf(options.request.node, config.can);
-  const auto end = StrainClock::now() + std::chrono::microseconds(std::llround(options.duration_s * 1e6));
   const auto bus = can::openBus(options.request.bus, config.can.bitrate);
   const system::StopSignal stop;
   RawStream stream(*bus, node, options.rate_hz, stop);
+  const auto end = StrainClock::now() + std::chrono::microseconds(std::llround(options.duration_s * 1e6));
   can::StrainReceiver receiver(node, config.gauges.count, config.gauges.full_scale_strain);
   StrainPrinter printer(config.gauges, options.request.common.format());
   Circumstances finger(node);

@@ -191,7 +191,8 @@ std::string SessionFiles::named(std::string message) const {
 /// The config before the first row, so that no row is without it; then the strains: a row without its touch
 /// is one of which nothing is known.
 void SessionFiles::add(double time_s, const Eigen::VectorXd& strains, const calibration::KnownTouch& known) {
-  if (!std::exchange(hasRows_, true)) writeFileAtomically(configPath_, config::writeConfig(config_));
+  if (!hasRows_) writeFileAtomically(configPath_, config::writeConfig(config_));
+  hasRows_ = true;
   append(strains_, fmt::format("{:.6f},{}\n", time_s, fmt::join(strains.begin(), strains.end(), ",")));
   append(touches_, touchLine(known));
 }

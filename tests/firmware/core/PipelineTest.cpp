@@ -188,24 +188,6 @@ TEST(Pipeline, WhatNoContactExplainsIsNoNoise) {
   }
 }
 
-// As of gauges that drifted while the finger was touched.
-TEST(Pipeline, ZerosThatATouchLeavesOffComeBack) {
-  std::vector<double> uneven(16), common(16, -40e-6);
-  for (std::size_t i = 0; i < uneven.size(); ++i)
-    uneven[i] = i % 3 == 0 ? 60e-6 : i % 3 == 1 ? -50e-6 : 20e-6;
-  for (const std::vector<double>& off : {common, uneven}) {
-    pipeline = Pipeline(ring.tables(), FitMode::kRefined);
-    auto touch = ring.strains({5.4, 20, 3, 1});
-    CHECK_TRUE(process(touch, 500).touched);
-    for (std::size_t i = 0; i < touch.size(); ++i) touch[i] += off[i];
-    process(touch, 500);
-    CHECK_FALSE(process(off, 20'000).touched);
-    for (const std::int32_t strain_q32 : pipeline.readings().strains(16))
-      CHECK_COMPARE(std::abs(std::ldexp(strain_q32, -32)), <, 6 * ring.noise_strain());
-    LONGS_EQUAL(0, pipeline.observation().outOfUse);
-  }
-}
-
 // As by the palm of a hand: it may not be told, but it is no drift. The tables know widths up to 1.6 pitches.
 TEST(Pipeline, ATouchWiderThanTheTablesKnowIsNotTrackedAway) {
   for (const double width_pitch : {3.2, 4.0, 4.8}) {
@@ -217,19 +199,6 @@ TEST(Pipeline, ATouchWiderThanTheTablesKnowIsNotTrackedAway) {
     for (const std::int32_t strain_q32 : pipeline.readings().strains(16))
       most = std::max(most, std::abs(std::ldexp(strain_q32, -32)));
     CHECK_COMPARE(most, >, 0.7 * largest(strains));
-  }
-}
-
-// While zeros follow what the touch before has left.
-TEST(Pipeline, ATouchInADisturbanceIsToldAtOnce) {
-  const std::vector<double> off(16, -40e-6);
-  auto touch = ring.strains({5.4, 20, 3, 1});
-  for (double& strain : touch) strain += off[0];
-  for (int set = 0; set < 40; ++set) {
-    pipeline = Pipeline(ring.tables(), FitMode::kRefined);
-    process(touch, 100);
-    process(off, ZeroTracker::kInterval + set);
-    CHECK_TRUE(process(touch).touched);
   }
 }
 

@@ -67,6 +67,8 @@ TEST(FailedGauges, SideBySideAreBothNamed) {
 TEST(FailedGauges, AnArcThatWasNotTouchedHasNotFailed) {
   for (int gauge = 6; gauge < 12; ++gauge) quieten(gauge, 0);
   LONGS_EQUAL(0, failed().size());
+  for (int gauge = 6; gauge < 12; ++gauge) session.readings.col(gauge).setZero();  // less noise than a code
+  LONGS_EQUAL(0, failed().size());
 }
 
 TEST(FailedGauges, OneAtTheEndOfItsRangeIsNamedAsSuch) {

@@ -125,6 +125,23 @@ TEST(TouchPrinter, TheEndOfATouchIsToldWhateverOfItWasLost) {
   STRCMP_EQUAL("1.500000,can0,5,,,,,,,,,,,simulated,7,,,\n", rows().c_str());
 }
 
+TEST(TouchPrinter, AContactThatComesTwiceIsOne) {
+  TouchPrinter printer(printed_, TableFormat::kCsv);
+  take(printer, contact_), take(printer, force_), take(printer, contact_), take(printer, patch_);
+  take(printer, contact_);
+  printer.finish();
+  STRCMP_EQUAL(kRow, rows().c_str());
+}
+
+TEST(TouchPrinter, AFingerThatStartsAnewMaySayTheSame) {
+  TouchPrinter printer(printed_, TableFormat::kCsv);
+  for (int start = 0; start < 2; ++start) {
+    take(printer, contact_), take(printer, force_), take(printer, patch_);
+    take(printer, HeartbeatFrame{}), take(printer, HeartbeatFrame{});
+  }
+  STRCMP_EQUAL((std::string(kRow) + kRow).c_str(), rows().c_str());
+}
+
 TEST(TouchPrinter, AtTheEndOfTheLogWhatIsThereIsPrinted) {
   TouchPrinter printer(printed_, TableFormat::kCsv);
   take(printer, contact_), take(printer, contact_), take(printer, force_);

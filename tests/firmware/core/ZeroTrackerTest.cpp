@@ -108,6 +108,16 @@ TEST(ZeroTracker, FollowsAtMostTwoDeviationsAnInterval) {
   DOUBLES_EQUAL(2 * ring.noise_strain(), std::ldexp(*tracker.lastChange_q32(), -32), 0.1e-6);
 }
 
+// Clamped one by one, what is left of uneven drift may look like what a contact does.
+TEST(ZeroTracker, WhatIsLeftOfUnevenDriftKeepsItsShape) {
+  std::vector<double> strains(16, 50e-6);
+  for (std::size_t i = 1; i < strains.size(); i += 2) strains[i] = -20e-6;
+  for (int set = 0; set < ZeroTracker::kUntilFollowed; ++set) takeUntouched(strains);
+  DOUBLES_EQUAL(2 * ring.noise_strain(), followed_strain(2), 0.1e-6);
+  for (std::size_t i = 1; i < strains.size(); i += 2)
+    DOUBLES_EQUAL(-0.4 * followed_strain(2), followed_strain(i), 0.1e-6);
+}
+
 TEST(ZeroTracker, FollowsAsSoonAsThereIsTime) {
   const std::vector<double> strains(16, 50e-6);
   for (int set = 0; set < 2 * ZeroTracker::kInterval; ++set) takeUntouched(strains, 0, false);

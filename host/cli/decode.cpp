@@ -132,10 +132,15 @@ class Decoder {
 
   void complain(const can::LogError& error) {
     const std::string message = fmt::format("{}:{}: {}", place(), error.column, error.reason);
+    if (strict_) failAt(message);
     output_.flush();  // what stands before it
-    if (strict_) throw Failure(ExitCode::kFailure, message);
     tally_.countUnreadable();
     if (++unreadable_ <= kMostTold) fmt::print(stderr, "{}\n", message);
+  }
+
+  [[noreturn]] void failAt(const std::string& message) {
+    finish();  // what stands before it
+    throw Failure(ExitCode::kFailure, message);
   }
 
   void take(const can::LogLine& line) {

@@ -19,6 +19,7 @@
 #include "host/live/screen.hpp"
 #include "host/live/terminal.hpp"
 #include "host/system/stop_signal.hpp"
+#include "host/tables/table_builder.hpp"
 
 namespace strainfinger::cli {
 namespace {
@@ -48,6 +49,11 @@ struct MonitorOptions {
         ->check(isFrom(0.01, 86'400));
   }
 
+  /// Of the tables that the fingers should have; nothing where no config says so.
+  std::optional<std::uint32_t> tables_crc32() const {
+    if (!common.hasConfig()) return std::nullopt;
+    return tables::buildTableImage(common.config()).crc32;
+  }
   bool wantsScreen() const { return !plain && common.format() == TableFormat::kCsv && live::hasTerminal(); }
 
   CommonOptions common;
@@ -63,8 +69,9 @@ void endIfStopped(const system::StopSignal& stop) {
 /// A live bus on the terminal, until q is pressed.
 class LiveScreen {
  public:
-  LiveScreen(can::BusPort& port, const config::FingerConfig& config)
-      : port_(port), config_(config), watch_(port, config) {}
+  LiveScreen(can::BusPort& port, const config::FingerConfig& config,
+             std::optional<std::uint32_t> tables_crc32)
+      : port_(port), config_(config), watch_(port, config, tables_crc32) {}
 
   void run() {
     const system::StopSignal stop;
@@ -152,7 +159,7 @@ class LiveScreen {
 
 void printLive(can::BusPort& port, const config::FingerConfig& config, const MonitorOptions& options) {
   const system::StopSignal stop;
-  live::BusWatch watch(port, config);
+  live::BusWatch watch(port, config, options.tables_crc32());
   live::PlainReport report(stdout, options.common.format(), options.every_s);
   while (!stop.asked()) {
     watch.listen(kRedraw);
@@ -165,7 +172,8 @@ void printLive(can::BusPort& port, const config::FingerConfig& config, const Mon
 void monitorBus(const MonitorOptions& options) {
   const config::FingerConfig config = options.common.config();
   const auto port = can::openBus(options.bus, config.can.bitrate);
-  options.wantsScreen() ? LiveScreen(*port, config).run() : printLive(*port, config, options);
+  options.wantsScreen() ? LiveScreen(*port, config, options.tables_crc32()).run()
+                        : printLive(*port, config, options);
 }
 
 /// Waits for more, at most so long, and gives each line to take(line), the last one too if it lacks its end;
@@ -183,7 +191,7 @@ bool readLines(LineReader& reader, std::chrono::milliseconds longest, Take take)
 class LogMonitor {
  public:
   explicit LogMonitor(const MonitorOptions& options)
-      : watch_(options.common.config()),
+      : watch_(options.common.config(), options.tables_crc32()),
         report_(stdout, options.common.format(), options.every_s),
         screen_(options.wantsScreen()) {}
 
@@ -204,8 +212,7 @@ class LogMonitor {
       const auto due_us = watch_.time_us() ? report_.due(*watch_.time_us()) : std::nullopt;
       if (due_us) report_.print(watch_.views(*due_us));
     };
-    while (!stop.asked() && readLines(stdin_, kRedraw, takeAndPrint)) {
-    }
+    while (!stop.asked() && readLines(stdin_, kRedraw, takeAndPrint)) {}
   }
 
   void show(const system::StopSignal& stop) {

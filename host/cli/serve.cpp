@@ -16,6 +16,7 @@
 #include "host/live/words.hpp"
 #include "host/simulation/strain_fit.hpp"
 #include "host/system/stop_signal.hpp"
+#include "host/tables/table_builder.hpp"
 
 namespace strainfinger::cli {
 namespace {
@@ -100,7 +101,7 @@ void serve(live::BusWatch& watch, live::PageServer& server, const simulation::St
 void runServe(const ServeOptions& options) {
   const config::FingerConfig config = options.common.config();
   const auto port = can::openBus(options.bus, config.can.bitrate);
-  live::BusWatch watch(*port, config);
+  live::BusWatch watch(*port, config, tables::buildTableImage(config).crc32);
   const live::PageServerOptions serverOptionsNow = serverOptions(options, config);
   live::PageServer server(serverOptionsNow);
   fmt::print(stderr, "serve: {} shows {}; Ctrl-C ends\n", urlOf(serverOptionsNow, server.port()),

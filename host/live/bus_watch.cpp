@@ -1,8 +1,12 @@
 #include "host/live/bus_watch.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <thread>
 #include <utility>
+
+#include "host/can/remedies.hpp"
 
 namespace strainfinger::live {
 namespace {
@@ -58,8 +62,13 @@ BusView BusWatch::view() {
 }
 
 void BusWatch::request(std::uint8_t node, const RequestFrame& request) {
-  if (std::ranges::find(requests_, node, &PendingRequest::node) == requests_.end())
-    requests_.emplace_back(node, request, now_us());
+  if (std::ranges::find(requests_, node, &PendingRequest::node) != requests_.end()) return;
+  const PendingRequest pending(node, request, now_us());
+  if (fleet_.hasTwin(node))
+    outcomes_.push_back(pending.refused(
+        fmt::format("not sent: {}: {}", can::kTwinText, can::forNode(can::kTwinRemedy, port_.name(), node))));
+  else
+    requests_.push_back(pending);
 }
 
 }  // namespace strainfinger::live

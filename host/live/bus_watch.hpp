@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -17,9 +18,10 @@ class BusWatch {
  public:
   using Tap = std::function<void(const can::TimedFrame&)>;
 
-  /// `port` must outlive it. The config is for a Fleet.
-  BusWatch(can::BusPort& port, const config::FingerConfig& config)
-      : port_(port), fleet_(port.name(), config) {}
+  /// `port` must outlive it. The others are for a Fleet.
+  BusWatch(can::BusPort& port, const config::FingerConfig& config,
+           std::optional<std::uint32_t> tables_crc32 = std::nullopt)
+      : port_(port), fleet_(port.name(), config, tables_crc32) {}
 
   /// Takes what comes for so long. Frames are fetched a few milliseconds' worth at a time: a wake-up for each
   /// would cost more than they do. Their times are those of their arrival all the same.
@@ -28,7 +30,8 @@ class BusWatch {
   /// How things are now.
   BusView view();
 
-  /// Asks a finger for something. A node has one request at a time: another of one that waits is dropped.
+  /// Asks a finger for something. A node has one request at a time: another of one that waits is dropped. One
+  /// to a number that two fingers were heard to have is not sent, as both would obey.
   void request(std::uint8_t node, const RequestFrame& request);
   /// What became of requests since the last call.
   std::vector<Outcome> outcomes() { return std::exchange(outcomes_, {}); }

@@ -44,6 +44,7 @@ struct FingerView {
   std::uint64_t lost = 0;      ///< of these, by their sequence numbers
   std::uint64_t restarts = 0;
   bool hasTwin = false;  ///< another finger has its node number: touches are of either, counts mean nothing
+  bool hasOtherTables = false;  ///< than the config's; false where that is not known
 
   /// Nothing heard for the time of five HEARTBEATs.
   bool isSilent() const { return silence_us > 5'000 * std::int64_t{kHeartbeatPeriod_ms}; }

@@ -95,6 +95,18 @@ BusView Fleet::view(std::int64_t now_us) {
   return view;
 }
 
+bool Fleet::hasTwin(std::uint8_t node) const {
+  return std::ranges::any_of(losses_.counts(), [node](const can::NodeCount& count) {
+    return count.node == node && count.twoSenders;
+  });
+}
+
+/// Of a finger without usable tables its faults tell.
+bool Fleet::hasOtherTables(const HeartbeatFrame& heartbeat) const {
+  return tables_crc32_ && !heartbeat.faults.has(FingerFault::kTables) &&
+         heartbeat.table_crc != static_cast<std::uint8_t>(*tables_crc32_);
+}
+
 double Fleet::loadOf(RateMeter& bits) const {
   return static_cast<double>(bits.perSecond(now_us_)) / bitrate_;
 }
@@ -116,6 +128,7 @@ FingerView Fleet::viewOf(std::uint8_t number, Node& node) {
   view.rawLoad = loadOf(node.rawBits);
   const bool isOld = view.isTouched() && now_us_ - node.touched_us > kTouchLasts_us;
   if (view.isSilent() || view.isForeign() || isOld) view.touch.reset();
+  view.hasOtherTables = !view.isForeign() && hasOtherTables(view.heartbeat);
   if (!view.isForeign() && now_us_ - node.strained_us <= kRawLasts_us) view.strains = node.strains;
   return view;
 }

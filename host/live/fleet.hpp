@@ -20,15 +20,23 @@ namespace strainfinger::live {
 
 class Fleet {
  public:
-  /// Of the config, the bit rate is for the load and the gauges are for RAW.
-  Fleet(std::string busName, const config::FingerConfig& config)
-      : name_(std::move(busName)), bitrate_(config.can.bitrate), gauges_(config.gauges) {}
+  /// Of the config, the bit rate is for the load and the gauges are for RAW. `tables_crc32`: of the tables
+  /// that its fingers should have; nothing: any.
+  Fleet(std::string busName, const config::FingerConfig& config,
+        std::optional<std::uint32_t> tables_crc32 = std::nullopt)
+      : name_(std::move(busName)),
+        bitrate_(config.can.bitrate),
+        gauges_(config.gauges),
+        tables_crc32_(tables_crc32) {}
 
   /// Takes any frame, in the order of the bus. Times have any origin; one before the last is taken for that.
   void take(std::int64_t time_us, const CanFrame& frame);
 
   /// How things are now; spans of force begin anew.
   BusView view(std::int64_t now_us);
+
+  /// Two fingers answer by this number.
+  bool hasTwin(std::uint8_t node) const;
 
  private:
   /// Of one node, which may turn out to be no finger.
@@ -56,11 +64,13 @@ class Fleet {
   static void takeHeartbeat(Node& node, std::int64_t time_us, const HeartbeatFrame& heartbeat);
   static void takeTouch(Node& node, std::int64_t time_us, const can::TouchReport& touch);
   double loadOf(RateMeter& bits) const;  ///< share of the bit rate, now
+  bool hasOtherTables(const HeartbeatFrame& heartbeat) const;
   FingerView viewOf(std::uint8_t number, Node& node);
 
   std::string name_;
   int bitrate_;
   config::Gauges gauges_;
+  std::optional<std::uint32_t> tables_crc32_;
   std::int64_t now_us_ = 0;
   std::map<std::uint8_t, Node> nodes_;
   can::LossCounter losses_;

@@ -13,7 +13,8 @@ std::optional<can::LogError> LogWatch::take(std::string_view line) {
   if (!frame) return std::nullopt;
   const std::int64_t before_us = time_us_.value_or(0);
   time_us_ = std::max(before_us, logged.time_ns ? *logged.time_ns / 1000 : before_us);
-  buses_.try_emplace(logged.interface, logged.interface, config_).first->second.take(*time_us_, *frame);
+  Fleet& fleet = buses_.try_emplace(logged.interface, logged.interface, config_, tables_crc32_).first->second;
+  fleet.take(*time_us_, *frame);
   return std::nullopt;
 }
 

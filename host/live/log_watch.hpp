@@ -15,8 +15,10 @@ namespace strainfinger::live {
 
 class LogWatch {
  public:
-  /// The config is for the Fleets of all its buses.
-  explicit LogWatch(const config::FingerConfig& config) : config_(config) {}
+  /// Both are for the Fleets of all its buses.
+  explicit LogWatch(const config::FingerConfig& config,
+                    std::optional<std::uint32_t> tables_crc32 = std::nullopt)
+      : config_(config), tables_crc32_(tables_crc32) {}
 
   /// Takes a line of any of candump's text forms. A frame without a time comes when the one before it came.
   std::optional<can::LogError> take(std::string_view line);
@@ -29,6 +31,7 @@ class LogWatch {
 
  private:
   config::FingerConfig config_;
+  std::optional<std::uint32_t> tables_crc32_;
   std::optional<std::int64_t> time_us_;
   std::map<std::string, Fleet> buses_;
 };

@@ -32,6 +32,8 @@ class PendingRequest {
 
   /// The outcome, of the frame that answers it.
   std::optional<Outcome> take(const CanFrame& frame) const;
+  /// The outcome of one that is not to be sent, and why.
+  Outcome refused(const std::string& why) const { return outcome(false, why); }
   /// The outcome when no answer came within twice the time that a finger has for it.
   std::optional<Outcome> expire(std::int64_t now_us) const;
 

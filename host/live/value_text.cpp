@@ -101,6 +101,7 @@ std::string warningsText(const FingerView& finger) {
   std::vector<std::string> warnings;
   if (const std::string text = trouble(finger); !text.empty()) warnings.push_back(text);
   if (finger.hasTwin) warnings.push_back(fmt::format("{}: {}", can::kTwinText, can::kTwinRemedy));
+  if (finger.hasOtherTables) warnings.push_back("its tables are not those of the config (-c)");
   const auto faults = wordsFor(kFingerFaultNames, finger.heartbeat.faults.raw());
   if (!faults.empty()) warnings.push_back(fmt::format("faults: {}", fmt::join(faults, ", ")));
   const auto gauges = bitNumbers(finger.gauges ? finger.gauges->out_of_use : 0);

@@ -104,6 +104,7 @@ Json fingerJson(const FingerView& finger) {
           {"lost", finger.lost},
           {"restarts", finger.restarts},
           {"has_twin", finger.hasTwin},
+          {"other_tables", finger.hasOtherTables},
           {"strongest_n", finger.strongest_n},
           {"touch", finger.touch ? touchJson(finger) : Json()},
           {"span", spanJson(finger.span)},

@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "host/base/excerpt.hpp"
+
 namespace strainfinger::session {
 namespace {
 
@@ -31,24 +33,27 @@ std::optional<Quantity> quantityIn(std::string_view text) {
 
 Command loadOf(std::string_view text, double length_m) {
   const auto said = quantityIn(text);
-  if (!said) return Unclear{fmt::format("\"{}\" is no load: say it as in 200 g, 2 N or 24.5 N/m", text)};
+  if (!said)
+    return Unclear{fmt::format("\"{}\" is no load: say it as in 200 g, 2 N or 24.5 N/m", excerpt(text))};
   double perUnit = 0;
   if (said->unit == "g") perUnit = 1e-3 * kGravity_m_per_s2 / length_m;
   if (said->unit == "kg") perUnit = kGravity_m_per_s2 / length_m;
   if (said->unit == "N") perUnit = 1 / length_m;
   if (said->unit == "N/m") perUnit = 1;
-  if (perUnit == 0) return Unclear{fmt::format("\"{}\": say the unit of the load: g, kg, N or N/m", text)};
-  if (said->value <= 0) return Unclear{fmt::format("\"{}\": the load must press: more than 0", text)};
+  if (perUnit == 0)
+    return Unclear{fmt::format("\"{}\": say the unit of the load: g, kg, N or N/m", excerpt(text))};
+  if (said->value <= 0)
+    return Unclear{fmt::format("\"{}\": the load must press: more than 0", excerpt(text))};
   return LoadIs{said->value * perUnit};
 }
 
 Command angleOf(std::string_view text) {
   const auto said = quantityIn(text);
   if (!said || (said->unit != "" && said->unit != "deg"))
-    return Unclear{fmt::format("\"{}\" is no angle: say it in degrees, as in 40", text)};
+    return Unclear{fmt::format("\"{}\" is no angle: say it in degrees, as in 40", excerpt(text))};
   if (std::abs(said->value) > 360)
     return Unclear{fmt::format(
-        "\"{}\": an angle is from -360 to 360 degrees, counter-clockwise seen from the tip", text)};
+        "\"{}\": an angle is from -360 to 360 degrees, counter-clockwise seen from the tip", excerpt(text))};
   return AngleIs{said->value < 0 ? said->value + 360 : said->value};
 }
 
@@ -66,7 +71,7 @@ Command parseCommand(std::string_view line, double length_m) {
   if (rest.empty() && word == "skip") return Skip{};
   if (rest.empty() && word == "undo") return Undo{};
   if (rest.empty() && word == "quit") return Quit{};
-  return Unclear{fmt::format("\"{}\": say load, angle, hold, skip, undo, tare or quit", text)};
+  return Unclear{fmt::format("\"{}\": say load, angle, hold, skip, undo, tare or quit", excerpt(text))};
 }
 
 std::optional<std::string> KeyReader::press(unsigned char key) {

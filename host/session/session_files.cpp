@@ -60,12 +60,17 @@ std::string besides(const std::string& outputPath, const char* ending) {
   throw Failure(ExitCode::kFailure, fmt::format("{}: cannot {}: {}", path, what, std::strerror(errno)));
 }
 
-void requireNoStranger(const std::string& outputPath, const std::string& strainsPath) {
+bool isThere(const std::string& path) {
   std::error_code unknown;  // a folder that cannot be looked into is one where no file can be made either
-  if (!std::filesystem::exists(outputPath, unknown) || std::filesystem::exists(strainsPath, unknown)) return;
+  return std::filesystem::exists(path, unknown);
+}
+
+/// Files that are there although there is no session of that name are somebody's.
+void requireNoStranger(const std::string& path, const std::string& strainsPath) {
+  if (!isThere(path) || isThere(strainsPath)) return;
   throw Failure(ExitCode::kFailure,
                 fmt::format("{}: there is such a file already, and no session of it ({}): give another -o",
-                            outputPath, strainsPath));
+                            path, strainsPath));
 }
 
 int openToAppend(const std::string& path) {
@@ -108,30 +113,30 @@ SessionFiles::SessionFiles(const std::string& outputPath, const config::FingerCo
       configPath_(besides(outputPath, ".session.toml")),
       strains_{besides(outputPath, ".strains.csv")},
       touches_{besides(outputPath, ".touches.csv")} {
-  for (File* file : {&strains_, &touches_}) file->isNew = ::access(file->path.c_str(), F_OK) != 0;
-  requireNoStranger(outputPath, strains_.path);
-  strains_.descriptor = openToAppend(strains_.path);
+  for (File* file : {&strains_, &touches_}) file->isNew = !isThere(file->path);
+  for (const std::string& path : {outputPath, configPath_}) requireNoStranger(path, strains_.path);
   try {
-    touches_.descriptor = openToAppend(touches_.path);
+    for (File* file : {&strains_, &touches_}) file->descriptor = openToAppend(file->path);
     readRows();
   } catch (...) {
-    ::close(strains_.descriptor);
-    if (touches_.descriptor >= 0) ::close(touches_.descriptor);
+    close();
     throw;
   }
 }
 
-SessionFiles::~SessionFiles() {
-  if (!hasRows_)
-    for (const File* file : {&strains_, &touches_})
-      if (file->isNew) ::unlink(file->path.c_str());
-  ::close(strains_.descriptor);
-  ::close(touches_.descriptor);
+SessionFiles::~SessionFiles() { close(); }
+
+void SessionFiles::close() const {
+  for (const File* file : {&strains_, &touches_}) {
+    if (file->descriptor < 0) continue;
+    if (file->isNew && !hasRows_) ::unlink(file->path.c_str());
+    ::close(file->descriptor);
+  }
 }
 
 /// Strains of another full scale would be wrong by its ratio, and nothing else would tell.
 void SessionFiles::requireSameFinger() const {
-  if (rows_.size() == 0 || ::access(configPath_.c_str(), F_OK) != 0) return;
+  if (rows_.size() == 0 || !isThere(configPath_)) return;
   const config::FingerConfig kept = keptConfig(configPath_);
   for (const config::Key& key : config::keys()) {
     const std::string then = valueText(key, kept), now = valueText(key, config_);

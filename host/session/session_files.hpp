@@ -16,10 +16,10 @@ class SessionFiles {
   /// Beside the config that the session is to write: of "cal.toml", cal.strains.csv, cal.touches.csv and,
   /// from the first row on, cal.session.toml. Makes them, or goes on with what they hold; a row that a killed
   /// program left half written is taken away. New files without a row don't stay. Throws Failure(kFailure),
-  /// and changes nothing, when the config is there already but not these, when they hold something else, when
-  /// their rows were collected with another [finger] or other [gauges] (noise and model error apart, which
-  /// rows don't depend on), or when another session writes them now. Rows without a cal.session.toml, of
-  /// older programs, are taken for this config's.
+  /// and changes nothing, when one of the configs is there but no strains, when they hold something else,
+  /// when their rows were collected with another [finger] or other [gauges] (noise and model error apart,
+  /// which rows don't depend on), or when another session writes them now. Rows without a cal.session.toml,
+  /// of older programs, are taken for this config's.
   SessionFiles(const std::string& outputPath, const config::FingerConfig& config);
   ~SessionFiles();
   SessionFiles(const SessionFiles&) = delete;
@@ -45,6 +45,7 @@ class SessionFiles {
     bool isNew = true;
     int descriptor = -1;
   };
+  void close() const;
   void readRows();
   void requireSameFinger() const;
   static void append(const File& file, const std::string& line);

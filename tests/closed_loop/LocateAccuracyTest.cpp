@@ -197,37 +197,36 @@ Pairs locatePairs(double apart_pitch, std::uint64_t seed, int count) {
 
 }  // namespace
 
-TEST_GROUP(LocateAccuracy){static double arc_um(double angle_rad){return angle_rad * 12.7e3;
-}
+TEST_GROUP(LocateAccuracy) {
+  static double arc_um(double angle_rad) { return angle_rad * 12.7e3; }
 
-static void checkBound(double bar, const evidence::Accuracy& accuracy,
-                       std::initializer_list<evidence::Parameter> parameters = {kAngle, kNormal,
-                                                                                kTangential}) {
-  for (const auto parameter : parameters)
-    CHECK_COMPARE(accuracy.overBound(parameter).rms(), <=, allowed(bar, accuracy.touches()));
-}
-static void checkHonest(const evidence::Accuracy& accuracy,
-                        std::initializer_list<evidence::Parameter> parameters = {kAngle, kNormal,
-                                                                                 kTangential}) {
-  for (const auto parameter : parameters) {
-    const evidence::Errors& errors = accuracy.overSigma(parameter);
-    CHECK_COMPARE(errors.rms(), <=, allowed(1.1, errors.count()));
-    CHECK_COMPARE(errors.rms(), >=, 0.9 * (1 - 3 / std::sqrt(2.0 * errors.count())));
+  static void checkBound(
+      double bar, const evidence::Accuracy& accuracy,
+      std::initializer_list<evidence::Parameter> parameters = {kAngle, kNormal, kTangential}) {
+    for (const auto parameter : parameters)
+      CHECK_COMPARE(accuracy.overBound(parameter).rms(), <=, allowed(bar, accuracy.touches()));
   }
-}
-static void checkNoGrossError(const evidence::Accuracy& accuracy) {
-  LONGS_EQUAL(0, accuracy.gross());
-  LONGS_EQUAL(0, accuracy.missed());
-}
-/// What is left of a wrong place at much noise: some are, and hardly any says nothing of it.
-static void checkRarelyWrong(double gross, const evidence::Accuracy& accuracy) {
-  const int count = accuracy.touches();
-  CHECK_COMPARE(accuracy.gross(), <=, allowedCount(gross, count));
-  CHECK_COMPARE(accuracy.silent(), <=, allowedCount(1e-4, count));
-  LONGS_EQUAL(0, accuracy.missed());
-}
-}
-;
+  static void checkHonest(
+      const evidence::Accuracy& accuracy,
+      std::initializer_list<evidence::Parameter> parameters = {kAngle, kNormal, kTangential}) {
+    for (const auto parameter : parameters) {
+      const evidence::Errors& errors = accuracy.overSigma(parameter);
+      CHECK_COMPARE(errors.rms(), <=, allowed(1.1, errors.count()));
+      CHECK_COMPARE(errors.rms(), >=, 0.9 * (1 - 3 / std::sqrt(2.0 * errors.count())));
+    }
+  }
+  static void checkNoGrossError(const evidence::Accuracy& accuracy) {
+    LONGS_EQUAL(0, accuracy.gross());
+    LONGS_EQUAL(0, accuracy.missed());
+  }
+  /// What is left of a wrong place at much noise: some are, and hardly any says nothing of it.
+  static void checkRarelyWrong(double gross, const evidence::Accuracy& accuracy) {
+    const int count = accuracy.touches();
+    CHECK_COMPARE(accuracy.gross(), <=, allowedCount(gross, count));
+    CHECK_COMPARE(accuracy.silent(), <=, allowedCount(1e-4, count));
+    LONGS_EQUAL(0, accuracy.missed());
+  }
+};
 
 TEST(LocateAccuracy, ATouchOfUnknownWidthIsAtTheBound) {
   Trial trial(finger());

@@ -101,7 +101,7 @@ ShapeSurvey surveyOf(const char* name, Known known) {
 
 }  // namespace
 
-TEST_GROUP(ShapeAsBuilt){};
+TEST_GROUP(ShapeAsBuilt) {};
 
 TEST(ShapeAsBuilt, SigmasHoldWhatNobodyCalibrated) {
   const ShapeSurvey survey = surveyOf("not calibrated", [](config::FingerConfig built, std::uint64_t) {

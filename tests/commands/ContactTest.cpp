@@ -11,22 +11,20 @@
 
 using namespace strainfinger;
 
-TEST_GROUP(ContactCommand){
-    static std::string flat(const std::string& more){return "contact --indenter flat " + more;
-}
+TEST_GROUP(ContactCommand) {
+  static std::string flat(const std::string& more) { return "contact --indenter flat " + more; }
 
-static std::vector<double> summary(const std::string& arguments) {
-  return tableOf(runProgram(arguments + " --summary").out).at(0);
-}
+  static std::vector<double> summary(const std::string& arguments) {
+    return tableOf(runProgram(arguments + " --summary").out).at(0);
+  }
 
-static void refuses(const std::string& arguments, const std::string& named) {
-  const Run run = runProgram(arguments);
-  LONGS_EQUAL(2, run.status);
-  STRCMP_EQUAL("", run.out.c_str());
-  STRCMP_CONTAINS(named.c_str(), run.err.c_str());
-}
-}
-;
+  static void refuses(const std::string& arguments, const std::string& named) {
+    const Run run = runProgram(arguments);
+    LONGS_EQUAL(2, run.status);
+    STRCMP_EQUAL("", run.out.c_str());
+    STRCMP_CONTAINS(named.c_str(), run.err.c_str());
+  }
+};
 
 TEST(ContactCommand, SummarisesInTheColumnsScriptsRelyOn) {
   const Run run = runProgram(flat("--width-m 2e-3 --summary"));

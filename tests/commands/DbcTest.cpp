@@ -6,7 +6,7 @@
 
 using namespace strainfinger;
 
-TEST_GROUP(DbcCommand){};
+TEST_GROUP(DbcCommand) {};
 
 TEST(DbcCommand, PrintsTheFileOfTheDefaultFinger) {
   const Run run = runProgram("dbc");

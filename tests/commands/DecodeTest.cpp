@@ -1,5 +1,6 @@
 #include <CppUTest/TestHarness.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 
@@ -248,6 +249,12 @@ TEST(Decode, StrictStopsAtALineItCannotRead) {
   checkSays("strainfinger: stdin:2:8: ", run);
   STRCMP_CONTAINS("CONTACT", run.out.c_str());
   CHECK(run.out.find("FORCE") == std::string::npos);
+}
+
+TEST(Decode, StrictPrintsTheTouchOfWhichNoMoreWillCome) {
+  const Run run = runProgram("decode --strict --touches", contact_ + force_ + "rubbish\n");
+  LONGS_EQUAL(1, run.status);
+  LONGS_EQUAL(2, std::ranges::count(run.out, '\n'));
 }
 
 TEST(Decode, ReadsALastLineWithoutLineEnd) {

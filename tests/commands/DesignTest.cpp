@@ -8,22 +8,20 @@
 
 using namespace strainfinger;
 
-TEST_GROUP(DesignCommand){
-    static Run design(const std::string& options){return runShell("\"$STRAINFINGER\" design " + options);
-}
-/// In a folder of its own, after `before` and with `then` to follow.
-static Run inFolder(const std::string& before, const std::string& options, const std::string& then = "") {
-  return runShell("folder=$(mktemp -d) && trap 'rm -rf \"$folder\"' EXIT && cd \"$folder\" && " + before +
-                  "\"$STRAINFINGER\" design " + options + then);
-}
-static void checkRefused(const char* message, const std::string& options) {
-  const Run run = design(options);
-  LONGS_EQUAL_TEXT(2, run.status, options.c_str());
-  STRCMP_CONTAINS(message, run.err.c_str());
-  STRCMP_EQUAL("", run.out.c_str());
-}
-}
-;
+TEST_GROUP(DesignCommand) {
+  static Run design(const std::string& options) { return runShell("\"$STRAINFINGER\" design " + options); }
+  /// In a folder of its own, after `before` and with `then` to follow.
+  static Run inFolder(const std::string& before, const std::string& options, const std::string& then = "") {
+    return runShell("folder=$(mktemp -d) && trap 'rm -rf \"$folder\"' EXIT && cd \"$folder\" && " + before +
+                    "\"$STRAINFINGER\" design " + options + then);
+  }
+  static void checkRefused(const char* message, const std::string& options) {
+    const Run run = design(options);
+    LONGS_EQUAL_TEXT(2, run.status, options.c_str());
+    STRCMP_CONTAINS(message, run.err.c_str());
+    STRCMP_EQUAL("", run.out.c_str());
+  }
+};
 
 TEST(DesignCommand, ARowForEachFingerAndTheBestInWords) {
   const Run run = design("--noise-strain 6e-6 --gauges 8:16:4 --radius-m 9.2e-3:9.6e-3:2");

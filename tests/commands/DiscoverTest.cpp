@@ -14,7 +14,7 @@ constexpr const char* kForeign = "(1.000000) can0 701#39FFFFFFFFFFFF00\n";
 
 }  // namespace
 
-TEST_GROUP(DiscoverCommand){};
+TEST_GROUP(DiscoverCommand) {};
 
 TEST(DiscoverCommand, HasARowForEachFinger) {
   const Run run = withFinger("", R"(
@@ -68,7 +68,7 @@ TEST(DiscoverCommand, RefusesWhatIsOutsideTheDomain) {
   checkRefused("discover --can ''", "give the name of a bus");
 }
 
-TEST_GROUP(InfoCommand){};
+TEST_GROUP(InfoCommand) {};
 
 TEST(InfoCommand, TellsAllThatAFingerSaysOfItself) {
   const Run run = withFinger("", R"("$STRAINFINGER" info --can $BUS | sed "s/$BUS/BUS/")");

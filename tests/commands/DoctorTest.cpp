@@ -6,7 +6,7 @@
 
 using namespace strainfinger;
 
-TEST_GROUP(DoctorCommand){};
+TEST_GROUP(DoctorCommand) {};
 
 // A machine that is late loses sample sets, which is a warning.
 TEST(DoctorCommand, FindsNoErrorInAFingerThatIsWell) {

@@ -7,7 +7,7 @@
 
 using namespace strainfinger;
 
-TEST_GROUP(ExplainCommand){};
+TEST_GROUP(ExplainCommand) {};
 
 TEST(ExplainCommand, SaysWhatANameMeansAndWhatToDo) {
   const Run run = runProgram("explain stale_zero");

@@ -9,7 +9,7 @@
 
 using namespace strainfinger;
 
-TEST_GROUP(FieldCommand){};
+TEST_GROUP(FieldCommand) {};
 
 TEST(FieldCommand, PrintsAPolarGrid) {
   const Run run =

@@ -7,7 +7,7 @@
 
 using namespace strainfinger;
 
-TEST_GROUP(Main){};
+TEST_GROUP(Main) {};
 
 TEST(Main, WhatIsNoCommandIsNamed) {
   checkRefused("locat", "strainfinger: locat is no command; strainfinger --help lists them\n");

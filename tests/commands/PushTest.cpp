@@ -21,7 +21,7 @@ Run withUntouchedFinger(const std::string& script) {
 
 }  // namespace
 
-TEST_GROUP(PushCommand){};
+TEST_GROUP(PushCommand) {};
 
 TEST(PushCommand, AFingerWorksWithTheTablesOfAConfigFromItsNextStartOn) {
   const Run run = withUntouchedFinger(R"(

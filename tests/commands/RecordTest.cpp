@@ -6,33 +6,33 @@
 
 using namespace strainfinger;
 
-TEST_GROUP(Record){
-    /// In a folder of its own, with a bus of its own in $bus; `record` records it into x.log until it is
-    /// stopped.
-    static Run inFolder(const std::string& commands, const std::string& input = ""){
-        return runShell("folder=$(mktemp -d); cat >$folder/in; cd $folder; trap 'rm -rf $folder' EXIT\n"
-                        "bus=udp:$((20000 + $$ % 20000))\n"
-                        "record() { \"$STRAINFINGER\" record --can $bus -o x.log \"$@\" & recorder=$!\n"
-                        "           until [ -e x.toml ] || ! kill -0 $recorder 2>&-; do sleep 0.02; done; }\n"
-                        "replay() { \"$STRAINFINGER\" replay --can $bus --speed 1000 \"$@\"; }\n"
-                        "stop() { sleep 0.4; kill -$1 $recorder; wait $recorder; }\n" +
-                            commands,
-                        input);
-}
-
-/// A log of so many frames, a millisecond apart.
-static std::string frames(int count) {
-  std::string text;
-  for (int i = 0; i < count; ++i) {
-    std::string time = std::to_string(1'000'000 + i);
-    text += "(1609779" + time.substr(1, 3) + "." + time.substr(4) + "000) can0 181#" + std::string(14, '0') +
-            "55\n";
+TEST_GROUP(Record) {
+  /// In a folder of its own, with a bus of its own in $bus; `record` records it into x.log until it is
+  /// stopped.
+  static Run inFolder(const std::string& commands, const std::string& input = "") {
+    return runShell(
+        "folder=$(mktemp -d); cat >$folder/in; cd $folder; trap 'rm -rf $folder' EXIT\n"
+        "bus=udp:$((20000 + $$ % 20000))\n"
+        "record() { \"$STRAINFINGER\" record --can $bus -o x.log \"$@\" & recorder=$!\n"
+        "           until [ -e x.toml ] || ! kill -0 $recorder 2>&-; do sleep 0.02; done; }\n"
+        "replay() { \"$STRAINFINGER\" replay --can $bus --speed 1000 \"$@\"; }\n"
+        "stop() { sleep 0.4; kill -$1 $recorder; wait $recorder; }\n" +
+            commands,
+        input);
   }
-  return text;
-}
-static void checkSays(const char* text, const Run& run) { STRCMP_CONTAINS(text, run.err.c_str()); }
-}
-;
+
+  /// A log of so many frames, a millisecond apart.
+  static std::string frames(int count) {
+    std::string text;
+    for (int i = 0; i < count; ++i) {
+      std::string time = std::to_string(1'000'000 + i);
+      text += "(1609779" + time.substr(1, 3) + "." + time.substr(4) + "000) can0 181#" +
+              std::string(14, '0') + "55\n";
+    }
+    return text;
+  }
+  static void checkSays(const char* text, const Run& run) { STRCMP_CONTAINS(text, run.err.c_str()); }
+};
 
 TEST(Record, WhatIsReplayedIsWhatWasRecorded) {
   const Run run =

@@ -7,15 +7,14 @@
 
 using namespace strainfinger;
 
-TEST_GROUP(RequestCommands){
-    static void checkRefused(const std::string& arguments, int status,
-                             const char* message){const Run run = runProgram(arguments);
-LONGS_EQUAL(status, run.status);
-STRCMP_CONTAINS(message, run.err.c_str());
-STRCMP_EQUAL("", run.out.c_str());
-}
-}
-;
+TEST_GROUP(RequestCommands) {
+  static void checkRefused(const std::string& arguments, int status, const char* message) {
+    const Run run = runProgram(arguments);
+    LONGS_EQUAL(status, run.status);
+    STRCMP_CONTAINS(message, run.err.c_str());
+    STRCMP_EQUAL("", run.out.c_str());
+  }
+};
 
 TEST(RequestCommands, NeedAnInterface) {
   checkRefused("tare", 2, "--can");

@@ -32,7 +32,7 @@ void refuses(const std::string& arguments, const char* named) {
 
 }  // namespace
 
-TEST_GROUP(ResponseCommand){};
+TEST_GROUP(ResponseCommand) {};
 
 TEST(ResponseCommand, PrintsARowAHarmonic) {
   const Run run = runProgram("response --radius-m 9.4e-3 --harmonics 20");

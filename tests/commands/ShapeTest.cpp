@@ -60,7 +60,7 @@ void refuses(int status, const std::string& arguments, const std::string& input,
 
 }  // namespace
 
-TEST_GROUP(ShapeCommand){};
+TEST_GROUP(ShapeCommand) {};
 
 // A uniform load 3 mm wide has the second moment of a semi-ellipse 3.464 mm wide.
 TEST(ShapeCommand, TellsWhatPressed) {

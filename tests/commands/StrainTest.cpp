@@ -22,7 +22,7 @@ std::string press(const std::string& more) {
 
 }  // namespace
 
-TEST_GROUP(StrainCommand){};
+TEST_GROUP(StrainCommand) {};
 
 TEST(StrainCommand, PrintsARowAnAngle) {
   const Run run = runProgram(press("--radius-m 9.4e-3 --at-deg 45,-5,365"));

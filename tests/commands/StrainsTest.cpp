@@ -6,7 +6,7 @@
 
 using namespace strainfinger;
 
-TEST_GROUP(StrainsCommand){};
+TEST_GROUP(StrainsCommand) {};
 
 TEST(StrainsCommand, PrintsRowsThatLocateTakes) {
   const Run run = withFinger("", R"(

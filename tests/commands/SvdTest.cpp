@@ -9,20 +9,20 @@
 
 using namespace strainfinger;
 
-TEST_GROUP(SvdCommand){static void refuses(const std::string& arguments, const std::string& named){
+TEST_GROUP(SvdCommand) {
+  static void refuses(const std::string& arguments, const std::string& named) {
     const Run run = runProgram("svd " + arguments);
-LONGS_EQUAL(2, run.status);
-STRCMP_EQUAL("", run.out.c_str());
-STRCMP_CONTAINS(named.c_str(), run.err.c_str());
-}
+    LONGS_EQUAL(2, run.status);
+    STRCMP_EQUAL("", run.out.c_str());
+    STRCMP_CONTAINS(named.c_str(), run.err.c_str());
+  }
 
-static long above(const std::string& arguments, double relative) {
-  long count = 0;
-  for (const auto& row : tableOf(runProgram("svd " + arguments).out)) count += row[2] > relative;
-  return count;
-}
-}
-;
+  static long above(const std::string& arguments, double relative) {
+    long count = 0;
+    for (const auto& row : tableOf(runProgram("svd " + arguments).out)) count += row[2] > relative;
+    return count;
+  }
+};
 
 TEST(SvdCommand, PrintsValuesInTheColumnsScriptsRelyOn) {
   const Run run = runProgram("svd --width-m 2e-3 --harmonics 300");

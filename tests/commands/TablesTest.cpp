@@ -7,22 +7,22 @@
 
 using namespace strainfinger;
 
-TEST_GROUP(TablesCommand){
-    /// Runs in a folder of its own that holds finger.tables, and thin.toml, another finger.
-    static Run inFolder(const std::string& command){
-        return runShell("folder=$(mktemp -d) && trap 'rm -rf \"$folder\"' EXIT && cd \"$folder\" && "
-                        "printf 'schema = 1\\n[finger]\\ncore_radius_m = 9.2e-3\\n[gauges]\\nradius_m = "
-                        "9.7e-3\\n' >thin.toml && "
-                        "\"$STRAINFINGER\" tables -o finger.tables 2>/dev/null && " +
-                        command);
-}
-static void checkEnds(int status, const char* message, const std::string& command) {
-  const Run run = inFolder(command);
-  LONGS_EQUAL_TEXT(status, run.status, (command + "\n" + run.err).c_str());
-  STRCMP_CONTAINS(message, run.err.c_str());
-}
-}
-;
+TEST_GROUP(TablesCommand) {
+  /// Runs in a folder of its own that holds finger.tables, and thin.toml, another finger.
+  static Run inFolder(const std::string& command) {
+    return runShell(
+        "folder=$(mktemp -d) && trap 'rm -rf \"$folder\"' EXIT && cd \"$folder\" && "
+        "printf 'schema = 1\\n[finger]\\ncore_radius_m = 9.2e-3\\n[gauges]\\nradius_m = "
+        "9.7e-3\\n' >thin.toml && "
+        "\"$STRAINFINGER\" tables -o finger.tables 2>/dev/null && " +
+        command);
+  }
+  static void checkEnds(int status, const char* message, const std::string& command) {
+    const Run run = inFolder(command);
+    LONGS_EQUAL_TEXT(status, run.status, (command + "\n" + run.err).c_str());
+    STRCMP_CONTAINS(message, run.err.c_str());
+  }
+};
 
 TEST(TablesCommand, AFreshImageVerifies) {
   checkEnds(0, "whole", "\"$STRAINFINGER\" tables verify finger.tables");

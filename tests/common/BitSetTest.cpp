@@ -9,7 +9,7 @@ enum class Lamp : std::uint8_t { kRed = 0, kGreen = 3, kBlue = 7 };
 using Lamps = BitSet<Lamp>;
 }  // namespace
 
-TEST_GROUP(BitSet){};
+TEST_GROUP(BitSet) {};
 
 TEST(BitSet, IsEmptyAtFirst) {
   CHECK(Lamps{}.empty());

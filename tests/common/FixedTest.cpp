@@ -11,7 +11,7 @@
 
 using namespace strainfinger;
 
-TEST_GROUP(Fixed){};
+TEST_GROUP(Fixed) {};
 
 TEST(Fixed, RealNumbersRoundToTheNearestStep) {
   using Q4 = Fixed<4, std::int16_t>;

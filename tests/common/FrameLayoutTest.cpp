@@ -103,10 +103,9 @@ constexpr bool kCanBeSent = requires(Frame frame) {
 };
 }  // namespace
 
-TEST_GROUP(FrameLayout){Toy sentAndReceived(const Toy& toy){return decode<Toy>(encode(toy, 1)).value();
-}
-}
-;
+TEST_GROUP(FrameLayout) {
+  Toy sentAndReceived(const Toy& toy) { return decode<Toy>(encode(toy, 1)).value(); }
+};
 
 TEST(FrameLayout, WrongLayoutsDoNotCompile) {
   CHECK_TRUE(kCanBeSent<Toy>);

@@ -5,7 +5,7 @@
 
 using namespace strainfinger;
 
-TEST_GROUP(FakeClock){};
+TEST_GROUP(FakeClock) {};
 
 TEST(FakeClock, GoesOnOnlyWhenTold) {
   doubles::FakeClock clock(5);
@@ -21,7 +21,7 @@ TEST(FakeClock, WrapsAtTwoToTheThirtyTwo) {
   LONGS_EQUAL(0, clock.now_us());
 }
 
-TEST_GROUP(SpyWatchdog){};
+TEST_GROUP(SpyWatchdog) {};
 
 TEST(SpyWatchdog, CountsFeedsAndTellsTheCause) {
   doubles::SpyWatchdog watchdog(hal::ResetCause::kWatchdog);

@@ -40,8 +40,7 @@ std::span<const std::uint16_t> DrivenPipeline::codes() const {
 
 void DrivenPipeline::takeZero() {
   ZeroAverage zero;
-  while (!zero.add(codes())) {
-  }
+  while (!zero.add(codes())) {}
   pipeline_.takeZero(zero);
 }
 

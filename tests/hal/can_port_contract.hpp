@@ -134,7 +134,9 @@ class CanPortContract {
 }  // namespace strainfinger::contract
 
 #define CAN_PORT_CONTRACT(Backend, Bench)                                                                  \
-  TEST_GROUP(CanPort_##Backend) { strainfinger::contract::CanPortContract<Bench> contract; };              \
+  TEST_GROUP(CanPort_##Backend) {                                                                          \
+    strainfinger::contract::CanPortContract<Bench> contract;                                               \
+  };                                                                                                       \
   TEST(CanPort_##Backend, OthersHearWhatIsSentInOrder) { contract.othersHearWhatIsSentInOrder(); }         \
   TEST(CanPort_##Backend, FramesOfOthersAreReceivedInOrderOfArrival) {                                     \
     contract.framesOfOthersAreReceivedInOrderOfArrival();                                                  \

@@ -42,7 +42,9 @@ class ClockContract {
 
 }  // namespace strainfinger::contract
 
-#define CLOCK_CONTRACT(Backend, Bench)                                                    \
-  TEST_GROUP(Clock_##Backend) { strainfinger::contract::ClockContract<Bench> contract; }; \
-  TEST(Clock_##Backend, ItCountsMicroseconds) { contract.itCountsMicroseconds(); }        \
+#define CLOCK_CONTRACT(Backend, Bench)                                             \
+  TEST_GROUP(Clock_##Backend) {                                                    \
+    strainfinger::contract::ClockContract<Bench> contract;                         \
+  };                                                                               \
+  TEST(Clock_##Backend, ItCountsMicroseconds) { contract.itCountsMicroseconds(); } \
   TEST(Clock_##Backend, ItNeverGoesBack) { contract.itNeverGoesBack(); }

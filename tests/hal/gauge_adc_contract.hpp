@@ -63,12 +63,14 @@ class GaugeAdcContract {
 
 }  // namespace strainfinger::contract
 
-#define GAUGE_ADC_CONTRACT(Backend, Bench)                                                      \
-  TEST_GROUP(GaugeAdc_##Backend) { strainfinger::contract::GaugeAdcContract<Bench> contract; }; \
-  TEST(GaugeAdc_##Backend, WithoutAConversionTheSetIsLeftAlone) {                               \
-    contract.withoutAConversionTheSetIsLeftAlone();                                             \
-  }                                                                                             \
-  TEST(GaugeAdc_##Backend, ASetIsHandedOutOnce) { contract.aSetIsHandedOutOnce(); }             \
-  TEST(GaugeAdc_##Backend, ASlowReaderGetsTheNewestSetsInOrderAndTheRestIsCounted) {            \
-    contract.aSlowReaderGetsTheNewestSetsInOrderAndTheRestIsCounted();                          \
+#define GAUGE_ADC_CONTRACT(Backend, Bench)                                           \
+  TEST_GROUP(GaugeAdc_##Backend) {                                                   \
+    strainfinger::contract::GaugeAdcContract<Bench> contract;                        \
+  };                                                                                 \
+  TEST(GaugeAdc_##Backend, WithoutAConversionTheSetIsLeftAlone) {                    \
+    contract.withoutAConversionTheSetIsLeftAlone();                                  \
+  }                                                                                  \
+  TEST(GaugeAdc_##Backend, ASetIsHandedOutOnce) { contract.aSetIsHandedOutOnce(); }  \
+  TEST(GaugeAdc_##Backend, ASlowReaderGetsTheNewestSetsInOrderAndTheRestIsCounted) { \
+    contract.aSlowReaderGetsTheNewestSetsInOrderAndTheRestIsCounted();               \
   }

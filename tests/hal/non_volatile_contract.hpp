@@ -93,16 +93,18 @@ class NonVolatileContract {
 
 }  // namespace strainfinger::contract
 
-#define NON_VOLATILE_CONTRACT(Backend, Bench)                                                         \
-  TEST_GROUP(NonVolatile_##Backend) { strainfinger::contract::NonVolatileContract<Bench> contract; }; \
-  TEST(NonVolatile_##Backend, ErasedBytesReadAsOnes) { contract.erasedBytesReadAsOnes(); }            \
-  TEST(NonVolatile_##Backend, WhatIsWrittenIsReadBackInAnyRange) {                                    \
-    contract.whatIsWrittenIsReadBackInAnyRange();                                                     \
-  }                                                                                                   \
-  TEST(NonVolatile_##Backend, TheWholeStoreCanBeWritten) { contract.theWholeStoreCanBeWritten(); }    \
-  TEST(NonVolatile_##Backend, WritingOverWrittenBytesIsRefusedAndTouchesNothing) {                    \
-    contract.writingOverWrittenBytesIsRefusedAndTouchesNothing();                                     \
-  }                                                                                                   \
-  TEST(NonVolatile_##Backend, ErasingClearsItsPageOnly) { contract.erasingClearsItsPageOnly(); }      \
-  TEST(NonVolatile_##Backend, WhatLiesOutsideIsRefused) { contract.whatLiesOutsideIsRefused(); }      \
+#define NON_VOLATILE_CONTRACT(Backend, Bench)                                                      \
+  TEST_GROUP(NonVolatile_##Backend) {                                                              \
+    strainfinger::contract::NonVolatileContract<Bench> contract;                                   \
+  };                                                                                               \
+  TEST(NonVolatile_##Backend, ErasedBytesReadAsOnes) { contract.erasedBytesReadAsOnes(); }         \
+  TEST(NonVolatile_##Backend, WhatIsWrittenIsReadBackInAnyRange) {                                 \
+    contract.whatIsWrittenIsReadBackInAnyRange();                                                  \
+  }                                                                                                \
+  TEST(NonVolatile_##Backend, TheWholeStoreCanBeWritten) { contract.theWholeStoreCanBeWritten(); } \
+  TEST(NonVolatile_##Backend, WritingOverWrittenBytesIsRefusedAndTouchesNothing) {                 \
+    contract.writingOverWrittenBytesIsRefusedAndTouchesNothing();                                  \
+  }                                                                                                \
+  TEST(NonVolatile_##Backend, ErasingClearsItsPageOnly) { contract.erasingClearsItsPageOnly(); }   \
+  TEST(NonVolatile_##Backend, WhatLiesOutsideIsRefused) { contract.whatLiesOutsideIsRefused(); }   \
   TEST(NonVolatile_##Backend, PartsOfAUnitAreNotWritten) { contract.partsOfAUnitAreNotWritten(); }

@@ -27,6 +27,8 @@ class WatchdogContract {
 
 }  // namespace strainfinger::contract
 
-#define WATCHDOG_CONTRACT(Backend, Bench)                                                       \
-  TEST_GROUP(Watchdog_##Backend) { strainfinger::contract::WatchdogContract<Bench> contract; }; \
+#define WATCHDOG_CONTRACT(Backend, Bench)                     \
+  TEST_GROUP(Watchdog_##Backend) {                            \
+    strainfinger::contract::WatchdogContract<Bench> contract; \
+  };                                                          \
   TEST(Watchdog_##Backend, TheResetCauseStays) { contract.theResetCauseStays(); }

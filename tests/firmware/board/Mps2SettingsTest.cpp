@@ -11,7 +11,7 @@ int node(std::string_view commandLine) { return nodeOf(commandLine).value_or(0);
 
 }  // namespace
 
-TEST_GROUP(Mps2Settings){};
+TEST_GROUP(Mps2Settings) {};
 
 TEST(Mps2Settings, TheNodeIsOnTheCommandLine) {
   LONGS_EQUAL(2, node("image node=2"));

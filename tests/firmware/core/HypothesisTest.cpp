@@ -189,7 +189,7 @@ TEST(ScaledReadings, VariancesSaturateForAnyConstants) {
       }
 }
 
-TEST_GROUP(Rescaled){};
+TEST_GROUP(Rescaled) {};
 
 TEST(Rescaled, LoadsKeepTheirSizeAndPlacesStay) {
   const ContactStates contacts{ContactState{123, 30'000, -9'000, 77}, ContactState{456, 300, 200, 88}};
@@ -211,7 +211,7 @@ TEST(Rescaled, LoadsSaturate) {
   LONGS_EQUAL(-kMostLoad, other[0].tangential);
 }
 
-TEST_GROUP(Hypothesis){};
+TEST_GROUP(Hypothesis) {};
 
 TEST(Hypothesis, EachContactHasAPlaceTwoLoadsAndMaybeAWidth) {
   LONGS_EQUAL(3, (Hypothesis{1, false}.unknowns()));

@@ -18,7 +18,7 @@ constexpr std::uint32_t kHalfTurn = std::uint32_t{1} << 31;
 constexpr Number kEnd = 1 << 15;
 }  // namespace
 
-TEST_GROUP(DepthShape){};
+TEST_GROUP(DepthShape) {};
 
 TEST(DepthShape, IsStraightBetweenItsPointsAndTheSameOnEitherSide) {
   GaugeDepths::Shape shape;

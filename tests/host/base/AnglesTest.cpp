@@ -7,7 +7,7 @@
 
 using namespace strainfinger;
 
-TEST_GROUP(Angles){};
+TEST_GROUP(Angles) {};
 
 TEST(Angles, AreTheSameDirectionWithinATurn) {
   for (const double angle_deg : {0.0, 12.5, 359.0}) {

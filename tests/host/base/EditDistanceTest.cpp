@@ -4,7 +4,7 @@
 
 using namespace strainfinger;
 
-TEST_GROUP(EditDistance){};
+TEST_GROUP(EditDistance) {};
 
 // The textbook's examples.
 TEST(EditDistance, CountsInsertionsDeletionsAndReplacements) {

@@ -6,7 +6,7 @@
 
 using namespace strainfinger;
 
-TEST_GROUP(Excerpt){};
+TEST_GROUP(Excerpt) {};
 
 TEST(Excerpt, WhatIsShortStays) {
   STRCMP_EQUAL("", excerpt("").c_str());

@@ -13,25 +13,24 @@ using strainfinger::ExitCode;
 using strainfinger::Failure;
 using strainfinger::NumberRowReader;
 
-TEST_GROUP(NumberRows){
-    static std::vector<std::vector<double>> read(const std::string& text,
-                                                 std::size_t columns = 2){std::istringstream stream(text);
-NumberRowReader reader(stream, "stdin", columns);
-std::vector<std::vector<double>> rows;
-for (std::vector<double> row; reader.next(row);) rows.push_back(row);
-return rows;
-}
-static std::string complaintAbout(const std::string& text) {
-  try {
-    read(text);
-  } catch (const Failure& failure) {
-    LONGS_EQUAL(static_cast<int>(ExitCode::kFailure), static_cast<int>(failure.code()));
-    return failure.what();
+TEST_GROUP(NumberRows) {
+  static std::vector<std::vector<double>> read(const std::string& text, std::size_t columns = 2) {
+    std::istringstream stream(text);
+    NumberRowReader reader(stream, "stdin", columns);
+    std::vector<std::vector<double>> rows;
+    for (std::vector<double> row; reader.next(row);) rows.push_back(row);
+    return rows;
   }
-  return "none";
-}
-}
-;
+  static std::string complaintAbout(const std::string& text) {
+    try {
+      read(text);
+    } catch (const Failure& failure) {
+      LONGS_EQUAL(static_cast<int>(ExitCode::kFailure), static_cast<int>(failure.code()));
+      return failure.what();
+    }
+    return "none";
+  }
+};
 
 TEST(NumberRows, RowsAreReadInOrder) {
   const auto rows = read("1,2\n-3.5e-4,+4\n");

@@ -9,7 +9,7 @@
 
 using namespace strainfinger::bench;
 
-TEST_GROUP(PreciseContact){};
+TEST_GROUP(PreciseContact) {};
 
 // Known to so many digits from another solver (collocation of Chebyshev series, 2e5 harmonics).
 TEST(PreciseContact, HasTheKnownLoads) {

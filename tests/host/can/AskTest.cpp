@@ -132,7 +132,7 @@ class TwinBus : public FakeBusPort {
 
 }  // namespace
 
-TEST_GROUP(AskWhoIsThere){};
+TEST_GROUP(AskWhoIsThere) {};
 
 TEST(AskWhoIsThere, ASecondAnswerIsWaitedFor) {
   TwinBus bus(2);

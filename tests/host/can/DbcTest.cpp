@@ -7,11 +7,11 @@
 using namespace strainfinger;
 
 // What the numbers mean is checked with a parser that is not ours: tests/commands/canmatrix_test.py.
-TEST_GROUP(Dbc){void checkHas(const char* line, const std::string& text = can::dbcText(5, 500)){
+TEST_GROUP(Dbc) {
+  void checkHas(const char* line, const std::string& text = can::dbcText(5, 500)) {
     STRCMP_CONTAINS(line, std::string("\n").append(text).c_str());
-}
-}
-;
+  }
+};
 
 TEST(Dbc, IsOfOneNode) {
   checkHas("\nBU_: FINGER_5 HOST\n");

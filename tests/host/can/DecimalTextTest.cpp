@@ -10,19 +10,20 @@
 using namespace strainfinger;
 using namespace strainfinger::can;
 
-TEST_GROUP(DecimalText){static std::string text(std::int64_t number, std::int32_t denominator,
-                                                WholeNumber whole = WholeNumber::kPlain){std::string out;
-appendDecimal(out, number, decimalScale(denominator).value(), whole);
-return out;
-}
+TEST_GROUP(DecimalText) {
+  static std::string text(std::int64_t number, std::int32_t denominator,
+                          WholeNumber whole = WholeNumber::kPlain) {
+    std::string out;
+    appendDecimal(out, number, decimalScale(denominator).value(), whole);
+    return out;
+  }
 
-/// Against fmt's shortest text of the nearest double, which is a library's.
-static void checkShortest(std::int64_t number, std::int32_t denominator) {
-  const double value = static_cast<double>(number) / denominator;
-  STRCMP_EQUAL(fmt::format("{}", value).c_str(), text(number, denominator).c_str());
-}
-}
-;
+  /// Against fmt's shortest text of the nearest double, which is a library's.
+  static void checkShortest(std::int64_t number, std::int32_t denominator) {
+    const double value = static_cast<double>(number) / denominator;
+    STRCMP_EQUAL(fmt::format("{}", value).c_str(), text(number, denominator).c_str());
+  }
+};
 
 TEST(DecimalText, HasNoDigitTooMany) {
   STRCMP_EQUAL("0", text(0, 100).c_str());

@@ -10,20 +10,20 @@
 using namespace strainfinger;
 using namespace strainfinger::can;
 
-TEST_GROUP(FieldText){template <typename Frame>
-                      static FieldValue valueOf(const Frame& frame,
-                                                const char* column){const CanFrame encoded = encode(frame, 5);
-for (const FieldValue& value : fieldValues(*findAnyFrame(encoded), encoded))
-  if (columnName(value.field->meaning) == column) return value;
-FAIL(column);
-return {};
-}
-template <typename Frame>
-static std::string textOf(const Frame& frame, const char* column) {
-  return can::textOf(valueOf(frame, column));
-}
-}
-;
+TEST_GROUP(FieldText) {
+  template <typename Frame>
+  static FieldValue valueOf(const Frame& frame, const char* column) {
+    const CanFrame encoded = encode(frame, 5);
+    for (const FieldValue& value : fieldValues(*findAnyFrame(encoded), encoded))
+      if (columnName(value.field->meaning) == column) return value;
+    FAIL(column);
+    return {};
+  }
+  template <typename Frame>
+  static std::string textOf(const Frame& frame, const char* column) {
+    return can::textOf(valueOf(frame, column));
+  }
+};
 
 TEST(FieldText, NumbersAreExactAndInTheirUnit) {
   STRCMP_EQUAL("102.1", textOf(ContactFrame{.angle_cdeg = 10'210}, "angle_deg").c_str());

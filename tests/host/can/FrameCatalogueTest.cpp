@@ -13,32 +13,31 @@
 using namespace strainfinger;
 using namespace strainfinger::can;
 
-TEST_GROUP(FrameCatalogue){FieldSpec field(const char* frame, const char* name){
-    for (const FrameEntry& entry
-         : frameCatalogue()) for (const FieldSpec& each
-                                  : entry.fields) if (std::string(frame) == entry.spec.name &&
-                                                      std::string(name) == each.meaning.name) return each;
-FAIL(name);
-return {};
-}
+TEST_GROUP(FrameCatalogue) {
+  FieldSpec field(const char* frame, const char* name) {
+    for (const FrameEntry& entry : frameCatalogue())
+      for (const FieldSpec& each : entry.fields)
+        if (std::string(frame) == entry.spec.name && std::string(name) == each.meaning.name) return each;
+    FAIL(name);
+    return {};
+  }
 
-template <typename Check>
-void forEachField(Check check) {
-  for (const FrameEntry& entry : frameCatalogue())
-    for (const FieldSpec& each : entry.fields) check(each);
-}
+  template <typename Check>
+  void forEachField(Check check) {
+    for (const FrameEntry& entry : frameCatalogue())
+      for (const FieldSpec& each : entry.fields) check(each);
+  }
 
-static bool isName(const std::string& name) {
-  return !name.empty() && name.size() <= 32 &&
-         name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string::npos;
-}
-static bool isPlainText(const std::string& text) {
-  for (const char c : text)
-    if (c < ' ' || c > '~' || c == '"') return false;
-  return true;
-}
-}
-;
+  static bool isName(const std::string& name) {
+    return !name.empty() && name.size() <= 32 &&
+           name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string::npos;
+  }
+  static bool isPlainText(const std::string& text) {
+    for (const char c : text)
+      if (c < ' ' || c > '~' || c == '"') return false;
+    return true;
+  }
+};
 
 TEST(FrameCatalogue, FindsFramesByIdentifierAndLength) {
   STRCMP_EQUAL("CONTACT", findFrame({0x181, 8, {}})->spec.name);

@@ -14,23 +14,24 @@
 using namespace strainfinger;
 using namespace strainfinger::can;
 
-TEST_GROUP(Glossary){static Term only(const char* word){const std::vector<Term> terms = termsNamed(word);
-LONGS_EQUAL(1, terms.size());
-return terms.front();
-}
-/// Every name of the list is a term with the list's comment; those without a remedy.
-static std::string withoutRemedy(std::span<const ValueName> names) {
-  std::string none;
-  for (const ValueName& name : names) {
-    const std::vector<Term> terms = termsNamed(name.name);
-    const auto term = std::ranges::find(terms, name.comment, &Term::meaning);
-    CHECK_TEXT(term != terms.end(), name.name);
-    if (term->remedy.empty()) none.append(name.name).append(" ");
+TEST_GROUP(Glossary) {
+  static Term only(const char* word) {
+    const std::vector<Term> terms = termsNamed(word);
+    LONGS_EQUAL(1, terms.size());
+    return terms.front();
   }
-  return none;
-}
-}
-;
+  /// Every name of the list is a term with the list's comment; those without a remedy.
+  static std::string withoutRemedy(std::span<const ValueName> names) {
+    std::string none;
+    for (const ValueName& name : names) {
+      const std::vector<Term> terms = termsNamed(name.name);
+      const auto term = std::ranges::find(terms, name.comment, &Term::meaning);
+      CHECK_TEXT(term != terms.end(), name.name);
+      if (term->remedy.empty()) none.append(name.name).append(" ");
+    }
+    return none;
+  }
+};
 
 TEST(Glossary, HasEveryFrame) {
   STRCMP_EQUAL("frame 0x480 + node, every 1000 ms", only("INFO").kind.c_str());

@@ -6,18 +6,18 @@
 
 using namespace strainfinger;
 
-TEST_GROUP(OpenBus){
-    static std::string refusalOf(const std::string& name, ExitCode code){try {can::openBus(name);
-}
-catch (const Failure& failure) {
-  CHECK_TRUE(failure.code() == code);
-  return failure.what();
-}
-FAIL("opened");
-return {};
-}
-}
-;
+TEST_GROUP(OpenBus) {
+  static std::string refusalOf(const std::string& name, ExitCode code) {
+    try {
+      can::openBus(name);
+    } catch (const Failure& failure) {
+      CHECK_TRUE(failure.code() == code);
+      return failure.what();
+    }
+    FAIL("opened");
+    return {};
+  }
+};
 
 TEST(OpenBus, UdpIsABusWithoutAnInterface) {
   const auto port = can::openBus("udp:29999");

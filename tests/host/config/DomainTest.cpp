@@ -7,16 +7,18 @@
 
 using strainfinger::config::Domain;
 
-TEST_GROUP(Domain){
-    void checkEnds(const Domain& domain, bool low, bool high){CHECK_EQUAL(low, domain.contains(2));
-CHECK_EQUAL(high, domain.contains(4));
-CHECK_TRUE(domain.contains(3));
-CHECK_FALSE(domain.contains(std::nextafter(2.0, 0.0)));
-CHECK_FALSE(domain.contains(std::nextafter(4.0, 5.0)));
-}
-void checkText(const char* expected, const Domain& domain) { STRCMP_EQUAL(expected, domain.text().c_str()); }
-}
-;
+TEST_GROUP(Domain) {
+  void checkEnds(const Domain& domain, bool low, bool high) {
+    CHECK_EQUAL(low, domain.contains(2));
+    CHECK_EQUAL(high, domain.contains(4));
+    CHECK_TRUE(domain.contains(3));
+    CHECK_FALSE(domain.contains(std::nextafter(2.0, 0.0)));
+    CHECK_FALSE(domain.contains(std::nextafter(4.0, 5.0)));
+  }
+  void checkText(const char* expected, const Domain& domain) {
+    STRCMP_EQUAL(expected, domain.text().c_str());
+  }
+};
 
 TEST(Domain, EndsAreInOrOutAsSaid) {
   checkEnds(Domain::between(2, 4), true, true);

@@ -108,14 +108,14 @@ double number(const FingerConfig& config, const Key& key) {
 
 }  // namespace
 
-TEST_GROUP(ReadConfig){void checkComplaint(const std::string& text, const std::string& expected){
+TEST_GROUP(ReadConfig) {
+  void checkComplaint(const std::string& text, const std::string& expected) {
     STRCMP_EQUAL(expected.c_str(), complaintAbout(text).c_str());
-}
-void checkMention(const std::string& text, const std::string& part) {
-  STRCMP_CONTAINS(part.c_str(), complaintAbout(text).c_str());
-}
-}
-;
+  }
+  void checkMention(const std::string& text, const std::string& part) {
+    STRCMP_CONTAINS(part.c_str(), complaintAbout(text).c_str());
+  }
+};
 
 TEST(ReadConfig, SchemaAloneGivesTheDefaultFinger) {
   const FingerConfig read = readConfig("schema = 1", "f.toml");

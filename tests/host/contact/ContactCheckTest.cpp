@@ -28,7 +28,7 @@ double loadOf(Regime regime, int terms, double poissonRatio, double width_m) {
 
 }  // namespace
 
-TEST_GROUP(ContactCheck){};
+TEST_GROUP(ContactCheck) {};
 
 // By Fourier series of the tractions in place of the double exponential rule: 3,000 harmonics leave 1e-9 m.
 TEST(ContactCheck, TheResidualIsTheSurfacesDistanceFromTheIndenter) {

@@ -40,7 +40,7 @@ Eigen::MatrixXd fieldOf(const SurfaceKernel& kernel, const Tractions& tractions,
 
 }  // namespace
 
-TEST_GROUP(ContactField){};
+TEST_GROUP(ContactField) {};
 
 TEST(ContactField, AgreesWithTheModelUnderAUniformLoad) {
   for (const double poissonRatio : {0.5, 0.3})

@@ -64,7 +64,7 @@ void isFoundByMoreTerms(const ContactRequest& request, const model::Annulus<doub
 
 }  // namespace
 
-TEST_GROUP(Contact){};
+TEST_GROUP(Contact) {};
 
 TEST(Contact, AMeasuredPlaneAndAMeasuredParabolaAreWhatTheyAre) {
   for (const bool isFlat : {true, false})

@@ -4,7 +4,7 @@
 
 using namespace strainfinger::contact;
 
-TEST_GROUP(Decompositions){};
+TEST_GROUP(Decompositions) {};
 
 // The line through (0, 1), (1, 3), (2, 4), (3, 4) by hand: 1.5 + x.
 TEST(Decompositions, LeastSquaresIsTheLineWorkedOutByHand) {

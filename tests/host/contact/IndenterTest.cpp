@@ -12,16 +12,15 @@
 using strainfinger::Failure;
 using strainfinger::contact::Indenter;
 
-TEST_GROUP(Indenter){/// y = a cubic, measured at uneven places.
-                     static double cubic(double x){return 2 * x * x * x - x * x + 3 * x - 5;
-}
-static Indenter measuredCubic() {
-  std::vector<double> x{-1, -0.7, 0.1, 0.2, 0.9, 1.5}, y;
-  for (const double position : x) y.push_back(cubic(position));
-  return Indenter::measured(x, y);
-}
-}
-;
+TEST_GROUP(Indenter) {
+  /// y = a cubic, measured at uneven places.
+  static double cubic(double x) { return 2 * x * x * x - x * x + 3 * x - 5; }
+  static Indenter measuredCubic() {
+    std::vector<double> x{-1, -0.7, 0.1, 0.2, 0.9, 1.5}, y;
+    for (const double position : x) y.push_back(cubic(position));
+    return Indenter::measured(x, y);
+  }
+};
 
 TEST(Indenter, AFlatOneHasNoHeight) {
   DOUBLES_EQUAL(0, Indenter::flat().height(1e-3), 0);

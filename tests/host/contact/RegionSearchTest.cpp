@@ -103,7 +103,7 @@ std::string refusalOf(const ContactRequest& request) {
 
 }  // namespace
 
-TEST_GROUP(RegionSearch){};
+TEST_GROUP(RegionSearch) {};
 
 // A quarter of a cell, 39 um over the whole shape, away from where cells look by themselves.
 TEST(RegionSearch, ABumpOfFourMicrometresBesideTheContactTouches) {

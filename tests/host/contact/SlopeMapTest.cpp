@@ -25,28 +25,29 @@ constexpr std::array kPrinted{1.0,          0.9444687060, 0.7432907985, 0.616625
                               0.2756177965, 0.1394527403, 0.1060444108, 0.0654099376, 0.0287070622,
                               0.0108410951, 0.0036250079, 0.0010866499, 0.0003046009};
 
-TEST_GROUP(SlopeMap){static SlopeMapRequest request(double width_mm){SlopeMapRequest request;
-request.width_rad = width_mm * 1e-3 / kSurface_m;
-return request;
-}
+TEST_GROUP(SlopeMap) {
+  static SlopeMapRequest request(double width_mm) {
+    SlopeMapRequest request;
+    request.width_rad = width_mm * 1e-3 / kSurface_m;
+    return request;
+  }
 
-static std::vector<SingularPair> pairs(const SlopeMapRequest& request) {
-  return singularPairs(SlopeMap(kDefaultFinger, request));
-}
+  static std::vector<SingularPair> pairs(const SlopeMapRequest& request) {
+    return singularPairs(SlopeMap(kDefaultFinger, request));
+  }
 
-static long above(const std::vector<SingularPair>& pairs, double relative) {
-  return std::count_if(pairs.begin(), pairs.end(),
-                       [&](const SingularPair& pair) { return pair.value > relative * pairs[0].value; });
-}
+  static long above(const std::vector<SingularPair>& pairs, double relative) {
+    return std::count_if(pairs.begin(), pairs.end(),
+                         [&](const SingularPair& pair) { return pair.value > relative * pairs[0].value; });
+  }
 
-static double worstDeparture(const std::vector<SingularPair>& pairs, const std::array<double, 14>& known) {
-  double worst = 0;
-  for (std::size_t i = 0; i < known.size(); ++i)
-    worst = std::max(worst, std::abs(pairs[i].value / pairs[0].value - known[i]));
-  return worst;
-}
-}
-;
+  static double worstDeparture(const std::vector<SingularPair>& pairs, const std::array<double, 14>& known) {
+    double worst = 0;
+    for (std::size_t i = 0; i < known.size(); ++i)
+      worst = std::max(worst, std::abs(pairs[i].value / pairs[0].value - known[i]));
+    return worst;
+  }
+};
 
 TEST(SlopeMap, GaussRowsHaveTheContinuumsValues) {
   CHECK_TRUE(worstDeparture(pairs(request(2)), kContinuum) < 1e-10);

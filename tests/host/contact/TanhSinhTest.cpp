@@ -7,7 +7,7 @@
 
 using strainfinger::contact::TanhSinhRule;
 
-TEST_GROUP(TanhSinh){};
+TEST_GROUP(TanhSinh) {};
 
 TEST(TanhSinh, IntegratesALogarithm) {
   const TanhSinhRule rule(12);

@@ -9,44 +9,44 @@
 using namespace strainfinger::contact;
 using std::numbers::pi;
 
-TEST_GROUP(Tractions){
-    /// A semi-ellipse of peak 3 Pa, its shear half of it, and a stuck shear 1 / sqrt(1 - x^2).
-    static Tractions ellipse(){PatchTractions part;
-part.patch = {0.5, 0.2};
-part.smooth = {kSmoothEdges, Eigen::VectorXd::Constant(1, 3 * std::sqrt(pi / 2))};
-part.friction = 0.5;
-part.stuck = {kStuckEdges, Eigen::VectorXd::Constant(1, std::sqrt(pi))};
-return {part};
-}
-
-/// 7 arccosh(1/|z|), x0 = 0.3, and as much shear the other way.
-static Tractions tip() {
-  PatchTractions part;
-  part.patch = {-0.5, 0.1};
-  part.tip = {0.3, Eigen::VectorXd::Constant(1, 7 * std::sqrt(pi / 2)), {}};
-  part.friction = -1;
-  return {part};
-}
-
-/// The same with series of several terms, and a step of the pressure.
-static Tractions stepped() {
-  PatchTractions part = tip()[0];
-  part.tip.log = Eigen::Vector3d(1, -2, 3);
-  part.tip.step = Eigen::Vector2d(4, 5);
-  return {part};
-}
-
-/// Sum of the line tractions times cos n angle.
-static Traction coefficient(const Tractions& tractions, int n) {
-  Traction sum;
-  for (const LineTraction& line : lineTractions(tractions, n)) {
-    sum.pressure_pa += line.pressure_pa_rad * std::cos(n * line.angle_rad);
-    sum.shear_pa += line.shear_pa_rad * std::cos(n * line.angle_rad);
+TEST_GROUP(Tractions) {
+  /// A semi-ellipse of peak 3 Pa, its shear half of it, and a stuck shear 1 / sqrt(1 - x^2).
+  static Tractions ellipse() {
+    PatchTractions part;
+    part.patch = {0.5, 0.2};
+    part.smooth = {kSmoothEdges, Eigen::VectorXd::Constant(1, 3 * std::sqrt(pi / 2))};
+    part.friction = 0.5;
+    part.stuck = {kStuckEdges, Eigen::VectorXd::Constant(1, std::sqrt(pi))};
+    return {part};
   }
-  return sum;
-}
-}
-;
+
+  /// 7 arccosh(1/|z|), x0 = 0.3, and as much shear the other way.
+  static Tractions tip() {
+    PatchTractions part;
+    part.patch = {-0.5, 0.1};
+    part.tip = {0.3, Eigen::VectorXd::Constant(1, 7 * std::sqrt(pi / 2)), {}};
+    part.friction = -1;
+    return {part};
+  }
+
+  /// The same with series of several terms, and a step of the pressure.
+  static Tractions stepped() {
+    PatchTractions part = tip()[0];
+    part.tip.log = Eigen::Vector3d(1, -2, 3);
+    part.tip.step = Eigen::Vector2d(4, 5);
+    return {part};
+  }
+
+  /// Sum of the line tractions times cos n angle.
+  static Traction coefficient(const Tractions& tractions, int n) {
+    Traction sum;
+    for (const LineTraction& line : lineTractions(tractions, n)) {
+      sum.pressure_pa += line.pressure_pa_rad * std::cos(n * line.angle_rad);
+      sum.shear_pa += line.shear_pa_rad * std::cos(n * line.angle_rad);
+    }
+    return sum;
+  }
+};
 
 TEST(Tractions, AreWhatTheyAreMadeOf) {
   const Traction centre = tractionAt(ellipse(), 0.5), side = tractionAt(ellipse(), 0.38);  // x = -0.6

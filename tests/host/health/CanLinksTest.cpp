@@ -23,7 +23,7 @@ constexpr const char* kThree =
 
 }  // namespace
 
-TEST_GROUP(CanLinks){};
+TEST_GROUP(CanLinks) {};
 
 TEST(CanLinks, AreThoseOfCanAlone) {
   const std::vector<CanLink> links = parseCanLinks(kThree);

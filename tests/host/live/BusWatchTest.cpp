@@ -70,6 +70,22 @@ TEST(BusWatch, WithoutAnAnswerThereIsAnOutcomeAfterASecond) {
   STRCMP_CONTAINS("no answer", watch_.outcomes().at(0).text.c_str());
 }
 
+TEST(BusWatch, NothingIsAskedOfANumberThatTwoFingersHave) {
+  for (const std::uint16_t uptime_s : std::initializer_list<std::uint16_t>{100, 7, 101, 8, 102, 9, 103, 10})
+    port_.hear(HeartbeatFrame{.uptime_s = uptime_s});
+  watch_.listen(1ms);
+  watch_.request(1, tareRequest(false));
+  watch_.request(2, tareRequest(false));
+  watch_.listen(1ms);
+  LONGS_EQUAL(1, port_.sent.size());
+  CHECK_TRUE(port_.sent[0] == encode(tareRequest(false), 2));
+  const auto outcomes = watch_.outcomes();
+  LONGS_EQUAL(1, outcomes.size());
+  CHECK_FALSE(outcomes[0].isDone);
+  STRCMP_CONTAINS("node 1: tare: not sent: two fingers have this node number", outcomes[0].text.c_str());
+  STRCMP_CONTAINS("config --can fake0 -n 1 --set-node", outcomes[0].text.c_str());
+}
+
 TEST(BusWatch, ATapGetsEveryFrameUntilItIsTakenOff) {
   int frames = 0;
   watch_.setTap([&](const can::TimedFrame&) { ++frames; });

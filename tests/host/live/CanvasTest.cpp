@@ -4,7 +4,9 @@
 
 using namespace strainfinger::live;
 
-TEST_GROUP(Canvas) { Canvas canvas_{2, 10}; };
+TEST_GROUP(Canvas) {
+  Canvas canvas_{2, 10};
+};
 
 TEST(Canvas, IsEmptyAtFirst) {
   LONGS_EQUAL(2, canvas_.lines(true).size());

@@ -50,6 +50,23 @@ TEST(Fleet, AHeartbeatMakesAFinger) {
   DOUBLES_EQUAL(0.3, only().touch.value().normal_n, 1e-12);
 }
 
+TEST(Fleet, TablesThatAreNotThoseOfTheConfigAreTold) {
+  Fleet fleet("can0", config::FingerConfig{}, 0x01020342U);
+  const auto hasOther = [&](const HeartbeatFrame& heartbeat) {
+    fleet.take(now_us_, encode(heartbeat, 1));
+    return fleet.view(now_us_).fingers.at(0).hasOtherTables;
+  };
+  CHECK_FALSE(hasOther({.table_crc = 0x42}));
+  CHECK_TRUE(hasOther({.table_crc = 0x43}));
+  CHECK_FALSE(hasOther({.faults = {FingerFault::kTables}, .table_crc = 0x43}));
+  CHECK_FALSE(hasOther({.protocol = kProtocolVersion + 1, .table_crc = 0x43}));
+}
+
+TEST(Fleet, WithoutAConfigAnyTablesAreRight) {
+  take(encode(HeartbeatFrame{.table_crc = 0x43}, 1));
+  CHECK_FALSE(only().hasOtherTables);
+}
+
 TEST(Fleet, FingersStandInTheOrderOfTheirNodes) {
   for (const int node : {63, 2, 17}) heartbeat(static_cast<std::uint8_t>(node));
   const BusView bus = view();

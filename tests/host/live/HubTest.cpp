@@ -10,7 +10,9 @@
 using namespace strainfinger::live;
 using namespace std::chrono_literals;
 
-TEST_GROUP(EventHub) { EventHub hub_; };
+TEST_GROUP(EventHub) {
+  EventHub hub_;
+};
 
 TEST(EventHub, HasNothingAtFirst) {
   CHECK_TRUE(hub_.next(0, 0ms).text == nullptr);

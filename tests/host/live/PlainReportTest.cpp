@@ -11,18 +11,18 @@
 using namespace strainfinger;
 using namespace strainfinger::live;
 
-TEST_GROUP(PlainReport){
-    std::string printed(TableFormat format, const std::vector<BusView>& buses){char* text = nullptr;
-std::size_t size = 0;
-std::FILE* stream = open_memstream(&text, &size);
-PlainReport(stream, format, 1).print(buses);
-std::fclose(stream);
-const std::string result(text, size);
-std::free(text);
-return result;
-}
-}
-;
+TEST_GROUP(PlainReport) {
+  std::string printed(TableFormat format, const std::vector<BusView>& buses) {
+    char* text = nullptr;
+    std::size_t size = 0;
+    std::FILE* stream = open_memstream(&text, &size);
+    PlainReport(stream, format, 1).print(buses);
+    std::fclose(stream);
+    const std::string result(text, size);
+    std::free(text);
+    return result;
+  }
+};
 
 TEST(PlainReport, IsDueAPeriodAfterTheBeginning) {
   PlainReport report(stdout, TableFormat::kCsv, 0.5);

@@ -11,21 +11,21 @@
 using namespace strainfinger;
 using namespace strainfinger::live;
 
-TEST_GROUP(Screen){std::vector<std::string> drawn(const ScreenContent& content, const ScreenForm& form = {}){
+TEST_GROUP(Screen) {
+  std::vector<std::string> drawn(const ScreenContent& content, const ScreenForm& form = {}) {
     const auto lines = drawScreen(content, form).lines(false);
-LONGS_EQUAL(form.rows, lines.size());
-return lines;
-}
-std::string text(const ScreenContent& content, const ScreenForm& form = {}) {
-  std::string text;
-  for (const std::string& line : drawn(content, form)) text += line + "\n";
-  return text;
-}
-std::string textOf(const FingerView& finger, const ScreenForm& form = {}) {
-  return text({.buses = {busWith({finger})}}, form);
-}
-}
-;
+    LONGS_EQUAL(form.rows, lines.size());
+    return lines;
+  }
+  std::string text(const ScreenContent& content, const ScreenForm& form = {}) {
+    std::string text;
+    for (const std::string& line : drawn(content, form)) text += line + "\n";
+    return text;
+  }
+  std::string textOf(const FingerView& finger, const ScreenForm& form = {}) {
+    return text({.buses = {busWith({finger})}}, form);
+  }
+};
 
 TEST(Screen, ABusWithoutFingersSaysSo) {
   STRCMP_CONTAINS("no finger heard yet", text({.buses = {busWith({})}}).c_str());
@@ -112,6 +112,12 @@ TEST(Screen, ATwinIsSaidToBeThere) {
   FingerView finger = touchedFinger();
   finger.hasTwin = true;
   STRCMP_CONTAINS("two fingers have this node number", textOf(finger).c_str());
+}
+
+TEST(Screen, TablesOfAnotherConfigAreSaidToBeThat) {
+  FingerView finger = touchedFinger();
+  finger.hasOtherTables = true;
+  STRCMP_CONTAINS("its tables are not those of the config (-c)", textOf(finger).c_str());
 }
 
 TEST(Screen, ASilentFingerIsSaidToBeSilent) {
@@ -230,7 +236,7 @@ TEST(Screen, AsciiIsAsciiAlone) {
   STRCMP_CONTAINS("0.282 +- 0.004 N", shown.c_str());
 }
 
-TEST_GROUP(ValueText){};
+TEST_GROUP(ValueText) {};
 
 TEST(ValueText, WhatIsNotKnownIsAQuestionMark) {
   STRCMP_EQUAL("?", measured({kNoValue}, {1}, 2, "N").c_str());

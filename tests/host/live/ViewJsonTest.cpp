@@ -7,11 +7,11 @@
 using namespace strainfinger;
 using namespace strainfinger::live;
 
-TEST_GROUP(ViewJson){nlohmann::ordered_json jsonOf(const FingerView& finger){
+TEST_GROUP(ViewJson) {
+  nlohmann::ordered_json jsonOf(const FingerView& finger) {
     return toJson(busWith({finger})).at("fingers").at(0);
-}
-}
-;
+  }
+};
 
 TEST(ViewJson, NumbersAreInSiUnits) {
   FingerView finger = touchedFinger();

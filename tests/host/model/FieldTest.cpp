@@ -80,7 +80,7 @@ double worstError(const Annulus<double>& finger, double radius_m, const SurfaceL
 
 }  // namespace
 
-TEST_GROUP(Field){};
+TEST_GROUP(Field) {};
 
 // The bar is 1e-12 of the peak of the radial strain; this is every row, at the core and at nu = 1/2 too.
 TEST(Field, AgreesWithExactSumsAtEveryDepth) {

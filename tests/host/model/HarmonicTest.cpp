@@ -82,7 +82,7 @@ HarmonicResponse<double> atGauge(int n) { return HarmonicModel<double>(kDefaultF
 
 }  // namespace
 
-TEST_GROUP(Harmonic){};
+TEST_GROUP(Harmonic) {};
 
 // The bar is 1e-12. The worst of 200,000 samples was 1.8e-15 here and, for n = 1 at alpha = 0.01, 8.8e-15
 // below; the rest is for other libraries' powers.

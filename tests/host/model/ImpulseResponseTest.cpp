@@ -45,7 +45,7 @@ double worstError(const ImpulseResponse& response, const ExactField& exact, Row 
 
 }  // namespace
 
-TEST_GROUP(ImpulseResponse){};
+TEST_GROUP(ImpulseResponse) {};
 
 // The bar is 1e-13 of the peak; reached are 3e-15.
 TEST(ImpulseResponse, AgreesWithExactSums) {

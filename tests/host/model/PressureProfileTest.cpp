@@ -32,7 +32,7 @@ double transformed(Profile profile, double moment, int n) {
 
 }  // namespace
 
-TEST_GROUP(PressureProfile){};
+TEST_GROUP(PressureProfile) {};
 
 TEST(PressureProfile, DensitiesHaveTheLoadAndTheMomentAskedFor) {
   for (const Profile profile : allProfiles()) {

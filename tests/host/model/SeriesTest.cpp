@@ -48,7 +48,7 @@ double leftOut(const Eigen::MatrixXd& all, const Eigen::MatrixXd& kept) {
 
 }  // namespace
 
-TEST_GROUP(Series){};
+TEST_GROUP(Series) {};
 
 TEST(Series, LeavesOutNoMoreThanTheTolerance) {
   for (const double radius_m : {8.9e-3, 8.91e-3, 9.4e-3, 11e-3, 12e-3, 12.6e-3})

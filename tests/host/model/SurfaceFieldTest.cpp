@@ -73,7 +73,7 @@ void checkAgainstFilteredSums(const Annulus<double>& finger) {
 
 }  // namespace
 
-TEST_GROUP(SurfaceField){};
+TEST_GROUP(SurfaceField) {};
 
 TEST(SurfaceField, AgreesWithFilteredSums) {
   checkAgainstFilteredSums(kDefaultFinger);

@@ -11,7 +11,7 @@
 using namespace strainfinger::model;
 using namespace strainfinger::testing;
 
-TEST_GROUP(WideHarmonic){};
+TEST_GROUP(WideHarmonic) {};
 
 // The formulas themselves, apart from double's rounding: what is lost of 100 digits is the oracle's own.
 TEST(WideHarmonic, AgreesWithStressFunctionsToSeventyDigits) {

@@ -76,7 +76,7 @@ struct Appendix {
 
 }  // namespace
 
-TEST_GROUP(Errata){};
+TEST_GROUP(Errata) {};
 
 // Long double: the printed form loses digits to alpha^-2n, 1e-5 of them by harmonic 20.
 TEST(Errata, TheAppendixHoldsWithTheExponentsRead) {

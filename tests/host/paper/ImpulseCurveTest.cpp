@@ -53,7 +53,7 @@ double zeroAngle_rad(const ImpulseCurve& curve) {
 
 // Numbers here were computed for this project with another program, on a grid of angles: peaks and angles at
 // which curves part are known to its step.
-TEST_GROUP(ImpulseCurve){};
+TEST_GROUP(ImpulseCurve) {};
 
 TEST(ImpulseCurve, HasTheKnownPeaks) {
   DOUBLES_EQUAL(4.606030e-4, cylinder(kNormal).peak(), 5e-11);

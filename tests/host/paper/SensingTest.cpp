@@ -14,12 +14,10 @@ using testing::kGaugeRadius_m;
 
 // Known numbers were computed for this project with another program, to the digits given and over another
 // sample of phases.
-TEST_GROUP(Sensing){
-    static model::Annulus<double> finger(double alpha){return {alpha * 12.7e-3, 12.7e-3, 8.3e4, 0.5};
-}
-static double gauge_m(double alpha) { return alpha * 12.7e-3 + 0.5e-3; }
-}
-;
+TEST_GROUP(Sensing) {
+  static model::Annulus<double> finger(double alpha) { return {alpha * 12.7e-3, 12.7e-3, 8.3e4, 0.5}; }
+  static double gauge_m(double alpha) { return alpha * 12.7e-3 + 0.5e-3; }
+};
 
 TEST(Sensing, WidthsLowerThePeak) {
   constexpr std::array<std::array<double, 3>, 6> kKnown{

@@ -128,7 +128,7 @@ TEST(Spectrum, LeavesNothingOut) {
   }
 }
 
-TEST_GROUP(CutOff){};
+TEST_GROUP(CutOff) {};
 
 TEST(CutOff, IsTheLastIndexAtATenthNotTheFirstBelow) {
   const std::vector spectrum{3.0, -10.0, 0.5, -2.0, 1.0, 0.5, 0.0};

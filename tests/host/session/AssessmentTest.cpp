@@ -31,7 +31,7 @@ const Assessed& assessed() {
 
 }  // namespace
 
-TEST_GROUP(Assessment){};
+TEST_GROUP(Assessment) {};
 
 TEST(Assessment, SigmasAreTheCalibrations) {
   const auto& [touches, result, assessment] = assessed();

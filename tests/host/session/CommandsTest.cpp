@@ -5,29 +5,29 @@
 using namespace strainfinger;
 using namespace strainfinger::session;
 
-TEST_GROUP(SessionCommands){
-    static double load(const char* text){const Command command = parseCommand(text, 0.02);
-return std::holds_alternative<LoadIs>(command) ? std::get<LoadIs>(command).normal_n_per_m : -1;
-}
-static double angle(const char* text) {
-  const Command command = parseCommand(text, 0.02);
-  return std::holds_alternative<AngleIs>(command) ? std::get<AngleIs>(command).angle_deg : -1;
-}
-static void isUnclear(const char* text, const char* named) {
-  const Command command = parseCommand(text, 0.02);
-  CHECK_TEXT(std::holds_alternative<Unclear>(command), text);
-  STRCMP_CONTAINS(named, std::get<Unclear>(command).why.c_str());
-}
-/// What keys make: the last command's text, "" for none.
-static std::string typed(const std::string& keys) {
-  KeyReader reader;
-  std::string last;
-  for (const char key : keys)
-    if (const auto text = reader.press(static_cast<unsigned char>(key))) last = *text;
-  return last;
-}
-}
-;
+TEST_GROUP(SessionCommands) {
+  static double load(const char* text) {
+    const Command command = parseCommand(text, 0.02);
+    return std::holds_alternative<LoadIs>(command) ? std::get<LoadIs>(command).normal_n_per_m : -1;
+  }
+  static double angle(const char* text) {
+    const Command command = parseCommand(text, 0.02);
+    return std::holds_alternative<AngleIs>(command) ? std::get<AngleIs>(command).angle_deg : -1;
+  }
+  static void isUnclear(const char* text, const char* named) {
+    const Command command = parseCommand(text, 0.02);
+    CHECK_TEXT(std::holds_alternative<Unclear>(command), text);
+    STRCMP_CONTAINS(named, std::get<Unclear>(command).why.c_str());
+  }
+  /// What keys make: the last command's text, "" for none.
+  static std::string typed(const std::string& keys) {
+    KeyReader reader;
+    std::string last;
+    for (const char key : keys)
+      if (const auto text = reader.press(static_cast<unsigned char>(key))) last = *text;
+    return last;
+  }
+};
 
 // 50 g weigh 0.4903 N, on 20 mm 24.517 N/m.
 TEST(SessionCommands, ALoadIsInItsUnit) {

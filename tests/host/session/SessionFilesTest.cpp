@@ -29,6 +29,7 @@ TEST_GROUP(SessionFiles) {
   config::FingerConfig finger_;
 
   void setup() override {
+    std::filesystem::remove_all(folder_);  // of a process of that number that was killed
     std::filesystem::create_directory(folder_);
     finger_.gauges.count = kGauges;
   }
@@ -106,7 +107,8 @@ TEST(SessionFiles, GoOnAfterSomethingWasTakenBack) {
   files.add(4.5, strains(0, 0, 0), {50, std::nullopt, std::nullopt});
   STRCMP_EQUAL("angle_deg,normal_n_per_m,tangential_n_per_m\n,24.5,\n,,\n,0,0\n50,,\n",
                contentOf(touches_).c_str());
-  std::filesystem::remove(strains_);  // whose lock would refuse as well
+  for (const std::string& path : {strains_, session_})  // which would be refused as well
+    std::filesystem::remove(path);
   checkRefused(touches_ + ": another session writes it now");
 }
 
@@ -133,6 +135,20 @@ TEST(SessionFiles, AConfigThatIsNoSessionsIsNotTouched) {
   checkRefused("there is such a file already");
   CHECK_FALSE(std::filesystem::exists(strains_));
   STRCMP_EQUAL("schema = 1\n", contentOf(config_).c_str());
+}
+
+TEST(SessionFiles, AFileThatOnlyHasTheNameOfASessionsConfigIsNotTouched) {
+  write(session_, "mine");
+  checkRefused(session_ + ": there is such a file already");
+  CHECK_FALSE(std::filesystem::exists(strains_));
+  STRCMP_EQUAL("mine", contentOf(session_).c_str());
+}
+
+TEST(SessionFiles, NothingStaysOfASessionThatCouldNotBegin) {
+  std::filesystem::create_directory(touches_);
+  checkRefused(touches_ + ": cannot open the file");
+  CHECK_FALSE(std::filesystem::exists(strains_));
+  CHECK_TRUE(std::filesystem::is_directory(touches_));
 }
 
 TEST(SessionFiles, FilesOfAnotherRingAreNotTouched) {
@@ -182,6 +198,7 @@ TEST(SessionFiles, RowsOfAnOlderSessionAreTakenForThisConfigs) {
 TEST(SessionFiles, TheFingerOfASessionWithoutRowsRefusesNone) {
   finger_.gauges.full_scale_strain = 0.05;
   write(session_, config::writeConfig(finger_));
+  write(strains_, header_);
   finger_.gauges.full_scale_strain = 0.04;
   addTwo();
   DOUBLES_EQUAL(0.04, config::readConfigFile(session_).gauges.full_scale_strain, 0);

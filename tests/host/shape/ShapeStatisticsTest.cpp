@@ -241,7 +241,7 @@ void areNearlyHonest(const Errors& errors) {
 
 }  // namespace
 
-TEST_GROUP(ShapeStatistics){};
+TEST_GROUP(ShapeStatistics) {};
 
 TEST(ShapeStatistics, FourMillimetresAreMeasuredAsWellAsTheNoiseAllows) {
   const Survey survey = surveyOf(4e-3, noisyRing(), true);

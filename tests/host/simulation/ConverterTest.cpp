@@ -7,12 +7,13 @@
 using namespace strainfinger;
 using namespace strainfinger::simulation;
 
-TEST_GROUP(Converter){config::Gauges gaugesOf(int bits){config::Gauges gauges;
-gauges.adc_bits = bits;
-return gauges;
-}
-}
-;
+TEST_GROUP(Converter) {
+  config::Gauges gaugesOf(int bits) {
+    config::Gauges gauges;
+    gauges.adc_bits = bits;
+    return gauges;
+  }
+};
 
 TEST(Converter, CodesAreLeftJustifiedWithZeroStrainInTheMiddle) {
   const Converter converter(gaugesOf(12));

@@ -12,28 +12,27 @@
 using namespace strainfinger;
 using namespace strainfinger::simulation;
 
-TEST_GROUP(ReadScenario){/// A touch from 1 s to 3 s whose angle is line 5, its value at column 13.
-                         std::string withAngle(const std::string& angle){
-                             return "schema = 1\n[[touch]]\nstart_s = 1\nend_s = 3\nangle_deg = " + angle +
-                                    "\nnormal_n_per_m = 20\n";
-}
-std::string complaintAbout(const std::string& text) {
-  try {
-    readScenario(text, "s.toml");
-  } catch (const Failure& failure) {
-    LONGS_EQUAL(static_cast<int>(ExitCode::kUsage), static_cast<int>(failure.code()));
-    return failure.what();
+TEST_GROUP(ReadScenario) {
+  /// A touch from 1 s to 3 s whose angle is line 5, its value at column 13.
+  std::string withAngle(const std::string& angle) {
+    return "schema = 1\n[[touch]]\nstart_s = 1\nend_s = 3\nangle_deg = " + angle + "\nnormal_n_per_m = 20\n";
   }
-  return "accepted";
-}
-void checkComplaint(const std::string& text, const std::string& part) {
-  STRCMP_CONTAINS(part.c_str(), complaintAbout(text).c_str());
-}
-double angleAt_deg(const std::string& angle, double time_s) {
-  return readScenario(withAngle(angle), "s").at(time_s).at(0).angle_rad * 180 / std::numbers::pi;
-}
-}
-;
+  std::string complaintAbout(const std::string& text) {
+    try {
+      readScenario(text, "s.toml");
+    } catch (const Failure& failure) {
+      LONGS_EQUAL(static_cast<int>(ExitCode::kUsage), static_cast<int>(failure.code()));
+      return failure.what();
+    }
+    return "accepted";
+  }
+  void checkComplaint(const std::string& text, const std::string& part) {
+    STRCMP_CONTAINS(part.c_str(), complaintAbout(text).c_str());
+  }
+  double angleAt_deg(const std::string& angle, double time_s) {
+    return readScenario(withAngle(angle), "s").at(time_s).at(0).angle_rad * 180 / std::numbers::pi;
+  }
+};
 
 TEST(ReadScenario, ANumberIsConstant) {
   DOUBLES_EQUAL(40, angleAt_deg("40", 1), 1e-13);

@@ -4,7 +4,9 @@
 
 using strainfinger::simulation::SimulatedClock;
 
-TEST_GROUP(SimulatedClock) { SimulatedClock clock; };
+TEST_GROUP(SimulatedClock) {
+  SimulatedClock clock;
+};
 
 TEST(SimulatedClock, TimePassesWhenToldTo) {
   UNSIGNED_LONGS_EQUAL(0, clock.now_us());

@@ -143,8 +143,7 @@ TEST(SimulatedGauges, AGainScalesTheStrainOfItsGauge) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     SimulatedGauges ring = gauges(press, {.seed = seed, .gainSpread = 0.05});
     next(ring);
-    while (ring.read(set)) {
-    }
+    while (ring.read(set)) {}
     square += std::pow(reading(0) / (40 * -460.6030e-6) - 1, 2) / 100;
   }
   DOUBLES_EQUAL(0.05, std::sqrt(square), 0.011);  // relative; standard error of 100 values 7 %, times three

@@ -11,14 +11,15 @@ using namespace std::chrono_literals;
 using strainfinger::system::Metronome;
 using Clock = std::chrono::steady_clock;
 
-TEST_GROUP(Metronome){/// A busy machine may wake a sleeper late, but not every time.
-                      template <typename Measure>
-                      static Clock::duration shortestOf(Measure measure){Clock::duration shortest = measure();
-for (int i = 1; i < 10; ++i) shortest = std::min(shortest, measure());
-return shortest;
-}
-}
-;
+TEST_GROUP(Metronome) {
+  /// A busy machine may wake a sleeper late, but not every time.
+  template <typename Measure>
+  static Clock::duration shortestOf(Measure measure) {
+    Clock::duration shortest = measure();
+    for (int i = 1; i < 10; ++i) shortest = std::min(shortest, measure());
+    return shortest;
+  }
+};
 
 TEST(Metronome, ABeatTakesItsPeriodAndNoLessInTheSum) {
   const auto start = Clock::now();

@@ -11,7 +11,7 @@ void countOuter(int) { ++outer; }
 
 }  // namespace
 
-TEST_GROUP(StopSignal){};
+TEST_GROUP(StopSignal) {};
 
 TEST(StopSignal, NobodyAskedAtFirst) { CHECK_FALSE(StopSignal().asked()); }
 

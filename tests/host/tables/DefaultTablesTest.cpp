@@ -16,7 +16,7 @@ constinit const TableImage kLinked = std::bit_cast<TableImage>(kDefaultTableByte
 
 }  // namespace
 
-TEST_GROUP(DefaultTables){};
+TEST_GROUP(DefaultTables) {};
 
 TEST(DefaultTables, AreAWholeImage) {
   LONGS_EQUAL(static_cast<int>(TableFault::kNone), static_cast<int>(checkTableImage(kLinked)));

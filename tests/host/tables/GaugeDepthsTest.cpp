@@ -123,7 +123,7 @@ void checkDifferences(const config::FingerConfig& config, double most) {
 
 }  // namespace
 
-TEST_GROUP(GaugeDepths){};
+TEST_GROUP(GaugeDepths) {};
 
 // As factors only, depths leave 0.6 %.
 TEST(GaugeDepths, ReadingsFollowThemOfWhateverWidth) {

@@ -20,20 +20,20 @@ GaugeGains tabledGains(const config::FingerConfig& config) { return gaugeGains(c
 
 }  // namespace
 
-TEST_GROUP(GaugeGains){
-    config::FingerConfig configWith(double first, double others){config::FingerConfig config;
-config.calibration.gain.assign(static_cast<std::size_t>(config.gauges.count), others);
-config.calibration.gain[0] = first;
-return config;
-}
+TEST_GROUP(GaugeGains) {
+  config::FingerConfig configWith(double first, double others) {
+    config::FingerConfig config;
+    config.calibration.gain.assign(static_cast<std::size_t>(config.gauges.count), others);
+    config.calibration.gain[0] = first;
+    return config;
+  }
 
-void checkFactor(double gain, double tolerance) {
-  const auto factors = correctionFactors(tabledGains(configWith(gain, 1)), 16);
-  DOUBLES_EQUAL(1 / gain, factors[0], tolerance);
-  DOUBLES_EQUAL(1, factors[15], 0);
-}
-}
-;
+  void checkFactor(double gain, double tolerance) {
+    const auto factors = correctionFactors(tabledGains(configWith(gain, 1)), 16);
+    DOUBLES_EQUAL(1 / gain, factors[0], tolerance);
+    DOUBLES_EQUAL(1, factors[15], 0);
+  }
+};
 
 TEST(GaugeGains, AreThereOnlyAfterCalibration) {
   CHECK_FALSE(tabledGains({}).areKnown());

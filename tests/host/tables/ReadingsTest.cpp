@@ -8,12 +8,13 @@
 using namespace strainfinger;
 using strainfinger::tables::readingOf;
 
-TEST_GROUP(Readings){static int reading(double strain, int gateShift = 13){TableConstants constants{};
-constants.gate_shift = static_cast<std::uint8_t>(gateShift);
-return readingOf(constants, strain);
-}
-}
-;
+TEST_GROUP(Readings) {
+  static int reading(double strain, int gateShift = 13) {
+    TableConstants constants{};
+    constants.gate_shift = static_cast<std::uint8_t>(gateShift);
+    return readingOf(constants, strain);
+  }
+};
 
 TEST(Readings, AreRoundedToTheNearestStep) {
   LONGS_EQUAL(1 << 22, reading(0x1p-10));

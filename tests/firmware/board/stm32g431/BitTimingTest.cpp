@@ -6,15 +6,15 @@
 
 using namespace strainfinger::stm32g431;
 
-TEST_GROUP(BitTiming){
-    static void isTiming(BitTiming expected, std::optional<BitTiming> actual){CHECK_TRUE(actual.has_value());
-LONGS_EQUAL(expected.prescaler, actual->prescaler);
-LONGS_EQUAL(expected.segment1, actual->segment1);
-LONGS_EQUAL(expected.segment2, actual->segment2);
-LONGS_EQUAL(expected.jump, actual->jump);
-}
-}
-;
+TEST_GROUP(BitTiming) {
+  static void isTiming(BitTiming expected, std::optional<BitTiming> actual) {
+    CHECK_TRUE(actual.has_value());
+    LONGS_EQUAL(expected.prescaler, actual->prescaler);
+    LONGS_EQUAL(expected.segment1, actual->segment1);
+    LONGS_EQUAL(expected.segment2, actual->segment2);
+    LONGS_EQUAL(expected.jump, actual->jump);
+  }
+};
 
 // By hand: 24 MHz / 1 Mbit/s = 24 clocks a bit; 24 / 5 = 4 after the sample point, which is at 20 / 24 = 83.3
 // %.

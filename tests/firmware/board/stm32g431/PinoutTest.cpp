@@ -69,7 +69,7 @@ TEST(Pinout, TheReadmesTableIsTheSame) {
   CHECK_TRUE(expected == found);
 }
 
-TEST_GROUP(SendRules){};
+TEST_GROUP(SendRules) {};
 
 TEST(SendRules, TouchesAndHeartbeatsGiveWayToNewerOnes) {
   for (const int id : {0x181, 0x201, 0x2BF, 0x301, 0x381, 0x701})
@@ -90,7 +90,7 @@ TEST(SendRules, ListensToItsOwnRequestsOnly) {
   CHECK_TRUE((identifiersFor(5) == std::array<std::uint16_t, 1>{0x605}));
 }
 
-TEST_GROUP(FlashLayout){};
+TEST_GROUP(FlashLayout) {};
 
 TEST(FlashLayout, TablesAndConfigurationAreBehindTheImage) {
   LONGS_EQUAL(0x0801'8000, kTablePages.address());

@@ -46,7 +46,7 @@ std::vector<std::string> instancesOf(const std::string& name) {
 
 }  // namespace
 
-TEST_GROUP(RegisterList){};
+TEST_GROUP(RegisterList) {};
 
 TEST(RegisterList, AllAreCompared) {
   const std::filesystem::path folder = STRAINFINGER_ROOT "/firmware/board/stm32g431/registers";

@@ -15,7 +15,7 @@ void checkAll(std::span<const Comparison> comparisons) {
 
 }  // namespace
 
-TEST_GROUP(Registers){};
+TEST_GROUP(Registers) {};
 
 TEST(Registers, HaveStsAddressesAndMasks) { checkAll(kRegisters); }
 

@@ -94,7 +94,9 @@ class ClockBench {
 WATCHDOG_CONTRACT(Independent, WatchdogBench)
 CLOCK_CONTRACT(Microsecond, ClockBench)
 
-TEST_GROUP(MicrosecondClock) { ClockBench bench; };
+TEST_GROUP(MicrosecondClock) {
+  ClockBench bench;
+};
 
 TEST(MicrosecondClock, CountsMicrosecondsFromTheFirstOn) {
   const std::uint32_t before_us = bench.clock().now_us();
@@ -176,7 +178,7 @@ TEST(IndependentWatchdog, TheFlagsAreCleared) {
   LONGS_EQUAL(0, csr.writes.back().value >> 23 & 1);
 }
 
-TEST_GROUP(UniqueId){};
+TEST_GROUP(UniqueId) {};
 
 TEST(UniqueId, IsThreeWords) {
   doubles::FakeRegisters registers;

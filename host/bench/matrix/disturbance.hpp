@@ -56,6 +56,7 @@ struct Disturbance {
   Motion motion = {};
   int rise_sets = 5;                    ///< of each contact's loads
   int touched_sets = 120;               ///< answers count at their end
+  int rest_sets = 40;                   ///< before each touch
   double gainSpread = 0;                ///< standard deviation of each gauge's gain, relative
   double zeroSpread_strain = 0;         ///< standard deviation of each gauge's zero
   double drift_strain_per_s = 0;        ///< standard deviation of each gauge's own

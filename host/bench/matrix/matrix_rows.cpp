@@ -182,6 +182,19 @@ class Rows {
     }
   }
 
+  /// As hands hold things: what the zeros take from a touch adds up over seconds, and over touches.
+  void held() {
+    for (const bool isBuilt : {false, true}) {
+      held(isBuilt, "loads tremble by 30 %, 1 Hz").motion = {.trembles_hz = 1, .trembling = 0.3};
+      held(isBuilt, "contacts slide, 2 mm/s").motion = {.slides_m_per_s = 2e-3};
+      for (const double drift : {0.5, 2.0}) {
+        const std::string drifts = fmt::format("drift {:g} microstrain a second", drift);
+        held(isBuilt, "gauges " + drifts + " each").drift_strain_per_s = drift * kMicro;
+        held(isBuilt, "gauges " + drifts + " alike").commonDrift_strain_per_s = drift * kMicro;
+      }
+    }
+  }
+
   std::vector<Disturbance> take() { return std::move(rows_); }
 
  private:
@@ -221,6 +234,17 @@ class Rows {
     row.rarer = rarer;
   }
 
+  Disturbance& held(bool isBuilt, const std::string& what) {
+    constexpr int kSeconds = 5;
+    Disturbance& row = isBuilt ? built(0) : add("");
+    row.name = fmt::format("{}touches of {} s, {}{}", isBuilt ? "as built, " : "", kSeconds, what,
+                           isBuilt ? ", model error 5 %" : "");
+    row.touched_sets = 1000 * kSeconds;
+    row.rest_sets = 1000;
+    row.rarer = 20;
+    return row;
+  }
+
   std::vector<Disturbance> rows_;
 };
 
@@ -238,6 +262,7 @@ std::vector<Disturbance> matrixRows() {
   rows.electronics();
   rows.untouched();
   rows.slow();
+  rows.held();
   return rows.take();
 }
 

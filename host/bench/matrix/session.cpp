@@ -285,7 +285,7 @@ Tally tallyOf(const Disturbance& disturbance, int touches, std::uint64_t seed) {
     }
     for (int i = 0; i < Session::kTouches && tally.touches < wanted; ++i) {
       session.touch(tally);
-      session.rest(Session::kRest_sets);
+      session.rest(disturbance.rest_sets);
     }
   }
   return tally;

@@ -18,8 +18,7 @@ namespace strainfinger::bench {
 class Session {
  public:
   static constexpr int kTouches = 6;  ///< of one session: what is wrong with a gauge shows at several places
-  static constexpr int kRest_sets = 40;        ///< before each touch
-  static constexpr int kFirstRest_sets = 300;  ///< before the first one
+  static constexpr int kFirstRest_sets = 300;  ///< before the first touch
   static constexpr int kSettled_sets = 10;     ///< of a rest: what is told then is a ghost
 
   /// `tables` outlives it.

@@ -8,19 +8,22 @@
 namespace strainfinger::firmware {
 namespace {
 
-constexpr int kTakenBits = 8;  ///< [log2] sample sets averaged in an interval
+constexpr int kTakenBits = 7;  ///< [log2] sample sets averaged in an interval
 static_assert(ZeroTracker::kInterval == ZeroTracker::kEvery << kTakenBits);
 
 /// [log2] Averages are taken for a contact's if one contact leaves less than this part of their energy.
 constexpr int kContactBits = 4;
 /// Averages whose energy is below so many of a reading's variances are left alone: their shape says too
 /// little.
-constexpr int kWorthFollowing = 2;
+constexpr int kWorthFollowing = 3;
 /// [log2] Contacts rest while they turn by no more than this part of a pitch and their loads change by no
 /// more than this part of the normal load.
 constexpr int kTurnBits = 2;
 constexpr int kLoadBits = 2;
 
+/// [log2] What far gauges change by in common is followed from this part of a reading's standard deviation
+/// on: three times that of the mean of eight of them. Less would add up to a walk of the zeros.
+constexpr int kCommonBits = 3;
 /// Fewer far gauges than this don't say what all have in common.
 constexpr int kLeastFar = 3;
 
@@ -122,7 +125,7 @@ std::int32_t ZeroTracker::commonChange_q32(GaugeSet far) {
 /// contact.
 void ZeroTracker::follow(const TableConstants& constants, const Strains& changes_q32, GaugeSet gauges,
                          Calibration& calibration) {
-  const Number limit = limited(Wide{readingNoise_q32(constants)} * 2, std::numeric_limits<Number>::max());
+  const Number limit = readingNoise_q32(constants);
   Number most = 0;
   for (int i = 0; i < constants.gauge_count; ++i)
     if (contains(gauges, i)) most = larger(most, magnitude(changes_q32[index(i)]));
@@ -143,8 +146,10 @@ bool ZeroTracker::finish(const TableImage& tables, bool touched, Calibration& ca
                          Linearisation& scratch) {
   const GaugeSet gauges = allGauges(tables.constants.gauge_count) & ~leftOut_;
   if (touched) {
+    const std::int32_t change_q32 = commonChange_q32(farGauges(tables) & gauges);
+    const Number least = readingNoise_q32(tables.constants) >> kCommonBits;
     Strains changes;
-    changes.fill(commonChange_q32(farGauges(tables) & gauges));
+    changes.fill(magnitude(change_q32) < least ? 0 : change_q32);
     follow(tables.constants, changes, allGauges(tables.constants.gauge_count), calibration);
     return true;
   }

@@ -12,7 +12,7 @@
 
 namespace strainfinger::firmware {
 
-/// Zeros follow what no contact can explain, by at most two standard deviations of a reading an interval.
+/// Zeros follow what no contact can explain, by at most a standard deviation of a reading an interval.
 ///   - Untouched: the averages of all gauges, if they are large enough, unless one contact explains nearly
 ///     all of them: a touch that grows over minutes looks like a contact, drift does not. The fit
 ///     begins at the best point of a coarse grid and, if it finds no contact, once more elsewhere, because at
@@ -22,26 +22,25 @@ namespace strainfinger::firmware {
 /// How old the zeros are is told by stale().
 class ZeroTracker {
  public:
-  static constexpr int kInterval = 1024;  ///< sample sets: a second at 1 kHz
-  static constexpr int kEvery = 4;        ///< one in this many is averaged
+  static constexpr int kInterval = 512;  ///< sample sets: half a second at 1 kHz
+  static constexpr int kEvery = 4;       ///< one in this many is averaged
   /// Sample sets after which zeros have followed, if there was time: two initial guesses, each with its fit.
   static constexpr int kUntilFollowed = kInterval + 3 * kEvery;
   static constexpr std::uint32_t kStaleSets = 600'000;  ///< ten minutes
 
-  /// One sample set. `locator`: its answer explains the set; null if nothing touches the finger. Averages of
-  /// gauges in `leftOut` don't count; these gauges follow only what others change by in common. `scratch` is
-  /// overwritten at the end of an untouched interval and in the sets up to kUntilFollowed. Returns true if
-  /// zeros may have changed. Cost: a sum over the gauges in one of kEvery sets; after an untouched interval a
-  /// coarse grid or a fit of at most kMostSteps steps in one of kEvery sets, if `isTimeLeft`: not in a set in
-  /// which the locator looks at a disturbance, or back at a touch. Counted in firmware/cost.md.
+  /// One sample set. `locator`: null if nothing touches the finger; else the set counts if its answer
+  /// explains it. Averages of gauges in `leftOut` don't count; these follow only what others change by in
+  /// common. `scratch` is overwritten at the end of an untouched interval and in the sets up to
+  /// kUntilFollowed. Returns true if zeros may have changed. Cost: a sum over the gauges in one of kEvery
+  /// sets; after an untouched interval a coarse grid or a fit of at most kMostSteps steps in one of kEvery
+  /// sets, if `isTimeLeft`: not in a set in which the locator looks at a disturbance, or back at a touch.
+  /// Counted in firmware/cost.md.
   bool take(const TableImage& tables, std::span<const std::int32_t> strains_q32, const Locator* locator,
             GaugeSet leftOut, Calibration& calibration, Linearisation& scratch, bool isTimeLeft = true) {
     if (age_sets_ != std::numeric_limits<std::uint32_t>::max()) ++age_sets_;
     const bool touched = locator != nullptr;
-    if (touched != touched_ || (touched && !isExplained(locator->answer()))) {
-      interrupt(touched);
-      return false;
-    }
+    if (touched != touched_) interrupt(touched);
+    if (touched && !isExplained(locator->answer())) return false;
     leftOut_ |= leftOut;
     if (sets_ + 1 >= kInterval && !isTimeLeft) return false;
     return ++sets_ % kEvery == 0 && average(tables, strains_q32, locator, calibration, scratch);

@@ -20,7 +20,7 @@ OF_ANY_KIND = {"m4": 100_000, "m0plus": 12_000}  # updates
 
 SCENES = {
     "idle": "idle: untouched",
-    "drift": "gauges that drift untouched: the dearest set of each second",
+    "drift": "gauges that drift untouched: the dearest set of each half second",
     "drift_depths": "the same, depths known",
     "held_line": "a line load held, the codes unchanged",
     "held_line_noise": "the same with noise",

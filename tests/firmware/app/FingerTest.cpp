@@ -288,10 +288,9 @@ TEST(Finger, SaysHowFastItsZeroMoves) {
   hal::SampleSet set = codesOf(kUntouched);
   set[2] = static_cast<std::uint16_t>(set[2] + 16);
   runSets(2000, set);
-  // A code is more than the zero may move in an interval: twice the noise of a reading.
+  // A code is more than the zero may move in an interval: the noise of a reading.
   constexpr double kInterval_s = ZeroTracker::kInterval * 1e-3;
-  DOUBLES_EQUAL(2 * ring.noise_strain() / kInterval_s * 1e9, sent<GaugesFrame>().back().zero_rate_nano_per_s,
-                15);
+  DOUBLES_EQUAL(ring.noise_strain() / kInterval_s * 1e9, sent<GaugesFrame>().back().zero_rate_nano_per_s, 15);
 }
 
 TEST(Finger, ANewZeroGivesGaugesAnotherTry) {

@@ -53,9 +53,8 @@ bool isPromising(const TableConstants& constants, const Solution& solution) {
 }
 
 bool isWeak(const Solution& solution, const Variances& variances, bool was) {
-  const int weak = was ? threshold::kNoLongerWeakSignal : threshold::kWeakSignal;
   const Wide least =
-      energyOf(variances.noise_q4, solution.hypothesis.contacts < 2 ? weak : threshold::kWeakOfTwo * weak);
+      energyOf(variances.noise_q4, was ? threshold::kNoLongerWeakSignal : threshold::kWeakSignal);
   for (const ContactState& contact : solution.contacts()) {
     const Wide reading = contact.normal / 2;  // where it is felt most
     if (reading * reading < least) return true;

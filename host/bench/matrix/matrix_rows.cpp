@@ -112,6 +112,18 @@ class Rows {
     dead.failure = Failure::kDead;
   }
 
+  /// Hardly more than what the gate sees, held until searches have ended.
+  void light() {
+    for (const double width_mm : {0, 1}) {
+      light(add(fmt::format("{:g} mm wide, 0.5 to 2 N/m", width_mm)), width_mm);
+      Disturbance& own = light(built(width_mm), width_mm);
+      own.name = fmt::format("as built, {:g} mm wide, 0.5 to 2 N/m, calibrated", width_mm);
+      own.isCalibrated = true;
+      light(built(width_mm), width_mm).name =
+          fmt::format("as built, {:g} mm wide, 0.5 to 2 N/m, model error 5 %", width_mm);
+    }
+  }
+
   /// Perfect, but on which a narrow touch and a wide one near by may read alike.
   void otherFingers() {
     const std::size_t first = rows_.size();
@@ -219,6 +231,12 @@ class Rows {
     row.touches.width_m = {width_mm * 1e-3, width_mm * 1e-3};
     return row;
   }
+  static Disturbance& light(Disturbance& row, double width_mm) {
+    row.touches.width_m = {width_mm * 1e-3, width_mm * 1e-3};
+    row.touches.load_n_per_m = {0.5, 2};
+    row.touched_sets = 400;
+    return row;
+  }
   Disturbance& untouched(std::string name, int sets, int rarer) {
     Disturbance& row = add(std::move(name));
     row.isUntouched = true;
@@ -258,6 +276,7 @@ std::vector<Disturbance> matrixRows() {
   rows.motions();
   rows.failures();
   rows.builds();
+  rows.light();
   rows.otherFingers();
   rows.electronics();
   rows.untouched();

@@ -163,27 +163,30 @@ TEST(Judge, AnswersAreToldApartBeyondNoiseThatAveragesOutAndAModelErrorThatDoesN
   LONGS_EQUAL(14 * 25, ambiguity({100 << 4, 100 << 4, 100 << 4}, 4));
 }
 
-// 60 deviations, where the contact is felt most: half its amplitude.
+// 95 deviations, where the contact is felt most: half its amplitude.
 TEST(Judge, AWeakContactStaysOneUntilItIsATwentiethFirmer) {
   const Variances noise{500 << 4, 100 << 4, 900 << 4};  // a deviation of 10
   const auto isWeakAt = [&](Number amplitude, bool was) {
     solution.contact[0].normal = amplitude;
     return isWeak(solution, noise, was);
   };
-  CHECK_TRUE(isWeakAt(1198, false));
-  CHECK_FALSE(isWeakAt(1200, false));
-  CHECK_TRUE(isWeakAt(1264, true));
-  CHECK_FALSE(isWeakAt(1266, true));
-  solution.hypothesis.contacts = 2;  // of two, each by 60 * sqrt(2) deviations
-  solution.contact[1].normal = 1697;
-  CHECK_TRUE(isWeakAt(8000, false));
-  solution.contact[1].normal = 1698;
-  CHECK_FALSE(isWeakAt(8000, false));
-  CHECK_TRUE(isWeakAt(1697, false));
-  solution.contact[1].normal = 1789;
-  CHECK_TRUE(isWeakAt(8000, true));
-  solution.contact[1].normal = 1790;
-  CHECK_FALSE(isWeakAt(8000, true));
+  CHECK_TRUE(isWeakAt(1896, false));
+  CHECK_FALSE(isWeakAt(1898, false));
+  CHECK_TRUE(isWeakAt(1998, true));
+  CHECK_FALSE(isWeakAt(2000, true));
+}
+
+TEST(Judge, APairIsWeakIfOneOfTheTwoIs) {
+  const Variances noise{500 << 4, 100 << 4, 900 << 4};
+  solution.hypothesis.contacts = 2;
+  solution.contact[0].normal = 8000;
+  for (const int weaker : {1, 0}) {
+    solution.contact[index(weaker)].normal = 1896;
+    solution.contact[index(1 - weaker)].normal = 8000;
+    CHECK_TRUE(isWeak(solution, noise, false));
+    solution.contact[index(weaker)].normal = 1898;
+    CHECK_FALSE(isWeak(solution, noise, false));
+  }
 }
 
 TEST(Judge, AnInadmissibleAnswerCountsAsLessLikely) {

@@ -180,7 +180,7 @@ TEST(LocatorRivals, ARivalIsForgottenOnceTheTouchHasTold) {
 // Touches of which one set alone often doesn't tell which of two places is right, for half a second each.
 TEST(LocatorRivals, AFaintTouchThatIsHeldIsSeldomToldElsewhereUnflagged) {
   constexpr int kTouches = kSanitized ? 4 : 300, kSets = 500;
-  Presses presses(16, 1, 415, 0, 2);
+  Presses presses(16, 1.5, 415, 0, 2);
   int silent = 0, told = 0;
   for (int i = 0; i < kTouches; ++i) {
     locator.release();

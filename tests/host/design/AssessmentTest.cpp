@@ -121,9 +121,9 @@ TEST(Assessment, ATouchThatTheGateMayMissIsAProblem) {
   STRCMP_CONTAINS("may go unnoticed", assess(config, touch).problem.c_str());
 }
 
-// Below 60 times the noise where it is felt most a touch is flagged.
+// Below 95 times the noise where it is felt most a touch is flagged.
 TEST(Assessment, ATouchThatTheFirmwareFlagsIsAProblem) {
-  config.gauges.noise_strain = 2e-4;
+  config.gauges.noise_strain = 1.4e-4;
   touch.width_m = 3e-3;
   touch.normal_n_per_m = 25;
   const Assessment weak = assess(config, touch);

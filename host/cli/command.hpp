@@ -20,8 +20,12 @@ class CommonOptions {
   void requireGoodConfig() const;
   bool hasConfig() const { return !path_.empty(); }
   TableFormat format() const { return json_ ? TableFormat::kJson : TableFormat::kCsv; }
+  /// Throws Failure(kUsage) where an option names one of `files`, which the command writes beside the file
+  /// that `option` names: one would be lost.
+  void requireNoneNamed(const char* option, const std::vector<std::string>& files) const;
 
  private:
+  const CLI::App* command_;
   std::string path_;
   bool json_ = false;
 };

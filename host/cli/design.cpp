@@ -14,6 +14,7 @@
 
 #include "host/base/failure.hpp"
 #include "host/base/no_value.hpp"
+#include "host/base/notice.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/model_options.hpp"
@@ -204,16 +205,18 @@ const design::Candidate* bestOf(const std::vector<design::Candidate>& candidates
 
 void tellOf(const design::Candidate* best) {
   if (best == nullptr) {
-    fmt::print(stderr, "design: each of these fingers has a problem with this touch, see there\n");
+    tell("design: each of these fingers has a problem with this touch, see there\n");
     return;
   }
-  fmt::print(stderr,
-             "design: of the fingers without a problem with this touch, {} gauges at {:.4g} m have the least "
-             "worst error of places, {:.3g} m\n",
-             best->gauges, best->radius_m, best->found.bounds->arc_m.worst);
+  tell(
+      "design: of the fingers without a problem with this touch, {} gauges at {:.4g} m have the least "
+      "worst error of places, {:.3g} m\n",
+      best->gauges, best->radius_m, best->found.bounds->arc_m.worst);
 }
 
 void runDesign(const DesignOptions& options) {
+  if (!options.picturePath.empty())
+    options.common.requireNoneNamed("--picture", plot::filesBeside(options.picturePath, design::kBoundsData));
   config::FingerConfig config = options.common.config();
   const std::vector<int> counts = gaugesOf(options.gauges);
   const std::vector<double> radii = radiiOf(options.radii, config);

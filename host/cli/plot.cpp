@@ -145,6 +145,7 @@ void requireAny(const PlotOptions& options, const std::map<Name, Track>& tracks)
 
 void runPlot(const PlotOptions& options) {
   options.common.requireGoodConfig();
+  options.common.requireNoneNamed("--output", plot::filesBeside(options.output, plot::kLogData));
   plot::requirePicturePath(options.output);
   const Heard heard = readLog(options);
   requireNotSeveral(options, heard.tracks);

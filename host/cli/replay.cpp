@@ -14,6 +14,7 @@
 
 #include "common/frames.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/notice.hpp"
 #include "host/can/frame_catalogue.hpp"
 #include "host/can/log_reader.hpp"
 #include "host/can/open_bus.hpp"
@@ -199,11 +200,10 @@ void runReplay(const ReplayOptions& options) {
   const system::StopSignal stop;
   const auto port = can::openBus(options.bus, options.common.config().can.bitrate, kHearNothing);
   const std::uint64_t sent = sendAll(options, *port, stop);
-  fmt::print(stderr, "replay: {} of {} frames sent, {} of other kinds left out\n", sent,
-             extent.frames + (options.requests ? extent.requests : 0), extent.skipped);
+  tell("replay: {} of {} frames sent, {} of other kinds left out\n", sent,
+       extent.frames + (options.requests ? extent.requests : 0), extent.skipped);
   if (extent.requests > 0 && !options.requests)
-    fmt::print(stderr, "replay: {} requests to fingers left out, too: --requests sends them\n",
-               extent.requests);
+    tell("replay: {} requests to fingers left out, too: --requests sends them\n", extent.requests);
   if (stop.asked()) throw Failure(ExitCode::kInterrupted, "replay: interrupted");
 }
 

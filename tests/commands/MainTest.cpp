@@ -52,9 +52,29 @@ TEST(Main, OutputThatCannotBeWrittenIsAFailure) {
 }
 
 TEST(Main, MessagesThatCannotBeWrittenLeaveTheExitStatus) {
-  LONGS_EQUAL(1, runShell("\"$STRAINFINGER\" tables --header /dev/null 2>/dev/full").status);
+  for (const char* nowhere : {"2>/dev/full", "2>&-"})
+    LONGS_EQUAL(0, runShell(std::string("\"$STRAINFINGER\" tables --header /dev/null ") + nowhere).status);
   LONGS_EQUAL(2, runShell("\"$STRAINFINGER\" nosuch 2>/dev/full").status);
   LONGS_EQUAL(2, runShell("\"$STRAINFINGER\" dbc -c '' 2>/dev/full").status);
+}
+
+// A run is long, and its rows are what it was for.
+TEST(Main, MessagesThatCannotBeWrittenKeepNoFileFromBeingWritten) {
+  for (const char* more : {"", " --json", " --truth"}) {
+    const Run run =
+        runShell(std::string("rows=$(mktemp) && trap 'rm $rows' EXIT\n"
+                             "\"$STRAINFINGER\" run --duration 0.5 --strains $rows 2>/dev/full >/dev/null") +
+                 more + "; echo $?; grep -c . $rows");
+    STRCMP_EQUAL("0\n46\n", run.out.c_str());
+  }
+}
+
+// Its number would be the next file's that is opened, and messages would end there.
+TEST(Main, MessagesDontGoIntoAFileWhereThereIsNoStderr) {
+  const Run run = runShell(R"sh(folder=$(mktemp -d) && trap 'rm -rf "$folder"' EXIT
+"$STRAINFINGER" record --can udp:29999 --duration 0.1 -o $folder/x.log 2>&- && cat $folder/x.log)sh");
+  LONGS_EQUAL(0, run.status);
+  STRCMP_EQUAL("", run.out.c_str());
 }
 
 TEST(Main, AnEmptyFileNameIsRefused) {
@@ -62,6 +82,8 @@ TEST(Main, AnEmptyFileNameIsRefused) {
   checkRefused("dbc -o ''", "dbc: --output: the name of a file is missing");
   checkRefused("locate --tables ''", "locate: --tables: the name of a file is missing");
   checkRefused("run --scenario ''", "run: --scenario: the name of a file is missing");
+  checkRefused("push --can udp ''", "push: FILE: the name of a file is missing");
+  checkRefused("tables info ''", "tables: FILE: the name of a file is missing");
 }
 
 TEST(Main, AFileIsNotOverwrittenByWhatIsMadeFromIt) {
@@ -75,6 +97,15 @@ ls; cat f.toml; "$STRAINFINGER" run --duration 0.1 --strains /dev/null --touches
   STRCMP_EQUAL("2\n2\n2\n2\nf.toml\nschema = 1\n0\n", run.out.c_str());
   STRCMP_CONTAINS("tables: --config and --output name the same file, ./f.toml: name another for one",
                   run.err.c_str());
+}
+
+TEST(Main, WhatAPictureWritesBesideItIsNotOverwritten) {
+  checkRefused("run --strains a-track.csv --picture a.svg",
+               "run: --picture writes a-track.csv as well, which --strains names: name another for one");
+  checkRefused("run --touches ./a.gp --picture a.png",
+               "run: --picture writes a.gp as well, which --touches names");
+  checkRefused("plot a-angle.csv -o a.png", "plot: --output writes a-angle.csv as well, which log names");
+  checkRefused("design -c a-fingers.csv --picture a.svg", "design: --picture writes a-fingers.csv as well");
 }
 
 TEST(Main, AControlCharacterOfAnArgumentDoesntReachTheTerminal) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -42,7 +43,12 @@ Recording::Recording(can::BusPort& port, const config::FingerConfig& config, con
       notes_(port.name(), config),
       missedBefore_(port.status().missed) {
   progress_.start_ns = now_ns();
-  writeNotes();
+  try {
+    writeNotes();
+  } catch (...) {
+    std::remove(path_.c_str());  // it would be in the way of the next attempt
+    throw;
+  }
 }
 
 void Recording::take(const can::TimedFrame& timed) {

@@ -13,6 +13,7 @@
 #include "common/commands.hpp"
 #include "host/base/angles.hpp"
 #include "host/base/atomic_file.hpp"
+#include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/no_value.hpp"
 #include "host/base/notice.hpp"
@@ -124,7 +125,7 @@ Rows readRows(std::istream& stream, const std::string& name, std::size_t columns
   Rows rows;
   for (std::vector<double> row; reader.next(row);) rows.push_back(row);
   if (!reader.otherNames().empty())
-    tell("calibrate: of {} only the strains are used, not {}\n", name, fmt::join(reader.otherNames(), ", "));
+    tell("calibrate: of {} only the strains are used, not {}\n", name, excerptNames(reader.otherNames()));
   return rows;
 }
 

@@ -135,10 +135,15 @@ CLI::Validator isWhole(int least, int most) {
   return isOfKind("a whole number", least, most, fmt::format("{} to {}", least, most));
 }
 
-CLI::Validator isSeed() {
-  return isOfKind("a whole number", std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max(),
-                  "0 to 2^64 - 1");
-}
+namespace {
+
+constexpr std::uint64_t kMost64Bits = std::numeric_limits<std::uint64_t>::max();
+
+}  // namespace
+
+CLI::Validator isCount() { return isOfKind("a whole number", std::uint64_t{1}, kMost64Bits, "1 or more"); }
+
+CLI::Validator isSeed() { return isOfKind("a whole number", std::uint64_t{0}, kMost64Bits, "0 to 2^64 - 1"); }
 
 CLI::Validator isNode() { return isWhole(kFirstNode, kLastNode); }
 

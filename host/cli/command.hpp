@@ -50,6 +50,9 @@ CLI::Validator isFrom(double least, double most);
 /// The same of an option that is a whole number.
 CLI::Validator isWhole(int least, int most);
 
+/// The same of a number of things, of which there may be any from 1 on.
+CLI::Validator isCount();
+
 /// The same of a node number.
 CLI::Validator isNode();
 

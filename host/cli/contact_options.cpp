@@ -38,7 +38,7 @@ std::string textOf(const std::string& path) {
         failure.code(),
         fmt::format("--indenter: \"{}\" is neither flat, cylinder:RADIUS_M, wedge:HALF_ANGLE_DEG nor a file "
                     "that can be read ({})",
-                    path, failure.what()));
+                    excerpt(path), excerptWords(failure.what())));
   }
 }
 

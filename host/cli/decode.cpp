@@ -191,7 +191,8 @@ class Decoder {
 void requireGoodPaths(const DecodeOptions& options) {
   if (options.follow && (options.paths.size() != 1 || options.paths.front() == "-"))
     throw Failure(ExitCode::kUsage, "decode: --follow needs one FILE: stdin is followed to its end anyway");
-  for (const std::string& path : options.paths) LineReader{path};  // nothing is printed if one is not there
+  for (const std::string& path : options.paths)
+    LineReader::requireReadable(path);  // nothing is printed if one is not there
 }
 
 void runDecode(const DecodeOptions& options) {

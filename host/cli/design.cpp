@@ -12,6 +12,7 @@
 #include <system_error>
 #include <vector>
 
+#include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/no_value.hpp"
 #include "host/base/notice.hpp"
@@ -121,7 +122,7 @@ std::vector<int> gaugesOf(const std::string& text) {
         fmt::format(
             "--gauges {}: must be a, a:b or a:b:step, whole numbers from 1 to {}, a at most b, such as "
             "8:32 or 12:32:4",
-            text, kMostGauges));
+            excerpt(text), kMostGauges));
   std::vector<int> counts;
   for (double count = first; count <= last; count += step) counts.push_back(static_cast<int>(count));
   return counts;
@@ -136,7 +137,7 @@ std::vector<double> radiiOf(const std::optional<std::string>& text, const config
     throw Failure(ExitCode::kUsage,
                   fmt::format("--radius-m {}: must be a radius, or a:b:n with n from 2 to {}, such as "
                               "9e-3:12e-3:7",
-                              *text, kMostRadii));
+                              excerpt(*text), kMostRadii));
   const std::vector<double> radii = isOne ? numbers : evenly(numbers[0], numbers[1], static_cast<int>(count));
   for (const double radius_m : radii) {
     requireInRubber(radius_m, config.finger);

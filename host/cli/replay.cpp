@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -13,6 +12,7 @@
 #include <thread>
 
 #include "common/frames.hpp"
+#include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/notice.hpp"
 #include "host/can/frame_catalogue.hpp"
@@ -100,11 +100,13 @@ LogExtent measure(const ReplayOptions& options) {
   warn("replay", log.warnings());
   if (!options.interface.empty() && extent.interfaces.empty())
     throw Failure(ExitCode::kFailure,
-                  fmt::format("{}: no frame of {} in it", options.path, options.interface));
+                  fmt::format("{}: no frame of {} in it", options.path, excerpt(options.interface)));
   if (extent.interfaces.size() > 1)
-    warn("replay", fmt::format("{}: what it has of several interfaces ({}) all goes to {}: --interface sends "
-                               "what it has of one",
-                               options.path, fmt::join(extent.interfaces, ", "), options.bus));
+    warn("replay",
+         fmt::format("{}: what it has of several interfaces ({}) all goes to {}: --interface sends "
+                     "what it has of one",
+                     options.path, excerptNames({extent.interfaces.begin(), extent.interfaces.end()}),
+                     options.bus));
   return extent;
 }
 
@@ -124,6 +126,13 @@ void send(can::BusPort& port, const CanFrame& frame) {
   }
 }
 
+/// A log whose clock was set meanwhile can ask for longer than a Clock tells.
+Clock::duration waitFor(double since_s) {
+  constexpr double kForEver_s = 1e9;
+  return std::chrono::duration_cast<Clock::duration>(
+      std::chrono::duration<double>(std::clamp(since_s, -kForEver_s, kForEver_s)));
+}
+
 /// How many frames were sent.
 std::uint64_t sendAll(const ReplayOptions& options, can::BusPort& port, const system::StopSignal& stop) {
   can::LogReader log(options.path, options.interface);
@@ -135,8 +144,7 @@ std::uint64_t sendAll(const ReplayOptions& options, can::BusPort& port, const sy
     if (!options.requests && isRequest(frame->frame)) continue;
     const double since_s =
         static_cast<double>(*frame->time_ns - *first_ns) * 1e-9 / options.speed.value_or(1);
-    const auto due = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(since_s));
-    if (!sleepUntil(start + due, stop)) break;
+    if (!sleepUntil(start + waitFor(since_s), stop)) break;
     send(port, frame->frame);
     ++sent;
   }
@@ -156,7 +164,7 @@ class OneFinger {
     if (text.interface == interface_) return;
     throw Failure(ExitCode::kUsage,
                   fmt::format("{}: there is a node {} on {} and one on {}: choose with --interface", path,
-                              node_, interface_, text.interface));
+                              node_, excerpt(interface_), excerpt(text.interface)));
   }
 
  private:

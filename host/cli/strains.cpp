@@ -46,7 +46,7 @@ struct StrainsOptions {
     command.add_option("--duration", duration_s, "Seconds; without it until Ctrl-C")
         ->type_name("S")
         ->check(isFrom(0.001, kLongestStrains_s));
-    command.add_option("--rows", rows, "So many rows at most")->type_name("N")->check(isFrom(1, 1e15));
+    command.add_option("--rows", rows, "So many rows at most")->type_name("N")->check(isCount());
   }
   RequestOptions request;
   int rate_hz = 100;

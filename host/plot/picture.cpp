@@ -14,7 +14,7 @@
 #include "host/base/read_file.hpp"
 #include "host/base/table_writer.hpp"
 #include "host/base/text_output.hpp"
-#include "host/plot/process.hpp"
+#include "host/system/process.hpp"
 
 namespace strainfinger::plot {
 namespace {
@@ -123,7 +123,7 @@ std::string completeScript(const Picture& picture, const std::string& stem, cons
 namespace {
 
 void runGnuplot(const fs::path& folder, const std::string& argument) {
-  runIn(folder.string(), {"gnuplot", argument}, "gnuplot-nox");
+  system::runIn(folder.string(), {"gnuplot", argument}, "gnuplot-nox");
 }
 
 void drawIn(const Workshop& workshop, const Picture& picture, const std::string& stem,

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <sstream>
@@ -260,10 +259,8 @@ void report(const CalibrateOptions& options, const calibration::CalibrationResul
   const std::string told = calibration::textReport(result);
   tell(touchesPath.empty() ? told : calibration::ofFile(told, touchesPath));
   if (options.pagePath.empty()) return;
-  const auto since1970 = std::chrono::system_clock::now().time_since_epoch();
-  const auto time_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(since1970).count();
   writeFileAtomically(options.pagePath,
-                      calibration::htmlPage(result, {strainsPath, touchesPath, utcText(time_ns)}));
+                      calibration::htmlPage(result, {strainsPath, touchesPath, utcText(now_ns())}));
 }
 
 void runLiveCalibration(const CalibrateOptions& options, const config::FingerConfig& config) {

@@ -23,6 +23,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/firmware_options.hpp"
 #include "host/cli/recompute.hpp"
+#include "host/config/bus_load.hpp"
 #include "host/system/stop_signal.hpp"
 
 namespace strainfinger::cli {
@@ -188,10 +189,9 @@ void recomputeLog(const ReplayOptions& options) {
     warn("replay", log.warnings());
     return std::nullopt;
   };
-  const recompute::RecordedFinger finger{
-      .node = static_cast<std::uint8_t>(config.can.node),
-      .contactRate_hz = static_cast<std::uint16_t>(std::lround(config.can.contact_rate_hz)),
-      .mode = options.firmware.mode()};
+  const recompute::RecordedFinger finger{.node = static_cast<std::uint8_t>(config.can.node),
+                                         .contactRate_hz = config::contactRate_hz(config.can),
+                                         .mode = options.firmware.mode()};
   recompute(next, *options.firmware.tablesOf(config), finger, static_cast<std::uint32_t>(config.can.bitrate),
             options.common.format());
 }

@@ -64,12 +64,18 @@ std::vector<CanLink> parseCanLinks(std::string_view json) try {
                 "`ip -details -json link show` prints something unknown: iproute2 5.16 or newer is needed");
 }
 
-std::vector<CanLink> canLinks() try {
-  return parseCanLinks(system::runIn(".", {"ip", "-details", "-json", "link", "show"}, "iproute2"));
+namespace {
+
+std::string linksAsIpShowsThem() try {
+  return system::runIn(".", {"ip", "-details", "-json", "link", "show"}, "iproute2");
 } catch (const Failure& failure) {
   throw Failure(
       failure.code(),
       fmt::format("the CAN interfaces cannot be listed, name the bus with --can: {}", failure.what()));
 }
+
+}  // namespace
+
+std::vector<CanLink> canLinks() { return parseCanLinks(linksAsIpShowsThem()); }
 
 }  // namespace strainfinger::health

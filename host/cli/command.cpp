@@ -46,7 +46,11 @@ bool areOneFile(const std::string& one, const std::string& other) {
   std::error_code notThere;
   if (fs::exists(one, notThere) && fs::exists(other, notThere))
     return fs::is_regular_file(one, notThere) && fs::equivalent(one, other, notThere);
-  const fs::path first = fs::weakly_canonical(one, notThere), second = fs::weakly_canonical(other, notThere);
+  // Made absolute, without which a name stays as it is where no part of it is there.
+  const auto whole = [&](const std::string& path) {
+    return fs::weakly_canonical(fs::absolute(path, notThere), notThere);
+  };
+  const fs::path first = whole(one), second = whole(other);
   return !first.empty() && first == second;
 }
 

@@ -158,7 +158,7 @@ TEST(Decode, RefusesFilesThatAreNotThereBeforeItPrints) {
 TEST(Decode, ReadsAPipeThatHasAName) {
   const Run run = runShell(
       "cd $(mktemp -d); mkfifo a; echo '(1.000000) can1 185#E8032201808161A3' >a &\n"
-      "timeout 10 \"$STRAINFINGER\" decode a; status=$?; rm a; exit $status");
+      "timeout -s KILL 10 \"$STRAINFINGER\" decode a; status=$?; rm a; exit $status");
   LONGS_EQUAL(0, run.status);
   STRCMP_CONTAINS("can1,5,CONTACT", run.out.c_str());
 }

@@ -22,6 +22,7 @@ inline constexpr std::uint32_t kRawShare_percent = 67;
 inline constexpr std::uint32_t kFrameBits = 111;
 
 /// The fastest rate that keeps to the share: 1000 Hz for 16 gauges at 1 Mbit/s; 0: not even one a second.
+/// Domain: one gauge or more.
 constexpr std::uint16_t fastestRaw_hz(std::uint32_t gauges, std::uint32_t bitrate) {
   const std::uint32_t fits = bitrate / 100 * kRawShare_percent / (kFrameBits * rawPages(gauges));
   return static_cast<std::uint16_t>(std::min<std::uint32_t>(fits, kFastestRaw_hz));

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "host/base/failure.hpp"
+#include "host/base/write_all.hpp"
 
 namespace strainfinger {
 namespace {
@@ -44,24 +45,26 @@ bool isRegularOrAbsent(const fs::path& path) {
   return stat(path.c_str(), &status) == 0 ? S_ISREG(status.st_mode) : errno == ENOENT;
 }
 
-/// mkstemp makes files only their owner can read; what was asked for is an ordinary one.
-mode_t ordinaryMode() {
-  const mode_t mask = umask(0);
-  umask(mask);
-  return 0666 & ~mask;
-}
-
-bool writeAll(int file, std::string_view content) {
-  while (!content.empty()) {
-    const ssize_t written = ::write(file, content.data(), content.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return false;
-    content.remove_prefix(static_cast<std::size_t>(written));
+/// A new file beside `path`, as ordinary as the system makes it; its name in `name`.
+int createBeside(const fs::path& path, std::string& name) {
+  constexpr int kMostTries = 1000;  // a program of this number that was killed may have left some
+  for (int i = 0; i < kMostTries; ++i) {
+    name = fmt::format("{}.{}-{}", path.string(), getpid(), i);
+    const int file = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file >= 0 || errno != EEXIST) return file;
   }
-  return true;
+  return -1;
 }
 
-bool makeOrdinary(int file) { return fchmod(file, ordinaryMode()) == 0 && fsync(file) == 0; }
+/// Whoever may read and write the file that is replaced, and nobody else; it may be another user's.
+bool takeOver(const fs::path& path, int file) {
+  struct stat old {};
+  if (stat(path.c_str(), &old) != 0) return errno == ENOENT;
+  const bool isSameOwner = fchown(file, old.st_uid, old.st_gid) == 0;
+  return fchmod(file, old.st_mode & (isSameOwner ? 07777 : 0777)) == 0;
+}
+
+bool writeWhole(int file, std::string_view content) { return writeAll(file, content) == content.size(); }
 
 /// The system's reason why not; 0: done.
 int closeAfter(bool done, int file) {
@@ -71,14 +74,14 @@ int closeAfter(bool done, int file) {
 
 int writeStraight(int file, std::string_view content) {
   if (file < 0) return errno;
-  return closeAfter(writeAll(file, content), file);
+  return closeAfter(writeWhole(file, content), file);
 }
 
 int replace(const fs::path& path, std::string_view content) {
-  std::string temporary = path.string().append(".XXXXXX");
-  const int file = mkstemp(temporary.data());
+  std::string temporary;
+  const int file = createBeside(path, temporary);
   if (file < 0) return errno;
-  int error = closeAfter(writeAll(file, content) && makeOrdinary(file), file);
+  int error = closeAfter(takeOver(path, file) && writeWhole(file, content) && fsync(file) == 0, file);
   if (error == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
   if (error != 0) unlink(temporary.c_str());
   return error;

@@ -7,9 +7,10 @@
 namespace strainfinger {
 
 /// Writes `content` beside `path` and renames it there: readers see the old file or the new one, and a
-/// failure leaves the old one. A symbolic link stays, and what it leads to is replaced. What is there and no
-/// regular file (a device, a pipe, /dev/stdout) is written to as it is, not replaced. Throws
-/// Failure(kFailure) with the path and the system's reason. "-" is no special name.
+/// failure leaves the old one. The new one may be read and written by whoever might the old one. A symbolic
+/// link stays, and what it leads to is replaced. What is there and no regular file (a device, a pipe,
+/// /dev/stdout) is written to as it is, not replaced. Throws Failure(kFailure) with the path and the system's
+/// reason. "-" is no special name.
 void writeFileAtomically(const std::string& path, std::string_view content);
 
 }  // namespace strainfinger

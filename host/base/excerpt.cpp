@@ -20,6 +20,16 @@ std::string excerpt(std::string_view text) {
   return std::string(text.substr(0, end)).append("..");
 }
 
+std::string excerptNames(const std::vector<std::string>& names) {
+  constexpr std::size_t kMostNames = 5;
+  std::string result;
+  for (std::size_t i = 0; i < std::min(names.size(), kMostNames); ++i)
+    result.append(i > 0 ? ", " : "").append(excerpt(names[i]));
+  if (names.size() > kMostNames)
+    result.append(" and ").append(std::to_string(names.size() - kMostNames)).append(" more");
+  return result;
+}
+
 std::string excerptWords(std::string_view message) {
   std::string result;
   while (!message.empty()) {

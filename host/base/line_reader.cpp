@@ -27,7 +27,11 @@ LineReader::LineReader(const std::string& path)
     : name_(path == kStdinPath ? "stdin" : path),
       descriptor_(path == kStdinPath ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)),
       buffer_(kReadBuffer_bytes) {
-  if (descriptor_ < 0) fail(errno);
+  if (descriptor_ < 0) fail(name_, errno);
+}
+
+void LineReader::requireReadable(const std::string& path) {
+  if (path != kStdinPath && ::access(path.c_str(), R_OK) != 0) fail(path, errno);
 }
 
 LineReader::~LineReader() {
@@ -60,7 +64,7 @@ LineReader::Got LineReader::read(std::chrono::milliseconds longest) {
   if (!waitReadable(longest)) return Got::kNothing;
   makeRoom();
   const ssize_t count = ::read(descriptor_, buffer_.data() + end_, buffer_.size() - end_);
-  if (count < 0 && errno != EINTR && errno != EAGAIN) fail(errno);
+  if (count < 0 && errno != EINTR && errno != EAGAIN) fail(name_, errno);
   if (count < 0) return Got::kNothing;
   end_ += static_cast<std::size_t>(count);
   if (count > 0) return Got::kMore;
@@ -87,8 +91,8 @@ void LineReader::rewindIfShrunk() const {
     ::lseek(descriptor_, 0, SEEK_SET);
 }
 
-void LineReader::fail(int error) const {
-  throw Failure(ExitCode::kFailure, fmt::format("{}: cannot read: {}", name_, std::strerror(error)));
+void LineReader::fail(const std::string& name, int error) {
+  throw Failure(ExitCode::kFailure, fmt::format("{}: cannot read: {}", name, std::strerror(error)));
 }
 
 }  // namespace strainfinger

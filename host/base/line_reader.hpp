@@ -24,6 +24,11 @@ class LineReader {
   /// Reads `path`, or stdin where that is "-". Throws Failure(kFailure) with the path and the system's
   /// reason.
   explicit LineReader(const std::string& path);
+
+  /// Throws as the constructor would, without opening it: who writes into a pipe would take that for its
+  /// reader, who has gone.
+  static void requireReadable(const std::string& path);
+
   ~LineReader();
   LineReader(const LineReader&) = delete;
   LineReader& operator=(const LineReader&) = delete;
@@ -45,7 +50,7 @@ class LineReader {
   bool waitReadable(std::chrono::milliseconds longest) const;
   void makeRoom();
   void rewindIfShrunk() const;
-  [[noreturn]] void fail(int error) const;
+  [[noreturn]] static void fail(const std::string& name, int error);
 
   std::string name_;
   int descriptor_;

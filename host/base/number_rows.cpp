@@ -19,6 +19,7 @@
 #include "host/base/byte_order_mark.hpp"
 #include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/notice.hpp"
 
 namespace strainfinger {
 namespace {
@@ -99,16 +100,6 @@ bool isName(std::string_view field) {
 bool isAllNames(std::string_view line) {
   const auto fields = fieldsOf(line);
   return std::all_of(fields.begin(), fields.end(), isName);
-}
-
-/// What a terminal would not show, or obey, as \xHH: a NUL would end the message.
-std::string printable(const std::string& text) {
-  std::string shown;
-  for (const char c : text) {
-    const bool isControl = (c >= 0 && c < ' ' && c != '\t') || c == 0x7F;
-    shown += isControl ? fmt::format("\\x{:02X}", int{c}) : std::string(1, c);
-  }
-  return shown;
 }
 
 bool isPassedOver(const std::string& line) {
@@ -218,7 +209,8 @@ double NumberRowReader::numberOf(const std::string& field, std::size_t column) c
 std::string NumberRowReader::place() const { return fmt::format("{}:{}", name_, line_); }
 
 void NumberRowReader::fail(std::size_t column, const std::string& what) const {
-  throw Failure(ExitCode::kFailure, fmt::format("{}:{}: {}", place(), column, printable(what)));
+  throw Failure(ExitCode::kFailure,
+                fmt::format("{}:{}: {}", place(), column, printable(what)));  // a NUL would end it
 }
 
 }  // namespace strainfinger

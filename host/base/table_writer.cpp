@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cassert>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "host/base/text_output.hpp"
 
@@ -49,7 +49,9 @@ TableWriter::TableWriter(std::FILE* stream, TableFormat format, std::vector<std:
 }
 
 void TableWriter::row(const std::vector<Cell>& cells) {
-  assert(cells.size() == columns_.size());
+  if (cells.size() != columns_.size())
+    throw std::logic_error(
+        fmt::format("a row has {} cells, its table {} columns", cells.size(), columns_.size()));
   std::string line;
   if (format_ == TableFormat::kJson) {
     nlohmann::ordered_json object;

@@ -2,6 +2,7 @@
 // Text for a stream, handed over in large pieces.
 
 #include <cstdio>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -11,6 +12,10 @@ namespace strainfinger {
 void writeText(std::FILE* stream, std::string_view text);
 /// The same, and of all that the stream holds back.
 void writeAndFlush(std::FILE* stream, std::string_view text);
+
+/// What `write` writes to the stream that it is given. Throws what it throws, and Failure(kFailure) without
+/// the memory for it.
+std::string textWritten(const std::function<void(std::FILE*)>& write);
 
 /// Who writes appends to text() and calls flush(): when a reader may be waiting, and at the end.
 class TextOutput {

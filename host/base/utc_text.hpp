@@ -10,6 +10,12 @@
 
 namespace strainfinger {
 
+/// Now, since 1970.
+inline std::int64_t now_ns() {
+  using namespace std::chrono;
+  return duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count();
+}
+
 /// "2026-11-28T14:04:01Z"; `time_ns`: since 1970.
 inline std::string utcText(std::int64_t time_ns) {
   using namespace std::chrono;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "host/base/angles.hpp"
+#include "host/base/failure.hpp"
 #include "host/calibration/complaints.hpp"
 #include "host/calibration/joint_fit.hpp"
 #include "host/calibration/known_units.hpp"
@@ -270,7 +271,13 @@ class Calibration {
     weigh(rows);
     auto [data, fit] = joint(rows);
     const double typical = degreesOfFreedom(rows);
-    fitTogether(drawing_, lastHarmonic_, data, loss == Loss::kRobust ? typical : 0, fit);
+    const FitEnd end = fitTogether(drawing_, lastHarmonic_, data, loss == Loss::kRobust ? typical : 0, fit);
+    if (end == FitEnd::kFailed)
+      throw Failure(
+          ExitCode::kFailure,
+          "no finger and touches could be fitted to the readings: the model has no finite answer "
+          "there; look at the config's [finger] and [gauges], and for readings far from the others'");
+    hasSettled_ = end == FitEnd::kSettled;
     finger_ = fit.deviations;
     for (std::size_t i = 0; i < rows.size(); ++i) rows_[rows[i]].touch = fit.touches[i];
     estimateModelError(rows);
@@ -379,7 +386,8 @@ class Calibration {
     const MatrixXd covariance = covarianceOf(drawing_, lastHarmonic_, data, fit);
     moveTo(fit.deviations - noiseBias(drawing_, lastHarmonic_, data, fit, covariance), rows);
     const bool isUnitKnown = fittedRows([&](std::size_t row) { return isLoadKnown(row); }) > 0;
-    CalibrationResult result(drawing_, finger_, covariance, rows_, modelError_, isUnitKnown, movedZeros_);
+    CalibrationResult result(drawing_, finger_, covariance, rows_, modelError_, isUnitKnown, movedZeros_,
+                             hasSettled_);
     requireTold(result);
     requireReadable(result);
     return result;
@@ -441,6 +449,7 @@ class Calibration {
   std::vector<MovedZero> movedZeros_;
   VectorXd finger_;
   Estimate modelError_;
+  bool hasSettled_ = true;  ///< the last fit
 };
 
 }  // namespace

@@ -66,14 +66,15 @@ class CalibrationResult {
  public:
   CalibrationResult(const Drawing& drawing, Eigen::VectorXd deviations, Eigen::MatrixXd covariance,
                     std::vector<RowResult> rows, Estimate modelError, bool isLoadKnown,
-                    std::vector<MovedZero> movedZeros = {})
+                    std::vector<MovedZero> movedZeros = {}, bool hasSettled = true)
       : drawing_(drawing),
         deviations_(std::move(deviations)),
         covariance_(std::move(covariance)),
         rows_(std::move(rows)),
         modelError_(modelError),
         isLoadKnown_(isLoadKnown),
-        movedZeros_(std::move(movedZeros)) {}
+        movedZeros_(std::move(movedZeros)),
+        hasSettled_(hasSettled) {}
 
   Estimate gain(int gauge) const { return of(gauge, kGain, 1); }
   Estimate zero_strain(int gauge) const { return of(gauge, kZero, 0); }
@@ -96,6 +97,8 @@ class CalibrationResult {
   int count(RowUse use) const;
   /// See movedZeros(); their rows are left out.
   const std::vector<MovedZero>& movedZeros() const { return movedZeros_; }
+  /// False: the fit was stopped after as many steps as are made at most.
+  bool hasSettled() const { return hasSettled_; }
   const Drawing& drawing() const { return drawing_; }
   /// What the zero of angles and the unit of force come from: touches, or else the drawing.
   bool isDirectionKnown() const { return drawing_.zeroOfAngle() == ZeroOfAngle::kKnown; }
@@ -120,6 +123,7 @@ class CalibrationResult {
   Estimate modelError_;
   bool isLoadKnown_;
   std::vector<MovedZero> movedZeros_;
+  bool hasSettled_;
 };
 
 /// Maximum a posteriori of the finger and of every touch together: readings are the elastic model's and noise

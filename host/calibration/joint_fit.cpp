@@ -7,6 +7,8 @@
 #include <cmath>
 #include <memory>
 
+#include "host/base/failure.hpp"
+
 namespace strainfinger::calibration {
 namespace {
 
@@ -88,8 +90,8 @@ ceres::Solver::Options solverOptions(JointFit& fit, bool preliminary) {
 
 }  // namespace
 
-void fitTogether(const Drawing& drawing, int lastHarmonic, const std::vector<TouchData>& data, double robust,
-                 JointFit& fit) {
+FitEnd fitTogether(const Drawing& drawing, int lastHarmonic, const std::vector<TouchData>& data,
+                   double robust, JointFit& fit) {
   FingerAtPoint finger(drawing, lastHarmonic, fit.deviations);
   ceres::Problem::Options problemOptions;
   problemOptions.evaluation_callback = &finger;
@@ -104,6 +106,17 @@ void fitTogether(const Drawing& drawing, int lastHarmonic, const std::vector<Tou
                                  drawing.mostPoissonDeviation());
   ceres::Solver::Summary summary;
   ceres::Solve(solverOptions(fit, robust > 0), &problem, &summary);
+  if (!summary.IsSolutionUsable()) return FitEnd::kFailed;
+  return summary.termination_type == ceres::NO_CONVERGENCE ? FitEnd::kStopped : FitEnd::kSettled;
+}
+
+MatrixXd inverseOf(const MatrixXd& information) {
+  const Eigen::LLT<MatrixXd> factor(information);
+  if (factor.info() != Eigen::Success || !information.allFinite())
+    throw Failure(ExitCode::kFailure,
+                  "how certain the finger's values are cannot be computed: what the touches tell of them is "
+                  "lost in rounding; leave out touches with loads or readings far from the others'");
+  return factor.solve(MatrixXd::Identity(information.rows(), information.cols()));
 }
 
 MatrixXd covarianceOf(const Drawing& drawing, int lastHarmonic, const std::vector<TouchData>& data,
@@ -123,9 +136,7 @@ MatrixXd covarianceOf(const Drawing& drawing, int lastHarmonic, const std::vecto
     information.selfadjointView<Eigen::Lower>().rankUpdate(finger.transpose());
     information.selfadjointView<Eigen::Lower>().rankUpdate(shared.transpose(), -1);
   }
-  return MatrixXd(information.selfadjointView<Eigen::Lower>())
-      .llt()
-      .solve(MatrixXd::Identity(drawing.unknowns(), drawing.unknowns()));
+  return inverseOf(MatrixXd(information.selfadjointView<Eigen::Lower>()));
 }
 
 }  // namespace strainfinger::calibration

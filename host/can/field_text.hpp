@@ -20,7 +20,8 @@ std::string valueText(const FieldSpec& field, std::int64_t raw);
 /// The field says something: how a request is carried says nothing to a reader.
 bool isShown(const FieldSpec& field);
 
-/// Bits of the frame that were sent: a command counts the bytes behind its first one that matter.
+/// Bits of the frame that were sent, 8 to 64: a command counts the bytes behind its first one that matter.
+/// Domain, here and below: `entry` is what findAnyFrame() has for the frame.
 int sentBits(const CanFrame& frame, const FrameEntry& entry);
 
 /// The frame's bits, without what does not count: padding behind a command's bytes is 0.

@@ -6,8 +6,10 @@
 
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "host/base/failure.hpp"
+#include "host/base/write_all.hpp"
 #include "host/can/candump_text.hpp"
 
 namespace strainfinger::can {
@@ -31,23 +33,6 @@ void LogWriter::add(std::int64_t time_ns, std::string_view interface, const CanF
   text_.append(formatLogLine(time_ns / 1000, interface, frame)).push_back('\n');
 }
 
-void LogWriter::flush() {
-  for (std::size_t done = 0; done < text_.size();) {
-    const ssize_t count = ::write(descriptor_, text_.data() + done, text_.size() - done);
-    if (count < 0 && errno != EINTR) giveUp(errno, done);
-    if (count > 0) done += static_cast<std::size_t>(count);
-  }
-  written_ += static_cast<std::int64_t>(text_.size());
-  text_.clear();
-}
-
-void LogWriter::giveUp(int error, std::size_t done) {
-  const std::size_t lineEnd = std::string_view(text_).substr(0, done).rfind('\n');
-  written_ += lineEnd == text_.npos ? 0 : static_cast<std::int64_t>(lineEnd) + 1;
-  text_.clear();
-  const char* const end = ::ftruncate(descriptor_, written_) == 0 ? "" : ", with half a line at its end";
-  throw Failure(ExitCode::kFailure, fmt::format("{}: cannot write: {}; what was written before stays{}",
-                                                path_, std::strerror(error), end));
-}
+void LogWriter::flush() { appendLines(descriptor_, path_, std::exchange(text_, {})); }
 
 }  // namespace strainfinger::can

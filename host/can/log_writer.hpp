@@ -26,12 +26,9 @@ class LogWriter {
   void flush();
 
  private:
-  [[noreturn]] void giveUp(int error, std::size_t done);
-
   std::string path_;
   int descriptor_;
-  std::string text_;          ///< not written yet
-  std::int64_t written_ = 0;  ///< bytes, up to the end of a line
+  std::string text_;  ///< not written yet
 };
 
 }  // namespace strainfinger::can

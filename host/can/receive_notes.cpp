@@ -4,17 +4,13 @@
 #include <sys/socket.h>
 
 #include <cerrno>
-#include <chrono>
 #include <cstring>
 #include <ctime>
 
+#include "host/base/utc_text.hpp"
+
 namespace strainfinger::can {
 namespace {
-
-std::int64_t nowSince1970_ns() {
-  using namespace std::chrono;
-  return duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count();
-}
 
 void readNote(cmsghdr& note, ReceiveNotes& notes) {
   if (note.cmsg_level != SOL_SOCKET) return;
@@ -44,7 +40,7 @@ int receiveWithNotes(int socket, void* data, std::size_t size, ReceiveNotes& not
   for (cmsghdr* note = CMSG_FIRSTHDR(&message); note != nullptr; note = CMSG_NXTHDR(&message, note))
     readNote(*note, notes);
   notes.senderPort = sender.sin_family == AF_INET ? ntohs(sender.sin_port) : std::uint16_t{0};
-  if (notes.time_ns == 0) notes.time_ns = nowSince1970_ns();
+  if (notes.time_ns == 0) notes.time_ns = now_ns();
   return static_cast<int>(read);
 }
 

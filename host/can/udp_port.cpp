@@ -41,7 +41,7 @@ constexpr int kMostDatagrams = 64;
 
 std::uint16_t portOf(std::string_view name) {
   if (name == kUdp) return UdpPort::kDefaultPort;
-  const std::string_view digits = name.substr(kUdp.size() + 1);
+  const std::string_view digits = isUdpName(name) ? name.substr(kUdp.size() + 1) : "";
   int port = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
   if (error == std::errc{} && end == digits.data() + digits.size() && port >= kLeastPort && port <= kMostPort)

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <sstream>
@@ -13,8 +12,10 @@
 #include "common/commands.hpp"
 #include "host/base/angles.hpp"
 #include "host/base/atomic_file.hpp"
+#include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/no_value.hpp"
+#include "host/base/notice.hpp"
 #include "host/base/read_file.hpp"
 #include "host/base/strain_rows.hpp"
 #include "host/base/utc_text.hpp"
@@ -123,8 +124,7 @@ Rows readRows(std::istream& stream, const std::string& name, std::size_t columns
   Rows rows;
   for (std::vector<double> row; reader.next(row);) rows.push_back(row);
   if (!reader.otherNames().empty())
-    fmt::print(stderr, "calibrate: of {} only the strains are used, not {}\n", name,
-               fmt::join(reader.otherNames(), ", "));
+    tell("calibrate: of {} only the strains are used, not {}\n", name, excerptNames(reader.otherNames()));
   return rows;
 }
 
@@ -257,12 +257,10 @@ void report(const CalibrateOptions& options, const calibration::CalibrationResul
     writeFileAtomically(options.outputPath, config::writeConfig(result.applied()));
   print(options, result);
   const std::string told = calibration::textReport(result);
-  fmt::print(stderr, "{}", touchesPath.empty() ? told : calibration::ofFile(told, touchesPath));
+  tell(touchesPath.empty() ? told : calibration::ofFile(told, touchesPath));
   if (options.pagePath.empty()) return;
-  const auto since1970 = std::chrono::system_clock::now().time_since_epoch();
-  const auto time_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(since1970).count();
   writeFileAtomically(options.pagePath,
-                      calibration::htmlPage(result, {strainsPath, touchesPath, utcText(time_ns)}));
+                      calibration::htmlPage(result, {strainsPath, touchesPath, utcText(now_ns())}));
 }
 
 void runLiveCalibration(const CalibrateOptions& options, const config::FingerConfig& config) {
@@ -278,7 +276,7 @@ void runLiveCalibration(const CalibrateOptions& options, const config::FingerCon
   }
   if (ended.interrupted) throw Failure(ExitCode::kInterrupted, "calibrate: interrupted; " + ended.kept);
   if (!ended.result) throw Failure(ExitCode::kFailure, fmt::format("{}; {}", ended.complaint, ended.kept));
-  fmt::print(stderr, "calibrate: {}\n", ended.kept);
+  tell("calibrate: {}\n", ended.kept);
 }
 
 Eigen::MatrixXd strainsOfRecording(const CalibrateOptions& options, const config::FingerConfig& config) {
@@ -290,8 +288,7 @@ Eigen::MatrixXd strainsOfRecording(const CalibrateOptions& options, const config
             "give rows as `strains` prints them",
             options.strainsPath));
   const auto recorded = session::readRecording(options.strainsPath, config, nodeOf(options.node, config.can));
-  fmt::print(stderr, "calibrate: {} of {} sample sets are touches that differ\n", recorded.rows.size(),
-             recorded.sets);
+  tell("calibrate: {} of {} sample sets are touches that differ\n", recorded.rows.size(), recorded.sets);
   warn("calibrate", recorded.warnings);
   return recorded.rows.matrix();
 }

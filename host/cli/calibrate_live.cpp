@@ -11,6 +11,7 @@
 
 #include "host/base/failure.hpp"
 #include "host/base/line_reader.hpp"
+#include "host/base/notice.hpp"
 #include "host/can/open_bus.hpp"
 #include "host/can/strain_receiver.hpp"
 #include "host/cli/raw_stream.hpp"
@@ -87,9 +88,9 @@ class SessionLines : public SessionFace {
     if (since < kSessionLine || (news == news_ && since < kSessionSameLine)) return;
     printed_ = SessionClock::now();
     news_ = news;
-    fmt::print(stderr, "{}\n", session::sessionLine(view));
+    tell("{}\n", session::sessionLine(view));
   }
-  void say(const std::string& message) override { fmt::print(stderr, "calibrate: {}\n", message); }
+  void say(const std::string& message) override { tell("calibrate: {}\n", message); }
 
  private:
   LineReader stdin_{"-"};
@@ -247,15 +248,15 @@ class LiveSession {
   /// A last fit of all rows, unless there is one or nobody waits for it.
   LiveResult conclude(bool interrupted) {
     if (fit_.isRunning()) {
-      fmt::print(stderr, "calibrate: waiting for the fit that is being made{}\n",
-                 interrupted ? "; Ctrl-C ends it at once" : "");
+      strainfinger::tell("calibrate: waiting for the fit that is being made{}\n",
+                         interrupted ? "; Ctrl-C ends it at once" : "");
       takeFit(*fit_.wait());
     }
     const bool isNewest = session_.fit() && session_.fit()->rows == session_.rows().size();
     if (session_.rows().size() == 0)
       return {std::nullopt, "there is nothing to fit", "", "", kept(), interrupted};
     if (!interrupted && !isNewest) {
-      fmt::print(stderr, "calibrate: fitting {} rows\n", session_.rows().size());
+      strainfinger::tell("calibrate: fitting {} rows\n", session_.rows().size());
       takeFit(session::fitRows(config_, session_.beginFit(), options_.errors));
     }
     LiveResult ended{std::nullopt, session_.complaint(), files_.strainsPath(), files_.touchesPath(),

@@ -14,6 +14,7 @@
 #include "common/frame_layout.hpp"
 #include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/notice.hpp"
 #include "host/config/read_config.hpp"
 
 namespace strainfinger::cli {
@@ -29,8 +30,10 @@ struct FileOption {
   std::string path;
 };
 
+/// Of the command and of its own subcommands that were given.
 std::vector<FileOption> fileOptions(const CLI::App& command) {
   std::vector<FileOption> files;
+  for (const CLI::App* sub : command.get_subcommands()) files = fileOptions(*sub);
   for (const CLI::Option* option : command.get_options())
     if (option->get_type_name().starts_with("FILE"))
       for (const std::string& path : option->results())
@@ -43,7 +46,11 @@ bool areOneFile(const std::string& one, const std::string& other) {
   std::error_code notThere;
   if (fs::exists(one, notThere) && fs::exists(other, notThere))
     return fs::is_regular_file(one, notThere) && fs::equivalent(one, other, notThere);
-  const fs::path first = fs::weakly_canonical(one, notThere), second = fs::weakly_canonical(other, notThere);
+  // Made absolute, without which a name stays as it is where no part of it is there.
+  const auto whole = [&](const std::string& path) {
+    return fs::weakly_canonical(fs::absolute(path, notThere), notThere);
+  };
+  const fs::path first = whole(one), second = whole(other);
   return !first.empty() && first == second;
 }
 
@@ -74,7 +81,7 @@ CLI::Validator isOfKind(const char* kind, Number least, Number most, const std::
 
 }  // namespace
 
-CommonOptions::CommonOptions(CLI::App& command) {
+CommonOptions::CommonOptions(CLI::App& command) : command_(&command) {
   command.add_option("-c,--config", path_, "The finger (finger.toml); the default finger without it")
       ->type_name(kConfigType);
   command.add_flag("--json", json_, "One JSON object a line in place of CSV");
@@ -85,6 +92,15 @@ config::FingerConfig CommonOptions::config() const {
 }
 
 void CommonOptions::requireGoodConfig() const { config(); }
+
+void CommonOptions::requireNoneNamed(const char* option, const std::vector<std::string>& files) const {
+  for (const FileOption& named : fileOptions(*command_))
+    for (const std::string& file : files)
+      if (areOneFile(named.path, file))
+        throw Failure(ExitCode::kUsage,
+                      fmt::format("{}: {} writes {} as well, which {} names: name another for one",
+                                  command_->get_name(), option, file, named.option));
+}
 
 void requireGoodFileNames(const CLI::App& command) {
   const auto files = fileOptions(command);
@@ -111,9 +127,7 @@ void requireFolderOf(const char* option, const std::string& path) {
                                                 option, path, folder.string()));
 }
 
-void warn(const char* command, const std::string& what) {
-  fmt::print(stderr, "{}: warning: {}\n", command, what);
-}
+void warn(const char* command, const std::string& what) { tell("{}: warning: {}\n", command, what); }
 
 void warn(const char* command, const std::vector<std::string>& all) {
   for (const std::string& each : all) warn(command, each);
@@ -125,10 +139,15 @@ CLI::Validator isWhole(int least, int most) {
   return isOfKind("a whole number", least, most, fmt::format("{} to {}", least, most));
 }
 
-CLI::Validator isSeed() {
-  return isOfKind("a whole number", std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max(),
-                  "0 to 2^64 - 1");
-}
+namespace {
+
+constexpr std::uint64_t kMost64Bits = std::numeric_limits<std::uint64_t>::max();
+
+}  // namespace
+
+CLI::Validator isCount() { return isOfKind("a whole number", std::uint64_t{1}, kMost64Bits, "1 or more"); }
+
+CLI::Validator isSeed() { return isOfKind("a whole number", std::uint64_t{0}, kMost64Bits, "0 to 2^64 - 1"); }
 
 CLI::Validator isNode() { return isWhole(kFirstNode, kLastNode); }
 

@@ -20,8 +20,12 @@ class CommonOptions {
   void requireGoodConfig() const;
   bool hasConfig() const { return !path_.empty(); }
   TableFormat format() const { return json_ ? TableFormat::kJson : TableFormat::kCsv; }
+  /// Throws Failure(kUsage) where an option names one of `files`, which the command writes beside the file
+  /// that `option` names: one would be lost.
+  void requireNoneNamed(const char* option, const std::vector<std::string>& files) const;
 
  private:
+  const CLI::App* command_;
   std::string path_;
   bool json_ = false;
 };
@@ -45,6 +49,9 @@ CLI::Validator isFrom(double least, double most);
 
 /// The same of an option that is a whole number.
 CLI::Validator isWhole(int least, int most);
+
+/// The same of a number of things, of which there may be any from 1 on.
+CLI::Validator isCount();
 
 /// The same of a node number.
 CLI::Validator isNode();

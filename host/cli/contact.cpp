@@ -7,6 +7,7 @@
 
 #include "host/base/angles.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/notice.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/contact_options.hpp"
@@ -142,8 +143,7 @@ void tellErrors(const model::Annulus<double>& annulus, contact::ContactRequest r
   request.centre_rad = 0;
   const contact::Contact exact = contact::solveContact(contact::SurfaceKernel(annulus), request);
   const contact::PaperErrors errors = contact::errorsOf(found, exact);
-  fmt::print(
-      stderr,
+  tell(
       "contact: against --method spectral, per its peak: pressure off by {:.2g} at worst, by {:.2g} at the "
       "centre, load by {:+.3g} %; outside the contact {:.2g} at worst, {:.1g} of the pressure's square\n",
       errors.inside, errors.centre, 100 * errors.load, errors.outside, errors.leakedShare);
@@ -168,9 +168,8 @@ void runPaper(const ContactCommand& options, const model::Annulus<double>& annul
         "--method paper knows frictionless contacts of given width, centred on the indenter's normal");
   const auto found =
       contact::solveByPaper(annulus, request.indenter, request.size.value, options.paperOptions());
-  fmt::print(stderr,
-             "contact: residual {:.2g} m; {} singular values kept, {} of them with an even pressure\n",
-             found.residual_m, found.kept, found.keptEven);
+  tell("contact: residual {:.2g} m; {} singular values kept, {} of them with an even pressure\n",
+       found.residual_m, found.kept, found.keptEven);
   warn("contact", "--method paper is inaccurate by its nature; --method spectral is not");
   tellErrors(annulus, request, found);
   printPaper(options, annulus, request.size.value, found);

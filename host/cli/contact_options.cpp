@@ -11,6 +11,7 @@
 #include "host/base/angles.hpp"
 #include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/notice.hpp"
 #include "host/base/number_rows.hpp"
 #include "host/base/read_file.hpp"
 #include "host/cli/command.hpp"
@@ -37,7 +38,7 @@ std::string textOf(const std::string& path) {
         failure.code(),
         fmt::format("--indenter: \"{}\" is neither flat, cylinder:RADIUS_M, wedge:HALF_ANGLE_DEG nor a file "
                     "that can be read ({})",
-                    path, failure.what()));
+                    excerpt(path), excerptWords(failure.what())));
   }
 }
 
@@ -105,8 +106,8 @@ Indenter parseIndenter(const std::string& text) {
 }
 
 void tellOf(const char* command, const contact::Contact& contact, const model::Annulus<double>& annulus) {
-  fmt::print(stderr, "{}: residual {:.2g} m, recomputed from the tractions; {} terms a patch{}\n", command,
-             contact.residual_m, contact.terms, regionsOf(contact, annulus.outer_radius_m));
+  tell("{}: residual {:.2g} m, recomputed from the tractions; {} terms a patch{}\n", command,
+       contact.residual_m, contact.terms, regionsOf(contact, annulus.outer_radius_m));
   warn(command, contact.warnings);
   constexpr double kMostLinear = 0.2;  // strains are about the depth over the thickness
   const double share = contact.deepest_m / (annulus.outer_radius_m - annulus.core_radius_m);

@@ -12,6 +12,7 @@
 #include "common/frames.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/line_reader.hpp"
+#include "host/base/notice.hpp"
 #include "host/base/text_output.hpp"
 #include "host/can/candump_text.hpp"
 #include "host/can/frame_printer.hpp"
@@ -96,7 +97,7 @@ class Decoder {
     if (last) decodeLine(*last);
     output_.flush();
     if (unreadable_ > kMostTold)
-      fmt::print(stderr, "{}: and {} more lines that cannot be read\n", name_, unreadable_ - kMostTold);
+      tell("{}: and {} more lines that cannot be read\n", name_, unreadable_ - kMostTold);
   }
 
   /// Prints what was held back for more of it.
@@ -135,7 +136,7 @@ class Decoder {
     if (strict_) failAt(message);
     output_.flush();  // what stands before it
     tally_.countUnreadable();
-    if (++unreadable_ <= kMostTold) fmt::print(stderr, "{}\n", message);
+    if (++unreadable_ <= kMostTold) tell("{}\n", message);
   }
 
   [[noreturn]] void failAt(const std::string& message) {
@@ -190,7 +191,8 @@ class Decoder {
 void requireGoodPaths(const DecodeOptions& options) {
   if (options.follow && (options.paths.size() != 1 || options.paths.front() == "-"))
     throw Failure(ExitCode::kUsage, "decode: --follow needs one FILE: stdin is followed to its end anyway");
-  for (const std::string& path : options.paths) LineReader{path};  // nothing is printed if one is not there
+  for (const std::string& path : options.paths)
+    LineReader::requireReadable(path);  // nothing is printed if one is not there
 }
 
 void runDecode(const DecodeOptions& options) {

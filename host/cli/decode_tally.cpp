@@ -6,6 +6,7 @@
 
 #include "common/frames.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/notice.hpp"
 #include "host/can/frame_catalogue.hpp"
 
 namespace strainfinger::cli {
@@ -24,16 +25,14 @@ static_assert(kSkipNames.size() == static_cast<std::size_t>(SkipReason::kError) 
 
 void summariseNode(const can::NodeCount& node) {
   if (node.twoSenders)
-    fmt::print(
-        stderr,
+    tell(
         "decode: {} node {}: two fingers send as this node: {} frames of touches received, what was lost "
         "cannot be told; take one off the bus, and `strainfinger config --set-node` changes the other's "
         "number\n",
         node.interface, node.node, node.received);
   else
-    fmt::print(stderr,
-               "decode: {} node {}: {} frames of touches received, {} lost, {} repeated, {} restarts\n",
-               node.interface, node.node, node.received, node.lost, node.repeated, node.restarts);
+    tell("decode: {} node {}: {} frames of touches received, {} lost, {} repeated, {} restarts\n",
+         node.interface, node.node, node.received, node.lost, node.repeated, node.restarts);
 }
 
 }  // namespace
@@ -57,18 +56,17 @@ void DecodeTally::countWrongLength(const std::string& place, const CanFrame& fra
 
 void DecodeTally::summarise() const {
   const std::uint64_t skipped = std::accumulate(skipped_.begin(), skipped_.end(), std::uint64_t{0});
-  fmt::print(stderr, "decode: {} lines ({}), {} frames decoded, {} others skipped\n", lines_,
-             form_.empty() ? "no frames" : form_, decoded_, skipped);
+  tell("decode: {} lines ({}), {} frames decoded, {} others skipped\n", lines_,
+       form_.empty() ? "no frames" : form_, decoded_, skipped);
   summariseSkipped();
-  if (dropped_ > 0) fmt::print(stderr, "decode: candump dropped {} frames\n", dropped_);
+  if (dropped_ > 0) tell("decode: candump dropped {} frames\n", dropped_);
   for (const can::NodeCount& node : losses_.counts()) summariseNode(node);
 }
 
 void DecodeTally::summariseSkipped() const {
   for (std::size_t reason = 0; reason < skipped_.size(); ++reason)
-    if (skipped_[reason] > 0)
-      fmt::print(stderr, "decode: skipped {} {}\n", skipped_[reason], kSkipNames[reason]);
-  if (!firstWrongLength_.empty()) fmt::print(stderr, "decode: {}\n", firstWrongLength_);
+    if (skipped_[reason] > 0) tell("decode: skipped {} {}\n", skipped_[reason], kSkipNames[reason]);
+  if (!firstWrongLength_.empty()) tell("decode: {}\n", firstWrongLength_);
 }
 
 void DecodeTally::requireGood() const {

@@ -12,8 +12,10 @@
 #include <system_error>
 #include <vector>
 
+#include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/no_value.hpp"
+#include "host/base/notice.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/model_options.hpp"
@@ -120,7 +122,7 @@ std::vector<int> gaugesOf(const std::string& text) {
         fmt::format(
             "--gauges {}: must be a, a:b or a:b:step, whole numbers from 1 to {}, a at most b, such as "
             "8:32 or 12:32:4",
-            text, kMostGauges));
+            excerpt(text), kMostGauges));
   std::vector<int> counts;
   for (double count = first; count <= last; count += step) counts.push_back(static_cast<int>(count));
   return counts;
@@ -135,7 +137,7 @@ std::vector<double> radiiOf(const std::optional<std::string>& text, const config
     throw Failure(ExitCode::kUsage,
                   fmt::format("--radius-m {}: must be a radius, or a:b:n with n from 2 to {}, such as "
                               "9e-3:12e-3:7",
-                              *text, kMostRadii));
+                              excerpt(*text), kMostRadii));
   const std::vector<double> radii = isOne ? numbers : evenly(numbers[0], numbers[1], static_cast<int>(count));
   for (const double radius_m : radii) {
     requireInRubber(radius_m, config.finger);
@@ -204,16 +206,18 @@ const design::Candidate* bestOf(const std::vector<design::Candidate>& candidates
 
 void tellOf(const design::Candidate* best) {
   if (best == nullptr) {
-    fmt::print(stderr, "design: each of these fingers has a problem with this touch, see there\n");
+    tell("design: each of these fingers has a problem with this touch, see there\n");
     return;
   }
-  fmt::print(stderr,
-             "design: of the fingers without a problem with this touch, {} gauges at {:.4g} m have the least "
-             "worst error of places, {:.3g} m\n",
-             best->gauges, best->radius_m, best->found.bounds->arc_m.worst);
+  tell(
+      "design: of the fingers without a problem with this touch, {} gauges at {:.4g} m have the least "
+      "worst error of places, {:.3g} m\n",
+      best->gauges, best->radius_m, best->found.bounds->arc_m.worst);
 }
 
 void runDesign(const DesignOptions& options) {
+  if (!options.picturePath.empty())
+    options.common.requireNoneNamed("--picture", plot::filesBeside(options.picturePath, design::kBoundsData));
   config::FingerConfig config = options.common.config();
   const std::vector<int> counts = gaugesOf(options.gauges);
   const std::vector<double> radii = radiiOf(options.radii, config);

@@ -6,6 +6,7 @@
 
 #include "host/base/failure.hpp"
 #include "host/base/no_value.hpp"
+#include "host/base/notice.hpp"
 #include "host/can/frame_catalogue.hpp"
 #include "host/can/open_bus.hpp"
 #include "host/can/remedies.hpp"
@@ -92,7 +93,7 @@ std::vector<ListenedBus> openAll(const std::vector<std::string>& names, const co
   for (const std::string& name : names) try {
       buses.emplace_back(can::openBus(name, config.can.bitrate), config);
     } catch (const Failure& each) {
-      if (names.size() > 1) fmt::print(stderr, "strainfinger: {}\n", each.what());
+      if (names.size() > 1) tell("strainfinger: {}\n", each.what());
       failure = each;
     }
   if (buses.empty()) throw *failure;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/base/failure.hpp"
+#include "host/base/notice.hpp"
 #include "host/can/open_bus.hpp"
 #include "host/can/udp_port.hpp"
 #include "host/cli/command.hpp"
@@ -62,7 +63,7 @@ class Report {
   void end() const {
     const std::string sum = fmt::format("doctor: errors: {}, warnings: {}", errors_, warnings_);
     if (status_ != ExitCode::kOk) throw Failure(status_, sum);
-    fmt::print(stderr, "{}\n", sum);
+    tell("{}\n", sum);
   }
 
  private:

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include "host/base/atomic_file.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/notice.hpp"
+#include "host/base/text_output.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/paper/figure.hpp"
@@ -66,14 +66,7 @@ void writeClaims(std::FILE* stream, TableFormat format, const std::vector<paper:
 }
 
 std::string claimsText(const std::vector<paper::Claim>& claims) {
-  char* text = nullptr;
-  std::size_t size = 0;
-  std::FILE* stream = ::open_memstream(&text, &size);
-  if (stream == nullptr) throw Failure(ExitCode::kFailure, "out of memory");
-  writeClaims(stream, TableFormat::kCsv, claims);
-  std::fclose(stream);
-  const std::unique_ptr<char, decltype(&std::free)> owner(text, &std::free);
-  return {text, size};
+  return textWritten([&](std::FILE* stream) { writeClaims(stream, TableFormat::kCsv, claims); });
 }
 
 void drawFigure(const paper::Figure& figure, const paper::Subject& subject, const std::string& folder) {
@@ -102,7 +95,7 @@ void runFigures(const FiguresOptions& options) {
   std::vector<paper::Claim> claims;
   for (const paper::Figure& figure : paper::figures()) {
     if (!options.wants(figure)) continue;
-    fmt::print(stderr, "figure {}: {}\n", figure.number, figure.title);
+    tell("figure {}: {}\n", figure.number, figure.title);
     doInterruptibly(stop, figure.number, [&] {
       drawFigure(figure, subject, options.folder);
       for (paper::Claim& claim : figure.claims()) claims.push_back(std::move(claim));

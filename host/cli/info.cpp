@@ -9,6 +9,7 @@
 #include "common/commands.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/no_value.hpp"
+#include "host/base/notice.hpp"
 #include "host/can/field_text.hpp"
 #include "host/can/open_bus.hpp"
 #include "host/can/remedies.hpp"
@@ -66,10 +67,9 @@ std::string textOf(const health::Finding& finding) {
 }
 
 /// Beside the table what is wrong: else an empty value, or an old one, would look like any other.
-void tell(const health::Findings& findings) {
+void tellErrorsOf(const health::Findings& findings) {
   for (const health::Finding& finding : findings)
-    if (finding.severity == health::Severity::kError)
-      fmt::print(stderr, "strainfinger: {}\n", textOf(finding));
+    if (finding.severity == health::Severity::kError) tell("strainfinger: {}\n", textOf(finding));
 }
 
 /// What is wrong with the finger; throws Failure for what ends with a status of its own.
@@ -80,7 +80,7 @@ void tellOf(const health::Findings& findings) {
   health::Findings others = findings;
   const auto ending = std::ranges::find_if(findings, isEnding);
   if (ending != findings.end()) others.erase(others.begin() + (ending - findings.begin()));
-  tell(others);
+  tellErrorsOf(others);
   if (ending != findings.end()) throw Failure(ending->status, textOf(*ending));
 }
 
@@ -130,7 +130,7 @@ void addCounts(can::BusPort& port, const live::FingerView& finger, InfoTable& ta
   const std::vector<health::Counted> counts = health::askForCounts(port, finger.node);
   for (const auto& [count, answer, value] : counts)
     table.add(count, answer == health::CountAnswer::kTold ? std::optional(value) : std::nullopt);
-  tell(health::examineCounts(port.name(), finger.node, counts, port.hints()));
+  tellErrorsOf(health::examineCounts(port.name(), finger.node, counts, port.hints()));
 }
 
 void runInfo(const RequestOptions& options) {

@@ -1,4 +1,5 @@
-#include <fmt/format.h>
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <csignal>
@@ -9,9 +10,11 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/notice.hpp"
 #include "host/cli/commands.hpp"
 
 namespace {
@@ -20,25 +23,16 @@ using strainfinger::ExitCode;
 
 int finish(ExitCode code) { return static_cast<int>(code); }
 
-/// Control characters that came from a file or an argument, as text: they must not reach a terminal. Those of
-/// Latin-1's upper half are C2 80 to C2 9F in UTF-8.
-std::string printable(std::string_view message) {
-  std::string text;
-  bool wasC2 = false;
-  for (const char each : message) {
-    const auto c = static_cast<unsigned char>(each);
-    const bool isControl = (c < 0x20 && c != '\n') || c == 0x7F || (wasC2 && c < 0xA0);
-    wasC2 = c == 0xC2;
-    text += isControl ? fmt::format("\\x{:02X}", c) : std::string(1, each);
-  }
-  return text;
+/// Where one of the three standard streams is closed, the next file that is opened would get its number, and
+/// what is meant for people or for a pipe would go into that file. What takes its place refuses all.
+void keepStandardNumbers() {
+  for (const auto& [number, mode] :
+       {std::pair{STDIN_FILENO, O_WRONLY}, {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_RDONLY}})
+    if (::fcntl(number, F_GETFD) < 0) ::open("/dev/null", mode);
 }
 
-/// Where stderr takes nothing either, the exit status still tells.
-void tell(std::string_view text) { std::fputs(printable(text).c_str(), stderr); }
-
 int complain(ExitCode code, std::string_view message) {
-  tell(fmt::format("strainfinger: {}\n", message));
+  strainfinger::tell("strainfinger: {}\n", message);
   return finish(code);
 }
 
@@ -68,6 +62,7 @@ bool isUnknownCommand(const CLI::App& app) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keepStandardNumbers();
   std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the shell's limit is an error like a full disk
   CLI::App app{"Firmware tables, simulation and tools for strain-gauge tactile fingers", "strainfinger"};
   app.set_version_flag("--version", STRAINFINGER_VERSION);
@@ -84,7 +79,7 @@ int main(int argc, char** argv) {
                                             " is no command; strainfinger --help lists them");
     std::ostringstream complaint;
     const bool isHelp = app.exit(error, std::cout, complaint) == 0;
-    tell(isHelp ? complaint.str() : strainfinger::excerptWords(complaint.str()));
+    strainfinger::tell(isHelp ? complaint.str() : strainfinger::excerptWords(complaint.str()));
     return isHelp ? finishOutput() : finish(ExitCode::kUsage);
   } catch (const strainfinger::Failure& failure) {
     return complain(failure.code(), failure.what());

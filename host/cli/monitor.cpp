@@ -8,6 +8,7 @@
 
 #include "host/base/failure.hpp"
 #include "host/base/line_reader.hpp"
+#include "host/base/notice.hpp"
 #include "host/can/open_bus.hpp"
 #include "host/cli/bus_option.hpp"
 #include "host/cli/command.hpp"
@@ -78,7 +79,7 @@ class LiveScreen {
     show(stop);
     if (recording_) {
       stopRecording();
-      fmt::print(stderr, "monitor: {}\n", content_.message);
+      tell("monitor: {}\n", content_.message);
     }
     endIfStopped(stop);
   }

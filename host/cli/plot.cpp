@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/frames.hpp"
+#include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 #include "host/can/frame_catalogue.hpp"
 #include "host/can/log_reader.hpp"
@@ -122,7 +123,7 @@ void requireNotSeveral(const PlotOptions& options, const std::map<Name, Track>& 
   for (const auto& [name, track] : tracks)
     names.push_back(fmt::format("{} node {}", name.first, name.second));
   throw Failure(ExitCode::kUsage, fmt::format("{}: several fingers ({}): choose one with {}", options.path,
-                                              fmt::join(names, ", "), choiceOf(tracks)));
+                                              excerptNames(names), choiceOf(tracks)));
 }
 
 /// Whether what is drawn is what a finger meant; without anything to draw, whether that is why.
@@ -138,13 +139,14 @@ void judge(const PlotOptions& options, const Heard& heard) {
 
 void requireAny(const PlotOptions& options, const std::map<Name, Track>& tracks) {
   if (!tracks.empty()) return;
-  std::string whose = options.interface.empty() ? "" : fmt::format(" of {}", options.interface);
+  std::string whose = options.interface.empty() ? "" : fmt::format(" of {}", excerpt(options.interface));
   if (options.node) whose += fmt::format(" of node {}", *options.node);
   throw Failure(ExitCode::kFailure, fmt::format("{}: no touch{} in it to draw", options.path, whose));
 }
 
 void runPlot(const PlotOptions& options) {
   options.common.requireGoodConfig();
+  options.common.requireNoneNamed("--output", plot::filesBeside(options.output, plot::kLogData));
   plot::requirePicturePath(options.output);
   const Heard heard = readLog(options);
   requireNotSeveral(options, heard.tracks);

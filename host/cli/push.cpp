@@ -6,6 +6,7 @@
 #include <string>
 
 #include "host/base/failure.hpp"
+#include "host/base/notice.hpp"
 #include "host/can/frame_catalogue.hpp"
 #include "host/can/open_bus.hpp"
 #include "host/can/remedies.hpp"
@@ -32,7 +33,7 @@ constexpr const char* kPushHelp =
 
 struct PushOptions {
   explicit PushOptions(CLI::App& command) : request(command) {
-    command.add_option("FILE", path, "The tables; without it those of the config");
+    command.add_option("FILE", path, "The tables; without it those of the config")->type_name("FILE");
     command.add_flag("--force", force,
                      "Even while something touches the finger, as one with wrong tables may feel");
   }
@@ -44,7 +45,7 @@ struct PushOptions {
 std::unique_ptr<TableImage> tablesFor(const PushOptions& options) {
   const CommonOptions& common = options.request.common;
   if (options.path.empty()) {
-    if (!common.hasConfig()) fmt::print(stderr, "push: neither FILE nor -c: the default finger's tables\n");
+    if (!common.hasConfig()) tell("push: neither FILE nor -c: the default finger's tables\n");
     return std::make_unique<TableImage>(tables::buildCheckedTables(common.config()).image);
   }
   auto image = tables::readTableFile(options.path);
@@ -52,18 +53,18 @@ std::unique_ptr<TableImage> tablesFor(const PushOptions& options) {
   return image;
 }
 
-/// On a terminal only: how far it is.
+/// On a terminal only: how far it is. A terminal that is closed meanwhile doesn't end a push.
 class Progress {
  public:
   void show(int words) {
     const int percent = 100 * words / kTableWords;
     if (!isShown_ || percent == percent_) return;
     percent_ = percent;
-    fmt::print(stderr, "\rpush: {} %", percent);
+    std::fputs(fmt::format("\rpush: {} %", percent).c_str(), stderr);
     std::fflush(stderr);
   }
   ~Progress() {
-    if (percent_ >= 0) fmt::print(stderr, "\r\x1b[K");
+    if (percent_ >= 0) std::fputs("\r\x1b[K", stderr);
   }
 
  private:
@@ -93,9 +94,9 @@ void requireWhole(const can::TablePush& push, const can::BusPort& bus, std::uint
     throw Failure(ExitCode::kInterrupted,
                   fmt::format("push: interrupted after {} of {} words: {}", push.words, kTableWords, left));
   if (push.command == Command::kWord)
-    fmt::print(stderr, "strainfinger: push: ended after {} of {} words: {}\n", push.words, kTableWords, left);
+    tell("strainfinger: push: ended after {} of {} words: {}\n", push.words, kTableWords, left);
   if (push.othersAsk)
-    fmt::print(stderr, "strainfinger: push: another program asks this node, too: let one at a time do so\n");
+    tell("strainfinger: push: another program asks this node, too: let one at a time do so\n");
   requireDone(push.reply, push.command, bus, node);
 }
 
@@ -103,10 +104,10 @@ void requireWhole(const can::TablePush& push, const can::BusPort& bus, std::uint
 void restart(can::BusPort& port, std::uint8_t node) {
   const can::Reply reply = can::ask(port, node, restartRequest(true));
   if (!reply.response || reply.response->status != CommandStatus::kDone)
-    fmt::print(stderr,
-               "strainfinger: push: the finger has all words, and works with them from its next start on: "
-               "`strainfinger config --can {} -n {} --restart`, or switch it off and on\n",
-               port.name(), node);
+    tell(
+        "strainfinger: push: the finger has all words, and works with them from its next start on: "
+        "`strainfinger config --can {} -n {} --restart`, or switch it off and on\n",
+        port.name(), node);
   requireDone(reply, Command::kRestart, port, node);
 }
 
@@ -147,10 +148,10 @@ void runPush(const PushOptions& options) {
   restart(*port, node);
   requireRunning(*port, node, *image, stop);
   if (options.force)
-    fmt::print(stderr,
-               "push: what touches the finger now is part of its zero: `strainfinger tare --can {} -n {}` "
-               "once nothing does\n",
-               port->name(), node);
+    tell(
+        "push: what touches the finger now is part of its zero: `strainfinger tare --can {} -n {}` "
+        "once nothing does\n",
+        port->name(), node);
   TableWriter table(stdout, options.request.common.format(), {"interface", "node", "table_crc", "bytes"});
   table.row({options.request.bus, std::int64_t{node}, fmt::format("{:08X}", image->crc32),
              std::int64_t{sizeof *image}});

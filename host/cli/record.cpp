@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "host/base/failure.hpp"
+#include "host/base/notice.hpp"
 #include "host/can/open_bus.hpp"
 #include "host/cli/bus_option.hpp"
 #include "host/cli/command.hpp"
@@ -68,9 +69,9 @@ void runRecord(const RecordOptions& options) {
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.duration_s));
   recordUntil(options.duration_s > 0 ? start + duration : Clock::time_point::max(), stop, *port, recording);
   const RecordingProgress& progress = recording.progress();
-  fmt::print(stderr, "record: {} frames in {:.1f} s, {} missed: {}, {}\n", progress.frames,
-             static_cast<double>(progress.end_ns - progress.start_ns) * 1e-9, progress.missed,
-             recording.path(), recording.notesPath());
+  tell("record: {} frames in {:.1f} s, {} missed: {}, {}\n", progress.frames,
+       static_cast<double>(progress.end_ns - progress.start_ns) * 1e-9, progress.missed, recording.path(),
+       recording.notesPath());
   if (stop.asked()) throw Failure(ExitCode::kInterrupted, "record: interrupted, all is written");
 }
 

@@ -2,21 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <system_error>
 #include <utility>
 
 #include "host/base/atomic_file.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/utc_text.hpp"
 
 namespace strainfinger::cli {
 namespace {
-
-std::int64_t now_ns() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-}
 
 /// Where nothing is yet: the notes might replace the very config that they quote.
 std::string newNotesPath(const std::string& path) {
@@ -42,7 +38,12 @@ Recording::Recording(can::BusPort& port, const config::FingerConfig& config, con
       notes_(port.name(), config),
       missedBefore_(port.status().missed) {
   progress_.start_ns = now_ns();
-  writeNotes();
+  try {
+    writeNotes();
+  } catch (...) {
+    std::remove(path_.c_str());  // it would be in the way of the next attempt
+    throw;
+  }
 }
 
 void Recording::take(const can::TimedFrame& timed) {

@@ -16,7 +16,7 @@ class Recording {
  public:
   /// Makes `path` and, in its place with .toml at the end, the notes. Throws Failure(kUsage) when the path
   /// itself ends in .toml, Failure(kFailure) when there is a file of either name already or one cannot be
-  /// made. `port` is where the frames come from; it must outlive the recording.
+  /// made; then neither stays. `port` is where the frames come from; it must outlive the recording.
   Recording(can::BusPort& port, const config::FingerConfig& config, const std::string& path);
 
   /// Takes what the port received, in that order.

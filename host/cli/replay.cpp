@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -13,7 +12,9 @@
 #include <thread>
 
 #include "common/frames.hpp"
+#include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/notice.hpp"
 #include "host/can/frame_catalogue.hpp"
 #include "host/can/log_reader.hpp"
 #include "host/can/open_bus.hpp"
@@ -22,6 +23,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/firmware_options.hpp"
 #include "host/cli/recompute.hpp"
+#include "host/config/bus_load.hpp"
 #include "host/system/stop_signal.hpp"
 
 namespace strainfinger::cli {
@@ -99,11 +101,13 @@ LogExtent measure(const ReplayOptions& options) {
   warn("replay", log.warnings());
   if (!options.interface.empty() && extent.interfaces.empty())
     throw Failure(ExitCode::kFailure,
-                  fmt::format("{}: no frame of {} in it", options.path, options.interface));
+                  fmt::format("{}: no frame of {} in it", options.path, excerpt(options.interface)));
   if (extent.interfaces.size() > 1)
-    warn("replay", fmt::format("{}: what it has of several interfaces ({}) all goes to {}: --interface sends "
-                               "what it has of one",
-                               options.path, fmt::join(extent.interfaces, ", "), options.bus));
+    warn("replay",
+         fmt::format("{}: what it has of several interfaces ({}) all goes to {}: --interface sends "
+                     "what it has of one",
+                     options.path, excerptNames({extent.interfaces.begin(), extent.interfaces.end()}),
+                     options.bus));
   return extent;
 }
 
@@ -123,6 +127,13 @@ void send(can::BusPort& port, const CanFrame& frame) {
   }
 }
 
+/// A log whose clock was set meanwhile can ask for longer than a Clock tells.
+Clock::duration waitFor(double since_s) {
+  constexpr double kForEver_s = 1e9;
+  return std::chrono::duration_cast<Clock::duration>(
+      std::chrono::duration<double>(std::clamp(since_s, -kForEver_s, kForEver_s)));
+}
+
 /// How many frames were sent.
 std::uint64_t sendAll(const ReplayOptions& options, can::BusPort& port, const system::StopSignal& stop) {
   can::LogReader log(options.path, options.interface);
@@ -134,8 +145,7 @@ std::uint64_t sendAll(const ReplayOptions& options, can::BusPort& port, const sy
     if (!options.requests && isRequest(frame->frame)) continue;
     const double since_s =
         static_cast<double>(*frame->time_ns - *first_ns) * 1e-9 / options.speed.value_or(1);
-    const auto due = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(since_s));
-    if (!sleepUntil(start + due, stop)) break;
+    if (!sleepUntil(start + waitFor(since_s), stop)) break;
     send(port, frame->frame);
     ++sent;
   }
@@ -155,7 +165,7 @@ class OneFinger {
     if (text.interface == interface_) return;
     throw Failure(ExitCode::kUsage,
                   fmt::format("{}: there is a node {} on {} and one on {}: choose with --interface", path,
-                              node_, interface_, text.interface));
+                              node_, excerpt(interface_), excerpt(text.interface)));
   }
 
  private:
@@ -179,10 +189,9 @@ void recomputeLog(const ReplayOptions& options) {
     warn("replay", log.warnings());
     return std::nullopt;
   };
-  const recompute::RecordedFinger finger{
-      .node = static_cast<std::uint8_t>(config.can.node),
-      .contactRate_hz = static_cast<std::uint16_t>(std::lround(config.can.contact_rate_hz)),
-      .mode = options.firmware.mode()};
+  const recompute::RecordedFinger finger{.node = static_cast<std::uint8_t>(config.can.node),
+                                         .contactRate_hz = config::contactRate_hz(config.can),
+                                         .mode = options.firmware.mode()};
   recompute(next, *options.firmware.tablesOf(config), finger, static_cast<std::uint32_t>(config.can.bitrate),
             options.common.format());
 }
@@ -199,11 +208,10 @@ void runReplay(const ReplayOptions& options) {
   const system::StopSignal stop;
   const auto port = can::openBus(options.bus, options.common.config().can.bitrate, kHearNothing);
   const std::uint64_t sent = sendAll(options, *port, stop);
-  fmt::print(stderr, "replay: {} of {} frames sent, {} of other kinds left out\n", sent,
-             extent.frames + (options.requests ? extent.requests : 0), extent.skipped);
+  tell("replay: {} of {} frames sent, {} of other kinds left out\n", sent,
+       extent.frames + (options.requests ? extent.requests : 0), extent.skipped);
   if (extent.requests > 0 && !options.requests)
-    fmt::print(stderr, "replay: {} requests to fingers left out, too: --requests sends them\n",
-               extent.requests);
+    tell("replay: {} requests to fingers left out, too: --requests sends them\n", extent.requests);
   if (stop.asked()) throw Failure(ExitCode::kInterrupted, "replay: interrupted");
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "host/base/failure.hpp"
+#include "host/base/notice.hpp"
 #include "host/base/table_writer.hpp"
 #include "host/can/frame_catalogue.hpp"
 #include "host/can/open_bus.hpp"
@@ -67,8 +68,7 @@ void requireDone(const can::Reply& reply, Command command, const can::BusPort& b
                                                   commandName(command), twinText(bus, node)));
   const CommandStatus status = reply.response->status;
   if (status == CommandStatus::kDoneTouched)
-    fmt::print(stderr, "strainfinger: {}: {}: {}\n", where, commandName(command),
-               can::meaningOf(*reply.response));
+    tell("strainfinger: {}: {}: {}\n", where, commandName(command), can::meaningOf(*reply.response));
   else if (status != CommandStatus::kDone)
     throw Failure(ExitCode::kFailure, fmt::format("{}: {}: {} ({}): {}", where, commandName(command),
                                                   can::meaningOf(*reply.response), statusName(status),

@@ -10,6 +10,7 @@
 
 #include "host/base/atomic_file.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/notice.hpp"
 #include "host/base/text_output.hpp"
 #include "host/can/candump_text.hpp"
 #include "host/can/loopback_port.hpp"
@@ -211,7 +212,7 @@ void runOn(Port& port, const config::FingerConfig& config, const RunOptions& opt
     finger.pass(wait(), [&](const simulation::Moment& moment) { watchers.watch(moment, finger.readings()); });
     afterwards(finger.elapsed_us());
   }
-  printSummary(stderr, options.common.format(), finger.elapsed_s(), finger.counts(), watchers.errors());
+  tell(summaryText(options.common.format(), finger.elapsed_s(), finger.counts(), watchers.errors()));
   watchers.write();
   watchers.draw(options.pictures, finger.strains());
   if (stop.asked())
@@ -264,6 +265,8 @@ void runRun(const RunOptions& options) {
     throw Failure(ExitCode::kUsage, "run: --uncalibrated makes tables of its own: leave --tables out");
   if (options.rows_hz && options.strainsPath.empty() && options.touchesPath.empty())
     throw Failure(ExitCode::kUsage, "run: --rows-hz is of --strains and --touches: give one of them");
+  for (const std::string& path : options.pictures)
+    options.common.requireNoneNamed("--picture", plot::filesBeside(path, plot::kTouchData));
   const config::FingerConfig config = options.common.config();
   options.isLoopback() ? runOnLoopback(config, options) : runOnBus(config, options);
 }

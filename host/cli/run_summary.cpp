@@ -2,6 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+#include <iterator>
+#include <utility>
+
+#include "host/base/text_output.hpp"
+
 namespace strainfinger::cli {
 namespace {
 
@@ -13,37 +19,35 @@ std::string gaugesOf(firmware::GaugeSet gauges) {
   return text;
 }
 
-void printText(std::FILE* stream, double duration_s, const simulation::RunCounts& counts,
-               const simulation::TouchErrors& errors) {
+std::string plainText(double duration_s, const simulation::RunCounts& counts,
+                      const simulation::TouchErrors& errors) {
+  std::string text;
+  const auto add = [&text]<typename... Values>(fmt::format_string<Values...> line, Values&&... values) {
+    fmt::format_to(std::back_inserter(text), line, std::forward<Values>(values)...);
+  };
   const auto& finger = counts.finger;
-  fmt::print(stream, "run: {:.3f} s: {} sample sets, {} lost to a late machine; {} fits\n", duration_s,
-             finger.sampleSets, counts.overruns, finger.fits);
-  fmt::print(stream, "run: {} frames: {} touches, {} HEARTBEAT; {} touches deferred, {} incomplete\n",
-             counts.frames, finger.touchesSent, counts.heartbeats, finger.touchesBusy,
-             finger.touchesIncomplete);
+  add("run: {:.3f} s: {} sample sets, {} lost to a late machine; {} fits\n", duration_s, finger.sampleSets,
+      counts.overruns, finger.fits);
+  add("run: {} frames: {} touches, {} HEARTBEAT; {} touches deferred, {} incomplete\n", counts.frames,
+      finger.touchesSent, counts.heartbeats, finger.touchesBusy, finger.touchesIncomplete);
   if (errors.arc_m.count() > 0)
-    fmt::print(stream,
-               "run: off the truth (RMS, worst of {}): {:.4f}, {:.4f} mm of arc; normal {:.3f}, {:.3f} N/m; "
-               "tangential {:.3f}, {:.3f} N/m\n",
-               errors.arc_m.count(), errors.arc_m.rms() * 1e3, errors.arc_m.worst() * 1e3,
-               errors.normal_n_per_m.rms(), errors.normal_n_per_m.worst(), errors.tangential_n_per_m.rms(),
-               errors.tangential_n_per_m.worst());
-  fmt::print(stream,
-             "run: not counted there: {} flagged uncertain, {} of several touches, {} of none, {} missed\n",
-             errors.uncertain, errors.several, errors.phantom, errors.missed);
-  fmt::print(stream, "run: touched for {:.3f} s without a contact told\n", errors.untold_s);
-  if (counts.outOfUse != 0)
-    fmt::print(stream, "run: gauges out of use at the end: {}\n", gaugesOf(counts.outOfUse));
+    add("run: off the truth (RMS, worst of {}): {:.4f}, {:.4f} mm of arc; normal {:.3f}, {:.3f} N/m; "
+        "tangential {:.3f}, {:.3f} N/m\n",
+        errors.arc_m.count(), errors.arc_m.rms() * 1e3, errors.arc_m.worst() * 1e3,
+        errors.normal_n_per_m.rms(), errors.normal_n_per_m.worst(), errors.tangential_n_per_m.rms(),
+        errors.tangential_n_per_m.worst());
+  add("run: not counted there: {} flagged uncertain, {} of several touches, {} of none, {} missed\n",
+      errors.uncertain, errors.several, errors.phantom, errors.missed);
+  add("run: touched for {:.3f} s without a contact told\n", errors.untold_s);
+  if (counts.outOfUse != 0) add("run: gauges out of use at the end: {}\n", gaugesOf(counts.outOfUse));
+  return text;
 }
 
-}  // namespace
-
-void printSummary(std::FILE* stream, TableFormat format, double duration_s,
-                  const simulation::RunCounts& counts, const simulation::TouchErrors& errors) {
-  if (format == TableFormat::kCsv) return printText(stream, duration_s, counts, errors);
+void writeObject(std::FILE* stream, double duration_s, const simulation::RunCounts& counts,
+                 const simulation::TouchErrors& errors) {
   const auto& finger = counts.finger;
   const auto number = [](auto count) { return static_cast<std::int64_t>(count); };
-  TableWriter table(stream, format,
+  TableWriter table(stream, TableFormat::kJson,
                     {"duration_s",
                      "sample_sets",
                      "overruns",
@@ -88,6 +92,14 @@ void printSummary(std::FILE* stream, TableFormat format, double duration_s,
              number(errors.missed),
              errors.untold_s,
              gaugesOf(counts.outOfUse)});
+}
+
+}  // namespace
+
+std::string summaryText(TableFormat format, double duration_s, const simulation::RunCounts& counts,
+                        const simulation::TouchErrors& errors) {
+  if (format == TableFormat::kCsv) return plainText(duration_s, counts, errors);
+  return textWritten([&](std::FILE* stream) { writeObject(stream, duration_s, counts, errors); });
 }
 
 }  // namespace strainfinger::cli

@@ -6,6 +6,7 @@
 
 #include "common/frames.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/notice.hpp"
 #include "host/can/open_bus.hpp"
 #include "host/cli/bus_option.hpp"
 #include "host/cli/command.hpp"
@@ -104,8 +105,7 @@ void runServe(const ServeOptions& options) {
   live::BusWatch watch(*port, config, tables::buildTableImage(config).crc32);
   const live::PageServerOptions serverOptionsNow = serverOptions(options, config);
   live::PageServer server(serverOptionsNow);
-  fmt::print(stderr, "serve: {} shows {}; Ctrl-C ends\n", urlOf(serverOptionsNow, server.port()),
-             options.bus);
+  tell("serve: {} shows {}; Ctrl-C ends\n", urlOf(serverOptionsNow, server.port()), options.bus);
   serve(watch, server, simulation::StrainFit(config));
   throw Failure(ExitCode::kInterrupted, "serve: interrupted");
 }

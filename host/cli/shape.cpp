@@ -6,6 +6,8 @@
 #include <cmath>
 #include <iostream>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "host/base/angles.hpp"
@@ -96,40 +98,59 @@ std::string warnings(const shape::Shape& shape, bool isClipped) {
   return fmt::format("{}", fmt::join(words, " "));
 }
 
-std::vector<Cell> cellsOf(const shape::Shape& shape, bool isClipped) {
+struct ShapeCell {
+  const char* column;
+  Cell value;
+};
+
+std::vector<ShapeCell> rowOf(const shape::Shape& shape, bool isClipped) {
   const shape::Measured unknown{kNoValue, kNoValue};
   const shape::Measured width = shape.width_m.value_or(unknown);
   const shape::Measured curvature = shape.curvature_per_m.value_or(unknown);
   const shape::Band band = shape.curvatureBand_per_m.value_or(shape::Band{kNoValue, kNoValue});
-  return {std::int64_t{1},
-          degrees(shape.angle_rad.value),
-          shape.normal_n_per_m.value,
-          shape.tangential_n_per_m.value,
-          width.value,
-          curvature.value,
-          shape.angle_rad.sigma / kRadPerDeg,
-          shape.normal_n_per_m.sigma,
-          shape.tangential_n_per_m.sigma,
-          width.sigma,
-          curvature.sigma,
-          shape.widthLimit_m,
-          std::int64_t{shape.directions},
-          std::string(shape.profile ? nameOf(*shape.profile) : ""),
-          unresolved(shape),
-          shape.fitProbability,
-          shape.rivalAngle_rad ? degrees(*shape.rivalAngle_rad) : kNoValue,
-          warnings(shape, isClipped),
-          band.low,
-          std::isfinite(band.high) ? band.high : kNoValue};
+  return {{"contact", std::int64_t{1}},
+          {"angle_deg", degrees(shape.angle_rad.value)},
+          {"normal_n_per_m", shape.normal_n_per_m.value},
+          {"tangential_n_per_m", shape.tangential_n_per_m.value},
+          {"width_m", width.value},
+          {"curvature_per_m", curvature.value},
+          {"sigma_angle_deg", shape.angle_rad.sigma / kRadPerDeg},
+          {"sigma_normal_n_per_m", shape.normal_n_per_m.sigma},
+          {"sigma_tangential_n_per_m", shape.tangential_n_per_m.sigma},
+          {"sigma_width_m", width.sigma},
+          {"sigma_curvature_per_m", curvature.sigma},
+          {"width_limit_m", shape.widthLimit_m},
+          {"directions", std::int64_t{shape.directions}},
+          {"class", std::string(shape.profile ? nameOf(*shape.profile) : "")},
+          {"unresolved", unresolved(shape)},
+          {"fit_probability", shape.fitProbability},
+          {"rival_angle_deg", shape.rivalAngle_rad ? degrees(*shape.rivalAngle_rad) : kNoValue},
+          {"warnings", warnings(shape, isClipped)},
+          {"curvature_low_per_m", band.low},
+          {"curvature_high_per_m", std::isfinite(band.high) ? band.high : kNoValue}};
 }
 
-/// A row of which only these are known.
-std::vector<Cell> unknownTouch(std::int64_t contact, const std::string& warning) {
-  std::vector<Cell> cells(20, kNoValue);
-  cells[0] = contact;
-  for (const std::size_t text : {13U, 14U}) cells[text] = std::string();
-  cells[17] = warning;
+std::vector<std::string> shapeColumns() {
+  std::vector<std::string> columns;
+  for (const ShapeCell& cell : rowOf({}, false)) columns.emplace_back(cell.column);
+  return columns;
+}
+
+std::vector<Cell> cellsOf(const std::vector<ShapeCell>& row) {
+  std::vector<Cell> cells;
+  for (const ShapeCell& cell : row) cells.push_back(cell.value);
   return cells;
+}
+
+/// A row of which only these are known: of the others numbers are missing and texts empty.
+std::vector<Cell> unknownTouch(std::int64_t contact, const std::string& warning) {
+  std::vector<ShapeCell> row = rowOf({}, false);
+  for (auto& [column, value] : row)
+    value = std::string_view(column) == "contact"        ? Cell(contact)
+            : std::string_view(column) == "warnings"     ? Cell(warning)
+            : std::holds_alternative<std::string>(value) ? Cell(std::string())
+                                                         : Cell(kNoValue);
+  return cellsOf(row);
 }
 
 /// One row of strains.
@@ -172,33 +193,13 @@ void forEachReading(const config::FingerConfig& config, Print print) {
 
 void printShapes(const ShapeOptions& options, const config::FingerConfig& config) {
   shape::RingEstimators estimators(config);  // before anything is printed
-  TableWriter table(stdout, options.common.format(),
-                    {"contact",
-                     "angle_deg",
-                     "normal_n_per_m",
-                     "tangential_n_per_m",
-                     "width_m",
-                     "curvature_per_m",
-                     "sigma_angle_deg",
-                     "sigma_normal_n_per_m",
-                     "sigma_tangential_n_per_m",
-                     "sigma_width_m",
-                     "sigma_curvature_per_m",
-                     "width_limit_m",
-                     "directions",
-                     "class",
-                     "unresolved",
-                     "fit_probability",
-                     "rival_angle_deg",
-                     "warnings",
-                     "curvature_low_per_m",
-                     "curvature_high_per_m"});
+  TableWriter table(stdout, options.common.format(), shapeColumns());
   forEachReading(config, [&](const Reading& reading) {
     if (reading.isTooFew(config)) return table.row(unknownTouch(1, kClipped));
     const auto shape = estimators.by(reading.gauges).estimate(reading.strains, reading.largest_strain);
     const bool isClipped = reading.isClipped(config);
     if (shape)
-      table.row(cellsOf(*shape, isClipped));
+      table.row(cellsOf(rowOf(*shape, isClipped)));
     else
       table.row(isClipped ? unknownTouch(1, kClipped) : unknownTouch(0, ""));
   });

@@ -11,6 +11,7 @@
 #include "common/frames.hpp"
 #include "common/raw_share.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/notice.hpp"
 #include "host/base/strain_rows.hpp"
 #include "host/can/frame_catalogue.hpp"
 #include "host/can/open_bus.hpp"
@@ -45,7 +46,7 @@ struct StrainsOptions {
     command.add_option("--duration", duration_s, "Seconds; without it until Ctrl-C")
         ->type_name("S")
         ->check(isFrom(0.001, kLongestStrains_s));
-    command.add_option("--rows", rows, "So many rows at most")->type_name("N")->check(isFrom(1, 1e15));
+    command.add_option("--rows", rows, "So many rows at most")->type_name("N")->check(isCount());
   }
   RequestOptions request;
   int rate_hz = 100;
@@ -210,9 +211,9 @@ void runStrains(const StrainsOptions& options) {
   }
   std::fflush(stdout);
   if (options.request.common.hasConfig()) warnOfOtherTables(finger, config);
-  fmt::print(stderr, "strains: {} sets, {} incomplete\n", printer.sets(), receiver.incomplete());
+  tell("strains: {} sets, {} incomplete\n", printer.sets(), receiver.incomplete());
   if (const std::string others = othersText(finger); !others.empty())
-    fmt::print(stderr, "strains: {}: the rate may not be --rate\n", others);
+    tell("strains: {}: the rate may not be --rate\n", others);
   if (stop.asked()) throw Failure(ExitCode::kInterrupted, "strains: interrupted");
   if (printer.sets() == 0) giveUp(options.duration_s);
 }

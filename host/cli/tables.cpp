@@ -5,6 +5,7 @@
 #include "host/base/atomic_file.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/no_value.hpp"
+#include "host/base/notice.hpp"
 #include "host/can/touch_receiver.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
@@ -42,7 +43,7 @@ struct TablesOptions {
   static CLI::App& addFileCommand(CLI::App& command, const std::string& name, const std::string& help,
                                   std::string& path) {
     CLI::App& sub = *command.add_subcommand(name, help);
-    sub.add_option("FILE", path, "The image")->required();
+    sub.add_option("FILE", path, "The image")->type_name("FILE")->required();
     sub.fallthrough();  // -c and --json may stand behind FILE
     return sub;
   }
@@ -75,8 +76,7 @@ void make(const TablesOptions& options) {
   const auto [image, check] = tables::buildCheckedTables(config);
   if (!options.imagePath.empty()) writeFileAtomically(options.imagePath, tables::imageBytes(image));
   if (!options.headerPath.empty()) writeFileAtomically(options.headerPath, tables::imageHeader(image));
-  fmt::print(
-      stderr,
+  tell(
       "tables: {} bytes, {} gauges, CRC-32 {:08X}\n"
       "tables: contacts are seen from {:.2g} N/m on; of {} tried without noise {:.2g} % are uncertain, "
       "none is misplaced\n",
@@ -104,8 +104,7 @@ void showInfo(const TablesOptions& options) {
 void verify(const TablesOptions& options) {
   const auto image = tables::readTableFile(options.verifyPath);
   tables::requireTablesOf(*image, options.common.config(), options.verifyPath);
-  fmt::print(stderr, "tables: {} is whole and belongs to this finger, CRC-32 {:08X}\n", options.verifyPath,
-             image->crc32);
+  tell("tables: {} is whole and belongs to this finger, CRC-32 {:08X}\n", options.verifyPath, image->crc32);
 }
 
 void runTables(const TablesOptions& options) {

@@ -46,7 +46,7 @@ std::string sigmaText(double sigma, double largest, double unit) {
 }  // namespace
 
 TruthTable::TruthTable(std::FILE* stream, const config::Finger& finger) : stream_(stream), finger_(finger) {
-  fmt::print(stream_, "{}", kHeading);
+  std::fputs(kHeading, stream_);
 }
 
 void TruthTable::add(const simulation::Moment& moment) {
@@ -55,7 +55,7 @@ void TruthTable::add(const simulation::Moment& moment) {
   if (moment.compared && inContact_)
     print(*moment.compared);
   else if ((moment.truth.empty() && !inContact_) || moment.time_s > nextLine_s_ + kSilence_s)
-    fmt::print(stream_, "{:7.3f} | {} | nothing\n", moment.time_s, truthText(moment.truth));
+    write(fmt::format("{:7.3f} | {} | nothing\n", moment.time_s, truthText(moment.truth)));
   else
     return;
   nextLine_s_ += kPeriod_s;
@@ -65,12 +65,13 @@ void TruthTable::print(const ComparedTouch& touch) const {
   const can::TouchReport& report = touch.report;
   const can::LargestValues& largest = can::largestValues();
   const double length_m = finger_.length_m;
-  fmt::print(stream_, "{:7.3f} | {} | {:7.2f} ±{:>6}   {:6.2f} ±{:>6}   {:+7.2f} ±{:>6} |{}{}\n",
-             touch.time_s, truthText(touch.truth), report.angle_deg,
-             sigmaText(report.sigmaAngle_deg, largest.sigmaAngle_deg, 1), report.normal_n / length_m,
-             sigmaText(report.sigmaNormal_n, largest.sigmaNormal_n, length_m), report.tangential_n / length_m,
-             sigmaText(report.sigmaTangential_n, largest.sigmaTangential_n, length_m),
-             differenceText(touch, finger_), report.flags.has(FingerFlag::kUncertain) ? "  uncertain" : "");
+  write(fmt::format(
+      "{:7.3f} | {} | {:7.2f} ±{:>6}   {:6.2f} ±{:>6}   {:+7.2f} ±{:>6} |{}{}\n", touch.time_s,
+      truthText(touch.truth), report.angle_deg, sigmaText(report.sigmaAngle_deg, largest.sigmaAngle_deg, 1),
+      report.normal_n / length_m, sigmaText(report.sigmaNormal_n, largest.sigmaNormal_n, length_m),
+      report.tangential_n / length_m,
+      sigmaText(report.sigmaTangential_n, largest.sigmaTangential_n, length_m),
+      differenceText(touch, finger_), report.flags.has(FingerFlag::kUncertain) ? "  uncertain" : ""));
 }
 
 }  // namespace strainfinger::cli

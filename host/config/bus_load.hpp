@@ -1,6 +1,8 @@
 #pragma once
 // How many contacts a second a bus can carry.
 
+#include <cstdint>
+
 #include "host/config/finger_config.hpp"
 
 namespace strainfinger::config {
@@ -10,6 +12,12 @@ namespace strainfinger::config {
 inline constexpr int kWorstFrame_bits = 8 * 8 + 44 + 3 + (34 + 8 * 8 - 1) / 4;
 /// CONTACT, FORCE and PATCH; those of a second contact may wait.
 inline constexpr int kFramesPerContact = 3;
+
+/// The whole number that a finger is told: not more than is asked for.
+constexpr std::uint16_t contactRate_hz(const Can& can) {
+  return static_cast<std::uint16_t>(can.contact_rate_hz);
+}
+static_assert(contactRate_hz({.contact_rate_hz = 249.6}) == 249);
 
 /// Of one finger with the bus for itself.
 constexpr int fastestContactRate_hz(const Can& can) {

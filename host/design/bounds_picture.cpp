@@ -65,9 +65,9 @@ plot::Picture boundsPicture(const std::vector<Candidate>& candidates) {
   const auto [least, most] = std::ranges::minmax_element(candidates, {}, &Candidate::radius_m);
   const double least_mm = kMilli * least->radius_m, most_mm = kMilli * most->radius_m;
   const std::string range = fmt::format(
-      "anyFinite = {}; least = {}; most = {}; heading = '{}'\nset cbrange [{}:{}]\n", anyFinite ? 1 : 0,
-      least_mm, most_mm, most_mm > least_mm ? "" : fmt::format("ring of {:.3g} mm", least_mm), least_mm,
-      most_mm > least_mm ? most_mm : least_mm + 1);
+      "anyFinite = {}; least = {}; most = {}; heading = {}\nset cbrange [{}:{}]\n", anyFinite ? 1 : 0,
+      least_mm, most_mm, plot::quoted(most_mm > least_mm ? "" : fmt::format("ring of {:.3g} mm", least_mm)),
+      least_mm, most_mm > least_mm ? most_mm : least_mm + 1);
   return {960, 420, plot::kStyle + range + kBounds, {fingers}};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // What fingers could tell, over the number of their gauges.
 
+#include <array>
 #include <vector>
 
 #include "host/design/assessment.hpp"
@@ -18,5 +19,8 @@ struct Candidate {
 /// Worst bounds of place and normal load, a curve a radius; hollow where there is a problem.
 /// `candidates`: at least one, those of a radius one after the other. Bounds that are infinite are gaps.
 plot::Picture boundsPicture(const std::vector<Candidate>& candidates);
+
+/// The name of its data file.
+inline constexpr std::array kBoundsData{"fingers"};
 
 }  // namespace strainfinger::design

@@ -1,24 +1,38 @@
 #include "host/health/can_links.hpp"
 
-#include <array>
-#include <cstdio>
+#include <fmt/format.h>
+
+#include <charconv>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "host/base/failure.hpp"
+#include "host/system/process.hpp"
 
 namespace strainfinger::health {
 namespace {
 
 using Json = nlohmann::json;
 
+/// Throws where a text is no number.
+double numberIn(const Json& value) {
+  if (value.is_number()) return value.get<double>();
+  const auto& text = value.get_ref<const std::string&>();  // iproute2 6.1 prints fractions so
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size()) throw std::invalid_argument(text);
+  return number;
+}
+
 template <typename Number>
 std::optional<Number> numberAt(const Json& object, const char* key) {
   const auto found = object.find(key);
-  if (found == object.end()) return std::nullopt;
-  if (found->is_number()) return found->get<Number>();
-  // iproute2 6.1 prints fractions as text.
-  if (found->is_string()) return static_cast<Number>(std::stod(found->get<std::string>()));
-  return std::nullopt;
+  if (found == object.end() || !(found->is_number() || found->is_string())) return std::nullopt;
+  const double number = numberIn(*found);
+  using Limits = std::numeric_limits<Number>;
+  if (!(number >= Limits::lowest() && number <= Limits::max())) throw std::out_of_range(key);
+  return static_cast<Number>(number);
 }
 
 CanLink linkOf(const Json& json) {
@@ -38,17 +52,6 @@ CanLink linkOf(const Json& json) {
   return link;
 }
 
-/// What a command prints; nothing where it fails.
-std::optional<std::string> outputOf(const char* command) {
-  std::FILE* const pipe = ::popen(command, "r");
-  if (pipe == nullptr) return std::nullopt;
-  std::string text;
-  std::array<char, 4096> block;
-  while (const std::size_t count = std::fread(block.data(), 1, block.size(), pipe))
-    text.append(block.data(), count);
-  return ::pclose(pipe) == 0 ? std::optional(text) : std::nullopt;
-}
-
 }  // namespace
 
 std::vector<CanLink> parseCanLinks(std::string_view json) try {
@@ -61,13 +64,18 @@ std::vector<CanLink> parseCanLinks(std::string_view json) try {
                 "`ip -details -json link show` prints something unknown: iproute2 5.16 or newer is needed");
 }
 
-std::vector<CanLink> canLinks() {
-  const auto text = outputOf("ip -details -json link show 2>/dev/null");
-  if (!text)
-    throw Failure(ExitCode::kFailure,
-                  "`ip` cannot be run, which lists the CAN interfaces: apt install iproute2, or name the bus "
-                  "with --can");
-  return parseCanLinks(*text);
+namespace {
+
+std::string linksAsIpShowsThem() try {
+  return system::runIn(".", {"ip", "-details", "-json", "link", "show"}, "iproute2");
+} catch (const Failure& failure) {
+  throw Failure(
+      failure.code(),
+      fmt::format("the CAN interfaces cannot be listed, name the bus with --can: {}", failure.what()));
 }
+
+}  // namespace
+
+std::vector<CanLink> canLinks() { return parseCanLinks(linksAsIpShowsThem()); }
 
 }  // namespace strainfinger::health

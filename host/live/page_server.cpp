@@ -145,11 +145,14 @@ class PageServer::Impl {
       const EventHub::Event before = hub_.next(0, 0ms);
       wanted_ = true;
       const EventHub::Event event = hub_.next(before.number, kAnswerWithin);
-      if (event.text)
-        response.set_content(*event.text + "\n", "application/json");
-      else
-        say(response, 503, "The program is ending.");
+      if (event.text) return response.set_content(*event.text + "\n", "application/json");
+      sayWhyNothing(response);
     });
+  }
+
+  void sayWhyNothing(httplib::Response& response) {
+    if (hub_.isClosed()) return say(response, 503, "The program is ending.");
+    say(response, 504, fmt::format("There was no answer within {} s: ask again.", kAnswerWithin / 1s));
   }
 
   void addEvents() {
@@ -201,7 +204,7 @@ class PageServer::Impl {
       return say(response, 404,
                  fmt::format("There is no node {}: they are {} to {}.", node, kFirstNode, kLastNode));
     const auto outcome = tares_.ask(static_cast<std::uint8_t>(node), kAnswerWithin);
-    if (!outcome) return say(response, 503, "The program is ending.");
+    if (!outcome) return sayWhyNothing(response);
     say(response, outcome->isDone ? 200 : 409, outcome->text);
   }
 

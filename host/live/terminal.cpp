@@ -53,25 +53,32 @@ ScreenForm terminalForm() {
   return form;
 }
 
-Terminal::Terminal() : isStyled_(wantsColour()) {
-  ownsKeys_ = !isKeyboard();
-  keys_ = ownsKeys_ ? ::open("/dev/tty", O_RDONLY | O_CLOEXEC) : STDIN_FILENO;
-  if (keys_ >= 0 && tcgetattr(keys_, &before_) == 0) {
-    termios raw = before_;
-    raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
-    raw.c_cc[VMIN] = 0;  // a read never waits
-    raw.c_cc[VTIME] = 0;
-    tcsetattr(keys_, TCSANOW, &raw);
-  }
-  writeOut(kOtherScreen);
+Keyboard::Keyboard()
+    : isOwn_(!isKeyboard()), file_(isOwn_ ? ::open("/dev/tty", O_RDONLY | O_CLOEXEC) : STDIN_FILENO) {
+  if (file_ < 0 || tcgetattr(file_, &before_) != 0) return;
+  termios raw = before_;
+  raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+  raw.c_cc[VMIN] = 0;  // a read never waits
+  raw.c_cc[VTIME] = 0;
+  tcsetattr(file_, TCSANOW, &raw);
 }
+
+Keyboard::~Keyboard() {
+  if (file_ < 0) return;
+  tcsetattr(file_, TCSANOW, &before_);
+  if (isOwn_) ::close(file_);
+}
+
+std::optional<unsigned char> Keyboard::next() const {
+  unsigned char byte = 0;
+  return file_ >= 0 && ::read(file_, &byte, 1) == 1 ? std::optional(byte) : std::nullopt;
+}
+
+Terminal::Terminal() : isStyled_(wantsColour()) { writeOut(kOtherScreen); }
 
 Terminal::~Terminal() {
   std::fputs(kFirstScreen, stdout);
   std::fflush(stdout);
-  if (keys_ < 0) return;
-  tcsetattr(keys_, TCSANOW, &before_);
-  if (ownsKeys_) ::close(keys_);
 }
 
 void Terminal::show(const Canvas& canvas) {
@@ -83,15 +90,11 @@ void Terminal::show(const Canvas& canvas) {
 }
 
 std::optional<unsigned char> Terminal::key() {
-  const auto next = [this] {
-    unsigned char byte = 0;
-    return keys_ >= 0 && ::read(keys_, &byte, 1) == 1 ? std::optional(byte) : std::nullopt;
-  };
-  const auto first = next();
+  const auto first = keyboard_.next();
   if (first != 0x1B) return first;
-  const auto second = next();  // an arrow is ESC [ A
+  const auto second = keyboard_.next();  // an arrow is ESC [ A
   if (second != '[') return first;
-  const auto third = next();
+  const auto third = keyboard_.next();
   return third ? std::optional(static_cast<unsigned char>(0x80 | *third)) : first;
 }
 

@@ -21,10 +21,28 @@ bool isKeyboard();
 /// Size and abilities of the terminal on stdout as they are now.
 ScreenForm terminalForm();
 
-/// While it lives, stdout shows its other screen, without a cursor, and keys come one by one, unechoed;
-/// Ctrl-C is a signal still. What stood there before comes back at the end.
+/// While it lives, keys come one by one, unechoed; Ctrl-C is a signal still.
+class Keyboard {
+ public:
+  Keyboard();
+  ~Keyboard();
+  Keyboard(const Keyboard&) = delete;
+  Keyboard& operator=(const Keyboard&) = delete;
+
+  /// The next byte that was typed, if any. Never blocks.
+  std::optional<unsigned char> next() const;
+
+ private:
+  bool isOwn_;
+  int file_;  ///< stdin, or the terminal itself where stdin is something else; -1: no keys
+  termios before_{};
+};
+
+/// While it lives, stdout shows its other screen, without a cursor, and its keyboard is a Keyboard. What
+/// stood there before comes back at the end.
 class Terminal {
  public:
+  /// Throws Failure(kFailure) when the terminal is gone.
   Terminal();
   ~Terminal();
   Terminal(const Terminal&) = delete;
@@ -38,9 +56,7 @@ class Terminal {
   std::optional<unsigned char> key();
 
  private:
-  int keys_ = -1;  ///< stdin, or the terminal itself where stdin is something else; -1: no keys
-  bool ownsKeys_ = false;
-  termios before_{};
+  Keyboard keyboard_;
   bool isStyled_;
 };
 

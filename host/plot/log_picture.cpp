@@ -24,7 +24,7 @@ set lmargin at screen 0.105; set rmargin at screen 0.985
 set xrange [first:last]; set xtics format ''
 set style fill transparent solid 0.3 noborder
 set tmargin at screen 0.93; set bmargin at screen 0.71
-set label 1 heading at graph 0,1.07 left font ',13'
+set label 1 heading at graph 0,1.07 left noenhanced font ',13'
 set ylabel 'angle'; set yrange [0:360]; set ytics 90 format '%g°'
 plot data('angle') using 1:(gap(3)):(gap(4)) skip 1 with filledcurves linecolor rgb lightBlue title '±σ', \
      '' using 1:(gap(2)) skip 1 with lines linewidth 1.4 linecolor rgb blue title 'contact', \
@@ -213,9 +213,9 @@ Picture logPicture(const LogRecord& record) {
     return isAny ? 1 : 0;
   };
   const int orMore = addIfAny(orMoreData(record)), second = addIfAny(secondData(record));
-  script +=
-      fmt::format("first = {}; last = {}; flags = {}; orMore = {}; second = {}; heading = '{}'\n", first_s,
-                  last_s > first_s ? last_s : first_s + 1, kFlags.size(), orMore, second, record.heading);
+  script += fmt::format("first = {}; last = {}; flags = {}; orMore = {}; second = {}; heading = {}\n",
+                        first_s, last_s > first_s ? last_s : first_s + 1, kFlags.size(), orMore, second,
+                        quoted(record.heading));
   script += withFlagTics(kPanels);
   return {1200, 900, std::move(script), std::move(data)};
 }

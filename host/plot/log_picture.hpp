@@ -1,6 +1,7 @@
 #pragma once
 // The picture of what one finger said over time.
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,9 @@ struct LogRecord {
 /// width that stand for that or more are marked. A gap of more than `kGap_s` and
 /// the end of a touch are gaps in the bands.
 Picture logPicture(const LogRecord& record);
+
+/// The names that its data files can have.
+inline constexpr std::array kLogData{"angle", "force", "width", "flags", "or-more", "second"};
 
 /// In contact a finger speaks every 50 ms at least.
 inline constexpr double kGap_s = 0.2;

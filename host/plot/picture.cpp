@@ -13,7 +13,8 @@
 #include "host/base/failure.hpp"
 #include "host/base/read_file.hpp"
 #include "host/base/table_writer.hpp"
-#include "host/plot/process.hpp"
+#include "host/base/text_output.hpp"
+#include "host/system/process.hpp"
 
 namespace strainfinger::plot {
 namespace {
@@ -36,21 +37,27 @@ void close(File file, const fs::path& path) {
   if (std::fclose(file.release()) != 0) failWriting(path);
 }
 
-void writeText(const fs::path& path, const std::string& text) {
+void write(const fs::path& path, const std::string& text) {
   File file = create(path);
-  std::fputs(text.c_str(), file.get());
+  writeText(file.get(), text);
   close(std::move(file), path);
 }
 
-void writeData(const fs::path& path, const DataFile& data) {
-  File file = create(path);
-  TableWriter table(file.get(), TableFormat::kCsv, data.columns);
-  for (const auto& row : data.rows)
-    if (row.empty())
-      std::fputc('\n', file.get());
-    else
-      table.row({row.begin(), row.end()});
-  close(std::move(file), path);
+std::string csvOf(const DataFile& data) {
+  return textWritten([&](std::FILE* stream) {
+    TableWriter table(stream, TableFormat::kCsv, data.columns);
+    for (const auto& row : data.rows)
+      if (row.empty())
+        writeText(stream, "\n");
+      else
+        table.row({row.begin(), row.end()});
+  });
+}
+
+/// Beside a picture of that stem.
+std::string scriptName(const std::string& stem) { return stem + ".gp"; }
+std::string dataName(const std::string& stem, const std::string& name) {
+  return fmt::format("{}-{}.csv", stem, name);
 }
 
 /// A folder inside another one, in which files are made whole before they appear there. Gone with what is
@@ -98,13 +105,13 @@ void replaceAll(std::string& text, const std::string& old, const std::string& wi
     text.replace(at, old.size(), with);
 }
 
-/// As gnuplot reads it.
-std::string quoted(std::string text) {
-  replaceAll(text, "'", "''");
-  return fmt::format("'{}'", text);
-}
-
 }  // namespace
+
+std::string quoted(const std::string& text) {
+  std::string inside = text;
+  replaceAll(inside, "'", "''");
+  return fmt::format("'{}'", inside);
+}
 
 std::string completeScript(const Picture& picture, const std::string& stem, const std::string& ending) {
   return fmt::format(
@@ -116,15 +123,14 @@ std::string completeScript(const Picture& picture, const std::string& stem, cons
 namespace {
 
 void runGnuplot(const fs::path& folder, const std::string& argument) {
-  runIn(folder.string(), {"gnuplot", argument}, "gnuplot-nox");
+  system::runIn(folder.string(), {"gnuplot", argument}, "gnuplot-nox");
 }
 
 void drawIn(const Workshop& workshop, const Picture& picture, const std::string& stem,
             const std::string& ending) {
-  writeText(workshop.path() / (stem + ".gp"), completeScript(picture, stem, ending));
-  for (const DataFile& data : picture.data)
-    writeData(workshop.path() / fmt::format("{}-{}.csv", stem, data.name), data);
-  runGnuplot(workshop.path(), stem + ".gp");
+  write(workshop.path() / scriptName(stem), completeScript(picture, stem, ending));
+  for (const DataFile& data : picture.data) write(workshop.path() / dataName(stem, data.name), csvOf(data));
+  runGnuplot(workshop.path(), scriptName(stem));
 }
 
 }  // namespace
@@ -142,6 +148,14 @@ void draw(const Picture& picture, const std::string& path) {
   const Workshop workshop(file.has_parent_path() ? file.parent_path() : fs::path("."));
   drawIn(workshop, picture, file.stem().string(), file.extension().string());
   workshop.deliver();
+}
+
+std::vector<std::string> filesBeside(const std::string& path, std::span<const char* const> dataNames) {
+  const fs::path file(path);
+  const auto beside = [&](const std::string& name) { return (file.parent_path() / name).string(); };
+  std::vector<std::string> files{beside(scriptName(file.stem().string()))};
+  for (const char* const name : dataNames) files.push_back(beside(dataName(file.stem().string(), name)));
+  return files;
 }
 
 std::string svgElement(const Picture& picture, const std::string& name) {

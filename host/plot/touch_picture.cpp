@@ -166,11 +166,11 @@ std::string profileText(const TouchRecord& record) {
   const double contact_deg =
       std::isnan(record.truthThen.angle_deg) ? -1 : withinATurn_deg(record.truthThen.angle_deg);
   return fmt::format(
-      "heading = 'What {} gauges see at {:.2f} s'\ncontact = {}\n"
+      "heading = {}\ncontact = {}\n"
       "set label 1 \"truth: {}\\nestimate: {}\" at graph {},0.09 {} textcolor '#333333' font ',10'\n",
-      record.readings.size(), record.moment_s, contact_deg, contactText(record.truthThen),
-      contactText(record.estimateThen), contact_deg < 180 ? 0.99 : 0.02,
-      contact_deg < 180 ? "right" : "left");
+      quoted(fmt::format("What {} gauges see at {:.2f} s", record.readings.size(), record.moment_s)),
+      contact_deg, contactText(record.truthThen), contactText(record.estimateThen),
+      contact_deg < 180 ? 0.99 : 0.02, contact_deg < 180 ? "right" : "left");
 }
 
 std::string trackText(const TouchRecord& record) {

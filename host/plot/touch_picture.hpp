@@ -1,6 +1,7 @@
 #pragma once
 // The picture of a touched finger: what the gauges saw at one moment, and where the contact went.
 
+#include <array>
 #include <vector>
 
 #include "host/base/no_value.hpp"
@@ -49,5 +50,8 @@ struct TouchRecord {
 /// Left: the strain around the ring at `moment_s`: true, read, fitted, and the residuals of the fit. Right:
 /// angle, its error and the loads over time, true and estimated. Angles may be in any revolution.
 Picture touchPicture(const TouchRecord& record);
+
+/// The names of its data files.
+inline constexpr std::array kTouchData{"profile", "readings", "track"};
 
 }  // namespace strainfinger::plot

@@ -7,6 +7,7 @@
 
 #include "host/base/angles.hpp"
 #include "host/calibration/expected_error.hpp"
+#include "host/calibration/joint_fit.hpp"
 #include "host/model/pressure_profile.hpp"
 #include "host/session/coverage.hpp"
 
@@ -30,8 +31,7 @@ class Prospect {
       : result_(result),
         drawing_(result.drawing()),
         ring_(drawing_, result.deviations(), RingResponse::lastHarmonic(drawing_)),
-        information_(
-            result.covariance().llt().solve(MatrixXd::Identity(drawing_.unknowns(), drawing_.unknowns()))) {}
+        information_(calibration::inverseOf(result.covariance())) {}
 
   const RingResponse& ring() const { return ring_; }
 
@@ -61,9 +61,7 @@ class Prospect {
     return sum / static_cast<double>(kHandLoads_n_per_m.size() * kHandLeans.size());
   }
 
-  MatrixXd covarianceWith(const MatrixXd& more) const {
-    return (information_ + more).llt().solve(MatrixXd::Identity(drawing_.unknowns(), drawing_.unknowns()));
-  }
+  MatrixXd covarianceWith(const MatrixXd& more) const { return calibration::inverseOf(information_ + more); }
 
  private:
   const CalibrationResult& result_;

@@ -11,8 +11,9 @@ FitOutcome fitRows(const config::FingerConfig& config, const Rows& rows,
                    const calibration::KnownErrors& errors) {
   FitOutcome outcome{.rows = rows.size()};
   try {
-    outcome.result = calibration::calibrate(config, rows.known, rows.matrix(), errors);
-    outcome.assessment = assess(*outcome.result, errors);
+    auto result = calibration::calibrate(config, rows.known, rows.matrix(), errors);
+    outcome.assessment = assess(result, errors);
+    outcome.result = std::move(result);
   } catch (const Failure& failure) {
     outcome.complaint = failure.what();
   }

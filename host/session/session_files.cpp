@@ -20,6 +20,7 @@
 #include "host/base/no_value.hpp"
 #include "host/base/read_file.hpp"
 #include "host/base/strain_rows.hpp"
+#include "host/base/write_all.hpp"
 #include "host/calibration/complaints.hpp"
 #include "host/config/keys.hpp"
 #include "host/config/read_config.hpp"
@@ -175,18 +176,10 @@ void SessionFiles::readRows() {
     cannot(strains_.path, "write");
   if (::ftruncate(touches_.descriptor, static_cast<off_t>(touches.size())) != 0)
     cannot(touches_.path, "write");
-  if (strains.empty()) append(strains_, strainsHeader(gauges) + "\n");
-  if (touches.empty()) append(touches_, std::string(kTouchHeader) + "\n");
-  for (std::size_t i = 0; i < unpaired; ++i) append(touches_, kNothingIsKnown);
+  if (strains.empty()) appendLines(strains_.descriptor, strains_.path, strainsHeader(gauges) + "\n");
+  if (touches.empty()) appendLines(touches_.descriptor, touches_.path, std::string(kTouchHeader) + "\n");
+  for (std::size_t i = 0; i < unpaired; ++i) appendLines(touches_.descriptor, touches_.path, kNothingIsKnown);
   hasRows_ = rows_.size() > 0;
-}
-
-void SessionFiles::append(const File& file, const std::string& line) {
-  for (std::size_t done = 0; done < line.size();) {
-    const ssize_t count = ::write(file.descriptor, line.data() + done, line.size() - done);
-    if (count < 0 && errno != EINTR) cannot(file.path, "write");
-    if (count > 0) done += static_cast<std::size_t>(count);
-  }
 }
 
 std::string SessionFiles::named(std::string message) const {
@@ -198,8 +191,9 @@ std::string SessionFiles::named(std::string message) const {
 void SessionFiles::add(double time_s, const Eigen::VectorXd& strains, const calibration::KnownTouch& known) {
   if (!hasRows_) writeFileAtomically(configPath_, config::writeConfig(config_));
   hasRows_ = true;
-  append(strains_, fmt::format("{:.6f},{}\n", time_s, fmt::join(strains.begin(), strains.end(), ",")));
-  append(touches_, touchLine(known));
+  appendLines(strains_.descriptor, strains_.path,
+              fmt::format("{:.6f},{}\n", time_s, fmt::join(strains.begin(), strains.end(), ",")));
+  appendLines(touches_.descriptor, touches_.path, touchLine(known));
 }
 
 void SessionFiles::rewriteTouches(const std::vector<calibration::KnownTouch>& known) {

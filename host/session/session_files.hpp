@@ -48,7 +48,6 @@ class SessionFiles {
   void close() const;
   void readRows();
   void requireSameFinger() const;
-  static void append(const File& file, const std::string& line);
 
   config::FingerConfig config_;
   std::string configPath_;

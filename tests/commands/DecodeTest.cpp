@@ -155,6 +155,14 @@ TEST(Decode, RefusesFilesThatAreNotThereBeforeItPrints) {
   checkSays("/nonexistent: cannot read: No such file or directory", run);
 }
 
+TEST(Decode, ReadsAPipeThatHasAName) {
+  const Run run = runShell(
+      "cd $(mktemp -d); mkfifo a; echo '(1.000000) can1 185#E8032201808161A3' >a &\n"
+      "timeout -s KILL 10 \"$STRAINFINGER\" decode a; status=$?; rm a; exit $status");
+  LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS("can1,5,CONTACT", run.out.c_str());
+}
+
 TEST(Decode, AnUnreadableStdinIsAFailure) {
   for (const char* stdin : {"</", "<&-"}) {
     const Run run = runProgram(std::string("decode ") + stdin);

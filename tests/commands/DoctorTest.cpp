@@ -99,7 +99,12 @@ TEST(DoctorCommand, WithoutIpItGoesOn) {
   STRCMP_CONTAINS("error    this machine: ", nowhere.out.c_str());
   const Run none = runShell("PATH=/nowhere \"$STRAINFINGER\" doctor");
   LONGS_EQUAL(1, none.status);
-  STRCMP_CONTAINS("apt install iproute2, or name the bus with --can", none.out.c_str());
+  STRCMP_CONTAINS("name the bus with --can: ip is not installed: apt install iproute2", none.out.c_str());
+  const Run failed = runShell(interfacesAre("") +
+                              "printf '#!/bin/sh\\necho no netlink >&2; exit 2' >$tools/ip\n"
+                              "\"$STRAINFINGER\" doctor");
+  LONGS_EQUAL(1, failed.status);
+  STRCMP_CONTAINS("ip -details -json link show failed:\nno netlink\n", failed.out.c_str());
 }
 
 TEST(DoctorCommand, IsInterrupted) {

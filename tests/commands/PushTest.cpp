@@ -56,6 +56,19 @@ TEST(PushCommand, ATouchedFingerRefuses) {
   STRCMP_CONTAINS("load: Refused: something touches the finger", run.err.c_str());
 }
 
+TEST(PushCommand, ATerminalThatIsClosedMeanwhileDoesntEndIt) {
+  const Run run = withUntouchedFinger(R"(
+/usr/bin/python3 -c '
+import os, pty, subprocess, sys
+ours, its = pty.openpty()
+push = subprocess.Popen(sys.argv[1:], stderr=its)
+os.close(its)
+os.read(ours, 1)  # of how far it is
+os.close(ours)
+sys.exit(push.wait() % 256)' "$STRAINFINGER" push --can $BUS -c $other >/dev/null)");
+  LONGS_EQUAL(0, run.status);
+}
+
 TEST(PushCommand, InterruptedItLeavesAFingerThatWaitsForTables) {
   const Run run = withUntouchedFinger(R"(
 "$STRAINFINGER" push --can $BUS & interrupt $!; wait $!; echo "$?"

@@ -126,6 +126,22 @@ TEST(Record, ReplayKeepsTheTimesOfTheLog) {
   STRCMP_EQUAL("1\n", run.out.c_str());
 }
 
+// From before a clock was set: at this speed 540 years, which is none that a clock can tell.
+TEST(Record, ReplayWaitsForWhatIsFarAway) {
+  const Run run =
+      inFolder("\"$STRAINFINGER\" replay in --can $bus --speed 0.1 & interrupt $!; wait $!",
+               "(0.000000) can0 181#0000000000000054\n(1700000000.000000) can0 181#0000000000000055\n");
+  LONGS_EQUAL(130, run.status);
+  checkSays("replay: 1 of 2 frames sent", run);
+}
+
+TEST(Record, ReplayOfManyInterfacesNamesSome) {
+  std::string log;
+  for (int i = 0; i < 1000; ++i) log += "(1.000000) can" + std::to_string(i) + " 181#0000000000000055\n";
+  const Run run = inFolder("replay in", log);
+  checkSays("(can0, can1, can10, can100, can101 and 995 more)", run);
+}
+
 TEST(Record, ReplayLeavesOutWhatFingersDontSend) {
   const Run run = inFolder("replay in",
                            "(1.000000) can0 12345678#11\n(1.000000) can0 181#R8\n(1.000000) can0 123#11\n\n"

@@ -71,6 +71,27 @@ TEST(AtomicFile, IsReadableAsOrdinaryFilesAre) {
   LONGS_EQUAL(0644, status.st_mode & 0777);
 }
 
+TEST(AtomicFile, StaysReadableToTheSameOnlyWhenItIsReplaced) {
+  for (const mode_t mode : {0600U, 0664U}) {
+    writeFileAtomically(folder_ / "file", "old");
+    LONGS_EQUAL(0, chmod((folder_ / "file").c_str(), mode));
+    writeFileAtomically(folder_ / "file", "new");
+    STRCMP_EQUAL("new", content("file").c_str());
+    struct stat status {};
+    LONGS_EQUAL(0, stat((folder_ / "file").c_str(), &status));
+    LONGS_EQUAL(mode, status.st_mode & 0777);
+  }
+}
+
+// A program that was killed may have left such a file.
+TEST(AtomicFile, WhatStandsWhereItIsMadeStays) {
+  const std::string name = "file." + std::to_string(getpid()) + "-0";
+  std::ofstream(folder_ / name) << "other";
+  writeFileAtomically(folder_ / "file", "new");
+  STRCMP_EQUAL("new", content("file").c_str());
+  STRCMP_EQUAL("other", content(name.c_str()).c_str());
+}
+
 TEST(AtomicFile, AFailureNamesThePathAndTheReason) {
   checkFailure(folder_ / "nowhere" / "file", "nowhere/file: No such file or directory");
 }

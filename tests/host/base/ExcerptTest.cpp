@@ -23,6 +23,12 @@ TEST(Excerpt, NoCharacterIsCut) {
                excerpt(std::string(58, 'a') + "\u00e4\u00e4").c_str());
 }
 
+TEST(Excerpt, OfNamesTheFirstAreSaid) {
+  STRCMP_EQUAL("a, b", excerptNames({"a", "b"}).c_str());
+  STRCMP_EQUAL(("a, " + std::string(60, 'b') + ".., c, d, e and 2 more").c_str(),
+               excerptNames({"a", std::string(5000, 'b'), "c", "d", "e", "f", "g"}).c_str());
+}
+
 TEST(Excerpt, OfAMessageEachWordIsCut) {
   STRCMP_EQUAL("", excerptWords("").c_str());
   STRCMP_EQUAL(("--node: " + std::string(60, 'a') + ".. is\nno number\n").c_str(),

@@ -113,6 +113,9 @@ TEST(LineReader, AQuietPipeIsWaitedForNoLongerThanAsked) {
 TEST(LineReader, SaysWhatCannotBeRead) {
   checkFails("/nonexistent", "/nonexistent: cannot read: No such file or directory");
   checkFails("/", "/: cannot read: Is a directory");
+  CHECK_THROWS(Failure, LineReader::requireReadable("/nonexistent"));
+  LineReader::requireReadable("/");
+  LineReader::requireReadable("-");
 }
 
 TEST(LineReader, CallsStdinByItsName) { STRCMP_EQUAL("stdin", LineReader("-").name().c_str()); }

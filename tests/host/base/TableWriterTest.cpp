@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 
 #include "host/base/failure.hpp"
@@ -38,6 +39,14 @@ TEST(TableWriter, CsvRowsHoldNumbersAndText) {
   TableWriter table(stream, TableFormat::kCsv, {"n", "x", "name"});
   table.row({std::int64_t{-7}, 0.5, "hoop"});
   checkWritten("n,x,name\n-7,0.5,hoop\n");
+}
+
+TEST(TableWriter, ARowHasACellForEachColumn) {
+  for (const TableFormat format : {TableFormat::kCsv, TableFormat::kJson}) {
+    TableWriter table(stream, format, {"a", "b"});
+    CHECK_THROWS(std::logic_error, table.row({1.0}));
+    CHECK_THROWS(std::logic_error, table.row({1.0, 2.0, 3.0}));
+  }
 }
 
 TEST(TableWriter, AListIsOneFieldOrAnArray) {

@@ -40,3 +40,10 @@ TEST(TextOutput, AFullDiskIsAFailure) {
   output.text() += "text";
   CHECK_THROWS(Failure, output.flush());
 }
+
+TEST(TextOutput, WhatIsWrittenToAStreamIsHadAsText) {
+  const std::string text =
+      textWritten([](std::FILE* stream) { writeText(stream, std::string(10'000, 'x')); });
+  CHECK(text == std::string(10'000, 'x'));
+  CHECK_THROWS(int, textWritten([](std::FILE*) { throw 1; }));
+}

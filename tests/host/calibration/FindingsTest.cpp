@@ -27,6 +27,13 @@ TEST_GROUP(Findings) {
   }
 };
 
+TEST(Findings, ThatAFitWasStoppedIsSaid) {
+  const std::string stopped = "The fit was stopped before it had settled";
+  CHECK_TRUE(textReport(result()).find(stopped) == std::string::npos);
+  const CalibrationResult early{drawing, deviations, covariance, rows, {0, 0}, isLoadKnown, {}, false};
+  STRCMP_CONTAINS(stopped.c_str(), textReport(early).c_str());
+}
+
 TEST(Findings, OnlyStrongCorrelationsAreWorthKnowing) {
   LONGS_EQUAL(0, correlationsWorthKnowing(result()).size());
   const Eigen::Index core = drawing.at(kCoreRadius), poisson = drawing.at(kPoissonRatio);

@@ -212,7 +212,8 @@ TEST(UdpPort, WaitingEndsWithoutAFrame) {
 }
 
 TEST(UdpPort, ANameThatIsNoneIsRefused) {
-  for (const std::string name : {"udp:", "udp:x", "udp:80", "udp:65536", "udp:29536x", "udp:-1"})
+  for (const std::string name :
+       {"udp:", "udp:x", "udp:80", "udp:65536", "udp:29536x", "udp:-1", "", "ud", "xyz:2000"})
     refused(name, ExitCode::kUsage, (name + " is no bus: udp, or udp:PORT").c_str());
   CHECK_TRUE(can::isUdpName("udp") && can::isUdpName("udp:1"));
   CHECK_FALSE(can::isUdpName("udp0") || can::isUdpName("can0") || can::isUdpName(""));

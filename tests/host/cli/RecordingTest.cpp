@@ -76,6 +76,12 @@ TEST(Recording, CountsWhatWasMissedWhileItWent) {
   LONGS_EQUAL(2, recording.progress().missed);
 }
 
+TEST(Recording, WithoutItsNotesNoLogIsLeftToBeInTheWay) {
+  const std::string longest(250, 'x');  // with .toml the longest name that there can be, and none beside it
+  checkRefused(longest, ExitCode::kFailure, "File name too long");
+  CHECK_TRUE(std::remove(longest.c_str()) != 0);
+}
+
 TEST(Recording, FilesThatAreThereAreLeftAlone) {
   std::ofstream(log_) << "mine";
   checkRefused(log_, ExitCode::kFailure, "File exists");

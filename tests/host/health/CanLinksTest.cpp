@@ -64,9 +64,12 @@ TEST(CanLinks, FractionsMayBeNumbersAndBitRatesFixed) {
 
 TEST(CanLinks, WhatIsNoSuchListIsToldApart) {
   // The first is what iproute2 before 5.16 does.
-  for (const char* text :
-       {R"([{"ifname":"can0","flags":[],"link_type":"can","linkinfo":{state ERROR-ACTIVE }}])", "", "{}x",
-        R"([{"link_type":"can"}])", R"(["can0"])"})
+  for (
+      const char* text :
+      {R"([{"ifname":"can0","flags":[],"link_type":"can","linkinfo":{state ERROR-ACTIVE }}])", "", "{}x",
+       R"([{"link_type":"can"}])", R"(["can0"])",
+       R"([{"ifname":"can0","flags":[],"link_type":"can","linkinfo":{"info_data":{"restart_ms":1e10}}}])",
+       R"([{"ifname":"can0","flags":[],"link_type":"can","linkinfo":{"info_data":{"bittiming":{"sample_point":"0.8x"}}}}])"})
     try {
       parseCanLinks(text);
       FAIL(text);

@@ -1,9 +1,12 @@
 #include "host/plot/log_picture.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "host/base/read_file.hpp"
 #include "tests/host/plot/TemporaryFolder.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -134,4 +137,22 @@ TEST(LogPicture, CanBeDrawn) {
   const TemporaryFolder folder;
   draw(logPicture({"heading", {point_}}), folder.file("one.svg"));
   draw(logPicture({"heading", {point_, pointAt(2, 30)}}), folder.file("two.png"));
+}
+
+// The heading has an interface's name, which a log can have from anywhere.
+TEST(LogPicture, WhatStandsInAHeadingIsDrawnAndNotRun) {
+  const TemporaryFolder folder;
+  const std::string run = folder.file("run");
+  draw(logPicture({"can_0';system('touch " + run + "');x='", {point_}}), folder.file("a.svg"));
+  CHECK_FALSE(std::filesystem::exists(run));
+  STRCMP_CONTAINS("can_0';system(", readFile(folder.file("a.svg"), ExitCode::kFailure).c_str());
+}
+
+TEST(LogPicture, AllItsDataFilesAreNamed) {
+  point_.touch.sigmaNormal_n = 0.127;
+  point_.touch.second = can::ContactReport{.angle_deg = 200, .normal_n = 0.25, .tangential_n = -0.125};
+  const Picture picture = logPicture({"heading", {point_}});
+  LONGS_EQUAL(kLogData.size(), picture.data.size());
+  for (const DataFile& file : picture.data)
+    CHECK_TRUE(std::find(kLogData.begin(), kLogData.end(), file.name) != kLogData.end());
 }

@@ -1,5 +1,6 @@
 #include "host/plot/picture.hpp"
 
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -68,6 +69,14 @@ TEST(Picture, DataAndScriptStayBesideThePicture) {
   draw(picture, folder.file("a.svg"));
   STRCMP_EQUAL("x,y\n0,1\n1,\n2,0.10000000000000001\n", contentOf("a-curve.csv").c_str());
   STRCMP_EQUAL(completeScript(picture, "a", ".svg").c_str(), contentOf("a.gp").c_str());
+}
+
+TEST(Picture, WhatIsWrittenBesideItIsKnownBefore) {
+  draw(picture, folder.file("a.svg"));
+  for (const std::string& file : filesBeside(folder.file("a.svg"), std::array{"curve"}))
+    CHECK_TRUE(std::filesystem::remove(file));
+  CHECK_TRUE(std::filesystem::remove(folder.file("a.svg")));
+  CHECK_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(Picture, OtherEndingsAreAUsageErrorAndLeaveNothingBehind) {

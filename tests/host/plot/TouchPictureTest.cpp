@@ -41,6 +41,13 @@ TEST(TouchPicture, ProfileAndReadingsAreInThousandthsAndMillionths) {
   checkRow({10, 1.5, 100, 6}, file(picture, "readings").rows.at(0));
 }
 
+TEST(TouchPicture, AllItsDataFilesAreNamed) {
+  const Picture picture = touchPicture(slide());
+  LONGS_EQUAL(kTouchData.size(), picture.data.size());
+  for (std::size_t i = 0; i < kTouchData.size(); ++i)
+    STRCMP_EQUAL(kTouchData[i], picture.data[i].name.c_str());
+}
+
 TEST(TouchPicture, TheTrackHasErrorAndSigmaAsArcsInMillimetres) {
   const double mmPerDeg = std::numbers::pi / 180 * 10;
   auto row = file(touchPicture(slide()), "track").rows.at(0);

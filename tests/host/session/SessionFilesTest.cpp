@@ -9,6 +9,7 @@
 #include "host/base/failure.hpp"
 #include "host/config/read_config.hpp"
 #include "host/config/write_config.hpp"
+#include "tests/host/base/smallest_disk.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -62,6 +63,17 @@ TEST_GROUP(SessionFiles) {
     FAIL("not refused");
   }
 };
+
+TEST(SessionFiles, NoHalfRowStaysOnAFullDisk) {
+  addTwo();
+  {
+    SessionFiles files(config_, finger_);
+    const SmallestDisk disk(std::filesystem::file_size(strains_) + 10);
+    CHECK_THROWS(Failure, files.add(3.5, strains(0.5, 0, 0), {}));
+  }
+  STRCMP_EQUAL("\n", contentOf(strains_).substr(contentOf(strains_).size() - 1).c_str());
+  LONGS_EQUAL(2, SessionFiles(config_, finger_).rows().size());
+}
 
 TEST(SessionFiles, AreWhatCalibrateReads) {
   addTwo();

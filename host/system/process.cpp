@@ -1,31 +1,51 @@
-#include "host/plot/process.hpp"
+#include "host/system/process.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "host/base/failure.hpp"
 
-namespace strainfinger::plot {
+namespace strainfinger::system {
 namespace {
 
 [[noreturn]] void fail(const std::string& message) { throw Failure(ExitCode::kFailure, message); }
 
-/// What becomes of the child's files: stderr to `errors`, stdin empty, stdout (ours may be data) to stderr
-/// too.
+/// A descriptor, closed at the end.
+class Descriptor {
+ public:
+  Descriptor(int number, const char* what) : number_(number) {
+    if (number < 0) fail(fmt::format("cannot make {}: {}", what, std::strerror(errno)));
+  }
+  ~Descriptor() { close(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  int number() const { return number_; }
+  void close() {
+    if (number_ >= 0) ::close(std::exchange(number_, -1));
+  }
+
+ private:
+  int number_;
+};
+
+/// What becomes of the child's files; its stdin is empty.
 class Redirections {
  public:
-  Redirections(const std::string& folder, int errors) {
+  Redirections(const std::string& folder, int output, int errors) {
     posix_spawn_file_actions_init(&actions_);
     posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str());
     posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions_, errors, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions_, errors, STDERR_FILENO);
   }
   ~Redirections() { posix_spawn_file_actions_destroy(&actions_); }
@@ -44,17 +64,15 @@ std::vector<char*> argumentsOf(const std::vector<std::string>& command) {
   return arguments;
 }
 
-/// Everything up to the end of the pipe, which is closed then.
-std::string drain(int pipe) {
+/// Everything up to the end of a pipe or a file.
+std::string drain(int file) {
   std::string text;
   std::array<char, 4096> block;
   for (;;) {
-    const ssize_t count = ::read(pipe, block.data(), block.size());
+    const ssize_t count = ::read(file, block.data(), block.size());
     if (count > 0) text.append(block.data(), static_cast<std::size_t>(count));
-    if (count == 0 || (count < 0 && errno != EINTR)) break;
+    if (count == 0 || (count < 0 && errno != EINTR)) return text;
   }
-  ::close(pipe);
-  return text;
 }
 
 int waitFor(pid_t child) {
@@ -65,18 +83,24 @@ int waitFor(pid_t child) {
 
 }  // namespace
 
-void runIn(const std::string& folder, const std::vector<std::string>& command, const std::string& package) {
-  std::array<int, 2> pipe{};
-  if (::pipe2(pipe.data(), O_CLOEXEC) != 0) fail(fmt::format("cannot make a pipe: {}", std::strerror(errno)));
+std::string runIn(const std::string& folder, const std::vector<std::string>& command,
+                  const std::string& package) {
+  std::array<int, 2> pipe{-1, -1};
+  static_cast<void>(::pipe2(pipe.data(), O_CLOEXEC));
+  Descriptor ours(pipe[0], "a pipe"), its(pipe[1], "a pipe");
+  // In memory: two pipes would have to be read by turns.
+  const Descriptor errors(::memfd_create("stderr", MFD_CLOEXEC), "a file in memory");
   pid_t child = 0;
-  const Redirections files(folder, pipe[1]);
+  const Redirections files(folder, its.number(), errors.number());
   const int error =
       ::posix_spawnp(&child, command[0].c_str(), files.get(), nullptr, argumentsOf(command).data(), environ);
-  ::close(pipe[1]);
-  const std::string complaint = drain(pipe[0]);
+  its.close();
   if (error == ENOENT) fail(fmt::format("{} is not installed: apt install {}", command[0], package));
   if (error != 0) fail(fmt::format("cannot start {}: {}", command[0], std::strerror(error)));
-  if (waitFor(child) != 0) fail(fmt::format("{} failed:\n{}", fmt::join(command, " "), complaint));
+  std::string output = drain(ours.number());
+  if (waitFor(child) == 0) return output;
+  ::lseek(errors.number(), 0, SEEK_SET);
+  fail(fmt::format("{} failed:\n{}", fmt::join(command, " "), drain(errors.number())));
 }
 
-}  // namespace strainfinger::plot
+}  // namespace strainfinger::system

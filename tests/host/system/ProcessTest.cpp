@@ -1,4 +1,4 @@
-#include "host/plot/process.hpp"
+#include "host/system/process.hpp"
 
 #include <cstdlib>
 #include <filesystem>
@@ -10,10 +10,10 @@
 #include <CppUTest/TestHarness.h>
 
 using namespace strainfinger;
-using namespace strainfinger::plot;
+using namespace strainfinger::system;
 
 TEST_GROUP(Process) {
-  const TemporaryFolder folder;
+  const plot::TemporaryFolder folder;
   const std::string searchPath = std::getenv("PATH");
 
   void teardown() override { setenv("PATH", searchPath.c_str(), 1); }
@@ -38,6 +38,10 @@ TEST(Process, AProgramThatIsNotInstalledIsNamedWithItsPackage) {
   STRCMP_EQUAL("touch is not installed: apt install the-package", complaintOf({"touch", "x"}).c_str());
 }
 
+TEST(Process, WhatItWritesIsReturned) {
+  STRCMP_EQUAL("said\n", runIn(".", {"sh", "-c", "echo aside >&2; echo said"}, "the-package").c_str());
+}
+
 TEST(Process, AFailureCarriesWhatTheProgramSaid) {
   STRCMP_EQUAL("sh -c echo bad >&2; exit 3 failed:\nbad\n",
                complaintOf({"sh", "-c", "echo bad >&2; exit 3"}).c_str());
@@ -48,5 +52,6 @@ TEST(Process, AProgramThatIsKilledHasFailed) {
 }
 
 TEST(Process, OutputLongerThanAPipeDoesNotBlockIt) {
-  STRCMP_EQUAL("done", complaintOf({"sh", "-c", "head -c 1000000 /dev/zero"}).c_str());
+  STRCMP_EQUAL("done",
+               complaintOf({"sh", "-c", "head -c 1000000 /dev/zero; head -c 1000000 /dev/zero >&2"}).c_str());
 }

@@ -247,8 +247,7 @@ void requireTold(const CalibrationResult& result) {
   if (untold.empty()) return;
   fail(
       fmt::format("the touches don't tell where these gauges are: {}; {}. Where there are such touches, look "
-                  "at the order "
-                  "in which these gauges are connected",
+                  "at the order in which these gauges are connected",
                   placesOf(result.drawing().config().gauges, untold), kTouchesToAdd));
 }
 

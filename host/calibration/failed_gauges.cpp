@@ -81,8 +81,7 @@ std::string textOf(const FailedGauge& failed) {
   if (failed.kind == How::kAtEnd)
     return fmt::format(
         "{}, the end of its range, in {} rows: look at its bridge and its amplifier, and for an open wire; "
-        "where "
-        "it was pressed in all of them, press less",
+        "where it was pressed in all of them, press less",
         reads, failed.rows);
   return fmt::format("{} in all {} rows{}: it is dead or not connected: look for an open wire or joint",
                      reads, failed.rows, failed.kind == How::kNoise ? ", but for noise" : "");

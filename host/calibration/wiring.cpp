@@ -355,8 +355,7 @@ std::string textOf(const WiringFault& fault) {
     case Kind::kZeroOff:
       return fmt::format(
           "gauge {} reads {:.4g} microstrain where nothing touches the finger: its zero is off: tare, and "
-          "touch "
-          "the finger anew",
+          "touch the finger anew",
           fault.gauge, 1e6 * fault.zero_strain);
     case Kind::kShifted:
       return fmt::format(

@@ -20,8 +20,7 @@ std::string_view remedyFor(FingerFault fault) {
              "tables";
     case FingerFault::kGauges:
       return "`strainfinger info --can BUS -n N` names those out of use: check their wires and amplifiers, "
-             "then "
-             "`strainfinger tare --can BUS -n N` gives each another chance";
+             "then `strainfinger tare --can BUS -n N` gives each another chance";
     case FingerFault::kConverter:
       return "check the converter's supply, reference and wiring, then switch the finger off and on";
     case FingerFault::kCan:
@@ -57,8 +56,7 @@ std::string_view remedyFor(FingerFlag flag) {
              "`strainfinger push --can BUS -n N -c` the config that says so";
     case FingerFlag::kDegraded:
       return "`strainfinger info --can BUS -n N` names gauges that are out of use; one that an answer left "
-             "out "
-             "for the moment counts again when it fits";
+             "out for the moment counts again when it fits";
     case FingerFlag::kUncertain:
       return "wait while a search goes on (mostly 0.2 s or less), or press more firmly: very light touches "
              "stay uncertain. Alternative in CONTACT may name another angle; chi in PATCH well above 1 "
@@ -144,8 +142,7 @@ std::string_view remedyFor(CommandStatus status) {
       return "";
     case CommandStatus::kTouched:
       return "let go of it; if nothing touches it, its old zero is off: `strainfinger tare --can BUS -n N "
-             "--force` "
-             "takes a new one; other commands have --force, too";
+             "--force` takes a new one; other commands have --force, too";
     case CommandStatus::kBusy:
       return "try again in a second; `strainfinger monitor --can BUS` shows what it does; in state fault it "
              "needs tables first: `strainfinger push --can BUS -n N -c FINGER.toml`";
@@ -158,8 +155,7 @@ std::string_view remedyFor(CommandStatus status) {
       return "ask for less, or use a bus with a higher bit rate";
     case CommandStatus::kOutOfTurn:
       return "one program at a time sends a finger tables; `strainfinger push --can BUS -n N -c FINGER.toml` "
-             "begins "
-             "with their first word";
+             "begins with their first word";
     case CommandStatus::kUnknownCommand:
     case CommandStatus::kBadArgument:
       break;

@@ -22,8 +22,7 @@ std::string_view remedyFor(CommandStatus status);  ///< of a request that was no
 inline constexpr std::string_view kTwinText = "two fingers have this node number";
 inline constexpr std::string_view kTwinRemedy =
     "take one off the bus; `strainfinger config --can BUS -n N --set-node NODE` makes the other another "
-    "node, "
-    "from its next start on";
+    "node, from its next start on";
 
 /// Of a finger whose HEARTBEAT has another protocol version: its other frames mean something else.
 std::string foreignText(std::uint8_t protocol);

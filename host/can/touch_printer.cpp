@@ -12,8 +12,7 @@ namespace {
 
 constexpr std::string_view kTouchColumns =
     ",angle_deg,normal_n,tangential_n,width_m,sigma_angle_deg,sigma_normal_n,sigma_tangential_n,sigma_width_"
-    "m,"
-    "quality_percent,chi,flags,sequence,angle2_deg,normal2_n,tangential2_n\n";
+    "m,quality_percent,chi,flags,sequence,angle2_deg,normal2_n,tangential2_n\n";
 
 constexpr FieldSpec kTouchFlags{
     {.lsb = 0, .width = 8},

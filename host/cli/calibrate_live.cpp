@@ -1,7 +1,6 @@
 #include "host/cli/calibrate_live.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cstdio>

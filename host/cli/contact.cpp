@@ -150,8 +150,7 @@ void tellErrors(const model::Annulus<double>& annulus, contact::ContactRequest r
   if (exact.residual_m > 1e-6 * std::abs(exact.depth_m))
     warn("contact",
          "no contact of this indenter is centred on its normal, where --method paper holds it; --method "
-         "spectral "
-         "moves it to where it fits");
+         "spectral moves it to where it fits");
   if (!(found.depth_m > 0 && found.normal_n_per_m > 0))
     warn("contact",
          fmt::format("depth {:.2g} m, load {:.2g} N/m: what pulls the surface out is no contact; raise "

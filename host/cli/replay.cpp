@@ -37,8 +37,7 @@ constexpr const char* kReplayHelp =
     "finger that is on the bus obeys them, and takes a new zero or other tables. What a log has of several "
     "interfaces goes to the one bus, with a warning; --interface sends what it has of one.\n"
     "--recompute: sends nothing, but puts the RAW of a recording of -c's finger through the firmware's code, "
-    "and compares "
-    "the frames of touches, bit for bit. Exit status 6: they differ.";
+    "and compares the frames of touches, bit for bit. Exit status 6: they differ.";
 
 constexpr auto kTryAgain = 1ms;
 constexpr auto kGiveUp = 1s;

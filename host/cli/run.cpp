@@ -265,7 +265,8 @@ void runRun(const RunOptions& options) {
   if (options.rows_hz && options.strainsPath.empty() && options.touchesPath.empty())
     throw Failure(ExitCode::kUsage, "run: --rows-hz is of --strains and --touches: give one of them");
   const config::FingerConfig config = options.common.config();
-  options.isLoopback() ? runOnLoopback(config, options) : runOnBus(config, options);
+  if (options.isLoopback()) return runOnLoopback(config, options);
+  runOnBus(config, options);
 }
 
 }  // namespace

@@ -50,13 +50,11 @@ std::vector<Key> makeKeys() {
        "the converter covers +- this"},
       {"gauges", "adc_bits", slot<&F::gauges, &Gauges::adc_bits>(), Domain::between(8, 16),
        "resolution of the converter, by which its upper end is known: of the board in firmware/board 12, "
-       "however "
-       "it oversamples"},
+       "however it oversamples"},
       {"gauges", "model_error", slot<&F::gauges, &Gauges::model_error>(), Domain::between(0, 1),
        "standard deviation of what a reading may be off what the model says (build tolerances, rubber), as a "
        "fraction of that reading; an eighth of that of its neighbours' and a sixteenth of that of the "
-       "touch's "
-       "largest come on top; 0.05: nobody calibrated the finger; 0: it is exactly as configured"},
+       "touch's largest come on top; 0.05: nobody calibrated the finger; 0: it is exactly as configured"},
       {"gauges", "angle_deg", slot<&F::gauges, &Gauges::angles_deg>(), Domain::below(0, 360),
        "where each gauge is, counter-clockwise from gauge to gauge, for a ring that is not even; an empty "
        "list: the ring is even"},

@@ -244,8 +244,7 @@ Findings examineBus(const live::BusView& bus, hal::CanState state, const can::Bu
     examination.warning(
         fmt::format("{:.0f} % of the bit rate are used: with stuff bits the bus may be full", 100 * bus.load),
         "end RAW (`strainfinger strains --can BUS -n N --rows 1`), or lower contact rates: `strainfinger "
-        "config "
-        "--can BUS -n N --contact-rate-hz HZ` (common/BUS_LOAD.md)");
+        "config --can BUS -n N --contact-rate-hz HZ` (common/BUS_LOAD.md)");
   if (bus.missed > 0)
     examination.warning(fmt::format("this machine was too slow for {} frames", bus.missed),
                         "what else does it do? lost frames may be its own");

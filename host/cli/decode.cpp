@@ -167,9 +167,9 @@ class Decoder {
       frames_->print(text.time_ns, text.interface, frame);
   }
 
-  /// The low seven bits of a finger's identifier are the node, whatever the function.
   bool isWanted(const CanFrame& frame) const {
-    return nodes_.empty() || std::find(nodes_.begin(), nodes_.end(), frame.id & 0x7F) != nodes_.end();
+    return nodes_.empty() ||
+           std::find(nodes_.begin(), nodes_.end(), can::fingerNode(frame.id)) != nodes_.end();
   }
 
   system::StopSignal stop_;

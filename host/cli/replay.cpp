@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -22,6 +21,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/firmware_options.hpp"
 #include "host/cli/recompute.hpp"
+#include "host/config/bus_load.hpp"
 #include "host/system/stop_signal.hpp"
 
 namespace strainfinger::cli {
@@ -149,7 +149,7 @@ class OneFinger {
   /// Takes any frame of the log. Throws Failure(kUsage) at the first of another finger with the node.
   void watch(const std::string& path, const can::TextFrame& text) {
     const bool isItsOwn = can::findFrame(text.frame) != nullptr || decode<RawFrame>(text.frame);
-    if (!isItsOwn || nodeOf(text.frame) != node_) return;
+    if (!isItsOwn || can::fingerNode(text.frame.id) != node_) return;
     if (interface_.empty()) interface_ = text.interface;
     if (text.interface == interface_) return;
     throw Failure(ExitCode::kUsage,
@@ -158,9 +158,6 @@ class OneFinger {
   }
 
  private:
-  /// The low seven bits of a finger's identifier are the node, whatever the function.
-  static int nodeOf(const CanFrame& frame) { return frame.id & 0x7F; }
-
   int node_;
   std::string interface_;  ///< of its first frame
 };
@@ -178,10 +175,9 @@ void recomputeLog(const ReplayOptions& options) {
     warn("replay", log.warnings());
     return std::nullopt;
   };
-  const recompute::RecordedFinger finger{
-      .node = static_cast<std::uint8_t>(config.can.node),
-      .contactRate_hz = static_cast<std::uint16_t>(std::lround(config.can.contact_rate_hz)),
-      .mode = options.firmware.mode()};
+  const recompute::RecordedFinger finger{.node = static_cast<std::uint8_t>(config.can.node),
+                                         .contactRate_hz = config::contactRate_hz(config.can),
+                                         .mode = options.firmware.mode()};
   recompute(next, *options.firmware.tablesOf(config), finger, static_cast<std::uint32_t>(config.can.bitrate),
             options.common.format());
 }

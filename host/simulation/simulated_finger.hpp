@@ -17,6 +17,7 @@
 #include "firmware/app/without_tables.hpp"
 #include "host/can/tapped_port.hpp"
 #include "host/can/touch_receiver.hpp"
+#include "host/config/bus_load.hpp"
 #include "host/config/finger_config.hpp"
 #include "host/simulation/simulated_clock.hpp"
 #include "host/simulation/simulated_gauges.hpp"
@@ -127,7 +128,7 @@ class SimulatedFinger {
   static firmware::FingerSettings settingsOf(const config::FingerConfig& config, firmware::FitMode mode) {
     const bool isAsDrawn = config.calibration.isEmpty() && config.as_built.isAsDrawn();
     return {.node = static_cast<std::uint8_t>(config.can.node),
-            .contactRate_hz = static_cast<std::uint16_t>(config.can.contact_rate_hz),
+            .contactRate_hz = config::contactRate_hz(config.can),
             .samplePeriod_us = SimulatedGauges::kSamplePeriod_us,
             .bitrate = static_cast<std::uint32_t>(config.can.bitrate),
             .mode = mode,

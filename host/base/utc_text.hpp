@@ -17,4 +17,10 @@ inline std::string utcText(std::int64_t time_ns) {
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(system_clock::to_time_t(floor<seconds>(time))));
 }
 
+/// Of this machine's clock.
+inline std::int64_t nowSince1970_ns() noexcept {
+  using namespace std::chrono;
+  return duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count();
+}
+
 }  // namespace strainfinger

@@ -4,17 +4,13 @@
 #include <sys/socket.h>
 
 #include <cerrno>
-#include <chrono>
 #include <cstring>
 #include <ctime>
 
+#include "host/base/utc_text.hpp"
+
 namespace strainfinger::can {
 namespace {
-
-std::int64_t nowSince1970_ns() {
-  using namespace std::chrono;
-  return duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count();
-}
 
 void readNote(cmsghdr& note, ReceiveNotes& notes) {
   if (note.cmsg_level != SOL_SOCKET) return;

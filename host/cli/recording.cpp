@@ -2,21 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
 #include <system_error>
 #include <utility>
 
 #include "host/base/atomic_file.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/utc_text.hpp"
 
 namespace strainfinger::cli {
 namespace {
-
-std::int64_t now_ns() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-}
 
 /// Where nothing is yet: the notes might replace the very config that they quote.
 std::string newNotesPath(const std::string& path) {
@@ -41,7 +36,7 @@ Recording::Recording(can::BusPort& port, const config::FingerConfig& config, con
       log_(path),
       notes_(port.name(), config),
       missedBefore_(port.status().missed) {
-  progress_.start_ns = now_ns();
+  progress_.start_ns = nowSince1970_ns();
   writeNotes();
 }
 
@@ -58,7 +53,7 @@ void Recording::flush() {
 
 void Recording::end() {
   log_.flush();
-  progress_.end_ns = now_ns();
+  progress_.end_ns = nowSince1970_ns();
   progress_.missed = port_.status().missed - missedBefore_;
   writeNotes();
 }

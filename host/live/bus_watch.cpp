@@ -6,16 +6,14 @@
 #include <thread>
 #include <utility>
 
+#include "host/base/utc_text.hpp"
 #include "host/can/remedies.hpp"
 
 namespace strainfinger::live {
 namespace {
 
 /// The clock of TimedFrame.
-std::int64_t now_us() {
-  using namespace std::chrono;
-  return duration_cast<microseconds>(system_clock::now().time_since_epoch()).count();
-}
+std::int64_t now_us() { return nowSince1970_ns() / 1000; }
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "host/base/angles.hpp"
+#include "host/base/chi_squared.hpp"
 #include "host/calibration/complaints.hpp"
 #include "host/calibration/joint_fit.hpp"
 #include "host/calibration/known_units.hpp"

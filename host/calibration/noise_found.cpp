@@ -6,7 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include "host/base/median.hpp"
+#include "host/base/chi_squared.hpp"
+#include "host/base/quantile.hpp"
 #include "host/calibration/findings.hpp"
 #include "host/calibration/model_error.hpp"
 

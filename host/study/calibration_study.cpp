@@ -11,6 +11,7 @@
 
 #include "host/base/atomic_file.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/quantile.hpp"
 #include "host/calibration/wiring.hpp"
 #include "host/study/calibration_score.hpp"
 #include "host/study/calibration_session.hpp"
@@ -129,10 +130,7 @@ Outcome outcomeOf(const SessionPlan& plan, int fingers, int sessions) {
 }
 
 double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[std::min(values.size() - 1,
-                         static_cast<std::size_t>(share * static_cast<double>(values.size())))];
+  return values.empty() ? 0 : quantileOf(std::move(values), share);
 }
 
 std::string three(const std::array<std::vector<double>, 3>& each, double share) {

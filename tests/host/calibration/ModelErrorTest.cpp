@@ -5,6 +5,8 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "host/base/chi_squared.hpp"
+
 using namespace strainfinger::calibration;
 
 TEST_GROUP(ModelError) {

@@ -2,16 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "host/base/text_parts.hpp"
+
 namespace strainfinger::can {
-namespace {
-
-std::string replaced(std::string text, std::string_view place, std::string_view by) {
-  for (std::size_t at = text.find(place); at != std::string::npos; at = text.find(place, at + by.size()))
-    text.replace(at, place.size(), by);
-  return text;
-}
-
-}  // namespace
 
 std::string_view remedyFor(FingerFault fault) {
   switch (fault) {
@@ -169,11 +162,11 @@ std::string foreignText(std::uint8_t protocol) {
 }
 
 std::string onBus(std::string_view remedy, std::string_view bus) {
-  return replaced(std::string(remedy), "--can BUS", fmt::format("--can {}", bus));
+  return replacedAll(std::string(remedy), "--can BUS", fmt::format("--can {}", bus));
 }
 
 std::string forNode(std::string_view remedy, std::string_view bus, std::uint8_t node) {
-  return replaced(onBus(remedy, bus), "-n N", fmt::format("-n {}", node));
+  return replacedAll(onBus(remedy, bus), "-n N", fmt::format("-n {}", node));
 }
 
 }  // namespace strainfinger::can

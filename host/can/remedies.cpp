@@ -114,6 +114,7 @@ std::string_view remedyFor(Crash crash) {
 std::string_view remedyFor(Count count) {
   switch (count) {
     case Count::kErases:
+      static_assert(kWornOut_erases == 40'000);
       return "at 40,000 its memory, of four pages, is worn out: change settings less often";
     case Count::kCorrected:
       return "one or two do no harm; where they go on, the board's flash wears out";

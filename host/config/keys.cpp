@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/commands.hpp"
+#include "common/frame_layout.hpp"
 
 namespace strainfinger::config {
 namespace {
@@ -68,7 +69,8 @@ std::vector<Key> makeKeys() {
        "moment; 0: a line load; at most largest_width_m; left out: unknown, fitted with each touch"},
       {"contact", "largest_width_m", slot<&F::contact, &Contact::largest_width_m>(), Domain::above(0, 1),
        "widest contact that the tables cover; at most outer_radius_m"},
-      {"can", "node", slot<&F::can, &Can::node>(), Domain::between(1, 63), "node number on the bus"},
+      {"can", "node", slot<&F::can, &Can::node>(), Domain::between(kFirstNode, kLastNode),
+       "node number on the bus"},
       {"can", "bitrate", slot<&F::can, &Can::bitrate>(),
        Domain::oneOf({10'000, 20'000, 50'000, 125'000, 250'000, 500'000, 800'000, 1'000'000}),
        "bits per second (CiA 301, table of bit rates)"},

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/frames.hpp"
 #include "host/can/touch_receiver.hpp"
 #include "host/plot/picture.hpp"
 
@@ -24,7 +25,7 @@ struct LogRecord {
 /// the end of a touch are gaps in the bands.
 Picture logPicture(const LogRecord& record);
 
-/// In contact a finger speaks every 50 ms at least.
-inline constexpr double kGap_s = 0.2;
+/// Four times as long as a finger in contact says nothing at most.
+inline constexpr double kGap_s = 4e-3 * kContactPeriod_ms;
 
 }  // namespace strainfinger::plot

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <sstream>
@@ -29,6 +28,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/request.hpp"
 #include "host/config/write_config.hpp"
+#include "host/model/pressure_profile.hpp"
 #include "host/session/recorded.hpp"
 
 namespace strainfinger::cli {
@@ -78,7 +78,9 @@ struct CalibrateOptions {
     bus->needs(output)->excludes(strains)->excludes(touches);
     command.add_option("-n,--node", node, "Of --can and of recordings: node number in place of the config's")
         ->check(isNode());
-    command.add_option("--rate", live.rate_hz, "Of --can: sample sets a second (default 100)")
+    command
+        .add_option("--rate", live.rate_hz,
+                    fmt::format("Of --can: sample sets a second (default {})", live.rate_hz))
         ->type_name("HZ")
         ->check(isWhole(10, int{kFastestRaw_hz}))
         ->needs(bus);
@@ -87,12 +89,13 @@ struct CalibrateOptions {
         ->type_name("FILE.html");
     command
         .add_option("--load-error", errors.load,
-                    "Standard deviation of known loads, relative to the normal load (default 0.01)")
+                    "Standard deviation of known loads, relative to the normal load")
         ->type_name("SHARE")
+        ->capture_default_str()
         ->check(isFrom(0, 1));
-    command
-        .add_option("--angle-error-deg", errors.angle_deg, "Standard deviation of known angles (default 0.5)")
+    command.add_option("--angle-error-deg", errors.angle_deg, "Standard deviation of known angles")
         ->type_name("DEG")
+        ->capture_default_str()
         ->check(isFrom(0, 90));
     auto* const whole = command.add_flag("--summary", summary, "Prints one row of the whole finger");
     auto* const each =
@@ -230,7 +233,7 @@ void printRows(TableFormat format, const calibration::CalibrationResult& result)
     table.row({static_cast<std::int64_t>(i + 1), std::string(nameOf(row.use)),
                known(withinATurn_deg(row.touch[calibration::kPlace] / kRadPerDeg)),
                known(row.touch[calibration::kNormalLoad]), known(row.touch[calibration::kTangentialLoad]),
-               known(radius_m * std::sqrt(12 * std::max(0.0, row.touch[calibration::kMoment]))),
+               known(radius_m * model::uniformWidth_rad(row.touch[calibration::kMoment])),
                known(row.chiSquared), residuals.rows[i].before_strain, residuals.rows[i].after_strain});
   }
 }
@@ -258,10 +261,8 @@ void report(const CalibrateOptions& options, const calibration::CalibrationResul
   const std::string told = calibration::textReport(result);
   fmt::print(stderr, "{}", touchesPath.empty() ? told : calibration::ofFile(told, touchesPath));
   if (options.pagePath.empty()) return;
-  const auto since1970 = std::chrono::system_clock::now().time_since_epoch();
-  const auto time_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(since1970).count();
   writeFileAtomically(options.pagePath,
-                      calibration::htmlPage(result, {strainsPath, touchesPath, utcText(time_ns)}));
+                      calibration::htmlPage(result, {strainsPath, touchesPath, utcText(nowSince1970_ns())}));
 }
 
 void runLiveCalibration(const CalibrateOptions& options, const config::FingerConfig& config) {

@@ -41,8 +41,9 @@ struct MonitorOptions {
   explicit MonitorOptions(CLI::App& command) : common(command) {
     addBusOption(command, bus);
     command.add_flag("--plain", plain, "Lines, even in a terminal");
-    command.add_option("--every", every_s, "Seconds between lines (default 1)")
+    command.add_option("--every", every_s, "Seconds between lines")
         ->type_name("S")
+        ->capture_default_str()
         ->check(isFrom(0.01, 86'400));
   }
 

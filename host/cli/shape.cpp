@@ -53,7 +53,7 @@ struct ShapeOptions {
                    ->check(isFrom(1e-12, 0.1));
     auto* const withPressure =
         command.add_flag("--pressure", pressure, "The pressure against the angle in place of the summary");
-    command.add_option("--points", points, "Angles that --pressure prints a touch (41)")
+    command.add_option("--points", points, fmt::format("Angles that --pressure prints a touch ({})", points))
         ->needs(withPressure)
         ->type_name("N")
         ->check(isWhole(2, 100'000));

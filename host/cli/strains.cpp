@@ -37,7 +37,7 @@ constexpr double kLongestStrains_s = 1e6;
 
 struct StrainsOptions {
   explicit StrainsOptions(CLI::App& command) : request(command) {
-    command.add_option("--rate", rate_hz, "Sample sets a second (default 100)")
+    command.add_option("--rate", rate_hz, fmt::format("Sample sets a second (default {})", rate_hz))
         ->type_name("HZ")
         ->check(isWhole(1, int{kFastestRaw_hz}));
     command.add_option("--duration", duration_s, "Seconds; without it until Ctrl-C")

@@ -93,12 +93,13 @@ void showInfo(const TablesOptions& options) {
   table.row({"bytes", std::int64_t{image->image_bytes}});
   table.row({"crc32", fmt::format("{:08X}", image->crc32)});
   const bool isJson = options.common.format() == TableFormat::kJson;
+  const Cell unknown = isJson ? Cell(kNoValue) : Cell(tables::kUnknownParameter);
   for (const tables::Parameter& parameter : tables::parametersOf(image->parameters))
-    table.row({parameter.key, isJson && parameter.value == Cell("unknown") ? kNoValue : parameter.value});
+    table.row({parameter.key, parameter.value.value_or(unknown)});
   const int count = image->constants.gauge_count;
   for (const tables::Parameter& list : {tables::anglesOf(image->gauge_angle_q32, count),
                                         tables::gainsOf(*image), tables::depthsOf(image->depths, count)})
-    table.row({list.key, list.value});
+    table.row({list.key, list.value.value_or(unknown)});
 }
 
 void verify(const TablesOptions& options) {

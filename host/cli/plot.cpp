@@ -145,6 +145,7 @@ void requireAny(const PlotOptions& options, const std::map<Name, Track>& tracks)
 void runPlot(const PlotOptions& options) {
   options.common.requireGoodConfig();
   plot::requirePicturePath(options.output);
+  requireFolderOf("--output", options.output);
   const Heard heard = readLog(options);
   requireNotSeveral(options, heard.tracks);
   judge(options, heard);

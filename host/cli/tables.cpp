@@ -72,6 +72,8 @@ void warnOf(const config::FingerConfig& config, const tables::SelfCheck& check) 
 
 void make(const TablesOptions& options) {
   const config::FingerConfig config = options.common.config();
+  requireFolderOf("--output", options.imagePath);
+  requireFolderOf("--header", options.headerPath);
   const auto [image, check] = tables::buildCheckedTables(config);
   if (!options.imagePath.empty()) writeFileAtomically(options.imagePath, tables::imageBytes(image));
   if (!options.headerPath.empty()) writeFileAtomically(options.headerPath, tables::imageHeader(image));

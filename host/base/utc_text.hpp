@@ -10,17 +10,17 @@
 
 namespace strainfinger {
 
+/// Now, since 1970.
+inline std::int64_t now_ns() {
+  using namespace std::chrono;
+  return duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count();
+}
+
 /// "2026-11-28T14:04:01Z"; `time_ns`: since 1970.
 inline std::string utcText(std::int64_t time_ns) {
   using namespace std::chrono;
   const auto time = sys_time<nanoseconds>(nanoseconds(time_ns));
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(system_clock::to_time_t(floor<seconds>(time))));
-}
-
-/// Of this machine's clock.
-inline std::int64_t nowSince1970_ns() noexcept {
-  using namespace std::chrono;
-  return duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count();
 }
 
 }  // namespace strainfinger

@@ -40,7 +40,7 @@ int receiveWithNotes(int socket, void* data, std::size_t size, ReceiveNotes& not
   for (cmsghdr* note = CMSG_FIRSTHDR(&message); note != nullptr; note = CMSG_NXTHDR(&message, note))
     readNote(*note, notes);
   notes.senderPort = sender.sin_family == AF_INET ? ntohs(sender.sin_port) : std::uint16_t{0};
-  if (notes.time_ns == 0) notes.time_ns = nowSince1970_ns();
+  if (notes.time_ns == 0) notes.time_ns = now_ns();
   return static_cast<int>(read);
 }
 

@@ -262,7 +262,7 @@ void report(const CalibrateOptions& options, const calibration::CalibrationResul
   fmt::print(stderr, "{}", touchesPath.empty() ? told : calibration::ofFile(told, touchesPath));
   if (options.pagePath.empty()) return;
   writeFileAtomically(options.pagePath,
-                      calibration::htmlPage(result, {strainsPath, touchesPath, utcText(nowSince1970_ns())}));
+                      calibration::htmlPage(result, {strainsPath, touchesPath, utcText(now_ns())}));
 }
 
 void runLiveCalibration(const CalibrateOptions& options, const config::FingerConfig& config) {

@@ -36,7 +36,7 @@ Recording::Recording(can::BusPort& port, const config::FingerConfig& config, con
       log_(path),
       notes_(port.name(), config),
       missedBefore_(port.status().missed) {
-  progress_.start_ns = nowSince1970_ns();
+  progress_.start_ns = now_ns();
   writeNotes();
 }
 
@@ -53,7 +53,7 @@ void Recording::flush() {
 
 void Recording::end() {
   log_.flush();
-  progress_.end_ns = nowSince1970_ns();
+  progress_.end_ns = now_ns();
   progress_.missed = port_.status().missed - missedBefore_;
   writeNotes();
 }

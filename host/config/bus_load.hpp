@@ -14,10 +14,11 @@ inline constexpr int kWorstFrame_bits = unstuffedBits(8) + (34 + 8 * 8 - 1) / 4;
 /// CONTACT, FORCE and PATCH; those of a second contact may wait.
 inline constexpr int kFramesPerContact = 3;
 
-/// In whole hertz, as a finger counts it: rounded down, for contacts are reported at most this often.
+/// The whole number that a finger is told: not more than is asked for.
 constexpr std::uint16_t contactRate_hz(const Can& can) {
   return static_cast<std::uint16_t>(can.contact_rate_hz);
 }
+static_assert(contactRate_hz({.contact_rate_hz = 249.6}) == 249);
 
 /// Of one finger with the bus for itself.
 constexpr int fastestContactRate_hz(const Can& can) {

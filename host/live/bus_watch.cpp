@@ -13,7 +13,7 @@ namespace strainfinger::live {
 namespace {
 
 /// The clock of TimedFrame.
-std::int64_t now_us() { return nowSince1970_ns() / 1000; }
+std::int64_t now_us() { return now_ns() / 1000; }
 
 }  // namespace
 

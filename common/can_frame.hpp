@@ -16,6 +16,10 @@ struct CanFrame {
 
 inline constexpr std::uint16_t kMaxCanId = 0x7FF;
 
+/// Bits on the bus of a frame with so many bytes of data and of the space to the next one, stuff bits apart
+/// (ISO 11898-1).
+constexpr std::uint32_t unstuffedBits(std::uint32_t length) { return 47 + 8 * length; }
+
 /// Whether a bus can carry it.
 constexpr bool isValid(const CanFrame& frame) {
   return frame.id <= kMaxCanId && frame.length <= frame.data.size();

@@ -213,6 +213,11 @@ static_assert(WireFrame<ResponseFrame>);
 /// What is said when a command is given, and because of it; FingerFrames is what a finger says by itself.
 using CommandFrames = std::tuple<RequestFrame, ResponseFrame, RawFrame>;
 
+/// Of a command whose only argument is whether it is meant even while something touches the finger.
+constexpr RequestFrame flagRequest(Command command, bool evenWhileTouched) {
+  if (!evenWhileTouched) return {.length = 1, .command = command};
+  return {.length = 2, .command = command, .argument = 1};
+}
 constexpr RequestFrame tareRequest(bool evenWhileTouched) {
   return {.length = 2, .command = Command::kTare, .argument = evenWhileTouched};
 }
@@ -220,8 +225,7 @@ constexpr RequestFrame contactRateRequest(std::uint16_t rate_hz) {
   return {.length = 3, .command = Command::kContactRate, .argument = rate_hz};
 }
 constexpr RequestFrame keepRequest(bool evenWhileTouched = false) {
-  if (!evenWhileTouched) return {.length = 1, .command = Command::kKeep};
-  return {.length = 2, .command = Command::kKeep, .argument = 1};
+  return flagRequest(Command::kKeep, evenWhileTouched);
 }
 constexpr RequestFrame nodeRequest(std::uint8_t node, bool evenWhileTouched = false) {
   if (!evenWhileTouched) return {.length = 2, .command = Command::kNode, .argument = node};
@@ -236,16 +240,14 @@ constexpr RequestFrame rawRequest(std::uint16_t rate_hz) {
   return {.length = 3, .command = Command::kRaw, .argument = rate_hz};
 }
 constexpr RequestFrame loadRequest(bool evenWhileTouched = false) {
-  if (!evenWhileTouched) return {.length = 1, .command = Command::kLoad};
-  return {.length = 2, .command = Command::kLoad, .argument = 1};
+  return flagRequest(Command::kLoad, evenWhileTouched);
 }
 /// `index` below kTableWords.
 constexpr RequestFrame wordRequest(std::uint16_t index, std::uint32_t word) {
   return {.length = 7, .command = Command::kWord, .argument = index, .word = word};
 }
 constexpr RequestFrame restartRequest(bool evenWhileTouched = false) {
-  if (!evenWhileTouched) return {.length = 1, .command = Command::kRestart};
-  return {.length = 2, .command = Command::kRestart, .argument = 1};
+  return flagRequest(Command::kRestart, evenWhileTouched);
 }
 constexpr ResponseFrame responseTo(Command command, CommandStatus status) {
   return {.command = command, .status = status};

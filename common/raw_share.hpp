@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "common/can_frame.hpp"
 #include "common/commands.hpp"
 
 namespace strainfinger {
@@ -18,8 +19,7 @@ constexpr std::uint32_t rawPages(std::uint32_t gauges) {
 /// Of the bits on the bus, without stuff bits: what is left is for two fingers' touches, 500 a second each.
 /// Touches have the lower identifiers, so they go first even where the bus is full.
 inline constexpr std::uint32_t kRawShare_percent = 67;
-/// A frame with 8 bytes of data and the space to the next one.
-inline constexpr std::uint32_t kFrameBits = 111;
+inline constexpr std::uint32_t kFrameBits = unstuffedBits(8);
 
 /// The fastest rate that keeps to the share: 1000 Hz for 16 gauges at 1 Mbit/s; 0: not even one a second.
 /// Domain: one gauge or more.

@@ -20,20 +20,14 @@
 #include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/notice.hpp"
+#include "host/base/text_parts.hpp"
 
 namespace strainfinger {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r";
 constexpr std::array kOtherSeparators{std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}};
 /// What other programs write where there is no number; NaN and infinities are numbers to parseNumber().
 constexpr std::array kNoNumbers{"na", "n/a", "null", "none", "nil", "missing", "empty"};
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
 
 /// True if all of `text` is a number; NaN and infinities are.
 bool parseNumber(std::string_view text, double& value) {

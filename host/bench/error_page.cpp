@@ -136,17 +136,14 @@ std::string inShort(const std::vector<ErrorCell>& cells) {
       "* **Weak touches**: from {:g} N/m on every one is noticed; the weaker, the more answers are flagged "
       "uncertain.\n"
       "* **Weakest spot**: {:+.3f} pitches from a gauge, pulled {:.0f} deg sideways: {:.3f} mm at 30 N/m (95 "
-      "%), against "
-      "{:.3f} mm anywhere. Over a gauge a small shift and a small tangential load look alike.\n"
+      "%), against {:.3f} mm anywhere. Over a gauge a small shift and a small tangential load look alike.\n"
       "* **Width**: a contact 2 mm wide, as 30 N/m make it, is known to {:.3f} mm RMS, to {:.3f} mm where "
-      "the "
-      "tables know the width; wide contacts are harder: {:.3f} mm at 4 mm.\n"
+      "the tables know the width; wide contacts are harder: {:.3f} mm at 4 mm.\n"
       "* **As built**: gauges glued 0.5 degrees and 0.05 mm off, gains off by 3 %, the core 0.1 mm thicker, "
       "Poisson's ratio 0.49, nothing calibrated: {:.2f} mm RMS at 2 mm of width, {} of the answers flagged "
       "uncertain. `strainfinger calibrate` is for that.\n"
       "* **What it cannot do**: tell contacts apart that are nearer than 2.5 pitches, or where along the "
-      "finger a "
-      "contact is.\n",
+      "finger a contact is.\n",
       firm.arc_mm.rms(), light.arc_mm.rms(), light.normal_n_per_m.rms(), light.tangential_n_per_m.rms(),
       firm.normal_n_per_m.rms(), firm.tangential_n_per_m.rms(), surelyNoticed_n_per_m(cells), worst.setting,
       worst.direction_deg, worst.statistics.arc_mm.quantile(0.95), firm.arc_mm.quantile(0.95),

@@ -92,8 +92,7 @@ std::string locatorVerdict(const std::vector<MethodResult>& results, const Count
 std::string locatorMarkdown(const std::vector<MethodResult>& results, const Counts& counts) {
   std::string text =
       "| method | error / bound at 0.1 % (angle / P / Q) | gross | clean: um of arc (gross) | error / bound "
-      "at 1 % | "
-      "gross | error / bound at 0.1 %, 0.5 to 4 mm wide | gross | ns here |";
+      "at 1 % | gross | error / bound at 0.1 %, 0.5 to 4 mm wide | gross | ns here |";
   for (const char* core : kCores) text.append(" ").append(core).append(" |");
   for (const std::size_t core : kCoresInNoise) text.append(" ").append(kCores[core]).append(", 1 % |");
   text += " Cortex-M4, with FPU for float, 0.5 to 4 mm wide |";

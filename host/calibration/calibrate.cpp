@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "host/base/angles.hpp"
+#include "host/base/chi_squared.hpp"
 #include "host/base/failure.hpp"
 #include "host/calibration/complaints.hpp"
 #include "host/calibration/joint_fit.hpp"

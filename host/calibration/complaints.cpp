@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "host/base/failure.hpp"
+#include "host/base/text_parts.hpp"
 #include "host/calibration/expected_error.hpp"
 #include "host/calibration/report.hpp"
 #include "host/config/keys.hpp"
@@ -116,11 +117,7 @@ bool isFinite(const std::optional<double>& value) { return std::isfinite(value.v
 }  // namespace
 
 std::string ofFile(std::string message, const std::string& touchesPath) {
-  constexpr std::string_view kAnyFile = "touches.csv";
-  for (auto at = message.find(kAnyFile); at != message.npos;
-       at = message.find(kAnyFile, at + touchesPath.size()))
-    message.replace(at, kAnyFile.size(), touchesPath);
-  return message;
+  return replacedAll(std::move(message), "touches.csv", touchesPath);
 }
 
 void requireTouch(const KnownTouch& touch, const std::string& place) {
@@ -247,8 +244,7 @@ void requireTold(const CalibrationResult& result) {
   if (untold.empty()) return;
   fail(
       fmt::format("the touches don't tell where these gauges are: {}; {}. Where there are such touches, look "
-                  "at the order "
-                  "in which these gauges are connected",
+                  "at the order in which these gauges are connected",
                   placesOf(result.drawing().config().gauges, untold), kTouchesToAdd));
 }
 

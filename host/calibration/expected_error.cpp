@@ -1,5 +1,7 @@
 #include "host/calibration/expected_error.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -26,6 +28,10 @@ std::vector<TouchState> judgedTouches(const Drawing& drawing) {
       touches.push_back(
           {2 * std::numbers::pi * place / places, kLoad_n_per_m, lean * kLoad_n_per_m, moment_rad2});
   return touches;
+}
+
+std::string judgedTouchesText() {
+  return fmt::format("touches of {} N/m, {} mm wide", kLoad_n_per_m, 1e3 * kWidth_m);
 }
 
 Eigen::MatrixXd withoutConventions(const Drawing& drawing, const Eigen::MatrixXd& covariance) {

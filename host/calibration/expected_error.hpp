@@ -2,6 +2,7 @@
 // What a calibration is worth: errors of touches to come.
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "host/calibration/calibrate.hpp"
@@ -16,9 +17,11 @@ struct TouchVariances {
 TouchVariances touchVariances(const RingResponse& ring, const TouchState& touch,
                               const Eigen::MatrixXd& covariance, double noise_strain);
 
-/// The touches by which a calibration is judged: of 30 N/m over 2 mm everywhere on the ring, pressed and
+/// The touches by which a calibration is judged: of one load and width everywhere on the ring, pressed and
 /// rubbed either way.
 std::vector<TouchState> judgedTouches(const Drawing& drawing);
+/// "touches of 30 N/m, 2 mm wide".
+std::string judgedTouchesText();
 
 /// A covariance of deviations, the zero of angles and the unit of force being given.
 Eigen::MatrixXd withoutConventions(const Drawing& drawing, const Eigen::MatrixXd& covariance);

@@ -9,7 +9,7 @@
 
 #include "host/base/angles.hpp"
 #include "host/base/failure.hpp"
-#include "host/base/median.hpp"
+#include "host/base/quantile.hpp"
 #include "host/config/over_range.hpp"
 
 namespace strainfinger::calibration {

@@ -1,15 +1,12 @@
 #include "host/calibration/model_error.hpp"
 
 #include <cmath>
+#include <numbers>
 
-#include "host/base/median.hpp"
+#include "host/base/chi_squared.hpp"
+#include "host/base/quantile.hpp"
 
 namespace strainfinger::calibration {
-
-double chiSquaredQuantile(double degreesOfFreedom, double deviations) {
-  const double part = 2 / (9 * degreesOfFreedom);
-  return degreesOfFreedom * std::pow(1 - part + deviations * std::sqrt(part), 3);
-}
 
 Estimate modelErrorOf(const std::vector<Misfit>& misfits, double noise_strain, double degreesOfFreedom) {
   const double expected = chiSquaredQuantile(degreesOfFreedom, 0);
@@ -29,9 +26,10 @@ Estimate modelErrorOf(const std::vector<Misfit>& misfits, double noise_strain, d
     }
   std::vector<double> peaks;
   for (const Misfit& misfit : misfits) peaks.push_back(misfit.peak_strain);
-  // The variance of a reading is known to sqrt(2 / all degrees of freedom) of itself; the median costs pi
-  // / 2.
-  const double relative = std::sqrt(3.14 / (degreesOfFreedom * static_cast<double>(misfits.size())));
+  // The variance of a reading is known to sqrt(2 / all degrees of freedom) of itself; the median costs
+  // pi / 2.
+  const double relative =
+      std::sqrt(std::numbers::pi / (degreesOfFreedom * static_cast<double>(misfits.size())));
   const double noise = noise_strain / medianOf(peaks), variance = noise * noise + low * low;
   const double squared = relative * variance;
   return {low, low > std::sqrt(squared) ? squared / (2 * low) : std::sqrt(squared)};

@@ -21,8 +21,4 @@ Estimate modelErrorOf(const std::vector<Misfit>& misfits, double noise_strain, d
 /// Standard deviations of chi-squared that no touch leaves by chance: one in 300,000 is beyond its quantile.
 inline constexpr double kBeyondChance = 4.5;
 
-/// Chi-squared that is exceeded as often as a normal variable exceeds `deviations` of its own (Wilson &
-/// Hilferty 1931): to 1 % for 4 degrees of freedom and more.
-double chiSquaredQuantile(double degreesOfFreedom, double deviations);
-
 }  // namespace strainfinger::calibration

@@ -8,6 +8,7 @@
 #include <optional>
 #include <tuple>
 
+#include "host/base/chi_squared.hpp"
 #include "host/calibration/model_error.hpp"
 
 namespace strainfinger::calibration {

@@ -6,7 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include "host/base/median.hpp"
+#include "host/base/chi_squared.hpp"
+#include "host/base/quantile.hpp"
 #include "host/calibration/findings.hpp"
 #include "host/calibration/model_error.hpp"
 
@@ -93,8 +94,7 @@ std::string noiseText(const CalibrationResult& result) {
   if (!found) return {};
   return fmt::format(
       "{} {:.2g} times {} than gauges.noise_strain = {} says: is gauges.full_scale_strain, or the "
-      "amplifier's "
-      "gain, another (then all strains are off by as much), or gauges.noise_strain wrong?",
+      "amplifier's gain, another (then all strains are off by as much), or gauges.noise_strain wrong?",
       found->isNoisier() ? "Readings of untouched rows are" : "What touches leave over of readings is",
       found->isNoisier() ? found->ratio : 1 / found->ratio, found->isNoisier() ? "noisier" : "quieter",
       result.drawing().config().gauges.noise_strain);

@@ -105,7 +105,7 @@ std::string worthSection(const CalibrationResult& result) {
                 cell("tangential", "n_per_m", error[2], 1)});
   };
   return heading("Errors to expect") +
-         "<p>Of touches of 30 N/m, 2 mm wide, all around the ring (RMS).</p>\n" +
+         fmt::format("<p>Of {}, all around the ring (RMS).</p>\n", judgedTouchesText()) +
          table("errors", {"", "place, mm", "normal, N/m", "tangential, N/m"},
                line("before, as drawn", "before", errors.before) +
                    line("after, as found", "after", errors.after) +

@@ -34,7 +34,7 @@ std::string worthText(const CalibrationResult& result) {
   const auto line = [](const char* name, const Eigen::Vector3d& error) {
     return fmt::format("{:<26}{:>9.4f}{:>12.3f}{:>12.3f}\n", name, 1e3 * error[0], error[1], error[2]);
   };
-  return "\nErrors to expect of touches of 30 N/m, 2 mm wide (RMS over the ring):\n" +
+  return fmt::format("\nErrors to expect of {} (RMS over the ring):\n", judgedTouchesText()) +
          fmt::format("{:<26}{:>9}{:>12}{:>12}\n", "", "place mm", "normal N/m", "tang. N/m") +
          line("before, as drawn", errors.before) + line("after", errors.after) +
          line("by the noise alone", errors.bound);

@@ -20,11 +20,6 @@ using std::numbers::pi;
 constexpr double kTolerance = 1e-7;       ///< of the peak: three orders below the noise
 constexpr double kDeepestDeviations = 4;  ///< tolerances that a gauge may be nearer the surface
 
-model::Row rowOf(StrainComponent component) {
-  if (component == StrainComponent::kRadial) return model::kErr;
-  return component == StrainComponent::kHoop ? model::kEtt : model::kErt;
-}
-
 /// One load's harmonic and its derivatives to the touch's unknowns.
 using WithSlopes = Eigen::Matrix<double, 1, 1 + kTouchUnknowns>;
 
@@ -62,7 +57,7 @@ struct GaugeHarmonic {
 
 GaugeHarmonic gaugeHarmonic(const model::HarmonicModel<RubberJet>& rubber, StrainComponent component, int n,
                             double outerRadius_m) {
-  const model::Row row = rowOf(component);
+  const model::Row row = model::rowOf(component);
   const auto response = rubber(n);
   const double scale = (n == 0 ? 0.5 : 1) / (pi * outerRadius_m);
   const RubberJet normal = scale * response(row, model::kNormal);
@@ -109,7 +104,7 @@ int RingResponse::lastHarmonic(const Drawing& drawing) {
 }
 
 RingResponse::RingResponse(const Drawing& drawing, const VectorXd& deviations, int lastHarmonic)
-    : normalIsEven_(model::isEvenInNormalLoad(rowOf(drawing.config().gauges.component))),
+    : normalIsEven_(model::isEvenInNormalLoad(model::rowOf(drawing.config().gauges.component))),
       friction_(drawing.config().contact.friction_coefficient),
       lastHarmonic_(lastHarmonic),
       strains_(drawing.gauges(), kWaves * (lastHarmonic + 1)),

@@ -273,9 +273,6 @@ class WiringCheck {
   VectorXd misfits_;  ///< of each row, wired as found by now
 };
 
-/// Of tolerance.zero_strain: what taring leaves is less, four standard deviations.
-constexpr double kFarZero = 4;
-
 /// Of each gauge, what it reads on average where nothing is known to touch the finger; 0 without such rows.
 VectorXd untouchedMean_strain(std::span<const KnownTouch> known, const MatrixXd& readings) {
   VectorXd sum = VectorXd::Zero(readings.cols());
@@ -355,8 +352,7 @@ std::string textOf(const WiringFault& fault) {
     case Kind::kZeroOff:
       return fmt::format(
           "gauge {} reads {:.4g} microstrain where nothing touches the finger: its zero is off: tare, and "
-          "touch "
-          "the finger anew",
+          "touch the finger anew",
           fault.gauge, 1e6 * fault.zero_strain);
     case Kind::kShifted:
       return fmt::format(

@@ -10,6 +10,9 @@
 
 namespace strainfinger::calibration {
 
+/// Of tolerance.zero_strain: what taring leaves is less, four standard deviations.
+inline constexpr double kFarZero = 4;
+
 struct WiringFault {
   enum class Kind {
     kSwapped,      ///< `gauge` and `other` in each other's place

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/base/angles.hpp"
+#include "host/base/chi_squared.hpp"
 #include "host/calibration/joint_fit.hpp"
 #include "host/calibration/model_error.hpp"
 #include "host/calibration/touch_fit.hpp"

@@ -12,9 +12,6 @@ namespace {
 /// How long to wait for room in the interface's queue before the next attempt.
 constexpr std::chrono::milliseconds kRetry{10};
 
-/// How long to wait before looking again whether to go on.
-constexpr std::chrono::milliseconds kLookEvery{100};
-
 void take(const CanFrame& frame, std::uint8_t node, Command command, Reply& reply) {
   const auto response = readSingleFrame<ResponseFrame>(frame, node);
   if (response && response->command == command) {
@@ -52,7 +49,7 @@ Reply ask(BusPort& port, std::uint8_t node, const RequestFrame& request, const P
   for (auto now = begin; now < end && goesOn(); now = Clock::now()) {
     if (!reply.sent) reply.sent = port.send(frame);
     const auto left = std::chrono::ceil<milliseconds>(end - now);
-    port.waitReadable(std::min(left, reply.sent ? kLookEvery : kRetry));
+    port.waitReadable(std::min(left, reply.sent ? kGoOnEvery : kRetry));
     const bool wasAnswered = reply.response.has_value();
     while (const auto heard = port.receive())
       if (reply.sent) take(*heard, node, request.command, reply);

@@ -19,10 +19,13 @@ inline constexpr std::chrono::milliseconds kAskFor{2 * kAnswerWithin_ms};
 /// request at once.
 inline constexpr std::chrono::milliseconds kTwinWithin{50};
 
+/// While it is waited, it is asked so often at least whether to go on.
+inline constexpr std::chrono::milliseconds kGoOnEvery{100};
+
 struct Patience {
   std::chrono::milliseconds longest = kAskFor;  ///< for the first response
   std::chrono::milliseconds afterwards{0};      ///< then listen so long for a second one
-  std::function<bool()> goOn{};                 ///< asked ten times a second; false ends it; empty: go on
+  std::function<bool()> goOn{};  ///< asked every kGoOnEvery at least; false ends it; empty: go on
 };
 
 struct Reply {

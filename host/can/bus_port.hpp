@@ -49,7 +49,7 @@ class BusPort {
   }
 
   /// How long to wait between a frame's arrival and reading, so that the frames that come meanwhile cost one
-  /// awakening for all: at 8,000 frames a second, the most that 1 Mbit/s has, 40 of the hundreds that a
+  /// awakening for all: at 9,000 frames a second, the most that 1 Mbit/s has, 45 of the hundreds that a
   /// socket holds.
   static constexpr std::chrono::milliseconds kGather{5};
 

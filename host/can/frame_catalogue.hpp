@@ -14,6 +14,14 @@ namespace strainfinger::can {
 /// Function codes are multiples of this.
 inline constexpr std::uint16_t kIdsPerFunction = 0x80;
 
+/// The node of an identifier that a finger may have, whatever the function; nothing where it is no finger's:
+/// other devices have nodes of their own, up to 127.
+constexpr std::optional<std::uint8_t> fingerNode(std::uint16_t id) {
+  const int node = id % kIdsPerFunction;
+  if (node < kFirstNode || node > kLastNode) return std::nullopt;
+  return static_cast<std::uint8_t>(node);
+}
+
 struct FrameEntry {
   FrameSpec spec;
   std::span<const FieldSpec> fields;  ///< in the order of their bits

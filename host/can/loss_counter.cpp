@@ -4,14 +4,15 @@
 
 #include "host/base/failure.hpp"
 #include "host/can/frame_catalogue.hpp"
+#include "host/can/remedies.hpp"
 
 namespace strainfinger::can {
 namespace {
 
-/// So many returns to where a gap began, and so many for each gap, are no chance: lost frames look like one
-/// return in 256 gaps.
-constexpr std::uint64_t kFewestReturns = 3;
-constexpr std::uint64_t kGapsPerReturn = 4;
+/// So many resumptions where a gap began, and one for so many gaps, are no chance: lost frames look like one
+/// resumption in 256 gaps.
+constexpr std::uint64_t kFewestResumptions = 3;
+constexpr std::uint64_t kGapsPerResumption = 4;
 
 /// A finger sends ten or eleven heartbeats in a second of its uptime.
 constexpr int kHeartbeatsOfTwo = 1000 / kHeartbeatPeriod_ms * 3 / 2;
@@ -32,14 +33,12 @@ std::size_t indexOf(FunctionCode function) { return static_cast<std::uint16_t>(f
 
 void requireOurProtocol(const NodeCount& node) {
   if (!node.protocol || *node.protocol == kProtocolVersion) return;
-  throw Failure(ExitCode::kMismatch,
-                fmt::format("{} node {} speaks protocol {}, this program {}: its frames mean something else; "
-                            "use the strainfinger of its firmware",
-                            node.interface, node.node, *node.protocol, kProtocolVersion));
+  throw Failure(ExitCode::kMismatch, fmt::format("{} node {} {}; its frames mean something else",
+                                                 node.interface, node.node, foreignText(*node.protocol)));
 }
 
 bool LossCounter::Evidence::isOfTwo() const {
-  return returns >= kFewestReturns && returns * kGapsPerReturn >= gaps;
+  return resumptions >= kFewestResumptions && resumptions * kGapsPerResumption >= gaps;
 }
 
 void LossCounter::count(std::string_view interface, const CanFrame& frame) {
@@ -81,7 +80,7 @@ void LossCounter::countNumber(Stream& stream, FunctionCode function, std::uint8_
   }
   if (number == numbers->last) {
     ++stream.seen.repeated;
-    if (data != numbers->data) ++stream.evidence.returns;  // two senders in step
+    if (data != numbers->data) ++stream.evidence.resumptions;  // two senders in step
   } else if (isOfEveryTouch(function)) {
     countGap(stream, *numbers, number);
   }
@@ -94,16 +93,16 @@ void LossCounter::countNumber(Stream& stream, FunctionCode function, std::uint8_
 void LossCounter::countGap(Stream& stream, Numbers& numbers, std::uint8_t number) {
   const auto gap = static_cast<std::uint8_t>(number - numbers.last - 1);
   if (gap == 0) return;
-  const bool returns = numbers.left && number == static_cast<std::uint8_t>(*numbers.left + 1);
-  if (returns) {
-    ++stream.evidence.returns;
+  const bool resumes = numbers.beforeGap && number == static_cast<std::uint8_t>(*numbers.beforeGap + 1);
+  if (resumes) {
+    ++stream.evidence.resumptions;
     stream.seen.lost -= numbers.gap;
   } else {
     ++stream.evidence.gaps;
     stream.seen.lost += gap;
   }
-  numbers.left = numbers.last;
-  numbers.gap = returns ? std::uint8_t{0} : gap;
+  numbers.beforeGap = numbers.last;
+  numbers.gap = resumes ? std::uint8_t{0} : gap;
 }
 
 /// What the PATCH before this one announced must have come by now, as the last of its kind or, where a
@@ -128,13 +127,13 @@ void LossCounter::countUptime(Stream& stream, std::uint16_t uptime_s) {
   const int last_s = stream.uptime_s.value_or(uptime_s);
   stream.uptime_s = uptime_s;
   stream.sameUptime = uptime_s == last_s ? stream.sameUptime + 1 : 1;
-  if (stream.sameUptime == kHeartbeatsOfTwo && uptime_s != kLongestUptime_s) ++stream.evidence.returns;
+  if (stream.sameUptime == kHeartbeatsOfTwo && uptime_s != kLongestUptime_s) ++stream.evidence.resumptions;
   if (uptime_s >= last_s && uptime_s <= last_s + kUptimeStep_s) return;
-  const bool returns = stream.leftUptime_s && uptime_s >= *stream.leftUptime_s &&
-                       uptime_s <= *stream.leftUptime_s + kUptimeStep_s;
-  stream.leftUptime_s = static_cast<std::uint16_t>(last_s);
-  if (returns) {
-    ++stream.evidence.returns;
+  const bool resumes = stream.uptimeBeforeJump_s && uptime_s >= *stream.uptimeBeforeJump_s &&
+                       uptime_s <= *stream.uptimeBeforeJump_s + kUptimeStep_s;
+  stream.uptimeBeforeJump_s = static_cast<std::uint16_t>(last_s);
+  if (resumes) {
+    ++stream.evidence.resumptions;
   } else if (uptime_s < last_s) {
     ++stream.seen.restarts;
     stream.numbers = {};
@@ -144,8 +143,8 @@ void LossCounter::countUptime(Stream& stream, std::uint16_t uptime_s) {
 
 void LossCounter::countBoard(Stream& stream, std::uint8_t board) {
   if (board == 0 || board == stream.board) return;
-  if (board == stream.leftBoard) ++stream.evidence.returns;
-  stream.leftBoard = stream.board;
+  if (board == stream.boardBefore) ++stream.evidence.resumptions;
+  stream.boardBefore = stream.board;
   stream.board = board;
 }
 

@@ -43,17 +43,17 @@ class LossCounter {
   /// Sequence numbers of a kind of frame.
   struct Numbers {
     std::uint8_t last;
-    std::uint64_t data;                    ///< of the last frame
-    std::optional<std::uint8_t> before{};  ///< the number before the last
-    std::optional<std::uint8_t> left{};    ///< the number before the last gap
-    std::uint8_t gap = 0;                  ///< frames counted as lost there
+    std::uint64_t data;                       ///< of the last frame
+    std::optional<std::uint8_t> before{};     ///< the number before the last
+    std::optional<std::uint8_t> beforeGap{};  ///< the number before the last gap
+    std::uint8_t gap = 0;                     ///< frames counted as lost there
     bool has(std::uint8_t number) const { return number == last || number == before; }
   };
   /// Two senders give themselves away again and again by going on where a gap began: in their sequence
   /// numbers, uptimes or boards.
   struct Evidence {
-    std::uint64_t gaps = 0;  ///< that one sender can leave as well
-    std::uint64_t returns = 0;
+    std::uint64_t gaps = 0;         ///< that one sender can leave as well
+    std::uint64_t resumptions = 0;  ///< of what a gap had ended
     bool isOfTwo() const;
   };
   struct Stream {
@@ -62,10 +62,10 @@ class LossCounter {
     std::array<std::optional<Numbers>, (kMaxCanId + 1) / kIdsPerFunction> numbers;
     std::optional<std::uint8_t> announced;  ///< of the last PATCH, if a second contact belongs to it
     std::optional<std::uint16_t> uptime_s;
-    std::optional<std::uint16_t> leftUptime_s;  ///< the one before it last jumped
-    int sameUptime = 0;                         ///< heartbeats
+    std::optional<std::uint16_t> uptimeBeforeJump_s;
+    int sameUptime = 0;  ///< heartbeats
     std::uint8_t board = 0;
-    std::uint8_t leftBoard = 0;
+    std::uint8_t boardBefore = 0;
   };
   static void countNumber(Stream& stream, FunctionCode function, std::uint8_t number, std::uint64_t data);
   static void countGap(Stream& stream, Numbers& numbers, std::uint8_t number);

@@ -2,16 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "host/base/text_parts.hpp"
+
 namespace strainfinger::can {
-namespace {
-
-std::string replaced(std::string text, std::string_view place, std::string_view by) {
-  for (std::size_t at = text.find(place); at != std::string::npos; at = text.find(place, at + by.size()))
-    text.replace(at, place.size(), by);
-  return text;
-}
-
-}  // namespace
 
 std::string_view remedyFor(FingerFault fault) {
   switch (fault) {
@@ -20,8 +13,7 @@ std::string_view remedyFor(FingerFault fault) {
              "tables";
     case FingerFault::kGauges:
       return "`strainfinger info --can BUS -n N` names those out of use: check their wires and amplifiers, "
-             "then "
-             "`strainfinger tare --can BUS -n N` gives each another chance";
+             "then `strainfinger tare --can BUS -n N` gives each another chance";
     case FingerFault::kConverter:
       return "check the converter's supply, reference and wiring, then switch the finger off and on";
     case FingerFault::kCan:
@@ -57,8 +49,7 @@ std::string_view remedyFor(FingerFlag flag) {
              "`strainfinger push --can BUS -n N -c` the config that says so";
     case FingerFlag::kDegraded:
       return "`strainfinger info --can BUS -n N` names gauges that are out of use; one that an answer left "
-             "out "
-             "for the moment counts again when it fits";
+             "out for the moment counts again when it fits";
     case FingerFlag::kUncertain:
       return "wait while a search goes on (mostly 0.2 s or less), or press more firmly: very light touches "
              "stay uncertain. Alternative in CONTACT may name another angle; chi in PATCH well above 1 "
@@ -123,6 +114,7 @@ std::string_view remedyFor(Crash crash) {
 std::string_view remedyFor(Count count) {
   switch (count) {
     case Count::kErases:
+      static_assert(kWornOut_erases == 40'000);
       return "at 40,000 its memory, of four pages, is worn out: change settings less often";
     case Count::kCorrected:
       return "one or two do no harm; where they go on, the board's flash wears out";
@@ -144,8 +136,7 @@ std::string_view remedyFor(CommandStatus status) {
       return "";
     case CommandStatus::kTouched:
       return "let go of it; if nothing touches it, its old zero is off: `strainfinger tare --can BUS -n N "
-             "--force` "
-             "takes a new one; other commands have --force, too";
+             "--force` takes a new one; other commands have --force, too";
     case CommandStatus::kBusy:
       return "try again in a second; `strainfinger monitor --can BUS` shows what it does; in state fault it "
              "needs tables first: `strainfinger push --can BUS -n N -c FINGER.toml`";
@@ -158,8 +149,7 @@ std::string_view remedyFor(CommandStatus status) {
       return "ask for less, or use a bus with a higher bit rate";
     case CommandStatus::kOutOfTurn:
       return "one program at a time sends a finger tables; `strainfinger push --can BUS -n N -c FINGER.toml` "
-             "begins "
-             "with their first word";
+             "begins with their first word";
     case CommandStatus::kUnknownCommand:
     case CommandStatus::kBadArgument:
       break;
@@ -173,11 +163,11 @@ std::string foreignText(std::uint8_t protocol) {
 }
 
 std::string onBus(std::string_view remedy, std::string_view bus) {
-  return replaced(std::string(remedy), "--can BUS", fmt::format("--can {}", bus));
+  return replacedAll(std::string(remedy), "--can BUS", fmt::format("--can {}", bus));
 }
 
 std::string forNode(std::string_view remedy, std::string_view bus, std::uint8_t node) {
-  return replaced(onBus(remedy, bus), "-n N", fmt::format("-n {}", node));
+  return replacedAll(onBus(remedy, bus), "-n N", fmt::format("-n {}", node));
 }
 
 }  // namespace strainfinger::can

@@ -19,11 +19,13 @@ std::string_view remedyFor(Crash crash);
 std::string_view remedyFor(Count count);           ///< where it is too high
 std::string_view remedyFor(CommandStatus status);  ///< of a request that was not done
 
+/// Erases of the settings' memory that wear it out: four pages last 10,000 each (DS12589).
+inline constexpr std::uint32_t kWornOut_erases = 40'000;
+
 inline constexpr std::string_view kTwinText = "two fingers have this node number";
 inline constexpr std::string_view kTwinRemedy =
     "take one off the bus; `strainfinger config --can BUS -n N --set-node NODE` makes the other another "
-    "node, "
-    "from its next start on";
+    "node, from its next start on";
 
 /// Of a finger whose HEARTBEAT has another protocol version: its other frames mean something else.
 std::string foreignText(std::uint8_t protocol);

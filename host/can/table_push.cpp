@@ -24,7 +24,7 @@ bool isStale(const Reply& reply, const RequestFrame& request) {
 Reply askAgain(BusPort& port, std::uint8_t node, const RequestFrame& request,
                const std::function<bool()>& goOn) {
   Reply reply;
-  for (int attempt = 0; attempt < kAttempts && !reply.response && goOn(); ++attempt) {
+  for (int attempt = 0; attempt < kPushAttempts && !reply.response && goOn(); ++attempt) {
     const auto waited = reply.waited;
     bool othersAsk = reply.othersAsk;
     while (const auto heard = port.receive()) othersAsk |= nodeOf(heard->id, FunctionCode::kRequest) == node;
@@ -63,12 +63,11 @@ std::optional<HeartbeatFrame> heartbeatAfterRestart(BusPort& port, std::uint8_t 
                                                     std::chrono::milliseconds longest,
                                                     const std::function<bool()>& goOn) {
   using Clock = std::chrono::steady_clock;
-  constexpr std::chrono::milliseconds kAskEvery{100};
   const Clock::time_point end = Clock::now() + longest;
   int faults = 0;
   std::optional<HeartbeatFrame> last;
   for (auto now = Clock::now(); now < end && goOn(); now = Clock::now()) {
-    port.waitReadable(std::min(std::chrono::ceil<std::chrono::milliseconds>(end - now), kAskEvery));
+    port.waitReadable(std::min(std::chrono::ceil<std::chrono::milliseconds>(end - now), kGoOnEvery));
     while (const auto frame = port.receive()) {
       if (nodeOf(frame->id, FunctionCode::kHeartbeat) != node) continue;
       const auto heartbeat = decode<HeartbeatFrame>(*frame);

@@ -20,16 +20,16 @@ struct TablePush {
 };
 
 /// Sends `load` and then word by word the image, until one is refused or not answered although it was said
-/// kAttempts times. `goOn(words)` is asked before each word, and ten times a second while an answer is
-/// awaited; false ends it. What the port heard before is gone.
+/// kPushAttempts times. `goOn(words)` is asked before each word, and every kGoOnEvery at least while an
+/// answer is awaited; false ends it. What the port heard before is gone.
 TablePush pushTables(BusPort& port, std::uint8_t node, const TableImage& image, bool evenWhileTouched,
                      const std::function<bool(int words)>& goOn);
 
-inline constexpr int kAttempts = 3;
+inline constexpr int kPushAttempts = 3;
 
 /// What a finger says of itself after it has answered a `restart`, once it measures; in time at least that it
 /// starts, or nothing. That it has no tables it must say twice: the first time may have been said before.
-/// `goOn()` is asked ten times a second or more often; false ends it.
+/// `goOn()` is asked every kGoOnEvery at least; false ends it.
 std::optional<HeartbeatFrame> heartbeatAfterRestart(BusPort& port, std::uint8_t node,
                                                     std::chrono::milliseconds longest,
                                                     const std::function<bool()>& goOn);

@@ -2,28 +2,50 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <iterator>
 
-#include "host/can/frame_printer.hpp"
+#include "host/can/frame_catalogue.hpp"
 
 namespace strainfinger::can {
 namespace {
 
-constexpr std::string_view kTouchColumns =
-    ",angle_deg,normal_n,tangential_n,width_m,sigma_angle_deg,sigma_normal_n,sigma_tangential_n,sigma_width_"
-    "m,"
-    "quality_percent,chi,flags,sequence,angle2_deg,normal2_n,tangential2_n\n";
+double second(const TouchReport& touch, double ContactReport::*value) {
+  return touch.second ? (*touch.second).*value : kNoValue;
+}
 
-constexpr FieldSpec kTouchFlags{
-    {.lsb = 0, .width = 8},
-    {.name = "flags", .comment = "Of the touch", .kind = FieldKind::kFlags, .names = kFingerFlagNames}};
+struct TouchColumn {
+  std::string_view name;
+  double (*valueOf)(const TouchReport& touch);  ///< null: it has the flags, as text
+};
+using Touch = const TouchReport&;
+constexpr std::array kTouchColumns{
+    TouchColumn{"angle_deg", [](Touch touch) { return touch.angle_deg; }},
+    TouchColumn{"normal_n", [](Touch touch) { return touch.normal_n; }},
+    TouchColumn{"tangential_n", [](Touch touch) { return touch.tangential_n; }},
+    TouchColumn{"width_m", [](Touch touch) { return touch.width_m; }},
+    TouchColumn{"sigma_angle_deg", [](Touch touch) { return touch.sigmaAngle_deg; }},
+    TouchColumn{"sigma_normal_n", [](Touch touch) { return touch.sigmaNormal_n; }},
+    TouchColumn{"sigma_tangential_n", [](Touch touch) { return touch.sigmaTangential_n; }},
+    TouchColumn{"sigma_width_m", [](Touch touch) { return touch.sigmaWidth_m; }},
+    TouchColumn{"quality_percent", [](Touch touch) { return touch.quality_percent; }},
+    TouchColumn{"chi", [](Touch touch) { return touch.chi; }},
+    TouchColumn{"flags", nullptr},
+    TouchColumn{"sequence", [](Touch touch) { return static_cast<double>(touch.sequence); }},
+    TouchColumn{"angle2_deg", [](Touch touch) { return second(touch, &ContactReport::angle_deg); }},
+    TouchColumn{"normal2_n", [](Touch touch) { return second(touch, &ContactReport::normal_n); }},
+    TouchColumn{"tangential2_n", [](Touch touch) { return second(touch, &ContactReport::tangential_n); }},
+};
 
 }  // namespace
 
 TouchPrinter::TouchPrinter(std::string& out, TableFormat format)
     : out_(out), format_(format), start_(format) {
-  if (format == TableFormat::kCsv) out.append(RowStart::kColumns).append(kTouchColumns);
+  if (format != TableFormat::kCsv) return;
+  out.append(RowStart::kColumns);
+  for (const TouchColumn& column : kTouchColumns) out.append(",").append(column.name);
+  out.push_back('\n');
 }
 
 void TouchPrinter::print(std::optional<std::int64_t> time_ns, std::string_view interface,
@@ -75,37 +97,26 @@ void TouchPrinter::appendRow(const std::optional<TouchReport>& touch, std::strin
 }
 
 void TouchPrinter::append(const TouchReport& touch) {
-  const ContactReport second = touch.second.value_or(ContactReport{});
-  appendNumber("angle_deg", touch.angle_deg);
-  appendNumber("normal_n", touch.normal_n);
-  appendNumber("tangential_n", touch.tangential_n);
-  appendNumber("width_m", touch.width_m);
-  appendNumber("sigma_angle_deg", touch.sigmaAngle_deg);
-  appendNumber("sigma_normal_n", touch.sigmaNormal_n);
-  appendNumber("sigma_tangential_n", touch.sigmaTangential_n);
-  appendNumber("sigma_width_m", touch.sigmaWidth_m);
-  appendNumber("quality_percent", touch.quality_percent);
-  appendNumber("chi", touch.chi);
-  appendKey("flags");
-  const char* const quote = format_ == TableFormat::kJson ? "\"" : "";
-  out_.append(quote).append(valueText(kTouchFlags, touch.flags.raw())).append(quote);
-  appendNumber("sequence", touch.sequence);
-  appendNumber("angle2_deg", second.angle_deg);
-  appendNumber("normal2_n", second.normal_n);
-  appendNumber("tangential2_n", second.tangential_n);
+  for (const TouchColumn& column : kTouchColumns) {
+    out_.push_back(',');
+    if (format_ == TableFormat::kJson) out_.append("\"").append(column.name).append("\":");
+    if (column.valueOf != nullptr)
+      appendNumber(column.valueOf(touch));
+    else
+      appendFlags(touch.flags);
+  }
 }
 
-void TouchPrinter::appendKey(std::string_view name) {
-  out_.push_back(',');
-  if (format_ == TableFormat::kJson) out_.append("\"").append(name).append("\":");
-}
-
-void TouchPrinter::appendNumber(std::string_view name, double value) {
-  appendKey(name);
+void TouchPrinter::appendNumber(double value) {
   if (!std::isnan(value))
     fmt::format_to(std::back_inserter(out_), "{}", value);
   else if (format_ == TableFormat::kJson)
     out_.append("null");
+}
+
+void TouchPrinter::appendFlags(FingerFlags flags) {
+  const char* const quote = format_ == TableFormat::kJson ? "\"" : "";
+  out_.append(quote).append(flagsText(kFingerFlagNames, flags.raw())).append(quote);
 }
 
 }  // namespace strainfinger::can

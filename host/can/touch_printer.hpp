@@ -44,8 +44,8 @@ class TouchPrinter {
   void appendRow(const std::optional<TouchReport>& touch, std::string_view interface, std::uint8_t node,
                  const Listener& listener);
   void append(const TouchReport& touch);
-  void appendNumber(std::string_view name, double value);
-  void appendKey(std::string_view name);
+  void appendNumber(double value);
+  void appendFlags(FingerFlags flags);
 
   std::string& out_;
   TableFormat format_;

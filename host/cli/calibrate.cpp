@@ -30,6 +30,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/request.hpp"
 #include "host/config/write_config.hpp"
+#include "host/model/pressure_profile.hpp"
 #include "host/session/recorded.hpp"
 
 namespace strainfinger::cli {
@@ -42,13 +43,12 @@ constexpr const char* kCalibrateHelp =
     "--can: guided, with the finger on a bus: it says what to do next (leave it alone, roll it here, press "
     "it there with a known load, press it at a mark), shows what is covered and known, and ends when nothing "
     "is left to gain. Keys: l keeps what is held and enters its load, a its angle, u takes the last of these "
-    "back, "
-    "s skips what you cannot do, t takes a new zero (asks first), q ends. Where stdout is no terminal, and "
-    "with --plain, lines on stderr; lines on stdin say load 200 g, angle 40, hold, undo, skip, tare or quit. "
-    "The rows are kept beside -o as they come, in NAME.strains.csv and NAME.touches.csv, which --strains and "
-    "--touches read; the same command goes on with them. NAME.session.toml has the config that they were "
-    "collected with: one of another [finger] or other [gauges] is refused. Nothing else is written to the "
-    "finger than requests for its readings (RAW), but for the zero that you agree to.\n"
+    "back, s skips what you cannot do, t takes a new zero (asks first), q ends. Where stdout is no terminal, "
+    "and with --plain, lines on stderr; lines on stdin say load 200 g, angle 40, hold, undo, skip, tare or "
+    "quit. The rows are kept beside -o as they come, in NAME.strains.csv and NAME.touches.csv, which "
+    "--strains and --touches read; the same command goes on with them. NAME.session.toml has the config that "
+    "they were collected with: one of another [finger] or other [gauges] is refused. Nothing else is written "
+    "to the finger than requests for its readings (RAW), but for the zero that you agree to.\n"
     "--strains: CSV, one strain a gauge in a row, as `strains` prints them, without an earlier calibration; "
     "hundreds of rows, all around the finger; or a recording of a bus with RAW in it, as `record` writes, of "
     "which the touches that differ are taken. --touches: CSV with angle_deg, normal_n_per_m and "
@@ -80,7 +80,9 @@ struct CalibrateOptions {
     bus->needs(output)->excludes(strains)->excludes(touches);
     command.add_option("-n,--node", node, "Of --can and of recordings: node number in place of the config's")
         ->check(isNode());
-    command.add_option("--rate", live.rate_hz, "Of --can: sample sets a second (default 100)")
+    command
+        .add_option("--rate", live.rate_hz,
+                    fmt::format("Of --can: sample sets a second (default {})", live.rate_hz))
         ->type_name("HZ")
         ->check(isWhole(10, int{kFastestRaw_hz}))
         ->needs(bus);
@@ -89,12 +91,13 @@ struct CalibrateOptions {
         ->type_name("FILE.html");
     command
         .add_option("--load-error", errors.load,
-                    "Standard deviation of known loads, relative to the normal load (default 0.01)")
+                    "Standard deviation of known loads, relative to the normal load")
         ->type_name("SHARE")
+        ->capture_default_str()
         ->check(isFrom(0, 1));
-    command
-        .add_option("--angle-error-deg", errors.angle_deg, "Standard deviation of known angles (default 0.5)")
+    command.add_option("--angle-error-deg", errors.angle_deg, "Standard deviation of known angles")
         ->type_name("DEG")
+        ->capture_default_str()
         ->check(isFrom(0, 90));
     auto* const whole = command.add_flag("--summary", summary, "Prints one row of the whole finger");
     auto* const each =
@@ -231,7 +234,7 @@ void printRows(TableFormat format, const calibration::CalibrationResult& result)
     table.row({static_cast<std::int64_t>(i + 1), std::string(nameOf(row.use)),
                known(withinATurn_deg(row.touch[calibration::kPlace] / kRadPerDeg)),
                known(row.touch[calibration::kNormalLoad]), known(row.touch[calibration::kTangentialLoad]),
-               known(radius_m * std::sqrt(12 * std::max(0.0, row.touch[calibration::kMoment]))),
+               known(radius_m * model::uniformWidth_rad(row.touch[calibration::kMoment])),
                known(row.chiSquared), residuals.rows[i].before_strain, residuals.rows[i].after_strain});
   }
 }

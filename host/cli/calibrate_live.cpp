@@ -1,7 +1,6 @@
 #include "host/cli/calibrate_live.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
@@ -41,7 +40,7 @@ class SessionFace {
  public:
   virtual ~SessionFace() = default;
   /// The text of a command, if one was given.
-  virtual std::optional<std::string> heard() = 0;
+  virtual std::optional<std::string> readCommand() = 0;
   virtual void show(const session::SessionView& view) = 0;
   /// What became of a command, or of the finger, at once.
   virtual void say(const std::string& message) = 0;
@@ -51,7 +50,7 @@ class SessionScreen : public SessionFace {
  public:
   explicit SessionScreen(const config::Gauges& gauges) : gauges_(gauges) {}
 
-  std::optional<std::string> heard() override {
+  std::optional<std::string> readCommand() override {
     while (const auto key = terminal_.key())
       if (const auto text = keys_.press(*key)) return text;
     return std::nullopt;
@@ -75,7 +74,7 @@ class SessionScreen : public SessionFace {
 /// Lines on stderr: stdout is for the table at the end. Commands are lines on stdin.
 class SessionLines : public SessionFace {
  public:
-  std::optional<std::string> heard() override {
+  std::optional<std::string> readCommand() override {
     if (const auto line = stdin_.next()) return std::string(*line);
     if (!isOver_) isOver_ = stdin_.read(0ms) == LineReader::Got::kEnd;
     if (const auto line = stdin_.next()) return std::string(*line);
@@ -133,7 +132,7 @@ class LiveSession {
       if (port_->waitReadable(kSessionWait)) std::this_thread::sleep_for(can::BusPort::kGather);
       takeFrames();
       followFit();
-      while (const auto text = face_->heard()) obey(*text);
+      while (const auto text = face_->readCommand()) obey(*text);
       if (SessionClock::now() - heard_ > kSessionSilence) askAgain(stream);
       face_->show(view());
     }
@@ -207,8 +206,8 @@ class LiveSession {
     if (++silences_ > kMostSilences || sets_ == 0)
       throw Failure(ExitCode::kNoNode,
                     fmt::format("{} node {}: no whole set of readings for {:.0f} s, though it answers: has "
-                                "it gauges.count = {}, as "
-                                "the config, and is the bus free enough? A lower --rate may help",
+                                "it gauges.count = {}, as the config, and is the bus free enough? A lower "
+                                "--rate may help",
                                 port_->name(), options_.node, silence_s, config_.gauges.count));
     tell("the finger sent nothing, and was asked again");
   }

@@ -13,8 +13,7 @@ namespace {
 
 constexpr const char* kConfigHelp =
     "Changes settings of a finger on the bus: the contact rate until its next start, or for ever with "
-    "--keep; its "
-    "node number from its next start on; or has it start anew.\n"
+    "--keep; its node number from its next start on; or has it start anew.\n"
     "Prints interface,node,command,status. Exit status: 1 refused, 3 no interface, 4 no such node.";
 
 struct ConfigOptions {

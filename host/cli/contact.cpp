@@ -43,7 +43,9 @@ struct ContactCommand {
              ->delimiter(',')
              ->check(isFrom(-180, 180))
              ->excludes(alone);
-    command.add_option("--points", points, "Or: so many, evenly over twice the contact's width (400)")
+    command
+        .add_option("--points", points,
+                    fmt::format("Or: so many, evenly over twice the contact's width ({})", points))
         ->type_name("N")
         ->check(isWhole(1, 1'000'000))
         ->excludes(&list)
@@ -51,11 +53,14 @@ struct ContactCommand {
     command.add_option("--method", method, "spectral, or paper: windowed Fourier series, pseudo-inverse")
         ->check(CLI::IsMember({"spectral", "paper"}));
     ofPaper = {
-        command.add_option("--harmonics", paper.harmonics, "Of --method paper: last harmonic n_c (300)")
+        command
+            .add_option("--harmonics", paper.harmonics,
+                        fmt::format("Of --method paper: last harmonic n_c ({})", paper.harmonics))
             ->check(isWhole(2, kMostHarmonics)),
         command
             .add_option("--cutoff", paper.cutoff,
-                        "Of --method paper: singular values from there on, relative (0.1)")
+                        "Of --method paper: singular values from there on, relative")
+            ->capture_default_str()
             ->check(isFrom(0, 1)),
         command
             .add_option("--rows", rows,
@@ -150,8 +155,7 @@ void tellErrors(const model::Annulus<double>& annulus, contact::ContactRequest r
   if (exact.residual_m > 1e-6 * std::abs(exact.depth_m))
     warn("contact",
          "no contact of this indenter is centred on its normal, where --method paper holds it; --method "
-         "spectral "
-         "moves it to where it fits");
+         "spectral moves it to where it fits");
   if (!(found.depth_m > 0 && found.normal_n_per_m > 0))
     warn("contact",
          fmt::format("depth {:.2g} m, load {:.2g} N/m: what pulls the surface out is no contact; raise "

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -25,7 +26,9 @@ using contact::Indenter;
 double parameterOf(const std::string& text, const std::string& kind, double least, double most) {
   double value = 0;
   const std::string number = text.substr(kind.size() + 1);
-  if (CLI::detail::lexical_cast(number, value) && value > least && value < most) return value;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+  const bool isNumber = error == std::errc{} && end == number.data() + number.size();
+  if (isNumber && value > least && value < most) return value;
   throw Failure(ExitCode::kUsage, fmt::format("--indenter: {}: {} is not a number between {} and {}", kind,
                                               excerpt(number), least, most));
 }

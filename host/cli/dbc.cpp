@@ -27,6 +27,7 @@ void runDbc(const DbcOptions& options) {
   if (options.common.format() == TableFormat::kJson)
     throw Failure(ExitCode::kUsage, "dbc: --json: a DBC file is all that it prints");
   const config::Can can = options.common.config().can;
+  requireFolderOf("--output", options.path);
   const std::string text = can::dbcText(nodeOf(options.node, can), can.contact_rate_hz);
   if (!options.path.empty())
     writeFileAtomically(options.path, text);

@@ -32,12 +32,10 @@ constexpr const char* kDecodeHelp =
     "--json: one object a frame with its own fields, null where not known.\n"
     "The largest value of a field stands for it or more (sigma_normal_n 0.127, sigma_width_m 0.065534 ..).\n"
     "--touches: a row for each touch sample in place of its frames: where, how hard, how wide, how sure. "
-    "What "
-    "of it was lost is empty; a sample that lost its CONTACT has no row. The last row of a touch has no flag "
-    "contact.\n"
+    "What of it was lost is empty; a sample that lost its CONTACT has no row. The last row of a touch has no "
+    "flag contact.\n"
     "A line that cannot be read is reported as FILE:LINE:COLUMN on stderr, of each file the first 20, and "
-    "makes "
-    "the exit status 1.\n"
+    "makes the exit status 1.\n"
     "At the end, or at Ctrl-C, stderr says what was read, skipped and lost.\n"
     "Other devices can use the same identifiers (CANopen drives do): --node says which nodes are fingers.\n"
     "Live: candump vcan0 | strainfinger decode --touches\n"
@@ -170,9 +168,9 @@ class Decoder {
       frames_->print(text.time_ns, text.interface, frame);
   }
 
-  /// The low seven bits of a finger's identifier are the node, whatever the function.
   bool isWanted(const CanFrame& frame) const {
-    return nodes_.empty() || std::find(nodes_.begin(), nodes_.end(), frame.id & 0x7F) != nodes_.end();
+    return nodes_.empty() ||
+           std::find(nodes_.begin(), nodes_.end(), can::fingerNode(frame.id)) != nodes_.end();
   }
 
   system::StopSignal stop_;

@@ -11,6 +11,7 @@
 #include "common/frames.hpp"
 #include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/text_parts.hpp"
 #include "host/can/candump_text.hpp"
 #include "host/can/field_text.hpp"
 #include "host/can/frame_catalogue.hpp"
@@ -68,7 +69,7 @@ std::variant<can::LogLine, can::LogError> lineOf(const std::string& text) {
 /// The words as one text: without quotes they come without the brackets of "[8]", which are the command line
 /// library's.
 std::vector<std::string> textsOf(const std::vector<std::string>& words) {
-  std::vector<std::string> texts{CLI::detail::trim_copy(fmt::format("{}", fmt::join(words, " ")))};
+  std::vector<std::string> texts{std::string(trimmed(fmt::format("{}", fmt::join(words, " "))))};
   for (std::size_t i = 1; i < std::min<std::size_t>(words.size(), 4); ++i) {
     if (words[i].size() != 1) continue;
     std::vector<std::string> bracketed = words;

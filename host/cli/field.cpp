@@ -24,11 +24,13 @@ constexpr const char* kFieldHelp =
 struct FieldOptions {
   explicit FieldOptions(CLI::App& command) : common(command), contact(command) {
     const auto count = isWhole(2, 10'000);
-    command.add_option("--radii", radii, "Number of radii, core and surface included (20)")->check(count);
-    command.add_option("--angles", angles, "Number of angles (81)")->check(count);
+    command
+        .add_option("--radii", radii, fmt::format("Number of radii, core and surface included ({})", radii))
+        ->check(count);
+    command.add_option("--angles", angles, fmt::format("Number of angles ({})", angles))->check(count);
     const auto angle = isFrom(-180, 180);
-    command.add_option("--from-deg", from_deg, "First angle [degrees] (-20)")->check(angle);
-    command.add_option("--to-deg", to_deg, "Last angle [degrees] (20)")->check(angle);
+    command.add_option("--from-deg", from_deg, "First angle [degrees]")->capture_default_str()->check(angle);
+    command.add_option("--to-deg", to_deg, "Last angle [degrees]")->capture_default_str()->check(angle);
   }
   CommonOptions common;
   ContactOptions contact;

@@ -58,8 +58,7 @@ void FirmwareOptions::warnOfMode(const char* command, const TableImage& image) c
   if (mode_ == FitMode::kThreePoint && image.constants.width_is_known == 0)
     warn(command,
          "--mode three-point takes every contact for a line, as contact.width_m is left out: wider ones are "
-         "off "
-         "by several of the errors that it tells; give contact.width_m, or --mode refined");
+         "off by several of the errors that it tells; give contact.width_m, or --mode refined");
 }
 
 }  // namespace strainfinger::cli

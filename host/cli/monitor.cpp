@@ -30,13 +30,10 @@ constexpr const char* kMonitorHelp =
     "contacts a second, jitter, lost frames, bus load.\n"
     "--can BUS: live. Without it, a log on stdin (any candump text): candump can0 | strainfinger monitor\n"
     "In a terminal a screen, drawn at most ten times a second. Keys: t zeroes the gauges of the finger that "
-    "is "
-    "marked (do not touch it), up and down mark another, r begins and ends a log in this folder, with notes "
-    "as `record` writes them, q ends. "
-    "NO_COLOR=1: no colours.\n"
+    "is marked (do not touch it), up and down mark another, r begins and ends a log in this folder, with "
+    "notes as `record` writes them, q ends. NO_COLOR=1: no colours.\n"
     "Elsewhere, and with --plain, a line for each finger every second (--every), or with --json an object "
-    "for "
-    "each bus.\n"
+    "for each bus.\n"
     "Ctrl-C ends it too, with exit status 130.";
 
 constexpr std::chrono::milliseconds kRedraw{100};
@@ -45,8 +42,9 @@ struct MonitorOptions {
   explicit MonitorOptions(CLI::App& command) : common(command) {
     addBusOption(command, bus);
     command.add_flag("--plain", plain, "Lines, even in a terminal");
-    command.add_option("--every", every_s, "Seconds between lines (default 1)")
+    command.add_option("--every", every_s, "Seconds between lines")
         ->type_name("S")
+        ->capture_default_str()
         ->check(isFrom(0.01, 86'400));
   }
 
@@ -173,8 +171,8 @@ void printLive(can::BusPort& port, const config::FingerConfig& config, const Mon
 void monitorBus(const MonitorOptions& options) {
   const config::FingerConfig config = options.common.config();
   const auto port = can::openBus(options.bus, config.can.bitrate);
-  options.wantsScreen() ? LiveScreen(*port, config, options.tables_crc32()).run()
-                        : printLive(*port, config, options);
+  if (options.wantsScreen()) return LiveScreen(*port, config, options.tables_crc32()).run();
+  printLive(*port, config, options);
 }
 
 /// Waits for more, at most so long, and gives each line to take(line), the last one too if it lacks its end;

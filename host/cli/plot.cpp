@@ -27,8 +27,7 @@ namespace {
 
 constexpr const char* kPlotHelp =
     "Draws what a finger said in a log (any candump text with times): angle, forces and width with bands of "
-    "one sigma, "
-    "and the flags, over time. Needs gnuplot.\n"
+    "one sigma, and the flags, over time. Needs gnuplot.\n"
     "Beside the picture stay its data (CSV) and the script that draws it.\n"
     "Of a long log some of the touches are drawn, evenly over its time.";
 
@@ -148,6 +147,7 @@ void runPlot(const PlotOptions& options) {
   options.common.requireGoodConfig();
   options.common.requireNoneNamed("--output", plot::filesBeside(options.output, plot::kLogData));
   plot::requirePicturePath(options.output);
+  requireFolderOf("--output", options.output);
   const Heard heard = readLog(options);
   requireNotSeveral(options, heard.tracks);
   judge(options, heard);

@@ -22,11 +22,9 @@ using Clock = std::chrono::steady_clock;
 constexpr const char* kRecordHelp =
     "Writes every frame on a bus into a log, as `candump -L` does, until Ctrl-C or --duration.\n"
     "Beside it, in the same name with .toml: the config (-c), versions, and the fingers that were heard; it "
-    "can be "
-    "given to -c.\n"
+    "can be given to -c.\n"
     "If the program is killed, what was on the bus up to half a second before is in the file, in whole "
-    "lines; if the disk is "
-    "full it says so and ends with status 1.\n"
+    "lines; if the disk is full it says so and ends with status 1.\n"
     "The log is what `decode`, `plot` and `replay` read.";
 
 constexpr auto kFlushPeriod = 250ms;

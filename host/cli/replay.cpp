@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -39,8 +38,7 @@ constexpr const char* kReplayHelp =
     "finger that is on the bus obeys them, and takes a new zero or other tables. What a log has of several "
     "interfaces goes to the one bus, with a warning; --interface sends what it has of one.\n"
     "--recompute: sends nothing, but puts the RAW of a recording of -c's finger through the firmware's code, "
-    "and compares "
-    "the frames of touches, bit for bit. Exit status 6: they differ.";
+    "and compares the frames of touches, bit for bit. Exit status 6: they differ.";
 
 constexpr auto kTryAgain = 1ms;
 constexpr auto kGiveUp = 1s;
@@ -160,7 +158,7 @@ class OneFinger {
   /// Takes any frame of the log. Throws Failure(kUsage) at the first of another finger with the node.
   void watch(const std::string& path, const can::TextFrame& text) {
     const bool isItsOwn = can::findFrame(text.frame) != nullptr || decode<RawFrame>(text.frame);
-    if (!isItsOwn || nodeOf(text.frame) != node_) return;
+    if (!isItsOwn || can::fingerNode(text.frame.id) != node_) return;
     if (interface_.empty()) interface_ = text.interface;
     if (text.interface == interface_) return;
     throw Failure(ExitCode::kUsage,
@@ -169,9 +167,6 @@ class OneFinger {
   }
 
  private:
-  /// The low seven bits of a finger's identifier are the node, whatever the function.
-  static int nodeOf(const CanFrame& frame) { return frame.id & 0x7F; }
-
   int node_;
   std::string interface_;  ///< of its first frame
 };

@@ -31,11 +31,12 @@ inline std::uint8_t nodeOf(int node, const config::Can& can) {
   return static_cast<std::uint8_t>(node != 0 ? node : can.node);
 }
 
-/// What request() says of a reply that came over `bus`, without the printing.
+/// Throws as request() does where the reply, which came over `bus`, is none or refuses; warns on stderr where
+/// it was done although something touches the finger.
 void requireDone(const can::Reply& reply, Command command, const can::BusPort& bus, std::uint8_t node);
 
 /// Before a request that changes something: throws as request() does where nobody would obey, or two fingers;
-/// Failure(kInterrupted) where `goOn()`, asked ten times a second, is false before an answer.
+/// Failure(kInterrupted) where `goOn()`, asked ten times a second at least, is false before an answer.
 void requireOneFinger(can::BusPort& bus, std::uint8_t node, const std::function<bool()>& goOn = {});
 
 /// That two fingers have this number.

@@ -53,7 +53,9 @@ struct RunOptions {
         .add_option("--scenario", scenarioPath,
                     "What touches the finger (TOML); the built-in scenario without it")
         ->type_name("FILE");
-    command.add_option("--seed", seed, "Of the noise and of the gauges' zeros (default 1)")->check(isSeed());
+    command
+        .add_option("--seed", seed, fmt::format("Of the noise and of the gauges' zeros (default {})", seed))
+        ->check(isSeed());
     command
         .add_option("--duration", duration_s,
                     "Seconds; without it the loopback runs the scenario once, a bus until Ctrl-C")
@@ -77,7 +79,9 @@ struct RunOptions {
             "At the end, what touched the finger, a row for each row of --strains (CSV); its cells are "
             "empty while several touches do, which a row cannot say")
         ->type_name("FILE");
-    command.add_option("--rows-hz", rows_hz, "Rows of --strains and --touches a second (default 100)")
+    command
+        .add_option("--rows-hz", rows_hz,
+                    fmt::format("Rows of --strains and --touches a second (default {})", kUsualRows_hz))
         ->type_name("HZ")
         ->check(isWhole(1, 1000));
     command
@@ -268,7 +272,8 @@ void runRun(const RunOptions& options) {
   for (const std::string& path : options.pictures)
     options.common.requireNoneNamed("--picture", plot::filesBeside(path, plot::kTouchData));
   const config::FingerConfig config = options.common.config();
-  options.isLoopback() ? runOnLoopback(config, options) : runOnBus(config, options);
+  if (options.isLoopback()) return runOnLoopback(config, options);
+  runOnBus(config, options);
 }
 
 }  // namespace

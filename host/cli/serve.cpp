@@ -39,9 +39,12 @@ constexpr std::chrono::milliseconds kPublishEvery{40};
 struct ServeOptions {
   explicit ServeOptions(CLI::App& command) : common(command) {
     addBusOption(command, bus)->required();
-    command.add_option("--port", server.port, "TCP port (default 8080); 0: any that is free")
+    command
+        .add_option("--port", server.port,
+                    fmt::format("TCP port (default {}); 0: any that is free", server.port))
         ->check(isWhole(0, 65535));
-    command.add_option("--address", server.address, "To listen on (default 127.0.0.1: this machine only)");
+    command.add_option("--address", server.address, "To listen on; 127.0.0.1 is this machine only")
+        ->capture_default_str();
     command.add_option("--token", server.token, "What commands need (default: none here, else a random one)");
   }
   CommonOptions common;

@@ -27,12 +27,10 @@ constexpr const char* kShapeHelp =
     "more.\n"
     "stdin: CSV, one strain a gauge in a row, a row a touch; a header row, blank lines and # comments "
     "are passed over. The config's [calibration] says the gain, the angle and the depth of each gauge. "
-    "Sigmas "
-    "hold noise, gauges.model_error and what the calibration left open; 0.05, the default, leaves a finger "
-    "that "
-    "nobody calibrated little more than place and load: calibrate it first. Shear is taken to be spread as "
-    "pressure is, while `run` and `locate` have partial slip (Mindlin): with much of it places are off by "
-    "more than their sigmas on a perfect finger.\n"
+    "Sigmas hold noise, gauges.model_error and what the calibration left open; 0.05, the default, leaves a "
+    "finger that nobody calibrated little more than place and load: calibrate it first. Shear is taken to be "
+    "spread as pressure is, while `run` and `locate` have partial slip (Mindlin): with much of it places are "
+    "off by more than their sigmas on a perfect finger.\n"
     "stdout: one row a touch; what isn't known is empty. width_m: of the semi-ellipse with the load's "
     "second moment, if no line load fits (3 sigma); width_limit_m: the width is below it with 95 %. "
     "curvature_per_m: of a round indenter that makes this width under this load, 0: flat; "
@@ -44,8 +42,7 @@ constexpr const char* kShapeHelp =
     "rival_angle_deg, the same angle if the two differ in width and loads only, fits about as well: "
     "bands of 95 % hold it, and no class is named), sparse (a gap between gauges at the surface is more than "
     "twice their depth: no width, and answers may be farther off than the sigmas say), misfit (residuals are "
-    "not "
-    "noise: two touches, a bad gauge, another noise), profile (another class fits too, and has a value "
+    "not noise: two touches, a bad gauge, another noise), profile (another class fits too, and has a value "
     "outside its band of 95 %), wide (wider than 1 rad, or narrower than a line).\n"
     "With --pressure: the resolved part of the pressure with its band of 95 %, and the ellipse fitted.";
 
@@ -58,7 +55,7 @@ struct ShapeOptions {
                    ->check(isFrom(1e-12, 0.1));
     auto* const withPressure =
         command.add_flag("--pressure", pressure, "The pressure against the angle in place of the summary");
-    command.add_option("--points", points, "Angles that --pressure prints a touch (41)")
+    command.add_option("--points", points, fmt::format("Angles that --pressure prints a touch ({})", points))
         ->needs(withPressure)
         ->type_name("N")
         ->check(isWhole(2, 100'000));

@@ -20,8 +20,7 @@ constexpr const char* kStrainHelp =
     "surface, at a radius and a list of angles.\n"
     "The load is a line load, or uniform over --width-m. At the surface itself a line load has no field; one "
     "of some width has, but at the edges of a tangential one err, ett and ttt_pa grow as logarithms without "
-    "end "
-    "and are inf (null in JSON).";
+    "end and are inf (null in JSON).";
 
 constexpr double kMostLoad_n_per_m = 1e12;
 constexpr double kMostAngle_deg = 1e6;

@@ -27,11 +27,9 @@ namespace {
 
 constexpr const char* kStrainsHelp =
     "Asks a finger for its gauges' readings (RAW) and prints them as strains, a row a sample set, until "
-    "there "
-    "are --rows, its duration is over or Ctrl-C; then the finger is told to stop.\n"
+    "there are --rows, its duration is over or Ctrl-C; then the finger is told to stop.\n"
     "stdout: time_s (since 1970, of arrival), strain_0, strain_1 ..: as `locate`, `shape` and `calibrate` "
-    "read "
-    "them, at nominal gain and less the finger's zero.\n"
+    "read them, at nominal gain and less the finger's zero.\n"
     "The config's gauges must be those of the finger. At the end stderr says how many sets came whole. Exit "
     "status: 1 refused, 3 no interface, 4 no such node or no readings, 5 another ring's config.";
 
@@ -40,7 +38,7 @@ constexpr double kLongestStrains_s = 1e6;
 
 struct StrainsOptions {
   explicit StrainsOptions(CLI::App& command) : request(command) {
-    command.add_option("--rate", rate_hz, "Sample sets a second (default 100)")
+    command.add_option("--rate", rate_hz, fmt::format("Sample sets a second (default {})", rate_hz))
         ->type_name("HZ")
         ->check(isWhole(1, int{kFastestRaw_hz}));
     command.add_option("--duration", duration_s, "Seconds; without it until Ctrl-C")

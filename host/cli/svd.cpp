@@ -36,7 +36,8 @@ struct SvdOptions {
         command.add_option("--basis", basis, "Prints the first K shape and pressure functions")
             ->type_name("K")
             ->check(isWhole(1, 10'000));
-    command.add_option("--points", points, "Angles over the width that --basis prints (101)")
+    command
+        .add_option("--points", points, fmt::format("Angles over the width that --basis prints ({})", points))
         ->needs(withBasis)
         ->type_name("N")
         ->check(isWhole(2, 100'000));

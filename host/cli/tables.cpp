@@ -73,6 +73,8 @@ void warnOf(const config::FingerConfig& config, const tables::SelfCheck& check) 
 
 void make(const TablesOptions& options) {
   const config::FingerConfig config = options.common.config();
+  requireFolderOf("--output", options.imagePath);
+  requireFolderOf("--header", options.headerPath);
   const auto [image, check] = tables::buildCheckedTables(config);
   if (!options.imagePath.empty()) writeFileAtomically(options.imagePath, tables::imageBytes(image));
   if (!options.headerPath.empty()) writeFileAtomically(options.headerPath, tables::imageHeader(image));
@@ -93,12 +95,13 @@ void showInfo(const TablesOptions& options) {
   table.row({"bytes", std::int64_t{image->image_bytes}});
   table.row({"crc32", fmt::format("{:08X}", image->crc32)});
   const bool isJson = options.common.format() == TableFormat::kJson;
+  const Cell unknown = isJson ? Cell(kNoValue) : Cell(tables::kUnknownParameter);
   for (const tables::Parameter& parameter : tables::parametersOf(image->parameters))
-    table.row({parameter.key, isJson && parameter.value == Cell("unknown") ? kNoValue : parameter.value});
+    table.row({parameter.key, parameter.value.value_or(unknown)});
   const int count = image->constants.gauge_count;
   for (const tables::Parameter& list : {tables::anglesOf(image->gauge_angle_q32, count),
                                         tables::gainsOf(*image), tables::depthsOf(image->depths, count)})
-    table.row({list.key, list.value});
+    table.row({list.key, list.value.value_or(unknown)});
 }
 
 void verify(const TablesOptions& options) {

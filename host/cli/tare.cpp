@@ -1,3 +1,4 @@
+#include "firmware/core/condition.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/request.hpp"
 
@@ -9,6 +10,8 @@ constexpr const char* kTareHelp =
     "fifteenth of a second by default.\n"
     "A finger that feels a touch refuses; --force takes the zero anyway, for one whose old zero is off.\n"
     "Prints interface,node,command,status. Exit status: 1 refused, 3 no interface, 4 no such node.";
+
+static_assert(firmware::ZeroAverage::kSamples == 64);  // as the help says
 
 struct TareOptions {
   explicit TareOptions(CLI::App& command) : request(command) {

@@ -4,19 +4,19 @@
 #include <numbers>
 
 #include "common/fixed_real.hpp"
+#include "host/base/angles.hpp"
 
 namespace strainfinger::cli {
 namespace {
 
 using simulation::Touch;
 
-constexpr double kDegPerRad = 180 / std::numbers::pi;
 constexpr int kProfileSteps = 720;
 
 plot::ContactPoint truthPoint(const std::vector<Touch>& truth) {
   if (truth.size() != 1) return {};
   const Touch& touch = truth.front();
-  return {touch.angle_rad * kDegPerRad, touch.normal_n_per_m, touch.tangential_n_per_m};
+  return {touch.angle_rad / kRadPerDeg, touch.normal_n_per_m, touch.tangential_n_per_m};
 }
 
 }  // namespace
@@ -65,12 +65,12 @@ plot::TouchRecord TouchRecorder::record(const simulation::GaugeStrains& strains)
   for (int step = 0; step <= kProfileSteps; ++step) {
     const double angle_rad = 2 * std::numbers::pi * step / kProfileSteps;
     record.profile.push_back(
-        {angle_rad * kDegPerRad, strains.at(angle_rad, hardest_.truth), fit_.at(angle_rad, hardest_.report)});
+        {angle_rad / kRadPerDeg, strains.at(angle_rad, hardest_.truth), fit_.at(angle_rad, hardest_.report)});
   }
   const std::vector<double> fitted = fit_.readings(hardest_.report);
   for (int gauge = 0; gauge < strains.count(); ++gauge) {
     const auto i = static_cast<std::size_t>(gauge);
-    record.readings.push_back({strains.gaugeAngle_rad(gauge) * kDegPerRad,
+    record.readings.push_back({strains.gaugeAngle_rad(gauge) / kRadPerDeg,
                                toReal(StrainQ32::fromRaw(readings_.strain_q32[i])), fitted[i] * factors_[i],
                                told_.gauges.noise_strain});
   }

@@ -1,15 +1,16 @@
 #pragma once
-// How many contacts a second a bus can carry.
+// How many contacts a second a finger reports, and a bus can carry.
 
 #include <cstdint>
 
+#include "common/can_frame.hpp"
 #include "host/config/finger_config.hpp"
 
 namespace strainfinger::config {
 
-/// Bits on the bus of an 8-byte frame with an 11-bit identifier, stuffed at worst: 8 n + 44 fixed bits, 3 of
-/// interframe space, a stuff bit for every 4 of the 34 + 8 n - 1 that are subject to it.
-inline constexpr int kWorstFrame_bits = 8 * 8 + 44 + 3 + (34 + 8 * 8 - 1) / 4;
+/// Bits on the bus of an 8-byte frame, stuffed at worst: a stuff bit for every 4 of the 34 + 8 n - 1 that are
+/// subject to it.
+inline constexpr int kWorstFrame_bits = unstuffedBits(8) + (34 + 8 * 8 - 1) / 4;
 /// CONTACT, FORCE and PATCH; those of a second contact may wait.
 inline constexpr int kFramesPerContact = 3;
 

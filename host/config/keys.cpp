@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/commands.hpp"
+#include "common/frame_layout.hpp"
 
 namespace strainfinger::config {
 namespace {
@@ -50,13 +51,11 @@ std::vector<Key> makeKeys() {
        "the converter covers +- this"},
       {"gauges", "adc_bits", slot<&F::gauges, &Gauges::adc_bits>(), Domain::between(8, 16),
        "resolution of the converter, by which its upper end is known: of the board in firmware/board 12, "
-       "however "
-       "it oversamples"},
+       "however it oversamples"},
       {"gauges", "model_error", slot<&F::gauges, &Gauges::model_error>(), Domain::between(0, 1),
        "standard deviation of what a reading may be off what the model says (build tolerances, rubber), as a "
        "fraction of that reading; an eighth of that of its neighbours' and a sixteenth of that of the "
-       "touch's "
-       "largest come on top; 0.05: nobody calibrated the finger; 0: it is exactly as configured"},
+       "touch's largest come on top; 0.05: nobody calibrated the finger; 0: it is exactly as configured"},
       {"gauges", "angle_deg", slot<&F::gauges, &Gauges::angles_deg>(), Domain::below(0, 360),
        "where each gauge is, counter-clockwise from gauge to gauge, for a ring that is not even; an empty "
        "list: the ring is even"},
@@ -70,7 +69,8 @@ std::vector<Key> makeKeys() {
        "moment; 0: a line load; at most largest_width_m; left out: unknown, fitted with each touch"},
       {"contact", "largest_width_m", slot<&F::contact, &Contact::largest_width_m>(), Domain::above(0, 1),
        "widest contact that the tables cover; at most outer_radius_m"},
-      {"can", "node", slot<&F::can, &Can::node>(), Domain::between(1, 63), "node number on the bus"},
+      {"can", "node", slot<&F::can, &Can::node>(), Domain::between(kFirstNode, kLastNode),
+       "node number on the bus"},
       {"can", "bitrate", slot<&F::can, &Can::bitrate>(),
        Domain::oneOf({10'000, 20'000, 50'000, 125'000, 250'000, 500'000, 800'000, 1'000'000}),
        "bits per second (CiA 301, table of bit rates)"},

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 #include <numeric>
 #include <vector>
 
+#include "host/base/angles.hpp"
 #include "host/config/bus_load.hpp"
 #include "host/config/keys.hpp"
 
@@ -31,7 +31,7 @@ std::vector<double> gaps_deg(const Gauges& gauges) {
 /// Arc between the two gauges that are nearest each other.
 double leastPitchArc_m(const Gauges& gauges) {
   const auto gaps = gaps_deg(gauges);
-  return *std::min_element(gaps.begin(), gaps.end()) * std::numbers::pi / 180 * gauges.radius_m;
+  return *std::min_element(gaps.begin(), gaps.end()) * kRadPerDeg * gauges.radius_m;
 }
 
 /// Whether all gaps are such as kLeastGap and kMostGap allow and go round the ring once.

@@ -2,9 +2,9 @@
 // How far the gauges are apart for their depth and the rubber.
 
 #include <algorithm>
-#include <numbers>
 
 #include "common/table_image.hpp"
+#include "host/base/angles.hpp"
 #include "host/config/finger_config.hpp"
 
 namespace strainfinger::config {
@@ -24,7 +24,7 @@ inline double widestGapInDepths(const FingerConfig& config) {
   double widest_deg = 0;
   for (int gauge = 0; gauge < gauges.count; ++gauge) widest_deg = std::max(widest_deg, gauges.gap_deg(gauge));
   const double outer_m = config.finger.outer_radius_m;
-  return widest_deg / 180 * std::numbers::pi * outer_m / (outer_m - gauges.radius_m);
+  return widest_deg * kRadPerDeg * outer_m / (outer_m - gauges.radius_m);
 }
 
 inline RingSpacing spacingOf(const FingerConfig& config) {

@@ -14,7 +14,7 @@
 namespace strainfinger::contact {
 namespace {
 
-/// Of the depth, that goes unsaid: just below what the stability survey fails at.
+/// Of the depth, without a warning: just below what the stability survey fails at (1e-6).
 constexpr double kMostResidual = 9e-7;
 
 /// Of the depth: what is farther off is no answer.

@@ -15,10 +15,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using std::numbers::pi;
 
-double beta(double a, double b) { return std::exp(std::lgamma(a) + std::lgamma(b) - std::lgamma(a + b)); }
-
 double weightIntegral(EdgeExponents e) {
-  return std::pow(2, e.right + e.left + 1) * beta(e.right + 1, e.left + 1);
+  return std::pow(2, e.right + e.left + 1) * std::beta(e.right + 1, e.left + 1);
 }
 
 /// x p_k = off[k] p_(k-1) + diagonal[k] p_k + off[k+1] p_(k+1) for orthonormal p.

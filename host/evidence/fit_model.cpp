@@ -3,6 +3,9 @@
 #include <cmath>
 #include <vector>
 
+#include "host/model/pressure_profile.hpp"
+#include "host/simulation/gauge_strains.hpp"
+
 namespace strainfinger::evidence {
 namespace {
 
@@ -21,12 +24,9 @@ model::GaugeRing ringOf(const config::FingerConfig& config) {
 FitModel::FitModel(const config::FingerConfig& config) : config_(config), ring_(ringOf(config)) {}
 
 FittedContact FitModel::describe(const simulation::Touch& touch) const {
-  const model::Profile profile = touch.width_m ? touch.profile : model::Profile::kUniform;
-  const double width_m = touch.width_m.value_or(config_.contact.width_m.value_or(0));
-  return {touch.angle_rad,
-          {touch.normal_n_per_m, touch.tangential_n_per_m,
-           model::momentOf(profile, width_m / config_.finger.outer_radius_m), model::Profile::kEllipse,
-           config_.contact.friction_coefficient}};
+  model::TouchLoad load = simulation::loadOf(touch, config_.contact, config_.finger.outer_radius_m);
+  load.profile = model::Profile::kEllipse;
+  return {touch.angle_rad, load};
 }
 
 Eigen::VectorXd FitModel::readings(std::span<const FittedContact> contacts) const {
@@ -47,9 +47,8 @@ Eigen::MatrixX4d FitModel::slopes(const FittedContact& contact) const {
   return slopes;
 }
 
-// A uniform pressure of width w has the moment w^2 / 12.
 double FitModel::uniformWidth_m(double moment_rad2) const {
-  return config_.finger.outer_radius_m * std::sqrt(12 * moment_rad2);
+  return config_.finger.outer_radius_m * model::uniformWidth_rad(moment_rad2);
 }
 
 double FitModel::uniformWidthSigma_m(double moment_rad2, double sigmaMoment_rad2) const {

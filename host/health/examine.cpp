@@ -24,11 +24,11 @@ constexpr double kMostLoad = double{kFrameBits} / config::kWorstFrame_bits;
 /// ISO 11898's error warning and error passive.
 constexpr int kErrorWarning = 96, kErrorPassive = 128;
 
-/// Of an adapter, as parts of a bit (firmware/bring_up.md), rounded.
-constexpr double kEarliestSample = 0.745, kLatestSample = 0.88;
+/// Of an adapter, as parts of a bit (firmware/bring_up.md), and what it may be off them by rounding.
+constexpr double kEarliestSample = 0.75, kLatestSample = 0.875, kSampleRounding = 0.005;
 
-/// Erases of the settings' memory from which on its end is near: four pages last 10,000 times each (DS12589).
-constexpr std::uint32_t kNearlyWorn = 36'000;
+/// Erases of the settings' memory from which on its end is near.
+constexpr std::uint32_t kNearlyWorn = can::kWornOut_erases / 10 * 9;
 
 constexpr std::string_view kBusRemedy =
     "check the bus: wiring, 120 ohm at both ends, one bit rate for all, somebody who acknowledges";
@@ -213,10 +213,11 @@ Findings examineLink(const CanLink& link, std::optional<int> bitrate) {
   if (link.bitrate && *link.bitrate != wanted)
     examination.error(fmt::format("{} bit/s; the config's can.bitrate is {}", *link.bitrate, wanted),
                       fmt::format("{}, or mend can.bitrate", bringUpAnew(link, wanted)));
-  if (link.samplePoint && (*link.samplePoint < kEarliestSample || *link.samplePoint > kLatestSample))
+  if (link.samplePoint && (*link.samplePoint < kEarliestSample - kSampleRounding ||
+                           *link.samplePoint > kLatestSample + kSampleRounding))
     examination.warning(
-        fmt::format("bits are sampled at {:.1f} % of their length; 75 to 87.5 % goes with the finger's 83.3",
-                    100 * *link.samplePoint),
+        fmt::format("bits are sampled at {:.1f} % of their length; {} to {} % goes with the finger's 83.3",
+                    100 * *link.samplePoint, 100 * kEarliestSample, 100 * kLatestSample),
         fmt::format("add `sample-point 0.8` to {}", bringUpAnew(link, wanted)));
   if (link.isListenOnly)
     examination.warning("listen-only: it acknowledges nothing, and no request can be sent",
@@ -244,8 +245,7 @@ Findings examineBus(const live::BusView& bus, hal::CanState state, const can::Bu
     examination.warning(
         fmt::format("{:.0f} % of the bit rate are used: with stuff bits the bus may be full", 100 * bus.load),
         "end RAW (`strainfinger strains --can BUS -n N --rows 1`), or lower contact rates: `strainfinger "
-        "config "
-        "--can BUS -n N --contact-rate-hz HZ` (common/BUS_LOAD.md)");
+        "config --can BUS -n N --contact-rate-hz HZ` (common/BUS_LOAD.md)");
   if (bus.missed > 0)
     examination.warning(fmt::format("this machine was too slow for {} frames", bus.missed),
                         "what else does it do? lost frames may be its own");

@@ -5,6 +5,8 @@
 #include <span>
 #include <utility>
 
+#include "host/can/frame_catalogue.hpp"
+
 namespace strainfinger::live {
 namespace {
 
@@ -13,12 +15,6 @@ constexpr std::int64_t kTouchLasts_us = 4'000 * std::int64_t{kContactPeriod_ms};
 
 /// Of RAW there is one set a second at least.
 constexpr std::int64_t kRawLasts_us = 1'500'000;
-
-/// A classic frame with an 11-bit identifier and the space to the next one, stuff bits apart (ISO 11898-1).
-std::uint64_t bitsOf(const CanFrame& frame) { return 47U + 8U * frame.length; }
-
-/// A finger's number is the low six bits of all its identifiers.
-std::uint8_t nodeNumberOf(const CanFrame& frame) { return frame.id & 0x3F; }
 
 void widen(double& least, double& most, double value) {
   least = std::fmin(least, value);  // fmin and fmax pass over what is not known
@@ -42,13 +38,13 @@ Fleet::Node& Fleet::nodeAt(std::uint8_t number) {
 void Fleet::take(std::int64_t time_us, const CanFrame& frame) {
   now_us_ = std::max(now_us_, time_us);
   frames_.add(now_us_);
-  bits_.add(now_us_, bitsOf(frame));
-  const std::uint8_t number = nodeNumberOf(frame);
-  if (number < kFirstNode) return;
+  bits_.add(now_us_, unstuffedBits(frame.length));
+  const auto number = can::fingerNode(frame.id);
+  if (!number) return;
   losses_.count(name_, frame);
-  Node& node = nodeAt(number);
+  Node& node = nodeAt(*number);
   if (decode<ContactFrame>(frame)) node.contacts.add(now_us_);
-  if (decode<RawFrame>(frame)) node.rawBits.add(now_us_, bitsOf(frame));
+  if (decode<RawFrame>(frame)) node.rawBits.add(now_us_, unstuffedBits(frame.length));
   if (const auto touch = node.receiver.take(frame)) takeTouch(node, now_us_, *touch);
   if (const auto set = node.raw.take(frame)) {
     node.strains = set->strains;

@@ -2,13 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+
 #include "host/can/ask.hpp"
 #include "host/live/words.hpp"
 
 namespace strainfinger::live {
 namespace {
 
-constexpr std::int64_t kLongest_us = 2'000 * std::int64_t{kAnswerWithin_ms};
+constexpr std::int64_t kLongest_us = std::chrono::microseconds(can::kAskFor).count();
 
 }  // namespace
 

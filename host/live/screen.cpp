@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "host/base/angles.hpp"
+#include "host/base/round_scale.hpp"
+#include "host/base/text_parts.hpp"
 #include "host/live/value_text.hpp"
 #include "host/live/words.hpp"
 
@@ -26,15 +28,7 @@ struct Glyphs {
 constexpr Glyphs kUnicode{U'·', U'○', U'●', U'◆', U'+', U'█', U'▒', U'·', U'│', U'…', "▸"};
 constexpr Glyphs kAscii{'.', 'o', '@', '%', '+', '#', '~', '.', '|', '>', ">"};
 
-/// 1, 2 or 5 times a power of ten, not below `value` nor 0.1 N.
-double barEnd_n(double value_n) {
-  double end_n = 0.1;
-  for (const double factor : {1.0, 2.0, 5.0, 10.0}) {
-    end_n = factor * std::pow(10, std::floor(std::log10(std::max(value_n, 0.1))));
-    if (end_n >= value_n) break;
-  }
-  return end_n;
-}
+double barEnd_n(double value_n) { return roundScale(std::max(value_n, 0.1)); }
 
 /// Places of the dial, counter-clockwise from the right, as the finger is seen from its tip.
 class Dial {
@@ -42,7 +36,7 @@ class Dial {
   Dial(Canvas& canvas, int row, int column) : canvas_(canvas), row_(row), column_(column) {}
 
   void put(double angle_deg, char32_t glyph, Style style) {
-    const double angle_rad = angle_deg * std::numbers::pi / 180;
+    const double angle_rad = angle_deg * kRadPerDeg;
     canvas_.put(row_ + kDialRows - static_cast<int>(std::lround(kDialRows * std::sin(angle_rad))),
                 column_ + kDialColumns + static_cast<int>(std::lround(kDialColumns * std::cos(angle_rad))),
                 glyph, style);
@@ -132,9 +126,7 @@ class Painter {
 
   /// Canvas::text(), in ASCII where nothing else is to be had; a mark stands where its end is cut off.
   int say(int row, int column, std::string text, Style style = Style::kPlain) {
-    constexpr std::string_view kPlusMinus = "±";
-    for (std::size_t at = 0; !isUnicode_ && (at = text.find(kPlusMinus, at)) != text.npos;)
-      text.replace(at, kPlusMinus.size(), "+-");
+    if (!isUnicode_) text = replacedAll(std::move(text), "±", "+-");
     const int end = canvas_.text(row, column, text, style);
     if (!text.empty() && end > canvas_.columns())
       canvas_.put(row, canvas_.columns() - 1, glyphs_.more, style);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <vector>
 
 #include "host/base/angles.hpp"
 #include "host/can/remedies.hpp"
@@ -22,14 +21,6 @@ std::string numberText(const Said& said, int decimals) {
 
 std::string withSigma(const std::string& value, const Said& sigma, int decimals, const char* unit) {
   return fmt::format("{} ± {}{}{}", value, numberText(sigma, decimals), *unit == '\0' ? "" : " ", unit);
-}
-
-/// What keeps a finger's touches from being shown, if anything does.
-std::string trouble(const FingerView& finger) {
-  if (finger.isSilent())
-    return fmt::format("silent for {:.1f} s", static_cast<double>(finger.silence_us) / 1e6);
-  if (finger.isForeign()) return can::foreignText(finger.heartbeat.protocol);
-  return {};
 }
 
 std::string touchText(const can::TouchReport& touch) {
@@ -97,11 +88,19 @@ std::string stateWord(const FingerView& finger) {
   return finger.isSilent() ? "silent" : wordFor(kFingerStateNames, static_cast<int>(finger.heartbeat.state));
 }
 
+std::vector<std::string> troublesOf(const FingerView& finger) {
+  std::vector<std::string> troubles;
+  if (finger.isSilent())
+    troubles.push_back(fmt::format("silent for {:.1f} s", static_cast<double>(finger.silence_us) / 1e6));
+  else if (finger.isForeign())
+    troubles.push_back(can::foreignText(finger.heartbeat.protocol));
+  if (finger.hasTwin) troubles.push_back(fmt::format("{}: {}", can::kTwinText, can::kTwinRemedy));
+  if (finger.hasOtherTables) troubles.push_back("its tables are not those of the config (-c)");
+  return troubles;
+}
+
 std::string warningsText(const FingerView& finger) {
-  std::vector<std::string> warnings;
-  if (const std::string text = trouble(finger); !text.empty()) warnings.push_back(text);
-  if (finger.hasTwin) warnings.push_back(fmt::format("{}: {}", can::kTwinText, can::kTwinRemedy));
-  if (finger.hasOtherTables) warnings.push_back("its tables are not those of the config (-c)");
+  std::vector<std::string> warnings = troublesOf(finger);
   const auto faults = wordsFor(kFingerFaultNames, finger.heartbeat.faults.raw());
   if (!faults.empty()) warnings.push_back(fmt::format("faults: {}", fmt::join(faults, ", ")));
   const auto gauges = bitNumbers(finger.gauges ? finger.gauges->out_of_use : 0);

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "host/live/finger_view.hpp"
 
@@ -33,9 +34,12 @@ std::string durationText(std::uint16_t seconds);
 /// "run"; "silent" for one that says nothing any more.
 std::string stateWord(const FingerView& finger);
 
-/// What is to be known of a finger besides its numbers: "faults: gauges, noisy", "gauges 5, 7 out of use",
-/// "silent for 2.3 s", "speaks protocol 3: use the strainfinger of its firmware"; joined by "; ", "" for
-/// nothing.
+/// What keeps a finger's touches from being shown, or makes them doubtful, besides what it says itself:
+/// "silent for 2.3 s", "speaks protocol 3, this program 2: use the strainfinger of its firmware".
+std::vector<std::string> troublesOf(const FingerView& finger);
+
+/// What is to be known of a finger besides its numbers: troublesOf() it, "faults: gauges, noisy", "gauges out
+/// of use: 5, 7"; joined by "; ", "" for nothing.
 std::string warningsText(const FingerView& finger);
 
 /// Flags of its touch but for "contact", which the screen shows: "uncertain, simulated".

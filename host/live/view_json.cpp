@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <utility>
 
+#include "host/live/value_text.hpp"
 #include "host/live/words.hpp"
 
 namespace strainfinger::live {
@@ -105,6 +106,7 @@ Json fingerJson(const FingerView& finger) {
           {"restarts", finger.restarts},
           {"has_twin", finger.hasTwin},
           {"other_tables", finger.hasOtherTables},
+          {"troubles", troublesOf(finger)},
           {"strongest_n", finger.strongest_n},
           {"touch", finger.touch ? touchJson(finger) : Json()},
           {"span", spanJson(finger.span)},

@@ -7,12 +7,18 @@
 #include <limits>
 #include <type_traits>
 
+#include "common/quantities.hpp"
 #include "host/model/annulus.hpp"
 
 namespace strainfinger::model {
 
 /// What responds: stresses [Pa], displacements [m], tensor strains.
 enum Row : int { kTrr, kTrt, kTtt, kUr, kUt, kErr, kEtt, kErt, kRowCount };
+
+constexpr Row rowOf(StrainComponent component) {
+  if (component == StrainComponent::kRadial) return kErr;
+  return component == StrainComponent::kHoop ? kEtt : kErt;
+}
 
 /// Which traction acts: the columns of a HarmonicResponse.
 enum Traction : int { kNormal, kTangential };

@@ -8,11 +8,6 @@
 namespace strainfinger::model {
 namespace {
 
-Row rowOf(StrainComponent component) {
-  if (component == StrainComponent::kRadial) return kErr;
-  return component == StrainComponent::kHoop ? kEtt : kErt;
-}
-
 struct Sums {
   double even = 0, odd = 0, evenSlope = 0, oddSlope = 0;
   Sums& operator+=(const Sums& other) {

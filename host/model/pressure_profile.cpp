@@ -146,6 +146,8 @@ double momentOf(Profile profile, double width_rad) {
 
 double equivalentWidth_rad(double moment_rad2) { return 4 * std::sqrt(std::max(0.0, moment_rad2)); }
 
+double uniformWidth_rad(double moment_rad2) { return std::sqrt(12 * std::max(0.0, moment_rad2)); }
+
 SpreadFactor spreadFactor(Profile profile, int n, double moment_rad2) {
   const double perMoment = squareOverMoment(profile) * n * n, square = perMoment * moment_rad2;
   if (square <= kMostBySeries) {

@@ -30,6 +30,9 @@ constexpr double momentOfWidth(double width_rad) { return width_rad * width_rad 
 /// The semi-ellipse's width of a moment; of a moment below 0: 0.
 double equivalentWidth_rad(double moment_rad2);
 
+/// The uniform pressure's width of a moment, which is w^2 / 12; of a moment below 0: 0.
+double uniformWidth_rad(double moment_rad2);
+
 /// What harmonic n of a line load is multiplied by when the load is spread, and its derivative to the moment.
 struct SpreadFactor {
   double value;

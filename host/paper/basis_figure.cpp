@@ -196,12 +196,10 @@ Claim oddShapes(const std::vector<Pair>& pairs) {
   return {
       "odd-shapes",
       "the spectrum of odd shapes is near zero at the low frequencies: their low part can't be sensed unless "
-      "alpha > "
-      "0.85 (sec. 5, fig. 10)",
+      "alpha > 0.85 (sec. 5, fig. 10)",
       fmt::format("share of the pressure's squared coefficients up to the 20th harmonic, by shape: {}. "
-                  "Gauges see even "
-                  "shapes {:.1f} "
-                  "times as strongly as odd ones at alpha = 0.7, {:.1f} times at 0.85, {:.1f} times at 0.93",
+                  "Gauges see even shapes {:.1f} times as strongly as odd ones at alpha = 0.7, {:.1f} times "
+                  "at 0.85, {:.1f} times at 0.93",
                   fmt::join(shares, ", "), evenOverOdd(thick), evenOverOdd(middle), evenOverOdd(thin)),
       isDark && isFiltered   ? Verdict::kBorneOut
       : isDark || isFiltered ? Verdict::kInPart

@@ -94,8 +94,7 @@ Claim comparedLoads(const Spectra& spectra) {
   return {
       "loads-compared",
       "normal and tangential loads act on e_rr within a factor of 2; on e_rt the tangential load is 3 times "
-      "as "
-      "strong (sec. 3, fig. 3)",
+      "as strong (sec. 3, fig. 3)",
       fmt::format("largest coefficients: e_rr normal / tangential {:.2f}; e_rt tangential / normal {:.2f}",
                   radial, shear),
       isTwo && isThree   ? Verdict::kBorneOut

@@ -66,8 +66,7 @@ std::vector<Claim> knifeEdgeClaims() {
   return {
       {"knife-edge",
        "the displacements under a knife edge at 45 degrees show a large degree of spatial frequency "
-       "filtering "
-       "(sec. 3, fig. 2)",
+       "filtering (sec. 3, fig. 2)",
        fmt::format(
            "energy of the displacements above the 20th harmonic: {:.2g} of all at the surface, {:.2g} at the "
            "gauges",

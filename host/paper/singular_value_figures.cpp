@@ -110,8 +110,7 @@ std::vector<Claim> singularValueClaims() {
   return {
       {"singular-values",
        "for 2 mm and n_c = 300, 8 singular values of T C are above 1/10 of the largest and 11 above 1/100 "
-       "(sec. "
-       "5, fig. 8)",
+       "(sec. 5, fig. 8)",
        fmt::format("{} and {} (pressure without shear: {} and {}); the closest to their levels are the {}th, "
                    "{:.4f}, and the {}th, {:.4f}",
                    tenth, hundredth, countAbove(pressure, kLevels[0]), countAbove(pressure, kLevels[1]),

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/frames.hpp"
 #include "host/can/touch_receiver.hpp"
 #include "host/plot/picture.hpp"
 
@@ -28,7 +29,7 @@ Picture logPicture(const LogRecord& record);
 /// The names that its data files can have.
 inline constexpr std::array kLogData{"angle", "force", "width", "flags", "or-more", "second"};
 
-/// In contact a finger speaks every 50 ms at least.
-inline constexpr double kGap_s = 0.2;
+/// Four times as long as a finger in contact says nothing at most.
+inline constexpr double kGap_s = 4e-3 * kContactPeriod_ms;
 
 }  // namespace strainfinger::plot

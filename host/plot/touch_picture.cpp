@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "host/base/angles.hpp"
+#include "host/base/quantile.hpp"
+#include "host/base/round_scale.hpp"
 #include "host/plot/style.hpp"
 
 namespace strainfinger::plot {
@@ -131,16 +133,14 @@ DataFile trackData(const TouchRecord& record) {
   return data;
 }
 
-/// Not less than this share of the values; 0 of none.
+/// As quantileOf() those that are finite; 0 of none.
 double quantile(std::vector<double> values, double share) {
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size()))];
+  return values.empty() ? 0 : quantileOf(std::move(values), share);
 }
 
 /// What the error panel must show: 9 of 10 errors and every other sigma, as sigmas rise tenfold between
-/// gauges; rounded up to 1, 2 or 5 times a power of ten [mm].
+/// gauges [mm].
 double errorRange_mm(const TouchRecord& record) {
   std::vector<double> errors, sigmas;
   for (const TrackPoint& point : record.track) {
@@ -148,11 +148,7 @@ double errorRange_mm(const TouchRecord& record) {
     sigmas.push_back(arcSigma_m(point, record.outerRadius_m) * kMilli);
   }
   const double needed = std::max(quantile(std::move(errors), 0.9), quantile(std::move(sigmas), 0.5));
-  if (needed == 0) return 1;
-  const double decade = std::pow(10.0, std::floor(std::log10(needed)));
-  for (const double step : {1.0, 2.0, 5.0})
-    if (needed <= step * decade) return step * decade;
-  return 10 * decade;
+  return needed == 0 ? 1 : roundScale(needed);
 }
 
 std::string contactText(const ContactPoint& contact) {

@@ -25,6 +25,7 @@ bool isTouchOf(std::uint8_t node, const CanFrame& frame) {
 
 /// Where all frames of touches have their sequence number.
 constexpr std::size_t kSequenceByte = 7;
+static_assert(encode(ContactFrame{.sequence = 1}, kFirstNode).data[kSequenceByte] == 1);
 
 std::string hexOf(const CanFrame& frame) {
   const std::string line = can::formatLogLine(0, "x", frame);
@@ -93,24 +94,24 @@ CanFrame adopted(CanFrame computed, const CanFrame& recorded, std::uint8_t node,
 class Recomputer::Engine {
  public:
   Engine(const TableImage& tables, const RecordedFinger& finger)
-      : period_us_(finger.samplePeriod_us),
-        finger_(tables,
+      : finger_(tables,
                 {.node = finger.node,
                  .contactRate_hz = finger.contactRate_hz,
-                 .samplePeriod_us = finger.samplePeriod_us,
+                 .samplePeriod_us = kPeriod_us,
                  .mode = finger.mode},
                 adc_, port_, clock_, watchdog_) {}
 
   /// The frames that the set makes it send.
   std::vector<CanFrame> pass(const can::RawSet& set) {
     adc_.set = &set;
-    clock_.time_us += period_us_;
+    clock_.time_us += kPeriod_us;
     finger_.step();
     return std::exchange(port_.sent, {});
   }
 
  private:
-  std::uint32_t period_us_;
+  static constexpr std::uint16_t kPeriod_us = 1000;
+
   RecordedAdc adc_;
   FreePort port_;
   SetClock clock_;

@@ -19,7 +19,6 @@ namespace strainfinger::recompute {
 struct RecordedFinger {
   std::uint8_t node = 1;
   std::uint16_t contactRate_hz = 500;
-  std::uint16_t samplePeriod_us = 1000;
   firmware::FitMode mode = firmware::FitMode::kRefined;
 };
 

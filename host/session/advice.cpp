@@ -98,8 +98,7 @@ std::string textOf(const Advice& advice, const config::Gauges& gauges, const Ses
           advice.gauge, gauges.angle_deg(advice.gauge));
     case Advice::Kind::kMark:
       return "Press it at a mark whose angle you know, not one used already nor its opposite. Hold it still, "
-             "then "
-             "enter the angle.";
+             "then enter the angle.";
     case Advice::Kind::kWait:
       return "Roll it all around while the first fit is made.";
     case Advice::Kind::kDone:

@@ -6,17 +6,12 @@
 #include <cmath>
 
 #include "host/base/excerpt.hpp"
+#include "host/base/text_parts.hpp"
 
 namespace strainfinger::session {
 namespace {
 
 constexpr double kGravity_m_per_s2 = 9.80665;  // standard gravity (CGPM 1901)
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == text.npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 /// A number and what stands behind it.
 struct Quantity {

@@ -2,6 +2,7 @@
 // Every threshold of a guided session: unit, value, and where it comes from.
 
 #include "host/calibration/calibrate.hpp"
+#include "host/calibration/wiring.hpp"
 
 namespace strainfinger::session {
 
@@ -38,9 +39,8 @@ struct SessionGoals {
   double zero = 0.5;
   /// [noise] The finger is at rest while no reading leaves its mean by more: one in 10^9 by chance.
   double atRest = 6;
-  /// [tolerance.zero_strain] A finger at rest whose readings are beyond is touched or wants a new zero: four
-  /// standard deviations.
-  double farZero = 4;
+  /// [tolerance.zero_strain] A finger at rest whose readings are beyond is touched or wants a new zero.
+  double farZero = calibration::kFarZero;
   /// [touches] Over every gauge, and between it and the next, before anything else is judged: two touches a
   /// gauge's unknown, with their four neighbours' help.
   int leastPerArc = 4;

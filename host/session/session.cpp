@@ -204,8 +204,7 @@ Obeyed Session::obeyTare() {
   if (rows_.size() == 0) return {.message = "zeroing", .tare = true};
   return {.message =
               "not zeroed: the rows that were collected have the old zero. To begin anew, quit, "
-              "`strainfinger tare`, "
-              "and give another -o"};
+              "`strainfinger tare`, and give another -o"};
 }
 
 Obeyed Session::obey(const Command& command) {

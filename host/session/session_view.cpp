@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "host/session/rules.hpp"
+
 namespace strainfinger::session {
 namespace {
 
@@ -93,8 +95,9 @@ class SessionPainter {
     say(row_++, 0, "Errors to come, as drawn > now > noise alone: place " + each(0, 1e3, 3) + " mm");
     say(row_++, 0, "  normal " + each(1, 1, 2) + ", tangential " + each(2, 1, 2) + " N/m");
     say(row_++, 0,
-        fmt::format("Unit of force {:.1f} %, zero of the angle {}; 100 more touches gain {:.0f} %",
-                    100 * known.unitOfForce, zeroOfAngleText(known), 100 * known.bestGain()));
+        fmt::format("Unit of force {:.1f} %, zero of the angle {}; {} more touches gain {:.0f} %",
+                    100 * known.unitOfForce, zeroOfAngleText(known), SessionGoals{}.batch,
+                    100 * known.bestGain()));
   }
 
   void table() {
@@ -202,10 +205,10 @@ std::string sessionLine(const SessionView& view) {
       view.coverage.untouched, view.coverage.loads, view.coverage.directions_deg.size(), view.lost);
   if (view.assessment)
     text += fmt::format(
-        "; errors to come: {}; unit of force {:.1f} %, zero of the angle {}; 100 more touches would gain "
+        "; errors to come: {}; unit of force {:.1f} %, zero of the angle {}; {} more touches would gain "
         "{:.0f} %",
         errorsText(view.assessment->errors), 100 * view.assessment->unitOfForce,
-        zeroOfAngleText(*view.assessment), 100 * view.assessment->bestGain());
+        zeroOfAngleText(*view.assessment), SessionGoals{}.batch, 100 * view.assessment->bestGain());
   if (!view.complaint.empty()) text += "; no fit yet: " + view.complaint;
   return text + " | " + view.next;
 }

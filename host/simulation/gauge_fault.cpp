@@ -49,6 +49,7 @@ GaugeFault readGaugeFault(const std::string& text) {
   const bool whole = kind && colon != all.npos && read(all.substr(colon + 1, at - colon - 1), fault.gauge) &&
                      (at == all.npos || read(all.substr(at + 1), fault.start_s)) && fault.start_s >= 0 &&
                      fault.start_s <= kLatest_s;
+  static_assert(kKindNames.size() == 5, "the message and the help of `run` name them");
   if (!whole)
     throw Failure(ExitCode::kUsage,
                   fmt::format("--fault {}: must be KIND:GAUGE or KIND:GAUGE@SECOND, KIND one of dead, open, "

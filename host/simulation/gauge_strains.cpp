@@ -9,6 +9,13 @@ constexpr double kTolerance = 1e-9;  ///< of the peak: four orders below a step 
 
 }  // namespace
 
+model::TouchLoad loadOf(const Touch& touch, const config::Contact& contact, double outerRadius_m) {
+  const model::Profile profile = touch.width_m ? touch.profile : model::Profile::kUniform;
+  const double width_m = touch.width_m.value_or(contact.width_m.value_or(0));
+  return {touch.normal_n_per_m, touch.tangential_n_per_m, model::momentOf(profile, width_m / outerRadius_m),
+          profile, contact.friction_coefficient};
+}
+
 GaugeStrains::GaugeStrains(const config::FingerConfig& config) : GaugeStrains(config, builtFinger(config)) {}
 
 GaugeStrains::GaugeStrains(const config::FingerConfig& config, const BuiltFinger& built)
@@ -19,12 +26,8 @@ GaugeStrains::GaugeStrains(const config::FingerConfig& config, const BuiltFinger
              kTolerance) {}
 
 model::LoadSpectrum GaugeStrains::spectrumOf(const Touch& touch) const {
-  const model::Profile profile = touch.width_m ? touch.profile : model::Profile::kUniform;
-  const double width_m = touch.width_m.value_or(contact_.width_m.value_or(0));
-  const model::TouchLoad load{touch.normal_n_per_m, touch.tangential_n_per_m,
-                              model::momentOf(profile, width_m / outerRadius_m_), profile,
-                              contact_.friction_coefficient};
-  return trueSpectrum(load, std::max(ring_.harmonics(), drawn_.harmonics()));
+  return trueSpectrum(loadOf(touch, contact_, outerRadius_m_),
+                      std::max(ring_.harmonics(), drawn_.harmonics()));
 }
 
 Eigen::VectorXd GaugeStrains::readings(std::span<const Touch> touches) const {

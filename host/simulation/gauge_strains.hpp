@@ -17,6 +17,10 @@ namespace strainfinger::simulation {
 
 using Strains = std::array<double, kMaxGauges>;
 
+/// What a touch puts on a finger of this radius, with the config's friction, and its width and a uniform
+/// pressure where the touch has no width of its own.
+model::TouchLoad loadOf(const Touch& touch, const config::Contact& contact, double outerRadius_m);
+
 /// The elastic model at each gauge of the finger as it was built. Loads superpose: the finger is linear. A
 /// semi-elliptic pressure has the shear of Mindlin's partial slip, with the config's friction.
 class GaugeStrains {

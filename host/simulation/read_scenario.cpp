@@ -109,6 +109,7 @@ model::Profile readProfile(const toml::node& node) {
   const std::string name = config::textOf(node, "touch.profile");
   for (const ProfileName& each : kProfileNames)
     if (each.name == name) return each.profile;
+  static_assert(kProfileNames.size() == 2, "the message names them");
   failAt(node.source(),
          fmt::format("touch.profile = \"{}\" is out of its domain; it must be one of hertz, uniform",
                      excerpt(name)));

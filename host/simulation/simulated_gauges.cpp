@@ -20,8 +20,7 @@ SimulatedGauges::SimulatedGauges(const config::FingerConfig& config, Scenario sc
   for (std::uint32_t gauge = 0; gauge < kMaxGauges; ++gauge) {
     zero_strain_[gauge] = options.zeroSpread_strain * ring.at(0, gauge);
     const int index = static_cast<int>(gauge);
-    gain_[gauge] =
-        (index < strains_.count() ? strains_.gain(index) : 1) * (1 + options.gainSpread * ring.at(1, gauge));
+    gain_[gauge] = index < strains_.count() ? strains_.gain(index) : 1;
   }
 }
 

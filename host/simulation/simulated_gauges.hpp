@@ -19,7 +19,6 @@ namespace strainfinger::simulation {
 struct RingOptions {
   std::uint64_t seed = 1;
   double zeroSpread_strain = 0;
-  double gainSpread = 0;  ///< relative, to the gains of the finger as it was built
   std::vector<GaugeFault> faults = {};
 };
 
@@ -31,8 +30,7 @@ class SimulatedGauges {
   static constexpr std::uint64_t kSamplePeriod_us = 1000;
   static constexpr std::uint64_t kBuffers = 2;  ///< sets that wait to be read, as in a double-buffered DMA
 
-  /// Throws Failure(kUsage) when noise_strain is less than the quantisation of the converter alone, and when
-  /// a fault is of a gauge that the ring doesn't have.
+  /// Throws Failure(kUsage) when a fault is of a gauge that the ring doesn't have.
   SimulatedGauges(const config::FingerConfig& config, Scenario scenario, const SimulatedClock& clock,
                   const RingOptions& options = {});
 

@@ -11,6 +11,7 @@
 
 #include "host/base/atomic_file.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/quantile.hpp"
 #include "host/calibration/wiring.hpp"
 #include "host/study/calibration_score.hpp"
 #include "host/study/calibration_session.hpp"
@@ -129,10 +130,7 @@ Outcome outcomeOf(const SessionPlan& plan, int fingers, int sessions) {
 }
 
 double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[std::min(values.size() - 1,
-                         static_cast<std::size_t>(share * static_cast<double>(values.size())))];
+  return values.empty() ? 0 : quantileOf(std::move(values), share);
 }
 
 std::string three(const std::array<std::vector<double>, 3>& each, double share) {
@@ -186,11 +184,11 @@ std::string sectionOf(const SessionPlan& plan, int fingers, int sessions) {
                       quantile(outcome.error[2], 0.5), 1e6 * quantile(outcome.error[0], 1),
                       quantile(outcome.error[1], 1), quantile(outcome.error[2], 1));
   text += fmt::format(
-      "\nErrors of the fingers' unknowns over their sigmas: RMS {:.2f}, {:.1f} % within 1.96. Unexplained "
-      "share of a "
-      "reading at most {:.3f} %; gauges.model_error written at most {:.2f} %. Errors of new touches beyond "
-      "their noise over calibration.place_error_m, .load_error as written: {:.2f}, {:.2f} (RMS of all). "
-      "Processor time at most {:.1f} s a finger. Refused: {}.\n",
+      "\n"
+      "Errors of the fingers' unknowns over their sigmas: RMS {:.2f}, {:.1f} % within 1.96. Unexplained "
+      "share of a reading at most {:.3f} %; gauges.model_error written at most {:.2f} %. Errors of new "
+      "touches beyond their noise over calibration.place_error_m, .load_error as written: {:.2f}, {:.2f} "
+      "(RMS of all). Processor time at most {:.1f} s a finger. Refused: {}.\n",
       std::sqrt(squares / count), 100 * covered / count, 100 * outcome.mostUnexplained,
       100 * outcome.mostWritten, std::sqrt(std::max(0.0, outcome.beyondNoise[0]) / outcome.written[0]),
       std::sqrt(std::max(0.0, outcome.beyondNoise[1]) / outcome.written[1]), outcome.mostSeconds,

@@ -23,8 +23,7 @@ std::string adviceFor(const TableParameters& p, double depth_m, double pitch_m) 
     return "too deep for their spacing; use shallower gauges (a larger gauges.radius_m) or fewer";
   std::string advice =
       "too shallow for their spacing; use more gauges, or deeper ones (a smaller gauges.radius_m, and if "
-      "need "
-      "be finger.core_radius_m)";
+      "need be finger.core_radius_m)";
   if (p.component == StrainComponent::kShear) advice += ", or gauges.component = \"radial\"";
   return advice;
 }
@@ -61,8 +60,7 @@ std::string placeOf(const TableParameters& p, const Misplaced& m) {
   const double pitch_deg = 360.0 / p.gauge_count;
   return fmt::format(
       "{:.3g} N/m pressing at {:.3g} deg from a gauge over {:.3g} m, with {:.3g} times that sideways, are "
-      "found "
-      "{:.3g} deg away ({} fit), and nothing in the readings tells",
+      "found {:.3g} deg away ({} fit), and nothing in the readings tells",
       m.load_n_per_m, m.offset_pitch * pitch_deg, m.width_m, m.direction, m.error_pitch * pitch_deg,
       m.mode == firmware::FitMode::kRefined ? "refined" : "three-point");
 }

@@ -9,6 +9,7 @@
 #include "common/fixed_real.hpp"
 #include "firmware/core/detect.hpp"
 #include "firmware/core/estimate.hpp"
+#include "host/base/angles.hpp"
 #include "host/base/failure.hpp"
 #include "host/model/impulse_response.hpp"
 #include "host/model/touch_load.hpp"
@@ -42,7 +43,7 @@ class Ring {
  public:
   explicit Ring(const TableImage& image) : image_(image), response_(responseOf(image.parameters)) {
     for (int i = -180; i <= 180; ++i) {
-      const double angle_rad = i * std::numbers::pi / 180;
+      const double angle_rad = i * kRadPerDeg;
       peak_ = std::max(peak_, std::abs(response_.at(angle_rad).normal));
     }
   }

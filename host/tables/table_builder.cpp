@@ -9,6 +9,7 @@
 
 #include "common/fixed_real.hpp"
 #include "firmware/core/judge.hpp"
+#include "host/base/chi_squared.hpp"
 #include "host/base/failure.hpp"
 #include "host/config/keys.hpp"
 #include "host/config/ring_spacing.hpp"
@@ -28,13 +29,6 @@ constexpr double kLeastCone = 0.1;
 
 double frictionCone(const config::Contact& contact) {
   return std::max(kConeMargin * contact.friction_coefficient, kLeastCone);
-}
-
-/// Sum of `count` squared unit normal variates that one sample in a billion (z = 6.0) or in a thousand
-/// (z = 3.09) exceeds: Wilson & Hilferty (1931), good to 4 % here.
-double chiSquareQuantile(int count, double z) {
-  const double spread = 2.0 / (9.0 * count);
-  return count * std::pow(1 - spread + z * std::sqrt(spread), 3);
 }
 
 struct MantissaExponent {
@@ -70,11 +64,11 @@ void fillNoise(TableConstants& constants, double noise_q32, double fullScale_q32
   constants.noise_variance_exponent = static_cast<std::int8_t>(variance.exponent);
   const double noiseInGate = std::ldexp(noise_q32, -constants.gate_shift);
   const double gateVariance = noiseInGate * noiseInGate + kGateRounding;
-  const auto gate = [&](double z) {
-    return rounded<std::uint32_t>(chiSquareQuantile(constants.gauge_count, z) * gateVariance);
+  const auto gate = [&](double deviations) {
+    return rounded<std::uint32_t>(chiSquaredQuantile(constants.gauge_count, deviations) * gateVariance);
   };
-  constants.gate_on = gate(6.0);
-  constants.gate_off = gate(3.09);
+  constants.gate_on = gate(6.0);    // noise alone exceeds it in one sample of a billion
+  constants.gate_off = gate(3.09);  // in one of a thousand
 }
 
 /// An amplitude of 2 is a reading of the largest response: firmware::ContactState.

@@ -48,8 +48,9 @@ TableFault faultOf(const TableImage& image, std::size_t bytes) {
 }
 
 /// As finger.toml would have it; the shortest digits that read back exactly.
-std::string textOf(const Cell& value) {
-  return std::visit([](const auto& content) { return fmt::format("{}", content); }, value);
+std::string textOf(const Parameter& parameter) {
+  if (!parameter.value) return kUnknownParameter;
+  return std::visit([](const auto& content) { return fmt::format("{}", content); }, *parameter.value);
 }
 
 /// To so many digits, as people read it.
@@ -92,7 +93,7 @@ std::vector<Parameter> parametersOf(const TableParameters& p) {
           {"calibration.load_error", p.load_error},
           {"calibration.moment_error_m2", p.moment_error_m2},
           {"contact.friction_coefficient", p.friction_coefficient},
-          {"contact.width_m", p.contact_width_m < 0 ? Cell("unknown") : Cell(p.contact_width_m)},
+          {"contact.width_m", p.contact_width_m < 0 ? std::nullopt : std::optional<Cell>(p.contact_width_m)},
           {"contact.largest_width_m", p.largest_width_m}};
 }
 
@@ -129,7 +130,7 @@ Parameter depthsOf(const GaugeDepths& depths, int count) {
 namespace {
 
 std::string differenceOf(const Parameter& has, const Parameter& wants) {
-  return fmt::format("\n  {} is {}, the config has {}", has.key, textOf(has.value), textOf(wants.value));
+  return fmt::format("\n  {} is {}, the config has {}", has.key, textOf(has), textOf(wants));
 }
 
 /// Angles that differ because the ring begins elsewhere or has other gauges are told by those parameters.
@@ -178,10 +179,10 @@ std::string imageHeader(const TableImage& image) {
       "// Lookup tables of a finger, made by `strainfinger tables --header`. Not to be edited: make them "
       "anew.\n";
   for (const Parameter& parameter : parametersOf(image.parameters))
-    fmt::format_to(std::back_inserter(text), "//   {} = {}\n", parameter.key, textOf(parameter.value));
+    fmt::format_to(std::back_inserter(text), "//   {} = {}\n", parameter.key, textOf(parameter));
   for (const Parameter& parameter : {anglesOf(image.gauge_angle_q32, image.constants.gauge_count),
                                      gainsOf(image), depthsOf(image.depths, image.constants.gauge_count)})
-    fmt::format_to(std::back_inserter(text), "//   {} = {}\n", parameter.key, textOf(parameter.value));
+    fmt::format_to(std::back_inserter(text), "//   {} = {}\n", parameter.key, textOf(parameter));
   fmt::format_to(std::back_inserter(text),
                  "// CRC-32 0x{:08X}\n\n#include <cstdint>\n\nnamespace strainfinger {{\n\n"
                  "alignas(8) inline constexpr std::uint8_t kDefaultTableBytes[{}] = {{",

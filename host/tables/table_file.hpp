@@ -2,6 +2,7 @@
 // Table images as files, and as C++ source for linking one into a firmware.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,9 @@ void requireTablesOf(const TableImage& image, const config::FingerConfig& config
 /// One parameter of an image, as finger.toml names and writes it.
 struct Parameter {
   std::string key;
-  Cell value;
+  std::optional<Cell> value;  ///< nothing: not known
 };
+inline constexpr const char* kUnknownParameter = "unknown";
 std::vector<Parameter> parametersOf(const TableParameters& parameters);
 /// Where the gauges are, as calibrated, to 6 digits.
 Parameter anglesOf(const GaugeAngles& angles_q32, int count);

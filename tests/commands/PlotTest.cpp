@@ -114,6 +114,9 @@ TEST(Plot, SaysWhatItCannotDraw) {
   STRCMP_CONTAINS("x.log: no touch of node 5 in it to draw", another.err.c_str());
   checkRefused("plot x.log -o a.pdf", "pictures are .svg or .png");
   checkRefused("plot x.log -o a.png -c /nowhere.toml", "/nowhere.toml");
+  const Run nowhere = inFolder("\"$STRAINFINGER\" plot x.log -o none/a.png", "rubbish\n");
+  LONGS_EQUAL(1, nowhere.status);
+  STRCMP_CONTAINS("--output none/a.png: there is no folder", nowhere.err.c_str());
 }
 
 TEST(Plot, DrawsSomeOfTheTouchesOfALongLog) {

@@ -76,7 +76,11 @@ TEST(TablesCommand, AMissingConfigIsToldByInfoToo) {
 }
 
 TEST(TablesCommand, AMissingFolderIsAFailureAndLeavesNothing) {
-  checkEnds(1, "nowhere/finger.tables", "\"$STRAINFINGER\" tables -o nowhere/finger.tables");
+  checkEnds(1, "--output nowhere/finger.tables: there is no folder",
+            "\"$STRAINFINGER\" tables -o nowhere/finger.tables");
+  checkEnds(1, "--header nowhere/finger.hpp: there is no folder",
+            "\"$STRAINFINGER\" tables -o new.tables --header nowhere/finger.hpp; status=$?; "
+            "test ! -e new.tables && exit $status");
 }
 
 TEST(TablesCommand, ABadConfigLeavesTheOldImage) {

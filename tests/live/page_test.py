@@ -84,6 +84,10 @@ class LivePage(unittest.TestCase):
         self.assertEqual("20 <small>%</small> <small>or at 10°</small>",
                          self.page.value("qualityHtml({quality_percent: 20, angle_deg: 350.2, alternative_deg: 20})"))
 
+    def test_troubles_and_faults_are_told(self):
+        finger = '{troubles: ["silent for 2.0 s"], faults: ["noisy"], gauges: {out_of_use: [3]}}'
+        self.assertRegex(self.page.value(f"warningsOf({finger})"), r"^silent for 2\.0 s · fault noisy: .+ · gauges out of use: 3$")
+
     def test_flags_of_doubt_stand_out(self):
         doubts = self.page.value("""(() => { const list = document.createElement('ul'); showChips(list, ['contact', 'uncertain', 'simulated', 'stale zero']);
           return [...list.children].map(chip => [chip.textContent, chip.classList.contains('doubt')]); })()""")

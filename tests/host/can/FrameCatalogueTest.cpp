@@ -39,6 +39,13 @@ TEST_GROUP(FrameCatalogue) {
   }
 };
 
+TEST(FrameCatalogue, ADeviceWithANodeBeyondAFingersIsNoFinger) {
+  LONGS_EQUAL(1, fingerNode(0x181).value());
+  LONGS_EQUAL(63, fingerNode(0x73F).value());
+  CHECK_FALSE(fingerNode(0x1C1).has_value());  // node 65, whose low six bits are 1
+  CHECK_FALSE(fingerNode(0x180).has_value());
+}
+
 TEST(FrameCatalogue, FindsFramesByIdentifierAndLength) {
   STRCMP_EQUAL("CONTACT", findFrame({0x181, 8, {}})->spec.name);
   STRCMP_EQUAL("FORCE", findFrame({0x2BF, 8, {}})->spec.name);

@@ -78,17 +78,19 @@ double leastPressure_pa(const Contact& contact) {
   return least_pa;
 }
 
-/// How deep the shape is inside the rubber at a measured point where nothing presses.
+/// How deep the shape is inside the rubber at a measured point where nothing presses; there must be one.
 double deepestInside_m(const Indenter& indenter, const Contact& contact) {
   const SurfaceKernel kernel(kDefaultFinger);
   const SurfaceMotion motion(kernel, contact.tractions);
-  double deepest_m = 0;
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  double deepest_m = kNone;
   for (const double x_m : indenter.positions_m()) {
     const double angle_rad = x_m / kSurface_m;
     if (tractionAt(contact.tractions, angle_rad).pressure_pa != 0) continue;
     const double above_m = x_m * angle_rad / 2 + indenter.height(x_m) - contact.approach_m;
     deepest_m = std::max(deepest_m, motion.displacementAt(angle_rad).ur_m - above_m);
   }
+  CHECK_TRUE_TEXT(deepest_m > kNone, "every measured point is pressed");
   return deepest_m;
 }
 

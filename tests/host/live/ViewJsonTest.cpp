@@ -1,5 +1,6 @@
 #include "host/live/view_json.hpp"
 
+#include "host/live/value_text.hpp"
 #include "tests/host/live/views.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -77,6 +78,16 @@ TEST(ViewJson, AFingerThatSaysNothingHasNoTouch) {
   CHECK_TRUE(jsonOf(finger).at("silent"));
   DOUBLES_EQUAL(2, jsonOf(finger).at("silence_s"), 0);
   CHECK_TRUE(jsonOf(finger).at("touch").is_null());
+  STRCMP_EQUAL("[\"silent for 2.0 s\"]", jsonOf(finger).at("troubles").dump().c_str());
+}
+
+TEST(ViewJson, TroublesAreInTheWordsOfTheTerminal) {
+  FingerView finger = touchedFinger();
+  STRCMP_EQUAL("[]", jsonOf(finger).at("troubles").dump().c_str());
+  finger.hasTwin = finger.hasOtherTables = true;
+  for (const auto& trouble : jsonOf(finger).at("troubles"))
+    STRCMP_CONTAINS(trouble.get<std::string>().c_str(), warningsText(finger).c_str());
+  LONGS_EQUAL(2, jsonOf(finger).at("troubles").size());
 }
 
 TEST(ViewJson, TheShapeIsTheConfigs) {

@@ -134,6 +134,8 @@ TEST(TableFile, ParametersAreNamedAndWrittenAsInTheConfig) {
   }
   CHECK(parameters[5].value == Cell(std::int64_t{16}));
   CHECK(parameters[7].value == Cell(std::string("radial")));
+  STRCMP_EQUAL("contact.width_m", parameters[18].key.c_str());
+  CHECK_FALSE(parameters[18].value.has_value());  // not known
 }
 
 namespace {

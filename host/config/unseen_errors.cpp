@@ -14,6 +14,11 @@ constexpr double kScaleErrorPerModelError = 4;
 /// 2,000 line touches of fingers as built 10 are beyond six sigma, without it 35 (closed_loop, AsBuilt).
 constexpr double kPlaceErrorPerModelError = 0.3;
 
+/// Second moments are off by so many times the model error and the square of the gauges' depth: a gauge that
+/// lies deeper sees a narrow touch as wider. Of 1,260 touches of 30 fingers as built, 0.5 to 5 mm wide, it was
+/// 0.24 to 0.85 mm^2, and 5 % had a width beyond six sigma; with this none.
+constexpr double kMomentErrorPerModelError = 0.5;
+
 }  // namespace
 
 UnseenErrors unseenErrors(const FingerConfig& config) {
@@ -22,7 +27,8 @@ UnseenErrors unseenErrors(const FingerConfig& config) {
   return {.place_m = std::hypot(config.calibration.place_error_m, kPlaceErrorPerModelError * model * depth_m),
           .loadScale = kScaleErrorPerModelError * model,
           .normalShare = config.calibration.load_error,
-          .moment_m2 = config.calibration.moment_error_m2};
+          .moment_m2 = std::hypot(config.calibration.moment_error_m2,
+                                  kMomentErrorPerModelError * model * depth_m * depth_m)};
 }
 
 }  // namespace strainfinger::config

@@ -31,10 +31,10 @@ struct Misplaced {
 };
 
 /// What became of noise-free contacts around one gauge: load directions within the friction cone, loads of
-/// half of full scale and an eighth of that, a line and 3/8 of the largest width where the width is fitted,
+/// half of full scale and a fifth of that, a line and 3/8 of the largest width where the width is fitted,
 /// and both modes where it is known.
 struct SelfCheck {
-  static constexpr double kWeakerLoad = 1.0 / 8;  ///< of half of full scale
+  static constexpr double kWeakerLoad = 1.0 / 5;  ///< of half of full scale
 
   int contacts = 0;                    ///< that opened the gate
   int uncertain = 0;                   ///< flagged so by the firmware

@@ -1,10 +1,13 @@
 #include "host/cli/command.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <charconv>
 #include <concepts>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -12,6 +15,7 @@
 #include <vector>
 
 #include "common/frame_layout.hpp"
+#include "host/base/atomic_file.hpp"
 #include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/notice.hpp"
@@ -121,10 +125,17 @@ void requireGoodFileNames(const CLI::App& command) {
 
 void requireFolderOf(const char* option, const std::string& path) {
   if (path.empty()) return;
-  const fs::path folder = fs::absolute(path).parent_path();
-  if (fs::is_directory(folder)) return;
-  throw Failure(ExitCode::kFailure, fmt::format("{} {}: there is no folder {}; make it, or name another",
-                                                option, path, folder.string()));
+  const auto fail = [&](const std::string& why) {
+    throw Failure(ExitCode::kFailure, fmt::format("{} {}: {}", option, path, why));
+  };
+  std::error_code notThere;
+  if (fs::is_directory(path, notThere)) fail("this is a folder; name a file");
+  const std::string folder = folderWrittenIn(path);
+  if (folder.empty()) return;
+  if (!fs::is_directory(folder, notThere))
+    fail(fmt::format("there is no folder {}; make it, or name another", folder));
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    fail(fmt::format("no file can be made in the folder {}: {}", folder, std::strerror(errno)));
 }
 
 void warn(const char* command, const std::string& what) { tell("{}: warning: {}\n", command, what); }

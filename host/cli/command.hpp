@@ -35,8 +35,8 @@ class CommonOptions {
 /// (FILE.toml) may take the place of the config that it was made from.
 void requireGoodFileNames(const CLI::App& command);
 
-/// Throws Failure(kFailure) where a file cannot be made for want of its folder: before long work, not at its
-/// end. An empty path is no file.
+/// Throws Failure(kFailure) where a file cannot be made, as it is a folder, or its own is not there or can't
+/// be written to: before long work, not at its end. An empty path is no file.
 void requireFolderOf(const char* option, const std::string& path);
 
 /// Prints on stderr what a command goes on in spite of.

@@ -42,7 +42,8 @@ fs::path destinationOf(fs::path path) {
 
 bool isRegularOrAbsent(const fs::path& path) {
   struct stat status {};
-  return stat(path.c_str(), &status) == 0 ? S_ISREG(status.st_mode) : errno == ENOENT;
+  return stat(path.c_str(), &status) == 0 ? S_ISREG(status.st_mode)
+                                          : errno == ENOENT || errno == ENOTDIR || errno == EACCES;
 }
 
 /// A new file beside `path`, as ordinary as the system makes it; its name in `name`.
@@ -94,6 +95,12 @@ int writeTo(const fs::path& path, std::string_view content) {
 }
 
 }  // namespace
+
+std::string folderWrittenIn(const std::string& path) {
+  const fs::path target = destinationOf(path);
+  if (isOpenFile(target) || !isRegularOrAbsent(target)) return "";
+  return fs::absolute(target).parent_path().string();
+}
 
 void writeFileAtomically(const std::string& path, std::string_view content) {
   if (const int error = writeTo(destinationOf(path), content); error != 0) fail(path, error);

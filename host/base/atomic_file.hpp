@@ -13,4 +13,7 @@ namespace strainfinger {
 /// reason. "-" is no special name.
 void writeFileAtomically(const std::string& path, std::string_view content);
 
+/// The folder in which that makes a file and renames it; empty where it would write to what is there.
+std::string folderWrittenIn(const std::string& path);
+
 }  // namespace strainfinger

@@ -25,6 +25,7 @@ body { font: 16px/1.5 sans-serif; color: #222; background: #fff; max-width: 64re
 h1 { font-size: 1.6rem; } h2 { font-size: 1.2rem; margin-top: 2.2rem; }
 table { border-collapse: collapse; } .wide { overflow-x: auto; }
 th, td { text-align: right; padding: .15rem .6rem; border-bottom: 1px solid #ddd; font-variant-numeric: tabular-nums; white-space: nowrap; }
+th { white-space: normal; vertical-align: bottom; }
 th:first-child, td:first-child { text-align: left; } td.words { text-align: left; white-space: normal; }
 figure { margin: 1rem 0; } figcaption { color: #555; } svg { width: 100%; height: auto; }
 </style>

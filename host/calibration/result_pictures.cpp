@@ -18,7 +18,7 @@ constexpr int kWide_px = 960;
 
 constexpr const char* kRing = R"(
 set multiplot
-set lmargin at screen 0.08; set rmargin at screen 0.985
+set lmargin at screen 0.11; set rmargin at screen 0.985
 set xrange [-0.6:gauges-0.4]; set xtics 1 format ''
 set style fill solid 0.35 noborder
 set offsets 0,0,graph 0.05,graph 0.05

@@ -1,10 +1,13 @@
 #include "host/cli/command.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <charconv>
 #include <concepts>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -12,6 +15,7 @@
 #include <vector>
 
 #include "common/frame_layout.hpp"
+#include "host/base/atomic_file.hpp"
 #include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/notice.hpp"
@@ -23,6 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kConfigType = "FILE.toml";
+constexpr const char* kFolderType = "DIR";
 
 struct FileOption {
   std::string option;
@@ -35,7 +40,7 @@ std::vector<FileOption> fileOptions(const CLI::App& command) {
   std::vector<FileOption> files;
   for (const CLI::App* sub : command.get_subcommands()) files = fileOptions(*sub);
   for (const CLI::Option* option : command.get_options())
-    if (option->get_type_name().starts_with("FILE"))
+    if (option->get_type_name().starts_with("FILE") || option->get_type_name() == kFolderType)
       for (const std::string& path : option->results())
         files.push_back({option->get_name(), option->get_type_name(), path});
   return files;
@@ -107,7 +112,8 @@ void requireGoodFileNames(const CLI::App& command) {
   for (auto file = files.begin(); file != files.end(); ++file) {
     if (file->path.empty())
       throw Failure(ExitCode::kUsage,
-                    fmt::format("{}: {}: the name of a file is missing", command.get_name(), file->option));
+                    fmt::format("{}: {}: the name of a {} is missing", command.get_name(), file->option,
+                                file->type == kFolderType ? "folder" : "file"));
     for (auto other = files.begin(); other != file; ++other) {
       const bool mayBeOne =
           other->option == file->option || (other->type == kConfigType && file->type == kConfigType);
@@ -121,16 +127,43 @@ void requireGoodFileNames(const CLI::App& command) {
 
 void requireFolderOf(const char* option, const std::string& path) {
   if (path.empty()) return;
-  const fs::path folder = fs::absolute(path).parent_path();
-  if (fs::is_directory(folder)) return;
-  throw Failure(ExitCode::kFailure, fmt::format("{} {}: there is no folder {}; make it, or name another",
-                                                option, path, folder.string()));
+  const auto fail = [&](const std::string& why) {
+    throw Failure(ExitCode::kFailure, fmt::format("{} {}: {}", option, path, why));
+  };
+  std::error_code notThere;
+  if (fs::is_directory(path, notThere)) fail("this is a folder; name a file");
+  const std::string folder = folderWrittenIn(path);
+  if (folder.empty()) return;
+  if (!fs::is_directory(folder, notThere))
+    fail(fmt::format("there is no folder {}; make it, or name another", folder));
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    fail(fmt::format("no file can be made in the folder {}: {}", folder, std::strerror(errno)));
 }
 
 void warn(const char* command, const std::string& what) { tell("{}: warning: {}\n", command, what); }
 
 void warn(const char* command, const std::vector<std::string>& all) {
   for (const std::string& each : all) warn(command, each);
+}
+
+std::vector<std::string> itemsOf(const std::string& list) {
+  std::vector<std::string> items;
+  std::size_t begin = 0;
+  for (std::size_t comma; (comma = list.find(',', begin)) != std::string::npos; begin = comma + 1)
+    items.push_back(list.substr(begin, comma - begin));
+  items.push_back(list.substr(begin));
+  return items;
+}
+
+CLI::Validator isListOf(const CLI::Validator& each) {
+  return {[each](const std::string& list) {
+            for (const std::string& item : itemsOf(list)) {
+              if (item.empty()) return fmt::format("an item of {} is empty", excerpt(list));
+              if (const std::string complaint = each(item); !complaint.empty()) return complaint;
+            }
+            return std::string{};
+          },
+          each.get_description()};
 }
 
 CLI::Validator isFrom(double least, double most) { return isOfKind("a number", least, most, ""); }

@@ -30,18 +30,36 @@ class CommonOptions {
   bool json_ = false;
 };
 
-/// Throws Failure(kUsage) where an option that names a file (of a type name that begins with FILE) is given
-/// an empty name, or two name one file: one would be lost, or is not what was meant; only a config
-/// (FILE.toml) may take the place of the config that it was made from.
+/// Throws Failure(kUsage) where an option that names a file (of a type name that begins with FILE) or a
+/// folder (DIR) is given an empty name, or two name one file: one would be lost, or is not what was meant;
+/// only a config (FILE.toml) may take the place of the config that it was made from.
 void requireGoodFileNames(const CLI::App& command);
 
-/// Throws Failure(kFailure) where a file cannot be made for want of its folder: before long work, not at its
-/// end. An empty path is no file.
+/// Throws Failure(kFailure) where a file cannot be made, as it is a folder, or its own is not there or can't
+/// be written to: before long work, not at its end. An empty path is no file.
 void requireFolderOf(const char* option, const std::string& path);
 
 /// Prints on stderr what a command goes on in spite of.
 void warn(const char* command, const std::string& what);
 void warn(const char* command, const std::vector<std::string>& all);
+
+/// What stands between the commas of a list, be it nothing.
+std::vector<std::string> itemsOf(const std::string& list);
+
+/// The check of `each` on all the items of a list, none of which may be empty.
+CLI::Validator isListOf(const CLI::Validator& each);
+
+/// Adds an option whose values are lists of numbers, separated by commas. CLI11's own delimiter leaves out
+/// empty items without a word.
+template <typename Number>
+CLI::Option& addList(CLI::App& command, const std::string& name, std::vector<Number>& numbers,
+                     const std::string& help, const CLI::Validator& each) {
+  const auto read = [&numbers](const std::vector<std::string>& lists) {
+    for (const std::string& list : lists)
+      for (const std::string& item : itemsOf(list)) CLI::detail::lexical_cast(item, numbers.emplace_back());
+  };
+  return *command.add_option_function<std::vector<std::string>>(name, read, help)->check(isListOf(each));
+}
 
 /// A check of an option that is a number from `least` to `most`, on a list of each of its elements. CLI11's
 /// own lets NaN through.

@@ -35,14 +35,11 @@ struct ContactCommand {
   explicit ContactCommand(CLI::App& command) : common(command), contact(command) {
     CLI::Option* const alone =
         command.add_flag("--summary", summary, "Loads, width, depth, offset and residual only, as one row");
-    auto& list =
-        *command
-             .add_option("--at-deg", at_deg,
-                         "Angles to look at, from the indenter's normal [degrees], separated by commas")
-             ->type_name("a,b")
-             ->delimiter(',')
-             ->check(isFrom(-180, 180))
-             ->excludes(alone);
+    auto& list = *addList(command, "--at-deg", at_deg,
+                          "Angles to look at, from the indenter's normal [degrees], separated by commas",
+                          isFrom(-180, 180))
+                      .type_name("a,b")
+                      ->excludes(alone);
     command
         .add_option("--points", points,
                     fmt::format("Or: so many, evenly over twice the contact's width ({})", points))

@@ -52,10 +52,9 @@ struct DecodeOptions {
   explicit DecodeOptions(CLI::App& command) : common(command) {
     command.add_option("files", paths, "candump texts, read in this order; stdin without any, or as -")
         ->type_name("FILE");
-    command.add_option("-n,--node", nodes, "Only these nodes, as in 1,2,5")
-        ->delimiter(',')
-        ->allow_extra_args(false)  // what follows is a FILE
-        ->check(isNode());
+    addList(command, "-n,--node", nodes, "Only these nodes, as in 1,2,5", isNode())
+        .type_name("N,N")
+        ->allow_extra_args(false);  // what follows is a FILE
     command.add_flag("--touches", touches, "A row a touch sample, not a row a frame");
     command.add_flag("--follow", follow, "Wait for what is yet to be written to FILE, until Ctrl-C");
     command.add_flag("--strict", strict, "Stop at the first line that cannot be read");

@@ -37,10 +37,9 @@ struct FiguresOptions {
     command.add_option("-o,--output", folder, "Folder for the files; made if it isn't there")
         ->required()
         ->type_name("DIR");
-    command.add_option("--only", only, "Only these figures, separated by commas")
-        ->type_name("N,N")
-        ->delimiter(',')
-        ->check(CLI::IsMember(figureNumbers()));
+    addList(command, "--only", only, "Only these figures, separated by commas",
+            CLI::IsMember(figureNumbers()))
+        .type_name("N,N");
   }
 
   bool wants(const paper::Figure& figure) const {

@@ -49,10 +49,8 @@ struct StrainOptions {
     command.add_option("--width-m", width_m, "Width of the contact, an arc on the surface [m]; 0: line load")
         ->type_name("W")
         ->check(isFrom(0, 1));
-    command.add_option("--at-deg", at_deg, "Angles to look at [degrees], separated by commas")
-        ->type_name("a,b")
-        ->delimiter(',')
-        ->check(angle);
+    addList(command, "--at-deg", at_deg, "Angles to look at [degrees], separated by commas", angle)
+        .type_name("a,b");
     command.add_option("--points", points, "Or: so many angles, evenly spread from 0")
         ->type_name("N")
         ->check(isWhole(1, kMostPoints));

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/frames.hpp"
+#include "host/base/round_scale.hpp"
 #include "host/plot/style.hpp"
 
 namespace strainfinger::plot {
@@ -45,14 +46,15 @@ plot 0 with lines linewidth 1 linecolor rgb faint notitle, \
      for [i=1:orMore] data('or-more') using 1:(gap(2)) skip 1 with points pointtype 7 pointsize 0.2 \
        linecolor rgb faint title 'σ that or more'
 set tmargin at screen 0.41; set bmargin at screen 0.27
-set ylabel 'width (mm)'; set yrange [0:*]; set offsets 0,0,graph 0.05,0
+set ylabel 'width (mm)'; set yrange [0:*]; set ytics widthTics; set offsets 0,0,graph 0.05,0
+if (!widths) set yrange [0:1]; set ytics (); set label 1 'no width is told' at graph 0.5,0.5 center textcolor rgb faint
 plot data('width') using 1:(gap(3)):(gap(4)) skip 1 with filledcurves linecolor rgb lightBlue notitle, \
      '' using 1:(gap(2)) skip 1 with lines linewidth 1.4 linecolor rgb blue notitle, \
      for [i=1:orMore] data('or-more') using 1:(gap(3)) skip 1 with points pointtype 7 pointsize 0.2 \
        linecolor rgb faint notitle
-unset offsets
+unset offsets; unset label 1
 set tmargin at screen 0.23; set bmargin at screen 0.085
-set ylabel 'flags'; set yrange [flags - 0.5:-0.5]; set xtics format '%g'; set xlabel 'time (s)'
+set ylabel 'flags'; set yrange [flags - 0.5:-0.5]; set xtics format '%g'; set xlabel 'time since the first frame (s)'
 plot data('flags') using 1:2 skip 1 with points pointtype 5 pointsize 0.3 linecolor rgb faint notitle
 unset multiplot
 )";
@@ -151,6 +153,17 @@ DataFile widthData(const LogRecord& record) {
           brokenRows(record.points, 4, rowOf, never)};
 }
 
+/// Between labels that don't overlap, as the panel is low: gnuplot's own steps would be half of that [mm].
+double widthTicsOf(const DataFile& width, const DataFile& orMore) {
+  constexpr double kMostSteps = 4, kLeast_mm = 1e-3;
+  double most_mm = kLeast_mm;
+  for (const auto& [file, first] : {std::pair{&width, 1U}, std::pair{&orMore, 2U}})
+    for (const Row& row : file->rows)
+      for (std::size_t i = first; i < row.size(); ++i)
+        if (row[i] > most_mm) most_mm = row[i];
+  return roundScale(most_mm / kMostSteps);
+}
+
 /// The edges of bands that stand for that or more, as the largest sigma that a finger can say does.
 DataFile orMoreData(const LogRecord& record) {
   const can::LargestValues& largest = can::largestValues();
@@ -205,17 +218,22 @@ Picture logPicture(const LogRecord& record) {
   const double first_s = record.points.empty() ? 0 : record.points.front().time_s;
   const double last_s = record.points.empty() ? 1 : record.points.back().time_s;
   std::string script = kStyle;
-  std::vector<DataFile> data{angleData(record), forceData(record), widthData(record), flagData(record)};
+  const DataFile width = widthData(record);
+  DataFile orMore = orMoreData(record);
+  const double widthTics_mm = widthTicsOf(width, orMore);
+  std::vector<DataFile> data{angleData(record), forceData(record), width, flagData(record)};
   // What most logs don't have is neither a file nor in the key.
   const auto addIfAny = [&](DataFile file) {
     const bool isAny = !file.rows.empty();
     if (isAny) data.push_back(std::move(file));
     return isAny ? 1 : 0;
   };
-  const int orMore = addIfAny(orMoreData(record)), second = addIfAny(secondData(record));
-  script += fmt::format("first = {}; last = {}; flags = {}; orMore = {}; second = {}; heading = {}\n",
-                        first_s, last_s > first_s ? last_s : first_s + 1, kFlags.size(), orMore, second,
-                        quoted(record.heading));
+  const int anyOrMore = addIfAny(std::move(orMore)), second = addIfAny(secondData(record));
+  script += fmt::format(
+      "first = {}; last = {}; flags = {}; orMore = {}; second = {}; widths = {}; widthTics = {}; heading = "
+      "{}\n",
+      first_s, last_s > first_s ? last_s : first_s + 1, kFlags.size(), anyOrMore, second,
+      width.rows.empty() ? 0 : 1, widthTics_mm, quoted(record.heading));
   script += withFlagTics(kPanels);
   return {1200, 900, std::move(script), std::move(data)};
 }

@@ -60,13 +60,14 @@ std::string dataName(const std::string& stem, const std::string& name) {
   return fmt::format("{}-{}.csv", stem, name);
 }
 
-/// A folder inside another one, in which files are made whole before they appear there. Gone with what is
-/// left in it when it goes.
+/// A folder inside that of `file`, in which it and what belongs to it are made whole before they appear
+/// there. Gone with what is left in it when it goes.
 class Workshop {
  public:
-  explicit Workshop(fs::path folder)
-      : folder_(std::move(folder)), inside_((folder_ / ".picture-XXXXXX").string()) {
-    if (::mkdtemp(inside_.data()) == nullptr) failWriting(folder_);
+  explicit Workshop(const fs::path& file)
+      : folder_(file.has_parent_path() ? file.parent_path() : fs::path(".")),
+        inside_((folder_ / ".picture-XXXXXX").string()) {
+    if (::mkdtemp(inside_.data()) == nullptr) failWriting(file);
   }
   ~Workshop() {
     std::error_code ignored;
@@ -130,7 +131,10 @@ void drawIn(const Workshop& workshop, const Picture& picture, const std::string&
             const std::string& ending) {
   write(workshop.path() / scriptName(stem), completeScript(picture, stem, ending));
   for (const DataFile& data : picture.data) write(workshop.path() / dataName(stem, data.name), csvOf(data));
-  runGnuplot(workshop.path(), scriptName(stem));
+  runGnuplot(workshop.path(), "./" + scriptName(stem));  // it takes "-a.gp" for an option
+  std::error_code notThere;  // is -1 then, and 0 where gnuplot has opened the file only
+  if (fs::file_size(workshop.path() / (stem + ending), notThere) + 1 <= 1)
+    throw Failure(ExitCode::kFailure, fmt::format("{}: gnuplot has not drawn it", stem + ending));
 }
 
 }  // namespace
@@ -145,7 +149,7 @@ void requirePicturePath(const std::string& path) {
 void draw(const Picture& picture, const std::string& path) {
   const fs::path file(path);
   terminal(picture, file.extension().string());
-  const Workshop workshop(file.has_parent_path() ? file.parent_path() : fs::path("."));
+  const Workshop workshop(file);
   drawIn(workshop, picture, file.stem().string(), file.extension().string());
   workshop.deliver();
 }
@@ -159,7 +163,7 @@ std::vector<std::string> filesBeside(const std::string& path, std::span<const ch
 }
 
 std::string svgElement(const Picture& picture, const std::string& name) {
-  const Workshop workshop(fs::temp_directory_path());
+  const Workshop workshop(fs::temp_directory_path() / (name + ".svg"));
   drawIn(workshop, picture, name, ".svg");
   std::string svg = readFile((workshop.path() / (name + ".svg")).string(), ExitCode::kFailure);
   svg.erase(0, svg.find("<svg"));

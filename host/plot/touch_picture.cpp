@@ -51,10 +51,10 @@ set xrange [first:last]; set xtics autofreq format ''; unset xlabel
 set arrow 1 from moment,graph 0 to moment,graph 1 nohead linecolor rgb faint dashtype 3
 set tmargin at screen 0.92; set bmargin at screen 0.66
 set label 2 'The contact over time' at graph 0,1.06 left font ',13'
-set ylabel 'angle'; set yrange [0:360]; set ytics 90 format '%g°'
+set ylabel 'angle'; set yrange [-20 * several:360]; set ytics 0,90 format '%g°'
 plot data('track') using 1:(gap(5)) every ::1 with points pointtype 7 pointsize 0.4 linecolor rgb estimate title 'estimate', \
      '' using 1:(gap(2)) every ::1 with lines linewidth 1 linecolor rgb truth title 'truth', \
-     for [i=1:several] '' using 1:(gap(10) * 350) every ::1 with points pointtype 5 pointsize 0.4 \
+     for [i=1:several] '' using 1:(-11 * gap(10)) every ::1 with points pointtype 5 pointsize 0.4 \
        linecolor rgb faint title 'several touches: not compared'
 unset label 2
 set tmargin at screen 0.60; set bmargin at screen 0.44

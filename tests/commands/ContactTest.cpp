@@ -208,6 +208,7 @@ TEST(ContactCommand, RefusesOptionsThatDoNotGoTogether) {
     refuses(flat("--width-m 1e-3 --summary ") + option, "excludes");
   refuses(flat("--width-m 1e-3 --points 0"), "--points");
   refuses(flat("--width-m 1e-3 --at-deg 181"), "--at-deg");
+  refuses(flat("--width-m 1e-3 --at-deg 1,,2"), "--at-deg: an item of ");
 }
 
 TEST(ContactCommand, ALoadThatIsTooMuchFails) {

@@ -228,6 +228,7 @@ TEST(Decode, PicksNodes) {
   STRCMP_CONTAINS("CONTACT", runProgram("decode --node 1,5", contact_).out.c_str());
   STRCMP_EQUAL("", rows(runProgram("decode --node 5", "(1.000000) can0 18D#E8032201808161A3\n")).c_str());
   LONGS_EQUAL(2, runProgram("decode --node 64", contact_).status);
+  LONGS_EQUAL(2, runProgram("decode --node 1,,5", contact_).status);
 }
 
 TEST(Decode, GoesOnAfterALineItCannotRead) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdio>
 #include <string>
 
 #include "tests/commands/program.hpp"
@@ -47,6 +48,19 @@ TEST(DesignCommand, DrawsAPicture) {
       inFolder("", "--gauges 8:16:4 --radius-m 9e-3:10e-3:2 --picture d.svg >d.csv", " && LC_ALL=C ls");
   LONGS_EQUAL_TEXT(0, run.status, run.err.c_str());
   STRCMP_EQUAL("d-fingers.csv\nd.csv\nd.gp\nd.svg\n", run.out.c_str());
+}
+
+// Ticks are at 1, 1.5, 2, 3, 5 and 7: so wide a range has two at least.
+TEST(DesignCommand, AnAxisAroundOneValueHasNumbers) {
+  const Run run = inFolder("", "--gauges 16 --picture d.svg >d.csv",
+                           " && grep -o '[a-z]*Low = [^;]*; [a-z]*High = [^;]*' d.gp");
+  LONGS_EQUAL_TEXT(0, run.status, run.err.c_str());
+  for (const char* axis : {"arc", "normal"}) {
+    double low = 0, high = 0;
+    const std::string line = run.out.substr(run.out.find(std::string(axis) + "Low"));
+    LONGS_EQUAL(2, std::sscanf(line.c_str(), "%*[a-zL] = %lf; %*[a-zH] = %lf", &low, &high));
+    CHECK_TRUE_TEXT(low > 0 && high >= 2.5 * low, run.out.c_str());
+  }
 }
 
 TEST(DesignCommand, DrawsFingersOfWhichNothingIsDetermined) {

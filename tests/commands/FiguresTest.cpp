@@ -52,6 +52,16 @@ TEST(FiguresCommand, RefusesFiguresThatAreNone) {
   CHECK_FALSE(std::filesystem::exists(folder.file("out")));
 }
 
+TEST(FiguresCommand, RefusesListsWithNothingBetweenCommas) {
+  const Run run = figures("--only 3,,4");
+  LONGS_EQUAL(2, run.status);
+  STRCMP_CONTAINS("--only: an item of 3,,4 is empty", run.err.c_str());
+}
+
+TEST(FiguresCommand, AFolderWithoutANameIsAUsageError) {
+  checkRefused("figures --only 3 -o ''", "figures: --output: the name of a folder is missing");
+}
+
 TEST(FiguresCommand, WantsAFolder) {
   const Run run = runProgram("figures");
   LONGS_EQUAL(2, run.status);

@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <CppUTest/TestHarness.h>
 
 #include <algorithm>
@@ -209,6 +211,26 @@ TEST(RunCommand, AFileThatCannotBeWrittenIsAFailure) {
   const Run run = runProgram("run --duration 0.2 --strains /nowhere/s.csv");
   LONGS_EQUAL(1, run.status);
   STRCMP_CONTAINS("/nowhere/s.csv", run.err.c_str());
+}
+
+// A run may take hours.
+TEST(RunCommand, AnOutputThatCannotBeIsToldBeforeTheRun) {
+  for (const std::string option : {"--strains", "--touches", "--picture"}) {
+    const Run run = runShell("folder=$(mktemp -d --suffix .svg) && trap 'rmdir \"$folder\"' EXIT && " +
+                             ("\"$STRAINFINGER\" run --duration 0.2 " + option) + " \"$folder\"");
+    LONGS_EQUAL(1, run.status);
+    STRCMP_CONTAINS(": this is a folder; name a file", run.err.c_str());
+    STRCMP_EQUAL("", run.out.c_str());
+  }
+}
+
+// Root may write anywhere: for others to see.
+TEST(RunCommand, AFolderThatCannotBeWrittenToIsToldBeforeTheRun) {
+  if (::access("/usr", W_OK) == 0) return;
+  const Run run = runProgram("run --duration 0.2 --strains /usr/s.csv");
+  LONGS_EQUAL(1, run.status);
+  STRCMP_CONTAINS("--strains /usr/s.csv: no file can be made in the folder /usr: ", run.err.c_str());
+  STRCMP_EQUAL("", run.out.c_str());
 }
 
 TEST(RunCommand, TheNodeIsTheConfigs) {

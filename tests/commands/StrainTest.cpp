@@ -140,6 +140,13 @@ TEST(StrainCommand, RefusesLoadsThatAreNone) {
   }
 }
 
+TEST(StrainCommand, NoAngleOfAListIsEmpty) {
+  for (const std::string list : {"1,,2", "1,", ",1", "''"})
+    checkRefused(press("--radius-m 9e-3 --at-deg " + list), "--at-deg: an item of ");
+  checkRefused(press("--radius-m 9e-3 --at-deg 1,,2"), "1,,2");
+  checkRefused(press("--radius-m 9e-3 --at-deg 1,x"), "x is not a number");
+}
+
 TEST(StrainCommand, NamesWhatIsMissing) {
   checkRefused("strain --radius-m 9e-3 --points 1 --contact-deg 0 --normal-n-per-m 1",
                "--tangential-n-per-m");

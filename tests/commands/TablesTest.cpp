@@ -83,6 +83,13 @@ TEST(TablesCommand, AMissingFolderIsAFailureAndLeavesNothing) {
             "test ! -e new.tables && exit $status");
 }
 
+TEST(TablesCommand, AHeaderThatCannotBeLeavesTheOldImage) {
+  checkEnds(
+      1, "--header folder: this is a folder; name a file",
+      "mkdir folder && cp finger.tables before && { \"$STRAINFINGER\" tables -c thin.toml -o finger.tables "
+      "--header folder; status=$?; cmp before finger.tables && exit $status; }");
+}
+
 TEST(TablesCommand, ABadConfigLeavesTheOldImage) {
   checkEnds(2, "bad.toml:3:",
             "cp finger.tables before && printf 'schema = 1\\n[gauges]\\ncount = 15\\n' >bad.toml && "

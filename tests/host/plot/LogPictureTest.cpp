@@ -113,6 +113,26 @@ TEST(LogPicture, EdgesOfBandsThatStandForThatOrMoreAreMarked) {
   draw(logPicture({"heading", {point_}}), folder.file("width.svg"));
 }
 
+// As of a finger whose contact.width_m is known.
+TEST(LogPicture, WithoutAnyWidthTheRestIsDrawn) {
+  const TemporaryFolder folder;
+  point_.touch.width_m = point_.touch.sigmaWidth_m = kNoValue;
+  for (const double sigma_n : {0.125, 0.127}) {
+    point_.touch.sigmaNormal_n = sigma_n;
+    draw(logPicture({"heading", {point_, pointAt(1.01, 21)}}), folder.file("a.svg"));
+    STRCMP_CONTAINS("no width is told", readFile(folder.file("a.svg"), ExitCode::kFailure).c_str());
+  }
+}
+
+TEST(LogPicture, LabelsOfWidthsHaveRoom) {
+  point_.touch.sigmaWidth_m = 2.8e-3;  // up to 4.8 mm
+  STRCMP_CONTAINS("widthTics = 2;", logPicture({"heading", {point_}}).script.c_str());
+}
+
+TEST(LogPicture, SaysWhereItsTimeBegins) {
+  STRCMP_CONTAINS("'time since the first frame (s)'", logPicture({"heading", {point_}}).script.c_str());
+}
+
 TEST(LogPicture, ASecondContactHasItsAngleAndForces) {
   const LogPoint alone = pointAt(0, 20);
   point_.touch.second = can::ContactReport{.angle_deg = 200, .normal_n = 0.25, .tangential_n = -0.125};

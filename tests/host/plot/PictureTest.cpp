@@ -60,6 +60,20 @@ TEST(Picture, MayHaveAnApostropheInItsName) {
   STRCMP_CONTAINS("</svg>", contentOf("Bob's finger.svg").c_str());
 }
 
+// gnuplot would take the name of its script for an option.
+TEST(Picture, MayBeginWithADash) {
+  draw(picture, folder.file("-y.svg"));
+  STRCMP_CONTAINS("</svg>", contentOf("-y.svg").c_str());
+}
+
+TEST(Picture, OneThatIsNotDrawnIsAFailure) {
+  picture.script = "exit status 0\n";
+  picture.script = "set output 'elsewhere.svg'\n" + picture.script;
+  STRCMP_CONTAINS("a.svg: gnuplot has not drawn it",
+                  complaintAbout(folder.file("a.svg"), ExitCode::kFailure).c_str());
+  CHECK_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
 TEST(Picture, AnSvgIsDrawnWhole) {
   draw(picture, folder.file("a.svg"));
   STRCMP_CONTAINS("</svg>", contentOf("a.svg").c_str());
@@ -86,7 +100,7 @@ TEST(Picture, OtherEndingsAreAUsageErrorAndLeaveNothingBehind) {
 }
 
 TEST(Picture, AFolderThatIsNotThereIsNamedWithTheReason) {
-  STRCMP_CONTAINS("nowhere: cannot write the file: No such file or directory",
+  STRCMP_CONTAINS("nowhere/a.png: cannot write the file: No such file or directory",
                   complaintAbout(folder.file("nowhere/a.png"), ExitCode::kFailure).c_str());
 }
 

@@ -63,6 +63,9 @@ TEST(TouchPicture, SeveralTouchesAreSaidToBeThere) {
   STRCMP_CONTAINS("several = 1", touchPicture(record).script.c_str());
   DOUBLES_EQUAL(1, file(touchPicture(record), "track").rows.at(1).back(), 0);
   draw(touchPicture(record), folder.file("several.svg"));
+  // In a strip below 0 deg, where no angle is.
+  STRCMP_CONTAINS("set yrange [-20 * several:360]", touchPicture(record).script.c_str());
+  STRCMP_CONTAINS("(-11 * gap(10))", touchPicture(record).script.c_str());
 }
 
 TEST(TouchPicture, TheTrueAngleHasAGapWhereItRunsThroughZero) {

@@ -123,13 +123,13 @@ TEST(Assessment, ATouchThatTheGateMayMissIsAProblem) {
 
 // Below 95 times the noise where it is felt most a touch is flagged.
 TEST(Assessment, ATouchThatTheFirmwareFlagsIsAProblem) {
-  config.gauges.noise_strain = 1.4e-4;
-  touch.width_m = 3e-3;
-  touch.normal_n_per_m = 25;
+  config.gauges.noise_strain = 3e-5;
+  touch.width_m = 1e-3;
+  touch.normal_n_per_m = 5;
   const Assessment weak = assess(config, touch);
   DOUBLES_EQUAL(0, weak.trial.value().certainShare, 0);
   STRCMP_CONTAINS("the firmware flags this touch as uncertain", weak.problem.c_str());
-  touch.normal_n_per_m = 50;
+  touch.normal_n_per_m = 10;
   STRCMP_EQUAL("", assess(config, touch).problem.c_str());
 }
 

@@ -41,11 +41,22 @@ bool LossCounter::Evidence::isOfTwo() const {
   return resumptions >= kFewestResumptions && resumptions * kGapsPerResumption >= gaps;
 }
 
-void LossCounter::count(std::string_view interface, const CanFrame& frame) {
+bool LossCounter::count(std::string_view interface, const CanFrame& frame) {
   const FrameEntry* const entry = findFrame(frame);
-  if (entry == nullptr) return;
+  if (entry == nullptr) return false;
   const FunctionCode function = entry->spec.function;
   Stream& stream = streams_.at(interface, *nodeOf(frame.id, function));
+  const std::uint64_t before = stream.evidence.resumptions;
+  countFrame(stream, function, frame);
+  return stream.evidence.resumptions > before;
+}
+
+void LossCounter::forgetTwin(std::string_view interface, std::uint8_t node) {
+  Stream& stream = streams_.at(interface, node);
+  if (stream.evidence.isOfTwo()) stream.evidence = {};
+}
+
+void LossCounter::countFrame(Stream& stream, FunctionCode function, const CanFrame& frame) {
   const auto countSequence = [&](const auto& values) {
     countNumber(stream, function, values->sequence, toWord(frame));
   };
@@ -129,6 +140,10 @@ void LossCounter::countUptime(Stream& stream, std::uint16_t uptime_s) {
   stream.sameUptime = uptime_s == last_s ? stream.sameUptime + 1 : 1;
   if (stream.sameUptime == kHeartbeatsOfTwo && uptime_s != kLongestUptime_s) ++stream.evidence.resumptions;
   if (uptime_s >= last_s && uptime_s <= last_s + kUptimeStep_s) return;
+  if (uptime_s < last_s && uptime_s >= last_s - kUptimeStep_s && uptime_s > kUptimeStep_s) {
+    ++stream.evidence.resumptions;  // a finger that restarted would begin at 0
+    return;
+  }
   const bool resumes = stream.uptimeBeforeJump_s && uptime_s >= *stream.uptimeBeforeJump_s &&
                        uptime_s <= *stream.uptimeBeforeJump_s + kUptimeStep_s;
   stream.uptimeBeforeJump_s = static_cast<std::uint16_t>(last_s);

@@ -33,8 +33,12 @@ void requireOurProtocol(const NodeCount& node);
 
 class LossCounter {
  public:
-  /// Takes any frame; those that are no finger's are ignored.
-  void count(std::string_view interface, const CanFrame& frame);
+  /// Takes any frame; those that are no finger's are ignored. True: it is a sign of two fingers with one
+  /// number, of which there have to be several.
+  bool count(std::string_view interface, const CanFrame& frame);
+
+  /// Where two fingers were this node: from here on they are only if they give themselves away anew.
+  void forgetTwin(std::string_view interface, std::uint8_t node);
 
   /// By interface, then node.
   std::vector<NodeCount> counts() const;
@@ -67,6 +71,7 @@ class LossCounter {
     std::uint8_t board = 0;
     std::uint8_t boardBefore = 0;
   };
+  static void countFrame(Stream& stream, FunctionCode function, const CanFrame& frame);
   static void countNumber(Stream& stream, FunctionCode function, std::uint8_t number, std::uint64_t data);
   static void countGap(Stream& stream, Numbers& numbers, std::uint8_t number);
   static void countAnnounced(Stream& stream, const PatchFrame& patch);

@@ -55,6 +55,10 @@ struct MonitorOptions {
   }
   bool wantsScreen() const { return !plain && common.format() == TableFormat::kCsv && live::hasTerminal(); }
 
+  live::PlainReport plainReport() const {
+    return {stdout, common.format(), every_s, live::terminalForm().unicode};
+  }
+
   CommonOptions common;
   std::string bus;  ///< empty: a log on stdin
   bool plain = false;
@@ -159,7 +163,7 @@ class LiveScreen {
 void printLive(can::BusPort& port, const config::FingerConfig& config, const MonitorOptions& options) {
   const system::StopSignal stop;
   live::BusWatch watch(port, config, options.tables_crc32());
-  live::PlainReport report(stdout, options.common.format(), options.every_s);
+  live::PlainReport report = options.plainReport();
   while (!stop.asked()) {
     watch.listen(kRedraw);
     const live::BusView view = watch.view();
@@ -191,7 +195,7 @@ class LogMonitor {
  public:
   explicit LogMonitor(const MonitorOptions& options)
       : watch_(options.common.config(), options.tables_crc32()),
-        report_(stdout, options.common.format(), options.every_s),
+        report_(options.plainReport()),
         screen_(options.wantsScreen()) {}
 
   void run() {

@@ -12,6 +12,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/recording.hpp"
 #include "host/system/stop_signal.hpp"
+#include "host/tables/table_builder.hpp"
 
 namespace strainfinger::cli {
 namespace {
@@ -57,6 +58,15 @@ void recordUntil(Clock::time_point end, const system::StopSignal& stop, can::Bus
   recording.end();
 }
 
+/// The notes beside the log quote the config, by which whoever reads it goes.
+void warnOfOtherTables(const Recording& recording, const config::FingerConfig& config) {
+  const auto nodes = recording.nodesOfOtherTables(tables::buildTableImage(config).crc32);
+  if (nodes.empty()) return;
+  warn("record", fmt::format("the tables of node {} are not those of {}, which the notes quote: read the log "
+                             "with that finger's own config (-c)",
+                             fmt::join(nodes, ", "), config.source));
+}
+
 void runRecord(const RecordOptions& options) {
   const system::StopSignal stop;
   const auto start = Clock::now();
@@ -70,6 +80,7 @@ void runRecord(const RecordOptions& options) {
   tell("record: {} frames in {:.1f} s, {} missed: {}, {}\n", progress.frames,
        static_cast<double>(progress.end_ns - progress.start_ns) * 1e-9, progress.missed, recording.path(),
        recording.notesPath());
+  if (options.common.hasConfig()) warnOfOtherTables(recording, config);
   if (stop.asked()) throw Failure(ExitCode::kInterrupted, "record: interrupted, all is written");
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 // A bus, written down: a log, and notes on it beside it.
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "host/can/bus_port.hpp"
 #include "host/can/log_writer.hpp"
@@ -29,6 +31,10 @@ class Recording {
   /// The last flush(); completes the notes. Throws like it.
   void end();
 
+  /// See RecordingNotes.
+  std::vector<std::uint8_t> nodesOfOtherTables(std::uint32_t tables_crc32) const {
+    return notes_.nodesOfOtherTables(tables_crc32);
+  }
   const RecordingProgress& progress() const { return progress_; }
   const std::string& path() const { return path_; }
   const std::string& notesPath() const { return notesPath_; }

@@ -27,6 +27,12 @@ bool sameFirmware(const HeartbeatFrame& a, const HeartbeatFrame& b) {
   return a.protocol == b.protocol && a.table_crc == b.table_crc;
 }
 
+/// One without usable tables, or of another protocol, says nothing of them.
+bool hasOtherTables(const HeartbeatFrame& heartbeat, std::uint32_t tables_crc32) {
+  return heartbeat.protocol == kProtocolVersion && !heartbeat.faults.has(FingerFault::kTables) &&
+         heartbeat.table_crc != static_cast<std::uint8_t>(tables_crc32);
+}
+
 }  // namespace
 
 RecordingNotes::RecordingNotes(std::string bus, const config::FingerConfig& config)
@@ -44,6 +50,13 @@ bool RecordingNotes::note(const CanFrame& frame) {
     return !before || !sameFirmware(*before, *heartbeat);
   }
   return false;
+}
+
+std::vector<std::uint8_t> RecordingNotes::nodesOfOtherTables(std::uint32_t tables_crc32) const {
+  std::vector<std::uint8_t> nodes;
+  for (const auto& [node, finger] : fingers_)
+    if (finger.heartbeat && hasOtherTables(*finger.heartbeat, tables_crc32)) nodes.push_back(node);
+  return nodes;
 }
 
 std::string RecordingNotes::toml(const RecordingProgress& progress) const {

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/can_frame.hpp"
 #include "common/frames.hpp"
@@ -26,6 +27,9 @@ class RecordingNotes {
 
   /// Takes any frame; true: something is known now that was not.
   bool note(const CanFrame& frame);
+
+  /// The fingers that last said to have other tables than those of this CRC-32.
+  std::vector<std::uint8_t> nodesOfOtherTables(std::uint32_t tables_crc32) const;
 
   /// A finger.toml with a section [recording], which readers of configs pass over: it can be given to -c.
   std::string toml(const RecordingProgress& progress) const;

@@ -62,7 +62,7 @@ BusView BusWatch::view() {
 void BusWatch::request(std::uint8_t node, const RequestFrame& request) {
   if (std::ranges::find(requests_, node, &PendingRequest::node) != requests_.end()) return;
   const PendingRequest pending(node, request, now_us());
-  if (fleet_.hasTwin(node))
+  if (fleet_.hasTwin(node, now_us()))
     outcomes_.push_back(pending.refused(
         fmt::format("not sent: {}: {}", can::kTwinText, can::forNode(can::kTwinRemedy, port_.name(), node))));
   else

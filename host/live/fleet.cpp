@@ -16,6 +16,9 @@ constexpr std::int64_t kTouchLasts_us = 4'000 * std::int64_t{kContactPeriod_ms};
 /// Of RAW there is one set a second at least.
 constexpr std::int64_t kRawLasts_us = 1'500'000;
 
+/// Two fingers of one number give themselves away once a second at least while both are there.
+constexpr std::int64_t kTwinLasts_us = 3'000'000;
+
 void widen(double& least, double& most, double value) {
   least = std::fmin(least, value);  // fmin and fmax pass over what is not known
   most = std::fmax(most, value);
@@ -41,8 +44,8 @@ void Fleet::take(std::int64_t time_us, const CanFrame& frame) {
   bits_.add(now_us_, unstuffedBits(frame.length));
   const auto number = can::fingerNode(frame.id);
   if (!number) return;
-  losses_.count(name_, frame);
   Node& node = nodeAt(*number);
+  countLosses(*number, node, frame);
   if (decode<ContactFrame>(frame)) node.contacts.add(now_us_);
   if (decode<RawFrame>(frame)) node.rawBits.add(now_us_, unstuffedBits(frame.length));
   if (const auto touch = node.receiver.take(frame)) takeTouch(node, now_us_, *touch);
@@ -53,6 +56,19 @@ void Fleet::take(std::int64_t time_us, const CanFrame& frame) {
   if (const auto heartbeat = decode<HeartbeatFrame>(frame)) takeHeartbeat(node, now_us_, *heartbeat);
   if (const auto info = decode<InfoFrame>(frame)) node.info = info;
   if (const auto gauges = decode<GaugesFrame>(frame)) node.gauges = gauges;
+}
+
+/// What a twin left behind that has gone is not taken together with what may look like one later.
+void Fleet::countLosses(std::uint8_t number, Node& node, const CanFrame& frame) {
+  if (node.twin_us != 0 && now_us_ - node.twin_us > kTwinLasts_us) {
+    losses_.forgetTwin(name_, number);
+    node.twin_us = 0;
+  }
+  if (losses_.count(name_, frame)) node.twin_us = now_us_;
+}
+
+bool Fleet::showsTwin(const can::NodeCount& count, const Node& node, std::int64_t now_us) {
+  return count.twoSenders && now_us - node.twin_us <= kTwinLasts_us;
 }
 
 void Fleet::takeHeartbeat(Node& node, std::int64_t time_us, const HeartbeatFrame& heartbeat) {
@@ -86,15 +102,16 @@ BusView Fleet::view(std::int64_t now_us) {
     finger->received = count.received;
     finger->lost = count.lost;
     finger->restarts = count.restarts;
-    finger->hasTwin = count.twoSenders;
+    finger->hasTwin = showsTwin(count, nodes_.at(count.node), now_us_);
   }
   return view;
 }
 
-bool Fleet::hasTwin(std::uint8_t node) const {
-  return std::ranges::any_of(losses_.counts(), [node](const can::NodeCount& count) {
-    return count.node == node && count.twoSenders;
-  });
+bool Fleet::hasTwin(std::uint8_t number, std::int64_t now_us) const {
+  const auto node = nodes_.find(number);
+  return node != nodes_.end() && std::ranges::any_of(losses_.counts(), [&](const can::NodeCount& count) {
+           return count.node == number && showsTwin(count, node->second, now_us);
+         });
 }
 
 /// Of a finger without usable tables its faults tell.

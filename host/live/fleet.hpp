@@ -35,8 +35,8 @@ class Fleet {
   /// How things are now; spans of force begin anew.
   BusView view(std::int64_t now_us);
 
-  /// Two fingers answer by this number.
-  bool hasTwin(std::uint8_t node) const;
+  /// Two fingers answer by this number, or did until a few seconds ago.
+  bool hasTwin(std::uint8_t number, std::int64_t now_us) const;
 
  private:
   /// Of one node, which may turn out to be no finger.
@@ -49,6 +49,7 @@ class Fleet {
     std::optional<InfoFrame> info{};
     std::optional<GaugesFrame> gauges{};
     std::optional<can::TouchReport> touch{};
+    std::int64_t twin_us = 0;     ///< when the last sign of another of its number came
     std::int64_t heard_us = 0;    ///< when its last HEARTBEAT came
     std::int64_t touched_us = 0;  ///< when its last touch was complete
     std::int64_t since_us = 0;    ///< when the first of its kind was
@@ -61,6 +62,8 @@ class Fleet {
     std::size_t intervals = 0;                    ///< so many so far
   };
   Node& nodeAt(std::uint8_t number);
+  void countLosses(std::uint8_t number, Node& node, const CanFrame& frame);
+  static bool showsTwin(const can::NodeCount& count, const Node& node, std::int64_t now_us);
   static void takeHeartbeat(Node& node, std::int64_t time_us, const HeartbeatFrame& heartbeat);
   static void takeTouch(Node& node, std::int64_t time_us, const can::TouchReport& touch);
   double loadOf(RateMeter& bits) const;  ///< share of the bit rate, now

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "host/base/text_output.hpp"
+#include "host/base/text_parts.hpp"
 #include "host/live/value_text.hpp"
 #include "host/live/view_json.hpp"
 
@@ -36,7 +37,7 @@ void PlainReport::print(std::span<const BusView> buses) const {
     if (format_ == TableFormat::kJson)
       text += toJson(bus).dump() + "\n";
     else
-      text += plainLines(bus);
+      text += unicode_ ? plainLines(bus) : replacedAll(plainLines(bus), "±", "+-");
   }
   writeAndFlush(stream_, text);
 }

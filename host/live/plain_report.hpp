@@ -15,8 +15,12 @@ namespace strainfinger::live {
 /// object for each bus.
 class PlainReport {
  public:
-  PlainReport(std::FILE* stream, TableFormat format, double every_s)
-      : stream_(stream), format_(format), every_us_(static_cast<std::int64_t>(every_s * 1e6)) {}
+  /// Without `unicode` lines are ASCII alone.
+  PlainReport(std::FILE* stream, TableFormat format, double every_s, bool unicode)
+      : stream_(stream),
+        format_(format),
+        every_us_(static_cast<std::int64_t>(every_s * 1e6)),
+        unicode_(unicode) {}
 
   /// When the next is due, at `time_us` or before; the first is a period after the first call. After a gap
   /// there is one, not one for each period.
@@ -29,6 +33,7 @@ class PlainReport {
   std::FILE* stream_;
   TableFormat format_;
   std::int64_t every_us_;
+  bool unicode_;
   std::optional<std::int64_t> next_us_;
 };
 

@@ -8,6 +8,7 @@
 #include "host/base/angles.hpp"
 #include "host/base/round_scale.hpp"
 #include "host/base/text_parts.hpp"
+#include "host/base/wrapped.hpp"
 #include "host/live/value_text.hpp"
 #include "host/live/words.hpp"
 
@@ -91,14 +92,16 @@ class Painter {
     for (const BusView& bus : content_.buses)
       for (const FingerView& finger : bus.fingers) fingers_.push_back(&finger);
     const int fingerRows = roomForFinger();
+    if (fingerRows == kBlockRows) spareRows_ = std::max(canvas_.rows() - rowsWith(kBlockRows), 0);
     int row = 0;
     std::size_t index = 0;
     for (const BusView& bus : content_.buses) {
       heading(row, bus);
       row += kHeadingRows;
       for (std::size_t i = 0; i < bus.fingers.size(); ++i, ++index) {
+        const int spareRows = spareRows_;
         if (row < canvas_.rows() - 1) finger(row, index, fingerRows);
-        row += fingerRows;
+        row += fingerRows + spareRows - spareRows_;
       }
     }
     foot(row - (canvas_.rows() - 1));
@@ -218,8 +221,22 @@ class Painter {
       numbers(top + 1, finger);
     else
       say(top + 1, kTextColumn, finger.touch ? "nothing touches it" : "no touch known", Style::kFaint);
-    say(top + 6, kTextColumn, warningsText(finger), Style::kBad);
-    say(top + 7, kTextColumn, statistics(finger), Style::kFaint);
+    say(warnings(top + 6, finger), kTextColumn, statistics(finger), Style::kFaint);
+  }
+
+  /// In as many rows as it takes and no other finger needs; the row below them.
+  int warnings(int row, const FingerView& finger) {
+    const auto parts = wrapped(warningsText(finger), canvas_.columns() - kTextColumn);
+    std::vector<std::string> rows(1);
+    for (const std::string& part : parts)
+      if (rows.back().empty())
+        rows.back() = part;
+      else if (spareRows_ > 0)
+        rows.push_back(part), --spareRows_;
+      else
+        rows.back().append(" ").append(part);  // cut off, with a mark
+    for (const std::string& text : rows) say(row++, kTextColumn, text, Style::kBad);
+    return row;
   }
 
   static std::string statistics(const FingerView& finger) {
@@ -239,10 +256,20 @@ class Painter {
     label(top + 3, "width", widthText(touch));
     bar(top + 1, 0, end_n, touch.normal_n, touch.sigmaNormal_n);
     bar(top + 2, -end_n, end_n, touch.tangential_n, touch.sigmaTangential_n);
-    say(top, kBarColumn, qualityText(touch), Style::kFaint);
+    quality(top, touch);
     if (!touch.second) return;
     label(top + 4, "second", contactText(*touch.second));
     canvas_.put(top + 4, kTextColumn + 7, glyphs_.second, Style::kAccent);
+  }
+
+  /// Behind the angle, or in a narrow window in the row of a second contact.
+  void quality(int top, const can::TouchReport& touch) {
+    const std::string text = qualityText(touch);
+    const bool fits = kBarColumn + static_cast<int>(text.size()) <= canvas_.columns();
+    if (fits || touch.second)
+      say(top, kBarColumn, text, Style::kFaint);
+    else
+      say(top + 4, kTextColumn, text, Style::kFaint);
   }
 
   void label(int row, const char* name, const std::string& value) {
@@ -281,6 +308,7 @@ class Painter {
 
   const ScreenContent& content_;
   std::vector<const FingerView*> fingers_{};  ///< of all buses
+  int spareRows_ = 0;                         ///< that no finger takes so far
   bool isUnicode_;
   const Glyphs& glyphs_;
   Canvas canvas_;

@@ -23,8 +23,9 @@ struct ScreenContent {
   std::string keys{};            ///< which there are
 };
 
-/// Every finger with its dial and bars where these have room, else with all its numbers in three rows, else
-/// in one row as far as that goes; what has no room is counted at the end.
+/// Every finger with its dial and bars where these have room, and warnings in as many rows as are left; else
+/// with all its numbers in three rows, else in one row as far as that goes; what has no room is counted at
+/// the end.
 Canvas drawScreen(const ScreenContent& content, const ScreenForm& form);
 
 }  // namespace strainfinger::live

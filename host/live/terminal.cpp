@@ -37,9 +37,15 @@ bool wantsColour() {
   return refused == nullptr || *refused == '\0';
 }
 
+/// Such as a shell within an editor is not one: it would show the escape sequences.
+bool obeysEscapes() {
+  const char* kind = std::getenv("TERM");
+  return kind != nullptr && *kind != '\0' && std::strcmp(kind, "dumb") != 0;
+}
+
 }  // namespace
 
-bool hasTerminal() { return isatty(STDOUT_FILENO) == 1; }
+bool hasTerminal() { return isatty(STDOUT_FILENO) == 1 && obeysEscapes(); }
 
 bool isKeyboard() { return isatty(STDIN_FILENO) == 1; }
 

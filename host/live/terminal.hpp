@@ -12,7 +12,7 @@
 
 namespace strainfinger::live {
 
-/// Whether stdout is a terminal.
+/// Whether stdout is a terminal that a screen can be drawn on: by TERM not a dumb one.
 bool hasTerminal();
 
 /// stdin is a terminal: nothing is piped into it.

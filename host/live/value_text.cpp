@@ -95,7 +95,8 @@ std::vector<std::string> troublesOf(const FingerView& finger) {
   else if (finger.isForeign())
     troubles.push_back(can::foreignText(finger.heartbeat.protocol));
   if (finger.hasTwin) troubles.push_back(fmt::format("{}: {}", can::kTwinText, can::kTwinRemedy));
-  if (finger.hasOtherTables) troubles.push_back("its tables are not those of the config (-c)");
+  if (finger.hasOtherTables)
+    troubles.push_back("its tables are not those of the config (-c; the default finger without it)");
   return troubles;
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host/base/wrapped.hpp"
 #include "host/session/rules.hpp"
 
 namespace strainfinger::session {
@@ -20,22 +21,6 @@ constexpr int kOverColumn = 13, kNextColumn = 25, kSigmaColumn = 37;
 /// Windows with fewer rows have none to leave empty: the default ring has room on 24.
 constexpr int kAiryRows = 28;
 constexpr double kSilentAfter_s = 1;
-
-/// Words to rows of so many columns.
-std::vector<std::string> wrapped(std::string_view text, int columns) {
-  std::vector<std::string> rows;
-  std::string row;
-  while (!text.empty()) {
-    const auto end = std::min(text.find(' '), text.size());
-    const std::string_view word = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    if (!row.empty() && static_cast<int>(row.size() + 1 + word.size()) > columns)
-      rows.push_back(std::exchange(row, {}));
-    row.append(row.empty() ? "" : " ").append(word);
-  }
-  if (!row.empty()) rows.push_back(row);
-  return rows;
-}
 
 /// Its standard error, if there is a mark.
 std::string zeroOfAngleText(const Assessment& known) {

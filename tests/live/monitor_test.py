@@ -133,6 +133,11 @@ class Live(unittest.TestCase):
         self.assertRegex(lines[-2], r"^\d+\.\d{3} s  udp:\d+ node 1  run  (angle|no touch|nothing)")
         self.assertNotIn("\x1b", run.stdout)
 
+    def test_in_a_pipe_without_utf8_lines_are_ascii(self):
+        run = subprocess.run(["timeout", "-s", "INT", "3", *self.command.split(), "--every", "0.5"], capture_output=True, env=dict(os.environ, LC_ALL="C"))
+        self.assertIn(b" +- ", run.stdout)
+        self.assertTrue(run.stdout.isascii())
+
     def test_in_a_pipe_it_prints_objects(self):
         run = subprocess.run(["timeout", "-s", "INT", "2", *self.command.split(), "--every", "0.5", "--json"], capture_output=True, text=True)
         last = json.loads(run.stdout.splitlines()[-1])

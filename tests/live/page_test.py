@@ -250,6 +250,19 @@ class Ending(unittest.TestCase):
             apart_s = page.value("runs(cards.get(1).points, point => point.normal).map(run => Math.max(0, ...run.slice(1).map((point, i) => point.t - run[i].t)))")
             self.assertLess(max(apart_s), 0.35)
 
+    def test_a_page_draws_by_the_config_of_the_program_that_it_finds_again(self):
+        with Bench(PROGRAM) as bench:
+            bench.finger(1)
+            process, url = bench.serve()
+            with browser.Page(url) as page:
+                page.wait_for("cards.get(1)?.gauges.length === 16")
+                Bench._end(process)
+                page.wait_for("document.querySelector('#link').textContent.startsWith('connection lost')")
+                config = bench.folder / "other.toml"
+                config.write_text("schema = 1\n[gauges]\ncount = 12\n")
+                bench.start("serve", "--can", bench.bus, "-c", str(config), "--port", url.rstrip("/").rpartition(":")[2], stderr=subprocess.DEVNULL)
+                page.wait_for("document.querySelector('#link').textContent === 'live' && cards.get(1).gauges.length === 12")
+
     def test_a_page_that_was_refused_tries_again(self):
         with shown_finger() as (page, _):
             page.value("stream.close()")  # as the browser does after an answer that is no stream

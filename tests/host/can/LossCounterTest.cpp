@@ -171,6 +171,29 @@ TEST(LossCounter, TwoFingersThatStartedTogetherBeatTwiceAsOften) {
   CHECK_TRUE(only().twoSenders);
 }
 
+TEST(LossCounter, TwoFingersThatStartedWithinTwoSecondsAreNoticed) {
+  for (const int apart_s : {1, 2}) {
+    counter_ = {};
+    for (int second = 10; second < 13; ++second)
+      for (int i = 0; i < 10; ++i) heartbeat(second), heartbeat(second - apart_s);
+    CHECK_TRUE(only().twoSenders);
+    LONGS_EQUAL(0, only().restarts);
+  }
+}
+
+TEST(LossCounter, AFingerThatStartsAgainAndAgainIsOne) {
+  for (int i = 0; i < 50; ++i) heartbeat(0), heartbeat(1), heartbeat(2);
+  CHECK_FALSE(only().twoSenders);
+}
+
+TEST(LossCounter, ATwinIsForgottenUntilItIsHeardAgain) {
+  for (int i = 0; i < 9; ++i) heartbeat(100), heartbeat(5);
+  counter_.forgetTwin("can0", 1);
+  CHECK_FALSE(only().twoSenders);
+  for (int i = 0; i < 9; ++i) heartbeat(100), heartbeat(5);
+  CHECK_TRUE(only().twoSenders);
+}
+
 TEST(LossCounter, OneFingerThatRunsForDaysIsOne) {
   for (int i = 0; i < 1000; ++i) heartbeat(0xFFFE);
   for (int second = 0; second < 100; ++second)

@@ -58,6 +58,22 @@ TEST(Recording, WritesWhatIsHeardAndNotesBesideIt) {
     STRCMP_CONTAINS(text, textOf(notes_).c_str());
 }
 
+TEST(Recording, KnowsWhoHasOtherTables) {
+  Recording recording(port_, config_, log_);
+  const auto say = [&](std::uint8_t node, const HeartbeatFrame& heartbeat) {
+    recording.take(heard(encode(heartbeat, node)));
+  };
+  say(1, {.table_crc = 0x42});
+  say(2, {.table_crc = 0x43});
+  say(3, {.faults = {FingerFault::kTables}, .table_crc = 0x43});
+  say(4, {.protocol = kProtocolVersion + 1, .table_crc = 0x43});
+  say(5, {.table_crc = 0x43});
+  say(5, {.table_crc = 0x42});  // it got the right ones meanwhile
+  const auto others = recording.nodesOfOtherTables(0x01020342U);
+  LONGS_EQUAL(1, others.size());
+  LONGS_EQUAL(2, others.front());
+}
+
 TEST(Recording, ThatIsCutOffHasNotesWithoutAnEnd) {
   {
     Recording recording(port_, config_, log_);

@@ -187,6 +187,25 @@ TEST(Fleet, TwoFingersOfOneNumberAreNoticed) {
   CHECK_TRUE(only().hasTwin);
 }
 
+TEST(Fleet, ATwinThatWentIsForgotten) {
+  heartbeat();
+  for (int i = 0; i < 40; ++i, now_us_ += 2'000)
+    touch(100, static_cast<std::uint8_t>(i)), touch(100, static_cast<std::uint8_t>(i + 100));
+  CHECK_TRUE(fleet_.hasTwin(1, now_us_ + 2'000'000));
+  for (int i = 40; i < 80; ++i, now_us_ += 100'000) touch(100, static_cast<std::uint8_t>(i));
+  CHECK_FALSE(only().hasTwin);
+  CHECK_FALSE(fleet_.hasTwin(1, now_us_));
+  touch(200, 79);  // one sign alone, by chance
+  CHECK_FALSE(only().hasTwin);
+}
+
+TEST(Fleet, ATwinThatStaysUntouchedIsNotForgotten) {
+  for (std::uint16_t i = 0; i < 100; ++i, now_us_ += 50'000)  // the other started a second later
+    take(encode(HeartbeatFrame{.uptime_s = static_cast<std::uint16_t>(10 + i / 20 - i % 2)}, 1));
+  CHECK_TRUE(only().hasTwin);
+  CHECK_TRUE(fleet_.hasTwin(1, now_us_));
+}
+
 TEST(Fleet, TheLoadIsThatOfTheBusDocument) {
   // BUS_LOAD.md: 1512 frames of 8 bytes a second are 16.8 % of 1 Mbit/s without stuff bits.
   for (int i = 0; i < 1512; ++i) fleet_.take(1'000'000 + i * 1'000'000 / 1512, {0x181, 8, {}});

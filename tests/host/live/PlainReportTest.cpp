@@ -12,11 +12,11 @@ using namespace strainfinger;
 using namespace strainfinger::live;
 
 TEST_GROUP(PlainReport) {
-  std::string printed(TableFormat format, const std::vector<BusView>& buses) {
+  std::string printed(TableFormat format, const std::vector<BusView>& buses, bool unicode = true) {
     char* text = nullptr;
     std::size_t size = 0;
     std::FILE* stream = open_memstream(&text, &size);
-    PlainReport(stream, format, 1).print(buses);
+    PlainReport(stream, format, 1, unicode).print(buses);
     std::fclose(stream);
     const std::string result(text, size);
     std::free(text);
@@ -25,7 +25,7 @@ TEST_GROUP(PlainReport) {
 };
 
 TEST(PlainReport, IsDueAPeriodAfterTheBeginning) {
-  PlainReport report(stdout, TableFormat::kCsv, 0.5);
+  PlainReport report(stdout, TableFormat::kCsv, 0.5, true);
   CHECK_FALSE(report.due(10'000'000).has_value());
   CHECK_FALSE(report.due(10'499'999).has_value());
   LONGS_EQUAL(10'500'000, report.due(10'500'000).value());
@@ -34,7 +34,7 @@ TEST(PlainReport, IsDueAPeriodAfterTheBeginning) {
 }
 
 TEST(PlainReport, AfterAGapItIsDueOnce) {
-  PlainReport report(stdout, TableFormat::kCsv, 0.5);
+  PlainReport report(stdout, TableFormat::kCsv, 0.5, true);
   report.due(0);
   LONGS_EQUAL(100'000'000, report.due(100'200'000).value());
   CHECK_FALSE(report.due(100'400'000).has_value());
@@ -46,6 +46,12 @@ TEST(PlainReport, PrintsALineForEachFinger) {
   const std::string text = printed(TableFormat::kCsv, {busWith({touchedFinger(), other})});
   STRCMP_CONTAINS("can0 node 1  run", text.c_str());
   STRCMP_CONTAINS("\n12.300 s  can0 node 2  run", text.c_str());
+}
+
+TEST(PlainReport, WithoutUnicodeALineIsAsciiAlone) {
+  STRCMP_CONTAINS("normal 0.282 ± 0.004 N", printed(TableFormat::kCsv, {busWith({touchedFinger()})}).c_str());
+  STRCMP_CONTAINS("normal 0.282 +- 0.004 N",
+                  printed(TableFormat::kCsv, {busWith({touchedFinger()})}, false).c_str());
 }
 
 TEST(PlainReport, SaysThatABusHasNoFinger) {
@@ -64,7 +70,7 @@ TEST(PlainReport, AStreamThatTakesNoMoreIsAFailure) {
   bool failed = false;
   try {
     const BusView bus = busWith({touchedFinger()});
-    PlainReport(full, TableFormat::kCsv, 1).print({&bus, 1});
+    PlainReport(full, TableFormat::kCsv, 1, true).print({&bus, 1});
   } catch (const Failure& failure) {
     failed = failure.code() == ExitCode::kFailure;
   }

@@ -117,7 +117,35 @@ TEST(Screen, ATwinIsSaidToBeThere) {
 TEST(Screen, TablesOfAnotherConfigAreSaidToBeThat) {
   FingerView finger = touchedFinger();
   finger.hasOtherTables = true;
-  STRCMP_CONTAINS("its tables are not those of the config (-c)", textOf(finger).c_str());
+  STRCMP_CONTAINS("its tables are not those of the config (-c; the default finger without it)",
+                  textOf(finger, {.columns = 120}).c_str());
+}
+
+TEST(Screen, WarningsGoOnInRowsThatAreLeft) {
+  FingerView finger = touchedFinger();
+  finger.hasTwin = true;
+  const auto lines = drawn({.buses = {busWith({finger})}});
+  STRCMP_CONTAINS("two fingers have this node number: take one off the bus;", lines[8].c_str());
+  STRCMP_CONTAINS("from its next start on", lines[10].c_str());
+  STRCMP_CONTAINS("500 contacts/s", lines[11].c_str());
+}
+
+TEST(Screen, WarningsTakeNoOtherFingersRows) {
+  FingerView finger = touchedFinger();
+  finger.hasTwin = true;
+  const auto lines = drawn({.buses = {busWith({finger, finger})}}, {.rows = 22, .unicode = false});
+  STRCMP_CONTAINS("take one off the bus;", lines[8].c_str());
+  LONGS_EQUAL('>', lines[9].back());  // of one spare row
+  STRCMP_CONTAINS("500 contacts/s", lines[10].c_str());
+  STRCMP_CONTAINS("node 1  run", lines[12].c_str());
+  LONGS_EQUAL('>', lines[18].back());
+  STRCMP_CONTAINS("500 contacts/s", lines[19].c_str());
+}
+
+TEST(Screen, TheQualityIsWholeInANarrowWindow) {
+  FingerView finger = touchedFinger();
+  finger.touch->quality_percent = 100;
+  STRCMP_CONTAINS("quality 100 %", textOf(finger, {.rows = 20, .columns = 60}).c_str());
 }
 
 TEST(Screen, ASilentFingerIsSaidToBeSilent) {

@@ -5,6 +5,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdlib>
+
 #include "host/base/failure.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -44,6 +46,27 @@ TEST(Terminal, OneThatTakesNothingKeepsItsKeyboardAsItWas) {
   waitpid(child, &status, 0);
   LONGS_EQUAL(0, status);
   CHECK_TRUE(isEchoing());
+}
+
+TEST(Terminal, ADumbOneIsNoneToDrawOn) {
+  const auto hasOneWith = [this](const char* kind) {
+    const pid_t child = fork();
+    if (child == 0) {
+      dup2(its_, STDOUT_FILENO);
+      if (kind != nullptr)
+        setenv("TERM", kind, 1);
+      else
+        unsetenv("TERM");
+      _exit(live::hasTerminal() ? 1 : 0);
+    }
+    int status = -1;
+    waitpid(child, &status, 0);
+    return WEXITSTATUS(status) == 1;
+  };
+  CHECK_TRUE(hasOneWith("xterm"));
+  CHECK_FALSE(hasOneWith("dumb"));
+  CHECK_FALSE(hasOneWith(""));
+  CHECK_FALSE(hasOneWith(nullptr));
 }
 
 TEST(Terminal, AKeyboardIsUnechoedWhileItLives) {

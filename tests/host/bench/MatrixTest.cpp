@@ -75,8 +75,8 @@ TEST(Matrix, OfTwoAnswersThatNoiseMixesUpTheWrongOneIsFlagged) {
   Disturbance noisy;
   noisy.actual.gauges.noise_strain *= 10;
   const Tally heard = tallyOf(noisy, 6000, kSeed);
-  CHECK_COMPARE(heard.silent, <=, 4);  // 5 of 18,000 touches of three seeds
-  CHECK_COMPARE(heard.located, >, 2600);
+  CHECK_COMPARE(heard.silent, <=, 4);     // 5 of 18,000 touches of three seeds
+  CHECK_COMPARE(heard.located, >, 1900);  // of those that are not weak beside such noise, two in three
 }
 
 TEST(Matrix, ATouchThatCountsAsUntouchedIsAGhost) {

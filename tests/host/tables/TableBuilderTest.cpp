@@ -260,8 +260,17 @@ TEST(TableBuilder, PlacesAreOffByWhatTheModelErrorMakesOfThem) {
 // The error that calibrations leave is a quarter of the second moment of 1 mm.
 TEST(TableBuilder, AnErrorOfMomentsIsHeldForNarrowContacts) {
   config_.contact.largest_width_m = 1e-3;
+  config_.gauges.model_error = 0;
   config_.calibration.moment_error_m2 = 2e-8;
   checkClose(2e-8 * 12 / 1e-6, constants().moment_error_q16 * power2(-16), 1e-3);
+}
+
+// Half of 5 % of 3.3 mm squared; 0.2 mm^2 of a calibration are another, independent error.
+TEST(TableBuilder, WidthsAreOffByWhatTheModelErrorMakesOfThem) {
+  const double largest_m2 = std::pow(config_.contact.largest_width_m, 2) / 12;
+  checkClose(2.7225e-7 / largest_m2, constants().moment_error_q16 * power2(-16), 1e-3);
+  config_.calibration.moment_error_m2 = 2e-7;
+  checkClose(std::hypot(2.7225e-7, 2e-7) / largest_m2, constants().moment_error_q16 * power2(-16), 1e-3);
 }
 
 // A Poisson's ratio that nobody measured: a fifth of the load at the default 5 %.

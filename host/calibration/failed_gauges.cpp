@@ -11,7 +11,7 @@ namespace strainfinger::calibration {
 namespace {
 
 using Eigen::ArrayXd, Eigen::Index, Eigen::MatrixXd;
-using Kind = FailedGauge::Kind;
+using FailedKind = FailedGauge::Kind;
 
 /// [rows] Of fewer, a gauge that is hardly touched may give one code of the converter by chance.
 constexpr Index kLeastRows = 20;
@@ -40,7 +40,7 @@ std::optional<FailedGauge> atEnd(const config::Gauges& gauges, const MatrixXd& r
     ++rows;
   }
   if (static_cast<double>(rows) < kMostOverRange * static_cast<double>(column.size())) return std::nullopt;
-  return FailedGauge{Kind::kAtEnd, gauge, sum / static_cast<double>(rows), rows};
+  return FailedGauge{FailedKind::kAtEnd, gauge, sum / static_cast<double>(rows), rows};
 }
 
 /// Whether a gauge near this one, on that side (1 or -1), reads touches.
@@ -61,7 +61,7 @@ std::vector<FailedGauge> findFailedGauges(const config::Gauges& gauges, const Ma
   const double loud = kLoud * gauges.noise_strain;
   for (int gauge = 0; gauge < gauges.count; ++gauge) {
     const ArrayXd column = readings.col(gauge);
-    const FailedGauge still{Kind::kConstant, gauge, column.mean(), column.size()};
+    const FailedGauge still{FailedKind::kConstant, gauge, column.mean(), column.size()};
     const bool isTouchedAround =
         isLoudBeside(scatter, loud, gauge, 1) && isLoudBeside(scatter, loud, gauge, -1);
     if (const auto end = atEnd(gauges, readings, gauge))
@@ -69,7 +69,7 @@ std::vector<FailedGauge> findFailedGauges(const config::Gauges& gauges, const Ma
     else if (isTouchedAround && column.maxCoeff() == column.minCoeff())
       failed.push_back(still);
     else if (isTouchedAround && scatter[gauge] < kQuiet * gauges.noise_strain)
-      failed.push_back({Kind::kNoise, gauge, still.strain, still.rows});
+      failed.push_back({FailedKind::kNoise, gauge, still.strain, still.rows});
   }
   const bool isAll = failed.size() == static_cast<std::size_t>(gauges.count);
   return isAll ? std::vector<FailedGauge>() : failed;
@@ -78,13 +78,13 @@ std::vector<FailedGauge> findFailedGauges(const config::Gauges& gauges, const Ma
 std::string textOf(const FailedGauge& failed) {
   const double whole_microstrain = std::round(1e6 * failed.strain) + 0.0;  // which makes a -0 a 0
   const std::string reads = fmt::format("gauge {} reads {:.0f} microstrain", failed.gauge, whole_microstrain);
-  if (failed.kind == Kind::kAtEnd)
+  if (failed.kind == FailedKind::kAtEnd)
     return fmt::format(
         "{}, the end of its range, in {} rows: look at its bridge and its amplifier, and for an open wire; "
         "where it was pressed in all of them, press less",
         reads, failed.rows);
   return fmt::format("{} in all {} rows{}: it is dead or not connected: look for an open wire or joint",
-                     reads, failed.rows, failed.kind == Kind::kNoise ? ", but for noise" : "");
+                     reads, failed.rows, failed.kind == FailedKind::kNoise ? ", but for noise" : "");
 }
 
 }  // namespace strainfinger::calibration

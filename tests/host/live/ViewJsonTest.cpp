@@ -85,9 +85,10 @@ TEST(ViewJson, TroublesAreInTheWordsOfTheTerminal) {
   FingerView finger = touchedFinger();
   STRCMP_EQUAL("[]", jsonOf(finger).at("troubles").dump().c_str());
   finger.hasTwin = finger.hasOtherTables = true;
-  for (const auto& trouble : jsonOf(finger).at("troubles"))
+  const auto json = jsonOf(finger);
+  for (const auto& trouble : json.at("troubles"))
     STRCMP_CONTAINS(trouble.get<std::string>().c_str(), warningsText(finger).c_str());
-  LONGS_EQUAL(2, jsonOf(finger).at("troubles").size());
+  LONGS_EQUAL(2, json.at("troubles").size());
 }
 
 TEST(ViewJson, TheShapeIsTheConfigs) {

@@ -22,7 +22,8 @@ constexpr int kTurnBits = 2;
 constexpr int kLoadBits = 2;
 
 /// [log2] What far gauges change by in common is followed from this part of a reading's standard deviation
-/// on: three times that of the mean of eight of them. Less would add up to a walk of the zeros.
+/// on, almost three times the error of such a change of eight gauges. Less would add up to a walk of the
+/// zeros.
 constexpr int kCommonBits = 3;
 /// Fewer far gauges than this don't say what all have in common.
 constexpr int kLeastFar = 3;

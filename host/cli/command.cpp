@@ -38,7 +38,10 @@ struct FileOption {
 /// Of the command and of its own subcommands that were given.
 std::vector<FileOption> fileOptions(const CLI::App& command) {
   std::vector<FileOption> files;
-  for (const CLI::App* sub : command.get_subcommands()) files = fileOptions(*sub);
+  for (const CLI::App* sub : command.get_subcommands()) {
+    const std::vector<FileOption> itsOwn = fileOptions(*sub);
+    files.insert(files.end(), itsOwn.begin(), itsOwn.end());
+  }
   for (const CLI::Option* option : command.get_options())
     if (option->get_type_name().starts_with("FILE") || option->get_type_name() == kFolderType)
       for (const std::string& path : option->results())

@@ -7,6 +7,7 @@
 
 #include "common/crc32.hpp"
 #include "host/base/utc_text.hpp"
+#include "host/can/other_tables.hpp"
 #include "host/config/write_config.hpp"
 
 namespace strainfinger::cli {
@@ -25,12 +26,6 @@ bool sameBoard(const InfoFrame& a, const InfoFrame& b) {
 
 bool sameFirmware(const HeartbeatFrame& a, const HeartbeatFrame& b) {
   return a.protocol == b.protocol && a.table_crc == b.table_crc;
-}
-
-/// One without usable tables, or of another protocol, says nothing of them.
-bool hasOtherTables(const HeartbeatFrame& heartbeat, std::uint32_t tables_crc32) {
-  return heartbeat.protocol == kProtocolVersion && !heartbeat.faults.has(FingerFault::kTables) &&
-         heartbeat.table_crc != static_cast<std::uint8_t>(tables_crc32);
 }
 
 }  // namespace
@@ -55,7 +50,7 @@ bool RecordingNotes::note(const CanFrame& frame) {
 std::vector<std::uint8_t> RecordingNotes::nodesOfOtherTables(std::uint32_t tables_crc32) const {
   std::vector<std::uint8_t> nodes;
   for (const auto& [node, finger] : fingers_)
-    if (finger.heartbeat && hasOtherTables(*finger.heartbeat, tables_crc32)) nodes.push_back(node);
+    if (finger.heartbeat && can::hasOtherTables(*finger.heartbeat, tables_crc32)) nodes.push_back(node);
   return nodes;
 }
 

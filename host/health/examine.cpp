@@ -9,6 +9,7 @@
 
 #include "common/raw_share.hpp"
 #include "host/can/frame_catalogue.hpp"
+#include "host/can/other_tables.hpp"
 #include "host/can/remedies.hpp"
 #include "host/can/socketcan_port.hpp"
 #include "host/config/bus_load.hpp"
@@ -130,11 +131,10 @@ void examineHeartbeat(const HeartbeatFrame& heartbeat, Examination& examination)
 }
 
 void examineTables(const HeartbeatFrame& heartbeat, std::uint32_t crc32, Examination& examination) {
-  const std::uint32_t wanted = crc32 & 0xFF;
-  if (heartbeat.faults.has(FingerFault::kTables) || heartbeat.table_crc == wanted) return;
+  if (!can::hasOtherTables(heartbeat, crc32)) return;
   examination.error(
       fmt::format("its tables are not those of the config: their CRC-32 ends with {:02X}, not {:02X}",
-                  heartbeat.table_crc, wanted),
+                  heartbeat.table_crc, crc32 & 0xFF),
       "give the config that its tables were made from (-c), or send it those of this one: `strainfinger push "
       "--can BUS -n N -c FINGER.toml`",
       ExitCode::kMismatch);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "host/can/frame_catalogue.hpp"
+#include "host/can/other_tables.hpp"
 
 namespace strainfinger::live {
 namespace {
@@ -114,12 +115,6 @@ bool Fleet::hasTwin(std::uint8_t number, std::int64_t now_us) const {
          });
 }
 
-/// Of a finger without usable tables its faults tell.
-bool Fleet::hasOtherTables(const HeartbeatFrame& heartbeat) const {
-  return tables_crc32_ && !heartbeat.faults.has(FingerFault::kTables) &&
-         heartbeat.table_crc != static_cast<std::uint8_t>(*tables_crc32_);
-}
-
 double Fleet::loadOf(RateMeter& bits) const {
   return static_cast<double>(bits.perSecond(now_us_)) / bitrate_;
 }
@@ -141,7 +136,7 @@ FingerView Fleet::viewOf(std::uint8_t number, Node& node) {
   view.rawLoad = loadOf(node.rawBits);
   const bool isOld = view.isTouched() && now_us_ - node.touched_us > kTouchLasts_us;
   if (view.isSilent() || view.isForeign() || isOld) view.touch.reset();
-  view.hasOtherTables = !view.isForeign() && hasOtherTables(view.heartbeat);
+  view.hasOtherTables = tables_crc32_ && can::hasOtherTables(view.heartbeat, *tables_crc32_);
   if (!view.isForeign() && now_us_ - node.strained_us <= kRawLasts_us) view.strains = node.strains;
   return view;
 }

@@ -67,7 +67,6 @@ class Fleet {
   static void takeHeartbeat(Node& node, std::int64_t time_us, const HeartbeatFrame& heartbeat);
   static void takeTouch(Node& node, std::int64_t time_us, const can::TouchReport& touch);
   double loadOf(RateMeter& bits) const;  ///< share of the bit rate, now
-  bool hasOtherTables(const HeartbeatFrame& heartbeat) const;
   FingerView viewOf(std::uint8_t number, Node& node);
 
   std::string name_;

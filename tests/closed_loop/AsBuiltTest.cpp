@@ -7,6 +7,7 @@
 #include <memory>
 #include <numbers>
 
+#include "host/evidence/fit_model.hpp"
 #include "host/evidence/touches.hpp"
 #include "host/evidence/uniform.hpp"
 #include "tests/closed_loop/sampled_finger.hpp"
@@ -42,6 +43,7 @@ struct Outcome {
   int told = 0;
   int beyond = 0;  ///< off by more than six of their sigmas, and not flagged
   int silent = 0;  ///< more than half a pitch off, and not flagged
+  int wide = 0;    ///< with a width off by more than six of its sigmas, and not flagged
   int flagged = 0;
   int blamed = 0;   ///< touches with a gauge out of use
   int several = 0;  ///< taken for two
@@ -52,6 +54,7 @@ struct Outcome {
 TEST_GROUP(AsBuilt) {
   const std::unique_ptr<TableImage> tables =
       std::make_unique<TableImage>(tables::buildTableImage(config::FingerConfig{}));
+  const evidence::FitModel model{config::FingerConfig{}};
 
   /// Touches of one finger, one after the other.
   void touch(int seed, const evidence::TouchRanges& ranges, int count, Outcome& outcome) {
@@ -70,12 +73,15 @@ TEST_GROUP(AsBuilt) {
       if (answers.empty()) continue;
       ++outcome.told;
       const evidence::Answer& answer = answers.front();
-      const evidence::Parameters truth{touch.angle_rad, touch.normal_n_per_m, touch.tangential_n_per_m, 0};
+      const evidence::Parameters truth{touch.angle_rad, touch.normal_n_per_m, touch.tangential_n_per_m,
+                                       model.uniformWidth_m(model.describe(touch).load.moment_rad2)};
       evidence::Parameters error = answer.values - truth;
       error[evidence::kAngle] = evidence::apart_rad(answer.values[evidence::kAngle], touch.angle_rad);
-      const bool isFar = ((error.array() / answer.sigmas.array()).head<3>().abs() > 6).any();
+      const auto isBeyond = (error.array() / answer.sigmas.array()).abs() > 6;
+      const bool isFar = isBeyond.head<3>().any();
       outcome.flagged += answer.isFlagged;
       outcome.beyond += isFar && !answer.isFlagged;
+      outcome.wide += isBeyond[kWidth] && !answer.isFlagged;
       outcome.silent += !answer.isFlagged && std::abs(error[evidence::kAngle]) > std::numbers::pi / 16;
     }
   }
@@ -84,11 +90,12 @@ TEST_GROUP(AsBuilt) {
     Outcome outcome;
     for (int seed = 1; seed <= kFingers; ++seed) touch(seed, ranges, count / kFingers, outcome);
     std::printf(
-        "\n%d touches of %g to %g N/m, %g to %g mm, on %d fingers: told %d, beyond six sigma %d, silent %d, "
-        "flagged %d, blamed %d, several %d ",
+        "\n%d touches of %g to %g N/m, %g to %g mm, on %d fingers: told %d, beyond six sigma %d, in width "
+        "%d, "
+        "silent %d, flagged %d, blamed %d, several %d ",
         outcome.touches, ranges.load_n_per_m.least, ranges.load_n_per_m.most, ranges.width_m.least * 1e3,
-        ranges.width_m.most * 1e3, kFingers, outcome.told, outcome.beyond, outcome.silent, outcome.flagged,
-        outcome.blamed, outcome.several);
+        ranges.width_m.most * 1e3, kFingers, outcome.told, outcome.beyond, outcome.wide, outcome.silent,
+        outcome.flagged, outcome.blamed, outcome.several);
     return outcome;
   }
 
@@ -97,6 +104,7 @@ TEST_GROUP(AsBuilt) {
 
   static void check(const Outcome& outcome) {
     CHECK_COMPARE(outcome.beyond, <=, allowedCount(0.01, outcome.touches));
+    CHECK_COMPARE(outcome.wide, <=, allowedCount(0.01, outcome.touches));
     CHECK_COMPARE(outcome.silent, <=, allowedCount(kSilent, outcome.touches));
     const int untold = outcome.touches - outcome.told;
     CHECK_COMPARE(outcome.flagged + untold, <=, allowedCount(kFlagged, outcome.touches));

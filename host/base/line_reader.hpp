@@ -21,8 +21,8 @@ class LineReader {
     kEnd,      ///< of the file, for now: it may grow
   };
 
-  /// Reads `path`, or stdin where that is "-". Throws Failure(kFailure) with the path and the system's
-  /// reason.
+  /// Reads `path`, or stdin where that is "-". A pipe that nobody writes into yet is waited for in read().
+  /// Throws Failure(kFailure) with the path and the system's reason.
   explicit LineReader(const std::string& path);
 
   /// Throws as the constructor would, without opening it: who writes into a pipe would take that for its

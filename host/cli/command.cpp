@@ -133,6 +133,8 @@ void requireFolderOf(const char* option, const std::string& path) {
   const auto fail = [&](const std::string& why) {
     throw Failure(ExitCode::kFailure, fmt::format("{} {}: {}", option, path, why));
   };
+  if (path == "-")
+    throw Failure(ExitCode::kUsage, fmt::format("{} -: name a file (./- if that is its name)", option));
   std::error_code notThere;
   if (fs::is_directory(path, notThere)) fail("this is a folder; name a file");
   const std::string folder = folderWrittenIn(path);

@@ -36,7 +36,8 @@ class CommonOptions {
 void requireGoodFileNames(const CLI::App& command);
 
 /// Throws Failure(kFailure) where a file cannot be made, as it is a folder, or its own is not there or can't
-/// be written to: before long work, not at its end. An empty path is no file.
+/// be written to: before long work, not at its end; Failure(kUsage) for "-", which others take for stdout.
+/// An empty path is no file.
 void requireFolderOf(const char* option, const std::string& path);
 
 /// Prints on stderr what a command goes on in spite of.

@@ -8,7 +8,7 @@ namespace {
 Cell valueCell(const can::FieldValue& value) {
   const FieldMeaning& meaning = value.field->meaning;
   if (!value.isKnown) return kNoValue;
-  if (meaning.kind != FieldKind::kNumber) return can::valueText(*value.field, value.raw);
+  if (meaning.kind != FieldKind::kNumber) return can::textOf(value);
   if (meaning.stepsPerUnit == 1) return value.raw * meaning.unitsPerStep;
   return *can::toPhysical(*value.field, value.raw);
 }

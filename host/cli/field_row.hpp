@@ -9,7 +9,7 @@
 
 namespace strainfinger::cli {
 
-/// A number as one, choices and flags by name, empty where it is not known.
+/// A number as one, choices and flags by name ("none" where no flag is set), empty where it is not known.
 inline const std::vector<std::string> kFieldColumns{"field", "value", "meaning"};
 std::vector<Cell> fieldRow(const can::FieldValue& value);
 

@@ -68,6 +68,7 @@ void warnOfOtherTables(const Recording& recording, const config::FingerConfig& c
 }
 
 void runRecord(const RecordOptions& options) {
+  requireFolderOf("--output", options.path);
   const system::StopSignal stop;
   const auto start = Clock::now();
   const config::FingerConfig config = options.common.config();

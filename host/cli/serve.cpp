@@ -1,6 +1,9 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <array>
 #include <chrono>
+#include <climits>
 #include <random>
 #include <string>
 
@@ -14,7 +17,6 @@
 #include "host/live/bus_watch.hpp"
 #include "host/live/page_server.hpp"
 #include "host/live/view_json.hpp"
-#include "host/live/words.hpp"
 #include "host/simulation/strain_fit.hpp"
 #include "host/system/stop_signal.hpp"
 #include "host/tables/table_builder.hpp"
@@ -64,7 +66,7 @@ std::string shapeJson(const config::FingerConfig& config, bool needsToken) {
   auto json = live::toJson(config);
   json["needs_token"] = needsToken;
   const auto explain = [&json](const auto& names) {
-    for (const ValueName& name : names) json["words"][live::wordFor(names, name.value)] = name.comment;
+    for (const ValueName& name : names) json["words"][name.name] = name.comment;
   };
   explain(kFingerFlagNames);
   explain(kFingerFaultNames);
@@ -78,10 +80,21 @@ live::PageServerOptions serverOptions(const ServeOptions& options, const config:
   return server;
 }
 
+std::string machineName() {
+  std::array<char, HOST_NAME_MAX + 1> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "localhost";
+}
+
+/// What a browser may be given for the address that is listened on: this machine's name for "every
+/// interface".
+std::string hostOf(const std::string& address) {
+  if (address == "0.0.0.0" || address == "::") return machineName();
+  return address.find(':') != std::string::npos ? "[" + address + "]" : address;
+}
+
 std::string urlOf(const live::PageServerOptions& server, int port) {
-  const bool isIpv6 = server.address.find(':') != std::string::npos;
-  return fmt::format("http://{}{}{}:{}/{}{}", isIpv6 ? "[" : "", server.address, isIpv6 ? "]" : "", port,
-                     server.token.empty() ? "" : "#", server.token);
+  return fmt::format("http://{}:{}/{}{}", hostOf(server.address), port, server.token.empty() ? "" : "#",
+                     server.token);
 }
 
 /// The newest view as JSON.

@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <initializer_list>
+#include <span>
 #include <utility>
 
+#include "host/can/frame_catalogue.hpp"
 #include "host/live/value_text.hpp"
 #include "host/live/words.hpp"
 
@@ -19,6 +21,13 @@ Json listOrNull(const std::vector<double>& values) { return values.empty() ? Jso
 template <typename Raw>
 Json knownOrNull(Raw raw) {
   return raw == kNotKnown<Raw> ? Json() : Json(raw);
+}
+
+/// As `decode` gives them.
+Json namesOf(std::span<const ValueName> names, std::uint32_t bits) {
+  Json list = Json::array();
+  for (const int bit : bitNumbers(bits)) list.push_back(can::nameText(names, bit));
+  return list;
 }
 
 /// The keys of values that stand for themselves or more: the largest that a finger can say.
@@ -59,7 +68,7 @@ Json touchJson(const FingerView& finger) {
                                  {"chi", touch.chi >= largest.chi}}))
     json["or_more"].push_back(key);
   json["touched"] = touch.flags.has(FingerFlag::kContact);
-  json["flags"] = wordsFor(kFingerFlagNames, touch.flags.raw());
+  json["flags"] = namesOf(kFingerFlagNames, touch.flags.raw());
   json["sequence"] = touch.sequence;
   json["second"] = touch.second ? contactJson(*touch.second) : Json();
   return json;
@@ -84,8 +93,8 @@ Json gaugesJson(const GaugesFrame& gauges) {
 Json infoJson(const InfoFrame& info) {
   return {{"version", std::to_string(info.version_major) + "." + std::to_string(info.version_minor)},
           {"board", info.board},
-          {"reset_cause", wordFor(kResetCauseNames, static_cast<int>(info.reset_cause))},
-          {"crash", wordFor(kCrashNames, static_cast<int>(info.crash))}};
+          {"reset_cause", can::nameText(kResetCauseNames, static_cast<int>(info.reset_cause))},
+          {"crash", can::nameText(kCrashNames, static_cast<int>(info.crash))}};
 }
 
 Json fingerJson(const FingerView& finger) {
@@ -95,8 +104,8 @@ Json fingerJson(const FingerView& finger) {
           {"silent", finger.isSilent()},
           {"protocol", heartbeat.protocol},
           {"foreign", finger.isForeign()},
-          {"state", wordFor(kFingerStateNames, static_cast<int>(heartbeat.state))},
-          {"faults", wordsFor(kFingerFaultNames, heartbeat.faults.raw())},
+          {"state", can::nameText(kFingerStateNames, static_cast<int>(heartbeat.state))},
+          {"faults", namesOf(kFingerFaultNames, heartbeat.faults.raw())},
           {"uptime_s", knownOrNull(heartbeat.uptime_s)},
           {"temperature_degc", knownOrNull(heartbeat.temperature_degC)},
           {"contacts_per_s", finger.contactsPerSecond},

@@ -181,6 +181,23 @@ TEST(Decode, CtrlCStillPrintsTheSummary) {
   checkSays("1 frames decoded", run);
 }
 
+TEST(Decode, CtrlCEndsItWhereNobodyWritesIntoThePipeYet) {
+  const Run run = runShell(
+      "pipe=$(mktemp -u); mkfifo $pipe\n"
+      "\"$STRAINFINGER\" decode $pipe & interrupt $!; wait $!; status=$?; rm $pipe; exit $status");
+  LONGS_EQUAL(130, run.status);
+  checkSays("0 frames decoded", run);
+}
+
+TEST(Decode, WaitsForWhoeverOpensThePipeLater) {
+  const Run run = runShell(
+      "pipe=$(mktemp -u); mkfifo $pipe\n"
+      "\"$STRAINFINGER\" decode $pipe & sleep 0.3; cat >$pipe; wait $!; status=$?; rm $pipe; exit $status",
+      contact_);
+  LONGS_EQUAL(0, run.status);
+  checkSays("1 frames decoded", run);
+}
+
 TEST(Decode, FollowsAFileThatGrows) {
   const Run run = runShell(
       "log=$(mktemp); \"$STRAINFINGER\" decode --follow $log & sleep 0.3; head -c 20 >>$log; sleep 0.2; cat "

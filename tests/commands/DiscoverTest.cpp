@@ -76,7 +76,7 @@ TEST(InfoCommand, TellsAllThatAFingerSaysOfItself) {
   for (const char* row :
        {"interface,node,frame,field,value,meaning\n", "BUS,1,HEARTBEAT,state,run,What the finger is doing\n",
         "BUS,1,HEARTBEAT,protocol,2,", "BUS,1,HEARTBEAT,temperature_degc,,",
-        "BUS,1,INFO,reset_cause,power_on,", "BUS,1,INFO,version_minor,1,", "BUS,1,GAUGES,out_of_use,,",
+        "BUS,1,INFO,reset_cause,power_on,", "BUS,1,INFO,version_minor,1,", "BUS,1,GAUGES,out_of_use,none,",
         "BUS,1,GAUGES,zero_age_s,", "BUS,1,RESPONSE,erases,0,", "BUS,1,RESPONSE,resynchronised,0,"})
     STRCMP_CONTAINS(row, run.out.c_str());
 }
@@ -103,6 +103,7 @@ TEST(InfoCommand, AFingerThatOnlyTalksIsToldWithoutItsCounts) {
       "(1.200000) can0 081#200000003D00FE01\n",
       "info");
   LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS(",HEARTBEAT,faults,none,", run.out.c_str());
   STRCMP_CONTAINS(",INFO,crash,hang,", run.out.c_str());
   STRCMP_CONTAINS(",GAUGES,out_of_use,5,", run.out.c_str());
   STRCMP_CONTAINS(",RESPONSE,erases,,", run.out.c_str());

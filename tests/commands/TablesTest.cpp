@@ -83,6 +83,11 @@ TEST(TablesCommand, AMissingFolderIsAFailureAndLeavesNothing) {
             "test ! -e new.tables && exit $status");
 }
 
+TEST(TablesCommand, ADashIsNoFile) {
+  checkEnds(2, "--output -: name a file (./- if that is its name)",
+            "\"$STRAINFINGER\" tables -o -; status=$?; test ! -e - && exit $status");
+}
+
 TEST(TablesCommand, AHeaderThatCannotBeLeavesTheOldImage) {
   checkEnds(
       1, "--header folder: this is a folder; name a file",

@@ -2,9 +2,11 @@
 """page_test.py PROGRAM [PICTURE]: the live page in headless Chromium. With PICTURE, a screenshot of it is left there."""
 import contextlib
 import signal
+import socket
 import subprocess
 import sys
 import unittest
+import urllib.parse
 
 from fingers import UNTOUCHED, Bench, bench_with_two
 import browser
@@ -89,7 +91,7 @@ class LivePage(unittest.TestCase):
         self.assertRegex(self.page.value(f"warningsOf({finger})"), r"^silent for 2\.0 s · fault noisy: .+ · gauges out of use: 3$")
 
     def test_flags_of_doubt_stand_out(self):
-        doubts = self.page.value("""(() => { const list = document.createElement('ul'); showChips(list, ['contact', 'uncertain', 'simulated', 'stale zero']);
+        doubts = self.page.value("""(() => { const list = document.createElement('ul'); showChips(list, ['contact', 'uncertain', 'simulated', 'stale_zero']);
           return [...list.children].map(chip => [chip.textContent, chip.classList.contains('doubt')]); })()""")
         self.assertEqual([["uncertain", True], ["simulated", False], ["stale zero", True]], doubts)
 
@@ -273,7 +275,8 @@ class Ending(unittest.TestCase):
         with Bench(PROGRAM) as bench:
             bench.finger(1, UNTOUCHED)
             _, url = bench.serve("--address", "0.0.0.0")
-            url, _, token = url.replace("0.0.0.0", "127.0.0.1").partition("#")
+            self.assertEqual(socket.gethostname().lower(), urllib.parse.urlsplit(url).hostname)
+            url, _, token = url.replace(socket.gethostname(), "127.0.0.1").partition("#")
             with browser.Page(url) as page:
                 page.wait_for("document.querySelector('#finger-1 button')?.disabled")
                 self.assertIn("token", page.text("#finger-1 .told"))

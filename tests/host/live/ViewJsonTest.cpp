@@ -66,7 +66,7 @@ TEST(ViewJson, FlagsFaultsAndGaugesAreLists) {
   finger.heartbeat.faults = {FingerFault::kNoisy};
   finger.gauges->out_of_use = 0x8001;
   const auto json = jsonOf(finger);
-  STRCMP_EQUAL("[\"contact\",\"stale zero\",\"simulated\"]", json.at("touch").at("flags").dump().c_str());
+  STRCMP_EQUAL("[\"contact\",\"stale_zero\",\"simulated\"]", json.at("touch").at("flags").dump().c_str());
   STRCMP_EQUAL("[\"noisy\"]", json.at("faults").dump().c_str());
   STRCMP_EQUAL("[0,15]", json.at("gauges").at("out_of_use").dump().c_str());
 }

@@ -26,8 +26,8 @@ std::string_view remedyFor(FingerFault fault) {
       return "`strainfinger info --can BUS -n N` has what it died of; switching it off and on clears this";
     case FingerFault::kSamples:
       return "a few do no harm, as while settings are kept; `strainfinger info --can BUS -n N` counts them "
-             "(lost_sets): where they go on, sample more slowly (firmware/bring_up.md); the fault goes at "
-             "the next start";
+             "(lost_sets): where they go on, sample more slowly (firmware/board/stm32g431/options.md); the "
+             "fault goes at the next start";
     case FingerFault::kClock:
       return "check the board's crystal: with the other clock it may not be heard on the bus when it warms "
              "up";
@@ -124,7 +124,8 @@ std::string_view remedyFor(Count count) {
     case Count::kLostSets:
       return remedyFor(FingerFault::kSamples);
     case Count::kResynchronised:
-      return "a few do no harm; where they go on, sample more slowly (firmware/bring_up.md)";
+      return "a few do no harm; where they go on, sample more slowly "
+             "(firmware/board/stm32g431/options.md)";
   }
   return "";
 }

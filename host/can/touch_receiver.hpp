@@ -35,7 +35,7 @@ struct TouchReport : ContactReport {
 };
 
 /// The largest values that a finger can say of a touch, just as a report has them: each stands for anything
-/// beyond it too (BUS.md, "or more").
+/// beyond it too (common/BUS.md, "or more").
 struct LargestValues {
   double normal_n;
   double sigmaAngle_deg;

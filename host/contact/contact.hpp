@@ -51,10 +51,10 @@ inline constexpr double kWidestContact_rad = 3.141592653589793;
 /// Domain: 0 < width <= kWidestContact_rad r_b, load > 0, |friction| <= 10.
 /// Throws Failure(kUsage) outside it, and Failure(kFailure) if the load needs a wider contact, if the contact
 /// reaches the end of a measured shape, if no contact fits, if the layer is too thin for its width, or if it
-/// sticks below nu = 1/2 and has no load of its own (README.md, Limits).
+/// sticks below nu = 1/2 and has no load of its own (limits.md).
 /// Error for nu = 1/2 and a flat indenter, a cylinder or a wedge: 1e-12 of load, width and peak pressure,
 /// 1e-10 rad of the offset; nu < 1/2: 1e-6. Stick below nu = 1/2 is ill-posed and tells by how much
-/// (README.md). residual_m tells. Costs 0.2 ms for a flat indenter of 2 mm in the default finger, 0.3 ms if
+/// (limits.md). residual_m tells. Costs 0.2 ms for a flat indenter of 2 mm in the default finger, 0.3 ms if
 /// the load is given.
 Contact solveContact(const SurfaceKernel& kernel, const ContactRequest& request);
 

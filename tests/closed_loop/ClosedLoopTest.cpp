@@ -30,7 +30,7 @@ namespace {
 
 constexpr double kDeg = std::numbers::pi / 180;
 
-// Steps of the frames' fields: common/BUS.md.
+// Steps of the frames' fields: common/BUS_TOUCHES.md.
 constexpr double kAngleStep_rad = 0.01 * kDeg;
 constexpr double kForceStep_n = 1e-3;
 constexpr double kForceSigmaStep_n = 0.5e-3;

@@ -26,7 +26,7 @@ TEST(ExplainCommand, TakesSeveralNames) {
   STRCMP_CONTAINS("angle_deg: field [deg] in CONTACT, CONTACT2\n", run.out.c_str());
 }
 
-// The bytes are those that BUS.md explains.
+// The bytes are those that BUS_TOUCHES.md explains.
 TEST(ExplainCommand, SaysWhatAFrameSays) {
   const Run run = runProgram("explain 185#E8032201808161A3");
   LONGS_EQUAL(0, run.status);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""guide_test.py README.md finger.txt tables.bin strainfinger: what firmware/bring_up.md says was captured comes out today."""
+"""guide_test.py FIRMWARE finger.txt tables.bin strainfinger: what the pages of that folder say was captured comes out today."""
 import re
 import subprocess
 import sys
@@ -9,7 +9,8 @@ from pathlib import Path
 import emulator
 
 emulator.require(sys.argv[2])
-GUIDE = Path(sys.argv[1]).read_text()
+FIRMWARE = Path(sys.argv[1])
+GUIDE = "".join((FIRMWARE / page).read_text() for page in ("bring_up.md", "settings_and_tables.md"))
 SIZES = Path(sys.argv[2])
 TABLES, STRAINFINGER = sys.argv[3:5]
 
@@ -29,8 +30,8 @@ class Guide(unittest.TestCase):
         self.crc = int(re.search(r"CRC-32 ([0-9A-F]{8})", printed("tables", "verify", TABLES))[1], 16)
 
     def check_captured(self, lines, pattern):
-        """The guide's lines of this pattern are these and no others."""
-        self.assertEqual(lines, re.findall(pattern, GUIDE, re.MULTILINE), f"paste into {sys.argv[1]}:\n" + "\n".join(lines))
+        """The pages' lines of this pattern are these and no others."""
+        self.assertEqual(lines, re.findall(pattern, GUIDE, re.MULTILINE), "paste into the page:\n" + "\n".join(lines))
 
     def test_the_images_size(self):
         self.check_captured([f"    {SIZES.stem}: {SIZES.read_text().strip()} bytes"], rf"^    {SIZES.stem}: .*")
@@ -40,7 +41,7 @@ class Guide(unittest.TestCase):
         sizes = [[int(size) for size in re.findall(r"\w+ (\d+) of", image.read_text())]
                  for image in SIZES.parents[1].glob("*/*.txt") if "flash" in image.read_text()]
         largest = [f"{max(size) / 1024:.1f} KiB" for size in zip(*sizes, strict=True)]
-        page = (Path(sys.argv[1]).parent / "board/README.md").read_text()
+        page = (FIRMWARE / "board/README.md").read_text()
         self.assertEqual(largest, re.findall(r"^\| (?:flash|RAM|worst-case stack).*\| ([\d.]+ KiB) \|$", page, re.MULTILINE))
 
     def test_the_default_tables(self):
@@ -49,14 +50,14 @@ class Guide(unittest.TestCase):
         self.check_captured([f"    {line}" for line in said], r"^    tables: .*")
 
     def test_no_page_tells_another_number_of_the_tables(self):
-        for page in Path(sys.argv[1]).parent.glob("board/**/*.md"):
+        for page in FIRMWARE.glob("board/**/*.md"):
             for told in re.findall(r"CRC-32 ([0-9A-F]{8})|erased again: ([0-9A-F]{2})", page.read_text()):
                 self.assertTrue(f"{self.crc:08X}".endswith("".join(told)), f"{page}: {''.join(told)} is now {self.crc:08X}")
 
     def test_heartbeats_have_the_tables_number(self):
         beats = [bytes.fromhex(beat) for _, beat in HEARTBEATS]
         self.assertEqual(2, len(beats))
-        self.assertEqual({self.crc & 0xFF}, {beat[7] for beat in beats}, f"make it {self.crc & 0xFF:02X} in {sys.argv[1]}")
+        self.assertEqual({self.crc & 0xFF}, {beat[7] for beat in beats}, f"make it {self.crc & 0xFF:02X}")
 
     def test_a_frame_decoded(self):
         time, frame = HEARTBEATS[1]

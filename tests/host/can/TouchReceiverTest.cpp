@@ -9,10 +9,9 @@
 using namespace strainfinger;
 using namespace strainfinger::can;
 
-// Bytes of BUS.md's examples: 10.00 deg +- 2.90, quality 97; 0.290 N and -0.226 N, +- 3.5 and 4.5 mN; 2.040
-// mm wide
-// +- 0.150, chi 17/16; the second contact at 199.80 deg +- 3.10, quality 95, with 0.410 N and 0.035 N, +- 4.5
-// mN.
+// Bytes of the examples of BUS_TOUCHES.md and BUS_SECOND_CONTACT.md: 10.00 deg +- 2.90, quality 97; 0.290 N
+// and -0.226 N, +- 3.5 and 4.5 mN; 2.040 mm wide +- 0.150, chi 17/16; the second contact at 199.80 deg +-
+// 3.10, quality 95, with 0.410 N and 0.035 N, +- 4.5 mN.
 TEST_GROUP(TouchReceiver) {
   TouchReceiver receiver{5};
   const CanFrame contact{0x185, 8, {0xE8, 0x03, 0x22, 0x01, 0x80, 0x81, 0x61, 0xA3}};
@@ -46,7 +45,7 @@ TEST(TouchReceiver, GivesAllFramesInPhysicalUnits) {
   CHECK_TRUE(std::isnan(report->alternative_deg));
 }
 
-// BUS.md: 0..65534 and 0..254 "or more".
+// BUS_TOUCHES.md: 0..65534 and 0..254 "or more".
 TEST(TouchReceiver, TheLargestValuesAreAsAReportHasThem) {
   receiver.take({0x185, 8, {0xE8, 0x03, 0xFE, 0xFF, 0x80, 0x81, 0x61, 0xA3}});
   receiver.take({0x285, 8, {0x22, 0x01, 0x1E, 0xFF, 0xFE, 0xFE, 0x81, 0xA3}});

@@ -151,7 +151,7 @@ TEST(RegionSearch, NoRandomBumpIsInsideTheRubber) {
   CHECK_TRUE(regions > 14);  // or few bumps touched
 }
 
-// Shares and widths, per nm, of the README's table; the plane without noise has the known width.
+// Shares and widths, per nm, of the table in limits.md; the plane without noise has the known width.
 TEST(RegionSearch, NoiseThatIsSolvedTellsWhatItLeaves) {
   for (const double noise_nm : {1.0, 10.0}) {
     std::mt19937 random(8);

@@ -107,7 +107,7 @@ TEST(SimulatedFinger, CountsGoOnOverARestart) {
   LONGS_EQUAL(1000, bench.counts().finger.sampleSets);
 }
 
-// Listeners may still have the touch of before: BUS.md promises its end.
+// Listeners may still have the touch of before: BUS_TOUCHES.md promises its end.
 TEST(SimulatedFinger, RestartedItSaysThatNothingTouchesIt) {
   Bench bench(config, Scenario({}));
   bench.run(0.5);

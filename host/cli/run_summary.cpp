@@ -36,8 +36,9 @@ std::string plainText(double duration_s, const simulation::RunCounts& counts,
         errors.arc_m.count(), errors.arc_m.rms() * 1e3, errors.arc_m.worst() * 1e3,
         errors.normal_n_per_m.rms(), errors.normal_n_per_m.worst(), errors.tangential_n_per_m.rms(),
         errors.tangential_n_per_m.worst());
-  add("run: not counted there: {} flagged uncertain, {} of several touches, {} of none, {} missed\n",
-      errors.uncertain, errors.several, errors.phantom, errors.missed);
+  add("run: not counted there: {} flagged uncertain, {} of another number of contacts, {} of none, {} "
+      "missed\n",
+      errors.uncertain, errors.otherNumber, errors.phantom, errors.missed);
   add("run: touched for {:.3f} s without a contact told\n", errors.untold_s);
   if (counts.outOfUse != 0) add("run: gauges out of use at the end: {}\n", gaugesOf(counts.outOfUse));
   return text;
@@ -65,7 +66,7 @@ void writeObject(std::FILE* stream, double duration_s, const simulation::RunCoun
                      "tangential_rms_n_per_m",
                      "tangential_worst_n_per_m",
                      "uncertain",
-                     "several",
+                     "other_number",
                      "phantom",
                      "missed",
                      "untold_s",
@@ -87,7 +88,7 @@ void writeObject(std::FILE* stream, double duration_s, const simulation::RunCoun
              errors.tangential_n_per_m.rms(),
              errors.tangential_n_per_m.worst(),
              number(errors.uncertain),
-             number(errors.several),
+             number(errors.otherNumber),
              number(errors.phantom),
              number(errors.missed),
              errors.untold_s,

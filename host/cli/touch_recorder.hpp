@@ -10,8 +10,8 @@
 
 namespace strainfinger::cli {
 
-/// Keeps one point of the track every kTrackPeriod_s, and the readings of the hardest touch. Memory: 4 kB
-/// per second of the run.
+/// Keeps one point of the track every kTrackPeriod_s, and the readings of the set with the greatest loads, if
+/// possible of one whose contacts were all told. Memory: 10 kB per second of the run.
 class TouchRecorder {
  public:
   static constexpr double kTrackPeriod_s = 0.025;  ///< 10 s make an SVG of 250 kB
@@ -29,17 +29,20 @@ class TouchRecorder {
   plot::TouchRecord record(const simulation::GaugeStrains& strains) const;
 
  private:
+  /// As many contacts told as there were touches; the loads in all. What is greater is rather shown.
+  using Worth = std::pair<bool, double>;
+  static Worth worthOf(const simulation::ComparedTouch& compared);
   void addToTrack(const simulation::Moment& moment);
-  plot::ContactPoint pointOf(const can::TouchReport& report) const;
 
   config::FingerConfig told_;
   simulation::StrainFit fit_;
   std::vector<double> factors_;
   std::vector<plot::TrackPoint> track_;
   double periodEnd_s_ = 0;
-  simulation::ComparedTouch hardest_;
-  double hardest_n_per_m_ = 0;
-  firmware::Readings readings_;  ///< of the hardest touch
+  bool isTold_ = false;  ///< the last point of the track is of a report
+  simulation::ComparedTouch shown_;
+  Worth worth_{false, 0};
+  firmware::Readings readings_;  ///< of what is shown
 };
 
 }  // namespace strainfinger::cli

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <string>
 
 #include "host/base/angles.hpp"
@@ -24,16 +25,16 @@ constexpr const char* kNoTruth = "     -        -        -";
 /// In contact a finger has something to say every kContactPeriod_ms; a beat more and it says nothing.
 constexpr double kSilence_s = 1.2e-3 * kContactPeriod_ms;
 
-std::string truthText(const std::vector<Touch>& truth) {
-  if (truth.empty()) return kNoTruth;
-  const Touch& touch = truth.front();
-  return fmt::format("{:6.2f} {:8.2f} {:+8.2f}{}", withinATurn_deg(touch.angle_rad / kRadPerDeg),
-                     touch.normal_n_per_m, touch.tangential_n_per_m, truth.size() > 1 ? " and more" : "");
+std::string truthText(const std::optional<Touch>& touch) {
+  if (!touch) return kNoTruth;
+  return fmt::format("{:6.2f} {:8.2f} {:+8.2f}", withinATurn_deg(touch->angle_rad / kRadPerDeg),
+                     touch->normal_n_per_m, touch->tangential_n_per_m);
 }
 
-std::string differenceText(const ComparedTouch& touch, const config::Finger& finger) {
-  if (touch.truth.size() != 1) return "";
-  const auto error = simulation::errorOf(touch.report, touch.truth.front(), finger);
+std::string differenceText(const can::ContactReport& contact, const std::optional<Touch>& touch,
+                           const config::Finger& finger) {
+  if (!touch) return "";
+  const auto error = simulation::errorOf(contact, *touch, finger);
   return fmt::format(" {:+6.3f}  {:+6.2f}  {:+6.2f}", error.arc_m * 1e3, error.normal_n_per_m,
                      error.tangential_n_per_m);
 }
@@ -55,23 +56,34 @@ void TruthTable::add(const simulation::Moment& moment) {
   if (moment.compared && inContact_)
     print(*moment.compared);
   else if ((moment.truth.empty() && !inContact_) || moment.time_s > nextLine_s_ + kSilence_s)
-    write(fmt::format("{:7.3f} | {} | nothing\n", moment.time_s, truthText(moment.truth)));
+    print({moment.time_s, moment.truth, {}});
   else
     return;
   nextLine_s_ += kPeriod_s;
 }
 
-void TruthTable::print(const ComparedTouch& touch) const {
-  const can::TouchReport& report = touch.report;
+void TruthTable::print(const ComparedTouch& compared) const {
+  auto told = simulation::toldTouches(compared.truth, compared.report);
+  if (told.empty()) told.emplace_back();
+  const char* const doubt = compared.report.flags.has(FingerFlag::kUncertain) ? "  uncertain" : "";
+  std::string time = fmt::format("{:7.3f}", compared.time_s);
+  for (const auto& [touch, contact] : told) {
+    write(fmt::format("{} | {} | {}\n", time, truthText(touch),
+                      contact ? estimateText(*contact, touch) + doubt : "nothing"));
+    time.assign(time.size(), ' ');
+  }
+}
+
+std::string TruthTable::estimateText(const can::ContactReport& contact,
+                                     const std::optional<Touch>& touch) const {
   const can::LargestValues& largest = can::largestValues();
   const double length_m = finger_.length_m;
-  write(fmt::format(
-      "{:7.3f} | {} | {:7.2f} ±{:>6}   {:6.2f} ±{:>6}   {:+7.2f} ±{:>6} |{}{}\n", touch.time_s,
-      truthText(touch.truth), report.angle_deg, sigmaText(report.sigmaAngle_deg, largest.sigmaAngle_deg, 1),
-      report.normal_n / length_m, sigmaText(report.sigmaNormal_n, largest.sigmaNormal_n, length_m),
-      report.tangential_n / length_m,
-      sigmaText(report.sigmaTangential_n, largest.sigmaTangential_n, length_m),
-      differenceText(touch, finger_), report.flags.has(FingerFlag::kUncertain) ? "  uncertain" : ""));
+  return fmt::format(
+      "{:7.2f} ±{:>6}   {:6.2f} ±{:>6}   {:+7.2f} ±{:>6} |{}", contact.angle_deg,
+      sigmaText(contact.sigmaAngle_deg, largest.sigmaAngle_deg, 1), contact.normal_n / length_m,
+      sigmaText(contact.sigmaNormal_n, largest.sigmaNormal_n, length_m), contact.tangential_n / length_m,
+      sigmaText(contact.sigmaTangential_n, largest.sigmaTangential_n, length_m),
+      differenceText(contact, touch, finger_));
 }
 
 }  // namespace strainfinger::cli

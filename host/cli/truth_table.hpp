@@ -2,6 +2,7 @@
 // Truth beside estimate, for people to watch.
 
 #include <cstdio>
+#include <optional>
 #include <string>
 
 #include "host/config/finger_config.hpp"
@@ -9,8 +10,8 @@
 
 namespace strainfinger::cli {
 
-/// A line every kPeriod_s of a run, as it goes: what the finger has just said beside what is true. Where the
-/// stream takes nothing the run goes on.
+/// What the finger has just said beside what is true, every kPeriod_s of a run, as it goes: a line for each
+/// touch and its contact. Where the stream takes nothing the run goes on.
 class TruthTable {
  public:
   static constexpr double kPeriod_s = 0.25;
@@ -19,7 +20,9 @@ class TruthTable {
   void add(const simulation::Moment& moment);
 
  private:
-  void print(const simulation::ComparedTouch& touch) const;
+  void print(const simulation::ComparedTouch& compared) const;
+  std::string estimateText(const can::ContactReport& contact,
+                           const std::optional<simulation::Touch>& touch) const;
   void write(const std::string& line) const { std::fputs(line.c_str(), stream_); }
 
   std::FILE* stream_;

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <utility>
 
 #include "host/base/angles.hpp"
@@ -27,7 +29,9 @@ set multiplot
 constexpr const char* kProfilePanels = R"(
 set lmargin at screen 0.072; set rmargin at screen 0.475
 set xrange [0:360]; set xtics 45 format ''
-set arrow 1 from contact,graph 0 to contact,graph 1 nohead linecolor rgb faint dashtype 3
+do for [i=1:words(contacts)] {
+  set arrow i from real(word(contacts,i)),graph 0 to real(word(contacts,i)),graph 1 nohead linecolor rgb faint dashtype 3
+}
 set tmargin at screen 0.92; set bmargin at screen 0.37
 set label 2 heading at graph 0,1.025 left font ',13'
 set ylabel 'strain (10^{-3})'; set offsets 0,0,graph 0.05,graph 0.05
@@ -48,40 +52,50 @@ unset offsets
 constexpr const char* kTrackPanels = R"(
 set lmargin at screen 0.565; set rmargin at screen 0.985
 set xrange [first:last]; set xtics autofreq format ''; unset xlabel
+unset arrow
 set arrow 1 from moment,graph 0 to moment,graph 1 nohead linecolor rgb faint dashtype 3
 set tmargin at screen 0.92; set bmargin at screen 0.66
 set label 2 'The contact over time' at graph 0,1.06 left font ',13'
-set ylabel 'angle'; set yrange [-20 * several:360]; set ytics 0,90 format '%g°'
-plot data('track') using 1:(gap(5)) every ::1 with points pointtype 7 pointsize 0.4 linecolor rgb estimate title 'estimate', \
-     '' using 1:(gap(2)) every ::1 with lines linewidth 1 linecolor rgb truth title 'truth', \
-     for [i=1:several] '' using 1:(-11 * gap(10)) every ::1 with points pointtype 5 pointsize 0.4 \
-       linecolor rgb faint title 'several touches: not compared'
+set ylabel 'angle'; set yrange [0:360]; set ytics 90 format '%g°'
+plot for [c=1:touches] data('track') using 1:(gap(of(c,4))) every ::1 with points pointtype 7 pointsize 0.4 \
+       linecolor rgb estimate title legend(c,'estimate'), \
+     for [c=1:touches] '' using 1:(gap(of(c,1))) every ::1 with lines linewidth 1 linecolor rgb truth title legend(c,'truth')
 unset label 2
 set tmargin at screen 0.60; set bmargin at screen 0.44
 set ylabel 'error (mm)'; set yrange [-errorRange:errorRange]; set ytics errorRange format '%g'
-plot data('track') using 1:(gap(8)) every ::1 with points pointtype 7 pointsize 0.3 linecolor rgb fitted \
-       title 'estimate - truth', \
-     '' using 1:(gap(9)) every ::1 with lines linewidth 1.4 linecolor rgb estimate title '±σ as reported', \
-     '' using 1:(-gap(9)) every ::1 with lines linewidth 1.4 linecolor rgb estimate notitle, \
+plot for [c=1:touches] data('track') using 1:(gap(of(c,7))) every ::1 with points pointtype 7 pointsize 0.3 \
+       linecolor rgb fitted title legend(c,'estimate - truth'), \
+     for [c=1:touches] '' using 1:(gap(of(c,8))) every ::1 with lines linewidth 1.4 dashtype c linecolor rgb estimate \
+       title legend(c,'±σ as reported'), \
+     for [c=1:touches] '' using 1:(-gap(of(c,8))) every ::1 with lines linewidth 1.4 dashtype c linecolor rgb estimate notitle, \
      0 with lines linewidth 1 linecolor rgb truth notitle
 set tmargin at screen 0.38; set bmargin at screen 0.115
 set xtics format '%g'; set xlabel 'time (s)'
 set ylabel 'line load (N/m)'; set yrange [*:*]; set ytics autofreq format '%g'; set offsets 0,0,graph 0.05,graph 0.05
 plot 0 with lines linewidth 1 linecolor rgb faint notitle, \
-     data('track') using 1:(gap(6)) every ::1 with points pointtype 7 pointsize 0.4 linecolor rgb estimate title 'normal', \
-     '' using 1:(gap(7)) every ::1 with points pointtype 7 pointsize 0.4 linecolor rgb tangential title 'tangential', \
-     '' using 1:(gap(3)) every ::1 with lines linewidth 1 linecolor rgb truth title 'truth', \
-     '' using 1:(gap(4)) every ::1 with lines linewidth 1 linecolor rgb truth notitle
+     for [c=1:touches] data('track') using 1:(gap(of(c,5))) every ::1 with points pointtype 7 pointsize 0.4 \
+       linecolor rgb estimate title legend(c,'normal'), \
+     for [c=1:touches] '' using 1:(gap(of(c,6))) every ::1 with points pointtype 7 pointsize 0.4 \
+       linecolor rgb tangential title legend(c,'tangential'), \
+     for [c=1:touches] '' using 1:(gap(of(c,2))) every ::1 with lines linewidth 1 linecolor rgb truth title legend(c,'truth'), \
+     for [c=1:touches] '' using 1:(gap(of(c,3))) every ::1 with lines linewidth 1 linecolor rgb truth notitle
 unset multiplot
 )";
 
 /// Error of the estimate as an arc of the surface, the short way around.
-double arcError_m(const TrackPoint& point, double radius_m) {
-  return std::remainder(point.estimate.angle_deg - point.truth.angle_deg, 360.0) * kRadPerDeg * radius_m;
+double arcError_m(const TrackedContact& contact, double radius_m) {
+  return std::remainder(contact.estimate.angle_deg - contact.truth.angle_deg, 360.0) * kRadPerDeg * radius_m;
 }
 
-double arcSigma_m(const TrackPoint& point, double radius_m) {
-  return point.sigmaAngle_deg * kRadPerDeg * radius_m;
+double arcSigma_m(const TrackedContact& contact, double radius_m) {
+  return contact.sigmaAngle_deg * kRadPerDeg * radius_m;
+}
+
+/// The most at a time, and one at least.
+std::size_t mostContacts(const TouchRecord& record) {
+  std::size_t most = 1;
+  for (const TrackPoint& point : record.track) most = std::max(most, point.contacts.size());
+  return most;
 }
 
 DataFile profileData(const TouchRecord& record) {
@@ -99,36 +113,71 @@ DataFile readingData(const TouchRecord& record) {
   return data;
 }
 
-std::vector<double> trackRow(const TrackPoint& point, double radius_m) {
-  const ContactPoint &truth = point.truth, &estimate = point.estimate;
-  return {point.time_s,
-          withinATurn_deg(truth.angle_deg),
+/// Of each contact in `track`.
+constexpr std::array kContactColumns{"true_angle_deg", "true_normal_n_per_m", "true_tangential_n_per_m",
+                                     "angle_deg",      "normal_n_per_m",      "tangential_n_per_m",
+                                     "arc_error_mm",   "arc_sigma_mm"};
+
+/// "angle_deg", that of a second contact "angle_deg_2".
+std::vector<std::string> trackColumns(std::size_t contacts) {
+  std::vector<std::string> columns{"time_s"};
+  for (std::size_t contact = 1; contact <= contacts; ++contact)
+    for (const char* column : kContactColumns)
+      columns.push_back(contact == 1 ? column : fmt::format("{}_{}", column, contact));
+  return columns;
+}
+
+std::array<double, kContactColumns.size()> contactCells(const TrackedContact& contact, double radius_m) {
+  const ContactPoint &truth = contact.truth, &estimate = contact.estimate;
+  return {withinATurn_deg(truth.angle_deg),
           truth.normal_n_per_m,
           truth.tangential_n_per_m,
           withinATurn_deg(estimate.angle_deg),
           estimate.normal_n_per_m,
           estimate.tangential_n_per_m,
-          arcError_m(point, radius_m) * kMilli,
-          arcSigma_m(point, radius_m) * kMilli,
-          point.areSeveral ? 1 : kNoValue};
+          arcError_m(contact, radius_m) * kMilli,
+          arcSigma_m(contact, radius_m) * kMilli};
 }
 
-std::vector<double> gapAt(double time_s) {
-  std::vector<double> row(10, kNoValue);
-  row[0] = time_s;
+/// No values in the columns that are left.
+void fillUp(std::vector<double>& row, std::size_t contacts) {
+  row.resize(1 + contacts * kContactColumns.size(), kNoValue);
+}
+
+std::vector<double> trackRow(const TrackPoint& point, std::size_t contacts, double radius_m) {
+  std::vector<double> row{point.time_s};
+  for (const TrackedContact& contact : point.contacts) {
+    const auto cells = contactCells(contact, radius_m);
+    row.insert(row.end(), cells.begin(), cells.end());
+  }
+  fillUp(row, contacts);
   return row;
 }
 
+/// A line of the truth would cross the panel: it runs through 0 deg, or another touch takes the column.
+bool isBroken(const TrackPoint& before, const TrackPoint& after) {
+  const auto touches = [](const TrackPoint& point) {
+    return std::ranges::count_if(
+        point.contacts, [](const TrackedContact& contact) { return !std::isnan(contact.truth.angle_deg); });
+  };
+  if (touches(before) != touches(after)) return true;
+  for (std::size_t i = 0; i < std::min(before.contacts.size(), after.contacts.size()); ++i)
+    if (std::fabs(withinATurn_deg(before.contacts[i].truth.angle_deg) -
+                  withinATurn_deg(after.contacts[i].truth.angle_deg)) > 180)
+      return true;
+  return false;
+}
+
 DataFile trackData(const TouchRecord& record) {
-  DataFile data{"track",
-                {"time_s", "true_angle_deg", "true_normal_n_per_m", "true_tangential_n_per_m", "angle_deg",
-                 "normal_n_per_m", "tangential_n_per_m", "arc_error_mm", "arc_sigma_mm", "several_touches"},
-                {}};
-  for (const TrackPoint& point : record.track) {
-    // A gap where the truth runs through 0 deg, or the line would cross the panel.
-    if (!data.rows.empty() && std::fabs(data.rows.back()[1] - withinATurn_deg(point.truth.angle_deg)) > 180)
-      data.rows.push_back(gapAt(point.time_s));
-    data.rows.push_back(trackRow(point, record.outerRadius_m));
+  const std::size_t contacts = mostContacts(record);
+  DataFile data{"track", trackColumns(contacts), {}};
+  for (std::size_t i = 0; i < record.track.size(); ++i) {
+    const TrackPoint& point = record.track[i];
+    if (i > 0 && isBroken(record.track[i - 1], point)) {
+      data.rows.push_back({point.time_s});
+      fillUp(data.rows.back(), contacts);
+    }
+    data.rows.push_back(trackRow(point, contacts, record.outerRadius_m));
   }
   return data;
 }
@@ -143,10 +192,11 @@ double quantile(std::vector<double> values, double share) {
 /// gauges [mm].
 double errorRange_mm(const TouchRecord& record) {
   std::vector<double> errors, sigmas;
-  for (const TrackPoint& point : record.track) {
-    errors.push_back(std::fabs(arcError_m(point, record.outerRadius_m)) * kMilli);
-    sigmas.push_back(arcSigma_m(point, record.outerRadius_m) * kMilli);
-  }
+  for (const TrackPoint& point : record.track)
+    for (const TrackedContact& contact : point.contacts) {
+      errors.push_back(std::fabs(arcError_m(contact, record.outerRadius_m)) * kMilli);
+      sigmas.push_back(arcSigma_m(contact, record.outerRadius_m) * kMilli);
+    }
   const double needed = std::max(quantile(std::move(errors), 0.9), quantile(std::move(sigmas), 0.5));
   return needed == 0 ? 1 : roundScale(needed);
 }
@@ -157,25 +207,37 @@ std::string contactText(const ContactPoint& contact) {
                      contact.normal_n_per_m, contact.tangential_n_per_m);
 }
 
-/// The words at the bottom, on the side of the panel that the contact leaves free.
+/// The words at the bottom, on the side of the panel that the first contact leaves free.
 std::string profileText(const TouchRecord& record) {
-  const double contact_deg =
-      std::isnan(record.truthThen.angle_deg) ? -1 : withinATurn_deg(record.truthThen.angle_deg);
+  std::string text, places;
+  const auto add = [&](const char* what, const ContactPoint& contact) {
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "\\n", what, contactText(contact));
+  };
+  for (const TrackedContact& contact : record.contacts) {
+    add("truth", contact.truth);
+    add("estimate", contact.estimate);
+    if (!std::isnan(contact.truth.angle_deg))
+      places += fmt::format("{} ", withinATurn_deg(contact.truth.angle_deg));
+  }
+  if (record.contacts.empty()) text = "no contact";
+  const bool isRight = places.empty() || std::stod(places) < 180;
   return fmt::format(
-      "heading = {}\ncontact = {}\n"
-      "set label 1 \"truth: {}\\nestimate: {}\" at graph {},0.09 {} textcolor '#333333' font ',10'\n",
+      "heading = {}\ncontacts = {}\n"
+      "set label 1 \"{}\" at graph {},{} {} textcolor '#333333' font ',10'\n",
       quoted(fmt::format("What {} gauges see at {:.2f} s", record.readings.size(), record.moment_s)),
-      contact_deg, contactText(record.truthThen), contactText(record.estimateThen),
-      contact_deg < 180 ? 0.99 : 0.02, contact_deg < 180 ? "right" : "left");
+      plot::quoted(places), text, isRight ? 0.99 : 0.02, 0.09 + 0.09 * (record.contacts.size() > 1),
+      isRight ? "right" : "left");
 }
 
+/// of(c,k): column k of contact c's in `track`; legend(c,name): what all contacts have in common is named
+/// once.
 std::string trackText(const TouchRecord& record) {
   const bool any = record.track.size() > 1;
-  const bool anySeveral = std::any_of(record.track.begin(), record.track.end(),
-                                      [](const TrackPoint& point) { return point.areSeveral; });
-  return fmt::format("first = {}; last = {}; moment = {}; several = {}; errorRange = {}\n",
-                     any ? record.track.front().time_s : 0, any ? record.track.back().time_s : 1,
-                     record.moment_s, anySeveral ? 1 : 0, errorRange_mm(record));
+  return fmt::format(
+      "first = {}; last = {}; moment = {}; touches = {}; errorRange = {}\n"
+      "of(c,k) = {} * (c - 1) + k + 1\nlegend(c,name) = c == 1 ? name : ''\n",
+      any ? record.track.front().time_s : 0, any ? record.track.back().time_s : 1, record.moment_s,
+      mostContacts(record), errorRange_mm(record), kContactColumns.size());
 }
 
 }  // namespace

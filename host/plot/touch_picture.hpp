@@ -29,26 +29,30 @@ struct GaugeReading {
   double sigma_strain;
 };
 
-struct TrackPoint {
-  double time_s;
+/// A touch and the contact that was told of it; either may be missing.
+struct TrackedContact {
   ContactPoint truth;
   ContactPoint estimate;
   double sigmaAngle_deg = kNoValue;
-  bool areSeveral = false;  ///< there are more touches than one, and no truth to compare with
+};
+
+struct TrackPoint {
+  double time_s;
+  std::vector<TrackedContact> contacts;  ///< none: nothing touches, and nothing is told
 };
 
 struct TouchRecord {
-  double moment_s = 0;  ///< when the readings were taken
-  ContactPoint truthThen;
-  ContactPoint estimateThen;
-  std::vector<ProfilePoint> profile;  ///< in order of angle, once around
+  double moment_s = 0;                   ///< when the readings were taken
+  std::vector<TrackedContact> contacts;  ///< then
+  std::vector<ProfilePoint> profile;     ///< in order of angle, once around
   std::vector<GaugeReading> readings;
   std::vector<TrackPoint> track;  ///< in order of time
   double outerRadius_m = 0;       ///< turns an error of angle into an arc of the surface
 };
 
 /// Left: the strain around the ring at `moment_s`: true, read, fitted, and the residuals of the fit. Right:
-/// angle, its error and the loads over time, true and estimated. Angles may be in any revolution.
+/// angle, its error and the loads of each contact over time, true and estimated. Angles may be in any
+/// revolution.
 Picture touchPicture(const TouchRecord& record);
 
 /// The names of its data files.

@@ -2,13 +2,26 @@
 // How far reports are from the truth.
 
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "host/config/finger_config.hpp"
 #include "host/simulation/simulated_finger.hpp"
 
 namespace strainfinger::simulation {
 
-/// One report against one true touch. Sigmas are those reported, NaN where not known.
+/// A touch and the contact that was told of it; one of them may be missing.
+struct ToldTouch {
+  std::optional<Touch> truth;
+  std::optional<can::ContactReport> contact;
+  bool isWhole() const { return truth && contact; }
+};
+
+/// The touches, in order, each with the contact that is nearest to it and to no other touch that is left;
+/// then the contacts of no touch. A report that nothing touches has no contacts.
+std::vector<ToldTouch> toldTouches(const std::vector<Touch>& truth, const can::TouchReport& report);
+
+/// One contact against one true touch. Sigmas are those reported, NaN where not known.
 struct TouchError {
   double arc_m = 0;  ///< of the surface, the short way around, towards +theta
   double normal_n_per_m = 0;
@@ -17,7 +30,7 @@ struct TouchError {
   double sigmaNormal_n_per_m = 0;
   double sigmaTangential_n_per_m = 0;
 };
-TouchError errorOf(const can::TouchReport& report, const Touch& truth, const config::Finger& finger);
+TouchError errorOf(const can::ContactReport& contact, const Touch& truth, const config::Finger& finger);
 
 /// Root mean square and largest magnitude of what was added.
 class Deviation {
@@ -33,15 +46,15 @@ class Deviation {
   double worst_ = 0;
 };
 
-/// Statistics over a run's reports.
+/// Statistics over the contacts of a run's reports.
 struct TouchErrors {
   Deviation arc_m;
   Deviation normal_n_per_m;
   Deviation tangential_n_per_m;
-  std::uint64_t uncertain = 0;  ///< reports flagged so: they don't count above
-  std::uint64_t several = 0;    ///< reports while several touches were in force: there is no one truth
-  std::uint64_t phantom = 0;    ///< reports of a contact while nothing touched
-  std::uint64_t missed = 0;     ///< reports of no contact while something touched
+  std::uint64_t uncertain = 0;    ///< reports flagged so: they don't count above
+  std::uint64_t otherNumber = 0;  ///< reports of more or fewer contacts than there were touches: nor do these
+  std::uint64_t phantom = 0;      ///< reports of a contact while nothing touched
+  std::uint64_t missed = 0;       ///< reports of no contact while something touched
   double untold_s = 0;  ///< for which something touched and the last report, if any, was of no contact
 
   /// A sample set, with the report that was complete with it, if any.
@@ -49,6 +62,8 @@ struct TouchErrors {
   void add(const ComparedTouch& compared, const config::Finger& finger);
 
  private:
+  void add(const TouchError& error);
+
   bool isTold_ = false;
 };
 

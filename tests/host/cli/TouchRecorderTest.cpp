@@ -29,6 +29,15 @@ TEST_GROUP(TouchRecorder) {
     moment.compared->report.flags = {FingerFlag::kContact};
     recorder.add(moment, readings);
   }
+  /// Touched at 40 and 200 deg; told is what the report says, in this order.
+  void twoTouches(double time_s, const std::vector<double>& told_deg) {
+    simulation::Moment moment{time_s, {{40 * kRad, 20, 0}, {200 * kRad, 10, 0}}, std::nullopt};
+    moment.compared = {time_s, moment.truth, {}};
+    moment.compared->report.flags = {FingerFlag::kContact};
+    moment.compared->report.angle_deg = told_deg.at(0);
+    if (told_deg.size() > 1) moment.compared->report.second = can::ContactReport{.angle_deg = told_deg[1]};
+    recorder.add(moment, readings);
+  }
   void silent(double time_s) { recorder.add({time_s, {}, std::nullopt}, readings); }
 };
 
@@ -44,16 +53,46 @@ TEST(TouchRecorder, TheFirstReportOfAPeriodTakesThePointsPlace) {
   const auto track = recorder.record(strains).track;
   LONGS_EQUAL(1, track.size());
   DOUBLES_EQUAL(1.002, track[0].time_s, 1e-12);
-  DOUBLES_EQUAL(40, track[0].truth.angle_deg, 1e-9);
-  DOUBLES_EQUAL(40.1, track[0].estimate.angle_deg, 1e-9);
-  DOUBLES_EQUAL(20, track[0].estimate.normal_n_per_m, 1e-9);
+  DOUBLES_EQUAL(40, track[0].contacts[0].truth.angle_deg, 1e-9);
+  DOUBLES_EQUAL(40.1, track[0].contacts[0].estimate.angle_deg, 1e-9);
+  DOUBLES_EQUAL(20, track[0].contacts[0].estimate.normal_n_per_m, 1e-9);
 }
 
-TEST(TouchRecorder, WithoutTouchOrReportThePointIsUnknown) {
+TEST(TouchRecorder, WithoutTouchOrReportThePointHasNoContact) {
   silent(1);
   const auto track = recorder.record(strains).track;
-  CHECK_TRUE(std::isnan(track[0].truth.angle_deg));
-  CHECK_TRUE(std::isnan(track[0].estimate.normal_n_per_m));
+  CHECK_TRUE(track[0].contacts.empty());
+}
+
+TEST(TouchRecorder, EachTouchHasTheNearestContactThatIsTold) {
+  twoTouches(1, {201, 41});
+  twoTouches(2, {199});
+  const auto track = recorder.record(strains).track;
+  DOUBLES_EQUAL(41, track.at(0).contacts.at(0).estimate.angle_deg, 1e-9);
+  DOUBLES_EQUAL(201, track.at(0).contacts.at(1).estimate.angle_deg, 1e-9);
+  CHECK_TRUE(std::isnan(track.at(1).contacts.at(0).estimate.angle_deg));
+  DOUBLES_EQUAL(199, track.at(1).contacts.at(1).estimate.angle_deg, 1e-9);
+}
+
+TEST(TouchRecorder, AContactThatIsToldOfNoTouchIsKeptBehindTheTouches) {
+  simulation::Moment moment{1, {}, std::nullopt};
+  moment.compared = {1, {}, {}};
+  moment.compared->report.flags = {FingerFlag::kContact};
+  moment.compared->report.angle_deg = 77;
+  recorder.add(moment, readings);
+  const auto contacts = recorder.record(strains).track.at(0).contacts;
+  LONGS_EQUAL(1, contacts.size());
+  CHECK_TRUE(std::isnan(contacts[0].truth.angle_deg));
+  DOUBLES_EQUAL(77, contacts[0].estimate.angle_deg, 1e-9);
+}
+
+TEST(TouchRecorder, ASetWhoseContactsWereAllToldIsRatherShown) {
+  twoTouches(1, {40, 200});
+  twoTouches(2, {40});
+  reported(3, 90, 25);
+  const auto record = recorder.record(strains);
+  DOUBLES_EQUAL(1, record.moment_s, 0);
+  LONGS_EQUAL(2, record.contacts.size());
 }
 
 TEST(TouchRecorder, TheProfileIsThatOfTheHardestTouch) {
@@ -64,7 +103,7 @@ TEST(TouchRecorder, TheProfileIsThatOfTheHardestTouch) {
   reported(3, 200, 10);
   const auto record = recorder.record(strains);
   DOUBLES_EQUAL(2, record.moment_s, 0);
-  DOUBLES_EQUAL(90.1, record.estimateThen.angle_deg, 1e-9);
+  DOUBLES_EQUAL(90.1, record.contacts.at(0).estimate.angle_deg, 1e-9);
   LONGS_EQUAL(16, record.readings.size());
   DOUBLES_EQUAL(std::ldexp(1.0, -10), record.readings[3].strain, 1e-12);
   DOUBLES_EQUAL(67.5, record.readings[3].angle_deg, 1e-9);

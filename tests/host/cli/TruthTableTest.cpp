@@ -92,8 +92,18 @@ TEST(TruthTable, MarksUncertainAnswers) {
   STRCMP_CONTAINS("  uncertain\n", lines().c_str());
 }
 
-TEST(TruthTable, WithSeveralTouchesThereIsNoDifference) {
-  reported(0.25, {FingerFlag::kContact}, {touch[0], touch[0]});
-  STRCMP_CONTAINS("-5.00 and more |", lines().c_str());
-  STRCMP_CONTAINS("±  0.10 |\n", lines().c_str());
+TEST(TruthTable, EachTouchHasALine) {
+  const simulation::Touch other{200 * std::numbers::pi / 180, 10, 1};
+  reported(0.25, {FingerFlag::kContact}, {other, touch[0]});
+  STRCMP_EQUAL(
+      "  0.250 | 200.00    10.00    +1.00 | nothing\n"
+      "        |  40.00    20.00    -5.00 |   40.10 ±  0.02    20.50 ±  0.05     -5.00 ±  0.10 | "
+      "+0.017   +0.50   +0.00\n",
+      lines().c_str());
+}
+
+TEST(TruthTable, AContactWithoutATouchHasALineToo) {
+  reported(0.25, {FingerFlag::kContact}, {});
+  STRCMP_EQUAL("  0.250 |      -        -        - |   40.10 ±  0.02    20.50 ±  0.05     -5.00 ±  0.10 |\n",
+               lines().c_str());
 }

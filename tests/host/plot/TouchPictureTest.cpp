@@ -22,7 +22,7 @@ TEST_GROUP(TouchPicture) {
     record.profile = {{0, 1e-3, 2e-3}, {180, -1e-3, -2e-3}};
     record.readings = {{370, 1.5e-3, 1.4e-3, 6e-6}};
     for (const double angle : {2.0, 1.0, -1.0, -2.0})
-      record.track.push_back({angle / 10, {angle, 20, 5}, {angle - 0.1, 19, 4}, 0.2});
+      record.track.push_back({angle / 10, {{{angle, 20, 5}, {angle - 0.1, 19, 4}, 0.2}}});
     return record;
   }
   DataFile file(const Picture& picture, const std::string& name) {
@@ -50,22 +50,26 @@ TEST(TouchPicture, AllItsDataFilesAreNamed) {
 
 TEST(TouchPicture, TheTrackHasErrorAndSigmaAsArcsInMillimetres) {
   const double mmPerDeg = std::numbers::pi / 180 * 10;
-  auto row = file(touchPicture(slide()), "track").rows.at(0);
-  CHECK_TRUE(std::isnan(row.back()));  // no other touch
-  row.pop_back();
+  const auto row = file(touchPicture(slide()), "track").rows.at(0);
   checkRow({0.2, 2, 20, 5, 1.9, 19, 4, -0.1 * mmPerDeg, 0.2 * mmPerDeg}, row);
 }
 
-TEST(TouchPicture, SeveralTouchesAreSaidToBeThere) {
-  STRCMP_CONTAINS("several = 0", touchPicture(slide()).script.c_str());
+TEST(TouchPicture, EachContactHasColumnsAndWordsOfItsOwn) {
+  STRCMP_CONTAINS("touches = 1;", touchPicture(slide()).script.c_str());
   TouchRecord record = slide();
-  record.track.at(1).areSeveral = true;
-  STRCMP_CONTAINS("several = 1", touchPicture(record).script.c_str());
-  DOUBLES_EQUAL(1, file(touchPicture(record), "track").rows.at(1).back(), 0);
-  draw(touchPicture(record), folder.file("several.svg"));
-  // In a strip below 0 deg, where no angle is.
-  STRCMP_CONTAINS("set yrange [-20 * several:360]", touchPicture(record).script.c_str());
-  STRCMP_CONTAINS("(-11 * gap(10))", touchPicture(record).script.c_str());
+  record.track.at(1).contacts.push_back({{200, 10, 0}, {200.1, 11, 1}, 0.3});
+  record.contacts = {{{90, 30, 0}, {90, 30, 0}, 0.2}, {{200, 10, 0}, {200.1, 11, 1}, 0.3}};
+  const Picture picture = touchPicture(record);
+  STRCMP_CONTAINS("touches = 2;", picture.script.c_str());
+  STRCMP_CONTAINS("contacts = '90 200 '", picture.script.c_str());
+  STRCMP_CONTAINS("\\ntruth: 200.00°, 10.0 N/m normal, +0.0 N/m tangential\\nestimate: 200.10°",
+                  picture.script.c_str());
+  const DataFile track = file(picture, "track");
+  STRCMP_EQUAL("arc_sigma_mm_2", track.columns.back().c_str());
+  for (const auto& row : track.rows) LONGS_EQUAL(17, row.size());
+  DOUBLES_EQUAL(200.1, track.rows.at(2).at(12), 1e-9);  // behind the gap where the second touch begins
+  CHECK_TRUE(std::isnan(track.rows.at(1).at(9)));
+  draw(picture, folder.file("two.svg"));
 }
 
 TEST(TouchPicture, TheTrueAngleHasAGapWhereItRunsThroughZero) {
@@ -77,22 +81,22 @@ TEST(TouchPicture, TheTrueAngleHasAGapWhereItRunsThroughZero) {
 
 TEST(TouchPicture, TheErrorGoesTheShortWayAround) {
   TouchRecord record = slide();
-  record.track = {{0, {0.05, 20, 5}, {359.95, 19, 4}, 0.2}};
+  record.track = {{0, {{{0.05, 20, 5}, {359.95, 19, 4}, 0.2}}}};
   DOUBLES_EQUAL(-0.1 * std::numbers::pi / 18, file(touchPicture(record), "track").rows.at(0).at(7), 1e-9);
 }
 
 TEST(TouchPicture, TheErrorPanelReachesErrorsAndSigmas) {
   TouchRecord record = slide();  // sigmas of 0.2 deg are 0.035 mm, twice the errors
   STRCMP_CONTAINS("errorRange = 0.05\n", touchPicture(record).script.c_str());
-  for (TrackPoint& point : record.track) point.sigmaAngle_deg = 0.01;
+  for (TrackPoint& point : record.track) point.contacts[0].sigmaAngle_deg = 0.01;
   STRCMP_CONTAINS("errorRange = 0.02\n", touchPicture(record).script.c_str());
-  for (TrackPoint& point : record.track) point.sigmaAngle_deg = strainfinger::kNoValue;
+  for (TrackPoint& point : record.track) point.contacts[0].sigmaAngle_deg = strainfinger::kNoValue;
   STRCMP_CONTAINS("errorRange = 0.02\n", touchPicture(record).script.c_str());
 }
 
 TEST(TouchPicture, NothingWithoutAValueIsDrawnAsANumber) {
   TouchRecord record = slide();
-  record.track = {{0, {}, {}, strainfinger::kNoValue}, {1, {}, {}, strainfinger::kNoValue}};
+  record.track = {{0, {{}}}, {1, {}}};
   const DataFile track = file(touchPicture(record), "track");
   for (const auto& row : track.rows)
     CHECK_TRUE(std::all_of(row.begin() + 1, row.end(), [](double value) { return std::isnan(value); }));
@@ -100,7 +104,7 @@ TEST(TouchPicture, NothingWithoutAValueIsDrawnAsANumber) {
 
 TEST(TouchPicture, EveryRecordCanBeDrawnEvenAnEmptyOne) {
   TouchRecord idle;
-  idle.track = {{0, {}, {}, strainfinger::kNoValue}, {1, {}, {}, strainfinger::kNoValue}};
+  idle.track = {{0, {{}}}, {1, {}}};
   int count = 0;
   for (const TouchRecord& record : {slide(), idle, TouchRecord{}}) {
     const std::string path = folder.file(std::to_string(++count).append(".svg"));

@@ -27,7 +27,7 @@ struct Contact {
   std::uint32_t sigmaWidth_um = kWidthNotFitted;
   std::uint16_t chi_q4 = kNoChi;  ///< root of chi-squared per degree of freedom: 16 is noise alone
   TurnQ32 alternative;            ///< angle of another answer; meaningful when ambiguous
-  std::uint8_t quality = 0;       ///< percent: 100 when one contact explains the readings within noise
+  std::uint8_t quality = 0;       ///< percent: 100 when the contacts explain the readings within the gate
   bool ambiguous = false;         ///< another place fits nearly as well: the errors cover both
   bool uncertain = false;         ///< quality 20 or less: ambiguous, not settled, or much left unexplained
 };

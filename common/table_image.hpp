@@ -85,7 +85,7 @@ struct TableConstants {
   std::uint16_t model_error_q16;       ///< standard deviation of a reading's model error over that reading
   std::uint16_t load_scale_error_q16;  ///< standard error of the scale of all loads, at most 1
   std::uint16_t load_error_q16;        ///< that calibration leaves of both loads, over the normal load
-  std::uint16_t moment_error_q16;      ///< that it leaves of second moments, a fraction of the largest
+  std::uint16_t moment_error_q16;      ///< of second moments that no residual shows, over the largest
   std::uint16_t adc_rail;              ///< left-justified code at which the converter clips; 0 is the other
   std::uint16_t node_count;            ///< angle nodes over half a revolution
   std::int8_t noise_variance_exponent;

@@ -12,7 +12,7 @@ namespace strainfinger::firmware {
 namespace threshold {
 
 /// A hypothesis is within the gate, so that it explains the readings, up to chi-squared = kGatePerFreedom *
-/// freedoms + kGate: 5.0 standard normal deviates for 12 degrees of freedom (Wilson & Hilferty 1931).
+/// freedoms + kGate: 4.8 standard normal deviates for 12 degrees of freedom (Wilson & Hilferty 1931).
 inline constexpr int kGatePerFreedom = 2;
 inline constexpr int kGate = 28;
 /// Above chi-squared = kDoubtPerFreedom_q2 / 4 * freedoms + kDoubt an answer leaves doubt, even if accepted,

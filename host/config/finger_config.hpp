@@ -36,8 +36,9 @@ struct Gauges {
   double noise_strain = 6e-6;       ///< standard deviation of a conditioned reading, quantisation included
   double full_scale_strain = 0.03;  ///< the converter covers +- this; 65 N/m on the default finger
   int adc_bits = 12;
-  /// Standard deviation of what a reading may be off what the model says, as a fraction of the touch's
-  /// largest reading: build tolerances and rubber. 0.05 is for a finger that nobody calibrated.
+  /// Standard deviation of what a reading may be off what the model says, as a fraction of that reading: build
+  /// tolerances and rubber. Its neighbours and the touch's largest reading add to it (firmware::weigh()). 0.05
+  /// is for a finger that nobody calibrated.
   double model_error = 0.05;
   /// Where each gauge is, for a ring that is not even: 0 .. 360, counter-clockwise from gauge to gauge;
   /// empty: the ring is even, from first_angle_deg on.

@@ -154,7 +154,7 @@ TEST_GROUP(CalibrationLoop) {
 
 // Where one gauge has most of the energy, its 5 % are 5 % of the load: 1 N/m, 16 times what noise (0.065 % of
 // the peak) makes of it, and 5 % of the 11 deg in which a response ends: 0.5 deg. The tables' corrections are
-// rounded to 2^-10, 0.028 % as an RMS: beside the noise that is 9 %, and chance is 3 % for 1000 reports.
+// rounded to 2^-14, 0.002 % as an RMS, which is nothing beside the noise; chance is 3 % for 1000 reports.
 TEST(CalibrationLoop, GaugesThatDifferAreAsGoodAsNominalOnesOnceCalibrated) {
   UT_PRINT("seed 20240912");
   const Trip uncalibrated(scattered(), nominal_, 1);

@@ -18,8 +18,9 @@ constexpr std::string_view kMatrixIntroduction = R"(# What disturbs the finger
 Touches of a default finger, one disturbance a row, through the firmware's own pipeline from the converter's codes on; the
 worst rows first, all of them in [disturbances.csv](disturbances.csv). Unless a row says otherwise: line contacts of 2 to 40 N/m, anywhere, pushed within 45 degrees of the
 normal, on a finger exactly as drawn; tables without model error, the width unknown. A finger is switched on, left alone
-for 0.3 s, and touched six times for 120 sample sets, 40 apart (touches of 5 s: a second apart); a gauge that fails does so all the time, and touches are
-within two pitches of it. Answers count in the last sample set of a touch.
+for 0.3 s, and touched six times for 120 sample sets (light touches for 400, contacts that move for 300 or 600, two
+contacts for 600 and more, so that searches end), 40 apart (touches of 5 s: a second apart); a gauge that fails does so
+all the time, and touches are within two pitches of it. Answers count in the last sample set of a touch.
 
 | column | of all touches, how many end with |
 |--|--|

@@ -95,8 +95,9 @@ CommonOptions::CommonOptions(CLI::App& command) : command_(&command) {
   command.add_flag("--json", json_, "One JSON object a line in place of CSV");
 }
 
-config::FingerConfig CommonOptions::config() const {
-  return path_.empty() ? config::FingerConfig{} : config::readConfigFile(path_);
+const config::FingerConfig& CommonOptions::config() const {
+  if (!config_) config_ = path_.empty() ? config::FingerConfig{} : config::readConfigFile(path_);
+  return *config_;
 }
 
 void CommonOptions::requireGoodConfig() const { config(); }

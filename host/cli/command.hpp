@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,8 @@ namespace strainfinger::cli {
 class CommonOptions {
  public:
   explicit CommonOptions(CLI::App& command);
-  config::FingerConfig config() const;  ///< the file of -c, or the default finger
+  /// The file of -c, or the default finger. It is read once: it may be a pipe.
+  const config::FingerConfig& config() const;
   /// Of a command that needs nothing of the config: a mistake in it is told all the same.
   void requireGoodConfig() const;
   bool hasConfig() const { return !path_.empty(); }
@@ -28,6 +30,7 @@ class CommonOptions {
   const CLI::App* command_;
   std::string path_;
   bool json_ = false;
+  mutable std::optional<config::FingerConfig> config_;
 };
 
 /// Throws Failure(kUsage) where an option that names a file (of a type name that begins with FILE) or a

@@ -186,16 +186,29 @@ class Watchers {
   simulation::TouchErrors errors_;
 };
 
+/// What the tables know of the finger.
+config::FingerConfig knownOf(config::FingerConfig config, const RunOptions& options) {
+  if (!options.uncalibrated) return config;
+  config.calibration = {};
+  config.gauges.model_error = std::max(config.gauges.model_error, config::Gauges{}.model_error);
+  return config;
+}
+
+void requireOutputs(const RunOptions& options) {
+  for (const std::string& path : options.pictures) {
+    plot::requirePicturePath(path);
+    requireFolderOf("--picture", path);
+  }
+  requireFolderOf("--strains", options.strainsPath);
+  requireFolderOf("--touches", options.touchesPath);
+}
+
 /// Runs a finger on `port` to its end. wait() lets a sample period pass and says how many really did;
 /// afterwards(time_us) comes after the work of each.
 template <typename Port, typename Wait, typename Afterwards>
 void runOn(Port& port, const config::FingerConfig& config, const RunOptions& options, Wait wait,
            Afterwards afterwards) {
-  config::FingerConfig known = config;
-  if (options.uncalibrated) {
-    known.calibration = {};
-    known.gauges.model_error = std::max(known.gauges.model_error, config::Gauges{}.model_error);
-  }
+  const config::FingerConfig known = knownOf(config, options);
   const auto tables = options.firmware.tablesOf(known);
   options.firmware.warnOfMode("run", *tables);
   const simulation::Scenario scenario = scenarioOf(options);
@@ -204,12 +217,7 @@ void runOn(Port& port, const config::FingerConfig& config, const RunOptions& opt
   simulation::SimulatedFinger finger(config, scenario, *tables, options.firmware.mode(), options.seed, port,
                                      faultsOf(options, end_s));
   Watchers watchers(options, known, *tables);
-  for (const std::string& path : options.pictures) {
-    plot::requirePicturePath(path);
-    requireFolderOf("--picture", path);
-  }
-  requireFolderOf("--strains", options.strainsPath);
-  requireFolderOf("--touches", options.touchesPath);
+  requireOutputs(options);
   warnOfSlip(options, scenario, config.contact.friction_coefficient);
   const system::StopSignal stop;
   while (finger.elapsed_us() < end_us && !stop.asked()) {

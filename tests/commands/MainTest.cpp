@@ -147,3 +147,8 @@ TEST(Main, OfALongWordThatIsWrongTheBeginningIsSaid) {
     STRCMP_CONTAINS("aaaa..", run.err.c_str());
   }
 }
+
+TEST(Main, AConfigMayBeAPipeHoweverOftenACommandAsksForIt) {
+  const Run run = runShell("\"$STRAINFINGER\" monitor --plain -c <(echo 'schema = 1') </dev/null");
+  LONGS_EQUAL_TEXT(0, run.status, run.err.c_str());
+}

@@ -97,6 +97,7 @@ class Locator {
   void search(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
   int takeBack(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
   bool conclude(const TableImage& tables);
+  void firstFirst(Solution& pair) const;
   GaugeSet culprit(const TableImage& tables);
   void rememberRival(const TableImage& tables, const Ranking& ranking, const ScaledReadings& readings);
   void rememberFound(const TableConstants& constants, const Solution& followed, const Solution& found,
@@ -124,6 +125,7 @@ class Locator {
   std::uint32_t searchedAt_q32_ = 0;  ///< where the answer was when the search began
   Number lookedMoment_q20_ = 0;       ///< of the answer when others were last looked for
   std::int8_t lookedShift_ = 0;       ///< of the readings then
+  std::uint16_t toldAt_q16_ = 0;      ///< the place of the first contact of the last accepted answer
 };
 
 /// The answer to one set of strains alone: an update and the whole search.

@@ -1,5 +1,6 @@
-// How long a second contact that joins a first one is not told, from the converter's codes on, and whether
-// what is told until then is flagged. The default finger, model_error 0.05.
+// A second contact that joins a first one, from the converter's codes on: how long it is not told, whether
+// what is told until then is flagged, and that the first stays the first. The default finger, model_error
+// 0.05.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -38,6 +39,7 @@ TEST_GROUP(SecondContact) {
   struct Outcome {
     int sets = 0;       ///< from the first with the second contact to the first that tells two contacts
     int unflagged = 0;  ///< of those
+    bool isFirstFirst = false;  ///< the contact that was there before is told as the first
   };
 
   /// The second contact slides so far in a set.
@@ -50,7 +52,13 @@ TEST_GROUP(SecondContact) {
     for (; outcome.sets < kLongest; ++outcome.sets) {
       finger.hold(ring.exact(pair), 1);
       const auto answers = finger.answers();
-      if (answers.size() == 2) break;
+      if (answers.size() == 2) {
+        const auto off_rad = [&](std::size_t i) {
+          return std::abs(evidence::apart_rad(answers[i].values[evidence::kAngle], pair[0].angle_rad));
+        };
+        outcome.isFirstFirst = off_rad(0) < off_rad(1);
+        break;
+      }
       outcome.unflagged += !answers.empty() && !answers[0].isFlagged;
       pair[1].angle_rad += step_rad;
     }
@@ -59,11 +67,12 @@ TEST_GROUP(SecondContact) {
 
   void check(double step_rad, int count, int longest) const {
     std::vector<int> sets;
-    int unflagged = 0;
+    int unflagged = 0, exchanged = 0;
     for (int i = 0; i < count; ++i) {
       const Outcome outcome = join(static_cast<std::uint64_t>(i), step_rad);
       sets.push_back(outcome.sets);
       unflagged = std::max(unflagged, outcome.unflagged);
+      exchanged += !outcome.isFirstFirst;
     }
     std::ranges::sort(sets);
     std::printf(
@@ -72,6 +81,7 @@ TEST_GROUP(SecondContact) {
         step_rad * config.finger.outer_radius_m * 1e3, sets[sets.size() / 2], sets.back(), count, unflagged);
     CHECK_COMPARE(sets.back(), <=, longest);
     LONGS_EQUAL(0, unflagged);
+    LONGS_EQUAL(0, exchanged);
   }
 };
 

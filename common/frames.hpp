@@ -178,6 +178,9 @@ constexpr std::uint8_t errorSteps(std::uint8_t errors) {
   return steps < kMost ? steps : kMost;
 }
 
+/// What HEARTBEAT has of the CRC-32 of the tables: its low byte.
+constexpr std::uint8_t tableCrcByte(std::uint32_t crc32) { return static_cast<std::uint8_t>(crc32); }
+
 /// How the finger is.
 struct HeartbeatFrame {
   FingerState state = FingerState::kBoot;
@@ -187,7 +190,7 @@ struct HeartbeatFrame {
   std::int8_t temperature_degC = kNotKnown<std::int8_t>;
   std::uint8_t tx_error_steps = kErrorStepsNotKnown;
   std::uint8_t rx_error_steps = kErrorStepsNotKnown;
-  std::uint8_t table_crc = 0;  ///< low byte of the CRC-32 of the tables
+  std::uint8_t table_crc = 0;  ///< tableCrcByte()
   bool operator==(const HeartbeatFrame&) const = default;
 };
 

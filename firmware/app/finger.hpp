@@ -248,7 +248,7 @@ class Finger {
     frame.uptime_s = saturate<std::uint16_t>(uptime_s_ < kLongestUptime_s ? uptime_s_ : kLongestUptime_s);
     if (status.txErrors) frame.tx_error_steps = errorSteps(*status.txErrors);
     if (status.rxErrors) frame.rx_error_steps = errorSteps(*status.rxErrors);
-    frame.table_crc = static_cast<std::uint8_t>(tables_.crc32);
+    frame.table_crc = tableCrcByte(tables_.crc32);
     return frame;
   }
 

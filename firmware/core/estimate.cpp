@@ -129,8 +129,8 @@ UnitErrors unitErrors(const Linearisation& linearisation) {
   return errors;
 }
 
-Contact estimate(const TableConstants& constants, const Answer& answer, const UnitErrors& errors,
-                 int contact) {
+Contact estimate(const TableConstants& constants, const Answer& answer, const UnitErrors& errors, int told) {
+  const int contact = answer.indexOf(told);
   const Hypothesis& hypothesis = answer.solution.hypothesis;
   const ContactState& state = answer.solution.contact[index(contact)];
   const Root reading = rootOf(floatingOf(answer.variances.reading_q4));  // [* 2^2]

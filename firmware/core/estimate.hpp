@@ -25,11 +25,11 @@ inline constexpr std::uint8_t kMostUncertainQuality = 20;
 /// Cost: the diagonal of the inverse, and a root for each unknown.
 UnitErrors unitErrors(const Linearisation& linearisation);
 
-/// Place, loads, width, their standard errors, and quality of one of the answer's contacts. The errors are
-/// the Cramer-Rao bound for the readings used and their variance (noise, rounding and model error), together
-/// with what no residual shows (errors of places, loads and second moments, from the tables), and are raised
-/// to cover a rival that is nearly as likely. Cost: some square roots, so only for what is reported.
-Contact estimate(const TableConstants& constants, const Answer& answer, const UnitErrors& errors,
-                 int contact);
+/// Place, loads, width, their standard errors, and quality of the contact that is told as the first (0) or
+/// the second (1). The errors are the Cramer-Rao bound for the readings used and their variance (noise,
+/// rounding and model error), together with what no residual shows (errors of places, loads and second
+/// moments, from the tables), and are raised to cover a rival that is nearly as likely. Cost: some square
+/// roots, so only for what is reported.
+Contact estimate(const TableConstants& constants, const Answer& answer, const UnitErrors& errors, int told);
 
 }  // namespace strainfinger::firmware

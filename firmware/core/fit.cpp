@@ -105,20 +105,20 @@ class ContactModel {
                                    .slope_q30,
                  tangentialSlope =
                      responseOf(patches[asNormal_.cell].tangential, asNormal_.s_q15, node.t_q15).slope_q30;
-    const Number normal = scaled<11 + 15>(tangentialSlope, depths.normal_turn_q11) +
+    const Number normal = scaled<GaugeDepths::kTurnBits + 15>(tangentialSlope, depths.normal_turn_q11) +
                           shapeAt(depths.normal_shape, depths.shape_shift, point);
-    const Number tangential = scaled<11 + 15>(normalSlope, depths.tangential_turn_q11) +
-                              scaled<15>(tangentialAt(node).value_q30 >> 15, depths.tangential_q15) +
-                              shapeAt(depths.tangential_shape, depths.shape_shift, point);
+    const Number tangential =
+        scaled<GaugeDepths::kTurnBits + 15>(normalSlope, depths.tangential_turn_q11) +
+        scaled<GaugeDepths::kFactorBits>(tangentialAt(node).value_q30 >> 15, depths.tangential_q15) +
+        shapeAt(depths.tangential_shape, depths.shape_shift, point);
     const Number depth = depths.steps[index(gauge)];
-    const Loads added{limited(scaled<kDepthBits>(normal, depth), kMostValue),
-                      limited(scaled<kDepthBits>(tangential, depth), kMostValue)};
+    const Loads added{limited(scaled<GaugeDepths::kStepsBits>(normal, depth), kMostValue),
+                      limited(scaled<GaugeDepths::kStepsBits>(tangential, depth), kMostValue)};
     return {oriented(node, added), together(side_[node.mirrored ? 1 : 0].loads, added.normal * (1 << 15),
                                             added.tangential * (1 << 15))};
   }
 
  private:
-  static constexpr int kDepthBits = 7;
   static constexpr int kFactorBits = 30;  ///< of the factors of slopes
   static constexpr Number kMostValue = (1 << 15) - 1;
 

@@ -283,18 +283,18 @@ bool Locator::conclude(const TableImage& tables) {
   const bool isSparse = tables.constants.spacing == RingSpacing::kSparse;
   answer_.doubtful |= isSparse && *best == kWithoutOne;
   if (*best == kWithoutOne && !isSparse && !(two && answer_.doubtful)) answer_.suspect = culprit(tables);
+  answer_.exchanged = isSecondFirst(answer);
   believe(tables, answer, readings);
-  firstFirst(answer_.solution);
   rememberRival(tables, *rankings[*best], readings);
   return true;
 }
 
-/// Of two contacts, the one that was told before the other joined stays the first.
-void Locator::firstFirst(Solution& pair) const {
+/// Of two contacts, the second is where one was told before the other joined.
+bool Locator::isSecondFirst(const Solution& solution) const {
   const auto off_q32 = [&](int i) {
-    return apart_q32(pair.contact[index(i)].angle_q32, std::uint32_t{toldAt_q16_} << 16);
+    return apart_q32(solution.contact[index(i)].angle_q32, std::uint32_t{toldAt_q16_} << 16);
   };
-  if (pair.hypothesis.contacts == 2 && off_q32(1) < off_q32(0)) std::swap(pair.contact[0], pair.contact[1]);
+  return solution.hypothesis.contacts == 2 && off_q32(1) < off_q32(0);
 }
 
 /// The gauge that the best answer leaves out, if no other one would do as well and its reading is far off.
@@ -310,7 +310,7 @@ GaugeSet Locator::culprit(const TableImage& tables) {
 void Locator::rememberRival(const TableImage& tables, const Ranking& ranking,
                             const ScaledReadings& readings) {
   if (!ranking.anySecond || ranking.second.hypothesis != ranking.best.hypothesis) return;
-  answer_.rival.contact = inOrderOf(answer_.solution, ranking.second.contact);
+  answer_.rival.contact = inOrderOf(ranking.best, ranking.second.contact);
   const Wide more = likelihoodEnergy(tables.constants, ranking.second, readings) -
                     likelihoodEnergy(tables.constants, ranking.best, readings);
   if (more > threshold::kRefuted * ambiguity(readings.variances)) return;
@@ -450,7 +450,9 @@ void Locator::update(const TableImage& tables, std::span<const std::int32_t> str
                      std::uint32_t noise_q4, Number beyond_q32) {
   const ScaledReadings readings = scaledReadings(tables.constants, strains_q32, gauges, noise_q4,
                                                  tracking_ ? answer_.shift : -1, beyond_q32);
-  if (answer_.accepted) toldAt_q16_ = static_cast<std::uint16_t>(answer_.solution.contact[0].angle_q32 >> 16);
+  if (answer_.accepted)
+    toldAt_q16_ =
+        static_cast<std::uint16_t>(answer_.solution.contact[index(answer_.indexOf(0))].angle_q32 >> 16);
   if (!tracking_ || (guessed_ && (answer_.solution.hypothesis.gauges & ~gauges) != 0))
     return start(tables, readings, gauges);
   if (guessed_) return settle(tables, readings);

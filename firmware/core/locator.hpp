@@ -47,7 +47,13 @@ struct Answer {
   bool weak = false;       ///< a contact is felt by little more than noise
   bool searching = false;  ///< the search for other hypotheses goes on
   bool several = false;    ///< two contacts explain the readings best; or one without a gauge, but not well
-  GaugeSet suspect = 0;    ///< see Suspect; 0: none
+  bool exchanged =
+      false;             ///< of two contacts, the solution's second was there first, and is told as the first
+  GaugeSet suspect = 0;  ///< see Suspect; 0: none
+
+  /// The index in the solution of the contact that is told as the first (0) or the second (1). The solution
+  /// keeps its own order, as it decides by which unknowns others are limited.
+  int indexOf(int told) const { return exchanged ? 1 - told : told; }
 };
 
 /// Follows the last answer while it explains the readings, else starts from the readings alone; where the
@@ -97,7 +103,7 @@ class Locator {
   void search(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
   int takeBack(const TableImage& tables, const ScaledReadings& readings, GaugeSet gauges);
   bool conclude(const TableImage& tables);
-  void firstFirst(Solution& pair) const;
+  bool isSecondFirst(const Solution& solution) const;
   GaugeSet culprit(const TableImage& tables);
   void rememberRival(const TableImage& tables, const Ranking& ranking, const ScaledReadings& readings);
   void rememberFound(const TableConstants& constants, const Solution& followed, const Solution& found,

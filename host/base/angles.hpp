@@ -16,4 +16,9 @@ inline double withinATurn_deg(double angle_deg) {
   return turned_deg == 360 ? 0 : turned_deg;  // of what is too little below 0 to be seen beside 360
 }
 
+/// To an angle the short way round, -pi to pi.
+inline double shortWay_rad(double angle_rad, double from_rad) {
+  return std::remainder(angle_rad - from_rad, 2 * std::numbers::pi);
+}
+
 }  // namespace strainfinger

@@ -6,6 +6,7 @@
 #include "common/fixed_real.hpp"
 #include "firmware/core/estimate.hpp"
 #include "firmware/core/pipeline.hpp"
+#include "host/base/angles.hpp"
 #include "host/evidence/touches.hpp"
 #include "host/tables/table_builder.hpp"
 
@@ -59,7 +60,7 @@ void Trial::judge(const Eigen::VectorXd& exact, const simulation::Touch& touch,
     ++statistics.uncertain;
     return;
   }
-  const double apart_rad = evidence::apart_rad(toReal(contact.angle) * 2 * std::numbers::pi, touch.angle_rad);
+  const double apart_rad = shortWay_rad(toReal(contact.angle) * 2 * std::numbers::pi, touch.angle_rad);
   statistics.wrong += std::abs(apart_rad) > std::numbers::pi / actual_.gauges.count ? 1 : 0;
   statistics.arc_mm.add(apart_rad * actual_.finger.outer_radius_m * 1e3);
   statistics.normal_n_per_m.add(toReal(contact.normal) - touch.normal_n_per_m);

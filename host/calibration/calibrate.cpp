@@ -43,9 +43,9 @@ constexpr double kMomentSpread = 10;
 /// Standard deviation of a known untouched finger's loads [N/m] and of a known width's moment [rad^2].
 constexpr double kExactly = 1e-6;
 
-/// [rows] Of which the readings contradict what is known, for each of which they bear it out: where columns
-/// are exchanged, or touches belong to other rows, nine in ten are contradicted and chance bears out the
-/// others; of honest marks and weights with slips among them, the smaller part is.
+/// Refused are touches of which the readings contradict this many rows for each that they confirm. Where
+/// columns are exchanged, or touches belong to other rows, nine in ten are contradicted; of honest marks and
+/// weights with slips among them, fewer than half.
 constexpr std::size_t kMostContradicted = 2;
 
 enum class Loss { kRobust, kSquares };
@@ -374,7 +374,7 @@ class Calibration {
             "positive counter-clockwise seen from the tip, finger.shear_modulus_pa and --load-error");
   }
 
-  /// What a row is fitted with is independent of what it leaves over, so that choosing by it bends nothing.
+  /// The fitted width is independent of the residuals, so that leaving out wide rows doesn't bias the fit.
   bool isWide(std::size_t row) const {
     if (isKnown(row) || drawing_.config().contact.width_m) return false;
     const double pitch_rad = 2 * std::numbers::pi / drawing_.gauges();

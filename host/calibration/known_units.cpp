@@ -24,9 +24,7 @@ constexpr double kMostUnexplainedShare = 0.1;
 /// Of the normal load: a smaller tangential one may be of either sign by the readings.
 constexpr double kFirmRub = 0.2;
 
-double apart_rad(double one_rad, double other_rad) {
-  return std::abs(std::remainder(one_rad - other_rad, kTurn_rad));
-}
+double apart_rad(double one_rad, double other_rad) { return std::abs(shortWay_rad(one_rad, other_rad)); }
 
 /// What is said of touches, beside the touches of the drawn finger that read most alike.
 struct Compared {

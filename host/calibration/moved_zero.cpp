@@ -16,9 +16,9 @@ namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
-/// [standard deviations of a reading] A row counts for a shift of this against none, so that one of half of
-/// it counts for neither: what the model leaves, as large as noise as a rule and alike in rows of like
-/// touches, counts against.
+/// [standard deviations of a reading] The shift whose log likelihood is compared with that of none. A row
+/// that is half as far off counts for neither; what the model leaves in rows of like touches, as large as
+/// noise as a rule, therefore counts against a shift.
 constexpr double kTriedShift = 4;
 /// [1, of a log likelihood ratio] What one row counts at most, for or against: noise does that to one row in
 /// 200, and for a false alarm six rows of junk or more must follow each other, off alike.

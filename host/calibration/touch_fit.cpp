@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "host/base/angles.hpp"
 #include "host/model/pressure_profile.hpp"
 
 namespace strainfinger::calibration {
@@ -51,7 +52,7 @@ struct NormalEquations {
 bool isBetter(const TouchFit& a, const TouchFit& b) { return a.chiSquared < b.chiSquared; }
 
 bool isAnother(const TouchState& a, const TouchState& b) {
-  return std::abs(std::remainder(a[kPlace] - b[kPlace], 2 * pi)) > kApart_rad ||
+  return std::abs(shortWay_rad(a[kPlace], b[kPlace])) > kApart_rad ||
          std::abs(a[kMoment] - b[kMoment]) > kApart_rad2;
 }
 
@@ -72,7 +73,7 @@ TouchState damped(const NormalEquations& equations, double damping) {
 
 TouchState TouchPrior::residuals(const TouchState& touch) const {
   TouchState difference = value - touch;
-  difference[kPlace] = std::remainder(difference[kPlace], 2 * pi);
+  difference[kPlace] = shortWay_rad(difference[kPlace], 0);
   return weight.cwiseProduct(difference);
 }
 

@@ -29,13 +29,13 @@ constexpr std::size_t kLeastNear = 2;
 constexpr double kMostMisfit = 0.15;
 /// Mean share of the energy that a drawn finger leaves of a glued one's rows; with less nothing is wrong.
 constexpr double kHealthy = 0.001;
-/// A mend that is right leaves less than this of the misfit: with all gauges, which a wrong mend makes worse;
-/// without one that looks dead or glued to its neighbour; without one of which nothing else speaks, as a
-/// healthy ring may have half of its misfit at one gauge. One that keeps a gauge is preferred unless it
-/// leaves so much more than leaving out a gauge, or than leaving out that very one: without it, its share of
-/// what the build of a glued finger leaves is gone too.
-constexpr double kImproved = 0.75, kImprovedWithout = 0.6, kImprovedMuch = 0.3, kNearly = 1.3,
-                 kNearlyThere = 3;
+/// A mend is believed if it leaves less than this share of the misfit.
+constexpr double kImproved = 0.75;        ///< with all gauges: a wrong mend makes the misfit larger
+constexpr double kImprovedWithout = 0.6;  ///< without a gauge that looks dead, or glued to its neighbour
+constexpr double kImprovedMuch = 0.3;  ///< without any other: a healthy ring may have half of it at one gauge
+/// A mend that keeps a gauge is preferred unless it leaves more than this many times what leaving out a gauge
+/// leaves, or leaving out that very one: then its share of what a glued finger leaves is gone, too.
+constexpr double kNearly = 1.3, kNearlyThere = 3;
 /// Poisson's ratios that are tried, in tolerances below the drawing's: of all unknowns it changes the strains
 /// of touches most.
 constexpr double kPoissonDeviations[] = {0, -0.75, -1.5};

@@ -175,8 +175,8 @@ Lie lieOf(const config::FingerConfig& config, const OwnRing& own, const WiringFa
     turns_rad[gauge] = own.angles_rad[static_cast<std::size_t>(gauge)] - sense * gauges.angle_rad(place);
   }
   const double first_rad = turns_rad[0];
-  const VectorXd beside_rad = turns_rad.unaryExpr(
-      [&](double angle_rad) { return std::remainder(angle_rad - first_rad, 2 * std::numbers::pi); });
+  const VectorXd beside_rad =
+      turns_rad.unaryExpr([&](double angle_rad) { return shortWay_rad(angle_rad, first_rad); });
   const double mean_rad = beside_rad.mean(), sigma_rad = config.tolerance.angle_deg * kRadPerDeg;
   return {sense, first_rad + mean_rad,
           (beside_rad.array() - mean_rad).matrix().squaredNorm() / (sigma_rad * sigma_rad)};

@@ -11,7 +11,7 @@ namespace strainfinger::can {
 /// without usable tables, or of another protocol, says nothing of them.
 inline bool hasOtherTables(const HeartbeatFrame& heartbeat, std::uint32_t tables_crc32) {
   return heartbeat.protocol == kProtocolVersion && !heartbeat.faults.has(FingerFault::kTables) &&
-         heartbeat.table_crc != static_cast<std::uint8_t>(tables_crc32);
+         heartbeat.table_crc != tableCrcByte(tables_crc32);
 }
 
 }  // namespace strainfinger::can

@@ -125,7 +125,7 @@ void requireRunning(can::BusPort& port, std::uint8_t node, const TableImage& ima
     throw Failure(ExitCode::kNoNode, fmt::format("{}: took the tables, but says nothing since it was told to "
                                                  "start anew: switch it off and on",
                                                  where));
-  const std::uint32_t wanted = image.crc32 & 0xFF;
+  const std::uint8_t wanted = tableCrcByte(image.crc32);
   if (heartbeat->state != FingerState::kFault && heartbeat->table_crc == wanted) return;
   throw Failure(
       ExitCode::kVerificationFailed,

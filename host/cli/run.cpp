@@ -129,11 +129,11 @@ void warnOfSlip(const RunOptions& options, const simulation::Scenario& scenario,
                 double friction_coefficient) {
   const auto slip = scenario.firstSlip(friction_coefficient);
   if (!slip) return;
-  warn("run", fmt::format("{}: touch {} slips even where it presses most, {} N/m along at {} N/m of load, as "
-                          "contact.friction_coefficient is {}: it cannot hold, and may be told as uncertain",
-                          options.scenarioPath.empty() ? "the built-in scenario" : options.scenarioPath,
-                          slip->number, slip->touch.tangential_n_per_m, slip->touch.normal_n_per_m,
-                          friction_coefficient));
+  warn("run", fmt::format(
+                  "{}: touch {} slips even where it presses most: {} N/m along are more than friction holds, "
+                  "{} (contact.friction_coefficient) of {} N/m of load; it may be flagged uncertain",
+                  options.scenarioPath.empty() ? "the built-in scenario" : options.scenarioPath, slip->number,
+                  slip->touch.tangential_n_per_m, friction_coefficient, slip->touch.normal_n_per_m));
 }
 
 constexpr double kForEver_s = 1e12;

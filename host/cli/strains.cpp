@@ -143,7 +143,7 @@ std::string othersText(const Circumstances& finger) {
 
 /// The config says by what the codes are multiplied: one that is not the finger's gives wrong strains.
 void warnOfOtherTables(const Circumstances& finger, const config::FingerConfig& config) {
-  const auto wanted = static_cast<std::uint8_t>(tables::buildTableImage(config).crc32);
+  const auto wanted = tableCrcByte(tables::buildTableImage(config).crc32);
   if (!finger.tableCrc() || *finger.tableCrc() == wanted) return;
   warn("strains", fmt::format("the finger's tables are not those of {} (their CRC-32 ends with {:02X}, not "
                               "{:02X}): where gauges.full_scale_strain is another, all strains are off by as "

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/base/angles.hpp"
 #include "host/contact/multiples.hpp"
 #include "host/contact/tanh_sinh.hpp"
 #include "host/model/series.hpp"
@@ -68,7 +69,7 @@ MatrixXd signOnItself(const SurfaceKernel& kernel, const KernelMix& mix, const P
 /// Whether the kernel is so smooth between two patches that the source's own rule integrates it.
 bool areFar(const Patch& from, const Patch& at) {
   constexpr double kFar = 1.3;  // half widths: 16 nodes more than terms leave 2.1^-32 of the kernel
-  const double apart_rad = std::abs(std::remainder(at.centre_rad - from.centre_rad, 2 * std::numbers::pi));
+  const double apart_rad = std::abs(shortWay_rad(at.centre_rad, from.centre_rad));
   return apart_rad - at.half_rad > kFar * from.half_rad;
 }
 

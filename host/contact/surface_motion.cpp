@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "host/base/angles.hpp"
 #include "host/contact/fourier_tractions.hpp"
 #include "host/model/series.hpp"
 
@@ -84,15 +85,14 @@ ArrayXd SurfaceMotion::distancesOf(const Patch& patch, const Segment& segment, d
 void SurfaceMotion::addFromBeside(const PatchTractions& part, const Beside& beside, double angle_rad,
                                   SurfacePoint& point) const {
   constexpr double kFar = 1.3;  // half widths: 24 nodes more than terms leave 2.1^-48 of the kernel
-  const double from_rad = std::remainder(angle_rad - part.patch.centre_rad, 2 * std::numbers::pi);
+  const double from_rad = shortWay_rad(angle_rad, part.patch.centre_rad);
   if (std::abs(from_rad) < kFar * part.patch.half_rad) {
     for (const Segment& segment : beside.near)
       addDisplacements(distancesOf(part.patch, segment, from_rad / part.patch.half_rad), segment, point);
     return;
   }
   for (const LineTraction& line : beside.far) {
-    const auto [even, odd] =
-        kernel_.valuesAt(std::remainder(angle_rad - line.angle_rad, 2 * std::numbers::pi));
+    const auto [even, odd] = kernel_.valuesAt(shortWay_rad(angle_rad, line.angle_rad));
     point.ur_m += odd * line.shear_pa_rad - even * line.pressure_pa_rad;
     point.ut_m += odd * line.pressure_pa_rad + even * line.shear_pa_rad;
   }

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "host/base/angles.hpp"
 #include "host/base/no_value.hpp"
 
 namespace strainfinger::evidence {
@@ -29,13 +30,9 @@ double Errors::quantile(double share) const {
   return *at;
 }
 
-double apart_rad(double angle_rad, double from_rad) {
-  return std::remainder(angle_rad - from_rad, 2 * std::numbers::pi);
-}
-
 void Accuracy::add(const Parameters& truth, const Parameters& bound, const Answer& answer) {
   Parameters error = answer.values - truth;
-  error[kAngle] = apart_rad(answer.values[kAngle], truth[kAngle]);
+  error[kAngle] = shortWay_rad(answer.values[kAngle], truth[kAngle]);
   const Parameters overBound = error.cwiseQuotient(bound), overSigma = error.cwiseQuotient(answer.sigmas);
   const bool isGross = !(std::abs(error[kAngle]) <= gross_rad_);  // no number is no place
   const bool isFar = (overSigma.array().abs() > kFarSigmas).any();

@@ -31,9 +31,6 @@ struct Answer {
   bool isFlagged = false;  ///< it says itself that it may be wrong
 };
 
-/// The shorter way round to an angle [rad], -pi .. pi.
-double apart_rad(double angle_rad, double from_rad);
-
 /// Answers to many touches. Errors, and errors over the bound, are of answers in the right place; errors over
 /// sigma of those that aren't flagged.
 class Accuracy {

@@ -134,7 +134,7 @@ void examineTables(const HeartbeatFrame& heartbeat, std::uint32_t crc32, Examina
   if (!can::hasOtherTables(heartbeat, crc32)) return;
   examination.error(
       fmt::format("its tables are not those of the config: their CRC-32 ends with {:02X}, not {:02X}",
-                  heartbeat.table_crc, crc32 & 0xFF),
+                  heartbeat.table_crc, tableCrcByte(crc32)),
       "give the config that its tables were made from (-c), or send it those of this one: `strainfinger push "
       "--can BUS -n N -c FINGER.toml`",
       ExitCode::kMismatch);

@@ -8,12 +8,14 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/read_file.hpp"
 #include "host/base/table_writer.hpp"
 #include "host/base/text_output.hpp"
+#include "host/base/text_parts.hpp"
 #include "host/system/process.hpp"
 
 namespace strainfinger::plot {
@@ -101,16 +103,10 @@ std::string terminal(const Picture& picture, const std::string& ending) {
   throw Failure(ExitCode::kUsage, fmt::format("pictures are .svg or .png, not \"{}\"", excerpt(ending)));
 }
 
-void replaceAll(std::string& text, const std::string& old, const std::string& with) {
-  for (std::size_t at = text.find(old); at != std::string::npos; at = text.find(old, at + with.size()))
-    text.replace(at, old.size(), with);
-}
-
 }  // namespace
 
 std::string quoted(const std::string& text) {
-  std::string inside = text;
-  replaceAll(inside, "'", "''");
+  const std::string inside = replacedAll(text, "'", "''");
   return fmt::format("'{}'", inside);
 }
 
@@ -167,9 +163,9 @@ std::string svgElement(const Picture& picture, const std::string& name) {
   drawIn(workshop, picture, name, ".svg");
   std::string svg = readFile((workshop.path() / (name + ".svg")).string(), ExitCode::kFailure);
   svg.erase(0, svg.find("<svg"));
-  replaceAll(svg, "<title>Gnuplot</title>", "");  // a page would show it at every point
+  svg = replacedAll(std::move(svg), "<title>Gnuplot</title>", "");  // a page would show it at every point
   for (const std::string begin : {"id='", "id=\"", "href='#", "href=\"#", "url(#"})
-    replaceAll(svg, begin, begin + name + "-");
+    svg = replacedAll(std::move(svg), begin, begin + name + "-");
   return svg;
 }
 

@@ -220,7 +220,8 @@ std::string profileText(const TouchRecord& record) {
       places += fmt::format("{} ", withinATurn_deg(contact.truth.angle_deg));
   }
   if (record.contacts.empty()) text = "no contact";
-  const bool isRight = places.empty() || std::stod(places) < 180;
+  const bool isRight =
+      record.contacts.empty() || !(withinATurn_deg(record.contacts.front().truth.angle_deg) >= 180);
   return fmt::format(
       "heading = {}\ncontacts = {}\n"
       "set label 1 \"{}\" at graph {},{} {} textcolor '#333333' font ',10'\n",

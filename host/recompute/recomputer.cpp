@@ -128,12 +128,12 @@ void Recomputer::take(std::int64_t time_ns, const CanFrame& frame) {
   if (const auto set = receiver_.take(frame)) return take(*set);
   const auto heartbeat = decode<HeartbeatFrame>(frame);
   const bool isOurs = nodeOf(frame.id, FunctionCode::kHeartbeat) == finger_.node;
-  if (heartbeat && isOurs && heartbeat->table_crc != static_cast<std::uint8_t>(tables_.crc32))
+  if (heartbeat && isOurs && heartbeat->table_crc != tableCrcByte(tables_.crc32))
     throw Failure(
         ExitCode::kMismatch,
-        fmt::format("node {} has tables with a CRC-32 that ends in {:02x}, these end in {:02x}: give "
+        fmt::format("node {} has tables with a CRC-32 that ends in {:02X}, these end in {:02X}: give "
                     "the finger's config, or its --tables",
-                    finger_.node, heartbeat->table_crc, tables_.crc32 & 0xFF));
+                    finger_.node, heartbeat->table_crc, tableCrcByte(tables_.crc32)));
   const auto response = readSingleFrame<ResponseFrame>(frame, finger_.node);
   const bool isTareRefused =
       response && response->command == Command::kTare && response->status == CommandStatus::kTouched;

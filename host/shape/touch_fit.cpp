@@ -1,5 +1,7 @@
 #include "host/shape/touch_fit.hpp"
 
+#include "host/base/angles.hpp"
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -83,9 +85,8 @@ TouchFit refine(const TouchModel& model, Profile profile, const VectorXd& strain
 }
 
 Vector4d difference(const Touch& a, const Touch& b) {
-  return {std::remainder(a.angle_rad - b.angle_rad, 2 * std::numbers::pi),
-          a.normal_n_per_m - b.normal_n_per_m, a.tangential_n_per_m - b.tangential_n_per_m,
-          a.moment_rad2 - b.moment_rad2};
+  return {shortWay_rad(a.angle_rad, b.angle_rad), a.normal_n_per_m - b.normal_n_per_m,
+          a.tangential_n_per_m - b.tangential_n_per_m, a.moment_rad2 - b.moment_rad2};
 }
 
 bool areApart(const TouchFit& fit, const Touch& touch, double sigmas) {

@@ -11,7 +11,7 @@ namespace {
 
 /// Of the contact from the touch, the short way around.
 double angleOff_rad(const can::ContactReport& contact, const Touch& touch) {
-  return std::remainder(contact.angle_deg * kRadPerDeg - touch.angle_rad, 2 * std::numbers::pi);
+  return shortWay_rad(contact.angle_deg * kRadPerDeg, touch.angle_rad);
 }
 
 std::vector<can::ContactReport> contactsOf(const can::TouchReport& report) {

@@ -163,9 +163,7 @@ double largestOf(const Values& values) {
   return largest;
 }
 
-constexpr double kStepsOfSlopes = 128;  ///< of depth, for which the tables tell what is added
-constexpr double kMostSteps = 127;
-constexpr int kTurnBits = 11, kFactorBits = 15;
+constexpr double kMostSteps = std::numeric_limits<std::int8_t>::max();
 
 /// Units of the tables' slopes.
 struct Units {
@@ -173,7 +171,7 @@ struct Units {
 
   Units(const ResponseTable& responses, int step_nm)
       : halfNode_rad(std::numbers::pi / (2 * responses.nodes)),
-        depth_m(kStepsOfSlopes * step_nm * 1e-9),
+        depth_m(std::ldexp(step_nm, GaugeDepths::kStepsBits) * 1e-9),
         strainPerStep(std::ldexp(responses.strainPerUnit, -15)) {}
 };
 
@@ -194,10 +192,11 @@ int shapeShift(double largest) {
 /// The slopes that a table has.
 DepthSlopes slopesOf(const GaugeDepths& depths, const Units& units) {
   DepthSlopes slopes;
-  slopes.normal_turn = std::ldexp(depths.normal_turn_q11, -kTurnBits) * units.halfNode_rad / units.depth_m;
+  slopes.normal_turn =
+      std::ldexp(depths.normal_turn_q11, -GaugeDepths::kTurnBits) * units.halfNode_rad / units.depth_m;
   slopes.tangential_turn =
-      std::ldexp(depths.tangential_turn_q11, -kTurnBits) * units.halfNode_rad / units.depth_m;
-  slopes.tangential = std::ldexp(depths.tangential_q15, -kFactorBits) / units.depth_m;
+      std::ldexp(depths.tangential_turn_q11, -GaugeDepths::kTurnBits) * units.halfNode_rad / units.depth_m;
+  slopes.tangential = std::ldexp(depths.tangential_q15, -GaugeDepths::kFactorBits) / units.depth_m;
   for (std::size_t i = 0; i < kDepthShapePoints; ++i) {
     const double unit = std::ldexp(units.strainPerStep, depths.shape_shift) / units.depth_m;
     slopes.normal_shape[i] = depths.normal_shape[i] * unit;
@@ -238,9 +237,9 @@ GaugeDepths gaugeDepths(const DepthFit& fit, const ResponseTable& responses) {
   const Units units(responses, depths.step_nm);
   const DepthSlopes& slopes = fit.slopes;
   const double turn = units.depth_m / units.halfNode_rad, shape = units.depth_m / units.strainPerStep;
-  depths.normal_turn_q11 = fixed<std::int16_t>(slopes.normal_turn * turn, kTurnBits);
-  depths.tangential_turn_q11 = fixed<std::int16_t>(slopes.tangential_turn * turn, kTurnBits);
-  depths.tangential_q15 = fixed<std::int16_t>(slopes.tangential * units.depth_m, kFactorBits);
+  depths.normal_turn_q11 = fixed<std::int16_t>(slopes.normal_turn * turn, GaugeDepths::kTurnBits);
+  depths.tangential_turn_q11 = fixed<std::int16_t>(slopes.tangential_turn * turn, GaugeDepths::kTurnBits);
+  depths.tangential_q15 = fixed<std::int16_t>(slopes.tangential * units.depth_m, GaugeDepths::kFactorBits);
   const int shift =
       shapeShift(shape * std::max(largestOf(slopes.normal_shape), largestOf(slopes.tangential_shape)));
   depths.shape_shift = static_cast<std::uint8_t>(shift);

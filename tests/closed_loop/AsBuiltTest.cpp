@@ -7,6 +7,7 @@
 #include <memory>
 #include <numbers>
 
+#include "host/base/angles.hpp"
 #include "host/evidence/fit_model.hpp"
 #include "host/evidence/touches.hpp"
 #include "host/evidence/uniform.hpp"
@@ -76,7 +77,7 @@ TEST_GROUP(AsBuilt) {
       const evidence::Parameters truth{touch.angle_rad, touch.normal_n_per_m, touch.tangential_n_per_m,
                                        model.uniformWidth_m(model.describe(touch).load.moment_rad2)};
       evidence::Parameters error = answer.values - truth;
-      error[evidence::kAngle] = evidence::apart_rad(answer.values[evidence::kAngle], touch.angle_rad);
+      error[evidence::kAngle] = shortWay_rad(answer.values[evidence::kAngle], touch.angle_rad);
       const auto isBeyond = (error.array() / answer.sigmas.array()).abs() > 6;
       const bool isFar = isBeyond.head<3>().any();
       outcome.flagged += answer.isFlagged;

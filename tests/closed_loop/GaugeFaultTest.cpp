@@ -9,6 +9,7 @@
 #include <numbers>
 #include <optional>
 
+#include "host/base/angles.hpp"
 #include "host/evidence/touches.hpp"
 #include "host/evidence/uniform.hpp"
 #include "tests/closed_loop/sampled_finger.hpp"
@@ -74,7 +75,7 @@ TEST_GROUP(GaugeFault) {
     for (const evidence::Answer& answer : answers) told.flagged |= answer.isFlagged;
     for (const simulation::Touch& touch : truth)
       told.right &= std::any_of(answers.begin(), answers.end(), [&](const evidence::Answer& answer) {
-        return std::abs(evidence::apart_rad(answer.values[evidence::kAngle], touch.angle_rad)) <= half_rad;
+        return std::abs(shortWay_rad(answer.values[evidence::kAngle], touch.angle_rad)) <= half_rad;
       });
     return told;
   }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <numbers>
 
+#include "host/base/angles.hpp"
 #include "host/evidence/uniform.hpp"
 #include "tests/closed_loop/sampled_finger.hpp"
 #include "tests/closed_loop/touch_count.hpp"
@@ -123,6 +124,6 @@ TEST(Hum, ATouchBesideHumIsTold) {
   CHECK_TRUE(finger.observation().noisy);
   const auto answers = finger.answers();
   LONGS_EQUAL(1, answers.size());
-  DOUBLES_EQUAL(0, evidence::apart_rad(answers[0].values[evidence::kAngle], touch.angle_rad),
+  DOUBLES_EQUAL(0, shortWay_rad(answers[0].values[evidence::kAngle], touch.angle_rad),
                 6 * answers[0].sigmas[evidence::kAngle]);
 }

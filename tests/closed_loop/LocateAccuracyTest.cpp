@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 
+#include "host/base/angles.hpp"
 #include "host/evidence/bound.hpp"
 #include "host/evidence/touches.hpp"
 #include "tests/closed_loop/stateless_locator.hpp"
@@ -173,7 +174,7 @@ Pairs locatePairs(double apart_pitch, std::uint64_t seed, int count) {
     for (const evidence::Answer& answer : found.contacts) {
       isFlagged |= answer.isFlagged;
       for (std::size_t i = 0; i < truth.size(); ++i) {
-        const double each_rad = evidence::apart_rad(answer.values[kAngle], truth[i].angle_rad);
+        const double each_rad = shortWay_rad(answer.values[kAngle], truth[i].angle_rad);
         if (std::abs(each_rad) < std::abs(off_rad[i])) off_rad[i] = each_rad;
       }
     }

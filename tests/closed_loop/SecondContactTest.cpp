@@ -9,6 +9,7 @@
 #include <numbers>
 #include <vector>
 
+#include "host/base/angles.hpp"
 #include "host/evidence/touches.hpp"
 #include "host/evidence/uniform.hpp"
 #include "host/simulation/noise.hpp"
@@ -54,7 +55,7 @@ TEST_GROUP(SecondContact) {
       const auto answers = finger.answers();
       if (answers.size() == 2) {
         const auto off_rad = [&](std::size_t i) {
-          return std::abs(evidence::apart_rad(answers[i].values[evidence::kAngle], pair[0].angle_rad));
+          return std::abs(shortWay_rad(answers[i].values[evidence::kAngle], pair[0].angle_rad));
         };
         outcome.isFirstFirst = off_rad(0) < off_rad(1);
         break;

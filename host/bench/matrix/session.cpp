@@ -7,6 +7,7 @@
 
 #include "common/fixed_real.hpp"
 #include "firmware/core/estimate.hpp"
+#include "host/base/angles.hpp"
 #include "host/evidence/accuracy.hpp"
 #include "host/evidence/uniform.hpp"
 #include "host/simulation/built_finger.hpp"
@@ -53,7 +54,7 @@ config::FingerConfig calibrated(const config::FingerConfig& finger) {
   told.finger.poisson_ratio = built.annulus.poisson_ratio;
   for (int i = 0; i < told.gauges.count; ++i) {
     const model::PlacedGauge drawn = told.drawn(i), real = built.gauges[static_cast<std::size_t>(i)];
-    told.calibration.angle_offset_deg.push_back((real.angle_rad - drawn.angle_rad) * 180 / std::numbers::pi);
+    told.calibration.angle_offset_deg.push_back((real.angle_rad - drawn.angle_rad) / kRadPerDeg);
     told.calibration.depth_offset_m.push_back(drawn.radius_m - real.radius_m);
     told.calibration.gain.push_back(real.gain);
   }
@@ -72,7 +73,7 @@ ToldContact toldContact(const Contact& contact) {
 }
 
 double apart_rad(const ToldContact& told, const simulation::Touch& truth) {
-  return std::abs(evidence::apart_rad(told.angle_rad, truth.angle_rad));
+  return std::abs(shortWay_rad(told.angle_rad, truth.angle_rad));
 }
 
 bool isBeyond(const ToldContact& told, const simulation::Touch& truth) {

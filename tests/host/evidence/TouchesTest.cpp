@@ -1,3 +1,4 @@
+#include "host/base/angles.hpp"
 #include "host/evidence/touches.hpp"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ TEST_GROUP(Touches) {
   double fromGauge_deg(const Touch& touch) const {
     double nearest = 360;
     for (int i = 0; i < gauges.count; ++i) {
-      const double apart = apart_rad(touch.angle_rad, gauges.angle_rad(i)) / kDegree;
+      const double apart = shortWay_rad(touch.angle_rad, gauges.angle_rad(i)) / kDegree;
       if (std::abs(apart) < std::abs(nearest)) nearest = apart;
     }
     return nearest;

@@ -32,6 +32,7 @@ std::vector<plot::TrackedContact> contactsOf(const std::vector<Touch>& truth, co
     if (!contact) continue;
     tracked.back().estimate = pointOf(*contact, length_m);
     tracked.back().sigmaAngle_deg = contact->sigmaAngle_deg;
+    tracked.back().isFlagged = report.flags.has(FingerFlag::kUncertain);
   }
   return tracked;
 }
@@ -41,7 +42,7 @@ std::vector<plot::TrackedContact> contactsOf(const std::vector<Touch>& truth, co
 void TouchRecorder::add(const simulation::Moment& moment, const firmware::Readings& readings) {
   addToTrack(moment);
   const auto& compared = moment.compared;
-  if (!compared || compared->time_s != moment.time_s) return;
+  if (!compared || compared->truth.empty() || compared->time_s != moment.time_s) return;
   const Worth worth = worthOf(*compared);
   if (worth <= worth_) return;
   worth_ = worth;
@@ -54,7 +55,7 @@ TouchRecorder::Worth TouchRecorder::worthOf(const simulation::ComparedTouch& com
   for (const Touch& touch : compared.truth)
     load_n_per_m += std::hypot(touch.normal_n_per_m, touch.tangential_n_per_m);
   const auto told = simulation::toldTouches(compared.truth, compared.report);
-  return {std::ranges::all_of(told, &simulation::ToldTouch::isWhole), load_n_per_m};
+  return {-std::ranges::count_if(told, [](const auto& each) { return !each.isWhole(); }), load_n_per_m};
 }
 
 /// The first report of a period, if there is one, takes the place of the period's plain truth.

@@ -1,6 +1,8 @@
 #pragma once
 // What of a run is needed for its picture.
 
+#include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -29,8 +31,9 @@ class TouchRecorder {
   plot::TouchRecord record(const simulation::GaugeStrains& strains) const;
 
  private:
-  /// As many contacts told as there were touches; the loads in all. What is greater is rather shown.
-  using Worth = std::pair<bool, double>;
+  /// Touches that are not told, and contacts that are none, negative; the loads in all. What is greater is
+  /// shown.
+  using Worth = std::pair<std::ptrdiff_t, double>;
   static Worth worthOf(const simulation::ComparedTouch& compared);
   void addToTrack(const simulation::Moment& moment);
 
@@ -41,7 +44,7 @@ class TouchRecorder {
   double periodEnd_s_ = 0;
   bool isTold_ = false;  ///< the last point of the track is of a report
   simulation::ComparedTouch shown_;
-  Worth worth_{false, 0};
+  Worth worth_{std::numeric_limits<std::ptrdiff_t>::min(), 0};
   firmware::Readings readings_;  ///< of what is shown
 };
 

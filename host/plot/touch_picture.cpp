@@ -59,6 +59,8 @@ set label 2 'The contact over time' at graph 0,1.06 left font ',13'
 set ylabel 'angle'; set yrange [0:360]; set ytics 90 format '%g°'
 plot for [c=1:touches] data('track') using 1:(gap(of(c,4))) every ::1 with points pointtype 7 pointsize 0.4 \
        linecolor rgb estimate title legend(c,'estimate'), \
+     for [c=1:touches*flagged] '' using 1:(gap(of(c,4))*gap(of(c,9))) every ::1 with points pointtype 7 pointsize 0.4 \
+       linecolor rgb faint title legend(c,'flagged'), \
      for [c=1:touches] '' using 1:(gap(of(c,1))) every ::1 with lines linewidth 1 linecolor rgb truth title legend(c,'truth')
 unset label 2
 set tmargin at screen 0.60; set bmargin at screen 0.44
@@ -77,6 +79,10 @@ plot 0 with lines linewidth 1 linecolor rgb faint notitle, \
        linecolor rgb estimate title legend(c,'normal'), \
      for [c=1:touches] '' using 1:(gap(of(c,6))) every ::1 with points pointtype 7 pointsize 0.4 \
        linecolor rgb tangential title legend(c,'tangential'), \
+     for [c=1:touches*flagged] '' using 1:(gap(of(c,5))*gap(of(c,9))) every ::1 with points pointtype 7 pointsize 0.4 \
+       linecolor rgb faint notitle, \
+     for [c=1:touches*flagged] '' using 1:(gap(of(c,6))*gap(of(c,9))) every ::1 with points pointtype 7 pointsize 0.4 \
+       linecolor rgb faint notitle, \
      for [c=1:touches] '' using 1:(gap(of(c,2))) every ::1 with lines linewidth 1 linecolor rgb truth title legend(c,'truth'), \
      for [c=1:touches] '' using 1:(gap(of(c,3))) every ::1 with lines linewidth 1 linecolor rgb truth notitle
 unset multiplot
@@ -116,7 +122,7 @@ DataFile readingData(const TouchRecord& record) {
 /// Of each contact in `track`.
 constexpr std::array kContactColumns{"true_angle_deg", "true_normal_n_per_m", "true_tangential_n_per_m",
                                      "angle_deg",      "normal_n_per_m",      "tangential_n_per_m",
-                                     "arc_error_mm",   "arc_sigma_mm"};
+                                     "arc_error_mm",   "arc_sigma_mm",        "flagged"};
 
 /// "angle_deg", that of a second contact "angle_deg_2".
 std::vector<std::string> trackColumns(std::size_t contacts) {
@@ -136,7 +142,8 @@ std::array<double, kContactColumns.size()> contactCells(const TrackedContact& co
           estimate.normal_n_per_m,
           estimate.tangential_n_per_m,
           arcError_m(contact, radius_m) * kMilli,
-          arcSigma_m(contact, radius_m) * kMilli};
+          arcSigma_m(contact, radius_m) * kMilli,
+          contact.isFlagged ? 1 : kNoValue};
 }
 
 /// No values in the columns that are left.
@@ -207,38 +214,56 @@ std::string contactText(const ContactPoint& contact) {
                      contact.normal_n_per_m, contact.tangential_n_per_m);
 }
 
+/// Of several contacts a line each.
+std::string shortText(const TrackedContact& contact) {
+  const auto text = [](const ContactPoint& point) {
+    return std::isnan(point.angle_deg)
+               ? "nothing"
+               : fmt::format("{:.2f}°, {:.1f} N/m, {:+.1f} along", withinATurn_deg(point.angle_deg),
+                             point.normal_n_per_m, point.tangential_n_per_m);
+  };
+  return fmt::format("{}: told {}", text(contact.truth), text(contact.estimate));
+}
+
+std::vector<std::string> contactLines(const std::vector<TrackedContact>& contacts) {
+  const TrackedContact only = contacts.empty() ? TrackedContact{} : contacts.front();
+  if (contacts.size() < 2)
+    return {"truth: " + contactText(only.truth), "estimate: " + contactText(only.estimate)};
+  std::vector<std::string> lines;
+  for (const TrackedContact& contact : contacts) lines.push_back(shortText(contact));
+  return lines;
+}
+
 /// The words at the bottom, on the side of the panel that the first contact leaves free.
 std::string profileText(const TouchRecord& record) {
-  std::string text, places;
-  const auto add = [&](const char* what, const ContactPoint& contact) {
-    text += fmt::format("{}{}: {}", text.empty() ? "" : "\\n", what, contactText(contact));
-  };
-  for (const TrackedContact& contact : record.contacts) {
-    add("truth", contact.truth);
-    add("estimate", contact.estimate);
+  std::string places;
+  for (const TrackedContact& contact : record.contacts)
     if (!std::isnan(contact.truth.angle_deg))
       places += fmt::format("{} ", withinATurn_deg(contact.truth.angle_deg));
-  }
-  if (record.contacts.empty()) text = "no contact";
+  const auto lines = contactLines(record.contacts);
   const bool isRight =
       record.contacts.empty() || !(withinATurn_deg(record.contacts.front().truth.angle_deg) >= 180);
   return fmt::format(
       "heading = {}\ncontacts = {}\n"
-      "set label 1 \"{}\" at graph {},{} {} textcolor '#333333' font ',10'\n",
+      "set style textbox opaque noborder margins 0.5,0.5\nset label 1 \"{}\" at graph {},{} {} front boxed "
+      "textcolor '#333333' font ',10'\n",
       quoted(fmt::format("What {} gauges see at {:.2f} s", record.readings.size(), record.moment_s)),
-      plot::quoted(places), text, isRight ? 0.99 : 0.02, 0.09 + 0.09 * (record.contacts.size() > 1),
-      isRight ? "right" : "left");
+      plot::quoted(places), fmt::join(lines, "\\n"), isRight ? 0.99 : 0.02,
+      0.01 + 0.04 * static_cast<double>(lines.size()), isRight ? "right" : "left");
 }
 
 /// of(c,k): column k of contact c's in `track`; legend(c,name): what all contacts have in common is named
 /// once.
 std::string trackText(const TouchRecord& record) {
   const bool any = record.track.size() > 1;
+  const bool anyFlagged = std::ranges::any_of(record.track, [](const TrackPoint& point) {
+    return std::ranges::any_of(point.contacts, &TrackedContact::isFlagged);
+  });
   return fmt::format(
-      "first = {}; last = {}; moment = {}; touches = {}; errorRange = {}\n"
+      "first = {}; last = {}; moment = {}; touches = {}; flagged = {}; errorRange = {}\n"
       "of(c,k) = {} * (c - 1) + k + 1\nlegend(c,name) = c == 1 ? name : ''\n",
       any ? record.track.front().time_s : 0, any ? record.track.back().time_s : 1, record.moment_s,
-      mostContacts(record), errorRange_mm(record), kContactColumns.size());
+      mostContacts(record), anyFlagged ? 1 : 0, errorRange_mm(record), kContactColumns.size());
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ struct TrackedContact {
   ContactPoint truth;
   ContactPoint estimate;
   double sigmaAngle_deg = kNoValue;
+  bool isFlagged = false;  ///< the estimate says itself that it may be wrong
 };
 
 struct TrackPoint {

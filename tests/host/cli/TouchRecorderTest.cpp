@@ -95,6 +95,14 @@ TEST(TouchRecorder, ASetWhoseContactsWereAllToldIsRatherShown) {
   LONGS_EQUAL(2, record.contacts.size());
 }
 
+TEST(TouchRecorder, WhereNoContactIsToldRightItIsRatherATouchThanTheRestAfterIt) {
+  twoTouches(1, {40});
+  simulation::Moment rest{2, {}, std::nullopt};
+  rest.compared = {2, {}, {}};
+  recorder.add(rest, readings);
+  DOUBLES_EQUAL(1, recorder.record(strains).moment_s, 0);
+}
+
 TEST(TouchRecorder, TheProfileIsThatOfTheHardestTouch) {
   reported(1, 40, 20);
   readings.strain_q32[3] = 1 << 22;

@@ -51,7 +51,8 @@ TEST(TouchPicture, AllItsDataFilesAreNamed) {
 TEST(TouchPicture, TheTrackHasErrorAndSigmaAsArcsInMillimetres) {
   const double mmPerDeg = std::numbers::pi / 180 * 10;
   const auto row = file(touchPicture(slide()), "track").rows.at(0);
-  checkRow({0.2, 2, 20, 5, 1.9, 19, 4, -0.1 * mmPerDeg, 0.2 * mmPerDeg}, row);
+  CHECK_TRUE(std::isnan(row.back()));  // not flagged
+  checkRow({0.2, 2, 20, 5, 1.9, 19, 4, -0.1 * mmPerDeg, 0.2 * mmPerDeg}, {row.begin(), row.end() - 1});
 }
 
 TEST(TouchPicture, EachContactHasColumnsAndWordsOfItsOwn) {
@@ -62,14 +63,23 @@ TEST(TouchPicture, EachContactHasColumnsAndWordsOfItsOwn) {
   const Picture picture = touchPicture(record);
   STRCMP_CONTAINS("touches = 2;", picture.script.c_str());
   STRCMP_CONTAINS("contacts = '90 200 '", picture.script.c_str());
-  STRCMP_CONTAINS("\\ntruth: 200.00°, 10.0 N/m normal, +0.0 N/m tangential\\nestimate: 200.10°",
+  STRCMP_CONTAINS("\\n200.00°, 10.0 N/m, +0.0 along: told 200.10°, 11.0 N/m, +1.0 along\"",
                   picture.script.c_str());
   const DataFile track = file(picture, "track");
-  STRCMP_EQUAL("arc_sigma_mm_2", track.columns.back().c_str());
-  for (const auto& row : track.rows) LONGS_EQUAL(17, row.size());
-  DOUBLES_EQUAL(200.1, track.rows.at(2).at(12), 1e-9);  // behind the gap where the second touch begins
-  CHECK_TRUE(std::isnan(track.rows.at(1).at(9)));
+  STRCMP_EQUAL("flagged_2", track.columns.back().c_str());
+  for (const auto& row : track.rows) LONGS_EQUAL(19, row.size());
+  DOUBLES_EQUAL(200.1, track.rows.at(2).at(13), 1e-9);  // behind the gap where the second touch begins
+  CHECK_TRUE(std::isnan(track.rows.at(1).at(10)));
   draw(picture, folder.file("two.svg"));
+}
+
+TEST(TouchPicture, AnswersThatAreFlaggedAreNotDrawnLikeTheOthers) {
+  TouchRecord record = slide();
+  STRCMP_CONTAINS("flagged = 0;", touchPicture(record).script.c_str());
+  record.track.at(1).contacts[0].isFlagged = true;
+  STRCMP_CONTAINS("flagged = 1;", touchPicture(record).script.c_str());
+  DOUBLES_EQUAL(1, file(touchPicture(record), "track").rows.at(1).back(), 0);
+  draw(touchPicture(record), folder.file("flagged.svg"));
 }
 
 TEST(TouchPicture, TheTrueAngleHasAGapWhereItRunsThroughZero) {

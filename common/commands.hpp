@@ -118,8 +118,9 @@ inline constexpr std::array kCommandStatusNames{
               "Refused: something touches the finger; the request can say that it is meant even so"},
     ValueName{5, "done_touched", "Done as forced: what touched the finger is now part of its zero"},
     ValueName{6, "not_kept", "The board has no memory for it, or its memory failed"},
-    ValueName{7, "wait",
-              "Not yet: the memory would wear out, or the zero was taken just now; in value seconds"},
+    ValueName{
+        7, "wait",
+        "Not yet: the memory would wear out, or a zero was taken or refused just now; in value seconds"},
     ValueName{8, "too_fast", "Refused: more than RAW's share of the bus; in value the fastest rate"},
     ValueName{
         9, "out_of_turn",

@@ -63,8 +63,9 @@ struct FieldMeaning {
   std::int32_t stepsPerUnit = 1;  ///< physical = raw / stepsPerUnit: exact where a factor of 0.01 is not
   std::int32_t unitsPerStep = 1;  ///< above 1 where a step is more than a unit: physical = raw * unitsPerStep
   const char* unit = "";          ///< ASCII, SI; "" for a plain number
-  bool openEnded = false;         ///< the largest valid value means "that or more"
-  const char* comment;            ///< one sentence, ASCII, without quotation marks
+  /// The largest valid value means "that or more", and of a signed field the lowest one "that or less".
+  bool openEnded = false;
+  const char* comment;  ///< one sentence, ASCII, without quotation marks
   FieldKind kind = FieldKind::kNumber;
   std::span<const ValueName> names = {};
 };

@@ -27,10 +27,10 @@ void take(const CanFrame& frame, std::uint8_t node, Command command, Reply& repl
 
 std::string meaningOf(const ResponseFrame& response) {
   if (response.status == CommandStatus::kWait)
-    return fmt::format(
-        "Not yet: {}: {} s",
-        response.command == Command::kTare ? "the zero was taken just now" : "its memory would wear out",
-        response.value);
+    return fmt::format("Not yet: {}: {} s",
+                       response.command == Command::kTare ? "a zero was taken or refused just now"
+                                                          : "its memory would wear out",
+                       response.value);
   if (response.status == CommandStatus::kTooFast)
     return fmt::format("Refused: more than RAW's share of the bus; {} Hz is the fastest", response.value);
   const int status = static_cast<int>(response.status);

@@ -40,6 +40,7 @@ std::vector<NamedValue> namedValues(const FieldSpec& field) {
   std::vector<NamedValue> values;
   for (const ValueName& value : field.meaning.names) values.push_back({value.value, value.name});
   if (field.meaning.openEnded) values.push_back({maxRaw(field.bits), "this_or_more"});
+  if (field.meaning.openEnded && field.bits.isSigned) values.push_back({minRaw(field.bits), "this_or_less"});
   if (field.bits.unknowable) values.push_back({invalidRaw(field.bits), "not_known"});
   return values;
 }

@@ -42,6 +42,11 @@ bool isKnown(const FieldSpec& field, std::int64_t raw, int sentBits) {
          (field.meaning.kind != FieldKind::kNumber || isValidRaw(field.bits, raw));
 }
 
+bool isOrMore(const FieldSpec& field, std::int64_t raw) {
+  return field.meaning.openEnded &&
+         (raw == maxRaw(field.bits) || (field.bits.isSigned && raw == minRaw(field.bits)));
+}
+
 std::vector<FieldValue> fieldValues(const FrameEntry& entry, const CanFrame& frame) {
   const int bits = sentBits(frame, entry);
   const std::uint64_t word = sentWord(frame, entry);
@@ -50,7 +55,7 @@ std::vector<FieldValue> fieldValues(const FrameEntry& entry, const CanFrame& fra
     if (!isShown(field)) continue;
     const std::int64_t raw = extractRaw(field.bits, word);
     const bool known = isKnown(field, raw, bits);
-    values.push_back({&field, raw, known, known && field.meaning.openEnded && raw == maxRaw(field.bits)});
+    values.push_back({&field, raw, known, known && isOrMore(field, raw)});
   }
   return values;
 }
@@ -60,7 +65,7 @@ std::string textOf(const FieldValue& value) {
   if (!value.isKnown) return "?";
   if (meaning.kind == FieldKind::kFlags && value.raw == 0) return "none";
   if (meaning.kind != FieldKind::kNumber) return valueText(*value.field, value.raw);
-  std::string text = value.isOrMore ? ">=" : "";
+  std::string text = !value.isOrMore ? "" : value.raw < 0 ? "<=" : ">=";
   appendDecimal(text, value.raw * meaning.unitsPerStep, decimalScale(meaning.stepsPerUnit).value());
   return text;
 }

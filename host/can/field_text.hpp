@@ -30,6 +30,9 @@ std::uint64_t sentWord(const CanFrame& frame, const FrameEntry& entry);
 /// The raw value was sent and is none that stands for "not known".
 bool isKnown(const FieldSpec& field, std::int64_t raw, int sentBits);
 
+/// The value stands for itself and anything beyond it: see FieldMeaning::openEnded.
+bool isOrMore(const FieldSpec& field, std::int64_t raw);
+
 /// A field of a frame, and what it says.
 struct FieldValue {
   const FieldSpec* field;
@@ -41,8 +44,8 @@ struct FieldValue {
 /// Those that are shown, in the order of their bits. `entry`: which frame it is.
 std::vector<FieldValue> fieldValues(const FrameEntry& entry, const CanFrame& frame);
 
-/// A value in its unit, exactly and without the unit: "102.1", ">=0.127" where it is that or more,
-/// "contact+simulated", "none"; "?" where it is not known.
+/// A value in its unit, exactly and without the unit: "102.1", ">=0.127" where it is that or more
+/// ("<=-32.767": or less), "contact+simulated", "none"; "?" where it is not known.
 std::string textOf(const FieldValue& value);
 
 }  // namespace strainfinger::can

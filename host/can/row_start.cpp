@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
-
 namespace strainfinger::can {
 namespace {
 
@@ -23,9 +21,11 @@ void appendCsvTime(std::string& out, std::int64_t time_ns) {
     appendPadded(out, time_ns % kSecond_ns, 9);
 }
 
+/// As in CSV, without zeros at its end: as a double it would be another one than a reader of the CSV has.
 void appendJsonTime(std::string& out, std::int64_t time_ns) {
-  fmt::format_to(std::back_inserter(out), "{}", static_cast<double>(time_ns) / kSecond_ns);
-  if (time_ns % kSecond_ns == 0) out.append(".0");  // a number that may have a fraction
+  appendCsvTime(out, time_ns);
+  out.resize(out.find_last_not_of('0') + 1);
+  if (out.back() == '.') out.push_back('0');
 }
 
 }  // namespace

@@ -36,6 +36,17 @@ constexpr std::array kTouchColumns{
     TouchColumn{"angle2_deg", [](Touch touch) { return second(touch, &ContactReport::angle_deg); }},
     TouchColumn{"normal2_n", [](Touch touch) { return second(touch, &ContactReport::normal_n); }},
     TouchColumn{"tangential2_n", [](Touch touch) { return second(touch, &ContactReport::tangential_n); }},
+    TouchColumn{"alternative_deg", [](Touch touch) { return touch.alternative_deg; }},
+    TouchColumn{"contacts", [](Touch touch) { return touch.contacts; }},
+    TouchColumn{"sigma_angle2_deg",
+                [](Touch touch) { return second(touch, &ContactReport::sigmaAngle_deg); }},
+    TouchColumn{"sigma_normal2_n", [](Touch touch) { return second(touch, &ContactReport::sigmaNormal_n); }},
+    TouchColumn{"sigma_tangential2_n",
+                [](Touch touch) { return second(touch, &ContactReport::sigmaTangential_n); }},
+    TouchColumn{"quality2_percent",
+                [](Touch touch) { return second(touch, &ContactReport::quality_percent); }},
+    TouchColumn{"alternative2_deg",
+                [](Touch touch) { return second(touch, &ContactReport::alternative_deg); }},
 };
 
 }  // namespace

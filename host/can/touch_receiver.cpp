@@ -49,6 +49,7 @@ ContactReport reportOf(const ContactFrame& contact, const ForceFrame& force) {
 
 const LargestValues& largestValues() {
   static const LargestValues values{.normal_n = largest(&ForceFrame::normal_mN),
+                                    .tangential_n = largest(&ForceFrame::tangential_mN),
                                     .sigmaAngle_deg = largest(&ContactFrame::sigma_angle_cdeg),
                                     .sigmaNormal_n = largest(&ForceFrame::sigma_normal_half_mN),
                                     .sigmaTangential_n = largest(&ForceFrame::sigma_tangential_half_mN),
@@ -75,6 +76,7 @@ TouchReport TouchReceiver::Touch::report() const {
   report.width_m = physical(known, &PatchFrame::width_um);
   report.sigmaWidth_m = physical(known, &PatchFrame::sigma_width_um);
   report.chi = physical(known, &PatchFrame::chi_sixteenths);
+  if (patch) report.contacts = patch->contacts;
   if (hasSecond())
     report.second = reportOf(contact2.value_or(Contact2Frame{}), force2.value_or(Force2Frame{}));
   report.flags = contact->flags;

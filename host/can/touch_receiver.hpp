@@ -29,6 +29,7 @@ struct TouchReport : ContactReport {
   double width_m = kNoValue;
   double sigmaWidth_m = kNoValue;
   double chi = kNoValue;
+  double contacts = kNoValue;  ///< how many there are
   std::optional<ContactReport> second{};
   FingerFlags flags{};
   std::uint8_t sequence = 0;
@@ -37,7 +38,8 @@ struct TouchReport : ContactReport {
 /// The largest values that a finger can say of a touch, just as a report has them: each stands for anything
 /// beyond it too (common/BUS.md, "or more").
 struct LargestValues {
-  double normal_n;
+  double normal_n;  ///< of either sign, as of the tangential force
+  double tangential_n;
   double sigmaAngle_deg;
   double sigmaNormal_n;
   double sigmaTangential_n;

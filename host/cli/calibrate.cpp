@@ -31,7 +31,9 @@
 #include "host/cli/request.hpp"
 #include "host/config/write_config.hpp"
 #include "host/model/pressure_profile.hpp"
+#include "host/plot/picture.hpp"
 #include "host/session/recorded.hpp"
+#include "host/tables/self_check.hpp"
 
 namespace strainfinger::cli {
 namespace {
@@ -253,6 +255,15 @@ void print(const CalibrateOptions& options, const calibration::CalibrationResult
   printGauges(format, result);
 }
 
+/// What a user would else learn only from `tables`, with the finger put away.
+void warnOfTables(const config::FingerConfig& calibrated) {
+  try {
+    tables::buildCheckedTables(calibrated);
+  } catch (const Failure& failure) {
+    warn("calibrate", fmt::format("the firmware cannot work with this finger: {}", failure.what()));
+  }
+}
+
 /// The config first: it is what the touches were for, and the rest can fail.
 void report(const CalibrateOptions& options, const calibration::CalibrationResult& result,
             const std::string& strainsPath, const std::string& touchesPath) {
@@ -261,6 +272,7 @@ void report(const CalibrateOptions& options, const calibration::CalibrationResul
   print(options, result);
   const std::string told = calibration::textReport(result);
   tell(touchesPath.empty() ? told : calibration::ofFile(told, touchesPath));
+  warnOfTables(result.applied());
   if (options.pagePath.empty()) return;
   writeFileAtomically(options.pagePath,
                       calibration::htmlPage(result, {strainsPath, touchesPath, utcText(now_ns())}));
@@ -310,6 +322,7 @@ calibration::CalibrationResult calibrated(const CalibrateOptions& options, const
 void runCalibrate(const CalibrateOptions& options) {
   const config::FingerConfig config = options.common.config();
   requireFolderOf("--page", options.pagePath);
+  if (!options.pagePath.empty()) plot::requireGnuplot();
   requireFolderOf("--output", options.outputPath);
   if (!options.live.bus.empty()) return runLiveCalibration(options, config);
   const bool isRecording = !options.strainsPath.empty() && session::isRecording(options.strainsPath);

@@ -118,8 +118,9 @@ void runDiscover(const DiscoverOptions& options) {
   if (!table)
     throw Failure(
         ExitCode::kNoNode,
-        fmt::format("discover: no finger heard on {} in {} s: `strainfinger doctor` looks for the cause",
-                    fmt::join(names, ", "), options.listening.duration_s));
+        fmt::format("discover: no finger heard on {} in {} s: `strainfinger doctor{}` looks for the cause",
+                    fmt::join(names, ", "), options.listening.duration_s,
+                    names.size() == 1 ? fmt::format(" --can {}", names.front()) : ""));
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ enum class WindowCut {
   kFull,  ///< as far as products reach n_c, where they are cut
 };
 
-inline constexpr int kLeastHarmonics = 2, kMostHarmonics = 20'000;
+inline constexpr int kLeastHarmonics = 2, kMostHarmonics = 5'000;
 
 struct SlopeMapRequest {
   double width_rad = 0;   ///< of the contact

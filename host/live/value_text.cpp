@@ -12,11 +12,16 @@ namespace strainfinger::live {
 namespace {
 
 constexpr const char* kUnknown = "?";
-constexpr const char* kOrMore = ">=";  // not ≥: a screen may have ASCII alone
+
+/// Before what stands for that or anything beyond it. Not ≥: a screen may have ASCII alone.
+const char* beyondMark(const Said& said) {
+  if (std::abs(said.value) < said.largest) return "";
+  return said.value < 0 ? "<=" : ">=";
+}
 
 std::string numberText(const Said& said, int decimals) {
   if (std::isnan(said.value)) return kUnknown;
-  return fmt::format("{}{:.{}f}", said.value >= said.largest ? kOrMore : "", said.value, decimals);
+  return fmt::format("{}{:.{}f}", beyondMark(said), said.value, decimals);
 }
 
 std::string withSigma(const std::string& value, const Said& sigma, int decimals, const char* unit) {
@@ -46,7 +51,8 @@ std::string measured(const Said& value, const Said& sigma, int decimals, const c
 
 std::string measuredSigned(const Said& value, const Said& sigma, int decimals, const char* unit) {
   if (std::isnan(value.value)) return kUnknown;
-  return withSigma(fmt::format("{:+.{}f}", value.value, decimals), sigma, decimals, unit);
+  return withSigma(fmt::format("{}{:+.{}f}", beyondMark(value), value.value, decimals), sigma, decimals,
+                   unit);
 }
 
 std::string angleText(const can::ContactReport& contact) {
@@ -60,7 +66,7 @@ std::string normalText(const can::ContactReport& contact) {
 }
 
 std::string tangentialText(const can::ContactReport& contact) {
-  return measuredSigned({contact.tangential_n},
+  return measuredSigned({contact.tangential_n, can::largestValues().tangential_n},
                         {contact.sigmaTangential_n, can::largestValues().sigmaTangential_n}, 3, "N");
 }
 

@@ -49,7 +49,9 @@ Json contactJson(const can::ContactReport& contact) {
       {"tangential_n", numberOrNull(contact.tangential_n)},
       {"sigma_tangential_n", numberOrNull(contact.sigmaTangential_n)},
       {"quality_percent", numberOrNull(contact.quality_percent)},
-      {"or_more", keysOf({{"sigma_angle_deg", contact.sigmaAngle_deg >= largest.sigmaAngle_deg},
+      {"or_more", keysOf({{"normal_n", std::abs(contact.normal_n) >= largest.normal_n},
+                          {"tangential_n", std::abs(contact.tangential_n) >= largest.tangential_n},
+                          {"sigma_angle_deg", contact.sigmaAngle_deg >= largest.sigmaAngle_deg},
                           {"sigma_normal_n", contact.sigmaNormal_n >= largest.sigmaNormal_n},
                           {"sigma_tangential_n", contact.sigmaTangential_n >= largest.sigmaTangential_n}})}};
 }

@@ -53,7 +53,7 @@ std::string values(const FieldSpec& field) {
     fmt::format_to(std::back_inserter(text), "{}{} {}", text.empty() ? (flags ? "bit " : "") : ", ",
                    name.value, name.name);
   if (text.empty()) text = fmt::format("{}..{}", minRaw(field.bits), maxRaw(field.bits));
-  if (field.meaning.openEnded) text += " or more";
+  if (field.meaning.openEnded) text += field.bits.isSigned ? " or beyond" : " or more";
   return text;
 }
 

@@ -24,6 +24,7 @@
 #include "host/calibration/findings.hpp"
 #include "host/calibration/page.hpp"
 #include "host/calibration/report.hpp"
+#include "host/calibration/row_use.hpp"
 #include "host/cli/bus_option.hpp"
 #include "host/cli/calibrate_live.hpp"
 #include "host/cli/command.hpp"
@@ -183,43 +184,23 @@ void printGauges(TableFormat format, const calibration::CalibrationResult& resul
 }
 
 void printSummary(TableFormat format, const calibration::CalibrationResult& result) {
-  using calibration::RowUse;
-  TableWriter table(stdout, format,
-                    {"core_radius_m",
-                     "sigma_core_radius_m",
-                     "poisson_ratio",
-                     "sigma_poisson_ratio",
-                     "shear_modulus_pa",
-                     "sigma_shear_modulus_pa",
-                     "model_error",
-                     "sigma_model_error",
-                     "fitted",
-                     "untouched",
-                     "weak",
-                     "ambiguous",
-                     "wide",
-                     "over_range",
-                     "contradicted",
-                     "unexplained",
-                     "arc_before_m",
-                     "normal_before_n_per_m",
-                     "tangential_before_n_per_m",
-                     "arc_after_m",
-                     "normal_after_n_per_m",
-                     "tangential_after_n_per_m",
-                     "arc_bound_m",
-                     "normal_bound_n_per_m",
-                     "tangential_bound_n_per_m"});
+  std::vector<std::string> columns{"core_radius_m",       "sigma_core_radius_m", "poisson_ratio",
+                                   "sigma_poisson_ratio", "shear_modulus_pa",    "sigma_shear_modulus_pa",
+                                   "model_error",         "sigma_model_error"};
   std::vector<Cell> cells =
       cellsOf({result.coreRadius_m(), result.poissonRatio(), result.shearModulus_pa(), result.modelError()});
-  for (const RowUse use : {RowUse::kFitted, RowUse::kUntouched, RowUse::kWeak, RowUse::kAmbiguous,
-                           RowUse::kWide, RowUse::kOverRange, RowUse::kContradicted, RowUse::kUnexplained})
-    cells.emplace_back(std::int64_t{result.count(use)});
+  for (const auto& words : calibration::kRowUses) {
+    columns.push_back(calibration::columnOf(words.use));
+    cells.emplace_back(std::int64_t{result.count(words.use)});
+  }
+  columns.insert(columns.end(), {"arc_before_m", "normal_before_n_per_m", "tangential_before_n_per_m",
+                                 "arc_after_m", "normal_after_n_per_m", "tangential_after_n_per_m",
+                                 "arc_bound_m", "normal_bound_n_per_m", "tangential_bound_n_per_m"});
   const auto errors = calibration::expectedErrors(result);
   cells.insert(cells.end(), errors.before.begin(), errors.before.end());
   cells.insert(cells.end(), errors.after.begin(), errors.after.end());
   cells.insert(cells.end(), errors.bound.begin(), errors.bound.end());
-  table.row(cells);
+  TableWriter(stdout, format, columns).row(cells);
 }
 
 void printRows(TableFormat format, const calibration::CalibrationResult& result) {

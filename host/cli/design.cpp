@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -16,6 +15,7 @@
 #include "host/base/failure.hpp"
 #include "host/base/no_value.hpp"
 #include "host/base/notice.hpp"
+#include "host/base/parse_number.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/model_options.hpp"
@@ -98,11 +98,9 @@ struct DesignOptions {
 std::optional<std::vector<double>> numbersOf(std::string_view text) {
   std::vector<double> numbers;
   while (true) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || !std::isfinite(value)) return std::nullopt;
-    numbers.push_back(value);
-    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    const auto value = takeNumber<double>(text);
+    if (!value || !std::isfinite(*value)) return std::nullopt;
+    numbers.push_back(*value);
     if (text.empty()) return numbers;
     if (text.front() != ':') return std::nullopt;
     text.remove_prefix(1);

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -20,20 +19,20 @@
 #include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/notice.hpp"
+#include "host/base/parse_number.hpp"
 #include "host/base/text_parts.hpp"
 
 namespace strainfinger {
 namespace {
 
 constexpr std::array kOtherSeparators{std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}};
-/// What other programs write where there is no number; NaN and infinities are numbers to parseNumber().
+/// What other programs write where there is no number; NaN and infinities are numbers to signedNumber().
 constexpr std::array kNoNumbers{"na", "n/a", "null", "none", "nil", "missing", "empty"};
 
-/// True if all of `text` is a number; NaN and infinities are.
-bool parseNumber(std::string_view text, double& value) {
+/// All of `text` as a number, which may begin with a +.
+std::optional<double> signedNumber(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size();
+  return parseNumber<double>(text);
 }
 
 /// Where a field that begins at `begin` ends: at the next comma, or, if it is quoted, the next behind its
@@ -84,11 +83,9 @@ bool isNoNumberOf(std::string_view field, const char* word) {
 /// Of a column: nothing that could have been meant as a value, or as several.
 bool isName(std::string_view field) {
   const std::string name = textOf(field);
-  double value = 0;
+  const auto standsForNone = [&](const char* word) { return isNoNumberOf(name, word); };
   return !name.empty() && isLetter(name.front()) && name.find_first_of(";\t") == std::string_view::npos &&
-         !parseNumber(name, value) &&
-         std::none_of(kNoNumbers.begin(), kNoNumbers.end(),
-                      [&](const char* word) { return isNoNumberOf(name, word); });
+         !signedNumber(name) && std::ranges::none_of(kNoNumbers, standsForNone);
 }
 
 bool isAllNames(std::string_view line) {
@@ -189,15 +186,15 @@ void NumberRowReader::parse(const std::string& line, std::vector<double>& row) {
 
 double NumberRowReader::numberOf(const std::string& field, std::size_t column) const {
   if (field.empty() && limit_.mayBeEmpty) return std::numeric_limits<double>::quiet_NaN();
-  double value = 0;
   for (const auto& [separator, name] : kOtherSeparators)
     if (field.find(separator) != std::string::npos)
       fail(column, fmt::format("\"{}\" has {}: separate columns by commas", excerpt(field), name));
-  if (!parseNumber(field, value)) fail(column, fmt::format("\"{}\" is no number", excerpt(field)));
-  if (!std::isfinite(value)) fail(column, fmt::format("{} is no finite number", excerpt(field)));
-  if (std::abs(value) > limit_.most)
+  const auto value = signedNumber(field);
+  if (!value) fail(column, fmt::format("\"{}\" is no number", excerpt(field)));
+  if (!std::isfinite(*value)) fail(column, fmt::format("{} is no finite number", excerpt(field)));
+  if (std::abs(*value) > limit_.most)
     fail(column, fmt::format("{} is beyond +-{}: {}", excerpt(field), limit_.most, limit_.hint));
-  return value;
+  return *value;
 }
 
 std::string NumberRowReader::place() const { return fmt::format("{}:{}", name_, line_); }

@@ -30,6 +30,18 @@ nlohmann::ordered_json jsonValue(const Cell& cell) {
 
 }  // namespace
 
+std::vector<std::string> columnsOf(const NamedRow& row) {
+  std::vector<std::string> columns;
+  for (const NamedCell& cell : row) columns.push_back(cell.column);
+  return columns;
+}
+
+std::vector<Cell> valuesOf(const NamedRow& row) {
+  std::vector<Cell> values;
+  for (const NamedCell& cell : row) values.push_back(cell.value);
+  return values;
+}
+
 std::string csvField(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string quoted = "\"";

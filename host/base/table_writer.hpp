@@ -17,6 +17,15 @@ enum class TableFormat { kCsv, kJson };
 /// finger.toml writes it, and a JSON array.
 using Cell = std::variant<double, std::int64_t, std::string, std::vector<double>>;
 
+/// A value and the column that it is in, of a row that is long or put together from parts.
+struct NamedCell {
+  std::string column;
+  Cell value;
+};
+using NamedRow = std::vector<NamedCell>;
+std::vector<std::string> columnsOf(const NamedRow& row);
+std::vector<Cell> valuesOf(const NamedRow& row);
+
 /// A text as a CSV field: quoted where it has to be.
 std::string csvField(const std::string& text);
 

@@ -11,7 +11,7 @@
 #include "host/base/failure.hpp"
 #include "host/base/text_parts.hpp"
 #include "host/calibration/expected_error.hpp"
-#include "host/calibration/report.hpp"
+#include "host/calibration/row_use.hpp"
 #include "host/config/keys.hpp"
 #include "host/config/read_config.hpp"
 #include "host/config/write_config.hpp"
@@ -31,9 +31,6 @@ constexpr double kMostUntold = 0.7;
 
 /// A known angle; beyond it another unit or a slip of the keyboard.
 constexpr double kMostAngle_deg = 360;
-
-/// [rows] Over range at one gauge: fewer are so by chance, of touches that are one after the other.
-constexpr std::size_t kLeastAlike = 3;
 
 /// Rows that a message names, at most.
 constexpr std::size_t kMostNamed = 10;
@@ -77,33 +74,13 @@ void requireWithin(const config::Gauges& gauges, const char* key, const std::vec
   if (!text.empty()) fail(fmt::format("{}; {} must be {}: look at {}", text, key, domain.text(), lookAt));
 }
 
-/// What to do where most rows are of no use for this reason.
-std::string mendOf(RowUse use, std::span<const RowResult> rows) {
-  switch (use) {
-    case RowUse::kUntouched:
-      return "touch the finger in more of them";
-    case RowUse::kWeak:
-      return "press harder, all with about the same load";
-    case RowUse::kAmbiguous:
-      return "press over the gauges, too, and with an edge";
-    case RowUse::kWide:
-      return "press with an edge, in one place at a time";
-    case RowUse::kOverRange:
-      return mendOfOverRange(rows);
-    case RowUse::kContradicted:
-      return "look at the angles and loads of touches.csv";
-    default:
-      return "touch it in one place at a time, without slips";
-  }
-}
-
 /// "of 300 rows 200 are wide, 9 untouched: press with an edge; "; empty where no row is left out.
 std::string leftOutText(std::span<const RowResult> rows) {
   std::vector<std::pair<std::ptrdiff_t, RowUse>> counts;
-  for (const RowUse use : {RowUse::kUntouched, RowUse::kWeak, RowUse::kAmbiguous, RowUse::kWide,
-                           RowUse::kOverRange, RowUse::kContradicted, RowUse::kUnexplained})
-    if (const auto count = std::ranges::count(rows, use, &RowResult::use); count > 0)
-      counts.emplace_back(count, use);
+  for (const RowUseWords& words : kRowUses)
+    if (const auto count = std::ranges::count(rows, words.use, &RowResult::use);
+        count > 0 && words.use != RowUse::kFitted)
+      counts.emplace_back(count, words.use);
   if (counts.empty()) return {};
   std::ranges::stable_sort(counts, std::ranges::greater{}, &std::pair<std::ptrdiff_t, RowUse>::first);
   std::string text;
@@ -153,19 +130,6 @@ void requireRows(const config::Gauges& gauges, std::span<const KnownTouch> known
 }
 
 void requireWorking(const std::vector<FailedGauge>& failed) { failOf(failed); }
-
-std::string mendOfOverRange(std::span<const RowResult> rows) {
-  std::vector<int> gauges;
-  for (const RowResult& row : rows)
-    if (row.use == RowUse::kOverRange) gauges.push_back(row.peakGauge);
-  const bool isOne = gauges.size() >= kLeastAlike &&
-                     std::ranges::all_of(gauges, [&](int gauge) { return gauge == gauges.front(); });
-  if (!isOne) return "press less";
-  return fmt::format(
-      "it is always gauge {}: look at its zero, its wires and its amplifier; where it was pressed "
-      "so hard, press less",
-      gauges.front());
-}
 
 void requireTouches(const config::Gauges& gauges, std::span<const RowResult> rows) {
   const std::ptrdiff_t least = kLeastTouchesPerGauge * gauges.count;

@@ -31,9 +31,6 @@ void requireWorking(const std::vector<FailedGauge>& failed);
 /// Enough rows are fitted; else says what the others are, and the mend of what most of them are.
 void requireTouches(const config::Gauges& gauges, std::span<const RowResult> rows);
 
-/// What to do about the rows that are over range; where it is always the same gauge, that one is named.
-std::string mendOfOverRange(std::span<const RowResult> rows);
-
 /// There are touches near every gauge; names the `untouched` ones and the touches that are missing.
 void requireAllAround(const config::Gauges& gauges, const std::vector<int>& untouched);
 

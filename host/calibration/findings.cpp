@@ -12,6 +12,7 @@
 #include "host/calibration/complaints.hpp"
 #include "host/calibration/expected_error.hpp"
 #include "host/calibration/noise_found.hpp"
+#include "host/calibration/row_use.hpp"
 #include "host/calibration/touch_fit.hpp"
 
 namespace strainfinger::calibration {
@@ -29,26 +30,6 @@ constexpr const char* kZerosDrifted =
     "known to be untouched, with other zeros than the rest of the session has: the zeros drifted; tare, and "
     "touch the finger anew";
 constexpr const char* kNoisy = "known to be untouched, and noisier than gauges.noise_strain has it";
-
-std::string reasonOf(RowUse use, const std::vector<RowResult>& rows) {
-  switch (use) {
-    case RowUse::kWeak:
-      return "so weak that they tell less than a sixtieth of what strong ones tell, or little beside the "
-             "noise";
-    case RowUse::kAmbiguous:
-      return "explained by touches at two places or of two widths";
-    case RowUse::kWide:
-      return "as wide as a slip or two contacts look: press with an edge";
-    case RowUse::kOverRange:
-      return "over range: " + mendOfOverRange(rows);
-    case RowUse::kContradicted:
-      return "not as touches.csv has them: look at their angles and loads";
-    case RowUse::kUnexplained:
-      return "explained by no single touch (two contacts, a slip, a zero that moved)";
-    default:
-      return "";
-  }
-}
 
 /// Of its tolerance: of 67 unknowns one is further off the drawing in 4 fingers of 1,000 by chance.
 constexpr double kFarOff = 4;
@@ -210,9 +191,10 @@ std::vector<LeftOut> rowsLeftOut(const CalibrationResult& result) {
   std::vector<LeftOut> all;
   const auto noise = noiseFound(result);
   const bool isNoisy = noise && noise->isNoisier();
-  for (const RowUse use : {RowUse::kWeak, RowUse::kAmbiguous, RowUse::kWide, RowUse::kOverRange,
-                           RowUse::kContradicted, RowUse::kUnexplained}) {
+  for (const RowUseWords& words : kRowUses) {
+    const RowUse use = words.use;
     LeftOut left{use, reasonOf(use, result.rows()), {}};
+    if (left.reason.empty()) continue;
     bool isDrifted = use == RowUse::kContradicted;
     for (std::size_t row = 0; row < result.rows().size(); ++row)
       if (result.rows()[row].use == use) {

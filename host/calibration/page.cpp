@@ -8,8 +8,8 @@
 
 #include "host/calibration/expected_error.hpp"
 #include "host/calibration/findings.hpp"
-#include "host/calibration/report.hpp"
 #include "host/calibration/result_pictures.hpp"
+#include "host/calibration/row_use.hpp"
 
 namespace strainfinger::calibration {
 namespace {

@@ -101,28 +101,6 @@ std::string rowsText(const CalibrationResult& result) {
 
 }  // namespace
 
-const char* nameOf(RowUse use) {
-  switch (use) {
-    case RowUse::kFitted:
-      return "fitted";
-    case RowUse::kUntouched:
-      return "untouched";
-    case RowUse::kWeak:
-      return "weak";
-    case RowUse::kAmbiguous:
-      return "ambiguous";
-    case RowUse::kWide:
-      return "wide";
-    case RowUse::kOverRange:
-      return "over-range";
-    case RowUse::kContradicted:
-      return "contradicted";
-    case RowUse::kUnexplained:
-      break;
-  }
-  return "unexplained";
-}
-
 std::string textReport(const CalibrationResult& result) {
   return rubberText(result) + correlationText(result) + worthText(result) + residualText(result) + "\n" +
          untoldText(result) + rowsText(result);

@@ -11,7 +11,4 @@ namespace strainfinger::calibration {
 /// out and why: some lines of text, each ended.
 std::string textReport(const CalibrationResult& result);
 
-/// "fitted", "untouched", "weak" ..
-const char* nameOf(RowUse use);
-
 }  // namespace strainfinger::calibration

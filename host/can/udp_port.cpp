@@ -11,13 +11,13 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <chrono>
 #include <cstring>
 #include <utility>
 
 #include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/parse_number.hpp"
 #include "host/can/receive_notes.hpp"
 
 namespace strainfinger::can {
@@ -42,10 +42,8 @@ constexpr int kMostDatagrams = 64;
 std::uint16_t portOf(std::string_view name) {
   if (name == kUdp) return UdpPort::kDefaultPort;
   const std::string_view digits = isUdpName(name) ? name.substr(kUdp.size() + 1) : "";
-  int port = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
-  if (error == std::errc{} && end == digits.data() + digits.size() && port >= kLeastPort && port <= kMostPort)
-    return static_cast<std::uint16_t>(port);
+  const auto port = parseNumber<int>(digits);
+  if (port && *port >= kLeastPort && *port <= kMostPort) return static_cast<std::uint16_t>(*port);
   throw Failure(ExitCode::kUsage, fmt::format("{} is no bus: udp, or udp:PORT with a port from {} to {}",
                                               excerpt(name), kLeastPort, kMostPort));
 }

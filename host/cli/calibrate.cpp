@@ -24,6 +24,7 @@
 #include "host/calibration/findings.hpp"
 #include "host/calibration/page.hpp"
 #include "host/calibration/report.hpp"
+#include "host/calibration/row_use.hpp"
 #include "host/cli/bus_option.hpp"
 #include "host/cli/calibrate_live.hpp"
 #include "host/cli/command.hpp"
@@ -160,68 +161,48 @@ Eigen::MatrixXd readStrains(const std::string& path, int gauges) {
   return strains;
 }
 
-/// Cells of values each with its sigma.
-std::vector<Cell> cellsOf(std::initializer_list<calibration::Estimate> estimates) {
-  std::vector<Cell> cells;
-  for (const calibration::Estimate& estimate : estimates) {
-    cells.emplace_back(estimate.value);
-    cells.emplace_back(estimate.sigma);
-  }
-  return cells;
+/// A value and its sigma.
+void addEstimate(NamedRow& row, const std::string& column, const calibration::Estimate& estimate) {
+  row.push_back({column, estimate.value});
+  row.push_back({"sigma_" + column, estimate.sigma});
+}
+
+NamedRow gaugeRow(const calibration::CalibrationResult& result, int gauge) {
+  NamedRow row{{"gauge", std::int64_t{gauge}},
+               {"angle_deg", result.drawing().config().gauges.angle_deg(gauge)}};
+  addEstimate(row, "gain", result.gain(gauge));
+  addEstimate(row, "zero_strain", result.zero_strain(gauge));
+  addEstimate(row, "angle_offset_deg", result.angleOffset_deg(gauge));
+  addEstimate(row, "depth_offset_m", result.depthOffset_m(gauge));
+  row.push_back({"residual_strain", result.residual_strain(gauge)});
+  return row;
 }
 
 void printGauges(TableFormat format, const calibration::CalibrationResult& result) {
-  TableWriter table(
-      stdout, format,
-      {"gauge", "angle_deg", "gain", "sigma_gain", "zero_strain", "sigma_zero_strain", "angle_offset_deg",
-       "sigma_angle_offset_deg", "depth_offset_m", "sigma_depth_offset_m", "residual_strain"});
-  for (int i = 0; i < result.drawing().gauges(); ++i) {
-    std::vector<Cell> cells =
-        cellsOf({result.gain(i), result.zero_strain(i), result.angleOffset_deg(i), result.depthOffset_m(i)});
-    cells.insert(cells.begin(), {std::int64_t{i}, result.drawing().config().gauges.angle_deg(i)});
-    cells.emplace_back(result.residual_strain(i));
-    table.row(cells);
-  }
+  TableWriter table(stdout, format, columnsOf(gaugeRow(result, 0)));
+  for (int i = 0; i < result.drawing().gauges(); ++i) table.row(valuesOf(gaugeRow(result, i)));
+}
+
+/// Errors to expect of place and loads; `when` is part of their columns' names.
+void addErrors(NamedRow& row, const char* when, const Eigen::Vector3d& errors) {
+  row.push_back({fmt::format("arc_{}_m", when), errors[0]});
+  row.push_back({fmt::format("normal_{}_n_per_m", when), errors[1]});
+  row.push_back({fmt::format("tangential_{}_n_per_m", when), errors[2]});
 }
 
 void printSummary(TableFormat format, const calibration::CalibrationResult& result) {
-  using calibration::RowUse;
-  TableWriter table(stdout, format,
-                    {"core_radius_m",
-                     "sigma_core_radius_m",
-                     "poisson_ratio",
-                     "sigma_poisson_ratio",
-                     "shear_modulus_pa",
-                     "sigma_shear_modulus_pa",
-                     "model_error",
-                     "sigma_model_error",
-                     "fitted",
-                     "untouched",
-                     "weak",
-                     "ambiguous",
-                     "wide",
-                     "over_range",
-                     "contradicted",
-                     "unexplained",
-                     "arc_before_m",
-                     "normal_before_n_per_m",
-                     "tangential_before_n_per_m",
-                     "arc_after_m",
-                     "normal_after_n_per_m",
-                     "tangential_after_n_per_m",
-                     "arc_bound_m",
-                     "normal_bound_n_per_m",
-                     "tangential_bound_n_per_m"});
-  std::vector<Cell> cells =
-      cellsOf({result.coreRadius_m(), result.poissonRatio(), result.shearModulus_pa(), result.modelError()});
-  for (const RowUse use : {RowUse::kFitted, RowUse::kUntouched, RowUse::kWeak, RowUse::kAmbiguous,
-                           RowUse::kWide, RowUse::kOverRange, RowUse::kContradicted, RowUse::kUnexplained})
-    cells.emplace_back(std::int64_t{result.count(use)});
+  NamedRow row;
+  addEstimate(row, "core_radius_m", result.coreRadius_m());
+  addEstimate(row, "poisson_ratio", result.poissonRatio());
+  addEstimate(row, "shear_modulus_pa", result.shearModulus_pa());
+  addEstimate(row, "model_error", result.modelError());
+  for (const auto& words : calibration::kRowUses)
+    row.push_back({calibration::columnOf(words.use), std::int64_t{result.count(words.use)}});
   const auto errors = calibration::expectedErrors(result);
-  cells.insert(cells.end(), errors.before.begin(), errors.before.end());
-  cells.insert(cells.end(), errors.after.begin(), errors.after.end());
-  cells.insert(cells.end(), errors.bound.begin(), errors.bound.end());
-  table.row(cells);
+  addErrors(row, "before", errors.before);
+  addErrors(row, "after", errors.after);
+  addErrors(row, "bound", errors.bound);
+  TableWriter(stdout, format, columnsOf(row)).row(valuesOf(row));
 }
 
 void printRows(TableFormat format, const calibration::CalibrationResult& result) {

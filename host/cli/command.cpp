@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
 #include <concepts>
 #include <cstdint>
 #include <cstring>
@@ -19,6 +18,7 @@
 #include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/notice.hpp"
+#include "host/base/parse_number.hpp"
 #include "host/config/read_config.hpp"
 
 namespace strainfinger::cli {
@@ -70,10 +70,7 @@ bool read(const std::string& text, double& value) {
 /// Only where CLI11, which reads the option itself, does not take it for octal digits.
 template <std::integral Whole>
 bool read(const std::string& text, Whole& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  Whole again = 0;
-  return error == std::errc{} && end == text.data() + text.size() && CLI::detail::lexical_cast(text, again) &&
-         again == value;
+  return CLI::detail::lexical_cast(text, value) && parseNumber<Whole>(text) == value;
 }
 
 template <typename Number>

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -14,6 +13,7 @@
 #include "host/base/failure.hpp"
 #include "host/base/notice.hpp"
 #include "host/base/number_rows.hpp"
+#include "host/base/parse_number.hpp"
 #include "host/base/read_file.hpp"
 #include "host/cli/command.hpp"
 
@@ -24,11 +24,9 @@ using contact::Indenter;
 
 /// The number after "kind:", within its domain.
 double parameterOf(const std::string& text, const std::string& kind, double least, double most) {
-  double value = 0;
   const std::string number = text.substr(kind.size() + 1);
-  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
-  const bool isNumber = error == std::errc{} && end == number.data() + number.size();
-  if (isNumber && value > least && value < most) return value;
+  const auto value = parseNumber<double>(number);
+  if (value && *value > least && *value < most) return *value;
   throw Failure(ExitCode::kUsage, fmt::format("--indenter: {}: {} is not a number between {} and {}", kind,
                                               excerpt(number), least, most));
 }

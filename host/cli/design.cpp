@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -16,6 +15,7 @@
 #include "host/base/failure.hpp"
 #include "host/base/no_value.hpp"
 #include "host/base/notice.hpp"
+#include "host/base/parse_number.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/model_options.hpp"
@@ -98,11 +98,9 @@ struct DesignOptions {
 std::optional<std::vector<double>> numbersOf(std::string_view text) {
   std::vector<double> numbers;
   while (true) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || !std::isfinite(value)) return std::nullopt;
-    numbers.push_back(value);
-    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    const auto value = takeNumber<double>(text);
+    if (!value || !std::isfinite(*value)) return std::nullopt;
+    numbers.push_back(*value);
     if (text.empty()) return numbers;
     if (text.front() != ':') return std::nullopt;
     text.remove_prefix(1);
@@ -166,32 +164,31 @@ simulation::Touch touchOf(const DesignOptions& options, const config::Contact& c
   return {0, options.normal_n_per_m, options.tangential_n_per_m, width_m, model::Profile::kUniform};
 }
 
+constexpr design::Bound kNoBound{kNoValue, kNoValue};
+
 /// A row: the finger, its bounds, what the firmware makes of it.
-std::vector<Cell> cellsOf(const design::Candidate& finger) {
+NamedRow candidateRow(const design::Candidate& finger) {
   const design::Assessment& found = finger.found;
-  std::vector<Cell> cells{std::int64_t{finger.gauges}, finger.radius_m};
-  const auto add = [&](const std::optional<design::Bound>& bound) {
-    cells.emplace_back(bound ? bound->median : kNoValue);
-    cells.emplace_back(bound ? bound->worst : kNoValue);
-  };
-  const auto part = [&](auto member) {
-    return found.bounds ? std::optional<design::Bound>((*found.bounds).*member) : std::nullopt;
-  };
-  add(part(&design::Bounds::arc_m));
-  add(part(&design::Bounds::normal_n_per_m));
-  add(part(&design::Bounds::tangential_n_per_m));
-  add(found.bounds ? found.bounds->width_m : std::nullopt);
-  cells.emplace_back(found.bounds ? found.bounds->identifiableShare : kNoValue);
-  if (found.trial) {
-    cells.emplace_back(static_cast<std::int64_t>(found.trial->tableBytes));
-    for (const double value :
-         {found.trial->certainShare, found.trial->detected_n_per_m, found.trial->fullScale_n_per_m})
-      cells.emplace_back(value);
-  } else {
-    cells.insert(cells.end(), 4, kNoValue);
-  }
-  cells.push_back(found.problem.empty() ? Cell(kNoValue) : Cell(found.problem));
-  return cells;
+  const auto bounds =
+      found.bounds.value_or(design::Bounds{kNoBound, kNoBound, kNoBound, std::nullopt, kNoValue});
+  const design::Bound width_m = bounds.width_m.value_or(kNoBound);
+  const auto trial = found.trial.value_or(design::Trial{0, kNoValue, kNoValue, kNoValue});
+  return {{"gauges", std::int64_t{finger.gauges}},
+          {"radius_m", finger.radius_m},
+          {"arc_median_m", bounds.arc_m.median},
+          {"arc_worst_m", bounds.arc_m.worst},
+          {"normal_median_n_per_m", bounds.normal_n_per_m.median},
+          {"normal_worst_n_per_m", bounds.normal_n_per_m.worst},
+          {"tangential_median_n_per_m", bounds.tangential_n_per_m.median},
+          {"tangential_worst_n_per_m", bounds.tangential_n_per_m.worst},
+          {"width_median_m", width_m.median},
+          {"width_worst_m", width_m.worst},
+          {"identifiable_share", bounds.identifiableShare},
+          {"table_bytes", found.trial ? Cell(static_cast<std::int64_t>(trial.tableBytes)) : kNoValue},
+          {"certain_share", trial.certainShare},
+          {"detected_n_per_m", trial.detected_n_per_m},
+          {"full_scale_n_per_m", trial.fullScale_n_per_m},
+          {"problem", found.problem.empty() ? Cell(kNoValue) : Cell(found.problem)}};
 }
 
 /// Of the fingers without a problem, the one with the least worst error of places.
@@ -226,11 +223,7 @@ void runDesign(const DesignOptions& options) {
   requireFolderOf("--picture", options.picturePath);
   if (config.contact.width_m) config.contact.width_m = touch.width_m;
   if (options.noise_strain) config.gauges.noise_strain = *options.noise_strain;
-  TableWriter table(stdout, options.common.format(),
-                    {"gauges", "radius_m", "arc_median_m", "arc_worst_m", "normal_median_n_per_m",
-                     "normal_worst_n_per_m", "tangential_median_n_per_m", "tangential_worst_n_per_m",
-                     "width_median_m", "width_worst_m", "identifiable_share", "table_bytes", "certain_share",
-                     "detected_n_per_m", "full_scale_n_per_m", "problem"});
+  TableWriter table(stdout, options.common.format(), columnsOf(candidateRow({})));
   const system::StopSignal stop;
   std::vector<design::Candidate> candidates;
   for (const double radius_m : radii)
@@ -241,7 +234,7 @@ void runDesign(const DesignOptions& options) {
       config.gauges.count = count;
       config.gauges.radius_m = radius_m;
       candidates.push_back({count, radius_m, design::assess(config, touch)});
-      table.row(cellsOf(candidates.back()));
+      table.row(valuesOf(candidateRow(candidates.back())));
       std::fflush(stdout);
     }
   if (!options.picturePath.empty()) plot::draw(design::boundsPicture(candidates), options.picturePath);

@@ -10,6 +10,7 @@
 #include "host/cli/command.hpp"
 #include "host/tables/self_check.hpp"
 #include "host/tables/table_file.hpp"
+#include "host/tables/table_text.hpp"
 
 namespace strainfinger::cli {
 

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <iostream>
 #include <limits>
@@ -9,7 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -59,21 +57,6 @@ constexpr const char* kLocateHelp =
     "  flags: as in CONTACT, joined by +\n"
     "  angle2_deg, normal2_n_per_m, tangential2_n_per_m: of a second contact; empty where there is none";
 
-constexpr std::array kColumns{"contact",
-                              "angle_deg",
-                              "normal_n_per_m",
-                              "tangential_n_per_m",
-                              "sigma_angle_deg",
-                              "sigma_normal_n_per_m",
-                              "sigma_tangential_n_per_m",
-                              "quality",
-                              "width_m",
-                              "sigma_width_m",
-                              "flags",
-                              "angle2_deg",
-                              "normal2_n_per_m",
-                              "tangential2_n_per_m"};
-
 struct LocateOptions {
   explicit LocateOptions(CLI::App& command) : common(command), firmware(command) {}
   CommonOptions common;
@@ -102,31 +85,30 @@ FingerFlags flagsOf(const Answer& answer, const std::vector<Contact>& contacts, 
   return flags;
 }
 
-std::vector<Cell> cellsOf(const std::vector<Contact>& contacts, FingerFlags flags) {
+NamedRow locatedRow(const std::vector<Contact>& contacts, FingerFlags flags) {
   const Contact& contact = contacts.front();
-  std::vector<Cell> cells{std::int64_t{1},
-                          degrees(contact.angle),
-                          toReal(contact.normal),
-                          toReal(contact.tangential),
-                          degrees(contact.sigmaAngle),
-                          toReal(contact.sigmaNormal),
-                          toReal(contact.sigmaTangential),
-                          std::int64_t{contact.quality},
-                          widthCell(contact.width_um),
-                          widthCell(contact.sigmaWidth_um),
-                          can::flagsText(kFingerFlagNames, flags.raw())};
-  if (contacts.size() > 1) {
-    for (const double value :
-         {degrees(contacts[1].angle), toReal(contacts[1].normal), toReal(contacts[1].tangential)})
-      cells.emplace_back(value);
-  } else {
-    cells.insert(cells.end(), 3, kNoValue);
-  }
-  return cells;
+  const Contact second = contacts.size() > 1 ? contacts[1] : Contact{};
+  const auto ofSecond = [&](double value) { return contacts.size() > 1 ? value : kNoValue; };
+  return {{"contact", std::int64_t{1}},
+          {"angle_deg", degrees(contact.angle)},
+          {"normal_n_per_m", toReal(contact.normal)},
+          {"tangential_n_per_m", toReal(contact.tangential)},
+          {"sigma_angle_deg", degrees(contact.sigmaAngle)},
+          {"sigma_normal_n_per_m", toReal(contact.sigmaNormal)},
+          {"sigma_tangential_n_per_m", toReal(contact.sigmaTangential)},
+          {"quality", std::int64_t{contact.quality}},
+          {"width_m", widthCell(contact.width_um)},
+          {"sigma_width_m", widthCell(contact.sigmaWidth_um)},
+          {"flags", can::flagsText(kFingerFlagNames, flags.raw())},
+          {"angle2_deg", ofSecond(degrees(second.angle))},
+          {"normal2_n_per_m", ofSecond(toReal(second.normal))},
+          {"tangential2_n_per_m", ofSecond(toReal(second.tangential))}};
 }
 
+std::vector<std::string> columnsOfLocated() { return columnsOf(locatedRow({Contact{}}, {})); }
+
 std::vector<Cell> nothingBut(bool contact) {
-  std::vector<Cell> cells(kColumns.size(), kNoValue);
+  std::vector<Cell> cells(columnsOfLocated().size(), kNoValue);
   cells.front() = std::int64_t{contact};
   return cells;
 }
@@ -167,7 +149,7 @@ std::vector<Cell> located(const TableImage& image, firmware::Locator& locator,
       contact.uncertain = true;
       contact.quality = std::min(contact.quality, firmware::kMostUncertainQuality);
     }
-  return cellsOf(contacts, flagsOf(answer, contacts, saturated, all));
+  return valuesOf(locatedRow(contacts, flagsOf(answer, contacts, saturated, all)));
 }
 
 /// A number, where the text is one as JSON writes it. What a reader would find changed stays text: 007, 12e4
@@ -189,13 +171,14 @@ std::vector<Cell> passedThrough(const std::vector<std::string>& texts, TableForm
 }
 
 std::vector<std::string> columnsBehind(std::vector<std::string> columns) {
+  const std::vector<std::string> own = columnsOfLocated();
   for (std::string& column : columns)
-    if (std::ranges::find(kColumns, std::string_view(column)) != kColumns.end()) column.insert(0, "input_");
+    if (std::ranges::find(own, column) != own.end()) column.insert(0, "input_");
   for (auto column = columns.begin(); column != columns.end(); ++column)
     if (std::find(columns.begin(), column, *column) != column)
       throw Failure(ExitCode::kFailure,
                     fmt::format("stdin: two columns would be passed through as {}: rename one", *column));
-  columns.insert(columns.end(), kColumns.begin(), kColumns.end());
+  columns.insert(columns.end(), own.begin(), own.end());
   return columns;
 }
 

@@ -16,6 +16,7 @@
 #include "host/system/stop_signal.hpp"
 #include "host/tables/self_check.hpp"
 #include "host/tables/table_file.hpp"
+#include "host/tables/table_text.hpp"
 
 namespace strainfinger::cli {
 namespace {

@@ -23,6 +23,7 @@
 #include "host/cli/strain_recorder.hpp"
 #include "host/cli/touch_recorder.hpp"
 #include "host/cli/truth_table.hpp"
+#include "host/simulation/gauge_fault.hpp"
 #include "host/simulation/read_scenario.hpp"
 #include "host/simulation/simulated_finger.hpp"
 #include "host/system/metronome.hpp"
@@ -62,9 +63,11 @@ struct RunOptions {
         ->type_name("S")
         ->check(isFrom(0.001, 1e6));
     command
-        .add_option("--fault", faults,
-                    "A gauge fails, at a second or from the start: dead, open, short, stuck or noisy, as in "
-                    "stuck:5@2.5; may be given several times")
+        .add_option(
+            "--fault", faults,
+            fmt::format("A gauge fails, at a second or from the start, as in stuck:5@2.5: KIND is one of {}; "
+                        "may be given several times",
+                        simulation::gaugeFaultKinds()))
         ->type_name("KIND:GAUGE[@S]");
     command.add_flag("--uncalibrated", uncalibrated,
                      "The tables don't know the config's [calibration]; gauges.model_error is 0.05 at least");

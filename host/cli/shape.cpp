@@ -6,7 +6,6 @@
 #include <cmath>
 #include <iostream>
 #include <string>
-#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -97,12 +96,7 @@ std::string warnings(const shape::Shape& shape, bool isClipped) {
   return fmt::format("{}", fmt::join(words, " "));
 }
 
-struct ShapeCell {
-  const char* column;
-  Cell value;
-};
-
-std::vector<ShapeCell> rowOf(const shape::Shape& shape, bool isClipped) {
+NamedRow shapeRow(const shape::Shape& shape, bool isClipped) {
   const shape::Measured unknown{kNoValue, kNoValue};
   const shape::Measured width = shape.width_m.value_or(unknown);
   const shape::Measured curvature = shape.curvature_per_m.value_or(unknown);
@@ -129,27 +123,20 @@ std::vector<ShapeCell> rowOf(const shape::Shape& shape, bool isClipped) {
           {"curvature_high_per_m", std::isfinite(band.high) ? band.high : kNoValue}};
 }
 
-std::vector<std::string> shapeColumns() {
-  std::vector<std::string> columns;
-  for (const ShapeCell& cell : rowOf({}, false)) columns.emplace_back(cell.column);
-  return columns;
-}
-
-std::vector<Cell> cellsOf(const std::vector<ShapeCell>& row) {
-  std::vector<Cell> cells;
-  for (const ShapeCell& cell : row) cells.push_back(cell.value);
-  return cells;
-}
-
 /// A row of which only these are known: of the others numbers are missing and texts empty.
-std::vector<Cell> unknownTouch(std::int64_t contact, const std::string& warning) {
-  std::vector<ShapeCell> row = rowOf({}, false);
-  for (auto& [column, value] : row)
-    value = std::string_view(column) == "contact"        ? Cell(contact)
-            : std::string_view(column) == "warnings"     ? Cell(warning)
-            : std::holds_alternative<std::string>(value) ? Cell(std::string())
-                                                         : Cell(kNoValue);
-  return cellsOf(row);
+NamedRow unknownTouch(std::int64_t contact, const std::string& warning) {
+  NamedRow row = shapeRow({}, false);
+  for (auto& [column, value] : row) {
+    if (column == "contact")
+      value = contact;
+    else if (column == "warnings")
+      value = warning;
+    else if (std::holds_alternative<std::string>(value))
+      value = std::string();
+    else
+      value = kNoValue;
+  }
+  return row;
 }
 
 /// One row of strains.
@@ -192,15 +179,14 @@ void forEachReading(const config::FingerConfig& config, Print print) {
 
 void printShapes(const ShapeOptions& options, const config::FingerConfig& config) {
   shape::RingEstimators estimators(config);  // before anything is printed
-  TableWriter table(stdout, options.common.format(), shapeColumns());
+  TableWriter table(stdout, options.common.format(), columnsOf(shapeRow({}, false)));
   forEachReading(config, [&](const Reading& reading) {
-    if (reading.isTooFew(config)) return table.row(unknownTouch(1, kClipped));
+    if (reading.isTooFew(config)) return table.row(valuesOf(unknownTouch(1, kClipped)));
     const auto shape = estimators.by(reading.gauges).estimate(reading.strains, reading.largest_strain);
     const bool isClipped = reading.isClipped(config);
-    if (shape)
-      table.row(cellsOf(rowOf(*shape, isClipped)));
-    else
-      table.row(isClipped ? unknownTouch(1, kClipped) : unknownTouch(0, ""));
+    table.row(valuesOf(shape       ? shapeRow(*shape, isClipped)
+                       : isClipped ? unknownTouch(1, kClipped)
+                                   : unknownTouch(0, "")));
   });
 }
 

@@ -12,6 +12,8 @@
 #include "host/config/ring_spacing.hpp"
 #include "host/tables/self_check.hpp"
 #include "host/tables/table_file.hpp"
+#include "host/tables/table_header.hpp"
+#include "host/tables/table_text.hpp"
 
 namespace strainfinger::cli {
 namespace {
@@ -96,12 +98,8 @@ void showInfo(const TablesOptions& options) {
   table.row({"crc32", fmt::format("{:08X}", image->crc32)});
   const bool isJson = options.common.format() == TableFormat::kJson;
   const Cell unknown = isJson ? Cell(kNoValue) : Cell(tables::kUnknownParameter);
-  for (const tables::Parameter& parameter : tables::parametersOf(image->parameters))
+  for (const tables::Parameter& parameter : tables::parametersOf(*image))
     table.row({parameter.key, parameter.value.value_or(unknown)});
-  const int count = image->constants.gauge_count;
-  for (const tables::Parameter& list : {tables::anglesOf(image->gauge_angle_q32, count),
-                                        tables::gainsOf(*image), tables::depthsOf(image->depths, count)})
-    table.row({list.key, list.value.value_or(unknown)});
 }
 
 void verify(const TablesOptions& options) {

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "host/base/failure.hpp"
+#include "host/base/parse_number.hpp"
 #include "host/system/process.hpp"
 
 namespace strainfinger::health {
@@ -19,10 +19,8 @@ using Json = nlohmann::json;
 double numberIn(const Json& value) {
   if (value.is_number()) return value.get<double>();
   const auto& text = value.get_ref<const std::string&>();  // iproute2 6.1 prints fractions so
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || end != text.data() + text.size()) throw std::invalid_argument(text);
-  return number;
+  if (const auto number = parseNumber<double>(text)) return *number;
+  throw std::invalid_argument(text);
 }
 
 template <typename Number>

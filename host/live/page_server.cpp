@@ -5,12 +5,12 @@
 
 #include <array>
 #include <atomic>
-#include <charconv>
 #include <chrono>
 #include <thread>
 
 #include "common/frame_layout.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/parse_number.hpp"
 #include "host/base/table_writer.hpp"
 #include "host/live/command_desk.hpp"
 #include "host/live/event_hub.hpp"
@@ -197,9 +197,7 @@ class PageServer::Impl {
 
   void tare(const httplib::Request& request, httplib::Response& response) {
     if (!mayCommand(request)) return say(response, 403, forbidden());
-    const std::string number = request.matches[1];
-    int node = 0;
-    std::from_chars(number.data(), number.data() + number.size(), node);
+    const int node = parseNumber<int>(request.matches[1].str()).value_or(0);
     if (node < kFirstNode || node > kLastNode)
       return say(response, 404,
                  fmt::format("There is no node {}: they are {} to {}.", node, kFirstNode, kLastNode));

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 
 #include "host/base/excerpt.hpp"
+#include "host/base/parse_number.hpp"
 #include "host/base/text_parts.hpp"
 
 namespace strainfinger::session {
@@ -19,11 +19,9 @@ struct Quantity {
   std::string_view unit;
 };
 std::optional<Quantity> quantityIn(std::string_view text) {
-  Quantity found{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), found.value);
-  if (error != std::errc{} || !std::isfinite(found.value)) return std::nullopt;
-  found.unit = trimmed(text.substr(static_cast<std::size_t>(end - text.data())));
-  return found;
+  const auto value = takeNumber<double>(text);
+  if (!value || !std::isfinite(*value)) return std::nullopt;
+  return Quantity{*value, trimmed(text)};
 }
 
 Command loadOf(std::string_view text, double length_m) {

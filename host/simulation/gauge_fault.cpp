@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
+#include <ranges>
 #include <string_view>
 
 #include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/parse_number.hpp"
 
 namespace strainfinger::simulation {
 namespace {
@@ -29,34 +30,28 @@ std::optional<GaugeFault::Kind> kindOf(std::string_view name) {
   return std::nullopt;
 }
 
-/// All of the text as a number.
-template <typename Number>
-bool read(std::string_view text, Number& number) {
-  const char* end = text.data() + text.size();
-  const auto result = std::from_chars(text.data(), end, number);
-  return result.ec == std::errc{} && result.ptr == end;
-}
-
 constexpr double kLatest_s = 1e6;
 
 }  // namespace
+
+std::string gaugeFaultKinds() {
+  return fmt::format("{}", fmt::join(kKindNames | std::views::transform(&KindName::name), ", "));
+}
 
 GaugeFault readGaugeFault(const std::string& text) {
   const std::string_view all = text;
   const auto colon = all.find(':'), at = all.find('@');
   const auto kind = kindOf(all.substr(0, colon));
-  GaugeFault fault;
-  const bool whole = kind && colon != all.npos && read(all.substr(colon + 1, at - colon - 1), fault.gauge) &&
-                     (at == all.npos || read(all.substr(at + 1), fault.start_s)) && fault.start_s >= 0 &&
-                     fault.start_s <= kLatest_s;
-  static_assert(kKindNames.size() == 5, "the message and the help of `run` name them");
+  const auto gauge =
+      parseNumber<std::uint32_t>(colon == all.npos ? "" : all.substr(colon + 1, at - colon - 1));
+  const auto start_s = parseNumber<double>(at == all.npos ? "0" : all.substr(at + 1));
+  const bool whole = kind && gauge && start_s && *start_s >= 0 && *start_s <= kLatest_s;
   if (!whole)
     throw Failure(ExitCode::kUsage,
-                  fmt::format("--fault {}: must be KIND:GAUGE or KIND:GAUGE@SECOND, KIND one of dead, open, "
-                              "short, stuck, noisy; for example stuck:5@2.5",
-                              excerpt(text)));
-  fault.kind = *kind;
-  return fault;
+                  fmt::format("--fault {}: must be KIND:GAUGE or KIND:GAUGE@SECOND, KIND one of {}; for "
+                              "example stuck:5@2.5",
+                              excerpt(text), gaugeFaultKinds()));
+  return {*kind, *gauge, *start_s};
 }
 
 void requireGauges(const std::vector<GaugeFault>& faults, int count) {

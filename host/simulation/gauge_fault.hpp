@@ -18,6 +18,9 @@ struct GaugeFault {
   bool operator==(const GaugeFault&) const = default;
 };
 
+/// "dead, open, .."
+std::string gaugeFaultKinds();
+
 /// "dead:5", "stuck:5@2.5": kind, gauge, and the second it begins (0 without).
 ///   dead: feels nothing; open: upper rail; short: lower rail; stuck: stays at what it read; noisy: noise
 ///   ten times what it should be.

@@ -228,8 +228,6 @@ void requirePrecision(const config::FingerConfig& config, double interpolationEr
           contact.width_m ? "take contacts for narrower ones" : "cover less width or say what it is"));
 }
 
-}  // namespace
-
 TableParameters tableParameters(const config::FingerConfig& config) {
   constexpr double kUnknown = -1;
   return {.core_radius_m = config.finger.core_radius_m,
@@ -255,12 +253,15 @@ TableParameters tableParameters(const config::FingerConfig& config) {
           .reserved = 0};
 }
 
+/// By the drawing and what calibration found; 0 beyond the ring.
 GaugeAngles gaugeAngles_q32(const config::FingerConfig& config) {
   GaugeAngles angles_q32{};
   for (int gauge = 0; gauge < config.gauges.count; ++gauge)
     angles_q32[static_cast<std::size_t>(gauge)] = turnOf(config.calibrated(gauge).angle_rad);
   return angles_q32;
 }
+
+}  // namespace
 
 TableImage buildTableImage(const config::FingerConfig& config) {
   requireWidths(config.contact);

@@ -6,12 +6,6 @@
 
 namespace strainfinger::tables {
 
-/// The parameters an image of this finger carries.
-TableParameters tableParameters(const config::FingerConfig& config);
-
-/// Where the gauges are by the drawing and what calibration found; 0 beyond the ring.
-GaugeAngles gaugeAngles_q32(const config::FingerConfig& config);
-
 /// Builds the image from the elastic model. Throws Failure(kUsage) with the reason where the model has no
 /// answer (see ImpulseResponse), where readings, loads or widths don't fit the firmware's formats, and where
 /// patches are too coarse for a response as narrow as this finger's. Whether contacts can be told apart is

@@ -49,6 +49,12 @@ TEST(TableWriter, ARowHasACellForEachColumn) {
   }
 }
 
+TEST(TableWriter, ARowOfNamedCellsHasItsOwnColumns) {
+  const NamedRow row{{"n", std::int64_t{-7}}, {"name", "hoop"}};
+  TableWriter(stream, TableFormat::kCsv, columnsOf(row)).row(valuesOf(row));
+  checkWritten("n,name\n-7,hoop\n");
+}
+
 TEST(TableWriter, AListIsOneFieldOrAnArray) {
   const std::vector<Cell> row{std::vector<double>{0, 22.5, 4.1e-5}, std::vector<double>{}};
   TableWriter(stream, TableFormat::kCsv, {"a", "b"}).row(row);

@@ -5,8 +5,8 @@
 
 #include "host/base/failure.hpp"
 #include "host/calibration/calibrate.hpp"
-#include "host/calibration/complaints.hpp"
 #include "host/calibration/findings.hpp"
+#include "host/calibration/row_use.hpp"
 #include "host/study/calibration_session.hpp"
 
 #include <CppUTest/TestHarness.h>

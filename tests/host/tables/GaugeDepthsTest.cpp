@@ -15,7 +15,7 @@
 #include "host/model/pressure_profile.hpp"
 #include "host/tables/gauge_gains.hpp"
 #include "host/tables/table_builder.hpp"
-#include "host/tables/table_file.hpp"
+#include "host/tables/table_text.hpp"
 
 #include <CppUTest/TestHarness.h>
 

@@ -7,7 +7,7 @@
 #include "firmware/core/condition.hpp"
 #include "host/base/failure.hpp"
 #include "host/tables/table_builder.hpp"
-#include "host/tables/table_file.hpp"
+#include "host/tables/table_text.hpp"
 
 #include <CppUTest/TestHarness.h>
 

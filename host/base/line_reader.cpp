@@ -25,7 +25,8 @@ constexpr const char* kStdinPath = "-";
 
 LineReader::LineReader(const std::string& path)
     : name_(path == kStdinPath ? "stdin" : path),
-      descriptor_(path == kStdinPath ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)),
+      descriptor_(path == kStdinPath ? STDIN_FILENO
+                                     : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)),
       buffer_(kReadBuffer_bytes) {
   if (descriptor_ < 0) fail(name_, errno);
 }

@@ -13,10 +13,12 @@ namespace {
 
 constexpr const char* kUnknown = "?";
 
-/// Before what stands for that or anything beyond it. Not ≥: a screen may have ASCII alone.
+constexpr const char* kOrMore = ">=";  // not ≥: a screen may have ASCII alone
+
+/// Before what stands for that or anything beyond it.
 const char* beyondMark(const Said& said) {
-  if (std::abs(said.value) < said.largest) return "";
-  return said.value < 0 ? "<=" : ">=";
+  if (!(std::abs(said.value) >= said.largest)) return "";
+  return said.value < 0 ? "<=" : kOrMore;
 }
 
 std::string numberText(const Said& said, int decimals) {

@@ -8,8 +8,8 @@
 
 namespace strainfinger::simulation {
 
-/// Of the finger that the config tells of, the drawing and its calibration, whatever was built. A second contact
-/// counts as a line, because no width is told of it.
+/// Of the finger that the config tells of, the drawing and its calibration, whatever was built. A second
+/// contact counts as a line, because no width is told of it.
 class StrainFit {
  public:
   explicit StrainFit(const config::FingerConfig& config);

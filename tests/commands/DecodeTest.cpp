@@ -114,18 +114,21 @@ TEST(Decode, PrintsARowATouch) {
   STRCMP_EQUAL(
       "time_s,interface,node,angle_deg,normal_n,tangential_n,width_m,sigma_angle_deg,sigma_normal_n,"
       "sigma_tangential_n,sigma_width_m,quality_percent,chi,flags,sequence,angle2_deg,normal2_n,tangential2_"
-      "n\n"
+      "n,"
+      "alternative_deg,contacts,sigma_angle2_deg,sigma_normal2_n,sigma_tangential2_n,quality2_percent,"
+      "alternative2_deg\n"
       "1609779922.655421,can0,5,10,0.29,-0.226,0.00204,2.9,0.0035,0.0045,0.00015,97,1.0625,contact+simulated,"
       "163,"
-      "199.8,0.41,0.035\n",
+      "199.8,0.41,0.035,,2,3.1,0.0045,0.0045,95,\n",
       run.out.c_str());
 }
 
 TEST(Decode, ARowHasWhatIsLeftOfATouch) {
   const Run run = runProgram("decode --touches", contact_ + patch_);
   LONGS_EQUAL(0, run.status);
-  STRCMP_EQUAL("1609779922.655421,can0,5,10,,,0.00204,2.9,,,0.00015,97,1.0625,contact+simulated,163,,,\n",
-               rows(run).c_str());
+  STRCMP_EQUAL(
+      "1609779922.655421,can0,5,10,,,0.00204,2.9,,,0.00015,97,1.0625,contact+simulated,163,,,,,2,,,,,\n",
+      rows(run).c_str());
 }
 
 TEST(Decode, TellsTwoFingersOfOneNumberFromLosses) {

@@ -39,7 +39,8 @@ TEST(DiscoverCommand, NobodyThereIsTold) {
   const Run run = runProgram("discover --can udp:19986 --duration 0.2");
   LONGS_EQUAL(4, run.status);
   STRCMP_EQUAL("", run.out.c_str());
-  STRCMP_CONTAINS("no finger heard on udp:19986 in 0.2 s: `strainfinger doctor`", run.err.c_str());
+  STRCMP_CONTAINS("no finger heard on udp:19986 in 0.2 s: `strainfinger doctor --can udp:19986`",
+                  run.err.c_str());
 }
 
 TEST(DiscoverCommand, WithoutABusEveryInterfaceThatIsUpIsListenedTo) {

@@ -56,7 +56,7 @@ TEST(Dbc, NamesValues) {
   checkHas("\nVAL_ 1797 state 0 \"boot\" 1 \"zeroing\" 2 \"run\" 3 \"fault\" ;\n");
   checkHas("\nVAL_ 389 simulated 0 \"no\" 1 \"yes\" ;\n");
   checkHas("\nVAL_ 389 sigma_angle 65534 \"this_or_more\" 65535 \"not_known\" ;\n");
-  checkHas("\nVAL_ 645 normal -32768 \"not_known\" ;\n");
+  checkHas("\nVAL_ 645 normal 32767 \"this_or_more\" -32767 \"this_or_less\" -32768 \"not_known\" ;\n");
 }
 
 TEST(Dbc, ARequestGoesTheOtherWay) {

@@ -30,7 +30,7 @@ TEST_GROUP(TouchPrinter) {
 
   static constexpr const char* kRow =
       "1.500000,can0,5,35.73,0.29,-0.226,0.00204,0.12,0.0035,0.0045,0.00015,97,1.0625,contact+simulated,163,,"
-      ",\n";
+      ",,,1,,,,,\n";
 
   std::string rows() const { return printed_.substr(printed_.find('\n') + 1); }
 
@@ -46,7 +46,9 @@ TEST(TouchPrinter, PrintsARowATouchAtTheTimeOfItsContact) {
   STRCMP_EQUAL(
       "time_s,interface,node,angle_deg,normal_n,tangential_n,width_m,sigma_angle_deg,sigma_normal_n,"
       "sigma_tangential_n,sigma_width_m,quality_percent,chi,flags,sequence,angle2_deg,normal2_n,tangential2_"
-      "n\n",
+      "n,"
+      "alternative_deg,contacts,sigma_angle2_deg,sigma_normal2_n,sigma_tangential2_n,quality2_percent,"
+      "alternative2_deg\n",
       printed_.c_str());
   take(printer, contact_);
   take(printer, force_, 1'600'000'000);
@@ -65,7 +67,7 @@ TEST(TouchPrinter, PrintsASecondContact) {
   force.normal_mN = 1;
   take(printer, contact_), take(printer, force_), take(printer, patch);
   take(printer, Contact2Frame{contact}), take(printer, Force2Frame{force});
-  STRCMP_CONTAINS(",163,180,0.001,-0.226\n", rows().c_str());
+  STRCMP_CONTAINS(",163,180,0.001,-0.226,,2,0.12,0.0035,0.0045,97,\n", rows().c_str());
 }
 
 TEST(TouchPrinter, TheEndOfATouchHasNoForceAndNoPlace) {
@@ -73,7 +75,7 @@ TEST(TouchPrinter, TheEndOfATouchHasNoForceAndNoPlace) {
   take(printer, ContactFrame{});
   take(printer, ForceFrame{.normal_mN = 0, .tangential_mN = 0});
   take(printer, PatchFrame{});
-  STRCMP_EQUAL("1.500000,can0,5,,0,0,,,,,,,,,0,,,\n", rows().c_str());
+  STRCMP_EQUAL("1.500000,can0,5,,0,0,,,,,,,,,0,,,,,0,,,,,\n", rows().c_str());
 }
 
 TEST(TouchPrinter, PrintsObjects) {
@@ -87,7 +89,9 @@ TEST(TouchPrinter, PrintsObjects) {
       "0045,"
       "\"sigma_width_m\":null,\"quality_percent\":97,\"chi\":null,\"flags\":\"contact+simulated\","
       "\"sequence\":163,"
-      "\"angle2_deg\":null,\"normal2_n\":null,\"tangential2_n\":null}\n",
+      "\"angle2_deg\":null,\"normal2_n\":null,\"tangential2_n\":null,\"alternative_deg\":null,\"contacts\":0,"
+      "\"sigma_angle2_deg\":null,\"sigma_normal2_n\":null,\"sigma_tangential2_n\":null,"
+      "\"quality2_percent\":null,\"alternative2_deg\":null}\n",
       printed_.c_str());
 }
 
@@ -108,7 +112,7 @@ TEST(TouchPrinter, WhatATouchLostIsEmptyOnceTheNextComes) {
   ContactFrame next = contact_;
   ++next.sequence;
   take(printer, next, 1'600'000'000);
-  STRCMP_EQUAL("1.500000,can0,5,35.73,,,0.00204,0.12,,,0.00015,97,1.0625,contact+simulated,163,,,\n",
+  STRCMP_EQUAL("1.500000,can0,5,35.73,,,0.00204,0.12,,,0.00015,97,1.0625,contact+simulated,163,,,,,1,,,,,\n",
                rows().c_str());
 }
 
@@ -119,10 +123,10 @@ TEST(TouchPrinter, TheEndOfATouchIsToldWhateverOfItWasLost) {
   take(printer, HeartbeatFrame{}, 1'510'000'000);
   STRCMP_EQUAL("", rows().c_str());
   take(printer, HeartbeatFrame{}, 1'610'000'000);
-  STRCMP_EQUAL("1.500000,can0,5,,,,,,,,,,,simulated,7,,,\n", rows().c_str());
+  STRCMP_EQUAL("1.500000,can0,5,,,,,,,,,,,simulated,7,,,,,,,,,,\n", rows().c_str());
   take(printer, ForceFrame{.sequence = 7}), take(printer, PatchFrame{.sequence = 7});
   printer.finish();
-  STRCMP_EQUAL("1.500000,can0,5,,,,,,,,,,,simulated,7,,,\n", rows().c_str());
+  STRCMP_EQUAL("1.500000,can0,5,,,,,,,,,,,simulated,7,,,,,,,,,,\n", rows().c_str());
 }
 
 TEST(TouchPrinter, AContactThatComesTwiceIsOne) {
@@ -146,7 +150,7 @@ TEST(TouchPrinter, AtTheEndOfTheLogWhatIsThereIsPrinted) {
   TouchPrinter printer(printed_, TableFormat::kCsv);
   take(printer, contact_), take(printer, contact_), take(printer, force_);
   printer.finish();
-  STRCMP_EQUAL("1.500000,can0,5,35.73,0.29,-0.226,,0.12,0.0035,0.0045,,97,,contact+simulated,163,,,\n",
+  STRCMP_EQUAL("1.500000,can0,5,35.73,0.29,-0.226,,0.12,0.0035,0.0045,,97,,contact+simulated,163,,,,,,,,,,\n",
                rows().c_str());
 }
 
@@ -156,5 +160,5 @@ TEST(TouchPrinter, ASecondContactIsPrintedWhereThePatchWasLost) {
   contact.angle_cdeg = 18000;
   take(printer, contact_), take(printer, Contact2Frame{contact});
   printer.finish();
-  STRCMP_CONTAINS(",163,180,,\n", rows().c_str());
+  STRCMP_CONTAINS(",163,180,,,,,0.12,,,97,\n", rows().c_str());
 }

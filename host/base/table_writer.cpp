@@ -16,8 +16,7 @@ std::string dump(const nlohmann::ordered_json& value) {
 }
 
 std::string csvText(const Cell& cell) {
-  if (const auto* real = std::get_if<double>(&cell))
-    return std::isnan(*real) ? "" : fmt::format("{:.17g}", *real);
+  if (const auto* real = std::get_if<double>(&cell)) return std::isnan(*real) ? "" : fmt::format("{}", *real);
   if (const auto* integer = std::get_if<std::int64_t>(&cell)) return fmt::format("{}", *integer);
   if (const auto* list = std::get_if<std::vector<double>>(&cell))
     return csvField(fmt::format("[{}]", fmt::join(*list, ", ")));

@@ -32,8 +32,8 @@ std::string csvField(const std::string& text);
 /// A text as a JSON string; what is no UTF-8 becomes U+FFFD.
 std::string jsonString(const std::string& text);
 
-/// Writes the header at once and a row a call. Real numbers have 17 digits, so they read back exactly.
-/// Throws Failure(kFailure) when the stream refuses (disk full, closed pipe).
+/// Writes the header at once and a row a call. Real numbers have as many digits as they need to be read back
+/// exactly. Throws Failure(kFailure) when the stream refuses (disk full, closed pipe).
 class TableWriter {
  public:
   TableWriter(std::FILE* stream, TableFormat format, std::vector<std::string> columns);

@@ -52,7 +52,8 @@ plot data('gauges') using 1:2:(0):3 every ::1 with vectors nohead linecolor rgb 
 
 constexpr const char* kResiduals = R"(
 set multiplot
-set logscale y; set format y '10^{%T}'; set yrange [low:high]
+set logscale y; set format y '%g'; set yrange [low:high]
+set ytics (); set for [k=-3:6] for [m in '1 2 5'] ytics add (m * 10.0**k)
 set tmargin at screen 0.9; set bmargin at screen 0.22
 set lmargin at screen 0.08; set rmargin at screen 0.40
 set ylabel 'left over (microstrain, RMS)'

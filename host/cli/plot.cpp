@@ -132,7 +132,8 @@ void judge(const PlotOptions& options, const Heard& heard) {
     can::requireOurProtocol(count);
     if (count.twoSenders)
       warn("plot", fmt::format("{}: {} node {}: {}, and the picture mixes what they say: {}", options.path,
-                               count.interface, count.node, can::kTwinText, can::kTwinRemedy));
+                               count.interface, count.node, can::kTwinText,
+                               can::forNode(can::kTwinRemedy, count.interface, count.node)));
   }
 }
 

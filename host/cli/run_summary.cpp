@@ -36,8 +36,8 @@ std::string plainText(double duration_s, const simulation::RunCounts& counts,
         errors.arc_m.count(), errors.arc_m.rms() * 1e3, errors.arc_m.worst() * 1e3,
         errors.normal_n_per_m.rms(), errors.normal_n_per_m.worst(), errors.tangential_n_per_m.rms(),
         errors.tangential_n_per_m.worst());
-  add("run: not counted there: {} flagged uncertain, {} of another number of contacts, {} of none, {} "
-      "missed\n",
+  add("run: {}: {} flagged uncertain, {} of another number of contacts, {} of none, {} missed\n",
+      errors.arc_m.count() > 0 ? "not counted there" : "no answer was compared with the truth",
       errors.uncertain, errors.otherNumber, errors.phantom, errors.missed);
   add("run: touched for {:.3f} s without a contact told\n", errors.untold_s);
   if (counts.outOfUse != 0) add("run: gauges out of use at the end: {}\n", gaugesOf(counts.outOfUse));

@@ -22,12 +22,13 @@ constexpr const char* kBounds = R"(
 set multiplot
 set tmargin at screen 0.9; set bmargin at screen 0.14
 set logscale y; set format y '%g'
-set ytics (); set for [k=-3:4] for [m in '1 1.5 2 3 5 7'] ytics add (m * 10.0**k)
+marks(low, high) = high > 1000 * low ? '1' : high > 20 * low ? '1 2 5' : '1 1.5 2 3 5 7'
 set xlabel 'gauges'; set xtics 2; set offsets 0.6,0.6,0,0
 set palette defined (0 '#440154', 1 '#31688E', 2 '#35B779', 3 '#D9C52A'); set cblabel 'radius of the ring (mm)'; set cbtics scale 0.6
 unset colorbox
 set lmargin at screen 0.1; set rmargin at screen 0.44
 set ylabel 'worst sigma of the place (um)'; set yrange [arcLow:arcHigh]
+set ytics (); set for [k=-4:9] for [m in marks(arcLow, arcHigh)] ytics add (m * 10.0**k)
 good(bound) = column(5) == 0 ? gap(bound) : NaN
 bad(bound) = column(5) == 0 ? NaN : gap(bound)
 plot data('fingers') using 1:(gap(3)):2 skip 1 with lines linewidth 1.6 palette notitle, \
@@ -38,6 +39,7 @@ plot data('fingers') using 1:(gap(3)):2 skip 1 with lines linewidth 1.6 palette 
 if (least < most) set colorbox user origin 0.89,0.14 size 0.015,0.76
 set lmargin at screen 0.53; set rmargin at screen 0.87
 set ylabel 'worst sigma of the normal load (N/m)'; set yrange [normalLow:normalHigh]
+set ytics (); set for [k=-4:9] for [m in marks(normalLow, normalHigh)] ytics add (m * 10.0**k)
 set label 1 heading at graph 0,1.06 left
 plot data('fingers') using 1:(gap(4)):2 skip 1 with lines linewidth 1.6 palette notitle, \
      '' using 1:(good(4)):2 skip 1 with points pointtype 7 pointsize 0.8 palette notitle, \

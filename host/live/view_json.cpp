@@ -87,7 +87,7 @@ Json gaugesJson(const GaugesFrame& gauges) {
   const Json rate = knownOrNull(gauges.zero_rate_nano_per_s);
   return {{"out_of_use", bitNumbers(gauges.out_of_use)},
           {"zero_age_s", knownOrNull(gauges.zero_age_s)},
-          {"zero_rate_per_s", rate.is_null() ? rate : Json(gauges.zero_rate_nano_per_s * 1e-9)},
+          {"zero_rate_per_s", rate.is_null() ? rate : Json(gauges.zero_rate_nano_per_s / 1e9)},
           {"or_more", keysOf({{"zero_age_s", can::isLargest(gauges.zero_age_s)},
                               {"zero_rate_per_s", can::isLargest(gauges.zero_rate_nano_per_s)}})}};
 }

@@ -29,22 +29,6 @@ using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
                 fmt::format("{}: cannot write the file: {}", path.string(), std::strerror(errno)));
 }
 
-File create(const fs::path& path) {
-  File file(std::fopen(path.c_str(), "w"), &std::fclose);
-  if (!file) failWriting(path);
-  return file;
-}
-
-void close(File file, const fs::path& path) {
-  if (std::fclose(file.release()) != 0) failWriting(path);
-}
-
-void write(const fs::path& path, const std::string& text) {
-  File file = create(path);
-  writeText(file.get(), text);
-  close(std::move(file), path);
-}
-
 std::string csvOf(const DataFile& data) {
   return textWritten([&](std::FILE* stream) {
     TableWriter table(stream, TableFormat::kCsv, data.columns);
@@ -78,6 +62,7 @@ class Workshop {
   Workshop(const Workshop&) = delete;
   Workshop& operator=(const Workshop&) = delete;
 
+  const fs::path& folder() const { return folder_; }
   fs::path path() const { return inside_; }
 
   void deliver() const {
@@ -123,10 +108,17 @@ void runGnuplot(const fs::path& folder, const std::string& argument) {
   system::runIn(folder.string(), {"gnuplot", argument}, "gnuplot-nox");
 }
 
+/// A failure names the file as it would be called in the end.
+void write(const Workshop& workshop, const std::string& name, const std::string& text) {
+  File file(std::fopen((workshop.path() / name).c_str(), "w"), &std::fclose);
+  const bool isWritten = file && std::fwrite(text.data(), 1, text.size(), file.get()) == text.size();
+  if (!isWritten || std::fclose(file.release()) != 0) failWriting(workshop.folder() / name);
+}
+
 void drawIn(const Workshop& workshop, const Picture& picture, const std::string& stem,
             const std::string& ending) {
-  write(workshop.path() / scriptName(stem), completeScript(picture, stem, ending));
-  for (const DataFile& data : picture.data) write(workshop.path() / dataName(stem, data.name), csvOf(data));
+  write(workshop, scriptName(stem), completeScript(picture, stem, ending));
+  for (const DataFile& data : picture.data) write(workshop, dataName(stem, data.name), csvOf(data));
   runGnuplot(workshop.path(), "./" + scriptName(stem));  // it takes "-a.gp" for an option
   std::error_code notThere;  // is -1 then, and 0 where gnuplot has opened the file only
   if (fs::file_size(workshop.path() / (stem + ending), notThere) + 1 <= 1)

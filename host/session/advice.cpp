@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/session/rules.hpp"
+
 namespace strainfinger::session {
 namespace {
 
@@ -65,29 +67,28 @@ double worstZero(const Assessment& assessment) {
 }  // namespace
 
 Advice nextAdvice(const config::Gauges& gauges, const Coverage& coverage,
-                  const std::optional<Assessment>& assessment, const Unavailable& unavailable,
-                  const SessionGoals& goals) {
+                  const std::optional<Assessment>& assessment, const Unavailable& unavailable) {
   using Kind = Advice::Kind;
   if (coverage.untouched == 0) return {Kind::kLeaveAlone};
-  const ArcRun gap = longestRun(uncovered(coverage, goals.leastPerArc));
+  const ArcRun gap = longestRun(uncovered(coverage, kGoals.leastPerArc));
   if (gap.count > 0) return {Kind::kRoll, gap};
-  const bool unitIsKnown = assessment ? assessment->unitOfForce <= goals.unitOfForce : coverage.loads > 0;
+  const bool unitIsKnown = assessment ? assessment->unitOfForce <= kGoals.unitOfForce : coverage.loads > 0;
   if (!unitIsKnown && !unavailable.loads)
     return {
         Kind::kPress, {}, assessment ? gaugeForPress(assessment->unitAfterPress) : coveredGauge(coverage)};
-  const bool angleIsKnown = !assessment || assessment->zeroOfAngle_deg <= goals.zeroOfAngle_deg;
-  const int directions = directionsThatCount(coverage.directions_deg, goals.directionsApart_deg);
-  if ((directions < goals.directions || !angleIsKnown) && !unavailable.directions) return {Kind::kMark};
+  const bool angleIsKnown = !assessment || assessment->zeroOfAngle_deg <= kGoals.zeroOfAngle_deg;
+  const int directions = directionsThatCount(coverage.directions_deg, kGoals.directionsApart_deg);
+  if ((directions < kGoals.directions || !angleIsKnown) && !unavailable.directions) return {Kind::kMark};
   if (!assessment) return {Kind::kWait};
-  if (worstZero(*assessment) > goals.zero * gauges.noise_strain) return {Kind::kLeaveAlone};
-  if (assessment->bestGain() >= goals.leastGain) return {Kind::kRoll, runOfGain(assessment->arcGains)};
+  if (worstZero(*assessment) > kGoals.zero * gauges.noise_strain) return {Kind::kLeaveAlone};
+  if (assessment->bestGain() >= kGoals.leastGain) return {Kind::kRoll, runOfGain(assessment->arcGains)};
   return {Kind::kDone};
 }
 
-std::string textOf(const Advice& advice, const config::Gauges& gauges, const SessionGoals& goals) {
+std::string textOf(const Advice& advice, const config::Gauges& gauges) {
   switch (advice.kind) {
     case Advice::Kind::kLeaveAlone:
-      return fmt::format("Leave it alone for {:.0f} s.", goals.untouched_s);
+      return fmt::format("Leave it alone for {:.0f} s.", kGoals.untouched_s);
     case Advice::Kind::kRoll:
       return fmt::format("Roll it along a table edge {}: now less, now more, rubbing to either side.",
                          nameOf(gauges, advice.where));

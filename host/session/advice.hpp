@@ -6,7 +6,6 @@
 
 #include "host/session/assessment.hpp"
 #include "host/session/coverage.hpp"
-#include "host/session/rules.hpp"
 
 namespace strainfinger::session {
 
@@ -32,10 +31,9 @@ struct Unavailable {
 
 /// The most wanted. Without an assessment (there was no fit yet) by coverage alone.
 Advice nextAdvice(const config::Gauges& gauges, const Coverage& coverage,
-                  const std::optional<Assessment>& assessment, const Unavailable& unavailable = {},
-                  const SessionGoals& goals = {});
+                  const std::optional<Assessment>& assessment, const Unavailable& unavailable = {});
 
 /// In plain words, one sentence or two.
-std::string textOf(const Advice& advice, const config::Gauges& gauges, const SessionGoals& goals = {});
+std::string textOf(const Advice& advice, const config::Gauges& gauges);
 
 }  // namespace strainfinger::session

@@ -10,6 +10,7 @@
 #include "host/calibration/joint_fit.hpp"
 #include "host/model/pressure_profile.hpp"
 #include "host/session/coverage.hpp"
+#include "host/session/rules.hpp"
 
 namespace strainfinger::session {
 namespace {
@@ -136,13 +137,12 @@ double Assessment::bestGain() const {
   return std::max(gainAllAround, *std::max_element(arcGains.begin(), arcGains.end()));
 }
 
-Assessment assess(const CalibrationResult& result, const calibration::KnownErrors& errors,
-                  const SessionGoals& goals) {
+Assessment assess(const CalibrationResult& result, const calibration::KnownErrors& errors) {
   const Drawing& drawing = result.drawing();
   const Prospect prospect(result);
   const Yardstick yardstick(result, prospect.ring());
   const double radius_m = drawing.config().finger.outer_radius_m;
-  const double batch = goals.batch;
+  const double batch = kGoals.batch;
   Assessment found;
   found.rows = result.rows().size();
   found.fitted = static_cast<std::size_t>(result.count(calibration::RowUse::kFitted));

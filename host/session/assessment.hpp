@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "host/calibration/calibrate.hpp"
-#include "host/session/rules.hpp"
 
 namespace strainfinger::session {
 
@@ -41,7 +40,6 @@ struct Assessment {
 };
 
 /// Errors of known loads as for calibrate().
-Assessment assess(const calibration::CalibrationResult& result, const calibration::KnownErrors& errors,
-                  const SessionGoals& goals = {});
+Assessment assess(const calibration::CalibrationResult& result, const calibration::KnownErrors& errors);
 
 }  // namespace strainfinger::session

@@ -29,6 +29,7 @@ struct ThinningRules {
   /// [N/m over N/m] Tangential over normal load beyond which a touch counts as rubbed.
   double rubbed = 0.25;
 };
+inline constexpr ThinningRules kThinning{};
 
 /// What a session asks for, and when nothing is left to gain.
 struct SessionGoals {
@@ -59,6 +60,7 @@ struct SessionGoals {
   /// within a quarter of what noise alone makes.
   double leastGain = 0.03;
 };
+inline constexpr SessionGoals kGoals{};
 
 /// When rows are fitted anew.
 struct FitRules {
@@ -70,6 +72,7 @@ struct FitRules {
   /// [1] More rows than at the last fit, at which sigmas have fallen by a tenth.
   double growth = 1.2;
 };
+inline constexpr FitRules kFits{};
 
 /// What is kept of a touch that is held while its load or angle is typed in.
 struct HoldRules {
@@ -82,5 +85,6 @@ struct HoldRules {
   /// and rubber that creeps change them by a tenth, letting go by all of it.
   double stillHeld = 0.5;
 };
+inline constexpr HoldRules kHolds{};
 
 }  // namespace strainfinger::session

@@ -9,6 +9,7 @@
 
 #include "host/calibration/known_units.hpp"
 #include "host/config/over_range.hpp"
+#include "host/session/rules.hpp"
 
 namespace strainfinger::session {
 
@@ -32,7 +33,7 @@ void Session::keep(const NewRow& row) {
 
 std::vector<NewRow> Session::take(const Sample& sample) {
   recent_.push_back(sample);
-  while (sample.time_s - recent_.front().time_s > holds_.time_s) recent_.pop_front();
+  while (sample.time_s - recent_.front().time_s > kHolds.time_s) recent_.pop_front();
   now_ = coverage_.untouched > 0 ? thinner_.take(sample) : Verdict::kTooSoon;
   std::vector<NewRow> found = watchRest(sample);
   if (now_ == Verdict::kKept) found.push_back({sample.time_s, sample.strains, {}});
@@ -47,7 +48,7 @@ double Session::atRest_s() const {
 /// Rows of the untouched finger, each the mean over a part of the time that it was left alone, once that was
 /// asked for and is over.
 std::vector<NewRow> Session::watchRest(const Sample& sample) {
-  const double most = goals_.atRest * config_.gauges.noise_strain;
+  const double most = kGoals.atRest * config_.gauges.noise_strain;
   const auto far = [&] {
     return (sample.strains - restSum_ / static_cast<double>(resting_.size())).cwiseAbs().maxCoeff() > most;
   };
@@ -58,18 +59,18 @@ std::vector<NewRow> Session::watchRest(const Sample& sample) {
   if (resting_.empty()) restSum_ = VectorXd::Zero(sample.strains.size());
   resting_.push_back(sample);
   restSum_ += sample.strains;
-  if (atRest_s() < goals_.untouched_s) return {};
+  if (atRest_s() < kGoals.untouched_s) return {};
   const std::vector<Sample> rested = std::exchange(resting_, {});
   Eigen::Index worst = 0;
   const VectorXd mean = restSum_ / static_cast<double>(rested.size());
   const double off = mean.cwiseAbs().maxCoeff(&worst);
-  if (off > goals_.farZero * config_.tolerance.zero_strain) {
+  if (off > kGoals.farZero * config_.tolerance.zero_strain) {
     farGauge_ = static_cast<int>(worst);
     return {};
   }
   if (advice().kind != Advice::Kind::kLeaveAlone) return {};
   std::vector<NewRow> rows;
-  const auto parts = static_cast<std::size_t>(goals_.untouchedRows);
+  const auto parts = static_cast<std::size_t>(kGoals.untouchedRows);
   for (std::size_t part = 0; part < parts; ++part) {
     const std::size_t begin = part * rested.size() / parts, end = (part + 1) * rested.size() / parts;
     if (begin == end) continue;
@@ -83,7 +84,7 @@ std::vector<NewRow> Session::watchRest(const Sample& sample) {
 /// The mean of what is held; else why there is none.
 std::optional<Sample> Session::nowHeld(std::string& why) const {
   const config::Gauges& gauges = config_.gauges;
-  if (recent_.size() < static_cast<std::size_t>(holds_.leastSets)) {
+  if (recent_.size() < static_cast<std::size_t>(kHolds.leastSets)) {
     why = "no readings come";
     return std::nullopt;
   }
@@ -92,11 +93,11 @@ std::optional<Sample> Session::nowHeld(std::string& why) const {
   for (const Sample& sample : recent_)
     squares += (sample.strains - mean).cwiseAbs2() / static_cast<double>(recent_.size());
   const double peak = mean.cwiseAbs().maxCoeff();
-  if (peak < ThinningRules{}.weakest * gauges.noise_strain)
+  if (peak < kThinning.weakest * gauges.noise_strain)
     why = "nothing presses the finger, or too little";
   else if (config::isOverRange(gauges, peak))
     why = "it is pressed beyond its range";
-  else if (std::sqrt(squares.maxCoeff()) > std::max(holds_.noise * gauges.noise_strain, holds_.share * peak))
+  else if (std::sqrt(squares.maxCoeff()) > std::max(kHolds.noise * gauges.noise_strain, kHolds.share * peak))
     why = "it is not held still";
   return why.empty() ? std::optional(Sample{recent_.back().time_s, mean}) : std::nullopt;
 }
@@ -116,7 +117,7 @@ std::optional<int> Session::farGauge() const {
 /// What was held last still is.
 bool Session::isPressed() const {
   if (!pressed_ || recent_.empty()) return false;
-  return (recent_.back().strains - *pressed_).norm() < holds_.stillHeld * pressed_->norm();
+  return (recent_.back().strains - *pressed_).norm() < kHolds.stillHeld * pressed_->norm();
 }
 
 /// Entered twice it is meant.
@@ -223,15 +224,14 @@ Obeyed Session::obey(const Command& command) {
 }
 
 bool Session::wantsFit() const {
-  const FitRules rules;
   const auto touches = rows_.size() - static_cast<std::size_t>(coverage_.untouched);
   const bool isCovered =
-      std::ranges::all_of(coverage_.touches, [this](int of) { return of >= goals_.leastPerArc; });
-  const int perGauge = isCovered || tried_ > 0 ? rules.firstPerGauge : rules.uncoveredPerGauge;
+      std::ranges::all_of(coverage_.touches, [this](int of) { return of >= kGoals.leastPerArc; });
+  const int perGauge = isCovered || tried_ > 0 ? kFits.firstPerGauge : kFits.uncoveredPerGauge;
   const auto least = static_cast<std::size_t>(perGauge * config_.gauges.count);
   if (touches < least) return false;
   return tried_ == 0 || knowsOther_ ||
-         static_cast<double>(rows_.size()) >= rules.growth * static_cast<double>(tried_);
+         static_cast<double>(rows_.size()) >= kFits.growth * static_cast<double>(tried_);
 }
 
 const Rows& Session::beginFit() {
@@ -247,7 +247,7 @@ void Session::takeFit(FitOutcome outcome) {
 }
 
 Advice Session::advice() const {
-  return nextAdvice(config_.gauges, coverage_, fit_ ? fit_->assessment : std::nullopt, unavailable_, goals_);
+  return nextAdvice(config_.gauges, coverage_, fit_ ? fit_->assessment : std::nullopt, unavailable_);
 }
 
 }  // namespace strainfinger::session

@@ -79,8 +79,6 @@ class Session {
   Obeyed obeyTare();
 
   config::FingerConfig config_;
-  SessionGoals goals_;
-  HoldRules holds_;
   Rows rows_;
   Thinner thinner_;
   calibration::TouchSearch search_;

@@ -81,8 +81,7 @@ class SessionPainter {
     say(row_++, 0, "  normal " + each(1, 1, 2) + ", tangential " + each(2, 1, 2) + " N/m");
     say(row_++, 0,
         fmt::format("Unit of force {:.1f} %, zero of the angle {}; {} more touches gain {:.0f} %",
-                    100 * known.unitOfForce, zeroOfAngleText(known), SessionGoals{}.batch,
-                    100 * known.bestGain()));
+                    100 * known.unitOfForce, zeroOfAngleText(known), kGoals.batch, 100 * known.bestGain()));
   }
 
   void table() {
@@ -193,7 +192,7 @@ std::string sessionLine(const SessionView& view) {
         "; errors to come: {}; unit of force {:.1f} %, zero of the angle {}; {} more touches would gain "
         "{:.0f} %",
         errorsText(view.assessment->errors), 100 * view.assessment->unitOfForce,
-        zeroOfAngleText(*view.assessment), SessionGoals{}.batch, 100 * view.assessment->bestGain());
+        zeroOfAngleText(*view.assessment), kGoals.batch, 100 * view.assessment->bestGain());
   if (!view.complaint.empty()) text += "; no fit yet: " + view.complaint;
   return text + " | " + view.next;
 }

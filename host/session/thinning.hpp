@@ -4,14 +4,12 @@
 
 #include <deque>
 #include <map>
-#include <span>
 #include <tuple>
 #include <vector>
 
 #include "host/calibration/touch_fit.hpp"
 #include "host/session/coverage.hpp"
 #include "host/session/rows.hpp"
-#include "host/session/rules.hpp"
 
 namespace strainfinger::session {
 
@@ -30,7 +28,7 @@ class Thinner {
  public:
   /// The config's drawing says where and how strong touches are, as TouchSearch::guess() has it: what
   /// fingers are built off it doesn't matter here. Costs 50 ms for 16 gauges.
-  explicit Thinner(const config::FingerConfig& config, const ThinningRules& rules = {});
+  explicit Thinner(const config::FingerConfig& config);
 
   Verdict take(const Sample& sample);
 
@@ -44,15 +42,10 @@ class Thinner {
   bool isDistinct(const std::vector<Eigen::VectorXd>& kept, const Eigen::VectorXd& strains) const;
 
   config::FingerConfig config_;
-  ThinningRules rules_;
   calibration::TouchSearch search_;
   std::deque<Sample> recent_;  ///< of the last longestSpan_s
   double kept_s_;
   std::map<Cell, std::vector<Eigen::VectorXd>> cells_;
 };
-
-/// The numbers of the samples that are worth a row.
-std::vector<std::size_t> thin(const config::FingerConfig& config, std::span<const Sample> samples,
-                              const ThinningRules& rules = {});
 
 }  // namespace strainfinger::session

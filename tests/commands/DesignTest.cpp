@@ -31,7 +31,7 @@ TEST(DesignCommand, ARowForEachFingerAndTheBestInWords) {
                   run.out.c_str());
   LONGS_EQUAL(1 + 6, std::count(run.out.begin(), run.out.end(), '\n'));
   for (const char* row :
-       {"\n8,0.0091999999999999998,", "\n16,0.0095999999999999992,", "gauges.count = 8 must be"})
+       {"\n8,0.0092,", "\n16,0.0096,", "gauges.count = 8 must be"})
     STRCMP_CONTAINS(row, run.out.c_str());
   STRCMP_CONTAINS("design: of the fingers without a problem with this touch, 16 gauges at", run.err.c_str());
 }

@@ -27,9 +27,8 @@ TEST(Plot, DrawsALog) {
       "grep -c '<svg' b.svg; tail -n 1 a-force.csv; ls",
       kTouch);
   STRCMP_EQUAL(
-      "PNG1\n2.5,0.28999999999999998,0.28649999999999998,0.29349999999999998,-0.22600000000000001,-0."
-      "23050000000000001,"
-      "-0.2215\na-angle.csv\na-flags.csv\na-force.csv\na-width.csv\na.gp\na.png\nb-angle.csv\nb-flags.csv\n"
+      "PNG1\n2.5,0.29,0.2865,0.2935,-0.226,-0.2305,-0.2215\na-angle.csv\na-flags.csv\na-force.csv\na-width."
+      "csv\na.gp\na.png\nb-angle.csv\nb-flags.csv\n"
       "b-force.csv\nb-width.csv\nb.gp\nb.svg\nx.log\n",
       run.out.c_str());
   STRCMP_EQUAL("", run.err.c_str());

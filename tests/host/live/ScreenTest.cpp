@@ -251,11 +251,15 @@ TEST(Screen, EveryBusIsShown) {
   STRCMP_CONTAINS("can1", lines[11].c_str());
 }
 
-TEST(Screen, AnySizeOfWindowDoes) {
+TEST(Screen, NoWindowIsTooSmallAndNoneIsLeft) {
   const ScreenContent content{
       .buses = {busWith({touchedFinger(), touchedFinger()})}, .message = "m", .keys = "q"};
   for (const int rows : {1, 2, 3, 21, 22, 200})
-    for (const int columns : {1, 19, 49, 50, 60, 79, 400}) drawn(content, {.rows = rows, .columns = columns});
+    for (const int columns : {1, 19, 49, 50, 60, 79, 400}) {
+      const auto lines = drawn(content, {.rows = rows, .columns = columns, .unicode = false});
+      CHECK_COMPARE(lines.size(), <=, static_cast<std::size_t>(rows));
+      for (const std::string& line : lines) CHECK_COMPARE(line.size(), <=, static_cast<std::size_t>(columns));
+    }
 }
 
 TEST(Screen, AsciiIsAsciiAlone) {

@@ -157,6 +157,8 @@ TEST(LogPicture, CanBeDrawn) {
   const TemporaryFolder folder;
   draw(logPicture({"heading", {point_}}), folder.file("one.svg"));
   draw(logPicture({"heading", {point_, pointAt(2, 30)}}), folder.file("two.png"));
+  STRCMP_CONTAINS("</svg>", readFile(folder.file("one.svg"), ExitCode::kFailure).c_str());
+  CHECK_COMPARE(std::filesystem::file_size(folder.file("two.png")), >, 5000);
 }
 
 // The heading has an interface's name, which a log can have from anywhere.

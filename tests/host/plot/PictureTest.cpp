@@ -81,7 +81,7 @@ TEST(Picture, AnSvgIsDrawnWhole) {
 
 TEST(Picture, DataAndScriptStayBesideThePicture) {
   draw(picture, folder.file("a.svg"));
-  STRCMP_EQUAL("x,y\n0,1\n1,\n2,0.10000000000000001\n", contentOf("a-curve.csv").c_str());
+  STRCMP_EQUAL("x,y\n0,1\n1,\n2,0.1\n", contentOf("a-curve.csv").c_str());
   STRCMP_EQUAL(completeScript(picture, "a", ".svg").c_str(), contentOf("a.gp").c_str());
 }
 

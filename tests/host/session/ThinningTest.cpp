@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "tests/host/session/hands.hpp"
 
@@ -21,7 +22,11 @@ TEST_GROUP(Thinning) {
   void hold(double angle_deg, double normal_n_per_m, int sets, double tangential_n_per_m = 0) {
     for (int i = 0; i < sets; ++i) add(hand.touch(angle_deg, normal_n_per_m, tangential_n_per_m));
   }
-  std::size_t kept() { return thin(config, samples).size(); }
+  std::size_t kept() const {
+    Thinner thinner(config);
+    return static_cast<std::size_t>(std::ranges::count_if(
+        samples, [&](const Sample& sample) { return thinner.take(sample) == Verdict::kKept; }));
+  }
 };
 
 TEST(Thinning, ATouchThatIsHeldForSecondsIsOneRow) {

@@ -104,7 +104,8 @@ std::string shortcomingOf(const config::FingerConfig& config, const simulation::
                           const Bounds& bounds, const Trial& trial) {
   if (config::isOverRange(config.gauges, bounds.largest_strain))
     return fmt::format(
-        "a gauge reads a strain of up to {:.3g} under this touch, too near the end of gauges.full_scale_strain = {}: use a "
+        "a gauge reads a strain of up to {:.3g} under this touch, too near the end of "
+        "gauges.full_scale_strain = {}: use a "
         "larger full scale or deeper gauges",
         bounds.largest_strain, config.gauges.full_scale_strain);
   if (touch.normal_n_per_m < trial.detected_n_per_m)

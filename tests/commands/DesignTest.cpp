@@ -30,8 +30,7 @@ TEST(DesignCommand, ARowForEachFingerAndTheBestInWords) {
   STRCMP_CONTAINS("gauges,radius_m,arc_median_m,arc_worst_m,normal_median_n_per_m,normal_worst_n_per_m,",
                   run.out.c_str());
   LONGS_EQUAL(1 + 6, std::count(run.out.begin(), run.out.end(), '\n'));
-  for (const char* row :
-       {"\n8,0.0092,", "\n16,0.0096,", "gauges.count = 8 must be"})
+  for (const char* row : {"\n8,0.0092,", "\n16,0.0096,", "gauges.count = 8 must be"})
     STRCMP_CONTAINS(row, run.out.c_str());
   STRCMP_CONTAINS("design: of the fingers without a problem with this touch, 16 gauges at", run.err.c_str());
 }

@@ -135,9 +135,9 @@ inline constexpr int kMostDepthShapeShift = 8;
 /// same second moment, of itself, and a shape over the angle.
 struct GaugeDepths {
   using Shape = std::array<std::int8_t, kDepthShapePoints>;
-  static constexpr int kStepsBits = 7;  ///< of the depth for which the rest tells what is added
-  static constexpr int kTurnBits = 11,
-                       kFactorBits = 15;  ///< fraction bits of the factors of slopes, of others
+  static constexpr int kStepsBits = 7;    ///< [log2] the depth for which the rest tells what is added
+  static constexpr int kTurnBits = 11;    ///< fraction bits of the factors of slopes
+  static constexpr int kFactorBits = 15;  ///< of the factor of the response itself
 
   std::array<std::int8_t, kMaxGauges> steps;  ///< negative: nearer the surface; 0 beyond the ring
   std::int16_t normal_turn_q11;               ///< of d(tangential) / dt

@@ -47,9 +47,8 @@ struct Answer {
   bool weak = false;       ///< a contact is felt by little more than noise
   bool searching = false;  ///< the search for other hypotheses goes on
   bool several = false;    ///< two contacts explain the readings best; or one without a gauge, but not well
-  bool exchanged =
-      false;             ///< of two contacts, the solution's second was there first, and is told as the first
-  GaugeSet suspect = 0;  ///< see Suspect; 0: none
+  bool exchanged = false;  ///< the second of two contacts is told as the first: it was there first
+  GaugeSet suspect = 0;    ///< see Suspect; 0: none
 
   /// The index in the solution of the contact that is told as the first (0) or the second (1). The solution
   /// keeps its own order, as it decides by which unknowns others are limited.

@@ -67,8 +67,8 @@ struct LogError {
 
 /// Reads one line, with or without its line end, in any text form of candump: log files; the screen form with
 /// any of -t a|A|d|z, -x, -a, -e, -d, -c (colours), -i (binary digits), -8, -N. UTF-8's byte order mark may
-/// stand before it. Byte-swapped dumps (-S) are read where they have two bytes or more: one
-/// byte looks the same in both orders.
+/// stand before it. Byte-swapped dumps (-S) are read where they have two bytes or more: one byte
+/// looks the same in both orders.
 std::variant<LogLine, LogError> parseLogLine(std::string_view line);
 
 /// A classic data frame of an 11-bit identifier, the only ones fingers send, as a line has it.

@@ -26,11 +26,9 @@ std::string_view remedyFor(FingerFault fault) {
       return "`strainfinger info --can BUS -n N` has what it died of; switching it off and on clears this";
     case FingerFault::kSamples:
       return "a few do no harm, as while settings are kept; `strainfinger info --can BUS -n N` counts them "
-             "(lost_sets): where they go on, sample more slowly (firmware/board/stm32g431/options.md) or, "
-             "for "
-             "a simulated finger, do less on this machine (`chrt -f 50 strainfinger run ..`); the fault goes "
-             "at "
-             "the next start";
+             "(lost_sets): where they go on, sample more slowly (firmware/board/stm32g431/options.md) or, if "
+             "the finger is simulated, do less on this machine (`chrt -f 50 strainfinger run ..`); the fault "
+             "goes at the next start";
     case FingerFault::kClock:
       return "check the board's crystal: with the other clock it may not be heard on the bus when it warms "
              "up";

@@ -192,6 +192,16 @@ TEST(CalibrateCommand, APageThatCannotBeMadeIsToldBeforeAnythingIsFitted) {
   CHECK_FALSE(std::filesystem::exists(path("page.html")));
 }
 
+TEST(CalibrateCommand, AFingerThatTheFirmwareCannotWorkWithIsTold) {
+  write("narrow.toml", "schema = 1\n[contact]\nlargest_width_m = 5e-5\n");
+  const Run run = runShell("cd " + folder +
+                           " && \"$STRAINFINGER\" run --strains lines.csv >/dev/null 2>&1\n"
+                           "\"$STRAINFINGER\" calibrate -c narrow.toml --strains lines.csv -o out.toml");
+  LONGS_EQUAL_TEXT(0, run.status, run.err.c_str());
+  STRCMP_CONTAINS("calibrate: warning: the firmware cannot work with this finger: ", run.err.c_str());
+  CHECK_TRUE(std::filesystem::exists(path("out.toml")));
+}
+
 TEST(CalibrateCommand, AFolderThatIsMissingIsToldBeforeAnythingIsFitted) {
   for (const char* option : {"--page", "--output"}) {
     const Run run = calibrate(fmt::format("{} {}", option, path("none/file")), "nonsense");

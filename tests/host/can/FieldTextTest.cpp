@@ -35,6 +35,9 @@ TEST(FieldText, NumbersAreExactAndInTheirUnit) {
 TEST(FieldText, TheLargestMeansThatOrMore) {
   STRCMP_EQUAL("0.1265", textOf(ForceFrame{.sigma_normal_half_mN = 253}, "sigma_normal_n").c_str());
   STRCMP_EQUAL(">=0.127", textOf(ForceFrame{.sigma_normal_half_mN = 254}, "sigma_normal_n").c_str());
+  STRCMP_EQUAL(">=32.767", textOf(ForceFrame{.normal_mN = 32'767}, "normal_n").c_str());
+  STRCMP_EQUAL("<=-32.767", textOf(ForceFrame{.tangential_mN = -32'767}, "tangential_n").c_str());
+  STRCMP_EQUAL("-32.766", textOf(ForceFrame{.tangential_mN = -32'766}, "tangential_n").c_str());
   STRCMP_EQUAL(">=65534", textOf(HeartbeatFrame{.uptime_s = 65'534}, "uptime_s").c_str());
   STRCMP_EQUAL("359.99", textOf(ContactFrame{.angle_cdeg = 35'999}, "angle_deg").c_str());
 }

@@ -286,6 +286,8 @@ TEST(ValueText, TheLargestThatAFingerCanSayIsThatOrMore) {
   STRCMP_EQUAL("-0.100 ± >=0.127 N", tangentialText(touch).c_str());
   STRCMP_EQUAL(">=65.53 ± >=65.53 mm", widthText(touch).c_str());
   STRCMP_EQUAL(">=18:12:14", durationText(0xFFFE).c_str());
+  touch.tangential_n = -32.767;
+  STRCMP_EQUAL("<=-32.767 ± >=0.127 N", tangentialText(touch).c_str());
   touch.sigmaNormal_n = 0.1265;
   STRCMP_EQUAL("0.282 ± 0.127 N", normalText(touch).c_str());
 }

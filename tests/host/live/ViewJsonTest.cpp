@@ -45,6 +45,7 @@ TEST(ViewJson, ValuesThatStandForThatOrMoreAreListedByTheirKeys) {
   FingerView finger = touchedFinger();
   STRCMP_EQUAL("[]", jsonOf(finger).at("or_more").dump().c_str());
   STRCMP_EQUAL("[]", jsonOf(finger).at("touch").at("or_more").dump().c_str());
+  finger.touch->tangential_n = -32.767;
   finger.touch->sigmaNormal_n = 0.127;
   finger.touch->sigmaWidth_m = 0.065534;
   finger.touch->chi = 15.875;
@@ -53,7 +54,8 @@ TEST(ViewJson, ValuesThatStandForThatOrMoreAreListedByTheirKeys) {
   finger.gauges->zero_age_s = 0xFFFE;
   const auto json = jsonOf(finger);
   const auto& touch = json.at("touch");
-  STRCMP_EQUAL("[\"sigma_normal_n\",\"sigma_width_m\",\"chi\"]", touch.at("or_more").dump().c_str());
+  STRCMP_EQUAL("[\"tangential_n\",\"sigma_normal_n\",\"sigma_width_m\",\"chi\"]",
+               touch.at("or_more").dump().c_str());
   DOUBLES_EQUAL(0.127, touch.at("sigma_normal_n"), 0);
   STRCMP_EQUAL("[\"sigma_angle_deg\",\"sigma_tangential_n\"]",
                touch.at("second").at("or_more").dump().c_str());

@@ -49,10 +49,9 @@ Eigen::MatrixXd withoutConventions(const Drawing& drawing, const Eigen::MatrixXd
 
 TouchVariances touchVariances(const RingResponse& ring, const TouchState& touch,
                               const Eigen::MatrixXd& covariance, double noise_strain) {
-  const auto model = ring.linearised(touch, true);
-  const Eigen::Matrix4d inverse = (model.toTouch.transpose() * model.toTouch).inverse();
-  const Eigen::MatrixXd pull = inverse * model.toTouch.transpose() * model.toFinger;
-  const TouchState noise = noise_strain * noise_strain * inverse.diagonal();
+  const TouchEquations at(ring, touch, noise_strain);
+  const Eigen::MatrixXd pull = at.pull();
+  const TouchState noise = at.matrix.inverse().diagonal();
   return {noise, noise + (pull * covariance * pull.transpose()).diagonal()};
 }
 

@@ -124,19 +124,9 @@ MatrixXd covarianceOf(const Drawing& drawing, int lastHarmonic, const std::vecto
   const RingResponse ring(drawing, fit.deviations, lastHarmonic);
   const MatrixXd prior = drawing.priorRoot();
   MatrixXd information = prior.transpose() * prior;
-  for (std::size_t i = 0; i < data.size(); ++i) {
-    const auto model = ring.linearised(fit.touches[i], true);
-    const double weight = 1 / data[i].sigma_strain;
-    const MatrixXd finger = weight * model.toFinger;
-    const Eigen::MatrixX4d touch = weight * model.toTouch;
-    Eigen::Matrix4d own = touch.transpose() * touch;
-    own.diagonal() += data[i].prior.weight.cwiseAbs2();
-    const Eigen::LLT<Eigen::Matrix4d> factor(own);
-    const MatrixXd shared = factor.matrixL().solve(touch.transpose() * finger);
-    information.selfadjointView<Eigen::Lower>().rankUpdate(finger.transpose());
-    information.selfadjointView<Eigen::Lower>().rankUpdate(shared.transpose(), -1);
-  }
-  return inverseOf(MatrixXd(information.selfadjointView<Eigen::Lower>()));
+  for (std::size_t i = 0; i < data.size(); ++i)
+    information += TouchEquations(ring, data[i], fit.touches[i], true).fingerInformation();
+  return inverseOf(information);
 }
 
 }  // namespace strainfinger::calibration

@@ -150,13 +150,10 @@ bool isExplained(const Segment& segment, const std::vector<double>& before, cons
 
 ZeroEvidence zeroEvidence(std::size_t row, const RingResponse& ring, const TouchData& data,
                           const TouchState& touch) {
-  const auto model = ring.linearised(touch, false);
-  const Eigen::MatrixX4d toTouch = model.toTouch / data.sigma_strain;
-  Eigen::Matrix4d equations = toTouch.transpose() * toTouch;
-  equations.diagonal() += data.prior.weight.cwiseAbs2();
+  const TouchEquations at(ring, data, touch, false);
   const Index gauges = ring.gauges();
-  return {row, data.sigma_strain, (data.readings - model.readings) / data.sigma_strain,
-          MatrixXd::Identity(gauges, gauges) - toTouch * equations.ldlt().solve(toTouch.transpose())};
+  return {row, data.sigma_strain, at.residual,
+          MatrixXd::Identity(gauges, gauges) - at.toTouch * at.matrix.ldlt().solve(at.toTouch.transpose())};
 }
 
 std::vector<MovedZero> movedZeros(std::vector<ZeroEvidence> rows, double noise_strain) {

@@ -20,21 +20,11 @@ VectorXd pattern(Index gauges, std::size_t number) {
   return signs;
 }
 
-/// The slope of minus half of chi-squared to the finger, its touch being fitted. What its last step left is
-/// taken off by the step's own equations: 1e-5 of a standard deviation, of 30,000 touches always to one side,
-/// would be 3 % of the unit of force.
+/// The slope of minus half of chi-squared to the finger, its touch being fitted. What the fit's last step
+/// left is taken off: 1e-5 of a standard deviation, of 30,000 touches always to one side, would be 3 % of the
+/// unit of force.
 VectorXd slope(const RingResponse& ring, const TouchData& data, const TouchState& start) {
-  const TouchState touch = refineTouch(ring, data, start).touch;
-  const auto model = ring.linearised(touch, true);
-  const double weight = 1 / (data.sigma_strain * data.sigma_strain);
-  const VectorXd residual = weight * (data.readings - model.readings);
-  const TouchState priorWeight = data.prior.weight.cwiseAbs2();
-  Eigen::Matrix4d equations = weight * model.toTouch.transpose() * model.toTouch;
-  equations.diagonal() += priorWeight;
-  const TouchState left =
-      model.toTouch.transpose() * residual + priorWeight.cwiseProduct(data.prior.value - touch);
-  const TouchState step = equations.ldlt().solve(left);
-  return model.toFinger.transpose() * (residual - weight * model.toTouch * step);
+  return TouchEquations(ring, data, refineTouch(ring, data, start).touch, true).fingerGradient();
 }
 
 }  // namespace

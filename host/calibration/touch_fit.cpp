@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "host/base/angles.hpp"
 #include "host/model/pressure_profile.hpp"
@@ -31,24 +32,6 @@ constexpr double kEnoughGain = 1e-3;  ///< of chi-squared: far less than noise m
 /// Of a load's energy: with less at the other gauges, these don't tell it.
 constexpr double kLeastLeft = 1e-6;
 
-/// Normal equations of a touch's readings and prior.
-struct NormalEquations {
-  Eigen::Matrix4d matrix;
-  Eigen::Vector4d gradient;  ///< of half of chi-squared, downhill
-  double chiSquared;
-
-  NormalEquations(const RingResponse& ring, const TouchData& data, const TouchState& touch) {
-    const auto model = ring.linearised(touch, false);
-    const double weight = 1 / data.sigma_strain;
-    const VectorXd residuals = weight * (data.readings - model.readings);
-    const TouchState known = data.prior.residuals(touch);
-    matrix = weight * weight * model.toTouch.transpose() * model.toTouch;
-    matrix.diagonal() += data.prior.weight.cwiseAbs2();
-    gradient = weight * model.toTouch.transpose() * residuals + data.prior.weight.cwiseProduct(known);
-    chiSquared = residuals.squaredNorm() + known.squaredNorm();
-  }
-};
-
 bool isBetter(const TouchFit& a, const TouchFit& b) { return a.chiSquared < b.chiSquared; }
 
 bool isAnother(const TouchState& a, const TouchState& b) {
@@ -63,7 +46,8 @@ Eigen::Vector2d withoutGauge(const Eigen::RowVector2d& own, const Eigen::Vector2
   return projected + own.transpose() * (own.dot(projected.transpose()) / left);
 }
 
-TouchState damped(const NormalEquations& equations, double damping) {
+/// The step that a part of each unknown's own curvature shortens.
+TouchState damped(const TouchEquations& equations, double damping) {
   Eigen::Matrix4d matrix = equations.matrix;
   matrix.diagonal() *= 1 + damping;
   return matrix.ldlt().solve(equations.gradient);
@@ -71,19 +55,13 @@ TouchState damped(const NormalEquations& equations, double damping) {
 
 }  // namespace
 
-TouchState TouchPrior::residuals(const TouchState& touch) const {
-  TouchState difference = value - touch;
-  difference[kPlace] = shortWay_rad(difference[kPlace], 0);
-  return weight.cwiseProduct(difference);
-}
-
 TouchFit refineTouch(const RingResponse& ring, const TouchData& data, const TouchState& start) {
   TouchState touch = start;
-  NormalEquations here(ring, data, touch);
+  TouchEquations here(ring, data, touch, false);
   double damping = 1e-3;
   for (int i = 0; i < kMostIterations && damping < 1e8; ++i) {
     const TouchState step = damped(here, damping);
-    const NormalEquations there(ring, data, touch + step);
+    TouchEquations there(ring, data, touch + step, false);
     if (!(there.chiSquared < here.chiSquared)) {
       if (step.dot(here.gradient) < kEnoughGain) break;
       damping *= 10;
@@ -91,7 +69,7 @@ TouchFit refineTouch(const RingResponse& ring, const TouchData& data, const Touc
     }
     const double gained = here.chiSquared - there.chiSquared;
     touch += step;
-    here = there;
+    here = std::move(there);
     damping /= 10;
     if (gained < kEnoughGain) break;
   }

@@ -6,26 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "host/calibration/ring_response.hpp"
+#include "host/calibration/touch_equations.hpp"
 
 namespace strainfinger::calibration {
-
-/// What is known of a touch beside its readings, as a normal prior of each unknown. A place is the same in
-/// every revolution.
-struct TouchPrior {
-  TouchState value = TouchState::Zero();
-  TouchState weight = TouchState::Zero();  ///< 1 / standard deviation; 0: nothing is known
-
-  /// Deviations from the prior, in its standard deviations: residuals like those of readings.
-  TouchState residuals(const TouchState& touch) const;
-};
-
-/// What a touch is fitted to.
-struct TouchData {
-  Eigen::VectorXd readings;  ///< a strain a gauge
-  double sigma_strain = 0;   ///< of each of them
-  TouchPrior prior;
-};
 
 struct TouchFit {
   TouchState touch = TouchState::Zero();

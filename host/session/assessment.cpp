@@ -15,8 +15,8 @@
 namespace strainfinger::session {
 namespace {
 
-using calibration::CalibrationResult, calibration::Drawing, calibration::RingResponse,
-    calibration::TouchState;
+using calibration::CalibrationResult, calibration::Drawing, calibration::RingResponse, calibration::TouchData,
+    calibration::TouchEquations, calibration::TouchState;
 using Eigen::MatrixXd, Eigen::VectorXd;
 
 /// As hands press and rub a finger: loads [N/m], their lean, a width between narrow and wide ones.
@@ -38,16 +38,12 @@ class Prospect {
 
   /// What one touch tells of the finger, its own unknowns not being known but for `known` of them.
   MatrixXd informationOf(const TouchState& touch, const TouchState& knownWeight) const {
-    const auto model = ring_.linearised(touch, true);
-    const double peak = (model.readings - ring_.zeros()).cwiseAbs().maxCoeff();
-    const double weight =
-        1 / std::hypot(drawing_.config().gauges.noise_strain, result_.modelError().value * peak);
-    const MatrixXd finger = weight * model.toFinger;
-    const Eigen::MatrixX4d own = weight * model.toTouch;
-    Eigen::Matrix4d equations = own.transpose() * own;
-    equations.diagonal() += knownWeight.cwiseAbs2();
-    const MatrixXd across = own.transpose() * finger;
-    return finger.transpose() * finger - across.transpose() * equations.ldlt().solve(across);
+    const VectorXd readings = ring_.readings(touch);
+    const double peak = (readings - ring_.zeros()).cwiseAbs().maxCoeff();
+    const double sigma_strain =
+        std::hypot(drawing_.config().gauges.noise_strain, result_.modelError().value * peak);
+    const TouchData data{readings, sigma_strain, {touch, knownWeight}};
+    return TouchEquations(ring_, data, touch, true).fingerInformation();
   }
 
   /// The mean of what the touches of a hand in an arc tell.
@@ -80,13 +76,13 @@ class Yardstick {
     const Eigen::Index unknowns = drawing_.unknowns();
     pulls_.fill(MatrixXd::Zero(unknowns, unknowns));
     for (const TouchState& touch : touches) {
-      const auto model = ring.linearised(touch, true);
-      const Eigen::Matrix4d inverse = (model.toTouch.transpose() * model.toTouch).inverse();
-      const MatrixXd pull = inverse * model.toTouch.transpose() * model.toFinger;
+      const TouchEquations at(ring, touch, noise);
+      const Eigen::Matrix4d byNoise = at.matrix.inverse();
+      const MatrixXd pull = at.pull();
       for (std::size_t i = 0; i < pulls_.size(); ++i) {
         const auto row = static_cast<Eigen::Index>(i);
         pulls_[i] += pull.row(row).transpose() * pull.row(row);
-        noise_[row] += noise * noise * inverse(row, row);
+        noise_[row] += byNoise(row, row);
       }
     }
     for (MatrixXd& pull : pulls_) pull /= static_cast<double>(touches.size());

@@ -26,12 +26,6 @@ Eigen::MatrixXd drawnBy(const Eigen::MatrixXd& covariance, const simulation::Noi
   return covariance.llt().matrixL() * drawn;
 }
 
-/// Errors of a touch's unknowns that one of each of the finger's deviations makes, to first order.
-Eigen::MatrixXd fingerPull(const RingResponse& ring, const TouchState& touch) {
-  const auto model = ring.linearised(touch, true);
-  return model.toTouch.householderQr().solve(model.toFinger);
-}
-
 }  // namespace
 
 Eigen::VectorXd trueDeviations(const config::FingerConfig& finger) {
@@ -82,7 +76,8 @@ NewTouches newTouches(const calibration::CalibrationResult& result, const config
     const TouchState found = refineTouch(fitted, {readings, noise_strain, {}}, touch).touch;
     const auto variances = touchVariances(fitted, touch, result.covariance(), noise_strain);
     const auto known = touchVariances(truth, touch, result.covariance(), noise_strain);
-    const Eigen::MatrixXd missed = fingerPull(fitted, touch) * drawnFingers;
+    const Eigen::MatrixXd missed =
+        calibration::TouchEquations(fitted, touch, noise_strain).pull() * drawnFingers;
     for (Eigen::Index j = 0; j < kChances; ++j) {
       TouchState noise = variances.noise.cwiseSqrt();
       for (Eigen::Index k = 0; k < noise.size(); ++k)

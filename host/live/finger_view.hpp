@@ -20,6 +20,7 @@ struct ForceSpan {
 
 /// A finger, that is a node whose HEARTBEAT was heard, at one moment.
 struct FingerView {
+  std::string bus{};  ///< "can0"
   std::uint8_t node = 0;
   std::int64_t silence_us = 0;  ///< since its last HEARTBEAT
   HeartbeatFrame heartbeat{};   ///< the last

@@ -121,7 +121,8 @@ double Fleet::loadOf(RateMeter& bits) const {
 
 FingerView Fleet::viewOf(std::uint8_t number, Node& node) {
   const std::size_t intervals = std::min(node.intervals, node.intervals_us.size());
-  FingerView view{.node = number,
+  FingerView view{.bus = name_,
+                  .node = number,
                   .silence_us = now_us_ - node.heard_us,
                   .heartbeat = *node.heartbeat,
                   .info = node.info,

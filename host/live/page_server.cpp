@@ -119,12 +119,13 @@ class PageServer::Impl {
           "connect-src 'self'; img-src data:; frame-ancestors 'none'; base-uri 'none'"}});
     server_.set_error_handler([](const httplib::Request& request, httplib::Response& response) {
       if (!response.body.empty()) return;
+      // the library says 400 of a POST that nothing answers
       const bool isNotKnown = response.status == 404 || (response.status == 400 && !request.path.empty());
-      say(response, response.status,
-          isNotKnown ? fmt::format("{} {} is not known: GET /, /finger, /state, /events; POST "
-                                   "/fingers/NODE/tare.",
-                                   request.method, request.path)
-                     : "The request was not understood, or is too large.");
+      if (!isNotKnown)
+        return say(response, response.status, "The request was not understood, or is too large.");
+      say(response, 404,
+          fmt::format("{} {} is not known: GET /, /finger, /state, /events; POST /fingers/NODE/tare.",
+                      request.method, request.path));
     });
     if (isLocalAddress(options_.address))
       server_.set_pre_routing_handler([](const httplib::Request& request, httplib::Response& response) {

@@ -102,7 +102,9 @@ std::vector<std::string> troublesOf(const FingerView& finger) {
     troubles.push_back(fmt::format("silent for {:.1f} s", static_cast<double>(finger.silence_us) / 1e6));
   else if (finger.isForeign())
     troubles.push_back(can::foreignText(finger.heartbeat.protocol));
-  if (finger.hasTwin) troubles.push_back(fmt::format("{}: {}", can::kTwinText, can::kTwinRemedy));
+  if (finger.hasTwin)
+    troubles.push_back(
+        fmt::format("{}: {}", can::kTwinText, can::forNode(can::kTwinRemedy, finger.bus, finger.node)));
   if (finger.hasOtherTables)
     troubles.push_back("its tables are not those of the config (-c; the default finger without it)");
   return troubles;

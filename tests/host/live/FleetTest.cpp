@@ -185,6 +185,7 @@ TEST(Fleet, TwoFingersOfOneNumberAreNoticed) {
   for (int i = 0; i < 40; ++i, now_us_ += 2'000)
     touch(100, static_cast<std::uint8_t>(i)), touch(100, static_cast<std::uint8_t>(i + 100));
   CHECK_TRUE(only().hasTwin);
+  STRCMP_EQUAL("can0", only().bus.c_str());
 }
 
 TEST(Fleet, ATwinThatWentIsForgotten) {

@@ -91,6 +91,8 @@ TEST(ViewJson, TroublesAreInTheWordsOfTheTerminal) {
   for (const auto& trouble : json.at("troubles"))
     STRCMP_CONTAINS(trouble.get<std::string>().c_str(), warningsText(finger).c_str());
   LONGS_EQUAL(2, json.at("troubles").size());
+  STRCMP_CONTAINS("`strainfinger config --can can0 -n 1 --set-node NODE`",
+                  json.at("troubles").at(0).get<std::string>().c_str());
 }
 
 TEST(ViewJson, TheShapeIsTheConfigs) {

@@ -17,7 +17,8 @@ inline FingerView touchedFinger() {
   touch.width_m = 0.00204;
   touch.sigmaWidth_m = 0.00015;
   touch.flags = {FingerFlag::kContact, FingerFlag::kStaleZero, FingerFlag::kSimulated};
-  return {.node = 1,
+  return {.bus = "can0",
+          .node = 1,
           .heartbeat = {.state = FingerState::kRun, .uptime_s = 3723, .temperature_degC = 25},
           .gauges = GaugesFrame{.out_of_use = 0, .zero_age_s = 61},
           .touch = touch,

@@ -102,7 +102,8 @@ plot::Picture flatDisplacementPicture(const Subject& subject) {
       });
   const std::string numbers =
       fmt::format("indenterX = {}; indenterY = {}\n", radius_m - flat.solution.approach_m, 2 * flat.half_m);
-  return {900, 900, plot::kStyle + numbers + kIndenter + kDrawDisplacedPoints, {std::move(data)}};
+  return {
+      900, 900, plot::kStyle + numbers + kIndenter + drawDisplacedPoints(subject.annulus), {std::move(data)}};
 }
 
 plot::Picture flatStressPicture(const Subject& subject) {

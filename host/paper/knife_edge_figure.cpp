@@ -55,7 +55,7 @@ plot::Picture knifeEdgePicture(const Subject& subject) {
   const double x = annulus.outer_radius_m, length = (x - annulus.core_radius_m) / 3;
   const std::string numbers =
       fmt::format("loadX = {}; loadY = {}; tipX = {}; tipY = 0\n", x + length, -length, x);
-  return {900, 900, plot::kStyle + numbers + kLoad + kDrawDisplacedPoints, {std::move(data)}};
+  return {900, 900, plot::kStyle + numbers + kLoad + drawDisplacedPoints(annulus), {std::move(data)}};
 }
 
 std::vector<Claim> knifeEdgeClaims() {

@@ -1,8 +1,10 @@
 #include "host/contact/contact.hpp"
+#include "host/contact/fourier_tractions.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "host/base/angles.hpp"
@@ -25,7 +27,14 @@ constexpr const char* kContactHelp =
     "which a flat indenter's slope is r_b theta. How far the answer, recomputed from its tractions, is from "
     "that is the residual, told on stderr, as is where it touches in several regions. Exactly below the edge "
     "of a wedge the pressure is infinite.\n"
-    "The summary's depth is that of the indenter's profile below the undeformed surface at the contact's "
+    "Loads are sums of pressure and shear along the surface. What a load cell at the core reads, along the "
+    "indenter's normal and sidewards, is told on stderr: in a wide contact the surface turns away, 6 % for 6 "
+    "mm.\n"
+    "A cylinder is the parabola x^2 / 2 R, a wedge two planes. Strains are taken to be small; a warning "
+    "tells "
+    "where they aren't.\n"
+    "The summary's offset is the contact's centre, its depth that of the indenter's profile below the "
+    "undeformed surface at the contact's "
     "centre: below 0 if that is between regions, where the profile stands clear.";
 
 /// Time grows with the cube: 1000 by the printed rows take 1.4 s, 2000 by Gauss's 0.4 s.
@@ -41,18 +50,24 @@ struct ContactCommand {
                       .type_name("a,b")
                       ->excludes(alone);
     command
-        .add_option("--points", points,
-                    fmt::format("Or: so many, evenly over twice the contact's width ({})", points))
+        .add_option(
+            "--points", points,
+            fmt::format("Or: so many, in the middle of as many equal parts of twice the contact's width ({})",
+                        points))
         ->type_name("N")
         ->check(isWhole(1, 1'000'000))
         ->excludes(&list)
         ->excludes(alone);
-    command.add_option("--method", method, "spectral, or paper: windowed Fourier series, pseudo-inverse")
+    command
+        .add_option("--method", method,
+                    "spectral (default), or paper: windowed Fourier series of the pressure, pseudo-inverse")
         ->check(CLI::IsMember({"spectral", "paper"}));
     ofPaper = {
         command
-            .add_option("--harmonics", paper.harmonics,
-                        fmt::format("Of --method paper: last harmonic n_c ({})", paper.harmonics))
+            .add_option(
+                "--harmonics", paper.harmonics,
+                fmt::format("Of --method paper: last harmonic n_c ({}); at most {} with --rows printed",
+                            paper.harmonics, kMostPrintedHarmonics))
             ->check(isWhole(2, kMostHarmonics)),
         command
             .add_option("--cutoff", paper.cutoff,
@@ -60,12 +75,14 @@ struct ContactCommand {
             ->capture_default_str()
             ->check(isFrom(0, 1)),
         command
-            .add_option("--rows", rows,
-                        "Of --method paper: printed, the paper's even points, or gauss: the continuum")
+            .add_option(
+                "--rows", rows,
+                "Of --method paper: printed (default), the paper's even points, or gauss: the continuum")
             ->check(CLI::IsMember({"printed", "gauss"})),
         command
             .add_option("--window", window,
-                        "Of --method paper: last coefficient of the window, half of n_c as printed, or full")
+                        "Of --method paper: last coefficient of the window: half (default) of n_c, as "
+                        "printed, or full")
             ->check(CLI::IsMember({"half", "full"}))};
   }
   contact::PaperOptions paperOptions() const {
@@ -145,10 +162,14 @@ void tellErrors(const model::Annulus<double>& annulus, contact::ContactRequest r
   request.centre_rad = 0;
   const contact::Contact exact = contact::solveContact(contact::SurfaceKernel(annulus), request);
   const contact::PaperErrors errors = contact::errorsOf(found, exact);
+  const bool hasPeak = std::isfinite(errors.centre);
   tell(
-      "contact: against --method spectral, per its peak: pressure off by {:.2g} at worst, by {:.2g} at the "
-      "centre, load by {:+.3g} %; outside the contact {:.2g} at worst, {:.1g} of the pressure's square\n",
-      errors.inside, errors.centre, 100 * errors.load, errors.outside, errors.leakedShare);
+      "contact: against --method spectral, per its {}: pressure off by {:.2g} at worst{}, load by {:+.3g} %; "
+      "outside the contact {:.2g} at worst, {:.1g} of the pressure's square\n",
+      hasPeak ? "peak" : "mean pressure", errors.inside,
+      hasPeak ? fmt::format(", by {:.2g} at the centre", errors.centre)
+              : " but for the edge, where it is infinite",
+      100 * errors.load, errors.outside, errors.leakedShare);
   if (exact.residual_m > 1e-6 * std::abs(exact.depth_m))
     warn("contact",
          "no contact of this indenter is centred on its normal, where --method paper holds it; --method "
@@ -176,6 +197,16 @@ void runPaper(const ContactCommand& options, const model::Annulus<double>& annul
   printPaper(options, annulus, request.size.value, found);
 }
 
+/// Of pressure and shear, which turn with the surface: sums of their first harmonics.
+void tellForces(const contact::Contact& contact, double radius_m) {
+  const Eigen::RowVector4d first =
+      std::numbers::pi * radius_m * contact::fourierTractions(contact.tractions, 1).row(1);
+  const double along = first[0] + first[3], sidewards = first[2] - first[1];
+  constexpr double kRounding = 1e-12;
+  tell("contact: force {:.6g} N/m along the indenter's normal, {:.6g} N/m sidewards\n", along,
+       std::abs(sidewards) < kRounding * std::abs(along) ? 0 : sidewards);
+}
+
 void runContact(const ContactCommand& options) {
   const config::FingerConfig config = options.common.config();
   const contact::ContactRequest request = options.contact.request(config);
@@ -185,7 +216,8 @@ void runContact(const ContactCommand& options) {
   if (options.method == "paper") return runPaper(options, config.finger.annulus(), request);
   const contact::SurfaceKernel kernel(config.finger.annulus());
   const contact::Contact contact = contact::solveContact(kernel, request);
-  tellOf("contact", contact, kernel.annulus());
+  tellOf("contact", contact, request, config);
+  tellForces(contact, kernel.annulus().outer_radius_m);
   if (options.summary)
     printSummary(options, contact);
   else

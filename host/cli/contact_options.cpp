@@ -16,6 +16,7 @@
 #include "host/base/parse_number.hpp"
 #include "host/base/read_file.hpp"
 #include "host/cli/command.hpp"
+#include "host/cli/model_options.hpp"
 
 namespace strainfinger::cli {
 namespace {
@@ -95,6 +96,20 @@ std::string regionsOf(const contact::Contact& contact, double radius_m) {
   return text.append(" m");
 }
 
+/// Of the rubber's thickness, without a warning.
+constexpr double kMostDepth = 0.2;
+
+/// About what the mean pressure makes: p / 2 mu on a half space; where a layer is thinner than half of the
+/// contact, the core holds it together.
+double strainBelow(const contact::Contact& contact, const model::Annulus<double>& annulus) {
+  double width_m = 0;
+  for (const contact::PatchTractions& part : contact.tractions)
+    width_m += 2 * annulus.outer_radius_m * part.patch.half_rad;
+  const double layer_m = annulus.outer_radius_m - annulus.core_radius_m;
+  return contact.normal_n_per_m / width_m / (2 * annulus.shear_modulus_pa) *
+         std::min(1.0, 2 * layer_m / width_m);
+}
+
 }  // namespace
 
 Indenter parseIndenter(const std::string& text) {
@@ -106,16 +121,26 @@ Indenter parseIndenter(const std::string& text) {
   return readShape(text);
 }
 
-void tellOf(const char* command, const contact::Contact& contact, const model::Annulus<double>& annulus) {
+void tellOf(const char* command, const contact::Contact& contact, const contact::ContactRequest& request,
+            const config::FingerConfig& config) {
+  const model::Annulus<double> annulus = config.finger.annulus();
   tell("{}: residual {:.2g} m, recomputed from the tractions; {} terms a patch{}\n", command,
        contact.residual_m, contact.terms, regionsOf(contact, annulus.outer_radius_m));
   warn(command, contact.warnings);
-  constexpr double kMostLinear = 0.2;  // strains are about the depth over the thickness
-  const double share = contact.deepest_m / (annulus.outer_radius_m - annulus.core_radius_m);
-  if (share > kMostLinear)
+  const double needed = std::abs(contact.tangential_n_per_m) / contact.normal_n_per_m;
+  if (request.regime == contact::Regime::kStick && needed > config.contact.friction_coefficient)
+    warn(command, fmt::format("sticks with a coefficient of friction of {:.3g} at least; "
+                              "contact.friction_coefficient is {}, with which it slides",
+                              needed, config.contact.friction_coefficient));
+  const double layer_m = annulus.outer_radius_m - annulus.core_radius_m;
+  const double share = contact.deepest_m / layer_m;
+  if (share > kMostDepth)
     warn(command,
          fmt::format("{:.2g} of the rubber's thickness deep: strains are large, the model is for small ones",
                      share));
+  else if (const double strain = strainBelow(contact, annulus); strain > kMostLinearStrain)
+    warn(command,
+         fmt::format("strains of about {:.2g} below the contact: the model is for small ones", strain));
 }
 
 ContactOptions::ContactOptions(CLI::App& command) {
@@ -141,7 +166,7 @@ ContactOptions::ContactOptions(CLI::App& command) {
   hasCentre = command.add_option("--centre-deg", centre_deg,
                                  "Holds the contact's centre there, from the indenter's normal [degrees]");
   for (CLI::Option* option : {hasWidth, hasLoad, hasFriction, hasTangential, hasCentre})
-    option->type_name("NUMBER")->check(isFrom(-1e12, 1e12));
+    option->type_name("NUMBER")->check(option == hasCentre ? isFrom(-180, 180) : isFrom(-1e12, 1e12));
   hasWidth->excludes(hasLoad);
 }
 

@@ -31,7 +31,8 @@ struct ContactOptions {
 };
 
 /// Residual and warnings, on stderr.
-void tellOf(const char* command, const contact::Contact& contact, const model::Annulus<double>& annulus);
+void tellOf(const char* command, const contact::Contact& contact, const contact::ContactRequest& request,
+            const config::FingerConfig& config);
 
 /// flat, cylinder:RADIUS_M, wedge:HALF_ANGLE_DEG, or the path of a measured shape: CSV of x_m,height_m.
 contact::Indenter parseIndenter(const std::string& text);

@@ -7,6 +7,9 @@
 
 namespace strainfinger::cli {
 
+/// Strains above it are told to be none that a linear model is for.
+inline constexpr double kMostLinearStrain = 0.5;
+
 /// Throws Failure(kUsage) unless core_radius_m <= radius_m <= outer_radius_m; the message names --radius-m.
 void requireInRubber(double radius_m, const config::Finger& finger);
 

@@ -13,7 +13,8 @@ constexpr const char* kResponseHelp =
     "components), tau_rt in Pa per Pa, displacements in m per Pa.\n"
     "Columns _p: per unit p_n^s of p = tau_rr at r_b; _q: per unit q_n^c of q = tau_rt at r_b; tension and "
     "+theta positive. err, ett and ur are factors of sin n theta, trt and ut of cos n theta; for p_n^c the "
-    "former turn to cosines, the latter to minus sines, and for q_n^s the reverse.\n"
+    "former turn to cosines, the latter to minus sines, and for q_n^s the reverse. Row 0 is of a constant "
+    "p_0 and q_0.\n"
     "Numbers below 1e-307 lose digits and end as 0.";
 
 constexpr int kMostResponseHarmonics = 1'000'000;

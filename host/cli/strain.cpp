@@ -7,6 +7,7 @@
 
 #include "host/base/angles.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/notice.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/model_options.hpp"
@@ -38,8 +39,9 @@ struct StrainOptions {
         ->required()
         ->type_name("P")
         ->check(load);
-    command.add_option("--tangential-n-per-m", tangential_n_per_m, "Tangential line load [N/m], to +theta")
-        ->required()
+    command
+        .add_option("--tangential-n-per-m", tangential_n_per_m,
+                    "Tangential line load [N/m], to +theta; 0 without it")
         ->type_name("Q")
         ->check(load);
     command.add_option("--contact-deg", contact_deg, "Angle of the contact's centre [degrees]")
@@ -106,6 +108,8 @@ void runStrain(const StrainOptions& options) {
   constexpr std::array kRows{kErr, kEtt, kErt, kUr, kUt, kTrr, kTrt, kTtt};
   const Eigen::MatrixXd field = computeField(finger.annulus(), options.radius_m, load,
                                              relativeAngles(angles_deg, options.contact_deg), kRows);
+  if (const double most = field.leftCols<3>().cwiseAbs().maxCoeff(); most > kMostLinearStrain)
+    warn("strain", fmt::format("strains of up to {:.2g}: the model is for small ones", most));
   TableWriter table(stdout, options.common.format(),
                     {"angle_deg", "err", "ett", "ert", "ur_m", "ut_m", "trr_pa", "trt_pa", "ttt_pa"});
   for (std::size_t i = 0; i < angles_deg.size(); ++i) {

@@ -15,7 +15,9 @@ namespace {
 constexpr const char* kSvdHelp =
     "Singular values of the paper's map T C, from Hanning-windowed Fourier coefficients of pressure and "
     "shear up to half the harmonics to the slope of the surface in the contact [m/(rad Pa)], largest "
-    "first.\n"
+    "first. They are those of the slope at 2 n_c + 4 even points, as printed, and grow with the root of "
+    "their "
+    "number: relative ones don't.\n"
     "With --basis K the first K pairs instead: u_r and its slope d u_r / d theta against the angle from "
     "the contact's centre, and the pressure (positive when pressing) and shear that make them, per unit "
     "of coefficients. Pairs are even or odd: an even shape has an odd slope and an even pressure.";
@@ -41,9 +43,13 @@ struct SvdOptions {
         ->needs(withBasis)
         ->type_name("N")
         ->check(isWhole(2, 100'000));
-    command.add_option("--rows", rows, "gauss: the continuum's values; printed: the paper's even points")
+    command
+        .add_option("--rows", rows,
+                    "gauss (default): the continuum's values; printed: the paper's even points")
         ->check(CLI::IsMember({"gauss", "printed"}));
-    command.add_option("--window", window, "Last coefficient of the window: half of n_c, as printed, or all")
+    command
+        .add_option("--window", window,
+                    "Last coefficient of the window: half (default) of n_c, as printed, or full")
         ->check(CLI::IsMember({"half", "full"}));
     command.add_flag("--frictionless", frictionless, "Leaves out the shear");
   }

@@ -20,6 +20,9 @@ constexpr double kMostResidual = 9e-7;
 /// Of the depth: what is farther off is no answer.
 constexpr double kHopeless = 0.1;
 
+/// Of the depth, without a warning: what the curve through measured points may swing by between them.
+constexpr double kMostSwing = 0.01;
+
 /// Of each patch, none of them a point of the solver's.
 constexpr std::array kResidualPlaces{-0.999, -0.93, -0.71, -0.31, 0.13, 0.53, 0.83, 0.97};
 
@@ -60,6 +63,21 @@ void warnOfOverlaps(const SurfaceKernel& kernel, const Indenter& indenter, Conta
   contact.warnings.push_back(
       fmt::format("the indenter is inside the rubber by {:.2g} m at {:.6g} m and {} places in all",
                   worst.depth_m, radius_m * worst.deepest_rad, overlaps.size()));
+}
+
+void doubtShape(const Indenter& indenter, double radius_m, double depth_m, Contact& contact) {
+  const double first_rad = contact.tractions.front().patch.first_rad(),
+               last_rad = contact.tractions.back().patch.last_rad();
+  const Indenter::Swing swing = indenter.swing(radius_m * first_rad, radius_m * last_rad);
+  if (swing.height_m <= kMostSwing * depth_m) return;
+  const std::string what = fmt::format(
+      "the measured heights jump or bend too sharply for their spacing near {:.6g} m: the smooth curve "
+      "through "
+      "them swings by {:.2g} m there, {:.2g} of the depth; measure more points there, or leave out what "
+      "doesn't touch",
+      swing.position_m, swing.height_m, swing.height_m / depth_m);
+  if (swing.height_m > kHopeless * depth_m) throw Failure(ExitCode::kFailure, what);
+  contact.warnings.push_back(what);
 }
 
 /// By how much of itself the load changes on the same patches if edges are resolved four times as finely.
@@ -129,6 +147,7 @@ void checkContact(const SurfaceKernel& kernel, const ContactRequest& request, Co
   else if (!isIllPosed(kernel, request) && contact.residual_m > kMostResidual * depth_m)
     warnings.push_back(fmt::format("inaccurate: {} terms a patch leave {:.2g} of the depth unresolved",
                                    contact.terms, contact.residual_m / depth_m));
+  doubtShape(request.indenter, kernel.annulus().outer_radius_m, depth_m, contact);
   if (request.indenter.isMeasured() && (request.centre_rad || isIllPosed(kernel, request)))
     warnOfOverlaps(kernel, request.indenter, contact);
   if (pulls(contact.tractions))

@@ -19,6 +19,23 @@ using Eigen::Index;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+/// [points] Beyond a contact's edges: there a jump's swings, 0.43 of each other, have fallen to a twelfth.
+constexpr Index kSwingsReach = 3;
+
+using FourPoints = Eigen::Array4d;
+
+/// Of the cubic through points (Lagrange).
+double cubicAt(const FourPoints& x, const FourPoints& y, double at) {
+  double sum = 0;
+  for (Index i = 0; i < 4; ++i) {
+    double term = y[i];
+    for (Index k = 0; k < 4; ++k)
+      if (k != i) term *= (at - x[k]) / (x[i] - x[k]);
+    sum += term;
+  }
+  return sum;
+}
+
 void requireRising(const std::vector<double>& position_m) {
   if (position_m.size() < 4) throw Failure(ExitCode::kUsage, "a measured shape needs four points or more");
   for (std::size_t i = 1; i < position_m.size(); ++i)
@@ -88,6 +105,21 @@ Indenter::Place Indenter::place(double x_m) const {
   const auto& x = spline_->position_m;
   const auto after = std::upper_bound(x.begin() + 1, x.end() - 1, x_m), before = after - 1;
   return {before - x.begin(), (x_m - *before) / (*after - *before)};
+}
+
+Indenter::Swing Indenter::swing(double first_m, double last_m) const {
+  Swing most;
+  if (!spline_) return most;
+  const Eigen::ArrayXd x = arrayOf(spline_->position_m);
+  const Index end = std::min<Index>(place(last_m).piece + kSwingsReach + 1, x.size() - 1);
+  for (Index i = std::max<Index>(0, place(first_m).piece - kSwingsReach); i < end; ++i) {
+    const FourPoints near = x.segment<4>(std::clamp<Index>(i - 1, 0, x.size() - 4));
+    const double middle_m = (x[i] + x[i + 1]) / 2;
+    const FourPoints heights = near.unaryExpr([this](double x_m) { return height(x_m); });
+    const double swing_m = std::abs(height(middle_m) - cubicAt(near, heights, middle_m));
+    if (swing_m > most.height_m) most = {swing_m, middle_m};
+  }
+  return most;
 }
 
 double Indenter::height(double x_m) const {

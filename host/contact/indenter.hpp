@@ -39,6 +39,14 @@ class Indenter {
   /// Where the profile is known: all of it, or from the first to the last measured point.
   double firstPosition_m() const;
   double lastPosition_m() const;
+  struct Swing {
+    double height_m = 0;
+    double position_m = 0;  ///< where
+  };
+  /// How far the curve through measured points is, at worst, from the cubic through the four that are
+  /// nearest, half way between any two of them from first_m to last_m and three beyond: where heights jump
+  /// the curve swings, and what it swings by is not the shape that was measured. 0 of the others.
+  Swing swing(double first_m, double last_m) const;
   /// Of the measured points; none of the others.
   std::vector<double> positions_m() const { return spline_ ? spline_->position_m : std::vector<double>{}; }
 

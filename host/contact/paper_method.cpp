@@ -71,6 +71,7 @@ PaperErrors errorsOf(const PaperContact& contact, const Contact& exact) {
   const double half_rad = exact.tractions[0].patch.half_rad, end_rad = std::numbers::pi - kBeyond * half_rad;
   const double centre_pa = tractionAt(exact.tractions, 0).pressure_pa;
   PaperErrors errors;
+  errors.scale_pa = std::isfinite(centre_pa) ? centre_pa : exact.normal_n_per_m / exact.width_m;
   double within = 0, beyond = 0;
   for (const double side : {-1.0, 1.0})
     for (int i = 0; i <= kPlaces; ++i) {
@@ -79,12 +80,13 @@ PaperErrors errorsOf(const PaperContact& contact, const Contact& exact) {
       const double outside_pa =
           tractionAt(contact.tractions, side * (kBeyond * half_rad + end_rad * t)).pressure_pa;
       const double known_pa = tractionAt(exact.tractions, inside_rad).pressure_pa;
-      errors.inside = std::max(errors.inside, std::abs(inside_pa - known_pa) / centre_pa);
-      errors.outside = std::max(errors.outside, std::abs(outside_pa) / centre_pa);
+      if (std::isfinite(known_pa))
+        errors.inside = std::max(errors.inside, std::abs(inside_pa - known_pa) / errors.scale_pa);
+      errors.outside = std::max(errors.outside, std::abs(outside_pa) / errors.scale_pa);
       within += half_rad * inside_pa * inside_pa;
       beyond += end_rad * outside_pa * outside_pa;
     }
-  errors.centre = std::abs(tractionAt(contact.tractions, 0).pressure_pa / centre_pa - 1);
+  errors.centre = std::abs(tractionAt(contact.tractions, 0).pressure_pa - centre_pa) / errors.scale_pa;
   errors.load = contact.normal_n_per_m / exact.normal_n_per_m - 1;
   errors.leakedShare = beyond / (within + beyond);
   return errors;

@@ -31,11 +31,11 @@ struct PaperContact {
 PaperContact solveByPaper(const model::Annulus<double>& annulus, const Indenter& indenter, double width_m,
                           const PaperOptions& options);
 
-/// What that is off by, against the contact of the same width by SpectralSolver, per its pressure at the
-/// centre.
+/// What that is off by, against the contact of the same width by SpectralSolver, per `scale_pa`.
 struct PaperErrors {
-  double inside = 0;       ///< worst of the pressure within the contact
-  double centre = 0;       ///< of the pressure at the centre, absolute
+  double scale_pa = 0;     ///< its pressure at the centre; its mean pressure where that is infinite (a wedge)
+  double inside = 0;       ///< worst of the pressure within the contact, where that is finite
+  double centre = 0;       ///< of the pressure at the centre, absolute; infinite where that is
   double load = 0;         ///< of the normal load, relative
   double outside = 0;      ///< largest pressure outside, from 0.65 % of a half width beyond the edges on
   double leakedShare = 0;  ///< of the integral of the pressure's square: what is outside

@@ -77,6 +77,37 @@ TEST(ContactCommand, SticksUnderATangentialLoad) {
   DOUBLES_EQUAL(10.746959, row[1], 1e-11);
 }
 
+// Pressure and shear of a wide contact turn with the surface. Known: the reaction of the core, integrated
+// over what `field` has there.
+TEST(ContactCommand, TellsTheForceThatALoadCellReads) {
+  const std::string contact = flat("--width-m 6e-3 --friction 1");
+  const auto core = tableOf(runProgram("field " + contact.substr(8) +
+                                       " --radius-m 8.9e-3 --angles 721 --from-deg -180 --to-deg 180")
+                                .out);
+  double along = 0, sidewards = 0;
+  const double part_m = 8.9e-3 * 2 * std::numbers::pi / 720;
+  for (std::size_t i = 0; i < 720; ++i) {
+    const double angle = core[i][1] * std::numbers::pi / 180, normal = core[i][7], shear = core[i][8];
+    along -= part_m * (normal * std::cos(angle) - shear * std::sin(angle));
+    sidewards += part_m * (normal * std::sin(angle) + shear * std::cos(angle));
+  }
+  DOUBLES_EQUAL(271.875, along, 1e-3);
+  DOUBLES_EQUAL(234.849, sidewards, 1e-3);
+  STRCMP_CONTAINS("contact: force 271.875 N/m along the indenter's normal, 234.849 N/m sidewards\n",
+                  runProgram(contact + " --summary").err.c_str());
+}
+
+TEST(ContactCommand, WarnsOfStickThatTheFrictionWouldNotHold) {
+  const auto told = [](const char* load) {
+    return runProgram(flat("--width-m 2e-3 --regime stick --summary --tangential-n-per-m ") + load).err;
+  };
+  STRCMP_CONTAINS(
+      "contact: warning: sticks with a coefficient of friction of 1.01 at least; "
+      "contact.friction_coefficient is 1, with which it slides",
+      told("22").c_str());
+  CHECK_TRUE(told("21").find("friction") == std::string::npos);
+}
+
 TEST(ContactCommand, TakesCylindersAndWedges) {
   DOUBLES_EQUAL(21.4939181405 * 3.54, summary("contact --indenter cylinder:5e-3 --width-m 2e-3")[0], 1e-8);
   DOUBLES_EQUAL(82.79063, summary("contact --indenter wedge:80 --width-m 2e-3")[0], 1e-4);
@@ -124,6 +155,15 @@ TEST(ContactCommand, ThePapersMethodIsThereAndSaysWhatItIs) {
 }
 
 // The row 1/10000 of the README's table, the window full.
+// Whose pressure is infinite below the edge.
+TEST(ContactCommand, ThePapersMethodTellsHowFarItIsOffAWedge) {
+  const Run run = runProgram("contact --indenter wedge:80 --width-m 2e-3 --method paper --summary");
+  STRCMP_CONTAINS(
+      "per its mean pressure: pressure off by 2.4 at worst but for the edge, where it is infinite, "
+      "load by -14.2 %; outside the contact 0.0023 at worst",
+      run.err.c_str());
+}
+
 TEST(ContactCommand, ThePapersMethodHasTheWindowsOfTheTable) {
   const Run run =
       runProgram(flat("--width-m 2e-3 --method paper --cutoff 1e-4 --window full --rows printed --summary"));
@@ -145,6 +185,36 @@ TEST(ContactCommand, WarnsOfLargeStrains) {
   const char* told = "0.21 of the rubber's thickness deep: strains are large";
   STRCMP_CONTAINS(told, runProgram(flat("--width-m 10e-3 --summary")).err.c_str());
   CHECK_TRUE(runProgram(flat("--width-m 4e-3 --summary")).err.find("strains are large") == std::string::npos);
+}
+
+// A contact that is nearly as wide as its cylinder, and one below steep faces, are not deep in a thick
+// rubber.
+TEST(ContactCommand, WarnsOfStrainsBelowNarrowContacts) {
+  const auto told = [](const std::string& indenter) {
+    return runProgram("contact --summary --load-n-per-m 30 --indenter " + indenter).err;
+  };
+  STRCMP_CONTAINS("contact: warning: strains of about 0.85 below the contact", told("cylinder:1e-4").c_str());
+  STRCMP_CONTAINS("contact: warning: strains of about 1.7 below the contact", told("wedge:30").c_str());
+  for (const char* gentle : {"cylinder:2e-3", "wedge:80", "flat"})
+    CHECK_TRUE(told(gentle).find("strains") == std::string::npos);
+}
+
+// The curve through a step swings to either side of it.
+TEST(ContactCommand, RefusesMeasuredStepsBetweenTwoPoints) {
+  const auto shapeOf = [](double step_m) {
+    std::string shape;
+    for (int i = -400; i <= 400; ++i)
+      shape += std::to_string(i) + "e-5," + (std::abs(i) < 100 ? "0" : std::to_string(step_m)) + "\n";
+    return shape;
+  };
+  const std::string contact = "contact --indenter /dev/stdin --load-n-per-m 30 --summary";
+  const Run run = runProgram(contact, shapeOf(1e-3));
+  LONGS_EQUAL(1, run.status);
+  STRCMP_EQUAL("", run.out.c_str());
+  STRCMP_CONTAINS("the measured heights jump or bend too sharply for their spacing near ", run.err.c_str());
+  STRCMP_CONTAINS("5 m: the smooth curve through them swings by 5.7e-05 m there", run.err.c_str());
+  STRCMP_CONTAINS("contact: warning: the measured heights jump",
+                  runProgram(contact, shapeOf(5e-5)).err.c_str());
 }
 
 // The centre is between two bumps 0.1 mm high, which are 2 mm apart: the profile stands clear of the finger
@@ -208,6 +278,7 @@ TEST(ContactCommand, RefusesOptionsThatDoNotGoTogether) {
     refuses(flat("--width-m 1e-3 --summary ") + option, "excludes");
   refuses(flat("--width-m 1e-3 --points 0"), "--points");
   refuses(flat("--width-m 1e-3 --at-deg 181"), "--at-deg");
+  refuses(flat("--width-m 1e-3 --centre-deg 181"), "--centre-deg");
   refuses(flat("--width-m 1e-3 --at-deg 1,,2"), "--at-deg: an item of ");
 }
 

@@ -40,6 +40,28 @@ TEST(FieldCommand, RefusesGridsThatAreNone) {
   }
 }
 
+TEST(FieldCommand, LooksAtOneRadius) {
+  const std::string field = "field --indenter flat --width-m 2e-3 --angles 3 ";
+  const auto grid = tableOf(runProgram(field + "--radii 3").out),
+             one = tableOf(runProgram(field + "--radius-m 10.8e-3").out);
+  LONGS_EQUAL(3, one.size());
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column < one[row].size(); ++column)
+      DOUBLES_EQUAL(grid[3 + row][column], one[row][column], 1e-9 * std::abs(grid[3 + row][column]));
+  LONGS_EQUAL(0, runProgram(field + "--radius-m 12.7e-3").status);
+}
+
+TEST(FieldCommand, RefusesARadiusThatCannotBe) {
+  const auto refuses = [](const std::string& radius, const char* named) {
+    const Run run = runProgram("field --indenter flat --width-m 2e-3 --radius-m " + radius);
+    LONGS_EQUAL(2, run.status);
+    STRCMP_CONTAINS(named, run.err.c_str());
+  };
+  refuses("8e-3", "--radius-m");
+  refuses("12.699e-3", "--radius-m 0.012699: closer to the surface than 2.2e-05 m");
+  refuses("9.4e-3 --radii 3", "excludes");
+}
+
 TEST(FieldCommand, RefusesRadiiTooCloseToTheSurfaceBeforeTheFirstRow) {
   const std::string field = "field --indenter flat --width-m 2e-3 --angles 2 --radii ";
   const Run tooMany = runProgram(field + "175");

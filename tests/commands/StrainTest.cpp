@@ -148,8 +148,26 @@ TEST(StrainCommand, NoAngleOfAListIsEmpty) {
 }
 
 TEST(StrainCommand, NamesWhatIsMissing) {
-  checkRefused("strain --radius-m 9e-3 --points 1 --contact-deg 0 --normal-n-per-m 1",
-               "--tangential-n-per-m");
+  checkRefused("strain --radius-m 9e-3 --points 1 --contact-deg 0", "--normal-n-per-m");
   checkRefused("strain --radius-m 9e-3 --points 1 --normal-n-per-m 1 --tangential-n-per-m 0",
                "--contact-deg");
+}
+
+TEST(StrainCommand, WithoutATangentialLoadThereIsNone) {
+  const std::string load = "strain --radius-m 9e-3 --at-deg 0,5 --contact-deg 0 --normal-n-per-m 1";
+  STRCMP_EQUAL(runProgram(load + " --tangential-n-per-m 0").out.c_str(), runProgram(load).out.c_str());
+}
+
+// Of any component, at any angle.
+TEST(StrainCommand, WarnsOfStrainsThatAreNotSmall) {
+  const auto told = [](const char* load_n_per_m) {
+    return runProgram("strain --radius-m 12e-3 --at-deg 90,0 --contact-deg 0 --normal-n-per-m " +
+                      std::string(load_n_per_m))
+        .err;
+  };
+  const double one =
+      tableOf(runProgram("strain --radius-m 12e-3 --at-deg 0 --contact-deg 0 --normal-n-per-m 1").out)[0][1];
+  STRCMP_EQUAL("", told(std::to_string(0.49 / std::abs(one)).c_str()).c_str());
+  STRCMP_CONTAINS("strain: warning: strains of up to 0.51: the model is for small ones",
+                  told(std::to_string(0.51 / std::abs(one)).c_str()).c_str());
 }

@@ -354,3 +354,22 @@ TEST(Contact, RefusesWhatIsOutsideItsDomain) {
   CHECK_THROWS(Failure, solve(sliding(11)));
   CHECK_THROWS(Failure, solve(sliding(nan)));
 }
+
+// A bonded incompressible layer of thickness h below a half contact a >> h (lubrication): under a flat
+// indenter, whose profile on the finger is x^2 / 2 r_b, P = 2 mu a^5 / 15 r_b h^3, here with the edges'
+// share, some thicknesses, on top. The load that the other way round gives is the same.
+TEST(Contact, OfAThinLayerTheLoadFindsItsNarrowContact) {
+  constexpr double kLayer_m = 5e-6, kLoad_n_per_m = 10;
+  const model::Annulus<double> thin = fingerOf(1 - kLayer_m / kSurface_m, 0.5);
+  const SurfaceKernel kernel(thin);
+  const Contact contact = solveContact(kernel, ofLoad(kLoad_n_per_m));
+  const double half_m =
+      std::pow(7.5 * kLoad_n_per_m * kSurface_m * std::pow(kLayer_m, 3) / thin.shear_modulus_pa, 0.2);
+  DOUBLES_EQUAL(half_m, contact.width_m / 2 + 1.5 * kLayer_m, 0.2 * kLayer_m);
+  equalRelative(kLoad_n_per_m, solveContact(kernel, ofWidth(contact.width_m)).normal_n_per_m, 1e-6);
+}
+
+TEST(Contact, TooWideForAThinLayerIsSaidAtOnce) {
+  const SurfaceKernel kernel(fingerOf(1 - 1e-6 / kSurface_m, 0.5));
+  CHECK_THROWS(Failure, solveContact(kernel, ofWidth(1e-3)));
+}

@@ -59,3 +59,25 @@ TEST(Indenter, RefusesAShapeThatIsNone) {
   CHECK_THROWS(Failure, Indenter::measured({0, 1, 1, 2}, {0, 0, 0, 0}));
   CHECK_THROWS(Failure, Indenter::measured({0, 2, 1, 3}, {0, 0, 0, 0}));
 }
+
+// Between points that are 0.1 apart the fifth derivative of a sine is as small as the fourth.
+TEST(Indenter, OfASmoothShapeTheCurveIsTheCubicOfItsNeighbours) {
+  std::vector<double> x, y;
+  for (int i = -20; i <= 20; ++i) x.push_back(0.1 * i), y.push_back(std::sin(0.1 * i));
+  // half way between even points the error of a cubic is 3/128 h^4 of the fourth derivative
+  const double ofCubic = 3.0 / 128 * 1e-4;
+  DOUBLES_EQUAL(ofCubic, Indenter::measured(x, y).swing(-1.5, 1.5).height_m, 0.02 * ofCubic);
+  DOUBLES_EQUAL(0, measuredCubic().swing(-1, 1).height_m, 1e-14);
+  DOUBLES_EQUAL(0, Indenter::wedge(45).swing(-1, 1).height_m, 0);
+}
+
+TEST(Indenter, AtAStepTheCurveSwingsAndSaysWhere) {
+  std::vector<double> x, y;
+  for (int i = 0; i <= 40; ++i) x.push_back(i), y.push_back(i < 20 ? 0 : 1);
+  const Indenter step = Indenter::measured(x, y);
+  const Indenter::Swing swing = step.swing(0, 40);
+  CHECK_TRUE(swing.height_m > 0.03 && swing.height_m < 0.1);
+  DOUBLES_EQUAL(19.5, swing.position_m, 2);
+  DOUBLES_EQUAL(swing.height_m, step.swing(21, 25).height_m, 0);
+  CHECK_TRUE(step.swing(30, 40).height_m < 1e-2 * swing.height_m);
+}

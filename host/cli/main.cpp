@@ -1,20 +1,25 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "host/base/edit_distance.hpp"
 #include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/notice.hpp"
+#include "host/base/parse_number.hpp"
 #include "host/cli/commands.hpp"
 
 namespace {
@@ -59,6 +64,32 @@ bool isUnknownCommand(const CLI::App& app) {
   return app.get_subcommands().empty() && !app.remaining().empty();
 }
 
+/// The option of a command that a word was meant to be, if one is near it.
+std::string meantBy(const std::string& word, const CLI::App& command) {
+  constexpr std::size_t kMostOff = 3;
+  std::string nearest;
+  std::size_t least = kMostOff + 1;
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    const std::size_t off = name.starts_with(word) ? 0 : strainfinger::editDistance(word, name);
+    if (off < least) least = off, nearest = name;
+  }
+  return nearest;
+}
+
+/// Where a command was given an option that it doesn't have, as which CLI11 may tell that another is missing.
+std::optional<std::string> unknownOption(const CLI::App& app) {
+  for (const CLI::App* command : app.get_subcommands())
+    for (const std::string& word : command->remaining()) {
+      if (word.size() < 2 || word[0] != '-' || strainfinger::parseNumber<double>(word)) continue;
+      const std::string meant = meantBy(word, *command);
+      return fmt::format("{}: {} is no option{}; strainfinger {} --help lists them", command->get_name(),
+                         strainfinger::excerpt(word), meant.empty() ? "" : ", " + meant + " is",
+                         command->get_name());
+    }
+  return {};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -79,6 +110,8 @@ int main(int argc, char** argv) {
                                             " is no command; strainfinger --help lists them");
     std::ostringstream complaint;
     const bool isHelp = app.exit(error, std::cout, complaint) == 0;
+    if (const auto unknown = unknownOption(app); unknown && !isHelp)
+      return complain(ExitCode::kUsage, *unknown);
     strainfinger::tell(isHelp ? complaint.str() : strainfinger::excerptWords(complaint.str()));
     return isHelp ? finishOutput() : finish(ExitCode::kUsage);
   } catch (const strainfinger::Failure& failure) {

@@ -31,6 +31,17 @@ TEST(Main, AWholeNumberIsAskedForAsOne) {
 
 TEST(Main, WhatIsLeftOverBehindACommandIsNamed) { checkRefused("dbc over", "over"); }
 
+// Rather than that the one that was meant is missing.
+TEST(Main, AnOptionThatIsNoneIsNamedWithTheOneThatIsNear) {
+  checkRefused(
+      "response --radius 9e-3 --harmonics 3",
+      "strainfinger: response: --radius is no option, --radius-m is; strainfinger response --help lists "
+      "them\n");
+  checkRefused("decode --jsno x", "decode: --jsno is no option, --json is;");
+  checkRefused("decode --quietly x", "decode: --quietly is no option; strainfinger decode --help");
+  checkRefused("dbc -q", "dbc: -q is no option; ");
+}
+
 TEST(Main, HelpIsNoError) {
   const Run run = runProgram("--help");
   LONGS_EQUAL(0, run.status);

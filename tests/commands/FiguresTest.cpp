@@ -74,11 +74,18 @@ TEST(FiguresCommand, NamesAFolderThatCannotBe) {
   STRCMP_CONTAINS("cannot make the folder /dev/null/figures: Not a directory", run.err.c_str());
 }
 
-TEST(FiguresCommand, SaysWhenGnuplotIsMissing) {
+TEST(FiguresCommand, WithoutGnuplotWritesAllButPictures) {
   const Run run = runShell("PATH=/nowhere $STRAINFINGER figures --only 4 -o " + folder.path() + "/out");
   LONGS_EQUAL(1, run.status);
-  STRCMP_CONTAINS("apt install gnuplot-nox", run.err.c_str());
-  CHECK_FALSE(std::filesystem::exists(folder.file("out")));
+  STRCMP_CONTAINS("gnuplot is not installed: apt install gnuplot-nox. No picture was drawn in ",
+                  run.err.c_str());
+  STRCMP_CONTAINS("gnuplot figure-N.gp", run.err.c_str());
+  STRCMP_EQUAL(contentOf("claims.csv").c_str(), run.out.c_str());
+  for (const char* name : {"figure-4.gp", "figure-4-strains.csv", "claims.csv"})
+    CHECK_TRUE_TEXT(has(name), name);
+  for (const char* name : {"figure-4.svg", "figure-4.png"}) CHECK_FALSE_TEXT(has(name), name);
+  LONGS_EQUAL(0, runShell("cd " + folder.path() + "/out && gnuplot figure-4.gp").status);
+  CHECK_TRUE(has("figure-4.png"));
 }
 
 // A gnuplot of ours interrupts the program that runs it, as Ctrl-C would, and dies of it too.

@@ -108,6 +108,8 @@ void runFigures(const FiguresOptions& options) {
   for (const paper::Figure& figure : paper::figures()) {
     if (!options.wants(figure)) continue;
     tell("figure {}: {}\n", figure.number, figure.title);
+    if (const std::string lacks = figure.lacks(subject); !lacks.empty())
+      warn("figures", fmt::format("figure {}: {}", figure.number, lacks));
     doInterruptibly(stop, figure.number, [&] {
       writeFigure(figure, subject, options.folder, whyNone.empty());
       for (paper::Claim& claim : figure.claims()) claims.push_back(std::move(claim));

@@ -58,4 +58,9 @@ CutOffs cutOffs(const Spectra& spectra, StrainComponent component) {
           cutOff(values(spectra, component, model::kTangential))};
 }
 
+bool vanishes(const model::Annulus<double>& annulus, double radius_m, StrainComponent component) {
+  const CutOffs found = cutOffs(cylinderSpectra(annulus, radius_m), component);
+  return found.normal.maximum == 0 && found.tangential.maximum == 0;
+}
+
 }  // namespace strainfinger::paper

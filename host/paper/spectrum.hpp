@@ -50,4 +50,13 @@ struct CutOffs {
 
 CutOffs cutOffs(const Spectra& spectra, StrainComponent component);
 
+/// Whether gauges at that radius read nothing of a component, whatever the load is: on the core, which holds
+/// the rubber, there is no e_tt, and without change of volume no e_rr.
+bool vanishes(const model::Annulus<double>& annulus, double radius_m, StrainComponent component);
+
+/// Why e_rr vanishes where it does, for the user.
+inline constexpr const char* kWhyNoRadial =
+    "gauges.radius_m is the core's, which holds the rubber, and rubber of poisson_ratio = 0.5 changes no "
+    "volume";
+
 }  // namespace strainfinger::paper

@@ -88,6 +88,17 @@ TEST(FiguresCommand, WithoutGnuplotWritesAllButPictures) {
   CHECK_TRUE(has("figure-4.png"));
 }
 
+TEST(FiguresCommand, SaysWhatGaugesOnTheCoreDoNotRead) {
+  std::ofstream(folder.file("finger.toml")) << "schema = 1\n[gauges]\nradius_m = 0.0089\n";
+  const Run run = figures("--only 3,4,5,6 -c " + folder.file("finger.toml"));
+  LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS("warning: figure 3: the finger's e_rr is 0: gauges.radius_m is the core's",
+                  run.err.c_str());
+  STRCMP_CONTAINS("warning: figure 5: e_rr is 0 and has no cut-off", run.err.c_str());
+  STRCMP_CONTAINS("figure 6: Displacements under a flat", run.err.c_str());
+  CHECK_TRUE(run.err.find("warning: figure 6") == std::string::npos);
+}
+
 // A gnuplot of ours interrupts the program that runs it, as Ctrl-C would, and dies of it too.
 TEST(FiguresCommand, AnInterruptionLeavesWholeFilesOnly) {
   std::ofstream(folder.file("gnuplot"))

@@ -71,6 +71,18 @@ TEST(Spectrum, ComparesTangentialWithNormalLoads) {
   DOUBLES_EQUAL(3.902, cutOffs(cylinder, kShear).ratio(), 5e-4);
 }
 
+TEST(Spectrum, VanishesOnTheCoreWithoutStretchOrChangeOfVolume) {
+  const double core_m = kDefaultFinger.core_radius_m;
+  model::Annulus<double> soft = kDefaultFinger;
+  soft.poisson_ratio = 0.3;
+  CHECK_TRUE(vanishes(kDefaultFinger, core_m, kRadial));
+  CHECK_TRUE(vanishes(kDefaultFinger, core_m, StrainComponent::kHoop));
+  CHECK_TRUE(vanishes(soft, core_m, StrainComponent::kHoop));
+  CHECK_FALSE(vanishes(soft, core_m, kRadial));
+  CHECK_FALSE(vanishes(kDefaultFinger, core_m, kShear));
+  CHECK_FALSE(vanishes(kDefaultFinger, kGaugeRadius_m, kRadial));
+}
+
 TEST(Spectrum, IncompressibleHoopStrainIsMinusTheRadialOne) {
   for (const auto load : {kNormal, kTangential}) {
     const auto radial = cylinder.col(column(kRadial, load));

@@ -113,7 +113,9 @@ plot::Picture cutOffPicture(const Subject& subject) {
 
 std::vector<Claim> cutOffClaims() {
   const Subject paper = paperSubject();
-  return {risesSteeply(paper), shearIsFiltered(paper)};
+  std::vector<Claim> claims = shearClaims();
+  claims.insert(claims.begin(), {risesSteeply(paper), shearIsFiltered(paper)});
+  return claims;
 }
 
 std::string cutOffLacks(const Subject& subject) {

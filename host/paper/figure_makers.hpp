@@ -31,5 +31,6 @@ std::vector<Claim> basisClaims();
 
 std::vector<Claim> locatingClaims();        // of sec. 6, by fig. 4
 std::vector<Claim> discriminationClaims();  // of sec. 6, by figs. 5 and 10
+std::vector<Claim> shearClaims();           // of sec. 6, by fig. 5
 
 }  // namespace strainfinger::paper

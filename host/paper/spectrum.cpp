@@ -21,7 +21,9 @@ std::span<const double> values(const Spectra& spectra, StrainComponent component
 
 Spectra cylinderSpectra(const model::Annulus<double>& annulus, double radius_m) {
   constexpr std::array kRows{model::kErr, model::kEtt, model::kErt};  // in the order of StrainComponent
-  return model::truncatedSeries(annulus, radius_m, kRows, {}, kTolerance);
+  Spectra spectra = model::truncatedSeries(annulus, radius_m, kRows, {}, kTolerance);
+  spectra.row(0) /= 2;
+  return spectra;
 }
 
 HalfPlane halfPlaneOf(const model::Annulus<double>& annulus, double radius_m) {

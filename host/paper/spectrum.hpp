@@ -10,18 +10,21 @@
 
 namespace strainfinger::paper {
 
-/// Row n = 0, 1, ...: strain per unit coefficient [1/Pa] of harmonic n; column column(component, load).
+/// Row n = 0, 1, ...: coefficient of the strain [1/Pa] under loads as flat as the paper's impulse; column
+/// column(component, load).
 using Spectra = Eigen::MatrixXd;
 
 constexpr Eigen::Index column(StrainComponent component, model::Traction load) {
   return 2 * static_cast<Eigen::Index>(component) + load;
 }
 
-/// Of the finger; as many harmonics as leave out less than 1e-6 of any response. Domain and errors as
-/// model::truncatedSeries().
+/// Of the finger, under an impulse whose coefficients are 1 from n = 1 on and 1/2 for n = 0: in proportion to
+/// the lambda / pi and lambda / 2 pi of sec. 3. As many harmonics as leave out less than 1e-6 of any
+/// response. Domain and errors as model::truncatedSeries().
 Spectra cylinderSpectra(const model::Annulus<double>& annulus, double radius_m);
 
-/// Of the half plane at the depth of that radius, harmonic n being the wave number n / outer_radius_m.
+/// Of the half plane at the depth of that radius, harmonic n being the wave number n / outer_radius_m. Its
+/// spectrum is a continuous density, 1 of every wave number, 0 included.
 Spectra halfPlaneSpectra(const model::Annulus<double>& annulus, double radius_m);
 
 /// The half plane that the paper compares a finger with: as deep as the gauges are.

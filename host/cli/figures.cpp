@@ -20,8 +20,9 @@ namespace strainfinger::cli {
 namespace {
 
 constexpr const char* kFiguresHelp =
-    "The figures of Nicolson & Fearing (1993), each as figure-N.svg and figure-N.png (needs gnuplot) "
-    "with its data (figure-N-*.csv) and the script that draws them again (figure-N.gp).\n"
+    "The figures of Nicolson & Fearing (1993), each as figure-N.svg and figure-N.png with its data "
+    "(figure-N-*.csv) and the script that draws the .png again (figure-N.gp). Without gnuplot, all but the "
+    "pictures are written, and the exit status is 1.\n"
     "On stdout, and in claims.csv: what the paper says about them, what was computed for the paper's "
     "finger, and whether that bears the paper out. With --config the figures are those of another finger.";
 
@@ -68,10 +69,22 @@ std::string claimsText(const std::vector<paper::Claim>& claims) {
   return textWritten([&](std::FILE* stream) { writeClaims(stream, TableFormat::kCsv, claims); });
 }
 
-void drawFigure(const paper::Figure& figure, const paper::Subject& subject, const std::string& folder) {
+/// Why nothing can be drawn; empty if it can be.
+std::string whyNoPictures() {
+  try {
+    plot::requireGnuplot();
+    return {};
+  } catch (const Failure& failure) {
+    return failure.what();
+  }
+}
+
+void writeFigure(const paper::Figure& figure, const paper::Subject& subject, const std::string& folder,
+                 bool isDrawn) {
   const plot::Picture picture = figure.picture(subject);
-  for (const char* ending : {".svg", ".png"})
-    draw(picture, fmt::format("{}/figure-{}{}", folder, figure.number, ending));
+  const std::string stem = fmt::format("{}/figure-{}", folder, figure.number);
+  if (!isDrawn) return plot::writeUndrawn(picture, stem + ".png");
+  for (const char* ending : {".svg", ".png"}) draw(picture, stem + ending);
 }
 
 /// Runs `work`; a failure of it after a signal, which ends gnuplot too, is an interruption.
@@ -88,20 +101,28 @@ void doInterruptibly(const system::StopSignal& stop, int figure, Work work) {
 
 void runFigures(const FiguresOptions& options) {
   const paper::Subject subject(options.common.config());
-  plot::requireGnuplot();
+  const std::string whyNone = whyNoPictures();
   makeFolder(options.folder);
   const system::StopSignal stop;
   std::vector<paper::Claim> claims;
   for (const paper::Figure& figure : paper::figures()) {
     if (!options.wants(figure)) continue;
     tell("figure {}: {}\n", figure.number, figure.title);
+    if (const std::string lacks = figure.lacks(subject); !lacks.empty())
+      warn("figures", fmt::format("figure {}: {}", figure.number, lacks));
     doInterruptibly(stop, figure.number, [&] {
-      drawFigure(figure, subject, options.folder);
+      writeFigure(figure, subject, options.folder, whyNone.empty());
       for (paper::Claim& claim : figure.claims()) claims.push_back(std::move(claim));
     });
   }
   writeFileAtomically(options.folder + "/claims.csv", claimsText(claims));
   writeClaims(stdout, options.common.format(), claims);
+  if (!whyNone.empty())
+    throw Failure(
+        ExitCode::kFailure,
+        fmt::format("{}. No picture was drawn in {}; data, scripts and claims are there. With gnuplot, run "
+                    "this again, or draw one .png: cd there and gnuplot figure-N.gp",
+                    whyNone, options.folder));
 }
 
 }  // namespace

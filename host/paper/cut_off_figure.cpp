@@ -20,13 +20,13 @@ constexpr int kAlphas = 91;
 constexpr const char* kCutOffPanels = R"(
 set multiplot layout 1,2 margins 0.07,0.985,0.13,0.88 spacing 0.08
 set xlabel 'α = r_a / r_b'; set ylabel 'cut-off (cycles per revolution)'; set logscale y
-plot data('cutoffs') using 1:2 every ::1 with lines linewidth 1.8 linecolor rgb blue title 'e_{rr}, normal load', \
-     '' using 1:4 every ::1 with lines linewidth 1.8 linecolor rgb vermilion title 'tangential', \
+plot data('cutoffs') using 1:2 every ::1 with lines linewidth 1.8 linecolor rgb blue title radialTitle('e_{rr}, normal load'), \
+     '' using 1:4 every ::1 with lines linewidth 1.8 linecolor rgb vermilion title radialTitle('tangential'), \
      '' using 1:10 every ::1 with lines dashtype 2 linewidth 1.8 linecolor rgb blue title 'e_{rθ}, normal', \
      '' using 1:12 every ::1 with lines dashtype 2 linewidth 1.8 linecolor rgb vermilion title 'tangential'
 unset logscale y; set yrange [0:*]
 set ylabel 'largest coefficient, tangential / normal'
-plot data('cutoffs') using 1:14 every ::1 with lines linewidth 1.8 linecolor rgb black title 'e_{rr}', \
+plot data('cutoffs') using 1:14 every ::1 with lines linewidth 1.8 linecolor rgb black title radialTitle('e_{rr}'), \
      '' using 1:16 every ::1 with lines dashtype 2 linewidth 1.8 linecolor rgb black title 'e_{rθ}'
 unset multiplot
 )";
@@ -105,12 +105,30 @@ plot::Picture cutOffPicture(const Subject& subject) {
   const double last = lastAlpha(subject), first = std::min(kFirstAlpha, 0.8 * last);
   for (int i = 0; i < kAlphas; ++i)
     data.rows.push_back(rowAt(subject, first + (last - first) * i / (kAlphas - 1)));
-  return {1300, 560, std::string(plot::kStyle) + kCutOffPanels, {std::move(data)}};
+  // A curve without a title has no place in the key.
+  const bool isDrawn = !vanishes(subject.annulus, subject.gaugeRadius_m, StrainComponent::kRadial);
+  const std::string titles = fmt::format("radialTitle(text) = {}\n", isDrawn ? "text" : "''");
+  return {1300, 560, plot::kStyle + titles + kCutOffPanels, {std::move(data)}};
 }
 
 std::vector<Claim> cutOffClaims() {
   const Subject paper = paperSubject();
-  return {risesSteeply(paper), shearIsFiltered(paper)};
+  std::vector<Claim> claims = shearClaims();
+  claims.insert(claims.begin(), {risesSteeply(paper), shearIsFiltered(paper)});
+  return claims;
+}
+
+std::string cutOffLacks(const Subject& subject) {
+  const auto vanishing = [&](StrainComponent component) {
+    return vanishes(subject.annulus, subject.gaugeRadius_m, component);
+  };
+  if (vanishing(StrainComponent::kRadial))
+    return "e_rr is 0 and has no cut-off: " + std::string(kWhyNoRadial) +
+           ". e_rt alone is drawn; of the data, the columns err_* and ett_* are empty";
+  if (vanishing(StrainComponent::kHoop))
+    return "e_tt is 0 and has no cut-off: gauges.radius_m is the core's, which holds the rubber. Of the "
+           "data, the columns ett_* are empty";
+  return {};
 }
 
 }  // namespace strainfinger::paper

@@ -43,7 +43,8 @@ struct Figure {
   int number;
   const char* title;
   plot::Picture (*picture)(const Subject& subject);
-  std::vector<Claim> (*claims)();  ///< of the paper's finger
+  std::vector<Claim> (*claims)();                ///< of the paper's finger
+  std::string (*lacks)(const Subject& subject);  ///< what of it isn't there, and why; empty: nothing
 };
 
 /// In the order of their numbers. Costs of picture() and claims() of all of them together: below 2 s.

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "host/paper/figure_makers.hpp"
+#include "host/paper/impulse_curve.hpp"
 #include "host/paper/spectrum.hpp"
 #include "host/plot/style.hpp"
 
@@ -24,7 +26,7 @@ set ylabel 'coefficient / largest of its model'
 set label 2 '10 %' at last,0.1 right offset 0,0.5 textcolor rgb faint
 set arrow 1 from 0,0.1 to last,0.1 nohead linecolor rgb faint dashtype 3
 set arrow 2 from 0,-0.1 to last,-0.1 nohead linecolor rgb faint dashtype 3
-panel(c) = c == 2 ? 'e_{rr}' : 'e_{rθ}'
+panel(c) = c == 2 ? 'e_{rr}'.radialNote : 'e_{rθ}'
 do for [c in '2 6'] {
   set label 1 panel(c + 0) at graph 0,1.05 left font ',14'
   cylinder = c == 2 ? cylinderRadial : cylinderShear; plane = c == 2 ? planeRadial : planeShear
@@ -39,9 +41,20 @@ do for [c in '2 6'] {
 unset multiplot
 )";
 
-double largest(const Spectra& spectra, StrainComponent component) {
+/// The largest of a component's coefficients, or 1 of one that vanishes: what they are divided by.
+double scaleOf(const Spectra& spectra, StrainComponent component) {
   const CutOffs found = cutOffs(spectra, component);
-  return std::max(found.normal.maximum, found.tangential.maximum);
+  const double largest = std::max(found.normal.maximum, found.tangential.maximum);
+  return largest > 0 ? largest : 1;
+}
+
+int lastHarmonic(const Spectra& spectra) {
+  int last = 0;
+  for (const auto component : {StrainComponent::kRadial, StrainComponent::kShear}) {
+    const CutOffs found = cutOffs(spectra, component);
+    last = std::max({last, found.normal.last, found.tangential.last});
+  }
+  return last;
 }
 
 std::vector<std::string> columnNames() {
@@ -73,8 +86,7 @@ Claim lastHarmonics(const Spectra& spectra) {
                 shear = cutOffs(spectra, StrainComponent::kShear);
   const double left = std::max(largestShare(spectra, kClaimedLast, StrainComponent::kRadial),
                                largestShare(spectra, kClaimedLast, StrainComponent::kShear));
-  const int last =
-      std::max({radial.normal.last, radial.tangential.last, shear.normal.last, shear.tangential.last});
+  const int last = lastHarmonic(spectra);
   const Verdict verdict = last < kClaimedLast    ? Verdict::kBorneOut
                           : last == kClaimedLast ? Verdict::kInPart
                                                  : Verdict::kNotBorneOut;
@@ -102,12 +114,42 @@ Claim comparedLoads(const Spectra& spectra) {
                          : Verdict::kNotBorneOut};
 }
 
+/// Largest magnitude of the opposite sign to the peak, which is at angle 0, over the peak.
+double sideLobe(const ImpulseCurve& curve) {
+  double lobe = 0;
+  for (double angle = 0; angle <= std::numbers::pi; angle += 1e-3)
+    lobe = std::max(lobe, -curve.at(angle) / curve.at(0));
+  return lobe;
+}
+
+Claim halfPlaneFiltersMore(const Subject& paper, const Spectra& spectra) {
+  const Spectra plane = halfPlaneSpectra(paper.annulus, paper.gaugeRadius_m);
+  const CutOff fingers = cutOffs(spectra, StrainComponent::kRadial).normal,
+               planes = cutOffs(plane, StrainComponent::kRadial).normal;
+  const auto lobeOf = [&](const auto& make) {
+    return sideLobe(make(paper.annulus, paper.gaugeRadius_m, StrainComponent::kRadial, kNormal));
+  };
+  const double fingersLobe = lobeOf(ImpulseCurve::ofCylinder), planesLobe = lobeOf(ImpulseCurve::ofHalfPlane);
+  const bool isLower = planes.interpolated < fingers.interpolated, isSmaller = planesLobe < fingersLobe;
+  return {
+      "half-plane-filters",
+      "the half space filters e_rr from a normal load more: smaller side lobes in the impulse response, a "
+      "smaller cut-off frequency in the frequency response (sec. 3, figs. 3 and 4)",
+      fmt::format(
+          "last harmonic (interpolated) at 10 % or more: half plane {} ({:.2f}), finger {} ({:.2f}); side "
+          "lobe over peak: {:.1f} and {:.1f} %",
+          planes.last, planes.interpolated, fingers.last, fingers.interpolated, 100 * planesLobe,
+          100 * fingersLobe),
+      isLower && isSmaller   ? Verdict::kBorneOut
+      : isLower || isSmaller ? Verdict::kInPart
+                             : Verdict::kNotBorneOut};
+}
+
 }  // namespace
 
 plot::Picture frequencyPicture(const Subject& subject) {
   const Spectra cylinder = cylinderSpectra(subject.annulus, subject.gaugeRadius_m);
   const Spectra plane = halfPlaneSpectra(subject.annulus, subject.gaugeRadius_m);
-  const CutOffs shown = cutOffs(cylinder, StrainComponent::kRadial);
   plot::DataFile data{"coefficients", columnNames(), {}};
   for (Eigen::Index n = 0; n < std::min(cylinder.rows(), plane.rows()); ++n) {
     data.rows.push_back({static_cast<double>(n)});
@@ -116,16 +158,22 @@ plot::Picture frequencyPicture(const Subject& subject) {
   }
   const std::string numbers =
       fmt::format("last = {}; cylinderRadial = {}; cylinderShear = {}; planeRadial = {}; planeShear = {}\n",
-                  2 * std::max(shown.normal.last, shown.tangential.last),
-                  largest(cylinder, StrainComponent::kRadial), largest(cylinder, StrainComponent::kShear),
-                  largest(plane, StrainComponent::kRadial), largest(plane, StrainComponent::kShear));
+                  2 * lastHarmonic(cylinder), scaleOf(cylinder, StrainComponent::kRadial),
+                  scaleOf(cylinder, StrainComponent::kShear), scaleOf(plane, StrainComponent::kRadial),
+                  scaleOf(plane, StrainComponent::kShear)) +
+      fmt::format("radialNote = '{}'\n", frequencyLacks(subject).empty() ? "" : " (finger: 0)");
   return {1300, 560, plot::kStyle + numbers + kFrequencyPanels, {std::move(data)}};
 }
 
 std::vector<Claim> frequencyClaims() {
   const Subject paper = paperSubject();
   const Spectra spectra = cylinderSpectra(paper.annulus, paper.gaugeRadius_m);
-  return {lastHarmonics(spectra), comparedLoads(spectra)};
+  return {lastHarmonics(spectra), comparedLoads(spectra), halfPlaneFiltersMore(paper, spectra)};
+}
+
+std::string frequencyLacks(const Subject& subject) {
+  if (!vanishes(subject.annulus, subject.gaugeRadius_m, StrainComponent::kRadial)) return {};
+  return "the finger's e_rr is 0: " + std::string(kWhyNoRadial) + ". Its coefficients are drawn as 0";
 }
 
 }  // namespace strainfinger::paper

@@ -26,10 +26,17 @@ class ImpulseCurve {
   double peak() const { return peak_; }  ///< largest magnitude
 
  private:
-  explicit ImpulseCurve(std::function<double(double)> strain);
+  ImpulseCurve(std::function<double(double)> strain, double depth_rad);
   std::function<double(double)> strain_;
   double peak_ = 0;
 };
+
+/// The depth of a radius below the surface, as an angle on the surface: what peaks are as wide as.
+double depth_rad(const model::Annulus<double>& annulus, double radius_m);
+
+/// How far the next sample of a curve may be from one at an angle from the load, so that none of its features
+/// is missed: they are as wide as the depth near the load, wider further off.
+double sampleStep_rad(double depth_rad, double angle_rad);
 
 /// First angle >= 0 at which two curves, each over its own peak, differ by `share` of the peak; NaN without
 /// one.

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "host/paper/figure_makers.hpp"
 #include "host/paper/impulse_curve.hpp"
+#include "host/paper/spectrum.hpp"
 #include "host/plot/style.hpp"
 
 namespace strainfinger::paper {
@@ -21,7 +23,7 @@ constexpr const char* kImpulsePanels = R"(
 set multiplot layout 1,2 margins 0.07,0.985,0.13,0.88 spacing 0.08
 set xlabel 'θ (rad)'; set xrange [-1.2:1.2]; set yrange [-1.1:1.1]; set ylabel 'e_{rr} / its peak'
 do for [load = 0:1] {
-  set label 1 (load == 0 ? 'normal load' : 'tangential load') at graph 0,1.05 left font ',14'
+  set label 1 (load == 0 ? 'normal load' : 'tangential load').radialNote at graph 0,1.05 left font ',14'
   cylinder = load == 0 ? cylinderNormal : cylinderTangential; plane = load == 0 ? planeNormal : planeTangential
   plot 0 with lines linecolor rgb faint notitle, \
        data('strains') using 1:(column(2 + load) / cylinder) every ::1 with lines linewidth 1.8 \
@@ -31,6 +33,23 @@ do for [load = 0:1] {
 }
 unset multiplot
 )";
+
+/// Even over all the circle, and closer beside the load where a curve's features are narrower than that.
+std::vector<double> anglesFor(double depth_rad) {
+  std::vector<double> angles_rad;
+  for (int i = -kAnglesEachSide; i <= kAnglesEachSide; ++i)
+    angles_rad.push_back(i * std::numbers::pi / kAnglesEachSide);
+  double angle_rad = 0;
+  while (sampleStep_rad(depth_rad, angle_rad) < std::numbers::pi / kAnglesEachSide) {
+    angle_rad += sampleStep_rad(depth_rad, angle_rad);
+    angles_rad.insert(angles_rad.end(), {-angle_rad, angle_rad});
+  }
+  std::ranges::sort(angles_rad);
+  return angles_rad;
+}
+
+/// A curve's peak, or 1 of one that vanishes: what it is divided by.
+double scaleOf(const ImpulseCurve& curve) { return curve.peak() > 0 ? curve.peak() : 1; }
 
 /// Cylinder, then half plane; in each err, ett, ert; of each normal, tangential.
 std::vector<ImpulseCurve> allCurves(const Subject& subject) {
@@ -70,14 +89,14 @@ plot::Picture impulsePicture(const Subject& subject) {
     for (const char* component : {"err", "ett", "ert"})
       for (const char* load : {"normal", "tangential"})
         data.columns.push_back(fmt::format("{}_{}_{}_per_n_per_m", model, component, load));
-  for (int i = -kAnglesEachSide; i <= kAnglesEachSide; ++i) {
-    const double angle_rad = i * std::numbers::pi / kAnglesEachSide;
+  for (const double angle_rad : anglesFor(depth_rad(subject.annulus, subject.gaugeRadius_m))) {
     data.rows.push_back({angle_rad});
     for (const ImpulseCurve& curve : curves) data.rows.back().push_back(curve.at(angle_rad));
   }
   const std::string numbers =
       fmt::format("cylinderNormal = {}; cylinderTangential = {}; planeNormal = {}; planeTangential = {}\n",
-                  curves[0].peak(), curves[1].peak(), curves[6].peak(), curves[7].peak());
+                  scaleOf(curves[0]), scaleOf(curves[1]), scaleOf(curves[6]), scaleOf(curves[7])) +
+      fmt::format("radialNote = '{}'\n", impulseLacks(subject).empty() ? "" : " (finger: 0)");
   return {1300, 560, plot::kStyle + numbers + kImpulsePanels, {std::move(data)}};
 }
 
@@ -85,6 +104,12 @@ std::vector<Claim> impulseClaims() {
   std::vector<Claim> claims = locatingClaims();
   claims.insert(claims.begin(), halfPlaneAgrees());
   return claims;
+}
+
+std::string impulseLacks(const Subject& subject) {
+  if (!vanishes(subject.annulus, subject.gaugeRadius_m, StrainComponent::kRadial)) return {};
+  return "the finger's e_rr is 0: " + std::string(kWhyNoRadial) +
+         ". It is drawn as 0; the data have e_rt, which isn't";
 }
 
 }  // namespace strainfinger::paper

@@ -90,20 +90,24 @@ double ambiguousShare(const model::Annulus<double>& annulus, double radius_m, in
   return ambiguous / static_cast<double>(kAngles * kLoads);
 }
 
-double widthSigma(const model::Annulus<double>& annulus, double radius_m, int gauges, double width_m) {
+double widthSigma(const model::Annulus<double>& annulus, double radius_m, int gauges, double width_m,
+                  bool withShear) {
   constexpr int kPhases = 16;
   constexpr double kNoise = 0.01;
   const double noise = kNoise * std::abs(SpreadResponse(annulus, radius_m, 0).at(0).normal);
-  const SpreadResponse response(annulus, radius_m, width_m);
+  std::vector<SpreadResponse> responses{{annulus, radius_m, width_m}};
+  if (withShear)
+    responses.emplace_back(annulus, radius_m, width_m, model::Profile::kEllipse, StrainComponent::kShear);
   std::vector<double> sigmas;
   for (int phase = 0; phase < kPhases; ++phase) {
-    Eigen::MatrixX4d jacobian(gauges, 4);  // angle, P, Q, width, the last and first per width and radian
-    for (int gauge = 0; gauge < gauges; ++gauge) {
-      const auto value = response.at(2 * pi / gauges * (gauge - (phase + 0.5) / (2 * kPhases)));
-      jacobian.row(gauge) << -value.normalSlope, value.normal, value.tangential,
-          value.normalPerWidth * width_m;
-    }
-    const Eigen::Matrix4d information = jacobian.transpose() * jacobian;
+    Eigen::Matrix4d information = Eigen::Matrix4d::Zero();  // of angle, P, Q, width per itself
+    for (const SpreadResponse& response : responses)
+      for (int gauge = 0; gauge < gauges; ++gauge) {
+        const auto value = response.at(2 * pi / gauges * (gauge - (phase + 0.5) / (2 * kPhases)));
+        const Eigen::Vector4d slopes(-value.normalSlope, value.normal, value.tangential,
+                                     value.normalPerWidth * width_m);
+        information += slopes * slopes.transpose();
+      }
     sigmas.push_back(noise * std::sqrt(information.inverse()(3, 3)));
   }
   return medianOf(sigmas);

@@ -22,7 +22,9 @@ double kindEffect(const model::Annulus<double>& annulus, double radius_m, double
 double ambiguousShare(const model::Annulus<double>& annulus, double radius_m, int gauges);
 
 /// Cramer-Rao bound of a contact's width, relative, at a noise of 1 % of the peak of the line load's strain:
-/// median over the phase; normal load only, angle and loads unknown too, all gauges used.
-double widthSigma(const model::Annulus<double>& annulus, double radius_m, int gauges, double width_m);
+/// median over the phase; normal load only, angle and loads unknown too, all gauges used. `withShear`: at
+/// each gauge there is another for e_rt, as noisy.
+double widthSigma(const model::Annulus<double>& annulus, double radius_m, int gauges, double width_m,
+                  bool withShear = false);
 
 }  // namespace strainfinger::paper

@@ -75,4 +75,27 @@ std::vector<Claim> discriminationClaims() {
                    : Verdict::kNotBorneOut}};
 }
 
+std::vector<Claim> shearClaims() {
+  constexpr double kWidth_m = 2e-3, kNoticeable = 0.9;
+  constexpr int kGauges = 16;
+  const Subject paper = paperSubject();
+  const auto sigma = [&](int gauges, bool withShear) {
+    return widthSigma(paper.annulus, paper.gaugeRadius_m, gauges, kWidth_m, withShear);
+  };
+  const double alone = sigma(kGauges, false), shear = sigma(kGauges, true), more = sigma(2 * kGauges, false);
+  const bool aids = shear < kNoticeable * alone, aidsMore = shear < more;
+  return {
+      {"shear-sensing",
+       "shear strain sensing will not aid particularly in the inversion, as the tangential load dominates "
+       "its low frequencies (sec. 6)",
+       fmt::format(
+           "at 1 % of noise the width of a 2 mm contact under a normal load is known to {:.1f} % by {} "
+           "gauges of e_rr, to {:.1f} % by {} of e_rt besides, to {:.1f} % by as many more of e_rr; the "
+           "tangential load is unknown in all",
+           100 * alone, kGauges, 100 * shear, kGauges, 100 * more),
+       !aids      ? Verdict::kBorneOut
+       : aidsMore ? Verdict::kNotBorneOut
+                  : Verdict::kInPart}};
+}
+
 }  // namespace strainfinger::paper

@@ -21,7 +21,9 @@ std::span<const double> values(const Spectra& spectra, StrainComponent component
 
 Spectra cylinderSpectra(const model::Annulus<double>& annulus, double radius_m) {
   constexpr std::array kRows{model::kErr, model::kEtt, model::kErt};  // in the order of StrainComponent
-  return model::truncatedSeries(annulus, radius_m, kRows, {}, kTolerance);
+  Spectra spectra = model::truncatedSeries(annulus, radius_m, kRows, {}, kTolerance);
+  spectra.row(0) /= 2;
+  return spectra;
 }
 
 HalfPlane halfPlaneOf(const model::Annulus<double>& annulus, double radius_m) {
@@ -56,6 +58,11 @@ CutOff cutOff(std::span<const double> spectrum) {
 CutOffs cutOffs(const Spectra& spectra, StrainComponent component) {
   return {cutOff(values(spectra, component, model::kNormal)),
           cutOff(values(spectra, component, model::kTangential))};
+}
+
+bool vanishes(const model::Annulus<double>& annulus, double radius_m, StrainComponent component) {
+  const CutOffs found = cutOffs(cylinderSpectra(annulus, radius_m), component);
+  return found.normal.maximum == 0 && found.tangential.maximum == 0;
 }
 
 }  // namespace strainfinger::paper

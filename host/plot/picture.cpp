@@ -115,10 +115,15 @@ void write(const Workshop& workshop, const std::string& name, const std::string&
   if (!isWritten || std::fclose(file.release()) != 0) failWriting(workshop.folder() / name);
 }
 
-void drawIn(const Workshop& workshop, const Picture& picture, const std::string& stem,
-            const std::string& ending) {
+void writeIn(const Workshop& workshop, const Picture& picture, const std::string& stem,
+             const std::string& ending) {
   write(workshop, scriptName(stem), completeScript(picture, stem, ending));
   for (const DataFile& data : picture.data) write(workshop, dataName(stem, data.name), csvOf(data));
+}
+
+void drawIn(const Workshop& workshop, const Picture& picture, const std::string& stem,
+            const std::string& ending) {
+  writeIn(workshop, picture, stem, ending);
   runGnuplot(workshop.path(), "./" + scriptName(stem));  // it takes "-a.gp" for an option
   std::error_code notThere;  // is -1 then, and 0 where gnuplot has opened the file only
   if (fs::file_size(workshop.path() / (stem + ending), notThere) + 1 <= 1)
@@ -139,6 +144,15 @@ void draw(const Picture& picture, const std::string& path) {
   terminal(picture, file.extension().string());
   const Workshop workshop(file);
   drawIn(workshop, picture, file.stem().string(), file.extension().string());
+  workshop.deliver();
+}
+
+void writeUndrawn(const Picture& picture, const std::string& path) {
+  const fs::path file(path);
+  const std::string ending = file.extension().string();
+  terminal(picture, ending);
+  const Workshop workshop(file);
+  writeIn(workshop, picture, file.stem().string(), ending);
   workshop.deliver();
 }
 

@@ -32,6 +32,10 @@ struct Picture {
 /// when a file cannot be written, when gnuplot is not installed, or with what gnuplot complains about.
 void draw(const Picture& picture, const std::string& path);
 
+/// What draw() leaves beside a picture, without it: for who has no gnuplot yet. Throws as draw() does of
+/// files.
+void writeUndrawn(const Picture& picture, const std::string& path);
+
 /// What draw() leaves beside a picture whose data files have these names, whatever was there.
 std::vector<std::string> filesBeside(const std::string& path, std::span<const char* const> dataNames);
 

@@ -74,11 +74,29 @@ TEST(FiguresCommand, NamesAFolderThatCannotBe) {
   STRCMP_CONTAINS("cannot make the folder /dev/null/figures: Not a directory", run.err.c_str());
 }
 
-TEST(FiguresCommand, SaysWhenGnuplotIsMissing) {
+TEST(FiguresCommand, WithoutGnuplotWritesAllButPictures) {
   const Run run = runShell("PATH=/nowhere $STRAINFINGER figures --only 4 -o " + folder.path() + "/out");
   LONGS_EQUAL(1, run.status);
-  STRCMP_CONTAINS("apt install gnuplot-nox", run.err.c_str());
-  CHECK_FALSE(std::filesystem::exists(folder.file("out")));
+  STRCMP_CONTAINS("gnuplot is not installed: apt install gnuplot-nox. No picture was drawn in ",
+                  run.err.c_str());
+  STRCMP_CONTAINS("gnuplot figure-N.gp", run.err.c_str());
+  STRCMP_EQUAL(contentOf("claims.csv").c_str(), run.out.c_str());
+  for (const char* name : {"figure-4.gp", "figure-4-strains.csv", "claims.csv"})
+    CHECK_TRUE_TEXT(has(name), name);
+  for (const char* name : {"figure-4.svg", "figure-4.png"}) CHECK_FALSE_TEXT(has(name), name);
+  LONGS_EQUAL(0, runShell("cd " + folder.path() + "/out && gnuplot figure-4.gp").status);
+  CHECK_TRUE(has("figure-4.png"));
+}
+
+TEST(FiguresCommand, SaysWhatGaugesOnTheCoreDoNotRead) {
+  std::ofstream(folder.file("finger.toml")) << "schema = 1\n[gauges]\nradius_m = 0.0089\n";
+  const Run run = figures("--only 3,4,5,6 -c " + folder.file("finger.toml"));
+  LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS("warning: figure 3: the finger's e_rr is 0: gauges.radius_m is the core's",
+                  run.err.c_str());
+  STRCMP_CONTAINS("warning: figure 5: e_rr is 0 and has no cut-off", run.err.c_str());
+  STRCMP_CONTAINS("figure 6: Displacements under a flat", run.err.c_str());
+  CHECK_TRUE(run.err.find("warning: figure 6") == std::string::npos);
 }
 
 // A gnuplot of ours interrupts the program that runs it, as Ctrl-C would, and dies of it too.

@@ -111,6 +111,19 @@ TEST(ImpulseCurve, FingerAndHalfPlaneAgreeInSign) {
   CHECK_TRUE(cylinder(kNormal).at(0) < 0);
 }
 
+// A peak narrower than 2e-3 rad, in closed form: e_rr of a tangential load is, with t = x / depth,
+// t (1 - nu - nu t^2) / (1 + t^2)^2 / (pi mu depth), largest where nu t^4 - 3 t^2 + 1 - nu = 0.
+TEST(ImpulseCurve, FindsThePeaksOfShallowGauges) {
+  model::Annulus<double> finger = kDefaultFinger;
+  finger.poisson_ratio = 0.3;
+  constexpr double kShallow_m = 12.68e-3, kExact = 0.038368;
+  const auto peak = [&](auto make, model::Traction load) {
+    return make(finger, kShallow_m, StrainComponent::kRadial, load).peak();
+  };
+  DOUBLES_EQUAL(kExact, peak(ImpulseCurve::ofHalfPlane, kTangential), 5e-7);
+  DOUBLES_EQUAL(kExact, peak(ImpulseCurve::ofCylinder, kTangential), 0.02 * kExact);
+}
+
 TEST(ImpulseCurve, CurvesThatAgreeNeverPart) {
   CHECK_TRUE(std::isnan(partingAngle_rad(plane(kNormal), plane(kNormal), 1e-9)));
 }

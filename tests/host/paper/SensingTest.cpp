@@ -43,6 +43,12 @@ TEST(Sensing, WidthsAreKnownAsWellAsTheyCanBe) {
     DOUBLES_EQUAL(sigma, widthSigma(finger(alpha), gauge_m(alpha), gauges, width_mm * 1e-3), 0.05 * sigma);
 }
 
+// From the appendix's formulas with 40 digits, over the same phases.
+TEST(Sensing, ShearMakesWidthsBetterKnown) {
+  DOUBLES_EQUAL(0.3150, widthSigma(kDefaultFinger, kGaugeRadius_m, 16, 2e-3), 5e-5);
+  DOUBLES_EQUAL(0.1249, widthSigma(kDefaultFinger, kGaugeRadius_m, 16, 2e-3, true), 5e-5);
+}
+
 TEST(Sensing, ThreeReadingsAreOftenTwofold) {
   DOUBLES_EQUAL(0.69, ambiguousShare(kDefaultFinger, kGaugeRadius_m, 16), 0.05);
   DOUBLES_EQUAL(0.002, ambiguousShare(kDefaultFinger, kGaugeRadius_m, 24), 0.005);

@@ -61,6 +61,16 @@ TEST(SpreadResponse, OfNoWidthIsTheImpulseResponse) {
 }
 
 // Central differences: their error is the third derivative's, 1e-7 of the slopes here.
+TEST(SpreadResponse, OfShearIsItsImpulseResponse) {
+  const model::ImpulseResponse shear{finger, kGauge_m, StrainComponent::kShear};
+  const auto known = shear.at(0.2);
+  const auto found = SpreadResponse(finger, kGauge_m, 0, Profile::kEllipse, StrainComponent::kShear).at(0.2);
+  DOUBLES_EQUAL(known.normal, found.normal, 1e-15);
+  DOUBLES_EQUAL(known.tangential, found.tangential, 1e-15);
+  DOUBLES_EQUAL(known.normalSlope, found.normalSlope, 1e-14);
+  DOUBLES_EQUAL(known.tangentialSlope, found.tangentialSlope, 1e-14);
+}
+
 TEST(SpreadResponse, ItsSlopesAreItsDerivatives) {
   constexpr double kStep = 1e-5, kStep_m = 1e-6, kWidth_m = 3e-3;
   for (const Profile profile : {Profile::kEllipse, Profile::kPunch}) {

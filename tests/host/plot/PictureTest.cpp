@@ -85,6 +85,13 @@ TEST(Picture, DataAndScriptStayBesideThePicture) {
   STRCMP_EQUAL(completeScript(picture, "a", ".svg").c_str(), contentOf("a.gp").c_str());
 }
 
+TEST(Picture, WhatIsUndrawnIsAllButThePicture) {
+  writeUndrawn(picture, folder.file("a.png"));
+  STRCMP_EQUAL("x,y\n0,1\n1,\n2,0.1\n", contentOf("a-curve.csv").c_str());
+  STRCMP_EQUAL(completeScript(picture, "a", ".png").c_str(), contentOf("a.gp").c_str());
+  CHECK_FALSE(std::filesystem::exists(folder.file("a.png")));
+}
+
 TEST(Picture, WhatIsWrittenBesideItIsKnownBefore) {
   draw(picture, folder.file("a.svg"));
   for (const std::string& file : filesBeside(folder.file("a.svg"), std::array{"curve"}))

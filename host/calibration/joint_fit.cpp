@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include "host/base/failure.hpp"
 
@@ -14,6 +15,9 @@ namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Of holding Poisson's ratio and letting go of it: two are needed, as a rule.
+constexpr int kMostTurns = 6;
 
 /// The finger where the solver stands: computed once for all touches.
 class FingerAtPoint : public ceres::EvaluationCallback {
@@ -74,6 +78,52 @@ ceres::LossFunction* lossOf(double scale) {
   return scale > 0 ? new ceres::CauchyLoss(std::sqrt(scale)) : nullptr;
 }
 
+/// Poisson's ratio at most 1/2. Ceres shortens each step to the bound, but a step that would pass it moves
+/// what goes along with the ratio, the core's radius above all, the wrong way: the fit stalls far from its
+/// best. So where the ratio is at the bound and would pass it, it is held.
+class PoissonBound {
+ public:
+  PoissonBound(const Drawing& drawing, ceres::Problem& problem, VectorXd& deviations)
+      : problem_(problem),
+        deviations_(deviations),
+        ratio_(static_cast<int>(drawing.at(kPoissonRatio))),
+        most_(drawing.mostPoissonDeviation()),
+        held_(static_cast<int>(deviations.size()), {ratio_}) {
+    problem.SetParameterUpperBound(deviations.data(), ratio_, most_);
+  }
+
+  void holdIfPressed() { hold(isPressed()); }
+
+  /// Held where it is pressed against the bound, free elsewhere.
+  bool isRespected() { return isPressed() == isHeld_; }
+
+ private:
+  void hold(bool isHeld) {
+    isHeld_ = isHeld;
+    problem_.SetManifold(deviations_.data(), isHeld ? &held_ : nullptr);
+  }
+
+  bool isPressed() {
+    constexpr double kRounding = 1e-9;
+    if (deviations_[ratio_] < most_ - kRounding) return false;
+    const bool wasHeld = isHeld_;
+    hold(false);  // a gradient with the ratio's part
+    ceres::Problem::EvaluateOptions options;
+    options.parameter_blocks = {deviations_.data()};
+    std::vector<double> gradient;
+    problem_.Evaluate(options, nullptr, nullptr, &gradient, nullptr);
+    hold(wasHeld);
+    return gradient[static_cast<std::size_t>(ratio_)] < 0;
+  }
+
+  ceres::Problem& problem_;
+  VectorXd& deviations_;
+  int ratio_;
+  double most_;
+  ceres::SubsetManifold held_;
+  bool isHeld_ = false;
+};
+
 ceres::Solver::Options solverOptions(JointFit& fit, bool preliminary) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_SCHUR;
@@ -95,6 +145,7 @@ FitEnd fitTogether(const Drawing& drawing, int lastHarmonic, const std::vector<T
   FingerAtPoint finger(drawing, lastHarmonic, fit.deviations);
   ceres::Problem::Options problemOptions;
   problemOptions.evaluation_callback = &finger;
+  problemOptions.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ceres::Problem problem(problemOptions);
   const Index unknowns = drawing.unknowns();
   for (std::size_t i = 0; i < data.size(); ++i)
@@ -102,11 +153,13 @@ FitEnd fitTogether(const Drawing& drawing, int lastHarmonic, const std::vector<T
                              fit.touches[i].data());
   problem.AddResidualBlock(new ceres::NormalPrior(drawing.priorRoot(), VectorXd::Zero(unknowns)), nullptr,
                            fit.deviations.data());
-  problem.SetParameterUpperBound(fit.deviations.data(), static_cast<int>(drawing.at(kPoissonRatio)),
-                                 drawing.mostPoissonDeviation());
+  PoissonBound bound(drawing, problem, fit.deviations);
   ceres::Solver::Summary summary;
-  ceres::Solve(solverOptions(fit, robust > 0), &problem, &summary);
-  if (!summary.IsSolutionUsable()) return FitEnd::kFailed;
+  for (int turn = 0; turn < kMostTurns && (turn == 0 || !bound.isRespected()); ++turn) {
+    bound.holdIfPressed();
+    ceres::Solve(solverOptions(fit, robust > 0), &problem, &summary);
+    if (!summary.IsSolutionUsable()) return FitEnd::kFailed;
+  }
   return summary.termination_type == ceres::NO_CONVERGENCE ? FitEnd::kStopped : FitEnd::kSettled;
 }
 

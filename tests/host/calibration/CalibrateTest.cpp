@@ -111,6 +111,25 @@ TEST(Calibrate, FindsTheFingerAsItWasBuiltFromTouchesThatNobodyMeasured) {
 }
 
 // A finger as drawn is off by hundreds of micrometres; the calibrated one by what its covariance says.
+// Where the model ends: steps that would pass it must not keep the fit from the core.
+TEST(Calibrate, FindsTheCoreOfAFingerWhosePoissonRatioIsOneHalf) {
+  for (const double core_m : {-1e-4, 1e-4}) {
+    config::FingerConfig half;
+    half.as_built = {.seed = 3, .core_radius_m = core_m};
+    const study::SessionPlan plan{.touches = 150,
+                                  .knownLoads = 0,
+                                  .knownDirections = 0,
+                                  .ranges = {.load_n_per_m = {8, 30}, .width_m = {0.5e-3, 2.5e-3}}};
+    const auto result = calibrated(study::sessionOf(half, plan, kSeed));
+    const Estimate core = result.coreRadius_m();
+    CHECK_COMPARE(core.sigma, <, 2e-5);
+    DOUBLES_EQUAL(half.finger.core_radius_m + core_m, core.value, 4 * core.sigma);
+    CHECK_COMPARE(result.poissonRatio().value, >, 0.498);
+    CHECK_COMPARE(result.modelError().value, <, 5e-4);
+    CHECK_COMPARE(result.count(RowUse::kUnexplained), <=, 2);
+  }
+}
+
 TEST(Calibrate, NewTouchesAreOffByWhatItSays) {
   const auto& result = usual().result;
   const auto touches = study::newTouches(result, finger, 100, kSeed);

@@ -110,7 +110,6 @@ TEST(Calibrate, FindsTheFingerAsItWasBuiltFromTouchesThatNobodyMeasured) {
   DOUBLES_EQUAL(6e-6 * std::sqrt(0.75), std::sqrt(squares), 0.5e-6);
 }
 
-// A finger as drawn is off by hundreds of micrometres; the calibrated one by what its covariance says.
 // Where the model ends: steps that would pass it must not keep the fit from the core.
 TEST(Calibrate, FindsTheCoreOfAFingerWhosePoissonRatioIsOneHalf) {
   for (const double core_m : {-1e-4, 1e-4}) {
@@ -130,6 +129,7 @@ TEST(Calibrate, FindsTheCoreOfAFingerWhosePoissonRatioIsOneHalf) {
   }
 }
 
+// A finger as drawn is off by hundreds of micrometres; the calibrated one by what its covariance says.
 TEST(Calibrate, NewTouchesAreOffByWhatItSays) {
   const auto& result = usual().result;
   const auto touches = study::newTouches(result, finger, 100, kSeed);

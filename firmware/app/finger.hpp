@@ -325,7 +325,8 @@ class Finger {
   /// is said after the restart. Nobody waits for an answer.
   ResponseFrame leave(Command command, Leaving where, bool evenWhileTouched) {
     if (isTouched() && !evenWhileTouched) return responseTo(command, CommandStatus::kTouched);
-    if (tareStatus_ || (owed_.any() && !evenWhileTouched)) return responseTo(command, CommandStatus::kBusy);
+    const bool isEndOwed = owed_.any() || reporter_.owesEnd();
+    if (tareStatus_ || (isEndOwed && !evenWhileTouched)) return responseTo(command, CommandStatus::kBusy);
     leaving_ = where;
     return responseTo(command, CommandStatus::kDone);
   }

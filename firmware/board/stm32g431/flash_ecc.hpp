@@ -34,7 +34,8 @@ inline void noteEccErrors(const RegisterBus auto& bus, EccErrors& errors) noexce
 
 /// By the NMI's handler. True: it can return, and the read goes on with bytes that mean nothing. That is
 /// decided by what is being read and never by the address. An NMI without flags is taken for an error that
-/// they don't show.
+/// they don't show; if it is the crystal that has stopped, it comes again and again, until the watchdog
+/// resets.
 inline bool survivesNmi(const RegisterBus auto& bus, EccErrors& errors) noexcept {
   const std::uint32_t before = errors.unreadable;
   noteEccErrors(bus, errors);

@@ -14,6 +14,8 @@ struct Rcc {
     static constexpr Field<Cr, 10> hsiReady{};
     static constexpr Field<Cr, 16> hseOn{};
     static constexpr Field<Cr, 17> hseReady{};
+    static constexpr Field<Cr, 19>
+        clockSecurity{};  ///< CSSON: NMI when HSE stops; only a reset takes it back
     static constexpr Field<Cr, 24> pllOn{};
     static constexpr Field<Cr, 25> pllReady{};
   };

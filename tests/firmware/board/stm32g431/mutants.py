@@ -190,6 +190,7 @@ MUTANTS = {
         ("clock_tree.hpp", "    modify(bus_, Rcc::Cfgr::ahbPrescaler(Rcc::kWhole));\n", ""),
         ("clock_tree.hpp", " |\n                    PllCfgr::outputOn(1)", ""),
         ("clock_tree.hpp", "    modify(bus_, Rcc::Cr::hseOn(0));\n", ""),
+        ("clock_tree.hpp", " | Rcc::Cr::clockSecurity(1)", ""),
         ("clock_tree.hpp", "Flash::Acr::latency(kWaitStates) | ", ""),
         ("fdcan_port.hpp", "    modify(bus_, Cccr::configurable(1));\n    const bool fd", "    const bool fd"),
         ("fdcan_port.hpp", "    write(bus_, Fdcan::Txbc::queue(1));\n", ""),

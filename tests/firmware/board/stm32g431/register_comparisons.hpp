@@ -31,6 +31,7 @@ inline constexpr Comparison kRegisters[] = {
     SAME(Rcc::Cr::hsiReady.mask, st::RCC_CR_HSIRDY),
     SAME(Rcc::Cr::hseOn.mask, st::RCC_CR_HSEON),
     SAME(Rcc::Cr::hseReady.mask, st::RCC_CR_HSERDY),
+    SAME(Rcc::Cr::clockSecurity.mask, st::RCC_CR_CSSON),
     SAME(Rcc::Cr::pllOn.mask, st::RCC_CR_PLLON),
     SAME(Rcc::Cr::pllReady.mask, st::RCC_CR_PLLRDY),
     SAME(Rcc::Cfgr::address, st::RCC_CFGR),

@@ -250,6 +250,7 @@ inline constexpr std::uint32_t RCC_CFGR_SW_HSE = 0x00000002;
 inline constexpr std::uint32_t RCC_CFGR_SW_HSI = 0x00000001;
 inline constexpr std::uint32_t RCC_CFGR_SW_PLL = 0x00000003;
 inline constexpr std::uint32_t RCC_CR = 0x40021000;
+inline constexpr std::uint32_t RCC_CR_CSSON = 0x00080000;
 inline constexpr std::uint32_t RCC_CR_HSEON = 0x00010000;
 inline constexpr std::uint32_t RCC_CR_HSERDY = 0x00020000;
 inline constexpr std::uint32_t RCC_CR_HSION = 0x00000100;

@@ -285,6 +285,7 @@ inline constexpr Comparison kRegisters[] = {
     SAME(Iwdg::Sr::updating.mask, st::IWDG_SR_PVU | st::IWDG_SR_RVU | st::IWDG_SR_WVU),
     SAME(UniqueIdWords::base, st::UID_BASE),
     SAME(Dbgmcu::Apb1Fzr1::address, st::DBGMCU_APB1FZR1),
+    SAME(Dbgmcu::Apb1Fzr1::stopTim2.mask, st::DBGMCU_APB1FZR1_DBG_TIM2_STOP),
     SAME(Dbgmcu::Apb1Fzr1::stopWatchdog.mask, st::DBGMCU_APB1FZR1_DBG_IWDG_STOP),
 };
 

@@ -52,6 +52,7 @@ inline constexpr std::uint32_t ADC_ISR_OVR = 0x00000010;
 inline constexpr std::uint32_t ADC_SQR1_L = 0x0000000F;
 inline constexpr std::uint32_t DBGMCU_APB1FZR1 = 0xE0042008;
 inline constexpr std::uint32_t DBGMCU_APB1FZR1_DBG_IWDG_STOP = 0x00001000;
+inline constexpr std::uint32_t DBGMCU_APB1FZR1_DBG_TIM2_STOP = 0x00000001;
 inline constexpr std::uint32_t DMA1_BASE = 0x40020000;
 inline constexpr std::uint32_t DMA1_Channel1_CCR = 0x40020008;
 inline constexpr std::uint32_t DMA1_Channel1_CMAR = 0x40020014;

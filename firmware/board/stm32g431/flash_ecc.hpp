@@ -20,7 +20,8 @@ struct EccErrors {
 };
 
 /// Counts what the flags say and clears them both: an error of two bits is only noticed while both are clear.
-inline void noteEccErrors(const RegisterBus auto& bus, EccErrors& errors) noexcept {
+/// Not inlined: it is called from a dozen places.
+[[gnu::noinline]] void noteEccErrors(const RegisterBus auto& bus, EccErrors& errors) noexcept {
   using EccR = Flash::EccR;
   const std::uint32_t status = bus.read(EccR::address);
   if ((status & (EccR::corrected.mask | EccR::detected.mask)) == 0) return;
@@ -53,7 +54,7 @@ inline void refreshDataCache(const RegisterBus auto& bus) noexcept {
 }
 
 /// As long as it lives, damaged words of flash are expected and counted, those too that the data cache has
-/// already: they would raise nothing.
+/// already: they would raise nothing. Who reads words one after the other calls noteEccErrors() after each.
 template <RegisterBus Bus>
 class EccWatch {
  public:
@@ -71,7 +72,7 @@ class EccWatch {
   EccWatch(const EccWatch&) = delete;
   EccWatch& operator=(const EccWatch&) = delete;
 
-  /// All that was read since it lives was readable.
+  /// All that was read since it lives was readable, but for words that an error of one bit hid.
   bool isClean() const noexcept {
     std::atomic_signal_fence(std::memory_order_seq_cst);
     noteEccErrors(bus_, errors_);

@@ -112,7 +112,7 @@ class Finger {
   static constexpr std::uint32_t kHeartbeatPeriod_us = std::uint32_t{kHeartbeatPeriod_ms} * 1000;
   static constexpr std::uint32_t kGaugesPeriod_us = std::uint32_t{kGaugesPeriod_ms} * 1000;
   static constexpr std::uint32_t kSilentConverter_us = 100'000;
-  static constexpr std::uint32_t kTarePeriod_us = 1'000'000;  ///< a zero is taken at most so often
+  static constexpr std::uint32_t kTarePeriod_us = hal::kSecond_us;  ///< a zero is taken at most so often
   static constexpr std::uint32_t kAnswerWithin_us = std::uint32_t{kAnswerWithin_ms} * 1000;
   static constexpr std::uint32_t kLongestUptime_s = kNotKnown<std::uint16_t> - 1;
 
@@ -123,7 +123,7 @@ class Finger {
     tareWait_us_ -= std::min(tareWait_us_, passed_us);
     sinceSecond_us_ += passed_us;
     steppedAt_us_ = now_us;
-    for (; sinceSecond_us_ >= 1'000'000; sinceSecond_us_ -= 1'000'000) {
+    for (; sinceSecond_us_ >= hal::kSecond_us; sinceSecond_us_ -= hal::kSecond_us) {
       ++uptime_s_;
       setsPerSecond_ = counters_.sampleSets - setsAtSecond_;
       setsAtSecond_ = counters_.sampleSets;
@@ -266,7 +266,7 @@ class Finger {
     saidOutOfUse_ = outOfUse;
   }
 
-  static constexpr std::uint32_t periodOf(std::uint32_t rate_hz) { return 1'000'000u / rate_hz; }
+  static constexpr std::uint32_t periodOf(std::uint32_t rate_hz) { return hal::kSecond_us / rate_hz; }
 
   /// Answers the request that has arrived, at once or when its work is done; while an answer waits for the
   /// port, the next request does. Not inlined: see report().

@@ -61,7 +61,7 @@ class FlashStore {
   }
 
  private:
-  static constexpr std::size_t kUnit_bytes = 8;
+  static constexpr std::size_t kUnit_bytes = hal::kStoreUnit_bytes;  ///< double words: each has its ECC
   /// A poll takes 6 cycles of 170 MHz at least. Erasing a page takes 24.5 ms at most, programming 0.09
   /// (DS12589).
   static constexpr std::uint32_t kErasePolls = 1'000'000;

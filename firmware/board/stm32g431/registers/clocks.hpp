@@ -26,7 +26,7 @@ struct Rcc {
     static constexpr Field<Cfgr, 8, 3> apb1Prescaler{};      ///< 0: 1
     static constexpr Field<Cfgr, 11, 3> apb2Prescaler{};     ///< 0: 1
   };
-  enum SystemClock : std::uint32_t { kHsi = 1, kHse = 2, kPll = 3 };
+  enum SystemClock : std::uint32_t { kHsi = 1, kPll = 3 };
   enum AhbPrescaler : std::uint32_t { kWhole = 0, kHalf = 8 };
 
   struct PllCfgr : Register<base + 0x0C> {
@@ -41,7 +41,6 @@ struct Rcc {
   struct Ahb1Enr : Register<base + 0x48> {
     static constexpr Field<Ahb1Enr, 0> dma1{};
     static constexpr Field<Ahb1Enr, 2> dmamux{};
-    static constexpr Field<Ahb1Enr, 8> flash{};
   };
   struct Ahb2Enr : Register<base + 0x4C> {
     static constexpr Field<Ahb2Enr, 0> gpioA{};

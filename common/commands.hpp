@@ -64,8 +64,10 @@ inline constexpr std::uint16_t kLastCount = 4;
 
 inline constexpr std::array kCountNames{
     ValueName{0, "erases", "Pages of the settings' memory erased in its life; each lasts 10,000 times"},
-    ValueName{1, "corrected", "Words of the memory that had a wrong bit and were put right, since the start"},
-    ValueName{2, "unreadable", "Words of the memory that had more wrong bits, since the start"},
+    ValueName{1, "corrected",
+              "Times that a word of the memory was read with a wrong bit and put right, since the start"},
+    ValueName{2, "unreadable",
+              "Times that a word of the memory was read with more wrong bits, since the start"},
     ValueName{3, "lost_sets", "Sample sets that were lost, since the start"},
     ValueName{4, "resynchronised",
               "Times that the converters lost track of the gauges and began anew, since the start"},

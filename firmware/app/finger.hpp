@@ -72,9 +72,9 @@ class Finger {
         heartbeatAt_us_(steppedAt_us_ - kHeartbeatPeriod_us),
         gaugesAt_us_(steppedAt_us_) {}
 
-  /// One turn of the main loop: takes at most one sample set and one request, sends what is due. Never
-  /// blocks. The watchdog is fed only by sample sets that went all the way through. True: there was a sample
-  /// set.
+  /// One turn of the main loop: takes at most one sample set and one request, sends what is due. Blocks only
+  /// for `keep` and `node`, while the memory erases a page (25 ms on the finger board). The watchdog is fed
+  /// only by sample sets that went all the way through. True: there was a sample set.
   bool step() {
     const std::uint32_t now_us = clock_.now_us();
     countUptime(now_us);
@@ -410,7 +410,9 @@ class Finger {
   std::uint32_t busOffs_ = 0;  ///< of the port, at the last heartbeat
   RawSender raw_;
   std::optional<CommandStatus> tareStatus_;  ///< to answer when the zero is taken
-  bool isTouchRefused_ = false;              ///< for a zero that is asked for, whoever waits for the answer
+  /// The zero that is being taken is refused if a touch shows in it; holds after the answer has timed out,
+  /// too.
+  bool isTouchRefused_ = false;
   Leaving leaving_ = Leaving::kStays;
   std::optional<ResponseFrame> response_;  ///< that the port hasn't taken yet
   FingerCounters counters_{};

@@ -35,7 +35,7 @@ struct FdcanSettings {
 ///
 /// Of each identifier at most one frame is in the controller; between identifiers the lowest goes first.
 /// poll() is to be called at least every three shortest frame times that listensTo lets through (send and
-/// receive call it too).
+/// receive call it too), else frames are lost and counted in `missed`; one request at a time is safe.
 ///
 /// Bus-off: what waits is dropped, and the controller goes back on the bus (129 * 11 recessive bits) at once;
 /// if that ends in bus-off again before a frame got through, after 10, 100, then every 1000 ms.

@@ -16,7 +16,7 @@
 
 namespace strainfinger {
 
-/// A finger answers within this time or not at all: an older answer could be taken for another request's.
+/// An answer is given to the bus within this time or never: an older one could be taken for another's.
 inline constexpr std::uint16_t kAnswerWithin_ms = 500;
 
 /// At the slowest a finger in contact sends what it would anyway.

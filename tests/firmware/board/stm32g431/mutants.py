@@ -216,10 +216,13 @@ MUTANTS = {
         ("fdcan_port.hpp", "      write(bus_, Fdcan::Rxf0a::index(index));\n", ""),
         ("fdcan_port.hpp", "    write(bus_, Fdcan::Ir::fifo0Lost(1));\n", ""),
         ("fdcan_port.hpp", "if (attempt_ + 1U < kBackOff_us.size()) ++attempt_;", ""),
+        ("fdcan_port.hpp", "if (rule.background) since_us_ = clock_.now_us();", "since_us_ = clock_.now_us();"),
         ("flash_store.hpp", " &&\n           (bus_.read(Flash::Sr::address) & Flash::Sr::errors) == 0", ""),
         ("flash_ecc.hpp", "    errors_.isExpected = true;\n", ""),
         ("flash_ecc.hpp", "    errors_.isExpected = false;\n", ""),
         ("gauge_converter.hpp", "    ++resynchronisations_;\n", ""),
+        ("gauge_converter.hpp", "if (resynchronisations_ != 0) ++overruns_;", ""),
+        ("flash_store.hpp", "noteEccErrors(bus_, errors_);\n    return word;", "return word;"),
     ],
 }
 

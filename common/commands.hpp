@@ -113,7 +113,9 @@ enum class CommandStatus : std::uint8_t {
 
 inline constexpr std::array kCommandStatusNames{
     ValueName{0, "done", "Done"},
-    ValueName{1, "busy", "Not now: the zero is being taken already, or there are no samples, or no tables"},
+    ValueName{1, "busy",
+              "Not now: the zero is being taken, or the end of a touch is not said yet, or no samples or no "
+              "tables are there"},
     ValueName{2, "unknown_command", "This firmware has no such command"},
     ValueName{3, "bad_argument", "The argument is absent, too long or outside its range"},
     ValueName{4, "touched",

@@ -16,7 +16,7 @@
 
 namespace strainfinger {
 
-/// A finger answers within this time or not at all: an older answer could be taken for another request's.
+/// An answer is given to the bus within this time or never: an older one could be taken for another's.
 inline constexpr std::uint16_t kAnswerWithin_ms = 500;
 
 /// At the slowest a finger in contact sends what it would anyway.
@@ -64,8 +64,10 @@ inline constexpr std::uint16_t kLastCount = 4;
 
 inline constexpr std::array kCountNames{
     ValueName{0, "erases", "Pages of the settings' memory erased in its life; each lasts 10,000 times"},
-    ValueName{1, "corrected", "Words of the memory that had a wrong bit and were put right, since the start"},
-    ValueName{2, "unreadable", "Words of the memory that had more wrong bits, since the start"},
+    ValueName{1, "corrected",
+              "Times that a word of the memory was read with a wrong bit and put right, since the start"},
+    ValueName{2, "unreadable",
+              "Times that a word of the memory was read with more wrong bits, since the start"},
     ValueName{3, "lost_sets", "Sample sets that were lost, since the start"},
     ValueName{4, "resynchronised",
               "Times that the converters lost track of the gauges and began anew, since the start"},
@@ -111,7 +113,9 @@ enum class CommandStatus : std::uint8_t {
 
 inline constexpr std::array kCommandStatusNames{
     ValueName{0, "done", "Done"},
-    ValueName{1, "busy", "Not now: the zero is being taken already, or there are no samples, or no tables"},
+    ValueName{1, "busy",
+              "Not now: the zero is being taken, or the end of a touch is not said yet, or no samples or no "
+              "tables are there"},
     ValueName{2, "unknown_command", "This firmware has no such command"},
     ValueName{3, "bad_argument", "The argument is absent, too long or outside its range"},
     ValueName{4, "touched",

@@ -24,10 +24,10 @@ struct CanStatus {
 
 /// Contract of a CAN port:
 ///  - `send(frame)` never blocks. True: the frame will go out, after every frame of the same identifier
-///    taken before, unless a newer frame of its identifier replaces it while it waits (a backend may do that
-///    for identifiers whose old values are worthless). False: not now (mailbox busy, bus off, interface
-///    down); nothing was taken, the frame is the caller's to replace by a newer one. A failed write is never
-///    reported as sent. A frame no bus can carry (isValid()) is never taken.
+///    taken before, unless a newer frame of its identifier replaces it while it waits, or it waits too long
+///    (a backend may do that where what is old is worthless). False: not now (mailbox busy, bus off,
+///    interface down); nothing was taken, the frame is the caller's to replace by a newer one. A failed write
+///    is never reported as sent. A frame no bus can carry (isValid()) is never taken.
 ///  - `receive()` never blocks; frames of 11-bit identifiers only, data frames only, in order of arrival.
 ///    The port's own frames are not received. Data beyond a frame's length are zero.
 ///  - `status()` is cheap enough for every heartbeat.

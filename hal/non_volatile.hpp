@@ -24,12 +24,15 @@ struct StoreErrors {
   std::uint32_t unreadable = 0;  ///< and could not
 };
 
+/// What is written at once.
+inline constexpr std::size_t kStoreUnit_bytes = 8;
+
 /// Contract of a store of `size()` bytes in pages of `pageSize()`:
 ///  - `erase(page)` sets a whole page, counted from 0, to 0xFF. Interrupted by a power cut, the page may read
 ///    as anything or not at all until it is erased again.
-///  - `write(offset, bytes)` programs erased bytes; offset and length are multiples of 8 (else kOutOfRange).
-///    Interrupted by a power cut, any multiple of 8 bytes from the start may have been written, the next 8
-///    may be unreadable.
+///  - `write(offset, bytes)` programs erased bytes; offset and length are multiples of kStoreUnit_bytes (else
+///    kOutOfRange). Interrupted by a power cut, any number of units from the start may have been written, and
+///    the next may be unreadable.
 ///  - `read(offset, bytes)` reads any range.
 ///  - `errors()` only grow.
 // clang-format off

@@ -72,9 +72,9 @@ class Finger {
         heartbeatAt_us_(steppedAt_us_ - kHeartbeatPeriod_us),
         gaugesAt_us_(steppedAt_us_) {}
 
-  /// One turn of the main loop: takes at most one sample set and one request, sends what is due. Never
-  /// blocks. The watchdog is fed only by sample sets that went all the way through. True: there was a sample
-  /// set.
+  /// One turn of the main loop: takes at most one sample set and one request, sends what is due. Blocks only
+  /// for `keep` and `node`, while the memory erases a page (25 ms on the finger board). The watchdog is fed
+  /// only by sample sets that went all the way through. True: there was a sample set.
   bool step() {
     const std::uint32_t now_us = clock_.now_us();
     countUptime(now_us);
@@ -112,7 +112,7 @@ class Finger {
   static constexpr std::uint32_t kHeartbeatPeriod_us = std::uint32_t{kHeartbeatPeriod_ms} * 1000;
   static constexpr std::uint32_t kGaugesPeriod_us = std::uint32_t{kGaugesPeriod_ms} * 1000;
   static constexpr std::uint32_t kSilentConverter_us = 100'000;
-  static constexpr std::uint32_t kTarePeriod_us = 1'000'000;  ///< a zero is taken at most so often
+  static constexpr std::uint32_t kTarePeriod_us = hal::kSecond_us;  ///< a zero is taken at most so often
   static constexpr std::uint32_t kAnswerWithin_us = std::uint32_t{kAnswerWithin_ms} * 1000;
   static constexpr std::uint32_t kLongestUptime_s = kNotKnown<std::uint16_t> - 1;
 
@@ -123,7 +123,7 @@ class Finger {
     tareWait_us_ -= std::min(tareWait_us_, passed_us);
     sinceSecond_us_ += passed_us;
     steppedAt_us_ = now_us;
-    for (; sinceSecond_us_ >= 1'000'000; sinceSecond_us_ -= 1'000'000) {
+    for (; sinceSecond_us_ >= hal::kSecond_us; sinceSecond_us_ -= hal::kSecond_us) {
       ++uptime_s_;
       setsPerSecond_ = counters_.sampleSets - setsAtSecond_;
       setsAtSecond_ = counters_.sampleSets;
@@ -266,7 +266,7 @@ class Finger {
     saidOutOfUse_ = outOfUse;
   }
 
-  static constexpr std::uint32_t periodOf(std::uint32_t rate_hz) { return 1'000'000u / rate_hz; }
+  static constexpr std::uint32_t periodOf(std::uint32_t rate_hz) { return hal::kSecond_us / rate_hz; }
 
   /// Answers the request that has arrived, at once or when its work is done; while an answer waits for the
   /// port, the next request does. Not inlined: see report().
@@ -325,7 +325,8 @@ class Finger {
   /// is said after the restart. Nobody waits for an answer.
   ResponseFrame leave(Command command, Leaving where, bool evenWhileTouched) {
     if (isTouched() && !evenWhileTouched) return responseTo(command, CommandStatus::kTouched);
-    if (tareStatus_ || (owed_.any() && !evenWhileTouched)) return responseTo(command, CommandStatus::kBusy);
+    const bool isEndOwed = owed_.any() || reporter_.owesEnd();
+    if (tareStatus_ || (isEndOwed && !evenWhileTouched)) return responseTo(command, CommandStatus::kBusy);
     leaving_ = where;
     return responseTo(command, CommandStatus::kDone);
   }
@@ -409,7 +410,9 @@ class Finger {
   std::uint32_t busOffs_ = 0;  ///< of the port, at the last heartbeat
   RawSender raw_;
   std::optional<CommandStatus> tareStatus_;  ///< to answer when the zero is taken
-  bool isTouchRefused_ = false;              ///< for a zero that is asked for, whoever waits for the answer
+  /// The zero that is being taken is refused if a touch shows in it; holds after the answer has timed out,
+  /// too.
+  bool isTouchRefused_ = false;
   Leaving leaving_ = Leaving::kStays;
   std::optional<ResponseFrame> response_;  ///< that the port hasn't taken yet
   FingerCounters counters_{};

@@ -9,6 +9,7 @@
 #include "common/raw_share.hpp"
 #include "firmware/core/condition.hpp"
 #include "hal/can_port.hpp"
+#include "hal/clock.hpp"
 
 namespace strainfinger::firmware {
 
@@ -35,10 +36,10 @@ class RawSender {
   void take(Codes codes, RawKind kind, std::uint32_t sample, std::uint32_t period_us) {
     if (rate_hz_ == 0) return;
     sinceZeros_us_ += period_us;
-    if (sinceZeros_us_ >= kSecond_us) sayZeros();
+    if (sinceZeros_us_ >= hal::kSecond_us) sayZeros();
     phase_us_ += period_us * rate_hz_;
-    if (phase_us_ < kSecond_us) return;
-    phase_us_ = std::min(phase_us_ - kSecond_us, kSecond_us);  // never faster than the sets are
+    if (phase_us_ < hal::kSecond_us) return;
+    phase_us_ = std::min(phase_us_ - hal::kSecond_us, hal::kSecond_us);  // never faster than the sets are
     if (any()) return;
     std::copy(codes.begin(), codes.end(), codes_.begin());
     kind_ = kind;
@@ -68,7 +69,6 @@ class RawSender {
   }
 
  private:
-  static constexpr std::uint32_t kSecond_us = 1'000'000;
   static constexpr std::uint16_t kSlow_hz = 100;  ///< a set has time for all zeros' pages
 
   static std::uint16_t roundedZero(std::int32_t zero_q15) {

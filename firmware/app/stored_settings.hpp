@@ -80,7 +80,7 @@ class SettingsStore {
   using Page = std::uint16_t;
   enum Word : std::uint8_t { kMagicWord, kErases, kValues, kCheck, kWords };
   using Record = std::array<std::uint32_t, kWords>;
-  static_assert(sizeof(Record) % 8 == 0, "a store is written in units of 8 bytes");
+  static_assert(sizeof(Record) % hal::kStoreUnit_bytes == 0);
   static constexpr std::uint32_t kMagic = 0x32474643;  ///< "CFG2"; another layout gets another number
 
   std::size_t pages() const { return store_.pageSize() == 0 ? 0 : store_.size() / store_.pageSize(); }

@@ -58,10 +58,10 @@ class TableLoader {
   }
 
   Store& store_;
-  std::array<std::uint32_t, 2> unit_{};  ///< what a store writes at once: hal/non_volatile.hpp
+  std::array<std::uint32_t, hal::kStoreUnit_bytes / kWord_bytes> unit_{};
   std::uint16_t due_ = 0;
   bool isOpen_ = false;
 };
-static_assert(kTableWords % 2 == 0);
+static_assert(sizeof(TableImage) % hal::kStoreUnit_bytes == 0);
 
 }  // namespace strainfinger::firmware

@@ -10,6 +10,7 @@
 #include "firmware/app/next_request.hpp"
 #include "firmware/app/table_loader.hpp"
 #include "hal/can_port.hpp"
+#include "hal/clock.hpp"
 
 namespace strainfinger::firmware {
 
@@ -39,7 +40,7 @@ class WithoutTables {
 
   /// One turn of the main loop. Blocks for as long as the memory takes to write 8 bytes or to erase a page.
   void step(std::uint32_t now_us) {
-    for (; now_us - second_us_ >= 1'000'000; second_us_ += 1'000'000) ++uptime_s_;
+    for (; now_us - second_us_ >= hal::kSecond_us; second_us_ += hal::kSecond_us) ++uptime_s_;
     heartbeat_.step(can_, now_us);
     if (response_ && now_us - answeredAt_us_ >= std::uint32_t{kAnswerWithin_ms} * 1000) response_.reset();
     if (!response_) {

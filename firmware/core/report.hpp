@@ -64,6 +64,8 @@ class TouchReporter {
   void missed() { isLookedAt_ = false; }
   /// What was sent last may have been lost before the bus: the end of a touch is sent again.
   void lost();
+  /// What was sent last is a touch, or not known: listeners take it for one that goes on.
+  bool owesEnd() const { return isEndOwed_; }
   void setShortestPeriod(std::uint32_t period_us) { shortestPeriod_us_ = period_us; }
 
  private:
@@ -77,7 +79,7 @@ class TouchReporter {
   UnitErrors unitErrors_;  ///< of the last linearisation that frames were made from
   std::uint32_t sentAt_us_ = 0;
   bool any_ = false;
-  bool isEndOwed_;           ///< what was sent last is a touch, or not known
+  bool isEndOwed_;           ///< owesEnd()
   bool isLookedAt_ = false;  ///< nothing is left to send about these codes
 };
 

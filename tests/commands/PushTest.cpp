@@ -79,7 +79,8 @@ TEST(PushCommand, InterruptedItLeavesAFingerThatWaitsForTables) {
   STRCMP_CONTAINS("has no tables until they are pushed again", run.err.c_str());
   STRCMP_CONTAINS("what to do: `strainfinger push --can ", run.out.c_str());
   STRCMP_CONTAINS(
-      "tare: Not now: the zero is being taken already, or there are no samples, or no tables (busy)",
+      "tare: Not now: the zero is being taken, or the end of a touch is not said yet, or no samples or no "
+      "tables are there (busy)",
       run.err.c_str());
   STRCMP_CONTAINS("BUS,1,A8A629DD,24568\ninterface,node,command,status\nBUS,1,tare,done\n", run.out.c_str());
 }

@@ -102,7 +102,6 @@ Timer timer;
 }  // namespace
 
 [[noreturn]] void run() {
-  board::maskInterrupts();
   for (const unsigned interrupt : kWakingInterrupts) board::enableInterrupt(interrupt);
   static Uart bus(kUart1), world_line(kUart2);
   const firmware::LastRun last = board::takeLastRun();

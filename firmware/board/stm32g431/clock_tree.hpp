@@ -74,8 +74,10 @@ class ClockTree {
     return waitFor(bus_, Rcc::Cfgr::systemClockStatus, Rcc::kHsi, kClockPolls);
   }
 
+  /// From when it is ready the crystal is watched: if it stops, the processor goes on with the internal
+  /// oscillator and gets an NMI (RM0440 section 7.2.9).
   bool startCrystal() noexcept {
-    modify(bus_, Rcc::Cr::hseOn(1));
+    modify(bus_, Rcc::Cr::hseOn(1) | Rcc::Cr::clockSecurity(1));
     if (waitFor(bus_, Rcc::Cr::hseReady, 1, kCrystalPolls)) return true;
     modify(bus_, Rcc::Cr::hseOn(0));
     return false;

@@ -19,7 +19,8 @@ namespace strainfinger::stm32g431 {
 struct SendRule {
   /// A frame replaces one of the same identifier that still waits; otherwise it is refused meanwhile.
   bool newestWins = false;
-  /// All such identifiers together have one buffer, so that they never stand in the way of the others.
+  /// All such identifiers together have one buffer, so that they never stand in the way of the others. One
+  /// that has waited there for kOldest_us makes room for another.
   bool background = false;
 };
 
@@ -31,17 +32,20 @@ struct FdcanSettings {
   std::span<const std::uint16_t> listensTo{};
 };
 
-/// Contract: hal/can_port.hpp. A frame that a newer one replaced counts as dropped.
+/// Contract: hal/can_port.hpp. A frame that made room for another counts as dropped.
 ///
 /// Of each identifier at most one frame is in the controller; between identifiers the lowest goes first.
 /// poll() is to be called at least every three shortest frame times that listensTo lets through (send and
-/// receive call it too).
+/// receive call it too), else frames are lost and counted in `missed`; one request at a time is safe.
 ///
 /// Bus-off: what waits is dropped, and the controller goes back on the bus (129 * 11 recessive bits) at once;
 /// if that ends in bus-off again before a frame got through, after 10, 100, then every 1000 ms.
 template <RegisterBus Bus, hal::Clock Clock, SendRule (*kRuleOf)(std::uint16_t id)>
 class FdcanPort {
  public:
+  /// Without it a frame that nobody acknowledges, which never ends in bus-off, would go out minutes later.
+  static constexpr std::uint32_t kOldest_us = 400'000;
+
   FdcanPort(Bus bus, const Clock& clock) : bus_(bus), clock_(clock) {}
 
   /// RM0440 section 44.3.2, software initialization. False: the controller doesn't answer.
@@ -150,14 +154,17 @@ class FdcanPort {
     return Fdcan::Psr::warning.in(status) != 0 ? hal::CanState::kWarning : hal::CanState::kActive;
   }
 
-  /// False: the frame has to wait for one of the same identifier, or for another in the background.
+  /// False: the frame has to wait for one of the same identifier, or for another in the background. One that
+  /// replaces another is as old as that, lest what is said again and again has the background for itself.
   bool makeRoomFor(std::uint16_t id) noexcept {
     const SendRule rule = kRuleOf(id);
     for (std::uint8_t buffer = 0; buffer < kBuffers; ++buffer) {
       const std::uint16_t other = waiting_[buffer];
       if (other == id) return rule.newestWins && cancel(buffer);
-      if (other != kNobody && rule.background && kRuleOf(other).background) return false;
+      if (other == kNobody || !rule.background || !kRuleOf(other).background) continue;
+      if (clock_.now_us() - since_us_ < kOldest_us || !cancel(buffer)) return false;
     }
+    if (rule.background) since_us_ = clock_.now_us();
     return true;
   }
 
@@ -180,8 +187,9 @@ class FdcanPort {
     bus_.write(Fdcan::Txbar::address, 1U << buffer);
   }
 
-  /// Frees the buffers whose frames are sent or cancelled.
-  void retire() noexcept {
+  /// Frees the buffers whose frames are sent or cancelled. Not inlined: that would make the image 2 KiB
+  /// larger.
+  [[gnu::noinline]] void retire() noexcept {
     const std::uint32_t pending = bus_.read(Fdcan::Txbrp::address);
     const std::uint32_t sent = bus_.read(Fdcan::Txbto::address);
     for (std::uint8_t buffer = 0; buffer < kBuffers; ++buffer) {
@@ -249,8 +257,9 @@ class FdcanPort {
   std::uint32_t missed_ = 0;
   std::uint32_t busOffs_ = 0;
   std::uint32_t leftAt_us_ = 0;
-  std::uint8_t attempt_ = 0;  ///< to go back on the bus, since a frame was sent
-  bool isWaiting_ = false;    ///< off the bus, for the back-off to pass
+  std::uint32_t since_us_ = 0;  ///< the background has been in use
+  std::uint8_t attempt_ = 0;    ///< to go back on the bus, since a frame was sent
+  bool isWaiting_ = false;      ///< off the bus, for the back-off to pass
   bool started_ = false;
 };
 

@@ -20,7 +20,8 @@ struct EccErrors {
 };
 
 /// Counts what the flags say and clears them both: an error of two bits is only noticed while both are clear.
-inline void noteEccErrors(const RegisterBus auto& bus, EccErrors& errors) noexcept {
+/// Not inlined: it is called from a dozen places.
+[[gnu::noinline]] void noteEccErrors(const RegisterBus auto& bus, EccErrors& errors) noexcept {
   using EccR = Flash::EccR;
   const std::uint32_t status = bus.read(EccR::address);
   if ((status & (EccR::corrected.mask | EccR::detected.mask)) == 0) return;
@@ -34,7 +35,8 @@ inline void noteEccErrors(const RegisterBus auto& bus, EccErrors& errors) noexce
 
 /// By the NMI's handler. True: it can return, and the read goes on with bytes that mean nothing. That is
 /// decided by what is being read and never by the address. An NMI without flags is taken for an error that
-/// they don't show.
+/// they don't show; if it is the crystal that has stopped, it comes again and again, until the watchdog
+/// resets.
 inline bool survivesNmi(const RegisterBus auto& bus, EccErrors& errors) noexcept {
   const std::uint32_t before = errors.unreadable;
   noteEccErrors(bus, errors);
@@ -52,7 +54,7 @@ inline void refreshDataCache(const RegisterBus auto& bus) noexcept {
 }
 
 /// As long as it lives, damaged words of flash are expected and counted, those too that the data cache has
-/// already: they would raise nothing.
+/// already: they would raise nothing. Who reads words one after the other calls noteEccErrors() after each.
 template <RegisterBus Bus>
 class EccWatch {
  public:
@@ -70,7 +72,7 @@ class EccWatch {
   EccWatch(const EccWatch&) = delete;
   EccWatch& operator=(const EccWatch&) = delete;
 
-  /// All that was read since it lives was readable.
+  /// All that was read since it lives was readable, but for words that an error of one bit hid.
   bool isClean() const noexcept {
     std::atomic_signal_fence(std::memory_order_seq_cst);
     noteEccErrors(bus_, errors_);

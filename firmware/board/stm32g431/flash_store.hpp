@@ -61,7 +61,7 @@ class FlashStore {
   }
 
  private:
-  static constexpr std::size_t kUnit_bytes = 8;
+  static constexpr std::size_t kUnit_bytes = hal::kStoreUnit_bytes;  ///< double words: each has its ECC
   /// A poll takes 6 cycles of 170 MHz at least. Erasing a page takes 24.5 ms at most, programming 0.09
   /// (DS12589).
   static constexpr std::uint32_t kErasePolls = 1'000'000;
@@ -75,7 +75,12 @@ class FlashStore {
     return kFlashBegin + firstPage_ * kFlashPageBytes + static_cast<std::uint32_t>(offset);
   }
 
-  std::uint32_t wordAt(std::size_t offset) const noexcept { return bus_.read(addressAt(offset)); }
+  /// Its error is noted at once, so that it hides none of the words that are read next.
+  std::uint32_t wordAt(std::size_t offset) const noexcept {
+    const std::uint32_t word = bus_.read(addressAt(offset));
+    noteEccErrors(bus_, errors_);
+    return word;
+  }
 
   /// False for what can't be read, too: programming would fail or make it worse.
   bool isErased(std::size_t offset, std::size_t length) const noexcept {

@@ -8,8 +8,9 @@
 
 namespace strainfinger::stm32g431 {
 
-/// The tables that `choose()` finds whole, if it finds some, and if every word that it read to find out was
-/// readable: a checksum may be right by a word that is not.
+/// The tables that `choose()` finds whole, if it finds some, and if it met no unreadable word meanwhile: a
+/// checksum may be right by such a word. Behind a corrected error only the checksum finds it, because the
+/// flash says nothing more until choose() is done.
 template <RegisterBus Bus, std::invocable Choose>
 const TableImage* readableTables(Bus bus, EccErrors& errors, Choose choose) noexcept {
   const EccWatch watch(bus, errors);

@@ -27,9 +27,9 @@ namespace strainfinger::stm32g431 {
 /// Contract: hal/gauge_adc.hpp. Holds one complete set while the next is converted. read() must come at least
 /// every 32,767 sets for overruns() to be right. 12-bit conversions: the upper rail is code 0xFFF0.
 ///
-/// The first set after the converters have stood still is never handed out: their first conversion may be
-/// wrong (errata ES0431, "wrong ADC result if conversion done late after calibration or previous
-/// conversion").
+/// The first set after the converters have stood still is never handed out, and lost but for that of the
+/// start: their first conversion may be wrong (errata ES0431, "wrong ADC result if conversion done late after
+/// calibration or previous conversion").
 template <RegisterBus Bus>
 class GaugeConverter {
  public:
@@ -54,16 +54,20 @@ class GaugeConverter {
   }
 
   bool read(hal::SampleSet& set) noexcept {
-    if (get(bus_, Dma1::Isr::halves1) == 0) return keepInStep();
+    if (get(bus_, Dma1::Isr::halves1) == 0) {
+      keepInStep();
+      return false;
+    }
     write(bus_, Dma1::Ifcr::halves1(Dma1::Ifcr::halves1.max));
     for (int attempt = 0; attempt < 2; ++attempt) {
       const std::uint16_t sets = completed();
-      if (sets == taken_) return keepInStep();
+      if (sets == taken_) break;
       const auto pairs = copyOf(sets);
       if (completed() != sets) continue;  // DMA may be about to write over it
-      if (isOutOfStep(sets)) return keepInStep();
+      if (isOutOfStep(sets)) break;
       return take(sets, pairs, set);
     }
+    keepInStep();
     return false;
   }
 
@@ -216,14 +220,12 @@ class GaugeConverter {
            get(bus_, Dma1::Isr::error1) != 0 || static_cast<std::int16_t>(sets - taken_) < 0;
   }
 
-  /// Begins anew if that is needed, and counts what it costs: all sets begun and not taken. False, for there
-  /// is no set to hand out.
-  bool keepInStep() noexcept {
-    if (!isOutOfStep(completed()) || !stop()) return false;
+  /// Begins anew if that is needed, and counts what it costs: all sets begun and not taken.
+  void keepInStep() noexcept {
+    if (!isOutOfStep(completed()) || !stop()) return;
     overruns_ += static_cast<std::uint16_t>(get(bus_, Tim3::Cnt::count16) - taken_);
     ++resynchronisations_;
     run();
-    return false;
   }
 
   bool take(std::uint16_t sets, const Pairs& pairs, hal::SampleSet& set) noexcept {
@@ -231,6 +233,7 @@ class GaugeConverter {
     taken_ = sets;
     if (isFirst_) {
       isFirst_ = false;
+      if (resynchronisations_ != 0) ++overruns_;  // at the start nothing is lost
       return false;
     }
     unpack(pairs, set);

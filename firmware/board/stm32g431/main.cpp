@@ -130,7 +130,7 @@ bool ramSurvived() {
                       firmware::BoardActions{wait, [] { board::resetSystem(); }});
 }
 
-/// Raised by the flash for words that it cannot read; otherwise by nothing that is known.
+/// Raised by the flash for words that it cannot read, and, without an address, by the crystal when it stops.
 extern "C" void nonMaskableHandler() {
   const std::uint32_t before = eccErrors.unreadable;
   if (survivesNmi(kBus, eccErrors)) return;

@@ -19,8 +19,8 @@ inline constexpr std::uint32_t kAdc_hz = kCore_hz / 8;
 static_assert(kAdc_hz <= 26'000'000);
 
 /// Time for a channel's voltage to settle, in the numbers of SMPR (RM0440 section 21.4.12).
-enum class SampleTime : std::uint8_t { k2_5 = 0, k6_5 = 1, k12_5 = 2, k24_5 = 3, k47_5 = 4, k92_5 = 5 };
-inline constexpr std::array<std::uint32_t, 6> kSampleHalfCycles{5, 13, 25, 49, 95, 185};
+enum class SampleTime : std::uint8_t { k2_5 = 0, k6_5 = 1, k12_5 = 2, k24_5 = 3 };
+inline constexpr std::array<std::uint32_t, 4> kSampleHalfCycles{5, 13, 25, 49};
 inline constexpr std::uint32_t kConversionHalfCycles = 25;  ///< 12 bits
 
 struct SamplingPlan {

@@ -38,10 +38,11 @@ class IndependentWatchdog {
   IndependentWatchdog(Bus bus, const Clock& clock, hal::ResetCause cause)
       : bus_(bus), clock_(clock), cause_(cause), fedAt_us_(clock.now_us()) {}
 
-  /// RM0440 section 42.3.2. False: the settings didn't take, as when its oscillator doesn't run; what then
-  /// watches over the firmware is isStarved().
+  /// RM0440 section 42.3.2. It and the clock stand still while a debugger holds the processor. False: the
+  /// settings didn't take, as when its oscillator doesn't run; what then watches over the firmware is
+  /// isStarved().
   [[nodiscard]] bool start() noexcept {
-    modify(bus_, Dbgmcu::Apb1Fzr1::stopWatchdog(1));
+    modify(bus_, Dbgmcu::Apb1Fzr1::stopWatchdog(1) | Dbgmcu::Apb1Fzr1::stopTim2(1));
     write(Iwdg::kStart);
     write(Iwdg::kUnlock);
     bus_.write(Iwdg::Pr::address, kDivideBy16);

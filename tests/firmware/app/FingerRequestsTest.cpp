@@ -528,6 +528,26 @@ TEST(FingerRequests, ItDoesNotLeaveWhileTheEndOfATouchIsNotOut) {
   checkAnswered(loadRequest(), CommandStatus::kDone);
 }
 
+TEST(FingerRequests, ItDoesNotLeaveBeforeTheEndOfATouchIsDue) {
+  ask(contactRateRequest(kSlowestContactRate_hz));
+  run(60, kTouch);
+  run(1);
+  CHECK_FALSE(finger.lastObservation().touched);
+  checkAnswered(loadRequest(), CommandStatus::kBusy);
+  checkAnswered(restartRequest(), CommandStatus::kBusy);
+  run(50);
+  CHECK_FALSE(sent<ContactFrame>().back().flags.has(FingerFlag::kContact));
+  checkAnswered(loadRequest(), CommandStatus::kDone);
+}
+
+TEST(FingerRequests, ItLeavesWithATouchWhoseEndIsNotSaidWhereThatIsMeant) {
+  ask(contactRateRequest(kSlowestContactRate_hz));
+  run(60, kTouch);
+  run(1);
+  checkAnswered(loadRequest(true), CommandStatus::kDone);
+  CHECK_TRUE(finger.leaving() == Leaving::kLoads);
+}
+
 TEST(FingerRequests, WordsAreForAFingerThatWasToldToLoad) {
   checkAnswered(wordRequest(0, 1), CommandStatus::kOutOfTurn);
 }

@@ -14,7 +14,7 @@ template <std::uint32_t kBase>
 struct Adc {
   struct Isr : Register<kBase + 0x00> {
     static constexpr Field<Isr, 0> ready{};    ///< ADRDY; cleared by writing 1
-    static constexpr Field<Isr, 4> overrun{};  ///< OVR: a result came before DMA had taken the last; so, too
+    static constexpr Field<Isr, 4> overrun{};  ///< OVR: DMA had yet to take the last; cleared by writing 1
   };
   struct Cr : Register<kBase + 0x08> {
     static constexpr Field<Cr, 0> enable{};

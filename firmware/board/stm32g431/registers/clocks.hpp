@@ -14,6 +14,8 @@ struct Rcc {
     static constexpr Field<Cr, 10> hsiReady{};
     static constexpr Field<Cr, 16> hseOn{};
     static constexpr Field<Cr, 17> hseReady{};
+    static constexpr Field<Cr, 19>
+        clockSecurity{};  ///< CSSON: NMI when HSE stops; only a reset takes it back
     static constexpr Field<Cr, 24> pllOn{};
     static constexpr Field<Cr, 25> pllReady{};
   };
@@ -24,7 +26,7 @@ struct Rcc {
     static constexpr Field<Cfgr, 8, 3> apb1Prescaler{};      ///< 0: 1
     static constexpr Field<Cfgr, 11, 3> apb2Prescaler{};     ///< 0: 1
   };
-  enum SystemClock : std::uint32_t { kHsi = 1, kHse = 2, kPll = 3 };
+  enum SystemClock : std::uint32_t { kHsi = 1, kPll = 3 };
   enum AhbPrescaler : std::uint32_t { kWhole = 0, kHalf = 8 };
 
   struct PllCfgr : Register<base + 0x0C> {
@@ -39,7 +41,6 @@ struct Rcc {
   struct Ahb1Enr : Register<base + 0x48> {
     static constexpr Field<Ahb1Enr, 0> dma1{};
     static constexpr Field<Ahb1Enr, 2> dmamux{};
-    static constexpr Field<Ahb1Enr, 8> flash{};
   };
   struct Ahb2Enr : Register<base + 0x4C> {
     static constexpr Field<Ahb2Enr, 0> gpioA{};

@@ -14,7 +14,6 @@ struct Fdcan {
     static constexpr Field<Dbtp, 4, 4> segment2{};
     static constexpr Field<Dbtp, 8, 5> segment1{};
     static constexpr Field<Dbtp, 16, 5> prescaler{};
-    static constexpr Field<Dbtp, 23> delayCompensation{};
   };
   struct Cccr : Register<base + 0x18> {
     static constexpr Field<Cccr, 0> init{};          ///< off the bus; set by hardware at bus-off
@@ -38,9 +37,6 @@ struct Fdcan {
     static constexpr Field<Psr, 6> warning{};
     static constexpr Field<Psr, 7> busOff{};
   };
-  struct Tdcr : Register<base + 0x48> {
-    static constexpr Field<Tdcr, 8, 7> offset{};
-  };
   struct Ir : Register<base + 0x50> {
     static constexpr Field<Ir, 2> fifo0Lost{};  ///< RF0L; cleared by writing 1
   };
@@ -49,7 +45,6 @@ struct Fdcan {
     static constexpr Field<Rxgfc, 1> rejectStandardRemote{};
     static constexpr Field<Rxgfc, 2, 2> otherExtended{};   ///< frames that no filter takes: Others
     static constexpr Field<Rxgfc, 4, 2> otherStandard{};   ///< the same
-    static constexpr Field<Rxgfc, 9> overwrite{};          ///< F0OM; 0: a full FIFO keeps what it has
     static constexpr Field<Rxgfc, 16, 5> standardCount{};  ///< filters in use
   };
   enum Others : std::uint32_t { kToFifo0 = 0, kReject = 2 };

@@ -21,7 +21,6 @@ struct Flash {
     static constexpr Field<Acr, 8> prefetch{};
     static constexpr Field<Acr, 9> instructionCache{};
     static constexpr Field<Acr, 10> dataCache{};
-    static constexpr Field<Acr, 11> resetInstructionCache{};
     static constexpr Field<Acr, 12> resetDataCache{};
   };
   struct KeyR : Register<base + 0x08> {};
@@ -43,7 +42,6 @@ struct Flash {
   };
   struct EccR : Register<base + 0x18> {
     static constexpr Field<EccR, 0, 18> offset{};  ///< of the double word, from kFlashBegin; may be wrong
-    static constexpr Field<EccR, 22> inSystemMemory{};
     static constexpr Field<EccR, 30> corrected{};  ///< ECCC; cleared by writing 1
     static constexpr Field<EccR, 31> detected{};   ///< ECCD: two bits wrong, raises NMI; cleared by writing 1
   };

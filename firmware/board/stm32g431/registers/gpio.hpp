@@ -23,7 +23,7 @@ struct Gpio {
   static constexpr std::uint32_t pull = 0x0C;       ///< PUPDR, 2 bits a pin: Pull
   static constexpr std::uint32_t alternate = 0x20;  ///< AFRL and AFRH, 4 bits a pin
 
-  enum Mode : std::uint32_t { kInput = 0, kOutput = 1, kAlternate = 2, kAnalog = 3 };
+  enum Mode : std::uint32_t { kAlternate = 2, kAnalog = 3 };
   enum Pull : std::uint32_t { kNone = 0, kUp = 1 };
   enum Speed : std::uint32_t { kHighSpeed = 2 };
 };

@@ -25,8 +25,9 @@ struct UniqueIdWords {
 
 /// RM0440 section 47.16.
 struct Dbgmcu {
-  struct Apb1Fzr1 : Register<0xE004'2008> {
-    static constexpr Field<Apb1Fzr1, 12> stopWatchdog{};  ///< while a debugger holds the processor
+  struct Apb1Fzr1 : Register<0xE004'2008> {  ///< what stands still while a debugger holds the processor
+    static constexpr Field<Apb1Fzr1, 0> stopTim2{};
+    static constexpr Field<Apb1Fzr1, 12> stopWatchdog{};
   };
 };
 

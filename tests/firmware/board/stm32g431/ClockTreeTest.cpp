@@ -25,6 +25,18 @@ TEST(ClockTree, FallsBackWhenTheCrystalDoesNotStart) {
   LONGS_EQUAL(0, registers.field(Rcc::Cr::hseOn));
 }
 
+TEST(ClockTree, IsToldWhenTheCrystalStops) {
+  start();
+  CHECK_TRUE(clocks.crystalStops());
+}
+
+TEST(ClockTree, NothingWatchesACrystalThatDidNotStart) {
+  clocks.crystalStarts = false;
+  start();
+  CHECK_FALSE(clocks.crystalStops());
+  DOUBLES_EQUAL(170e6, clocks.core_hz(), 0);
+}
+
 TEST(ClockTree, StartsAgainWhenTheBootloaderHasLeftThePllRunning) {
   clocks.bootloaderHasRun();
   CHECK_TRUE(start() == ClockSource::kCrystal);

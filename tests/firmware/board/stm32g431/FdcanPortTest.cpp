@@ -263,6 +263,69 @@ TEST(FdcanPort, FramesInTheBackgroundShareOneBuffer) {
   hears({frame(0x185), frame(0x285), frame(0x401), frame(0x500)});
 }
 
+TEST(FdcanPort, AnOldFrameInTheBackgroundMakesRoomForAnother) {
+  start({.timing = kTiming});
+  controller.busy = true;
+  CHECK_TRUE(port.send(frame(0x401)));
+  clock.advance(200'000);
+  CHECK_TRUE(port.send(frame(0x185)));
+  clock.advance(199'999);
+  CHECK_FALSE(port.send(frame(0x501)));
+  clock.advance(1);
+  CHECK_TRUE(port.send(frame(0x501)));
+  LONGS_EQUAL(1, port.status().dropped);
+  controller.free();
+  hears({frame(0x185), frame(0x501)});
+}
+
+TEST(FdcanPort, AnOldFrameInTheBackgroundThatIsOnTheWireEndsWithItsTry) {
+  start({.timing = kTiming});
+  controller.busy = true;
+  port.send(frame(0x401));
+  clock.advance(400'000);
+  controller.beginTransmission();
+  CHECK_FALSE(port.send(frame(0x501)));
+  controller.endTransmission(false);
+  controller.free();
+  CHECK_TRUE(port.send(frame(0x501)));
+  hears({frame(0x501)});
+  LONGS_EQUAL(1, port.status().dropped);
+}
+
+TEST(FdcanPort, AFrameThatIsSaidAgainAndAgainDoesNotKeepTheBackgroundForItself) {
+  start({.timing = kTiming});
+  controller.busy = true;
+  for (std::uint8_t i = 0; i < 4; ++i) {
+    CHECK_TRUE(port.send(frame(0x700, i)));
+    clock.advance(99'999);
+    CHECK_FALSE(port.send(frame(0x481)));
+  }
+  clock.advance(4);
+  CHECK_TRUE(port.send(frame(0x481)));
+  CHECK_FALSE(port.send(frame(0x700, 5)));
+  controller.free();
+  hears({frame(0x481)});
+}
+
+TEST(FdcanPort, TheAgeOfOneThatWasSentIsNotThatOfTheNext) {
+  start({.timing = kTiming});
+  port.send(frame(0x401));
+  clock.advance(1'000'000);
+  controller.busy = true;
+  CHECK_TRUE(port.send(frame(0x481)));
+  CHECK_FALSE(port.send(frame(0x501)));
+}
+
+TEST(FdcanPort, AnOldFrameThatIsNotInTheBackgroundStays) {
+  start({.timing = kTiming});
+  controller.busy = true;
+  port.send(frame(0x185));
+  clock.advance(1'000'000);
+  CHECK_TRUE(port.send(frame(0x401)));
+  controller.free();
+  hears({frame(0x185), frame(0x401)});
+}
+
 TEST(FdcanPort, AFloodDelaysButNeverPilesUp) {
   start({.timing = kTiming});
   controller.busy = true;

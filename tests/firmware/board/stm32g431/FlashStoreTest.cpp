@@ -167,6 +167,22 @@ TEST(FlashStore, ACorrectedErrorIsCountedAndHidesNoDoubleError) {
   CHECK_TRUE(store.read(0, bytes) == StoreResult::kOk);
   LONGS_EQUAL(1, store.errors().corrected);
   CHECK_TRUE(store.read(16, bytes) == StoreResult::kUnreadable);
+  bytes.resize(24);
+  CHECK_TRUE(store.read(0, bytes) == StoreResult::kUnreadable);
+  LONGS_EQUAL(2, store.errors().corrected);
+  LONGS_EQUAL(2, store.errors().unreadable);
+}
+
+TEST(FlashStore, ACorrectedErrorHidesNoDamagedUnitFromAWrite) {
+  flash.weaken(0);
+  flash.damage(8);
+  CHECK_TRUE(store.write(0, sixteen) == StoreResult::kNotErased);
+}
+
+TEST(FlashStore, ACorrectedErrorHidesNoUnitThatBecomesUnreadableWhileWritten) {
+  flash.weaken(0);
+  flash.cutPowerAfter(1, doubles::Torn::kUnreadable);
+  CHECK_TRUE(store.write(0, sixteen) == StoreResult::kFailed);
 }
 
 TEST(FlashStore, ACorrectedErrorThatStoodBeforeHidesNoDoubleError) {

@@ -47,6 +47,18 @@ class FakeClocks {
     registers.word<Rcc::Cfgr>() = st::RCC_CFGR_SW_PLL | st::RCC_CFGR_SWS_PLL;
   }
 
+  /// The crystal stops. True: it was watched, which raises the NMI; the processor then has the internal
+  /// oscillator.
+  bool crystalStops() {
+    const bool isWatched = (control() & st::RCC_CR_CSSON) != 0 && (control() & st::RCC_CR_HSERDY) != 0;
+    crystalStarts = false;
+    if (!isWatched) return false;
+    registers.word<Rcc::Cr>() &=
+        ~(st::RCC_CR_HSEON | st::RCC_CR_HSERDY | st::RCC_CR_PLLON | st::RCC_CR_PLLRDY);
+    registers.word<Rcc::Cfgr>() = st::RCC_CFGR_SW_HSI | st::RCC_CFGR_SWS_HSI;
+    return true;
+  }
+
   /// Of the processor, by the formula of section 7.4.4.
   double core_hz() {
     const std::uint32_t pll = registers.word<Rcc::PllCfgr>();
@@ -78,8 +90,9 @@ class FakeClocks {
     return works && (word & on) != 0 ? word | ready : word & ~ready;
   }
 
-  /// A clock in use can't be switched off.
+  /// A clock in use can't be switched off, nor the watch over the crystal.
   std::uint32_t control(std::uint32_t before, std::uint32_t written) {
+    written |= before & st::RCC_CR_CSSON;
     if (status() == st::RCC_CFGR_SWS_PLL) written |= before & (st::RCC_CR_PLLON | st::RCC_CR_HSEON);
     if ((written & ~before & st::RCC_CR_PLLON) != 0) {
       const bool fromCrystal =

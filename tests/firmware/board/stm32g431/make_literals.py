@@ -12,7 +12,7 @@ import pathlib
 import re
 import sys
 
-SIZES = {"uint8_t": 1, "uint16_t": 2, "uint32_t": 4}
+SIZES = {"uint8_t": 1, "uint16_t": 2, "uint32_t": 4, "uint64_t": 8}
 
 
 def without_comments(text):

@@ -190,6 +190,7 @@ MUTANTS = {
         ("clock_tree.hpp", "    modify(bus_, Rcc::Cfgr::ahbPrescaler(Rcc::kWhole));\n", ""),
         ("clock_tree.hpp", " |\n                    PllCfgr::outputOn(1)", ""),
         ("clock_tree.hpp", "    modify(bus_, Rcc::Cr::hseOn(0));\n", ""),
+        ("clock_tree.hpp", " | Rcc::Cr::clockSecurity(1)", ""),
         ("clock_tree.hpp", "Flash::Acr::latency(kWaitStates) | ", ""),
         ("fdcan_port.hpp", "    modify(bus_, Cccr::configurable(1));\n    const bool fd", "    const bool fd"),
         ("fdcan_port.hpp", "    write(bus_, Fdcan::Txbc::queue(1));\n", ""),
@@ -215,10 +216,13 @@ MUTANTS = {
         ("fdcan_port.hpp", "      write(bus_, Fdcan::Rxf0a::index(index));\n", ""),
         ("fdcan_port.hpp", "    write(bus_, Fdcan::Ir::fifo0Lost(1));\n", ""),
         ("fdcan_port.hpp", "if (attempt_ + 1U < kBackOff_us.size()) ++attempt_;", ""),
+        ("fdcan_port.hpp", "if (rule.background) since_us_ = clock_.now_us();", "since_us_ = clock_.now_us();"),
         ("flash_store.hpp", " &&\n           (bus_.read(Flash::Sr::address) & Flash::Sr::errors) == 0", ""),
         ("flash_ecc.hpp", "    errors_.isExpected = true;\n", ""),
         ("flash_ecc.hpp", "    errors_.isExpected = false;\n", ""),
         ("gauge_converter.hpp", "    ++resynchronisations_;\n", ""),
+        ("gauge_converter.hpp", "if (resynchronisations_ != 0) ++overruns_;", ""),
+        ("flash_store.hpp", "noteEccErrors(bus_, errors_);\n    return word;", "return word;"),
     ],
 }
 

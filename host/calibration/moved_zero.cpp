@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <tuple>
 
 #include "host/base/chi_squared.hpp"
@@ -36,6 +37,8 @@ constexpr double kLeastExplained = 0.6, kMostLeftOver = 0.05;
 constexpr double kLeastFree = 0.6;
 /// [1] Of what a gauge reads: with less left the touch suits whatever it reads.
 constexpr double kLeastTold = 1e-3;
+
+constexpr std::size_t kMostShiftsTold = 8;  ///< in words
 
 using Rows = std::vector<ZeroEvidence>;
 
@@ -177,10 +180,12 @@ std::vector<MovedZero> movedZeros(std::vector<ZeroEvidence> rows, double noise_s
 
 std::string textOf(const std::vector<MovedZero>& moved) {
   std::string text;
-  for (const MovedZero& each : moved)
+  const std::size_t named = std::min(moved.size(), kMostShiftsTold);
+  for (const MovedZero& each : std::span(moved).first(named))
     text += fmt::format("{}gauge {} reads {:.0f} microstrain {} in rows {} to {}", text.empty() ? "" : "; ",
                         each.gauge, 1e6 * std::abs(each.strain), each.strain > 0 ? "more" : "less",
                         each.firstRow, each.lastRow);
+  if (moved.size() > named) text += fmt::format("; {} more", moved.size() - named);
   return text;
 }
 

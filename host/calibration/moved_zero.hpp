@@ -37,7 +37,7 @@ struct MovedZero {
 /// Cost: linear in rows; 3,000 of 16 gauges take 10 ms, and 10 ms for each that moved.
 std::vector<MovedZero> movedZeros(std::vector<ZeroEvidence> rows, double noise_strain);
 
-/// "gauge 5 reads 80 microstrain more in rows 301 to 456; gauge 9 .."; empty for none.
+/// "gauge 5 reads 80 microstrain more in rows 301 to 456; gauge 9 ..", of many the first; empty for none.
 std::string textOf(const std::vector<MovedZero>& moved);
 
 }  // namespace strainfinger::calibration

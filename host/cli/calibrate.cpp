@@ -236,24 +236,45 @@ void print(const CalibrateOptions& options, const calibration::CalibrationResult
   printGauges(format, result);
 }
 
-/// What a user would else learn only from `tables`, with the finger put away.
-void warnOfTables(const config::FingerConfig& calibrated) {
+/// Why the firmware cannot work with a finger; empty if it can.
+std::string whyNoTables(const config::FingerConfig& config) {
   try {
-    tables::buildCheckedTables(calibrated);
+    tables::buildCheckedTables(config);
+    return {};
   } catch (const Failure& failure) {
-    warn("calibrate", fmt::format("the firmware cannot work with this finger: {}", failure.what()));
+    return failure.what();
   }
+}
+
+/// The finger that was found. Where gauges came out so that the firmware's first guess may fail to explain
+/// what it reads as exactly as the model error that was found allows, with the least larger one that it can
+/// work with: a user would else learn it only from `tables`, with the finger put away.
+config::FingerConfig workableFinger(const calibration::CalibrationResult& result) {
+  config::FingerConfig found = result.applied();
+  const std::string whyNot = whyNoTables(found);
+  if (whyNot.empty()) return found;
+  for (const double larger : {0.001, 0.002, 0.005, 0.01, 0.02}) {
+    config::FingerConfig config = found;
+    config.gauges.model_error = larger;
+    if (larger <= found.gauges.model_error || !whyNoTables(config).empty()) continue;
+    warn("calibrate", fmt::format("gauges.model_error is {}, so that errors are told larger than they are: "
+                                  "with the {:.2g} that was "
+                                  "found the firmware refuses this finger: {}",
+                                  larger, found.gauges.model_error, whyNot.substr(0, whyNot.find('\n'))));
+    return config;
+  }
+  warn("calibrate", fmt::format("the firmware cannot work with this finger: {}", whyNot));
+  return found;
 }
 
 /// The config first: it is what the touches were for, and the rest can fail.
 void report(const CalibrateOptions& options, const calibration::CalibrationResult& result,
             const std::string& strainsPath, const std::string& touchesPath) {
-  if (!options.outputPath.empty())
-    writeFileAtomically(options.outputPath, config::writeConfig(result.applied()));
+  const config::FingerConfig found = workableFinger(result);
+  if (!options.outputPath.empty()) writeFileAtomically(options.outputPath, config::writeConfig(found));
   print(options, result);
   const std::string told = calibration::textReport(result);
   tell(touchesPath.empty() ? told : calibration::ofFile(told, touchesPath));
-  warnOfTables(result.applied());
   if (options.pagePath.empty()) return;
   writeFileAtomically(options.pagePath,
                       calibration::htmlPage(result, {strainsPath, touchesPath, utcText(now_ns())}));

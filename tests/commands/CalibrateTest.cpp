@@ -202,6 +202,34 @@ TEST(CalibrateCommand, AFingerThatTheFirmwareCannotWorkWithIsTold) {
   CHECK_TRUE(std::filesystem::exists(path("out.toml")));
 }
 
+// A finger of which touches at the edge of the friction cone would be told at another place, without a flag,
+// by tables that take the gauges for as exactly known as they are.
+TEST(CalibrateCommand, AFingerThatTheFirmwareRefusesGetsAModelErrorWithWhichItWorks) {
+  write("small.toml",
+        "schema = 1\n[finger]\ncore_radius_m = 6e-3\nouter_radius_m = 9.5e-3\nlength_m = 0.015\n"
+        "shear_modulus_pa = 1e5\n[gauges]\nradius_m = 7.2e-3\nnoise_strain = 1e-5\n[as_built]\nseed = 7\n"
+        "angle_deg = 0.5\ndepth_m = 5e-5\ngain = 0.03\ncore_radius_m = 1e-4\npoisson_ratio = -0.01\n");
+  std::string touches = "schema = 1\n";
+  for (int i = 0; i < 150; ++i)
+    touches += fmt::format(
+        "[[touch]]\nstart_s = {:.1f}\nend_s = {:.2f}\nangle_deg = {:.3f}\nnormal_n_per_m = {}\n"
+        "tangential_n_per_m = {}\nwidth_m = {}\nprofile = \"hertz\"\n",
+        0.5 + 0.4 * i, 0.85 + 0.4 * i, std::fmod(i * 137.508, 360), 8 + 7 * i % 22, 5 * i % 9 - 4,
+        5e-4 * (1 + i % 4));
+  write("touches.toml", touches);
+  const Run run =
+      runShell("cd " + folder +
+                   " && \"$STRAINFINGER\" run -c small.toml --scenario touches.toml --strains small.csv "
+                   "--rows-hz 5 >/dev/null 2>&1\n"
+                   "\"$STRAINFINGER\" calibrate -c small.toml --strains small.csv -o small_out.toml && "
+                   "\"$STRAINFINGER\" tables -c small_out.toml -o small.tables",
+               "");
+  LONGS_EQUAL_TEXT(0, run.status, run.err.c_str());
+  STRCMP_CONTAINS("calibrate: warning: gauges.model_error is 0.0", run.err.c_str());
+  STRCMP_CONTAINS("the firmware refuses this finger: small.toml: contacts cannot be located",
+                  run.err.c_str());
+}
+
 TEST(CalibrateCommand, AFolderThatIsMissingIsToldBeforeAnythingIsFitted) {
   for (const char* option : {"--page", "--output"}) {
     const Run run = calibrate(fmt::format("{} {}", option, path("none/file")), "nonsense");

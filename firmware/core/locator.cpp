@@ -384,13 +384,17 @@ void Locator::noteLook(int shift) {
   lookedMoment_q20_ = answer_.solution.contact[0].moment_q20;
 }
 
-/// Since others were last looked for, the readings have outgrown their scale, by two at most (four if it was
-/// kept while they fell), so that others may be told apart; or the touch has quite another width, because it
-/// was followed to another answer.
+/// Since others were last looked for, the touch has got quite another width: it was followed to another
+/// answer.
+bool Locator::hasOtherWidth() const {
+  return magnitude(answer_.solution.contact[0].moment_q20 - lookedMoment_q20_) >
+         1 << (kMomentBits - threshold::kOtherWidthBits);
+}
+
+/// That, or the readings have outgrown their scale, by two at most (four if it was kept while they fell), so
+/// that others may be told apart.
 bool Locator::isLookOutdated(const ScaledReadings& readings) const {
-  return readings.shift > lookedShift_ ||
-         magnitude(answer_.solution.contact[0].moment_q20 - lookedMoment_q20_) >
-             1 << (kMomentBits - threshold::kOtherWidthBits);
+  return readings.shift > lookedShift_ || hasOtherWidth();
 }
 
 /// Solves exactly the three readings that determine the place and both loads best, unless that leads to
@@ -467,7 +471,9 @@ void Locator::update(const TableImage& tables, std::span<const std::int32_t> str
     if (readings.shift > search_.readings().shift)
       search(tables, readings, gauges);  // a firmer touch tells more
     goOn(tables, readings, *workDone);
-  } else if (setsInDoubt_ == kNewDoubt && !answer_.doubtful) {
+  } else if ((setsInDoubt_ == kNewDoubt && !answer_.doubtful) ||
+             (hasOtherWidth() && tables.constants.model_error_q16 <= threshold::kWellKnown_q16 &&
+              !isFirm(tables.constants, answer_.solution, readings))) {
     answer_.searching = true;
     search(tables, readings, gauges);
   } else if (!answer_.accepted || answer_.doubtful || answer_.rival.isLost ||

@@ -109,6 +109,7 @@ class Locator {
                      const ScaledReadings& readings);
   int followRival(const TableImage& tables, const ScaledReadings& readings);
   void noteLook(int shift);
+  bool hasOtherWidth() const;
   bool isLookOutdated(const ScaledReadings& readings) const;
   void believe(const TableImage& tables, const Solution& solution, const ScaledReadings& readings);
   void solveExactly(const TableImage& tables, const ScaledReadings& readings);

@@ -42,18 +42,20 @@ constexpr double kFarOffModulus = 2;
 struct GaugeWords {
   GaugeUnknown unknown;
   const char* name;
+  const char* nameBelow0;  ///< then the value is told without its sign; empty: with it
   const char* unit;
   double perUnit;
   const char* lookAt;
   const char* lookAtIfMost;
 };
 constexpr std::array kGaugeWords{
-    GaugeWords{kGain, "gain", "", 1, "look at its joint and wires",
+    GaugeWords{kGain, "gain", "", "", 1, "look at its joint and wires",
                "check gauges.full_scale_strain and finger.outer_radius_m"},
-    GaugeWords{kZero, "zero", " microstrain", 1e-6, "tare", "tare"},
-    GaugeWords{kAngleOffset, "angle off by", " deg", kRadPerDeg, "look at how it is glued",
-               "check gauges.angle_deg"},
-    GaugeWords{kDepthOffset, "too deep by", " um", 1e-6, "look at how it is glued", "check gauges.radius_m"}};
+    GaugeWords{kZero, "zero", "", " microstrain", 1e-6, "tare", "tare"},
+    GaugeWords{kAngleOffset, "angle off by", "", " deg from where the ring as a whole lies", kRadPerDeg,
+               "look at how it is glued", "check gauges.angle_deg"},
+    GaugeWords{kDepthOffset, "too deep by", "too shallow by", " um", 1e-6, "look at how it is glued",
+               "check gauges.radius_m"}};
 
 /// In tolerances, and in the words' unit.
 struct Off {
@@ -77,8 +79,10 @@ void addFarOff(const CalibrationResult& result, const GaugeWords& words,
   for (int gauge = 0; gauge < gauges.count; ++gauge)
     if (const Off off = offOf(result, words, gauge); off.tolerances > kFarOff) far.push_back(off);
   const auto text = [&](const std::string& whose, const Off& off, const char* lookAt) {
+    const bool isBelow = off.value < 0 && *words.nameBelow0 != 0;
     sentences.push_back(fmt::format("{}: {} {:.3g}{}, {:.1f} tolerances off the drawing: {}.", whose,
-                                    words.name, off.value, words.unit, off.tolerances, lookAt));
+                                    isBelow ? words.nameBelow0 : words.name, isBelow ? -off.value : off.value,
+                                    words.unit, off.tolerances, lookAt));
   };
   if (2 * far.size() <= static_cast<std::size_t>(gauges.count)) {
     for (const Off& off : far)

@@ -10,7 +10,7 @@ std::string_view remedyFor(FingerFault fault) {
   switch (fault) {
     case FingerFault::kTables:
       return "`strainfinger push --can BUS -n N -c FINGER.toml`, with this finger's config, sends it its "
-             "tables";
+             "tables; those of another number of gauges than its board reads are none";
     case FingerFault::kGauges:
       return "`strainfinger info --can BUS -n N` names those out of use: check their wires and amplifiers, "
              "then `strainfinger tare --can BUS -n N` gives each another chance";

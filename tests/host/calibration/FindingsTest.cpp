@@ -93,6 +93,17 @@ TEST(Findings, WhatIsFarOffAtMostGaugesIsTheDrawings) {
       sentences[0].c_str());
 }
 
+TEST(Findings, WhichWayAGaugeIsOffIsSaidInWords) {
+  deviations[Drawing::at(6, kDepthOffset)] = -6;
+  deviations[Drawing::at(7, kAngleOffset)] = -8;
+  const auto sentences = whatIsFarOff(result());
+  LONGS_EQUAL(2, sentences.size());
+  // the ring as a whole is turned by a sixteenth of that
+  STRCMP_CONTAINS("Gauge 7 (at 157.5 deg): angle off by -3.75 deg from where the ring as a whole lies",
+                  sentences[0].c_str());
+  STRCMP_CONTAINS("Gauge 6 (at 135 deg): too shallow by 300 um, 6.0 tolerances", sentences[1].c_str());
+}
+
 TEST(Findings, ATurnOfTheWholeRingIsNotFarOff) {
   for (int gauge = 0; gauge < drawing.gauges(); ++gauge) deviations[Drawing::at(gauge, kAngleOffset)] = 9;
   LONGS_EQUAL(0, whatIsFarOff(result()).size());

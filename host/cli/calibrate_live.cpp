@@ -141,6 +141,7 @@ class LiveSession {
 
   std::unique_ptr<SessionFace> makeFace() const {
     if (!options_.plain && live::hasTerminal()) return std::make_unique<SessionScreen>(config_.gauges);
+    face_.reset();  // what is said from now on stays to be read, and Ctrl-Z stops the fit
     return std::make_unique<SessionLines>();
   }
 

@@ -16,7 +16,7 @@ import time
 import unittest
 
 from fingers import Bench
-from terminal import Terminal
+from terminal import SHELL, Terminal
 
 PROGRAM = os.path.abspath(sys.argv.pop(1))
 
@@ -381,6 +381,23 @@ class Resumed(unittest.TestCase):
             self.assertNotIn("\x1b[", terminal.screen(escapes=True))
             terminal.press("C-c")
             terminal.wait_for(r"ended: 130", 60)
+
+    @unittest.skipIf(shutil.which("tmux") is None, "tmux is not installed: apt install tmux")
+    def test_stopped_by_control_z_it_goes_on_with_fg(self):
+        with Terminal(SHELL, 100, 30) as terminal:
+            terminal.wait_for(r"\$")
+            terminal.press(self.command(self.session_of(40)), "Enter")
+            terminal.wait_for(r"q end")
+            terminal.press("C-z")
+            terminal.wait_for(r"Stopped")
+            self.assertTrue(terminal.is_given_back())
+            terminal.press("fg; echo fg $?", "Enter")
+            terminal.wait_for(r"q end")
+            terminal.press("l", "2", "0")
+            terminal.wait_for(r"load, with its unit .*: 20_")
+            terminal.press("C-c")
+            terminal.wait_for(r"(?s)calibrate: interrupted; \d+ rows are.*fg 130", 60)
+            self.assertTrue(terminal.is_given_back())
 
     @unittest.skipIf(shutil.which("tmux") is None, "tmux is not installed: apt install tmux")
     def test_a_new_zero_is_taken_when_the_user_agrees(self):

@@ -21,12 +21,14 @@ constexpr std::size_t kReadBuffer_bytes = 4 * LineReader::kLongestLine_bytes;
 
 constexpr const char* kStdinPath = "-";
 
+int openToRead(const std::string& path) { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); }
+
 }  // namespace
 
 LineReader::LineReader(const std::string& path)
-    : name_(path == kStdinPath ? "stdin" : path),
-      descriptor_(path == kStdinPath ? STDIN_FILENO
-                                     : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)),
+    : path_(path),
+      name_(path == kStdinPath ? "stdin" : path),
+      descriptor_(path == kStdinPath ? STDIN_FILENO : openToRead(path)),
       buffer_(kReadBuffer_bytes) {
   if (descriptor_ < 0) fail(name_, errno);
 }
@@ -90,6 +92,24 @@ void LineReader::rewindIfShrunk() const {
   const off_t at = ::lseek(descriptor_, 0, SEEK_CUR);
   if (at > 0 && ::fstat(descriptor_, &file) == 0 && S_ISREG(file.st_mode) && file.st_size < at)
     ::lseek(descriptor_, 0, SEEK_SET);
+}
+
+bool LineReader::isReplaced() const {
+  struct stat named {
+  }, read{};
+  if (descriptor_ == STDIN_FILENO || ::stat(path_.c_str(), &named) != 0 || ::fstat(descriptor_, &read) != 0)
+    return false;
+  return named.st_ino != read.st_ino || named.st_dev != read.st_dev;
+}
+
+bool LineReader::reopen() {
+  const int opened = openToRead(path_);
+  if (opened < 0 && errno == ENOENT) return false;
+  if (opened < 0) fail(name_, errno);
+  ::close(std::exchange(descriptor_, opened));
+  begin_ = end_ = searched_ = 0;
+  skippingLine_ = false;
+  return true;
 }
 
 void LineReader::fail(const std::string& name, int error) {

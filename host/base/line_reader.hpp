@@ -46,12 +46,19 @@ class LineReader {
   /// read from its start.
   Got read(std::chrono::milliseconds longest);
 
+  /// Whether the path names another file by now, as after a rotation by rename; not while it names none.
+  bool isReplaced() const;
+  /// Goes on with the file that the path names now; false: it names none, and this reads the old one still.
+  /// Throws as the constructor does. What was read and not handed out is lost: take rest() before.
+  bool reopen();
+
  private:
   bool waitReadable(std::chrono::milliseconds longest) const;
   void makeRoom();
   void rewindIfShrunk() const;
   [[noreturn]] static void fail(const std::string& name, int error);
 
+  std::string path_;
   std::string name_;
   int descriptor_;
   std::vector<char> buffer_;

@@ -41,6 +41,8 @@ class SessionFace {
   virtual ~SessionFace() = default;
   /// The text of a command, if one was given.
   virtual std::optional<std::string> readCommand() = 0;
+  /// Nobody can give a command any more.
+  virtual bool isOver() const { return false; }
   virtual void show(const session::SessionView& view) = 0;
   /// What became of a command, or of the finger, at once.
   virtual void say(const std::string& message) = 0;
@@ -78,8 +80,10 @@ class SessionLines : public SessionFace {
     if (const auto line = stdin_.next()) return std::string(*line);
     if (!isOver_) isOver_ = stdin_.read(0ms) == LineReader::Got::kEnd;
     if (const auto line = stdin_.next()) return std::string(*line);
+    if (const auto last = isOver_ ? stdin_.rest() : std::nullopt) return std::string(*last);
     return std::nullopt;
   }
+  bool isOver() const override { return isOver_; }
   void show(const session::SessionView& view) override {
     const auto since = SessionClock::now() - printed_;
     const std::string news =
@@ -133,9 +137,11 @@ class LiveSession {
       takeFrames();
       followFit();
       while (const auto text = face_->readCommand()) obey(*text);
+      if (face_->isOver()) skipEntry();
       if (SessionClock::now() - heard_ > kSessionSilence) askAgain(stream);
       face_->show(view());
     }
+    face_.reset();  // what is said from now on stays to be read, and Ctrl-Z stops the fit
     return stop.asked();
   }
 
@@ -176,6 +182,14 @@ class LiveSession {
     tell(obeyed.message);
     quit_ |= obeyed.quit;
     if (obeyed.tare) tare();
+  }
+
+  /// What is to be entered and cannot be would be asked for without end.
+  void skipEntry() {
+    const auto kind = session_.advice().kind;
+    if (kind != session::Advice::Kind::kPress && kind != session::Advice::Kind::kMark) return;
+    const session::Obeyed obeyed = session_.obey(session::Skip{});
+    tell("stdin is at its end: skipped: " + obeyed.message);
   }
 
   void takeBack() {

@@ -56,7 +56,10 @@ struct DecodeOptions {
         .type_name("N,N")
         ->allow_extra_args(false);  // what follows is a FILE
     command.add_flag("--touches", touches, "A row a touch sample, not a row a frame");
-    command.add_flag("--follow", follow, "Wait for what is yet to be written to FILE, until Ctrl-C");
+    command.add_flag(
+        "--follow", follow,
+        "Wait for what is yet to be written to FILE, until Ctrl-C; once its name is another file's "
+        "(rotation), go on with that, as tail -F does");
     command.add_flag("--strict", strict, "Stop at the first line that cannot be read");
   }
   CommonOptions common;
@@ -81,20 +84,8 @@ class Decoder {
   void decodeAll(const std::string& path) {
     LineReader lines(path);
     name_ = lines.name();
-    line_ = 0;
-    unreadable_ = 0;
-    while (!stop_.asked()) {
-      while (const auto text = lines.next()) decodeLine(*text);
-      output_.flush();  // before more is waited for: candump may be live
-      if (lines.read(system::StopSignal::kLookEvery) != LineReader::Got::kEnd) continue;
-      if (!follow_) break;
-      std::this_thread::sleep_for(kFollowPeriod);
-    }
-    const auto last = stopped() ? std::nullopt : lines.rest();
-    if (last) decodeLine(*last);
-    output_.flush();
-    if (unreadable_ > kMostTold)
-      tell("{}: and {} more lines that cannot be read\n", name_, unreadable_ - kMostTold);
+    do decodeFile(lines);
+    while (follow_ && openNext(lines));
   }
 
   /// Prints what was held back for more of it.
@@ -107,6 +98,33 @@ class Decoder {
   const DecodeTally& tally() const { return tally_; }
 
  private:
+  /// To its end or, followed, until its path names another file.
+  void decodeFile(LineReader& lines) {
+    line_ = 0;
+    unreadable_ = 0;
+    bool isReplaced = false;
+    while (!stopped()) {
+      while (const auto text = lines.next()) decodeLine(*text);
+      output_.flush();  // before more is waited for: candump may be live
+      if (lines.read(system::StopSignal::kLookEvery) != LineReader::Got::kEnd) continue;
+      if (!follow_ || isReplaced) break;
+      isReplaced = lines.isReplaced();  // and it is read once more: its end may have been written before that
+      std::this_thread::sleep_for(kFollowPeriod);
+    }
+    const auto last = stopped() ? std::nullopt : lines.rest();
+    if (last) decodeLine(*last);
+    output_.flush();
+    if (unreadable_ > kMostTold)
+      tell("{}: and {} more lines that cannot be read\n", name_, unreadable_ - kMostTold);
+  }
+
+  /// False: it is asked to stop.
+  bool openNext(LineReader& lines) const {
+    for (; !stopped(); std::this_thread::sleep_for(kFollowPeriod))
+      if (lines.reopen()) return true;
+    return false;
+  }
+
   std::string place() const { return fmt::format("{}:{}", name_, line_); }
 
   void decodeLine(std::string_view text) {

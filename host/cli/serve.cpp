@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <climits>
+#include <cstdlib>
 #include <random>
 #include <string>
+#include <string_view>
 
 #include "common/frames.hpp"
 #include "host/base/failure.hpp"
@@ -30,6 +33,8 @@ constexpr const char* kServeHelp =
     "Only this machine reaches it unless --address says otherwise (0.0.0.0: every interface); commands then "
     "need a token, which is part of the printed address. The page itself has no password: who reaches it "
     "reads it.\n"
+    "A token of your own stays the same when this is started again. The list of processes shows --token to "
+    "everybody on this machine, the environment's STRAINFINGER_TOKEN to you only.\n"
     "From another machine without opening a port: ssh -L 8080:localhost:8080 HOST\n"
     "For programs: GET /state is one JSON object, GET /events a stream of them (server-sent events), "
     "POST /fingers/NODE/tare with header X-Strainfinger zeroes gauges.\n"
@@ -37,6 +42,8 @@ constexpr const char* kServeHelp =
 
 /// A touch is on the page within two of these and what a browser takes to draw.
 constexpr std::chrono::milliseconds kPublishEvery{40};
+
+constexpr const char* kTokenVariable = "STRAINFINGER_TOKEN";
 
 struct ServeOptions {
   explicit ServeOptions(CLI::App& command) : common(command) {
@@ -47,11 +54,21 @@ struct ServeOptions {
         ->check(isWhole(0, 65535));
     command.add_option("--address", server.address, "To listen on; 127.0.0.1 is this machine only")
         ->capture_default_str();
-    command.add_option("--token", server.token, "What commands need (default: none here, else a random one)");
+    token = command
+                .add_option("--token", server.token,
+                            fmt::format("What commands need, or {} of the environment (default: none here, "
+                                        "else a random one)",
+                                        kTokenVariable))
+                ->type_name("TEXT")
+                ->envname(kTokenVariable);
   }
+  /// It may be given and empty. CLI11 takes an empty variable for none.
+  bool isTokenGiven() const { return token->count() > 0 || std::getenv(kTokenVariable) != nullptr; }
+
   CommonOptions common;
   std::string bus;
   live::PageServerOptions server;
+  const CLI::Option* token;
 };
 
 std::string randomToken() {
@@ -73,6 +90,24 @@ std::string shapeJson(const config::FingerConfig& config, bool needsToken) {
   return json.dump();
 }
 
+/// Throws Failure(kUsage) for a token that protects nothing, or that no command could have.
+void requireGoodToken(const ServeOptions& options) {
+  const std::string& token = options.server.token;
+  if (token.empty() && options.isTokenGiven() && !live::isLocalAddress(options.server.address))
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("serve: the token (--token, {}) is empty, and others reach {}: give one, or "
+                              "leave it out for a random one",
+                              kTokenVariable, options.server.address));
+  // The HTTP library takes %41 in a header for A.
+  const auto isCarried = [](char each) { return each >= ' ' && each <= '~' && each != '%'; };
+  if (!std::ranges::all_of(token, isCarried) || token.starts_with(' ') || token.ends_with(' '))
+    throw Failure(
+        ExitCode::kUsage,
+        fmt::format("serve: the token (--token, {}) must be printable ASCII without % and without a "
+                    "space at either end: it is sent in a header",
+                    kTokenVariable));
+}
+
 live::PageServerOptions serverOptions(const ServeOptions& options, const config::FingerConfig& config) {
   live::PageServerOptions server = options.server;
   if (server.token.empty() && !live::isLocalAddress(server.address)) server.token = randomToken();
@@ -92,9 +127,21 @@ std::string hostOf(const std::string& address) {
   return address.find(':') != std::string::npos ? "[" + address + "]" : address;
 }
 
+/// As a URL's fragment has it (RFC 3986): what is not unreserved as %XX.
+std::string percentEncoded(const std::string& text) {
+  constexpr std::string_view kUnreserved =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~";
+  std::string encoded;
+  for (const char each : text)
+    encoded += kUnreserved.find(each) != kUnreserved.npos
+                   ? std::string(1, each)
+                   : fmt::format("%{:02X}", static_cast<unsigned char>(each));
+  return encoded;
+}
+
 std::string urlOf(const live::PageServerOptions& server, int port) {
   return fmt::format("http://{}:{}/{}{}", hostOf(server.address), port, server.token.empty() ? "" : "#",
-                     server.token);
+                     percentEncoded(server.token));
 }
 
 /// The newest view as JSON.
@@ -116,6 +163,7 @@ void serve(live::BusWatch& watch, live::PageServer& server, const simulation::St
 }
 
 void runServe(const ServeOptions& options) {
+  requireGoodToken(options);
   const config::FingerConfig config = options.common.config();
   const auto port = can::openBus(options.bus, config.can.bitrate);
   live::BusWatch watch(*port, config, tables::buildTableImage(config).crc32);

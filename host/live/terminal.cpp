@@ -37,6 +37,19 @@ bool wantsColour() {
   return refused == nullptr || *refused == '\0';
 }
 
+void showFirstScreen() {
+  std::fputs(kFirstScreen, stdout);
+  std::fflush(stdout);
+}
+
+/// That of stdin or, where stdin is something else or is another user's, the process's own; -1: there is
+/// none. O_NONBLOCK, since a shell's modes, unlike VMIN = 0, would have a read wait for a whole line.
+int openTerminal() {
+  constexpr int kHow = O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK;
+  const int file = isKeyboard() ? ::open("/proc/self/fd/0", kHow) : -1;
+  return file >= 0 ? file : ::open("/dev/tty", kHow);
+}
+
 /// Such as a shell within an editor is not one: it would show the escape sequences.
 bool obeysEscapes() {
   const char* kind = std::getenv("TERM");
@@ -59,20 +72,27 @@ ScreenForm terminalForm() {
   return form;
 }
 
-Keyboard::Keyboard()
-    : isOwn_(!isKeyboard()), file_(isOwn_ ? ::open("/dev/tty", O_RDONLY | O_CLOEXEC) : STDIN_FILENO) {
-  if (file_ < 0 || tcgetattr(file_, &before_) != 0) return;
-  termios raw = before_;
-  raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
-  raw.c_cc[VMIN] = 0;  // a read never waits
-  raw.c_cc[VTIME] = 0;
-  tcsetattr(file_, TCSANOW, &raw);
+Keyboard::Keyboard() : file_(openTerminal()), hasModes_(file_ >= 0 && tcgetattr(file_, &before_) == 0) {
+  takeOver();
 }
 
 Keyboard::~Keyboard() {
   if (file_ < 0) return;
-  tcsetattr(file_, TCSANOW, &before_);
-  if (isOwn_) ::close(file_);
+  release();
+  ::close(file_);
+}
+
+void Keyboard::takeOver() const {
+  if (!hasModes_) return;
+  termios raw = before_;
+  raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+  raw.c_cc[VMIN] = 0;
+  raw.c_cc[VTIME] = 0;
+  tcsetattr(file_, TCSANOW, &raw);
+}
+
+void Keyboard::release() const {
+  if (hasModes_) tcsetattr(file_, TCSANOW, &before_);
 }
 
 std::optional<unsigned char> Keyboard::next() const {
@@ -82,12 +102,21 @@ std::optional<unsigned char> Keyboard::next() const {
 
 Terminal::Terminal() : isStyled_(wantsColour()) { writeOut(kOtherScreen); }
 
-Terminal::~Terminal() {
-  std::fputs(kFirstScreen, stdout);
-  std::fflush(stdout);
+Terminal::~Terminal() { showFirstScreen(); }
+
+void Terminal::followJobControl() {
+  if (jobControl_.stopAsked()) {
+    showFirstScreen();
+    keyboard_.release();
+    jobControl_.stop();
+  }
+  if (!jobControl_.takeContinued()) return;
+  keyboard_.takeOver();
+  writeOut(kOtherScreen);
 }
 
 void Terminal::show(const Canvas& canvas) {
+  followJobControl();
   std::string text = kHome;
   const auto lines = canvas.lines(isStyled_);
   for (std::size_t i = 0; i < lines.size(); ++i)
@@ -96,6 +125,7 @@ void Terminal::show(const Canvas& canvas) {
 }
 
 std::optional<unsigned char> Terminal::key() {
+  followJobControl();
   const auto first = keyboard_.next();
   if (first != 0x1B) return first;
   const auto second = keyboard_.next();  // an arrow is ESC [ A

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/live/canvas.hpp"
+#include "host/live/job_control.hpp"
 #include "host/live/screen.hpp"
 
 namespace strainfinger::live {
@@ -29,17 +30,24 @@ class Keyboard {
   Keyboard(const Keyboard&) = delete;
   Keyboard& operator=(const Keyboard&) = delete;
 
-  /// The next byte that was typed, if any. Never blocks.
+  /// The next byte that was typed, if any. Never blocks, whatever others do to the terminal's modes.
   std::optional<unsigned char> next() const;
 
+  /// Gives the terminal its modes of before, for the shell.
+  void release() const;
+  /// Takes the keys one by one again.
+  void takeOver() const;
+
  private:
-  bool isOwn_;
-  int file_;  ///< stdin, or the terminal itself where stdin is something else; -1: no keys
+  int file_;  ///< the terminal, opened anew: who shares stdin shall not find that reads don't wait; -1: no
+              ///< keys
   termios before_{};
+  bool hasModes_;  ///< before_ is known
 };
 
 /// While it lives, stdout shows its other screen, without a cursor, and its keyboard is a Keyboard. What
-/// stood there before comes back at the end.
+/// stood there before comes back at the end, and while the shell has stopped the process (Ctrl-Z): key() and
+/// show() look whether it is to be stopped, and set the screen up again when it was continued.
 class Terminal {
  public:
   /// Throws Failure(kFailure) when the terminal is gone.
@@ -56,6 +64,9 @@ class Terminal {
   std::optional<unsigned char> key();
 
  private:
+  void followJobControl();
+
+  JobControl jobControl_;  // before the keyboard: a late stop finds that given back
   Keyboard keyboard_;
   bool isStyled_;
 };

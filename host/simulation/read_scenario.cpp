@@ -55,7 +55,7 @@ constexpr std::array kProfileNames{ProfileName{"hertz", model::Profile::kEllipse
                                    ProfileName{"uniform", model::Profile::kUniform}};
 
 const std::vector<std::string>& topKeys() {
-  static const std::vector<std::string> names{"schema", "repeat_s", "touch"};
+  static const std::vector<std::string> names{"schema", "repeat_s", "pause_s", "touch"};
   return names;
 }
 
@@ -165,13 +165,17 @@ Scenario readScenario(std::string_view text, const std::string& name) {
   config::checkKeys(root, "", topKeys(), topKeys());
   auto touches = readTouches(root);
   const toml::node* repeat = root.get("repeat_s");
+  const toml::node* pause = root.get("pause_s");
+  if (repeat == nullptr && pause != nullptr)
+    failAt(pause->source(), "pause_s is the time between repeats, and repeat_s is missing");
   if (repeat == nullptr) return Scenario(std::move(touches));
   const double end_s = Scenario(touches).duration_s();
   const double repeat_s = realIn(*repeat, "repeat_s", Domain::above(0, 864'000));
   if (repeat_s < end_s)
     failAt(repeat->source(),
            fmt::format("repeat_s = {} cuts off a touch: touch.end_s = {}", repeat_s, end_s));
-  return Scenario(std::move(touches), repeat_s);
+  const double pause_s = pause == nullptr ? 0 : realIn(*pause, "pause_s", timeDomain());
+  return Scenario(std::move(touches), repeat_s, pause_s);
 }
 
 Scenario builtInScenario() { return readScenario(builtInScenarioText(), "built-in scenario"); }

@@ -37,11 +37,11 @@ double Course::at(double time_s) const {
 
 Course::Point Course::largest() const { return *std::ranges::max_element(points_, {}, &Point::value); }
 
-Scenario::Scenario(std::vector<TouchCourse> touches, std::optional<double> repeat_s)
-    : touches_(std::move(touches)), repeat_s_(repeat_s) {}
+Scenario::Scenario(std::vector<TouchCourse> touches, std::optional<double> repeat_s, double pause_s)
+    : touches_(std::move(touches)), repeat_s_(repeat_s), pause_s_(pause_s) {}
 
 std::vector<Touch> Scenario::at(double time_s) const {
-  const double within_s = repeat_s_ ? std::fmod(time_s, *repeat_s_) : time_s;
+  const double within_s = repeat_s_ ? std::fmod(time_s, *repeat_s_ + pause_s_) : time_s;
   std::vector<Touch> inForce;
   for (const TouchCourse& course : touches_) {
     if (within_s < course.start_s || within_s >= course.end_s) continue;

@@ -53,8 +53,10 @@ struct TouchCourse {
 /// Touches over time, once or over and over again.
 class Scenario {
  public:
-  /// `repeat_s` > 0: begin again after this time, which no touch outlasts.
-  explicit Scenario(std::vector<TouchCourse> touches, std::optional<double> repeat_s = std::nullopt);
+  /// `repeat_s` > 0: begin again after this time, which no touch outlasts, and `pause_s` more, in which
+  /// nothing touches.
+  explicit Scenario(std::vector<TouchCourse> touches, std::optional<double> repeat_s = std::nullopt,
+                    double pause_s = 0);
 
   /// The touches in force: start <= time < end, and some normal load, without which nothing touches, whatever
   /// the tangential one. Linear in the number of touches.
@@ -68,12 +70,13 @@ class Scenario {
   };
   std::optional<Slip> firstSlip(double friction_coefficient) const;
 
-  /// When it begins again or is over.
+  /// When it is over, once: without the pause before it begins again.
   double duration_s() const;
 
  private:
   std::vector<TouchCourse> touches_;
   std::optional<double> repeat_s_;
+  double pause_s_;
 };
 
 }  // namespace strainfinger::simulation

@@ -16,7 +16,7 @@ import time
 import unittest
 
 from fingers import Bench
-from terminal import Terminal
+from terminal import SHELL, Terminal
 
 PROGRAM = os.path.abspath(sys.argv.pop(1))
 
@@ -243,6 +243,23 @@ class Resumed(unittest.TestCase):
         self.assertIn("[calibration]", output.read_text())
         self.assertEqual(17, len(session.printed.lines))
 
+    def test_with_stdin_at_its_end_it_asks_for_nothing_that_is_to_be_entered(self):
+        output = self.session_of(700)
+        touches = output.with_suffix(".touches.csv")
+        lines = touches.read_text().splitlines()
+        touches.write_text("\n".join(lines[:1] + [line if re.search(r"(?<![0-9.])0,0$", line) else ",," for line in lines[1:]]) + "\n")
+        run = subprocess.run(self.command(output).split(), capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=300)
+        said = run.stderr.splitlines()
+        self.assertEqual(0, run.returncode, said[-3:])
+        self.assertIn("calibrate: stdin is at its end: skipped: without known loads the unit of force is the drawing's", said)
+        self.assertIn("calibrate: stdin is at its end: skipped: without known directions a ring that is turned or reversed is not noticed", said)
+        self.assertIn("[calibration]", output.read_text())
+
+    def test_a_last_line_without_its_end_is_obeyed(self):
+        run = subprocess.run(self.command(self.session_of(40)).split(), capture_output=True, text=True, input="quit", timeout=60)
+        self.assertEqual(1, run.returncode)
+        self.assertIn("too few", run.stderr)
+
     def test_too_few_rows_at_the_end_are_told_and_kept(self):
         output = self.session_of(0)
         session = Session(self.bench, self.finger, output)
@@ -381,6 +398,23 @@ class Resumed(unittest.TestCase):
             self.assertNotIn("\x1b[", terminal.screen(escapes=True))
             terminal.press("C-c")
             terminal.wait_for(r"ended: 130", 60)
+
+    @unittest.skipIf(shutil.which("tmux") is None, "tmux is not installed: apt install tmux")
+    def test_stopped_by_control_z_it_goes_on_with_fg(self):
+        with Terminal(SHELL, 100, 30) as terminal:
+            terminal.wait_for(r"\$")
+            terminal.press(self.command(self.session_of(40)), "Enter")
+            terminal.wait_for(r"q end")
+            terminal.press("C-z")
+            terminal.wait_for(r"Stopped")
+            self.assertTrue(terminal.is_given_back())
+            terminal.press("fg; echo fg $?", "Enter")
+            terminal.wait_for(r"q end")
+            terminal.press("l", "2", "0")
+            terminal.wait_for(r"load, with its unit .*: 20_")
+            terminal.press("C-c")
+            terminal.wait_for(r"(?s)calibrate: interrupted; \d+ rows are.*fg 130", 60)
+            self.assertTrue(terminal.is_given_back())
 
     @unittest.skipIf(shutil.which("tmux") is None, "tmux is not installed: apt install tmux")
     def test_a_new_zero_is_taken_when_the_user_agrees(self):

@@ -108,9 +108,9 @@ class Bench(contextlib.ExitStack):
         self.callback(process.join)
         self.callback(process.terminate)
 
-    def serve(self, *arguments):
+    def serve(self, *arguments, **options):
         """The process, and the address that it prints."""
-        process = self.start("serve", "--can", self.bus, "--port", "0", *arguments, stderr=subprocess.PIPE, text=True)
+        process = self.start("serve", "--can", self.bus, "--port", "0", *arguments, stderr=subprocess.PIPE, text=True, **options)
         line = process.stderr.readline()
         assert line.startswith("serve: http://"), line
         return process, line.split()[1]

@@ -4,6 +4,7 @@ import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -12,7 +13,7 @@ import tomllib
 import unittest
 
 from fingers import Bench, bench_with_two, cpu_s
-from terminal import Terminal
+from terminal import SHELL, Terminal
 
 if shutil.which("tmux") is None:
     print("tmux is not installed: apt install tmux")
@@ -111,6 +112,63 @@ class Live(unittest.TestCase):
             terminal.wait_for(r"contacts/s")
             terminal.press("C-c")
             terminal.wait_for(r"ended: 130")
+
+    def stopped(self, terminal):
+        """In a shell, and stopped by Ctrl-Z."""
+        terminal.wait_for(r"\$")
+        terminal.press(f"{self.command}; echo ended: $?", "Enter")
+        terminal.wait_for(r"contacts/s")
+        self.assertFalse(terminal.is_given_back())
+        terminal.press("C-z")
+        screen = terminal.wait_for(r"Stopped")
+        self.assertNotIn("contacts/s", screen)
+        self.assertTrue(terminal.is_given_back())
+
+    def test_stopped_it_gives_the_terminal_back_and_goes_on_with_fg(self):
+        with Terminal(SHELL) as terminal:
+            self.stopped(terminal)
+            for _ in range(2):  # the first time may have changed something
+                terminal.press("clear; fg; echo fg $?", "Enter")
+                screen = terminal.wait_for(r"angle +\d")
+                self.assertFalse(terminal.is_given_back())
+                angle = re.search(r"angle +(\d+\.\d\d)", screen).group(1)
+                terminal.wait_for(rf"angle +(?!{re.escape(angle)})\d")
+                terminal.press("C-z")
+                terminal.wait_for(r"Stopped")
+                self.assertTrue(terminal.is_given_back())
+            terminal.press("fg; echo fg $?", "Enter")
+            terminal.wait_for(r"contacts/s")
+            terminal.press("q")
+            terminal.wait_for(r"fg 0")
+            self.assertTrue(terminal.is_given_back())
+
+    def test_continued_it_ends_by_control_c_and_by_sigterm(self):
+        for end in ("C-c", "TERM"):
+            with Terminal(SHELL) as terminal:
+                self.stopped(terminal)
+                terminal.press("fg; echo fg $?", "Enter")
+                terminal.wait_for(r"contacts/s")
+                if end == "TERM":
+                    pid = subprocess.check_output(["pgrep", "-f", f"^{self.command}"], text=True).split()[0]
+                    os.kill(int(pid), signal.SIGTERM)
+                else:
+                    terminal.press(end)
+                terminal.wait_for(r"fg 130")
+                self.assertTrue(terminal.is_given_back())
+
+    def test_stopped_by_a_signal_that_nothing_withstands_it_goes_on_too(self):
+        with Terminal(SHELL) as terminal:
+            terminal.wait_for(r"\$")
+            terminal.press(self.command, "Enter")
+            terminal.wait_for(r"contacts/s")
+            pid = subprocess.check_output(["pgrep", "-f", f"^{self.command}"], text=True).split()[0]
+            os.kill(int(pid), signal.SIGSTOP)
+            terminal.wait_for(r"Stopped")
+            terminal.press("fg; echo fg $?", "Enter")
+            terminal.wait_for(r"angle +\d")
+            terminal.press("q")
+            terminal.wait_for(r"fg 0")
+            self.assertTrue(terminal.is_given_back())
 
     def test_colours_unless_they_are_not_wanted(self):
         with Terminal(self.command) as terminal:

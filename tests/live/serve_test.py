@@ -2,6 +2,7 @@
 """serve_test.py PROGRAM: the live page's server, by sockets: what it says, to how many, and what it withstands."""
 import json
 import os
+import pathlib
 import socket
 import subprocess
 import sys
@@ -255,10 +256,25 @@ class Open(unittest.TestCase):
             self.assertTrue(url.endswith("/#secret"))
             self.assertEqual(403, post(url.partition("#")[0] + "fingers/1/tare", {"X-Strainfinger": "-"})[0])
 
+    def test_a_token_of_the_environment_is_not_in_the_list_of_processes(self):
+        with Bench(PROGRAM) as bench:
+            process, url = bench.serve(env=dict(os.environ, STRAINFINGER_TOKEN="kept secret/&"))
+            url, _, token = url.partition("#")
+            self.assertEqual("kept%20secret%2F%26", token)
+            self.assertEqual("kept secret/&", urllib.parse.unquote(token))  # as the page does
+            self.assertNotIn("secret", pathlib.Path(f"/proc/{process.pid}/cmdline").read_text())
+            self.assertEqual(403, post(url + "fingers/1/tare", {"X-Strainfinger": "kept"})[0])
+            self.assertEqual(409, post(url + "fingers/1/tare", {"X-Strainfinger": "kept secret/&"})[0])  # no such finger
+
+    def test_the_option_counts_before_the_environment(self):
+        with Bench(PROGRAM) as bench:
+            _, url = bench.serve("--token", "said", env=dict(os.environ, STRAINFINGER_TOKEN="kept"))
+            self.assertTrue(url.endswith("/#said"))
+
 
 class Usage(unittest.TestCase):
-    def check(self, status, named, *arguments):
-        run = subprocess.run([PROGRAM, "serve", *arguments], capture_output=True, text=True)
+    def check(self, status, named, *arguments, **environment):
+        run = subprocess.run([PROGRAM, "serve", *arguments], capture_output=True, text=True, timeout=20, env=dict(os.environ, **environment))
         self.assertEqual((status, ""), (run.returncode, run.stdout))
         self.assertIn(named, run.stderr)
 
@@ -267,6 +283,15 @@ class Usage(unittest.TestCase):
 
     def test_a_port_is_a_number_up_to_65535(self):
         self.check(2, "--port", "--can", "udp", "--port", "65536")
+
+    def test_an_empty_token_where_others_reach_it_is_refused(self):
+        named = "the token (--token, STRAINFINGER_TOKEN) is empty, and others reach 0.0.0.0"
+        self.check(2, named, "--can", "udp", "--address", "0.0.0.0", "--token", "")
+        self.check(2, named, "--can", "udp", "--address", "0.0.0.0", STRAINFINGER_TOKEN="")
+
+    def test_a_token_that_no_header_can_hold_is_refused(self):
+        for token in ("two\nlines", "gr\u00fcn", "a%41", " x", "x "):
+            self.check(2, "must be printable ASCII", "--can", "udp", "--token", token)
 
     def test_a_missing_interface_is_said_with_its_remedy(self):
         self.check(3, "nocan7", "--can", "nocan7")

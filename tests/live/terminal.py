@@ -6,6 +6,10 @@ import subprocess
 import time
 
 
+# A shell with job control, as people have one.
+SHELL = "PS1='$ ' HISTFILE= bash --norc --noprofile -i"
+
+
 class Terminal:
     """A window of tmux, in a server of its own: the name of one that is ending is not to be had at once."""
     numbers = itertools.count()
@@ -28,6 +32,10 @@ class Terminal:
 
     def screen(self, escapes=False):
         return self.tmux("capture-pane", "-p", *(["-e"] if escapes else []))
+
+    def is_given_back(self):
+        """The screen is the shell's, and has a cursor."""
+        return self.tmux("display-message", "-p", "#{alternate_on} #{cursor_flag}").split() == ["0", "1"]
 
     def resize(self, columns, rows):
         self.tmux("resize-window", "-x", str(columns), "-y", str(rows))

@@ -119,3 +119,22 @@ TEST(LineReader, SaysWhatCannotBeRead) {
 }
 
 TEST(LineReader, CallsStdinByItsName) { STRCMP_EQUAL("stdin", LineReader("-").name().c_str()); }
+
+TEST(LineReader, GoesOnWithTheFileThatHasTakenItsName) {
+  append("old\nha");
+  LineReader reader(path_);
+  STRCMP_EQUAL("[old]", linesOf(reader).c_str());
+  CHECK_FALSE(reader.isReplaced());
+  std::filesystem::rename(path_, folder_.file("rotated"));
+  CHECK_FALSE(reader.isReplaced());
+  CHECK_FALSE(reader.reopen());
+  std::ofstream(folder_.file("rotated"), std::ios::app) << "lf\n";
+  append("new\n");
+  CHECK_TRUE(reader.isReplaced());
+  STRCMP_EQUAL("[half]", linesOf(reader).c_str());
+  CHECK_TRUE(reader.reopen());
+  CHECK_FALSE(reader.isReplaced());
+  STRCMP_EQUAL("[new]", linesOf(reader).c_str());
+}
+
+TEST(LineReader, StdinIsNeverReplaced) { CHECK_FALSE(LineReader("-").isReplaced()); }

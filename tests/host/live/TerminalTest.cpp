@@ -83,3 +83,23 @@ TEST(Terminal, AKeyboardIsUnechoedWhileItLives) {
   dup2(before, STDIN_FILENO);
   close(before);
 }
+
+// A shell that has stopped the process leaves the terminal so, and Ctrl-C would not end a read that waits.
+TEST(Terminal, AKeyboardNeverWaitsWhateverTheModes) {
+  const int before = dup(STDIN_FILENO);
+  dup2(its_, STDIN_FILENO);
+  {
+    const live::Keyboard keyboard;
+    keyboard.release();
+    CHECK_TRUE(isEchoing());
+    alarm(5);
+    CHECK_FALSE(keyboard.next());
+    alarm(0);
+    keyboard.takeOver();
+    CHECK_FALSE(isEchoing());
+    LONGS_EQUAL(0, fcntl(its_, F_GETFL) & O_NONBLOCK);
+  }
+  CHECK_TRUE(isEchoing());
+  dup2(before, STDIN_FILENO);
+  close(before);
+}

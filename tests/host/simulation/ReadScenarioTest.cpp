@@ -153,6 +153,9 @@ TEST(ReadScenario, TimesMustMakeSense) {
   checkComplaint("schema = 1\n[[touch]]\nstart_s = -1\nend_s = 2", "touch.start_s = -1 is out of its domain");
   checkComplaint("schema = 1\nrepeat_s = 0",
                  "s.toml:2:12: repeat_s = 0 is out of its domain; it must be greater than 0");
+  checkComplaint("schema = 1\npause_s = 1", "s.toml:2:11: pause_s is the time between repeats");
+  checkComplaint("schema = 1\nrepeat_s = 1\npause_s = -1",
+                 "s.toml:3:11: pause_s = -1 is out of its domain; it must be 0 to 864000");
   checkComplaint("repeat_s = 2.5\n" + withAngle("0"),
                  "s.toml:1:12: repeat_s = 2.5 cuts off a touch: touch.end_s = 3");
 }

@@ -82,3 +82,13 @@ TEST(Scenario, ItBeginsAgainIfItRepeatsAndStaysIdleIfNot) {
   DOUBLES_EQUAL(5, Scenario({touch(1, 5), touch(1, 3)}).duration_s(), 0);
   DOUBLES_EQUAL(0, Scenario({}).duration_s(), 0);
 }
+
+TEST(Scenario, NothingTouchesInThePauseBeforeItBeginsAgain) {
+  const Scenario scenario({touch(0, 4)}, 4, 2);
+  CHECK_FALSE(scenario.at(3.9).empty());
+  CHECK_TRUE(scenario.at(4).empty());
+  CHECK_TRUE(scenario.at(5.9).empty());
+  CHECK_TRUE(scenario.at(6.5) == scenario.at(0.5));
+  CHECK_TRUE(scenario.at(60.5) == scenario.at(0.5));
+  DOUBLES_EQUAL(4, scenario.duration_s(), 0);
+}

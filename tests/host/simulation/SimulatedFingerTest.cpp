@@ -192,6 +192,18 @@ TEST(SimulatedFinger, EveryContactHasItsForce) {
   LONGS_EQUAL(bench.counts().frames, bench.frames.size());
 }
 
+// On a bus it is repeated until Ctrl-C. Ten minutes without a zero, and every touch would be flagged
+// stale_zero.
+TEST(SimulatedFinger, TheBuiltInScenarioLetsItTakeAZeroBeforeItBeginsAgain) {
+  Bench bench(config, builtInScenario());
+  bench.run(12);
+  std::optional<GaugesFrame> last;
+  for (const TimedFrame& each : bench.frames)
+    if (const auto gauges = decode<GaugesFrame>(each.frame)) last = gauges;
+  CHECK_TRUE(last.has_value());
+  CHECK_TRUE(last->zero_age_s < 2);
+}
+
 TEST(SimulatedFinger, TheFirstGaugesAngleIsTakenIntoAccount) {
   for (const double first_deg : {0.0, 7.5, 200.0}) {
     config.gauges.first_angle_deg = first_deg;

@@ -10,6 +10,7 @@
 
 #include "host/can/bus_port.hpp"
 #include "host/live/fleet.hpp"
+#include "host/live/onward_clock.hpp"
 #include "host/live/pending_request.hpp"
 
 namespace strainfinger::live {
@@ -27,7 +28,7 @@ class BusWatch {
   /// would cost more than they do. Their times are those of their arrival all the same.
   void listen(std::chrono::milliseconds time);
 
-  /// How things are now.
+  /// How things are now. The machine's clock may be set meanwhile: OnwardClock.
   BusView view();
 
   /// Asks a finger for something. A node has one request at a time: another of one that waits is dropped. One
@@ -44,6 +45,7 @@ class BusWatch {
   void sendRequests();
 
   can::BusPort& port_;
+  OnwardClock clock_;  ///< of what goes to `fleet_`
   Fleet fleet_;
   std::vector<PendingRequest> requests_;
   std::vector<Outcome> outcomes_;

@@ -1,6 +1,5 @@
 #include "host/live/log_watch.hpp"
 
-#include <algorithm>
 #include <variant>
 
 namespace strainfinger::live {
@@ -11,8 +10,7 @@ std::optional<can::LogError> LogWatch::take(std::string_view line) {
   const auto& logged = std::get<can::LogLine>(parsed);
   const auto frame = can::classicFrame(logged);
   if (!frame) return std::nullopt;
-  const std::int64_t before_us = time_us_.value_or(0);
-  time_us_ = std::max(before_us, logged.time_ns ? *logged.time_ns / 1000 : before_us);
+  time_us_ = logged.time_ns ? clock_.at(*logged.time_ns / 1000) : time_us_.value_or(0);
   Fleet& fleet = buses_.try_emplace(logged.interface, logged.interface, config_, tables_crc32_).first->second;
   fleet.take(*time_us_, *frame);
   return std::nullopt;

@@ -25,6 +25,18 @@ TEST(BusWatch, ShowsWhatItHears) {
   CHECK_TRUE(view.fingers.at(0).silence_us < 10'000'000);
 }
 
+TEST(BusWatch, AFingerThatFallsSilentIsSilentThoughTheClockWasSetBack) {
+  port_.hear(HeartbeatFrame{});
+  port_.toHear.back().time_ns += 60'000'000'000;  // set back by as much since
+  watch_.listen(1ms);
+  const BusView before = watch_.view();
+  CHECK_FALSE(before.fingers.at(0).isSilent());
+  watch_.listen(550ms);
+  const BusView after = watch_.view();
+  CHECK_TRUE(after.fingers.at(0).isSilent());
+  CHECK_TRUE(after.time_us >= before.time_us + 550'000);
+}
+
 TEST(BusWatch, ListensForSoLongThoughNothingComes) {
   const auto begin = std::chrono::steady_clock::now();
   watch_.listen(30ms);

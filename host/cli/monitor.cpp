@@ -126,7 +126,8 @@ class LiveScreen {
     const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
     const std::string path = fmt::format("strainfinger-{:%Y%m%d-%H%M%S}.log", fmt::gmtime(now));
     recording_.emplace(port_, config_, path);
-    watch_.setTap([this](const can::TimedFrame& timed) { recording_->take(timed); });
+    watch_.setTap([this](const can::TimedFrame& timed) { recording_->take(timed); },
+                  [this](const can::OtherFrame& other) { recording_->take(other); });
     content_.message.clear();
   }
 
@@ -139,7 +140,7 @@ class LiveScreen {
   }
 
   void dropRecording() {
-    watch_.setTap({});
+    watch_.setTap({}, {});
     recording_.reset();
   }
 

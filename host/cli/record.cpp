@@ -21,7 +21,8 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kRecordHelp =
-    "Writes every frame on a bus into a log, as `candump -L` does, until Ctrl-C or --duration.\n"
+    "Writes every frame on a bus into a log, as `candump -L` does (29-bit identifiers, remote and FD frames, "
+    "too), until Ctrl-C or --duration.\n"
     "Beside it, in the same name with .toml: the config (-c), versions, and the fingers that were heard; it "
     "can be given to -c.\n"
     "If the program is killed, what was on the bus up to half a second before is in the file, in whole "
@@ -74,6 +75,7 @@ void runRecord(const RecordOptions& options) {
   const config::FingerConfig config = options.common.config();
   const auto port = can::openBus(options.bus, config.can.bitrate);
   Recording recording(*port, config, options.path);
+  port->hearOthers([&](const can::OtherFrame& other) { recording.take(other); });
   const auto duration =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.duration_s));
   recordUntil(options.duration_s > 0 ? start + duration : Clock::time_point::max(), stop, *port, recording);

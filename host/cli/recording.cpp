@@ -52,6 +52,11 @@ void Recording::take(const can::TimedFrame& timed) {
   isNew_ |= notes_.note(timed.frame);
 }
 
+void Recording::take(const can::OtherFrame& other) {
+  log_.add(port_.name(), other);
+  ++progress_.frames;
+}
+
 void Recording::flush() {
   log_.flush();
   if (std::exchange(isNew_, false)) writeNotes();

@@ -23,6 +23,7 @@ class Recording {
 
   /// Takes what the port received, in that order.
   void take(const can::TimedFrame& timed);
+  void take(const can::OtherFrame& other);
 
   /// Hands what was heard to the system: a killed program loses what came since. Throws Failure(kFailure)
   /// when the disk is full.

@@ -24,6 +24,15 @@ std::int64_t steady_us() {
 
 }  // namespace
 
+BusWatch::BusWatch(can::BusPort& port, const config::FingerConfig& config,
+                   std::optional<std::uint32_t> tables_crc32)
+    : port_(port), fleet_(port.name(), config, tables_crc32) {
+  port_.hearOthers([this](const can::OtherFrame& other) {
+    fleet_.takeOther(clock_.at(other.time_ns / 1000), other);
+    if (otherTap_) otherTap_(other);
+  });
+}
+
 void BusWatch::listen(std::chrono::milliseconds time) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point end = Clock::now() + time;

@@ -21,8 +21,10 @@ class BusWatch {
 
   /// `port` must outlive it. The others are for a Fleet.
   BusWatch(can::BusPort& port, const config::FingerConfig& config,
-           std::optional<std::uint32_t> tables_crc32 = std::nullopt)
-      : port_(port), fleet_(port.name(), config, tables_crc32) {}
+           std::optional<std::uint32_t> tables_crc32 = std::nullopt);
+  ~BusWatch() { port_.hearOthers({}); }
+  BusWatch(const BusWatch&) = delete;
+  BusWatch& operator=(const BusWatch&) = delete;
 
   /// Takes what comes for so long. Frames are fetched a few milliseconds' worth at a time: a wake-up for each
   /// would cost more than they do. Their times are those of their arrival all the same.
@@ -37,8 +39,11 @@ class BusWatch {
   /// What became of requests since the last call.
   std::vector<Outcome> outcomes() { return std::exchange(outcomes_, {}); }
 
-  /// Also gets every frame; an empty one ends that.
-  void setTap(Tap tap) { tap_ = std::move(tap); }
+  /// They also get every frame, one those that a CanFrame can hold and one the others; empty ones end that.
+  void setTap(Tap tap, can::BusPort::OtherTap others) {
+    tap_ = std::move(tap);
+    otherTap_ = std::move(others);
+  }
 
  private:
   void fetch();
@@ -50,6 +55,7 @@ class BusWatch {
   std::vector<PendingRequest> requests_;
   std::vector<Outcome> outcomes_;
   Tap tap_;
+  can::BusPort::OtherTap otherTap_;
 };
 
 }  // namespace strainfinger::live

@@ -56,7 +56,7 @@ struct FingerView {
 struct BusView {
   std::string name;                   ///< "can0"
   std::int64_t time_us = 0;           ///< of the view, on the clock of the frames: OnwardClock
-  std::uint64_t framesPerSecond = 0;  ///< of anybody, over the last second
+  std::uint64_t framesPerSecond = 0;  ///< of anybody and any format, over the last second
   double load = 0;           ///< share of the bit rate that these took, without stuff bits: BUS_LOAD.md
   std::uint32_t missed = 0;  ///< frames that this program was too slow for, as far as its port tells
   std::vector<FingerView> fingers{};  ///< by node

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "common/frame_layout.hpp"
@@ -23,6 +24,7 @@ class FakeBusPort : public BusPort {
     return takes;
   }
   std::optional<TimedFrame> receiveTimed() noexcept override {
+    for (; tap_ && !othersToHear.empty(); othersToHear.pop_front()) tap_(othersToHear.front());
     if (toHear.empty()) return std::nullopt;
     const TimedFrame frame = toHear.front();
     toHear.pop_front();
@@ -36,6 +38,7 @@ class FakeBusPort : public BusPort {
   int descriptor() const noexcept override { return -1; }
   BusHints hints() const override { return {.whenBlocked = "free it", .whenSilent = "start it"}; }
   const std::string& name() const noexcept override { return name_; }
+  void hearOthers(OtherTap tap) noexcept override { tap_ = std::move(tap); }
 
   /// As a finger would say it now.
   template <typename Frame>
@@ -47,11 +50,13 @@ class FakeBusPort : public BusPort {
   bool takes = true;
   std::uint32_t missed = 3;
   std::deque<TimedFrame> toHear;
+  std::deque<OtherFrame> othersToHear;  ///< before `toHear`
   std::vector<CanFrame> sent;
   std::function<void(const CanFrame&)> onSend;  ///< may hear() an answer
 
  private:
   std::string name_ = "fake0";
+  OtherTap tap_;
 };
 
 }  // namespace strainfinger::can

@@ -58,6 +58,14 @@ TEST(Recording, WritesWhatIsHeardAndNotesBesideIt) {
     STRCMP_CONTAINS(text, textOf(notes_).c_str());
 }
 
+TEST(Recording, HasFramesOfOtherFormatsToo) {
+  Recording recording(port_, config_, log_);
+  recording.take(can::OtherFrame{1'609'779'922'655'421'000, true, {.id = 0x123, .length = 4}});
+  recording.end();
+  LONGS_EQUAL(1, recording.progress().frames);
+  STRCMP_EQUAL("(1609779922.655421) fake0 123#R4\n", textOf(log_).c_str());
+}
+
 TEST(Recording, KnowsWhoHasOtherTables) {
   Recording recording(port_, config_, log_);
   const auto say = [&](std::uint8_t node, const HeartbeatFrame& heartbeat) {

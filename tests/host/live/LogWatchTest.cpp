@@ -49,10 +49,13 @@ TEST(LogWatch, GoesOnWhereTheClockWasSetBack) {
   CHECK_TRUE(watch_.views(*watch_.time_us()).at(0).fingers.at(0).isSilent());
 }
 
-TEST(LogWatch, FramesThatNoFingerSendsAreLeftOut) {
+TEST(LogWatch, FramesThatNoFingerSendsAreOfTheBusOnly) {
   take("(1.000000) can0 701#R");
   take("(1.000000) can0 00000701#2200004D0E1900A7");
-  CHECK_TRUE(watch_.views(0).empty());
+  take("(1.000000) can0 20000080#0000000000000000");  // an error frame, which was on no bus
+  const auto buses = watch_.views(1'100'000);
+  CHECK_TRUE(buses.at(0).fingers.empty());
+  LONGS_EQUAL(2, buses[0].framesPerSecond);
 }
 
 TEST(LogWatch, ALineThatCannotBeReadIsSaidToBe) {

@@ -145,7 +145,9 @@ class LiveScreen {
   }
 
   void saveRecording() {
-    if (recording_) orSay([this] { recording_->flush(); });
+    if (!recording_) return;
+    recording_->lookAtBus();
+    orSay([this] { recording_->flush(); });
   }
 
   void tare(std::uint8_t node) {

@@ -30,7 +30,9 @@ class FakeBusPort : public BusPort {
     toHear.pop_front();
     return frame;
   }
-  hal::CanStatus status() noexcept override { return {.state = hal::CanState::kActive, .missed = missed}; }
+  hal::CanStatus status() noexcept override {
+    return {.state = state, .missed = missed, .busOffs = timesAway};
+  }
   bool waitReadable(std::chrono::milliseconds timeout) noexcept override {
     if (toHear.empty()) std::this_thread::sleep_for(timeout);
     return !toHear.empty();
@@ -48,7 +50,9 @@ class FakeBusPort : public BusPort {
   }
 
   bool takes = true;
+  hal::CanState state = hal::CanState::kActive;
   std::uint32_t missed = 3;
+  std::uint32_t timesAway = 0;
   std::deque<TimedFrame> toHear;
   std::deque<OtherFrame> othersToHear;  ///< before `toHear`
   std::vector<CanFrame> sent;

@@ -31,7 +31,7 @@ class FakeBusPort : public BusPort {
     return frame;
   }
   hal::CanStatus status() noexcept override {
-    return {.state = state, .missed = missed, .busOffs = timesAway};
+    return {.state = busState, .missed = missed, .busOffs = timesAway};
   }
   bool waitReadable(std::chrono::milliseconds timeout) noexcept override {
     if (toHear.empty()) std::this_thread::sleep_for(timeout);
@@ -50,7 +50,7 @@ class FakeBusPort : public BusPort {
   }
 
   bool takes = true;
-  hal::CanState state = hal::CanState::kActive;
+  hal::CanState busState = hal::CanState::kActive;
   std::uint32_t missed = 3;
   std::uint32_t timesAway = 0;
   std::deque<TimedFrame> toHear;

@@ -105,13 +105,13 @@ TEST(Recording, NotesWhenTheBusWasAway) {
   CHECK_FALSE(recording.lookAtBus());
   recording.flush();
   STRCMP_CONTAINS("\ngaps = 0\n", textOf(notes_).c_str());
-  port_.state = hal::CanState::kDown, ++port_.timesAway;
+  port_.busState = hal::CanState::kDown, ++port_.timesAway;
   CHECK_TRUE(recording.lookAtBus());
   CHECK_FALSE(recording.isBusThere() || recording.lookAtBus());
   recording.flush();
   STRCMP_CONTAINS("\n\n[[recording.gap]]\nstart = 2", textOf(notes_).c_str());
   CHECK_TRUE(textOf(notes_).find("\nend = 2") == std::string::npos);
-  port_.state = hal::CanState::kActive;
+  port_.busState = hal::CanState::kActive;
   CHECK_TRUE(recording.lookAtBus() && recording.isBusThere());
   recording.flush();
   STRCMP_CONTAINS("Z\nend = 2", textOf(notes_).c_str());
@@ -131,7 +131,7 @@ TEST(Recording, ABusThatWasAwayBetweenTwoLooksWasAway) {
 TEST(Recording, ABusThatComesAndGoesMakesNoLongNotes) {
   Recording recording(port_, config_, log_);
   for (int i = 0; i < 2001; ++i) {
-    port_.state = i % 2 == 0 ? hal::CanState::kBusOff : hal::CanState::kActive;
+    port_.busState = i % 2 == 0 ? hal::CanState::kBusOff : hal::CanState::kActive;
     recording.lookAtBus();
   }
   recording.end();

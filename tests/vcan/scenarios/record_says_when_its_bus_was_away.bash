@@ -1,7 +1,7 @@
 # The interface goes down and comes back, is deleted and made anew: the recording goes on, and says when nothing came.
-strainfinger record --can vcan0 -o "$TMPDIR/x.log" 2>"$TMPDIR/said" &
+strainfinger record --can vcan0 -o "$TMPDIR/gaps.log" 2>"$TMPDIR/said" &
 recorder=$!
-until [ -e "$TMPDIR/x.toml" ]; do sleep 0.05; done
+until [ -e "$TMPDIR/gaps.toml" ]; do sleep 0.05; done
 
 # said TEXT TIMES: so often, soon
 said() {
@@ -24,6 +24,6 @@ cansend vcan0 123#11
 sleep 0.3
 kill -TERM $recorder
 wait $recorder || true
-expect "what was recorded" 123#11 "$(cut -d' ' -f3 "$TMPDIR/x.log")"
+expect "what was recorded" 123#11 "$(cut -d' ' -f3 "$TMPDIR/gaps.log")"
 said 'vcan0 was away 2 times meanwhile' 1
-expect "gaps that are over" 2 "$(grep -A2 '^..recording.gap' "$TMPDIR/x.toml" | grep -c '^end = 2')"
+expect "gaps that are over" 2 "$(grep -A2 '^..recording.gap' "$TMPDIR/gaps.toml" | grep -c '^end = 2')"

@@ -3,10 +3,12 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
 #include "hal/can_port.hpp"
+#include "host/can/other_frame.hpp"
 
 namespace strainfinger::can {
 
@@ -61,6 +63,10 @@ class BusPort {
   /// As it was opened: "can0", "udp".
   virtual const std::string& name() const noexcept = 0;
   virtual BusHints hints() const = 0;
+  using OtherTap = std::function<void(const OtherFrame&)>;
+  /// From now on receiveTimed() gives the frames of other formats that it comes past to `tap`, in the order
+  /// of the bus; without a tap, and by a port with a BusFilter, they are not heard. Some buses have none.
+  virtual void hearOthers(OtherTap /*tap*/) noexcept {}
   /// What came over the bus and was no frame, since start.
   virtual std::uint32_t malformed() const noexcept { return 0; }
 };

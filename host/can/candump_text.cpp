@@ -331,6 +331,17 @@ std::string formatLogLine(std::int64_t time_us, std::string_view interface, cons
   return line;
 }
 
+std::string formatLogLine(std::int64_t time_us, std::string_view interface, const LoggedFrame& frame,
+                          bool isRemote) {
+  std::string line = fmt::format("({:010}.{:06}) {} {:0{}X}#", time_us / 1'000'000, time_us % 1'000'000,
+                                 interface, frame.id, frame.extended ? 8 : 3);
+  if (isRemote) return line + (frame.length > 0 ? fmt::format("R{:X}", frame.length) : "R");
+  if (frame.fd) line += fmt::format("#{:X}", frame.fdFlags);
+  for (std::size_t i = 0; i < frame.length; ++i)
+    fmt::format_to(std::back_inserter(line), "{:02X}", frame.data[i]);
+  return line;
+}
+
 std::variant<LogLine, LogError> parseLogLine(std::string_view line) { return LineParser(line).parse(); }
 
 std::optional<TextFrame> parsePlainLine(std::string_view line) {

@@ -33,6 +33,10 @@ void LogWriter::add(std::int64_t time_ns, std::string_view interface, const CanF
   text_.append(formatLogLine(time_ns / 1000, interface, frame)).push_back('\n');
 }
 
+void LogWriter::add(std::string_view interface, const OtherFrame& other) {
+  text_.append(formatLogLine(other.time_ns / 1000, interface, other.frame, other.isRemote)).push_back('\n');
+}
+
 void LogWriter::flush() { appendLines(descriptor_, path_, std::exchange(text_, {})); }
 
 }  // namespace strainfinger::can

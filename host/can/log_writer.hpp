@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "common/can_frame.hpp"
+#include "host/can/other_frame.hpp"
 
 namespace strainfinger::can {
 
@@ -20,6 +21,7 @@ class LogWriter {
   LogWriter& operator=(const LogWriter&) = delete;
 
   void add(std::int64_t time_ns, std::string_view interface, const CanFrame& frame);
+  void add(std::string_view interface, const OtherFrame& other);
 
   /// Throws Failure(kFailure) when the disk is full or broken; then the file ends with the last whole line
   /// that it took, and the rest of what has been added is lost.

@@ -57,7 +57,7 @@ class LinuxSocketCalls final : public SocketCalls {
     return orErrno(::write(socket, &frame, sizeof frame));
   }
 
-  int read(int socket, can_frame& frame, ReceiveNotes& notes) noexcept override {
+  int read(int socket, canfd_frame& frame, ReceiveNotes& notes) noexcept override {
     return receiveWithNotes(socket, &frame, sizeof frame, notes);
   }
 

@@ -23,7 +23,8 @@ class SocketCalls {
   virtual int interfaceFlags(int socket, const std::string& interface) noexcept = 0;  ///< IFF_... bits
   virtual int bind(int socket, int interfaceIndex) noexcept = 0;
   virtual int write(int socket, const can_frame& frame) noexcept = 0;
-  virtual int read(int socket, can_frame& frame, ReceiveNotes& notes) noexcept = 0;
+  /// How long it is tells which it is: CAN_MTU, a can_frame, or CANFD_MTU.
+  virtual int read(int socket, canfd_frame& frame, ReceiveNotes& notes) noexcept = 0;
   /// 1: something to read, or an error to fetch. 0: nothing within the time.
   virtual int poll(int socket, int timeout_ms) noexcept = 0;
 };

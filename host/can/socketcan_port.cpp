@@ -20,19 +20,23 @@ namespace {
 
 using hal::CanState;
 
-/// What one call looks at before it returns, so that a flood can't hold it.
-constexpr int kMaxReads = 64;
+/// What one call looks at before it returns, so that a flood can't hold it. Read once in BusPort::kGather, it
+/// is more than a bus has.
+constexpr int kMaxReads = 256;
 
 /// Below the kernel's minimum, which it takes in its place: 4,608 bytes, six or seven frames of 768
 /// (Linux 6.1).
 constexpr int kSendBuffer_bytes = 0;
 
-constexpr int kOn = 1;
+constexpr int kOn = 1, kOff = 0;
 
 /// Standard data frames, of these identifiers.
 constexpr can_filter kernelFilter(BusFilter filter) {
   return {.can_id = filter.id, .can_mask = filter.mask | CAN_EFF_FLAG | CAN_RTR_FLAG};
 }
+
+/// Frames of all formats.
+constexpr can_filter kEverything{};
 
 constexpr can_err_mask_t kStateAndCounters =
     CAN_ERR_TX_TIMEOUT | CAN_ERR_CRTL | CAN_ERR_BUSOFF | CAN_ERR_RESTARTED | CAN_ERR_CNT;
@@ -112,7 +116,7 @@ CanState controllerState(std::uint8_t flags, CanState before) {
   return flags & CAN_ERR_CRTL_ACTIVE ? CanState::kActive : before;
 }
 
-CanState stateAfter(const can_frame& error, CanState before) {
+CanState stateAfter(const canfd_frame& error, CanState before) {
   if (error.can_id & CAN_ERR_BUSOFF) return CanState::kBusOff;
   if (error.can_id & CAN_ERR_RESTARTED) return CanState::kActive;
   return error.can_id & CAN_ERR_CRTL ? controllerState(error.data[1], before) : before;
@@ -126,14 +130,32 @@ can_frame toKernel(const CanFrame& frame) {
   return raw;
 }
 
-/// The frame, if it is one that the firmware can have: the kernel's filter lets no others through.
-std::optional<CanFrame> fromKernel(const can_frame& raw) {
+/// The frame, if it is one that the firmware can have.
+std::optional<CanFrame> fromKernel(int size, const canfd_frame& raw) {
   CanFrame frame;
-  if ((raw.can_id & ~CAN_SFF_MASK) != 0 || raw.len > frame.data.size()) return std::nullopt;
+  if (size != CAN_MTU || (raw.can_id & ~CAN_SFF_MASK) != 0 || raw.len > frame.data.size())
+    return std::nullopt;
   frame.id = static_cast<std::uint16_t>(raw.can_id);
   frame.length = raw.len;
   std::copy_n(raw.data, raw.len, frame.data.begin());
   return frame;
+}
+
+/// The frame, if it is of another format.
+std::optional<OtherFrame> otherFromKernel(int size, const canfd_frame& raw, std::int64_t time_ns) {
+  OtherFrame other{.time_ns = time_ns, .isRemote = (raw.can_id & CAN_RTR_FLAG) != 0, .frame = {}};
+  LoggedFrame& frame = other.frame;
+  frame.fd = size == CANFD_MTU;
+  frame.extended = (raw.can_id & CAN_EFF_FLAG) != 0;
+  frame.id = raw.can_id & CAN_EFF_MASK;
+  frame.length = raw.len;
+  frame.fdFlags = frame.fd ? raw.flags & 0xF : 0;
+  const bool isWhole = frame.fd ? raw.len <= CANFD_MAX_DLEN : size == CAN_MTU && raw.len <= CAN_MAX_DLEN;
+  const bool isOther = frame.fd || frame.extended || other.isRemote;
+  if (!isWhole || !isOther || (raw.can_id & CAN_ERR_FLAG) || (!frame.extended && frame.id > CAN_SFF_MASK))
+    return std::nullopt;
+  if (!other.isRemote) std::copy_n(raw.data, raw.len, frame.data.begin());
+  return other;
 }
 
 }  // namespace
@@ -176,7 +198,7 @@ bool SocketCanPort::send(const CanFrame& frame) noexcept {
 std::optional<TimedFrame> SocketCanPort::receiveTimed() noexcept {
   if (frames_ < 0) refresh();
   for (int reads = 0; reads < kMaxReads; ++reads) {
-    can_frame raw{};
+    canfd_frame raw{};
     ReceiveNotes notes{lostInQueue_};
     const int size = calls_.read(frames_, raw, notes);
     if (size == -EINTR) continue;
@@ -185,11 +207,30 @@ std::optional<TimedFrame> SocketCanPort::receiveTimed() noexcept {
       return std::nullopt;
     }
     lostInQueue_ = notes.lost;
-    const auto frame = fromKernel(raw);
-    if (size == sizeof raw && frame) return TimedFrame{notes.time_ns, *frame};
-    ++lostElsewhere_;
+    if (const auto frame = fromKernel(size, raw)) return TimedFrame{notes.time_ns, *frame};
+    if (!giveOther(size, raw, notes.time_ns)) ++lostElsewhere_;
   }
   return std::nullopt;
+}
+
+bool SocketCanPort::giveOther(int size, const canfd_frame& raw, std::int64_t time_ns) noexcept {
+  if (!tap_) return false;
+  const auto other = otherFromKernel(size, raw, time_ns);
+  if (other) tap_(*other);
+  return other.has_value();
+}
+
+void SocketCanPort::hearOthers(OtherTap tap) noexcept {
+  tap_ = std::move(tap);
+  if (frames_ >= 0) setFilter();
+}
+
+/// Beyond what a new socket hears. Without FD the kernel has no such frames: nothing is lost by its refusal.
+void SocketCanPort::setFilter() noexcept {
+  const bool hearsOthers = tap_ && filter_.mask == 0;
+  const can_filter wanted = hearsOthers ? kEverything : kernelFilter(filter_);
+  calls_.setOption(frames_, SOL_CAN_RAW, CAN_RAW_FILTER, &wanted, sizeof wanted);
+  calls_.setOption(frames_, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, hearsOthers ? &kOn : &kOff, sizeof kOn);
 }
 
 hal::CanStatus SocketCanPort::status() noexcept {
@@ -218,6 +259,7 @@ int SocketCanPort::open() noexcept {
     calls_.close(std::exchange(frames_, -1));
     return std::exchange(errors_, -1);
   }
+  if (tap_) setFilter();
   noteFlags();
   return 0;
 }
@@ -239,16 +281,16 @@ void SocketCanPort::refresh() noexcept {
 void SocketCanPort::readErrorFrames() noexcept {
   ReceiveNotes notes;
   for (int reads = 0; reads < kMaxReads; ++reads) {
-    can_frame frame{};
+    canfd_frame frame{};
     const int size = calls_.read(errors_, frame, notes);
-    if (size == sizeof frame && frame.len == CAN_ERR_DLC) noteErrorFrame(frame);
+    if (size == CAN_MTU && frame.len == CAN_ERR_DLC) noteErrorFrame(frame);
     if (size == -ENETDOWN) noteDown();
     if (size == -EAGAIN) return;
     if (size < 0 && size != -ENETDOWN && size != -EINTR) return close();
   }
 }
 
-void SocketCanPort::noteErrorFrame(const can_frame& frame) noexcept {
+void SocketCanPort::noteErrorFrame(const canfd_frame& frame) noexcept {
   if (frame.can_id & CAN_ERR_TX_TIMEOUT) ++status_.dropped;
   if ((frame.can_id & CAN_ERR_CRTL) && (frame.data[1] & CAN_ERR_CRTL_RX_OVERFLOW)) ++lostElsewhere_;
   if (status_.state == CanState::kDown) return;  // said before the interface went down

@@ -19,7 +19,8 @@ namespace strainfinger::can {
 /// name. Frames that the kernel discards from its queue at bus-off or when the interface goes down are not in
 /// `dropped`: it doesn't tell. The kernel's queue keeps the order of all frames, and holds only a handful of
 /// this port's, so that what a blocked bus lets out later is not old. Costs two system calls a frame sent,
-/// one a frame received.
+/// one a frame received. Frames of
+/// 29-bit identifiers, remote and FD frames reach it only while somebody has hearOthers().
 class SocketCanPort final : public BusPort {
  public:
   /// Throws Failure(kNoInterface) with the command that would help when there is no such CAN interface, it is
@@ -35,6 +36,7 @@ class SocketCanPort final : public BusPort {
   bool waitReadable(std::chrono::milliseconds timeout) noexcept override;
   int descriptor() const noexcept override { return frames_; }
   BusHints hints() const override;
+  void hearOthers(OtherTap tap) noexcept override;
   const std::string& name() const noexcept override { return interface_; }
 
   std::uint32_t refused() const { return refused_; }  ///< frames send() did not take, since start
@@ -42,15 +44,18 @@ class SocketCanPort final : public BusPort {
  private:
   int open() noexcept;
   void close() noexcept;
+  void setFilter() noexcept;
+  bool giveOther(int size, const canfd_frame& raw, std::int64_t time_ns) noexcept;
   void refresh() noexcept;
   void readErrorFrames() noexcept;
-  void noteErrorFrame(const can_frame& frame) noexcept;
+  void noteErrorFrame(const canfd_frame& frame) noexcept;
   void noteDown() noexcept;
   void noteFlags() noexcept;
 
   std::string interface_;
   BusFilter filter_;
   SocketCalls& calls_;
+  OtherTap tap_;
   int frames_ = -1;  ///< socket of the data frames; -1 while the interface is gone
   int errors_ = -1;  ///< socket of the error frames
   std::uint32_t refused_ = 0;

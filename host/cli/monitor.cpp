@@ -126,7 +126,8 @@ class LiveScreen {
     const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
     const std::string path = fmt::format("strainfinger-{:%Y%m%d-%H%M%S}.log", fmt::gmtime(now));
     recording_.emplace(port_, config_, path);
-    watch_.setTap([this](const can::TimedFrame& timed) { recording_->take(timed); });
+    watch_.setTap([this](const can::TimedFrame& timed) { recording_->take(timed); },
+                  [this](const can::OtherFrame& other) { recording_->take(other); });
     content_.message.clear();
   }
 
@@ -139,12 +140,14 @@ class LiveScreen {
   }
 
   void dropRecording() {
-    watch_.setTap({});
+    watch_.setTap({}, {});
     recording_.reset();
   }
 
   void saveRecording() {
-    if (recording_) orSay([this] { recording_->flush(); });
+    if (!recording_) return;
+    recording_->lookAtBus();
+    orSay([this] { recording_->flush(); });
   }
 
   void tare(std::uint8_t node) {

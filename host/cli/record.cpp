@@ -6,6 +6,7 @@
 
 #include "host/base/failure.hpp"
 #include "host/base/notice.hpp"
+#include "host/base/utc_text.hpp"
 #include "host/can/open_bus.hpp"
 #include "host/cli/bus_option.hpp"
 #include "host/cli/command.hpp"
@@ -21,7 +22,8 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kRecordHelp =
-    "Writes every frame on a bus into a log, as `candump -L` does, until Ctrl-C or --duration.\n"
+    "Writes every frame on a bus into a log, as `candump -L` does (29-bit identifiers, remote and FD frames, "
+    "too), until Ctrl-C or --duration.\n"
     "Beside it, in the same name with .toml: the config (-c), versions, and the fingers that were heard; it "
     "can be given to -c.\n"
     "If the program is killed, what was on the bus up to half a second before is in the file, in whole "
@@ -46,11 +48,19 @@ struct RecordOptions {
   double duration_s = 0;  ///< 0: no end
 };
 
+void tellOfBus(can::BusPort& port, bool isThere) {
+  const std::string now = utcText(now_ns());
+  if (isThere) return tell("record: {}: {} is back\n", now, port.name());
+  warn("record", fmt::format("{}: {} is away: {}; the recording goes on when it is back", now, port.name(),
+                             port.hints().whenBlocked));
+}
+
 void recordUntil(Clock::time_point end, const system::StopSignal& stop, can::BusPort& port,
                  Recording& recording) {
   for (Clock::time_point flushAt{}; !stop.asked() && Clock::now() < end;) {
     if (port.waitReadable(system::StopSignal::kLookEvery)) std::this_thread::sleep_for(can::BusPort::kGather);
     while (const auto frame = port.receiveTimed()) recording.take(*frame);
+    if (recording.lookAtBus()) tellOfBus(port, recording.isBusThere());
     if (Clock::now() < flushAt) continue;
     recording.flush();
     flushAt = Clock::now() + kFlushPeriod;
@@ -74,13 +84,20 @@ void runRecord(const RecordOptions& options) {
   const config::FingerConfig config = options.common.config();
   const auto port = can::openBus(options.bus, config.can.bitrate);
   Recording recording(*port, config, options.path);
+  port->hearOthers([&](const can::OtherFrame& other) { recording.take(other); });
   const auto duration =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.duration_s));
   recordUntil(options.duration_s > 0 ? start + duration : Clock::time_point::max(), stop, *port, recording);
   const RecordingProgress& progress = recording.progress();
   tell("record: {} frames in {:.1f} s, {} missed: {}, {}\n", progress.frames,
-       static_cast<double>(progress.end_ns - progress.start_ns) * 1e-9, progress.missed, recording.path(),
+       std::chrono::duration<double>(Clock::now() - start).count(), progress.missed, recording.path(),
        recording.notesPath());
+  if (progress.gaps > 0)
+    warn("record", fmt::format("{} was away {} times meanwhile: {} says when", port->name(), progress.gaps,
+                               recording.notesPath()));
+  if (progress.frames == 0)
+    warn("record", fmt::format("nothing was heard on {}: `strainfinger doctor --can {}` looks for the cause",
+                               port->name(), port->name()));
   if (options.common.hasConfig()) warnOfOtherTables(recording, config);
   if (stop.asked()) throw Failure(ExitCode::kInterrupted, "record: interrupted, all is written");
 }

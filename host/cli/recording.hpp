@@ -23,6 +23,12 @@ class Recording {
 
   /// Takes what the port received, in that order.
   void take(const can::TimedFrame& timed);
+  void take(const can::OtherFrame& other);
+
+  /// Looks whether the bus is there, for the notes: to be called several times a second. True: it has gone or
+  /// come back since the last call.
+  bool lookAtBus();
+  bool isBusThere() const { return isBusThere_; }
 
   /// Hands what was heard to the system: a killed program loses what came since. Throws Failure(kFailure)
   /// when the disk is full.
@@ -49,7 +55,10 @@ class Recording {
   RecordingNotes notes_;
   RecordingProgress progress_;
   std::uint32_t missedBefore_;  ///< frames that the port had missed when this began
-  bool isNew_ = false;          ///< the notes have to be written again
+  std::uint32_t timesAway_;     ///< of the port, when it was last looked at
+  std::int64_t looked_ns_;      ///< when that was
+  bool isBusThere_ = true;
+  bool isNew_ = false;  ///< the notes have to be written again
 };
 
 }  // namespace strainfinger::cli

@@ -61,8 +61,13 @@ std::string RecordingNotes::toml(const RecordingProgress& progress) const {
   if (progress.end_ns != 0)
     text += fmt::format("end = {}\nframes = {}\nmissed = {}\n", utcText(progress.end_ns), progress.frames,
                         progress.missed);
+  text += fmt::format("gaps = {}\n", progress.gaps);
   text += fmt::format("# of the text above [recording]\nconfig_crc32 = \"{:08X}\"\n",
                       crc32(std::as_bytes(std::span(config_))));
+  for (const RecordingGap& gap : progress.firstGaps) {
+    text += fmt::format("\n[[recording.gap]]\nstart = {}\n", utcText(gap.start_ns));
+    if (gap.end_ns != 0) text += fmt::format("end = {}\n", utcText(gap.end_ns));
+  }
   for (const auto& [node, finger] : fingers_) {
     text += fmt::format("\n[[recording.finger]]\nnode = {}\n", node);
     if (finger.info)

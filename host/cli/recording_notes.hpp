@@ -13,12 +13,20 @@
 
 namespace strainfinger::cli {
 
+/// A time in which the bus was away: its interface down or gone, or its controller bus-off.
+struct RecordingGap {
+  std::int64_t start_ns = 0;  ///< since 1970
+  std::int64_t end_ns = 0;    ///< 0: not yet
+};
+
 /// How far a recording has come.
 struct RecordingProgress {
   std::int64_t start_ns = 0;  ///< since 1970
   std::int64_t end_ns = 0;    ///< 0: it goes on, or was cut off
   std::uint64_t frames = 0;
   std::uint64_t missed = 0;  ///< frames that this machine was too slow for
+  std::uint64_t gaps = 0;
+  std::vector<RecordingGap> firstGaps{};  ///< of `gaps`
 };
 
 class RecordingNotes {

@@ -13,6 +13,7 @@
 #include "host/base/failure.hpp"
 #include "host/base/notice.hpp"
 #include "host/base/strain_rows.hpp"
+#include "host/base/text_output.hpp"
 #include "host/can/frame_catalogue.hpp"
 #include "host/can/open_bus.hpp"
 #include "host/can/strain_receiver.hpp"
@@ -61,6 +62,7 @@ class StrainPrinter {
     std::vector<Cell> cells{timeCell(time_ns)};
     cells.insert(cells.end(), set.strains.begin(), set.strains.end());
     table_.row(cells);
+    writeAndFlush(stdout, "");  // whoever reads along has it now, and a killed program leaves whole rows
     ++sets_;
   }
 

@@ -10,6 +10,7 @@
 
 #include "host/can/bus_port.hpp"
 #include "host/live/fleet.hpp"
+#include "host/live/onward_clock.hpp"
 #include "host/live/pending_request.hpp"
 
 namespace strainfinger::live {
@@ -20,14 +21,16 @@ class BusWatch {
 
   /// `port` must outlive it. The others are for a Fleet.
   BusWatch(can::BusPort& port, const config::FingerConfig& config,
-           std::optional<std::uint32_t> tables_crc32 = std::nullopt)
-      : port_(port), fleet_(port.name(), config, tables_crc32) {}
+           std::optional<std::uint32_t> tables_crc32 = std::nullopt);
+  ~BusWatch() { port_.hearOthers({}); }
+  BusWatch(const BusWatch&) = delete;
+  BusWatch& operator=(const BusWatch&) = delete;
 
   /// Takes what comes for so long. Frames are fetched a few milliseconds' worth at a time: a wake-up for each
   /// would cost more than they do. Their times are those of their arrival all the same.
   void listen(std::chrono::milliseconds time);
 
-  /// How things are now.
+  /// How things are now. The machine's clock may be set meanwhile: OnwardClock.
   BusView view();
 
   /// Asks a finger for something. A node has one request at a time: another of one that waits is dropped. One
@@ -36,18 +39,23 @@ class BusWatch {
   /// What became of requests since the last call.
   std::vector<Outcome> outcomes() { return std::exchange(outcomes_, {}); }
 
-  /// Also gets every frame; an empty one ends that.
-  void setTap(Tap tap) { tap_ = std::move(tap); }
+  /// They also get every frame, one those that a CanFrame can hold and one the others; empty ones end that.
+  void setTap(Tap tap, can::BusPort::OtherTap others) {
+    tap_ = std::move(tap);
+    otherTap_ = std::move(others);
+  }
 
  private:
   void fetch();
   void sendRequests();
 
   can::BusPort& port_;
+  OnwardClock clock_;  ///< of what goes to `fleet_`
   Fleet fleet_;
   std::vector<PendingRequest> requests_;
   std::vector<Outcome> outcomes_;
   Tap tap_;
+  can::BusPort::OtherTap otherTap_;
 };
 
 }  // namespace strainfinger::live

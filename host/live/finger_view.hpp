@@ -29,7 +29,7 @@ struct FingerView {
   /// The last; none before the first, none of a finger that is silent or speaks another protocol, and none
   /// that says "touched" and was not confirmed in time: an old value is never shown as a new one.
   std::optional<can::TouchReport> touch{};
-  std::int64_t touched_us = 0;  ///< when that was complete, on the clock of the frames
+  std::int64_t touched_us = 0;  ///< when that was complete, on the clock of the view
   std::int64_t since_us = 0;    ///< when the first was that says "touched" as that one does, or doesn't
   /// What its gauges read by its newest RAW, less their zeros; empty where none came in the last 1.5 s.
   std::vector<double> strains{};
@@ -55,8 +55,8 @@ struct FingerView {
 
 struct BusView {
   std::string name;                   ///< "can0"
-  std::int64_t time_us = 0;           ///< of the view, on the clock of the frames
-  std::uint64_t framesPerSecond = 0;  ///< of anybody, over the last second
+  std::int64_t time_us = 0;           ///< of the view, on the clock of the frames: OnwardClock
+  std::uint64_t framesPerSecond = 0;  ///< of anybody and any format, over the last second
   double load = 0;           ///< share of the bit rate that these took, without stuff bits: BUS_LOAD.md
   std::uint32_t missed = 0;  ///< frames that this program was too slow for, as far as its port tells
   std::vector<FingerView> fingers{};  ///< by node

@@ -59,6 +59,12 @@ void Fleet::take(std::int64_t time_us, const CanFrame& frame) {
   if (const auto gauges = decode<GaugesFrame>(frame)) node.gauges = gauges;
 }
 
+void Fleet::takeOther(std::int64_t time_us, const can::OtherFrame& other) {
+  now_us_ = std::max(now_us_, time_us);
+  frames_.add(now_us_);
+  bits_.add(now_us_, can::unstuffedBits(other));
+}
+
 /// What a twin left behind that has gone is not taken together with what may look like one later.
 void Fleet::countLosses(std::uint8_t number, Node& node, const CanFrame& frame) {
   if (node.twin_us != 0 && now_us_ - node.twin_us > kTwinLasts_us) {

@@ -10,6 +10,7 @@
 
 #include "common/can_frame.hpp"
 #include "host/can/loss_counter.hpp"
+#include "host/can/other_frame.hpp"
 #include "host/can/strain_receiver.hpp"
 #include "host/can/touch_receiver.hpp"
 #include "host/config/finger_config.hpp"
@@ -31,6 +32,9 @@ class Fleet {
 
   /// Takes any frame, in the order of the bus. Times have any origin; one before the last is taken for that.
   void take(std::int64_t time_us, const CanFrame& frame);
+
+  /// Takes a frame of another format, which is no finger's, for frames a second and load.
+  void takeOther(std::int64_t time_us, const can::OtherFrame& other);
 
   /// How things are now; spans of force begin anew.
   BusView view(std::int64_t now_us);

@@ -1,6 +1,5 @@
 #include "host/live/log_watch.hpp"
 
-#include <algorithm>
 #include <variant>
 
 namespace strainfinger::live {
@@ -9,12 +8,13 @@ std::optional<can::LogError> LogWatch::take(std::string_view line) {
   const auto parsed = can::parseLogLine(line);
   if (const auto* error = std::get_if<can::LogError>(&parsed)) return *error;
   const auto& logged = std::get<can::LogLine>(parsed);
-  const auto frame = can::classicFrame(logged);
-  if (!frame) return std::nullopt;
-  const std::int64_t before_us = time_us_.value_or(0);
-  time_us_ = std::max(before_us, logged.time_ns ? *logged.time_ns / 1000 : before_us);
+  if (logged.kind != can::LineKind::kData && logged.kind != can::LineKind::kRemote) return std::nullopt;
+  time_us_ = logged.time_ns ? clock_.at(*logged.time_ns / 1000) : time_us_.value_or(0);
   Fleet& fleet = buses_.try_emplace(logged.interface, logged.interface, config_, tables_crc32_).first->second;
-  fleet.take(*time_us_, *frame);
+  if (const auto frame = can::classicFrame(logged))
+    fleet.take(*time_us_, *frame);
+  else
+    fleet.takeOther(*time_us_, {.isRemote = logged.kind == can::LineKind::kRemote, .frame = logged.frame});
   return std::nullopt;
 }
 

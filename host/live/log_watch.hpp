@@ -10,6 +10,7 @@
 
 #include "host/can/candump_text.hpp"
 #include "host/live/fleet.hpp"
+#include "host/live/onward_clock.hpp"
 
 namespace strainfinger::live {
 
@@ -21,9 +22,10 @@ class LogWatch {
       : config_(config), tables_crc32_(tables_crc32) {}
 
   /// Takes a line of any of candump's text forms. A frame without a time comes when the one before it came.
+  /// Where times go back, as of a clock that was set, they go on from the last: OnwardClock.
   std::optional<can::LogError> take(std::string_view line);
 
-  /// Of the last frame [us]; nothing before the first.
+  /// Of the last frame [us], by that clock; nothing before the first.
   std::optional<std::int64_t> time_us() const { return time_us_; }
 
   /// The buses by name, as they are then.
@@ -32,6 +34,7 @@ class LogWatch {
  private:
   config::FingerConfig config_;
   std::optional<std::uint32_t> tables_crc32_;
+  OnwardClock clock_;
   std::optional<std::int64_t> time_us_;
   std::map<std::string, Fleet> buses_;
 };

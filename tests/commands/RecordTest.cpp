@@ -50,6 +50,7 @@ TEST(Record, EndsAfterItsDuration) {
   const Run run = inFolder("record --duration 0.3; wait $recorder");
   LONGS_EQUAL(0, run.status);
   checkSays("record: 0 frames in 0.3 s", run);
+  checkSays("record: warning: nothing was heard on udp:", run);
 }
 
 TEST(Record, NotesTheConfigAndTheFingers) {
@@ -58,7 +59,7 @@ TEST(Record, NotesTheConfigAndTheFingers) {
       "\"$STRAINFINGER\" dbc -c x.toml | grep -c FINGER_9",
       "(1.000000) can0 705#2200004D0E1900A7\n(1.000000) can0 485#440300010000005C\n");
   for (const char* text : {"\n[can]\n", "node = 9\n", "\n[recording]\nprogram = \"0.",
-                           "\nbus = \"udp:", "\nframes = 2\nmissed = 0\n", "\nconfig_crc32 = \"",
+                           "\nbus = \"udp:", "\nframes = 2\nmissed = 0\ngaps = 0\n", "\nconfig_crc32 = \"",
                            "\n[[recording.finger]]\nnode = 5\nversion = \"0.1\"\nboard = 92\nprotocol = 2\n",
                            "\ntable_crc = \"A7\"\n"})
     STRCMP_CONTAINS(text, run.out.c_str());

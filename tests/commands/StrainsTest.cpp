@@ -53,6 +53,16 @@ TEST(StrainsCommand, EndsWithItsLastRow) {
   STRCMP_CONTAINS("strains: 7 sets, 0 incomplete", run.err.c_str());
 }
 
+TEST(StrainsCommand, ARowIsThereWhenItHasCome) {
+  const Run run = withFinger("", R"(
+"$STRAINFINGER" strains --can $BUS --rate 20 >strains.$$.csv & strains=$!
+listening $strains; sleep 1; kill -9 $strains; wait $strains
+awk -F, 'NF != 17 { print "half a row" } END { print (NR > 5 ? "rows" : "no rows") }' strains.$$.csv
+tail -c 1 strains.$$.csv | wc -l
+rm strains.$$.csv)");
+  STRCMP_EQUAL("rows\n1\n", run.out.c_str());
+}
+
 namespace {
 
 /// In a script: says whether HEARTBEATs, and whether RAW, come.

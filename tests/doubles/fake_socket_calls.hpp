@@ -19,8 +19,8 @@ class FakeSocketCalls final : public can::SocketCalls {
   /// What one read gives: a frame, less of it, or an error; and the kernel's count of lost frames, if it
   /// tells.
   struct Read {
-    int result = sizeof(can_frame);
-    can_frame frame{};
+    int result = CAN_MTU;
+    canfd_frame frame{};
     std::optional<std::uint32_t> lost{};
     std::int64_t time_ns = 0;
   };
@@ -76,7 +76,7 @@ class FakeSocketCalls final : public can::SocketCalls {
     return result;
   }
 
-  int read(int socket, can_frame& frame, can::ReceiveNotes& notes) noexcept override {
+  int read(int socket, canfd_frame& frame, can::ReceiveNotes& notes) noexcept override {
     if (!hearsErrors_.contains(socket)) return -EBADF;
     auto& waiting = hearsErrors_[socket] ? errors : frames;
     if (waiting.empty()) return -EAGAIN;

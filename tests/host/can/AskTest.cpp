@@ -21,7 +21,7 @@ TEST_GROUP(Ask) {
   SocketCanPort port{"can0", 500'000, {}, calls};
 
   void arrives(const CanFrame& frame) {
-    can_frame raw{};
+    canfd_frame raw{};
     raw.can_id = frame.id;
     raw.len = frame.length;
     std::copy_n(frame.data.begin(), frame.length, raw.data);

@@ -51,6 +51,16 @@ TEST(CandumpText, WritesTheLogForm) {
   STRCMP_EQUAL("(0000000000.000000) c 001#0A", formatLogLine(0, "c", {0x001, 1, {0x0A}}).c_str());
 }
 
+TEST(CandumpText, WritesFramesOfOtherFormatsAsItReadsThem) {
+  for (const char* text :
+       {"(0000000001.000000) c 1F334455#1122334455667788", "(0000000001.000000) c 00000123#",
+        "(0000000001.000000) c 123#R", "(0000000001.000000) c 00000123#R4",
+        "(0000000001.000000) c 123##1112233", "(0000000001.000000) c 1F334455##0"}) {
+    const LogLine line = read(text);
+    STRCMP_EQUAL(text, formatLogLine(1'000'000, "c", line.frame, line.kind == LineKind::kRemote).c_str());
+  }
+}
+
 TEST(CandumpText, ReadsTheLogForm) {
   const LogLine line = readOurs("(1609779922.655421) can0 185#E80322011EFF01A3");
   CHECK(line.form == LineForm::kLog);

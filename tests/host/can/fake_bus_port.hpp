@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "common/frame_layout.hpp"
@@ -23,12 +24,15 @@ class FakeBusPort : public BusPort {
     return takes;
   }
   std::optional<TimedFrame> receiveTimed() noexcept override {
+    for (; tap_ && !othersToHear.empty(); othersToHear.pop_front()) tap_(othersToHear.front());
     if (toHear.empty()) return std::nullopt;
     const TimedFrame frame = toHear.front();
     toHear.pop_front();
     return frame;
   }
-  hal::CanStatus status() noexcept override { return {.state = hal::CanState::kActive, .missed = missed}; }
+  hal::CanStatus status() noexcept override {
+    return {.state = busState, .missed = missed, .busOffs = timesAway};
+  }
   bool waitReadable(std::chrono::milliseconds timeout) noexcept override {
     if (toHear.empty()) std::this_thread::sleep_for(timeout);
     return !toHear.empty();
@@ -36,6 +40,7 @@ class FakeBusPort : public BusPort {
   int descriptor() const noexcept override { return -1; }
   BusHints hints() const override { return {.whenBlocked = "free it", .whenSilent = "start it"}; }
   const std::string& name() const noexcept override { return name_; }
+  void hearOthers(OtherTap tap) noexcept override { tap_ = std::move(tap); }
 
   /// As a finger would say it now.
   template <typename Frame>
@@ -45,13 +50,17 @@ class FakeBusPort : public BusPort {
   }
 
   bool takes = true;
+  hal::CanState busState = hal::CanState::kActive;
   std::uint32_t missed = 3;
+  std::uint32_t timesAway = 0;
   std::deque<TimedFrame> toHear;
+  std::deque<OtherFrame> othersToHear;  ///< before `toHear`
   std::vector<CanFrame> sent;
   std::function<void(const CanFrame&)> onSend;  ///< may hear() an answer
 
  private:
   std::string name_ = "fake0";
+  OtherTap tap_;
 };
 
 }  // namespace strainfinger::can

@@ -58,6 +58,14 @@ TEST(Recording, WritesWhatIsHeardAndNotesBesideIt) {
     STRCMP_CONTAINS(text, textOf(notes_).c_str());
 }
 
+TEST(Recording, HasFramesOfOtherFormatsToo) {
+  Recording recording(port_, config_, log_);
+  recording.take(can::OtherFrame{1'609'779'922'655'421'000, true, {.id = 0x123, .length = 4}});
+  recording.end();
+  LONGS_EQUAL(1, recording.progress().frames);
+  STRCMP_EQUAL("(1609779922.655421) fake0 123#R4\n", textOf(log_).c_str());
+}
+
 TEST(Recording, KnowsWhoHasOtherTables) {
   Recording recording(port_, config_, log_);
   const auto say = [&](std::uint8_t node, const HeartbeatFrame& heartbeat) {
@@ -90,6 +98,45 @@ TEST(Recording, CountsWhatWasMissedWhileItWent) {
   port_.missed = 5;
   recording.end();
   LONGS_EQUAL(2, recording.progress().missed);
+}
+
+TEST(Recording, NotesWhenTheBusWasAway) {
+  Recording recording(port_, config_, log_);
+  CHECK_FALSE(recording.lookAtBus());
+  recording.flush();
+  STRCMP_CONTAINS("\ngaps = 0\n", textOf(notes_).c_str());
+  port_.busState = hal::CanState::kDown, ++port_.timesAway;
+  CHECK_TRUE(recording.lookAtBus());
+  CHECK_FALSE(recording.isBusThere() || recording.lookAtBus());
+  recording.flush();
+  STRCMP_CONTAINS("\n\n[[recording.gap]]\nstart = 2", textOf(notes_).c_str());
+  CHECK_TRUE(textOf(notes_).find("\nend = 2") == std::string::npos);
+  port_.busState = hal::CanState::kActive;
+  CHECK_TRUE(recording.lookAtBus() && recording.isBusThere());
+  recording.flush();
+  STRCMP_CONTAINS("Z\nend = 2", textOf(notes_).c_str());
+  LONGS_EQUAL(1, recording.progress().gaps);
+}
+
+TEST(Recording, ABusThatWasAwayBetweenTwoLooksWasAway) {
+  Recording recording(port_, config_, log_);
+  ++port_.timesAway;
+  CHECK_TRUE(recording.lookAtBus());
+  CHECK_TRUE(recording.isBusThere());
+  CHECK_FALSE(recording.lookAtBus());
+  LONGS_EQUAL(1, recording.progress().gaps);
+  CHECK_TRUE(recording.progress().firstGaps.at(0).end_ns != 0);
+}
+
+TEST(Recording, ABusThatComesAndGoesMakesNoLongNotes) {
+  Recording recording(port_, config_, log_);
+  for (int i = 0; i < 2001; ++i) {
+    port_.busState = i % 2 == 0 ? hal::CanState::kBusOff : hal::CanState::kActive;
+    recording.lookAtBus();
+  }
+  recording.end();
+  STRCMP_CONTAINS("\ngaps = 1001\n", textOf(notes_).c_str());
+  CHECK_TRUE(textOf(notes_).size() < 20'000);
 }
 
 TEST(Recording, WithoutItsNotesNoLogIsLeftToBeInTheWay) {

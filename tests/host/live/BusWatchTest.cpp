@@ -25,6 +25,26 @@ TEST(BusWatch, ShowsWhatItHears) {
   CHECK_TRUE(view.fingers.at(0).silence_us < 10'000'000);
 }
 
+TEST(BusWatch, AFingerThatFallsSilentIsSilentThoughTheClockWasSetBack) {
+  port_.hear(HeartbeatFrame{});
+  port_.toHear.back().time_ns += 60'000'000'000;  // set back by as much since
+  watch_.listen(1ms);
+  const BusView before = watch_.view();
+  CHECK_FALSE(before.fingers.at(0).isSilent());
+  watch_.listen(550ms);
+  const BusView after = watch_.view();
+  CHECK_TRUE(after.fingers.at(0).isSilent());
+  CHECK_TRUE(after.time_us >= before.time_us + 550'000);
+}
+
+TEST(BusWatch, FramesOfOtherFormatsAreOfTheBus) {
+  const auto sinceEpoch = std::chrono::system_clock::now().time_since_epoch();
+  for (int i = 0; i < 5; ++i)
+    port_.othersToHear.push_back({.time_ns = std::chrono::nanoseconds(sinceEpoch).count(), .frame = {}});
+  watch_.listen(150ms);
+  LONGS_EQUAL(5, watch_.view().framesPerSecond);
+}
+
 TEST(BusWatch, ListensForSoLongThoughNothingComes) {
   const auto begin = std::chrono::steady_clock::now();
   watch_.listen(30ms);
@@ -88,11 +108,15 @@ TEST(BusWatch, NothingIsAskedOfANumberThatTwoFingersHave) {
 
 TEST(BusWatch, ATapGetsEveryFrameUntilItIsTakenOff) {
   int frames = 0;
-  watch_.setTap([&](const can::TimedFrame&) { ++frames; });
+  int others = 0;
+  watch_.setTap([&](const can::TimedFrame&) { ++frames; }, [&](const can::OtherFrame&) { ++others; });
   port_.hear(HeartbeatFrame{}), port_.hear(InfoFrame{});
+  port_.othersToHear.resize(1);
   watch_.listen(1ms);
-  watch_.setTap({});
+  watch_.setTap({}, {});
   port_.hear(HeartbeatFrame{});
+  port_.othersToHear.resize(1);
   watch_.listen(1ms);
   LONGS_EQUAL(2, frames);
+  LONGS_EQUAL(1, others);
 }

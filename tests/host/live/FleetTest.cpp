@@ -215,6 +215,14 @@ TEST(Fleet, TheLoadIsThatOfTheBusDocument) {
   DOUBLES_EQUAL(0.168, view().load, 0.0005);
 }
 
+TEST(Fleet, FramesOfOtherFormatsAreInTheLoad) {
+  fleet_.takeOther(now_us_, {.frame = {.extended = true, .length = 8}});
+  fleet_.takeOther(now_us_, {.isRemote = true, .frame = {.length = 8}});
+  now_us_ += 500'000;
+  LONGS_EQUAL(2, view().framesPerSecond);
+  DOUBLES_EQUAL(178e-6, view().load, 1e-12);  // of 131 and 47 bits, at 1 Mbit/s
+}
+
 TEST(Fleet, JitterIsTheWorstOfTheLastTenIntervals) {
   heartbeat();
   CHECK_TRUE(std::isnan(only().jitter_s));

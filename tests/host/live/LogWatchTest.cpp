@@ -41,10 +41,21 @@ TEST(LogWatch, AFrameWithoutATimeCameWithTheOneBefore) {
   LONGS_EQUAL(2, watch_.views(0).at(0).fingers.size());
 }
 
-TEST(LogWatch, FramesThatNoFingerSendsAreLeftOut) {
+TEST(LogWatch, GoesOnWhereTheClockWasSetBack) {
+  take("(1609779922.655421) can0 705#2200004D0E1900A7");
+  take("(1609779862.655421) can0 706#2200004D0E1900A7");
+  take("(1609779863.655421) can0 706#2200004D0E1900A7");
+  CHECK_TRUE(watch_.time_us() == 1'609'779'923'655'421);
+  CHECK_TRUE(watch_.views(*watch_.time_us()).at(0).fingers.at(0).isSilent());
+}
+
+TEST(LogWatch, FramesThatNoFingerSendsAreOfTheBusOnly) {
   take("(1.000000) can0 701#R");
   take("(1.000000) can0 00000701#2200004D0E1900A7");
-  CHECK_TRUE(watch_.views(0).empty());
+  take("(1.000000) can0 20000080#0000000000000000");  // an error frame, which was on no bus
+  const auto buses = watch_.views(1'100'000);
+  CHECK_TRUE(buses.at(0).fingers.empty());
+  LONGS_EQUAL(2, buses[0].framesPerSecond);
 }
 
 TEST(LogWatch, ALineThatCannotBeReadIsSaidToBe) {

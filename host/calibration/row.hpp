@@ -23,8 +23,9 @@ struct Row {
   bool isDirectionKnown() const { return known.angle_deg.has_value(); }
   bool isLoadKnown() const { return known.normal_n_per_m || known.tangential_n_per_m; }
   bool isKnown() const { return isDirectionKnown() || isLoadKnown(); }
-  /// Tells of the finger as a touch does; so, or as an untouched finger.
+  /// It tells of the finger as a touch does.
   bool isFitted() const { return !isMoved && result.use == RowUse::kFitted; }
+  /// It tells of the finger as a touch does, or as an untouched finger.
   bool isUsable() const { return isFitted() || (!isMoved && result.use == RowUse::kUntouched); }
   double peak_strain() const { return data.readings.cwiseAbs().maxCoeff(); }
 };

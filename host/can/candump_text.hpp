@@ -47,7 +47,7 @@ struct LoggedFrame {
   std::array<std::uint8_t, 64> data{};
 };
 
-/// The same of a frame that CanFrame can't hold: 29-bit identifiers, remote requests, CAN FD.
+/// formatLogLine() of a frame that CanFrame can't hold: 29-bit identifiers, remote requests, CAN FD.
 std::string formatLogLine(std::int64_t time_us, std::string_view interface, const LoggedFrame& frame,
                           bool isRemote);
 

@@ -19,8 +19,8 @@ namespace strainfinger::can {
 /// name. Frames that the kernel discards from its queue at bus-off or when the interface goes down are not in
 /// `dropped`: it doesn't tell. The kernel's queue keeps the order of all frames, and holds only a handful of
 /// this port's, so that what a blocked bus lets out later is not old. Costs two system calls a frame sent,
-/// one a frame received. Frames of
-/// 29-bit identifiers, remote and FD frames reach it only while somebody has hearOthers().
+/// one a frame received. Frames of 29-bit identifiers, remote and FD frames reach it only while somebody has
+/// hearOthers().
 class SocketCanPort final : public BusPort {
  public:
   /// Throws Failure(kNoInterface) with the command that would help when there is no such CAN interface, it is

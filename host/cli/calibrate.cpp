@@ -257,10 +257,11 @@ config::FingerConfig workableFinger(const calibration::CalibrationResult& result
     config::FingerConfig config = found;
     config.gauges.model_error = larger;
     if (larger <= found.gauges.model_error || !whyNoTables(config).empty()) continue;
-    warn("calibrate", fmt::format("gauges.model_error is {}, so that errors are told larger than they are: "
-                                  "with the {:.2g} that was "
-                                  "found the firmware refuses this finger: {}",
-                                  larger, found.gauges.model_error, whyNot.substr(0, whyNot.find('\n'))));
+    warn("calibrate",
+         fmt::format("gauges.model_error has to be {}, so that errors are told larger than they are: "
+                     "with the {:.2g} that was "
+                     "found the firmware refuses this finger: {}",
+                     larger, found.gauges.model_error, whyNot.substr(0, whyNot.find('\n'))));
     return config;
   }
   warn("calibrate", fmt::format("the firmware cannot work with this finger: {}", whyNot));

@@ -1,5 +1,4 @@
 #include "host/contact/contact.hpp"
-#include "host/contact/fourier_tractions.hpp"
 
 #include <fmt/format.h>
 
@@ -13,6 +12,7 @@
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/contact_options.hpp"
+#include "host/contact/fourier_tractions.hpp"
 #include "host/contact/paper_method.hpp"
 #include "host/contact/surface_motion.hpp"
 
@@ -28,14 +28,13 @@ constexpr const char* kContactHelp =
     "that is the residual, told on stderr, as is where it touches in several regions. Exactly below the edge "
     "of a wedge the pressure is infinite.\n"
     "Loads are sums of pressure and shear along the surface. What a load cell at the core reads, along the "
-    "indenter's normal and sidewards, is told on stderr: in a wide contact the surface turns away, 6 % for 6 "
-    "mm.\n"
+    "indenter's normal and sidewards, is told on stderr: it is another force, as the surface turns away from "
+    "the normal in a wide contact.\n"
     "A cylinder is the parabola x^2 / 2 R, a wedge two planes. Strains are taken to be small; a warning "
-    "tells "
-    "where they aren't.\n"
+    "tells where they aren't.\n"
     "The summary's offset is the contact's centre, its depth that of the indenter's profile below the "
-    "undeformed surface at the contact's "
-    "centre: below 0 if that is between regions, where the profile stands clear.";
+    "undeformed surface at the contact's centre: below 0 if that is between regions, where the profile "
+    "stands clear.";
 
 /// Time grows with the cube: 1000 by the printed rows take 1.4 s, 2000 by Gauss's 0.4 s.
 constexpr int kMostHarmonics = 2000, kMostPrintedHarmonics = 1000;

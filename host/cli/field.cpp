@@ -20,8 +20,7 @@ namespace {
 constexpr const char* kFieldHelp =
     "Strains, displacements and stresses in the rubber under an indenter, on a polar grid: even radii "
     "from the core to the surface, or the radius of --radius-m (that of the gauges, say), and even angles "
-    "from "
-    "the indenter's normal. The load of a line or of a uniform pressure is for `strain`.";
+    "from the indenter's normal. The load of a line or of a uniform pressure is for `strain`.";
 
 struct FieldOptions {
   explicit FieldOptions(CLI::App& command) : common(command), contact(command) {

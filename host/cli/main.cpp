@@ -81,6 +81,7 @@ std::string meantBy(const std::string& word, const CLI::App& command) {
 std::optional<std::string> unknownOption(const CLI::App& app) {
   for (const CLI::App* command : app.get_subcommands())
     for (const std::string& word : command->remaining()) {
+      if (word == "--") break;  // what is behind it is no option
       if (word.size() < 2 || word[0] != '-' || strainfinger::parseNumber<double>(word)) continue;
       const std::string meant = meantBy(word, *command);
       return fmt::format("{}: {} is no option{}; strainfinger {} --help lists them", command->get_name(),

@@ -80,11 +80,11 @@ void warnOfOtherTables(const Recording& recording, const config::FingerConfig& c
 void runRecord(const RecordOptions& options) {
   requireFolderOf("--output", options.path);
   const system::StopSignal stop;
-  const auto start = Clock::now();
   const config::FingerConfig config = options.common.config();
   const auto port = can::openBus(options.bus, config.can.bitrate);
   Recording recording(*port, config, options.path);
   port->hearOthers([&](const can::OtherFrame& other) { recording.take(other); });
+  const auto start = Clock::now();
   const auto duration =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.duration_s));
   recordUntil(options.duration_s > 0 ? start + duration : Clock::time_point::max(), stop, *port, recording);
@@ -93,7 +93,8 @@ void runRecord(const RecordOptions& options) {
        std::chrono::duration<double>(Clock::now() - start).count(), progress.missed, recording.path(),
        recording.notesPath());
   if (progress.gaps > 0)
-    warn("record", fmt::format("{} was away {} times meanwhile: {} says when", port->name(), progress.gaps,
+    warn("record", fmt::format("{} was away {} meanwhile: {} says when", port->name(),
+                               progress.gaps == 1 ? "once" : fmt::format("{} times", progress.gaps),
                                recording.notesPath()));
   if (progress.frames == 0)
     warn("record", fmt::format("nothing was heard on {}: `strainfinger doctor --can {}` looks for the cause",

@@ -16,8 +16,7 @@ constexpr const char* kSvdHelp =
     "Singular values of the paper's map T C, from Hanning-windowed Fourier coefficients of pressure and "
     "shear up to half the harmonics to the slope of the surface in the contact [m/(rad Pa)], largest "
     "first. They are those of the slope at 2 n_c + 4 even points, as printed, and grow with the root of "
-    "their "
-    "number: relative ones don't.\n"
+    "their number: relative ones don't.\n"
     "With --basis K the first K pairs instead: u_r and its slope d u_r / d theta against the angle from "
     "the contact's centre, and the pressure (positive when pressing) and shear that make them, per unit "
     "of coefficients. Pairs are even or odd: an even shape has an odd slope and an even pressure.";

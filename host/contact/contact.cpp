@@ -27,19 +27,19 @@ void requireDomain(const SurfaceKernel& kernel, const ContactRequest& request) {
     if (!is) throw Failure(ExitCode::kUsage, what);
   };
   const double value = request.size.value, widest_m = kWidestContact_rad * kernel.annulus().outer_radius_m;
-  if (request.size.kind == ContactSize::Kind::kWidth)
+  const bool isWidth = request.size.kind == ContactSize::Kind::kWidth;
+  if (isWidth)
     require(value > 0 && value <= widest_m,
             fmt::format("the width must be above 0 and at most half the surface, {} m", widest_m));
-  if (request.size.kind == ContactSize::Kind::kWidth &&
-      value > 2 * kMostLayers * layer_rad(kernel.annulus()) * kernel.annulus().outer_radius_m)
+  else
+    require(value > 0 && std::isfinite(value), "the load must be a positive number");
+  require(std::abs(request.friction) <= 10, "the coefficient of friction must be from -10 to 10");
+  if (isWidth && value > 2 * kMostLayers * layer_rad(kernel.annulus()) * kernel.annulus().outer_radius_m)
     throw Failure(
         ExitCode::kFailure,
         fmt::format(
             "a contact {} m wide is too wide for so thin a layer: ask for less width, or for thicker rubber",
             value));
-  else
-    require(value > 0 && std::isfinite(value), "the load must be a positive number");
-  require(std::abs(request.friction) <= 10, "the coefficient of friction must be from -10 to 10");
 }
 
 /// A contact by Hertz on a half plane, P = pi E* a^2 / 4 R + E* slope a, at most the widest;

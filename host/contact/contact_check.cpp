@@ -72,9 +72,8 @@ void doubtShape(const Indenter& indenter, double radius_m, double depth_m, Conta
   if (swing.height_m <= kMostSwing * depth_m) return;
   const std::string what = fmt::format(
       "the measured heights jump or bend too sharply for their spacing near {:.6g} m: the smooth curve "
-      "through "
-      "them swings by {:.2g} m there, {:.2g} of the depth; measure more points there, or leave out what "
-      "doesn't touch",
+      "through them swings by {:.2g} m there, {:.2g} of the depth; measure more points there, or leave out "
+      "what doesn't touch",
       swing.position_m, swing.height_m, swing.height_m / depth_m);
   if (swing.height_m > kHopeless * depth_m) throw Failure(ExitCode::kFailure, what);
   contact.warnings.push_back(what);

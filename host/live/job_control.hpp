@@ -28,7 +28,8 @@ class JobControl {
 
   bool stopAsked() const { return stopAsked_ != 0; }
 
-  /// Stops the process, as SIGTSTP would have; returns when it is continued.
+  /// Stops the process, as SIGTSTP would have; returns when it is continued. At once where the kernel stops
+  /// nothing, because no shell could continue it (an orphaned process group: `ssh -t HOST`, `xterm -e`).
   void stop() {
     stopAsked_ = 0;
     std::signal(SIGTSTP, SIG_DFL);

@@ -10,8 +10,8 @@ namespace strainfinger::live {
 /// Give it the times as they come [us, of any origin]. Where they go back by more than frames do that come in
 /// another order than they were stamped in, they go on from the last: what is worked out of two of them (how
 /// long a finger has been silent, what came in a second) would be wrong for as long as the step otherwise. By
-/// so much it differs from the clock that was set back, until that has caught up. A step ahead it takes part
-/// in: it can't be told from a time in which nothing came.
+/// so much it is ahead of the clock that was set back, until that is set forward again. A step ahead it takes
+/// part in: it can't be told from a time in which nothing came.
 class OnwardClock {
  public:
   /// Not before what it said last.

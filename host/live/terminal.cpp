@@ -105,12 +105,13 @@ Terminal::Terminal() : isStyled_(wantsColour()) { writeOut(kOtherScreen); }
 Terminal::~Terminal() { showFirstScreen(); }
 
 void Terminal::followJobControl() {
-  if (jobControl_.stopAsked()) {
+  const bool isGivenBack = jobControl_.stopAsked();
+  if (isGivenBack) {
     showFirstScreen();
     keyboard_.release();
     jobControl_.stop();
   }
-  if (!jobControl_.takeContinued()) return;
+  if (!jobControl_.takeContinued() && !isGivenBack) return;
   keyboard_.takeOver();
   writeOut(kOtherScreen);
 }

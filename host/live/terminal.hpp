@@ -39,8 +39,8 @@ class Keyboard {
   void takeOver() const;
 
  private:
-  int file_;  ///< the terminal, opened anew: who shares stdin shall not find that reads don't wait; -1: no
-              ///< keys
+  /// The terminal, opened anew: who shares stdin shall not find that reads don't wait. -1: no keys.
+  int file_;
   termios before_{};
   bool hasModes_;  ///< before_ is known
 };

@@ -154,8 +154,7 @@ TEST(ContactCommand, ThePapersMethodIsThereAndSaysWhatItIs) {
   refuses(flat("--width-m 1e-3 --friction 1 --method paper"), "--method paper");
 }
 
-// The row 1/10000 of the README's table, the window full.
-// Whose pressure is infinite below the edge.
+// A wedge's pressure is infinite below its edge.
 TEST(ContactCommand, ThePapersMethodTellsHowFarItIsOffAWedge) {
   const Run run = runProgram("contact --indenter wedge:80 --width-m 2e-3 --method paper --summary");
   STRCMP_CONTAINS(
@@ -164,6 +163,7 @@ TEST(ContactCommand, ThePapersMethodTellsHowFarItIsOffAWedge) {
       run.err.c_str());
 }
 
+// The row 1/10000 of the README's table, the window full.
 TEST(ContactCommand, ThePapersMethodHasTheWindowsOfTheTable) {
   const Run run =
       runProgram(flat("--width-m 2e-3 --method paper --cutoff 1e-4 --window full --rows printed --summary"));

@@ -215,13 +215,11 @@ TEST(Decode, FollowsAFileThatGrows) {
 // As logrotate does: the name is away for a while, and who writes has the old file still.
 TEST(Decode, FollowsTheNameWhenAnotherFileTakesIt) {
   const Run run = runShell(
-      "log=$(mktemp); cat >$log.next; \"$STRAINFINGER\" decode --follow $log & sleep 0.3; mv $log $log.1; "
-      "sleep "
-      "0.3; head -n 1 $log.next >>$log.1; tail -n 1 $log.next >$log.2; echo nonsense >>$log.2; mv $log.2 "
-      "$log; "
-      "sleep 0.6; head -n 1 $log.next >>$log; sleep 0.4; interrupt $!; wait $!; status=$?; rm $log $log.*; "
-      "exit "
-      "$status",
+      "log=$(mktemp); cat >$log.next; \"$STRAINFINGER\" decode --follow $log &\n"
+      "until ls -l /proc/$!/fd | grep -q $log; do sleep 0.05; done\n"
+      "mv $log $log.1; sleep 0.3; head -n 1 $log.next >>$log.1\n"
+      "tail -n 1 $log.next >$log.2; echo nonsense >>$log.2; mv $log.2 $log; sleep 0.6\n"
+      "head -n 1 $log.next >>$log; sleep 0.4; interrupt $!; wait $!; status=$?; rm $log $log.*; exit $status",
       contact_ + force_);
   LONGS_EQUAL(1, run.status);  // for the nonsense
   checkSays("3 frames decoded", run);

@@ -40,6 +40,7 @@ TEST(Main, AnOptionThatIsNoneIsNamedWithTheOneThatIsNear) {
   checkRefused("decode --jsno x", "decode: --jsno is no option, --json is;");
   checkRefused("decode --quietly x", "decode: --quietly is no option; strainfinger decode --help");
   checkRefused("dbc -q", "dbc: -q is no option; ");
+  checkRefused("plot -- touch.log", "--output is required");
 }
 
 TEST(Main, HelpIsNoError) {

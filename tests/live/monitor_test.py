@@ -113,6 +113,15 @@ class Live(unittest.TestCase):
             terminal.press("C-c")
             terminal.wait_for(r"ended: 130")
 
+    def test_control_z_leaves_the_screen_as_it_is_where_no_shell_could_go_on_with_it(self):
+        with Terminal(self.command) as terminal:
+            terminal.wait_for(r"contacts/s")
+            terminal.press("C-z")
+            time.sleep(1)
+            self.assertFalse(terminal.is_given_back())
+            terminal.press("q")
+            terminal.wait_for(r"ended: 0")
+
     def stopped(self, terminal):
         """In a shell, and stopped by Ctrl-Z."""
         terminal.wait_for(r"\$")

@@ -60,7 +60,6 @@ TEST(SpreadResponse, OfNoWidthIsTheImpulseResponse) {
   DOUBLES_EQUAL(line.at(0.2).tangentialSlope, found.tangentialSlope, 1e-14);
 }
 
-// Central differences: their error is the third derivative's, 1e-7 of the slopes here.
 TEST(SpreadResponse, OfShearIsItsImpulseResponse) {
   const model::ImpulseResponse shear{finger, kGauge_m, StrainComponent::kShear};
   const auto known = shear.at(0.2);
@@ -71,6 +70,7 @@ TEST(SpreadResponse, OfShearIsItsImpulseResponse) {
   DOUBLES_EQUAL(known.tangentialSlope, found.tangentialSlope, 1e-14);
 }
 
+// Central differences: their error is the third derivative's, 1e-7 of the slopes here.
 TEST(SpreadResponse, ItsSlopesAreItsDerivatives) {
   constexpr double kStep = 1e-5, kStep_m = 1e-6, kWidth_m = 3e-3;
   for (const Profile profile : {Profile::kEllipse, Profile::kPunch}) {

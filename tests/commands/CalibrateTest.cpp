@@ -225,7 +225,7 @@ TEST(CalibrateCommand, AFingerThatTheFirmwareRefusesGetsAModelErrorWithWhichItWo
                    "\"$STRAINFINGER\" tables -c small_out.toml -o small.tables",
                "");
   LONGS_EQUAL_TEXT(0, run.status, run.err.c_str());
-  STRCMP_CONTAINS("calibrate: warning: gauges.model_error is 0.0", run.err.c_str());
+  STRCMP_CONTAINS("calibrate: warning: gauges.model_error has to be 0.0", run.err.c_str());
   STRCMP_CONTAINS("the firmware refuses this finger: small.toml: contacts cannot be located",
                   run.err.c_str());
 }

@@ -187,9 +187,8 @@ class FdcanPort {
     bus_.write(Fdcan::Txbar::address, 1U << buffer);
   }
 
-  /// Frees the buffers whose frames are sent or cancelled. Not inlined: that would make the image 2 KiB
-  /// larger.
-  [[gnu::noinline]] void retire() noexcept {
+  /// Frees the buffers whose frames are sent or cancelled.
+  void retire() noexcept {
     const std::uint32_t pending = bus_.read(Fdcan::Txbrp::address);
     const std::uint32_t sent = bus_.read(Fdcan::Txbto::address);
     for (std::uint8_t buffer = 0; buffer < kBuffers; ++buffer) {

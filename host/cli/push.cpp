@@ -26,8 +26,8 @@ constexpr const char* kPushHelp =
     "It stops, takes them into its memory, starts anew and checks them.\n"
     "Do not touch it: a finger that feels a touch refuses, and one that starts takes its zero.\n"
     "A push that ends early leaves the finger without tables (state fault): push again. Its memory "
-    "wears out: four at once, then one a minute, and none for a minute after a restart. One program at a "
-    "time asks a finger. With -c and FILE, FILE has to be of that config.\n"
+    "wears out: four at once, then one a minute, and none for a minute after a restart. While another "
+    "program asks the finger, this one waits. With -c and FILE, FILE has to be of that config.\n"
     "Prints interface,node,table_crc,bytes. Exit status: 1 refused, 3 no interface, 4 no such node, 5 FILE "
     "is another finger's or of another format, 6 FILE is damaged or the finger refuses what it took.";
 

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <optional>
+#include <random>
 
 #include "host/base/failure.hpp"
 #include "host/base/notice.hpp"
@@ -14,6 +16,12 @@
 
 namespace strainfinger::cli {
 namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+/// A push of all tables over a bus of 125 kbit/s takes less.
+constexpr auto kOthersMayAskFor = 30s;
 
 std::string commandName(Command command) { return can::nameText(kCommandNames, static_cast<int>(command)); }
 std::string statusName(CommandStatus status) {
@@ -53,6 +61,31 @@ Failure silence(const can::Reply& reply, const can::BusPort& bus, const std::str
                   where, waited_ms, can::nameText(kFingerStateNames, static_cast<int>(heartbeat.state))));
 }
 
+/// Nothing of another program is heard in this time, which differs from program to program: two that have
+/// begun at once don't ask at once again.
+void letOthersAsk(can::BusPort& bus, const std::function<bool()>& goOn) {
+  std::random_device random;
+  const auto end = Clock::now() + std::uniform_int_distribution<>{100, 500}(random)*1ms;
+  for (auto now = Clock::now(); now < end && (!goOn || goOn()); now = Clock::now()) {
+    bus.waitReadable(std::chrono::ceil<std::chrono::milliseconds>(end - now));
+    while (bus.receive()) {}
+  }
+}
+
+/// Fingers tell callers apart by nothing, so two programs would take each other's answers for their own.
+can::Reply askOnceOthersHaveEnded(can::BusPort& bus, std::uint8_t node, const std::function<bool()>& goOn) {
+  const auto end = Clock::now() + kOthersMayAskFor;
+  can::Reply reply = can::askWhoIsThere(bus, node, goOn);
+  if (reply.othersAsk)
+    tell("strainfinger: {}: another program asks this finger: waiting until it has ended\n",
+         placeOf(bus, node));
+  while (reply.othersAsk && Clock::now() < end && (!goOn || goOn())) {
+    letOthersAsk(bus, goOn);
+    reply = can::askWhoIsThere(bus, node, goOn);
+  }
+  return reply;
+}
+
 }  // namespace
 
 RequestOptions::RequestOptions(CLI::App& command) : common(command) {
@@ -80,10 +113,15 @@ Failure twinFailure(const can::BusPort& bus, std::uint8_t node) {
 }
 
 void requireOneFinger(can::BusPort& bus, std::uint8_t node, const std::function<bool()>& goOn) {
-  const can::Reply reply = can::askWhoIsThere(bus, node, goOn);
+  const can::Reply reply = askOnceOthersHaveEnded(bus, node, goOn);
+  const bool isInterrupted = goOn && !goOn();
+  if (reply.othersAsk && !isInterrupted)
+    throw Failure(ExitCode::kFailure, fmt::format("{}: another program asks this finger, and has not ended "
+                                                  "within {} s: let one at a time do so",
+                                                  placeOf(bus, node), kOthersMayAskFor / 1s));
   if (reply.hasTwin()) throw twinFailure(bus, node);
-  if (reply.response) return;
-  if (goOn && !goOn())
+  if (reply.response && !reply.othersAsk) return;
+  if (isInterrupted)
     throw Failure(ExitCode::kInterrupted,
                   fmt::format("{}: interrupted before it answered", placeOf(bus, node)));
   throw silence(reply, bus, placeOf(bus, node));

@@ -35,8 +35,9 @@ inline std::uint8_t nodeOf(int node, const config::Can& can) {
 /// it was done although something touches the finger.
 void requireDone(const can::Reply& reply, Command command, const can::BusPort& bus, std::uint8_t node);
 
-/// Before a request that changes something: throws as request() does where nobody would obey, or two fingers;
-/// Failure(kInterrupted) where `goOn()`, asked ten times a second at least, is false before an answer.
+/// Before a request that changes something: waits while another program asks this finger, half a minute at
+/// most (kFailure). Throws as request() does where nobody would obey, or two fingers; Failure(kInterrupted)
+/// where `goOn()`, asked ten times a second at least, is false before an answer.
 void requireOneFinger(can::BusPort& bus, std::uint8_t node, const std::function<bool()>& goOn = {});
 
 /// That two fingers have this number.

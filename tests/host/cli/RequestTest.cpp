@@ -1,5 +1,7 @@
 #include "host/cli/request.hpp"
 
+#include <chrono>
+
 #include "host/base/failure.hpp"
 #include "tests/host/can/fake_bus_port.hpp"
 
@@ -98,4 +100,25 @@ TEST(Request, OneFingerIsNeeded) {
   answer(0);
   checkRefused(ExitCode::kNoNode, "fake0 node 5: no answer within 1000 ms and no HEARTBEAT");
   checkRefused(ExitCode::kInterrupted, "interrupted", [] { return false; });
+}
+
+TEST(Request, AnotherProgramThatAsksTheFingerIsWaitedFor) {
+  int asked = 0;
+  bus.onSend = [&](const CanFrame&) {
+    if (++asked < 3) bus.hear(wordRequest(7, 7), kNode);
+    for (int answers = 0; answers < 2; ++answers)  // one is to the other program
+      if (asked < 3 || answers == 0) bus.hear(responseTo(Command::kCount, CommandStatus::kDone), kNode);
+  };
+  requireOneFinger(bus, kNode);
+  CHECK_TRUE(asked >= 3);
+}
+
+TEST(Request, WaitingForAnotherProgramCanBeInterrupted) {
+  bus.onSend = [&](const CanFrame&) {
+    bus.hear(wordRequest(7, 7), kNode);
+    bus.hear(responseTo(Command::kCount, CommandStatus::kDone), kNode);
+  };
+  const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(200);
+  checkRefused(ExitCode::kInterrupted, "interrupted",
+               [end] { return std::chrono::steady_clock::now() < end; });
 }

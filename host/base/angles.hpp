@@ -16,6 +16,9 @@ inline double withinATurn_deg(double angle_deg) {
   return turned_deg == 360 ? 0 : turned_deg;  // of what is too little below 0 to be seen beside 360
 }
 
+/// A direction in degrees: 0 or more and below 360.
+inline double degreesOf(double angle_rad) { return withinATurn_deg(angle_rad / kRadPerDeg); }
+
 /// To an angle the short way round, -pi to pi.
 inline double shortWay_rad(double angle_rad, double from_rad) {
   return std::remainder(angle_rad - from_rad, 2 * std::numbers::pi);

@@ -49,8 +49,9 @@ std::optional<std::string_view> LineReader::next() {
     const auto length = static_cast<std::size_t>(static_cast<const char*>(found) - start);
     begin_ += length + 1;
     searched_ = begin_;
-    if (!std::exchange(skippingLine_, false))
-      return std::string_view(start, std::min(length, kLongestLine_bytes));
+    if (std::exchange(skippingLine_, false)) continue;
+    ++line_;
+    return std::string_view(start, std::min(length, kLongestLine_bytes));
   }
   searched_ = end_;
   return end_ - begin_ > kLongestLine_bytes ? rest() : std::nullopt;
@@ -60,8 +61,11 @@ std::optional<std::string_view> LineReader::rest() {
   const std::string_view text(buffer_.data() + begin_, std::min(end_ - begin_, kLongestLine_bytes));
   begin_ = searched_ = end_;
   if (text.empty() || std::exchange(skippingLine_, true)) return std::nullopt;
+  ++line_;
   return text;
 }
+
+std::string LineReader::place() const { return fmt::format("{}:{}", name_, line_); }
 
 LineReader::Got LineReader::read(std::chrono::milliseconds longest) {
   if (!waitReadable(longest)) return Got::kNothing;
@@ -87,11 +91,19 @@ void LineReader::makeRoom() {
   begin_ = 0;
 }
 
-void LineReader::rewindIfShrunk() const {
+void LineReader::rewindIfShrunk() {
   struct stat file {};
   const off_t at = ::lseek(descriptor_, 0, SEEK_CUR);
-  if (at > 0 && ::fstat(descriptor_, &file) == 0 && S_ISREG(file.st_mode) && file.st_size < at)
+  if (at > 0 && ::fstat(descriptor_, &file) == 0 && S_ISREG(file.st_mode) && file.st_size < at) {
     ::lseek(descriptor_, 0, SEEK_SET);
+    forget();
+  }
+}
+
+void LineReader::forget() {
+  begin_ = end_ = searched_ = 0;
+  skippingLine_ = false;
+  line_ = 0;
 }
 
 bool LineReader::isReplaced() const {
@@ -107,8 +119,7 @@ bool LineReader::reopen() {
   if (opened < 0 && errno == ENOENT) return false;
   if (opened < 0) fail(name_, errno);
   ::close(std::exchange(descriptor_, opened));
-  begin_ = end_ = searched_ = 0;
-  skippingLine_ = false;
+  forget();
   return true;
 }
 

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -36,6 +37,9 @@ class LineReader {
   /// The path, or "stdin".
   const std::string& name() const { return name_; }
 
+  /// "x.log:3": of the line that was handed out last.
+  std::string place() const;
+
   /// The next whole line that has been read, without its "\n"; nothing: read() first. It holds until read().
   std::optional<std::string_view> next();
 
@@ -43,7 +47,7 @@ class LineReader {
   std::optional<std::string_view> rest();
 
   /// Waits for more, at most so long. Throws Failure(kFailure) when reading fails. A file that has shrunk is
-  /// read from its start.
+  /// read from its start, and the half line that was its end is lost.
   Got read(std::chrono::milliseconds longest);
 
   /// Whether the path names another file by now, as after a rotation by rename; not while it names none.
@@ -55,7 +59,8 @@ class LineReader {
  private:
   bool waitReadable(std::chrono::milliseconds longest) const;
   void makeRoom();
-  void rewindIfShrunk() const;
+  void rewindIfShrunk();
+  void forget();
   [[noreturn]] static void fail(const std::string& name, int error);
 
   std::string path_;
@@ -66,6 +71,7 @@ class LineReader {
   std::size_t end_ = 0;
   std::size_t searched_ = 0;   ///< there is no line end from begin_ to here
   bool skippingLine_ = false;  ///< its beginning has been handed out
+  std::uint64_t line_ = 0;     ///< of the file, that was handed out last
 };
 
 }  // namespace strainfinger

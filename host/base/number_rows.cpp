@@ -31,6 +31,7 @@ constexpr std::array kNoNumbers{"na", "n/a", "null", "none", "nil", "missing", "
 
 /// All of `text` as a number, which may begin with a +.
 std::optional<double> signedNumber(std::string_view text) {
+  if (text.starts_with("+-")) return std::nullopt;
   if (text.starts_with('+')) text.remove_prefix(1);
   return parseNumber<double>(text);
 }

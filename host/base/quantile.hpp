@@ -15,7 +15,11 @@ inline double quantileOf(std::vector<double> values, double share) {
   return *place;
 }
 
-/// Of an even count the upper one of the two in the middle. Domain: one value or more, no NaN.
-inline double medianOf(std::vector<double> values) { return quantileOf(std::move(values), 0.5); }
+/// Of an even count the mean of the two in the middle. Domain: one value or more, no NaN.
+inline double medianOf(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
 
 }  // namespace strainfinger

@@ -78,6 +78,8 @@ void TableWriter::row(const std::vector<Cell>& cells) {
   write(line);
 }
 
+void TableWriter::flush() { writeAndFlush(stream_, ""); }
+
 void TableWriter::write(std::string_view text) { writeText(stream_, text); }
 
 }  // namespace strainfinger

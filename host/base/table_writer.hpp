@@ -38,6 +38,8 @@ class TableWriter {
  public:
   TableWriter(std::FILE* stream, TableFormat format, std::vector<std::string> columns);
   void row(const std::vector<Cell>& cells);  ///< one cell a column
+  /// Hands the rows over now: whoever reads along has them, and a killed program leaves whole ones.
+  void flush();
 
  private:
   void write(std::string_view text);

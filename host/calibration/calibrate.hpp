@@ -57,11 +57,6 @@ struct Estimate {
   double sigma;
 };
 
-/// RMS over the ring of a fit's errors of place, normal and tangential load.
-struct TouchError {
-  double arc_m = 0, normal_n_per_m = 0, tangential_n_per_m = 0;
-};
-
 class CalibrationResult {
  public:
   CalibrationResult(const Drawing& drawing, Eigen::VectorXd deviations, Eigen::MatrixXd covariance,
@@ -82,8 +77,8 @@ class CalibrationResult {
   Estimate depthOffset_m(int gauge) const { return of(gauge, kDepthOffset, 0); }
   /// The mean of all offsets of angles: how far the ring as a whole is turned.
   double turn_deg() const;
-  /// What of it applied() has in [gauges]: all where else a gauge's offset would be beyond what
-  /// calibration.angle_offset_deg may be, else nothing.
+  /// The part of turn_deg() that applied() writes into [gauges]: all of it where some gauge's offset would
+  /// otherwise be outside the domain of calibration.angle_offset_deg, else 0.
   double drawnTurn_deg() const;
   Estimate coreRadius_m() const;
   Estimate poissonRatio() const;

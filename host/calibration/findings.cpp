@@ -149,6 +149,10 @@ std::vector<std::string> whatIsFarOff(const CalibrationResult& result) {
 
 std::vector<std::string> whatIsUntold(const CalibrationResult& result) {
   std::vector<std::string> sentences;
+  if (!result.hasSettled())
+    sentences.emplace_back(
+        "The fit was stopped before it had settled: the values may be further off than their sigmas say. "
+        "More touches, of other places and loads, let it settle.");
   if (!result.isDirectionKnown())
     sentences.emplace_back(
         "No direction is known of the fitted rows: angles count from where the drawing has the gauges on "

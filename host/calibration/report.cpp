@@ -42,11 +42,6 @@ std::string worthText(const CalibrationResult& result) {
 
 std::string untoldText(const CalibrationResult& result) {
   std::string text;
-  if (!result.hasSettled())
-    text =
-        "The fit was stopped before it had settled: the values may be further off than their sigmas say; "
-        "more "
-        "touches, of other places and loads, let it settle\n";
   for (const auto& sentences : {whatIsFarOff(result), whatIsUntold(result)})
     for (const std::string& sentence : sentences) text += sentence + "\n";
   const std::string turn = turnText(result);

@@ -99,8 +99,8 @@ plot::Picture coveragePicture(const CalibrationResult& result) {
     least = std::min(least, load_n_per_m);
     most = std::max(most, load_n_per_m);
     const bool isUsed = row.use == RowUse::kFitted;
-    touches.rows.push_back({withinATurn_deg(row.touch[kPlace] / kRadPerDeg), isUsed ? load_n_per_m : kNoValue,
-                            isUsed ? kNoValue : load_n_per_m});
+    touches.rows.push_back(
+        {degreesOf(row.touch[kPlace]), isUsed ? load_n_per_m : kNoValue, isUsed ? kNoValue : load_n_per_m});
   }
   plot::DataFile gauges{"gauges", {"angle_deg", "from_n_per_m", "length_n_per_m"}, {}};
   for (int i = 0; i < config.gauges.count; ++i)

@@ -40,7 +40,7 @@ class TouchEquations {
   double chiSquared;         ///< of readings and prior
 
   /// Domain of all three: with the finger, readings that tell each unknown of the touch.
-  /// What one of each deviation of the finger moves the touch that is found by.
+  /// Column k: by how much a deviation of 1 of the finger's unknown k moves the touch that is fitted.
   Eigen::MatrixXd pull() const;
   /// What the readings tell of the finger, their touch being found, too (Schur complement).
   Eigen::MatrixXd fingerInformation() const;

@@ -59,7 +59,8 @@ Reply ask(BusPort& port, std::uint8_t node, const RequestFrame& request, const P
   return reply;
 }
 
-/// A second answer may be one frame that came twice, or one to somebody else: hardly so two times.
+/// A second answer may be one frame that came twice, or one to another program, which hardly happens twice:
+/// so it is asked again before two fingers are told of.
 Reply askWhoIsThere(BusPort& port, std::uint8_t node, const std::function<bool()>& goOn) {
   const auto askOnce = [&] {
     return ask(port, node, countRequest(Count::kErases), {.afterwards = kTwinWithin, .goOn = goOn});

@@ -33,7 +33,7 @@ struct Reply {
   std::optional<ResponseFrame> response{};  ///< the last
   int responses = 0;
   bool othersAsk = false;  ///< somebody else asked the same node meanwhile: the response may be theirs
-  std::optional<HeartbeatFrame> heartbeat{};  ///< the last of that finger while nothing had come yet
+  std::optional<HeartbeatFrame> heartbeat{};  ///< the last of that node meanwhile
   std::chrono::milliseconds waited{0};        ///< for a response
 
   /// A finger answers once.
@@ -43,8 +43,8 @@ struct Reply {
 /// What became of a request, for people: "Refused: something touches the finger", with what its value means.
 std::string meaningOf(const ResponseFrame& response);
 
-/// Sends the request to node 1 .. 63 and waits for its response. Fingers tell callers apart by nothing: one
-/// at a time asks a node. Frames of others meanwhile are read and gone.
+/// Sends the request to node 1 .. 63 and waits for its response. Fingers cannot tell callers
+/// apart: one at a time asks a node. Frames of others meanwhile are read and gone.
 Reply ask(BusPort& port, std::uint8_t node, const RequestFrame& request, const Patience& patience = {});
 
 /// Asks for something that changes nothing, before what does: nobody may be there, or two fingers of this

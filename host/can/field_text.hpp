@@ -38,7 +38,7 @@ struct FieldValue {
   const FieldSpec* field;
   std::int64_t raw;
   bool isKnown;
-  bool isOrMore;  ///< the largest that it can say: that or more
+  bool isOrMore;  ///< the end of what it can say: the true value may be beyond it
 };
 
 /// Those that are shown, in the order of their bits. `entry`: which frame it is.

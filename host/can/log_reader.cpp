@@ -33,7 +33,6 @@ bool isTooShort(const CanFrame& frame) {
 
 std::optional<TextFrame> LogReader::next() {
   while (const auto line = nextLine()) {
-    ++line_;
     const auto frame = frameOf(*line);
     if (!frame) continue;
     isCutOff_ = !isWhole_ && isTooShort(frame->frame);
@@ -44,9 +43,13 @@ std::optional<TextFrame> LogReader::next() {
           ExitCode::kFailure,
           fmt::format("{}: a frame without a time: log with `candump -L`, or `candump -ta`", place()));
     watchTime(*frame->time_ns);
-    if (interface_.empty() || frame->interface == interface_) return frame;
+    if (isWanted(frame->interface)) return frame;
   }
   return std::nullopt;
+}
+
+bool LogReader::isWanted(std::string_view interface) const {
+  return interface_.empty() || interface == interface_;
 }
 
 void LogReader::watchTime(std::int64_t time_ns) {
@@ -70,7 +73,7 @@ std::optional<TextFrame> LogReader::frameOf(std::string_view line) {
   parsed_ = std::move(std::get<LogLine>(parsed));
   const auto frame = classicFrame(parsed_);
   if (frame) return TextFrame{parsed_.time_ns, parsed_.interface, *frame};
-  if (hasFrame(parsed_)) ++skipped_;
+  if (hasFrame(parsed_) && isWanted(parsed_.interface)) ++skipped_;
   return std::nullopt;
 }
 
@@ -92,7 +95,5 @@ std::vector<std::string> LogReader::warnings() const {
     warnings.push_back(fmt::format("{}: the log breaks off in this line, which is left out", place()));
   return warnings;
 }
-
-std::string LogReader::place() const { return fmt::format("{}:{}", lines_.name(), line_); }
 
 }  // namespace strainfinger::can

@@ -25,24 +25,24 @@ class LogReader {
   /// logger that is killed or loses power leaves one.
   std::optional<TextFrame> next();
 
-  /// Frames of other kinds so far.
+  /// Frames of other kinds so far, of the interface that is read.
   std::uint64_t skipped() const { return skipped_; }
 
   /// What to tell, once all is read, of a last line that was left out, and of times that run backwards.
   std::vector<std::string> warnings() const;
 
   /// "x.log:3", of the last line.
-  std::string place() const;
+  std::string place() const { return lines_.place(); }
 
  private:
   std::optional<std::string_view> nextLine();
   std::optional<TextFrame> frameOf(std::string_view line);
+  bool isWanted(std::string_view interface) const;
   void watchTime(std::int64_t time_ns);
 
   LineReader lines_;
   std::string interface_;
   LogLine parsed_;  ///< what the last frame points into where its line was not plain
-  std::uint64_t line_ = 0;
   std::uint64_t skipped_ = 0;
   bool isWhole_ = true;    ///< the last line ended with a line end
   bool anyFrame_ = false;  ///< was read

@@ -27,6 +27,9 @@ inline constexpr std::string_view kTwinRemedy =
     "take one off the bus; `strainfinger config --can BUS -n N --set-node NODE` makes the other another "
     "node, from its next start on";
 
+/// Where another program asks the same finger.
+inline constexpr std::string_view kOthersAskRemedy = "let one at a time do so";
+
 /// Of a finger whose HEARTBEAT has another protocol version: its other frames mean something else.
 std::string foreignText(std::uint8_t protocol);
 

@@ -27,9 +27,9 @@ TablePush pushTables(BusPort& port, std::uint8_t node, const TableImage& image, 
 
 inline constexpr int kPushAttempts = 3;
 
-/// What a finger says of itself after it has answered a `restart`, once it measures; in time at least that it
-/// starts, or nothing. That it has no tables it must say twice: the first time may have been said before.
-/// `goOn()` is asked every kGoOnEvery at least; false ends it.
+/// Waits for a finger that has answered a `restart`: its first HEARTBEAT in state run, or the second in state
+/// fault, because the first may have been sent before. After `longest` the last in any other state; nothing
+/// where none came. `goOn()` is asked every kGoOnEvery at least; false ends it.
 std::optional<HeartbeatFrame> heartbeatAfterRestart(BusPort& port, std::uint8_t node,
                                                     std::chrono::milliseconds longest,
                                                     const std::function<bool()>& goOn);

@@ -11,8 +11,9 @@ CLI::Option* addBusOption(CLI::App& command, std::string& name) {
       ->check([](const std::string& text) { return text.empty() ? "give the name of a bus" : ""; });
 }
 
-void addInterfaceOption(CLI::App& command, std::string& name) {
-  command.add_option("--interface", name, "Only what the log has of this interface, where it has several")
+CLI::Option* addInterfaceOption(CLI::App& command, std::string& name) {
+  return command
+      .add_option("--interface", name, "Only what the log has of this interface, where it has several")
       ->type_name("NAME");
 }
 

@@ -10,7 +10,8 @@ namespace strainfinger::cli {
 /// Adds --can: a name for can::openBus(). The option, for what else holds of it (required()).
 CLI::Option* addBusOption(CLI::App& command, std::string& name);
 
-/// Adds --interface: the name, in a log, of the interface whose frames are meant; "" without it: all.
-void addInterfaceOption(CLI::App& command, std::string& name);
+/// Adds --interface: the name, in a log, of the interface whose frames are meant; "" without it: all. The
+/// option, for what else holds of it.
+CLI::Option* addInterfaceOption(CLI::App& command, std::string& name);
 
 }  // namespace strainfinger::cli

@@ -83,6 +83,7 @@ struct CalibrateOptions {
     bus->needs(output)->excludes(strains)->excludes(touches);
     command.add_option("-n,--node", node, "Of --can and of recordings: node number in place of the config's")
         ->check(isNode());
+    addInterfaceOption(command, interface)->needs(strains);
     command
         .add_option("--rate", live.rate_hz,
                     fmt::format("Of --can: sample sets a second (default {})", live.rate_hz))
@@ -114,7 +115,8 @@ struct CalibrateOptions {
   std::string strainsPath;
   std::string outputPath;
   LiveCalibration live;
-  int node = 0;  ///< 0: the config's
+  int node = 0;           ///< 0: the config's
+  std::string interface;  ///< of a recording; empty: all
   std::string pagePath;
   calibration::KnownErrors errors;
   bool summary = false;
@@ -215,8 +217,8 @@ void printRows(TableFormat format, const calibration::CalibrationResult& result)
     const calibration::RowResult& row = result.rows()[i];
     const auto known = [&](double value) { return Cell{calibration::isTouch(row) ? value : kNoValue}; };
     table.row({static_cast<std::int64_t>(i + 1), std::string(nameOf(row.use)),
-               known(withinATurn_deg(row.touch[calibration::kPlace] / kRadPerDeg)),
-               known(row.touch[calibration::kNormalLoad]), known(row.touch[calibration::kTangentialLoad]),
+               known(degreesOf(row.touch[calibration::kPlace])), known(row.touch[calibration::kNormalLoad]),
+               known(row.touch[calibration::kTangentialLoad]),
                known(radius_m * model::uniformWidth_rad(row.touch[calibration::kMoment])),
                known(row.chiSquared), residuals.rows[i].before_strain, residuals.rows[i].after_strain});
   }
@@ -305,7 +307,8 @@ Eigen::MatrixXd strainsOfRecording(const CalibrateOptions& options, const config
             "{} is a recording, of whose readings `calibrate` chooses the rows: leave --touches out, or "
             "give rows as `strains` prints them",
             options.strainsPath));
-  const auto recorded = session::readRecording(options.strainsPath, config, nodeOf(options.node, config.can));
+  const auto recorded = session::readRecording(options.strainsPath, config, nodeOf(options.node, config.can),
+                                               options.interface);
   tell("calibrate: {} of {} sample sets are touches that differ\n", recorded.rows.size(), recorded.sets);
   warn("calibrate", recorded.warnings);
   return recorded.rows.matrix();
@@ -329,6 +332,9 @@ void runCalibrate(const CalibrateOptions& options) {
   requireFolderOf("--output", options.outputPath);
   if (!options.live.bus.empty()) return runLiveCalibration(options, config);
   const bool isRecording = !options.strainsPath.empty() && session::isRecording(options.strainsPath);
+  if (!options.interface.empty() && !isRecording)
+    throw Failure(ExitCode::kUsage, fmt::format("calibrate: --interface is for recordings, which {} is not",
+                                                options.strainsPath));
   const auto known = isRecording ? std::vector<calibration::KnownTouch>{} : readTouches(options.touchesPath);
   const auto strains = isRecording ? strainsOfRecording(options, config)
                                    : readStrains(options.strainsPath, config.gauges.count);

@@ -82,10 +82,9 @@ class Decoder {
 
   /// Returns early when it is asked to stop.
   void decodeAll(const std::string& path) {
-    LineReader lines(path);
-    name_ = lines.name();
-    do decodeFile(lines);
-    while (follow_ && openNext(lines));
+    lines_.emplace(path);
+    do decodeFile();
+    while (follow_ && openNext());
   }
 
   /// Prints what was held back for more of it.
@@ -99,36 +98,33 @@ class Decoder {
 
  private:
   /// To its end or, followed, until its path names another file.
-  void decodeFile(LineReader& lines) {
-    line_ = 0;
+  void decodeFile() {
     unreadable_ = 0;
     bool isReplaced = false;
     while (!stopped()) {
-      while (const auto text = lines.next()) decodeLine(*text);
+      while (const auto text = lines_->next()) decodeLine(*text);
       output_.flush();  // before more is waited for: candump may be live
-      if (lines.read(system::StopSignal::kLookEvery) != LineReader::Got::kEnd) continue;
+      if (lines_->read(system::StopSignal::kLookEvery) != LineReader::Got::kEnd) continue;
       if (!follow_ || isReplaced) break;
-      isReplaced = lines.isReplaced();  // and it is read once more: its end may have been written before that
+      isReplaced =
+          lines_->isReplaced();  // and it is read once more: its end may have been written before that
       std::this_thread::sleep_for(kFollowPeriod);
     }
-    const auto last = stopped() ? std::nullopt : lines.rest();
+    const auto last = stopped() ? std::nullopt : lines_->rest();
     if (last) decodeLine(*last);
     output_.flush();
     if (unreadable_ > kMostTold)
-      tell("{}: and {} more lines that cannot be read\n", name_, unreadable_ - kMostTold);
+      tell("{}: and {} more lines that cannot be read\n", lines_->name(), unreadable_ - kMostTold);
   }
 
   /// False: it is asked to stop.
-  bool openNext(LineReader& lines) const {
+  bool openNext() {
     for (; !stopped(); std::this_thread::sleep_for(kFollowPeriod))
-      if (lines.reopen()) return true;
+      if (lines_->reopen()) return true;
     return false;
   }
 
-  std::string place() const { return fmt::format("{}:{}", name_, line_); }
-
   void decodeLine(std::string_view text) {
-    ++line_;
     tally_.countLine();
     const auto plain = tally_.knowsForm() ? can::parsePlainLine(text) : std::nullopt;
     if (plain)
@@ -147,7 +143,7 @@ class Decoder {
   }
 
   void complain(const can::LogError& error) {
-    const std::string message = fmt::format("{}:{}: {}", place(), error.column, error.reason);
+    const std::string message = fmt::format("{}:{}: {}", lines_->place(), error.column, error.reason);
     if (strict_) failAt(message);
     output_.flush();  // what stands before it
     tally_.countUnreadable();
@@ -177,7 +173,7 @@ class Decoder {
       return tally_.countSkipped(decode<RawFrame>(frame) ? SkipReason::kRaw : SkipReason::kOtherIdentifier);
     if (!isWanted(frame)) return tally_.countSkipped(SkipReason::kOtherNode);
     if (entry != nullptr && frame.length != entry->spec.length)
-      return tally_.countWrongLength(place(), frame);
+      return tally_.countWrongLength(lines_->place(), frame);
     tally_.countDecoded(text.interface, frame);
     if (touches_)
       touches_->print(text.time_ns, text.interface, frame);
@@ -197,9 +193,8 @@ class Decoder {
   bool follow_;
   bool strict_;
   std::vector<int> nodes_;
-  std::string name_;              ///< of the file that is read
-  std::uint64_t line_ = 0;        ///< of it
-  std::uint64_t unreadable_ = 0;  ///< lines of it
+  std::optional<LineReader> lines_;  ///< of the file that is read
+  std::uint64_t unreadable_ = 0;     ///< lines of it
   DecodeTally tally_;
 };
 

@@ -8,6 +8,7 @@
 #include "host/base/failure.hpp"
 #include "host/base/notice.hpp"
 #include "host/can/frame_catalogue.hpp"
+#include "host/can/remedies.hpp"
 
 namespace strainfinger::cli {
 namespace {
@@ -25,11 +26,9 @@ static_assert(kSkipNames.size() == static_cast<std::size_t>(SkipReason::kError) 
 
 void summariseNode(const can::NodeCount& node) {
   if (node.twoSenders)
-    tell(
-        "decode: {} node {}: two fingers send as this node: {} frames of touches received, what was lost "
-        "cannot be told; take one off the bus, and `strainfinger config --set-node` changes the other's "
-        "number\n",
-        node.interface, node.node, node.received);
+    tell("decode: {} node {}: {}: {} frames of touches received, what was lost cannot be told: {}\n",
+         node.interface, node.node, can::kTwinText, node.received,
+         can::forNode(can::kTwinRemedy, node.interface, node.node));
   else
     tell("decode: {} node {}: {} frames of touches received, {} lost, {} repeated, {} restarts\n",
          node.interface, node.node, node.received, node.lost, node.repeated, node.restarts);

@@ -235,7 +235,7 @@ void runDesign(const DesignOptions& options) {
       config.gauges.radius_m = radius_m;
       candidates.push_back({count, radius_m, design::assess(config, touch)});
       table.row(valuesOf(candidateRow(candidates.back())));
-      std::fflush(stdout);
+      table.flush();
     }
   if (!options.picturePath.empty()) plot::draw(design::boundsPicture(candidates), options.picturePath);
   tellOf(bestOf(candidates));

@@ -100,16 +100,24 @@ std::vector<ListenedBus> openAll(const std::vector<std::string>& names, const co
   return buses;
 }
 
+/// At the end, too, one of several doesn't hide the fingers of the others.
+void requireUp(std::vector<ListenedBus>& buses) {
+  std::vector<std::string> down;
+  for (ListenedBus& bus : buses)
+    if (bus.port().status().state == hal::CanState::kDown)
+      down.push_back(fmt::format("discover: {} went down meanwhile: {}", bus.port().name(),
+                                 bus.port().hints().whenBlocked));
+  if (down.size() == buses.size()) throw Failure(ExitCode::kNoInterface, down.front());
+  for (const std::string& text : down) tell("strainfinger: {}\n", text);
+}
+
 void runDiscover(const DiscoverOptions& options) {
   const config::FingerConfig config = options.common.config();
   const std::vector<std::string> names = busNames(options.listening);
   std::vector<ListenedBus> buses = openAll(names, config);
   std::optional<TableWriter> table;  // nothing is printed before there is a row
   const std::vector<live::BusView> views = listenTo(buses, options.listening.duration(), "discover");
-  for (ListenedBus& bus : buses)
-    if (bus.port().status().state == hal::CanState::kDown)
-      throw Failure(ExitCode::kNoInterface, fmt::format("discover: {} went down meanwhile: {}",
-                                                        bus.port().name(), bus.port().hints().whenBlocked));
+  requireUp(buses);
   for (const live::BusView& bus : views)
     for (const live::FingerView& finger : bus.fingers) {
       if (!table) table.emplace(stdout, options.common.format(), kColumns);

@@ -17,7 +17,8 @@ Cell valueCell(const can::FieldValue& value) {
 
 std::vector<Cell> fieldRow(const can::FieldValue& value) {
   const FieldMeaning& meaning = value.field->meaning;
-  const std::string orMore = value.isOrMore ? "; this value or more" : "";
+  const char* const direction = value.raw < 0 ? "; this value or less" : "; this value or more";
+  const std::string orMore = value.isOrMore ? direction : "";
   return {can::columnName(meaning), valueCell(value), meaning.comment + orMore};
 }
 

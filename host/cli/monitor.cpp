@@ -1,6 +1,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <string>
@@ -92,6 +93,7 @@ class LiveScreen {
     while (!stop.asked() && !quit_) {
       watch_.listen(kRedraw);
       content_.buses = {watch_.view()};
+      content_.selected = markedIndex();
       saveRecording();
       for (const live::Outcome& outcome : watch_.outcomes()) content_.message = outcome.text;
       while (const auto key = terminal.key()) press(*key);
@@ -102,13 +104,27 @@ class LiveScreen {
   }
 
   void press(unsigned char key) {
-    const auto& fingers = content_.buses.front().fingers;
-    std::size_t& selected = content_.selected;
     if (key == 'q') quit_ = true;
-    if (key == live::kKeyDown && selected + 1 < fingers.size()) ++selected;
-    if (key == live::kKeyUp && selected > 0) --selected;
+    if (key == live::kKeyDown) mark(content_.selected + 1);
+    if (key == live::kKeyUp && content_.selected > 0) mark(content_.selected - 1);
     if (key == 'r') orSay([this] { recording_ ? stopRecording() : startRecording(); });
-    if (key == 't' && selected < fingers.size()) tare(fingers[selected].node);
+    if (key != 't') return;
+    mark(content_.selected);
+    if (marked_) tare(*marked_);
+  }
+
+  /// Fingers that come meanwhile stand between the others: the mark stays where a key has put it.
+  std::size_t markedIndex() const {
+    const auto& fingers = content_.buses.front().fingers;
+    const auto found = std::ranges::find(fingers, marked_, &live::FingerView::node);
+    return found == fingers.end() ? 0 : static_cast<std::size_t>(found - fingers.begin());
+  }
+
+  void mark(std::size_t index) {
+    const auto& fingers = content_.buses.front().fingers;
+    if (index >= fingers.size()) return;
+    content_.selected = index;
+    marked_ = fingers[index].node;
   }
 
   /// What goes wrong with a recording is said, and ends it: the fingers are still to be seen.
@@ -159,6 +175,7 @@ class LiveScreen {
   const config::FingerConfig& config_;
   live::BusWatch watch_;
   live::ScreenContent content_;
+  std::optional<std::uint8_t> marked_;  ///< the node; nothing before a key was pressed: the first
   std::optional<Recording> recording_;
   bool quit_ = false;
 };

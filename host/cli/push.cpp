@@ -96,7 +96,7 @@ void requireWhole(const can::TablePush& push, const can::BusPort& bus, std::uint
   if (push.command == Command::kWord)
     tell("strainfinger: push: ended after {} of {} words: {}\n", push.words, kTableWords, left);
   if (push.othersAsk)
-    tell("strainfinger: push: another program asks this node, too: let one at a time do so\n");
+    tell("strainfinger: push: another program asks this finger, too: {}\n", can::kOthersAskRemedy);
   requireDone(push.reply, push.command, bus, node);
 }
 

@@ -16,6 +16,7 @@
 #include "host/base/notice.hpp"
 #include "host/can/frame_catalogue.hpp"
 #include "host/can/log_reader.hpp"
+#include "host/can/one_finger.hpp"
 #include "host/can/open_bus.hpp"
 #include "host/cli/bus_option.hpp"
 #include "host/cli/command.hpp"
@@ -43,8 +44,7 @@ constexpr const char* kReplayHelp =
 constexpr auto kTryAgain = 1ms;
 constexpr auto kGiveUp = 1s;
 
-/// What comes back from the bus is nobody's: no identifier has all bits set but this one, which no finger
-/// sends.
+/// Of what is heard on the bus nothing is of use here. This identifier alone passes, which no finger sends.
 constexpr can::BusFilter kHearNothing{.id = kMaxCanId, .mask = kMaxCanId};
 
 struct ReplayOptions {
@@ -150,31 +150,10 @@ std::uint64_t sendAll(const ReplayOptions& options, can::BusPort& port, const sy
   return sent;
 }
 
-/// A node that speaks on several interfaces is several fingers: their readings must not be mixed.
-class OneFinger {
- public:
-  explicit OneFinger(int node) : node_(node) {}
-
-  /// Takes any frame of the log. Throws Failure(kUsage) at the first of another finger with the node.
-  void watch(const std::string& path, const can::TextFrame& text) {
-    const bool isItsOwn = can::findFrame(text.frame) != nullptr || decode<RawFrame>(text.frame);
-    if (!isItsOwn || can::fingerNode(text.frame.id) != node_) return;
-    if (interface_.empty()) interface_ = text.interface;
-    if (text.interface == interface_) return;
-    throw Failure(ExitCode::kUsage,
-                  fmt::format("{}: there is a node {} on {} and one on {}: choose with --interface", path,
-                              node_, excerpt(interface_), excerpt(text.interface)));
-  }
-
- private:
-  int node_;
-  std::string interface_;  ///< of its first frame
-};
-
 void recomputeLog(const ReplayOptions& options) {
   const config::FingerConfig config = options.common.config();
   can::LogReader log(options.path, options.interface);
-  OneFinger one(config.can.node);
+  can::OneFinger one(config.can.node);
   const auto next = [&]() -> std::optional<can::TimedFrame> {
     const auto text = log.next();
     if (text) {

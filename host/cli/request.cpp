@@ -72,7 +72,7 @@ void letOthersAsk(can::BusPort& bus, const std::function<bool()>& goOn) {
   }
 }
 
-/// Fingers tell callers apart by nothing, so two programs would take each other's answers for their own.
+/// Fingers cannot tell callers apart, so two programs would take each other's answers for their own.
 can::Reply askOnceOthersHaveEnded(can::BusPort& bus, std::uint8_t node, const std::function<bool()>& goOn) {
   const auto end = Clock::now() + kOthersMayAskFor;
   can::Reply reply = can::askWhoIsThere(bus, node, goOn);
@@ -116,9 +116,10 @@ void requireOneFinger(can::BusPort& bus, std::uint8_t node, const std::function<
   const can::Reply reply = askOnceOthersHaveEnded(bus, node, goOn);
   const bool isInterrupted = goOn && !goOn();
   if (reply.othersAsk && !isInterrupted)
-    throw Failure(ExitCode::kFailure, fmt::format("{}: another program asks this finger, and has not ended "
-                                                  "within {} s: let one at a time do so",
-                                                  placeOf(bus, node), kOthersMayAskFor / 1s));
+    throw Failure(ExitCode::kFailure,
+                  fmt::format("{}: another program asks this finger, and has not ended "
+                              "within {} s: {}",
+                              placeOf(bus, node), kOthersMayAskFor / 1s, can::kOthersAskRemedy));
   if (reply.hasTwin()) throw twinFailure(bus, node);
   if (reply.response && !reply.othersAsk) return;
   if (isInterrupted)

@@ -73,8 +73,6 @@ struct ShapeOptions {
   int points = 41;
 };
 
-double degrees(double angle_rad) { return withinATurn_deg(angle_rad / kRadPerDeg); }
-
 std::string unresolved(const shape::Shape& shape) {
   std::vector<std::string> words;
   if (!shape.width_m) words.emplace_back("width");
@@ -102,7 +100,7 @@ NamedRow shapeRow(const shape::Shape& shape, bool isClipped) {
   const shape::Measured curvature = shape.curvature_per_m.value_or(unknown);
   const shape::Band band = shape.curvatureBand_per_m.value_or(shape::Band{kNoValue, kNoValue});
   return {{"contact", std::int64_t{1}},
-          {"angle_deg", degrees(shape.angle_rad.value)},
+          {"angle_deg", degreesOf(shape.angle_rad.value)},
           {"normal_n_per_m", shape.normal_n_per_m.value},
           {"tangential_n_per_m", shape.tangential_n_per_m.value},
           {"width_m", width.value},
@@ -117,7 +115,7 @@ NamedRow shapeRow(const shape::Shape& shape, bool isClipped) {
           {"class", std::string(shape.profile ? nameOf(*shape.profile) : "")},
           {"unresolved", unresolved(shape)},
           {"fit_probability", shape.fitProbability},
-          {"rival_angle_deg", shape.rivalAngle_rad ? degrees(*shape.rivalAngle_rad) : kNoValue},
+          {"rival_angle_deg", shape.rivalAngle_rad ? degreesOf(*shape.rivalAngle_rad) : kNoValue},
           {"warnings", warnings(shape, isClipped)},
           {"curvature_low_per_m", band.low},
           {"curvature_high_per_m", std::isfinite(band.high) ? band.high : kNoValue}};
@@ -207,7 +205,7 @@ void printPressures(const ShapeOptions& options, const config::FingerConfig& con
       const double band_pa = shape::kTwoSided95 * pressure.sigma_pa[i], value_pa = pressure.pressure_pa[i];
       const double ellipse_pa =
           mean_pa * density(model::Profile::kEllipse, model::momentOfWidth(2 * half_rad), offsets_rad[i]);
-      table.row({reading.sample, degrees(shape->angle_rad.value + offsets_rad[i]), value_pa,
+      table.row({reading.sample, degreesOf(shape->angle_rad.value + offsets_rad[i]), value_pa,
                  value_pa - band_pa, value_pa + band_pa, ellipse_pa});
     }
   });

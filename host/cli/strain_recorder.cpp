@@ -20,7 +20,7 @@ std::optional<simulation::Touch> onlyTouch(const std::vector<simulation::Touch>&
 
 std::string touchRow(const std::optional<simulation::Touch>& touch) {
   if (!touch) return ",,";
-  return fmt::format("{},{},{}", withinATurn_deg(touch->angle_rad / kRadPerDeg), touch->normal_n_per_m,
+  return fmt::format("{},{},{}", degreesOf(touch->angle_rad), touch->normal_n_per_m,
                      touch->tangential_n_per_m);
 }
 

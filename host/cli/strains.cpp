@@ -62,7 +62,7 @@ class StrainPrinter {
     std::vector<Cell> cells{timeCell(time_ns)};
     cells.insert(cells.end(), set.strains.begin(), set.strains.end());
     table_.row(cells);
-    writeAndFlush(stdout, "");  // whoever reads along has it now, and a killed program leaves whole rows
+    table_.flush();
     ++sets_;
   }
 
@@ -139,8 +139,9 @@ class Circumstances {
 /// What another program did; "" where none did.
 std::string othersText(const Circumstances& finger) {
   if (!finger.othersCommand()) return "";
-  return fmt::format("another program asked this finger, too ({}): let one at a time do so",
-                     can::nameText(kCommandNames, static_cast<int>(*finger.othersCommand())));
+  return fmt::format("another program asked this finger, too ({}): {}",
+                     can::nameText(kCommandNames, static_cast<int>(*finger.othersCommand())),
+                     can::kOthersAskRemedy);
 }
 
 /// The config says by what the codes are multiplied: one that is not the finger's gives wrong strains.
@@ -209,7 +210,6 @@ void runStrains(const StrainsOptions& options) {
     receiver.requireAllGauges();
     if (StrainClock::now() - heard > kSilence) giveUp(kSilence.count() / 1e3);
   }
-  std::fflush(stdout);
   if (options.request.common.hasConfig()) warnOfOtherTables(finger, config);
   tell("strains: {} sets, {} incomplete\n", printer.sets(), receiver.incomplete());
   if (const std::string others = othersText(finger); !others.empty())

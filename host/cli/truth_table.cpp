@@ -27,8 +27,8 @@ constexpr double kSilence_s = 1.2e-3 * kContactPeriod_ms;
 
 std::string truthText(const std::optional<Touch>& touch) {
   if (!touch) return kNoTruth;
-  return fmt::format("{:6.2f} {:8.2f} {:+8.2f}", withinATurn_deg(touch->angle_rad / kRadPerDeg),
-                     touch->normal_n_per_m, touch->tangential_n_per_m);
+  return fmt::format("{:6.2f} {:8.2f} {:+8.2f}", degreesOf(touch->angle_rad), touch->normal_n_per_m,
+                     touch->tangential_n_per_m);
 }
 
 std::string differenceText(const can::ContactReport& contact, const std::optional<Touch>& touch,

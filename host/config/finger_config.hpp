@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/quantities.hpp"
+#include "host/base/angles.hpp"
 #include "host/model/annulus.hpp"
 #include "host/model/placed_gauge.hpp"
 
@@ -57,7 +58,7 @@ struct Gauges {
   }
   /// The same; of an even ring not reduced to one revolution.
   double angle_rad(int gauge) const {
-    if (!isEven()) return angle_deg(gauge) * std::numbers::pi / 180;
+    if (!isEven()) return angle_deg(gauge) * kRadPerDeg;
     return (first_angle_deg / 360 + static_cast<double>(gauge) / count) * 2 * std::numbers::pi;
   }
   /// Counter-clockwise from a gauge to the next, the last one's next being gauge 0: 0 .. 360.
@@ -141,7 +142,7 @@ struct FingerConfig {
       return list.empty() ? otherwise : list[static_cast<std::size_t>(gauge)];
     };
     model::PlacedGauge placed = drawn(gauge);
-    placed.angle_rad += found(calibration.angle_offset_deg, 0) * std::numbers::pi / 180;
+    placed.angle_rad += found(calibration.angle_offset_deg, 0) * kRadPerDeg;
     placed.radius_m -= found(calibration.depth_offset_m, 0);
     placed.gain = found(calibration.gain, 1);
     return placed;

@@ -11,6 +11,7 @@
 
 #include "common/table_image.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/quantile.hpp"
 #include "host/config/keys.hpp"
 #include "host/config/over_range.hpp"
 #include "host/config/ring_spacing.hpp"
@@ -38,11 +39,7 @@ double placeOf(const config::FingerConfig& config, int place) {
   return config.gauges.angle_rad(0) + 2 * std::numbers::pi / config.gauges.count * place / kPlaces;
 }
 
-Bound boundOf(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return {(values[half - 1] + values[half]) / 2, values.back()};
-}
+Bound boundOf(const std::vector<double>& values) { return {medianOf(values), std::ranges::max(values)}; }
 
 Bounds boundsOf(const config::FingerConfig& config, simulation::Touch touch) {
   const evidence::FitModel model(config);

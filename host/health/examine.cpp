@@ -305,6 +305,11 @@ Findings examineCounts(const std::string& bus, std::uint8_t node, std::span<cons
           fmt::format("{} {}", counted.value, said("counted", kCountNames, static_cast<int>(count))),
           can::remedyFor(count));
   }
+  if (const auto doubtful = std::ranges::count(counts, CountAnswer::kOthersAsk, &Counted::answer);
+      doubtful > 0)
+    examination.warning(
+        fmt::format("{} of its counts could not be told: another program asks it, too", doubtful),
+        can::kOthersAskRemedy);
   if (examination.isEmpty()) examination.good("answers requests, and counts nothing that would be wrong");
   return examination.findings();
 }

@@ -39,7 +39,8 @@ class Keyboard {
   void takeOver() const;
 
  private:
-  /// The terminal, opened anew: who shares stdin shall not find that reads don't wait. -1: no keys.
+  /// The terminal, opened anew, because O_NONBLOCK of stdin's own description would hold for other processes
+  /// that share it. -1: no keys.
   int file_;
   termios before_{};
   bool hasModes_;  ///< before_ is known

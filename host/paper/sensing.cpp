@@ -1,11 +1,11 @@
 #include "host/paper/sensing.hpp"
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "host/base/quantile.hpp"
 #include "host/contact/decompositions.hpp"
 #include "host/paper/spread_response.hpp"
 
@@ -53,12 +53,6 @@ int solutions(const Triples& triples, const Eigen::Vector3d& readings) {
     count += load[0] > 0 && std::abs(load[1]) <= load[0] ? 1 : 0;
   }
   return count;
-}
-
-double medianOf(std::vector<double> values) {
-  std::ranges::sort(values);
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
 }  // namespace

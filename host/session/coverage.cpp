@@ -13,7 +13,7 @@ constexpr double kMostArcsNamed = 0.75;
 }  // namespace
 
 int arcOf(const config::Gauges& gauges, double place_rad) {
-  const double place_deg = withinATurn_deg(place_rad / kRadPerDeg);
+  const double place_deg = degreesOf(place_rad);
   for (int gauge = 0; gauge < gauges.count; ++gauge) {
     const double behind_deg = withinATurn_deg(place_deg - gauges.angle_deg(gauge));
     const double gap_deg = gauges.gap_deg(gauge);

@@ -9,6 +9,7 @@
 
 #include "host/base/failure.hpp"
 #include "host/can/log_reader.hpp"
+#include "host/can/one_finger.hpp"
 #include "host/can/strain_receiver.hpp"
 #include "host/session/thinning.hpp"
 
@@ -26,12 +27,15 @@ bool isRecording(const std::string& path) {
   return false;
 }
 
-Recorded readRecording(const std::string& path, const config::FingerConfig& config, std::uint8_t node) {
-  can::LogReader log(path);
+Recorded readRecording(const std::string& path, const config::FingerConfig& config, std::uint8_t node,
+                       const std::string& interface) {
+  can::LogReader log(path, interface);
+  can::OneFinger one(node);
   can::StrainReceiver receiver(node, config.gauges.count, config.gauges.full_scale_strain);
   Thinner thinner(config);
   Recorded found;
   while (const auto frame = log.next()) {
+    one.watch(path, *frame);
     const auto set = receiver.take(frame->frame);
     if (!set || set->zeroing) continue;
     ++found.sets;

@@ -19,8 +19,10 @@ struct Recorded {
   std::vector<std::string> warnings;  ///< as can::LogReader has them
 };
 
-/// The readings (RAW) of the config's node, thinned as a session's are. Throws Failure(kFailure) as
-/// can::LogReader does, when there are none, and when none is a touch; kMismatch as can::RawReceiver does.
-Recorded readRecording(const std::string& path, const config::FingerConfig& config, std::uint8_t node);
+/// The readings (RAW) of a node on an interface of the log ("": on any), thinned as a session's are. Throws
+/// Failure(kFailure) as can::LogReader does, when there are none, and when none is a touch; kMismatch as
+/// can::RawReceiver does; kUsage as can::OneFinger does.
+Recorded readRecording(const std::string& path, const config::FingerConfig& config, std::uint8_t node,
+                       const std::string& interface = "");
 
 }  // namespace strainfinger::session

@@ -9,8 +9,9 @@
 namespace strainfinger::simulation {
 namespace {
 
-/// Sample numbers of the draws; beyond a run's seeds, so that no noise repeats them.
+/// Sample numbers of the draws.
 enum Draw : std::uint64_t { kAngle, kDepth, kGain };
+/// Added to as_built.seed, so that small seeds of a run's noise don't repeat the draws.
 constexpr std::uint64_t kSeedsBase = std::uint64_t{1} << 40;
 
 }  // namespace

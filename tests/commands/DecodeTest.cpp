@@ -135,7 +135,7 @@ TEST(Decode, TellsTwoFingersOfOneNumberFromLosses) {
   const Run run = runShell(
       "\"$STRAINFINGER\" run --duration 2 >a; \"$STRAINFINGER\" run --seed 2 --duration 2 | tail -n +2 >b\n"
       "paste -d '\\n' a b | grep . | \"$STRAINFINGER\" decode; rm a b");
-  checkSays("two fingers send as this node", run);
+  checkSays("two fingers have this node number", run);
   CHECK(run.err.find(" lost, ") == std::string::npos);
 }
 

@@ -64,6 +64,13 @@ TEST(ExplainCommand, TakesSeveralFrames) {
   STRCMP_CONTAINS("FORCE of node 1", run.out.c_str());
 }
 
+TEST(ExplainCommand, AValueAtTheEndOfItsRangeSaysOnWhichSideTheTrueOneIs) {
+  const std::string least = runProgram("explain --json 281#E803018000000000").out;
+  STRCMP_CONTAINS("-32.767", least.c_str());
+  STRCMP_CONTAINS("this value or less", least.c_str());
+  STRCMP_CONTAINS("this value or more", runProgram("explain --json 281#E803FF7F00000000").out.c_str());
+}
+
 TEST(ExplainCommand, TakesNamesAsOtherCommandsJoinThem) {
   const Run run = runProgram("explain contact+uncertain noisy,");
   LONGS_EQUAL(0, run.status);

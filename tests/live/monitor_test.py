@@ -12,7 +12,7 @@ import time
 import tomllib
 import unittest
 
-from fingers import Bench, bench_with_two, cpu_s
+from fingers import UNTOUCHED, Bench, bench_with_two, cpu_s
 from terminal import SHELL, Terminal
 
 if shutil.which("tmux") is None:
@@ -62,6 +62,20 @@ class Live(unittest.TestCase):
             terminal.wait_for(r"▸ node 2")
             terminal.press("t")
             terminal.wait_for(r"node 2: tare: Done")
+
+    def test_the_mark_stays_with_its_finger_when_others_come(self):
+        with Bench(PROGRAM) as bench:
+            bench.bus = f"udp:{int(bench.bus[4:]) + 20000}"  # beside that of the other tests of this process
+            bench.finger(node=3)
+            bench.finger(node=5, scenario=UNTOUCHED)
+            with Terminal(f"{PROGRAM} monitor --can {bench.bus}") as terminal:
+                terminal.wait_for(r"(?s)▸ node 3 .*node 5")
+                terminal.press("Down")
+                terminal.wait_for(r"▸ node 5")
+                bench.finger(node=1)
+                terminal.wait_for(r"(?s)node 1 .*node 3 .*▸ node 5")
+                terminal.press("t")
+                terminal.wait_for(r"node 5: tare: Done")
 
     def test_r_records(self):
         folder = self.bench.new_folder()

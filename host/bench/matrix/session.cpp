@@ -11,6 +11,7 @@
 #include "host/evidence/accuracy.hpp"
 #include "host/evidence/uniform.hpp"
 #include "host/simulation/built_finger.hpp"
+#include "host/simulation/gauge_fault.hpp"
 #include "host/tables/table_builder.hpp"
 
 namespace strainfinger::bench {
@@ -18,7 +19,6 @@ namespace {
 
 constexpr double kSetsPerSecond = 1000, kHum_hz = 50;
 constexpr double kGluedTo = 0.3;     ///< part of its neighbour that a badly glued gauge feels
-constexpr double kNoisier = 10;      ///< noise of a noisy gauge over a healthy one's
 constexpr double kRail_strain = 10;  ///< beyond every converter's range
 constexpr int kSpikeEvery = 20;      ///< sample sets
 constexpr double kNear_pitch = 2;    ///< touches are within so much of a failed gauge
@@ -187,8 +187,8 @@ void Session::fail(Eigen::VectorXd& readings) const {
       readings[failed_] = kRail_strain;
       return;
     case Failure::kNoisy:
-      readings[failed_] +=
-          kNoisier * finger_.gauges.noise_strain * draws_.at(number_ * kSetsPerSession + set_, kNoise);
+      readings[failed_] += simulation::GaugeFault::kNoisier * finger_.gauges.noise_strain *
+                           draws_.at(number_ * kSetsPerSession + set_, kNoise);
       return;
     case Failure::kSwapped:
       std::swap(readings[failed_], readings[next]);

@@ -137,4 +137,16 @@ TEST(LineReader, GoesOnWithTheFileThatHasTakenItsName) {
   STRCMP_EQUAL("[new]", linesOf(reader).c_str());
 }
 
+TEST(LineReader, AFileThatHasShrunkIsReadFromItsStart) {
+  append("one\ntwo\nha");
+  LineReader reader(path_);
+  STRCMP_EQUAL("[one][two]", linesOf(reader).c_str());
+  STRCMP_EQUAL((path_ + ":2").c_str(), reader.place().c_str());
+  std::filesystem::resize_file(path_, 0);
+  append("new\n");
+  STRCMP_EQUAL("", linesOf(reader).c_str());  // this read finds that it has shrunk
+  STRCMP_EQUAL("[new]", linesOf(reader).c_str());
+  STRCMP_EQUAL((path_ + ":1").c_str(), reader.place().c_str());
+}
+
 TEST(LineReader, StdinIsNeverReplaced) { CHECK_FALSE(LineReader("-").isReplaced()); }

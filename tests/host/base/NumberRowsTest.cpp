@@ -226,6 +226,11 @@ TEST(NumberRows, AnEmptyFieldIsNamed) {
   STRCMP_EQUAL("stdin:1:3: \"\" is no number", complaintAbout("1,\n").c_str());
 }
 
+TEST(NumberRows, ANumberHasOneSign) {
+  LONGS_EQUAL(1, read("+1,-2\n").size());
+  STRCMP_EQUAL("stdin:1:3: \"+-2\" is no number", complaintAbout("1,+-2\n").c_str());
+}
+
 TEST(NumberRows, NotANumberAndInfinityAreRefused) {
   STRCMP_EQUAL("stdin:2:1: nan is no finite number", complaintAbout("1,2\nnan,2\n").c_str());
   STRCMP_EQUAL("stdin:2:3: -inf is no finite number", complaintAbout("1,2\n1,-inf\n").c_str());

@@ -32,6 +32,7 @@ TEST(Findings, ThatAFitWasStoppedIsSaid) {
   CHECK_TRUE(textReport(result()).find(stopped) == std::string::npos);
   const CalibrationResult early{drawing, deviations, covariance, rows, {0, 0}, isLoadKnown, {}, false};
   STRCMP_CONTAINS(stopped.c_str(), textReport(early).c_str());
+  STRCMP_CONTAINS(stopped.c_str(), whatIsUntold(early).front().c_str());
 }
 
 TEST(Findings, OnlyStrongCorrelationsAreWorthKnowing) {

@@ -327,7 +327,8 @@ TEST(Examine, CountsThatAreNotToldSayWhy) {
     return examineCounts("can0", 1, counts, hints);
   };
   checkOnly(Severity::kGood, "answers requests", "", of(CountAnswer::kNotCounted));
-  checkOnly(Severity::kGood, "answers requests", "", of(CountAnswer::kOthersAsk));
+  checkOnly(Severity::kWarning, "1 of its counts could not be told: another program asks it", "one at a time",
+            of(CountAnswer::kOthersAsk));
   checkOnly(Severity::kError, "answers no request", "firmware", of(CountAnswer::kSilence));
   checkStatus(ExitCode::kNoNode, of(CountAnswer::kSilence));
   checkOnly(Severity::kError, "takes no request", "blocked", of(CountAnswer::kNotSent));

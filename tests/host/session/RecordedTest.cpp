@@ -21,12 +21,13 @@ TEST_GROUP(Recorded) {
   const std::string path_ = fmt::format("{}/recorded_test.{}", P_tmpdir, getpid());
   config::FingerConfig config;
   Hand hand{config};
+  std::string interface_ = "can0";
 
   void teardown() override { std::remove(path_.c_str()); }
   void write(const std::string& text) { std::ofstream(path_) << text; }
 
   /// The pages of a set as BUS_RAW.md has them: 32768 is the middle, 2^15 codes are 0.03.
-  static std::string pages(std::int64_t time_us, int sample, RawKind kind, const Eigen::VectorXd& strains) {
+  std::string pages(std::int64_t time_us, int sample, RawKind kind, const Eigen::VectorXd& strains) const {
     std::string text;
     for (int page = 0; page < 6; ++page) {
       RawFrame frame{static_cast<std::uint8_t>(page), kind, static_cast<std::uint8_t>(sample)};
@@ -36,7 +37,7 @@ TEST_GROUP(Recorded) {
                                                      : 0);
       };
       frame.code_0 = code(0), frame.code_1 = code(1), frame.code_2 = code(2);
-      text += can::formatLogLine(time_us, "can0", encode(frame, 1)) + "\n";
+      text += can::formatLogLine(time_us, interface_, encode(frame, 1)) + "\n";
     }
     return text;
   }
@@ -64,6 +65,20 @@ TEST(Recorded, TouchesThatDifferAreRowsLessTheZero) {
   Eigen::Index largest = 0;
   first.cwiseAbs().maxCoeff(&largest);
   LONGS_EQUAL(0, largest);
+}
+
+TEST(Recorded, OfTwoFingersOfOneNumberOneIsChosen) {
+  const std::string first = stroke();
+  interface_ = "can1";
+  write(first + stroke());
+  try {
+    readRecording(path_, config, 1);
+    FAIL("accepted");
+  } catch (const Failure& failure) {
+    LONGS_EQUAL(static_cast<int>(ExitCode::kUsage), static_cast<int>(failure.code()));
+    STRCMP_CONTAINS(": there is a node 1 on can0 and one on can1: choose with --interface", failure.what());
+  }
+  LONGS_EQUAL(100, readRecording(path_, config, 1, "can1").sets);
 }
 
 TEST(Recorded, WithoutReadingsOfTheNodeItIsRefused) {

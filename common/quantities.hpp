@@ -9,7 +9,8 @@ namespace strainfinger {
 
 /// Most gauges a ring can have; every array of gauges has this size.
 inline constexpr int kMaxGauges = 32;
-/// Fewest gauges a ring can have: a window, and enough beyond it to tell windows apart.
+/// Fewest gauges a ring can have: where one has failed, there are still some more than the eight unknowns of
+/// two contacts, so that an answer can be judged.
 inline constexpr int kMinGauges = 12;
 
 /// Strain, tensor component, extension positive: [-0.5, 0.5) in steps of 2.3e-10.

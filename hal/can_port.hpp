@@ -30,7 +30,7 @@ struct CanStatus {
 ///    is never reported as sent. A frame no bus can carry (isValid()) is never taken.
 ///  - `receive()` never blocks; frames of 11-bit identifiers only, data frames only, in order of arrival.
 ///    The port's own frames are not received. Data beyond a frame's length are zero.
-///  - `status()` is cheap enough for every heartbeat.
+///  - `status()` is cheap enough to be asked with every frame.
 // clang-format off
 template <typename T>
 concept CanPort = requires(T port, const CanFrame& frame) {

@@ -34,7 +34,7 @@ class EraseBudget {
   constexpr void spend(std::uint32_t now_s) { paidUntil_s_ = std::max(paidUntil_s_, now_s) + kPeriod_s; }
 
  private:
-  std::uint32_t paidUntil_s_;  ///< as if each erase took a whole period, one after the other
+  std::uint32_t paidUntil_s_;  ///< when the erases so far are paid for, at one a period
 };
 
 }  // namespace strainfinger::firmware

@@ -41,7 +41,7 @@ enum class Leaving : std::uint8_t { kStays, kLoads, kRestarts };
 /// Counters of what happened that no return value reports. They only grow.
 struct FingerCounters {
   std::uint32_t sampleSets = 0;
-  std::uint32_t fits = 0;
+  std::uint32_t fits = 0;               ///< touched sample sets
   std::uint32_t touchesSent = 0;        ///< with all their frames: CONTACT, FORCE, PATCH ..
   std::uint32_t touchesBusy = 0;        ///< the port couldn't take CONTACT at once; a newer one replaced it
   std::uint32_t touchesIncomplete = 0;  ///< CONTACT went out, but the port didn't take the others in time
@@ -238,7 +238,7 @@ class Finger {
     HeartbeatFrame frame;
     frame.state = state_;
     frame.faults = settings_.standingFaults;
-    frame.faults.set(FingerFault::kGauges, pipeline_.observation().uncertain);
+    frame.faults.set(FingerFault::kGauges, pipeline_.observation().tooFewGauges);
     frame.faults.set(FingerFault::kNoisy, pipeline_.observation().noisy);
     frame.faults.set(FingerFault::kConverter, isConverterSilent(now_us));
     frame.faults.set(FingerFault::kCan,
@@ -284,7 +284,7 @@ class Finger {
       return responseTo(Command::kTare, *std::exchange(tareStatus_, std::nullopt));
     const auto request = nextRequest(can_, settings_.node);
     if (!request) return std::nullopt;
-    requestedAt_us_ = now_us;
+    if (!tareStatus_) requestedAt_us_ = now_us;  // the answer to a tare is to be in time, too
     return obey(*request, now_us);
   }
 

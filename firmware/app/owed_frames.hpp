@@ -11,8 +11,8 @@
 namespace strainfinger::firmware {
 
 /// What belongs to a CONTACT that went out, in the order of sending: FORCE, PATCH, then a second contact's
-/// CONTACT2 and FORCE2. What the port can't take waits for its CONTACT's sake, but never until it is old, nor
-/// when the node has left the bus since: the CONTACT may be lost.
+/// CONTACT2 and FORCE2. What the port can't take is tried again for a while, and dropped when it has become
+/// old, or when the node has left the bus since: its CONTACT may be lost.
 class OwedFrames {
  public:
   enum class Outcome : std::uint8_t { kWaiting, kAllSent, kDropped };

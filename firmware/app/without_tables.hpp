@@ -42,9 +42,9 @@ class WithoutTables {
   void step(std::uint32_t now_us) {
     for (; now_us - second_us_ >= hal::kSecond_us; second_us_ += hal::kSecond_us) ++uptime_s_;
     heartbeat_.step(can_, now_us);
-    if (response_ && now_us - answeredAt_us_ >= std::uint32_t{kAnswerWithin_ms} * 1000) response_.reset();
+    if (response_ && now_us - requestedAt_us_ >= std::uint32_t{kAnswerWithin_ms} * 1000) response_.reset();
     if (!response_) {
-      answeredAt_us_ = now_us;
+      requestedAt_us_ = now_us;
       if (const auto request = nextRequest(can_, node_)) response_ = obey(*request);
     }
     if (response_ && can_.send(encode(*response_, node_))) response_.reset();
@@ -83,7 +83,7 @@ class WithoutTables {
   EraseBudget budget_;
   Announcement<HeartbeatFrame> heartbeat_;
   std::optional<ResponseFrame> response_;  ///< that the port hasn't taken yet
-  std::uint32_t answeredAt_us_ = 0;
+  std::uint32_t requestedAt_us_ = 0;
   std::uint32_t second_us_;  ///< when the last whole second ended
   std::uint32_t uptime_s_;
 };

@@ -83,7 +83,8 @@ class Locator {
   const Answer& answer() const { return answer_; }
   /// Other answers are being looked for, whether or not Answer::searching says that the answer is doubted.
   bool isSearching() const { return search_.isBegun(); }
-  /// Another update with the same readings would change nothing.
+  /// Another update with the same readings would not improve the answer: its fit has converged, and no search
+  /// is due at once.
   bool isSettled() const {
     return answer_.accepted && answer_.solution.converged && !isSearching() && !answer_.searching &&
            (setsInDoubt_ == 0 || answer_.doubtful);

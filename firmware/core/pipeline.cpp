@@ -12,6 +12,10 @@ constexpr int kGaugesPerOut = 8;
 /// row, a bit more than a period of 50 Hz hum at 1 kHz: else they are a disturbance.
 constexpr Wide kDisturbance = 64;
 constexpr int kSettled = 24;
+/// A disturbance whose readings are all within so many standard deviations may be drift, which zeros follow:
+/// that of 2 microstrain a second during a touch of 5 s. Larger ones may be a touch that is too wide to be
+/// told.
+constexpr Wide kDrift = 6;
 
 /// The gauges at a rail of which the answer tells whether they should be there. It doesn't tell if a load is
 /// at the fit's limit, because the touch may make gauges read far more than is predicted, nor of gauges at
@@ -27,11 +31,16 @@ GaugeSet judgedAtRail(const TableConstants& constants, const Solution& answer, G
 
 void Pipeline::takeZero(const ZeroAverage& zero) {
   zero.writeTo(calibration_);
-  tracker_.restart();
-  watch_ = {};
   // These are open or shorted; with such a zero they would seem to read nothing.
   watch_.takeOut(zero.gaugesAtRail(constants()));
-  locator_.release();
+  noteOutOfUse();
+}
+
+void Pipeline::noteOutOfUse() {
+  const GaugeSet outOfUse = this->outOfUse();
+  observation_.outOfUse = outOfUse;
+  observation_.tooFewGauges =
+      outOfUse != 0 && std::popcount(outOfUse) * kGaugesPerOut > constants().gauge_count;
 }
 
 /// Small readings are a disturbance (hum or drift) until contacts explain kSettled sets in a row. A touch
@@ -42,10 +51,12 @@ bool Pipeline::isDisturbance(GaugeSet gauges) {
     contrarySets_ = 0;
     return false;
   }
-  const Wide most = kDisturbance * readingNoise_q32(constants());
-  bool isStrong = false;
+  const Number noise = readingNoise_q32(constants());
+  Number largest = 0;
   for (int i = 0; i < constants().gauge_count; ++i)
-    if (contains(gauges, i) && magnitude(Wide{readings_.strain_q32[index(i)]}) > most) isStrong = true;
+    if (contains(gauges, i)) largest = larger(largest, signlessBits(readings_.strain_q32[index(i)]));
+  const bool isStrong = largest > kDisturbance * noise;
+  mayBeDrift_ = largest <= kDrift * noise;
   contrarySets_ = isStrong || accepted == isTouch_ ? 0 : static_cast<std::uint8_t>(contrarySets_ + 1);
   if (isStrong || contrarySets_ == kSettled) {
     isTouch_ = isStrong || accepted;
@@ -111,17 +122,18 @@ const Observation& Pipeline::process(Codes codes) {
   } else {
     noise_.take(constants(), strains(), ~(observation_.saturated | watch_.outOfUse()), contrarySets_ != 0);
   }
-  const GaugeSet outOfUse = this->outOfUse();
+  noteOutOfUse();
   // The zero of a noisy gauge goes on following while nothing touches, as the gauge counts again once calm.
-  const GaugeSet unfollowed = observation_.touched ? outOfUse : watch_.outOfUse();
+  const GaugeSet unfollowed = observation_.touched ? observation_.outOfUse : watch_.outOfUse();
+  const bool isDisturbed = !observation_.touched && gate_.touched();
+  const bool mayBeTouch = isDisturbed && !mayBeDrift_;
+  tracker_.age();
   areZerosNew_ =
-      tracker_.take(*tables_, strains(), observation_.touched ? &locator_ : nullptr,
-                    observation_.leftOut | observation_.saturated | unfollowed, calibration_,
-                    locator_.scratch(), !wasSearching && (observation_.touched || !gate_.touched()));
+      !mayBeTouch && tracker_.take(*tables_, strains(), observation_.touched ? &locator_ : nullptr,
+                                   observation_.leftOut | observation_.saturated | unfollowed, calibration_,
+                                   locator_.scratch(), !wasSearching && !isDisturbed);
   observation_.staleZero = tracker_.stale();
   observation_.noisy = noise_.isNoisy();
-  observation_.uncertain = outOfUse != 0 && std::popcount(outOfUse) * kGaugesPerOut > constants().gauge_count;
-  observation_.outOfUse = outOfUse;
   return observation_;
 }
 

@@ -12,14 +12,14 @@ namespace strainfinger::firmware {
 /// What one sample set shows.
 struct Observation {
   bool touched = false;
-  bool unchanged = false;  ///< the codes are those of the set before, and so is the answer
-  bool several = false;    ///< the readings are not those of one contact
-  bool staleZero = false;  ///< the finger has not been seen untouched for too long
-  bool uncertain = false;  ///< too few gauges work for the answer to be sure
-  bool noisy = false;      ///< the untouched ring is noisier than configured
-  GaugeSet saturated = 0;  ///< at a rail
-  GaugeSet outOfUse = 0;   ///< known not to work, or noisy by themselves
-  GaugeSet leftOut = 0;    ///< not used by the answer
+  bool unchanged = false;     ///< the codes are those of the set before, and so is the answer
+  bool several = false;       ///< the readings are not those of one contact
+  bool staleZero = false;     ///< the finger has not been seen untouched for too long
+  bool tooFewGauges = false;  ///< work for the answer to be sure
+  bool noisy = false;         ///< the untouched ring is noisier than configured
+  GaugeSet saturated = 0;     ///< at a rail
+  GaugeSet outOfUse = 0;      ///< known not to work, or noisy by themselves
+  GaugeSet leftOut = 0;       ///< not used by the answer
 };
 
 class Pipeline {
@@ -37,8 +37,7 @@ class Pipeline {
 
   const TableConstants& constants() const { return tables_->constants; }
   Calibration& calibration() { return calibration_; }
-  /// Takes a new zero. What was learnt with the old one is forgotten, and gauges out of use have another try
-  /// unless the new zero is at a rail.
+  /// The first zero of a pipeline that is new. Gauges whose zero is at a rail are out of use.
   void takeZero(const ZeroAverage& zero);
   /// The strains changed while the zero was taken, as when a touch begins or ends.
   bool isTouchedDuring(const ZeroAverage& zero) const;
@@ -53,6 +52,7 @@ class Pipeline {
   void watchGauges();
   bool isKnown(Codes codes) const;
   void observe(Codes codes);
+  void noteOutOfUse();
   bool isDisturbance(GaugeSet gauges);
 
   const TableImage* tables_;
@@ -63,6 +63,7 @@ class Pipeline {
   Observation observation_;
   ContactGate gate_;
   bool isTouch_ = false;           ///< the readings are those of contacts, not of a disturbance
+  bool mayBeDrift_ = false;        ///< the last disturbance
   std::uint8_t contrarySets_ = 0;  ///< sets in a row that contradict isTouch_
   NoiseMeter noise_;
   Locator locator_;

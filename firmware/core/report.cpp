@@ -194,7 +194,7 @@ std::optional<TouchFrames> TouchReporter::frames(const TableConstants& constants
   std::optional<Contact> second;
   if (answer.solution.hypothesis.contacts > 1) second = estimate(constants, answer, unitErrors_, 1);
   flags.set(FingerFlag::kUncertain,
-            contact.uncertain || observation.uncertain || (second && second->uncertain));
+            contact.uncertain || observation.tooFewGauges || (second && second->uncertain));
   const TouchFrames frames = touchFrames(constants, contact, second, flags, next);
   isLookedAt_ = !mustBeRepeated(now_us) && !isNews(frames, last_, noiseShare_q8(answer));
   if (isLookedAt_) return std::nullopt;

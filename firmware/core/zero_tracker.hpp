@@ -28,16 +28,20 @@ class ZeroTracker {
   static constexpr int kUntilFollowed = kInterval + 3 * kEvery;
   static constexpr std::uint32_t kStaleSets = 600'000;  ///< ten minutes
 
-  /// One sample set. `locator`: null if nothing touches the finger; else the set counts if its answer
-  /// explains it. Averages of gauges in `leftOut` don't count; these follow only what others change by in
-  /// common. `scratch` is overwritten at the end of an untouched interval and in the sets up to
-  /// kUntilFollowed. Returns true if zeros may have changed. Cost: a sum over the gauges in one of kEvery
-  /// sets; after an untouched interval a coarse grid or a fit of at most kMostSteps steps in one of kEvery
-  /// sets, if `isTimeLeft`: not in a set in which the locator looks at a disturbance, or back at a touch.
-  /// Counted in firmware/cost.md.
+  /// Once a sample set, before take().
+  void age() {
+    if (age_sets_ != std::numeric_limits<std::uint32_t>::max()) ++age_sets_;
+  }
+
+  /// One sample set that is no touch which is not told yet. `locator`: null if nothing touches the finger;
+  /// else the set counts if its answer explains it. Averages of gauges in `leftOut` don't count; these follow
+  /// only what others change by in common. `scratch` is overwritten at the end of an untouched interval and
+  /// in the sets up to kUntilFollowed. Returns true if zeros may have changed. Cost: a sum over the gauges in
+  /// one of kEvery sets; after an untouched interval a coarse grid or a fit of at most kMostSteps steps in
+  /// one of kEvery sets, if `isTimeLeft`: not in a set in which the locator looks at a disturbance, or back
+  /// at a touch. Counted in firmware/cost.md.
   bool take(const TableImage& tables, std::span<const std::int32_t> strains_q32, const Locator* locator,
             GaugeSet leftOut, Calibration& calibration, Linearisation& scratch, bool isTimeLeft = true) {
-    if (age_sets_ != std::numeric_limits<std::uint32_t>::max()) ++age_sets_;
     const bool touched = locator != nullptr;
     if (touched != touched_) interrupt(touched);
     if (touched && !isExplained(locator->answer())) return false;
@@ -45,9 +49,6 @@ class ZeroTracker {
     if (sets_ + 1 >= kInterval && !isTimeLeft) return false;
     return ++sets_ % kEvery == 0 && average(tables, strains_q32, locator, calibration, scratch);
   }
-
-  /// Forgets everything: the zeros are new.
-  void restart() { *this = {}; }
 
   /// Sample sets since all zeros were last seen untouched; saturating.
   std::uint32_t age_sets() const { return age_sets_; }

@@ -42,7 +42,7 @@ class SampledFinger {
     for (int i = 0; i < pipeline_.answer().solution.hypothesis.contacts; ++i) {
       answers.push_back(answerOf(estimate(tables_.constants, pipeline_.answer(),
                                           firmware::unitErrors(pipeline_.linearisation()), i)));
-      answers.back().isFlagged |= seen.uncertain || seen.staleZero;
+      answers.back().isFlagged |= seen.tooFewGauges || seen.staleZero;
     }
     return answers;
   }

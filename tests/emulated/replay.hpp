@@ -102,7 +102,7 @@ std::uint32_t replayBlock(const TableImage& tables, std::uint32_t first, std::ui
       const firmware::Observation& observation = pipeline.process(codes);
       hash.add(observation.saturated);
       hash.add(observation.outOfUse);
-      hash.add(std::int32_t{observation.noisy} + 2 * std::int32_t{observation.uncertain});
+      hash.add(std::int32_t{observation.noisy} + 2 * std::int32_t{observation.tooFewGauges});
       if (observation.touched) add(hash, pipeline, sample);
     };
     look(refined);

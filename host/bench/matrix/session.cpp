@@ -247,7 +247,7 @@ void Session::judge(std::span<const simulation::Touch> truths, Tally& tally) con
     return;
   }
   const int contacts = pipeline_.answer().solution.hypothesis.contacts;
-  bool isFlagged = seen.uncertain || (seen.several && contacts == 1);
+  bool isFlagged = seen.tooFewGauges || (seen.several && contacts == 1);
   bool isFar = false, isBeyondSigmas = false;
   std::vector<bool> found(truths.size());
   const double half_rad = std::numbers::pi / finger_.gauges.count;

@@ -194,6 +194,18 @@ TEST(FingerRequests, ATareWhoseSamplesComeLateIsDoneButNotAnswered) {
   LONGS_EQUAL(0, responses().size());
 }
 
+TEST(FingerRequests, AnotherRequestGivesATareNoMoreTime) {
+  ask(tareRequest(false));
+  run(30);
+  clock.advance(300'000);
+  checkAnswered(contactRateRequest(100), CommandStatus::kDone);
+  clock.advance(200'000);
+  finger.step();
+  run(34);
+  CHECK_TRUE(finger.state() == FingerState::kRun);
+  LONGS_EQUAL(0, responses().size());
+}
+
 TEST(FingerRequests, ATareWhoseSamplesComeLateIsRefusedAsWellWhereATouchBegan) {
   ask(tareRequest(false));
   run(30);

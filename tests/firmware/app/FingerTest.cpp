@@ -293,6 +293,17 @@ TEST(Finger, SaysHowFastItsZeroMoves) {
   DOUBLES_EQUAL(ring.noise_strain() / kInterval_s * 1e9, sent<GaugesFrame>().back().zero_rate_nano_per_s, 15);
 }
 
+TEST(Finger, AGaugeThatIsAtItsRailThroughATareIsNeverSaidToWork) {
+  hal::SampleSet set = codesOf(kUntouched);
+  set[3] = 0xFFFF;
+  runSets(ZeroAverage::kSamples + 1100, set);
+  can.sent.clear();
+  can.deliver(encode(tareRequest(false), kNode));
+  runSets(ZeroAverage::kSamples + 1100, set);
+  CHECK_TRUE(!sent<GaugesFrame>().empty());
+  for (const GaugesFrame& frame : sent<GaugesFrame>()) LONGS_EQUAL(1 << 3, frame.out_of_use);
+}
+
 TEST(Finger, ANewZeroGivesGaugesAnotherTry) {
   runZeroed();
   hal::SampleSet set = codesOf(kTouch);

@@ -35,6 +35,13 @@ TEST(GaugeWatch, AtOnePlaceItMayBeAnythingElse) {
   UNSIGNED_LONGS_EQUAL(0, watch.outOfUse());
 }
 
+TEST(GaugeWatch, BackAtAPlaceItIsTheSamePlace) {
+  for (int set = 0; set < 100; ++set) suspectAt(kFive, set % 2 == 0 ? 4 : 5);
+  UNSIGNED_LONGS_EQUAL(0, watch.outOfUse());
+  suspectAt(kFive, 6);
+  UNSIGNED_LONGS_EQUAL(kFive, watch.outOfUse());
+}
+
 TEST(GaugeWatch, AroundZeroOnePlaceIsOne) {
   for (int set = 0; set < 100; ++set) suspectAt(kFive, set % 2 == 0 ? 0.2 : -0.2);
   UNSIGNED_LONGS_EQUAL(0, watch.outOfUse());

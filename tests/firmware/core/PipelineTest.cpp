@@ -119,7 +119,9 @@ TEST(Pipeline, AGaugeWhoseZeroIsAtARailIsOutOfUseUntilAnotherZero) {
       if (code >= 0) codes[5] = static_cast<std::uint16_t>(code);
       zero.add(codes);
     }
+    pipeline = Pipeline(ring.tables(), FitMode::kRefined);
     pipeline.takeZero(zero);
+    UNSIGNED_LONGS_EQUAL(code >= 0 ? 1u << 5 : 0, pipeline.observation().outOfUse);  // before any set
   };
   for (const std::uint16_t rail : {std::uint16_t{0}, ring.constants().adc_rail}) {
     takeZeroWithFiveAt(rail);
@@ -202,6 +204,24 @@ TEST(Pipeline, ATouchWiderThanTheTablesKnowIsNotTrackedAway) {
   }
 }
 
+// Nor where it comes and goes faster than it would be told.
+TEST(Pipeline, AWideTouchThatIsNeverToldIsNotTrackedAwayBitByBit) {
+  constexpr int kPresses = 40, kAveraged = 100;
+  const std::vector<double> nothing(16, 0.0);
+  process(nothing, 1000);
+  for (int press = 0; press < kPresses; ++press) {
+    process(wide(5.3, 2, 4.8), 300);
+    process(nothing, 200);
+  }
+  std::vector<double> left(16, 0.0);
+  for (int set = 0; set < kAveraged; ++set) {
+    process(nothing);
+    for (std::size_t i = 0; i < left.size(); ++i)
+      left[i] += std::ldexp(pipeline.readings().strain_q32[i], -32) / kAveraged;
+  }
+  CHECK_COMPARE(largest(left), <, noise_strain);
+}
+
 TEST(Pipeline, OneWrongReadingDoesNotEndALightTouch) {
   const auto strains = ring.strains(Press{5.4, 1.5, 0.2, 1});
   CHECK_TRUE(process(strains, 100).touched);
@@ -239,7 +259,7 @@ TEST(Pipeline, AGaugeThatIsNoisyByItselfIsOutOfUseUntilItIsCalm) {
   processLoud(untouched, 1000);
   UNSIGNED_LONGS_EQUAL(1 << 5, pipeline.observation().outOfUse);
   CHECK_FALSE(pipeline.observation().touched);
-  CHECK_FALSE(pipeline.observation().uncertain);
+  CHECK_FALSE(pipeline.observation().tooFewGauges);
   processLoud(ring.strains({5.4, 20, 3, 1}), 100);
   CHECK_TRUE(pipeline.observation().touched);
   UNSIGNED_LONGS_EQUAL(1 << 5, pipeline.observation().outOfUse);

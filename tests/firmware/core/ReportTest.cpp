@@ -418,7 +418,7 @@ TEST(TouchReporter, SaysBothContactsOfAPair) {
 }
 
 TEST(TouchReporter, WhatTooFewGaugesReadIsUncertain) {
-  touch.uncertain = true;
+  touch.tooFewGauges = true;
   CHECK_TRUE(say(touch)->contact.flags.has(FingerFlag::kUncertain));
 }
 

@@ -32,16 +32,17 @@ class GaugeWatch {
   /// suspect; one out of use comes back after kConvincing such sets with none between in which it was wrong.
   void vindicate(GaugeSet right, GaugeSet wrong);
 
-  static constexpr int kPlaces = 3;       ///< at which a gauge is suspected before it is out of use
+  static constexpr int kPlaces = 3;       ///< in a row at which a gauge is suspected before it is out of use
   static constexpr int kConvincing = 64;  ///< right sets that bring one back
 
  private:
-  /// Places no more than this apart count as one [turns * 2^8]: half a pitch of a ring of 16.
-  static constexpr std::uint8_t kOnePlace_q8 = (1 << 4) / 2;
+  /// A place no further than this from the last one is the same [turns * 2^16]: half a pitch of a ring of 16.
+  /// Back at an earlier one it is another touch, which counts: two places to and fro are three.
+  static constexpr std::uint16_t kOnePlace_q16 = (1 << 12) / 2;
 
-  std::array<std::uint8_t, kMaxGauges> places_{};  ///< how many
-  std::array<std::array<std::uint8_t, kPlaces - 1>, kMaxGauges> place_q8_{};
+  std::array<std::uint8_t, kMaxGauges> places_{};
   std::array<std::uint8_t, kMaxGauges> right_{};  ///< right sets of gauges out of use
+  std::array<std::uint16_t, kMaxGauges> lastPlace_q16_{};
   GaugeSet outOfUse_ = 0;
   GaugeSet suspects_ = 0;  ///< at one place or more
   GaugeSet atRail_ = 0;    ///< in the last set
@@ -50,15 +51,14 @@ class GaugeWatch {
 inline void GaugeWatch::suspect(GaugeSet gauge, std::uint32_t angle_q32) {
   if (gauge == 0) return;
   const auto i = index(std::countr_zero(gauge));
+  const auto place_q16 = static_cast<std::uint16_t>(angle_q32 >> 16);
+  const auto moved_q16 = static_cast<std::uint16_t>(place_q16 - lastPlace_q16_[i] + kOnePlace_q16);
+  const bool isElsewhere = moved_q16 > 2 * kOnePlace_q16;
+  if ((suspects_ & gauge) != 0 && !isElsewhere) return;
   if ((suspects_ & gauge) == 0) places_[i] = 0;
   suspects_ |= gauge;
-  if (places_[i] == kPlaces) return;
-  const auto here_q8 = static_cast<std::uint8_t>(angle_q32 >> 24);
-  for (int k = 0; k < places_[i]; ++k)
-    if (static_cast<std::uint8_t>(here_q8 - place_q8_[i][index(k)] + kOnePlace_q8) <= 2 * kOnePlace_q8)
-      return;
-  if (places_[i] < kPlaces - 1) place_q8_[i][places_[i]] = here_q8;
-  if (++places_[i] == kPlaces) outOfUse_ |= gauge;
+  lastPlace_q16_[i] = place_q16;
+  if (++places_[i] >= kPlaces) outOfUse_ |= gauge;
 }
 
 inline void GaugeWatch::vindicate(GaugeSet right, GaugeSet wrong) {

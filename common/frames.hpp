@@ -250,6 +250,7 @@ inline constexpr FrameLayout kLayout<ContactFrame>{
           {.lsb = 32, .width = 8, .unknowable = true},
           {.name = "alternative",
            .unit = "deg",
+           .openEnded = true,
            .comment = "Another angle that fits as well, relative to angle; not known: there is none, or "
                       "the sigmas cover it"}},
     Field{&ContactFrame::flags,

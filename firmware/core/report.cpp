@@ -11,12 +11,6 @@ namespace {
 
 constexpr int kQualityStep = 10;  ///< percent that count as a change
 
-std::int8_t alternativeDegrees(const Contact& contact) {
-  const std::int32_t degrees =
-      wholeDegrees(static_cast<std::int32_t>(contact.alternative.raw() - contact.angle.raw()));
-  return saturate<std::int8_t>(degrees < -127 ? -127 : degrees);
-}
-
 std::int64_t forceOf(const TableConstants& constants, LineLoadQ12 load, int halvings) {
   static_assert(LineLoadQ12::kFracBits == 12);
   return force(constants.force_per_load_q16, load.raw(), halvings);
@@ -35,6 +29,11 @@ Raw known(std::int64_t value) {
 template <typename Raw>
 Raw knownError(std::int64_t value) {
   return known<Raw>(value < 1 ? 1 : value);
+}
+
+std::int8_t alternativeDegrees(const Contact& contact) {
+  return known<std::int8_t>(
+      wholeDegrees(static_cast<std::int32_t>(contact.alternative.raw() - contact.angle.raw())));
 }
 
 std::int32_t angleBetween_cdeg(std::uint16_t a, std::uint16_t b) {

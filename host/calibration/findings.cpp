@@ -118,6 +118,14 @@ void addUntold(const CalibrationResult& result, const UntoldWords& words,
                                   words.whatTellsMore));
 }
 
+/// The modulus is off by as much as it would be if loads [N/m] had been given in grams.
+bool lookLikeGrams(const CalibrationResult& result) {
+  constexpr double kWeightOfAGram_n = 9.81e-3;
+  const config::Finger& finger = result.drawing().config().finger;
+  const double ratio = result.shearModulus_pa().value / finger.shear_modulus_pa;
+  return result.isLoadKnown() && std::abs(ratio * kWeightOfAGram_n / finger.length_m - 1) < 0.2;
+}
+
 }  // namespace
 
 bool isDriftedZero(const CalibrationResult& result, const RowResult& row) {
@@ -133,7 +141,7 @@ std::vector<std::string> whatIsFarOff(const CalibrationResult& result) {
   if (const std::string noise = noiseText(result); !noise.empty()) sentences.push_back(noise);
   for (const GaugeWords& words : kGaugeWords) addFarOff(result, words, sentences);
   const auto add = [&](RubberUnknown unknown, const char* name, const Estimate& found, double perUnit,
-                       const char* unit, const char* lookAt, double most = kFarOff) {
+                       const char* unit, const std::string& lookAt, double most = kFarOff) {
     const double tolerances = std::abs(result.deviations()[result.drawing().at(unknown)]);
     if (tolerances > most)
       sentences.push_back(fmt::format("{} {:.4g}{}, {:.1f} tolerances off the drawing: {}.", name,
@@ -142,7 +150,9 @@ std::vector<std::string> whatIsFarOff(const CalibrationResult& result) {
   add(kCoreRadius, "Core radius", result.coreRadius_m(), 1e-3, " mm", "check finger.core_radius_m");
   add(kPoissonRatio, "Poisson's ratio", result.poissonRatio(), 1, "", "check finger.poisson_ratio");
   add(kShearModulus, "Shear modulus", result.shearModulus_pa(), 1e3, " kPa",
-      "check finger.length_m, the known loads, gauges.full_scale_strain and finger.shear_modulus_pa",
+      fmt::format("check finger.length_m, the known loads{}, gauges.full_scale_strain and "
+                  "finger.shear_modulus_pa",
+                  lookLikeGrams(result) ? " (as large as if they were grams)" : ""),
       kFarOffModulus);
   return sentences;
 }

@@ -19,6 +19,7 @@ void take(const CanFrame& frame, std::uint8_t node, Command command, Reply& repl
     ++reply.responses;
   }
   if (nodeOf(frame.id, FunctionCode::kRequest) == node) reply.othersAsk = true;
+  if (nodeOf(frame.id, FunctionCode::kRaw) == node && decode<RawFrame>(frame)) reply.sendsRaw = true;
   if (nodeOf(frame.id, FunctionCode::kHeartbeat) != node) return;
   if (const auto heartbeat = decode<HeartbeatFrame>(frame)) reply.heartbeat = heartbeat;
 }

@@ -32,6 +32,7 @@ struct Reply {
   bool sent = false;  ///< false: the interface did not take the request in all that time
   std::optional<ResponseFrame> response{};  ///< the last
   int responses = 0;
+  bool sendsRaw = false;   ///< the node does meanwhile
   bool othersAsk = false;  ///< somebody else asked the same node meanwhile: the response may be theirs
   std::optional<HeartbeatFrame> heartbeat{};  ///< the last of that node meanwhile
   std::chrono::milliseconds waited{0};        ///< for a response

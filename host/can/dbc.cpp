@@ -1,6 +1,7 @@
 #include "host/can/dbc.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,6 +32,8 @@ struct Signal {
 };
 
 struct Message {
+  std::string name;
+  std::string finger;  ///< that sends it, or is asked by it
   FrameSpec spec;
   std::uint16_t id;
   std::vector<Signal> signals;
@@ -63,7 +66,8 @@ Signal flagSignal(const FieldSpec& field, const ValueName& flag) {
 }
 
 Message message(const FrameEntry& entry, std::uint8_t node) {
-  Message result{entry.spec, canId(entry.spec.function, node), {}};
+  Message result{
+      entry.spec.name, fmt::format("FINGER_{}", node), entry.spec, canId(entry.spec.function, node), {}};
   for (const FieldSpec& field : entry.fields) {
     if (field.meaning.kind != FieldKind::kFlags || field.meaning.names.empty())
       result.signals.push_back(fieldSignal(field));
@@ -76,17 +80,24 @@ Message message(const FrameEntry& entry, std::uint8_t node) {
 /// The file, section by section, in the order the format prescribes.
 class DbcWriter {
  public:
-  DbcWriter(std::uint8_t node, double contactRate_hz)
-      : node_(fmt::format("FINGER_{}", node)),
-        delay_ms_(static_cast<int>(std::clamp(std::round(1000 / contactRate_hz), 0.0, 65535.0))) {
-    for (const auto catalogue : {frameCatalogue(), commandCatalogue()})
-      for (const FrameEntry& entry : catalogue) messages_.push_back(message(entry, node));
+  DbcWriter(const std::vector<int>& nodes, double contactRate_hz)
+      : delay_ms_(static_cast<int>(std::clamp(std::round(1000 / contactRate_hz), 0.0, 65535.0))) {
+    for (const int node : nodes) {
+      for (const auto catalogue : {frameCatalogue(), commandCatalogue()})
+        for (const FrameEntry& entry : catalogue)
+          messages_.push_back(message(entry, static_cast<std::uint8_t>(node)));
+      fingers_.push_back(messages_.back().finger);
+    }
+    if (nodes.size() == 1) return;
+    for (Message& each : messages_) each.name += each.finger.substr(each.finger.rfind('_'));
   }
 
   std::string text() {
-    line("VERSION \"protocol {}\"\n\nNS_ :\n\nBS_:\n\nBU_: {} {}\n", kProtocolVersion, node_, kHost);
+    line("VERSION \"protocol {}\"\n\nNS_ :\n\nBS_:\n\nBU_: {} {}\n", kProtocolVersion,
+         fmt::join(fingers_, " "), kHost);
     for (const Message& each : messages_) writeMessage(each);
-    line("CM_ BU_ {} \"Tactile finger: where it is touched, and how hard\";", node_);
+    for (const std::string& finger : fingers_)
+      line("CM_ BU_ {} \"Tactile finger: where it is touched, and how hard\";", finger);
     line("CM_ BU_ {} \"Whoever listens, and asks\";", kHost);
     for (const Message& each : messages_) writeComments(each);
     writeAttributes();
@@ -99,8 +110,8 @@ class DbcWriter {
 
   void writeMessage(const Message& message) {
     const bool asked = message.spec.function == FunctionCode::kRequest;
-    const std::string_view from = asked ? kHost : node_, to = asked ? node_ : kHost;
-    line("BO_ {} {}: {} {}", message.id, message.spec.name, message.spec.length, from);
+    const std::string_view from = asked ? kHost : message.finger, to = asked ? message.finger : kHost;
+    line("BO_ {} {}: {} {}", message.id, message.name, message.spec.length, from);
     for (const Signal& signal : message.signals)
       line(" SG_ {} : {}|{}@1{} ({},0) [{}|{}] \"{}\" {}", signal.name, signal.bits.lsb, signal.bits.width,
            signal.bits.isSigned ? '-' : '+', signal.factor, signal.min, signal.max, signal.unit, to);
@@ -142,16 +153,16 @@ class DbcWriter {
     text_.push_back('\n');
   }
 
-  std::string node_;
   int delay_ms_;
+  std::vector<std::string> fingers_;
   std::vector<Message> messages_;
   std::string text_;
 };
 
 }  // namespace
 
-std::string dbcText(std::uint8_t node, double contactRate_hz) {
-  return DbcWriter(node, contactRate_hz).text();
+std::string dbcText(const std::vector<int>& nodes, double contactRate_hz) {
+  return DbcWriter(nodes, contactRate_hz).text();
 }
 
 }  // namespace strainfinger::can

@@ -17,6 +17,8 @@ constexpr std::chrono::milliseconds kAtATime{1000};
 
 /// Frames of several interfaces may be logged a little out of order; clocks that are set jump by more.
 constexpr std::int64_t kOutOfOrder_ns = 1'000'000'000;
+/// Of so many frames more than one that goes back: each time is the difference to the frame before.
+constexpr std::uint64_t kMostOutOfOrder = 4;
 
 bool hasFrame(const LogLine& line) {
   return line.kind != LineKind::kNothing && line.kind != LineKind::kDropped;
@@ -54,6 +56,9 @@ bool LogReader::isWanted(std::string_view interface) const {
 
 void LogReader::watchTime(std::int64_t time_ns) {
   const std::int64_t latest_ns = latest_ns_.value_or(time_ns);
+  ++times_;
+  if (time_ns < last_ns_.value_or(time_ns)) ++timesBack_;
+  last_ns_ = time_ns;
   if (timesGoBack_.empty() && time_ns < latest_ns - kOutOfOrder_ns)
     timesGoBack_ = fmt::format(
         "{}: the times go back by {:.3g} s here: the clock was set, logs of several runs were joined, or "
@@ -90,7 +95,13 @@ std::optional<std::string_view> LogReader::nextLine() {
 
 std::vector<std::string> LogReader::warnings() const {
   std::vector<std::string> warnings;
-  if (!timesGoBack_.empty()) warnings.push_back(timesGoBack_);
+  if (!timesGoBack_.empty())
+    warnings.push_back(timesGoBack_);
+  else if (timesBack_ > times_ / kMostOutOfOrder && timesBack_ > 1)
+    warnings.push_back(
+        fmt::format("{}: {} of {} frames have an earlier time than the one before: they are differences, it "
+                    "seems (candump -td), which tell no times: log with `candump -L`, or `candump -ta`",
+                    lines_.name(), timesBack_, times_));
   if (isCutOff_)
     warnings.push_back(fmt::format("{}: the log breaks off in this line, which is left out", place()));
   return warnings;

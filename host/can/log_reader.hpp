@@ -47,8 +47,9 @@ class LogReader {
   bool isWhole_ = true;    ///< the last line ended with a line end
   bool anyFrame_ = false;  ///< was read
   bool isCutOff_ = false;
-  std::optional<std::int64_t> latest_ns_;
-  std::string timesGoBack_;  ///< where, first, and by how much
+  std::optional<std::int64_t> latest_ns_, last_ns_;
+  std::uint64_t times_ = 0, timesBack_ = 0;  ///< earlier than the frame's before
+  std::string timesGoBack_;                  ///< where, first, and by how much
 };
 
 }  // namespace strainfinger::can

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "common/raw_share.hpp"
 #include "host/base/failure.hpp"
 
@@ -32,6 +34,8 @@ std::optional<RawSet> RawReceiver::take(const CanFrame& frame) {
   if (nodeOf(frame.id, FunctionCode::kRaw) != node_) return std::nullopt;
   const auto page = decode<RawFrame>(frame);
   if (!page) return std::nullopt;
+  const int onPage = page->code_2 != 0 ? 3 : page->code_1 != 0 ? 2 : 1;
+  heardGauges_ = std::max(heardGauges_, int{kCodesPerPage} * page->page + onPage);
   hasMoreGauges_ |= page->page >= rawPages(static_cast<std::uint32_t>(gauges_));
   if (hasMoreGauges_) return std::nullopt;
   if (page->kind == RawKind::kZeros) {
@@ -42,6 +46,15 @@ std::optional<RawSet> RawReceiver::take(const CanFrame& frame) {
   if (isCutOff) ++incomplete_;
   if (!add(readings_, *page)) return std::nullopt;
   return RawSet{readings_.kind == RawKind::kZeroing, readings_.sample, readings_.codes};
+}
+
+void RawReceiver::requireEnoughGauges() const {
+  if (sendsAny() && heardGauges_ < static_cast<int>(gauges_))
+    throw Failure(
+        ExitCode::kMismatch,
+        fmt::format("node {}: no whole set of readings: the config has gauges.count = {}, the finger "
+                    "sends {}: give this finger's config, -c",
+                    node_, gauges_, heardGauges_));
 }
 
 void RawReceiver::requireAllGauges() const {

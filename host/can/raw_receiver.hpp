@@ -35,6 +35,9 @@ class RawReceiver {
   std::uint64_t incomplete() const { return incomplete_; }  ///< sets that lost a page
   /// Throws Failure(kMismatch) where the finger has told pages of more gauges: there are no more sets then.
   void requireAllGauges() const;
+  bool sendsAny() const { return heardGauges_ > 0; }
+  /// Where no set was whole: throws Failure(kMismatch) if that is because the finger has fewer gauges.
+  void requireEnoughGauges() const;
 
  private:
   /// The pages of one set so far.
@@ -53,6 +56,7 @@ class RawReceiver {
   Pages zeroPages_;
   std::vector<std::uint16_t> zeros_;
   std::uint64_t incomplete_ = 0;
+  int heardGauges_ = 0;  ///< by the pages; codes beyond the last gauge are 0, as one at its rail may be
   bool hasMoreGauges_ = false;
 };
 

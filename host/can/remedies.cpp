@@ -150,7 +150,8 @@ std::string_view remedyFor(CommandStatus status) {
     case CommandStatus::kTooFast:
       return "ask for less, or use a bus with a higher bit rate";
     case CommandStatus::kOutOfTurn:
-      return "one program at a time sends a finger tables; `strainfinger push --can BUS -n N -c FINGER.toml` "
+      return "it has started anew meanwhile, or another program sends it tables, too; `strainfinger push "
+             "--can BUS -n N -c FINGER.toml` "
              "begins with their first word";
     case CommandStatus::kUnknownCommand:
     case CommandStatus::kBadArgument:

@@ -36,6 +36,8 @@ class StrainReceiver {
   std::uint64_t incomplete() const { return raw_.incomplete(); }  ///< sets that lost a page
   /// As RawReceiver's.
   void requireAllGauges() const { raw_.requireAllGauges(); }
+  bool sendsAny() const { return raw_.sendsAny(); }
+  void requireEnoughGauges() const { raw_.requireEnoughGauges(); }
 
  private:
   RawReceiver raw_;

@@ -51,6 +51,7 @@ const LargestValues& largestValues() {
   static const LargestValues values{.normal_n = largest(&ForceFrame::normal_mN),
                                     .tangential_n = largest(&ForceFrame::tangential_mN),
                                     .sigmaAngle_deg = largest(&ContactFrame::sigma_angle_cdeg),
+                                    .alternative_deg = largest(&ContactFrame::alternative_deg),
                                     .sigmaNormal_n = largest(&ForceFrame::sigma_normal_half_mN),
                                     .sigmaTangential_n = largest(&ForceFrame::sigma_tangential_half_mN),
                                     .width_m = largest(&PatchFrame::width_um),

@@ -41,6 +41,7 @@ struct LargestValues {
   double normal_n;  ///< of either sign, as of the tangential force
   double tangential_n;
   double sigmaAngle_deg;
+  double alternative_deg;  ///< of either sign
   double sigmaNormal_n;
   double sigmaTangential_n;
   double width_m;

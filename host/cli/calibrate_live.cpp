@@ -217,12 +217,12 @@ class LiveSession {
     const auto silence_s = secondsSince(heard_);
     stream.askAgain();
     heard_ = SessionClock::now();
+    if (sets_ == 0) receiver_.requireEnoughGauges();
     if (++silences_ > kMostSilences || sets_ == 0)
       throw Failure(ExitCode::kNoNode,
-                    fmt::format("{} node {}: no whole set of readings for {:.0f} s, though it answers: has "
-                                "it gauges.count = {}, as the config, and is the bus free enough? A lower "
-                                "--rate may help",
-                                port_->name(), options_.node, silence_s, config_.gauges.count));
+                    fmt::format("{} node {}: no whole set of readings for {:.0f} s, though it answers: is "
+                                "the bus free enough? A lower --rate may help",
+                                port_->name(), options_.node, silence_s));
     tell("the finger sent nothing, and was asked again");
   }
 

@@ -1,6 +1,8 @@
 #include "host/can/dbc.hpp"
 
 #include <cstdio>
+#include <set>
+#include <vector>
 
 #include "common/frame_layout.hpp"
 #include "host/base/atomic_file.hpp"
@@ -8,18 +10,17 @@
 #include "host/base/text_output.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/request.hpp"
 
 namespace strainfinger::cli {
 namespace {
 
 struct DbcOptions {
   explicit DbcOptions(CLI::App& command) : common(command) {
-    command.add_option("-n,--node", node, "Node number in place of the config's")->check(isNode());
+    addList(command, "-n,--node", nodes, "Node numbers in place of the config's, as in 1,2", isNode());
     command.add_option("-o,--output", path, "File to write; stdout without it")->type_name("FILE");
   }
   CommonOptions common;
-  int node = 0;  ///< 0: the config's
+  std::vector<int> nodes;  ///< empty: the config's
   std::string path;
 };
 
@@ -28,7 +29,9 @@ void runDbc(const DbcOptions& options) {
     throw Failure(ExitCode::kUsage, "dbc: --json: a DBC file is all that it prints");
   const config::Can can = options.common.config().can;
   requireFolderOf("--output", options.path);
-  const std::string text = can::dbcText(nodeOf(options.node, can), can.contact_rate_hz);
+  std::set<int> nodes(options.nodes.begin(), options.nodes.end());
+  if (nodes.empty()) nodes.insert(can.node);
+  const std::string text = can::dbcText({nodes.begin(), nodes.end()}, can.contact_rate_hz);
   if (!options.path.empty())
     writeFileAtomically(options.path, text);
   else
@@ -39,7 +42,10 @@ void runDbc(const DbcOptions& options) {
 
 void addDbc(CLI::App& app) {
   addCommand<DbcOptions>(
-      app, "dbc", "The DBC file of a finger: what its frames mean, for other people's CAN tools", runDbc);
+      app, "dbc",
+      "The DBC file of a finger, or of several: what their frames mean, for other people's CAN tools. Of "
+      "several, messages have the node in their names, as in CONTACT_2.",
+      runDbc);
 }
 
 }  // namespace strainfinger::cli

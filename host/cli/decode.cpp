@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <variant>
 #include <vector>
@@ -82,6 +84,7 @@ class Decoder {
 
   /// Returns early when it is asked to stop.
   void decodeAll(const std::string& path) {
+    if (follow_ && !waitFor(path)) return;
     lines_.emplace(path);
     do decodeFile();
     while (follow_ && openNext());
@@ -115,6 +118,14 @@ class Decoder {
     output_.flush();
     if (unreadable_ > kMostTold)
       tell("{}: and {} more lines that cannot be read\n", lines_->name(), unreadable_ - kMostTold);
+  }
+
+  /// Until there is such a file, as `tail -F` does. False: it is asked to stop.
+  bool waitFor(const std::string& path) const {
+    std::error_code unknown;  // what cannot be looked at is named when it is opened
+    for (; !std::filesystem::exists(path, unknown) && !unknown; std::this_thread::sleep_for(kFollowPeriod))
+      if (stopped()) return false;
+    return true;
   }
 
   /// False: it is asked to stop.
@@ -201,6 +212,7 @@ class Decoder {
 void requireGoodPaths(const DecodeOptions& options) {
   if (options.follow && (options.paths.size() != 1 || options.paths.front() == "-"))
     throw Failure(ExitCode::kUsage, "decode: --follow needs one FILE: stdin is followed to its end anyway");
+  if (options.follow) return;
   for (const std::string& path : options.paths)
     LineReader::requireReadable(path);  // nothing is printed if one is not there
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "common/commands.hpp"
+#include "host/base/notice.hpp"
 #include "host/can/ask.hpp"
 #include "host/cli/request.hpp"
 #include "host/system/postponed_signal.hpp"
@@ -17,7 +18,12 @@ class RawStream {
   /// Throws as requireOneFinger() and requireDone() do.
   RawStream(can::BusPort& bus, std::uint8_t node, int rate_hz, const system::StopSignal& stop)
       : bus_(bus), node_(node), rate_hz_(rate_hz) {
-    requireOneFinger(bus_, node_, [&stop] { return !stop.asked(); });
+    if (requireOneFinger(bus_, node_, [&stop] { return !stop.asked(); }).sendsRaw)
+      tell(
+          "strainfinger: {} node {} sends RAW already: if another program asked for it, that one gets {} "
+          "sample "
+          "sets a second now, and none once this one ends\n",
+          bus_.name(), node_, rate_hz_);
     try {
       askAgain();
     } catch (...) {

@@ -8,6 +8,7 @@
 #include "host/base/notice.hpp"
 #include "host/base/utc_text.hpp"
 #include "host/can/open_bus.hpp"
+#include "host/can/remedies.hpp"
 #include "host/cli/bus_option.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
@@ -99,6 +100,9 @@ void runRecord(const RecordOptions& options) {
   if (progress.frames == 0)
     warn("record", fmt::format("nothing was heard on {}: `strainfinger doctor --can {}` looks for the cause",
                                port->name(), port->name()));
+  for (const std::uint8_t node : recording.nodesOfTwins())
+    warn("record", fmt::format("node {}: {}: {}", node, can::kTwinText,
+                               can::forNode(can::kTwinRemedy, port->name(), node)));
   if (options.common.hasConfig()) warnOfOtherTables(recording, config);
   if (stop.asked()) throw Failure(ExitCode::kInterrupted, "record: interrupted, all is written");
 }

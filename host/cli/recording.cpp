@@ -54,12 +54,20 @@ Recording::Recording(can::BusPort& port, const config::FingerConfig& config, con
 void Recording::take(const can::TimedFrame& timed) {
   log_.add(timed.time_ns, port_.name(), timed.frame);
   ++progress_.frames;
+  losses_.count(port_.name(), timed.frame);
   isNew_ |= notes_.note(timed.frame);
 }
 
 void Recording::take(const can::OtherFrame& other) {
   log_.add(port_.name(), other);
   ++progress_.frames;
+}
+
+std::vector<std::uint8_t> Recording::nodesOfTwins() const {
+  std::vector<std::uint8_t> nodes;
+  for (const can::NodeCount& count : losses_.counts())
+    if (count.twoSenders) nodes.push_back(count.node);
+  return nodes;
 }
 
 bool Recording::lookAtBus() {

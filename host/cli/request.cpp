@@ -86,6 +86,11 @@ can::Reply askOnceOthersHaveEnded(can::BusPort& bus, std::uint8_t node, const st
   return reply;
 }
 
+void requireNoTwinOf(can::BusPort& bus, std::uint8_t node, const RequestFrame& request) {
+  const auto wanted = static_cast<std::uint8_t>(request.argument & ~kNodeEvenWhileTouched);
+  if (request.command == Command::kNode && wanted != node) requireNobody(bus, wanted);
+}
+
 }  // namespace
 
 RequestOptions::RequestOptions(CLI::App& command) : common(command) {
@@ -112,7 +117,7 @@ Failure twinFailure(const can::BusPort& bus, std::uint8_t node) {
   return Failure(ExitCode::kFailure, fmt::format("{}: {}", placeOf(bus, node), twinText(bus, node)));
 }
 
-void requireOneFinger(can::BusPort& bus, std::uint8_t node, const std::function<bool()>& goOn) {
+can::Reply requireOneFinger(can::BusPort& bus, std::uint8_t node, const std::function<bool()>& goOn) {
   const can::Reply reply = askOnceOthersHaveEnded(bus, node, goOn);
   const bool isInterrupted = goOn && !goOn();
   if (reply.othersAsk && !isInterrupted)
@@ -121,11 +126,20 @@ void requireOneFinger(can::BusPort& bus, std::uint8_t node, const std::function<
                               "within {} s: {}",
                               placeOf(bus, node), kOthersMayAskFor / 1s, can::kOthersAskRemedy));
   if (reply.hasTwin()) throw twinFailure(bus, node);
-  if (reply.response && !reply.othersAsk) return;
+  if (reply.response && !reply.othersAsk) return reply;
   if (isInterrupted)
     throw Failure(ExitCode::kInterrupted,
                   fmt::format("{}: interrupted before it answered", placeOf(bus, node)));
   throw silence(reply, bus, placeOf(bus, node));
+}
+
+void requireNobody(can::BusPort& bus, std::uint8_t node) {
+  const can::Reply reply = can::askWhoIsThere(bus, node);
+  if (reply.response || reply.heartbeat)
+    throw Failure(ExitCode::kFailure,
+                  fmt::format("{}: there is a finger of this number already: choose another; `strainfinger "
+                              "discover --can {}` shows those that are there",
+                              placeOf(bus, node), bus.name()));
 }
 
 void request(const RequestOptions& options, const std::vector<RequestFrame>& requests) {
@@ -133,6 +147,7 @@ void request(const RequestOptions& options, const std::vector<RequestFrame>& req
   const std::uint8_t node = nodeOf(options.node, can);
   const auto port = can::openBus(options.bus, can.bitrate);
   requireOneFinger(*port, node);
+  for (const RequestFrame& request : requests) requireNoTwinOf(*port, node, request);
   std::optional<TableWriter> table;  // nothing is printed before there is a row
   for (const RequestFrame& request : requests) {
     const can::Reply reply = can::ask(*port, node, request);

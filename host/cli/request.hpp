@@ -23,7 +23,7 @@ struct RequestOptions {
 /// interface,node,command,status. Stops at the first that fails and throws Failure with what to do about it
 /// when it was refused (kFailure), nobody answered (kNoNode), the interface is none or takes nothing
 /// (kNoInterface), or the finger speaks another protocol (kMismatch). Sends none where two fingers would obey
-/// (kFailure).
+/// (kFailure), or where it is to become a node (nodeRequest()) that there is already (kFailure).
 void request(const RequestOptions& options, const std::vector<RequestFrame>& requests);
 
 /// Node of -n, else (0) of the config.
@@ -37,8 +37,11 @@ void requireDone(const can::Reply& reply, Command command, const can::BusPort& b
 
 /// Before a request that changes something: waits while another program asks this finger, half a minute at
 /// most (kFailure). Throws as request() does where nobody would obey, or two fingers; Failure(kInterrupted)
-/// where `goOn()`, asked ten times a second at least, is false before an answer.
-void requireOneFinger(can::BusPort& bus, std::uint8_t node, const std::function<bool()>& goOn = {});
+/// where `goOn()`, asked ten times a second at least, is false before an answer. Returns its answer.
+can::Reply requireOneFinger(can::BusPort& bus, std::uint8_t node, const std::function<bool()>& goOn = {});
+
+/// Before a finger becomes this node. Throws Failure(kFailure) where another answers or beats as it.
+void requireNobody(can::BusPort& bus, std::uint8_t node);
 
 /// That two fingers have this number.
 Failure twinFailure(const can::BusPort& bus, std::uint8_t node);

@@ -57,6 +57,7 @@ struct RunOptions {
     command
         .add_option("--seed", seed, fmt::format("Of the noise and of the gauges' zeros (default {})", seed))
         ->check(isSeed());
+    command.add_option("-n,--node", node, "Node number in place of the config's")->check(isNode());
     command
         .add_option("--duration", duration_s,
                     "Seconds; without it the loopback runs the scenario once, a bus until Ctrl-C")
@@ -93,12 +94,18 @@ struct RunOptions {
         ->type_name("FILE");
   }
   bool isLoopback() const { return bus == kLoopback; }
+  config::FingerConfig config() const {
+    config::FingerConfig config = common.config();
+    if (node != 0) config.can.node = node;
+    return config;
+  }
 
   CommonOptions common;
   FirmwareOptions firmware;
   std::string bus = kLoopback;
   std::string scenarioPath;
   std::uint64_t seed = 1;
+  int node = 0;  ///< 0: the config's
   std::optional<double> duration_s;
   bool uncalibrated = false;
   bool truth = false;
@@ -282,7 +289,7 @@ void runRun(const RunOptions& options) {
     throw Failure(ExitCode::kUsage, "run: --rows-hz is of --strains and --touches: give one of them");
   for (const std::string& path : options.pictures)
     options.common.requireNoneNamed("--picture", plot::filesBeside(path, plot::kTouchData));
-  const config::FingerConfig config = options.common.config();
+  const config::FingerConfig config = options.config();
   if (options.isLoopback()) return runOnLoopback(config, options);
   runOnBus(config, options);
 }

@@ -88,8 +88,7 @@ class StrainPrinter {
 
 using StrainClock = std::chrono::steady_clock;
 
-/// What tells why no whole sets come: by the pages of RAW how many gauges a finger has, whether it is alive,
-/// and what others told it.
+/// What tells why no whole sets come: whether a finger is alive and sends any, and what others told it.
 class Circumstances {
  public:
   explicit Circumstances(std::uint8_t node) : node_(node) {}
@@ -103,13 +102,12 @@ class Circumstances {
     if (const auto request = readSingleFrame<RequestFrame>(frame, node_);
         request && changesRaw(request->command))
       othersCommand_ = request->command;
-    takeRaw(frame);
+    if (nodeOf(frame.id, FunctionCode::kRaw) == node_) sent_ = StrainClock::now();
   }
   bool isSending() const { return isRecent(sent_); }
   bool isAlive() const { return isRecent(alive_); }
   /// Of another program, after which RAW ends or has another rate.
   std::optional<Command> othersCommand() const { return othersCommand_; }
-  int gauges() const { return gauges_; }  ///< 0: it sends nothing
   /// How the CRC-32 of its tables ends, once it was heard to say so.
   std::optional<std::uint8_t> tableCrc() const { return tableCrc_; }
 
@@ -119,18 +117,7 @@ class Circumstances {
     return command == Command::kRaw || command == Command::kLoad || command == Command::kRestart;
   }
 
-  /// Codes beyond the last gauge are 0, which a gauge at its rail may be too.
-  void takeRaw(const CanFrame& frame) {
-    if (nodeOf(frame.id, FunctionCode::kRaw) != node_) return;
-    const auto page = decode<RawFrame>(frame);
-    if (!page) return;
-    const int onPage = page->code_2 != 0 ? 3 : page->code_1 != 0 ? 2 : 1;
-    gauges_ = std::max(gauges_, int{kCodesPerPage} * page->page + onPage);
-    sent_ = StrainClock::now();
-  }
-
   std::uint8_t node_;
-  int gauges_ = 0;
   StrainClock::time_point sent_{}, alive_{};
   std::optional<Command> othersCommand_{};
   std::optional<std::uint8_t> tableCrc_{};
@@ -165,14 +152,9 @@ std::string whyEnded(const Circumstances& finger, std::uint64_t sets, double wai
 }
 
 /// Why there is no whole set, or no further one, and what to do.
-std::string whyNone(int gauges, const Circumstances& finger, std::uint64_t sets, double waited_s) {
+std::string whyNone(bool sendsAny, const Circumstances& finger, std::uint64_t sets, double waited_s) {
   if (sets > 0 && !finger.isSending()) return whyEnded(finger, sets, waited_s);
-  if (finger.gauges() == 0) return fmt::format("no readings in {} s: is the bus free enough?", waited_s);
-  if (finger.gauges() < gauges)
-    return fmt::format(
-        "no whole set of readings: the config has gauges.count = {}, the finger sends {}: give "
-        "this finger's config, -c",
-        gauges, finger.gauges());
+  if (!sendsAny) return fmt::format("no readings in {} s: is the bus free enough?", waited_s);
   return fmt::format(
       "no whole set of readings in {} s: is the bus free enough? A lower --rate or a longer "
       "--duration may help",
@@ -190,10 +172,10 @@ void runStrains(const StrainsOptions& options) {
   StrainPrinter printer(config.gauges, options.request.common.format());
   Circumstances finger(node);
   const auto giveUp = [&](double waited_s) {
-    const bool isOtherRing = finger.gauges() > 0 && finger.gauges() < config.gauges.count;
-    throw Failure(isOtherRing ? ExitCode::kMismatch : ExitCode::kNoNode,
+    if (printer.sets() == 0) receiver.requireEnoughGauges();
+    throw Failure(ExitCode::kNoNode,
                   fmt::format("{} node {}: {}", bus->name(), node,
-                              whyNone(config.gauges.count, finger, printer.sets(), waited_s)));
+                              whyNone(receiver.sendsAny(), finger, printer.sets(), waited_s)));
   };
   const auto isWhole = [&] { return printer.sets() >= options.rows; };
   for (auto heard = StrainClock::now(); !stop.asked() && !isWhole() && StrainClock::now() < end;) {

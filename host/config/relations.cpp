@@ -34,14 +34,27 @@ double leastPitchArc_m(const Gauges& gauges) {
   return *std::min_element(gaps.begin(), gaps.end()) * kRadPerDeg * gauges.radius_m;
 }
 
-/// Whether all gaps are such as kLeastGap and kMostGap allow and go round the ring once.
-bool isRing(const Gauges& gauges) {
+/// The first gap, from which gauge on, that is not such as kLeastGap and kMostGap allow; none: the count.
+int wrongGap(const Gauges& gauges) {
   const auto gaps = gaps_deg(gauges);
   const double even_deg = 360.0 / gauges.count;
-  const bool spaced = std::all_of(gaps.begin(), gaps.end(), [&](double gap) {
-    return gap >= kLeastGap * even_deg && gap <= kMostGap * even_deg;
-  });
-  return spaced && std::accumulate(gaps.begin(), gaps.end(), 0.0) < 1.5 * 360;
+  const auto wrong = std::ranges::find_if_not(
+      gaps, [&](double gap) { return gap >= kLeastGap * even_deg && gap <= kMostGap * even_deg; });
+  return static_cast<int>(wrong - gaps.begin());
+}
+
+/// Whether all gaps are allowed and go round the ring once.
+bool isRing(const Gauges& gauges) {
+  const auto gaps = gaps_deg(gauges);
+  return wrongGap(gauges) == gauges.count && std::accumulate(gaps.begin(), gaps.end(), 0.0) < 1.5 * 360;
+}
+
+std::string wrongGapText(const Gauges& gauges) {
+  const int from = wrongGap(gauges);
+  if (from == gauges.count) return "they go round more than once";
+  const int to = (from + 1) % gauges.count;
+  return fmt::format("from gauge {} to gauge {}, from {} to {}, it is {:.6g}", from, to,
+                     gauges.angle_deg(from), gauges.angle_deg(to), gauges.gap_deg(from));
 }
 
 template <typename List>
@@ -85,9 +98,9 @@ Relation gaugesAroundTheRing() {
             const double even_deg = 360.0 / c.gauges.count;
             return fmt::format(
                 "gauges.angle_deg = [{}] is no ring: the angles must ascend, once round, each {} to {} from "
-                "the one before (gauges.count = {})",
+                "the one before (gauges.count = {}); {}",
                 fmt::join(c.gauges.angles_deg, ", "), kLeastGap * even_deg, kMostGap * even_deg,
-                c.gauges.count);
+                c.gauges.count, wrongGapText(c.gauges));
           }};
 }
 

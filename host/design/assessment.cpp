@@ -27,6 +27,8 @@ namespace {
 constexpr int kPlaces = 32;
 /// A finger that flags a touch at more places than not is none for it.
 constexpr double kLeastCertain = 0.5;
+/// Of contact.largest_width_m: the answer to a wider touch may be at the end of the tables.
+constexpr double kNearlyWidest = 0.98;
 
 config::FingerConfig asDrawn(config::FingerConfig config) {
   config.calibration = {};
@@ -111,6 +113,12 @@ std::string shortcomingOf(const config::FingerConfig& config, const simulation::
   if (bounds.identifiableShare < 1)
     return fmt::format("at {:.0f} % of the places the readings don't determine the touch",
                        100 * (1 - bounds.identifiableShare));
+  if (trial.certainShare < kLeastCertain && !config.contact.width_m &&
+      touch.width_m > kNearlyWidest * config.contact.largest_width_m)
+    return fmt::format(
+        "at {:.0f} % of the places the firmware flags this touch as uncertain, because it is as wide as the "
+        "tables cover: a larger contact.largest_width_m than {} is needed",
+        100 * (1 - trial.certainShare), config.contact.largest_width_m);
   if (trial.certainShare < kLeastCertain)
     return fmt::format(
         "at {:.0f} % of the places the firmware flags this touch as uncertain, even without noise",

@@ -143,7 +143,8 @@ FingerView Fleet::viewOf(std::uint8_t number, Node& node) {
   view.rawLoad = loadOf(node.rawBits);
   const bool isOld = view.isTouched() && now_us_ - node.touched_us > kTouchLasts_us;
   if (view.isSilent() || view.isForeign() || isOld) view.touch.reset();
-  view.hasOtherTables = tables_crc32_ && can::hasOtherTables(view.heartbeat, *tables_crc32_);
+  view.hasOtherTables =
+      number == configured_ && tables_crc32_ && can::hasOtherTables(view.heartbeat, *tables_crc32_);
   if (!view.isForeign() && now_us_ - node.strained_us <= kRawLasts_us) view.strains = node.strains;
   return view;
 }

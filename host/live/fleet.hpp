@@ -22,11 +22,12 @@ namespace strainfinger::live {
 class Fleet {
  public:
   /// Of the config, the bit rate is for the load and the gauges are for RAW. `tables_crc32`: of the tables
-  /// that its fingers should have; nothing: any.
+  /// that the config's node should have; nothing: any.
   Fleet(std::string busName, const config::FingerConfig& config,
         std::optional<std::uint32_t> tables_crc32 = std::nullopt)
       : name_(std::move(busName)),
         bitrate_(config.can.bitrate),
+        configured_(config.can.node),
         gauges_(config.gauges),
         tables_crc32_(tables_crc32) {}
 
@@ -75,6 +76,7 @@ class Fleet {
 
   std::string name_;
   int bitrate_;
+  int configured_;  ///< the config's node
   config::Gauges gauges_;
   std::optional<std::uint32_t> tables_crc32_;
   std::int64_t now_us_ = 0;

@@ -160,7 +160,8 @@ class Painter {
     const bool isPicked = index == content_.selected && fingers_.size() > 1;
     say(row, 0, isPicked ? glyphs_.pick : " ", Style::kAccent);
     int column = say(row, 2, fmt::format("node {}", finger.node), Style::kStrong);
-    const bool runs = finger.heartbeat.state == FingerState::kRun && !finger.isSilent();
+    const bool runs =
+        finger.heartbeat.state == FingerState::kRun && !finger.isSilent() && !finger.isForeign();
     return say(row, column + 2, stateWord(finger), runs ? Style::kGood : Style::kBad);
   }
 

@@ -93,6 +93,7 @@ std::string qualityText(const can::ContactReport& contact) {
 }
 
 std::string stateWord(const FingerView& finger) {
+  if (finger.isForeign()) return "another protocol";
   return finger.isSilent() ? "silent" : wordFor(kFingerStateNames, static_cast<int>(finger.heartbeat.state));
 }
 
@@ -113,7 +114,8 @@ std::vector<std::string> troublesOf(const FingerView& finger) {
 std::string warningsText(const FingerView& finger) {
   std::vector<std::string> warnings = troublesOf(finger);
   const auto faults = wordsFor(kFingerFaultNames, finger.heartbeat.faults.raw());
-  if (!faults.empty()) warnings.push_back(fmt::format("faults: {}", fmt::join(faults, ", ")));
+  if (!finger.isForeign() && !faults.empty())
+    warnings.push_back(fmt::format("faults: {}", fmt::join(faults, ", ")));
   const auto gauges = bitNumbers(finger.gauges ? finger.gauges->out_of_use : 0);
   if (!gauges.empty()) warnings.push_back(fmt::format("gauges out of use: {}", fmt::join(gauges, ", ")));
   return fmt::format("{}", fmt::join(warnings, "; "));

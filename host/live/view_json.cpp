@@ -51,6 +51,7 @@ Json contactJson(const can::ContactReport& contact) {
       {"quality_percent", numberOrNull(contact.quality_percent)},
       {"or_more", keysOf({{"normal_n", std::abs(contact.normal_n) >= largest.normal_n},
                           {"tangential_n", std::abs(contact.tangential_n) >= largest.tangential_n},
+                          {"alternative_deg", std::abs(contact.alternative_deg) >= largest.alternative_deg},
                           {"sigma_angle_deg", contact.sigmaAngle_deg >= largest.sigmaAngle_deg},
                           {"sigma_normal_n", contact.sigmaNormal_n >= largest.sigmaNormal_n},
                           {"sigma_tangential_n", contact.sigmaTangential_n >= largest.sigmaTangential_n}})}};
@@ -101,15 +102,17 @@ Json infoJson(const InfoFrame& info) {
 
 Json fingerJson(const FingerView& finger) {
   const HeartbeatFrame& heartbeat = finger.heartbeat;
+  // Frames of another protocol version mean something else.
+  const auto ifOurs = [&](Json value) { return finger.isForeign() ? Json() : value; };
   return {{"node", finger.node},
           {"silence_s", static_cast<double>(finger.silence_us) / 1e6},
           {"silent", finger.isSilent()},
           {"protocol", heartbeat.protocol},
           {"foreign", finger.isForeign()},
-          {"state", can::nameText(kFingerStateNames, static_cast<int>(heartbeat.state))},
-          {"faults", namesOf(kFingerFaultNames, heartbeat.faults.raw())},
-          {"uptime_s", knownOrNull(heartbeat.uptime_s)},
-          {"temperature_degc", knownOrNull(heartbeat.temperature_degC)},
+          {"state", ifOurs(can::nameText(kFingerStateNames, static_cast<int>(heartbeat.state)))},
+          {"faults", ifOurs(namesOf(kFingerFaultNames, heartbeat.faults.raw()))},
+          {"uptime_s", ifOurs(knownOrNull(heartbeat.uptime_s))},
+          {"temperature_degc", ifOurs(knownOrNull(heartbeat.temperature_degC))},
           {"contacts_per_s", finger.contactsPerSecond},
           {"jitter_s", numberOrNull(finger.jitter_s)},
           {"received", finger.received},
@@ -123,9 +126,9 @@ Json fingerJson(const FingerView& finger) {
           {"span", spanJson(finger.span)},
           {"strains", listOrNull(finger.strains)},
           {"fitted", listOrNull(finger.fitted)},
-          {"gauges", finger.gauges ? gaugesJson(*finger.gauges) : Json()},
-          {"info", finger.info ? infoJson(*finger.info) : Json()},
-          {"or_more", keysOf({{"uptime_s", can::isLargest(heartbeat.uptime_s)}})}};
+          {"gauges", ifOurs(finger.gauges ? gaugesJson(*finger.gauges) : Json())},
+          {"info", ifOurs(finger.info ? infoJson(*finger.info) : Json())},
+          {"or_more", keysOf({{"uptime_s", !finger.isForeign() && can::isLargest(heartbeat.uptime_s)}})}};
 }
 
 }  // namespace

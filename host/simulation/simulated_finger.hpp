@@ -169,7 +169,8 @@ class SimulatedFinger {
 
   void restart() {
     static_cast<void>(tableStore_.read(0, std::as_writable_bytes(std::span(sent_.get(), 1))));
-    start(firmware::ifWhole(firmware::tablesOf(*sent_, tables_)), ResetCause::kSoftware);
+    start(firmware::ifWhole(firmware::tablesOf(*sent_, tables_), tables_.constants.gauge_count),
+          ResetCause::kSoftware);
   }
 
   /// As a receiver on the bus would. A touch is compared with the truth of the set that its CONTACT is of,

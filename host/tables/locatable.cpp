@@ -18,6 +18,10 @@ constexpr double kMostUncertain = 0.5;  ///< of the contacts
 /// deeper ones see it too broadly.
 constexpr double kSuitableDepth = 0.8;
 
+/// Contacts narrower than this part of the gauges' depth are hardly told from lines: on the default ring
+/// tables that cover 0.15 of it can be worked with, those that cover 0.06 cannot.
+constexpr double kTellableWidth = 0.1;
+
 std::string adviceFor(const TableParameters& p, double depth_m, double pitch_m) {
   if (depth_m >= kSuitableDepth * pitch_m)
     return "too deep for their spacing; use shallower gauges (a larger gauges.radius_m) or fewer";
@@ -29,6 +33,12 @@ std::string adviceFor(const TableParameters& p, double depth_m, double pitch_m) 
 }
 
 std::string figuresOf(const TableParameters& p) {
+  if (const double depth_m = p.outer_radius_m - p.gauge_radius_m;
+      p.contact_width_m < 0 && p.largest_width_m < kTellableWidth * depth_m)
+    return fmt::format(
+        "at {:.3g} m below the surface the gauges hardly tell whether a contact is wider than "
+        "contact.largest_width_m = {}: make that larger, or say how wide contacts are (contact.width_m)",
+        depth_m, p.largest_width_m);
   const double depth_m = p.outer_radius_m - p.gauge_radius_m;
   const double pitch_m = 2 * std::numbers::pi * p.outer_radius_m / p.gauge_count;
   return fmt::format(

@@ -212,6 +212,16 @@ TEST(Decode, FollowsAFileThatGrows) {
   checkSays("2 frames decoded", run);
 }
 
+// As where `record` is started at the same time.
+TEST(Decode, FollowsAFileThatIsNotThereYet) {
+  const Run run = runShell(
+      "log=$(mktemp -u); \"$STRAINFINGER\" decode --follow $log & sleep 0.3; cat >$log\n"
+      "sleep 0.6; interrupt $!; wait $!; status=$?; rm $log; exit $status",
+      contact_ + force_);
+  LONGS_EQUAL(130, run.status);
+  checkSays("2 frames decoded", run);
+}
+
 // As logrotate does: the name is away for a while, and who writes has the old file still.
 TEST(Decode, FollowsTheNameWhenAnotherFileTakesIt) {
   const Run run = runShell(

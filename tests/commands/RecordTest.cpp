@@ -193,7 +193,8 @@ TEST(Record, ReplayOfSeveralInterfacesSaysThatTheyMix) {
   const Run one = inFolder("record; replay in --interface can1; stop INT; cut -d' ' -f3 x.log", log);
   STRCMP_EQUAL("181#0000000000000056\n", one.out.c_str());
   CHECK(one.err.find("warning") == std::string::npos);
-  const Run others = inFolder("replay in --interface can0", "(1.000000) can0 181#00\n(1.000000) can1 18100000#00\n");
+  const Run others =
+      inFolder("replay in --interface can0", "(1.000000) can0 181#00\n(1.000000) can1 18100000#00\n");
   checkSays("replay: 1 of 1 frames sent, 0 of other kinds left out", others);
   const Run none = inFolder("replay in --interface can2", log);
   LONGS_EQUAL(1, none.status);

@@ -82,6 +82,10 @@ TEST(RunCommand, PrintsLogLinesAsCandumpDoes) {
   LONGS_EQUAL(3, std::count(run.out.begin(), run.out.end(), '\n'));
 }
 
+TEST(RunCommand, TheNodeMayBeAnotherThanTheConfigs) {
+  STRCMP_CONTAINS(" loopback 73F#", runProgram("run --duration 0.101 -n 63").out.c_str());
+}
+
 TEST(RunCommand, TheSeedDecidesTheOutput) {
   const Run one = runProgram("run --duration 1"), same = runProgram("run --duration 1 --seed 1"),
             other = runProgram("run --duration 1 --seed 2");

@@ -84,6 +84,12 @@ TEST(Findings, WhatIsFarOffTheDrawingIsToldWithWhatToLookAt) {
   STRCMP_CONTAINS(sentences[0].c_str(), textReport(result()).c_str());
 }
 
+TEST(Findings, LoadsThatLookLikeGramsAreSaidToDo) {
+  const double grams = drawing.config().finger.length_m / 9.81e-3;
+  deviations[drawing.at(kShearModulus)] = std::log(grams) / config.tolerance.shear_modulus;
+  STRCMP_CONTAINS("the known loads (as large as if they were grams)", whatIsFarOff(result()).at(0).c_str());
+}
+
 TEST(Findings, WhatIsFarOffAtMostGaugesIsTheDrawings) {
   for (int gauge = 0; gauge < drawing.gauges(); ++gauge) deviations[Drawing::at(gauge, kDepthOffset)] = 6;
   const auto sentences = whatIsFarOff(result());

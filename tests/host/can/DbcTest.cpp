@@ -8,7 +8,7 @@ using namespace strainfinger;
 
 // What the numbers mean is checked with a parser that is not ours: tests/commands/canmatrix_test.py.
 TEST_GROUP(Dbc) {
-  void checkHas(const char* line, const std::string& text = can::dbcText(5, 500)) {
+  void checkHas(const char* line, const std::string& text = can::dbcText({5}, 500)) {
     STRCMP_CONTAINS(line, std::string("\n").append(text).c_str());
   }
 };
@@ -18,6 +18,15 @@ TEST(Dbc, IsOfOneNode) {
   checkHas("\nBO_ 389 CONTACT: 8 FINGER_5\n");
   checkHas("\nBO_ 645 FORCE: 8 FINGER_5\n");
   checkHas("\nBO_ 1797 HEARTBEAT: 8 FINGER_5\n");
+}
+
+TEST(Dbc, OfSeveralNodesEachMessageHasItsNodeInItsName) {
+  const std::string text = can::dbcText({1, 12}, 500);
+  checkHas("\nBU_: FINGER_1 FINGER_12 HOST\n", text);
+  checkHas("\nBO_ 385 CONTACT_1: 8 FINGER_1\n", text);
+  checkHas("\nBO_ 396 CONTACT_12: 8 FINGER_12\n", text);
+  checkHas("\nBO_ 1548 REQUEST_12: 8 HOST\n SG_ length : 0|8@1+ (1,0) [0|7] \"\" FINGER_12\n", text);
+  CHECK_TRUE(text.find(" CONTACT:") == std::string::npos);
 }
 
 TEST(Dbc, HasSignalsWithUnitAndRange) {
@@ -37,7 +46,7 @@ TEST(Dbc, HasASignalForEachFlag) {
 }
 
 TEST(Dbc, ASecondContactHasTheSignalsOfTheFirst) {
-  const auto signalsOf = [text = can::dbcText(5, 500)](const std::string& message) {
+  const auto signalsOf = [text = can::dbcText({5}, 500)](const std::string& message) {
     const std::size_t line = text.find("BO_ " + message + ": 8 FINGER_5\n");
     CHECK_TRUE(line != std::string::npos);
     const std::size_t first = text.find(" SG_", line);
@@ -64,7 +73,7 @@ TEST(Dbc, ARequestGoesTheOtherWay) {
   checkHas("\n SG_ argument : 16|16@1+ (1,0) [0|65535] \"\" FINGER_5\n");
   checkHas("\nBO_ 1413 RESPONSE: 8 FINGER_5\n");
   checkHas("\n SG_ status : 16|8@1+ (1,0) [0|255] \"\" HOST\n");
-  CHECK_TRUE(can::dbcText(5, 500).find("GenMsgCycleTime\" BO_ 1541") == std::string::npos);
+  CHECK_TRUE(can::dbcText({5}, 500).find("GenMsgCycleTime\" BO_ 1541") == std::string::npos);
 }
 
 TEST(Dbc, SaysHowOftenFramesCome) {
@@ -73,9 +82,9 @@ TEST(Dbc, SaysHowOftenFramesCome) {
   for (const char* touch : {"389", "517", "645", "773", "901"})
     checkHas(std::string("\nBA_ \"GenMsgDelayTime\" BO_ ").append(touch).append(" 2;\n").c_str());
   checkHas("\nBA_ \"GenMsgCycleTime\" BO_ 1797 100;\n");
-  checkHas("\nBA_ \"GenMsgDelayTime\" BO_ 645 10;\n", can::dbcText(5, 100));
+  checkHas("\nBA_ \"GenMsgDelayTime\" BO_ 645 10;\n", can::dbcText({5}, 100));
 }
 
 TEST(Dbc, IsPlainAscii) {
-  for (const char c : can::dbcText(63, 1000)) CHECK(c == '\n' || (c >= ' ' && c <= '~'));
+  for (const char c : can::dbcText({63}, 1000)) CHECK(c == '\n' || (c >= ' ' && c <= '~'));
 }

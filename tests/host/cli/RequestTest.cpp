@@ -122,3 +122,15 @@ TEST(Request, WaitingForAnotherProgramCanBeInterrupted) {
   checkRefused(ExitCode::kInterrupted, "interrupted",
                [end] { return std::chrono::steady_clock::now() < end; });
 }
+
+TEST(Request, ANodeNumberThatAnotherFingerHasIsNotGiven) {
+  requireNobody(bus, kNode);
+  bus.onSend = [&](const CanFrame&) { bus.hear(HeartbeatFrame{.state = FingerState::kFault}, kNode); };
+  try {
+    requireNobody(bus, kNode);
+    FAIL("no failure");
+  } catch (const Failure& failure) {
+    LONGS_EQUAL(static_cast<int>(ExitCode::kFailure), static_cast<int>(failure.code()));
+    STRCMP_CONTAINS("fake0 node 5: there is a finger of this number already", failure.what());
+  }
+}

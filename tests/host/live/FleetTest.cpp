@@ -62,6 +62,15 @@ TEST(Fleet, TablesThatAreNotThoseOfTheConfigAreTold) {
   CHECK_FALSE(hasOther({.protocol = kProtocolVersion + 1, .table_crc = 0x43}));
 }
 
+TEST(Fleet, AnotherNodeThanTheConfigsMayHaveTablesOfItsOwn) {
+  Fleet fleet("can0", config::FingerConfig{}, 0x01020342U);
+  for (const std::uint8_t node : {std::uint8_t{1}, std::uint8_t{2}})
+    fleet.take(now_us_, encode(HeartbeatFrame{.table_crc = 0x43}, node));
+  const BusView view = fleet.view(now_us_);
+  CHECK_TRUE(view.fingers.at(0).hasOtherTables);
+  CHECK_FALSE(view.fingers.at(1).hasOtherTables);
+}
+
 TEST(Fleet, WithoutAConfigAnyTablesAreRight) {
   take(encode(HeartbeatFrame{.table_crc = 0x43}, 1));
   CHECK_FALSE(only().hasOtherTables);

@@ -83,6 +83,17 @@ TEST(ViewJson, AFingerThatSaysNothingHasNoTouch) {
   STRCMP_EQUAL("[\"silent for 2.0 s\"]", jsonOf(finger).at("troubles").dump().c_str());
 }
 
+TEST(ViewJson, OfAnotherProtocolNothingIsReadButItsVersion) {
+  FingerView finger = touchedFinger();
+  finger.heartbeat.protocol = kProtocolVersion + 1;
+  const auto json = jsonOf(finger);
+  for (const char* key : {"state", "faults", "uptime_s", "temperature_degc", "gauges", "info"})
+    CHECK_TRUE(json.at(key).is_null());
+  LONGS_EQUAL(kProtocolVersion + 1, json.at("protocol").get<int>());
+  CHECK_TRUE(json.at("foreign"));
+  STRCMP_EQUAL("another protocol", stateWord(finger).c_str());
+}
+
 TEST(ViewJson, TroublesAreInTheWordsOfTheTerminal) {
   FingerView finger = touchedFinger();
   STRCMP_EQUAL("[]", jsonOf(finger).at("troubles").dump().c_str());

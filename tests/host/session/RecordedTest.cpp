@@ -10,6 +10,7 @@
 #include "common/frames.hpp"
 #include "host/base/failure.hpp"
 #include "host/can/candump_text.hpp"
+#include "host/can/log_reader.hpp"
 #include "tests/host/session/hands.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -114,6 +115,19 @@ TEST(Recorded, TimesThatGoBackAreTold) {
                   warningOf(readRecording(path_, config, 1)).c_str());
   write(stroke() + pages(995'000, 100, RawKind::kReadings, hand.touch(30, 20)));
   STRCMP_EQUAL("", warningOf(readRecording(path_, config, 1)).c_str());
+}
+
+// candump -td: each time is what has passed since the frame before.
+TEST(Recorded, TimesThatAreDifferencesAreTold) {
+  std::string log;
+  for (int i = 0; i < 100; ++i)
+    log += fmt::format(" (00{}.000{})  can0  123   [1]  00\n", 0, i % 3 == 0 ? "900" : "100");
+  write(log);
+  can::LogReader reader(path_);
+  while (reader.next()) {}
+  LONGS_EQUAL(1, reader.warnings().size());
+  STRCMP_CONTAINS("33 of 100 frames have an earlier time than the one before: they are differences",
+                  reader.warnings().front().c_str());
 }
 
 TEST(Recorded, WithoutATouchItIsRefused) {

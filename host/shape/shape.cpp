@@ -6,7 +6,6 @@
 #include <limits>
 #include <vector>
 
-#include "host/config/unseen_errors.hpp"
 #include "host/shape/quantiles.hpp"
 
 namespace strainfinger::shape {
@@ -34,11 +33,12 @@ ShapeEstimator::ShapeEstimator(const config::FingerConfig& config, bool isSparse
       model_(config),
       search_(model_, config.contact.friction_coefficient),
       curvature_(config.finger.annulus()),
+      unseen_(config::unseenErrors(config)),
       isSparse_(isSparse) {}
 
 void ShapeEstimator::addUnseenErrors(TouchFit& fit) const {
   const double radius_m = model_.outerRadius_m();
-  const auto [place_m, loadScale, normalShare, moment_m2] = config::unseenErrors(config_);
+  const auto& [place_m, loadScale, normalShare, moment_m2] = unseen_;
   const auto load = [&](double load_n_per_m) {
     return std::hypot(loadScale * load_n_per_m, normalShare * fit.touch.normal_n_per_m);
   };

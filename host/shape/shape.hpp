@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "host/config/ring_spacing.hpp"
+#include "host/config/unseen_errors.hpp"
 #include "host/shape/curvature.hpp"
 #include "host/shape/resolved_pressure.hpp"
 #include "host/shape/touch_search.hpp"
@@ -92,6 +93,7 @@ class ShapeEstimator {
   TouchModel model_;
   TouchSearch search_;
   CurvatureScale curvature_;
+  config::UnseenErrors unseen_;
   bool isSparse_;
 };
 

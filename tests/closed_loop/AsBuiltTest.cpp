@@ -12,6 +12,7 @@
 #include "host/evidence/touches.hpp"
 #include "host/evidence/uniform.hpp"
 #include "tests/closed_loop/sampled_finger.hpp"
+#include "tests/closed_loop/stateless_locator.hpp"
 #include "tests/closed_loop/touch_count.hpp"
 
 // last: its macros redefine new
@@ -120,4 +121,32 @@ TEST(AsBuilt, NarrowTouchesAreToldWithTrueSigmas) {
 
 TEST(AsBuilt, WideTouchesAreToldWithTrueSigmas) {
   check(run({.load_n_per_m = {2, 40}, .width_m = {3e-3, 6e-3}}, touchCount(2000)));
+}
+
+// A ring 0.2 mm above its core: one that is 0.1 mm thicker takes a third of the strain away.
+TEST(AsBuilt, LoadsReadNearTheCoreAreAsFarOffAsTheySay) {
+  constexpr int kPlaces = 64;
+  config::FingerConfig config;
+  config.finger.core_radius_m = 0.010;
+  config.finger.outer_radius_m = 0.015;
+  config.gauges.radius_m = 0.0102;
+  config.as_built.core_radius_m = 1e-4;
+  const evidence::TouchedRing ring(config, 1);
+  StatelessLocator locator(config);
+  double squares = 0;
+  int told = 0;
+  for (int i = 0; i < kPlaces; ++i) {
+    const simulation::Touch touch{.angle_rad = 2 * std::numbers::pi * i / kPlaces, .normal_n_per_m = 30};
+    const auto found = locator.locate(ring.exact(touch));
+    if (found.contacts.empty() || found.contacts.front().isFlagged) continue;
+    const evidence::Answer& answer = found.contacts.front();
+    const double error = answer.values[evidence::kNormal] - touch.normal_n_per_m;
+    squares += std::pow(error / answer.sigmas[evidence::kNormal], 2);
+    ++told;
+  }
+  std::printf("\n%d of %d told, RMS of load errors over sigmas %.2f ", told, kPlaces,
+              std::sqrt(squares / told));
+  CHECK_COMPARE(told, >=, kPlaces * 3 / 4);
+  CHECK_COMPARE(squares, <, 2 * 2 * told);
+  CHECK_COMPARE(squares, >, 0.5 * 0.5 * told);
 }

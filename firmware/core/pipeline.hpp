@@ -15,7 +15,7 @@ struct Observation {
   bool unchanged = false;     ///< the codes are those of the set before, and so is the answer
   bool several = false;       ///< the readings are not those of one contact
   bool staleZero = false;     ///< the finger has not been seen untouched for too long
-  bool tooFewGauges = false;  ///< work for the answer to be sure
+  bool tooFewGauges = false;  ///< fewer work than an answer needs to be sure
   bool noisy = false;         ///< the untouched ring is noisier than configured
   GaugeSet saturated = 0;     ///< at a rail
   GaugeSet outOfUse = 0;      ///< known not to work, or noisy by themselves

@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 #include "host/can/frame_catalogue.hpp"
 
@@ -17,7 +18,7 @@ constexpr std::chrono::milliseconds kAtATime{1000};
 
 /// Frames of several interfaces may be logged a little out of order; clocks that are set jump by more.
 constexpr std::int64_t kOutOfOrder_ns = 1'000'000'000;
-/// Of so many frames more than one that goes back: each time is the difference to the frame before.
+/// Where more than one frame in so many is earlier than the one before it, times are differences.
 constexpr std::uint64_t kMostOutOfOrder = 4;
 
 bool hasFrame(const LogLine& line) {
@@ -45,7 +46,9 @@ std::optional<TextFrame> LogReader::next() {
           ExitCode::kFailure,
           fmt::format("{}: a frame without a time: log with `candump -L`, or `candump -ta`", place()));
     watchTime(*frame->time_ns);
-    if (isWanted(frame->interface)) return frame;
+    if (!isWanted(frame->interface)) continue;
+    watchOrder(*frame);
+    return frame;
   }
   return std::nullopt;
 }
@@ -54,11 +57,22 @@ bool LogReader::isWanted(std::string_view interface) const {
   return interface_.empty() || interface == interface_;
 }
 
+/// Each interface has a clock of its own.
+void LogReader::watchOrder(const TextFrame& frame) {
+  const auto [last, isFirst] = last_ns_.try_emplace(std::string(frame.interface), *frame.time_ns);
+  ++times_;
+  if (*frame.time_ns < last->second) ++timesBack_;
+  last->second = *frame.time_ns;
+}
+
+void LogReader::requireInterface() const {
+  if (!interface_.empty() && times_ == 0)
+    throw Failure(ExitCode::kFailure,
+                  fmt::format("{}: no frame of {} in it", lines_.name(), excerpt(interface_)));
+}
+
 void LogReader::watchTime(std::int64_t time_ns) {
   const std::int64_t latest_ns = latest_ns_.value_or(time_ns);
-  ++times_;
-  if (time_ns < last_ns_.value_or(time_ns)) ++timesBack_;
-  last_ns_ = time_ns;
   if (timesGoBack_.empty() && time_ns < latest_ns - kOutOfOrder_ns)
     timesGoBack_ = fmt::format(
         "{}: the times go back by {:.3g} s here: the clock was set, logs of several runs were joined, or "

@@ -31,6 +31,9 @@ class LogReader {
   /// What to tell, once all is read, of a last line that was left out, and of times that run backwards.
   std::vector<std::string> warnings() const;
 
+  /// Once all is read: throws Failure(kFailure) where nothing was of the interface that is read.
+  void requireInterface() const;
+
   /// "x.log:3", of the last line.
   std::string place() const { return lines_.place(); }
 
@@ -38,6 +41,7 @@ class LogReader {
   std::optional<std::string_view> nextLine();
   std::optional<TextFrame> frameOf(std::string_view line);
   bool isWanted(std::string_view interface) const;
+  void watchOrder(const TextFrame& frame);
   void watchTime(std::int64_t time_ns);
 
   LineReader lines_;
@@ -47,9 +51,10 @@ class LogReader {
   bool isWhole_ = true;    ///< the last line ended with a line end
   bool anyFrame_ = false;  ///< was read
   bool isCutOff_ = false;
-  std::optional<std::int64_t> latest_ns_, last_ns_;
-  std::uint64_t times_ = 0, timesBack_ = 0;  ///< earlier than the frame's before
-  std::string timesGoBack_;                  ///< where, first, and by how much
+  std::optional<std::int64_t> latest_ns_;
+  std::map<std::string, std::int64_t> last_ns_;  ///< by interface
+  std::uint64_t times_ = 0, timesBack_ = 0;      ///< earlier than the frame's before
+  std::string timesGoBack_;                      ///< where, first, and by how much
 };
 
 }  // namespace strainfinger::can

@@ -151,8 +151,7 @@ std::string_view remedyFor(CommandStatus status) {
       return "ask for less, or use a bus with a higher bit rate";
     case CommandStatus::kOutOfTurn:
       return "it has started anew meanwhile, or another program sends it tables, too; `strainfinger push "
-             "--can BUS -n N -c FINGER.toml` "
-             "begins with their first word";
+             "--can BUS -n N -c FINGER.toml` begins with their first word";
     case CommandStatus::kUnknownCommand:
     case CommandStatus::kBadArgument:
       break;

@@ -14,7 +14,8 @@ namespace {
 constexpr const char* kConfigHelp =
     "Changes settings of a finger on the bus: the contact rate until its next start, or for ever with "
     "--keep; its node number from its next start on; or has it start anew.\n"
-    "Prints interface,node,command,status. Exit status: 1 refused, 3 no interface, 4 no such node.";
+    "Prints interface,node,command,status. Exit status: 1 refused, or another finger has the number, 3 no "
+    "interface, 4 no such node.";
 
 struct ConfigOptions {
   explicit ConfigOptions(CLI::App& command) : request(command) {

@@ -16,7 +16,8 @@ namespace {
 
 struct DbcOptions {
   explicit DbcOptions(CLI::App& command) : common(command) {
-    addList(command, "-n,--node", nodes, "Node numbers in place of the config's, as in 1,2", isNode());
+    addList(command, "-n,--node", nodes, "Node numbers in place of the config's, as in 1,2", isNode())
+        .type_name("N,N");
     command.add_option("-o,--output", path, "File to write; stdout without it")->type_name("FILE");
   }
   CommonOptions common;

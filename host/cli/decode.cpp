@@ -58,10 +58,10 @@ struct DecodeOptions {
         .type_name("N,N")
         ->allow_extra_args(false);  // what follows is a FILE
     command.add_flag("--touches", touches, "A row a touch sample, not a row a frame");
-    command.add_flag(
-        "--follow", follow,
-        "Wait for what is yet to be written to FILE, until Ctrl-C; once its name is another file's "
-        "(rotation), go on with that, as tail -F does");
+    command.add_flag("--follow", follow,
+                     "Wait for FILE, and for what is yet to be written to it, until Ctrl-C; once its name is "
+                     "another file's "
+                     "(rotation), go on with that, as tail -F does");
     command.add_flag("--strict", strict, "Stop at the first line that cannot be read");
   }
   CommonOptions common;
@@ -123,7 +123,9 @@ class Decoder {
   /// Until there is such a file, as `tail -F` does. False: it is asked to stop.
   bool waitFor(const std::string& path) const {
     std::error_code unknown;  // what cannot be looked at is named when it is opened
-    for (; !std::filesystem::exists(path, unknown) && !unknown; std::this_thread::sleep_for(kFollowPeriod))
+    const auto isMissing = [&] { return !std::filesystem::exists(path, unknown) && !unknown; };
+    if (isMissing()) tell("decode: {} is not there yet: waiting for it\n", path);
+    for (; isMissing(); std::this_thread::sleep_for(kFollowPeriod))
       if (stopped()) return false;
     return true;
   }
@@ -212,7 +214,7 @@ class Decoder {
 void requireGoodPaths(const DecodeOptions& options) {
   if (options.follow && (options.paths.size() != 1 || options.paths.front() == "-"))
     throw Failure(ExitCode::kUsage, "decode: --follow needs one FILE: stdin is followed to its end anyway");
-  if (options.follow) return;
+  if (options.follow) return requireFolderOf("--follow", options.paths.front());
   for (const std::string& path : options.paths)
     LineReader::requireReadable(path);  // nothing is printed if one is not there
 }

@@ -78,8 +78,7 @@ struct DesignOptions {
     command
         .add_option("--width-m", width_m,
                     "Its width [m], as PATCH tells that of a round object: the even pressure of the same "
-                    "second moment "
-                    "is so wide; known where the config knows one (contact.width_m, or 0.001)")
+                    "second moment is so wide; known where the config knows one (contact.width_m, or 0.001)")
         ->type_name("W")
         ->check(isFrom(0, 1));
     command.add_option("--picture", picturePath, "Draws the worst bounds there, .svg or .png; needs gnuplot")

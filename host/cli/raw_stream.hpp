@@ -21,8 +21,7 @@ class RawStream {
     if (requireOneFinger(bus_, node_, [&stop] { return !stop.asked(); }).sendsRaw)
       tell(
           "strainfinger: {} node {} sends RAW already: if another program asked for it, that one gets {} "
-          "sample "
-          "sets a second now, and none once this one ends\n",
+          "sample sets a second now, and none once this one ends\n",
           bus_.name(), node_, rate_hz_);
     try {
       askAgain();

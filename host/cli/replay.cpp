@@ -97,9 +97,7 @@ LogExtent measure(const ReplayOptions& options) {
   }
   extent.skipped = log.skipped();
   warn("replay", log.warnings());
-  if (!options.interface.empty() && extent.interfaces.empty())
-    throw Failure(ExitCode::kFailure,
-                  fmt::format("{}: no frame of {} in it", options.path, excerpt(options.interface)));
+  log.requireInterface();
   if (extent.interfaces.size() > 1)
     warn("replay",
          fmt::format("{}: what it has of several interfaces ({}) all goes to {}: --interface sends "
@@ -160,6 +158,7 @@ void recomputeLog(const ReplayOptions& options) {
       one.watch(options.path, *text);
       return can::TimedFrame{*text->time_ns, text->frame};
     }
+    log.requireInterface();
     warn("replay", log.warnings());
     return std::nullopt;
   };

@@ -22,6 +22,7 @@ using Clock = std::chrono::steady_clock;
 
 /// A push of all tables over a bus of 125 kbit/s takes less.
 constexpr auto kOthersMayAskFor = 30s;
+constexpr int kMostSilences = 3;  ///< after others have asked
 
 std::string commandName(Command command) { return can::nameText(kCommandNames, static_cast<int>(command)); }
 std::string statusName(CommandStatus status) {
@@ -61,8 +62,8 @@ Failure silence(const can::Reply& reply, const can::BusPort& bus, const std::str
                   where, waited_ms, can::nameText(kFingerStateNames, static_cast<int>(heartbeat.state))));
 }
 
-/// Nothing of another program is heard in this time, which differs from program to program: two that have
-/// begun at once don't ask at once again.
+/// Frames are passed over for a time that differs from program to program: two that have begun at once don't
+/// ask at once again.
 void letOthersAsk(can::BusPort& bus, const std::function<bool()>& goOn) {
   std::random_device random;
   const auto end = Clock::now() + std::uniform_int_distribution<>{100, 500}(random)*1ms;
@@ -79,9 +80,13 @@ can::Reply askOnceOthersHaveEnded(can::BusPort& bus, std::uint8_t node, const st
   if (reply.othersAsk)
     tell("strainfinger: {}: another program asks this finger: waiting until it has ended\n",
          placeOf(bus, node));
-  while (reply.othersAsk && Clock::now() < end && (!goOn || goOn())) {
+  const bool waits = reply.othersAsk;
+  // What they asked may have been a restart, during which it doesn't answer.
+  for (int silences = 0; waits && (reply.othersAsk || (!reply.response && silences < kMostSilences)) &&
+                         Clock::now() < end && (!goOn || goOn());) {
     letOthersAsk(bus, goOn);
     reply = can::askWhoIsThere(bus, node, goOn);
+    silences += reply.response ? 0 : 1;
   }
   return reply;
 }
@@ -120,17 +125,17 @@ Failure twinFailure(const can::BusPort& bus, std::uint8_t node) {
 can::Reply requireOneFinger(can::BusPort& bus, std::uint8_t node, const std::function<bool()>& goOn) {
   const can::Reply reply = askOnceOthersHaveEnded(bus, node, goOn);
   const bool isInterrupted = goOn && !goOn();
-  if (reply.othersAsk && !isInterrupted)
+  if (isInterrupted && (reply.othersAsk || !reply.response))
+    throw Failure(ExitCode::kInterrupted,
+                  fmt::format("{}: interrupted before it answered", placeOf(bus, node)));
+  if (reply.othersAsk)
     throw Failure(ExitCode::kFailure,
                   fmt::format("{}: another program asks this finger, and has not ended "
                               "within {} s: {}",
                               placeOf(bus, node), kOthersMayAskFor / 1s, can::kOthersAskRemedy));
   if (reply.hasTwin()) throw twinFailure(bus, node);
-  if (reply.response && !reply.othersAsk) return reply;
-  if (isInterrupted)
-    throw Failure(ExitCode::kInterrupted,
-                  fmt::format("{}: interrupted before it answered", placeOf(bus, node)));
-  throw silence(reply, bus, placeOf(bus, node));
+  if (!reply.response) throw silence(reply, bus, placeOf(bus, node));
+  return reply;
 }
 
 void requireNobody(can::BusPort& bus, std::uint8_t node) {

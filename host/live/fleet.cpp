@@ -143,6 +143,11 @@ FingerView Fleet::viewOf(std::uint8_t number, Node& node) {
   view.rawLoad = loadOf(node.rawBits);
   const bool isOld = view.isTouched() && now_us_ - node.touched_us > kTouchLasts_us;
   if (view.isSilent() || view.isForeign() || isOld) view.touch.reset();
+  if (view.isForeign()) {  // all else in its frames means something else
+    view.heartbeat = {.protocol = view.heartbeat.protocol};
+    view.info.reset();
+    view.gauges.reset();
+  }
   view.hasOtherTables =
       number == configured_ && tables_crc32_ && can::hasOtherTables(view.heartbeat, *tables_crc32_);
   if (!view.isForeign() && now_us_ - node.strained_us <= kRawLasts_us) view.strains = node.strains;

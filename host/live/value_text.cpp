@@ -88,8 +88,10 @@ std::string qualityText(const can::ContactReport& contact) {
   if (std::isnan(contact.quality_percent)) return {};
   const std::string quality = fmt::format("quality {:.0f} %", contact.quality_percent);
   if (std::isnan(contact.alternative_deg)) return quality;
-  return fmt::format("{} or at {:.0f} deg", quality,
-                     withinATurn_deg(contact.angle_deg + contact.alternative_deg));
+  const bool isOrBeyond = std::abs(contact.alternative_deg) >= can::largestValues().alternative_deg;
+  return fmt::format("{} or at {:.0f} deg{}", quality,
+                     withinATurn_deg(contact.angle_deg + contact.alternative_deg),
+                     isOrBeyond ? " or beyond" : "");
 }
 
 std::string stateWord(const FingerView& finger) {
@@ -114,8 +116,7 @@ std::vector<std::string> troublesOf(const FingerView& finger) {
 std::string warningsText(const FingerView& finger) {
   std::vector<std::string> warnings = troublesOf(finger);
   const auto faults = wordsFor(kFingerFaultNames, finger.heartbeat.faults.raw());
-  if (!finger.isForeign() && !faults.empty())
-    warnings.push_back(fmt::format("faults: {}", fmt::join(faults, ", ")));
+  if (!faults.empty()) warnings.push_back(fmt::format("faults: {}", fmt::join(faults, ", ")));
   const auto gauges = bitNumbers(finger.gauges ? finger.gauges->out_of_use : 0);
   if (!gauges.empty()) warnings.push_back(fmt::format("gauges out of use: {}", fmt::join(gauges, ", ")));
   return fmt::format("{}", fmt::join(warnings, "; "));

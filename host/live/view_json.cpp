@@ -102,17 +102,17 @@ Json infoJson(const InfoFrame& info) {
 
 Json fingerJson(const FingerView& finger) {
   const HeartbeatFrame& heartbeat = finger.heartbeat;
-  // Frames of another protocol version mean something else.
-  const auto ifOurs = [&](Json value) { return finger.isForeign() ? Json() : value; };
   return {{"node", finger.node},
           {"silence_s", static_cast<double>(finger.silence_us) / 1e6},
           {"silent", finger.isSilent()},
           {"protocol", heartbeat.protocol},
           {"foreign", finger.isForeign()},
-          {"state", ifOurs(can::nameText(kFingerStateNames, static_cast<int>(heartbeat.state)))},
-          {"faults", ifOurs(namesOf(kFingerFaultNames, heartbeat.faults.raw()))},
-          {"uptime_s", ifOurs(knownOrNull(heartbeat.uptime_s))},
-          {"temperature_degc", ifOurs(knownOrNull(heartbeat.temperature_degC))},
+          {"state", finger.isForeign()
+                        ? Json()
+                        : Json(can::nameText(kFingerStateNames, static_cast<int>(heartbeat.state)))},
+          {"faults", namesOf(kFingerFaultNames, heartbeat.faults.raw())},
+          {"uptime_s", knownOrNull(heartbeat.uptime_s)},
+          {"temperature_degc", knownOrNull(heartbeat.temperature_degC)},
           {"contacts_per_s", finger.contactsPerSecond},
           {"jitter_s", numberOrNull(finger.jitter_s)},
           {"received", finger.received},
@@ -126,9 +126,9 @@ Json fingerJson(const FingerView& finger) {
           {"span", spanJson(finger.span)},
           {"strains", listOrNull(finger.strains)},
           {"fitted", listOrNull(finger.fitted)},
-          {"gauges", ifOurs(finger.gauges ? gaugesJson(*finger.gauges) : Json())},
-          {"info", ifOurs(finger.info ? infoJson(*finger.info) : Json())},
-          {"or_more", keysOf({{"uptime_s", !finger.isForeign() && can::isLargest(heartbeat.uptime_s)}})}};
+          {"gauges", finger.gauges ? gaugesJson(*finger.gauges) : Json()},
+          {"info", finger.info ? infoJson(*finger.info) : Json()},
+          {"or_more", keysOf({{"uptime_s", can::isLargest(heartbeat.uptime_s)}})}};
 }
 
 }  // namespace

@@ -44,7 +44,9 @@ Recorded readRecording(const std::string& path, const config::FingerConfig& conf
     if (thinner.take(sample) == Verdict::kKept) found.rows.add(sample.strains, {});
   }
   found.warnings = log.warnings();
+  log.requireInterface();
   receiver.requireAllGauges();
+  if (found.sets == 0) receiver.requireEnoughGauges();
   if (found.rows.size() > 0) return found;
   if (found.sets > 0)
     throw Failure(ExitCode::kFailure,

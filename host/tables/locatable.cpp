@@ -33,13 +33,12 @@ std::string adviceFor(const TableParameters& p, double depth_m, double pitch_m) 
 }
 
 std::string figuresOf(const TableParameters& p) {
-  if (const double depth_m = p.outer_radius_m - p.gauge_radius_m;
-      p.contact_width_m < 0 && p.largest_width_m < kTellableWidth * depth_m)
+  const double depth_m = p.outer_radius_m - p.gauge_radius_m;
+  if (p.contact_width_m < 0 && p.largest_width_m < kTellableWidth * depth_m)
     return fmt::format(
         "at {:.3g} m below the surface the gauges hardly tell whether a contact is wider than "
         "contact.largest_width_m = {}: make that larger, or say how wide contacts are (contact.width_m)",
         depth_m, p.largest_width_m);
-  const double depth_m = p.outer_radius_m - p.gauge_radius_m;
   const double pitch_m = 2 * std::numbers::pi * p.outer_radius_m / p.gauge_count;
   return fmt::format(
       "the gauges lie {:.3g} m below the surface (gauges.radius_m = {}), where they are {:.3g} m apart "

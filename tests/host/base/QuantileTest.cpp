@@ -15,7 +15,7 @@ TEST(Quantile, ThatShareOfTheValuesIsBelow) {
   DOUBLES_EQUAL(7, quantileOf({7}, 0.5), 0);
 }
 
-TEST(Quantile, TheMedianOfAnEvenCountIsTheUpperOfTheTwoInTheMiddle) {
+TEST(Quantile, TheMedianOfAnEvenCountIsTheMeanOfTheTwoInTheMiddle) {
   DOUBLES_EQUAL(2.5, medianOf({4, 1, 3, 2}), 0);
   DOUBLES_EQUAL(2, medianOf({3, 1, 2}), 0);
 }

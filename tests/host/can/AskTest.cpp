@@ -100,6 +100,13 @@ TEST(Ask, AFingerAnswersOnce) {
   CHECK_TRUE(tare().hasTwin());
 }
 
+TEST(Ask, ThatTheNodeSendsRawIsNoticed) {
+  arrives(encode(RawFrame{}, kNode + 1));
+  CHECK_FALSE(tare().sendsRaw);
+  arrives(encode(RawFrame{}, kNode));
+  CHECK_TRUE(tare().sendsRaw);
+}
+
 TEST(Ask, AnAnswerToSomebodyElseIsNoTwins) {
   arrives(encode(tareRequest(false), kNode));
   for (int answers = 0; answers < 2; ++answers)

@@ -97,6 +97,21 @@ TEST(RawReceiver, AFingerOfMoreGaugesGivesNothing) {
   }
 }
 
+TEST(RawReceiver, AFingerOfFewerGaugesIsNamedAsThat) {
+  receiver = RawReceiver(kNode, 24);
+  receiver.requireEnoughGauges();  // of a finger that sends nothing it isn't known
+  CHECK_FALSE(receiver.sendsAny());
+  for (int number = 0; number < 6; ++number) receiver.take(page(number, 1));
+  CHECK_TRUE(receiver.sendsAny());
+  try {
+    receiver.requireEnoughGauges();
+    FAIL("accepted");
+  } catch (const Failure& failure) {
+    STRCMP_CONTAINS("the config has gauges.count = 24, the finger sends 1", failure.what());
+    CHECK(failure.code() == ExitCode::kMismatch);
+  }
+}
+
 TEST(RawReceiver, OtherNodesAndFramesAreNotLookedAt) {
   for (int number = 0; number < 6; ++number) {
     CHECK_FALSE(receiver.take(page(number, 1, RawKind::kReadings, kNode + 1)).has_value());

@@ -134,3 +134,14 @@ TEST(Request, ANodeNumberThatAnotherFingerHasIsNotGiven) {
     STRCMP_CONTAINS("fake0 node 5: there is a finger of this number already", failure.what());
   }
 }
+
+// A push ends with a restart, during which the finger says nothing.
+TEST(Request, WhoHasWaitedAsksAgainAFingerThatStartsAnew) {
+  int asked = 0;
+  bus.onSend = [&](const CanFrame&) {
+    if (++asked == 1) bus.hear(wordRequest(7, 7), kNode);
+    if (asked != 2) bus.hear(responseTo(Command::kCount, CommandStatus::kDone), kNode);
+  };
+  requireOneFinger(bus, kNode);
+  LONGS_EQUAL(3, asked);
+}

@@ -325,7 +325,7 @@ TEST(ReadConfig, AnglesThatAreNoRingAreNamed) {
                              last));
   std::string clockwise = "[0";
   for (int i = 15; i > 0; --i) clockwise += fmt::format(", {}", 22.5 * i);
-  checkMention(settingOf("gauges.angle_deg", clockwise + "]"), "is no ring");
+  checkMention(settingOf("gauges.angle_deg", clockwise + "]"), "; from gauge 0 to gauge 1, from ");
   checkMention(settingOf("gauges.angle_deg", angles("360")),
                "gauges.angle_deg[15] = 360 is out of its domain");
 }
@@ -333,7 +333,7 @@ TEST(ReadConfig, AnglesThatAreNoRingAreNamed) {
 TEST(ReadConfig, AnglesThatGoRoundTwiceAreNoRing) {
   std::string twice = "[0";
   for (int i = 1; i < 16; ++i) twice += fmt::format(", {}", i * 45 % 360);
-  checkMention(settingOf("gauges.angle_deg", twice + "]"), "is no ring");
+  checkMention(settingOf("gauges.angle_deg", twice + "]"), "; they go round more than once");
 }
 
 TEST(ReadConfig, AnglesAreSaidInOneWay) {

@@ -149,11 +149,19 @@ TEST(Fleet, AFingerWithoutHeartbeatsIsSilentAndItsTouchIsNotShown) {
   CHECK_FALSE(only().isSilent());
 }
 
-TEST(Fleet, TouchesInAnotherProtocolAreNotShown) {
-  heartbeat(1, kProtocolVersion + 1);
+TEST(Fleet, WhatIsSaidInAnotherProtocolIsNotShown) {
+  take(encode(HeartbeatFrame{.state = FingerState::kRun,
+                             .protocol = kProtocolVersion + 1,
+                             .faults = {FingerFault::kCan},
+                             .uptime_s = 7},
+              1));
+  take(encode(InfoFrame{}, 1));
+  take(encode(GaugesFrame{.out_of_use = 4}, 1));
   touch(282);
-  CHECK_TRUE(only().isForeign());
-  CHECK_FALSE(only().touch.has_value());
+  const FingerView finger = only();
+  CHECK_TRUE(finger.isForeign());
+  CHECK_FALSE(finger.touch.has_value() || finger.info.has_value() || finger.gauges.has_value());
+  CHECK_TRUE(finger.heartbeat == HeartbeatFrame{.protocol = kProtocolVersion + 1});
 }
 
 TEST(Fleet, ATapBetweenTwoViewsIsInTheirSpan) {

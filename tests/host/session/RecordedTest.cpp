@@ -130,6 +130,27 @@ TEST(Recorded, TimesThatAreDifferencesAreTold) {
                   reader.warnings().front().c_str());
 }
 
+// Two interfaces whose clocks differ, as candump logs them.
+TEST(Recorded, TimesOfAnotherInterfaceMayBeOthers) {
+  std::string log;
+  for (int i = 0; i < 100; ++i)
+    log += fmt::format("(1.{:06}) can{} 123#00\n", 1000 * i + 400'000 * (i % 2), i % 2);
+  write(log);
+  can::LogReader reader(path_);
+  while (reader.next()) {}
+  LONGS_EQUAL(0, reader.warnings().size());
+}
+
+TEST(Recorded, AnInterfaceThatIsNotInTheLogIsNamed) {
+  write(stroke());
+  try {
+    readRecording(path_, config, 1, "can7");
+    FAIL("accepted");
+  } catch (const Failure& failure) {
+    STRCMP_CONTAINS(": no frame of can7 in it", failure.what());
+  }
+}
+
 TEST(Recorded, WithoutATouchItIsRefused) {
   std::string text;
   for (int i = 0; i < 20; ++i) text += pages(1'000'000 + 10'000 * i, i, RawKind::kReadings, hand.nothing());

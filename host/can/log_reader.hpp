@@ -2,6 +2,7 @@
 // The frames of a log, for who needs every one of them.
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>

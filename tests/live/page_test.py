@@ -231,6 +231,20 @@ def shown_finger():
             yield page, process
 
 
+class AnotherProtocol(unittest.TestCase):
+    def test_a_finger_of_another_protocol_hides_no_other(self):
+        with Bench(PROGRAM) as bench:
+            log = bench.folder / "protocol_3.log"
+            log.write_text("".join(f"({i / 10 + 1:.6f}) can0 701#3200000D0E1900A7\n" for i in range(600)))
+            bench.start("replay", str(log), "--can", bench.bus, stderr=subprocess.DEVNULL)
+            bench.finger(node=2)
+            _, url = bench.serve()
+            with browser.Page(url) as page:
+                page.wait_for("/another protocol/.test(document.querySelector('#finger-1')?.textContent)")
+                page.wait_for("/speaks protocol 3/.test(document.querySelector('#finger-1 .warnings').textContent)")
+                page.wait_for("/^[0-9.]/.test(document.querySelector('#finger-2 .normal')?.textContent)")
+
+
 class Ending(unittest.TestCase):
     def test_a_page_whose_program_ended_says_so(self):
         with shown_finger() as (page, process):

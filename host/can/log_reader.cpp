@@ -59,7 +59,8 @@ bool LogReader::isWanted(std::string_view interface) const {
 
 /// Each interface has a clock of its own.
 void LogReader::watchOrder(const TextFrame& frame) {
-  const auto [last, isFirst] = last_ns_.try_emplace(std::string(frame.interface), *frame.time_ns);
+  auto last = last_ns_.find(frame.interface);
+  if (last == last_ns_.end()) last = last_ns_.emplace(frame.interface, *frame.time_ns).first;
   ++times_;
   if (*frame.time_ns < last->second) ++timesBack_;
   last->second = *frame.time_ns;

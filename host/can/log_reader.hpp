@@ -2,6 +2,7 @@
 // The frames of a log, for who needs every one of them.
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -53,9 +54,9 @@ class LogReader {
   bool anyFrame_ = false;  ///< was read
   bool isCutOff_ = false;
   std::optional<std::int64_t> latest_ns_;
-  std::map<std::string, std::int64_t> last_ns_;  ///< by interface
-  std::uint64_t times_ = 0, timesBack_ = 0;      ///< earlier than the frame's before
-  std::string timesGoBack_;                      ///< where, first, and by how much
+  std::map<std::string, std::int64_t, std::less<>> last_ns_;  ///< by interface
+  std::uint64_t times_ = 0, timesBack_ = 0;                   ///< earlier than the frame's before
+  std::string timesGoBack_;                                   ///< where, first, and by how much
 };
 
 }  // namespace strainfinger::can

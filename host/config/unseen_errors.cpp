@@ -29,7 +29,7 @@ constexpr double kPlaceErrorPerModelError = 0.3;
 constexpr double kMomentErrorPerModelError = 0.5;
 
 /// What a gauge reads of a line load pressing, by harmonics of the angle between them.
-Eigen::VectorXd response(const FingerConfig& config, const model::Annulus<double>& annulus) {
+Eigen::VectorXd lineResponse(const FingerConfig& config, const model::Annulus<double>& annulus) {
   constexpr double kTolerance = 1e-6;
   const model::ImpulseResponse response(annulus, config.gauges.radius_m, config.gauges.component, 0, 0,
                                         kTolerance);
@@ -55,8 +55,9 @@ double scaleError(const FingerConfig& config) {
   thicker.core_radius_m = std::min(drawn.core_radius_m + config.tolerance.core_radius_m,
                                    (drawn.core_radius_m + config.gauges.radius_m) / 2);
   softer.poisson_ratio = std::max(drawn.poisson_ratio - config.tolerance.poisson_ratio, 0.0);
-  const Eigen::VectorXd read = response(config, drawn);
-  return std::hypot(loadError(read, response(config, thicker)), loadError(read, response(config, softer)));
+  const Eigen::VectorXd read = lineResponse(config, drawn);
+  return std::hypot(loadError(read, lineResponse(config, thicker)),
+                    loadError(read, lineResponse(config, softer)));
 }
 
 /// A calibration has found core and ratio.

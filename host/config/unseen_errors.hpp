@@ -14,7 +14,8 @@ struct UnseenErrors {
   double moment_m2;    ///< of the pressure's second moment
 };
 
-/// Of a valid config.
+/// Of a valid config. Costs three impulse responses where the finger is neither perfect nor calibrated.
+/// Throws as model::ImpulseResponse does.
 UnseenErrors unseenErrors(const FingerConfig& config);
 
 }  // namespace strainfinger::config

@@ -113,13 +113,16 @@ std::uint32_t reach_q32(const std::vector<double>& gaps_turn) {
 std::uint16_t fraction_q16(double value) { return rounded<std::uint16_t>(std::ldexp(value, 16)); }
 
 /// What standard errors have that no residual shows.
-void fillErrors(TableConstants& constants, const config::FingerConfig& config) {
+void fillErrors(TableConstants& constants, const config::FingerConfig& config,
+                const ResponseTable& responses) {
   const config::UnseenErrors errors = config::unseenErrors(config);
   const double turn = errors.place_m / (2 * std::numbers::pi * config.finger.outer_radius_m);
   constants.place_error_q32 =
       rounded<std::uint32_t>(std::min(std::ldexp(turn, 32), double{kMostPlaceError_q32}));
   constants.load_scale_error_q16 = fraction_q16(errors.loadScale);
   constants.load_error_q16 = fraction_q16(errors.normalShare);
+  if (responses.largestMoment_m2 > 0)
+    constants.moment_error_q16 = fraction_q16(errors.moment_m2 / responses.largestMoment_m2);
 }
 
 TableConstants tableConstants(const config::FingerConfig& config, const GaugeGains& gains,
@@ -134,7 +137,7 @@ TableConstants tableConstants(const config::FingerConfig& config, const GaugeGai
   constants.friction_q8 = rounded<std::uint16_t>(config.contact.friction_coefficient * 256);
   constants.cone_q8 = rounded<std::uint16_t>(frictionCone(config.contact) * 256);
   constants.model_error_q16 = fraction_q16(std::hypot(config.gauges.model_error, depthError));
-  fillErrors(constants, config);
+  fillErrors(constants, config, responses);
   constants.spacing = config::spacingOf(config);
   constants.adc_rail = static_cast<std::uint16_t>(0xFFFF << (16 - config.gauges.adc_bits));
   constants.mirror_sign = config.gauges.component == StrainComponent::kShear ? -1 : 1;
@@ -154,9 +157,6 @@ void fillMoments(TableConstants& constants, const config::FingerConfig& config,
   constants.largest_moment_um2 = rounded<std::uint32_t>(responses.largestMoment_m2 * 1e12);
   constants.width_is_known = contact.width_m ? 1 : 0;
   constants.known_moment_q20 = contact.width_m.value_or(0) > 0 ? 1u << kMomentBits : 0;
-  if (responses.largestMoment_m2 > 0)
-    constants.moment_error_q16 =
-        fraction_q16(config::unseenErrors(config).moment_m2 / responses.largestMoment_m2);
 }
 
 /// From each gauge to the next, in turns.

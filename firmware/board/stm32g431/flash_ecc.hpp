@@ -20,7 +20,7 @@ struct EccErrors {
 };
 
 /// Counts what the flags say and clears them both: an error of two bits is only noticed while both are clear.
-/// Not inlined: at a dozen places it would take 850 bytes of flash, all that the 10 kHz image has left.
+/// Not inlined: at a dozen places it would take more flash than the 10 kHz image has left.
 [[gnu::noinline]] void noteEccErrors(const RegisterBus auto& bus, EccErrors& errors) noexcept {
   using EccR = Flash::EccR;
   const std::uint32_t status = bus.read(EccR::address);

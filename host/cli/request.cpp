@@ -20,8 +20,6 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-/// A push of all tables over a bus of 125 kbit/s takes less.
-constexpr auto kOthersMayAskFor = 30s;
 constexpr int kMostSilences = 3;  ///< after others have asked
 
 std::string commandName(Command command) { return can::nameText(kCommandNames, static_cast<int>(command)); }
@@ -74,8 +72,9 @@ void letOthersAsk(can::BusPort& bus, const std::function<bool()>& goOn) {
 }
 
 /// Fingers cannot tell callers apart, so two programs would take each other's answers for their own.
-can::Reply askOnceOthersHaveEnded(can::BusPort& bus, std::uint8_t node, const std::function<bool()>& goOn) {
-  const auto end = Clock::now() + kOthersMayAskFor;
+can::Reply askOnceOthersHaveEnded(can::BusPort& bus, std::uint8_t node, const std::function<bool()>& goOn,
+                                  std::chrono::milliseconds othersMayAskFor) {
+  const auto end = Clock::now() + othersMayAskFor;
   can::Reply reply = can::askWhoIsThere(bus, node, goOn);
   if (reply.othersAsk)
     tell("strainfinger: {}: another program asks this finger: waiting until it has ended\n",
@@ -122,8 +121,9 @@ Failure twinFailure(const can::BusPort& bus, std::uint8_t node) {
   return Failure(ExitCode::kFailure, fmt::format("{}: {}", placeOf(bus, node), twinText(bus, node)));
 }
 
-can::Reply requireOneFinger(can::BusPort& bus, std::uint8_t node, const std::function<bool()>& goOn) {
-  const can::Reply reply = askOnceOthersHaveEnded(bus, node, goOn);
+can::Reply requireOneFinger(can::BusPort& bus, std::uint8_t node, const std::function<bool()>& goOn,
+                            std::chrono::milliseconds othersMayAskFor) {
+  const can::Reply reply = askOnceOthersHaveEnded(bus, node, goOn, othersMayAskFor);
   const bool isInterrupted = goOn && !goOn();
   if (isInterrupted && (reply.othersAsk || !reply.response))
     throw Failure(ExitCode::kInterrupted,
@@ -132,7 +132,7 @@ can::Reply requireOneFinger(can::BusPort& bus, std::uint8_t node, const std::fun
     throw Failure(ExitCode::kFailure,
                   fmt::format("{}: another program asks this finger, and has not ended "
                               "within {} s: {}",
-                              placeOf(bus, node), kOthersMayAskFor / 1s, can::kOthersAskRemedy));
+                              placeOf(bus, node), othersMayAskFor / 1.0s, can::kOthersAskRemedy));
   if (reply.hasTwin()) throw twinFailure(bus, node);
   if (!reply.response) throw silence(reply, bus, placeOf(bus, node));
   return reply;

@@ -2,6 +2,7 @@
 // What subcommands that ask something of a finger share.
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <functional>
 #include <string>
 #include <vector>
@@ -35,10 +36,15 @@ inline std::uint8_t nodeOf(int node, const config::Can& can) {
 /// it was done although something touches the finger.
 void requireDone(const can::Reply& reply, Command command, const can::BusPort& bus, std::uint8_t node);
 
-/// Before a request that changes something: waits while another program asks this finger, half a minute at
-/// most (kFailure). Throws as request() does where nobody would obey, or two fingers; Failure(kInterrupted)
-/// where `goOn()`, asked ten times a second at least, is false before an answer. Returns its answer.
-can::Reply requireOneFinger(can::BusPort& bus, std::uint8_t node, const std::function<bool()>& goOn = {});
+/// A push of all tables over a bus of 125 kbit/s takes less.
+inline constexpr std::chrono::milliseconds kOthersMayAskFor = std::chrono::seconds(30);
+
+/// Before a request that changes something: waits while another program asks this finger, `othersMayAskFor`
+/// at most (kFailure). Throws as request() does where nobody would obey, or two fingers;
+/// Failure(kInterrupted) where `goOn()`, asked ten times a second at least, is false before an answer.
+/// Returns its answer.
+can::Reply requireOneFinger(can::BusPort& bus, std::uint8_t node, const std::function<bool()>& goOn = {},
+                            std::chrono::milliseconds othersMayAskFor = kOthersMayAskFor);
 
 /// Before a finger becomes this node. Throws Failure(kFailure) where another answers or beats as it.
 void requireNobody(can::BusPort& bus, std::uint8_t node);

@@ -72,3 +72,16 @@ done)");
                run.out.c_str());
   STRCMP_CONTAINS("node 1: two fingers have this node number: take one off the bus", run.err.c_str());
 }
+
+TEST(RequestCommands, ANumberThatAnotherFingerHasIsNotGiven) {
+  const Run run = withFinger("", R"(
+"$STRAINFINGER" run --can $BUS -n 2 --duration 30 2>/dev/null & other=$!
+trap 'kill -INT $other $finger 2>/dev/null; wait $other $finger' EXIT
+for _ in $(seq 100); do "$STRAINFINGER" config --can $BUS -n 2 --contact-rate-hz 50 >/dev/null 2>&1 && break; done
+"$STRAINFINGER" config --can $BUS -n 1 --set-node 2)");
+  LONGS_EQUAL(1, run.status);
+  STRCMP_EQUAL("", run.out.c_str());
+  STRCMP_CONTAINS(
+      "node 2: there is a finger of this number already: choose another; `strainfinger discover --can udp:",
+      run.err.c_str());
+}

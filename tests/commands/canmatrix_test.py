@@ -129,6 +129,24 @@ class Canmatrix(unittest.TestCase):
         self.assertEqual([], self.complaints)
         self.assertEqual(sorted(FRAMES), sorted(frame.name for frame in self.matrix.frames))
 
+    def test_fingers_of_one_bus_share_a_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "fingers.dbc")
+            subprocess.run([STRAINFINGER, "dbc", "--node", f"{NODE},63", "-o", path], check=True)
+            matrix = canmatrix.formats.loadp_flat(path)
+        self.assertEqual(2 * len(FRAMES), len(matrix.frames))
+        self.assertEqual({"HOST", f"FINGER_{NODE}", "FINGER_63"}, {ecu.name for ecu in matrix.ecus})
+        for node in (NODE, 63):
+            for name, (identifier, fields) in FRAMES.items():
+                frame = matrix.frame_by_id(canmatrix.ArbitrationId(identifier + node))
+                self.assertTrue(frame.name.startswith(name), frame.name)
+                self.assertEqual(["HOST" if name == "REQUEST" else f"FINGER_{node}"], frame.transmitters)
+                one = self.frame(name)
+                for signal in frame.signals:
+                    other = one.signal_by_name(signal.name)
+                    self.assertEqual((other.start_bit, other.size, other.factor, other.unit, other.values),
+                                     (signal.start_bit, signal.size, signal.factor, signal.unit, signal.values))
+
     def test_frames_are_of_the_finger(self):
         for name in FRAMES:
             frame = self.frame(name)

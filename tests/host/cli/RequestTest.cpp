@@ -123,6 +123,22 @@ TEST(Request, WaitingForAnotherProgramCanBeInterrupted) {
                [end] { return std::chrono::steady_clock::now() < end; });
 }
 
+TEST(Request, AnotherProgramThatDoesNotEndIsTold) {
+  bus.onSend = [&](const CanFrame&) {
+    bus.hear(wordRequest(7, 7), kNode);
+    for (int answers = 0; answers < 2; ++answers)  // one is to the other program
+      bus.hear(responseTo(Command::kCount, CommandStatus::kDone), kNode);
+  };
+  try {
+    requireOneFinger(bus, kNode, {}, std::chrono::milliseconds(500));
+    FAIL("no failure");
+  } catch (const Failure& failure) {
+    LONGS_EQUAL(static_cast<int>(ExitCode::kFailure), static_cast<int>(failure.code()));
+    STRCMP_CONTAINS("fake0 node 5: another program asks this finger, and has not ended within 0.5 s: ",
+                    failure.what());
+  }
+}
+
 TEST(Request, ANodeNumberThatAnotherFingerHasIsNotGiven) {
   requireNobody(bus, kNode);
   bus.onSend = [&](const CanFrame&) { bus.hear(HeartbeatFrame{.state = FingerState::kFault}, kNode); };

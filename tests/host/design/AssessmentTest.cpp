@@ -133,6 +133,15 @@ TEST(Assessment, ATouchThatTheFirmwareFlagsIsAProblem) {
   STRCMP_EQUAL("", assess(config, touch).problem.c_str());
 }
 
+// The fit cannot tell such a touch from a wider one.
+TEST(Assessment, ATouchAsWideAsTheTablesCoverIsAProblemOfTheTables) {
+  touch.width_m = 4e-3;
+  STRCMP_EQUAL("", assess(config, touch).problem.c_str());
+  config.contact.largest_width_m = 4e-3;
+  STRCMP_CONTAINS("as wide as the tables cover: a larger contact.largest_width_m than 0.004 is needed",
+                  assess(config, touch).problem.c_str());
+}
+
 // Sparse, shallow gauges hardly tell a wide touch's place from its width.
 TEST(Assessment, PlacesThatReadingsDoNotDetermineAreCounted) {
   DOUBLES_EQUAL(1, assess(config, touch).bounds->identifiableShare, 0);

@@ -121,6 +121,16 @@ TEST(SelfCheck, ShallowShearGaugesAreToldOfRadialOnes) {
   STRCMP_CONTAINS("or gauges.component = \"radial\"", verdictOn(result, image).c_str());
 }
 
+// The gauges lie 3.3 mm deep; a tenth of that can hardly be told.
+TEST(SelfCheck, TablesThatCoverTooLittleWidthAreToldOfIt) {
+  config_.contact.largest_width_m = 2e-4;
+  checkRefusal(
+      "at 0.0033 m below the surface the gauges hardly tell whether a contact is wider than "
+      "contact.largest_width_m = 0.0002: make that larger, or say how wide contacts are");
+  config_.contact.width_m = 2e-4;
+  STRCMP_EQUAL("accepted", refusal().c_str());
+}
+
 TEST(SelfCheck, NoiseThatDrownsAContactAtHalfOfFullScaleIsRefused) {
   config_.gauges.noise_strain = 5e-4;
   checkRefusal("a contact drowns in noise up to 60.5 N/m, beyond half of full scale (32.6 N/m)");

@@ -43,6 +43,16 @@ wait $candump_pid || true
 expect_down strainfinger doctor --can vcan0 --duration 2
 expect_down strainfinger discover --can vcan0 --duration 2
 
+# One of several that goes down hides no finger of the others.
+ip link add dev vcan1 type vcan
+ip link set vcan1 up
+(sleep 1; ip link set vcan1 down) &
+found=$(strainfinger discover --duration 2 2>"$TMPDIR/message")
+wait $!
+ip link del vcan1
+expect "fingers found beside an interface that goes down" 1 "$(grep -c '^vcan0,1,run,' <<<"$found")"
+grep -q 'vcan1 went down meanwhile' "$TMPDIR/message" || fail "$(cat "$TMPDIR/message")"
+
 kill -TERM $finger
 wait $finger || true
 ip link set vcan0 down

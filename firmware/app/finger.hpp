@@ -179,7 +179,7 @@ class Finger {
   }
 
   /// Not inlined, so that its frames aren't on the stack while the locator, which needs it most, runs.
-  void report(std::uint32_t now_us) {
+  [[gnu::noinline]] void report(std::uint32_t now_us) {
     if (owed_.any()) return reporter_.missed();
     auto frames = reporter_.frames(pipeline_.constants(), pipeline_.observation(), pipeline_.answer(),
                                    pipeline_.linearisation(), sampleTime_us());
@@ -258,7 +258,7 @@ class Finger {
   }
 
   /// Not inlined: see report().
-  void sayGauges(std::uint32_t now_us) {
+  [[gnu::noinline]] void sayGauges(std::uint32_t now_us) {
     const GaugeSet outOfUse = pipeline_.observation().outOfUse;
     const GaugesFrame frame = gaugesFrame(outOfUse, pipeline_.zeroTracker(), setsPerSecond_);
     if (!can_.send(encode(frame, settings_.node))) return;
@@ -270,7 +270,7 @@ class Finger {
 
   /// Answers the request that has arrived, at once or when its work is done; while an answer waits for the
   /// port, the next request does. Not inlined: see report().
-  void serve(std::uint32_t now_us) {
+  [[gnu::noinline]] void serve(std::uint32_t now_us) {
     if ((response_ || tareStatus_) && now_us - requestedAt_us_ >= kAnswerWithin_us) {
       response_.reset();
       tareStatus_.reset();
@@ -321,8 +321,8 @@ class Finger {
 
   bool isTouched() const { return pipeline_.observation().touched; }
 
-  /// Nothing is left that listeners would take for a touch that goes on, unless that is meant: then its end
-  /// is said after the restart. Nobody waits for an answer.
+  /// Refused while listeners would go on to take the last CONTACT for a touch, unless that is meant: then the
+  /// end of the touch is said after the restart. Refused, too, while the answer to a tare is due.
   ResponseFrame leave(Command command, Leaving where, bool evenWhileTouched) {
     if (isTouched() && !evenWhileTouched) return responseTo(command, CommandStatus::kTouched);
     const bool isEndOwed = owed_.any() || reporter_.owesEnd();

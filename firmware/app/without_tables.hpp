@@ -22,7 +22,9 @@ struct NoTables {
   std::uint32_t uptime_s;
 };
 
-/// Obeys `load`, `word` and `restart`; to other requests it is busy. Port and store are held by reference.
+/// Obeys `load`, `word` and `restart`; to other requests it is busy. It leaves by itself if nobody sends the
+/// first word within kCallerGone_s of a `load` that stopped it, because then its tables are still whole. Port
+/// and store are held by reference.
 template <hal::CanPort Can, hal::NonVolatile Store>
 class WithoutTables {
  public:
@@ -34,13 +36,19 @@ class WithoutTables {
         budget_(from.budget),
         heartbeat_(withoutTables(), from.node, now_us),
         second_us_(now_us),
-        uptime_s_(from.uptime_s) {
+        uptime_s_(from.uptime_s),
+        isCalled_(from.isLoading),
+        calledAt_s_(from.uptime_s) {
     if (from.isLoading) loader_.begin();
   }
+
+  static constexpr std::uint32_t kCallerGone_s = 30;
 
   /// One turn of the main loop. Blocks for as long as the memory takes to write 8 bytes or to erase a page.
   void step(std::uint32_t now_us) {
     for (; now_us - second_us_ >= hal::kSecond_us; second_us_ += hal::kSecond_us) ++uptime_s_;
+    isCalled_ &= loader_.isFresh();
+    if (isCalled_ && uptime_s_ - calledAt_s_ >= kCallerGone_s) isLeaving_ = true;
     heartbeat_.step(can_, now_us);
     if (response_ && now_us - requestedAt_us_ >= std::uint32_t{kAnswerWithin_ms} * 1000) response_.reset();
     if (!response_) {
@@ -50,7 +58,7 @@ class WithoutTables {
     if (response_ && can_.send(encode(*response_, node_))) response_.reset();
   }
 
-  /// It was told to start anew, and has answered, or could not in kAnswerWithin_ms.
+  /// It is to start anew, and has answered if it was told to, or could not in kAnswerWithin_ms.
   bool isLeaving() const { return isLeaving_ && !response_; }
 
  private:
@@ -86,6 +94,8 @@ class WithoutTables {
   std::uint32_t requestedAt_us_ = 0;
   std::uint32_t second_us_;  ///< when the last whole second ended
   std::uint32_t uptime_s_;
+  bool isCalled_;  ///< by a `load` that stopped it, at calledAt_s_, and no word has come
+  std::uint32_t calledAt_s_;
 };
 
 }  // namespace strainfinger::firmware

@@ -46,9 +46,10 @@ void condition(const Calibration& calibration, Codes codes, Readings& readings) 
 }
 
 std::uint32_t saturatedGauges(const TableConstants& constants, Codes codes) {
+  const int upper = constants.adc_rail, lower = 0xFFFF - upper;
   std::uint32_t saturated = 0;
   for (std::size_t i = 0; i < codes.size(); ++i)
-    if (codes[i] == 0 || codes[i] >= constants.adc_rail) saturated |= 1u << i;
+    if (codes[i] <= lower || codes[i] >= upper) saturated |= 1u << i;
   return saturated;
 }
 

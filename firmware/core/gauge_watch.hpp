@@ -26,8 +26,11 @@ class GaugeWatch {
   /// Gauges at a rail that should be well within their range: two sets in a row take them out of use.
   void implausiblyAtRail(GaugeSet gauges) {
     outOfUse_ |= gauges & atRail_;
+    railed_ |= gauges & atRail_;
     atRail_ = gauges;
   }
+  /// Of these, those that are out of use because they were at a rail come back.
+  void noLongerAtRail(GaugeSet gauges) { comeBack(gauges & railed_); }
   /// Gauges that feel a touch and read what they should, or are `wrong`. A right one in use is no longer
   /// suspect; one out of use comes back after kConvincing such sets with none between in which it was wrong.
   void vindicate(GaugeSet right, GaugeSet wrong);
@@ -36,6 +39,12 @@ class GaugeWatch {
   static constexpr int kConvincing = 64;  ///< right sets that bring one back
 
  private:
+  void comeBack(GaugeSet gauges) {
+    suspects_ &= ~gauges;
+    outOfUse_ &= ~gauges;
+    railed_ &= ~gauges;
+  }
+
   /// A place no further than this from the last one is the same [turns * 2^16]: half a pitch of a ring of 16.
   /// Back at an earlier one it is another touch, which counts: two places to and fro are three.
   static constexpr std::uint16_t kOnePlace_q16 = (1 << 12) / 2;
@@ -46,6 +55,7 @@ class GaugeWatch {
   GaugeSet outOfUse_ = 0;
   GaugeSet suspects_ = 0;  ///< at one place or more
   GaugeSet atRail_ = 0;    ///< in the last set
+  GaugeSet railed_ = 0;    ///< out of use because they were
 };
 
 inline void GaugeWatch::suspect(GaugeSet gauge, std::uint32_t angle_q32) {
@@ -68,8 +78,7 @@ inline void GaugeWatch::vindicate(GaugeSet right, GaugeSet wrong) {
     const auto i = index(std::countr_zero(left));
     if (++right_[i] < kConvincing) continue;
     right_[i] = 0;
-    suspects_ &= ~(GaugeSet{1} << i);
-    outOfUse_ &= ~(GaugeSet{1} << i);
+    comeBack(GaugeSet{1} << i);
   }
 }
 

@@ -82,7 +82,8 @@ inline constexpr int kFewestSigmas = 5;
 inline constexpr int kApart_16 = 37;
 /// A gauge is a suspect only if leaving out any other one takes at least this much less off chi-squared.
 inline constexpr int kCulpritMargin = 12;
-/// A suspect's reading is off by at least this: a 16th of 2^15, which readings are scaled to.
+/// A suspect's reading is off by at least this: a 16th of 2^15, below which readings are scaled. Of the
+/// largest reading it is a 16th to a quarter.
 inline constexpr Number kCulprit = 1 << 11;
 /// What a gauge reads speaks for or against it if it should read at least this, also a 16th of 2^15.
 inline constexpr Number kFelt = 1 << 11;

@@ -16,6 +16,9 @@ constexpr int kContactBits = 4;
 /// Averages whose energy is below so many of a reading's variances are left alone: their shape says too
 /// little.
 constexpr int kWorthFollowing = 3;
+/// A gauge reads nothing if its average is within so many standard deviations of a reading: it would not open
+/// the gate by itself.
+constexpr Number kCalm = 2;
 /// [log2] Contacts rest while they turn by no more than this part of a pitch and their loads change by no
 /// more than this part of the normal load.
 constexpr int kTurnBits = 2;
@@ -72,6 +75,14 @@ bool ZeroTracker::isWorthFollowing(const TableConstants& constants, GaugeSet gau
   for (int i = 0; i < constants.gauge_count; ++i)
     if (contains(gauges, i)) energy += squareOf(sum_[index(i)] >> kDown);
   return energy > kWorthFollowing * squareOf(noise);
+}
+
+GaugeSet ZeroTracker::calmGauges(const TableConstants& constants) const {
+  const Number most = kCalm * readingNoise_q32(constants);
+  GaugeSet calm = 0;
+  for (int i = 0; i < constants.gauge_count; ++i)
+    if (magnitude(sum_[index(i)]) <= most) calm |= GaugeSet{1} << i;
+  return calm;
 }
 
 void ZeroTracker::findStart(const TableImage& tables, GaugeSet gauges, Linearisation& scratch) {
@@ -164,6 +175,7 @@ bool ZeroTracker::finish(const TableImage& tables, bool touched, Calibration& ca
     if (starts_ < kMostStarts) return false;
     follow(tables.constants, sum_, gauges, calibration);
   }
+  calm_ = calmGauges(tables.constants);
   age_sets_ = 0;
   return true;
 }

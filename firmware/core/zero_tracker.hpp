@@ -53,6 +53,9 @@ class ZeroTracker {
   /// Sample sets since all zeros were last seen untouched; saturating.
   std::uint32_t age_sets() const { return age_sets_; }
   bool stale() const { return age_sets_ > kStaleSets; }
+  /// When age_sets() is 0: the gauges that read nothing in the untouched interval that has just ended,
+  /// whether or not they are left out.
+  GaugeSet calm() const { return calm_; }
   /// The largest change of a zero in the last interval in which zeros followed [strain * 2^32]; none before
   /// the first one.
   std::optional<std::int32_t> lastChange_q32() const { return lastChange_q32_; }
@@ -79,6 +82,7 @@ class ZeroTracker {
   bool finish(const TableImage& tables, bool touched, Calibration& calibration, Linearisation& scratch);
   GaugeSet farGauges(const TableImage& tables) const;
   std::int32_t commonChange_q32(GaugeSet far);
+  GaugeSet calmGauges(const TableConstants& constants) const;
   bool isWorthFollowing(const TableConstants& constants, GaugeSet gauges) const;
   ScaledReadings averages(const TableConstants& constants, GaugeSet gauges) const;
   void findStart(const TableImage& tables, GaugeSet gauges, Linearisation& scratch);
@@ -97,6 +101,7 @@ class ZeroTracker {
   bool isFitNext_ = false;   ///< next is a fit from start_
   std::uint16_t sets_ = 0;
   GaugeSet leftOut_ = 0;  ///< in any set of the interval
+  GaugeSet calm_ = 0;
   bool touched_ = false;
 };
 

@@ -10,6 +10,7 @@
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/config/ring_spacing.hpp"
+#include "host/config/unseen_errors.hpp"
 #include "host/tables/self_check.hpp"
 #include "host/tables/table_file.hpp"
 #include "host/tables/table_header.hpp"
@@ -65,6 +66,15 @@ void warnOf(const config::FingerConfig& config, const tables::SelfCheck& check) 
                      "gauges.angle_deg, gauges.radius_m); above {} times the errors told are too small "
                      "between gauges, and no touch tells which gauge fails: use more gauges, or deeper ones",
                      config::widestGapInDepths(config), config::kSparse));
+  if (const double error = config::modelError(config); error > config.gauges.model_error)
+    warn("tables",
+         fmt::format(
+             "the gauges are so near the core that one which lies tolerance.depth_m = {} m off reads quite "
+             "otherwise: until this finger is calibrated, errors are told for a model error of {:.2g} in "
+             "place "
+             "of gauges.model_error = {}, and more touches are flagged; have them further from the core, or "
+             "calibrate",
+             config.tolerance.depth_m, error, config.gauges.model_error));
   const double most_n = 2 * check.halfScale_n_per_m * config.finger.length_m;
   const double told_n = can::largestValues().normal_n;
   if (most_n > told_n)

@@ -14,7 +14,12 @@ struct UnseenErrors {
   double moment_m2;    ///< of the pressure's second moment
 };
 
-/// Of a valid config. Costs three impulse responses where the finger is neither perfect nor calibrated.
+/// [1] gauges.model_error; up to twice that for a finger that is not calibrated and whose gauges read so much
+/// otherwise where they are off their depth, as near the core. Of a valid config. Costs two impulse responses
+/// where the finger is neither perfect nor calibrated. Throws as model::ImpulseResponse does.
+double modelError(const FingerConfig& config);
+
+/// Of a valid config. Costs five impulse responses where the finger is neither perfect nor calibrated.
 /// Throws as model::ImpulseResponse does.
 UnseenErrors unseenErrors(const FingerConfig& config);
 

@@ -33,6 +33,7 @@ ShapeEstimator::ShapeEstimator(const config::FingerConfig& config, bool isSparse
       model_(config),
       search_(model_, config.contact.friction_coefficient),
       curvature_(config.finger.annulus()),
+      modelError_(config::modelError(config)),
       unseen_(config::unseenErrors(config)),
       isSparse_(isSparse) {}
 
@@ -100,7 +101,7 @@ void ShapeEstimator::addClass(const TouchFit& ellipse, const Eigen::VectorXd& st
 std::optional<Shape> ShapeEstimator::estimate(const Eigen::VectorXd& strains, double largest_strain) const {
   const double largest = std::max(largest_strain, strains.lpNorm<Eigen::Infinity>());
   Shape shape;
-  shape.deviation_strain = std::hypot(config_.gauges.noise_strain, config_.gauges.model_error * largest);
+  shape.deviation_strain = std::hypot(config_.gauges.noise_strain, modelError_ * largest);
   const auto found = search_.search(strains, shape.deviation_strain);
   if (!found) return std::nullopt;
   const TouchFit& fit = found->best;

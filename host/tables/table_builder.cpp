@@ -110,6 +110,10 @@ std::uint32_t reach_q32(const std::vector<double>& gaps_turn) {
   return fromReal<TurnQ32>(std::max(kUsualReach, widest_turn / 2)).raw();
 }
 
+/// Left-justified codes, of 2^16, that count as an end of the converter's range: 26 mV of 3.3 V, because
+/// amplifiers stop before the converter does. A third of config::kZeroMargin, so no touch needs them.
+constexpr int kRail = 1 << 9;
+
 std::uint16_t fraction_q16(double value) { return rounded<std::uint16_t>(std::ldexp(value, 16)); }
 
 /// What standard errors have that no residual shows.
@@ -136,10 +140,10 @@ TableConstants tableConstants(const config::FingerConfig& config, const GaugeGai
   constants.force_per_load_q16 = rounded<std::uint32_t>(config.finger.length_m * 1000 * powerOfTwo(16));
   constants.friction_q8 = rounded<std::uint16_t>(config.contact.friction_coefficient * 256);
   constants.cone_q8 = rounded<std::uint16_t>(frictionCone(config.contact) * 256);
-  constants.model_error_q16 = fraction_q16(std::hypot(config.gauges.model_error, depthError));
+  constants.model_error_q16 = fraction_q16(std::hypot(config::modelError(config), depthError));
   fillErrors(constants, config, responses);
   constants.spacing = config::spacingOf(config);
-  constants.adc_rail = static_cast<std::uint16_t>(0xFFFF << (16 - config.gauges.adc_bits));
+  constants.adc_rail = 0x10000 - kRail;
   constants.mirror_sign = config.gauges.component == StrainComponent::kShear ? -1 : 1;
   constants.peak_sign = static_cast<std::int8_t>(responses.peakSign);
   return constants;

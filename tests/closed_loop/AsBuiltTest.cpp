@@ -150,3 +150,37 @@ TEST(AsBuilt, LoadsReadNearTheCoreAreAsFarOffAsTheySay) {
   CHECK_COMPARE(squares, <, 2 * 2 * told);
   CHECK_COMPARE(squares, >, 0.5 * 0.5 * told);
 }
+
+// A depth that is 0.05 mm off makes a fifth of what they read.
+TEST(AsBuilt, PlacesReadNearTheCoreAreSeldomWrongWithoutAFlag) {
+  config::FingerConfig config;
+  config.finger.core_radius_m = 0.007;
+  config.finger.outer_radius_m = 0.010;
+  config.gauges.count = 12;
+  config.gauges.radius_m = 0.0072;
+  const auto image = std::make_unique<TableImage>(tables::buildTableImage(config));
+  int touches = 0, silent = 0, beyond = 0, flagged = 0;
+  for (int seed = 1; seed <= kFingers; ++seed) {
+    config.as_built = {.seed = seed, .angle_deg = 0.5, .depth_m = 0.05e-3, .gain = 0.03};
+    const evidence::TouchedRing ring(config, static_cast<std::uint64_t>(seed));
+    const evidence::TouchDraws draws(config.gauges, {.load_n_per_m = {8, 25}, .width_m = {0, 3e-3}},
+                                     static_cast<std::uint64_t>(seed));
+    SampledFinger finger(*image, ring);
+    for (int i = 0; i < touchCount(2000) / kFingers; ++i, ++touches) {
+      const simulation::Touch touch = draws.at(static_cast<std::uint64_t>(i));
+      finger.rest(kRestSets);
+      finger.hold(ring.exact(touch), kTouchSets);
+      const auto answers = finger.answers();
+      if (answers.empty()) continue;
+      const evidence::Answer& answer = answers.front();
+      const double off_rad = shortWay_rad(answer.values[evidence::kAngle], touch.angle_rad);
+      flagged += answer.isFlagged;
+      beyond += !answer.isFlagged && std::abs(off_rad) > 6 * answer.sigmas[evidence::kAngle];
+      silent += !answer.isFlagged && std::abs(off_rad) > std::numbers::pi / 12;
+    }
+  }
+  std::printf("\n%d touches: %d flagged, %d beyond six sigma, %d silent ", touches, flagged, beyond, silent);
+  CHECK_COMPARE(beyond, <=, allowedCount(3e-3, touches));
+  CHECK_COMPARE(silent, <=, allowedCount(3e-3, touches));
+  CHECK_COMPARE(flagged, <, touches / 3);
+}

@@ -197,6 +197,33 @@ TEST(WithoutTables, ItTakesTablesAndStartsAnewWithThem) {
   CHECK_TRUE(checkTableImage(image) == TableFault::kNone);
 }
 
+// A program that died after its `load`: the tables are still whole.
+TEST(WithoutTables, ItStartsAnewByItselfIfNoWordFollowsTheLoad) {
+  for (int half_s = 1; half_s < 60; ++half_s) step(500'000);
+  CHECK_FALSE(finger.isLeaving());
+  step(1'000'000);
+  CHECK_TRUE(finger.isLeaving());
+}
+
+TEST(WithoutTables, AfterAWordItWaitsForTheOthers) {
+  step();
+  checkAnswered(wordRequest(0, 7), responseTo(Command::kWord, CommandStatus::kDone, 1));
+  for (int second = 0; second < 100; ++second) step(1'000'000);
+  checkAnswered(loadRequest(), responseTo(Command::kLoad, CommandStatus::kDone));
+  for (int second = 0; second < 100; ++second) step(1'000'000);
+  CHECK_FALSE(finger.isLeaving());
+}
+
+TEST(WithoutTables, AFingerThatHadNoneWaitsForThem) {
+  WithoutTables<FakeCanPort, FakeNonVolatile> started({kNode, false, EraseBudget(), 0}, can, store,
+                                                      clock.now_us());
+  for (int second = 0; second < 100; ++second) {
+    clock.advance(1'000'000);
+    started.step(clock.now_us());
+  }
+  CHECK_FALSE(started.isLeaving());
+}
+
 TEST(WithoutTables, WithoutLoadNothingIsTaken) {
   WithoutTables<FakeCanPort, FakeNonVolatile> started({kNode, false, EraseBudget(), 0}, can, store,
                                                       clock.now_us());

@@ -135,6 +135,41 @@ TEST(Pipeline, AGaugeWhoseZeroIsAtARailIsOutOfUseUntilAnotherZero) {
   }
 }
 
+// A converter whose bus was stuck for a moment.
+TEST(Pipeline, GaugesThatWereAtARailCountAgainOnceTheyReadNothing) {
+  const std::vector<double> nothing(16, 0.0);
+  for (const int rail : {0, 0xFFFF}) {
+    process(nothing, 20);
+    for (int set = 0; set < 2; ++set) {
+      std::fill(codes.begin(), codes.end(), static_cast<std::uint16_t>(rail));
+      pipeline.process(codes);
+    }
+    process(nothing);
+    UNSIGNED_LONGS_EQUAL(ring.allGauges(), pipeline.observation().outOfUse);
+    CHECK_TRUE(pipeline.observation().tooFewGauges);
+    process(nothing, 400);
+    UNSIGNED_LONGS_EQUAL(ring.allGauges(), pipeline.observation().outOfUse);
+    process(nothing, 2 * ZeroTracker::kInterval - 400);
+    UNSIGNED_LONGS_EQUAL(0, pipeline.observation().outOfUse);
+    CHECK_TRUE(process(ring.strains({5.4, 20, 3, 1}), 40).touched);
+    CHECK_TRUE(pipeline.answer().accepted);
+    release();
+  }
+}
+
+// Its wire came back with another zero, which would be a contact that isn't there.
+TEST(Pipeline, AGaugeThatComesBackFromARailReadingOtherwiseStaysOutOfUse) {
+  std::vector<double> strains(16, 0.0);
+  for (int set = 0; set < 2; ++set) processWithFive(strains, 0);
+  strains[5] = 20 * ring.noise_strain();
+  process(strains, 4 * ZeroTracker::kInterval);
+  UNSIGNED_LONGS_EQUAL(1u << 5, pipeline.observation().outOfUse);
+  CHECK_FALSE(pipeline.observation().touched);
+  strains[5] = 0;
+  process(strains, 2 * ZeroTracker::kInterval);
+  UNSIGNED_LONGS_EQUAL(0, pipeline.observation().outOfUse);
+}
+
 // A second contact so light that the first alone is accepted, though it leaves doubt.
 TEST(Pipeline, CodesThatStayAreLookedIntoWhereTheyLeaveDoubt) {
   int doubted = 0;

@@ -178,8 +178,9 @@ class Finger {
     report(now_us);
   }
 
-  /// Not inlined, so that its frames aren't on the stack while the locator, which needs it most, runs.
-  [[gnu::noinline]] void report(std::uint32_t now_us) {
+  /// After the locator, which needs the stack most: were this inlined into what calls both, its frames would
+  /// be on the stack as well. check_image.py shows if a compiler does that.
+  void report(std::uint32_t now_us) {
     if (owed_.any()) return reporter_.missed();
     auto frames = reporter_.frames(pipeline_.constants(), pipeline_.observation(), pipeline_.answer(),
                                    pipeline_.linearisation(), sampleTime_us());
@@ -257,8 +258,7 @@ class Finger {
     return now_us - gaugesAt_us_ >= kGaugesPeriod_us || pipeline_.observation().outOfUse != saidOutOfUse_;
   }
 
-  /// Not inlined: see report().
-  [[gnu::noinline]] void sayGauges(std::uint32_t now_us) {
+  void sayGauges(std::uint32_t now_us) {
     const GaugeSet outOfUse = pipeline_.observation().outOfUse;
     const GaugesFrame frame = gaugesFrame(outOfUse, pipeline_.zeroTracker(), setsPerSecond_);
     if (!can_.send(encode(frame, settings_.node))) return;
@@ -269,8 +269,8 @@ class Finger {
   static constexpr std::uint32_t periodOf(std::uint32_t rate_hz) { return hal::kSecond_us / rate_hz; }
 
   /// Answers the request that has arrived, at once or when its work is done; while an answer waits for the
-  /// port, the next request does. Not inlined: see report().
-  [[gnu::noinline]] void serve(std::uint32_t now_us) {
+  /// port, the next request does.
+  void serve(std::uint32_t now_us) {
     if ((response_ || tareStatus_) && now_us - requestedAt_us_ >= kAnswerWithin_us) {
       response_.reset();
       tareStatus_.reset();

@@ -25,9 +25,11 @@ class GaugeWatch {
   void suspect(GaugeSet gauge, std::uint32_t angle_q32);
   /// Gauges at a rail that should be well within their range: two sets in a row take them out of use.
   void implausiblyAtRail(GaugeSet gauges) {
-    outOfUse_ |= gauges & atRail_;
-    railed_ |= gauges & atRail_;
+    const GaugeSet out = gauges & atRail_;
     atRail_ = gauges;
+    if (out == 0) return;
+    outOfUse_ |= out;
+    railed_ |= out;
   }
   /// Of these, those that are out of use because they were at a rail come back.
   void noLongerAtRail(GaugeSet gauges) { comeBack(gauges & railed_); }

@@ -132,7 +132,7 @@ const Observation& Pipeline::process(Codes codes) {
       !mayBeTouch && tracker_.take(*tables_, strains(), observation_.touched ? &locator_ : nullptr,
                                    observation_.leftOut | observation_.saturated | unfollowed, calibration_,
                                    locator_.scratch(), !wasSearching && !isDisturbed);
-  if (observation_.outOfUse != 0 && tracker_.age_sets() == 0) watch_.noLongerAtRail(tracker_.calm());
+  if (areZerosNew_) watch_.noLongerAtRail(tracker_.calm());
   observation_.staleZero = tracker_.stale();
   observation_.noisy = noise_.isNoisy();
   return observation_;

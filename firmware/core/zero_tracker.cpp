@@ -163,6 +163,7 @@ bool ZeroTracker::finish(const TableImage& tables, bool touched, Calibration& ca
     Strains changes;
     changes.fill(magnitude(change_q32) < least ? 0 : change_q32);
     follow(tables.constants, changes, allGauges(tables.constants.gauge_count), calibration);
+    calm_ = 0;
     return true;
   }
   if (isWorthFollowing(tables.constants, gauges)) {
@@ -171,6 +172,7 @@ bool ZeroTracker::finish(const TableImage& tables, bool touched, Calibration& ca
       findStart(tables, gauges, scratch);
       return false;
     }
+    calm_ = 0;
     if (looksLikeAContact(tables, gauges, scratch)) return true;
     if (starts_ < kMostStarts) return false;
     follow(tables.constants, sum_, gauges, calibration);

@@ -53,8 +53,8 @@ class ZeroTracker {
   /// Sample sets since all zeros were last seen untouched; saturating.
   std::uint32_t age_sets() const { return age_sets_; }
   bool stale() const { return age_sets_ > kStaleSets; }
-  /// When age_sets() is 0: the gauges that read nothing in the untouched interval that has just ended,
-  /// whether or not they are left out.
+  /// When take() has returned true: the gauges that read nothing in the interval that has ended, whether or
+  /// not they were left out; none if it was touched, or looked so.
   GaugeSet calm() const { return calm_; }
   /// The largest change of a zero in the last interval in which zeros followed [strain * 2^32]; none before
   /// the first one.

@@ -58,6 +58,16 @@ int coveredGauge(const Coverage& coverage) {
   return static_cast<int>(most - coverage.touches.begin()) / 2;
 }
 
+/// Another press of known load is worth asking for.
+bool isLoadWanted(const config::Gauges& gauges, const Coverage& coverage,
+                  const std::optional<Assessment>& assessment) {
+  if (!assessment) return coverage.loads == 0;
+  return assessment->unitOfForce > kGoals.unitOfForce &&
+         std::ranges::min(assessment->unitAfterPress) <=
+             (1 - kGoals.leastUnitGain) * assessment->unitOfForce &&
+         coverage.loads < kGoals.mostPressesPerGauge * gauges.count;
+}
+
 double worstZero(const Assessment& assessment) {
   double worst = 0;
   for (const GaugeSigmas& gauge : assessment.gauges) worst = std::max(worst, gauge.zero_strain);
@@ -72,8 +82,7 @@ Advice nextAdvice(const config::Gauges& gauges, const Coverage& coverage,
   if (coverage.untouched == 0) return {Kind::kLeaveAlone};
   const ArcRun gap = longestRun(uncovered(coverage, kGoals.leastPerArc));
   if (gap.count > 0) return {Kind::kRoll, gap};
-  const bool unitIsKnown = assessment ? assessment->unitOfForce <= kGoals.unitOfForce : coverage.loads > 0;
-  if (!unitIsKnown && !unavailable.loads)
+  if (!unavailable.loads && isLoadWanted(gauges, coverage, assessment))
     return {
         Kind::kPress, {}, assessment ? gaugeForPress(assessment->unitAfterPress) : coveredGauge(coverage)};
   const bool angleIsKnown = !assessment || assessment->zeroOfAngle_deg <= kGoals.zeroOfAngle_deg;

@@ -75,6 +75,7 @@ class Yardstick {
     const auto touches = calibration::judgedTouches(drawing_);
     const Eigen::Index unknowns = drawing_.unknowns();
     pulls_.fill(MatrixXd::Zero(unknowns, unknowns));
+    loadScale_ = VectorXd::Zero(unknowns);
     for (const TouchState& touch : touches) {
       const TouchEquations at(ring, touch, noise);
       const Eigen::Matrix4d byNoise = at.matrix.inverse();
@@ -84,9 +85,11 @@ class Yardstick {
         pulls_[i] += pull.row(row).transpose() * pull.row(row);
         noise_[row] += byNoise(row, row);
       }
+      loadScale_ += pull.row(calibration::kNormalLoad).transpose() / touch[calibration::kNormalLoad];
     }
     for (MatrixXd& pull : pulls_) pull /= static_cast<double>(touches.size());
     noise_ /= static_cast<double>(touches.size());
+    loadScale_ /= static_cast<double>(touches.size());
   }
 
   /// [rad^2], [(N/m)^2], [(N/m)^2].
@@ -99,6 +102,12 @@ class Yardstick {
   }
   const Eigen::Vector3d& noise() const { return noise_; }
 
+  /// Of the relative error that the normal loads have in common. The modulus' own is no measure of it: gains
+  /// and depths that are all off make up for it.
+  double sigmaOfLoads(const MatrixXd& covariance) const {
+    return std::sqrt(loadScale_.dot(covariance * loadScale_));
+  }
+
   /// RMS of the three errors over their bounds.
   double total(const MatrixXd& covariance) const {
     return std::sqrt(variances(covariance).cwiseQuotient(noise_).mean());
@@ -108,6 +117,7 @@ class Yardstick {
   const Drawing& drawing_;
   std::array<MatrixXd, 3> pulls_;
   Eigen::Vector3d noise_ = Eigen::Vector3d::Zero();
+  VectorXd loadScale_;  ///< relative error of the mean normal load by a deviation of 1 of each unknown
 };
 
 double sigmaOfMeanAngle_deg(const Drawing& drawing, const MatrixXd& covariance) {
@@ -115,11 +125,6 @@ double sigmaOfMeanAngle_deg(const Drawing& drawing, const MatrixXd& covariance) 
   for (int gauge = 0; gauge < drawing.gauges(); ++gauge)
     mean[Drawing::at(gauge, calibration::kAngleOffset)] = 1.0 / drawing.gauges();
   return drawing.tolerance(calibration::kAngleOffset) * std::sqrt(mean.dot(covariance * mean)) / kRadPerDeg;
-}
-
-double sigmaOfModulus(const Drawing& drawing, const MatrixXd& covariance) {
-  const Eigen::Index at = drawing.at(calibration::kShearModulus);
-  return drawing.tolerance(calibration::kShearModulus) * std::sqrt(covariance(at, at));
 }
 
 Eigen::Vector3d errorsOf(const Eigen::Vector3d& variances, double radius_m) {
@@ -148,7 +153,7 @@ Assessment assess(const CalibrationResult& result, const calibration::KnownError
   found.errors = {calibration::expectedErrors(result).before,
                   errorsOf(yardstick.variances(result.covariance()), radius_m),
                   errorsOf(yardstick.noise(), radius_m)};
-  found.unitOfForce = sigmaOfModulus(drawing, result.covariance());
+  found.unitOfForce = yardstick.sigmaOfLoads(result.covariance());
   if (result.isDirectionKnown()) found.zeroOfAngle_deg = sigmaOfMeanAngle_deg(drawing, result.covariance());
   const double now = yardstick.total(result.covariance());
   const int arcs = 2 * drawing.gauges();
@@ -165,7 +170,7 @@ Assessment assess(const CalibrationResult& result, const calibration::KnownError
   for (int gauge = 0; gauge < drawing.gauges(); ++gauge) {
     const TouchState press{drawing.config().gauges.angle_rad(gauge), kPressLoad_n_per_m, 0, moment_rad2};
     found.unitAfterPress.push_back(
-        sigmaOfModulus(drawing, prospect.covarianceWith(prospect.informationOf(press, loadIsKnown))));
+        yardstick.sigmaOfLoads(prospect.covarianceWith(prospect.informationOf(press, loadIsKnown))));
   }
   return found;
 }

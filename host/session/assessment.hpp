@@ -27,7 +27,7 @@ struct Assessment {
   std::size_t fitted = 0;  ///< of these
   std::vector<GaugeSigmas> gauges;
   TouchesToCome errors;
-  double unitOfForce = 0;                                            ///< relative sigma
+  double unitOfForce = 0;  ///< sigma of the relative error that the loads of all touches to come share
   double zeroOfAngle_deg = std::numeric_limits<double>::infinity();  ///< sigma; infinite: no mark is known
   /// By what share so many further touches in an arc, pressed with various loads and rubbed to either side,
   /// would lower the errors of touches to come; and all around.

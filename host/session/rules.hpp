@@ -47,6 +47,12 @@ struct SessionGoals {
   int leastPerArc = 4;
   /// [1] Sigma of the unit of force: a gram in a hundred, as kitchen scales have it.
   double unitOfForce = 0.01;
+  /// [1] By what share a press of known load must lower that sigma to be asked for: the tenth and later ones
+  /// of equal presses lower it by less.
+  double leastUnitGain = 0.05;
+  /// [presses a gauge] Of known load that are asked for: where so many leave it above, something is wrong with
+  /// them.
+  int mostPressesPerGauge = 1;
   /// [deg] Sigma of the zero of the angle: what a hand presses a mark to, over the root of 8.
   double zeroOfAngle_deg = 0.2;
   /// [directions] That are known, not opposite each other: two tell a ring that is turned or reversed.

@@ -24,7 +24,7 @@ constexpr double kSilentAfter_s = 1;
 
 /// Its standard error, if there is a mark.
 std::string zeroOfAngleText(const Assessment& known) {
-  return std::isfinite(known.zeroOfAngle_deg) ? fmt::format("{:.2f} deg", known.zeroOfAngle_deg)
+  return std::isfinite(known.zeroOfAngle_deg) ? fmt::format("+-{:.2f} deg", known.zeroOfAngle_deg)
                                               : "not known";
 }
 
@@ -80,7 +80,7 @@ class SessionPainter {
     say(row_++, 0, "Errors to come, as drawn > now > noise alone: place " + each(0, 1e3, 3) + " mm");
     say(row_++, 0, "  normal " + each(1, 1, 2) + ", tangential " + each(2, 1, 2) + " N/m");
     say(row_++, 0,
-        fmt::format("Unit of force {:.1f} %, zero of the angle {}; {} more touches gain {:.0f} %",
+        fmt::format("Unit of force +-{:.1f} %, zero of the angle {}; {} more touches gain {:.0f} %",
                     100 * known.unitOfForce, zeroOfAngleText(known), kGoals.batch, 100 * known.bestGain()));
   }
 
@@ -189,7 +189,7 @@ std::string sessionLine(const SessionView& view) {
       view.coverage.untouched, view.coverage.loads, view.coverage.directions_deg.size(), view.lost);
   if (view.assessment)
     text += fmt::format(
-        "; errors to come: {}; unit of force {:.1f} %, zero of the angle {}; {} more touches would gain "
+        "; errors to come: {}; unit of force +-{:.1f} %, zero of the angle {}; {} more touches would gain "
         "{:.0f} %",
         errorsText(view.assessment->errors), 100 * view.assessment->unitOfForce,
         zeroOfAngleText(*view.assessment), kGoals.batch, 100 * view.assessment->bestGain());

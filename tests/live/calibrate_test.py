@@ -173,7 +173,7 @@ class Guided(unittest.TestCase):
                     session.say(f"angle {held[0]}")
                     angles.append(held[0])
                     told = True
-                known = re.search(r"unit of force ([0-9.]+) %", session.states()[-1])
+                known = re.search(r"unit of force \+-([0-9.]+) %", session.states()[-1])
                 if known and float(known.group(1)) <= 1 and session.next().startswith(("Roll", "Nothing")):
                     break
             else:

@@ -56,6 +56,23 @@ TEST(Advice, AUnitOfForceThatIsNotKnownWantsAPressWhereItTellsMost) {
   STRCMP_CONTAINS("over gauge 6 (135 deg)", textOf(advice(), gauges).c_str());
 }
 
+TEST(Advice, APressThatWouldHardlyTellMoreOfTheUnitOfForceIsNotAskedFor) {
+  assessment->unitOfForce = 0.02;
+  assessment->unitAfterPress.assign(16, 0.0192);
+  advises(Kind::kDone);
+  assessment->unitAfterPress[3] = 0.0189;
+  advises(Kind::kPress);
+}
+
+// As of loads that no touch explains, which are left out of the fit.
+TEST(Advice, LoadsThatTellNothingAreNotAskedForWithoutEnd) {
+  assessment->unitOfForce = 0.2;
+  coverage.loads = 15;
+  advises(Kind::kPress);
+  coverage.loads = 16;
+  advises(Kind::kDone);
+}
+
 TEST(Advice, BeforeAFitOneKnownLoadIsEnough) {
   assessment.reset();
   coverage.loads = 0;

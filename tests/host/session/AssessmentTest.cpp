@@ -38,8 +38,25 @@ TEST(Assessment, SigmasAreTheCalibrations) {
   LONGS_EQUAL(16, assessment.gauges.size());
   DOUBLES_EQUAL(result.gain(3).sigma, assessment.gauges[3].gain, 0);
   DOUBLES_EQUAL(result.depthOffset_m(3).sigma, assessment.gauges[3].depth_m, 0);
-  DOUBLES_EQUAL(result.shearModulus_pa().sigma / result.shearModulus_pa().value, assessment.unitOfForce,
-                1e-12);
+}
+
+// Gains that are all larger and a modulus that is, by as much, read the same of the same loads.
+TEST(Assessment, TheUnitOfForceIsTheErrorThatLoadsShare) {
+  const calibration::Drawing drawing{config::FingerConfig{}};
+  const config::Tolerance& tolerance = drawing.config().tolerance;
+  const auto unitOf = [&](double gain, double modulus) {
+    Eigen::VectorXd off = Eigen::VectorXd::Zero(drawing.unknowns());
+    for (int gauge = 0; gauge < drawing.gauges(); ++gauge)
+      off[calibration::Drawing::at(gauge, calibration::kGain)] = gain / tolerance.gain;
+    off[drawing.at(calibration::kShearModulus)] = modulus / tolerance.shear_modulus;
+    const Eigen::MatrixXd known = 1e-10 * Eigen::MatrixXd::Identity(drawing.unknowns(), drawing.unknowns());
+    const calibration::CalibrationResult result(drawing, Eigen::VectorXd::Zero(drawing.unknowns()),
+                                                known + off * off.transpose(), {}, {0, 0}, true);
+    return assess(result, {}).unitOfForce;
+  };
+  DOUBLES_EQUAL(0.01, unitOf(0, 0.01), 1e-4);
+  DOUBLES_EQUAL(0.01, unitOf(0.01, 0), 1e-4);
+  DOUBLES_EQUAL(0, unitOf(0.01, 0.01), 1e-4);
 }
 
 // With the zero of the angle and the unit of force the errors are those of the report, which are larger.

@@ -62,7 +62,7 @@ TEST(SessionView, EveryGaugeHasItsTouchesAndItsSigmas) {
   STRCMP_CONTAINS(
       "place 0.640 > 0.025 > 0.010 mm\n  normal 5.00 > 0.30 > 0.10, tangential 4.00 > 0.20 > 0.08 N/m\n",
       shown.c_str());
-  STRCMP_CONTAINS("Unit of force 0.8 %, zero of the angle 0.12 deg", shown.c_str());
+  STRCMP_CONTAINS("Unit of force +-0.8 %, zero of the angle +-0.12 deg", shown.c_str());
 }
 
 TEST(SessionView, GaugesWithoutRoomAreCounted) {
@@ -129,7 +129,7 @@ TEST(SessionView, ALineHasItAll) {
       "mm (drawn "
       "0.640, noise alone 0.010), normal 0.30 N/m (drawn 5.00, noise alone 0.10), tangential 0.20 N/m (drawn "
       "4.00, noise "
-      "alone 0.08); unit of force 0.8 %, zero of the angle 0.12 deg; 100 more touches would gain 5 %; no fit "
+      "alone 0.08); unit of force +-0.8 %, zero of the angle +-0.12 deg; 100 more touches would gain 5 %; no fit "
       "yet: too few | Leave it "
       "alone for 5 s.",
       sessionLine(view).c_str());

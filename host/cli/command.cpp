@@ -26,7 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kConfigType = "FILE.toml";
 constexpr const char* kFolderType = "DIR";
 
 struct FileOption {
@@ -88,7 +87,7 @@ CLI::Validator isOfKind(const char* kind, Number least, Number most, const std::
 
 CommonOptions::CommonOptions(CLI::App& command) : command_(&command) {
   command.add_option("-c,--config", path_, "The finger (finger.toml); the default finger without it")
-      ->type_name(kConfigType);
+      ->type_name("FILE.toml");
   command.add_flag("--json", json_, "One JSON object a line in place of CSV");
 }
 
@@ -116,9 +115,7 @@ void requireGoodFileNames(const CLI::App& command) {
                     fmt::format("{}: {}: the name of a {} is missing", command.get_name(), file->option,
                                 file->type == kFolderType ? "folder" : "file"));
     for (auto other = files.begin(); other != file; ++other) {
-      const bool mayBeOne =
-          other->option == file->option || (other->type == kConfigType && file->type == kConfigType);
-      if (mayBeOne || !areOneFile(other->path, file->path)) continue;
+      if (other->option == file->option || !areOneFile(other->path, file->path)) continue;
       throw Failure(ExitCode::kUsage,
                     fmt::format("{}: {} and {} name the same file, {}: name another for one",
                                 command.get_name(), other->option, file->option, file->path));

@@ -34,8 +34,7 @@ class CommonOptions {
 };
 
 /// Throws Failure(kUsage) where an option that names a file (of a type name that begins with FILE) or a
-/// folder (DIR) is given an empty name, or two name one file: one would be lost, or is not what was meant;
-/// only a config (FILE.toml) may take the place of the config that it was made from.
+/// folder (DIR) is given an empty name, or two name one file: one would be lost, or is not what was meant.
 void requireGoodFileNames(const CLI::App& command);
 
 /// Throws Failure(kFailure) where a file cannot be made, as it is a folder, or its own is not there or can't

@@ -104,11 +104,12 @@ TEST(Main, AFileIsNotOverwrittenByWhatIsMadeFromIt) {
   const Run run = runShell(R"sh(folder=$(mktemp -d) && trap 'rm -rf "$folder"' EXIT && cd "$folder"
 printf 'schema = 1\n' >f.toml
 for command in "tables -c f.toml -o ./f.toml" "dbc -c f.toml -o $folder/f.toml" "calibrate --strains f.toml -o f.toml" \
+    "calibrate -c f.toml --strains new.csv -o ./f.toml" "calibrate -c f.toml --can udp -o f.toml" \
     "run --duration 0.1 --strains new.csv --touches new.csv"; do
   "$STRAINFINGER" $command; echo $?
 done
 ls; cat f.toml; "$STRAINFINGER" run --duration 0.1 --strains /dev/null --touches /dev/null >/dev/null 2>&1; echo $?)sh");
-  STRCMP_EQUAL("2\n2\n2\n2\nf.toml\nschema = 1\n0\n", run.out.c_str());
+  STRCMP_EQUAL("2\n2\n2\n2\n2\n2\nf.toml\nschema = 1\n0\n", run.out.c_str());
   STRCMP_CONTAINS("tables: --config and --output name the same file, ./f.toml: name another for one",
                   run.err.c_str());
 }

@@ -4,8 +4,10 @@
 #include <Eigen/Core>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "host/base/failure.hpp"
 #include "host/calibration/finger_state.hpp"
 #include "host/calibration/moved_zero.hpp"
 #include "host/calibration/ring_response.hpp"
@@ -121,6 +123,12 @@ class CalibrationResult {
   bool hasSettled_;
 };
 
+/// Gauges or their wires are to be mended: what was read before tells nothing of the finger afterwards.
+class FaultyFinger : public Failure {
+ public:
+  explicit FaultyFinger(const std::string& message) : Failure(ExitCode::kFailure, message) {}
+};
+
 /// Maximum a posteriori of the finger and of every touch together: readings are the elastic model's and noise
 /// of gauges.noise_strain and of the model's error, which is estimated; the finger is the drawing give or
 /// take [tolerance]; touches are semi-ellipses of pressure with the shear of partial slip, of the second
@@ -131,7 +139,8 @@ class CalibrationResult {
 /// all finite. [calibration] of the config is not looked at.
 /// Throws Failure(kFailure), saying which row or gauge and what would help: rows that don't pair; a known
 /// touch that can't be; known directions, or known loads, most of which the readings contradict; touches that
-/// leave gauges untold; readings that this drawing can't explain; a finger that no config can be of.
+/// leave gauges untold; readings that this drawing can't explain; a finger that no config can be of. Throws
+/// FaultyFinger, saying the mend, for gauges that are dead, loose or wired otherwise than drawn.
 /// Cost: linear; 300 touches of 16 gauges take 3 s, 3,000 take 15 s.
 CalibrationResult calibrate(const config::FingerConfig& config, std::span<const KnownTouch> known,
                             const Eigen::MatrixXd& readings, const KnownErrors& errors = {});

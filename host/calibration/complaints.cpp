@@ -41,13 +41,12 @@ constexpr const char* kTouchesToAdd =
 
 [[noreturn]] void fail(const std::string& message) { throw Failure(ExitCode::kFailure, message); }
 
-/// Tells all faults, if there are any.
+/// All of them.
 template <typename Fault>
-void failOf(const std::vector<Fault>& faults) {
-  if (faults.empty()) return;
+std::string textOfAll(const std::vector<Fault>& faults) {
   std::string text;
   for (const Fault& fault : faults) text += (text.empty() ? "" : "; ") + textOf(fault);
-  fail(text);
+  return text;
 }
 
 std::string rowNames(const std::vector<std::size_t>& rows) {
@@ -129,7 +128,9 @@ void requireRows(const config::Gauges& gauges, std::span<const KnownTouch> known
     if (!readings.row(row).allFinite()) fail(fmt::format("row {}: a strain is no finite number", row + 1));
 }
 
-void requireWorking(const std::vector<FailedGauge>& failed) { failOf(failed); }
+void requireWorking(const std::vector<FailedGauge>& failed) {
+  if (!failed.empty()) throw FaultyFinger(textOfAll(failed));
+}
 
 void requireTouches(const config::Gauges& gauges, std::span<const RowResult> rows) {
   const std::ptrdiff_t least = kLeastTouchesPerGauge * gauges.count;
@@ -150,7 +151,11 @@ void requireAllAround(const config::Gauges& gauges, const std::vector<int>& unto
       placesOf(gauges, untouched), kTouchesToAdd));
 }
 
-void requireWiring(const std::vector<WiringFault>& faults) { failOf(faults); }
+void requireWiring(const std::vector<WiringFault>& faults) {
+  if (faults.empty()) return;
+  if (std::ranges::any_of(faults, isOfFinger)) throw FaultyFinger(textOfAll(faults));
+  fail(textOfAll(faults));
+}
 
 void requireExplained(double modelError, double shareOfRowsUnexplained) {
   const char* const hint =

@@ -1,6 +1,6 @@
 #pragma once
 // What can be wrong with touches and readings, in words. Rows are counted from 1, gauges from 0. All throw
-// Failure(kFailure).
+// Failure(kFailure), those of gauges and wires FaultyFinger.
 
 #include <Eigen/Core>
 #include <span>

@@ -332,6 +332,8 @@ std::vector<WiringFault> findWiringFaults(const config::FingerConfig& config,
   return faults;
 }
 
+bool isOfFinger(const WiringFault& fault) { return fault.kind != Kind::kTurnUnclear && fault.onlyMark == 0; }
+
 std::string textOf(const WiringFault& fault) {
   switch (fault.kind) {
     case Kind::kSwapped:

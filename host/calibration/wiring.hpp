@@ -51,6 +51,9 @@ std::vector<WiringFault> findWiringFaults(const config::FingerConfig& config,
                                           std::span<const KnownTouch> known, const Eigen::MatrixXd& readings,
                                           const KnownErrors& errors);
 
+/// The finger is to be mended. Otherwise a mark may be: the only one that tells a turn, or one more.
+bool isOfFinger(const WiringFault& fault);
+
 /// What it is and how to mend it.
 std::string textOf(const WiringFault& fault);
 

@@ -184,9 +184,10 @@ class LiveSession {
     if (obeyed.tare) tare();
   }
 
-  /// What is to be entered and cannot be would be asked for without end.
+  /// What is to be entered and cannot be would be asked for without end; nor does a finger get mended.
   void skipEntry() {
     const auto kind = session_.advice().kind;
+    quit_ |= kind == session::Advice::Kind::kMend;
     if (kind != session::Advice::Kind::kPress && kind != session::Advice::Kind::kMark) return;
     const session::Obeyed obeyed = session_.obey(session::Skip{});
     tell("stdin is at its end: skipped: " + obeyed.message);
@@ -255,7 +256,9 @@ class LiveSession {
 
   /// `fittedRows`: of the fit that is reported, if one is.
   std::string kept(std::optional<std::size_t> fittedRows = {}) const {
-    return session::keptText(session_.rows().size(), fittedRows, files_.strainsPath(), files_.touchesPath());
+    const auto use = session_.isFaulty() ? session::RowsUse::kOfFaults : session::RowsUse::kToGoOn;
+    return session::keptText(session_.rows().size(), fittedRows, use, files_.strainsPath(),
+                             files_.touchesPath());
   }
 
   /// A last fit of all rows, unless there is one or nobody waits for it.

@@ -16,6 +16,7 @@ struct Advice {
     kPress,       ///< with a known load, over `gauge`
     kMark,        ///< at a known angle
     kWait,        ///< for the first fit, while rolling on
+    kMend,        ///< what the newest fit complains of, and end the session
     kDone,        ///< nothing is left to gain
   };
   Kind kind = Kind::kLeaveAlone;

@@ -14,6 +14,9 @@ FitOutcome fitRows(const config::FingerConfig& config, const Rows& rows,
     auto result = calibration::calibrate(config, rows.known, rows.matrix(), errors);
     outcome.assessment = assess(result, errors);
     outcome.result = std::move(result);
+  } catch (const calibration::FaultyFinger& faulty) {
+    outcome.complaint = faulty.what();
+    outcome.isOfFaults = true;
   } catch (const Failure& failure) {
     outcome.complaint = failure.what();
   }

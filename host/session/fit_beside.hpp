@@ -17,6 +17,7 @@ struct FitOutcome {
   std::optional<calibration::CalibrationResult> result{};
   std::optional<Assessment> assessment{};
   std::string complaint{};  ///< why there is no result
+  bool isOfFaults = false;  ///< that is, as the finger is to be mended, see calibration::FaultyFinger
 };
 
 /// Costs what calibrate() costs.

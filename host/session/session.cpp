@@ -111,7 +111,7 @@ int Session::peakGauge() const {
 std::optional<int> Session::farGauge() const {
   const Advice::Kind kind = advice().kind;
   const bool isAskedFor = kind == Advice::Kind::kPress || kind == Advice::Kind::kMark;
-  return isAskedFor || isPressed() ? std::nullopt : farGauge_;
+  return isFaulty_ || isAskedFor || isPressed() ? std::nullopt : farGauge_;
 }
 
 /// What was held last still is.
@@ -194,6 +194,7 @@ Obeyed Session::obeyUndo() {
     coverage_ = coverageOf(config_.gauges, search_, rows_);
     fit_.reset();
     complaint_.clear();
+    isFaulty_ = false;
     knowsOther_ = isFitOutdated_ = true;
     return {.message = what + " is taken back", .takenBack = true};
   }
@@ -243,10 +244,12 @@ const Rows& Session::beginFit() {
 void Session::takeFit(FitOutcome outcome) {
   if (isFitOutdated_) return;
   complaint_ = outcome.complaint;
+  isFaulty_ = outcome.isOfFaults;
   if (outcome.result) fit_ = std::move(outcome);
 }
 
 Advice Session::advice() const {
+  if (isFaulty_) return {Advice::Kind::kMend};
   return nextAdvice(config_.gauges, coverage_, fit_ ? fit_->assessment : std::nullopt, unavailable_);
 }
 

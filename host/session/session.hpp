@@ -57,9 +57,11 @@ class Session {
   const std::optional<FitOutcome>& fit() const { return fit_; }
   /// Of the newest fit, where it failed.
   const std::string& complaint() const { return complaint_; }
+  /// It failed as the finger is to be mended.
+  bool isFaulty() const { return isFaulty_; }
   Advice advice() const;
   /// A gauge that is far from its zero though the finger is at rest; none while a press is asked for, nor
-  /// while one that was entered is still held.
+  /// while one that was entered is still held, nor where the finger is to be mended.
   std::optional<int> farGauge() const;
   /// Seconds for which the finger has been at rest.
   double atRest_s() const;
@@ -88,6 +90,7 @@ class Session {
   Unavailable unavailable_;
   std::optional<FitOutcome> fit_;
   std::string complaint_;
+  bool isFaulty_ = false;
   std::size_t tried_ = 0;                   ///< rows of the last fit
   bool knowsOther_ = false;                 ///< than at the last fit, of a touch
   bool isFitOutdated_ = false;              ///< the one that is being made: it knows what was taken back

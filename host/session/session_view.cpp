@@ -133,6 +133,12 @@ class SessionPainter {
   int row_ = 0;
 };
 
+const char* textOf(RowsUse use) {
+  return use == RowsUse::kOfFaults
+             ? ", but are not what the finger reads once it is mended: start again with another -o then"
+             : ": the same command goes on with them";
+}
+
 }  // namespace
 
 std::string errorsText(const TouchesToCome& errors) {
@@ -144,16 +150,16 @@ std::string errorsText(const TouchesToCome& errors) {
          each("tangential", 2, 1, "N/m", 2);
 }
 
-std::string keptText(std::size_t rows, std::optional<std::size_t> fittedRows, const std::string& strainsPath,
-                     const std::string& touchesPath) {
+std::string keptText(std::size_t rows, std::optional<std::size_t> fittedRows, RowsUse use,
+                     const std::string& strainsPath, const std::string& touchesPath) {
   if (rows == 0) return "no rows were collected";
   const std::size_t newer = rows - std::min(rows, fittedRows.value_or(rows));
   const std::string notFitted = newer == 0
                                     ? ""
                                     : fmt::format("the last {} kept, but not in this fit; ",
                                                   newer == 1 ? "row is" : fmt::format("{} rows are", newer));
-  return fmt::format("{}{} rows are kept in {} and {}: the same command goes on with them", notFitted, rows,
-                     strainsPath, touchesPath);
+  return fmt::format("{}{} rows are kept in {} and {}{}", notFitted, rows, strainsPath, touchesPath,
+                     textOf(use));
 }
 
 std::string nowText(const SessionView& view) {

@@ -46,10 +46,16 @@ std::string sessionLine(const SessionView& view);
 /// "place 0.025 mm (drawn 0.640, noise alone 0.010), normal ..": what is to be expected of touches to come.
 std::string errorsText(const TouchesToCome& errors);
 
+/// What a session's rows are good for.
+enum class RowsUse {
+  kToGoOn,   ///< the same command goes on with them
+  kOfFaults  ///< they were read of gauges and wires that are to be mended
+};
+
 /// How much is kept in the session's files, and how to go on; with what of it the newest fit, if there is
 /// one, is not of.
-std::string keptText(std::size_t rows, std::optional<std::size_t> fittedRows, const std::string& strainsPath,
-                     const std::string& touchesPath);
+std::string keptText(std::size_t rows, std::optional<std::size_t> fittedRows, RowsUse use,
+                     const std::string& strainsPath, const std::string& touchesPath);
 
 /// What the finger does now: "nothing touches it", "too quick" ..
 std::string nowText(const SessionView& view);

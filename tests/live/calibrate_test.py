@@ -305,10 +305,10 @@ class Resumed(unittest.TestCase):
         strains.write_text("".join(",".join(row) + "\n" for row in rows))
         session = Session(self.bench, self.finger, output)
         self.bench.until(lambda: "no fit yet: " in session.said.last, 60)
-        self.assertRegex(session.said.last, r"no fit yet: .*3.* 8.*")
+        self.assertRegex(session.said.last, r"no fit yet: .*3.* 8.* \| Stop: gauges or wires must be mended first")
         session.say("quit")
         self.assertEqual(1, session.ended(60))
-        self.assertRegex(session.said.last, r"^strainfinger: .*3.* 8.*rows are kept in ")
+        self.assertRegex(session.said.last, r"^strainfinger: .*3.* 8.*rows are kept in .*: start again with another -o")
         self.assertFalse(output.exists())
 
     def test_a_page_that_cannot_be_written_loses_neither_config_nor_rows(self):

@@ -411,6 +411,9 @@ TEST(Calibrate, GaugesThatAreNotWiredAsDrawnAreRefusedWithTheMend) {
   auto session = study::sessionOf(finger, {.touches = 60}, kSeed);
   session.readings.col(3).swap(session.readings.col(4));
   checkComplaint({}, session.readings, "gauges 3 and 4 are swapped: exchange their wires");
+  CHECK_THROWS(FaultyFinger, calibrate(finger, {}, session.readings));
+  session.readings.col(3).setZero();
+  CHECK_THROWS(FaultyFinger, calibrate(finger, {}, session.readings));
 }
 
 // Gauges in an order that no exchange of a pair mends.

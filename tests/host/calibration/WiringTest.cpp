@@ -248,6 +248,7 @@ TEST(Wiring, WhereOnlyOneMarkTellsATurnItMayBeWrong) {
   LONGS_EQUAL(marked() + 1, found.front().onlyMark);
   STRCMP_CONTAINS("; or angle_deg of touch ", textOf(found.front()).c_str());
   STRCMP_CONTAINS(", the only one that is known, is wrong", textOf(found.front()).c_str());
+  CHECK_FALSE(isOfFinger(found.front()));
 }
 
 TEST(Wiring, KnownDirectionsTellHowAnUnevenRingLies) { checkTurnsAreFound(uneven(1, 2)); }
@@ -288,4 +289,6 @@ TEST(Wiring, OneDirectionAtAGaugeDoesNotTellAShiftFromAReversal) {
   session = study::sessionOf(study::randomFinger(seed), {.touches = 150, .ranges = overGauges}, seed);
   rewire(reversed(0));
   checkOnly({Kind::kTurnUnclear, 0, 0, static_cast<int>(marked()) + 1});
+  CHECK_FALSE(isOfFinger({Kind::kTurnUnclear}));
+  CHECK_TRUE(isOfFinger({Kind::kReversed}));
 }

@@ -300,6 +300,16 @@ TEST(GuidedSession, AFailedFitLeavesTheOneBefore) {
   CHECK_FALSE(session.fit().has_value());
 }
 
+TEST(GuidedSession, FaultyGaugesStopItBeforeAnythingElseIsAskedFor) {
+  session.takeFit({.rows = 70, .complaint = "gauges 3 and 4 are swapped", .isOfFaults = true});
+  CHECK_TRUE(session.isFaulty());
+  CHECK(session.advice().kind == Kind::kMend);
+  STRCMP_CONTAINS("Stop: ", textOf(session.advice(), config.gauges).c_str());
+  STRCMP_CONTAINS("another -o", textOf(session.advice(), config.gauges).c_str());
+  session.takeFit({.rows = 80, .complaint = "too few touches"});
+  CHECK(session.advice().kind == Kind::kLeaveAlone);
+}
+
 TEST(GuidedSession, GoesOnWithTheRowsOfBefore) {
   leaveAlone(5.1);
   rollAround(10);

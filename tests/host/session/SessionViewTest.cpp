@@ -38,13 +38,22 @@ TEST_GROUP(SessionView) {
 };
 
 TEST(SessionView, SaysWhichRowsAreKeptButNotInTheFit) {
-  STRCMP_EQUAL("no rows were collected", keptText(0, {}, "s", "t").c_str());
+  const auto kept = [](std::size_t rows, std::optional<std::size_t> fitted = {}) {
+    return keptText(rows, fitted, RowsUse::kToGoOn, "s", "t");
+  };
+  STRCMP_EQUAL("no rows were collected", kept(0).c_str());
   const std::string all = "487 rows are kept in s and t: the same command goes on with them";
-  STRCMP_EQUAL(all.c_str(), keptText(487, {}, "s", "t").c_str());
-  STRCMP_EQUAL(all.c_str(), keptText(487, 487, "s", "t").c_str());
-  STRCMP_EQUAL(("the last 74 rows are kept, but not in this fit; " + all).c_str(),
-               keptText(487, 413, "s", "t").c_str());
-  STRCMP_CONTAINS("the last row is kept, but not in this fit; ", keptText(487, 486, "s", "t").c_str());
+  STRCMP_EQUAL(all.c_str(), kept(487).c_str());
+  STRCMP_EQUAL(all.c_str(), kept(487, 487).c_str());
+  STRCMP_EQUAL(("the last 74 rows are kept, but not in this fit; " + all).c_str(), kept(487, 413).c_str());
+  STRCMP_CONTAINS("the last row is kept, but not in this fit; ", kept(487, 486).c_str());
+}
+
+TEST(SessionView, RowsOfFaultyGaugesAreNotGoneOnWith) {
+  STRCMP_EQUAL(
+      "487 rows are kept in s and t, but are not what the finger reads once it is mended: start again with "
+      "another -o then",
+      keptText(487, {}, RowsUse::kOfFaults, "s", "t").c_str());
 }
 
 TEST(SessionView, SaysWhatToDoAndWhatIsThere) {
@@ -129,7 +138,8 @@ TEST(SessionView, ALineHasItAll) {
       "mm (drawn "
       "0.640, noise alone 0.010), normal 0.30 N/m (drawn 5.00, noise alone 0.10), tangential 0.20 N/m (drawn "
       "4.00, noise "
-      "alone 0.08); unit of force +-0.8 %, zero of the angle +-0.12 deg; 100 more touches would gain 5 %; no fit "
+      "alone 0.08); unit of force +-0.8 %, zero of the angle +-0.12 deg; 100 more touches would gain 5 %; no "
+      "fit "
       "yet: too few | Leave it "
       "alone for 5 s.",
       sessionLine(view).c_str());

@@ -156,13 +156,27 @@ class LiveSession {
       receiver_.requireAllGauges();
       if (!set) continue;
       heard_ = SessionClock::now();
-      if (set->zeroing) continue;
+      if (set->zeroing) {
+        requireNoRows();
+        continue;
+      }
       ++sets_;
       const session::Sample sample{
           1e-9 * static_cast<double>(frame->time_ns),
           Eigen::Map<const Eigen::VectorXd>(set->strains.data(), config_.gauges.count)};
       for (const session::NewRow& row : session_.take(sample)) files_.add(row.time_s, row.strains, row.known);
     }
+  }
+
+  /// Rows of two zeros don't go together. Of a session that goes on with a finger that was just switched on,
+  /// the zero is taken before its first set.
+  void requireNoRows() {
+    if (sets_ == 0 || session_.rows().size() == 0) return;
+    rowsUse_ = session::RowsUse::kOfOldZero;
+    throw Failure(ExitCode::kFailure,
+                  fmt::format("{} node {} takes a new zero, as another program's `tare` has it do: readings "
+                              "from now on don't go with the rows so far",
+                              port_->name(), options_.node));
   }
 
   void takeFit(session::FitOutcome outcome) {
@@ -256,7 +270,7 @@ class LiveSession {
 
   /// `fittedRows`: of the fit that is reported, if one is.
   std::string kept(std::optional<std::size_t> fittedRows = {}) const {
-    const auto use = session_.isFaulty() ? session::RowsUse::kOfFaults : session::RowsUse::kToGoOn;
+    const auto use = session_.isFaulty() ? session::RowsUse::kOfFaults : rowsUse_;
     return session::keptText(session_.rows().size(), fittedRows, use, files_.strainsPath(),
                              files_.touchesPath());
   }
@@ -301,6 +315,7 @@ class LiveSession {
   std::unique_ptr<SessionFace> face_;
   std::string message_;
   bool quit_ = false;
+  session::RowsUse rowsUse_ = session::RowsUse::kToGoOn;
 };
 
 }  // namespace

@@ -134,9 +134,16 @@ class SessionPainter {
 };
 
 const char* textOf(RowsUse use) {
-  return use == RowsUse::kOfFaults
-             ? ", but are not what the finger reads once it is mended: start again with another -o then"
-             : ": the same command goes on with them";
+  switch (use) {
+    case RowsUse::kOfFaults:
+      return ", but are not what the finger reads once it is mended: start again with another -o then";
+    case RowsUse::kOfOldZero:
+      return ", of the old zero: start again with another -o; --strains and --touches calibrate with these "
+             "alone";
+    case RowsUse::kToGoOn:
+      break;
+  }
+  return ": the same command goes on with them";
 }
 
 }  // namespace

@@ -48,8 +48,9 @@ std::string errorsText(const TouchesToCome& errors);
 
 /// What a session's rows are good for.
 enum class RowsUse {
-  kToGoOn,   ///< the same command goes on with them
-  kOfFaults  ///< they were read of gauges and wires that are to be mended
+  kToGoOn,    ///< the same command goes on with them
+  kOfFaults,  ///< they were read of gauges and wires that are to be mended
+  kOfOldZero  ///< the finger took another zero since: they belong together alone
 };
 
 /// How much is kept in the session's files, and how to go on; with what of it the newest fit, if there is

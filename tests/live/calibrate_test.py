@@ -331,6 +331,15 @@ class Resumed(unittest.TestCase):
         self.assertRegex(session.said.last, r"--page \S+none/page.html: there is no folder \S+none; make it")
         self.assertFalse(output.exists())
 
+    def test_a_zero_that_another_program_takes_ends_it(self):
+        output = self.session_of(40)
+        session = Session(self.bench, self.finger, output)
+        self.bench.until(lambda: session.rows() >= 40)
+        subprocess.run([PROGRAM, "tare", "--can", self.bench.bus, "-n", "1"], check=True, capture_output=True)
+        self.assertEqual(1, session.ended(10))
+        self.assertRegex(session.said.last, r"node 1 takes a new zero, .*; \d+ rows are kept in .*, of the old zero: start again with another -o")
+        self.assertGreaterEqual(len(table(output.with_suffix(".strains.csv"))), 40)
+
     def test_control_c_ends_it_with_130_and_nothing_is_lost(self):
         output = self.session_of(40)
         session = Session(self.bench, self.finger, output)

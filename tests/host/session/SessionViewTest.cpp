@@ -56,6 +56,13 @@ TEST(SessionView, RowsOfFaultyGaugesAreNotGoneOnWith) {
       keptText(487, {}, RowsUse::kOfFaults, "s", "t").c_str());
 }
 
+TEST(SessionView, RowsOfAnOldZeroAreNotGoneOnWith) {
+  STRCMP_EQUAL(
+      "487 rows are kept in s and t, of the old zero: start again with another -o; --strains and --touches "
+      "calibrate with these alone",
+      keptText(487, {}, RowsUse::kOfOldZero, "s", "t").c_str());
+}
+
 TEST(SessionView, SaysWhatToDoAndWhatIsThere) {
   STRCMP_EQUAL("can0 node 3  62 rows: 10 untouched, 1 of known load, 1 of known angle", lines()[0].c_str());
   STRCMP_EQUAL("Leave it alone for 5 s.", lines()[1].c_str());

@@ -271,7 +271,7 @@ class LiveSession {
   /// `fittedRows`: of the fit that is reported, if one is.
   std::string kept(std::optional<std::size_t> fittedRows = {}) const {
     const auto use = session_.isFaulty() ? session::RowsUse::kOfFaults : rowsUse_;
-    return session::keptText(session_.rows().size(), fittedRows, use, files_.strainsPath(),
+    return session::keptText(files_.kept(), fittedRows, use, files_.strainsPath(),
                              files_.touchesPath());
   }
 

@@ -179,7 +179,8 @@ void SessionFiles::readRows() {
   if (strains.empty()) appendLines(strains_.descriptor, strains_.path, strainsHeader(gauges) + "\n");
   if (touches.empty()) appendLines(touches_.descriptor, touches_.path, std::string(kTouchHeader) + "\n");
   for (std::size_t i = 0; i < unpaired; ++i) appendLines(touches_.descriptor, touches_.path, kNothingIsKnown);
-  hasRows_ = rows_.size() > 0;
+  kept_ = rows_.size();
+  hasRows_ = kept_ > 0;
 }
 
 std::string SessionFiles::named(std::string message) const {
@@ -193,6 +194,7 @@ void SessionFiles::add(double time_s, const Eigen::VectorXd& strains, const cali
   hasRows_ = true;
   appendLines(strains_.descriptor, strains_.path,
               fmt::format("{:.6f},{}\n", time_s, fmt::join(strains.begin(), strains.end(), ",")));
+  ++kept_;
   appendLines(touches_.descriptor, touches_.path, touchLine(known));
 }
 

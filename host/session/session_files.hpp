@@ -33,6 +33,9 @@ class SessionFiles {
   /// What calibrate() says of touches.csv, of this session's file.
   std::string named(std::string message) const;
 
+  /// Rows that the files hold by now.
+  std::size_t kept() const { return kept_; }
+
   /// `time_s`: since 1970. Throws Failure(kFailure) when the disk is full or broken.
   void add(double time_s, const Eigen::VectorXd& strains, const calibration::KnownTouch& known);
   /// What is known of each row now, after something was taken back. Throws as add(); the file then holds what
@@ -53,7 +56,8 @@ class SessionFiles {
   std::string configPath_;
   File strains_, touches_;
   Rows rows_;
-  bool hasRows_ = false;
+  bool hasRows_ = false;  ///< or one was begun
+  std::size_t kept_ = 0;
 };
 
 }  // namespace strainfinger::session

@@ -69,7 +69,9 @@ TEST(SessionFiles, NoHalfRowStaysOnAFullDisk) {
   {
     SessionFiles files(config_, finger_);
     const SmallestDisk disk(std::filesystem::file_size(strains_) + 10);
+    LONGS_EQUAL(2, files.kept());
     CHECK_THROWS(Failure, files.add(3.5, strains(0.5, 0, 0), {}));
+    LONGS_EQUAL(2, files.kept());
   }
   STRCMP_EQUAL("\n", contentOf(strains_).substr(contentOf(strains_).size() - 1).c_str());
   LONGS_EQUAL(2, SessionFiles(config_, finger_).rows().size());
@@ -107,6 +109,7 @@ TEST(SessionFiles, GoOnWithWhatIsThere) {
   DOUBLES_EQUAL(24.5, *files.rows().known[0].normal_n_per_m, 0);
   CHECK_FALSE(files.rows().known[0].angle_deg.has_value());
   files.add(2.5, strains(0, 0, 0), {});
+  LONGS_EQUAL(2, files.kept());
   STRCMP_CONTAINS((rest_ + "2.500000,0,0,0" + rest_).c_str(), contentOf(strains_).c_str());
 }
 

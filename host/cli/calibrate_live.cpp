@@ -41,6 +41,8 @@ class SessionFace {
   virtual ~SessionFace() = default;
   /// The text of a command, if one was given.
   virtual std::optional<std::string> readCommand() = 0;
+  /// Whether the last command was obeyed.
+  virtual void answer(bool) {}
   /// Nobody can give a command any more.
   virtual bool isOver() const { return false; }
   virtual void show(const session::SessionView& view) = 0;
@@ -57,6 +59,7 @@ class SessionScreen : public SessionFace {
       if (const auto text = keys_.press(*key)) return text;
     return std::nullopt;
   }
+  void answer(bool isObeyed) override { keys_.answer(isObeyed); }
   void show(const session::SessionView& view) override {
     if (SessionClock::now() - drawn_ < kSessionRedraw) return;
     drawn_ = SessionClock::now();
@@ -193,6 +196,7 @@ class LiveSession {
     const session::Obeyed obeyed = session_.obey(session::parseCommand(text, config_.finger.length_m));
     if (obeyed.row) files_.add(obeyed.row->time_s, obeyed.row->strains, obeyed.row->known);
     if (obeyed.takenBack) takeBack();
+    face_->answer(!obeyed.isRefused);
     tell(obeyed.message);
     quit_ |= obeyed.quit;
     if (obeyed.tare) tare();
@@ -271,8 +275,7 @@ class LiveSession {
   /// `fittedRows`: of the fit that is reported, if one is.
   std::string kept(std::optional<std::size_t> fittedRows = {}) const {
     const auto use = session_.isFaulty() ? session::RowsUse::kOfFaults : rowsUse_;
-    return session::keptText(files_.kept(), fittedRows, use, files_.strainsPath(),
-                             files_.touchesPath());
+    return session::keptText(files_.kept(), fittedRows, use, files_.strainsPath(), files_.touchesPath());
   }
 
   /// A last fit of all rows, unless there is one or nobody waits for it.

@@ -11,6 +11,9 @@
 namespace strainfinger::session {
 namespace {
 
+/// What the key t makes before it asks.
+constexpr const char* kMayTare = "tare?";
+
 constexpr double kGravity_m_per_s2 = 9.80665;  // standard gravity (CGPM 1901)
 
 /// A number and what stands behind it.
@@ -61,6 +64,7 @@ Command parseCommand(std::string_view line, double length_m) {
   if (word == "angle") return angleOf(rest);
   if (rest.empty() && word == "hold") return Hold{};
   if (rest.empty() && word == "tare") return Tare{};
+  if (rest.empty() && word == kMayTare) return MayTare{};
   if (rest.empty() && word == "skip") return Skip{};
   if (rest.empty() && word == "undo") return Undo{};
   if (rest.empty() && word == "quit") return Quit{};
@@ -74,7 +78,8 @@ std::optional<std::string> KeyReader::press(unsigned char key) {
     if (key == 'l') mode_ = Mode::kLoad;
     if (key == 'a') mode_ = Mode::kAngle;
     if (key == 't') mode_ = Mode::kTare;
-    if (isTyping()) return "hold";
+    if (mode_ == Mode::kTare) return kMayTare;
+    if (mode_ != Mode::kKeys) return "hold";
     if (key == 's') return "skip";
     if (key == 'u') return "undo";
     if (key == 'q') return "quit";
@@ -85,9 +90,8 @@ std::optional<std::string> KeyReader::press(unsigned char key) {
     return key == 'y' ? std::optional<std::string>("tare") : std::nullopt;
   }
   if (key == '\r' || key == '\n') {
-    const std::string text = (mode_ == Mode::kLoad ? "load " : "angle ") + typed_;
-    mode_ = Mode::kKeys;
-    return text;
+    isEntered_ = true;
+    return (mode_ == Mode::kLoad ? "load " : "angle ") + typed_;
   }
   if (key == kEscape) mode_ = Mode::kKeys;
   if ((key == kDelete || key == kBackspace) && !typed_.empty()) typed_.pop_back();
@@ -95,12 +99,19 @@ std::optional<std::string> KeyReader::press(unsigned char key) {
   return std::nullopt;
 }
 
+void KeyReader::answer(bool isObeyed) {
+  const bool isOver =
+      isEntered_ ? isObeyed : !isObeyed;  // what was entered is taken; a key's question is moot
+  if (isOver) mode_ = Mode::kKeys;
+  isEntered_ = false;
+}
+
 std::string KeyReader::prompt() const {
   switch (mode_) {
     case Mode::kLoad:
-      return "load, with its unit (200 g, 2 N, 24.5 N/m), Return: " + typed_ + "_";
+      return "load, with its unit (200 g, 2 N, 24.5 N/m), Return or Esc: " + typed_ + "_";
     case Mode::kAngle:
-      return "angle in degrees, Return: " + typed_ + "_";
+      return "angle in degrees, Return or Esc: " + typed_ + "_";
     case Mode::kTare:
       return "the finger takes a new zero: does nothing touch it? y: yes, any other key: no";
     case Mode::kKeys:

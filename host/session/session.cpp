@@ -130,7 +130,8 @@ Obeyed Session::keepHeld(const KnownTouch& known, const std::string& what) {
   const bool wasHeld = held_.has_value();
   const auto sample = wasHeld ? std::exchange(held_, std::nullopt) : nowHeld(why);
   if (!sample)
-    return {.message = fmt::format("{} was not taken: {}. Press, hold still, and enter it again", what, why)};
+    return {.message = fmt::format("{} was not taken: {}. Press, hold still, and enter it again", what, why),
+            .isRefused = true};
   if (known.normal_n_per_m && isDoubtful(*known.normal_n_per_m, sample->strains)) {
     doubted_n_per_m_ = known.normal_n_per_m;
     if (wasHeld) held_ = sample;
@@ -139,7 +140,8 @@ Obeyed Session::keepHeld(const KnownTouch& known, const std::string& what) {
             "{} was not taken: a finger as in the config reads so under about {:.3g} N/m. Look at the load's "
             "unit, finger.length_m and finger.shear_modulus_pa, and enter it again; the same load is taken "
             "then",
-            what, search_.guess(sample->strains)[calibration::kNormalLoad])};
+            what, search_.guess(sample->strains)[calibration::kNormalLoad]),
+        .isRefused = true};
   }
   pressed_ = sample->strains;
   const NewRow row{sample->time_s, sample->strains, known};
@@ -161,7 +163,8 @@ Obeyed Session::obeyHold() {
   std::string why;
   held_ = nowHeld(why);
   if (held_) pressed_ = held_->strains;
-  return {.message = held_ ? "held" : why + ": hold it still"};
+  return {.message = held_ ? "held" : why + ": press it, hold it still, and again",
+          .isRefused = !held_.has_value()};
 }
 
 Obeyed Session::obeySkip() {
@@ -177,7 +180,7 @@ Obeyed Session::obeySkip() {
                            ? "without known directions a ring that is turned or reversed is not noticed"
                            : "the zero of the angle is what the marks tell that were taken"};
   }
-  return {.message = "this cannot be skipped: q ends the session"};
+  return {.message = "this cannot be skipped: q ends the session", .isRefused = true};
 }
 
 /// What the user said last, by the row that it is of.
@@ -198,15 +201,22 @@ Obeyed Session::obeyUndo() {
     knowsOther_ = isFitOutdated_ = true;
     return {.message = what + " is taken back", .takenBack = true};
   }
-  return {.message = "no load and no angle was entered yet"};
+  return {.message = "no load and no angle was entered yet", .isRefused = true};
 }
 
 /// Rows that are there were read with the zero that the finger had then.
-Obeyed Session::obeyTare() {
-  if (rows_.size() == 0) return {.message = "zeroing", .tare = true};
+Obeyed Session::obeyMayTare() const {
+  if (rows_.size() == 0) return {};
   return {.message =
               "not zeroed: the rows that were collected have the old zero. To begin anew, quit, "
-              "`strainfinger tare`, and give another -o"};
+              "`strainfinger tare`, and give another -o",
+          .isRefused = true};
+}
+
+Obeyed Session::obeyTare() {
+  Obeyed obeyed = obeyMayTare();
+  if (!obeyed.isRefused) obeyed = {.message = "zeroing", .tare = true};
+  return obeyed;
 }
 
 Obeyed Session::obey(const Command& command) {
@@ -216,10 +226,11 @@ Obeyed Session::obey(const Command& command) {
     Obeyed operator()(const AngleIs& angle) const { return session.obeyAngle(angle.angle_deg); }
     Obeyed operator()(const Hold&) const { return session.obeyHold(); }
     Obeyed operator()(const Tare&) const { return session.obeyTare(); }
+    Obeyed operator()(const MayTare&) const { return session.obeyMayTare(); }
     Obeyed operator()(const Skip&) const { return session.obeySkip(); }
     Obeyed operator()(const Undo&) const { return session.obeyUndo(); }
     Obeyed operator()(const Quit&) const { return {.quit = true}; }
-    Obeyed operator()(const Unclear& unclear) const { return {.message = unclear.why}; }
+    Obeyed operator()(const Unclear& unclear) const { return {.message = unclear.why, .isRefused = true}; }
   };
   return std::visit(Visitor{*this}, command);
 }

@@ -26,6 +26,7 @@ struct NewRow {
 struct Obeyed {
   std::optional<NewRow> row{};
   std::string message{};   ///< for the user
+  bool isRefused = false;  ///< nothing came of it; the message says why
   bool takenBack = false;  ///< what was known of a row is known no more
   bool tare = false;       ///< the finger is to be asked for a new zero
   bool quit = false;
@@ -79,6 +80,7 @@ class Session {
   Obeyed obeySkip();
   Obeyed obeyUndo();
   Obeyed obeyTare();
+  Obeyed obeyMayTare() const;
 
   config::FingerConfig config_;
   Rows rows_;

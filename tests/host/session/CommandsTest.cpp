@@ -1,5 +1,7 @@
 #include "host/session/commands.hpp"
 
+#include <string_view>
+
 #include <CppUTest/TestHarness.h>
 
 using namespace strainfinger;
@@ -83,8 +85,33 @@ TEST(SessionCommands, WhatIsPressedIsHeldWhileItsLoadIsTyped) {
 
 TEST(SessionCommands, ATareWantsAYes) {
   STRCMP_EQUAL("tare", typed("ty").c_str());
-  STRCMP_EQUAL("", typed("tn").c_str());
-  STRCMP_EQUAL("", typed("t\r").c_str());
+  STRCMP_EQUAL("tare?", typed("tn").c_str());
+  STRCMP_EQUAL("tare?", typed("t\r").c_str());
+  CHECK(std::holds_alternative<MayTare>(parseCommand("tare?", 1)));
+}
+
+TEST(SessionCommands, AKeyThatIsNotObeyedAsksNothing) {
+  for (const char key : {'l', 'a', 't'}) {
+    KeyReader reader;
+    CHECK_TRUE(reader.press(static_cast<unsigned char>(key)).has_value());
+    reader.answer(false);
+    STRCMP_EQUAL("", reader.prompt().c_str());
+    STRCMP_EQUAL("quit", reader.press('q').value_or("").c_str());
+  }
+}
+
+TEST(SessionCommands, WhatWasEnteredWronglyIsCorrectedUntilItIsTaken) {
+  KeyReader reader;
+  reader.press('l');
+  reader.answer(true);
+  for (const char key : std::string_view("50")) reader.press(static_cast<unsigned char>(key));
+  STRCMP_EQUAL("load 50", reader.press('\r').value_or("").c_str());
+  reader.answer(false);
+  STRCMP_CONTAINS(": 50_", reader.prompt().c_str());
+  reader.press('g');
+  STRCMP_EQUAL("load 50g", reader.press('\r').value_or("").c_str());
+  reader.answer(true);
+  STRCMP_EQUAL("", reader.prompt().c_str());
 }
 
 TEST(SessionCommands, EscapeDropsWhatIsTyped) {
@@ -97,5 +124,5 @@ TEST(SessionCommands, ThePromptShowsWhatIsTyped) {
   STRCMP_EQUAL("", reader.prompt().c_str());
   reader.press('l');
   reader.press('2');
-  STRCMP_CONTAINS("Return: 2_", reader.prompt().c_str());
+  STRCMP_CONTAINS("Return or Esc: 2_", reader.prompt().c_str());
 }

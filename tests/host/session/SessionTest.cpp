@@ -162,6 +162,15 @@ TEST(GuidedSession, ALoadOfAnotherUnitIsStillThatOfTheTouchThatWasHeld) {
   STRCMP_CONTAINS("is taken", say("load 0.48 N").c_str());
 }
 
+TEST(GuidedSession, ATypingErrorLeavesTheTouchThatWasHeld) {
+  hold(45, 24);
+  say("hold");
+  for (int i = 0; i < 100; ++i) take(hand.nothing());
+  CHECK_TRUE(session.obey(parseCommand("load 24", config.finger.length_m)).isRefused);
+  CHECK_FALSE(session.obey(parseCommand("load 24 N/m", config.finger.length_m)).isRefused);
+  CHECK_TRUE(session.obey(Hold{}).isRefused);
+}
+
 TEST(GuidedSession, ADoubtfulLoadThatIsEnteredTwiceIsTaken) {
   hold(45, 24);
   say("load 2 N/m");
@@ -226,6 +235,7 @@ TEST(GuidedSession, AZeroIsTakenBeforeThereAreRowsAlone) {
   leaveAlone(5.1);
   CHECK_FALSE(session.obey(Tare{}).tare);
   STRCMP_CONTAINS("have the old zero", say("tare").c_str());
+  STRCMP_CONTAINS("have the old zero", say("tare?").c_str());
 }
 
 TEST(GuidedSession, WhatCannotBeDoneIsSkipped) {

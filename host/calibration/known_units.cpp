@@ -106,6 +106,11 @@ bool isOfAnotherUnit(const TouchSearch& drawn, const Eigen::VectorXd& strains, d
   return isExplained(drawn, strains) && isOfAnotherUnit(said_n_per_m / drawn.guess(strains)[kNormalLoad]);
 }
 
+std::optional<double> placeRead_deg(const TouchSearch& drawn, const Eigen::VectorXd& strains) {
+  if (!isExplained(drawn, strains)) return std::nullopt;
+  return degreesOf(drawn.guess(strains)[kPlace]);
+}
+
 void requireUnits(const config::FingerConfig& config, std::span<const KnownTouch> known,
                   const Eigen::MatrixXd& readings) {
   if (countSaid(known) < kLeastSaid) return;

@@ -3,6 +3,7 @@
 // unit of all of it would be laid at the door of wires and zeros.
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 
 #include "host/calibration/calibrate.hpp"
@@ -14,6 +15,9 @@ namespace strainfinger::calibration {
 /// a finger as drawn; never where no touch explains them. Newtons for newtons per metre are fifty times on a
 /// finger of 20 mm; the modulus is seldom twice the drawing's.
 bool isOfAnotherUnit(const TouchSearch& drawn, const Eigen::VectorXd& strains, double said_n_per_m);
+
+/// Where a touch of a finger as drawn reads so, 0 .. 360; nothing where no touch explains the readings.
+std::optional<double> placeRead_deg(const TouchSearch& drawn, const Eigen::VectorXd& strains);
 
 /// As calibrate() takes them. Throws Failure(kFailure) where the known angles are radians by the readings,
 /// the known normal loads of another unit, or all known tangential loads of the other sign. Asks rows alone

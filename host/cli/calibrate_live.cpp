@@ -113,7 +113,7 @@ class LiveSession {
         options_(options),
         port_(can::openBus(options.bus, config.can.bitrate)),
         files_(options.outputPath, config),
-        session_(config, files_.rows()),
+        session_(config, files_.rows(), options.errors),
         fit_(config, options.errors),
         receiver_(options.node, config.gauges.count, config.gauges.full_scale_strain) {}
 

@@ -50,8 +50,8 @@ struct SessionGoals {
   /// [1] By what share a press of known load must lower that sigma to be asked for: the tenth and later ones
   /// of equal presses lower it by less.
   double leastUnitGain = 0.05;
-  /// [presses a gauge] Of known load that are asked for: where so many leave it above, something is wrong with
-  /// them.
+  /// [presses a gauge] Of known load that are asked for: where so many leave it above, something is wrong
+  /// with them.
   int mostPressesPerGauge = 1;
   /// [deg] Sigma of the zero of the angle: what a hand presses a mark to, over the root of 8.
   double zeroOfAngle_deg = 0.2;
@@ -90,6 +90,10 @@ struct HoldRules {
   /// [1] Of what was held, RMS: readings that are off it by less are still that touch's. A hand that tires
   /// and rubber that creeps change them by a tenth, letting go by all of it.
   double stillHeld = 0.5;
+  /// [deg] and [sigmas of known angles] A mark that is farther from where the readings have it is doubted:
+  /// the touch that was looked for may have been another, or the keyboard slipped. Rings are glued within 10
+  /// deg.
+  double elsewhere_deg = 15, elsewhere = 4;
 };
 inline constexpr HoldRules kHolds{};
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "host/base/angles.hpp"
 #include "host/calibration/known_units.hpp"
 #include "host/config/over_range.hpp"
 #include "host/session/rules.hpp"
@@ -16,8 +17,9 @@ namespace strainfinger::session {
 using calibration::KnownTouch;
 using Eigen::VectorXd;
 
-Session::Session(const config::FingerConfig& config, Rows rows)
+Session::Session(const config::FingerConfig& config, Rows rows, const calibration::KnownErrors& errors)
     : config_(config),
+      errors_(errors),
       rows_(std::move(rows)),
       thinner_(config),
       search_(calibration::drawnSearch(config)),
@@ -120,9 +122,35 @@ bool Session::isPressed() const {
   return (recent_.back().strains - *pressed_).norm() < kHolds.stillHeld * pressed_->norm();
 }
 
-/// Entered twice it is meant.
-bool Session::isDoubtful(double said_n_per_m, const VectorXd& strains) const {
-  return doubted_n_per_m_ != said_n_per_m && calibration::isOfAnotherUnit(search_, strains, said_n_per_m);
+/// Why what was entered can hardly be meant; empty where it can, as what is entered twice.
+std::string Session::doubtOf(const KnownTouch& known, const VectorXd& strains) const {
+  if (known.normal_n_per_m && known.normal_n_per_m != doubted_n_per_m_)
+    return doubtOfLoad(*known.normal_n_per_m, strains);
+  if (known.angle_deg && known.angle_deg != doubted_deg_) return doubtOfAngle(*known.angle_deg, strains);
+  return {};
+}
+
+std::string Session::doubtOfLoad(double said_n_per_m, const VectorXd& strains) const {
+  if (!calibration::isOfAnotherUnit(search_, strains, said_n_per_m)) return {};
+  return fmt::format(
+      "a finger as in the config reads so under about {:.3g} N/m. Look at the load's unit, finger.length_m "
+      "and "
+      "finger.shear_modulus_pa, and enter it again; the same load is taken then",
+      search_.guess(strains)[calibration::kNormalLoad]);
+}
+
+/// As the ring is turned by the newest fit.
+std::string Session::doubtOfAngle(double said_deg, const VectorXd& strains) const {
+  const auto drawn_deg = calibration::placeRead_deg(search_, strains);
+  if (!drawn_deg) return {};
+  const double read_deg = *drawn_deg + (fit_ ? fit_->result->turn_deg() : 0);
+  const double most_deg = std::max(kHolds.elsewhere_deg, kHolds.elsewhere * errors_.angle_deg);
+  if (std::abs(std::remainder(said_deg - read_deg, 360)) <= most_deg) return {};
+  return fmt::format(
+      "the readings say about {:.0f} deg. Look at the mark, gauges.first_angle_deg and the order of the "
+      "gauges, "
+      "and enter it again; the same angle is taken then",
+      withinATurn_deg(read_deg));
 }
 
 Obeyed Session::keepHeld(const KnownTouch& known, const std::string& what) {
@@ -132,16 +160,11 @@ Obeyed Session::keepHeld(const KnownTouch& known, const std::string& what) {
   if (!sample)
     return {.message = fmt::format("{} was not taken: {}. Press, hold still, and enter it again", what, why),
             .isRefused = true};
-  if (known.normal_n_per_m && isDoubtful(*known.normal_n_per_m, sample->strains)) {
+  if (const std::string doubt = doubtOf(known, sample->strains); !doubt.empty()) {
     doubted_n_per_m_ = known.normal_n_per_m;
+    doubted_deg_ = known.angle_deg;
     if (wasHeld) held_ = sample;
-    return {
-        .message = fmt::format(
-            "{} was not taken: a finger as in the config reads so under about {:.3g} N/m. Look at the load's "
-            "unit, finger.length_m and finger.shear_modulus_pa, and enter it again; the same load is taken "
-            "then",
-            what, search_.guess(sample->strains)[calibration::kNormalLoad]),
-        .isRefused = true};
+    return {.message = what + " was not taken: " + doubt, .isRefused = true};
   }
   pressed_ = sample->strains;
   const NewRow row{sample->time_s, sample->strains, known};

@@ -35,7 +35,7 @@ struct Obeyed {
 class Session {
  public:
   /// Goes on with `rows`.
-  Session(const config::FingerConfig& config, Rows rows);
+  Session(const config::FingerConfig& config, Rows rows, const calibration::KnownErrors& errors = {});
 
   /// The next sample set; the rows that come of it.
   std::vector<NewRow> take(const Sample& sample);
@@ -74,7 +74,9 @@ class Session {
   Obeyed obeyLoad(double normal_n_per_m);
   Obeyed obeyAngle(double angle_deg);
   bool isPressed() const;
-  bool isDoubtful(double said_n_per_m, const Eigen::VectorXd& strains) const;
+  std::string doubtOf(const calibration::KnownTouch& known, const Eigen::VectorXd& strains) const;
+  std::string doubtOfLoad(double said_n_per_m, const Eigen::VectorXd& strains) const;
+  std::string doubtOfAngle(double said_deg, const Eigen::VectorXd& strains) const;
   Obeyed keepHeld(const calibration::KnownTouch& known, const std::string& what);
   Obeyed obeyHold();
   Obeyed obeySkip();
@@ -83,6 +85,7 @@ class Session {
   Obeyed obeyMayTare() const;
 
   config::FingerConfig config_;
+  calibration::KnownErrors errors_;
   Rows rows_;
   Thinner thinner_;
   calibration::TouchSearch search_;
@@ -99,8 +102,8 @@ class Session {
   std::deque<Sample> recent_;               ///< of the last HoldRules::time_s
   std::optional<Sample> held_;              ///< what the next load or angle is of, if that was said
   std::optional<Eigen::VectorXd> pressed_;  ///< the strains of what was held, or entered, last
-  std::optional<double> doubted_n_per_m_;   ///< the load that was refused last
-  std::vector<Sample> resting_;             ///< since the finger came to rest
+  std::optional<double> doubted_n_per_m_, doubted_deg_;  ///< what was refused last, a load or an angle
+  std::vector<Sample> resting_;                          ///< since the finger came to rest
   Eigen::VectorXd restSum_;
   std::optional<int> farGauge_;
 };

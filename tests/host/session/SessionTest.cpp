@@ -179,6 +179,40 @@ TEST(GuidedSession, ADoubtfulLoadThatIsEnteredTwiceIsTaken) {
   LONGS_EQUAL(1, session.coverage().loads);
 }
 
+TEST(GuidedSession, AnAngleOfAnotherPlaceIsAskedForAgainAndTakenIfItIsMeant) {
+  hold(128, 24);
+  say("hold");
+  for (int i = 0; i < 100; ++i) take(hand.nothing());
+  STRCMP_CONTAINS("was not taken: the readings say about 128 deg", say("angle 218").c_str());
+  STRCMP_CONTAINS("was not taken", say("angle 37.5").c_str());
+  LONGS_EQUAL(0, session.coverage().directions_deg.size());
+  STRCMP_CONTAINS("is taken", say("angle 37.5").c_str());
+  LONGS_EQUAL(1, session.coverage().directions_deg.size());
+}
+
+// A ring that is glued or drawn some degrees off.
+TEST(GuidedSession, AnAngleThatIsAboutWhatTheReadingsSayIsTaken) {
+  hold(358, 24);
+  STRCMP_CONTAINS("is taken", say("angle 10").c_str());
+  STRCMP_CONTAINS("was not taken", say("angle 20").c_str());
+  Session rough(config, session.rows(), {.angle_deg = 6});
+  for (int i = 0; i < 40; ++i) rough.take({0.01 * i, hand.touch(358, 24)});
+  CHECK_FALSE(rough.obey(AngleIs{20}).isRefused);
+}
+
+TEST(GuidedSession, AnAngleIsOfTheRingAsTheFitHasItTurned) {
+  auto turned = poorlyTold();
+  Eigen::VectorXd deviations = Eigen::VectorXd::Zero(turned.drawing().unknowns());
+  for (int gauge = 0; gauge < 16; ++gauge)
+    deviations[calibration::Drawing::at(gauge, calibration::kAngleOffset)] = 30 / config.tolerance.angle_deg;
+  const calibration::CalibrationResult result(turned.drawing(), deviations, turned.covariance(), {}, {0, 0},
+                                              true);
+  session.takeFit({.rows = 70, .result = result});
+  hold(45, 24);
+  STRCMP_CONTAINS("say about 75 deg", say("angle 45").c_str());
+  STRCMP_CONTAINS("is taken", say("angle 75").c_str());
+}
+
 TEST(GuidedSession, WhatWasEnteredIsTakenBackTheLastFirst) {
   leaveAlone(5.1);
   hold(45, 24);

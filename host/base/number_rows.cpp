@@ -94,6 +94,17 @@ bool isAllNames(std::string_view line) {
   return std::all_of(fields.begin(), fields.end(), isName);
 }
 
+/// Two fields that may be one number, whose fraction a comma sets off; what to do then. Empty: there are
+/// none.
+std::string decimalCommaHint(const std::vector<std::string_view>& fields) {
+  for (std::size_t i = 0; i + 1 < fields.size(); ++i) {
+    const std::string_view both(fields[i].data(), fields[i].size() + 1 + fields[i + 1].size());
+    if (const auto point = withPoint(both))
+      return fmt::format("; if {} is one number, write {} with a point", both, *point);
+  }
+  return {};
+}
+
 bool isPassedOver(const std::string& line) {
   const std::string_view content = trimmed(line);
   return content.empty() || content.front() == '#';
@@ -174,7 +185,9 @@ void NumberRowReader::parse(const std::string& line, std::vector<double>& row) {
   const auto fields = fieldsOf(line);
   if (!endOfField(fields.back(), 0)) fail(columnOf(fields.back(), line), "a quote is not closed");
   for (std::size_t i = 0; i < fields.size(); ++i) {
-    if (i == needed) fail(columnOf(fields[i], line), fmt::format("more than {} columns", needed));
+    if (i == needed)
+      fail(columnOf(fields[i], line),
+           fmt::format("more than {} columns{}", needed, decimalCommaHint(fields)));
     const std::size_t place = places_.empty() ? i : places_[i];
     if (place == columns_)
       others_.push_back(textOf(fields[i]));
@@ -191,6 +204,8 @@ double NumberRowReader::numberOf(const std::string& field, std::size_t column) c
     if (field.find(separator) != std::string::npos)
       fail(column, fmt::format("\"{}\" has {}: separate columns by commas", excerpt(field), name));
   const auto value = signedNumber(field);
+  if (const auto point = value ? std::nullopt : withPoint(field))
+    fail(column, fmt::format("\"{}\" has a comma: write {} with a point", excerpt(field), *point));
   if (!value) fail(column, fmt::format("\"{}\" is no number", excerpt(field)));
   if (!std::isfinite(*value)) fail(column, fmt::format("{} is no finite number", excerpt(field)));
   if (std::abs(*value) > limit_.most)

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <system_error>
 
@@ -24,6 +25,16 @@ template <typename Number>
 std::optional<Number> parseNumber(std::string_view text) {
   const auto number = takeNumber<Number>(text);
   return text.empty() ? number : std::nullopt;
+}
+
+/// "0.5" of "0,5": of a text that is a number but for a comma in place of its point; nothing of others.
+inline std::optional<std::string> withPoint(std::string_view text) {
+  const auto comma = text.find(',');
+  const auto isDigit = [&](std::size_t at) { return at < text.size() && text[at] >= '0' && text[at] <= '9'; };
+  if (comma == text.npos || comma == 0 || !isDigit(comma - 1) || !isDigit(comma + 1)) return std::nullopt;
+  std::string point(text);
+  point[comma] = '.';
+  return parseNumber<double>(point) ? std::optional(point) : std::nullopt;
 }
 
 }  // namespace strainfinger

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "host/base/excerpt.hpp"
@@ -19,23 +21,39 @@ constexpr double kGravity_m_per_s2 = 9.80665;  // standard gravity (CGPM 1901)
 /// A number and what stands behind it.
 struct Quantity {
   double value;
-  std::string_view unit;
+  std::string unit;  ///< in lower case
 };
+
+/// Complains of a decimal comma, behind which the rest would be taken for the unit.
+std::optional<Unclear> decimalCommaIn(std::string_view text) {
+  const auto point = withPoint(text.substr(0, text.find_first_not_of("+-0123456789.,")));
+  if (!point) return std::nullopt;
+  return Unclear{fmt::format("\"{}\": write {} with a point", excerpt(text), *point)};
+}
+
+std::string lowerCase(std::string_view text) {
+  std::string lower(text);
+  std::ranges::transform(lower, lower.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower;
+}
+
 std::optional<Quantity> quantityIn(std::string_view text) {
   const auto value = takeNumber<double>(text);
   if (!value || !std::isfinite(*value)) return std::nullopt;
-  return Quantity{*value, trimmed(text)};
+  return Quantity{*value, lowerCase(trimmed(text))};
 }
 
 Command loadOf(std::string_view text, double length_m) {
+  if (const auto unclear = decimalCommaIn(text)) return *unclear;
   const auto said = quantityIn(text);
   if (!said)
     return Unclear{fmt::format("\"{}\" is no load: say it as in 200 g, 2 N or 24.5 N/m", excerpt(text))};
   double perUnit = 0;
   if (said->unit == "g") perUnit = 1e-3 * kGravity_m_per_s2 / length_m;
   if (said->unit == "kg") perUnit = kGravity_m_per_s2 / length_m;
-  if (said->unit == "N") perUnit = 1 / length_m;
-  if (said->unit == "N/m") perUnit = 1;
+  if (said->unit == "n") perUnit = 1 / length_m;
+  if (said->unit == "n/m") perUnit = 1;
   if (perUnit == 0)
     return Unclear{fmt::format("\"{}\": say the unit of the load: g, kg, N or N/m", excerpt(text))};
   if (said->value <= 0)
@@ -44,6 +62,7 @@ Command loadOf(std::string_view text, double length_m) {
 }
 
 Command angleOf(std::string_view text) {
+  if (const auto unclear = decimalCommaIn(text)) return *unclear;
   const auto said = quantityIn(text);
   if (!said || (said->unit != "" && said->unit != "deg"))
     return Unclear{fmt::format("\"{}\" is no angle: say it in degrees, as in 40", excerpt(text))};

@@ -242,7 +242,14 @@ TEST(NumberRows, HugeNumbersThatOverflowAreRefused) {
 
 TEST(NumberRows, RowsOfAnotherLengthAreRefused) {
   STRCMP_EQUAL("stdin:1:2: 1 columns where 2 are needed", complaintAbout("1\n").c_str());
-  STRCMP_EQUAL("stdin:1:5: more than 2 columns", complaintAbout("1,2,3\n").c_str());
+  STRCMP_EQUAL("stdin:1:7: more than 2 columns", complaintAbout("1.,2.,3.\n").c_str());
+}
+
+TEST(NumberRows, DecimalCommasAreToldWhereTheyMayBe) {
+  STRCMP_EQUAL("stdin:1:7: more than 2 columns; if 16,395 is one number, write 16.395 with a point",
+               complaintAbout("1.,16,395,2\n").c_str());
+  STRCMP_EQUAL("stdin:1:1: \"37,5\" has a comma: write 37.5 with a point",
+               complaintAbout("\"37,5\",2\n").c_str());
 }
 
 TEST(NumberRows, NumbersBeyondALimitAreRefusedWithAHint) {

@@ -29,6 +29,13 @@ TEST(ParseNumber, WhatTheTypeDoesNotHoldIsNone) {
   CHECK_FALSE(parseNumber<double>("1e999").has_value());
 }
 
+TEST(ParseNumber, ADecimalCommaIsTold) {
+  CHECK_TRUE(withPoint("0,5") == "0.5");
+  CHECK_TRUE(withPoint("-1,14e-06") == "-1.14e-06");
+  for (const char* text : {"", "0.5", "5", ",5", "5,", "1.000,5", "1,2,3", "1e5,2", "-,5", "1,5 N", "a,5"})
+    CHECK_FALSE_TEXT(withPoint(text).has_value(), text);
+}
+
 TEST(ParseNumber, OneIsTakenOffTheTextThatBeginsWithIt) {
   std::string_view text = "24.5 N/m";
   CHECK_TRUE(takeNumber<double>(text) == 24.5);

@@ -39,6 +39,20 @@ TEST(SessionCommands, ALoadIsInItsUnit) {
   DOUBLES_EQUAL(24.5, load("load 24.5 N/m\r"), 1e-9);
 }
 
+TEST(SessionCommands, UnitsMayBeInAnyCase) {
+  DOUBLES_EQUAL(24.516625, load("load 50 G"), 1e-9);
+  DOUBLES_EQUAL(24.516625, load("load 0.05 Kg"), 1e-9);
+  DOUBLES_EQUAL(100, load("load 2 n"), 1e-9);
+  DOUBLES_EQUAL(14, load("load 14 n/M"), 1e-9);
+  DOUBLES_EQUAL(40, angle("angle 40 Deg"), 0);
+}
+
+TEST(SessionCommands, ADecimalCommaIsToldWithThePoint) {
+  isUnclear("load 0,5 N", "\"0,5 N\": write 0.5 with a point");
+  isUnclear("load 24,5N/m", "write 24.5 with a point");
+  isUnclear("angle -37,5", "write -37.5 with a point");
+}
+
 TEST(SessionCommands, AnAngleIsInDegrees) {
   DOUBLES_EQUAL(40, angle("angle 40"), 0);
   DOUBLES_EQUAL(350, angle("angle -10 deg"), 1e-9);

@@ -26,6 +26,8 @@ namespace strainfinger {
 namespace {
 
 constexpr std::array kOtherSeparators{std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}};
+/// What numbers consist of, and parts of them.
+constexpr const char* kOfNumbers = "+-.0123456789eE";
 /// What other programs write where there is no number; NaN and infinities are numbers to signedNumber().
 constexpr std::array kNoNumbers{"na", "n/a", "null", "none", "nil", "missing", "empty"};
 
@@ -119,17 +121,34 @@ bool NumberRowReader::next(std::vector<double>& row) {
   for (std::string line; std::getline(stream_, line);) {
     if (++line_ == 1 && line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
     if (isPassedOver(line)) continue;
-    const bool isHeader = mayBeHeader_ && isAllNames(line);
-    mayBeHeader_ = false;
-    if (isHeader) {
+    const bool isFirst = std::exchange(mayBeHeader_, false);
+    if (isFirst && isAllNames(line)) {
       takeHeader(line);
+      header_ = line;
       continue;
+    }
+    if (line == header_) continue;
+    isCut_ = !isFirst && stream_.eof() && isCut(line);
+    if (isCut_) {
+      tell("strainfinger: {}: the file ends in the middle of this line, which is left out\n", place());
+      return false;
     }
     parse(line, row);
     return true;
   }
   requireReadable();
   return false;
+}
+
+/// Of a line without its end: too few fields, or the last one may be part of a number alone.
+bool NumberRowReader::isCut(const std::string& line) const {
+  const auto fields = fieldsOf(line);
+  const std::size_t needed = columns_ + otherNames_.size();
+  if (fields.size() != needed) return fields.size() < needed;
+  const bool isText = !places_.empty() && places_.back() == columns_;
+  const std::string last = textOf(fields.back());
+  const bool mayBeNumber = last.find_first_not_of(kOfNumbers) == std::string::npos;
+  return !isText && !signedNumber(last) && mayBeNumber && !(last.empty() && limit_.mayBeEmpty);
 }
 
 /// Its end, not an error of reading. std::cin reads through stdin, which alone knows of those.

@@ -14,7 +14,9 @@ namespace strainfinger {
 /// Reads rows of `columns` finite numbers, separated by commas (blanks around them are allowed). A first row
 /// of names is a header: they begin with a letter and are no word for a missing number (NA, nan, null ..),
 /// and are as many as the columns. Names and texts may be quoted, with commas in them (RFC 4180). Blank lines
-/// and lines that begin with # are passed over, as is a byte order mark.
+/// and lines that begin with # are passed over, as are a byte order mark and the header where it is repeated,
+/// as in files that were put together. A last line that was cut off, as by a full disk, is told on stderr and
+/// left out.
 class NumberRowReader {
  public:
   /// What may be there: numbers of at most `most` in size (`hint` says what a larger one may have been meant
@@ -42,6 +44,9 @@ class NumberRowReader {
   /// row of another length and for another header; with the system's reason where the stream cannot be read.
   bool next(std::vector<double>& row);
 
+  /// The last row was cut off, and left out.
+  bool isCut() const { return isCut_; }
+
   /// name:line of the last row, for messages about what it says.
   std::string place() const;
 
@@ -50,6 +55,7 @@ class NumberRowReader {
   const std::vector<std::string>& others() const { return others_; }
 
  private:
+  bool isCut(const std::string& line) const;
   void requireReadable() const;
   void takeHeader(const std::string& line);
   void chooseColumns(const std::vector<std::string>& names);
@@ -64,6 +70,8 @@ class NumberRowReader {
   Limit limit_;
   std::size_t line_ = 0;
   bool mayBeHeader_ = true;
+  bool isCut_ = false;
+  std::string header_;               ///< its line; empty: there is none
   std::vector<std::size_t> places_;  ///< in the row, of the header's columns; empty: as they are
   std::vector<std::string> otherNames_;
   std::vector<std::string> others_;

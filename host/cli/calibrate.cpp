@@ -152,6 +152,8 @@ std::vector<calibration::KnownTouch> readTouches(const std::string& path) {
     touches.push_back({valueOf(row[0]), valueOf(row[1]), valueOf(row[2])});
     calibration::requireTouch(touches.back(), fmt::format("{}: touch {}", reader.place(), touches.size()));
   }
+  if (reader.isCut())
+    touches.emplace_back();  // of its row of strains, which is written before, nothing is known
   return touches;
 }
 

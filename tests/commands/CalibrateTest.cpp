@@ -274,6 +274,22 @@ TEST(CalibrateCommand, StrainsOfAnotherRingAreRefusedForTheConfig) {
           "the file has strain_16 .. strain_23, but gauges.count = 16: give this finger's config, -c");
 }
 
+// As a session leaves them that was copied from a full disk.
+TEST(CalibrateCommand, RowsThatWereCutAreLeftOutWithANotice) {
+  const std::string touches = textOf(session.known);
+  write("touches.csv", touches.substr(0, touches.rfind('\n', touches.size() - 2) + 1));
+  Run run = calibrate("", readings.substr(0, readings.size() - 30));
+  LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS(fmt::format("stdin:{}: the file ends in the middle of this line", kTouches).c_str(),
+                  run.err.c_str());
+  STRCMP_CONTAINS(fmt::format("{} rows: ", kTouches - 1).c_str(), run.err.c_str());
+  write("touches.csv", touches.substr(0, touches.size() - 2));  // a row without its last comma
+  run = calibrate("", readings);
+  LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS(fmt::format("touches.csv:{}: the file ends in", kTouches + 1).c_str(), run.err.c_str());
+  STRCMP_CONTAINS(fmt::format("{} rows: ", kTouches).c_str(), run.err.c_str());
+}
+
 TEST(CalibrateCommand, SaysWhatIsWrongAndWhereAndWritesNothing) {
   refuses(1, "", readings.substr(0, readings.rfind("\n", readings.size() - 2) + 1),
           fmt::format("{} rows of strains and {}", kTouches - 1, kTouches).c_str());

@@ -193,7 +193,31 @@ TEST(NumberRows, AHeaderHasANameForEachColumn) {
 }
 
 TEST(NumberRows, OnlyTheFirstRowIsAHeader) {
-  STRCMP_EQUAL("stdin:2:1: \"a\" is no number", complaintAbout("a,b\na,b\n1,2\n").c_str());
+  STRCMP_EQUAL("stdin:2:1: \"b\" is no number", complaintAbout("a,b\nb,a\n1,2\n").c_str());
+}
+
+TEST(NumberRows, AHeaderThatIsRepeatedIsPassedOver) {
+  LONGS_EQUAL(2, read("a,b\n1,2\na,b\n3,4\na,b\n").size());
+}
+
+TEST(NumberRows, ALastLineThatWasCutIsLeftOut) {
+  for (const char* cut : {"3", "3,", "3,-", "3,4e-", "\"3,4"})
+    LONGS_EQUAL_TEXT(1, read(std::string("1,2\n") + cut).size(), cut);
+  LONGS_EQUAL(0, read("a,b\n3").size());
+  LONGS_EQUAL(2, read("1,2\n3,4").size());
+  std::istringstream stream("1,2\n3");
+  NumberRowReader reader(stream, "stdin", 2, {.mayBeEmpty = true});
+  std::vector<double> row;
+  CHECK_TRUE(reader.next(row));
+  CHECK_FALSE(reader.isCut());
+  CHECK_FALSE(reader.next(row));
+  CHECK_TRUE(reader.isCut());
+}
+
+TEST(NumberRows, WhatIsNoPartOfARowIsNotCut) {
+  STRCMP_EQUAL("stdin:2:3: \"x\" is no number", complaintAbout("1,2\n3,x").c_str());
+  STRCMP_EQUAL("stdin:1:2: 1 columns where 2 are needed", complaintAbout("1").c_str());
+  STRCMP_EQUAL("stdin:2:2: 1 columns where 2 are needed", complaintAbout("1,2\n3\n").c_str());
 }
 
 TEST(NumberRows, AnotherHeaderThanTheOneAskedForIsRefused) {

@@ -31,6 +31,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/request.hpp"
 #include "host/config/write_config.hpp"
+#include "host/live/terminal.hpp"
 #include "host/model/pressure_profile.hpp"
 #include "host/plot/picture.hpp"
 #include "host/session/recorded.hpp"
@@ -155,6 +156,14 @@ std::vector<calibration::KnownTouch> readTouches(const std::string& path) {
   if (reader.isCut())
     touches.emplace_back();  // of its row of strains, which is written before, nothing is known
   return touches;
+}
+
+/// Who forgot an option would wait for a program that waits for rows.
+void tellIfTyped(const std::string& strainsPath) {
+  if (strainsPath.empty() && live::isKeyboard())
+    tell(
+        "calibrate: reading rows of strains from the terminal, up to Ctrl-D; --strains FILE reads a file, "
+        "--can BUS a finger\n");
 }
 
 Eigen::MatrixXd readStrains(const std::string& path, int gauges) {
@@ -337,6 +346,7 @@ void runCalibrate(const CalibrateOptions& options) {
   if (!options.interface.empty() && !isRecording)
     throw Failure(ExitCode::kUsage, fmt::format("calibrate: --interface is for recordings, which {} is not",
                                                 options.strainsPath));
+  tellIfTyped(options.strainsPath);
   const auto known = isRecording ? std::vector<calibration::KnownTouch>{} : readTouches(options.touchesPath);
   const auto strains = isRecording ? strainsOfRecording(options, config)
                                    : readStrains(options.strainsPath, config.gauges.count);

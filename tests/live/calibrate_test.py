@@ -398,6 +398,13 @@ class Resumed(unittest.TestCase):
             terminal.wait_for(r"(?s)calibrate: interrupted; \d+ rows are.*ended: 130", 60)
 
     @unittest.skipIf(shutil.which("tmux") is None, "tmux is not installed: apt install tmux")
+    def test_without_an_option_it_says_that_it_reads_the_terminal(self):
+        with Terminal(f"{PROGRAM} calibrate -c {self.finger.config} -o {self.bench.folder / 'typed.toml'}") as terminal:
+            terminal.wait_for(r"reading rows of strains from the terminal, up to Ctrl-D; --strains FILE reads")
+            terminal.press("C-d")
+            terminal.wait_for(r"(?s)there are no rows of strains.*ended: 1")
+
+    @unittest.skipIf(shutil.which("tmux") is None, "tmux is not installed: apt install tmux")
     def test_no_color_and_ascii(self):
         with Terminal("NO_COLOR=1 " + self.command(self.session_of(40)), 100, 30, locale="C") as terminal:
             screen = terminal.wait_for(r"sigma: gain")

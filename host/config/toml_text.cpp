@@ -1,6 +1,7 @@
 #include "host/config/toml_text.hpp"
 
 #include <algorithm>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -10,6 +11,10 @@
 
 namespace strainfinger::config {
 namespace {
+
+/// The parser calls itself for each part of a key, and with values in values, of which it takes 256, the
+/// stack would end at some 100.
+constexpr int kMostDots = 64;
 
 std::string_view typeName(const toml::node& node) {
   switch (node.type()) {
@@ -51,9 +56,39 @@ std::size_t distance(std::string_view word, std::string_view candidate) {
   return editDistance(wordName, name) + (sameSection ? 0 : 1);
 }
 
+/// The first column [from 1] at which a line has too many dots for any key, or 0. Commas keep the numbers of
+/// a list apart, but not behind a quotation mark, where one may be part of a key's name.
+std::size_t columnOfTooManyDots(std::string_view line) {
+  bool hasQuotes = false;
+  int dots = 0;
+  for (std::size_t i = 0; i < line.size() && (hasQuotes || line[i] != '#'); ++i) {
+    hasQuotes |= line[i] == '"' || line[i] == '\'';
+    if (line[i] == ',' && !hasQuotes) dots = 0;
+    if (line[i] == '.' && ++dots > kMostDots) return i + 1;
+  }
+  return 0;
+}
+
+/// Before parsing: such a text would end the program.
+void requireShortKeys(std::string_view text, const std::string& name) {
+  toml::source_index number = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    ++number;
+    if (const std::size_t column = columnOfTooManyDots(text.substr(begin, end - begin))) {
+      const toml::source_position at{number, static_cast<toml::source_index>(column)};
+      failAt({at, at, std::make_shared<const std::string>(name)},
+             fmt::format("more than {} dots in one key or text; a key has one or none, as in gauges.count",
+                         kMostDots));
+    }
+    begin = end + 1;
+  }
+}
+
 }  // namespace
 
 toml::table parseToml(std::string_view text, const std::string& name) {
+  requireShortKeys(text, name);
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {

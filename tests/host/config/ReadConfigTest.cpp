@@ -117,6 +117,37 @@ TEST_GROUP(ReadConfig) {
   }
 };
 
+// The parser calls itself for each part of a key, until the stack ends.
+TEST(ReadConfig, AKeyOfManyPartsIsRefusedBeforeItIsParsed) {
+  std::string parts = "a", quoted = "','";
+  for (int i = 0; i < 100'000; ++i) {
+    parts += ".a";
+    quoted += ".','";
+  }
+  const std::string why = "more than 64 dots in one key or text; a key has one or none, as in gauges.count";
+  checkComplaint("schema = 1\n" + parts + " = 1\n", "f.toml:2:130: " + why);
+  checkComplaint("schema = 1\n\n[" + parts + "]", "f.toml:3:131: " + why);
+  checkComplaint("[[" + parts + "]]\r\n", "f.toml:1:132: " + why);
+  checkComplaint("x = {" + quoted + " = 1}", "f.toml:1:265: " + why);
+}
+
+/// As many values in values as the parser takes, each with as long a key as is let through, on lines of their
+/// own.
+TEST(ReadConfig, LongKeysInOneAnotherAreSurvived) {
+  std::string key = "a", text;
+  for (int i = 0; i < 64; ++i) key += ".a";
+  for (int i = 0; i < 240; ++i) text += key + " = {x = \"\"\"\n\"\"\", ";
+  text += "b = 1" + std::string(240, '}');
+  checkMention(text, "f.toml:");
+}
+
+TEST(ReadConfig, DotsOfNumbersAndCommentsAreMany) {
+  std::string list = "[0.5";
+  for (int i = 1; i < 200; ++i) list += ", 0.5";
+  checkMention("schema = 1  # " + std::string(1000, '.') + "\n[calibration]\ngain = " + list + "]\n",
+               "calibration.gain");
+}
+
 TEST(ReadConfig, SchemaAloneGivesTheDefaultFinger) {
   const FingerConfig read = readConfig("schema = 1", "f.toml");
   STRCMP_EQUAL(writeConfig(FingerConfig{}).c_str(), writeConfig(read).c_str());

@@ -21,6 +21,8 @@ constexpr std::size_t kClassicBytes = 8;
 constexpr std::size_t kFdBytes = 64;
 constexpr std::int64_t kLastSecond = 9'223'372'035;  // fits 64 bits of nanoseconds, whatever the fraction
 
+constexpr bool isPrintable(char c) { return c >= ' ' && c <= '~'; }
+
 /// Reads a line from left to right. Every step returns false after it has noted what is wrong at at_.
 class LineParser : private LineCursor {
  public:
@@ -52,8 +54,8 @@ class LineParser : private LineCursor {
     const std::size_t open = line_.find('\'', at_);
     const std::size_t close = open == line_.npos ? open : line_.find('\'', open + 1);
     if (close == line_.npos) return fail("the interface, between quotation marks, is missing");
-    result_.interface = line_.substr(open + 1, close - open - 1);
-    return true;
+    at_ = open + 1;
+    return takeInterface(line_.substr(at_, close - at_));
   }
 
   bool parseTime() {
@@ -96,13 +98,22 @@ class LineParser : private LineCursor {
   }
 
   bool parseInterface() {
-    result_.interface = token();
-    if (result_.interface.empty()) return fail("expected the name of an interface");
-    at_ += result_.interface.size();
+    if (token().empty()) return fail("expected the name of an interface");
+    if (!takeInterface(token())) return false;
     const bool isFrame = atEnd() && result_.interface.find('#') != std::string::npos;
     if (isFrame)
       return failBack(result_.interface.size(), "expected an interface before the frame: can0 185#E803");
     skipBlanks();
+    return true;
+  }
+
+  /// The name that stands here. It is printed, and a terminal obeys what is not printable.
+  bool takeInterface(std::string_view name) {
+    const auto printable =
+        static_cast<std::size_t>(std::ranges::find_if_not(name, isPrintable) - name.begin());
+    at_ += printable;
+    if (printable < name.size()) return fail("an interface's name has printable ASCII characters only");
+    result_.interface = name;
     return true;
   }
 
@@ -349,7 +360,7 @@ std::optional<TextFrame> parsePlainLine(std::string_view line) {
   if (line.size() <= kInterface) return std::nullopt;
   const std::int64_t time_us = plainTime_us(line);
   std::size_t end = kInterface;
-  while (end < line.size() && line[end] > ' ') ++end;
+  while (end < line.size() && line[end] != ' ' && isPrintable(line[end])) ++end;
   if (time_us < 0 || end == kInterface || end == line.size() || line[end] != ' ') return std::nullopt;
   const std::optional<CanFrame> frame = plainFrame(line.substr(end + 1));
   if (!frame) return std::nullopt;

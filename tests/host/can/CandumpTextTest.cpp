@@ -296,6 +296,19 @@ TEST(CandumpText, SaysWhereADropCountIsWrong) {
   checkError(21, "interface", "DROPCOUNT: dropped 1 CAN frame on 'can0");
 }
 
+// A terminal obeys them: they could hide or rewrite what is shown.
+TEST(CandumpText, AnInterfaceOfOtherThanPrintableAsciiIsRefused) {
+  constexpr const char* kWhy = "an interface's name has printable ASCII characters only";
+  for (const char* bad : {"\a", "\x01", "\x7F", "\xC2\x9B", "\xFF", "\xC3\xA4"}) {
+    const std::string name = std::string("ca") + bad + "n0";
+    checkError(23, kWhy, "(1609779922.655421) " + name + " 185#E803");
+    checkError(5, kWhy, "  " + name + "  185   [2]  E8 03");
+    checkError(38, kWhy, "DROPCOUNT: dropped 1 CAN frame on 'ca" + std::string(bad) + "' socket");
+    CHECK_FALSE(parsePlainLine("(1609779922.655421) " + name + " 185#E803").has_value());
+  }
+  checkError(38, kWhy, "DROPCOUNT: dropped 1 CAN frame on 'ca\033[2Jn0' socket");
+}
+
 TEST(CandumpText, WhatIsWrittenReadsBack) {
   const unsigned seed = std::random_device{}();
   std::printf("seed %u ", seed);

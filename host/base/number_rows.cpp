@@ -18,6 +18,7 @@
 #include "host/base/byte_order_mark.hpp"
 #include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/line_reader.hpp"
 #include "host/base/notice.hpp"
 #include "host/base/parse_number.hpp"
 #include "host/base/text_parts.hpp"
@@ -115,11 +116,15 @@ bool isPassedOver(const std::string& line) {
 }  // namespace
 
 NumberRowReader::NumberRowReader(std::istream& stream, std::string name, std::size_t columns, Limit limit)
-    : stream_(stream), name_(std::move(name)), columns_(columns), limit_(std::move(limit)) {}
+    : stream_(stream),
+      name_(std::move(name)),
+      columns_(columns),
+      limit_(std::move(limit)),
+      buffer_(LineReader::kLongestLine_bytes + 1) {}
 
 bool NumberRowReader::next(std::vector<double>& row) {
-  for (std::string line; std::getline(stream_, line);) {
-    if (++line_ == 1 && line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
+  for (std::string line; readLine(line);) {
+    if (line_ == 1 && line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
     if (isPassedOver(line)) continue;
     const bool isFirst = std::exchange(mayBeHeader_, false);
     if (isFirst && isAllNames(line)) {
@@ -149,6 +154,17 @@ bool NumberRowReader::isCut(const std::string& line) const {
   const std::string last = textOf(fields.back());
   const bool mayBeNumber = last.find_first_not_of(kOfNumbers) == std::string::npos;
   return !isText && !signedNumber(last) && mayBeNumber && !(last.empty() && limit_.mayBeEmpty);
+}
+
+bool NumberRowReader::readLine(std::string& line) {
+  stream_.getline(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+  const auto count = static_cast<std::size_t>(stream_.gcount());
+  if (count == 0 || stream_.bad()) return false;
+  ++line_;
+  if (stream_.fail())
+    fail(count + 1, fmt::format("the line has more than {} bytes", LineReader::kLongestLine_bytes));
+  line.assign(buffer_.data(), stream_.eof() ? count : count - 1);
+  return true;
 }
 
 /// Its end, not an error of reading. std::cin reads through stdin, which alone knows of those.

@@ -41,7 +41,8 @@ class NumberRowReader {
 
   /// The next row; false at the end. Throws Failure(kFailure) with name:line:column, what is wrong and what
   /// would be right, for a field that is no finite number or beyond the limit, for a
-  /// row of another length and for another header; with the system's reason where the stream cannot be read.
+  /// row of another length, for another header and for a line longer than LineReader hands out; with the
+  /// system's reason where the stream cannot be read.
   bool next(std::vector<double>& row);
 
   /// The last row was cut off, and left out.
@@ -56,6 +57,7 @@ class NumberRowReader {
 
  private:
   bool isCut(const std::string& line) const;
+  bool readLine(std::string& line);
   void requireReadable() const;
   void takeHeader(const std::string& line);
   void chooseColumns(const std::vector<std::string>& names);
@@ -68,6 +70,7 @@ class NumberRowReader {
   std::string name_;
   std::size_t columns_;
   Limit limit_;
+  std::vector<char> buffer_;  ///< of a line and a NUL
   std::size_t line_ = 0;
   bool mayBeHeader_ = true;
   bool isCut_ = false;

@@ -6,11 +6,13 @@
 #include <vector>
 
 #include "host/base/failure.hpp"
+#include "host/base/line_reader.hpp"
 
 #include <CppUTest/TestHarness.h>
 
 using strainfinger::ExitCode;
 using strainfinger::Failure;
+using strainfinger::LineReader;
 using strainfinger::NumberRowReader;
 
 TEST_GROUP(NumberRows) {
@@ -52,6 +54,15 @@ TEST(NumberRows, WhatATerminalWouldNotShowIsNamedByItsBytes) {
   STRCMP_EQUAL("stdin:1:1: \"\\x00\\x01\" is no number", complaintAbout("\0\1\n"s).c_str());
   STRCMP_EQUAL("stdin:1:3: \"\\x1B[2J\\x7F\" is no number", complaintAbout("1,\x1B[2J\x7F\n").c_str());
   STRCMP_EQUAL("stdin:1:1: \"\xC3\xA9\" is no number", complaintAbout("\xC3\xA9,1\n").c_str());
+}
+
+TEST(NumberRows, AnEndlessLineIsRefused) {
+  const std::string whole = "1," + std::string(LineReader::kLongestLine_bytes - 3, ' ') + "2";
+  LONGS_EQUAL(2, read(whole + "\n" + whole).size());
+  STRCMP_EQUAL("stdin:2:65537: the line has more than 65536 bytes",
+               complaintAbout("1,2\n" + whole + " \n").c_str());
+  STRCMP_EQUAL("stdin:1:65537: the line has more than 65536 bytes",
+               complaintAbout(std::string(1'000'000, '\0')).c_str());
 }
 
 TEST(NumberRows, AnErrorOfReadingIsNoEnd) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace strainfinger::can {
 namespace {
@@ -20,10 +21,12 @@ bool isStale(const Reply& reply, const RequestFrame& request) {
          reply.response->value != std::uint32_t{request.argument} + 1;
 }
 
-/// A finger takes a word again whose answer was lost.
+/// A finger takes a word again whose answer was lost. A stale answer is the reply only if the last attempt
+/// had no other.
 Reply askAgain(BusPort& port, std::uint8_t node, const RequestFrame& request,
                const std::function<bool()>& goOn) {
   Reply reply;
+  std::optional<ResponseFrame> stale;
   for (int attempt = 0; attempt < kPushAttempts && !reply.response && goOn(); ++attempt) {
     const auto waited = reply.waited;
     bool othersAsk = reply.othersAsk;
@@ -31,8 +34,10 @@ Reply askAgain(BusPort& port, std::uint8_t node, const RequestFrame& request,
     reply = ask(port, node, request, {.goOn = goOn});
     reply.othersAsk |= othersAsk;
     reply.waited += waited;
-    if (isStale(reply, request)) reply.response.reset();
+    stale.reset();
+    if (isStale(reply, request)) stale = std::exchange(reply.response, std::nullopt);
   }
+  if (stale) reply.response = stale;
   return reply;
 }
 
@@ -49,14 +54,21 @@ TablePush pushTables(BusPort& port, std::uint8_t node, const TableImage& image, 
     push.command = request.command;
     push.reply = askAgain(port, node, request, goesOn);
     push.othersAsk |= push.reply.othersAsk;
+    push.isOutOfStep = isStale(push.reply, request);
+    return isDone(push.reply) && !push.isOutOfStep;
   };
-  say(loadRequest(evenWhileTouched));
-  while (isDone(push.reply) && push.words < kTableWords && goesOn()) {
+  bool isTaken = say(loadRequest(evenWhileTouched));
+  while (isTaken && push.words < kTableWords && goesOn()) {
     const auto index = static_cast<std::uint16_t>(push.words);
-    say(wordRequest(index, wordOf(image, index)));
-    push.words += isDone(push.reply);
+    isTaken = say(wordRequest(index, wordOf(image, index)));
+    push.words += isTaken;
   }
   return push;
+}
+
+bool isOlderThan(const HeartbeatFrame& heartbeat, std::chrono::milliseconds time) {
+  return heartbeat.uptime_s != kNotKnown<std::uint16_t> &&
+         std::chrono::seconds(heartbeat.uptime_s) > std::chrono::ceil<std::chrono::seconds>(time);
 }
 
 std::optional<HeartbeatFrame> heartbeatAfterRestart(BusPort& port, std::uint8_t node,
@@ -73,7 +85,8 @@ std::optional<HeartbeatFrame> heartbeatAfterRestart(BusPort& port, std::uint8_t 
       const auto heartbeat = decode<HeartbeatFrame>(*frame);
       if (!heartbeat) continue;
       const bool isFault = heartbeat->state == FingerState::kFault;
-      if (heartbeat->state == FingerState::kRun || (isFault && ++faults == 2)) return heartbeat;
+      const bool isRunning = heartbeat->state == FingerState::kRun && !isOlderThan(*heartbeat, longest);
+      if (isRunning || (isFault && ++faults == 2)) return heartbeat;
       if (!isFault) last = heartbeat;
     }
   }

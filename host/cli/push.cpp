@@ -28,8 +28,9 @@ constexpr const char* kPushHelp =
     "A push that ends early leaves the finger without tables (state fault): push again. Its memory "
     "wears out: four at once, then one a minute, and none for a minute after a restart. While another "
     "program asks the finger, this one waits. With -c and FILE, FILE has to be of that config.\n"
-    "Prints interface,node,table_crc,bytes. Exit status: 1 refused, 3 no interface, 4 no such node, 5 FILE "
-    "is another finger's or of another format, 6 FILE is damaged or the finger refuses what it took.";
+    "Prints interface,node,table_crc,bytes. Exit status: 1 refused, or not done as it should be, 3 no "
+    "interface, 4 no such node, 5 FILE is another finger's or of another format, 6 FILE is damaged or the "
+    "finger refuses what it took.";
 
 struct PushOptions {
   explicit PushOptions(CLI::App& command) : request(command) {
@@ -97,6 +98,11 @@ void requireWhole(const can::TablePush& push, const can::BusPort& bus, std::uint
     tell("strainfinger: push: ended after {} of {} words: {}\n", push.words, kTableWords, left);
   if (push.othersAsk)
     tell("strainfinger: push: another program asks this finger, too: {}\n", can::kOthersAskRemedy);
+  if (push.isOutOfStep)
+    throw Failure(ExitCode::kFailure,
+                  fmt::format("{} node {}: word {}: it answered that word {} is due, where word {} is: push "
+                              "again; if this comes back, its firmware is not one that takes these tables",
+                              bus.name(), node, push.words, push.reply.response->value, push.words + 1));
   requireDone(push.reply, push.command, bus, node);
 }
 
@@ -126,6 +132,12 @@ void requireRunning(can::BusPort& port, std::uint8_t node, const TableImage& ima
     throw Failure(ExitCode::kNoNode, fmt::format("{}: took the tables, but says nothing since it was told to "
                                                  "start anew: switch it off and on",
                                                  where));
+  if (heartbeat->state == FingerState::kRun && can::isOlderThan(*heartbeat, kStartsWithin))
+    throw Failure(
+        ExitCode::kFailure,
+        fmt::format("{}: took the tables, but did not start anew when it was told to: it is up for {} s; "
+                    "switch it off and on",
+                    where, heartbeat->uptime_s));
   const std::uint8_t wanted = tableCrcByte(image.crc32);
   if (heartbeat->state != FingerState::kFault && heartbeat->table_crc == wanted) return;
   throw Failure(

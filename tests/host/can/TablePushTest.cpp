@@ -114,6 +114,21 @@ TEST(TablePush, AnAnswerThatIsLateIsNotTakenForTheNextWords) {
   LONGS_EQUAL(2, late);
 }
 
+TEST(TablePush, AFingerThatSaysThatAnotherWordIsDueIsNotSilent) {
+  const auto answer = bus.onSend;
+  bus.onSend = [this, answer](const CanFrame& frame) {
+    const auto request = readSingleFrame<RequestFrame>(frame, kNode);
+    if (request->command != Command::kWord || request->argument < 3) return answer(frame);
+    ++asked;
+    bus.hear(responseTo(Command::kWord, CommandStatus::kDone, 77), kNode);
+  };
+  const TablePush out = push();
+  CHECK_TRUE(out.isOutOfStep);
+  LONGS_EQUAL(3, out.words);
+  LONGS_EQUAL(77, out.reply.response->value);
+  LONGS_EQUAL(1 + 3 + kPushAttempts, asked);
+}
+
 TEST(TablePush, WhatWasHeardBeforeIsNoAnswer) {
   bus.hear(responseTo(Command::kLoad, CommandStatus::kTouched), kNode);
   LONGS_EQUAL(5, push(5).words);
@@ -203,6 +218,16 @@ TEST(HeartbeatAfterRestart, IsNoLongerWaitedForWhenItIsStopped) {
   int asked = 0;
   CHECK_FALSE(
       heartbeatAfterRestart(bus, kNode, std::chrono::hours(1), [&] { return ++asked < 3; }).has_value());
+}
+
+TEST(HeartbeatAfterRestart, OfAFingerThatRunsAsBeforeIsTheLast) {
+  FakeBusPort bus;
+  bus.hear(HeartbeatFrame{.state = FingerState::kRun, .uptime_s = 523}, kNode);
+  const auto begin = std::chrono::steady_clock::now();
+  const auto heartbeat = heartbeatAfterRestart(bus, kNode, kShort, goOn);
+  CHECK_TRUE(std::chrono::steady_clock::now() - begin >= kShort);
+  LONGS_EQUAL(523, heartbeat->uptime_s);
+  CHECK_TRUE(isOlderThan(*heartbeat, kShort));
 }
 
 TEST(HeartbeatAfterRestart, MayNotCome) {

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "common/frames.hpp"
+#include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/notice.hpp"
 #include "host/can/open_bus.hpp"
@@ -33,8 +34,9 @@ constexpr const char* kServeHelp =
     "Only this machine reaches it unless --address says otherwise (0.0.0.0: every interface); commands then "
     "need a token, which is part of the printed address. The page itself has no password: who reaches it "
     "reads it.\n"
-    "A token of your own stays the same when this is started again. The list of processes shows --token to "
-    "everybody on this machine, the environment's STRAINFINGER_TOKEN to you only.\n"
+    "A token of your own (8 characters or more) stays the same when this is started again. The list of "
+    "processes shows --token to everybody on this machine, the environment's STRAINFINGER_TOKEN to you "
+    "only.\n"
     "From another machine without opening a port: ssh -L 8080:localhost:8080 HOST\n"
     "For programs: GET /state is one JSON object, GET /events a stream of them (server-sent events), "
     "POST /fingers/NODE/tare with header X-Strainfinger zeroes gauges.\n"
@@ -44,6 +46,7 @@ constexpr const char* kServeHelp =
 constexpr std::chrono::milliseconds kPublishEvery{40};
 
 constexpr const char* kTokenVariable = "STRAINFINGER_TOKEN";
+constexpr std::size_t kShortestToken = 8;  // characters
 
 struct ServeOptions {
   explicit ServeOptions(CLI::App& command) : common(command) {
@@ -90,6 +93,17 @@ std::string shapeJson(const config::FingerConfig& config, bool needsToken) {
   return json.dump();
 }
 
+/// Throws Failure(kUsage) for what no machine has.
+void requireAddress(const std::string& address) {
+  if (address.empty())
+    throw Failure(ExitCode::kUsage,
+                  "serve: --address is empty: 127.0.0.1 is this machine only, 0.0.0.0 every interface");
+  if (address.starts_with('['))
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("serve: --address {} is no address: brackets are for a browser, leave them out",
+                              excerpt(address)));
+}
+
 /// Throws Failure(kUsage) for a token that protects nothing, or that no command could have.
 void requireGoodToken(const ServeOptions& options) {
   const std::string& token = options.server.token;
@@ -98,6 +112,11 @@ void requireGoodToken(const ServeOptions& options) {
                   fmt::format("serve: the token (--token, {}) is empty, and others reach {}: give one, or "
                               "leave it out for a random one",
                               kTokenVariable, options.server.address));
+  if (!token.empty() && token.size() < kShortestToken)
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("serve: the token (--token, {}) has {} characters and can be guessed: it must "
+                              "have {} at least",
+                              kTokenVariable, token.size(), kShortestToken));
   // The HTTP library takes %41 in a header for A.
   const auto isCarried = [](char each) { return each >= ' ' && each <= '~' && each != '%'; };
   if (!std::ranges::all_of(token, isCarried) || token.starts_with(' ') || token.ends_with(' '))
@@ -163,6 +182,7 @@ void serve(live::BusWatch& watch, live::PageServer& server, const simulation::St
 }
 
 void runServe(const ServeOptions& options) {
+  requireAddress(options.server.address);
   requireGoodToken(options);
   const config::FingerConfig config = options.common.config();
   const auto port = can::openBus(options.bus, config.can.bitrate);

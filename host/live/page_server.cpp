@@ -2,16 +2,25 @@
 
 #include <fmt/format.h>
 #include <httplib.h>
+#include <netdb.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
+#include <cstring>
+#include <memory>
+#include <regex>
 #include <thread>
 
 #include "common/frame_layout.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/parse_number.hpp"
 #include "host/base/table_writer.hpp"
+#include "host/live/client_stream.hpp"
 #include "host/live/command_desk.hpp"
 #include "host/live/event_hub.hpp"
 
@@ -22,9 +31,14 @@ using namespace std::chrono_literals;
 
 /// Beside the readers of events there are threads for short requests.
 constexpr int kThreads = PageServer::kMostReaders + 32;
-/// A client that is silent in the middle of its request, or takes nothing of its answer, is left.
+/// A client whose request is not whole after this time, or that takes nothing of its answer for as long, is
+/// left.
 constexpr auto kPatience = 2s;
 constexpr std::size_t kLargestBody_bytes = 1024;
+/// Head and body: browsers send some 1 KiB.
+constexpr std::size_t kLargestRequest_bytes = 16384;
+/// Clients that are not accepted yet: the library has room for 5, and the next ones of a burst wait a second.
+constexpr int kBacklog = 128;
 /// A reader that stalls finds this much of old events at most when it goes on.
 constexpr int kSendBuffer_bytes = 32768;
 /// How often a reader's thread looks whether it is to end.
@@ -55,6 +69,9 @@ bool isLocalHost(const std::string& host) {
   return name == "localhost" || name == "[::1]" || isLocalAddress(name);
 }
 
+constexpr std::array<std::string_view, 4> kPages{"/", "/finger", "/state", "/events"};
+constexpr const char* kTarePath = R"(/fingers/(\d{1,2})/tare)";
+
 /// Takes as long for any text of the same length.
 bool areSame(const std::string& one, const std::string& other) {
   if (one.size() != other.size()) return false;
@@ -67,6 +84,84 @@ void say(httplib::Response& response, int status, const std::string& text) {
   response.status = status;
   response.set_content(R"({"text":)" + jsonString(text) + "}\n", "application/json");
 }
+
+/// What was wrong with a request of which the library says only the status.
+std::string whatWasWrong(int status) {
+  switch (status) {
+    case 400:
+      return fmt::format(
+          "The request was not understood, is larger than {} KiB, or was not whole after {} s.",
+          kLargestRequest_bytes / 1024, kPatience / 1s);
+    case 413:
+      return fmt::format("The request's body is larger than {} bytes: none is needed.", kLargestBody_bytes);
+    case 414:
+      return "The request's address is too long.";
+    case 416:
+      return "The request's Range was not understood: leave it out, answers are whole.";
+    default:
+      return "The program could not answer this request: ask again.";
+  }
+}
+
+bool isKnown(const httplib::Request& request) {
+  static const std::regex kTare(kTarePath);
+  if (request.method == "POST") return std::regex_match(request.path, kTare);
+  return (request.method == "GET" || request.method == "HEAD") &&
+         std::ranges::find(kPages, request.path) != kPages.end();
+}
+
+/// Of what the system says against listening there, as the library doesn't; 0: nothing, now.
+int errorOfBinding(const addrinfo& place) {
+  const int socket = ::socket(place.ai_family, place.ai_socktype, place.ai_protocol);
+  if (socket < 0) return errno;
+  setSocketOptions(socket);
+  const int error = ::bind(socket, place.ai_addr, place.ai_addrlen) == 0 ? 0 : errno;
+  ::close(socket);
+  return error;
+}
+
+/// Why it cannot be listened there, and what to do.
+std::string whyNot(const std::string& address, int port) {
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  hints.ai_flags = AI_PASSIVE;
+  addrinfo* found = nullptr;
+  if (const int unknown = ::getaddrinfo(address.c_str(), std::to_string(port).c_str(), &hints, &found);
+      unknown != 0)
+    return fmt::format("this is no address: {}; `ip address` shows those of this machine",
+                       ::gai_strerror(unknown));
+  const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> places(found, &::freeaddrinfo);
+  switch (const int error = errorOfBinding(*places)) {
+    case EADDRINUSE:
+      return "another program does (--port takes another, `ss -ltnp` shows which)";
+    case EACCES:
+      return "ports below 1024 are for root: --port takes another";
+    case EADDRNOTAVAIL:
+      return "this machine has no such address: `ip address` shows those that it has";
+    default:
+      return error == 0 ? "try again" : std::strerror(error);
+  }
+}
+
+/// The library's server, with limits that it has none of.
+class LimitedServer : public httplib::Server {
+ public:
+  /// Of a server that is bound.
+  void lengthenQueue() { ::listen(svr_sock_, kBacklog); }
+
+ private:
+  bool process_and_close_socket(socket_t socket) override {
+    ClientStream client(socket,
+                        {.request = kPatience, .write = kPatience, .request_bytes = kLargestRequest_bytes});
+    bool isClosed = false;
+    // Whole: of many ranges each would be as large as the page.
+    const bool isAnswered =
+        process_request(client, true, isClosed, [](httplib::Request& request) { request.ranges.clear(); });
+    ::shutdown(socket, SHUT_RDWR);
+    ::close(socket);
+    return isAnswered;
+  }
+};
 
 }  // namespace
 
@@ -104,9 +199,6 @@ class PageServer::Impl {
  private:
   void setUp() {
     server_.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
-    server_.set_read_timeout(kPatience);
-    server_.set_write_timeout(kPatience);
-    server_.set_keep_alive_max_count(1);  // no thread waits for what a client may yet want
     server_.set_payload_max_length(kLargestBody_bytes);
     server_.set_tcp_nodelay(true);
     server_.set_socket_options(setSocketOptions);
@@ -120,9 +212,9 @@ class PageServer::Impl {
     server_.set_error_handler([](const httplib::Request& request, httplib::Response& response) {
       if (!response.body.empty()) return;
       // the library says 400 of a POST that nothing answers
-      const bool isNotKnown = response.status == 404 || (response.status == 400 && !request.path.empty());
-      if (!isNotKnown)
-        return say(response, response.status, "The request was not understood, or is too large.");
+      const bool isNotKnown =
+          (response.status == 404 || response.status == 400) && !request.path.empty() && !isKnown(request);
+      if (!isNotKnown) return say(response, response.status, whatWasWrong(response.status));
       say(response, 404,
           fmt::format("{} {} is not known: GET /, /finger, /state, /events; POST /fingers/NODE/tare.",
                       request.method, request.path));
@@ -182,11 +274,10 @@ class PageServer::Impl {
   }
 
   void addCommands() {
-    server_.Post(R"(/fingers/(\d{1,2})/tare)",
-                 [this](const httplib::Request& request, httplib::Response& response,
-                        const httplib::ContentReader& body) {
-                   if (passOver(request, body)) tare(request, response);
-                 });
+    server_.Post(kTarePath, [this](const httplib::Request& request, httplib::Response& response,
+                                   const httplib::ContentReader& body) {
+      if (passOver(request, body)) tare(request, response);
+    });
   }
 
   /// False: what follows is no body, or too large, and the library has said so. A request that tells no
@@ -225,11 +316,9 @@ class PageServer::Impl {
     else if (!server_.bind_to_port(address, port_))
       port_ = -1;
     if (port_ < 0)
-      throw Failure(
-          ExitCode::kNoInterface,
-          fmt::format("cannot listen on {} port {}: another program does (--port takes another, `ss -ltnp` "
-                      "shows which), or this machine has no such address",
-                      address, options_.port));
+      throw Failure(ExitCode::kNoInterface, fmt::format("cannot listen on {} port {}: {}", address,
+                                                        options_.port, whyNot(address, options_.port)));
+    server_.lengthenQueue();
   }
 
   PageServerOptions options_;
@@ -237,7 +326,7 @@ class PageServer::Impl {
   CommandDesk tares_;
   std::atomic<int> readers_ = 0;
   std::atomic<bool> wanted_ = false;
-  httplib::Server server_;
+  LimitedServer server_;
   int port_ = 0;
   std::thread thread_;
 };

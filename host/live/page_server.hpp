@@ -24,8 +24,10 @@ struct PageServerOptions {
 /// Whether only this machine reaches the address.
 bool isLocalAddress(std::string_view address);
 
-/// Serves in threads of its own from construction to destruction. A reader that is slow, dead or malicious
-/// costs a thread of many, and that for a few seconds: publish() never waits.
+/// Serves in threads of its own from construction to destruction; publish() never waits. A request that is
+/// not whole after 2 s, or an answer of which nothing is taken for 2 s, costs a thread of many for that time.
+/// A reader of events that takes a little of them now and then keeps its thread, and kMostReaders is their
+/// limit.
 class PageServer {
  public:
   /// Readers of events at a time; those beyond are told to come again (503).

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """serve_test.py PROGRAM: the live page's server, by sockets: what it says, to how many, and what it withstands."""
+import contextlib
 import json
 import os
 import pathlib
+import signal
 import socket
 import subprocess
 import sys
@@ -15,15 +17,16 @@ import urllib.request
 from fingers import UNTOUCHED, Bench, Reader, cpu_s, touched
 
 PROGRAM = sys.argv.pop(1)
+FIRST_PORT_FOR_ALL = pathlib.Path("/proc/sys/net/ipv4/ip_unprivileged_port_start")
 
 
 def raw(url, data, timeout_s=10):
     """Sends bytes and returns all that comes back."""
     address = urllib.parse.urlsplit(url)
     with socket.create_connection((address.hostname, address.port), timeout=timeout_s) as connection:
+        received = b""
         try:
             connection.sendall(data)
-            received = b""
             while chunk := connection.recv(65536):
                 received += chunk
         except ConnectionError:
@@ -142,6 +145,50 @@ class Serve(unittest.TestCase):
         raw(self.url, b"GET / HTTP/1.1\r\nHost: localhost\r\n" + b"X: a\r\n" * 100000 + b"\r\n")
         self.assertServes()
 
+    def test_what_is_wrong_with_a_request_is_said(self):
+        get, post = b"GET / HTTP/1.1\r\nHost: localhost\r\n", b"POST /fingers/1/tare HTTP/1.1\r\nHost: localhost\r\nX-Strainfinger: -\r\n"
+        for status, why, data in ((400, b"is larger than 16 KiB", get + b"X: a\r\n" * 4000 + b"\r\n"),
+                                  (400, b"was not whole after 2 s", get),
+                                  (413, b"body is larger than 1024 bytes", post + b"Content-Length: 2000\r\n\r\n" + b"a" * 2000),
+                                  (414, b"address is too long", b"GET /" + b"a" * 9000 + b" HTTP/1.1\r\nHost: localhost\r\n\r\n"),
+                                  (416, b"Range was not understood", get + b"Range: bytes=5-1\r\n\r\n")):
+            answer = raw(self.url, data)
+            self.assertEqual(status, status_of(answer), data[:200])
+            self.assertIn(why, answer)
+
+    def test_of_a_page_in_many_ranges_it_is_sent_once(self):
+        plain = raw(self.url, b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n")
+        ranges = raw(self.url, b"GET / HTTP/1.1\r\nHost: localhost\r\nRange: bytes=" + b"0-," * 2000 + b"0-\r\n\r\n")
+        self.assertEqual((200, len(plain)), (status_of(ranges), len(ranges)))
+
+    def test_clients_that_never_end_their_request_keep_nobody_out(self):
+        address = urllib.parse.urlsplit(self.url)
+        slow = [socket.create_connection((address.hostname, address.port)) for _ in range(120)]
+        for connection in slow:
+            connection.sendall(b"GET / HTTP/1.1\r\nHost: localhost\r\n")
+        asked, began = socket.create_connection((address.hostname, address.port), timeout=0.5), time.monotonic()
+        asked.sendall(b"GET /state HTTP/1.1\r\nHost: localhost\r\n\r\n")
+        answer = b""
+        while not answer:
+            self.assertLess(time.monotonic() - began, 15)  # 2 s for 96 threads, 4 s for all
+            for connection in slow:
+                with contextlib.suppress(ConnectionError):
+                    connection.sendall(b"X: a\r\n")
+            with contextlib.suppress(TimeoutError):
+                answer = asked.recv(100)
+        self.assertEqual(200, status_of(answer))
+        for connection in slow + [asked]:
+            connection.close()
+
+    def test_a_burst_of_clients_waits_in_the_system(self):
+        address = urllib.parse.urlsplit(self.url)
+        self.process.send_signal(signal.SIGSTOP)
+        try:
+            for connection in [socket.create_connection((address.hostname, address.port), timeout=0.9) for _ in range(100)]:
+                connection.close()
+        finally:
+            self.process.send_signal(signal.SIGCONT)
+
     def test_ranges_of_events_are_harmless(self):
         address = urllib.parse.urlsplit(self.url)
         with socket.create_connection((address.hostname, address.port), timeout=5) as connection:
@@ -198,6 +245,19 @@ class Serve(unittest.TestCase):
         self.assertEqual(3, run.returncode)
         self.assertIn(f"cannot listen on 127.0.0.1 port {port}: another program does", run.stderr)
 
+    def test_an_address_that_cannot_be_listened_on_is_said_why(self):
+        for address, why in (("192.0.2.1", "this machine has no such address"), ("no.such.invalid", "this is no address: ")):
+            run = subprocess.run([PROGRAM, "serve", "--can", self.bench.bus, "--port", "0", "--address", address], capture_output=True, text=True)
+            self.assertEqual(3, run.returncode)
+            self.assertIn(f"cannot listen on {address} port 0: {why}", run.stderr)
+
+    @unittest.skipIf(int(FIRST_PORT_FOR_ALL.read_text()) <= 80, "here everybody may listen on all ports")
+    def test_a_port_for_root_is_said_to_be(self):
+        nobody = {"user": 65534} if os.geteuid() == 0 else {}
+        run = subprocess.run([PROGRAM, "serve", "--can", self.bench.bus, "--port", "80"], capture_output=True, text=True, **nobody)
+        self.assertEqual(3, run.returncode)
+        self.assertIn("cannot listen on 127.0.0.1 port 80: ports below 1024 are for root", run.stderr)
+
 
 class Cost(unittest.TestCase):
     def test_three_fingers_cost_less_than_a_tenth_of_a_core_and_no_frame(self):
@@ -252,8 +312,8 @@ class Open(unittest.TestCase):
 
     def test_a_token_can_be_given(self):
         with Bench(PROGRAM) as bench:
-            _, url = bench.serve("--token", "secret")
-            self.assertTrue(url.endswith("/#secret"))
+            _, url = bench.serve("--token", "kept secret")
+            self.assertTrue(url.endswith("/#kept%20secret"))
             self.assertEqual(403, post(url.partition("#")[0] + "fingers/1/tare", {"X-Strainfinger": "-"})[0])
 
     def test_a_token_of_the_environment_is_not_in_the_list_of_processes(self):
@@ -268,8 +328,8 @@ class Open(unittest.TestCase):
 
     def test_the_option_counts_before_the_environment(self):
         with Bench(PROGRAM) as bench:
-            _, url = bench.serve("--token", "said", env=dict(os.environ, STRAINFINGER_TOKEN="kept"))
-            self.assertTrue(url.endswith("/#said"))
+            _, url = bench.serve("--token", "said here", env=dict(os.environ, STRAINFINGER_TOKEN="kept there"))
+            self.assertTrue(url.endswith("/#said%20here"))
 
 
 class Usage(unittest.TestCase):
@@ -290,8 +350,15 @@ class Usage(unittest.TestCase):
         self.check(2, named, "--can", "udp", "--address", "0.0.0.0", STRAINFINGER_TOKEN="")
 
     def test_a_token_that_no_header_can_hold_is_refused(self):
-        for token in ("two\nlines", "gr\u00fcn", "a%41", " x", "x "):
+        for token in ("two\nlines of it", "gr\u00fcn wie Gras", "percent%41", " in front", "far behind "):
             self.check(2, "must be printable ASCII", "--can", "udp", "--token", token)
+
+    def test_a_token_that_can_be_guessed_is_refused(self):
+        self.check(2, "has 7 characters and can be guessed: it must have 8 at least", "--can", "udp", "--token", "1234567")
+
+    def test_what_no_machine_has_for_an_address_is_refused(self):
+        self.check(2, "--address is empty", "--can", "udp", "--address", "")
+        self.check(2, "brackets are for a browser, leave them out", "--can", "udp", "--address", "[::1]")
 
     def test_a_missing_interface_is_said_with_its_remedy(self):
         self.check(3, "nocan7", "--can", "nocan7")

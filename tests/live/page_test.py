@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """page_test.py PROGRAM [PICTURE]: the live page in headless Chromium. With PICTURE, a screenshot of it is left there."""
 import contextlib
+import json
 import signal
 import socket
 import subprocess
@@ -90,6 +91,67 @@ class LivePage(unittest.TestCase):
         finger = '{troubles: ["silent for 2.0 s"], faults: ["noisy"], gauges: {out_of_use: [3]}}'
         self.assertRegex(self.page.value(f"warningsOf({finger})"), r"^silent for 2\.0 s · fault noisy: .+ · gauges out of use: 3$")
 
+    def test_what_is_not_known_is_not_said_to_be_untouched(self):
+        for expected, finger in (("silent, not known whether it is touched", "{silent: true, touch: null, state: 'run'}"),
+                                 ("another protocol, not known whether it is touched", "{foreign: true, touch: null, state: null}"),
+                                 ("fault, not known whether it is touched", "{touch: {touched: false}, state: 'fault'}"),
+                                 ("no touch known", "{touch: null, state: 'run'}"),
+                                 ("not touched", "{touch: {touched: false}, state: 'run'}"),
+                                 ("touched at 12 degrees, normal force 0.34 newton",
+                                  "{touch: {touched: true, angle_deg: 12.3, normal_n: .341}, state: 'run'}")):
+            self.assertEqual(expected, self.page.value(f"summaryOf({finger})"))
+
+    def test_warnings_are_news_once(self):
+        fingers = [dict(finger, state="run", silent=silent, touch={"touched": False}, gauges=None) for finger, silent in (
+            ({"troubles": [], "faults": []}, False), ({"troubles": [], "faults": ["noisy"]}, False), ({"troubles": [], "faults": ["noisy"]}, False),
+            ({"troubles": ["silent for 0.5 s"], "faults": ["noisy"]}, True), ({"troubles": ["silent for 0.6 s"], "faults": ["noisy"]}, True),
+            ({"troubles": [], "faults": []}, False))]
+        told = self.page.value(f"""(() => {{ const card = {{...cards.get(2), section: svg("g", {{}}), toldOf: kNothingTold}}, kept = news;
+          return {json.dumps(fingers)}.map(finger => {{ news = []; say(card, finger); const told = news.join("; "); news = kept; return told; }}); }})()""")
+        self.assertRegex(told[1], "^Finger 2: fault noisy: ")
+        self.assertEqual(["", "", "Finger 2: silent, not known whether it is touched", "", "Finger 2: not touched; Finger 2: no warnings any more"],
+                         told[:1] + told[2:])
+
+    def test_points_of_a_clock_that_was_set_back_are_dropped(self):
+        later, drawn = self.page.value("""(() => { const finger = newest.fingers[0], card = cards.get(1), kept = card.points.slice();
+          show(finger, newest.time_s - 3600);
+          const later = card.points.filter(point => point.t > newest.time_s - 3600).length, drawn = card.points.length;
+          card.points = kept;
+          return [later, drawn]; })()""")
+        self.assertEqual((0, 1), (later, drawn))
+
+    def test_lines_are_told_apart_without_colours(self):
+        legend = self.page.value("[...document.querySelectorAll('#finger-1 [data-line] path')].map(path => path.getAttribute('stroke-dasharray'))")
+        self.assertEqual((4, 4), (len(legend), len(set(legend))))
+        drawn = self.page.value("""(() => { const canvas = document.createElement("canvas"), pen = canvas.getContext("2d"), dashes = [];
+          let dash;
+          pen.setLineDash = given => { dash = given.join(" ") || "none"; };
+          pen.stroke = () => dashes.push(dash);
+          const force = {value: .2, sigma: 0, least: .2, most: .2};
+          drawForces(canvas, [{t: 1, normal: force, tangential: force, normal2: .1, tangential2: .1}], 1);
+          return dashes; })()""")
+        self.assertTrue(set(legend) <= set(drawn), (legend, drawn))
+
+    def told_of_a_tare(self, error):
+        return self.page.value(f"""(async () => {{ const real = fetch; window.fetch = async () => {{ throw {error}; }};
+          await tare(cards.get(2), 2);
+          window.fetch = real;
+          return cards.get(2).find(".told").textContent; }})()""")
+
+    def test_of_a_tare_without_answer_no_more_is_said_than_is_known(self):
+        self.assertEqual("No answer in 10 s: the zero may have been taken or not.", self.told_of_a_tare("new DOMException('', 'TimeoutError')"))
+        self.assertEqual("No answer: the program cannot be reached.", self.told_of_a_tare("new TypeError('Failed to fetch')"))
+
+    def test_an_outcome_is_forgotten_after_half_a_minute(self):
+        self.assertEqual([30000, "done", ""], self.page.value("""(() => { const real = setTimeout, card = cards.get(2), told = card.find(".told");
+          let later, after_ms;
+          window.setTimeout = (what, ms) => { later = what; after_ms = ms; };
+          showOutcome(card, "done");
+          window.setTimeout = real;
+          const shown = told.textContent;
+          later();
+          return [after_ms, shown, told.textContent]; })()"""))
+
     def test_flags_of_doubt_stand_out(self):
         doubts = self.page.value("""(() => { const list = document.createElement('ul'); showChips(list, ['contact', 'uncertain', 'simulated', 'stale_zero']);
           return [...list.children].map(chip => [chip.textContent, chip.classList.contains('doubt')]); })()""")
@@ -101,7 +163,7 @@ class LivePage(unittest.TestCase):
 
     def test_an_untouched_finger_shows_none(self):
         self.assertEqual("–", self.page.text("#finger-2 .angle"))
-        self.assertEqual("Finger 2: not touched", self.page.value("document.querySelector('#finger-2 svg').getAttribute('aria-label')"))
+        self.assertEqual("Finger 2: no touch known", self.page.value("document.querySelector('#finger-2 svg').getAttribute('aria-label')"))
 
     def test_the_cross_section_has_arrow_wedge_and_width(self):
         parts = self.page.wait_for("(() => { const live = document.querySelector('#finger-1 svg g'); return live.childElementCount >= 3 && live.innerHTML; })()")
@@ -162,6 +224,17 @@ class LivePage(unittest.TestCase):
         self.assertEqual([], self.page.value("""[...document.querySelectorAll('dd')].filter(value =>
           value.scrollWidth > value.clientWidth).map(value => value.textContent)"""))
         self.page.resize(1100, 900)
+
+    def test_it_fits_a_phone_whose_text_is_doubled(self):
+        self.page.resize(320, 780, phone=True)
+        self.page.wait_for("document.documentElement.clientWidth === 320")
+        self.page.value("document.documentElement.style.fontSize = '200%', document.body.style.fontSize = '30px'")
+        beyond = self.page.value("""[...document.querySelectorAll('body *')].filter(part => part.getBoundingClientRect().right > 321)
+          .map(part => part.tagName + " " + part.textContent.slice(0, 20))""")
+        width = self.page.value("document.documentElement.scrollWidth")
+        self.page.value("document.documentElement.style.fontSize = document.body.style.fontSize = ''")
+        self.page.resize(1100, 900)
+        self.assertEqual(([], 320), (beyond, width))
 
     def contrast(self, ink, paper):
         return self.page.value("""((a, b) => {
@@ -266,6 +339,42 @@ class Ending(unittest.TestCase):
             apart_s = page.value("runs(cards.get(1).points, point => point.normal).map(run => Math.max(0, ...run.slice(1).map((point, i) => point.t - run[i].t)))")
             self.assertLess(max(apart_s), 0.35)
 
+    def test_an_outcome_is_not_shown_of_another_connection(self):
+        with shown_finger() as (page, process):
+            page.value("showOutcome(cards.get(1), 'done')")
+            process.send_signal(signal.SIGSTOP)
+            page.wait_for("document.querySelector('#finger-1 .state').textContent === 'not connected'")
+            process.send_signal(signal.SIGCONT)
+            page.wait_for("document.querySelector('#finger-1 .state').textContent === 'run'")
+            self.assertEqual("", page.text("#finger-1 .told"))
+
+    def test_silence_is_news_once(self):
+        with Bench(PROGRAM) as bench:
+            finger = bench.finger(1, UNTOUCHED)
+            _, url = bench.serve()
+            with browser.Page(url) as page:
+                page.wait_for("document.querySelector('#finger-1 .state')?.textContent === 'run'")
+                Bench._end(finger)
+                page.wait_for("document.querySelector('#news').textContent === 'Finger 1: silent, not known whether it is touched'")
+                self.assertEqual("Finger 1: silent, not known whether it is touched", page.value("document.querySelector('#finger-1 svg').getAttribute('aria-label')"))
+                page.value("window.told = 0; new MutationObserver(() => window.told++).observe(document.querySelector('#news'), {childList: true, subtree: true})")
+                page.wait_for("/silent for [2-9]/.test(document.querySelector('#finger-1 .warnings').textContent)")
+                self.assertEqual(0, page.value("window.told"))
+
+    def test_a_finger_that_went_before_the_page_connected_again_is_not_heard_since(self):
+        with Bench(PROGRAM) as bench:
+            finger = bench.finger(1)
+            process, url = bench.serve()
+            with browser.Page(url) as page:
+                page.wait_for("document.querySelector('#finger-1 .state')?.textContent === 'run'")
+                Bench._end(finger)
+                Bench._end(process)
+                page.wait_for("document.querySelector('#finger-1 .state').textContent === 'not connected'")
+                bench.start("serve", "--can", bench.bus, "--port", url.rstrip("/").rpartition(":")[2], stderr=subprocess.DEVNULL)
+                page.wait_for("document.querySelector('#link').textContent === 'live'")
+                page.wait_for("document.querySelector('#finger-1 .state').textContent === 'not heard since the page connected'")
+                self.assertTrue(page.value("document.querySelector('#finger-1 button').disabled"))
+
     def test_a_page_draws_by_the_config_of_the_program_that_it_finds_again(self):
         with Bench(PROGRAM) as bench:
             bench.finger(1)
@@ -294,6 +403,15 @@ class Ending(unittest.TestCase):
             with browser.Page(url) as page:
                 page.wait_for("document.querySelector('#finger-1 button')?.disabled")
                 self.assertIn("token", page.text("#finger-1 .told"))
+                page.value("location.hash = '#of-an-earlier-start'")  # as the address of a bookmark
+                page.wait_for("!document.querySelector('#finger-1 button').disabled && !document.querySelector('#finger-1 .told').textContent")
+                page.value("document.querySelector('#finger-1 button').click()")
+                page.wait_for("/another token. Open the page by the address/.test(document.querySelector('#finger-1 .told').textContent)")
+                page.value(f"location.hash = '#{token}'")
+                page.value("document.querySelector('#finger-1 button').click()")
+                page.wait_for("document.querySelector('#finger-1 .told').textContent === 'node 1: tare: Done'")
+            with browser.Page(url + "#100%") as page:  # no token that can be decoded
+                page.wait_for("document.querySelector('#link').textContent === 'live'")
             with browser.Page(url + "#" + token) as page:
                 page.wait_for("document.querySelector('#finger-1 .state')?.textContent === 'run'")
                 page.value("document.querySelector('#finger-1 button').click()")
@@ -331,7 +449,7 @@ def take_picture():
     with Bench(PROGRAM) as bench:
         for node, scenario in ((1, WIDE_SLIDE), (2, TWO)):
             bench.replayed(node, scenario, 50)
-        _, url = bench.serve()
+        _, url = bench.serve("-c", str(bench.folder / "config_1"))
         with browser.Page(url, 920, 770) as page:
             page.wait_for("cards.size === 2 && cards.get(1).points.length > 0 && newest.time_s - cards.get(1).points[0].t > 29.5", 90)
             page.wait_for("newest.fingers.every(finger => finger.touch?.touched) && newest.fingers[1].touch.second?.normal_n > .25", 20)

@@ -1,4 +1,8 @@
 // `push`, to a finger that runs beside it.
+#include <unistd.h>
+
+#include <string>
+
 #include <CppUTest/TestHarness.h>
 
 #include "tests/commands/with_finger.hpp"
@@ -19,9 +23,61 @@ Run withUntouchedFinger(const std::string& script) {
   return withFinger(kUntouched, kFiles + kOther + script + "\nstatus=$?; rm -r $files; exit $status");
 }
 
+/// Pushes to a finger that does everything as told by common/BUS_REQUESTS.md, but never starts anew although
+/// its HEARTBEATs are those of one that works with the default tables, and that answers a word with `due`,
+/// which may use the word's number `word`.
+Run pushToAFake(const std::string& due) {
+  return runShell("BUS=udp:" + std::to_string(20'000 + getpid() % 40'000) + R"(
+exec 3< <(exec /usr/bin/python3 -c '
+import socket, struct, sys, time
+group, port = "239.255.67.65", int(sys.argv[1])
+hears, speaks = (socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in range(2))
+hears.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+hears.bind((group, port))
+hears.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, socket.inet_aton(group) + socket.inet_aton("127.0.0.1"))
+hears.settimeout(0.05)
+speaks.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, socket.inet_aton("127.0.0.1"))
+speaks.bind(("127.0.0.1", 0))
+def say(identifier, data):
+  speaks.sendto(bytes([1, identifier >> 8, identifier & 255, 8]) + data, (group, port))
+print("listens", flush=True)
+said_s = 0
+while True:
+  if time.monotonic() - said_s > 0.1:
+    said_s = time.monotonic()
+    say(0x701, struct.pack("<BHHbBB", 0x22, 0, 523, 25, 0, 0xDD))
+  try:
+    heard = hears.recv(16)
+  except TimeoutError:
+    continue
+  if heard[1:3] != b"\x06\x01":
+    continue
+  command, word = struct.unpack("<BH", heard[5:8])
+  say(0x581, struct.pack("<BBBIB", 6, 0x80 | command, 0, )" +
+                  due + R"( if command == 8 else 0, 0))' ${BUS#udp:}); fake=$!
+trap 'kill $fake' EXIT
+read -r -u 3
+"$STRAINFINGER" push --can $BUS)");
+}
+
 }  // namespace
 
 TEST_GROUP(PushCommand) {};
+
+TEST(PushCommand, AFingerThatAnswersAnotherWordIsQuoted) {
+  const Run run = pushToAFake("word + 1 if word < 5 else 77");
+  LONGS_EQUAL(1, run.status);
+  STRCMP_CONTAINS("ended after 5 of 6142 words", run.err.c_str());
+  STRCMP_CONTAINS("node 1: word 5: it answered that word 77 is due, where word 6 is: push again",
+                  run.err.c_str());
+}
+
+TEST(PushCommand, AFingerThatDidNotStartAnewIsNotTakenForOneThatWorksWithTheTables) {
+  const Run run = pushToAFake("word + 1");
+  LONGS_EQUAL(1, run.status);
+  STRCMP_EQUAL("", run.out.c_str());
+  STRCMP_CONTAINS("did not start anew when it was told to: it is up for 523 s", run.err.c_str());
+}
 
 TEST(PushCommand, AFingerWorksWithTheTablesOfAConfigFromItsNextStartOn) {
   const Run run = withUntouchedFinger(R"(

@@ -47,14 +47,14 @@ class WithoutTables {
   /// One turn of the main loop. Blocks for as long as the memory takes to write 8 bytes or to erase a page.
   void step(std::uint32_t now_us) {
     for (; now_us - second_us_ >= hal::kSecond_us; second_us_ += hal::kSecond_us) ++uptime_s_;
-    isCalled_ &= loader_.isFresh();
-    if (isCalled_ && uptime_s_ - calledAt_s_ >= kCallerGone_s) isLeaving_ = true;
     heartbeat_.step(can_, now_us);
     if (response_ && now_us - requestedAt_us_ >= std::uint32_t{kAnswerWithin_ms} * 1000) response_.reset();
-    if (!response_) {
+    if (!response_ && !isLeaving_) {
       requestedAt_us_ = now_us;
       if (const auto request = nextRequest(can_, node_)) response_ = obey(*request);
     }
+    isCalled_ &= loader_.isFresh();
+    if (isCalled_ && uptime_s_ - calledAt_s_ >= kCallerGone_s) isLeaving_ = true;
     if (response_ && can_.send(encode(*response_, node_))) response_.reset();
   }
 
@@ -75,6 +75,7 @@ class WithoutTables {
   /// One whose answer was lost may be said again.
   ResponseFrame load() {
     if (!hasMemory_) return responseTo(Command::kLoad, CommandStatus::kNotKept);
+    calledAt_s_ = uptime_s_;
     if (loader_.isFresh()) return responseTo(Command::kLoad, CommandStatus::kDone);
     if (const std::uint32_t wait_s = budget_.wait_s(uptime_s_); wait_s > 0)
       return responseTo(Command::kLoad, CommandStatus::kWait, wait_s);
@@ -94,8 +95,8 @@ class WithoutTables {
   std::uint32_t requestedAt_us_ = 0;
   std::uint32_t second_us_;  ///< when the last whole second ended
   std::uint32_t uptime_s_;
-  bool isCalled_;  ///< by a `load` that stopped it, at calledAt_s_, and no word has come
-  std::uint32_t calledAt_s_;
+  bool isCalled_;             ///< by a `load` that stopped it, and no word has come
+  std::uint32_t calledAt_s_;  ///< by the last `load`
 };
 
 }  // namespace strainfinger::firmware

@@ -23,13 +23,15 @@ class GaugeWatch {
   void takeOut(GaugeSet gauges) { outOfUse_ |= gauges; }
   /// Once a touched sample set, and after lookBack(): the suspect, if there is one, and the contact's angle.
   void suspect(GaugeSet gauge, std::uint32_t angle_q32);
-  /// Gauges at a rail that should be well within their range: two sets in a row take them out of use.
-  void implausiblyAtRail(GaugeSet gauges) {
-    const GaugeSet out = gauges & atRail_;
+  /// Gauges at a rail that should be well within their range: two sets in a row take them out of use. Returns
+  /// true if that takes out any.
+  bool implausiblyAtRail(GaugeSet gauges) {
+    const GaugeSet out = gauges & atRail_ & ~outOfUse_;
     atRail_ = gauges;
-    if (out == 0) return;
+    if (out == 0) return false;
     outOfUse_ |= out;
     railed_ |= out;
+    return true;
   }
   /// Of these, those that are out of use because they were at a rail come back.
   void noLongerAtRail(GaugeSet gauges) { comeBack(gauges & railed_); }
@@ -57,7 +59,7 @@ class GaugeWatch {
   GaugeSet outOfUse_ = 0;
   GaugeSet suspects_ = 0;  ///< at one place or more
   GaugeSet atRail_ = 0;    ///< in the last set
-  GaugeSet railed_ = 0;    ///< out of use because they were
+  GaugeSet railed_ = 0;    ///< out of use because they were, and for no other reason
 };
 
 inline void GaugeWatch::suspect(GaugeSet gauge, std::uint32_t angle_q32) {

@@ -98,7 +98,7 @@ void Pipeline::watchGauges() {
     if (magnitude(predicted) >= threshold::kFelt) (off <= magnitude(predicted) / 4 ? right : wrong) |= gauge;
   }
   if (atRail != 0) atRail &= judgedAtRail(constants(), answer.solution, observation_.saturated);
-  watch_.implausiblyAtRail(atRail);
+  if (watch_.implausiblyAtRail(atRail)) tracker_.beginAnew();
   watch_.suspect(suspect, answer.solution.contact[0].angle_q32);
   watch_.vindicate(right & ~suspect, wrong);
 }
@@ -164,7 +164,7 @@ void Pipeline::observe(Codes codes) {
     std::copy(codes.begin(), codes.end(), codes_.begin());
   } else {
     gate_ = {};
-    watch_.implausiblyAtRail(observation_.saturated & working);
+    if (watch_.implausiblyAtRail(observation_.saturated & working)) tracker_.beginAnew();
     isTouch_ = false;
     contrarySets_ = 0;
     if (wasOverGate) {

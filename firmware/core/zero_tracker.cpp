@@ -16,8 +16,8 @@ constexpr int kContactBits = 4;
 /// Averages whose energy is below so many of a reading's variances are left alone: their shape says too
 /// little.
 constexpr int kWorthFollowing = 3;
-/// A gauge reads nothing if its average is within so many standard deviations of a reading: it would not open
-/// the gate by itself.
+/// A gauge reads nothing if its average is within so many standard deviations of a reading: a zero that is so
+/// far off makes no contact by itself, and is followed.
 constexpr Number kCalm = 2;
 /// [log2] Contacts rest while they turn by no more than this part of a pitch and their loads change by no
 /// more than this part of the normal load.

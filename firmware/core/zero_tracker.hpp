@@ -50,6 +50,9 @@ class ZeroTracker {
     return ++sets_ % kEvery == 0 && average(tables, strains_q32, locator, calibration, scratch);
   }
 
+  /// Forgets the sets of the interval that has begun: a gauge has been at a rail in them.
+  void beginAnew() { begin(touched_); }
+
   /// Sample sets since all zeros were last seen untouched; saturating.
   std::uint32_t age_sets() const { return age_sets_; }
   bool stale() const { return age_sets_ > kStaleSets; }

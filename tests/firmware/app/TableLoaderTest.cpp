@@ -205,6 +205,24 @@ TEST(WithoutTables, ItStartsAnewByItselfIfNoWordFollowsTheLoad) {
   CHECK_TRUE(finger.isLeaving());
 }
 
+TEST(WithoutTables, AWordInTheLastMomentKeepsIt) {
+  for (int half_s = 1; half_s < 60; ++half_s) step(500'000);
+  can.deliver(encode(wordRequest(0, 7), kNode));
+  step(500'000);
+  CHECK_TRUE(can.sent.back() == encode(responseTo(Command::kWord, CommandStatus::kDone, 1), kNode));
+  CHECK_FALSE(finger.isLeaving());
+}
+
+TEST(WithoutTables, AnotherLoadIsWaitedForAsLong) {
+  for (int second = 0; second < 29; ++second) step(1'000'000);
+  checkAnswered(loadRequest(), responseTo(Command::kLoad, CommandStatus::kDone));
+  for (int second = 0; second < 29; ++second) step(1'000'000);
+  CHECK_FALSE(finger.isLeaving());
+  step(1'000'000);
+  step(1'000'000);
+  CHECK_TRUE(finger.isLeaving());
+}
+
 TEST(WithoutTables, AfterAWordItWaitsForTheOthers) {
   step();
   checkAnswered(wordRequest(0, 7), responseTo(Command::kWord, CommandStatus::kDone, 1));

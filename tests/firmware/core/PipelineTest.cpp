@@ -157,17 +157,35 @@ TEST(Pipeline, GaugesThatWereAtARailCountAgainOnceTheyReadNothing) {
   }
 }
 
-// Its wire came back with another zero, which would be a contact that isn't there.
+// Its wire came back with another zero, which would be a contact that isn't there. At any set of an interval.
 TEST(Pipeline, AGaugeThatComesBackFromARailReadingOtherwiseStaysOutOfUse) {
-  std::vector<double> strains(16, 0.0);
-  for (int set = 0; set < 2; ++set) processWithFive(strains, 0);
-  strains[5] = 20 * ring.noise_strain();
-  process(strains, 4 * ZeroTracker::kInterval);
+  const std::vector<double> nothing(16, 0.0);
+  for (int before = 0; before < ZeroTracker::kInterval; before += 37) {
+    pipeline = Pipeline(ring.tables(), FitMode::kRefined);
+    process(nothing, 1 + before);
+    for (int set = 0; set < 2; ++set) processWithFive(nothing, 0);
+    std::vector<double> other = nothing;
+    other[5] = 5 * ring.noise_strain();
+    for (int set = 0; set < 4 * ZeroTracker::kInterval; ++set) CHECK_FALSE(process(other).touched);
+    UNSIGNED_LONGS_EQUAL(1u << 5, pipeline.observation().outOfUse);
+    process(nothing, 2 * ZeroTracker::kInterval);
+    UNSIGNED_LONGS_EQUAL(0, pipeline.observation().outOfUse);
+  }
+}
+
+// Though it was at a rail as well.
+TEST(Pipeline, AGaugeThatIsOutOfUseForItsZeroStaysSo) {
+  const std::vector<double> nothing(16, 0.0);
+  ZeroAverage zero;
+  while (!zero.complete()) {
+    convert(nothing);
+    codes[5] = 0;
+    zero.add(codes);
+  }
+  pipeline.takeZero(zero);
+  for (int set = 0; set < 40; ++set) processWithFive(ring.strains({5.4, 20, 3, 1}), 0);
+  for (int set = 0; set < 3 * ZeroTracker::kInterval; ++set) processWithFive(nothing, 0);
   UNSIGNED_LONGS_EQUAL(1u << 5, pipeline.observation().outOfUse);
-  CHECK_FALSE(pipeline.observation().touched);
-  strains[5] = 0;
-  process(strains, 2 * ZeroTracker::kInterval);
-  UNSIGNED_LONGS_EQUAL(0, pipeline.observation().outOfUse);
 }
 
 // A second contact so light that the first alone is accepted, though it leaves doubt.

@@ -28,7 +28,8 @@ constexpr const char* kRecordHelp =
     "Beside it, in the same name with .toml: the config (-c), versions, and the fingers that were heard; it "
     "can be given to -c.\n"
     "If the program is killed, what was on the bus up to half a second before is in the file, in whole "
-    "lines; if the disk is full it says so and ends with status 1.\n"
+    "lines; if the disk is full, or the log is removed or cut meanwhile, it says so and ends with status "
+    "1.\n"
     "The log is what `decode`, `plot` and `replay` read.";
 
 constexpr auto kFlushPeriod = 250ms;
@@ -93,6 +94,8 @@ void runRecord(const RecordOptions& options) {
   tell("record: {} frames in {:.1f} s, {} missed: {}, {}\n", progress.frames,
        std::chrono::duration<double>(Clock::now() - start).count(), progress.missed, recording.path(),
        recording.notesPath());
+  if (const std::string name = recording.renamedTo(); !name.empty())
+    warn("record", fmt::format("{} was renamed meanwhile: all is in {}", recording.path(), name));
   if (progress.gaps > 0)
     warn("record", fmt::format("{} was away {} meanwhile: {} says when", port->name(),
                                progress.gaps == 1 ? "once" : fmt::format("{} times", progress.gaps),

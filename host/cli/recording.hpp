@@ -32,7 +32,7 @@ class Recording {
   bool isBusThere() const { return isBusThere_; }
 
   /// Hands what was heard to the system: a killed program loses what came since. Throws Failure(kFailure)
-  /// when the disk is full.
+  /// when the disk is full, and when others have removed the log or cut it.
   void flush();
 
   /// The last flush(); completes the notes. Throws like it.
@@ -47,6 +47,8 @@ class Recording {
   const RecordingProgress& progress() const { return progress_; }
   const std::string& path() const { return path_; }
   const std::string& notesPath() const { return notesPath_; }
+  /// See can::LogWriter.
+  std::string renamedTo() const { return log_.renamedTo(); }
 
  private:
   void writeNotes() const;

@@ -84,6 +84,30 @@ TEST(Record, AFullDiskIsSaidAndLeavesWholeLines) {
   checkSays("x.log: cannot write: File too large; what was written before stays\n", run);
 }
 
+TEST(Record, ALogThatIsRemovedMeanwhileIsSaidAtOnce) {
+  const Run run = inFolder("record; replay in; sleep 0.4; rm x.log; wait $recorder", frames(10));
+  LONGS_EQUAL(1, run.status);
+  checkSays("x.log: it was removed while it was written: all its frames, up to 20", run);
+}
+
+TEST(Record, ALogThatIsCutMeanwhileIsSaidAtOnce) {
+  const Run run = inFolder("record; replay in; sleep 0.4; truncate -s 47 x.log; wait $recorder", frames(10));
+  LONGS_EQUAL(1, run.status);
+  checkSays("x.log: it was cut while it was written", run);
+  checkSays("what came behind its first 47 bytes, up to 20", run);
+}
+
+TEST(Record, ALogThatIsRenamedMeanwhileIsWholeUnderItsNewName) {
+  const Run run = inFolder(
+      "record; replay in; sleep 0.4; mv x.log y.log; touch x.log; replay in; stop INT; grep -c . y.log",
+      frames(10));
+  STRCMP_EQUAL("20\n", run.out.c_str());
+  checkSays("record: warning: x.log was renamed meanwhile: all is in /", run);
+  checkSays("/y.log\n", run);
+  const Run own = inFolder("record; stop INT");
+  CHECK(own.err.find("renamed") == std::string::npos);
+}
+
 TEST(Record, NeverWritesOverAFile) {
   const Run run = inFolder("echo old >x.log; record; wait $recorder; status=$?; cat x.log; exit $status");
   LONGS_EQUAL(1, run.status);

@@ -26,7 +26,11 @@ class StrainReceiver {
   std::optional<StrainSet> take(const CanFrame& frame) {
     const auto set = raw_.take(frame);
     const auto& zeros = raw_.zeros();
-    if (!set || zeros.size() != set->codes.size()) return std::nullopt;
+    if (!set) return std::nullopt;
+    if (zeros.size() != set->codes.size()) {
+      ++withoutZeros_;
+      return std::nullopt;
+    }
     StrainSet found{set->zeroing, {}};
     for (std::size_t i = 0; i < zeros.size(); ++i)
       found.strains.push_back(strainOfCode_ * (int{set->codes[i]} - int{zeros[i]}));
@@ -34,6 +38,7 @@ class StrainReceiver {
   }
 
   std::uint64_t incomplete() const { return raw_.incomplete(); }  ///< sets that lost a page
+  std::uint64_t withoutZeros() const { return withoutZeros_; }    ///< whole sets before the first zeros
   /// As RawReceiver's.
   void requireAllGauges() const { raw_.requireAllGauges(); }
   bool sendsAny() const { return raw_.sendsAny(); }
@@ -42,6 +47,7 @@ class StrainReceiver {
  private:
   RawReceiver raw_;
   double strainOfCode_;
+  std::uint64_t withoutZeros_ = 0;
 };
 
 }  // namespace strainfinger::can

@@ -6,17 +6,24 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/frames.hpp"
 #include "common/raw_share.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/line_reader.hpp"
 #include "host/base/notice.hpp"
 #include "host/base/strain_rows.hpp"
 #include "host/base/text_output.hpp"
 #include "host/can/frame_catalogue.hpp"
+#include "host/can/log_reader.hpp"
+#include "host/can/one_finger.hpp"
 #include "host/can/open_bus.hpp"
+#include "host/can/remedies.hpp"
 #include "host/can/strain_receiver.hpp"
+#include "host/cli/bus_option.hpp"
+#include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/raw_stream.hpp"
 #include "host/cli/request.hpp"
@@ -29,17 +36,27 @@ namespace {
 constexpr const char* kStrainsHelp =
     "Asks a finger for its gauges' readings (RAW) and prints them as strains, a row a sample set, until "
     "there are --rows, its duration is over or Ctrl-C; then the finger is told to stop.\n"
-    "stdout: time_s (since 1970, of arrival), strain_0, strain_1 ..: as `locate`, `shape` and `calibrate` "
-    "read them, at nominal gain and less the finger's zero.\n"
+    "FILE.. in place of --can: prints the readings that were recorded in logs (any candump text with times) "
+    "while somebody had asked for them; those before a log's first zeros, which come once a second, are left "
+    "out.\n"
+    "stdout: time_s (since 1970, of arrival; of a log, as it has it), strain_0, strain_1 ..: as `locate`, "
+    "`shape` and `calibrate` read them, at nominal gain and less the finger's zero.\n"
     "The config's gauges must be those of the finger. At the end stderr says how many sets came whole. Exit "
-    "status: 1 refused, 3 no interface, 4 no such node or no readings, 5 another ring's config.";
+    "status: 1 refused, or no readings in the logs, 3 no interface, 4 no such node or no readings, 5 another "
+    "ring's config.";
 
 constexpr std::chrono::milliseconds kSilence{3000};  ///< longer than the slowest rate's period
 constexpr double kLongestStrains_s = 1e6;
+constexpr int kUsualRate_hz = 100;
 
 struct StrainsOptions {
-  explicit StrainsOptions(CLI::App& command) : request(command) {
-    command.add_option("--rate", rate_hz, fmt::format("Sample sets a second (default {})", rate_hz))
+  explicit StrainsOptions(CLI::App& command) : common(command) {
+    command.add_option("files", paths, "Logs with RAW in them, read in this order; - is stdin")
+        ->type_name("FILE");
+    addBusOption(command, bus);
+    command.add_option("-n,--node", node, "Node number in place of the config's")->check(isNode());
+    addInterfaceOption(command, interface);
+    command.add_option("--rate", rate_hz, fmt::format("Sample sets a second (default {})", kUsualRate_hz))
         ->type_name("HZ")
         ->check(isWhole(1, int{kFastestRaw_hz}));
     command.add_option("--duration", duration_s, "Seconds; without it until Ctrl-C")
@@ -47,9 +64,13 @@ struct StrainsOptions {
         ->check(isFrom(0.001, kLongestStrains_s));
     command.add_option("--rows", rows, "So many rows at most")->type_name("N")->check(isCount());
   }
-  RequestOptions request;
-  int rate_hz = 100;
-  double duration_s = kLongestStrains_s;
+  CommonOptions common;
+  std::vector<std::string> paths;
+  std::string bus;        ///< empty: the logs
+  int node = 0;           ///< 0: the config's
+  std::string interface;  ///< empty: any
+  std::optional<int> rate_hz;
+  std::optional<double> duration_s;
   std::uint64_t rows = std::numeric_limits<std::uint64_t>::max();
 };
 
@@ -132,13 +153,13 @@ std::string othersText(const Circumstances& finger) {
 }
 
 /// The config says by what the codes are multiplied: one that is not the finger's gives wrong strains.
-void warnOfOtherTables(const Circumstances& finger, const config::FingerConfig& config) {
+void warnOfOtherTables(std::optional<std::uint8_t> tableCrc, const config::FingerConfig& config) {
   const auto wanted = tableCrcByte(tables::buildTableImage(config).crc32);
-  if (!finger.tableCrc() || *finger.tableCrc() == wanted) return;
+  if (!tableCrc || *tableCrc == wanted) return;
   warn("strains", fmt::format("the finger's tables are not those of {} (their CRC-32 ends with {:02X}, not "
                               "{:02X}): where gauges.full_scale_strain is another, all strains are off by as "
                               "much",
-                              config.source, *finger.tableCrc(), wanted));
+                              config.source, *tableCrc, wanted));
 }
 
 /// Why readings that came come no more.
@@ -161,15 +182,93 @@ std::string whyNone(bool sendsAny, const Circumstances& finger, std::uint64_t se
       waited_s);
 }
 
-void runStrains(const StrainsOptions& options) {
-  const config::FingerConfig config = options.request.common.config();
-  const std::uint8_t node = nodeOf(options.request.node, config.can);
-  const auto bus = can::openBus(options.request.bus, config.can.bitrate);
+/// What the logs of one finger say, row by row.
+class LoggedStrains {
+ public:
+  LoggedStrains(const StrainsOptions& options, const config::FingerConfig& config)
+      : options_(options),
+        config_(config),
+        node_(nodeOf(options.node, config.can)),
+        one_(node_),
+        printer_(config.gauges, options.common.format()) {}
+
+  /// A log may begin anywhere: of the one before it nothing is known any more but which finger it is.
+  void print(const std::string& path) {
+    can::LogReader log(path, options_.interface);
+    can::StrainReceiver receiver(node_, config_.gauges.count, config_.gauges.full_scale_strain);
+    while (!isWhole()) {
+      const auto text = log.next();
+      if (!text) break;
+      one_.watch(path, *text);
+      if (nodeOf(text->frame.id, FunctionCode::kHeartbeat) == node_) takeHeartbeat(path, text->frame);
+      if (const auto set = receiver.take(text->frame)) printer_.print(*text->time_ns, *set);
+    }
+    warn("strains", log.warnings());
+    log.requireInterface();
+    receiver.requireAllGauges();
+    if (printer_.sets() == 0) receiver.requireEnoughGauges();
+    incomplete_ += receiver.incomplete();
+    withoutZeros_ += receiver.withoutZeros();
+  }
+
+  bool isWhole() const { return printer_.sets() >= options_.rows; }
+
+  /// Throws Failure(kFailure) where there was no row.
+  void finish() const {
+    if (options_.common.hasConfig()) warnOfOtherTables(tableCrc_, config_);
+    tell("strains: {} sets, {} incomplete, {} before the finger told its zeros\n", printer_.sets(),
+         incomplete_, withoutZeros_);
+    if (printer_.sets() == 0)
+      throw Failure(ExitCode::kFailure,
+                    fmt::format("strains: no readings (RAW) of node {} with their zeros, which come once a "
+                                "second: record while `strainfinger strains --can ..` runs, or give -n",
+                                node_));
+  }
+
+ private:
+  void takeHeartbeat(const std::string& path, const CanFrame& frame) {
+    const auto heartbeat = decode<HeartbeatFrame>(frame);
+    if (!heartbeat) return;
+    if (heartbeat->protocol != kProtocolVersion)
+      throw Failure(ExitCode::kMismatch,
+                    fmt::format("{}: node {} {}", path, node_, can::foreignText(heartbeat->protocol)));
+    tableCrc_ = heartbeat->table_crc;
+  }
+
+  const StrainsOptions& options_;
+  const config::FingerConfig& config_;
+  std::uint8_t node_;
+  can::OneFinger one_;
+  StrainPrinter printer_;
+  std::optional<std::uint8_t> tableCrc_;  ///< as Circumstances has it
+  std::uint64_t incomplete_ = 0;
+  std::uint64_t withoutZeros_ = 0;
+};
+
+void printLogs(const StrainsOptions& options) {
+  if (options.rate_hz || options.duration_s)
+    throw Failure(ExitCode::kUsage, "strains: --rate and --duration go with --can: a log has what it has");
+  for (const std::string& path : options.paths)
+    LineReader::requireReadable(path);  // nothing is printed if one is not there
+  const config::FingerConfig& config = options.common.config();
+  LoggedStrains strains(options, config);
+  for (const std::string& path : options.paths)
+    if (!strains.isWhole()) strains.print(path);
+  strains.finish();
+}
+
+void printLive(const StrainsOptions& options) {
+  if (!options.interface.empty())
+    throw Failure(ExitCode::kUsage, "strains: --interface goes with FILE: --can names the bus");
+  const double duration_s = options.duration_s.value_or(kLongestStrains_s);
+  const config::FingerConfig config = options.common.config();
+  const std::uint8_t node = nodeOf(options.node, config.can);
+  const auto bus = can::openBus(options.bus, config.can.bitrate);
   const system::StopSignal stop;
-  RawStream stream(*bus, node, options.rate_hz, stop);
-  const auto end = StrainClock::now() + std::chrono::microseconds(std::llround(options.duration_s * 1e6));
+  RawStream stream(*bus, node, options.rate_hz.value_or(kUsualRate_hz), stop);
+  const auto end = StrainClock::now() + std::chrono::microseconds(std::llround(duration_s * 1e6));
   can::StrainReceiver receiver(node, config.gauges.count, config.gauges.full_scale_strain);
-  StrainPrinter printer(config.gauges, options.request.common.format());
+  StrainPrinter printer(config.gauges, options.common.format());
   Circumstances finger(node);
   const auto giveUp = [&](double waited_s) {
     if (printer.sets() == 0) receiver.requireEnoughGauges();
@@ -192,12 +291,19 @@ void runStrains(const StrainsOptions& options) {
     receiver.requireAllGauges();
     if (StrainClock::now() - heard > kSilence) giveUp(kSilence.count() / 1e3);
   }
-  if (options.request.common.hasConfig()) warnOfOtherTables(finger, config);
+  if (options.common.hasConfig()) warnOfOtherTables(finger.tableCrc(), config);
   tell("strains: {} sets, {} incomplete\n", printer.sets(), receiver.incomplete());
   if (const std::string others = othersText(finger); !others.empty())
     tell("strains: {}: the rate may not be --rate\n", others);
   if (stop.asked()) throw Failure(ExitCode::kInterrupted, "strains: interrupted");
-  if (printer.sets() == 0) giveUp(options.duration_s);
+  if (printer.sets() == 0) giveUp(duration_s);
+}
+
+void runStrains(const StrainsOptions& options) {
+  if (options.bus.empty() == options.paths.empty())
+    throw Failure(ExitCode::kUsage, "strains: give either --can, to ask a finger, or FILE, a log of one");
+  if (options.bus.empty()) return printLogs(options);
+  printLive(options);
 }
 
 }  // namespace

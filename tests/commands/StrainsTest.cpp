@@ -189,7 +189,81 @@ TEST(StrainsCommand, IsInterruptedWhileNobodyAnswers) {
   STRCMP_CONTAINS("udp:19997 node 1: interrupted before it answered", run.err.c_str());
 }
 
+TEST(StrainsCommand, ALogHasTheRowsThatWereThere) {
+  const Run run = withFinger("", R"(
+cd $(mktemp -d); trap 'rm -r $PWD; kill -INT $finger; wait $finger' EXIT
+"$STRAINFINGER" record --can $BUS -o x.log 2>/dev/null & recorder=$!; listening $recorder
+"$STRAINFINGER" strains --can $BUS --rate 100 --rows 20 >live.csv || exit
+sleep 0.4; kill -INT $recorder; wait $recorder
+"$STRAINFINGER" strains x.log --rows 20 >log.csv || exit
+cut -d, -f2- live.csv >live; cut -d, -f2- log.csv | cmp live - && wc -l <log.csv
+sed 's/ udp[^ ]* / can7 /' x.log >y.log
+"$STRAINFINGER" strains --rows 20 - y.log <y.log --interface can7 | cmp log.csv - && echo same
+head -n 1 log.csv; [ $(sed -n 2p log.csv | cut -d. -f1) -gt 1600000000 ] && echo since 1970)");
+  LONGS_EQUAL(0, run.status);
+  STRCMP_CONTAINS("21\nsame\ntime_s,strain_0,strain_1,", run.out.c_str());
+  STRCMP_CONTAINS("\nsince 1970\n", run.out.c_str());
+  STRCMP_CONTAINS("strains: 20 sets, 0 incomplete, ", run.err.c_str());
+}
+
+namespace {
+
+/// Zeros and two sample sets of a finger of twelve gauges; the first is before the zeros. Of the others gauge
+/// 0 is a code above its zero, gauge 3 one below.
+std::string logOfTwelve() {
+  std::string log;
+  for (const std::string page :
+       {"0000", "0100", "0200", "0300", "2002", "2102", "2202", "2302", "0003", "0103", "0203", "0303"}) {
+    log += "(1.0" + page.substr(2) + "000) can0 401#" + page;
+    log += page == "2102" || page == "0003" ? "0180" : "0080";
+    log += "00800080\n";
+  }
+  return log;
+}
+
+/// `strains` of that finger's logs.
+Run strainsOf(const std::string& arguments, const std::string& log) {
+  return runShell(
+      "\"$STRAINFINGER\" strains -c <(printf 'schema = 1\\n[gauges]\\ncount = 12\\nfull_scale_strain "
+      "= 0.03125\\n') " +
+          arguments,
+      log);
+}
+
+}  // namespace
+
+TEST(StrainsCommand, ALogsStrainsAreThoseOfItsCodesLessItsZeros) {
+  const Run run = strainsOf("-", logOfTwelve());
+  LONGS_EQUAL(0, run.status);
+  STRCMP_EQUAL(
+      "time_s,strain_0,strain_1,strain_2,strain_3,strain_4,strain_5,strain_6,strain_7,strain_8,strain_9,"
+      "strain_10,strain_11\n"
+      "1.003000,9.5367431640625e-07,0,0,-9.5367431640625e-07,0,0,0,0,0,0,0,0\n",
+      run.out.c_str());
+  STRCMP_CONTAINS("strains: 1 sets, 0 incomplete, 1 before the finger told its zeros\n", run.err.c_str());
+  const Run json = strainsOf("- --json", logOfTwelve());
+  STRCMP_CONTAINS("{\"time_s\":1.003,\"strain_0\":9.5367431640625e-07,", json.out.c_str());
+}
+
+TEST(StrainsCommand, WhatALogLacksIsTold) {
+  const Run none = strainsOf("- -n 2", logOfTwelve());
+  LONGS_EQUAL(1, none.status);
+  STRCMP_CONTAINS("no readings (RAW) of node 2 with their zeros", none.err.c_str());
+  const Run ring = runProgram("strains -", logOfTwelve());
+  LONGS_EQUAL(5, ring.status);
+  STRCMP_CONTAINS("the config has gauges.count = 16, the finger sends 12", ring.err.c_str());
+  const Run elsewhere = strainsOf("- --interface can1", logOfTwelve());
+  LONGS_EQUAL(1, elsewhere.status);
+  STRCMP_CONTAINS("stdin: no frame of can1 in it", elsewhere.err.c_str());
+  const Run foreign = strainsOf("-", "(1.000000) can0 701#3200004D0E1900A7\n" + logOfTwelve());
+  LONGS_EQUAL(5, foreign.status);
+  STRCMP_CONTAINS("-: node 1 speaks protocol 3, this program 2", foreign.err.c_str());
+}
+
 TEST(StrainsCommand, RefusesWhatIsOutsideTheDomain) {
+  checkRefused("strains x.log --can udp:19998", "either --can, to ask a finger, or FILE");
+  checkRefused("strains x.log --rate 10", "--rate and --duration go with --can");
+  checkRefused("strains --can udp:19998 --interface can0", "--interface goes with FILE");
   checkRefused("strains", "--can");
   checkRefused("strains --can udp:19998 --rate 0", "--rate");
   checkRefused("strains --can udp:19998 --rate 1001", "--rate");

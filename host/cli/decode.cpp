@@ -8,6 +8,7 @@
 #include <string_view>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -17,7 +18,10 @@
 #include "host/base/notice.hpp"
 #include "host/base/text_output.hpp"
 #include "host/can/candump_text.hpp"
+#include "host/can/frame_catalogue.hpp"
 #include "host/can/frame_printer.hpp"
+#include "host/can/per_node.hpp"
+#include "host/can/remedies.hpp"
 #include "host/can/touch_printer.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
@@ -39,6 +43,8 @@ constexpr const char* kDecodeHelp =
     "A line that cannot be read is reported as FILE:LINE:COLUMN on stderr, of each file the first 20, and "
     "makes the exit status 1.\n"
     "At the end, or at Ctrl-C, stderr says what was read, skipped and lost.\n"
+    "A finger whose HEARTBEAT says that it speaks another protocol has no rows from there on, and makes the "
+    "exit status 5.\n"
     "Other devices can use the same identifiers (CANopen drives do): --node says which nodes are fingers.\n"
     "Live: candump vcan0 | strainfinger decode --touches\n"
     "or, from a bus between programs: strainfinger record --can udp -o x.log & strainfinger decode --follow "
@@ -187,6 +193,7 @@ class Decoder {
     if (!isWanted(frame)) return tally_.countSkipped(SkipReason::kOtherNode);
     if (entry != nullptr && frame.length != entry->spec.length)
       return tally_.countWrongLength(lines_->place(), frame);
+    if (speaksOther(text)) return tally_.countForeign(text.interface, frame);
     tally_.countDecoded(text.interface, frame);
     if (touches_)
       touches_->print(text.time_ns, text.interface, frame);
@@ -199,6 +206,28 @@ class Decoder {
            std::find(nodes_.begin(), nodes_.end(), can::fingerNode(frame.id)) != nodes_.end();
   }
 
+  /// Whether its finger does by its last HEARTBEAT, which this may be: its frames mean something else.
+  bool speaksOther(const can::TextFrame& text) {
+    Spoken& spoken = spoken_.at(text.interface, *can::fingerNode(text.frame.id));
+    const auto heartbeat = decode<HeartbeatFrame>(text.frame);
+    if (!heartbeat) return spoken.isOther;
+    spoken.isOther = heartbeat->protocol != kProtocolVersion;
+    if (spoken.isOther && !std::exchange(spoken.isTold, true)) tellProtocol(text, heartbeat->protocol);
+    return spoken.isOther;
+  }
+
+  void tellProtocol(const can::TextFrame& text, std::uint8_t protocol) {
+    output_.flush();  // what stands before it
+    warn("decode", fmt::format("{}: {} node {} {}; what it says from here on is left out", lines_->place(),
+                               text.interface, *can::fingerNode(text.frame.id), can::foreignText(protocol)));
+  }
+
+  /// Of a finger.
+  struct Spoken {
+    bool isOther = false;  ///< another protocol, by its last HEARTBEAT
+    bool isTold = false;
+  };
+
   system::StopSignal stop_;
   TextOutput output_{stdout};
   std::optional<can::FramePrinter> frames_;   ///< or
@@ -206,6 +235,7 @@ class Decoder {
   bool follow_;
   bool strict_;
   std::vector<int> nodes_;
+  can::PerNode<Spoken> spoken_;
   std::optional<LineReader> lines_;  ///< of the file that is read
   std::uint64_t unreadable_ = 0;     ///< lines of it
   DecodeTally tally_;

@@ -17,6 +17,7 @@ namespace {
 constexpr std::array kSkipNames{"with identifiers that are no finger's",
                                 "of other nodes",
                                 "RAW (`strains` and `replay --recompute` read it)",
+                                "of fingers that speak another protocol",
                                 "malformed: not the length of such a frame",
                                 "with extended (29-bit) identifiers",
                                 "remote requests",
@@ -24,7 +25,9 @@ constexpr std::array kSkipNames{"with identifiers that are no finger's",
                                 "error frames (reports of the CAN controller)"};
 static_assert(kSkipNames.size() == static_cast<std::size_t>(SkipReason::kError) + 1);
 
+/// Not of a finger that speaks another protocol: its frames have no numbers that could be counted.
 void summariseNode(const can::NodeCount& node) {
+  if (node.protocol.value_or(kProtocolVersion) != kProtocolVersion) return;
   if (node.twoSenders)
     tell("decode: {} node {}: {}: {} frames of touches received, what was lost cannot be told: {}\n",
          node.interface, node.node, can::kTwinText, node.received,
@@ -42,6 +45,11 @@ void DecodeTally::noteForm(const can::LogLine& line) {
 
 void DecodeTally::countDecoded(std::string_view interface, const CanFrame& frame) {
   ++decoded_;
+  losses_.count(interface, frame);
+}
+
+void DecodeTally::countForeign(std::string_view interface, const CanFrame& frame) {
+  countSkipped(SkipReason::kForeign);
   losses_.count(interface, frame);
 }
 

@@ -16,6 +16,7 @@ enum class SkipReason : std::uint8_t {
   kOtherIdentifier,
   kOtherNode,    ///< none of --node
   kRaw,          ///< readings, which have readers of their own
+  kForeign,      ///< of a finger that speaks another protocol
   kWrongLength,  ///< a finger's identifier with another number of bytes
   kExtended,
   kRemote,
@@ -36,6 +37,8 @@ class DecodeTally {
   void countDropped(std::uint32_t frames) { dropped_ += frames; }
 
   void countDecoded(std::string_view interface, const CanFrame& frame);
+  /// Of a finger that speaks another protocol.
+  void countForeign(std::string_view interface, const CanFrame& frame);
   void countSkipped(SkipReason reason) { ++skipped_[static_cast<std::size_t>(reason)]; }
   /// `place`: where it stands, as in stdin:3; of the first one the summary says it.
   void countWrongLength(const std::string& place, const CanFrame& frame);

@@ -330,6 +330,27 @@ TEST(Decode, RefusesAnotherProtocol) {
   checkSays("node 5 speaks protocol 3, this program 2", run);
 }
 
+TEST(Decode, AFingerOfAnotherProtocolIsToldAtOnceAndHasNoRows) {
+  const std::string foreign = "(1609779922.655421) can0 705#3200004D0E1900A7\n";
+  const std::string other = "(1609779922.655421) can1 185#E8032201808161A3\n";
+  for (const std::string command : {"decode", "decode --touches"}) {
+    const Run run = runProgram(command, foreign + contact_ + "rubbish\n" + foreign + force_ + patch_ + other);
+    STRCMP_CONTAINS("can1,5,", rows(run).c_str());
+    CHECK(rows(run).find("can0") == std::string::npos);
+    const std::string warning =
+        "decode: warning: stdin:1: can0 node 5 speaks protocol 3, this program 2: use the strainfinger of "
+        "its "
+        "firmware; what it says from here on is left out\n";
+    STRCMP_EQUAL(warning.c_str(), run.err.substr(0, warning.size()).c_str());
+    CHECK(run.err.find("warning", warning.size()) == std::string::npos);
+    checkSays("skipped 5 of fingers that speak another protocol\n", run);
+    CHECK(run.err.find("can0 node 5: ") == std::string::npos);
+  }
+  const Run newFirmware = runProgram("decode", foreign + contact_ + heartbeat_ + force_);
+  LONGS_EQUAL(0, newFirmware.status);
+  LONGS_EQUAL(2, std::ranges::count(rows(newFirmware), '\n'));
+}
+
 TEST(Decode, RefusesTheHeartbeatsOfTheFirstProtocol) {
   const Run run = runProgram("decode", "(1609779922.655421) can0 705#12004D0E190000A7\n");
   LONGS_EQUAL(5, run.status);

@@ -20,6 +20,7 @@ import canmatrix.formats  # noqa: E402
 logging.disable(logging.NOTSET)
 
 NODE = 5
+PROTOCOL = 2
 RANDOM_FRAMES = 2000
 FLAGS = ["contact", "saturated", "degraded", "uncertain", "several_contacts", "stale_zero", "uncalibrated", "simulated"]
 FAULTS = ["tables", "gauges", "converter", "can", "configuration", "watchdog_reset", "samples", "clock",
@@ -206,6 +207,8 @@ class Canmatrix(unittest.TestCase):
     def test_decode_prints_what_canmatrix_reads(self):
         for name in (each for each in FRAMES if each not in COMMANDS):
             values = next(some_values(name, self.rng))
+            if name == "HEARTBEAT":
+                values[1] = PROTOCOL  # of another one decode prints nothing
             sent, = codec([f"encode {name} {NODE} " + " ".join(map(str, values))])
             run = subprocess.run([STRAINFINGER, "decode"], input=f"(0000000001.000000) can0 {sent}\n",
                                  capture_output=True, text=True, check=False)

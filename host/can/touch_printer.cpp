@@ -12,7 +12,8 @@ namespace strainfinger::can {
 namespace {
 
 double second(const TouchReport& touch, double ContactReport::*value) {
-  return touch.second ? (*touch.second).*value : kNoValue;
+  const auto& said = touch.second ? touch.second : touch.secondsEnd;
+  return said ? (*said).*value : kNoValue;
 }
 
 struct TouchColumn {

@@ -18,8 +18,8 @@ namespace strainfinger::can {
 /// Prints time_s,interface,node,angle_deg,normal_n,tangential_n,width_m, their sigmas,
 /// quality_percent,chi,flags,sequence, then angle2_deg and more of a second contact, alternatives and the
 /// number of contacts; empty or null where the finger says nothing. The time is that of CONTACT. The last row
-/// of a touch has no flag `contact` and forces of 0. What a touch lost is empty or null too; one that lost
-/// its CONTACT has no row.
+/// of a touch has no flag `contact` and forces of 0; so has the last one of a second contact. What a touch
+/// lost is empty or null too; one that lost its CONTACT has no row.
 class TouchPrinter {
  public:
   /// Appends to `out`: at once the header, if the format has one.

@@ -61,7 +61,7 @@ const LargestValues& largestValues() {
 }
 
 bool TouchReceiver::Touch::isComplete() const {
-  return contact && force && patch && (patch->contacts < 2 || (contact2 && force2));
+  return contact && force && patch && ((patch->contacts < 2 && !followsSecond) || (contact2 && force2));
 }
 
 /// Where the PATCH that would say so was lost, its frames do.
@@ -78,8 +78,11 @@ TouchReport TouchReceiver::Touch::report() const {
   report.sigmaWidth_m = physical(known, &PatchFrame::sigma_width_um);
   report.chi = physical(known, &PatchFrame::chi_sixteenths);
   if (patch) report.contacts = patch->contacts;
+  const ContactReport other = reportOf(contact2.value_or(Contact2Frame{}), force2.value_or(Force2Frame{}));
   if (hasSecond())
-    report.second = reportOf(contact2.value_or(Contact2Frame{}), force2.value_or(Force2Frame{}));
+    report.second = other;
+  else if (contact2 || force2)
+    report.secondsEnd = other;
   report.flags = contact->flags;
   report.sequence = contact->sequence;
   return report;
@@ -96,17 +99,23 @@ bool TouchReceiver::keep(const CanFrame& frame, std::optional<Frame>& place) con
 
 std::optional<TouchReport> TouchReceiver::take(const CanFrame& frame) {
   if (frame.id == canId(FunctionCode::kContact, node_)) {
-    touch_ = {.contact = decode<ContactFrame>(frame)};
+    if (touch_.contact) hadSecond_ = touch_.hasSecond();
+    touch_ = {.contact = decode<ContactFrame>(frame), .followsSecond = hadSecond_};
     return std::nullopt;
   }
   const bool kept = keep(frame, touch_.force) || keep(frame, touch_.patch) || keep(frame, touch_.contact2) ||
                     keep(frame, touch_.force2);
   if (!kept || !touch_.isComplete()) return std::nullopt;
-  return std::exchange(touch_, {}).report();
+  return finish();
 }
 
 std::optional<TouchReport> TouchReceiver::giveUp() {
   if (!touch_.contact) return std::nullopt;
+  return finish();
+}
+
+TouchReport TouchReceiver::finish() {
+  hadSecond_ = touch_.hasSecond();
   return std::exchange(touch_, {}).report();
 }
 

@@ -31,6 +31,7 @@ struct TouchReport : ContactReport {
   double chi = kNoValue;
   double contacts = kNoValue;  ///< how many there are
   std::optional<ContactReport> second{};
+  std::optional<ContactReport> secondsEnd{};  ///< no place and no force: it was there in the touch before
   FingerFlags flags{};
   std::uint8_t sequence = 0;
 };
@@ -72,22 +73,26 @@ class TouchReceiver {
   std::optional<TouchReport> giveUp();
 
  private:
-  /// The frames of one sequence number so far. A report needs the CONTACT.
+  /// The frames of one sequence number so far. Where a second contact ends, its CONTACT2 and FORCE2 come once
+  /// more. A report needs the CONTACT.
   struct Touch {
     std::optional<ContactFrame> contact{};
     std::optional<ForceFrame> force{};
     std::optional<PatchFrame> patch{};
     std::optional<Contact2Frame> contact2{};
     std::optional<Force2Frame> force2{};
+    bool followsSecond = false;  ///< there was one in the touch before
     bool isComplete() const;
     bool hasSecond() const;
     TouchReport report() const;
   };
+  TouchReport finish();
   template <typename Frame>
   bool keep(const CanFrame& frame, std::optional<Frame>& place) const;
 
   std::uint8_t node_;
   Touch touch_;
+  bool hadSecond_ = false;  ///< the touch before
 };
 
 }  // namespace strainfinger::can

@@ -70,6 +70,23 @@ TEST(TouchPrinter, PrintsASecondContact) {
   STRCMP_CONTAINS(",163,180,0.001,-0.226,,2,0.12,0.0035,0.0045,97,\n", rows().c_str());
 }
 
+TEST(TouchPrinter, TheEndOfASecondContactHasNoForceAndNoPlace) {
+  TouchPrinter printer(printed_, TableFormat::kCsv);
+  PatchFrame patch = patch_;
+  patch.contacts = 2;
+  take(printer, contact_), take(printer, force_), take(printer, patch);
+  take(printer, Contact2Frame{contact_}), take(printer, Force2Frame{force_});
+  printed_.clear();
+  ContactFrame contact = contact_;
+  ForceFrame force = force_;
+  contact.sequence = force.sequence = patch.sequence = 164;
+  patch.contacts = 1;
+  take(printer, contact), take(printer, force), take(printer, patch);
+  take(printer, Contact2Frame{ContactFrame{.sequence = 164}});
+  take(printer, Force2Frame{ForceFrame{.normal_mN = 0, .tangential_mN = 0, .sequence = 164}});
+  STRCMP_CONTAINS(",contact+simulated,164,,0,0,,1,,,,,\n", printed_.c_str());
+}
+
 TEST(TouchPrinter, TheEndOfATouchHasNoForceAndNoPlace) {
   TouchPrinter printer(printed_, TableFormat::kCsv);
   take(printer, ContactFrame{});

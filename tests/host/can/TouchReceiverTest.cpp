@@ -94,6 +94,28 @@ TEST(TouchReceiver, ASecondContactIsWaitedFor) {
   DOUBLES_EQUAL(0.0045, report->second->sigmaTangential_n, 1e-12);
 }
 
+// BUS_SECOND_CONTACT.md: one more CONTACT2 and FORCE2 without a place and with zero force.
+TEST(TouchReceiver, TheEndOfASecondContactIsWaitedForAndNoContact) {
+  for (const CanFrame& frame : {contact, force, patchOfTwo, contact2}) CHECK_FALSE(takes(frame));
+  CHECK_TRUE(takes(force2));
+  for (const CanFrame& frame : {contact, force, patch}) CHECK_FALSE(takes(frame));
+  CHECK_FALSE(takes({0x205, 8, {0xFF, 0xFF, 0xFF, 0xFF, 0x80, 0x80, 0xFF, 0xA3}}));
+  const auto report = receiver.take({0x305, 8, {0x00, 0x00, 0x00, 0x00, 0xFF, 0xFF, 0x80, 0xA3}});
+  CHECK_TRUE(report.has_value());
+  CHECK_FALSE(report->second.has_value());
+  DOUBLES_EQUAL(0, report->secondsEnd->normal_n, 0);
+  DOUBLES_EQUAL(0, report->secondsEnd->tangential_n, 0);
+  CHECK_TRUE(std::isnan(report->secondsEnd->angle_deg));
+  CHECK_FALSE(takes(contact) || takes(force));
+  CHECK_TRUE(takes(patch));
+}
+
+TEST(TouchReceiver, ASecondContactWhoseEndIsLostHoldsUpOneTouch) {
+  for (const CanFrame& frame : {contact, force, patchOfTwo, contact, force, patch}) CHECK_FALSE(takes(frame));
+  CHECK_FALSE(takes(contact) || takes(force));
+  CHECK_TRUE(takes(patch));
+}
+
 TEST(TouchReceiver, WhatFollowsAContactMayComeInAnyOrder) {
   std::array<const CanFrame*, 4> others{&force, &patchOfTwo, &contact2, &force2};
   std::sort(others.begin(), others.end());

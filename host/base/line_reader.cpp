@@ -11,6 +11,7 @@
 #include <cstring>
 #include <utility>
 
+#include "host/base/compressed.hpp"
 #include "host/base/failure.hpp"
 
 namespace strainfinger {
@@ -74,6 +75,7 @@ LineReader::Got LineReader::read(std::chrono::milliseconds longest) {
   if (count < 0 && errno != EINTR && errno != EAGAIN) fail(name_, errno);
   if (count < 0) return Got::kNothing;
   end_ += static_cast<std::size_t>(count);
+  if (line_ == 0) requireUncompressed(name_, {buffer_.data(), end_});
   if (count > 0) return Got::kMore;
   rewindIfShrunk();
   return Got::kEnd;

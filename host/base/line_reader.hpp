@@ -46,7 +46,8 @@ class LineReader {
   /// What was read behind the last line end, which is a line too where the file ends without one.
   std::optional<std::string_view> rest();
 
-  /// Waits for more, at most so long. Throws Failure(kFailure) when reading fails. A file that has shrunk is
+  /// Waits for more, at most so long. Throws Failure(kFailure) when reading fails, and where the file is
+  /// compressed. A file that has shrunk is
   /// read from its start, and the half line that was its end is lost.
   Got read(std::chrono::milliseconds longest);
 

@@ -9,8 +9,8 @@
 
 namespace strainfinger {
 
-/// What a terminal would obey, or not show, as \xHH: all control characters but line ends and tabs. Those of
-/// Latin-1's upper half are C2 80 to C2 9F in UTF-8.
+/// What a terminal would obey, or not show, as \xHH: all control characters but line ends and tabs, and what
+/// is no UTF-8. Those of Latin-1's upper half are C2 80 to C2 9F in UTF-8.
 std::string printable(std::string_view text);
 
 /// Writes the text, as printable() has it, to stderr. Where that takes nothing (closed, a full disk) the job

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "host/base/byte_order_mark.hpp"
+#include "host/base/compressed.hpp"
 #include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
 #include "host/base/line_reader.hpp"
@@ -124,6 +125,7 @@ NumberRowReader::NumberRowReader(std::istream& stream, std::string name, std::si
 
 bool NumberRowReader::next(std::vector<double>& row) {
   for (std::string line; readLine(line);) {
+    if (line_ == 1) requireUncompressed(name_, line);
     if (line_ == 1 && line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
     if (isPassedOver(line)) continue;
     const bool isFirst = std::exchange(mayBeHeader_, false);

@@ -41,8 +41,8 @@ class NumberRowReader {
 
   /// The next row; false at the end. Throws Failure(kFailure) with name:line:column, what is wrong and what
   /// would be right, for a field that is no finite number or beyond the limit, for a
-  /// row of another length, for another header and for a line longer than LineReader hands out; with the
-  /// system's reason where the stream cannot be read.
+  /// row of another length, for another header, for a line longer than LineReader hands out and for a
+  /// compressed file; with the system's reason where the stream cannot be read.
   bool next(std::vector<double>& row);
 
   /// The last row was cut off, and left out.

@@ -284,6 +284,24 @@ TEST(Decode, GoesOnAfterALineItCannotRead) {
   STRCMP_CONTAINS("FORCE", run.out.c_str());
 }
 
+TEST(Decode, ACompressedLogIsNamedOnce) {
+  const Run run = runShell(
+      "cd $(mktemp -d); gzip -c >x.log.gz; for command in decode 'plot -o x.svg' 'replay --can udp:19976' "
+      "strains 'locate <'; do\n"
+      "eval \"\\\"$STRAINFINGER\\\" $command x.log.gz >/dev/null\"; done; rm -r $PWD",
+      contact_);
+  LONGS_EQUAL(5, std::ranges::count(run.err, '\n'));
+  checkSays("strainfinger: x.log.gz is compressed with gzip: `zcat x.log.gz | strainfinger decode`", run);
+  checkSays("strainfinger: stdin is compressed with gzip: `zcat FILE | strainfinger decode`", run);
+}
+
+TEST(Decode, WhatATerminalWouldObeyIsInNoRow) {
+  const Run run = runProgram("decode", "(1609779922.655421) ca\x07 185#E8032201808161A3\n");
+  LONGS_EQUAL(1, run.status);
+  STRCMP_EQUAL("", rows(run).c_str());
+  checkSays("stdin:1:21: no interface has such a name", run);
+}
+
 TEST(Decode, OfManyLinesThatItCannotReadSomeAreTold) {
   std::string rubbish;
   for (int i = 0; i < 25; ++i) rubbish += "rubbish\n";

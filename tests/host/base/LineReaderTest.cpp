@@ -53,6 +53,15 @@ TEST(LineReader, HandsOutLinesWithoutTheirEnds) {
   CHECK_FALSE(reader.rest().has_value());
 }
 
+TEST(LineReader, ACompressedFileIsNoText) {
+  append("\x28\xB5\x2F\xFDrubbish\nrubbish\n");
+  const std::string message =
+      path_ + " is compressed with zstd: `zstdcat " + path_ +
+      " | strainfinger decode`, and so for other commands that read stdin; else unpack "
+      "it first";
+  checkFails(path_, message.c_str());
+}
+
 TEST(LineReader, ALastLineMayHaveNoEnd) {
   append("one\ntwo");
   LineReader reader(path_);

@@ -41,6 +41,10 @@ TEST(NumberRows, RowsAreReadInOrder) {
   DOUBLES_EQUAL(4, rows[1][1], 0);
 }
 
+TEST(NumberRows, ACompressedFileIsNoRows) {
+  STRCMP_CONTAINS("stdin is compressed with gzip: `zcat FILE | ", complaintAbout("\x1F\x8B\x08").c_str());
+}
+
 TEST(NumberRows, AHeaderBlankLinesAndCommentsArePassedOver) {
   LONGS_EQUAL(2, read("g0,g1\n\n# measured today\n1,2\r\n 3 ,\t4\n").size());
 }

@@ -93,6 +93,7 @@ TEST(CandumpText, PassesOverAByteOrderMark) {
   readOurs("\xEF\xBB\xBF  can0  185   [8]  E8 03 22 01 1E FF 01 A3");
   CHECK(read("\xEF\xBB\xBF").kind == LineKind::kNothing);
   checkError(28, "identifier", "\xEF\xBB\xBF(1609779922.655421) can0");
+  checkError(21, "no interface has such a name", "(1609779922.655421) ca\x07 185#00");
 }
 
 TEST(CandumpText, ReadsTheScreenForm) {
@@ -339,7 +340,7 @@ TEST(CandumpText, OtherLinesAreNotPlain) {
         "(1609779922.655421) can0 185##1E8", "(1609779922.655421) can0 185#R8",
         "(1609779922.655421) can0 00000185#", "(1609779922.655421) can0 800#00",
         "(1609779922.655421) can0 185#E80322011EFF01A300", "(1609779922.655421)  can0 185#00",
-        "(9223372036.000000) can0 185#", "  can0  185   [2]  E8 03"})
+        "(9223372036.000000) can0 185#", "(1609779922.655421) ca\x7F 185#00", "  can0  185   [2]  E8 03"})
     CHECK_FALSE_TEXT(parsePlainLine(line).has_value(), line);
 }
 

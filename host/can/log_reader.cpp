@@ -16,11 +16,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kAtATime{1000};
 
-/// Frames of several interfaces may be logged a little out of order; clocks that are set jump by more.
-constexpr std::int64_t kOutOfOrder_ns = 1'000'000'000;
-/// Where more than one frame in so many is earlier than the one before it, times are differences.
-constexpr std::uint64_t kMostOutOfOrder = 4;
-
 bool hasFrame(const LogLine& line) {
   return line.kind != LineKind::kNothing && line.kind != LineKind::kDropped;
 }
@@ -45,9 +40,9 @@ std::optional<TextFrame> LogReader::next() {
       throw Failure(
           ExitCode::kFailure,
           fmt::format("{}: a frame without a time: log with `candump -L`, or `candump -ta`", place()));
-    watchTime(*frame->time_ns);
+    times_.watch(frame->interface, *frame->time_ns, lines_);
     if (!isWanted(frame->interface)) continue;
-    watchOrder(*frame);
+    anyWanted_ = true;
     return frame;
   }
   return std::nullopt;
@@ -57,29 +52,10 @@ bool LogReader::isWanted(std::string_view interface) const {
   return interface_.empty() || interface == interface_;
 }
 
-/// Each interface has a clock of its own.
-void LogReader::watchOrder(const TextFrame& frame) {
-  auto last = last_ns_.find(frame.interface);
-  if (last == last_ns_.end()) last = last_ns_.emplace(frame.interface, *frame.time_ns).first;
-  ++times_;
-  if (*frame.time_ns < last->second) ++timesBack_;
-  last->second = *frame.time_ns;
-}
-
 void LogReader::requireInterface() const {
-  if (!interface_.empty() && times_ == 0)
+  if (!interface_.empty() && !anyWanted_)
     throw Failure(ExitCode::kFailure,
                   fmt::format("{}: no frame of {} in it", lines_.name(), excerpt(interface_)));
-}
-
-void LogReader::watchTime(std::int64_t time_ns) {
-  const std::int64_t latest_ns = latest_ns_.value_or(time_ns);
-  if (timesGoBack_.empty() && time_ns < latest_ns - kOutOfOrder_ns)
-    timesGoBack_ = fmt::format(
-        "{}: the times go back by {:.3g} s here: the clock was set, logs of several runs were joined, or "
-        "they are differences (candump -td)",
-        place(), 1e-9 * static_cast<double>(latest_ns - time_ns));
-  latest_ns_ = std::max(latest_ns, time_ns);
 }
 
 std::optional<TextFrame> LogReader::frameOf(std::string_view line) {
@@ -110,13 +86,7 @@ std::optional<std::string_view> LogReader::nextLine() {
 
 std::vector<std::string> LogReader::warnings() const {
   std::vector<std::string> warnings;
-  if (!timesGoBack_.empty())
-    warnings.push_back(timesGoBack_);
-  else if (timesBack_ > times_ / kMostOutOfOrder && timesBack_ > 1)
-    warnings.push_back(
-        fmt::format("{}: {} of {} frames have an earlier time than the one before: they are differences, it "
-                    "seems (candump -td), which tell no times: log with `candump -L`, or `candump -ta`",
-                    lines_.name(), timesBack_, times_));
+  if (const std::string warning = times_.warning(); !warning.empty()) warnings.push_back(warning);
   if (isCutOff_)
     warnings.push_back(fmt::format("{}: the log breaks off in this line, which is left out", place()));
   return warnings;

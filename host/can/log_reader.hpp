@@ -2,8 +2,6 @@
 // The frames of a log, for who needs every one of them.
 
 #include <cstdint>
-#include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,6 +9,7 @@
 
 #include "host/base/line_reader.hpp"
 #include "host/can/candump_text.hpp"
+#include "host/can/log_times.hpp"
 
 namespace strainfinger::can {
 
@@ -43,8 +42,6 @@ class LogReader {
   std::optional<std::string_view> nextLine();
   std::optional<TextFrame> frameOf(std::string_view line);
   bool isWanted(std::string_view interface) const;
-  void watchOrder(const TextFrame& frame);
-  void watchTime(std::int64_t time_ns);
 
   LineReader lines_;
   std::string interface_;
@@ -53,10 +50,8 @@ class LogReader {
   bool isWhole_ = true;    ///< the last line ended with a line end
   bool anyFrame_ = false;  ///< was read
   bool isCutOff_ = false;
-  std::optional<std::int64_t> latest_ns_;
-  std::map<std::string, std::int64_t, std::less<>> last_ns_;  ///< by interface
-  std::uint64_t times_ = 0, timesBack_ = 0;                   ///< earlier than the frame's before
-  std::string timesGoBack_;                                   ///< where, first, and by how much
+  bool anyWanted_ = false;  ///< of the interface that is read
+  LogTimes times_{LogTimes::Order::kOfAll};
 };
 
 }  // namespace strainfinger::can

@@ -20,6 +20,7 @@
 #include "host/can/candump_text.hpp"
 #include "host/can/frame_catalogue.hpp"
 #include "host/can/frame_printer.hpp"
+#include "host/can/log_times.hpp"
 #include "host/can/per_node.hpp"
 #include "host/can/remedies.hpp"
 #include "host/can/touch_printer.hpp"
@@ -100,6 +101,14 @@ class Decoder {
   void finish() {
     if (touches_) touches_->finish();
     output_.flush();
+  }
+
+  /// What the losses are counted from are sequence numbers, one after the other.
+  void judgeTimes() const {
+    if (const std::string times = times_.warning(); !times.empty())
+      warn("decode", fmt::format("{}; where files are given twice, or not in their order, losses are not "
+                                 "counted right",
+                                 times));
   }
 
   bool stopped() const { return stop_.asked(); }
@@ -187,6 +196,7 @@ class Decoder {
 
   void take(const can::TextFrame& text) {
     const CanFrame& frame = text.frame;
+    if (text.time_ns) times_.watch(text.interface, *text.time_ns, *lines_);
     const can::FrameEntry* const entry = can::findFunction(frame.id);
     if (entry == nullptr && can::findCommand(frame) == nullptr)
       return tally_.countSkipped(decode<RawFrame>(frame) ? SkipReason::kRaw : SkipReason::kOtherIdentifier);
@@ -238,6 +248,7 @@ class Decoder {
   can::PerNode<Spoken> spoken_;
   std::optional<LineReader> lines_;  ///< of the file that is read
   std::uint64_t unreadable_ = 0;     ///< lines of it
+  can::LogTimes times_{can::LogTimes::Order::kOfEachInterface};
   DecodeTally tally_;
 };
 
@@ -258,6 +269,7 @@ void runDecode(const DecodeOptions& options) {
     if (!decoder.stopped()) decoder.decodeAll(path);
   decoder.finish();
   decoder.tally().summarise();
+  decoder.judgeTimes();
   decoder.tally().requireGood();
   if (decoder.stopped()) throw Failure(ExitCode::kInterrupted, "decode: interrupted");
 }

@@ -151,6 +151,30 @@ TEST(Decode, ReadsFilesInTheirOrder) {
   CHECK(first < second && second < run.out.find("can1,5,CONTACT", second));
 }
 
+TEST(Decode, TimesThatGoBackAreTold) {
+  const auto decoded = [](const std::string& files, const std::string& b) {
+    return runShell(
+        "cd $(mktemp -d); cat >b; echo '(1609779000.000000) can0 185#E8032201808161A3' >a\n"
+        "\"$STRAINFINGER\" decode " +
+            files + "; rm -r $PWD",
+        b);
+  };
+  checkSays(
+      "decode: warning: a:1: the times go back by 923 s here: the clock was set, logs of several runs were "
+      "joined, or they are differences (candump -td); where files are given twice, or not in their order, "
+      "losses are not counted right\n",
+      decoded("b a", contact_));
+  checkSays("decode: warning: a:1: the times go back", decoded("a b a", contact_));
+  CHECK(decoded("a b", contact_).err.find("warning") == std::string::npos);
+  // The log of another bus has a clock of its own.
+  CHECK(decoded("b a", "(1609779922.655421) can1 185#E8032201808161A3\n").err.find("warning") ==
+        std::string::npos);
+  std::string differences;
+  for (int i = 0; i < 8; ++i) differences += " (000.00" + std::to_string(9 - i) + "000)  can0  185   [0]\n";
+  checkSays("decode: warning: b: 7 of 8 frames have an earlier time than the one before",
+            decoded("b", differences));
+}
+
 TEST(Decode, RefusesFilesThatAreNotThereBeforeItPrints) {
   const Run run = runShell("\"$STRAINFINGER\" decode /dev/stdin /nonexistent", contact_);
   LONGS_EQUAL(1, run.status);

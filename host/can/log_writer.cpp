@@ -20,12 +20,20 @@
 namespace strainfinger::can {
 namespace {
 
+/// A device, a pipe or a link is not to be removed.
+const char* remedyForExisting(const std::string& path) {
+  struct stat existing {};
+  if (::lstat(path.c_str(), &existing) == 0 && S_ISREG(existing.st_mode))
+    return ": remove it, or write to another file";
+  return ": a log needs a regular file of its own; `candump -L can0 | zstd >x.log.zst` is for pipes";
+}
+
 int createFile(const std::string& path) {
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor >= 0) return descriptor;
-  const char* const remedy = errno == EEXIST ? ": remove it, or write to another file" : "";
-  throw Failure(ExitCode::kFailure,
-                fmt::format("{}: cannot make the file: {}{}", path, std::strerror(errno), remedy));
+  const int error = errno;
+  throw Failure(ExitCode::kFailure, fmt::format("{}: cannot make the file: {}{}", path, std::strerror(error),
+                                                error == EEXIST ? remedyForExisting(path) : ""));
 }
 
 }  // namespace

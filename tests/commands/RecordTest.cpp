@@ -115,6 +115,17 @@ TEST(Record, NeverWritesOverAFile) {
   checkSays("x.log: cannot make the file: File exists: remove it, or write to another file", run);
 }
 
+TEST(Record, NobodyIsToldToRemoveADevice) {
+  for (const std::string path : {"/dev/null", "/dev/stdout", "pipe"}) {
+    const Run run = inFolder("mkfifo pipe; \"$STRAINFINGER\" record --can $bus -o " + path);
+    LONGS_EQUAL(1, run.status);
+    checkSays(
+        (path + ": cannot make the file: File exists: a log needs a regular file of its own; `candump -L")
+            .c_str(),
+        run);
+  }
+}
+
 TEST(Record, NeverWritesOverTheNotesOfAnotherLog) {
   const Run run = inFolder(
       "echo old >x.toml; \"$STRAINFINGER\" record --can $bus -o x.log; status=$?; cat x.toml; ls; exit "

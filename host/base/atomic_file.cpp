@@ -11,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 #include <string>
+#include <system_error>
 
 #include "host/base/failure.hpp"
 #include "host/base/write_all.hpp"
@@ -99,7 +100,13 @@ int writeTo(const fs::path& path, std::string_view content) {
 std::string folderWrittenIn(const std::string& path) {
   const fs::path target = destinationOf(path);
   if (isOpenFile(target) || !isRegularOrAbsent(target)) return "";
-  return fs::absolute(target).parent_path().string();
+  std::error_code error;
+  const fs::path whole = fs::absolute(target, error);
+  if (error)
+    throw Failure(ExitCode::kFailure,
+                  fmt::format("{}: the current folder is not there any more ({}): change to another", path,
+                              error.message()));
+  return whole.parent_path().string();
 }
 
 void writeFileAtomically(const std::string& path, std::string_view content) {

@@ -13,7 +13,8 @@ namespace strainfinger {
 /// reason. "-" is no special name.
 void writeFileAtomically(const std::string& path, std::string_view content);
 
-/// The folder in which that makes a file and renames it; empty where it would write to what is there.
+/// The folder in which that makes a file and renames it; empty where it would write to what is there. Throws
+/// Failure(kFailure) where the current folder has been removed.
 std::string folderWrittenIn(const std::string& path);
 
 }  // namespace strainfinger

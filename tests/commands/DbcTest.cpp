@@ -55,6 +55,15 @@ TEST(DbcCommand, ADeviceThatIsFullIsAFailure) {
   STRCMP_CONTAINS("link: No space left on device", run.err.c_str());
 }
 
+TEST(DbcCommand, AFolderThatIsRemovedMeanwhileIsNamed) {
+  const Run run = runShell("cd $(mktemp -d); rmdir $PWD; \"$STRAINFINGER\" dbc -o x.dbc");
+  LONGS_EQUAL(1, run.status);
+  STRCMP_EQUAL(
+      "strainfinger: x.dbc: the current folder is not there any more (No such file or directory): change to "
+      "another\n",
+      run.err.c_str());
+}
+
 TEST(DbcCommand, SaysWhyAFileCannotBeWritten) {
   const Run run = runProgram("dbc -o /nowhere/finger.dbc");
   LONGS_EQUAL(1, run.status);

@@ -34,7 +34,9 @@ constexpr const char* kContactHelp =
     "tells where they aren't.\n"
     "The summary's offset is the contact's centre, its depth that of the indenter's profile below the "
     "undeformed surface at the contact's centre: below 0 if that is between regions, where the profile "
-    "stands clear.";
+    "stands clear.\n"
+    "Prints angle_deg,pressure_pa,shear_pa,slope; with --summary "
+    "normal_n_per_m,tangential_n_per_m,width_m,depth_m,offset_deg,residual_m.";
 
 /// Time grows with the cube: 1000 by the printed rows take 1.4 s, 2000 by Gauss's 0.4 s.
 constexpr int kMostHarmonics = 2000, kMostPrintedHarmonics = 1000;

@@ -20,7 +20,9 @@ namespace {
 constexpr const char* kFieldHelp =
     "Strains, displacements and stresses in the rubber under an indenter, on a polar grid: even radii "
     "from the core to the surface, or the radius of --radius-m (that of the gauges, say), and even angles "
-    "from the indenter's normal. The load of a line or of a uniform pressure is for `strain`.";
+    "from the indenter's normal. The load of a line or of a uniform pressure is for `strain`.\n"
+    "Prints radius_m,angle_deg,err,ett,ert,ur_m,ut_m,trr_pa,trt_pa,ttt_pa: strains e (radial, hoop, shear), "
+    "displacements u, stresses t; angles from the indenter's normal.";
 
 struct FieldOptions {
   explicit FieldOptions(CLI::App& command) : common(command), contact(command) {

@@ -44,15 +44,22 @@ constexpr const char* kRunHelp =
     "It obeys `tare`, `config` and `push`, and like a board takes no other tables in the minute after a "
     "restart; what it is sent is gone when it ends, so that it refuses to keep settings.\n"
     "The simulated finger is as the config's [as_built] says or, without it, as drawn and calibrated.\n"
-    "At the end stderr has a summary with the errors against the truth (--json: as one object). Ctrl-C "
-    "ends a run as its duration would, with exit status 130.";
+    "At the end stderr has a summary with the errors against the truth. Ctrl-C ends a run as its duration "
+    "would, with exit status 130.\n"
+    "--json: the summary as one object of duration_s,sample_sets,overruns,fits,frames,touches,heartbeats,"
+    "touches_busy,touches_incomplete (deferred by a busy bus; not sent whole); compared (answers that have a "
+    "truth) and their errors arc_rms_m,arc_worst_m,normal_rms_n_per_m,normal_worst_n_per_m,"
+    "tangential_rms_n_per_m,tangential_worst_n_per_m; the other answers, uncertain,other_number (of "
+    "contacts),phantom (nothing touched),missed; untold_s (touched, and no contact told); gauges_out_of_use.";
 
 struct RunOptions {
   explicit RunOptions(CLI::App& command) : common(command), firmware(command) {
     addBusOption(command, bus);
     command
         .add_option("--scenario", scenarioPath,
-                    "What touches the finger (TOML); the built-in scenario without it")
+                    "What touches the finger (TOML, as the head of "
+                    "host/simulation/scenarios/touches.toml describes it); that one, which is built in, "
+                    "without it")
         ->type_name("FILE");
     command
         .add_option("--seed", seed, fmt::format("Of the noise and of the gauges' zeros (default {})", seed))
@@ -80,7 +87,8 @@ struct RunOptions {
     command
         .add_option(
             "--touches", touchesPath,
-            "At the end, what touched the finger, a row for each row of --strains (CSV); its cells are "
+            "At the end, what touched the finger, a row for each row of --strains (CSV): "
+            "angle_deg,normal_n_per_m,tangential_n_per_m, loads of 0 where nothing does; its cells are "
             "empty while several touches do, which a row cannot say")
         ->type_name("FILE");
     command

@@ -24,14 +24,19 @@ namespace {
 constexpr const char* kShapeHelp =
     "What pressed on the finger, from rows of gauge strains on stdin: as much as they tell, and no "
     "more.\n"
-    "stdin: CSV, one strain a gauge in a row, a row a touch; a header row, blank lines and # comments "
-    "are passed over. The config's [calibration] says the gain, the angle and the depth of each gauge. "
+    "stdin: CSV, one strain a gauge in a row, a row a touch; blank lines and # comments are passed "
+    "over. In a header row the gauges' columns are strain_0, strain_1 .., in any order; other columns, "
+    "such as time_s, are left out. The config's [calibration] says the gain, the angle and the depth of each "
+    "gauge. "
     "Sigmas hold noise, gauges.model_error and what the calibration left open; 0.05, the default, leaves a "
     "finger that nobody calibrated little more than place and load: calibrate it first. The width is always "
     "an unknown here, whatever contact.width_m says. Shear is taken to be "
     "spread as pressure is, while `run` and `locate` have partial slip (Mindlin): with much of it places are "
     "off by more than their sigmas on a perfect finger.\n"
-    "stdout: one row a touch; what isn't known is empty. width_m: of the semi-ellipse with the load's "
+    "stdout: one row a touch of contact,angle_deg,normal_n_per_m,tangential_n_per_m,width_m,curvature_per_m,"
+    "sigma_angle_deg,sigma_normal_n_per_m,sigma_tangential_n_per_m,sigma_width_m,sigma_curvature_per_m,"
+    "width_limit_m,directions,class,unresolved,fit_probability,rival_angle_deg,warnings,curvature_low_per_m,"
+    "curvature_high_per_m; what isn't known is empty. width_m: of the semi-ellipse with the load's "
     "second moment, if no line load fits (3 sigma); width_limit_m: the width is below it with 95 %. "
     "curvature_per_m: of a round indenter that makes this width under this load, 0: flat; "
     "curvature_low_per_m and curvature_high_per_m: its band of 95 %, no upper end where empty. "
@@ -45,7 +50,9 @@ constexpr const char* kShapeHelp =
     "twice their depth: no width, and answers may be farther off than the sigmas say), misfit (residuals are "
     "not noise: two touches, a bad gauge, another noise), profile (another class fits too, and has a value "
     "outside its band of 95 %), wide (wider than 1 rad, or narrower than a line).\n"
-    "With --pressure: the resolved part of the pressure with its band of 95 %, and the ellipse fitted.";
+    "With --pressure instead: prints sample,angle_deg,pressure_pa,low_pa,high_pa,ellipse_pa, --points rows a "
+    "touch: the number of its row on stdin from 1, the resolved part of the pressure with its band of "
+    "95 %, and the ellipse fitted.";
 
 struct ShapeOptions {
   explicit ShapeOptions(CLI::App& command) : common(command) {

@@ -57,6 +57,20 @@ TEST(Main, HelpHasALineForEachCommand) {
   STRCMP_CONTAINS("--force takes the zero anyway", runProgram("tare --help").out.c_str());
 }
 
+TEST(Main, HelpNamesTheColumns) {
+  const Run run = runShell(R"(
+unnamed() { help=$("$STRAINFINGER" $1 --help); tr -s ',' '\n' | while read column; do
+  grep -qw "$column" <<<"$help" && echo $1 >>named.$$ || echo "$1: $column"; done; }
+indenter="--indenter cylinder:5e-3 --load-n-per-m 20"
+for command in "contact $indenter" "contact --summary $indenter" "field $indenter" "shape" "shape --pressure"; do
+  "$STRAINFINGER" $command </dev/null 2>/dev/null | head -n 1 | unnamed ${command%% *}
+done
+"$STRAINFINGER" run --json --duration 0.1 --touches touches.$$ 2>&1 >/dev/null | grep -o '"[a-z_]*":' | tr -d '":' | unnamed run
+head -n 1 touches.$$ | unnamed run
+sort named.$$ | uniq -c | tr -s ' \n' ' '; rm named.$$ touches.$$)");
+  STRCMP_EQUAL(" 10 contact 10 field 25 run 26 shape ", run.out.c_str());
+}
+
 TEST(Main, OutputThatCannotBeWrittenIsAFailure) {
   for (const char* command : {"--help", "--version", "tare --help", "dbc"}) {
     const Run run = runShell(std::string("\"$STRAINFINGER\" ") + command + " >/dev/full");

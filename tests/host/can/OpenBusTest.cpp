@@ -29,6 +29,16 @@ TEST(OpenBus, AnyOtherNameIsAnInterfaces) {
   STRCMP_CONTAINS("nocan7", refusalOf("nocan7", ExitCode::kNoInterface).c_str());
 }
 
+TEST(OpenBus, AMistypedUdpIsNamed) {
+  const auto meant = [](const std::string& name) { return refusalOf(name, ExitCode::kNoInterface); };
+  STRCMP_EQUAL("upd:30010 is no bus: did you mean udp:30010?", meant("upd:30010").c_str());
+  STRCMP_EQUAL("udp30010 is no bus: did you mean udp:30010?", meant("udp30010").c_str());
+  STRCMP_EQUAL("UDP is no bus: did you mean udp?", meant("UDP").c_str());
+  STRCMP_EQUAL("ud:30010 is no bus: did you mean udp:30010?", meant("ud:30010").c_str());
+  for (const char* name : {"nousb0", "usb9", "vcan99", "can99:1", "udpx:y"})
+    CHECK(meant(name).find("did you mean") == std::string::npos);
+}
+
 TEST(OpenBus, LoopbackIsNoBusForSeveralPrograms) {
   STRCMP_CONTAINS("use udp on both sides", refusalOf("loopback", ExitCode::kUsage).c_str());
 }

@@ -142,11 +142,13 @@ void requireRunning(can::BusPort& port, std::uint8_t node, const TableImage& ima
   if (heartbeat->state != FingerState::kFault && heartbeat->table_crc == wanted) return;
   throw Failure(
       ExitCode::kVerificationFailed,
-      fmt::format("{}: took the tables, but does not work with them: state {}, table_crc {:02X}, not "
-                  "{:02X}: push them again; if it comes back, its memory is worn out, or its firmware "
-                  "takes tables of another format",
-                  where, can::nameText(kFingerStateNames, static_cast<int>(heartbeat->state)),
-                  heartbeat->table_crc, wanted));
+      fmt::format(
+          "{}: took the tables, but does not work with them: state {}, table_crc {:02X}, not "
+          "{:02X}: they are for {} gauges: where its board reads another number, push those of its own "
+          "config (-c); else push them again; if it comes back, its memory is worn out, or its "
+          "firmware takes tables of another format",
+          where, can::nameText(kFingerStateNames, static_cast<int>(heartbeat->state)), heartbeat->table_crc,
+          wanted, image.constants.gauge_count));
 }
 
 void runPush(const PushOptions& options) {

@@ -37,9 +37,10 @@ TableFault faultOf(const TableImage& image, std::size_t bytes) {
   return isOurs && bytes != sizeof(TableImage) ? TableFault::kLength : fault;
 }
 
-/// Nothing for what is no table image: nobody is told to write over it.
+/// Of what is no table image nobody is told to write over it.
 std::string adviceOn(TableFault fault, const std::string& path) {
-  if (fault == TableFault::kTooShort || fault == TableFault::kMagic) return {};
+  if (fault == TableFault::kTooShort || fault == TableFault::kMagic)
+    return path.ends_with(".toml") ? ": a config goes after -c" : "";
   return fmt::format("; make it anew with: strainfinger tables [-c CONFIG] -o {}", path);
 }
 

@@ -161,6 +161,38 @@ TEST(PushCommand, NobodyThere) {
   STRCMP_CONTAINS("no answer", run.err.c_str());
 }
 
+// One whose board reads another number of gauges: it takes every word, and starts in state fault.
+TEST(PushCommand, AFingerThatDoesNotWorkWithTheTablesIsToldFirstWhatTheyAreFor) {
+  const Run run = runShell(R"(bus=udp:$((20000 + $$ % 20000))
+/usr/bin/python3 - $bus <<'END' & finger=$!
+import socket, sys, time
+group = ("239.255.67.65", int(sys.argv[1][4:]))
+hears = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+hears.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+hears.bind(group)
+hears.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, socket.inet_aton(group[0]) + socket.inet_aton("127.0.0.1"))
+speaks = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+speaks.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, socket.inet_aton("127.0.0.1"))
+while True:
+    heard = hears.recv(16)
+    if heard[1:3] != b"\x06\x01":
+        continue
+    say = lambda id, data: speaks.sendto(heard[:1] + id + bytes([8]) + data.ljust(8, b"\0"), group)
+    next_word = int.from_bytes(heard[6:8], "little") + 1
+    say(b"\x05\x81", bytes([6, heard[5] | 0x80, 0]) + next_word.to_bytes(4, "little"))
+    for beat in range(2 if heard[5] == 9 else 0):
+        time.sleep(0.2)
+        say(b"\x07\x01", bytes([0x23, 0x01]))
+END
+sleep 0.5; timeout 60 "$STRAINFINGER" push --can $bus -c <(printf 'schema = 1\n[gauges]\ncount = 12\n')
+status=$?; kill $finger; exit $status)");
+  LONGS_EQUAL(6, run.status);
+  STRCMP_CONTAINS(
+      "took the tables, but does not work with them: state fault, table_crc 00, not 2A: they are for 12 "
+      "gauges: where its board reads another number, push those of its own config (-c); else push",
+      run.err.c_str());
+}
+
 TEST(PushCommand, AFingerRestartsWhenItIsTold) {
   const Run run = withUntouchedFinger(R"("$STRAINFINGER" config --can $BUS --restart | sed "s/$BUS/BUS/"
 "$STRAINFINGER" info --can $BUS | grep -o 'reset_cause,[a-z_]*')");

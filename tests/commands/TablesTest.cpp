@@ -64,7 +64,8 @@ TEST(TablesCommand, AnotherFingersImageIsAMismatchThatNamesTheDifference) {
 }
 
 TEST(TablesCommand, WhatIsNoImageFailsVerification) {
-  checkEnds(6, "not a table image", "\"$STRAINFINGER\" tables verify thin.toml");
+  checkEnds(6, "thin.toml: not a table image: a config goes after -c\n",
+            "\"$STRAINFINGER\" tables verify thin.toml");
 }
 
 TEST(TablesCommand, AMissingFileIsAFailureThatNamesIt) {

@@ -118,8 +118,7 @@ inline constexpr std::array kCommandStatusNames{
               "tables are there"},
     ValueName{2, "unknown_command", "This firmware has no such command"},
     ValueName{3, "bad_argument", "The argument is absent, too long or outside its range"},
-    ValueName{4, "touched",
-              "Refused: something touches the finger; the request can say that it is meant even so"},
+    ValueName{4, "touched", "Refused: something touches the finger"},
     ValueName{5, "done_touched", "Done as forced: what touched the finger is now part of its zero"},
     ValueName{6, "not_kept", "The board has no memory for it, or its memory failed"},
     ValueName{

@@ -28,7 +28,7 @@ void take(const CanFrame& frame, std::uint8_t node, Command command, Reply& repl
 
 std::string meaningOf(const ResponseFrame& response) {
   if (response.status == CommandStatus::kWait)
-    return fmt::format("Not yet: {}: {} s",
+    return fmt::format("Not yet: {}; try again in {} s",
                        response.command == Command::kTare ? "a zero was taken or refused just now"
                                                           : "its memory would wear out",
                        response.value);

@@ -137,13 +137,14 @@ std::string_view remedyFor(CommandStatus status) {
     case CommandStatus::kDoneTouched:
       return "";
     case CommandStatus::kTouched:
-      return "let go of it; if nothing touches it, its old zero is off: `strainfinger tare --can BUS -n N "
-             "--force` takes a new one; other commands have --force, too";
+      return "let go of the finger and repeat; if nothing touches it, its old zero is off: "
+             "`strainfinger tare --can BUS -n N --force` takes a new one, and other commands have --force, "
+             "too";
     case CommandStatus::kBusy:
       return "try again in a second; `strainfinger monitor --can BUS` shows what it does; in state fault it "
              "needs tables first: `strainfinger push --can BUS -n N -c FINGER.toml`";
     case CommandStatus::kWait:
-      return "try again then";
+      return "try again in as many seconds as value says";
     case CommandStatus::kNotKept:
       return "an emulated finger has no memory to keep it in, a simulated one only for tables; another one's "
              "memory is worn out";

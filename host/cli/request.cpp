@@ -36,6 +36,15 @@ std::string placeOf(const can::BusPort& bus, std::uint8_t node) {
   return fmt::format("{} node {}", bus.name(), node);
 }
 
+Failure refusal(const ResponseFrame& response, Command command, const can::BusPort& bus, std::uint8_t node) {
+  const bool saysWhen = response.status == CommandStatus::kWait;
+  const std::string remedy = saysWhen ? "" : can::forNode(can::remedyFor(response.status), bus.name(), node);
+  return Failure(
+      ExitCode::kFailure,
+      fmt::format("{}: {}: {} ({}){}{}", placeOf(bus, node), commandName(command), can::meaningOf(response),
+                  statusName(response.status), remedy.empty() ? "" : ": ", remedy));
+}
+
 std::string twinText(const can::BusPort& bus, std::uint8_t node) {
   return fmt::format("{}: {}", can::kTwinText, can::forNode(can::kTwinRemedy, bus.name(), node));
 }
@@ -112,9 +121,7 @@ void requireDone(const can::Reply& reply, Command command, const can::BusPort& b
   if (status == CommandStatus::kDoneTouched)
     tell("strainfinger: {}: {}: {}\n", where, commandName(command), can::meaningOf(*reply.response));
   else if (status != CommandStatus::kDone)
-    throw Failure(ExitCode::kFailure, fmt::format("{}: {}: {} ({}): {}", where, commandName(command),
-                                                  can::meaningOf(*reply.response), statusName(status),
-                                                  can::forNode(can::remedyFor(status), bus.name(), node)));
+    throw refusal(*reply.response, command, bus, node);
 }
 
 Failure twinFailure(const can::BusPort& bus, std::uint8_t node) {

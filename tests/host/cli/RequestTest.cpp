@@ -55,9 +55,10 @@ TEST(Request, WhatIsDoneIsDone) {
 }
 
 TEST(Request, ARefusalNamesItsReasonAndTheRemedy) {
-  checkFails(answered(CommandStatus::kTouched), ExitCode::kFailure,
-             "tare: Refused: something touches the finger; the request can say that it is meant even so "
-             "(touched): let go of it");
+  checkFails(
+      answered(CommandStatus::kTouched), ExitCode::kFailure,
+      "tare: Refused: something touches the finger (touched): let go of the finger and repeat; if nothing "
+      "touches it, ");
   checkFails(answered(CommandStatus::kTouched), ExitCode::kFailure,
              "`strainfinger tare --can fake0 -n 5 --force`");
   checkFails(answered(CommandStatus::kBusy), ExitCode::kFailure, "(busy): try again");
@@ -65,7 +66,7 @@ TEST(Request, ARefusalNamesItsReasonAndTheRemedy) {
   checkFails(answered(CommandStatus::kUnknownCommand), ExitCode::kFailure, "firmware");
   checkFails(answered(CommandStatus::kBadArgument), ExitCode::kFailure, "(bad_argument)");
   checkFails({.sent = true, .response = responseTo(Command::kKeep, CommandStatus::kWait, 45)},
-             ExitCode::kFailure, "Not yet: its memory would wear out: 45 s (wait): try again then");
+             ExitCode::kFailure, "Not yet: its memory would wear out; try again in 45 s (wait)");
   checkFails(answered(static_cast<CommandStatus>(99)), ExitCode::kFailure, "(99)");
 }
 

@@ -31,7 +31,7 @@ TEST(PendingRequest, ARefusalSaysWhy) {
   const auto touched = request_.take(response(CommandStatus::kTouched));
   CHECK_FALSE(touched.value().isDone);
   STRCMP_CONTAINS("Refused: something touches the finger", touched->text.c_str());
-  STRCMP_CONTAINS("Not yet: a zero was taken or refused just now: 45 s",
+  STRCMP_CONTAINS("Not yet: a zero was taken or refused just now; try again in 45 s",
                   request_.take(response(CommandStatus::kWait, 45))->text.c_str());
   STRCMP_CONTAINS("status 99", request_.take(response(static_cast<CommandStatus>(99)))->text.c_str());
 }

@@ -84,13 +84,13 @@ can::TablePush send(can::BusPort& port, std::uint8_t node, const TableImage& ima
 
 void requireWhole(const can::TablePush& push, const can::BusPort& bus, std::uint8_t node) {
   if (push.words == kTableWords) return;
-  const std::string left =
-      push.command == Command::kLoad
-          ? can::forNode(
-                "the finger still has its old tables; where it has stopped, `strainfinger config "
-                "--can BUS -n N --restart` goes on with them",
-                bus.name(), node)
-          : "the finger has no tables until they are pushed again";
+  const std::string left = push.command == Command::kLoad
+                               ? can::forNode(
+                                     "the finger still has its old tables; where it has stopped, it goes on "
+                                     "with them within half a minute, "
+                                     "`strainfinger config --can BUS -n N --restart` at once",
+                                     bus.name(), node)
+                               : "the finger has no tables until they are pushed again";
   if (push.isStopped)
     throw Failure(ExitCode::kInterrupted,
                   fmt::format("push: interrupted after {} of {} words: {}", push.words, kTableWords, left));

@@ -67,14 +67,15 @@ void warnOf(const config::FingerConfig& config, const tables::SelfCheck& check) 
                      "between gauges, and no touch tells which gauge fails: use more gauges, or deeper ones",
                      config::widestGapInDepths(config), config::kSparse));
   if (const double error = config::modelError(config); error > config.gauges.model_error)
-    warn("tables",
-         fmt::format(
-             "the gauges are so near the core that one which lies tolerance.depth_m = {} m off reads quite "
-             "otherwise: until this finger is calibrated, errors are told for a model error of {:.2g} in "
-             "place "
-             "of gauges.model_error = {}, and more touches are flagged; have them further from the core, or "
-             "calibrate",
-             config.tolerance.depth_m, error, config.gauges.model_error));
+    warn(
+        "tables",
+        fmt::format(
+            "a gauge that lies tolerance.depth_m = {} m off its depth reads quite otherwise, as near the "
+            "core "
+            "or the surface: until this finger is calibrated, errors are told for a model error of {:.2g} in "
+            "place of gauges.model_error = {}, and more touches are flagged; calibrate it, or enter a "
+            "smaller tolerance if it is built to one",
+            config.tolerance.depth_m, error, config.gauges.model_error));
   const double most_n = 2 * check.halfScale_n_per_m * config.finger.length_m;
   const double told_n = can::largestValues().normal_n;
   if (most_n > told_n)

@@ -55,7 +55,9 @@ std::vector<Key> makeKeys() {
       {"gauges", "model_error", slot<&F::gauges, &Gauges::model_error>(), Domain::between(0, 1),
        "standard deviation of what a reading may be off what the model says (build tolerances, rubber), as a "
        "fraction of that reading; an eighth of that of its neighbours' and a sixteenth of that of the "
-       "touch's largest come on top; 0.05: nobody calibrated the finger; 0: it is exactly as configured"},
+       "touch's largest come on top; 0.05: nobody calibrated the finger, and up to twice that is used where "
+       "tolerance.depth_m "
+       "makes readings of such a finger more uncertain, as near the core; 0: it is exactly as configured"},
       {"gauges", "angle_deg", slot<&F::gauges, &Gauges::angles_deg>(), Domain::below(0, 360),
        "where each gauge is, counter-clockwise from gauge to gauge, for a ring that is not even; an empty "
        "list: the ring is even"},
@@ -101,7 +103,9 @@ std::vector<Key> makeKeys() {
        Domain::above(0, kMostOffset_deg),
        "calibrate: standard deviation of a gauge's angle from the drawing"},
       {"tolerance", "depth_m", slot<&F::tolerance, &Tolerance::depth_m>(), Domain::above(0, 1),
-       "calibrate: standard deviation of a gauge's depth from the drawing"},
+       "standard deviation of a gauge's depth from the drawing: for calibrate, and for what a finger that is "
+       "not calibrated "
+       "is told to be off by (gauges.model_error)"},
       {"tolerance", "gain", slot<&F::tolerance, &Tolerance::gain>(), Domain::above(0, 0.5),
        "calibrate: standard deviation of a gauge's gain, relative"},
       {"tolerance", "zero_strain", slot<&F::tolerance, &Tolerance::zero_strain>(), Domain::above(0, 0.1),

@@ -32,7 +32,7 @@ constexpr double kMomentErrorPerModelError = 0.5;
 /// tolerance.depth_m off: 0.068 on the default finger. Near the core, where strains are small, it is more: on
 /// 20 mm, 0.2 mm above the core, 0.2. Without that 30 of 2,000 touches of such fingers as built are beyond
 /// six sigma, with it 4 (closed_loop, AsBuilt).
-constexpr double kDepthError = 0.07;
+constexpr double kShareOffByDepth = 0.07;
 /// The model error is increased so many times at most. A quarter of those touches are flagged then; with 2.4
 /// times it is more than a third, and as many are wrong.
 constexpr double kMostDeepened = 2;
@@ -68,17 +68,20 @@ double scaleError(const FingerConfig& config, const Eigen::VectorXd& drawn) {
                     loadError(drawn, lineResponse(config, softer, radius_m)));
 }
 
-/// By how much of itself a gauge's reading changes where the gauge lies shallower by the tolerance.
-double depthError(const FingerConfig& config, const Eigen::VectorXd& drawn) {
-  const Finger& finger = config.finger;
-  const double radius_m = std::min(config.gauges.radius_m + config.tolerance.depth_m, finger.outer_radius_m);
-  const Eigen::VectorXd shallower = lineResponse(config, finger.annulus(), radius_m);
+/// By how much of itself a gauge's reading changes where the gauge lies shallower by the tolerance: by the
+/// slope, because the tolerance may be more than its depth.
+double shareOffByDepth(const FingerConfig& config, const Eigen::VectorXd& drawn) {
+  constexpr double kStep = 0.01;  // of the depth
+  const double step_m = kStep * (config.finger.outer_radius_m - config.gauges.radius_m);
+  const Eigen::VectorXd shallower =
+      lineResponse(config, config.finger.annulus(), config.gauges.radius_m + step_m);
   const Eigen::Index count = std::min(drawn.size(), shallower.size());
-  return std::abs(shallower.head(count).dot(drawn.head(count)) / drawn.head(count).squaredNorm() - 1);
+  const double change = shallower.head(count).dot(drawn.head(count)) / drawn.head(count).squaredNorm() - 1;
+  return std::abs(change) * config.tolerance.depth_m / step_m;
 }
 
-/// A calibration has found core, ratio and depths.
-bool isAsDrawn(const FingerConfig& config) {
+/// Calibrated, so that core, ratio and depths are known, or perfect.
+bool isWellKnown(const FingerConfig& config) {
   return config.calibration.load_error > 0 || config.gauges.model_error == 0;
 }
 
@@ -88,7 +91,7 @@ Eigen::VectorXd drawnResponse(const FingerConfig& config) {
 
 double loadScaleError(const FingerConfig& config) {
   const double times =
-      isAsDrawn(config) ? 1 : std::max(1.0, scaleError(config, drawnResponse(config)) / kDefaultScaleError);
+      isWellKnown(config) ? 1 : std::max(1.0, scaleError(config, drawnResponse(config)) / kDefaultScaleError);
   return std::min(1.0, kScaleErrorPerModelError * config.gauges.model_error * times);
 }
 
@@ -96,8 +99,8 @@ double loadScaleError(const FingerConfig& config) {
 
 double modelError(const FingerConfig& config) {
   const double error = config.gauges.model_error;
-  if (isAsDrawn(config)) return error;
-  const double times = depthError(config, drawnResponse(config)) / kDepthError;
+  if (isWellKnown(config)) return error;
+  const double times = shareOffByDepth(config, drawnResponse(config)) / kShareOffByDepth;
   return std::min(1.0, error * std::clamp(times, 1.0, kMostDeepened));
 }
 

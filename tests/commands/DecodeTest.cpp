@@ -323,7 +323,7 @@ TEST(Decode, WhatATerminalWouldObeyIsInNoRow) {
   const Run run = runProgram("decode", "(1609779922.655421) ca\x07 185#E8032201808161A3\n");
   LONGS_EQUAL(1, run.status);
   STRCMP_EQUAL("", rows(run).c_str());
-  checkSays("stdin:1:21: no interface has such a name", run);
+  checkSays("an interface's name has printable ASCII characters only", run);
 }
 
 TEST(Decode, OfManyLinesThatItCannotReadSomeAreTold) {

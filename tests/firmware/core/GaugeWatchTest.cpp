@@ -120,3 +120,33 @@ TEST(GaugeWatch, EveryGaugeOfTheLargestRingCanFail) {
     UNSIGNED_LONGS_EQUAL(GaugeSet{1} << gauge, watch.outOfUse());
   }
 }
+
+TEST(GaugeWatch, TwoSetsAtARailTakeAGaugeOutUntilItReadsNothing) {
+  CHECK_FALSE(watch.implausiblyAtRail(kFive));
+  CHECK_FALSE(watch.implausiblyAtRail(kSix));
+  CHECK_TRUE(watch.implausiblyAtRail(kFive | kSix));
+  UNSIGNED_LONGS_EQUAL(kSix, watch.outOfUse());
+  CHECK_TRUE(watch.implausiblyAtRail(kFive | kSix));
+  CHECK_FALSE(watch.implausiblyAtRail(kFive | kSix));  // is already out
+  watch.noLongerAtRail(kSix);
+  UNSIGNED_LONGS_EQUAL(kFive, watch.outOfUse());
+  watch.noLongerAtRail(~kFive);
+  UNSIGNED_LONGS_EQUAL(kFive, watch.outOfUse());
+}
+
+TEST(GaugeWatch, AGaugeThatIsOutForAnotherReasonDoesNotComeBackFromARail) {
+  convictFive();
+  watch.takeOut(kSix);
+  for (int set = 0; set < 3; ++set) CHECK_FALSE(watch.implausiblyAtRail(kFive | kSix));
+  watch.noLongerAtRail(kFive | kSix);
+  UNSIGNED_LONGS_EQUAL(kFive | kSix, watch.outOfUse());
+}
+
+TEST(GaugeWatch, AGaugeThatATouchBroughtBackFromARailCanBeConvicted) {
+  for (int set = 0; set < 2; ++set) watch.implausiblyAtRail(kFive);
+  for (int set = 0; set < GaugeWatch::kConvincing; ++set) watch.vindicate(kFive, 0);
+  UNSIGNED_LONGS_EQUAL(0, watch.outOfUse());
+  convictFive();
+  watch.noLongerAtRail(kFive);
+  UNSIGNED_LONGS_EQUAL(kFive, watch.outOfUse());
+}

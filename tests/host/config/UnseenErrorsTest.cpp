@@ -32,6 +32,12 @@ TEST(UnseenErrors, ReadingsNearTheCoreAreUpToTwiceAsFarOffUntilItIsCalibrated) {
   DOUBLES_EQUAL(0.05, modelError(config), 0);
 }
 
+TEST(UnseenErrors, ToleranceOfAnySizeIsTaken) {
+  config.gauges.radius_m = 12e-3;
+  config.tolerance.depth_m = 5e-3;
+  DOUBLES_EQUAL(0.1, modelError(config), 1e-12);
+}
+
 TEST(UnseenErrors, LoadsAreNoFurtherOffThanThemselves) {
   config.gauges.radius_m = config.finger.core_radius_m;
   DOUBLES_EQUAL(1, loadScale(), 0);

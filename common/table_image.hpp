@@ -86,7 +86,7 @@ struct TableConstants {
   std::uint16_t load_scale_error_q16;  ///< standard error of the scale of all loads, at most 1
   std::uint16_t load_error_q16;        ///< that calibration leaves of both loads, over the normal load
   std::uint16_t moment_error_q16;      ///< of second moments that no residual shows, over the largest
-  std::uint16_t adc_rail;              ///< a left-justified code from here on, or as near to 0, is at an end of the range
+  std::uint16_t adc_rail;              ///< codes from here on, and those as near to 0, are ends of the range
   std::uint16_t node_count;            ///< angle nodes over half a revolution
   std::int8_t noise_variance_exponent;
   std::int8_t mirror_sign;  ///< reading seen from the other side: +1 radial, hoop; -1 shear

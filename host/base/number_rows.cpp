@@ -74,6 +74,12 @@ std::string textOf(std::string_view field) {
   return text;
 }
 
+std::vector<std::string> namesOf(std::string_view line) {
+  std::vector<std::string> names;
+  for (const std::string_view field : fieldsOf(line)) names.push_back(textOf(field));
+  return names;
+}
+
 /// Of a field in its line, from 1.
 std::size_t columnOf(std::string_view field, const std::string& line) {
   return static_cast<std::size_t>(field.data() - line.data()) + 1;
@@ -131,10 +137,9 @@ bool NumberRowReader::next(std::vector<double>& row) {
     const bool isFirst = std::exchange(mayBeHeader_, false);
     if (isFirst && isAllNames(line)) {
       takeHeader(line);
-      header_ = line;
       continue;
     }
-    if (line == header_) continue;
+    if (isHeaderAgain(line)) continue;
     isCut_ = !isFirst && stream_.eof() && isCut(line);
     if (isCut_) {
       tell("strainfinger: {}: the file ends in the middle of this line, which is left out\n", place());
@@ -147,7 +152,8 @@ bool NumberRowReader::next(std::vector<double>& row) {
   return false;
 }
 
-/// Of a line without its end: too few fields, or the last one may be part of a number alone.
+/// Of a line without its end: too few fields, or the last one may be part of a number alone, as one that is
+/// beyond the limit for want of its exponent.
 bool NumberRowReader::isCut(const std::string& line) const {
   const auto fields = fieldsOf(line);
   const std::size_t needed = columns_ + otherNames_.size();
@@ -155,7 +161,17 @@ bool NumberRowReader::isCut(const std::string& line) const {
   const bool isText = !places_.empty() && places_.back() == columns_;
   const std::string last = textOf(fields.back());
   const bool mayBeNumber = last.find_first_not_of(kOfNumbers) == std::string::npos;
-  return !isText && !signedNumber(last) && mayBeNumber && !(last.empty() && limit_.mayBeEmpty);
+  const auto value = signedNumber(last);
+  const bool isWhole = value ? std::abs(*value) <= limit_.most : last.empty() && limit_.mayBeEmpty;
+  return !isText && mayBeNumber && !isWhole;
+}
+
+bool NumberRowReader::isHeaderAgain(std::string_view line) const {
+  if (header_.empty()) return false;
+  if (line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
+  const std::string_view content = trimmed(line);
+  const bool mayBeNames = !content.empty() && (isLetter(content.front()) || content.front() == '"');
+  return mayBeNames && namesOf(line) == header_;
 }
 
 bool NumberRowReader::readLine(std::string& line) {
@@ -177,14 +193,13 @@ void NumberRowReader::requireReadable() const {
 }
 
 void NumberRowReader::takeHeader(const std::string& line) {
-  std::vector<std::string> names;
-  for (const std::string_view field : fieldsOf(line)) names.push_back(textOf(field));
-  if (!limit_.columns.empty()) return chooseColumns(names);
-  if (const std::string all = fmt::format("{}", fmt::join(names, ","));
+  header_ = namesOf(line);
+  if (!limit_.columns.empty()) return chooseColumns(header_);
+  if (const std::string all = fmt::format("{}", fmt::join(header_, ","));
       !limit_.header.empty() && all != limit_.header)
     fail(1, fmt::format("the header is \"{}\", not \"{}\"", excerpt(all), limit_.header));
-  if (names.size() != columns_)
-    fail(1, fmt::format("the header has {} columns where {} are needed", names.size(), columns_));
+  if (header_.size() != columns_)
+    fail(1, fmt::format("the header has {} columns where {} are needed", header_.size(), columns_));
 }
 
 void NumberRowReader::chooseColumns(const std::vector<std::string>& names) {

@@ -14,9 +14,10 @@ namespace strainfinger {
 /// Reads rows of `columns` finite numbers, separated by commas (blanks around them are allowed). A first row
 /// of names is a header: they begin with a letter and are no word for a missing number (NA, nan, null ..),
 /// and are as many as the columns. Names and texts may be quoted, with commas in them (RFC 4180). Blank lines
-/// and lines that begin with # are passed over, as are a byte order mark and the header where it is repeated,
-/// as in files that were put together. A last line that was cut off, as by a full disk, is told on stderr and
-/// left out.
+/// and lines that begin with # are passed over, as are a byte order mark and the header where it is repeated
+/// (with its mark), as in files that were put together. A last line that was cut off, as by a full disk, is
+/// told on stderr and left out. A cut is not noticed inside a last number of which a plausible one is left,
+/// as 1.2 of 1.25, or of 1.2e-5 where there is no limit.
 class NumberRowReader {
  public:
   /// What may be there: numbers of at most `most` in size (`hint` says what a larger one may have been meant
@@ -57,6 +58,7 @@ class NumberRowReader {
 
  private:
   bool isCut(const std::string& line) const;
+  bool isHeaderAgain(std::string_view line) const;
   bool readLine(std::string& line);
   void requireReadable() const;
   void takeHeader(const std::string& line);
@@ -74,7 +76,7 @@ class NumberRowReader {
   std::size_t line_ = 0;
   bool mayBeHeader_ = true;
   bool isCut_ = false;
-  std::string header_;               ///< its line; empty: there is none
+  std::vector<std::string> header_;  ///< its names; empty: there is none
   std::vector<std::size_t> places_;  ///< in the row, of the header's columns; empty: as they are
   std::vector<std::string> otherNames_;
   std::vector<std::string> others_;

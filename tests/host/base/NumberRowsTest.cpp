@@ -215,6 +215,29 @@ TEST(NumberRows, AHeaderThatIsRepeatedIsPassedOver) {
   LONGS_EQUAL(2, read("a,b\n1,2\na,b\n3,4\na,b\n").size());
 }
 
+TEST(NumberRows, AHeaderThatIsRepeatedInOtherBytesIsPassedOver) {
+  const std::string mark = "\xEF\xBB\xBF";
+  LONGS_EQUAL(2, read("a,b\n1,2\n\"a\", b \r\n3,4\n").size());
+  LONGS_EQUAL(2, read(mark + "a,b\n1,2\n" + mark + "a,b\n3,4\n").size());
+}
+
+// -1.2e-05, cut.
+TEST(NumberRows, ALastNumberThatLostItsExponentIsCut) {
+  for (const char* cut : {"-1.2", "-1.2e", "-1.2e-", "-1.2e-0"}) {
+    std::istringstream stream(std::string("0.1,0.2\n0.3,") + cut);
+    NumberRowReader reader(stream, "stdin", 2, {.most = 1});
+    std::vector<double> row;
+    CHECK_TRUE(reader.next(row));
+    CHECK_FALSE_TEXT(reader.next(row), cut);
+    CHECK_TRUE(reader.isCut());
+  }
+  std::istringstream whole("0.1,0.2\n0.3,-1.2\n");
+  NumberRowReader reader(whole, "stdin", 2, {.most = 1});
+  std::vector<double> row;
+  CHECK_TRUE(reader.next(row));
+  CHECK_THROWS(Failure, reader.next(row));
+}
+
 TEST(NumberRows, ALastLineThatWasCutIsLeftOut) {
   for (const char* cut : {"3", "3,", "3,-", "3,4e-", "\"3,4"})
     LONGS_EQUAL_TEXT(1, read(std::string("1,2\n") + cut).size(), cut);

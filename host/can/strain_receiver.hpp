@@ -37,6 +37,8 @@ class StrainReceiver {
     return found;
   }
 
+  /// As RawReceiver's.
+  const std::vector<std::uint16_t>& zeros() const { return raw_.zeros(); }
   std::uint64_t incomplete() const { return raw_.incomplete(); }  ///< sets that lost a page
   std::uint64_t withoutZeros() const { return withoutZeros_; }    ///< whole sets before the first zeros
   /// As RawReceiver's.

@@ -18,6 +18,7 @@
 #include "host/session/session.hpp"
 #include "host/session/session_files.hpp"
 #include "host/session/session_view.hpp"
+#include "host/session/zero_watch.hpp"
 #include "host/system/stop_signal.hpp"
 
 namespace strainfinger::cli {
@@ -39,12 +40,14 @@ double secondsSince(SessionClock::time_point then) {
 class SessionFace {
  public:
   virtual ~SessionFace() = default;
-  /// The text of a command, if one was given.
-  virtual std::optional<std::string> readCommand() = 0;
+  /// A command, if one was given.
+  virtual std::optional<session::Command> readCommand() = 0;
   /// Whether the last command was obeyed.
   virtual void answer(bool) {}
   /// Nobody can give a command any more.
   virtual bool isOver() const { return false; }
+  /// A load or an angle is about to be entered; `isHeld`: of what the session holds.
+  virtual bool isEntering(bool isHeld) const = 0;
   virtual void show(const session::SessionView& view) = 0;
   /// What became of a command, or of the finger, at once.
   virtual void say(const std::string& message) = 0;
@@ -52,14 +55,17 @@ class SessionFace {
 
 class SessionScreen : public SessionFace {
  public:
-  explicit SessionScreen(const config::Gauges& gauges) : gauges_(gauges) {}
+  explicit SessionScreen(const config::FingerConfig& config)
+      : gauges_(config.gauges), keys_(config.finger.length_m) {}
 
-  std::optional<std::string> readCommand() override {
+  std::optional<session::Command> readCommand() override {
     while (const auto key = terminal_.key())
-      if (const auto text = keys_.press(*key)) return text;
+      if (auto command = keys_.press(*key)) return command;
     return std::nullopt;
   }
   void answer(bool isObeyed) override { keys_.answer(isObeyed); }
+  /// What Escape dropped is held on, but nobody enters it.
+  bool isEntering(bool) const override { return !keys_.prompt().empty(); }
   void show(const session::SessionView& view) override {
     if (SessionClock::now() - drawn_ < kSessionRedraw) return;
     drawn_ = SessionClock::now();
@@ -79,14 +85,18 @@ class SessionScreen : public SessionFace {
 /// Lines on stderr: stdout is for the table at the end. Commands are lines on stdin.
 class SessionLines : public SessionFace {
  public:
-  std::optional<std::string> readCommand() override {
-    if (const auto line = stdin_.next()) return std::string(*line);
+  explicit SessionLines(double length_m) : length_m_(length_m) {}
+
+  std::optional<session::Command> readCommand() override {
+    if (const auto line = stdin_.next()) return session::parseCommand(*line, length_m_);
     if (!isOver_) isOver_ = stdin_.read(0ms) == LineReader::Got::kEnd;
-    if (const auto line = stdin_.next()) return std::string(*line);
-    if (const auto last = isOver_ ? stdin_.rest() : std::nullopt) return std::string(*last);
+    if (const auto line = stdin_.next()) return session::parseCommand(*line, length_m_);
+    if (const auto last = isOver_ ? stdin_.rest() : std::nullopt)
+      return session::parseCommand(*last, length_m_);
     return std::nullopt;
   }
   bool isOver() const override { return isOver_; }
+  bool isEntering(bool isHeld) const override { return isHeld && !isOver_; }
   void show(const session::SessionView& view) override {
     const auto since = SessionClock::now() - printed_;
     const std::string news =
@@ -99,6 +109,7 @@ class SessionLines : public SessionFace {
   void say(const std::string& message) override { tell("calibrate: {}\n", message); }
 
  private:
+  double length_m_;
   LineReader stdin_{"-"};
   bool isOver_ = false;
   std::string news_;
@@ -115,7 +126,8 @@ class LiveSession {
         files_(options.outputPath, config),
         session_(config, files_.rows(), options.errors),
         fit_(config, options.errors),
-        receiver_(options.node, config.gauges.count, config.gauges.full_scale_strain) {}
+        receiver_(options.node, config.gauges.count, config.gauges.full_scale_strain),
+        zeroWatch_(config.gauges) {}
 
   LiveResult run() {
     bool interrupted = false;
@@ -135,11 +147,11 @@ class LiveSession {
     missedBefore_ = port_->status().missed;
     heard_ = SessionClock::now();
     face_ = makeFace();
-    while (!stop.asked() && !quit_ && session_.advice().kind != session::Advice::Kind::kDone) {
+    while (!stop.asked() && !quit_ && !isDone()) {
       if (port_->waitReadable(kSessionWait)) std::this_thread::sleep_for(can::BusPort::kGather);
       takeFrames();
       followFit();
-      while (const auto text = face_->readCommand()) obey(*text);
+      while (const auto command = face_->readCommand()) obey(*command);
       if (face_->isOver()) skipEntry();
       if (SessionClock::now() - heard_ > kSessionSilence) askAgain(stream);
       face_->show(view());
@@ -148,21 +160,24 @@ class LiveSession {
     return stop.asked();
   }
 
+  /// Nothing is left to gain, and nothing is being entered.
+  bool isDone() const {
+    return session_.advice().kind == session::Advice::Kind::kDone && !face_->isEntering(session_.isHolding());
+  }
+
   std::unique_ptr<SessionFace> makeFace() const {
-    if (!options_.plain && live::hasTerminal()) return std::make_unique<SessionScreen>(config_.gauges);
-    return std::make_unique<SessionLines>();
+    if (!options_.plain && live::hasTerminal()) return std::make_unique<SessionScreen>(config_);
+    return std::make_unique<SessionLines>(config_.finger.length_m);
   }
 
   void takeFrames() {
     while (const auto frame = port_->receiveTimed()) {
       const auto set = receiver_.take(frame->frame);
       receiver_.requireAllGauges();
+      requireZeros();
       if (!set) continue;
       heard_ = SessionClock::now();
-      if (set->zeroing) {
-        requireNoRows();
-        continue;
-      }
+      if (set->zeroing) continue;
       ++sets_;
       const session::Sample sample{
           1e-9 * static_cast<double>(frame->time_ns),
@@ -171,14 +186,14 @@ class LiveSession {
     }
   }
 
-  /// Rows of two zeros don't go together. Of a session that goes on with a finger that was just switched on,
-  /// the zero is taken before its first set.
-  void requireNoRows() {
-    if (sets_ == 0 || session_.rows().size() == 0) return;
+  /// Rows of two zeros don't go together. That a zero is being taken says nothing: it may be refused, be what
+  /// it was, or not be seen.
+  void requireZeros() {
+    if (!zeroWatch_.haveMoved(receiver_.zeros()) || session_.rows().size() == 0) return;
     rowsUse_ = session::RowsUse::kOfOldZero;
     throw Failure(ExitCode::kFailure,
-                  fmt::format("{} node {} takes a new zero, as another program's `tare` has it do: readings "
-                              "from now on don't go with the rows so far",
+                  fmt::format("{} node {} has taken another zero, by another program's `tare` or at a start: "
+                              "readings from now on don't go with the rows so far",
                               port_->name(), options_.node));
   }
 
@@ -192,8 +207,8 @@ class LiveSession {
     if (!fit_.isRunning() && session_.wantsFit()) fit_.start(session_.beginFit());
   }
 
-  void obey(const std::string& text) {
-    const session::Obeyed obeyed = session_.obey(session::parseCommand(text, config_.finger.length_m));
+  void obey(const session::Command& command) {
+    const session::Obeyed obeyed = session_.obey(command);
     if (obeyed.row) files_.add(obeyed.row->time_s, obeyed.row->strains, obeyed.row->known);
     if (obeyed.takenBack) takeBack();
     face_->answer(!obeyed.isRefused);
@@ -311,6 +326,7 @@ class LiveSession {
   session::Session session_;
   session::FitBeside fit_;
   can::StrainReceiver receiver_;
+  session::ZeroWatch zeroWatch_;
   SessionClock::time_point began_ = SessionClock::now(), heard_ = began_;
   std::uint32_t missedBefore_ = 0;
   std::uint64_t sets_ = 0;

@@ -13,9 +13,6 @@
 namespace strainfinger::session {
 namespace {
 
-/// What the key t makes before it asks.
-constexpr const char* kMayTare = "tare?";
-
 constexpr double kGravity_m_per_s2 = 9.80665;  // standard gravity (CGPM 1901)
 
 /// A number and what stands behind it.
@@ -83,34 +80,33 @@ Command parseCommand(std::string_view line, double length_m) {
   if (word == "angle") return angleOf(rest);
   if (rest.empty() && word == "hold") return Hold{};
   if (rest.empty() && word == "tare") return Tare{};
-  if (rest.empty() && word == kMayTare) return MayTare{};
   if (rest.empty() && word == "skip") return Skip{};
   if (rest.empty() && word == "undo") return Undo{};
   if (rest.empty() && word == "quit") return Quit{};
   return Unclear{fmt::format("\"{}\": say load, angle, hold, skip, undo, tare or quit", excerpt(text))};
 }
 
-std::optional<std::string> KeyReader::press(unsigned char key) {
+std::optional<Command> KeyReader::press(unsigned char key) {
   constexpr unsigned char kEscape = 0x1B, kDelete = 0x7F, kBackspace = 0x08;
   if (mode_ == Mode::kKeys) {
     typed_.clear();
     if (key == 'l') mode_ = Mode::kLoad;
     if (key == 'a') mode_ = Mode::kAngle;
     if (key == 't') mode_ = Mode::kTare;
-    if (mode_ == Mode::kTare) return kMayTare;
-    if (mode_ != Mode::kKeys) return "hold";
-    if (key == 's') return "skip";
-    if (key == 'u') return "undo";
-    if (key == 'q') return "quit";
+    if (mode_ == Mode::kTare) return MayTare{};
+    if (mode_ != Mode::kKeys) return Hold{};
+    if (key == 's') return Skip{};
+    if (key == 'u') return Undo{};
+    if (key == 'q') return Quit{};
     return std::nullopt;
   }
   if (mode_ == Mode::kTare) {
     mode_ = Mode::kKeys;
-    return key == 'y' ? std::optional<std::string>("tare") : std::nullopt;
+    return key == 'y' ? std::optional<Command>(Tare{}) : std::nullopt;
   }
   if (key == '\r' || key == '\n') {
     isEntered_ = true;
-    return (mode_ == Mode::kLoad ? "load " : "angle ") + typed_;
+    return parseCommand((mode_ == Mode::kLoad ? "load " : "angle ") + typed_, length_m_);
   }
   if (key == kEscape) mode_ = Mode::kKeys;
   if ((key == kDelete || key == kBackspace) && !typed_.empty()) typed_.pop_back();

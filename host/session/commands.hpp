@@ -17,7 +17,7 @@ struct AngleIs {
 /// What is held now is what the next load or angle is of.
 struct Hold {};
 struct Tare {};
-/// Whether a zero may be taken, before the user is asked to confirm it.
+/// Whether a zero may be taken, before the user is asked to confirm it: the key t, but no line.
 struct MayTare {};
 struct Skip {};
 /// The last load or angle was a mistake.
@@ -37,8 +37,11 @@ Command parseCommand(std::string_view line, double length_m);
 /// which Return enters and Escape drops; t asks whether to tare, which y does.
 class KeyReader {
  public:
-  /// A whole command's text, when this key makes it one. It wants an answer().
-  std::optional<std::string> press(unsigned char key);
+  /// `length_m`: as parseCommand()'s.
+  explicit KeyReader(double length_m) : length_m_(length_m) {}
+
+  /// A whole command, when this key makes it one. It wants an answer().
+  std::optional<Command> press(unsigned char key);
 
   /// Whether that was obeyed. Where it wasn't, what a key began to ask for is not asked, and a load or an
   /// angle that was entered can be corrected.
@@ -49,6 +52,7 @@ class KeyReader {
 
  private:
   enum class Mode { kKeys, kLoad, kAngle, kTare };
+  double length_m_;
   Mode mode_ = Mode::kKeys;
   bool isEntered_ = false;
   std::string typed_;

@@ -47,8 +47,8 @@ struct SessionGoals {
   int leastPerArc = 4;
   /// [1] Sigma of the unit of force: a gram in a hundred, as kitchen scales have it.
   double unitOfForce = 0.01;
-  /// [1] By what share a press of known load must lower that sigma to be asked for: the tenth and later ones
-  /// of equal presses lower it by less.
+  /// [1] By what share a press of known load must lower that sigma to be asked for: the eleventh and later
+  /// ones of equal presses lower it by less.
   double leastUnitGain = 0.05;
   /// [presses a gauge] Of known load that are asked for: where so many leave it above, something is wrong
   /// with them.
@@ -96,5 +96,14 @@ struct HoldRules {
   double elsewhere_deg = 15, elsewhere = 4;
 };
 inline constexpr HoldRules kHolds{};
+
+/// When a finger has taken another zero.
+struct ZeroRules {
+  /// [noise] By so much a gauge's zero has moved between two rounds of them, a second apart: following drift
+  /// moves it by 2 (firmware/core/zero_tracker.hpp), by 6 where two rounds were lost. A new zero of 64 sets
+  /// of a finger that is as it was is 0.2 off.
+  double moved = 6;
+};
+inline constexpr ZeroRules kZeros{};
 
 }  // namespace strainfinger::session

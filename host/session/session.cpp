@@ -17,6 +17,15 @@ namespace strainfinger::session {
 using calibration::KnownTouch;
 using Eigen::VectorXd;
 
+namespace {
+
+/// Readings may still be those of a touch.
+bool isOfTouch(const VectorXd& strains, const VectorXd& touch) {
+  return (strains - touch).norm() < kHolds.stillHeld * touch.norm();
+}
+
+}  // namespace
+
 Session::Session(const config::FingerConfig& config, Rows rows, const calibration::KnownErrors& errors)
     : config_(config),
       errors_(errors),
@@ -118,15 +127,16 @@ std::optional<int> Session::farGauge() const {
 
 /// What was held last still is.
 bool Session::isPressed() const {
-  if (!pressed_ || recent_.empty()) return false;
-  return (recent_.back().strains - *pressed_).norm() < kHolds.stillHeld * pressed_->norm();
+  return pressed_ && !recent_.empty() && isOfTouch(recent_.back().strains, *pressed_);
 }
 
-/// Why what was entered can hardly be meant; empty where it can, as what is entered twice.
+/// Why what was entered can hardly be meant; empty where it can, as what is entered twice of one touch.
 std::string Session::doubtOf(const KnownTouch& known, const VectorXd& strains) const {
-  if (known.normal_n_per_m && known.normal_n_per_m != doubted_n_per_m_)
+  const KnownTouch doubted =
+      doubted_ && isOfTouch(strains, doubted_->strains) ? doubted_->known : KnownTouch{};
+  if (known.normal_n_per_m && known.normal_n_per_m != doubted.normal_n_per_m)
     return doubtOfLoad(*known.normal_n_per_m, strains);
-  if (known.angle_deg && known.angle_deg != doubted_deg_) return doubtOfAngle(*known.angle_deg, strains);
+  if (known.angle_deg && known.angle_deg != doubted.angle_deg) return doubtOfAngle(*known.angle_deg, strains);
   return {};
 }
 
@@ -161,11 +171,11 @@ Obeyed Session::keepHeld(const KnownTouch& known, const std::string& what) {
     return {.message = fmt::format("{} was not taken: {}. Press, hold still, and enter it again", what, why),
             .isRefused = true};
   if (const std::string doubt = doubtOf(known, sample->strains); !doubt.empty()) {
-    doubted_n_per_m_ = known.normal_n_per_m;
-    doubted_deg_ = known.angle_deg;
+    doubted_ = {sample->time_s, sample->strains, known};
     if (wasHeld) held_ = sample;
     return {.message = what + " was not taken: " + doubt, .isRefused = true};
   }
+  doubted_.reset();
   pressed_ = sample->strains;
   const NewRow row{sample->time_s, sample->strains, known};
   keep(row);
@@ -185,6 +195,7 @@ Obeyed Session::obeyAngle(double angle_deg) {
 Obeyed Session::obeyHold() {
   std::string why;
   held_ = nowHeld(why);
+  doubted_.reset();
   if (held_) pressed_ = held_->strains;
   return {.message = held_ ? "held" : why + ": press it, hold it still, and again",
           .isRefused = !held_.has_value()};
@@ -279,6 +290,7 @@ void Session::takeFit(FitOutcome outcome) {
   if (isFitOutdated_) return;
   complaint_ = outcome.complaint;
   isFaulty_ = outcome.isOfFaults;
+  if (isFaulty_) fit_.reset();
   if (outcome.result) fit_ = std::move(outcome);
 }
 

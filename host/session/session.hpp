@@ -54,7 +54,8 @@ class Session {
   /// The gauge that read most in it, of either sign; 0 before the first.
   int peakGauge() const;
   const Coverage& coverage() const { return coverage_; }
-  /// Of the newest fit that succeeded and knew nothing that was taken back since.
+  /// Of the newest fit that succeeded and knew nothing that was taken back since; none once a newer one found
+  /// that the finger is to be mended.
   const std::optional<FitOutcome>& fit() const { return fit_; }
   /// Of the newest fit, where it failed.
   const std::string& complaint() const { return complaint_; }
@@ -64,6 +65,8 @@ class Session {
   /// A gauge that is far from its zero though the finger is at rest; none while a press is asked for, nor
   /// while one that was entered is still held, nor where the finger is to be mended.
   std::optional<int> farGauge() const;
+  /// What the next load or angle is of was said by a Hold.
+  bool isHolding() const { return held_.has_value(); }
   /// Seconds for which the finger has been at rest.
   double atRest_s() const;
 
@@ -102,8 +105,9 @@ class Session {
   std::deque<Sample> recent_;               ///< of the last HoldRules::time_s
   std::optional<Sample> held_;              ///< what the next load or angle is of, if that was said
   std::optional<Eigen::VectorXd> pressed_;  ///< the strains of what was held, or entered, last
-  std::optional<double> doubted_n_per_m_, doubted_deg_;  ///< what was refused last, a load or an angle
-  std::vector<Sample> resting_;                          ///< since the finger came to rest
+  /// What was refused last, a load or an angle, and of which touch.
+  std::optional<NewRow> doubted_;
+  std::vector<Sample> resting_;  ///< since the finger came to rest
   Eigen::VectorXd restSum_;
   std::optional<int> farGauge_;
 };

@@ -129,6 +129,14 @@ def table(path):
         return list(csv.DictReader(file))
 
 
+def swap_gauges(strains):
+    """3 and 8."""
+    rows = [line.split(",") for line in strains.read_text().splitlines()]
+    for row in rows[1:]:
+        row[4], row[9] = row[9], row[4]  # time_s is first
+    strains.write_text("".join(",".join(row) + "\n" for row in rows))
+
+
 def summary_of_run(config, bench, folder):
     """What the firmware's answers are off, in the scene."""
     run = subprocess.run([PROGRAM, "run", "-c", str(config), "--scenario", str(bench.folder / "scene.toml"), "--duration", "68", "--json"],
@@ -209,14 +217,15 @@ class Guided(unittest.TestCase):
             self.assertAlmostEqual(CORE_M, json.loads(thinned.stdout)["core_radius_m"], delta=3e-5)
 
 
-class Resumed(unittest.TestCase):
+class OfSimulatedRows(unittest.TestCase):
     """Sessions that go on with rows that were simulated beforehand."""
+    SCENE = "schema = 1\n"
 
     @classmethod
     def setUpClass(cls):
         cls.bench = Bench(PROGRAM)
         cls.addClassCleanup(cls.bench.close)
-        cls.finger = Finger(cls.bench, "schema = 1\n")
+        cls.finger = Finger(cls.bench, cls.SCENE)
         scenario = cls.bench.folder / "touches.toml"
         scenario.write_text(scene())
         cls.strains, cls.touches = cls.bench.folder / "all.strains.csv", cls.bench.folder / "all.touches.csv"
@@ -234,6 +243,65 @@ class Resumed(unittest.TestCase):
 
     def command(self, output):
         return f"{PROGRAM} calibrate --can {self.bench.bus} -c {self.finger.config} -o {output}"
+
+
+class Pressed(OfSimulatedRows):
+    """The finger is pressed at one place all the time, but for a while at its start."""
+    SCENE = "schema = 1\n" + touch(4, 3600, 67, 20, 0, 1.5e-3)
+
+    def setUp(self):
+        self.bench.until(lambda: self.finger.truth.held(), 60)
+
+    def tare(self, *options):
+        return subprocess.run([PROGRAM, "tare", "--can", self.bench.bus, "-n", "1", *options], capture_output=True, text=True)
+
+    def test_a_session_ends_by_another_zero_but_not_by_one_that_is_refused(self):
+        for options in ([], ["--rate", "10"]):
+            output = self.session_of(40)
+            session = Session(self.bench, self.finger, output, *options)
+            self.bench.until(lambda: session.rows() >= 40)
+            self.assertEqual(1, self.tare().returncode)
+            time.sleep(3)
+            self.assertIsNone(session.process.poll(), session.said.lines[-3:])
+            self.assertEqual(0, self.tare("--force").returncode)
+            self.assertEqual(1, session.ended(10))
+            self.assertRegex(session.said.last, r"node 1 has taken another zero, .*; \d+ rows are kept in .*, of the old zero: start again with another -o")
+            self.assertGreaterEqual(len(table(output.with_suffix(".strains.csv"))), 40)
+            self.finger.process.kill()
+            self.finger.process.wait()
+            type(self).finger = Finger(self.bench, self.SCENE)
+            self.setUp()
+
+    def test_what_is_held_is_entered_before_it_ends(self):
+        output = self.session_of(700)
+        session = Session(self.bench, self.finger, output)
+        self.bench.until(lambda: session.states())
+        time.sleep(1)  # of readings
+        session.say("hold")
+        self.bench.until(lambda: any(line.endswith(": held") for line in session.said.lines))
+        self.bench.until(lambda: session.next().startswith("Nothing"), 300)
+        time.sleep(2)
+        self.assertIsNone(session.process.poll(), session.said.lines[-3:])
+        session.say("load 20 N/m")
+        self.assertEqual(0, session.ended(300), session.said.lines[-3:])
+        self.assertIn("calibrate: the load of 20 N/m is taken", session.said.lines)
+
+    @unittest.skipIf(shutil.which("tmux") is None, "tmux is not installed: apt install tmux")
+    def test_what_is_being_typed_is_not_cut_off_by_the_end(self):
+        with Terminal(self.command(self.session_of(700)), 100, 30) as terminal:
+            terminal.wait_for(r"q end")
+            time.sleep(1)  # of readings
+            terminal.press("l", "2")
+            terminal.wait_for(r"Return or Esc: 2_")
+            terminal.wait_for(r"Nothing is left to gain", 120)
+            time.sleep(1)
+            terminal.press("0")
+            terminal.wait_for(r"Return or Esc: 20_")
+            terminal.press("Escape")
+            terminal.wait_for(r"ended: 0", 120)
+
+
+class Resumed(OfSimulatedRows):
 
     def test_it_ends_when_nothing_is_left_to_gain(self):
         output = self.session_of(700)
@@ -254,6 +322,14 @@ class Resumed(unittest.TestCase):
         self.assertIn("calibrate: stdin is at its end: skipped: without known loads the unit of force is the drawing's", said)
         self.assertIn("calibrate: stdin is at its end: skipped: without known directions a ring that is turned or reversed is not noticed", said)
         self.assertIn("[calibration]", output.read_text())
+
+    def test_with_stdin_at_its_end_a_finger_that_is_to_be_mended_ends_it(self):
+        output = self.session_of(400)
+        swap_gauges(output.with_suffix(".strains.csv"))
+        run = subprocess.run(self.command(output).split(), capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=120)
+        self.assertEqual(1, run.returncode)
+        self.assertRegex(run.stderr.splitlines()[-1], r"^strainfinger: .*3.* 8.*rows are kept in .*: start again with another -o")
+        self.assertFalse(output.exists())
 
     def test_a_last_line_without_its_end_is_obeyed(self):
         run = subprocess.run(self.command(self.session_of(40)).split(), capture_output=True, text=True, input="quit", timeout=60)
@@ -298,11 +374,7 @@ class Resumed(unittest.TestCase):
 
     def test_gauges_that_are_wired_wrongly_are_named(self):
         output = self.session_of(400)
-        strains = output.with_suffix(".strains.csv")
-        rows = [line.split(",") for line in strains.read_text().splitlines()]
-        for row in rows[1:]:
-            row[4], row[9] = row[9], row[4]  # gauges 3 and 8: time_s is first
-        strains.write_text("".join(",".join(row) + "\n" for row in rows))
+        swap_gauges(output.with_suffix(".strains.csv"))
         session = Session(self.bench, self.finger, output)
         self.bench.until(lambda: "no fit yet: " in session.said.last, 60)
         self.assertRegex(session.said.last, r"no fit yet: .*3.* 8.* \| Stop: gauges or wires must be mended first")
@@ -331,14 +403,18 @@ class Resumed(unittest.TestCase):
         self.assertRegex(session.said.last, r"--page \S+none/page.html: there is no folder \S+none; make it")
         self.assertFalse(output.exists())
 
-    def test_a_zero_that_another_program_takes_ends_it(self):
+    def test_a_zero_that_is_what_it_was_does_not_end_it(self):
         output = self.session_of(40)
         session = Session(self.bench, self.finger, output)
         self.bench.until(lambda: session.rows() >= 40)
-        subprocess.run([PROGRAM, "tare", "--can", self.bench.bus, "-n", "1"], check=True, capture_output=True)
-        self.assertEqual(1, session.ended(10))
-        self.assertRegex(session.said.last, r"node 1 takes a new zero, .*; \d+ rows are kept in .*, of the old zero: start again with another -o")
-        self.assertGreaterEqual(len(table(output.with_suffix(".strains.csv"))), 40)
+        self.bench.until(lambda: session.states())
+        tare = [PROGRAM, "tare", "--can", self.bench.bus, "-n", "1"]
+        subprocess.run(tare, check=True, capture_output=True)
+        time.sleep(3)
+        self.assertIsNone(session.process.poll(), session.said.lines[-3:])
+        session.say("quit")
+        self.assertEqual(1, session.ended(60))
+        self.assertIn("too few", session.said.last)
 
     def test_control_c_ends_it_with_130_and_nothing_is_lost(self):
         output = self.session_of(40)

@@ -188,7 +188,7 @@ sleep 0.5; timeout 60 "$STRAINFINGER" push --can $bus -c <(printf 'schema = 1\n[
 status=$?; kill $finger; exit $status)");
   LONGS_EQUAL(6, run.status);
   STRCMP_CONTAINS(
-      "took the tables, but does not work with them: state fault, table_crc 00, not 2A: they are for 12 "
+      "took the tables, but does not work with them: state fault, table_crc 00, not DB: they are for 12 "
       "gauges: where its board reads another number, push those of its own config (-c); else push",
       run.err.c_str());
 }

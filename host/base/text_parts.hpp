@@ -1,6 +1,8 @@
 #pragma once
 // Parts of texts.
 
+#include <algorithm>
+#include <cctype>
 #include <string>
 #include <string_view>
 
@@ -13,6 +15,14 @@ constexpr std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(kBlanks);
   if (first == text.npos) return {};
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+/// ASCII letters in lower case.
+inline std::string lowerCase(std::string_view text) {
+  std::string lower(text);
+  std::ranges::transform(lower, lower.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower;
 }
 
 /// With `by` at each `place`, which is not empty.

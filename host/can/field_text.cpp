@@ -1,10 +1,9 @@
 #include "host/can/field_text.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <string_view>
 
 #include "common/commands.hpp"
+#include "host/base/text_parts.hpp"
 #include "host/can/decimal_text.hpp"
 
 namespace strainfinger::can {
@@ -12,9 +11,7 @@ namespace strainfinger::can {
 std::string columnName(const FieldMeaning& meaning) {
   std::string name = meaning.name;
   if (*meaning.unit != '\0') name.append("_").append(meaning.unit);
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return name;
+  return lowerCase(name);
 }
 
 std::string valueText(const FieldSpec& field, std::int64_t raw) {

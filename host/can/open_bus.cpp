@@ -4,12 +4,12 @@
 #include <net/if.h>
 
 #include <algorithm>
-#include <cctype>
 #include <string_view>
 
 #include "host/base/edit_distance.hpp"
 #include "host/base/excerpt.hpp"
 #include "host/base/failure.hpp"
+#include "host/base/text_parts.hpp"
 #include "host/can/socketcan_port.hpp"
 #include "host/can/udp_port.hpp"
 
@@ -22,8 +22,7 @@ constexpr std::string_view kDigits = "0123456789";
 std::string meantUdp(std::string_view name) {
   constexpr std::string_view kUdp = "udp";
   constexpr std::size_t kMostOff = 2;
-  std::string word(name.substr(0, std::min(name.find_first_of(kDigits), name.find(':'))));
-  for (char& letter : word) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  const std::string word = lowerCase(name.substr(0, std::min(name.find_first_of(kDigits), name.find(':'))));
   std::string_view port = name.substr(word.size());
   const bool hasColon = port.starts_with(':');  // no interface has one
   if (hasColon) port.remove_prefix(1);

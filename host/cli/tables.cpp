@@ -66,7 +66,7 @@ void warnOf(const config::FingerConfig& config, const tables::SelfCheck& check) 
                      "gauges.angle_deg, gauges.radius_m); above {} times the errors told are too small "
                      "between gauges, and no touch tells which gauge fails: use more gauges, or deeper ones",
                      config::widestGapInDepths(config), config::kSparse));
-  if (const double error = config::modelError(config); error > config.gauges.model_error)
+  if (const double error = config::unseenErrors(config).modelError; error > config.gauges.model_error)
     warn(
         "tables",
         fmt::format(

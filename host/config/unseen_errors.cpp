@@ -35,7 +35,7 @@ constexpr double kMomentErrorPerModelError = 0.5;
 constexpr double kShareOffByDepth = 0.07;
 /// The model error is increased so many times at most. A quarter of those touches are flagged then; with 2.4
 /// times it is more than a third, and as many are wrong.
-constexpr double kMostDeepened = 2;
+constexpr double kMostTimes = 2;
 
 /// What a gauge reads of a line load pressing, by harmonics of the angle between them.
 Eigen::VectorXd lineResponse(const FingerConfig& config, const model::Annulus<double>& annulus,
@@ -80,35 +80,28 @@ double shareOffByDepth(const FingerConfig& config, const Eigen::VectorXd& drawn)
   return std::abs(change) * config.tolerance.depth_m / step_m;
 }
 
-/// Calibrated, so that core, ratio and depths are known, or perfect.
-bool isWellKnown(const FingerConfig& config) {
-  return config.calibration.load_error > 0 || config.gauges.model_error == 0;
-}
+/// How many times as much as on the default finger model error and loads' scale are off.
+struct Times {
+  double model = 1, loadScale = 1;
+};
 
-Eigen::VectorXd drawnResponse(const FingerConfig& config) {
-  return lineResponse(config, config.finger.annulus(), config.gauges.radius_m);
-}
-
-double loadScaleError(const FingerConfig& config) {
-  const double times =
-      isWellKnown(config) ? 1 : std::max(1.0, scaleError(config, drawnResponse(config)) / kDefaultScaleError);
-  return std::min(1.0, kScaleErrorPerModelError * config.gauges.model_error * times);
+/// Of a finger that is calibrated, so that core, ratio and depths are known, or perfect: as much.
+Times timesDefault(const FingerConfig& config) {
+  if (config.calibration.load_error > 0 || config.gauges.model_error == 0) return {};
+  const Eigen::VectorXd drawn = lineResponse(config, config.finger.annulus(), config.gauges.radius_m);
+  return {std::clamp(shareOffByDepth(config, drawn) / kShareOffByDepth, 1.0, kMostTimes),
+          std::max(1.0, scaleError(config, drawn) / kDefaultScaleError)};
 }
 
 }  // namespace
 
-double modelError(const FingerConfig& config) {
-  const double error = config.gauges.model_error;
-  if (isWellKnown(config)) return error;
-  const double times = shareOffByDepth(config, drawnResponse(config)) / kShareOffByDepth;
-  return std::min(1.0, error * std::clamp(times, 1.0, kMostDeepened));
-}
-
 UnseenErrors unseenErrors(const FingerConfig& config) {
-  const double model = modelError(config);
+  const Times times = timesDefault(config);
+  const double given = config.gauges.model_error, model = std::min(1.0, given * times.model);
   const double depth_m = config.finger.outer_radius_m - config.gauges.radius_m;
-  return {.place_m = std::hypot(config.calibration.place_error_m, kPlaceErrorPerModelError * model * depth_m),
-          .loadScale = loadScaleError(config),
+  return {.modelError = model,
+          .place_m = std::hypot(config.calibration.place_error_m, kPlaceErrorPerModelError * model * depth_m),
+          .loadScale = std::min(1.0, kScaleErrorPerModelError * given * times.loadScale),
           .normalShare = config.calibration.load_error,
           .moment_m2 = std::hypot(config.calibration.moment_error_m2,
                                   kMomentErrorPerModelError * model * depth_m * depth_m)};

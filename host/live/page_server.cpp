@@ -216,8 +216,8 @@ class PageServer::Impl {
           (response.status == 404 || response.status == 400) && !request.path.empty() && !isKnown(request);
       if (!isNotKnown) return say(response, response.status, whatWasWrong(response.status));
       say(response, 404,
-          fmt::format("{} {} is not known: GET /, /finger, /state, /events; POST /fingers/NODE/tare.",
-                      request.method, request.path));
+          fmt::format("{} {} is not known: GET {}; POST /fingers/NODE/tare.", request.method, request.path,
+                      fmt::join(kPages, ", ")));
     });
     if (isLocalAddress(options_.address))
       server_.set_pre_routing_handler([](const httplib::Request& request, httplib::Response& response) {

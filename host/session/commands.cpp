@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "host/base/excerpt.hpp"
@@ -26,13 +24,6 @@ std::optional<Unclear> decimalCommaIn(std::string_view text) {
   const auto point = withPoint(text.substr(0, text.find_first_not_of("+-0123456789.,")));
   if (!point) return std::nullopt;
   return Unclear{fmt::format("\"{}\": write {} with a point", excerpt(text), *point)};
-}
-
-std::string lowerCase(std::string_view text) {
-  std::string lower(text);
-  std::ranges::transform(lower, lower.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower;
 }
 
 std::optional<Quantity> quantityIn(std::string_view text) {

@@ -33,13 +33,12 @@ ShapeEstimator::ShapeEstimator(const config::FingerConfig& config, bool isSparse
       model_(config),
       search_(model_, config.contact.friction_coefficient),
       curvature_(config.finger.annulus()),
-      modelError_(config::modelError(config)),
       unseen_(config::unseenErrors(config)),
       isSparse_(isSparse) {}
 
 void ShapeEstimator::addUnseenErrors(TouchFit& fit) const {
   const double radius_m = model_.outerRadius_m();
-  const auto& [place_m, loadScale, normalShare, moment_m2] = unseen_;
+  const auto& [modelError, place_m, loadScale, normalShare, moment_m2] = unseen_;
   const auto load = [&](double load_n_per_m) {
     return std::hypot(loadScale * load_n_per_m, normalShare * fit.touch.normal_n_per_m);
   };
@@ -101,7 +100,7 @@ void ShapeEstimator::addClass(const TouchFit& ellipse, const Eigen::VectorXd& st
 std::optional<Shape> ShapeEstimator::estimate(const Eigen::VectorXd& strains, double largest_strain) const {
   const double largest = std::max(largest_strain, strains.lpNorm<Eigen::Infinity>());
   Shape shape;
-  shape.deviation_strain = std::hypot(config_.gauges.noise_strain, modelError_ * largest);
+  shape.deviation_strain = std::hypot(config_.gauges.noise_strain, unseen_.modelError * largest);
   const auto found = search_.search(strains, shape.deviation_strain);
   if (!found) return std::nullopt;
   const TouchFit& fit = found->best;

@@ -93,7 +93,6 @@ class ShapeEstimator {
   TouchModel model_;
   TouchSearch search_;
   CurvatureScale curvature_;
-  double modelError_;
   config::UnseenErrors unseen_;
   bool isSparse_;
 };

@@ -116,10 +116,11 @@ constexpr int kRail = 1 << 9;
 
 std::uint16_t fraction_q16(double value) { return rounded<std::uint16_t>(std::ldexp(value, 16)); }
 
-/// What standard errors have that no residual shows.
-void fillErrors(TableConstants& constants, const config::FingerConfig& config,
-                const ResponseTable& responses) {
+/// The model error, and what standard errors have that no residual shows.
+void fillErrors(TableConstants& constants, const config::FingerConfig& config, const ResponseTable& responses,
+                double depthError) {
   const config::UnseenErrors errors = config::unseenErrors(config);
+  constants.model_error_q16 = fraction_q16(std::hypot(errors.modelError, depthError));
   const double turn = errors.place_m / (2 * std::numbers::pi * config.finger.outer_radius_m);
   constants.place_error_q32 =
       rounded<std::uint32_t>(std::min(std::ldexp(turn, 32), double{kMostPlaceError_q32}));
@@ -140,8 +141,7 @@ TableConstants tableConstants(const config::FingerConfig& config, const GaugeGai
   constants.force_per_load_q16 = rounded<std::uint32_t>(config.finger.length_m * 1000 * powerOfTwo(16));
   constants.friction_q8 = rounded<std::uint16_t>(config.contact.friction_coefficient * 256);
   constants.cone_q8 = rounded<std::uint16_t>(frictionCone(config.contact) * 256);
-  constants.model_error_q16 = fraction_q16(std::hypot(config::modelError(config), depthError));
-  fillErrors(constants, config, responses);
+  fillErrors(constants, config, responses, depthError);
   constants.spacing = config::spacingOf(config);
   constants.adc_rail = 0x10000 - kRail;
   constants.mirror_sign = config.gauges.component == StrainComponent::kShear ? -1 : 1;

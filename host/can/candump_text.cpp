@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 #include <limits>
 #include <string_view>
 #include <utility>
 
 #include "host/base/byte_order_mark.hpp"
+#include "host/base/date_text.hpp"
 #include "host/can/line_cursor.hpp"
 
 namespace strainfinger::can {
@@ -85,13 +85,11 @@ class LineParser : private LineCursor {
 
   bool parseDate(std::int64_t& seconds) {
     const std::string text(line_.substr(at_, 19));
-    std::tm date{};
-    const char* end = strptime(text.c_str(), "%Y-%m-%d %H:%M:%S", &date);
-    if (end != text.c_str() + 19) return fail("expected a date and a time of day");
-    date.tm_isdst = -1;
-    const int day = date.tm_mday;
-    seconds = std::mktime(&date);
-    if (date.tm_mday != day) return fail("no such date: that month is shorter");
+    const auto date = readDate(text, ' ');
+    if (!date) return fail("expected a date and a time of day");
+    const auto since1970_s = secondsOf(*date, TimeZone::kLocal);
+    if (!since1970_s) return fail("no such date: that month is shorter");
+    seconds = *since1970_s;
     result_.timeForm = TimeForm::kDate;
     at_ += text.size();
     return true;

@@ -29,6 +29,14 @@ bool isTooShort(const CanFrame& frame) {
 
 }  // namespace
 
+std::int64_t requireTime(const TextFrame& frame, const LineReader& lines) {
+  if (!frame.time_ns)
+    throw Failure(
+        ExitCode::kFailure,
+        fmt::format("{}: a frame without a time: log with `candump -L`, or `candump -ta`", lines.place()));
+  return *frame.time_ns;
+}
+
 std::optional<TextFrame> LogReader::next() {
   while (const auto line = nextLine()) {
     const auto frame = frameOf(*line);
@@ -36,26 +44,24 @@ std::optional<TextFrame> LogReader::next() {
     isCutOff_ = !isWhole_ && isTooShort(frame->frame);
     if (isCutOff_) continue;
     anyFrame_ = true;
-    if (!frame->time_ns)
-      throw Failure(
-          ExitCode::kFailure,
-          fmt::format("{}: a frame without a time: log with `candump -L`, or `candump -ta`", place()));
-    times_.watch(frame->interface, *frame->time_ns, lines_);
-    if (!isWanted(frame->interface)) continue;
+    const std::int64_t time_ns = requireTime(*frame, lines_);
+    times_.watch(frame->interface, time_ns, lines_);
+    const bool isInWindow = part_.window.has(time_ns);
+    if (!isOfInterface(frame->interface)) continue;
     anyWanted_ = true;
-    return frame;
+    if (isInWindow) return frame;
   }
   return std::nullopt;
 }
 
-bool LogReader::isWanted(std::string_view interface) const {
-  return interface_.empty() || interface == interface_;
+bool LogReader::isOfInterface(std::string_view interface) const {
+  return part_.interface.empty() || interface == part_.interface;
 }
 
 void LogReader::requireInterface() const {
-  if (!interface_.empty() && !anyWanted_)
+  if (!part_.interface.empty() && !anyWanted_)
     throw Failure(ExitCode::kFailure,
-                  fmt::format("{}: no frame of {} in it", lines_.name(), excerpt(interface_)));
+                  fmt::format("{}: no frame of {} in it", lines_.name(), excerpt(part_.interface)));
 }
 
 std::optional<TextFrame> LogReader::frameOf(std::string_view line) {
@@ -69,7 +75,9 @@ std::optional<TextFrame> LogReader::frameOf(std::string_view line) {
   parsed_ = std::move(std::get<LogLine>(parsed));
   const auto frame = classicFrame(parsed_);
   if (frame) return TextFrame{parsed_.time_ns, parsed_.interface, *frame};
-  if (hasFrame(parsed_) && isWanted(parsed_.interface)) ++skipped_;
+  if (hasFrame(parsed_) && isOfInterface(parsed_.interface) &&
+      (!parsed_.time_ns || part_.window.has(*parsed_.time_ns)))
+    ++skipped_;
   return std::nullopt;
 }
 

@@ -10,15 +10,24 @@
 #include "host/base/line_reader.hpp"
 #include "host/can/candump_text.hpp"
 #include "host/can/log_times.hpp"
+#include "host/can/time_window.hpp"
 
 namespace strainfinger::can {
 
+/// What of a log is read.
+struct LogPart {
+  std::string interface;  ///< of this one alone; "": of all
+  TimeWindow window;
+};
+
+/// The time of a frame, which stands in the last line. Throws Failure(kFailure) where it has none.
+std::int64_t requireTime(const TextFrame& frame, const LineReader& lines);
+
 class LogReader {
  public:
-  /// Reads `path`, in any text form of candump; "-" is stdin. `interface`: give the frames of this one alone;
-  /// "": of all. Throws Failure(kFailure) if it cannot be opened.
-  explicit LogReader(const std::string& path, std::string interface = "")
-      : lines_(path), interface_(std::move(interface)) {}
+  /// Reads `path`, in any text form of candump; "-" is stdin. Throws Failure(kFailure) if it cannot be
+  /// opened.
+  explicit LogReader(const std::string& path, LogPart part = {}) : lines_(path), part_(std::move(part)) {}
 
   /// The next classic data frame of an 11-bit identifier; nothing at the end. Throws Failure(kFailure) with
   /// file:line:column for a line that cannot be read, and for a frame without a time; but a last line behind
@@ -26,7 +35,7 @@ class LogReader {
   /// logger that is killed or loses power leaves one.
   std::optional<TextFrame> next();
 
-  /// Frames of other kinds so far, of the interface that is read.
+  /// Frames of other kinds so far, of the part that is read.
   std::uint64_t skipped() const { return skipped_; }
 
   /// What to tell, once all is read, of a last line that was left out, and of times that run backwards.
@@ -35,22 +44,25 @@ class LogReader {
   /// Once all is read: throws Failure(kFailure) where nothing was of the interface that is read.
   void requireInterface() const;
 
+  /// Of the log's first frame, whether it is of the part that is read or not; nothing before that.
+  std::optional<std::int64_t> first_ns() const { return part_.window.first_ns(); }
+
   /// "x.log:3", of the last line.
   std::string place() const { return lines_.place(); }
 
  private:
   std::optional<std::string_view> nextLine();
   std::optional<TextFrame> frameOf(std::string_view line);
-  bool isWanted(std::string_view interface) const;
+  bool isOfInterface(std::string_view interface) const;
 
   LineReader lines_;
-  std::string interface_;
+  LogPart part_;
   LogLine parsed_;  ///< what the last frame points into where its line was not plain
   std::uint64_t skipped_ = 0;
   bool isWhole_ = true;    ///< the last line ended with a line end
   bool anyFrame_ = false;  ///< was read
   bool isCutOff_ = false;
-  bool anyWanted_ = false;  ///< of the interface that is read
+  bool anyWanted_ = false;  ///< of the interface that is read, at whatever time
   LogTimes times_{LogTimes::Order::kOfAll};
 };
 

@@ -20,13 +20,16 @@
 #include "host/can/candump_text.hpp"
 #include "host/can/frame_catalogue.hpp"
 #include "host/can/frame_printer.hpp"
+#include "host/can/log_reader.hpp"
 #include "host/can/log_times.hpp"
 #include "host/can/per_node.hpp"
 #include "host/can/remedies.hpp"
+#include "host/can/time_window.hpp"
 #include "host/can/touch_printer.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/decode_tally.hpp"
+#include "host/cli/window_options.hpp"
 #include "host/system/stop_signal.hpp"
 
 namespace strainfinger::cli {
@@ -68,6 +71,7 @@ struct DecodeOptions {
     addList(command, "-n,--node", nodes, "Only these nodes, as in 1,2,5", isNode())
         .type_name("N,N")
         ->allow_extra_args(false);  // what follows is a FILE
+    addWindowOptions(command, window);
     command.add_flag("--touches", touches, "A row a touch sample, not a row a frame");
     command.add_flag("--follow", follow,
                      "Wait for FILE, and for what is yet to be written to it, until Ctrl-C; once its name is "
@@ -78,6 +82,7 @@ struct DecodeOptions {
   CommonOptions common;
   std::vector<std::string> paths;
   std::vector<int> nodes;  ///< empty: all
+  can::TimeWindow window;
   bool touches = false;
   bool follow = false;
   bool strict = false;
@@ -86,7 +91,7 @@ struct DecodeOptions {
 class Decoder {
  public:
   explicit Decoder(const DecodeOptions& options)
-      : follow_(options.follow), strict_(options.strict), nodes_(options.nodes) {
+      : follow_(options.follow), strict_(options.strict), nodes_(options.nodes), asked_(options.window) {
     if (options.touches)
       touches_.emplace(output_.text(), options.common.format());
     else
@@ -97,6 +102,7 @@ class Decoder {
   void decodeAll(const std::string& path) {
     if (follow_ && !waitFor(path)) return;
     lines_.emplace(path);
+    window_ = asked_;
     do decodeFile();
     while (follow_ && openNext());
   }
@@ -119,6 +125,13 @@ class Decoder {
   const DecodeTally& tally() const { return tally_; }
 
  private:
+  /// Of a finger.
+  struct Spoken {
+    std::uint8_t protocol = kProtocolVersion;  ///< by its last HEARTBEAT
+    CanFrame heartbeat;                        ///< that one
+    bool isTold = false;                       ///< that the protocol is another
+  };
+
   /// To its end or, followed, until its path names another file.
   void decodeFile() {
     unreadable_ = 0;
@@ -202,6 +215,8 @@ class Decoder {
     const CanFrame& frame = text.frame;
     if (text.time_ns) times_.watch(text.interface, *text.time_ns, *lines_);
     const can::FrameEntry* const entry = can::findFunction(frame.id);
+    if (entry != nullptr) noteProtocol(text);
+    if (!isInWindow(text)) return tally_.countSkipped(SkipReason::kOtherTime);
     if (entry == nullptr && can::findCommand(frame) == nullptr)
       return tally_.countSkipped(decode<RawFrame>(frame) ? SkipReason::kRaw : SkipReason::kOtherIdentifier);
     if (!isWanted(frame)) return tally_.countSkipped(SkipReason::kOtherNode);
@@ -220,27 +235,37 @@ class Decoder {
            std::find(nodes_.begin(), nodes_.end(), can::fingerNode(frame.id)) != nodes_.end();
   }
 
+  bool isInWindow(const can::TextFrame& text) {
+    return window_.isWhole() || window_.has(can::requireTime(text, *lines_));
+  }
+
+  Spoken& spokenBy(const can::TextFrame& text) {
+    return spoken_.at(text.interface, *can::fingerNode(text.frame.id));
+  }
+
+  void noteProtocol(const can::TextFrame& text) {
+    const auto heartbeat = decode<HeartbeatFrame>(text.frame);
+    if (!heartbeat) return;
+    Spoken& spoken = spokenBy(text);
+    spoken.protocol = heartbeat->protocol;
+    spoken.heartbeat = text.frame;
+  }
+
   /// Whether its finger does by its last HEARTBEAT, which this may be: its frames mean something else.
   bool speaksOther(const can::TextFrame& text) {
-    Spoken& spoken = spoken_.at(text.interface, *can::fingerNode(text.frame.id));
-    const auto heartbeat = decode<HeartbeatFrame>(text.frame);
-    if (!heartbeat) return spoken.isOther;
-    spoken.isOther = heartbeat->protocol != kProtocolVersion;
-    if (spoken.isOther && !std::exchange(spoken.isTold, true)) tellProtocol(text, heartbeat->protocol);
-    return spoken.isOther;
+    Spoken& spoken = spokenBy(text);
+    const bool isOther = spoken.protocol != kProtocolVersion;
+    if (isOther && !std::exchange(spoken.isTold, true)) tellProtocol(text, spoken);
+    return isOther;
   }
 
-  void tellProtocol(const can::TextFrame& text, std::uint8_t protocol) {
+  void tellProtocol(const can::TextFrame& text, const Spoken& spoken) {
+    tally_.noteForeign(text.interface, spoken.heartbeat);
     output_.flush();  // what stands before it
-    warn("decode", fmt::format("{}: {} node {} {}; what it says from here on is left out", lines_->place(),
-                               text.interface, *can::fingerNode(text.frame.id), can::foreignText(protocol)));
+    warn("decode",
+         fmt::format("{}: {} node {} {}; what it says from here on is left out", lines_->place(),
+                     text.interface, *can::fingerNode(text.frame.id), can::foreignText(spoken.protocol)));
   }
-
-  /// Of a finger.
-  struct Spoken {
-    bool isOther = false;  ///< another protocol, by its last HEARTBEAT
-    bool isTold = false;
-  };
 
   system::StopSignal stop_;
   TextOutput output_{stdout};
@@ -249,6 +274,8 @@ class Decoder {
   bool follow_;
   bool strict_;
   std::vector<int> nodes_;
+  can::TimeWindow asked_;
+  can::TimeWindow window_;  ///< asked_, of the file that is read
   can::PerNode<Spoken> spoken_;
   std::optional<LineReader> lines_;  ///< of the file that is read
   std::uint64_t unreadable_ = 0;     ///< lines of it

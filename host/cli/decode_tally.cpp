@@ -15,6 +15,7 @@ namespace {
 
 /// In the order of SkipReason.
 constexpr std::array kSkipNames{"with identifiers that are no finger's",
+                                "of other times",
                                 "of other nodes",
                                 "RAW (`strains` and `replay --recompute` read it)",
                                 "of fingers that speak another protocol",

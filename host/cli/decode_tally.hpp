@@ -14,6 +14,7 @@ namespace strainfinger::cli {
 /// Why a frame is not decoded.
 enum class SkipReason : std::uint8_t {
   kOtherIdentifier,
+  kOtherTime,    ///< outside --from and --to
   kOtherNode,    ///< none of --node
   kRaw,          ///< readings, which have readers of their own
   kForeign,      ///< of a finger that speaks another protocol
@@ -37,7 +38,11 @@ class DecodeTally {
   void countDropped(std::uint32_t frames) { dropped_ += frames; }
 
   void countDecoded(std::string_view interface, const CanFrame& frame);
-  /// Of a finger that speaks another protocol.
+  /// A finger speaks another protocol, by this HEARTBEAT.
+  void noteForeign(std::string_view interface, const CanFrame& heartbeat) {
+    losses_.count(interface, heartbeat);
+  }
+  /// Of such a finger.
   void countForeign(std::string_view interface, const CanFrame& frame);
   void countSkipped(SkipReason reason) { ++skipped_[static_cast<std::size_t>(reason)]; }
   /// `place`: where it stands, as in stdin:3; of the first one the summary says it.

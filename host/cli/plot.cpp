@@ -20,6 +20,7 @@
 #include "host/cli/bus_option.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/window_options.hpp"
 #include "host/plot/log_picture.hpp"
 
 namespace strainfinger::cli {
@@ -41,13 +42,14 @@ struct PlotOptions {
         ->type_name("FILE")
         ->required();
     command.add_option("-n,--node", node, "Of this node, where the log has several")->check(isNode());
-    addInterfaceOption(command, interface);
+    addInterfaceOption(command, part.interface);
+    addWindowOptions(command, part.window);
   }
   CommonOptions common;
   std::string path;
   std::string output;
   std::optional<int> node;
-  std::string interface;  ///< empty: any
+  can::LogPart part;
 };
 
 /// What one finger said. Keeps every touch up to twice kMostPoints, then every second of them, and so on.
@@ -86,18 +88,16 @@ struct Heard {
 };
 
 Heard readLog(const PlotOptions& options) {
-  can::LogReader log(options.path, options.interface);
+  can::LogReader log(options.path, options.part);
   Heard heard;
-  std::optional<std::int64_t> first_ns;
   while (const auto text = log.next()) {
-    if (!first_ns) first_ns = text->time_ns;
     const can::FrameEntry* const entry = can::findFrame(text->frame);
     if (entry == nullptr) continue;
     const std::uint8_t node = *nodeOf(text->frame.id, entry->spec.function);
     if (options.node && node != *options.node) continue;
     heard.losses.count(text->interface, text->frame);
     Track& track = heard.tracks.try_emplace({std::string(text->interface), node}, node).first->second;
-    track.take(static_cast<double>(*text->time_ns - *first_ns) * 1e-9, text->frame);
+    track.take(static_cast<double>(*text->time_ns - *log.first_ns()) * 1e-9, text->frame);
   }
   warn("plot", log.warnings());
   std::erase_if(heard.tracks, [](const auto& track) { return track.second.points().empty(); });
@@ -139,8 +139,10 @@ void judge(const PlotOptions& options, const Heard& heard) {
 
 void requireAny(const PlotOptions& options, const std::map<Name, Track>& tracks) {
   if (!tracks.empty()) return;
-  std::string whose = options.interface.empty() ? "" : fmt::format(" of {}", excerpt(options.interface));
+  const std::string& interface = options.part.interface;
+  std::string whose = interface.empty() ? "" : fmt::format(" of {}", excerpt(interface));
   if (options.node) whose += fmt::format(" of node {}", *options.node);
+  if (!options.part.window.isWhole()) whose += " from --from to --to";
   throw Failure(ExitCode::kFailure, fmt::format("{}: no touch{} in it to draw", options.path, whose));
 }
 

@@ -23,6 +23,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/firmware_options.hpp"
 #include "host/cli/recompute.hpp"
+#include "host/cli/window_options.hpp"
 #include "host/config/bus_load.hpp"
 #include "host/system/stop_signal.hpp"
 
@@ -51,7 +52,8 @@ struct ReplayOptions {
   explicit ReplayOptions(CLI::App& command) : common(command), firmware(command) {
     command.add_option("log", path, "The log")->type_name("FILE")->required();
     addBusOption(command, bus);
-    addInterfaceOption(command, interface);
+    addInterfaceOption(command, part.interface);
+    addWindowOptions(command, part.window);
     command.add_flag("--recompute", recompute,
                      "Compute what the finger must have said from its RAW, and compare");
     command.add_flag("--requests", requests, "Send requests to fingers as well, which they obey");
@@ -61,8 +63,8 @@ struct ReplayOptions {
   CommonOptions common;
   FirmwareOptions firmware;
   std::string path;
-  std::string bus;        ///< empty: none
-  std::string interface;  ///< empty: all
+  std::string bus;  ///< empty: none
+  can::LogPart part;
   bool recompute = false;
   bool requests = false;
   std::optional<double> speed;
@@ -89,7 +91,7 @@ void requireFile(const std::string& path) {
 /// Reads it all, so that nothing is sent of a log that cannot be read to its end.
 LogExtent measure(const ReplayOptions& options) {
   requireFile(options.path);
-  can::LogReader log(options.path, options.interface);
+  can::LogReader log(options.path, options.part);
   LogExtent extent;
   while (const auto text = log.next()) {
     ++(isRequest(text->frame) ? extent.requests : extent.frames);
@@ -132,7 +134,7 @@ Clock::duration waitFor(double since_s) {
 
 /// How many frames were sent.
 std::uint64_t sendAll(const ReplayOptions& options, can::BusPort& port, const system::StopSignal& stop) {
-  can::LogReader log(options.path, options.interface);
+  can::LogReader log(options.path, options.part);
   const auto start = Clock::now();
   std::optional<std::int64_t> first_ns;
   std::uint64_t sent = 0;
@@ -150,7 +152,7 @@ std::uint64_t sendAll(const ReplayOptions& options, can::BusPort& port, const sy
 
 void recomputeLog(const ReplayOptions& options) {
   const config::FingerConfig config = options.common.config();
-  can::LogReader log(options.path, options.interface);
+  can::LogReader log(options.path, options.part);
   can::OneFinger one(config.can.node);
   const auto next = [&]() -> std::optional<can::TimedFrame> {
     const auto text = log.next();

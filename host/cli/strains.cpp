@@ -55,7 +55,8 @@ struct StrainsOptions {
         ->type_name("FILE");
     addBusOption(command, bus);
     command.add_option("-n,--node", node, "Node number in place of the config's")->check(isNode());
-    addInterfaceOption(command, interface);
+    addInterfaceOption(command, part.interface);
+    addWindowOptions(command, part.window);
     command.add_option("--rate", rate_hz, fmt::format("Sample sets a second (default {})", kUsualRate_hz))
         ->type_name("HZ")
         ->check(isWhole(1, int{kFastestRaw_hz}));
@@ -66,9 +67,9 @@ struct StrainsOptions {
   }
   CommonOptions common;
   std::vector<std::string> paths;
-  std::string bus;        ///< empty: the logs
-  int node = 0;           ///< 0: the config's
-  std::string interface;  ///< empty: any
+  std::string bus;    ///< empty: the logs
+  int node = 0;       ///< 0: the config's
+  can::LogPart part;  ///< of the logs
   std::optional<int> rate_hz;
   std::optional<double> duration_s;
   std::uint64_t rows = std::numeric_limits<std::uint64_t>::max();
@@ -194,7 +195,7 @@ class LoggedStrains {
 
   /// A log may begin anywhere: of the one before it nothing is known any more but which finger it is.
   void print(const std::string& path) {
-    can::LogReader log(path, options_.interface);
+    can::LogReader log(path, options_.part);
     can::StrainReceiver receiver(node_, config_.gauges.count, config_.gauges.full_scale_strain);
     while (!isWhole()) {
       const auto text = log.next();
@@ -258,8 +259,9 @@ void printLogs(const StrainsOptions& options) {
 }
 
 void printLive(const StrainsOptions& options) {
-  if (!options.interface.empty())
-    throw Failure(ExitCode::kUsage, "strains: --interface goes with FILE: --can names the bus");
+  if (!options.part.interface.empty() || !options.part.window.isWhole())
+    throw Failure(ExitCode::kUsage,
+                  "strains: --interface, --from and --to go with FILE: --can names the bus");
   const double duration_s = options.duration_s.value_or(kLongestStrains_s);
   const config::FingerConfig config = options.common.config();
   const std::uint8_t node = nodeOf(options.node, config.can);

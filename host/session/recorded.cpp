@@ -29,7 +29,7 @@ bool isRecording(const std::string& path) {
 
 Recorded readRecording(const std::string& path, const config::FingerConfig& config, std::uint8_t node,
                        const std::string& interface) {
-  can::LogReader log(path, interface);
+  can::LogReader log(path, {.interface = interface, .window = {}});
   can::OneFinger one(node);
   can::StrainReceiver receiver(node, config.gauges.count, config.gauges.full_scale_strain);
   Thinner thinner(config);

@@ -38,6 +38,42 @@ TEST(Decode, PrintsARowAFrame) {
       rows(run).c_str());
 }
 
+TEST(Decode, OfALogATimeIsRead) {
+  const std::string force = " can0 285#22011EFF070981A3\n";
+  const std::string log = "(10.000000)" + force + "(10.500000)" + force + "(11.000000)" + force;
+  const auto timesOf = [&](const std::string& window) {
+    const Run run =
+        runShell("\"$STRAINFINGER\" decode " + window + " | tail -n +2 | cut -d, -f1 | tr '\\n' ' '", log);
+    LONGS_EQUAL(0, run.status);
+    return run.out;
+  };
+  STRCMP_EQUAL("10.500000 11.000000 ", timesOf("--from 10.5").c_str());
+  STRCMP_EQUAL("10.000000 10.500000 ", timesOf("--to +0.5").c_str());
+  STRCMP_EQUAL("10.500000 ", timesOf("--from 1970-01-01T00:00:10.25Z --to 10.75").c_str());
+  STRCMP_EQUAL("", timesOf("--from +2").c_str());
+  checkSays("decode: skipped 2 of other times\n", runProgram("decode --from 11", log));
+  checkRefused("decode --from yesterday", "--from: no time: give seconds as the log has them");
+  const Run none = runProgram("decode --from 1", " can0  285   [8]  22 01 1E FF 07 09 81 A3\n");
+  LONGS_EQUAL(1, none.status);
+  checkSays("stdin:1: a frame without a time", none);
+}
+
+TEST(Decode, OfEachLogSecondsAfterItsFirstFrameAreRead) {
+  const Run run = runShell(
+      "folder=$(mktemp -d); cd $folder; trap 'rm -rf $folder' EXIT\n"
+      "for at in 10 20; do for after in 0 1; do echo \"($((at + after)).000000) can0 285#22011EFF070981A3\"; "
+      "done >$at.log; done\n\"$STRAINFINGER\" decode --from +1 10.log 20.log | tail -n +2 | cut -d, -f1");
+  STRCMP_EQUAL("11.000000\n21.000000\n", run.out.c_str());
+}
+
+TEST(Decode, AnotherProtocolIsKnownFromHeartbeatsOfOtherTimes) {
+  const std::string heartbeat = "(10.000000) can0 705#4200004D0E1900A7\n";
+  const Run run = runProgram("decode --from +1", heartbeat + "(11.000000) can0 285#22011EFF070981A3\n");
+  LONGS_EQUAL(5, run.status);
+  STRCMP_EQUAL("", rows(run).c_str());
+  checkSays("stdin:2: can0 node 5 speaks protocol 4, this program 2", run);
+}
+
 TEST(Decode, ReadsAnyFormOfCandump) {
   const Run run = runProgram("decode",
                              "  can0  285   [8]  22 01 1E FF 07 09 81 A3\r\n"

@@ -34,6 +34,16 @@ TEST(Plot, DrawsALog) {
   STRCMP_EQUAL("", run.err.c_str());
 }
 
+TEST(Plot, OfALogATimeIsDrawnWithTheTimesOfTheWhole) {
+  const Run late =
+      inFolder("\"$STRAINFINGER\" plot x.log --from +1 -o a.png && cut -d, -f1 a-angle.csv", kTouch);
+  STRCMP_CONTAINS("2.5\n", late.out.c_str());
+  CHECK(late.out.find("0\n") == std::string::npos);
+  const Run none = inFolder("\"$STRAINFINGER\" plot x.log --from 13 -o a.png", kTouch);
+  LONGS_EQUAL(1, none.status);
+  STRCMP_CONTAINS("x.log: no touch from --from to --to in it to draw", none.err.c_str());
+}
+
 TEST(Plot, OfALogThatWasCutOffTheRestIsDrawn) {
   const std::string log = std::string(kTouch) + "(13.000000) can0 185#E803220";
   const Run run =

@@ -201,6 +201,14 @@ TEST(Record, ReplaySendsRequestsOnlyWhenAsked) {
   checkSays("replay: 3 of 3 frames sent", all);
 }
 
+TEST(Record, ReplayOfATimeSendsWhatIsOfIt) {
+  const char* const log =
+      "(1.000000) can0 181#0000000000000055\n(2.000000) can0 181#0000000000000056\n(3.000000) can0 182#00\n";
+  const Run run = inFolder("record; replay in --from +0.5 --to 2; stop INT; cut -d' ' -f3 x.log", log);
+  STRCMP_EQUAL("181#0000000000000056\n", run.out.c_str());
+  checkSays("replay: 1 of 1 frames sent", run);
+}
+
 TEST(Record, WhatCannotBeComputedAgainIsToldWhy) {
   const auto recomputed = [](const char* config, const char* log) {
     const Run run = inFolder(std::string("printf 'schema = 1\\n") + config +

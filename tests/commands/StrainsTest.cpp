@@ -263,7 +263,9 @@ TEST(StrainsCommand, WhatALogLacksIsTold) {
 TEST(StrainsCommand, RefusesWhatIsOutsideTheDomain) {
   checkRefused("strains x.log --can udp:19998", "either --can, to ask a finger, or FILE");
   checkRefused("strains x.log --rate 10", "--rate and --duration go with --can");
-  checkRefused("strains --can udp:19998 --interface can0", "--interface goes with FILE");
+  for (const char* option : {"--interface can0", "--from 1", "--to 2"})
+    checkRefused(std::string("strains --can udp:19998 ") + option,
+                 "--interface, --from and --to go with FILE");
   checkRefused("strains", "--can");
   checkRefused("strains --can udp:19998 --rate 0", "--rate");
   checkRefused("strains --can udp:19998 --rate 1001", "--rate");

@@ -10,7 +10,6 @@
 #include <span>
 
 #include "common/table_image.hpp"
-#include "firmware/core/condition.hpp"
 #include "firmware/core/hypothesis.hpp"
 #include "firmware/core/integers.hpp"
 #include "firmware/core/units.hpp"
@@ -231,10 +230,10 @@ class NoiseMeter {
   }
 
   void compare(const TableConstants& constants, std::span<const std::int32_t> strains_q32, GaugeSet gauges) {
-    Readings change;  // half of the change; 0 for gauges that don't count
+    std::int64_t halved = 0;
     for (std::size_t i = 0; i < strains_q32.size(); ++i)
-      if (contains(gauges, static_cast<int>(i))) change.strain_q32[i] = (strains_q32[i] - before_q32_[i]) / 2;
-    const std::uint32_t energy = gateEnergy(constants, change.strains(constants.gauge_count));
+      if (contains(gauges, static_cast<int>(i))) halved += squareOf((strains_q32[i] - before_q32_[i]) / 2);
+    const std::uint32_t energy = gateEnergy(constants, halved);
     // Halved changes of configured noise have half the energy of the noise itself.
     const std::uint64_t ratio_q8 = (std::uint64_t{energy} << 9) / configuredEnergy(constants);
     const auto now_q8 = static_cast<std::uint32_t>(std::min<std::uint64_t>(ratio_q8, kLoudest_q8));

@@ -161,7 +161,7 @@ Contact estimate(const TableConstants& constants, const Answer& answer, const Un
                  Wide{constants.moment_error_q16} << (kMomentBits - 16));
     setWidth(constants, state.moment_q20, sigma_q20, estimated);
     isUndetermined |= isOpen(momentOf(hypothesis, contact));
-    tooWide = state.moment_q20 > (1 << kMomentBits) - (1 << kMomentBits) / 64;
+    tooWide = isWidest(state) || (answer.rival.isAsLikely && isWidest(answer.rival.contact[index(contact)]));
   }
   const bool faint =
       hypothesis.contacts > 1 &&

@@ -364,14 +364,12 @@ bool isConverged(const TableConstants& constants, const Linearisation& linearisa
 }  // namespace
 
 bool isShortTurn(const TableConstants& constants, std::uint32_t turned_q32, int farther) {
-  const std::uint32_t short_q32 = (std::uint32_t{1} << (32 - kShortTurnBits)) / constants.gauge_count
-                                  << farther;
-  return turned_q32 + short_q32 <= 2 * short_q32;
+  return apart_q32(turned_q32, 0) <= (std::uint32_t{1} << (32 - kShortTurnBits)) / constants.gauge_count
+                                         << farther;
 }
 
 bool isInReach(const TableImage& tables, const ContactState& contact, int gauge) {
-  const std::uint32_t reach_q32 = tables.constants.reach_q32;
-  return tables.gauge_angle_q32[index(gauge)] - contact.angle_q32 + reach_q32 <= 2 * reach_q32;
+  return apart_q32(tables.gauge_angle_q32[index(gauge)], contact.angle_q32) <= tables.constants.reach_q32;
 }
 
 void linearise(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,

@@ -47,6 +47,10 @@ class GaugeWatch {
     suspects_ &= ~gauges;
     outOfUse_ &= ~gauges;
     railed_ &= ~gauges;
+    forget(gauges);
+  }
+  void forget(GaugeSet gauges) {
+    for (GaugeSet left = gauges; left != 0; left &= left - 1) right_[index(std::countr_zero(left))] = 0;
   }
 
   /// A place no further than this from the last one is the same [turns * 2^16]: half a pitch of a ring of 16.
@@ -77,12 +81,10 @@ inline void GaugeWatch::suspect(GaugeSet gauge, std::uint32_t angle_q32) {
 
 inline void GaugeWatch::vindicate(GaugeSet right, GaugeSet wrong) {
   suspects_ &= ~right | outOfUse_;
-  for (GaugeSet left = wrong; left != 0; left &= left - 1) right_[index(std::countr_zero(left))] = 0;
+  forget(wrong);
   for (GaugeSet left = right & outOfUse_; left != 0; left &= left - 1) {
     const auto i = index(std::countr_zero(left));
-    if (++right_[i] < kConvincing) continue;
-    right_[i] = 0;
-    comeBack(GaugeSet{1} << i);
+    if (++right_[i] == kConvincing) comeBack(GaugeSet{1} << i);
   }
 }
 

@@ -38,6 +38,14 @@ constexpr std::uint32_t apart_q32(std::uint32_t a_q32, std::uint32_t b_q32) {
   return std::min(a_q32 - b_q32, b_q32 - a_q32);
 }
 
+/// The largest magnitude among these gauges, to within 1.
+inline Number largestOf(std::span<const Number> strains_q32, GaugeSet gauges) {
+  Number largest = 0;
+  for (std::size_t i = 0; i < strains_q32.size(); ++i)
+    if (contains(gauges, static_cast<int>(i))) largest = larger(largest, signlessBits(strains_q32[i]));
+  return largest;
+}
+
 inline constexpr int kMostContacts = 2;
 
 /// A contact in the units of the fit.
@@ -157,9 +165,7 @@ inline void weigh(const TableConstants& constants, GaugeSet counted, Number larg
 inline ScaledReadings scaledReadings(const TableConstants& constants, std::span<const Number> strains_q32,
                                      GaugeSet gauges, std::uint32_t noise_q4 = kConfiguredNoise_q4,
                                      int shift = -1, Number beyond_q32 = 0) {
-  Number largest = beyond_q32;
-  for (std::size_t i = 0; i < strains_q32.size(); ++i)
-    if (contains(gauges, static_cast<int>(i))) largest = larger(largest, signlessBits(strains_q32[i]));
+  Number largest = larger(beyond_q32, largestOf(strains_q32, gauges));
   ScaledReadings scaled;
   const int own = std::max(bitWidth(largest) - 15, 0);
   scaled.shift = static_cast<std::int8_t>(shift == own + 1 ? shift : own);

@@ -118,6 +118,11 @@ bool isAdmissible(const TableConstants& constants, const Solution& solution);
 /// A contact is felt by so little more than noise that its place is not sure; `was`: it was weak before.
 bool isWeak(const Solution& solution, const Variances& variances, bool was);
 
+/// The contact is as wide as the tables go: it may be wider, and where it is then is not known.
+constexpr bool isWidest(const ContactState& contact) {
+  return contact.moment_q20 > (1 << kMomentBits) - (1 << (kMomentBits - 6));
+}
+
 /// Two contacts nearer than they can be told apart.
 bool areTooNear(const TableConstants& constants, const Solution& solution);
 

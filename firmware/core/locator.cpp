@@ -11,6 +11,8 @@ namespace {
 constexpr int kMostSteps = 9;       ///< of a fit from an initial guess
 constexpr int kFollowingSteps = 8;  ///< of a fit from the last answer, if there is work left for them
 constexpr int kStepsWhileSearching = 2, kStepsAfterSearch = 3;
+constexpr int kStepsOfThree = 4;  ///< of a fit of three readings, from where all of them lead
+constexpr int kLastSteps = 2;     ///< of finishSearch(), which no later set follows
 /// Work of an update that only follows, and of one that concludes a search, in the units of Search::kWork.
 constexpr int kFollowingWork = 130, kWorkAfterSearch = 170;
 /// The rival, or an answer to all gauges that work, is fitted once in this many sets of readings.
@@ -272,17 +274,17 @@ bool Locator::conclude(const TableImage& tables) {
   answer_.suspect = 0;
   answer_.rival = {};
   if (!best) return false;
-  const bool faulty = explains[kWithoutOne], two = mayExplain[kPair];
   const Solution& answer = rankings[*best]->best;
   answer_.doubtful = !isPlainAsBuilt(tables.constants, answer, readings);
   for (std::size_t i = 0; i < rankings.size(); ++i)
     answer_.doubtful |= i != *best && mayExplain[i] &&
                         saysOther(tables.constants, answer, rankings[i]->best) &&
                         costOf(i) - costOf(*best) < ambiguity(readings.variances);
-  answer_.several = *best == kPair || (!faulty && *best != kSingle);
-  const bool isSparse = tables.constants.spacing == RingSpacing::kSparse;
-  answer_.doubtful |= isSparse && *best == kWithoutOne;
-  if (*best == kWithoutOne && !isSparse && !(two && answer_.doubtful)) answer_.suspect = culprit(tables);
+  const bool isWithoutOne = *best == kWithoutOne, isSparse = tables.constants.spacing == RingSpacing::kSparse;
+  answer_.several = *best == kPair || (isWithoutOne && !explains[kWithoutOne]);
+  answer_.doubtful |= isWithoutOne && isSparse;
+  if (isWithoutOne && !isSparse && !(mayExplain[kPair] && answer_.doubtful))
+    answer_.suspect = culprit(tables);
   answer_.exchanged = isSecondFirst(answer);
   believe(tables, answer, readings);
   rememberRival(tables, *rankings[*best], readings);
@@ -428,7 +430,7 @@ void Locator::solveExactly(const TableImage& tables, const ScaledReadings& readi
         hypothesis.exact = GaugeSet{1} << a | GaugeSet{1} << b | GaugeSet{1} << c;
       }
     }
-  const Solution byThree = fit(tables, hypothesis, byAll.contact, readings, kMostSteps / 2, linearisation_);
+  const Solution byThree = fit(tables, hypothesis, byAll.contact, readings, kStepsOfThree, linearisation_);
   const bool isSamePlace =
       apart_q32(byThree.contact[0].angle_q32, byAll.contact[0].angle_q32) <= pitch_q32(tables.constants) / 16;
   if (isSamePlace && isAdmissible(tables.constants, byThree)) return believe(tables, byThree, readings);
@@ -443,9 +445,7 @@ void Locator::finishSearch(const TableImage& tables, std::span<const std::int32_
   while (search_.isBegun()) goOn(tables, readings, 0);
   const Solution found = answer_.solution;
   if (!found.converged)
-    believe(tables,
-            fit(tables, found.hypothesis, found.contact, readings, kMostSteps / 2 - kStepsWhileSearching,
-                linearisation_),
+    believe(tables, fit(tables, found.hypothesis, found.contact, readings, kLastSteps, linearisation_),
             readings);
   if (mode_ == FitMode::kThreePoint) solveExactly(tables, readings);
 }

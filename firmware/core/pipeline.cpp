@@ -52,9 +52,7 @@ bool Pipeline::isDisturbance(GaugeSet gauges) {
     return false;
   }
   const Number noise = readingNoise_q32(constants());
-  Number largest = 0;
-  for (int i = 0; i < constants().gauge_count; ++i)
-    if (contains(gauges, i)) largest = larger(largest, signlessBits(readings_.strain_q32[index(i)]));
+  const Number largest = largestOf(strains(), gauges);
   const bool isStrong = largest > kDisturbance * noise;
   mayBeDrift_ = largest <= kDrift * noise;
   contrarySets_ = isStrong || accepted == isTouch_ ? 0 : static_cast<std::uint8_t>(contrarySets_ + 1);
@@ -66,9 +64,7 @@ bool Pipeline::isDisturbance(GaugeSet gauges) {
 }
 
 void Pipeline::locate(GaugeSet gauges) {
-  Number beyond_q32 = 0;
-  for (GaugeSet left = observation_.saturated & ~outOfUse(); left != 0; left &= left - 1)
-    beyond_q32 = larger(beyond_q32, signlessBits(readings_.strain_q32[index(std::countr_zero(left))]));
+  const Number beyond_q32 = largestOf(strains(), observation_.saturated & ~outOfUse());
   locator_.update(*tables_, strains(), gauges, noise_.variance_q4(), beyond_q32);
   observation_.touched = !isDisturbance(gauges);
   const Answer& answer = locator_.answer();
@@ -100,7 +96,7 @@ void Pipeline::watchGauges() {
   if (atRail != 0) atRail &= judgedAtRail(constants(), answer.solution, observation_.saturated);
   if (watch_.implausiblyAtRail(atRail)) tracker_.beginAnew();
   watch_.suspect(suspect, answer.solution.contact[0].angle_q32);
-  watch_.vindicate(right & ~suspect, wrong);
+  watch_.vindicate(right & ~suspect, wrong | atRail);
 }
 
 /// The codes are those of the last set of a touch, and the answer to them is found.

@@ -111,6 +111,14 @@ void label(TouchFrames& frames, FingerFlags flags, std::uint8_t sequence) {
   each(frames.second->force);
 }
 
+/// Standard deviation of the noise over that of all errors of the largest reading [* 2^8].
+std::uint32_t noiseShare_q8(const Answer& answer) {
+  const int down = std::max(16 - std::countl_zero(answer.variances.largest_q4), 0);  // to 16 bits
+  const std::uint32_t variance = answer.variances.largest_q4 >> down,
+                      noise = answer.variances.noise_q4 >> down;
+  return integerRoot((noise << 16) / variance);
+}
+
 }  // namespace
 
 TouchFrames touchFrames(const TableConstants& constants, const Contact& contact,
@@ -151,14 +159,6 @@ bool isNews(const TouchFrames& frames, const TouchFrames& last, std::uint32_t no
   const News news(noiseShare_q8);
   return news.in(frames.contact, last.contact) || news.in(frames.force, last.force) ||
          news.in(frames.patch, last.patch) || (frames.second && news.in(*frames.second, *last.second));
-}
-
-/// Standard deviation of the noise over that of all errors of the largest reading [* 2^8].
-std::uint32_t noiseShare_q8(const Answer& answer) {
-  const int down = std::max(16 - std::countl_zero(answer.variances.largest_q4), 0);  // to 16 bits
-  const std::uint32_t variance = answer.variances.largest_q4 >> down,
-                      noise = answer.variances.noise_q4 >> down;
-  return integerRoot((noise << 16) / variance);
 }
 
 bool TouchReporter::mustBeRepeated(std::uint32_t now_us) const {

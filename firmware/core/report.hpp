@@ -38,12 +38,9 @@ TouchFrames releaseFrames(FingerFlags flags, std::uint8_t sequence);
 /// The contents of a GAUGES frame. Age and rate of the zeros are not known while `setsPerSecond` is 0.
 GaugesFrame gaugesFrame(GaugeSet outOfUse, const ZeroTracker& tracker, std::uint32_t setsPerSecond);
 
-/// The noise's share of an error that is nothing but noise.
-inline constexpr std::uint32_t kOnlyNoise_q8 = 1 << 8;
-
 /// Whether a value changed by more than the noise's share of its standard error, a quality by ten percent, or
 /// a flag, the number of contacts, or whether the width is known.
-bool isNews(const TouchFrames& frames, const TouchFrames& last, std::uint32_t noiseShare_q8 = kOnlyNoise_q8);
+bool isNews(const TouchFrames& frames, const TouchFrames& last, std::uint32_t noiseShare_q8);
 
 /// Decides when to send: when there is news, but at most at the contact rate; at least every
 /// kContactPeriod_ms in contact; once when contact ends.

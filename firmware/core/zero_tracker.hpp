@@ -33,13 +33,14 @@ class ZeroTracker {
     if (age_sets_ != std::numeric_limits<std::uint32_t>::max()) ++age_sets_;
   }
 
-  /// One sample set; not one that may be a touch which is not told yet. `locator`: null if nothing touches
-  /// the finger; else the set counts if its answer explains it. Averages of gauges in `leftOut` don't count;
-  /// these follow only what others change by in common. `scratch` is overwritten at the end of an untouched
-  /// interval and in the sets up to kUntilFollowed. Returns true if zeros may have changed. Cost: a sum over
-  /// the gauges in one of kEvery sets; after an untouched interval a coarse grid or a fit of at most
-  /// kMostSteps steps in one of kEvery sets, if `isTimeLeft`: not in a set in which the locator looks at a
-  /// disturbance, or back at a touch. Counted in firmware/cost.md.
+  /// Takes one sample set, but none that may be a touch which has not been reported yet. `locator`: null if
+  /// nothing touches the finger; else the set counts only if the locator's answer explains it. Averages of
+  /// gauges in `leftOut` are not used; the zeros of these gauges follow only the drift that the others have
+  /// in common. `scratch` is overwritten at the end of an untouched interval and in the sets up to
+  /// kUntilFollowed. Returns true if zeros may have changed. Cost: a sum over the gauges in one of kEvery
+  /// sets; after an untouched interval also a coarse grid or a fit of at most kMostSteps steps in one of
+  /// kEvery sets. These wait for sets with `isTimeLeft`: others are needed for a look at a disturbance, or
+  /// back at a touch. Counted in firmware/cost.md.
   bool take(const TableImage& tables, std::span<const std::int32_t> strains_q32, const Locator* locator,
             GaugeSet leftOut, Calibration& calibration, Linearisation& scratch, bool isTimeLeft = true) {
     const bool touched = locator != nullptr;

@@ -150,3 +150,12 @@ TEST(GaugeWatch, AGaugeThatATouchBroughtBackFromARailCanBeConvicted) {
   watch.noLongerAtRail(kFive);
   UNSIGNED_LONGS_EQUAL(kFive, watch.outOfUse());
 }
+
+TEST(GaugeWatch, WhatSpokeForAGaugeBeforeItCameBackDoesNotCountWhenItIsOutAgain) {
+  for (int set = 0; set < 2; ++set) watch.implausiblyAtRail(kFive);
+  for (int set = 0; set + 1 < GaugeWatch::kConvincing; ++set) watch.vindicate(kFive, 0);
+  watch.noLongerAtRail(kFive);
+  convictFive();
+  watch.vindicate(kFive, 0);
+  UNSIGNED_LONGS_EQUAL(kFive, watch.outOfUse());
+}

@@ -190,7 +190,7 @@ TEST_GROUP(News) {
     last.second = {{last.contact}, {last.force}};
     frames = last;
   }
-  bool areNews() const { return isNews(frames, last); }
+  bool areNews() const { return isNews(frames, last, 1 << 8); }
 };
 
 TEST(News, NothingNewIsNone) { CHECK_FALSE(areNews()); }

@@ -1,6 +1,6 @@
 # A room is a folder with one target; the libraries of common, hal, firmware and host are made here, so that all get the
-# same warnings and the same include root ("common/fixed.hpp"). What a room may include is listed in
-# tests/architecture and checked there.
+# same warnings and the same include root ("common/fixed.hpp"). What a room may include is in the
+# README.md of the folder of rooms, and tests/architecture checks it.
 
 # strainfinger_compile_together(TARGET) (but for files with the property SKIP_UNITY_BUILD_INCLUSION)
 # Whoever compiles everything compiles files in batches, which is sooner done: the program in six tenths of the CPU time.

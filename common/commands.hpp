@@ -39,17 +39,19 @@ enum class Command : std::uint8_t {
 };
 
 inline constexpr std::array kCommandNames{
-    ValueName{1, "tare", "Take the zero of the gauges now; argument 1: even while touched"},
-    ValueName{2, "contact_rate", "Send at most so many CONTACT a second, until the next start"},
-    ValueName{3, "keep", "Keep the contact rate for the next starts; argument 1: even while touched"},
-    ValueName{4, "node", "Be this node from the next start on; with 256 added: even while touched"},
-    ValueName{5, "count", "Tell one of the finger's counts"},
-    ValueName{6, "raw", "Send so many sets of RAW a second, until the next start; 0: no more"},
-    ValueName{7, "load",
-              "Stop, and take other tables from their first word on, until `restart`; argument 1: even while "
-              "touched"},
-    ValueName{8, "word", "Four bytes of the tables; argument: which of their words it is"},
-    ValueName{9, "restart", "Start anew; argument 1: even while touched"},
+    named(Command::kTare, "tare", "Take the zero of the gauges now; argument 1: even while touched"),
+    named(Command::kContactRate, "contact_rate",
+          "Send at most so many CONTACT a second, until the next start"),
+    named(Command::kKeep, "keep",
+          "Keep the contact rate for the next starts; argument 1: even while touched"),
+    named(Command::kNode, "node", "Be this node from the next start on; with 256 added: even while touched"),
+    named(Command::kCount, "count", "Tell one of the finger's counts"),
+    named(Command::kRaw, "raw", "Send so many sets of RAW a second, until the next start; 0: no more"),
+    named(Command::kLoad, "load",
+          "Stop, and take other tables from their first word on, until `restart`; argument 1: even while "
+          "touched"),
+    named(Command::kWord, "word", "Four bytes of the tables; argument: which of their words it is"),
+    named(Command::kRestart, "restart", "Start anew; argument 1: even while touched"),
 };
 
 /// What a finger counts and tells when it is asked. Never reuse a number.
@@ -60,18 +62,19 @@ enum class Count : std::uint8_t {
   kLostSets = 3,
   kResynchronised = 4
 };
-inline constexpr std::uint16_t kLastCount = 4;
 
 inline constexpr std::array kCountNames{
-    ValueName{0, "erases", "Pages of the settings' memory erased in its life; each lasts 10,000 times"},
-    ValueName{1, "corrected",
-              "Times that a word of the memory was read with a wrong bit and put right, since the start"},
-    ValueName{2, "unreadable",
-              "Times that a word of the memory was read with more wrong bits, since the start"},
-    ValueName{3, "lost_sets", "Sample sets that were lost, since the start"},
-    ValueName{4, "resynchronised",
-              "Times that the converters lost track of the gauges and began anew, since the start"},
+    named(Count::kErases, "erases",
+          "Pages of the settings' memory erased in its life; each lasts 10,000 times"),
+    named(Count::kCorrected, "corrected",
+          "Times that a word of the memory was read with a wrong bit and put right, since the start"),
+    named(Count::kUnreadable, "unreadable",
+          "Times that a word of the memory was read with more wrong bits, since the start"),
+    named(Count::kLostSets, "lost_sets", "Sample sets that were lost, since the start"),
+    named(Count::kResynchronised, "resynchronised",
+          "Times that the converters lost track of the gauges and began anew, since the start"),
 };
+inline constexpr std::uint16_t kLastCount = kCountNames.back().value;
 
 /// Words of a table image, as `word` counts them.
 inline constexpr std::uint16_t kTableWords = sizeof(TableImage) / 4;
@@ -112,23 +115,24 @@ enum class CommandStatus : std::uint8_t {
 };
 
 inline constexpr std::array kCommandStatusNames{
-    ValueName{0, "done", "Done"},
-    ValueName{1, "busy",
-              "Not now: the zero is being taken, or the end of a touch is not said yet, or no samples or no "
-              "tables are there"},
-    ValueName{2, "unknown_command", "This firmware has no such command"},
-    ValueName{3, "bad_argument", "The argument is absent, too long or outside its range"},
-    ValueName{4, "touched", "Refused: something touches the finger"},
-    ValueName{5, "done_touched", "Done as forced: what touched the finger is now part of its zero"},
-    ValueName{6, "not_kept", "The board has no memory for it, or its memory failed"},
-    ValueName{
-        7, "wait",
-        "Not yet: the memory would wear out, or a zero was taken or refused just now; in value seconds"},
-    ValueName{8, "too_fast", "Refused: more than RAW's share of the bus; in value the fastest rate"},
-    ValueName{
-        9, "out_of_turn",
-        "Refused: words are taken after `load`, one after the other; in value the one that is due, if one "
-        "is"},
+    named(CommandStatus::kDone, "done", "Done"),
+    named(CommandStatus::kBusy, "busy",
+          "Not now: the zero is being taken, the end of a touch has not been sent yet, or the finger has "
+          "no samples or no tables"),
+    named(CommandStatus::kUnknownCommand, "unknown_command", "This firmware has no such command"),
+    named(CommandStatus::kBadArgument, "bad_argument",
+          "The argument is absent, too long or outside its range"),
+    named(CommandStatus::kTouched, "touched", "Refused: something touches the finger"),
+    named(CommandStatus::kDoneTouched, "done_touched",
+          "Done as forced: what touched the finger is now part of its zero"),
+    named(CommandStatus::kNotKept, "not_kept", "The board has no memory for it, or its memory failed"),
+    named(CommandStatus::kWait, "wait",
+          "Not yet: the memory would wear out, or a zero was taken or refused just now; in value seconds"),
+    named(CommandStatus::kTooFast, "too_fast",
+          "Refused: more than RAW's share of the bus; in value the fastest rate"),
+    named(CommandStatus::kOutOfTurn, "out_of_turn",
+          "Refused: words are taken after `load`, one after the other; in value the one that is due, if one "
+          "is"),
 };
 
 /// To a finger.

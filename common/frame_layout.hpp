@@ -50,6 +50,11 @@ struct ValueName {
   const char* comment;
 };
 
+template <typename Enum>
+constexpr ValueName named(Enum value, const char* name, const char* comment) {
+  return {static_cast<std::uint8_t>(value), name, comment};
+}
+
 enum class FieldKind : std::uint8_t {
   kNumber,  ///< a quantity
   kChoice,  ///< one of `names`

@@ -34,24 +34,27 @@ enum class FingerFlag : std::uint8_t {
 using FingerFlags = BitSet<FingerFlag>;
 
 inline constexpr std::array kFingerFlagNames{
-    ValueName{0, "contact", "Something touches the finger"},
-    ValueName{1, "saturated", "A gauge is at the end of its range; its reading is not used"},
-    ValueName{2, "degraded", "A gauge is out of use or left out, the sigmas are larger for it"},
-    ValueName{3, "uncertain",
-              "The answer may be wrong; where another contact fits nearly as well, see alternative"},
-    ValueName{4, "several_contacts", "More than one contact: see contacts in PATCH for how many are located"},
-    ValueName{5, "stale_zero", "The zero of the gauges is too old to be trusted"},
-    ValueName{6, "uncalibrated", "No calibration: forces are those of the nominal finger"},
-    ValueName{7, "simulated", "From simulated gauges, not from a finger"},
+    named(FingerFlag::kContact, "contact", "Something touches the finger"),
+    named(FingerFlag::kSaturated, "saturated", "A gauge is at the end of its range; its reading is not used"),
+    named(FingerFlag::kDegraded, "degraded",
+          "A gauge is out of use or left out, the sigmas are larger for it"),
+    named(FingerFlag::kUncertain, "uncertain",
+          "The answer may be wrong; where another contact fits nearly as well, see alternative"),
+    named(FingerFlag::kSeveralContacts, "several_contacts",
+          "More than one contact: see contacts in PATCH for how many are located"),
+    named(FingerFlag::kStaleZero, "stale_zero", "The zero of the gauges is too old to be trusted"),
+    named(FingerFlag::kUncalibrated, "uncalibrated",
+          "No calibration: forces are those of the nominal finger"),
+    named(FingerFlag::kSimulated, "simulated", "From simulated gauges, not from a finger"),
 };
 
 enum class FingerState : std::uint8_t { kBoot = 0, kZeroing = 1, kRun = 2, kFault = 3 };
 
 inline constexpr std::array kFingerStateNames{
-    ValueName{0, "boot", "Starting up"},
-    ValueName{1, "zeroing", "Taking the zero of the gauges: do not touch"},
-    ValueName{2, "run", "Measuring"},
-    ValueName{3, "fault", "Not measuring: see the faults"},
+    named(FingerState::kBoot, "boot", "Starting up"),
+    named(FingerState::kZeroing, "zeroing", "Taking the zero of the gauges: do not touch"),
+    named(FingerState::kRun, "run", "Measuring"),
+    named(FingerState::kFault, "fault", "Not measuring: see the faults"),
 };
 
 /// What is wrong with the finger itself. Bit numbers; never reuse one.
@@ -69,18 +72,21 @@ enum class FingerFault : std::uint8_t {
 using FingerFaults = BitSet<FingerFault, std::uint16_t>;
 
 inline constexpr std::array kFingerFaultNames{
-    ValueName{0, "tables", "The lookup tables are absent, damaged or of another finger"},
-    ValueName{1, "gauges", "Too few gauges work"},
-    ValueName{2, "converter", "The converter gives no new samples"},
-    ValueName{3, "can", "Frames were lost on their way to the bus, or from it"},
-    ValueName{4, "configuration", "A change of the stored configuration, or all of it, was lost"},
-    ValueName{5, "watchdog_reset", "The last reset was the watchdog's"},
-    ValueName{6, "samples", "Sample sets were lost since the start: the finger was not back in time"},
-    ValueName{7, "clock", "The clock is the inaccurate one of two: the bit rate may be off"},
-    ValueName{
-        8, "noisy",
-        "Untouched gauges are noisier than the finger was made for: weak touches are missed, a gauge that is "
-        "noisy by itself is out of use"},
+    named(FingerFault::kTables, "tables", "The lookup tables are absent, damaged or of another finger"),
+    named(FingerFault::kGauges, "gauges", "Too few gauges work"),
+    named(FingerFault::kConverter, "converter", "The converter gives no new samples"),
+    named(FingerFault::kCan, "can", "Frames were lost on their way to the bus, or from it"),
+    named(FingerFault::kConfiguration, "configuration",
+          "A change of the stored settings was lost, or all stored settings"),
+    named(FingerFault::kWatchdogReset, "watchdog_reset", "The last reset was the watchdog's"),
+    named(FingerFault::kSamples, "samples",
+          "Sample sets were lost since the start: they came while the finger was busy"),
+    named(FingerFault::kClock, "clock",
+          "The board runs on its inaccurate internal clock, not the crystal: the bit rate may be off"),
+    named(
+        FingerFault::kNoisy, "noisy",
+        "Untouched gauges are noisier than gauges.noise_strain: weak touches are missed, and a gauge that is "
+        "noisy by itself is out of use"),
 };
 
 /// Why the finger started. Never reuse a number.
@@ -94,12 +100,12 @@ enum class ResetCause : std::uint8_t {
 };
 
 inline constexpr std::array kResetCauseNames{
-    ValueName{0, "unknown", "The board cannot tell"},
-    ValueName{1, "power_on", "Power came on"},
-    ValueName{2, "pin", "The reset pin"},
-    ValueName{3, "software", "The firmware itself, after a crash or on request"},
-    ValueName{4, "watchdog", "The firmware hung, or no samples went through it"},
-    ValueName{5, "brown_out", "The supply voltage was too low"},
+    named(ResetCause::kUnknown, "unknown", "The board cannot tell"),
+    named(ResetCause::kPowerOn, "power_on", "Power came on"),
+    named(ResetCause::kPin, "pin", "The reset pin"),
+    named(ResetCause::kSoftware, "software", "The firmware itself, after a crash or on request"),
+    named(ResetCause::kWatchdog, "watchdog", "The firmware hung, or no samples went through it"),
+    named(ResetCause::kBrownOut, "brown_out", "The supply voltage was too low"),
 };
 
 /// What the firmware died of. Never reuse a number.
@@ -113,21 +119,21 @@ enum class Crash : std::uint8_t {
 };
 
 inline constexpr std::array kCrashNames{
-    ValueName{0, "none", "The last run did not crash"},
-    ValueName{1, "hard_fault", "The processor could not go on"},
-    ValueName{2, "assertion", "The firmware found itself in a state that cannot be"},
-    ValueName{3, "stack_overflow", "The firmware ran out of stack"},
-    ValueName{4, "hang", "The firmware did not come back in time"},
-    ValueName{5, "starved", "The converter gave no samples for too long"},
+    named(Crash::kNone, "none", "The last run did not crash"),
+    named(Crash::kHardFault, "hard_fault", "The processor could not go on"),
+    named(Crash::kAssertion, "assertion", "The firmware found itself in an impossible state"),
+    named(Crash::kStackOverflow, "stack_overflow", "The firmware ran out of stack"),
+    named(Crash::kHang, "hang", "The firmware hung: it did not feed the watchdog in time"),
+    named(Crash::kStarved, "starved", "The converter gave no samples for too long"),
 };
 
 /// What a page of RAW is of. Never reuse a number.
 enum class RawKind : std::uint8_t { kReadings = 0, kZeroing = 1, kZeros = 2 };
 
 inline constexpr std::array kRawKindNames{
-    ValueName{0, "readings", "A sample set"},
-    ValueName{1, "zeroing", "A sample set that goes into the zero"},
-    ValueName{2, "zeros", "What the gauges read untouched, as far as the finger knows"},
+    named(RawKind::kReadings, "readings", "A sample set"),
+    named(RawKind::kZeroing, "zeroing", "A sample set that goes into the zero"),
+    named(RawKind::kZeros, "zeros", "What the gauges read untouched, as far as the finger knows"),
 };
 
 /// Where the finger is touched.

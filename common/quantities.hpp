@@ -19,9 +19,6 @@ using StrainQ32 = Fixed<32, std::int32_t>;
 /// Angle as a fraction of a revolution, counter-clockwise seen from the tip: it wraps as angles do.
 using TurnQ32 = Fixed<32, std::uint32_t>;
 
-/// Difference of two angles, [-0.5, 0.5) of a revolution.
-using TurnDifferenceQ32 = Fixed<32, std::int32_t>;
-
 /// Line load [N/m] and its sigma: +-524,288 N/m in steps of 0.24 mN/m.
 using LineLoadQ12 = Fixed<12, std::int32_t>;
 

@@ -65,7 +65,8 @@ enum class RingSpacing : std::uint8_t {
   kSparse,  ///< too far to tell a gauge that fails from a touch between two
 };
 
-/// Integers the firmware works with, all derived from TableParameters and the calibration.
+/// Integers the firmware works with, derived from TableParameters, the calibration and, where a finger is not
+/// calibrated, from [tolerance].
 struct TableConstants {
   std::uint32_t noise_variance;  ///< of a reading: sigma^2 = this (24 bits) * 2^noise_variance_exponent
                                  ///< [(strain * 2^32)^2]

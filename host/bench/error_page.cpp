@@ -20,6 +20,14 @@ touched along a line, a finger exactly as drawn and tables without model error, 
 touch, any place, load directions within 45 degrees of the normal, "load" is the length of (normal, tangential). Contacts
 that have a width press as something round does; the width is that of the uniform pressure with the same second moment.
 
+| column | meaning |
+|--|--|
+| unnoticed | share of the touches of which the finger reports nothing |
+| uncertain | share whose answer is flagged `uncertain` or `several_contacts` |
+| certain | all others: the errors are theirs |
+| over half a pitch off, no flag | certain answers more than half the gap between two gauges from the true place |
+| tables made for it | yes: the tables were made for what the row varies (noise, bits, width, length of a gauge); no: for the default finger, its width unknown |
+
 A line load in N/m times the length of the contact is a force: 30 N/m on 20 mm are 0.6 N.
 
 What disturbs it, and what it says then: [disturbances.md](disturbances.md).
@@ -28,7 +36,7 @@ What disturbs it, and what it says then: [disturbances.md](disturbances.md).
 
 constexpr std::string_view kColumns =
     " place, mm: RMS / 95 % / worst | normal, N/m | tangential, N/m | unnoticed | uncertain | "
-    "wrong gauge, unflagged |\n";
+    "over half a pitch off, no flag |\n";
 
 std::string columnsOf(const ErrorStatistics& s) {
   return fmt::format(" {} / {} / {} | {} | {} | {} | {} | {} |\n", number(s.arc_mm.rms(), 4),
@@ -48,7 +56,7 @@ std::string table(const std::string& firstColumns, int columns) {
 std::string sweepTable(const std::vector<ErrorCell>& cells, const char* sweep, const std::string& heading,
                        const std::string& firstColumn, bool withLoad, bool withTold) {
   std::string text = fmt::format("\n## {}\n\n", heading);
-  text += table(firstColumn + (withLoad ? " | load, N/m" : "") + (withTold ? " | tables know" : ""),
+  text += table(firstColumn + (withLoad ? " | load, N/m" : "") + (withTold ? " | tables made for it" : ""),
                 1 + withLoad + withTold);
   for (const ErrorCell& c : cellsOf(cells, sweep)) {
     text += fmt::format("| {:g} |", c.setting);
@@ -83,7 +91,7 @@ std::string silentSettings(std::vector<ErrorCell> cells) {
   });
   std::string text =
       "\nFewer than half of the contacts get a certain answer:\n\n"
-      "| setting | load, N/m | tables know | certain | unnoticed | uncertain |\n|--|--|--|--|--|--|\n";
+      "| setting | load, N/m | tables made for it | certain | unnoticed | uncertain |\n|--|--|--|--|--|--|\n";
   for (const ErrorCell& c : cells) {
     const ErrorStatistics& s = c.statistics;
     text += fmt::format("{} {} | {} | {} |\n", settingOf(c), share(s.certain(), s.contacts),
@@ -97,7 +105,7 @@ std::string worstSettings(const std::vector<ErrorCell>& cells) {
   std::erase_if(others, [](const ErrorCell& c) { return c.sweep == kMapSweep; });
   std::string text = "\n## The worst settings\n" + silentSettings(others) +
                      "\nThe largest errors of the others:\n\n" +
-                     table("setting | load, N/m | tables know", 3);
+                     table("setting | load, N/m | tables made for it", 3);
   for (const ErrorCell& c : worstOf(others, 8)) text += settingOf(c) + columnsOf(c.statistics);
   return text;
 }
@@ -130,15 +138,18 @@ std::string inShort(const std::vector<ErrorCell>& cells) {
   const ErrorCell worst = worstOf(cellsOf(cells, kMapSweep), 1).front();
   return fmt::format(
       "## In short\n\n"
-      "* **Place**: {:.3f} mm RMS at 30 N/m, {:.3f} mm at 5 N/m: it goes with noise over load.\n"
+      "* **Place**: {:.3f} mm RMS at 30 N/m, {:.3f} mm at 5 N/m: it is proportional to noise divided by "
+      "load.\n"
       "* **Loads**: {:.2f} N/m RMS of normal and {:.2f} N/m of tangential load, at 5 N/m as at 30 N/m "
       "({:.2f} and {:.2f}).\n"
       "* **Weak touches**: from {:g} N/m on every one is noticed; the weaker, the more answers are flagged "
       "uncertain.\n"
-      "* **Weakest spot**: {:+.3f} pitches from a gauge, pulled {:.0f} deg sideways: {:.3f} mm at 30 N/m (95 "
-      "%), against {:.3f} mm anywhere. Over a gauge a small shift and a small tangential load look alike.\n"
+      "* **Weakest spot**: {:+.3f} pitches from a gauge, the load {:.0f} deg from the normal: 95 % of places "
+      "are "
+      "within {:.3f} mm at 30 N/m, against {:.3f} mm over all places and directions. Over a gauge a small "
+      "shift and a small tangential load look alike.\n"
       "* **Width**: a contact 2 mm wide, as 30 N/m make it, is known to {:.3f} mm RMS, to {:.3f} mm where "
-      "the tables know the width; wide contacts are harder: {:.3f} mm at 4 mm.\n"
+      "the tables are made for the width; wide contacts are harder: {:.3f} mm at 4 mm.\n"
       "* **As built**: gauges glued 0.5 degrees and 0.05 mm off, gains off by 3 %, the core 0.1 mm thicker, "
       "Poisson's ratio 0.49, nothing calibrated: {:.2f} mm RMS at 2 mm of width, {} of the answers flagged "
       "uncertain. `strainfinger calibrate` is for that.\n"

@@ -21,7 +21,7 @@ Eigen::Vector3d errorOf(const Place<double>& answer, const Place<double>& truth)
 
 Place<double> placeOf(const TableImage& tables, const Contact& contact) {
   const std::uint32_t beyond_q32 = contact.angle.raw() - tables.gauge_angle_q32[0];
-  const double turn = toReal(TurnDifferenceQ32::fromRaw(static_cast<std::int32_t>(beyond_q32)));
+  const double turn = std::ldexp(static_cast<std::int32_t>(beyond_q32), -32);
   return {turn * kGauges, toReal(contact.normal), toReal(contact.tangential)};
 }
 

@@ -40,7 +40,7 @@ enum class RowUse {
   kUntouched,     ///< known to be; tells the zeros
   kWeak,          ///< tells little beside noise or beside the others, and is not known to be untouched
   kAmbiguous,     ///< touches at two places or of two widths explain it
-  kWide,          ///< of unknown touch and as wide as slips and pairs of touches look
+  kWide,          ///< of unknown touch, and so wide that it may be a slip or two contacts
   kOverRange,     ///< a gauge at or beyond full scale
   kContradicted,  ///< what is known of the touch is not what its readings say
   kUnexplained,   ///< by no single touch at rest: two contacts, a slip, a zero that moved, another finger
@@ -129,18 +129,19 @@ class FaultyFinger : public Failure {
   explicit FaultyFinger(const std::string& message) : Failure(ExitCode::kFailure, message) {}
 };
 
-/// Maximum a posteriori of the finger and of every touch together: readings are the elastic model's and noise
-/// of gauges.noise_strain and of the model's error, which is estimated; the finger is the drawing give or
-/// take [tolerance]; touches are semi-ellipses of pressure with the shear of partial slip, of the second
-/// moment that a uniform pressure over contact.width_m has, w^2 / 12, if that is known. Rows that no single
-/// touch explains are left out, and those of a zero that moved.
+/// Maximum a posteriori estimate of the finger and of every touch together. Likelihood: readings are those of
+/// the elastic model, plus noise of gauges.noise_strain and a model error, which is estimated. Prior: the
+/// drawing, with the standard deviations of [tolerance]. A touch is a semi-ellipse of pressure with the shear
+/// of partial slip; if contact.width_m is known, its second moment is held at w^2 / 12. Rows that no single
+/// touch explains, and those of a zero that moved, are left out.
 ///
 /// `known`: one a row, or none at all. `readings`: strain at nominal gain, a row a touch, a column a gauge;
 /// all finite. [calibration] of the config is not looked at.
 /// Throws Failure(kFailure), saying which row or gauge and what would help: rows that don't pair; a known
 /// touch that can't be; known directions, or known loads, most of which the readings contradict; touches that
-/// leave gauges untold; readings that this drawing can't explain; a finger that no config can be of. Throws
-/// FaultyFinger, saying the mend, for gauges that are dead, loose or wired otherwise than drawn.
+/// don't determine every gauge; readings that this drawing can't explain; a result outside the config's
+/// domains. Throws FaultyFinger, with the repair in its message, for gauges that are dead, loose or wired
+/// otherwise than drawn.
 /// Cost: linear; 300 touches of 16 gauges take 3 s, 3,000 take 15 s.
 CalibrationResult calibrate(const config::FingerConfig& config, std::span<const KnownTouch> known,
                             const Eigen::MatrixXd& readings, const KnownErrors& errors = {});

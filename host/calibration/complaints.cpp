@@ -162,13 +162,13 @@ void requireExplained(double modelError, double shareOfRowsUnexplained) {
       "check the order and signs of the gauges, [finger], gauges.radius_m and what is known of touches";
   if (modelError > kMostUnexplained)
     fail(fmt::format(
-        "this finger doesn't explain the readings: {:.0f} % of a touch's largest reading are left "
-        "over; {}",
+        "the model of this finger doesn't explain the readings: residuals are {:.0f} % of a touch's largest "
+        "reading; {}",
         100 * modelError, hint));
   if (shareOfRowsUnexplained > kMostRowsUnexplained)
     fail(
-        fmt::format("this finger doesn't explain the readings: of {:.0f} % of the rows it makes nothing; {}, "
-                    "and touch it in one place at a time",
+        fmt::format("the model of this finger doesn't explain {:.0f} % of the rows; {}, and touch the finger "
+                    "in one place at a time",
                     100 * shareOfRowsUnexplained, hint));
 }
 
@@ -186,10 +186,9 @@ void refuseContradicted(const std::vector<std::size_t>& rows, std::size_t borneO
       borneOut == 0 ? "none of the others is"
                     : fmt::format("of the others only {} {}", borneOut, borneOut == 1 ? "is" : "are");
   fail(fmt::format(
-      "the {} of touches.csv are not what the readings say in {} rows ({}), and {} fitted; look at {}; "
-      "and whether each value is in the column that its header names, and each touch in its row "
-      "of strains",
-      what, rows.size(), rowNames(rows), others, lookAt));
+      "in {} rows ({}) the readings contradict the {} of touches.csv, and {} fitted; check {}; check also "
+      "that each value is in the column that its header names, and each touch in its row of strains",
+      rows.size(), rowNames(rows), what, others, lookAt));
 }
 
 std::vector<int> untoldGauges(const CalibrationResult& result, GaugeUnknown unknown, double most) {
@@ -212,8 +211,8 @@ void requireTold(const CalibrationResult& result) {
   const std::vector<int> untold = untoldGauges(result, kAngleOffset, kMostUntold);
   if (untold.empty()) return;
   fail(
-      fmt::format("the touches don't tell where these gauges are: {}; {}. Where there are such touches, look "
-                  "at the order in which these gauges are connected",
+      fmt::format("the touches don't determine the angles of these gauges: {}; {}. Where there are such "
+                  "touches, check the order in which these gauges are connected",
                   placesOf(result.drawing().config().gauges, untold), kTouchesToAdd));
 }
 

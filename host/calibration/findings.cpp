@@ -102,9 +102,9 @@ struct UntoldWords {
   const char* name;
   const char* whatTellsMore;
 };
-constexpr const char* kTouchesAbout = "Touches over them and beside them tell more";
+constexpr const char* kTouchesAbout = "Touches over these gauges and beside them determine it better";
 constexpr std::array kUntoldWords{
-    UntoldWords{kGain, "gain", "More touches, and firmer ones, tell more; gain and depth are told together"},
+    UntoldWords{kGain, "gain", "More and firmer touches determine it better; gain and depth are correlated"},
     UntoldWords{kAngleOffset, "angle", kTouchesAbout}, UntoldWords{kDepthOffset, "depth", kTouchesAbout}};
 
 void addUntold(const CalibrationResult& result, const UntoldWords& words,
@@ -113,9 +113,9 @@ void addUntold(const CalibrationResult& result, const UntoldWords& words,
   const std::vector<int> untold = untoldGauges(result, words.unknown, kUntold);
   if (untold.empty()) return;
   const bool isAll = untold.size() == static_cast<std::size_t>(gauges.count);
-  sentences.push_back(fmt::format("Little is told of the {} of {}: what isn't is the drawing's. {}.",
-                                  words.name, isAll ? "all gauges" : "gauges " + placesOf(gauges, untold),
-                                  words.whatTellsMore));
+  sentences.push_back(fmt::format(
+      "The touches hardly determine the {} of {}: its value is mostly the drawing's. {}.", words.name,
+      isAll ? "all gauges" : "gauges " + placesOf(gauges, untold), words.whatTellsMore));
 }
 
 /// The modulus is off by as much as it would be if loads [N/m] had been given in grams.

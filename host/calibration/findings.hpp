@@ -8,8 +8,9 @@
 
 namespace strainfinger::calibration {
 
-/// Two unknowns of the rubber, one of them and the gauges' gains or depths, or these two (means of all
-/// gauges' correlations), that touches tell together: beyond 0.9.
+/// Two unknowns that touches determine only in combination, their correlation beyond 0.9: two of the rubber;
+/// one of the rubber and the gauges' gains or depths; or gains and depths of the same gauges. Of gauges it is
+/// the mean of their correlations.
 struct Correlation {
   std::string one, other;
   double value;

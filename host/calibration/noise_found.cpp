@@ -93,9 +93,9 @@ std::string noiseText(const CalibrationResult& result) {
   const auto found = noiseFound(result);
   if (!found) return {};
   return fmt::format(
-      "{} {:.2g} times {} than gauges.noise_strain = {} says: is gauges.full_scale_strain, or the "
-      "amplifier's gain, another (then all strains are off by as much), or gauges.noise_strain wrong?",
-      found->isNoisier() ? "Readings of untouched rows are" : "What touches leave over of readings is",
+      "{} {:.2g} times {} than gauges.noise_strain = {}: check gauges.full_scale_strain and the amplifier's "
+      "gain (if one is wrong, all strains are wrong by that factor), then gauges.noise_strain",
+      found->isNoisier() ? "Readings of untouched rows are" : "Residuals of touches are",
       found->isNoisier() ? found->ratio : 1 / found->ratio, found->isNoisier() ? "noisier" : "quieter",
       result.drawing().config().gauges.noise_strain);
 }

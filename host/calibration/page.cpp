@@ -123,7 +123,7 @@ std::string rubberSection(const CalibrationResult& result) {
                         estimated("poisson_ratio", result.poissonRatio(), 1)}) +
                    row({"shear modulus, kPa", fmt::format("{:.2f}", 1e-3 * drawn.shear_modulus_pa),
                         estimated("shear_modulus_pa", result.shearModulus_pa(), 1e-3)}) +
-                   row({"unexplained, % of a touch's largest reading", "",
+                   row({"model error, % of a touch's largest reading", "",
                         estimated("model_error", result.modelError(), 100)}));
 }
 
@@ -154,9 +154,10 @@ std::string togetherSection(const CalibrationResult& result) {
     rows += row({escaped(each.one), escaped(each.other),
                  number("correlation", each.value, fmt::format("{:.3f}", each.value))});
   if (rows.empty()) return "";
-  return heading("Told together") +
-         "<p>The touches tell these in combination: each by itself is less certain than what the two make of "
-         "a touch.</p>\n" +
+  return heading("Correlated") +
+         "<p>The touches determine these only in combination: each alone is less certain than its effect on "
+         "a "
+         "touch.</p>\n" +
          table("correlations", {"", "with", "correlation"}, rows);
 }
 
@@ -193,9 +194,9 @@ std::string untoldSection(const CalibrationResult& result) {
   std::string items;
   for (const std::string& sentence : whatIsUntold(result))
     items += fmt::format("<li>{}</li>\n", escaped(sentence));
-  return heading("Still untold") +
-         (items.empty() ? "<p id=\"untold\">Nothing: every gauge, a direction and a load are told.</p>\n"
-                        : "<ul id=\"untold\">\n" + items + "</ul>\n");
+  return heading("Not determined") + (items.empty() ? "<p id=\"untold\">Nothing: the touches determine every "
+                                                      "gauge, and a direction and a load are known.</p>\n"
+                                                    : "<ul id=\"untold\">\n" + items + "</ul>\n");
 }
 
 }  // namespace

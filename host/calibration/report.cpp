@@ -25,7 +25,7 @@ std::string rubberText(const CalibrationResult& result) {
   return estimateText("core radius", result.coreRadius_m(), 1e3, "mm", drawn.core_radius_m) +
          estimateText("Poisson's ratio", result.poissonRatio(), 1, "", drawn.poisson_ratio) +
          estimateText("shear modulus", result.shearModulus_pa(), 1e-3, "kPa", drawn.shear_modulus_pa) +
-         fmt::format("{:<18}{:>10.2g} % +- {:.2g} % of a touch's largest reading\n", "unexplained",
+         fmt::format("{:<18}{:>10.2g} % +- {:.2g} % of a touch's largest reading\n", "model error",
                      100 * result.modelError().value, 100 * result.modelError().sigma);
 }
 
@@ -51,8 +51,7 @@ std::string untoldText(const CalibrationResult& result) {
 std::string correlationText(const CalibrationResult& result) {
   std::string text;
   for (const Correlation& each : correlationsWorthKnowing(result))
-    text +=
-        fmt::format("{} and {} are told together: correlation {:.2f}\n", each.one, each.other, each.value);
+    text += fmt::format("{} and {} are correlated: {:.2f}\n", each.one, each.other, each.value);
   return text;
 }
 

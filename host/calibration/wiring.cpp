@@ -358,19 +358,23 @@ std::string textOf(const WiringFault& fault) {
           fault.gauge, 1e6 * fault.zero_strain);
     case Kind::kShifted:
       return fmt::format(
-          "the gauges are shifted: gauge 0 is where gauge {} should be; move the connector by so "
-          "many, or set gauges.first_angle_deg, of an uneven ring gauges.angle_deg{}",
+          "the gauges are shifted: gauge 0 is where gauge {0} should be, and so on round the ring; connect "
+          "the "
+          "wire that is at input 0 to input {0}, and every other wire as many inputs further; or leave the "
+          "wires and set gauges.first_angle_deg to where gauge {0} is drawn (for an uneven ring let the list "
+          "gauges.angle_deg begin with that angle){1}",
           fault.other, orTheMark(fault));
     case Kind::kReversed:
       return fmt::format(
-          "the gauges are counted the wrong way round: gauge 0 is where gauge {0} should be, gauge 1 "
-          "one before it; reverse the connector, or the known angle_deg, if they count clockwise seen from "
-          "the tip{1}",
+          "the gauges are connected in reverse order: gauge 0 is where gauge {0} should be, gauge 1 is one "
+          "gauge before that, and so on; reverse the order of the wires; if the known angle_deg were counted "
+          "clockwise seen from the tip, leave the wires and change the signs of angle_deg{1}",
           fault.other, orTheMark(fault));
     case Kind::kTurnUnclear:
       break;
   }
-  return "the gauges are shifted or counted the wrong way round, and which isn't told: add a touch of known "
+  return "the gauges are shifted or connected in reverse order, and the touches don't determine which: add a "
+         "touch of known "
          "angle_deg that is neither at a gauge nor midway between two" +
          orTheMark(fault);
 }

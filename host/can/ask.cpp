@@ -62,6 +62,20 @@ Reply ask(BusPort& port, std::uint8_t node, const RequestFrame& request, const P
 
 /// A second answer may be one frame that came twice, or one to another program, which hardly happens twice:
 /// so it is asked again before two fingers are told of.
+std::map<std::uint8_t, HeartbeatFrame> listenForFingers(BusPort& port, std::chrono::milliseconds time,
+                                                        const std::function<bool()>& goOn) {
+  using Clock = std::chrono::steady_clock;
+  std::map<std::uint8_t, HeartbeatFrame> heard;
+  const Clock::time_point end = Clock::now() + time;
+  for (auto now = Clock::now(); now < end && (!goOn || goOn()); now = Clock::now()) {
+    port.waitReadable(std::min(kGoOnEvery, std::chrono::ceil<std::chrono::milliseconds>(end - now)));
+    while (const auto frame = port.receive())
+      if (const auto heartbeat = decode<HeartbeatFrame>(*frame))
+        heard[*nodeOf(frame->id, FunctionCode::kHeartbeat)] = *heartbeat;
+  }
+  return heard;
+}
+
 Reply askWhoIsThere(BusPort& port, std::uint8_t node, const std::function<bool()>& goOn) {
   const auto askOnce = [&] {
     return ask(port, node, countRequest(Count::kErases), {.afterwards = kTwinWithin, .goOn = goOn});

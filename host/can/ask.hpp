@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -47,6 +48,10 @@ std::string meaningOf(const ResponseFrame& response);
 /// Sends the request to node 1 .. 63 and waits for its response. Fingers cannot tell callers
 /// apart: one at a time asks a node. Frames of others meanwhile are read and gone.
 Reply ask(BusPort& port, std::uint8_t node, const RequestFrame& request, const Patience& patience = {});
+
+/// Of each finger that is heard in so long the last HEARTBEAT, by node. What `goOn` is: see Patience.
+std::map<std::uint8_t, HeartbeatFrame> listenForFingers(BusPort& port, std::chrono::milliseconds time,
+                                                        const std::function<bool()>& goOn = {});
 
 /// Asks for something that changes nothing, before what does: nobody may be there, or two fingers of this
 /// number, who would both obey. It takes kTwinWithin.

@@ -1,6 +1,7 @@
 #include "host/can/loss_counter.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host/base/failure.hpp"
 #include "host/can/frame_catalogue.hpp"
@@ -22,6 +23,9 @@ constexpr int kUptimeStep_s = 2;
 
 constexpr std::uint16_t kLongestUptime_s = kNotKnown<std::uint16_t> - 1;  ///< or more
 
+/// Of tables that come and go the last ones are enough to know.
+constexpr std::size_t kMostTables = 8;
+
 /// A second contact has frames only while there is one, so that their numbers have gaps.
 bool isOfEveryTouch(FunctionCode function) {
   return function != FunctionCode::kContact2 && function != FunctionCode::kForce2;
@@ -30,6 +34,15 @@ bool isOfEveryTouch(FunctionCode function) {
 std::size_t indexOf(FunctionCode function) { return static_cast<std::uint16_t>(function) / kIdsPerFunction; }
 
 }  // namespace
+
+std::string tableChangesText(const NodeCount& node) {
+  if (node.tables.size() < 2) return "";
+  return fmt::format(
+      "its tables changed meanwhile (last bytes of their CRC-32: {:02X}): it was sent others, or another "
+      "finger "
+      "took its place; what it said before and after are to be read with different configs",
+      fmt::join(node.tables, ", "));
+}
 
 void requireOurProtocol(const NodeCount& node) {
   if (!node.protocol || *node.protocol == kProtocolVersion) return;
@@ -132,6 +145,19 @@ void LossCounter::countAnnounced(Stream& stream, const PatchFrame& patch) {
 void LossCounter::countHeartbeat(Stream& stream, const HeartbeatFrame& heartbeat) {
   stream.seen.protocol = heartbeat.protocol;
   if (heartbeat.uptime_s != kNotKnown<std::uint16_t>) countUptime(stream, heartbeat.uptime_s);
+  countTables(stream, heartbeat);
+}
+
+/// Tables that come back without a restart are those of another finger: one is sent others in state fault,
+/// and starts with them.
+void LossCounter::countTables(Stream& stream, const HeartbeatFrame& heartbeat) {
+  std::vector<std::uint8_t>& tables = stream.seen.tables;
+  if (heartbeat.state == FingerState::kFault) return;
+  if (!tables.empty() && tables.back() == heartbeat.table_crc) return;
+  if (stream.tablesBefore == heartbeat.table_crc) ++stream.evidence.resumptions;
+  if (!tables.empty()) stream.tablesBefore = tables.back();
+  if (tables.size() == kMostTables) tables.erase(tables.begin());
+  tables.push_back(heartbeat.table_crc);
 }
 
 void LossCounter::countUptime(Stream& stream, std::uint16_t uptime_s) {
@@ -151,6 +177,7 @@ void LossCounter::countUptime(Stream& stream, std::uint16_t uptime_s) {
     ++stream.evidence.resumptions;
   } else if (uptime_s < last_s) {
     ++stream.seen.restarts;
+    stream.tablesBefore.reset();
     stream.numbers = {};
     stream.announced.reset();
   }

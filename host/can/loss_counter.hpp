@@ -24,9 +24,13 @@ struct NodeCount {
   std::uint64_t lost = 0;                ///< of these, as far as the sequence numbers tell: modulo 256
   std::uint64_t repeated = 0;            ///< the same number twice in a row
   std::optional<std::uint8_t> protocol;  ///< of its last HEARTBEAT
-  std::uint64_t restarts = 0;  ///< the uptime went back; frames lost across a restart cannot be counted
-  bool twoSenders = false;     ///< two fingers are this node: the other counts mean nothing then
+  std::uint64_t restarts = 0;        ///< the uptime went back; frames lost across a restart cannot be counted
+  bool twoSenders = false;           ///< two fingers are this node: the other counts mean nothing then
+  std::vector<std::uint8_t> tables;  ///< last byte of their CRC-32, each time that it was another
 };
+
+/// "its tables changed meanwhile (2C, 8F)": what to tell where they did; "": they didn't.
+std::string tableChangesText(const NodeCount& node);
 
 /// Throws Failure(kMismatch) where the node speaks another protocol.
 void requireOurProtocol(const NodeCount& node);
@@ -67,7 +71,8 @@ class LossCounter {
     std::optional<std::uint8_t> announced;  ///< of the last PATCH, if a second contact belongs to it
     std::optional<std::uint16_t> uptime_s;
     std::optional<std::uint16_t> uptimeBeforeJump_s;
-    int sameUptime = 0;  ///< heartbeats
+    int sameUptime = 0;                        ///< heartbeats
+    std::optional<std::uint8_t> tablesBefore;  ///< those of seen.tables are the ones after
     std::uint8_t board = 0;
     std::uint8_t boardBefore = 0;
   };
@@ -77,6 +82,7 @@ class LossCounter {
   static void countAnnounced(Stream& stream, const PatchFrame& patch);
   static void countHeartbeat(Stream& stream, const HeartbeatFrame& heartbeat);
   static void countUptime(Stream& stream, std::uint16_t uptime_s);
+  static void countTables(Stream& stream, const HeartbeatFrame& heartbeat);
   static void countBoard(Stream& stream, std::uint8_t board);
 
   PerNode<Stream> streams_;

@@ -10,7 +10,7 @@ std::string_view remedyFor(FingerFault fault) {
   switch (fault) {
     case FingerFault::kTables:
       return "`strainfinger push --can BUS -n N -c FINGER.toml`, with this finger's config, sends it its "
-             "tables; those of another number of gauges than its board reads are none";
+             "tables; the board refuses tables for more gauges (gauges.count) than it reads";
     case FingerFault::kGauges:
       return "`strainfinger info --can BUS -n N` names those out of use: check their wires and amplifiers, "
              "then `strainfinger tare --can BUS -n N` gives each another chance";
@@ -34,8 +34,8 @@ std::string_view remedyFor(FingerFault fault) {
              "up";
     case FingerFault::kNoisy:
       return "keep mains and motor cables away, check shield and ground, and the wires of gauges out of use; "
-             "where it stays so, tell it: gauges.noise_strain in the finger's config, and "
-             "`strainfinger push --can BUS -n N -c` that";
+             "if the noise stays, enter it as gauges.noise_strain in the finger's config and send its tables "
+             "again: `strainfinger push --can BUS -n N -c FINGER.toml`";
   }
   return "";
 }
@@ -146,8 +146,8 @@ std::string_view remedyFor(CommandStatus status) {
     case CommandStatus::kWait:
       return "try again in as many seconds as value says";
     case CommandStatus::kNotKept:
-      return "an emulated finger has no memory to keep it in, a simulated one only for tables; another one's "
-             "memory is worn out";
+      return "a simulated finger (`run`) keeps only tables, and only until it ends; an emulated board keeps "
+             "nothing; on a real board the memory is worn out: replace the board";
     case CommandStatus::kTooFast:
       return "ask for less, or use a bus with a higher bit rate";
     case CommandStatus::kOutOfTurn:

@@ -41,8 +41,10 @@ namespace strainfinger::cli {
 namespace {
 
 constexpr const char* kCalibrateHelp =
-    "The finger as it was built, from touches by hand that nobody need have measured: gain, zero, angle and "
-    "depth of each gauge, core radius, Poisson's ratio, shear modulus, together with place, loads and width "
+    "Estimates the finger as it was built from touches by hand, of unknown places and loads: gain, zero, "
+    "angle "
+    "and depth of each gauge, core radius, Poisson's ratio, shear modulus, together with place, loads and "
+    "width "
     "of every touch.\n"
     "--can: guided, with the finger on a bus: it says what to do next (leave it alone, roll it here, press "
     "it there with a known load, press it at a mark), shows what is covered and known, and ends when nothing "
@@ -50,21 +52,23 @@ constexpr const char* kCalibrateHelp =
     "back, s skips what you cannot do, t takes a new zero (asks first), q ends. Where stdout is no terminal, "
     "and with --plain, lines on stderr; lines on stdin say load 200 g, angle 40, hold, undo, skip, tare or "
     "quit. The rows are kept beside -o as they come, in NAME.strains.csv and NAME.touches.csv, which "
-    "--strains and --touches read; the same command goes on with them. NAME.session.toml has the config that "
-    "they were collected with: one of another [finger] or other [gauges] is refused. Nothing else is written "
-    "to the finger than requests for its readings (RAW), but for the zero that you agree to.\n"
+    "--strains and --touches read; the same command goes on with them. NAME.session.toml holds the config of "
+    "these rows; a session with another [finger] or [gauges] is refused. The finger is only asked for its "
+    "readings (RAW); it takes a new zero only if you agree.\n"
     "--strains: CSV, one strain a gauge in a row, as `strains` prints them, without an earlier calibration; "
     "hundreds of rows, all around the finger; or a recording of a bus with RAW in it, as `record` writes, of "
     "which the touches that differ are taken. --touches: CSV with angle_deg, normal_n_per_m and "
     "tangential_n_per_m of each of these rows; an empty cell is unknown, both loads 0 are the untouched "
     "finger. A header row, blank lines and # comments are passed over.\n"
-    "stdout: one row a gauge; with --summary one row of what belongs to the whole finger and what it is "
-    "worth; with --rows what became of each row of strains; with --correlations what is told together only. "
+    "stdout: one row a gauge; with --summary one row of the rubber's values and of the errors to "
+    "expect; with --rows how each row of strains was used; with --correlations the pairs of unknowns that "
+    "are "
+    "strongly correlated. "
     "stderr: the same in words.\n"
     "-o writes the config with all of it in [finger], [calibration] and gauges.model_error; [tolerance] says "
     "how far a finger may be off the drawing.\n"
-    "Exit status 1 when the touches don't tell enough, naming the gauges and the touches that are missing, "
-    "and when this finger doesn't explain the strains.";
+    "Exit status 1 if the touches don't determine the finger (the message names the gauges and the touches "
+    "that are missing), or if this finger doesn't explain the strains.";
 
 struct CalibrateOptions {
   explicit CalibrateOptions(CLI::App& command) : common(command) {
@@ -107,7 +111,9 @@ struct CalibrateOptions {
     auto* const whole = command.add_flag("--summary", summary, "Prints one row of the whole finger");
     auto* const each =
         command.add_flag("--rows", rows, "Prints what became of each row of strains")->excludes(whole);
-    command.add_flag("--correlations", correlations, "Prints which unknowns the touches tell together only")
+    command
+        .add_flag("--correlations", correlations,
+                  "Prints the pairs of unknowns whose correlation is beyond 0.9")
         ->excludes(whole)
         ->excludes(each);
   }

@@ -41,12 +41,14 @@ constexpr const char* kDecodeHelp =
     "no such field or the value is not known; flags, faults and out_of_use are text: names, or numbers of "
     "gauges, joined by '+' ('5', '0+2'), empty where there are none.\n"
     "--json: one object a frame with its own fields, null where not known.\n"
-    "The largest value of a field stands for it or more (sigma_normal_n 0.127, sigma_width_m 0.065534 ..).\n"
+    "The largest value of a field means this value or more (sigma_normal_n 0.127, sigma_width_m 0.065534 "
+    "..).\n"
     "--touches: a row for each touch sample in place of its frames: where, how hard, how wide, how sure. "
-    "What of it was lost is empty; a sample that lost its CONTACT has no row. The last row of a touch has no "
-    "flag contact. time_s is that of the CONTACT, and a row comes when it is complete: rows of one "
-    "finger in their order, those of several up to 0.2 s out of it (more, where HEARTBEATs are lost, too): "
-    "sort them by time_s.\n"
+    "Fields of lost frames are empty; without its CONTACT a sample has no row. The last row of a touch has "
+    "no "
+    "flag contact. time_s is the time of the CONTACT. A row is printed when it is complete, so rows of "
+    "several "
+    "fingers may be out of order by 0.2 s (more if HEARTBEATs are lost): sort them by time_s.\n"
     "Dates (candump -tA) are taken for those of this machine's time zone (TZ).\n"
     "A line that cannot be read is reported as FILE:LINE:COLUMN on stderr, of each file the first 20, and "
     "makes the exit status 1.\n"
@@ -111,6 +113,13 @@ class Decoder {
   void finish() {
     if (touches_) touches_->finish();
     output_.flush();
+  }
+
+  /// Throws Failure(kFailure) where there were frames, and none of them was of the time that was asked for.
+  void requireAnyInWindow() const {
+    if (!first_ns_ || isAnyInWindow_) return;
+    throw Failure(ExitCode::kFailure, fmt::format("decode: no frame is of that time: they are from {} to {}",
+                                                  can::timeText(*first_ns_), can::timeText(last_ns_)));
   }
 
   /// What the losses are counted from are sequence numbers, one after the other.
@@ -236,7 +245,13 @@ class Decoder {
   }
 
   bool isInWindow(const can::TextFrame& text) {
-    return window_.isWhole() || window_.has(can::requireTime(text, *lines_));
+    if (window_.isWhole()) return true;
+    const std::int64_t time_ns = can::requireTime(text, *lines_);
+    const bool isIn = window_.has(time_ns);
+    isAnyInWindow_ |= isIn;
+    if (!first_ns_) first_ns_ = time_ns;
+    last_ns_ = time_ns;
+    return isIn;
   }
 
   Spoken& spokenBy(const can::TextFrame& text) {
@@ -276,6 +291,9 @@ class Decoder {
   std::vector<int> nodes_;
   can::TimeWindow asked_;
   can::TimeWindow window_;  ///< asked_, of the file that is read
+  bool isAnyInWindow_ = false;
+  std::optional<std::int64_t> first_ns_;  ///< of all frames, if only a part is asked for
+  std::int64_t last_ns_ = 0;
   can::PerNode<Spoken> spoken_;
   std::optional<LineReader> lines_;  ///< of the file that is read
   std::uint64_t unreadable_ = 0;     ///< lines of it
@@ -302,6 +320,7 @@ void runDecode(const DecodeOptions& options) {
   decoder.tally().summarise();
   decoder.judgeTimes();
   decoder.tally().requireGood();
+  decoder.requireAnyInWindow();
   if (decoder.stopped()) throw Failure(ExitCode::kInterrupted, "decode: interrupted");
 }
 

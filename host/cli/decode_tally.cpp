@@ -36,6 +36,8 @@ void summariseNode(const can::NodeCount& node) {
   else
     tell("decode: {} node {}: {} frames of touches received, {} lost, {} repeated, {} restarts\n",
          node.interface, node.node, node.received, node.lost, node.repeated, node.restarts);
+  if (const std::string changes = can::tableChangesText(node); !changes.empty() && !node.twoSenders)
+    tell("decode: {} node {}: {}\n", node.interface, node.node, changes);
 }
 
 }  // namespace

@@ -32,11 +32,13 @@ namespace {
 constexpr const char* kDesignHelp =
     "Which finger to build: what gauges could tell of a touch, by their number and the radius of their "
     "ring.\n"
-    "A row a finger as drawn, its ring even; all else is the config's, whose own gauges.radius_m must be\n"
-    "a good one too. gauges.angle_deg, [calibration] and [as_built] count for nothing.\n"
+    "Each row is one finger as drawn, with an even ring. All other values come from the config, which must "
+    "be\n"
+    "valid itself. gauges.angle_deg, [calibration] and [as_built] are not used.\n"
     "  ..._median, ..._worst  of all places: the least standard deviation that an unbiased fit can have\n"
-    "                         (Cramer and Rao), from noise alone; what the build is off comes on top\n"
-    "                         (gauges.model_error). inf (JSON: null): undetermined; empty: no width, or\n"
+    "                         (Cramer and Rao), from noise alone; deviations from the drawing\n"
+    "                         (gauges.model_error) are not included. inf (JSON: null): undetermined; empty: "
+    "no width, or\n"
     "                         a known one\n"
     "  identifiable_share     of the places, where the readings determine the touch: the place within\n"
     "                         half a pitch, the load within itself\n"
@@ -45,7 +47,7 @@ constexpr const char* kDesignHelp =
     "                         from readings without noise\n"
     "  detected_n_per_m       from which load on the firmware sees a line contact anywhere\n"
     "  full_scale_n_per_m     the line contact that the gauges' full scale allows\n"
-    "  problem                why this is no finger for such a touch; empty: it is one";
+    "  problem                why the finger is unsuitable for such a touch; empty: it is suitable";
 
 /// Of the outer radius. Nearer to the surface the elastic model takes seconds a finger.
 constexpr double kLeastDepth = 1e-3;

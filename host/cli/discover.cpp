@@ -24,7 +24,7 @@ constexpr const char* kDiscoverHelp =
     "Prints interface,node,state,faults,protocol,firmware,board,reset_cause,uptime_s,table_crc,note; empty "
     "where the finger didn't say. table_crc is how the CRC-32 of its tables ends, as `tables info` prints "
     "it.\n"
-    "Exit status: 3 no interface, 4 no finger heard.";
+    "Exit status: 3 no interface, 4 no finger heard, or one of --expect not.";
 
 const std::vector<std::string> kColumns{"interface", "node",      "state", "faults",
                                         "protocol",  "firmware",  "board", "reset_cause",
@@ -32,9 +32,12 @@ const std::vector<std::string> kColumns{"interface", "node",      "state", "faul
 
 struct DiscoverOptions {
   explicit DiscoverOptions(CLI::App& command)
-      : common(command), listening(command, 0.1, 3, "two fingers of one number show by then") {}
+      : common(command), listening(command, 0.1, 3, "two fingers of one number show by then") {
+    addExpectOption(command, expected);
+  }
   CommonOptions common;
   ListeningOptions listening;
+  std::vector<int> expected;
 };
 
 std::string noteOn(const live::FingerView& finger) {
@@ -129,6 +132,9 @@ void runDiscover(const DiscoverOptions& options) {
         fmt::format("discover: no finger heard on {} in {} s: `strainfinger doctor{}` looks for the cause",
                     fmt::join(names, ", "), options.listening.duration_s,
                     names.size() == 1 ? fmt::format(" --can {}", names.front()) : ""));
+  if (const std::vector<int> missing = missingOf(options.expected, views); !missing.empty())
+    throw Failure(ExitCode::kNoNode,
+                  fmt::format("discover: not heard: node {} (--expect)", fmt::join(missing, ", ")));
 }
 
 }  // namespace

@@ -37,9 +37,12 @@ constexpr const char* kDoctorHelp =
 struct DoctorOptions {
   explicit DoctorOptions(CLI::App& command)
       : common(command),
-        listening(command, 1, 5, "two fingers of one number show in their INFOs, one a second") {}
+        listening(command, 1, 5, "two fingers of one number show in their INFOs, one a second") {
+    addExpectOption(command, expected);
+  }
   CommonOptions common;
   ListeningOptions listening;
+  std::vector<int> expected;
 };
 
 /// Prints findings, and remembers the first error.
@@ -186,6 +189,10 @@ void runDoctor(const DoctorOptions& options) {
     examineFingers(buses[i], views[i], expected, report);
   }
   report.add(expected.findingsOn(views));
+  for (const int node : missingOf(options.expected, views))
+    report.add({{Severity::kError, "--expect", fmt::format("node {} is not heard", node),
+                 "is it powered, and has it this number? `strainfinger discover` lists those that are there",
+                 ExitCode::kNoNode}});
   report.end();
 }
 

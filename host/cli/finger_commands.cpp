@@ -3,19 +3,19 @@
 namespace strainfinger::cli {
 
 void addFingerCommands(CLI::App& app) {
-  addTables(app);
-  addLocate(app);
   addRun(app);
-  addRecord(app);
-  addReplay(app);
-  addDecode(app);
-  addPlot(app);
-  addExplain(app);
-  addDbc(app);
-  addStrains(app);
   addTare(app);
   addConfig(app);
   addPush(app);
+  addStrains(app);
+  addRecord(app);
+  addDecode(app);
+  addPlot(app);
+  addReplay(app);
+  addExplain(app);
+  addDbc(app);
+  addTables(app);
+  addLocate(app);
 }
 
 }  // namespace strainfinger::cli

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "host/base/failure.hpp"
@@ -38,6 +39,25 @@ std::vector<live::BusView> listenTo(std::vector<ListenedBus>& buses, std::chrono
   std::vector<live::BusView> views;
   for (ListenedBus& bus : buses) views.push_back(bus.watch().view());
   return views;
+}
+
+void addExpectOption(CLI::App& command, std::vector<int>& nodes) {
+  addList(command, "--expect", nodes, "Nodes that must be there, as in 1,2,5: exit status 4 where one isn't",
+          isNode())
+      .type_name("N,N");
+}
+
+std::vector<int> missingOf(const std::vector<int>& nodes, std::span<const live::BusView> buses) {
+  std::vector<int> missing;
+  for (const int node : nodes) {
+    const auto isThere = [&](const live::FingerView& finger) {
+      return finger.node == node && !finger.isSilent();
+    };
+    if (!std::ranges::any_of(
+            buses, [&](const live::BusView& bus) { return std::ranges::any_of(bus.fingers, isThere); }))
+      missing.push_back(node);
+  }
+  return missing;
 }
 
 }  // namespace strainfinger::cli

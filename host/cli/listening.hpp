@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,12 @@ struct ListeningOptions {
   std::string bus;  ///< empty: not said
   double duration_s;
 };
+
+/// Adds --expect: nodes that must be there.
+void addExpectOption(CLI::App& command, std::vector<int>& nodes);
+
+/// Those of `nodes` that are on none of the buses, or silent there.
+std::vector<int> missingOf(const std::vector<int>& nodes, std::span<const live::BusView> buses);
 
 /// A bus that is open.
 class ListenedBus {

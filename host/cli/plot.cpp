@@ -130,6 +130,8 @@ void judge(const PlotOptions& options, const Heard& heard) {
   for (const can::NodeCount& count : heard.losses.counts()) {
     if (!heard.tracks.empty() && !heard.tracks.contains({count.interface, count.node})) continue;
     can::requireOurProtocol(count);
+    if (const std::string changes = can::tableChangesText(count); !changes.empty() && !count.twoSenders)
+      warn("plot", fmt::format("{}: {} node {}: {}", options.path, count.interface, count.node, changes));
     if (count.twoSenders)
       warn("plot", fmt::format("{}: {} node {}: {}, and the picture mixes what they say: {}", options.path,
                                count.interface, count.node, can::kTwinText,

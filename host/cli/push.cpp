@@ -1,14 +1,21 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "host/base/failure.hpp"
 #include "host/base/notice.hpp"
 #include "host/can/frame_catalogue.hpp"
 #include "host/can/open_bus.hpp"
+#include "host/can/other_tables.hpp"
 #include "host/can/remedies.hpp"
 #include "host/can/table_push.hpp"
 #include "host/cli/commands.hpp"
@@ -23,9 +30,11 @@ namespace {
 
 constexpr const char* kPushHelp =
     "Sends a finger the tables that it is to work with: those of FILE (`tables -o`), or those of the config. "
-    "It stops, takes them into its memory, starts anew and checks them.\n"
+    "Where there are several fingers, -n or -c says which is meant. It stops, takes them into its memory, "
+    "starts anew and checks them.\n"
     "Do not touch it: a finger that feels a touch refuses, and one that starts takes its zero.\n"
-    "A push that ends early leaves the finger without tables (state fault): push again. Its memory "
+    "A push that ends after its first word leaves the finger without tables (state fault): push again. One "
+    "that ends before that changes nothing: the finger goes on with its old tables within 30 s. Its memory "
     "wears out: four at once, then one a minute, and none for a minute after a restart. While another "
     "program asks the finger, this one waits. With -c and FILE, FILE has to be of that config.\n"
     "Prints interface,node,table_crc,bytes. Exit status: 1 refused, or not done as it should be, 3 no "
@@ -43,6 +52,50 @@ struct PushOptions {
   bool force = false;
 };
 
+/// In which each finger sends two HEARTBEATs.
+constexpr std::chrono::milliseconds kListen{250};
+
+using Heard = std::map<std::uint8_t, HeartbeatFrame>;
+
+/// Tables are one finger's: without -n and -c they would go to node 1, whosever they are.
+void requireChosen(const RequestOptions& options, std::uint8_t node, const Heard& heard) {
+  if (options.node != 0 || options.common.hasConfig()) return;
+  std::vector<int> nodes;
+  for (const auto& [each, heartbeat] : heard) nodes.push_back(each);
+  if (std::ranges::all_of(nodes, [&](int each) { return each == node; })) return;
+  throw Failure(
+      ExitCode::kUsage,
+      fmt::format("push: {} has the fingers {}: say with -n, or with its config (-c), which of them "
+                  "is to get these tables",
+                  options.bus, fmt::join(nodes, ", ")));
+}
+
+/// The default finger's tables, which nobody named, take the place of no others.
+void requireNamed(const PushOptions& options, std::uint8_t node, const Heard& heard,
+                  const TableImage& image) {
+  const auto at = heard.find(node);
+  if (!options.path.empty() || options.request.common.hasConfig() || at == heard.end()) return;
+  if (at->second.state == FingerState::kFault || !can::hasOtherTables(at->second, image.crc32)) return;
+  throw Failure(
+      ExitCode::kUsage,
+      fmt::format("push: {} node {} has tables of its own (their CRC-32 ends with {:02X}), and these are "
+                  "the default finger's ({:02X}): name those that it is to get: FILE, or its config (-c); "
+                  "`strainfinger tables -o FILE` makes the default finger's",
+                  options.request.bus, node, at->second.table_crc, tableCrcByte(image.crc32)));
+}
+
+/// What would bring it back is known only by what it was made from.
+void tellReplaced(const can::BusPort& bus, std::uint8_t node, const Heard& heard, const TableImage& image) {
+  const auto at = heard.find(node);
+  if (at == heard.end() || !can::hasOtherTables(at->second, image.crc32) ||
+      at->second.state == FingerState::kFault)
+    return;
+  tell(
+      "push: {} node {} had tables whose CRC-32 ends with {:02X}: their file, or the config they were made "
+      "from, brings them back\n",
+      bus.name(), node, at->second.table_crc);
+}
+
 std::unique_ptr<TableImage> tablesFor(const PushOptions& options) {
   const CommonOptions& common = options.request.common;
   if (options.path.empty()) {
@@ -54,7 +107,7 @@ std::unique_ptr<TableImage> tablesFor(const PushOptions& options) {
   return image;
 }
 
-/// On a terminal only: how far it is. A terminal that is closed meanwhile doesn't end a push.
+/// On a terminal only: how far it is.
 class Progress {
  public:
   void show(int words) {
@@ -76,9 +129,14 @@ class Progress {
 can::TablePush send(can::BusPort& port, std::uint8_t node, const TableImage& image, bool force,
                     const system::StopSignal& stop) {
   Progress progress;
+  bool isTold = false;
   return can::pushTables(port, node, image, force, [&](int words) {
     progress.show(words);
-    return !stop.asked();
+    if (words == 0 || !stop.asked()) return !stop.asked();
+    if (!std::exchange(isTold, true))
+      tell("{}push: goes on to the end, without which the finger has no tables; once more (Ctrl-C) ends it\n",
+           isatty(STDERR_FILENO) == 1 ? "\r\x1b[K" : "");
+    return stop.times() < 2;
   });
 }
 
@@ -144,8 +202,8 @@ void requireRunning(can::BusPort& port, std::uint8_t node, const TableImage& ima
       ExitCode::kVerificationFailed,
       fmt::format(
           "{}: took the tables, but does not work with them: state {}, table_crc {:02X}, not "
-          "{:02X}: they are for {} gauges: where its board reads another number, push those of its own "
-          "config (-c); else push them again; if it comes back, its memory is worn out, or its "
+          "{:02X}: they are for {} gauges: if its board reads fewer, push the tables of its own config (-c); "
+          "else push them again; if it comes back, its memory is worn out, or its "
           "firmware takes tables of another format",
           where, can::nameText(kFingerStateNames, static_cast<int>(heartbeat->state)), heartbeat->table_crc,
           wanted, image.constants.gauge_count));
@@ -157,10 +215,15 @@ void runPush(const PushOptions& options) {
   const auto image = tablesFor(options);
   const auto port = can::openBus(options.request.bus, can.bitrate);
   const system::StopSignal stop;
-  requireOneFinger(*port, node, [&stop] { return !stop.asked(); });
+  const auto goOn = [&stop] { return !stop.asked(); };
+  const Heard heard = can::listenForFingers(*port, kListen, goOn);
+  requireChosen(options.request, node, heard);
+  requireNamed(options, node, heard, *image);
+  requireOneFinger(*port, node, goOn);
   requireWhole(send(*port, node, *image, options.force, stop), *port, node);
   restart(*port, node);
   requireRunning(*port, node, *image, stop);
+  tellReplaced(*port, node, heard, *image);
   if (options.force)
     tell(
         "push: what touches the finger now is part of its zero: `strainfinger tare --can {} -n {}` "

@@ -24,13 +24,13 @@ std::string whyNothing(const recompute::RecomputeTally& tally, const std::set<in
                       : fmt::format(", but of {}: give that finger's config (-c)", fmt::join(heard, ", ")));
   if (const int fastest_hz = fastestRaw_hz(gauges, bitrate); fastest_hz < kFastestRaw_hz)
     return fmt::format(
-        "of {} gauges a bus of {} bit/s takes {} sample sets a second, and not all {}: what "
-        "this finger says cannot be computed again",
+        "with {} gauges a bus of {} bit/s carries {} sample sets a second, not all {}: a recording of this "
+        "finger cannot be computed again",
         gauges, bitrate, fastest_hz, kFastestRaw_hz);
   return fmt::format(
-      "nothing to compare: the recording needs RAW of every sample set of node {} ({} gaps) from "
-      "before a tare on, and a touch behind it: `strainfinger strains --rate {} > /dev/null`, "
-      "then `strainfinger tare` while it records",
+      "nothing to compare: the recording needs RAW of every sample set of node {} ({} gaps here), from "
+      "before a tare until after a touch: while `record` runs, start `strainfinger strains --rate {} > "
+      "/dev/null`, then `strainfinger tare`, then touch the finger",
       node, tally.gaps, kFastestRaw_hz);
 }
 

@@ -1,11 +1,21 @@
+#include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "host/base/failure.hpp"
 #include "host/base/notice.hpp"
+#include "host/base/table_writer.hpp"
 #include "host/base/utc_text.hpp"
 #include "host/can/open_bus.hpp"
 #include "host/can/remedies.hpp"
@@ -30,9 +40,14 @@ constexpr const char* kRecordHelp =
     "If the program is killed, what was on the bus up to half a second before is in the file, in whole "
     "lines; if the disk is full, or the log is removed or cut meanwhile, it says so and ends with status "
     "1.\n"
+    "--new-log-every: for weeks: goes on with another log, of which no frame is lost; each has its start "
+    "(UTC) in "
+    "its name, NAME-DATE-TIME.log.\n"
+    "--json: an object log,notes,duration_s,frames,missed,gaps for each log, when it is complete.\n"
     "The log is what `decode`, `plot` and `replay` read.";
 
 constexpr auto kFlushPeriod = 250ms;
+constexpr double kShortestLog_s = 2;  ///< names differ by a second
 
 struct RecordOptions {
   explicit RecordOptions(CLI::App& command) : common(command) {
@@ -43,11 +58,16 @@ struct RecordOptions {
     command.add_option("--duration", duration_s, "Seconds; until Ctrl-C without it")
         ->type_name("S")
         ->check(isFrom(0.001, 1e9));
+    command
+        .add_option("--new-log-every", newLogEvery_s, "Seconds after which another log begins (86400: a day)")
+        ->type_name("S")
+        ->check(isFrom(kShortestLog_s, 1e9));
   }
   CommonOptions common;
   std::string bus;
   std::string path;
   double duration_s = 0;  ///< 0: no end
+  std::optional<double> newLogEvery_s;
 };
 
 void tellOfBus(can::BusPort& port, bool isThere) {
@@ -57,56 +77,137 @@ void tellOfBus(can::BusPort& port, bool isThere) {
                              port.hints().whenBlocked));
 }
 
-void recordUntil(Clock::time_point end, const system::StopSignal& stop, can::BusPort& port,
-                 Recording& recording) {
-  for (Clock::time_point flushAt{}; !stop.asked() && Clock::now() < end;) {
-    if (port.waitReadable(system::StopSignal::kLookEvery)) std::this_thread::sleep_for(can::BusPort::kGather);
-    while (const auto frame = port.receiveTimed()) recording.take(*frame);
-    if (recording.lookAtBus()) tellOfBus(port, recording.isBusThere());
-    if (Clock::now() < flushAt) continue;
-    recording.flush();
-    flushAt = Clock::now() + kFlushPeriod;
-  }
-  recording.end();
+Clock::duration durationOf(double seconds) {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
-/// The notes beside the log quote the config, by which whoever reads it goes.
-void warnOfOtherTables(const Recording& recording, const config::FingerConfig& config) {
-  const auto nodes = recording.nodesOfOtherTables(tables::buildTableImage(config).crc32);
-  if (nodes.empty()) return;
-  warn("record", fmt::format("the tables of node {} are not those of {}, which the notes quote: read the log "
-                             "with that finger's own config (-c)",
-                             fmt::join(nodes, ", "), config.source));
+/// "x.log"; of several "x-20261129-031200.log", by its start (UTC).
+std::string nextPath(const RecordOptions& options) {
+  if (!options.newLogEvery_s) return options.path;
+  const std::filesystem::path path(options.path);
+  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  const auto name =
+      fmt::format("{}-{:%Y%m%d-%H%M%S}{}", path.stem().string(), fmt::gmtime(now), path.extension().string());
+  return (path.parent_path() / name).string();
 }
+
+/// Writes one log after the other.
+class Recorder {
+ public:
+  Recorder(const RecordOptions& options, const config::FingerConfig& config, can::BusPort& port)
+      : options_(options), config_(config), port_(port) {
+    if (options.common.hasConfig()) tables_crc32_ = tables::buildTableImage(config).crc32;
+    if (options.common.format() == TableFormat::kJson)
+      table_.emplace(stdout, TableFormat::kJson,
+                     std::vector<std::string>{"log", "notes", "duration_s", "frames", "missed", "gaps"});
+    begin();
+    port.hearOthers([this](const can::OtherFrame& other) { recording_->take(other); });
+  }
+  ~Recorder() { port_.hearOthers({}); }
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  void recordUntil(Clock::time_point end, const system::StopSignal& stop) {
+    for (Clock::time_point flushAt{}; !stop.asked() && Clock::now() < end;) {
+      if (port_.waitReadable(system::StopSignal::kLookEvery))
+        std::this_thread::sleep_for(can::BusPort::kGather);
+      while (const auto frame = port_.receiveTimed()) recording_->take(*frame);
+      if (recording_->lookAtBus()) tellOfBus(port_, recording_->isBusThere());
+      if (Clock::now() < flushAt) continue;
+      recording_->flush();
+      warnOfFingers();
+      flushAt = Clock::now() + kFlushPeriod;
+      if (options_.newLogEvery_s && Clock::now() - start_ >= durationOf(*options_.newLogEvery_s)) beginAnew();
+    }
+    finish(*recording_, start_);
+  }
+
+ private:
+  void begin() {
+    recording_ = std::make_unique<Recording>(port_, config_, nextPath(options_));
+    start_ = Clock::now();
+  }
+
+  /// The next log is there before the last one is complete: what can't be begun ends nothing.
+  void beginAnew() {
+    const auto last = std::move(recording_);
+    const auto lastStart = start_;
+    try {
+      begin();
+    } catch (...) {
+      last->end();
+      throw;
+    }
+    finish(*last, lastStart);
+    told_.clear();
+  }
+
+  void finish(Recording& recording, Clock::time_point start) {
+    recording.end();
+    const RecordingProgress& progress = recording.progress();
+    const double duration_s = std::chrono::duration<double>(Clock::now() - start).count();
+    tell("record: {} frames in {:.1f} s, {} missed: {}, {}\n", progress.frames, duration_s, progress.missed,
+         recording.path(), recording.notesPath());
+    if (const std::string name = recording.renamedTo(); !name.empty())
+      warn("record", fmt::format("{} was renamed meanwhile: all is in {}", recording.path(), name));
+    if (progress.gaps > 0)
+      warn("record", fmt::format("{} was away {} meanwhile: {} says when", port_.name(),
+                                 progress.gaps == 1 ? "once" : fmt::format("{} times", progress.gaps),
+                                 recording.notesPath()));
+    if (progress.frames == 0)
+      warn("record",
+           fmt::format("nothing was heard on {}: `strainfinger doctor --can {}` looks for the cause",
+                       port_.name(), port_.name()));
+    warnOfFingersIn(recording);
+    if (table_)
+      table_->row({recording.path(), recording.notesPath(), duration_s, std::int64_t(progress.frames),
+                   std::int64_t(progress.missed), std::int64_t(progress.gaps)});
+    std::fflush(stdout);
+  }
+
+  void warnOfFingers() { warnOfFingersIn(*recording_); }
+
+  /// Once each, as soon as it is known: a recording may last for weeks.
+  void warnOfFingersIn(const Recording& recording) {
+    for (const can::NodeCount& count : recording.counts()) {
+      if (count.twoSenders)
+        once(fmt::format("node {}: {}: {}", count.node, can::kTwinText,
+                         can::forNode(can::kTwinRemedy, port_.name(), count.node)));
+      else if (const std::string changes = can::tableChangesText(count); !changes.empty())
+        once(fmt::format("node {}: {}", count.node, changes));
+    }
+    if (!tables_crc32_) return;
+    // The notes beside the log quote the config, by which whoever reads it goes.
+    if (const auto nodes = recording.nodesOfOtherTables(*tables_crc32_); !nodes.empty())
+      once(fmt::format(
+          "the tables of node {} are not those of {}, which the notes quote: read the log with that "
+          "finger's own config (-c)",
+          fmt::join(nodes, ", "), config_.source));
+  }
+
+  void once(const std::string& warning) {
+    if (told_.insert(warning).second) warn("record", warning);
+  }
+
+  const RecordOptions& options_;
+  const config::FingerConfig& config_;
+  can::BusPort& port_;
+  std::optional<std::uint32_t> tables_crc32_;  ///< of the config that was given
+  std::optional<TableWriter> table_;
+  std::unique_ptr<Recording> recording_;
+  Clock::time_point start_;     ///< of that one
+  std::set<std::string> told_;  ///< warnings
+};
 
 void runRecord(const RecordOptions& options) {
   requireFolderOf("--output", options.path);
   const system::StopSignal stop;
   const config::FingerConfig config = options.common.config();
   const auto port = can::openBus(options.bus, config.can.bitrate);
-  Recording recording(*port, config, options.path);
-  port->hearOthers([&](const can::OtherFrame& other) { recording.take(other); });
-  const auto start = Clock::now();
-  const auto duration =
-      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.duration_s));
-  recordUntil(options.duration_s > 0 ? start + duration : Clock::time_point::max(), stop, *port, recording);
-  const RecordingProgress& progress = recording.progress();
-  tell("record: {} frames in {:.1f} s, {} missed: {}, {}\n", progress.frames,
-       std::chrono::duration<double>(Clock::now() - start).count(), progress.missed, recording.path(),
-       recording.notesPath());
-  if (const std::string name = recording.renamedTo(); !name.empty())
-    warn("record", fmt::format("{} was renamed meanwhile: all is in {}", recording.path(), name));
-  if (progress.gaps > 0)
-    warn("record", fmt::format("{} was away {} meanwhile: {} says when", port->name(),
-                               progress.gaps == 1 ? "once" : fmt::format("{} times", progress.gaps),
-                               recording.notesPath()));
-  if (progress.frames == 0)
-    warn("record", fmt::format("nothing was heard on {}: `strainfinger doctor --can {}` looks for the cause",
-                               port->name(), port->name()));
-  for (const std::uint8_t node : recording.nodesOfTwins())
-    warn("record", fmt::format("node {}: {}: {}", node, can::kTwinText,
-                               can::forNode(can::kTwinRemedy, port->name(), node)));
-  if (options.common.hasConfig()) warnOfOtherTables(recording, config);
+  Recorder recorder(options, config, *port);
+  recorder.recordUntil(
+      options.duration_s > 0 ? Clock::now() + durationOf(options.duration_s) : Clock::time_point::max(),
+      stop);
   if (stop.asked()) throw Failure(ExitCode::kInterrupted, "record: interrupted, all is written");
 }
 

@@ -63,13 +63,6 @@ void Recording::take(const can::OtherFrame& other) {
   ++progress_.frames;
 }
 
-std::vector<std::uint8_t> Recording::nodesOfTwins() const {
-  std::vector<std::uint8_t> nodes;
-  for (const can::NodeCount& count : losses_.counts())
-    if (count.twoSenders) nodes.push_back(count.node);
-  return nodes;
-}
-
 bool Recording::lookAtBus() {
   const hal::CanStatus status = port_.status();
   const std::int64_t before_ns = std::exchange(looked_ns_, now_ns());

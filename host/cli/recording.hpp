@@ -38,8 +38,8 @@ class Recording {
   /// The last flush(); completes the notes. Throws like it.
   void end();
 
-  /// Numbers that two fingers have.
-  std::vector<std::uint8_t> nodesOfTwins() const;
+  /// Of each node what was heard of it.
+  std::vector<can::NodeCount> counts() const { return losses_.counts(); }
   /// See RecordingNotes.
   std::vector<std::uint8_t> nodesOfOtherTables(std::uint32_t tables_crc32) const {
     return notes_.nodesOfOtherTables(tables_crc32);

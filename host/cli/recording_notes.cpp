@@ -1,6 +1,7 @@
 #include "host/cli/recording_notes.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <span>
 #include <utility>
@@ -19,6 +20,9 @@ std::string quoted(const std::string& text) {
   for (const char c : text) result.append(c == '"' || c == '\\' ? "\\" : "").push_back(c);
   return result + "\"";
 }
+
+/// Of a finger whose tables come and go, the first ones are enough.
+constexpr std::size_t kMostTables = 100;
 
 bool sameBoard(const InfoFrame& a, const InfoFrame& b) {
   return a.board == b.board && a.version_major == b.version_major && a.version_minor == b.version_minor;
@@ -40,8 +44,10 @@ bool RecordingNotes::note(const CanFrame& frame) {
     return !before || !sameBoard(*before, *info);
   }
   if (const auto heartbeat = decode<HeartbeatFrame>(frame)) {
-    std::optional<HeartbeatFrame>& known = fingers_[*nodeOf(frame.id, FunctionCode::kHeartbeat)].heartbeat;
-    const auto before = std::exchange(known, heartbeat);
+    Finger& finger = fingers_[*nodeOf(frame.id, FunctionCode::kHeartbeat)];
+    const auto before = std::exchange(finger.heartbeat, heartbeat);
+    if (before && before->table_crc != heartbeat->table_crc && finger.tablesBefore.size() < kMostTables)
+      finger.tablesBefore.push_back(before->table_crc);
     return !before || !sameFirmware(*before, *heartbeat);
   }
   return false;
@@ -77,6 +83,8 @@ std::string RecordingNotes::toml(const RecordingProgress& progress) const {
       text +=
           fmt::format("protocol = {}\n# lowest byte of the CRC-32 of its tables\ntable_crc = \"{:02X}\"\n",
                       finger.heartbeat->protocol, finger.heartbeat->table_crc);
+    if (!finger.tablesBefore.empty())
+      text += fmt::format("table_crc_before = [\"{:02X}\"]\n", fmt::join(finger.tablesBefore, "\", \""));
   }
   return text;
 }

@@ -46,6 +46,7 @@ class RecordingNotes {
   struct Finger {
     std::optional<InfoFrame> info;
     std::optional<HeartbeatFrame> heartbeat;
+    std::vector<std::uint8_t> tablesBefore{};  ///< table_crc of earlier HEARTBEATs, in their order
   };
   std::string bus_;
   std::string config_;  ///< as text

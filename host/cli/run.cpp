@@ -42,15 +42,23 @@ constexpr const char* kRunHelp =
     "-L` would, and the same seed gives the same output.\n"
     "--can BUS: for other programs, in real time, a sample set every millisecond; prints nothing on stdout. "
     "It obeys `tare`, `config` and `push`, and like a board takes no other tables in the minute after a "
-    "restart; what it is sent is gone when it ends, so that it refuses to keep settings.\n"
+    "restart; tables that it is sent are lost when it ends, and it refuses to keep settings.\n"
     "The simulated finger is as the config's [as_built] says or, without it, as drawn and calibrated.\n"
     "At the end stderr has a summary with the errors against the truth. Ctrl-C ends a run as its duration "
     "would, with exit status 130.\n"
     "--json: the summary as one object of duration_s,sample_sets,overruns,fits,frames,touches,heartbeats,"
-    "touches_busy,touches_incomplete (deferred by a busy bus; not sent whole); compared (answers that have a "
-    "truth) and their errors arc_rms_m,arc_worst_m,normal_rms_n_per_m,normal_worst_n_per_m,"
-    "tangential_rms_n_per_m,tangential_worst_n_per_m; the other answers, uncertain,other_number (of "
-    "contacts),phantom (nothing touched),missed; untold_s (touched, and no contact told); gauges_out_of_use.";
+    "touches_busy,touches_incomplete,compared,arc_rms_m,arc_worst_m,normal_rms_n_per_m,normal_worst_n_per_m,"
+    "tangential_rms_n_per_m,tangential_worst_n_per_m,uncertain,other_number,phantom,missed,untold_s,"
+    "gauges_out_of_use.\n"
+    "  overruns           sample sets lost because this machine was late; `info` calls them lost_sets\n"
+    "  touches_busy       put off because the bus was busy\n"
+    "  touches_incomplete not sent whole\n"
+    "  compared           answers that were compared with the truth; arc_.. to tangential_.. are their "
+    "errors\n"
+    "  uncertain          answers that were not, as they were flagged\n"
+    "  other_number       the same, as they had another number of contacts than there were\n"
+    "  phantom, missed    a contact where nothing touched; none where something did\n"
+    "  untold_s           seconds in which something touched and no contact was reported";
 
 struct RunOptions {
   explicit RunOptions(CLI::App& command) : common(command), firmware(command) {

@@ -39,7 +39,7 @@ std::string plainText(double duration_s, const simulation::RunCounts& counts,
   add("run: {}: {} flagged uncertain, {} of another number of contacts, {} of none, {} missed\n",
       errors.arc_m.count() > 0 ? "not counted there" : "no answer was compared with the truth",
       errors.uncertain, errors.otherNumber, errors.phantom, errors.missed);
-  add("run: touched for {:.3f} s without a contact told\n", errors.untold_s);
+  add("run: touched for {:.3f} s without a reported contact\n", errors.untold_s);
   if (counts.outOfUse != 0) add("run: gauges out of use at the end: {}\n", gaugesOf(counts.outOfUse));
   return text;
 }

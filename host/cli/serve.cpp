@@ -186,7 +186,9 @@ void runServe(const ServeOptions& options) {
   requireGoodToken(options);
   const config::FingerConfig config = options.common.config();
   const auto port = can::openBus(options.bus, config.can.bitrate);
-  live::BusWatch watch(*port, config, tables::buildTableImage(config).crc32);
+  std::optional<std::uint32_t> tables_crc32;
+  if (options.common.hasConfig()) tables_crc32 = tables::buildTableImage(config).crc32;
+  live::BusWatch watch(*port, config, tables_crc32);
   const live::PageServerOptions serverOptionsNow = serverOptions(options, config);
   live::PageServer server(serverOptionsNow);
   tell("serve: {} shows {}; Ctrl-C ends\n", urlOf(serverOptionsNow, server.port()), options.bus);

@@ -61,21 +61,22 @@ struct TablesOptions {
 /// What the tables are good for and the finger is not.
 void warnOf(const config::FingerConfig& config, const tables::SelfCheck& check) {
   if (config::isSparse(config))
-    warn("tables",
-         fmt::format("at the surface the gauges are up to {:.4g} times their depth apart (gauges.count, "
-                     "gauges.angle_deg, gauges.radius_m); above {} times the errors told are too small "
-                     "between gauges, and no touch tells which gauge fails: use more gauges, or deeper ones",
-                     config::widestGapInDepths(config), config::kSparse));
-  if (const double error = config::unseenErrors(config).modelError; error > config.gauges.model_error)
     warn(
         "tables",
-        fmt::format(
-            "a gauge that lies tolerance.depth_m = {} m off its depth reads quite otherwise, as near the "
-            "core "
-            "or the surface: until this finger is calibrated, errors are told for a model error of {:.2g} in "
-            "place of gauges.model_error = {}, and more touches are flagged; calibrate it, or enter a "
-            "smaller tolerance if it is built to one",
-            config.tolerance.depth_m, error, config.gauges.model_error));
+        fmt::format("at the surface the gauges are up to {:.4g} times their depth apart (gauges.count, "
+                    "gauges.angle_deg, gauges.radius_m); above {} times the reported standard errors are too "
+                    "small between gauges, and touches cannot show which gauge fails: use more gauges, or "
+                    "deeper ones",
+                    config::widestGapInDepths(config), config::kSparse));
+  if (const double error = config::unseenErrors(config).modelError; error > config.gauges.model_error)
+    warn("tables", fmt::format("a depth error of tolerance.depth_m = {} m changes the readings of this "
+                               "finger much, as its gauges "
+                               "are near the core or the surface: until it is calibrated, the tables use a "
+                               "model error of {:.2g} "
+                               "instead of gauges.model_error = {}, and more touches are flagged; calibrate "
+                               "the finger, or enter "
+                               "a smaller tolerance.depth_m if it is built more accurately",
+                               config.tolerance.depth_m, error, config.gauges.model_error));
   const double most_n = 2 * check.halfScale_n_per_m * config.finger.length_m;
   const double told_n = can::largestValues().normal_n;
   if (most_n > told_n)

@@ -27,6 +27,9 @@ void addWindowOptions(CLI::App& command, can::TimeWindow& window) {
             "as 2026-11-29T03:12:00 (of this machine's time zone; UTC with a Z behind it)",
             window.from);
   addMoment(command, "--to", "Only what the log has until then, as --from", window.to);
+  command.parse_complete_callback([&window] {
+    if (window.isEmpty()) throw CLI::ValidationError("--from", "is later than --to");
+  });
 }
 
 }  // namespace strainfinger::cli

@@ -33,9 +33,10 @@ struct Gauges {
   double radius_m = 9.4e-3;
   StrainComponent component = StrainComponent::kRadial;
   double first_angle_deg = 0;
-  double arc_length_m = 0;          ///< the strain is averaged over it
-  double noise_strain = 6e-6;       ///< standard deviation of a conditioned reading, quantisation included
-  double full_scale_strain = 0.03;  ///< the converter covers +- this; 65 N/m on the default finger
+  double arc_length_m = 0;     ///< the strain is averaged over it
+  double noise_strain = 6e-6;  ///< standard deviation of a conditioned reading, quantisation included
+  double full_scale_strain =
+      0.03;  ///< largest that the converter covers, of either sign; 65 N/m on the default finger
   int adc_bits = 12;
   /// Standard deviation of what a reading may be off what the model says, as a fraction of that reading:
   /// build tolerances and rubber. Its neighbours and the touch's largest reading add to it
@@ -112,7 +113,8 @@ struct AsBuilt {
 };
 
 /// How far a finger of this drawing may be off it: standard deviations. What `calibrate` takes for granted
-/// where touches tell nothing, and how it weighs that against what they tell.
+/// where touches tell nothing, and how it weighs that against what they tell; and what errors of a finger
+/// that is not calibrated come from (unseenErrors()).
 struct Tolerance {
   double angle_deg = 0.5;     ///< of each gauge
   double depth_m = 5e-5;      ///< of each gauge

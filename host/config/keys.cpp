@@ -48,23 +48,26 @@ std::vector<Key> makeKeys() {
       {"gauges", "noise_strain", slot<&F::gauges, &Gauges::noise_strain>(), Domain::above(0, 0.1),
        "standard deviation of a conditioned reading, quantisation included"},
       {"gauges", "full_scale_strain", slot<&F::gauges, &Gauges::full_scale_strain>(), Domain::above(0, 0.06),
-       "the converter covers +- this"},
+       "largest strain that the converter covers: its range is from minus this to plus this"},
       {"gauges", "adc_bits", slot<&F::gauges, &Gauges::adc_bits>(), Domain::between(8, 16),
-       "resolution of the converter, by which its upper end is known: of the board in firmware/board 12, "
-       "however it oversamples"},
+       "resolution of the converter in bits: the steps of simulated codes, and the least noise_strain; 12 "
+       "for "
+       "the board in firmware/board"},
       {"gauges", "model_error", slot<&F::gauges, &Gauges::model_error>(), Domain::between(0, 1),
-       "standard deviation of what a reading may be off what the model says (build tolerances, rubber), as a "
-       "fraction of that reading; an eighth of that of its neighbours' and a sixteenth of that of the "
-       "touch's largest come on top; 0.05: nobody calibrated the finger, and up to twice that is used where "
-       "tolerance.depth_m "
-       "makes readings of such a finger more uncertain, as near the core; 0: it is exactly as configured"},
+       "standard deviation of the difference between a reading and the model (build tolerances, rubber), as "
+       "a "
+       "fraction of that reading; an eighth of the same for its neighbours' readings and a sixteenth of that "
+       "for the touch's largest one are added; 0.05: the finger has not been calibrated, and up to twice as "
+       "much is used where a depth error of tolerance.depth_m changes its readings much, as near the core; "
+       "0: the finger is exactly as configured"},
       {"gauges", "angle_deg", slot<&F::gauges, &Gauges::angles_deg>(), Domain::below(0, 360),
        "where each gauge is, counter-clockwise from gauge to gauge, for a ring that is not even; an empty "
        "list: the ring is even"},
       {"contact", "friction_coefficient", slot<&F::contact, &Contact::friction_coefficient>(),
        Domain::between(0, 10),
-       "tangential load is at most this times the normal load, and as much of a contact sticks as it lets "
-       "(Mindlin): the real one, as an answer's errors don't hold another"},
+       "coefficient of friction between the rubber and what touches it: the tangential load is at most this "
+       "times the normal load, and it decides which part of a contact sticks (Mindlin's partial slip); enter "
+       "the true value, because the reported standard errors don't cover a wrong one"},
       {"contact", "width_m", slot<&F::contact, &Contact::width_m>(), Domain::between(0, 1),
        "known width of a contact, an arc of the surface: that of the uniform pressure with the same second "
        "moment, 0.87 times a Hertzian contact's; readings are taken for those of a semi-ellipse with this "
@@ -103,22 +106,24 @@ std::vector<Key> makeKeys() {
        Domain::above(0, kMostOffset_deg),
        "calibrate: standard deviation of a gauge's angle from the drawing"},
       {"tolerance", "depth_m", slot<&F::tolerance, &Tolerance::depth_m>(), Domain::above(0, 1),
-       "standard deviation of a gauge's depth from the drawing: for calibrate, and for what a finger that is "
-       "not calibrated "
-       "is told to be off by (gauges.model_error)"},
+       "standard deviation of a gauge's depth from the drawing: used by calibrate, and to increase "
+       "gauges.model_error of a finger that is not calibrated, at most twofold"},
       {"tolerance", "gain", slot<&F::tolerance, &Tolerance::gain>(), Domain::above(0, 0.5),
        "calibrate: standard deviation of a gauge's gain, relative"},
       {"tolerance", "zero_strain", slot<&F::tolerance, &Tolerance::zero_strain>(), Domain::above(0, 0.1),
        "calibrate: standard deviation of what taring leaves of a gauge's zero"},
       {"tolerance", "core_radius_m", slot<&F::tolerance, &Tolerance::core_radius_m>(), Domain::above(0, 1),
-       "calibrate: standard deviation of the core's radius from the drawing"},
+       "standard deviation of the core's radius from the drawing: used by calibrate, and for the standard "
+       "error "
+       "of loads of a finger that is not calibrated"},
       {"tolerance", "poisson_ratio", slot<&F::tolerance, &Tolerance::poisson_ratio>(), Domain::above(0, 0.5),
-       "calibrate: standard deviation of Poisson's ratio from finger.poisson_ratio"},
+       "standard deviation of Poisson's ratio from finger.poisson_ratio: used as core_radius_m"},
       {"tolerance", "shear_modulus", slot<&F::tolerance, &Tolerance::shear_modulus>(), Domain::above(0, 1),
        "calibrate: standard deviation of the shear modulus, relative"},
       {"as_built", "seed", slot<&F::as_built, &AsBuilt::seed>(),
        Domain::between(0, std::numeric_limits<int>::max()),
-       "simulations only: which finger of those that differ as much from the drawing"},
+       "simulations only: the number of a random finger; another number is another finger with the same "
+       "standard deviations"},
       {"as_built", "angle_deg", slot<&F::as_built, &AsBuilt::angle_deg>(),
        Domain::between(0, kMostOffset_deg), "simulations only: standard deviation of the gauges' angles"},
       {"as_built", "depth_m", slot<&F::as_built, &AsBuilt::depth_m>(), Domain::between(0, 1),

@@ -125,8 +125,8 @@ std::string shortcomingOf(const config::FingerConfig& config, const simulation::
         100 * (1 - trial.certainShare));
   if (config::isSparse(config))
     return fmt::format(
-        "at the surface the gauges are up to {:.4g} times their depth apart, more than {}: the errors told "
-        "are too small between gauges; use more gauges, or deeper ones",
+        "at the surface the gauges are up to {:.4g} times their depth apart, more than {}: the "
+        "standard errors are too small between gauges; use more gauges, or deeper ones",
         config::widestGapInDepths(config), config::kSparse);
   return {};
 }

@@ -28,6 +28,9 @@ constexpr int kErrorWarning = 96, kErrorPassive = 128;
 /// Of an adapter, as parts of a bit (firmware/bring_up.md), and what it may be off them by rounding.
 constexpr double kEarliestSample = 0.75, kLatestSample = 0.875, kSampleRounding = 0.005;
 
+/// Of a zero: from here on touches may be reported that are none (firmware/limits.md).
+constexpr std::uint16_t kFastDrift_nano_per_s = 1000;
+
 /// Erases of the settings' memory from which on its end is near.
 constexpr std::uint32_t kNearlyWorn = can::kWornOut_erases / 10 * 9;
 
@@ -172,6 +175,17 @@ void examineTraffic(const live::FingerView& finger, Examination& examination) {
         examination.warning(said("flag", kFingerFlagNames, static_cast<int>(flag)), can::remedyFor(flag));
 }
 
+void examineZeros(const GaugesFrame& gauges, Examination& examination) {
+  if (gauges.zero_rate_nano_per_s == kNotKnown<std::uint16_t> ||
+      gauges.zero_rate_nano_per_s < kFastDrift_nano_per_s)
+    return;
+  examination.warning(
+      fmt::format("its zeros drift by {:.2g} microstrain a second: touches may be reported that are none",
+                  1e-3 * gauges.zero_rate_nano_per_s),
+      "let it warm up, keep warm and cold things away from it; if it goes on, gauges or their amplifiers are "
+      "coming loose; `strainfinger tare --can BUS -n N` once it is quiet");
+}
+
 std::string describe(const live::FingerView& finger) {
   const HeartbeatFrame& heartbeat = finger.heartbeat;
   std::string text = fmt::format("{}, up {}, tables ..{:02X}",
@@ -275,6 +289,7 @@ Findings examineFinger(const std::string& bus, const live::FingerView& finger,
   examineHeartbeat(finger.heartbeat, examination);
   if (tables_crc32) examineTables(finger.heartbeat, *tables_crc32, examination);
   if (finger.info) examineInfo(*finger.info, examination);
+  if (finger.gauges) examineZeros(*finger.gauges, examination);
   const auto gauges = live::bitNumbers(finger.gauges ? finger.gauges->out_of_use : 0);
   if (!gauges.empty())
     examination.warning(

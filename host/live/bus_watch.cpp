@@ -71,7 +71,9 @@ void BusWatch::sendRequests() {
 
 BusView BusWatch::view() {
   BusView view = fleet_.view(clock_.at(now_us()));
-  view.missed = port_.status().missed;
+  const hal::CanStatus status = port_.status();
+  view.missed = status.missed;
+  view.state = status.state;
   return view;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/frames.hpp"
+#include "hal/can_port.hpp"
 #include "host/base/no_value.hpp"
 #include "host/can/touch_receiver.hpp"
 
@@ -54,9 +55,10 @@ struct FingerView {
 };
 
 struct BusView {
-  std::string name;                   ///< "can0"
-  std::int64_t time_us = 0;           ///< of the view, on the clock of the frames: OnwardClock
-  std::uint64_t framesPerSecond = 0;  ///< of anybody and any format, over the last second
+  std::string name;                              ///< "can0"
+  hal::CanState state = hal::CanState::kActive;  ///< of this machine's controller; a log's: active
+  std::int64_t time_us = 0;                      ///< of the view, on the clock of the frames: OnwardClock
+  std::uint64_t framesPerSecond = 0;             ///< of anybody and any format, over the last second
   double load = 0;           ///< share of the bit rate that these took, without stuff bits: BUS_LOAD.md
   std::uint32_t missed = 0;  ///< frames that this program was too slow for, as far as its port tells
   std::vector<FingerView> fingers{};  ///< by node

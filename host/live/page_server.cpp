@@ -316,8 +316,8 @@ class PageServer::Impl {
     else if (!server_.bind_to_port(address, port_))
       port_ = -1;
     if (port_ < 0)
-      throw Failure(ExitCode::kNoInterface, fmt::format("cannot listen on {} port {}: {}", address,
-                                                        options_.port, whyNot(address, options_.port)));
+      throw Failure(ExitCode::kFailure, fmt::format("cannot listen on {} port {}: {}", address, options_.port,
+                                                    whyNot(address, options_.port)));
     server_.lengthenQueue();
   }
 

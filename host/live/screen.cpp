@@ -93,18 +93,19 @@ class Painter {
       for (const FingerView& finger : bus.fingers) fingers_.push_back(&finger);
     const int fingerRows = roomForFinger();
     if (fingerRows == kBlockRows) spareRows_ = std::max(canvas_.rows() - rowsWith(kBlockRows), 0);
-    int row = 0;
+    const int hidden = fingerRows == 1 ? hiddenAbove() : 0;
+    int row = -hidden;
     std::size_t index = 0;
     for (const BusView& bus : content_.buses) {
       heading(row, bus);
       row += kHeadingRows;
       for (std::size_t i = 0; i < bus.fingers.size(); ++i, ++index) {
         const int spareRows = spareRows_;
-        if (row < canvas_.rows() - 1) finger(row, index, fingerRows);
+        if (isOnScreen(row)) finger(row, index, fingerRows);
         row += fingerRows + spareRows - spareRows_;
       }
     }
-    foot(row - (canvas_.rows() - 1));
+    foot(hidden + row - (canvas_.rows() - 1));
     return canvas_;
   }
 
@@ -113,6 +114,21 @@ class Painter {
   int roomForFinger() const {
     if (rowsWith(kBlockRows) <= canvas_.rows() && canvas_.columns() >= kBarColumn) return kBlockRows;
     return rowsWith(kBriefRows) <= canvas_.rows() ? kBriefRows : 1;
+  }
+
+  /// Above the foot.
+  bool isOnScreen(int row) const { return row >= 0 && row < canvas_.rows() - 1; }
+
+  /// Rows that make room for the finger that is picked, where each has one: keys are for that one.
+  int hiddenAbove() const {
+    int row = 0;
+    std::size_t index = 0;
+    for (const BusView& bus : content_.buses) {
+      row += kHeadingRows;
+      for (std::size_t i = 0; i < bus.fingers.size(); ++i, ++row)
+        if (index++ == content_.selected) return std::max(row - (canvas_.rows() - 2), 0);
+    }
+    return 0;
   }
 
   void finger(int row, std::size_t index, int rows) {
@@ -137,7 +153,7 @@ class Painter {
   }
 
   void heading(int row, const BusView& bus) {
-    if (row >= canvas_.rows() - 1) return;
+    if (!isOnScreen(row)) return;
     int column = say(row, 0, bus.name, Style::kStrong);
     column =
         say(row, column + 2, fmt::format("{} frames/s  load {:.1f} %", bus.framesPerSecond, bus.load * 100));

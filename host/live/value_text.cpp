@@ -99,7 +99,10 @@ std::string stateWord(const FingerView& finger) {
   return finger.isSilent() ? "silent" : wordFor(kFingerStateNames, static_cast<int>(finger.heartbeat.state));
 }
 
-std::vector<std::string> troublesOf(const FingerView& finger) {
+namespace {
+
+/// Of the finger as a whole, whatever it says of itself.
+std::vector<std::string> outwardTroublesOf(const FingerView& finger) {
   std::vector<std::string> troubles;
   if (finger.isSilent())
     troubles.push_back(fmt::format("silent for {:.1f} s", static_cast<double>(finger.silence_us) / 1e6));
@@ -108,17 +111,33 @@ std::vector<std::string> troublesOf(const FingerView& finger) {
   if (finger.hasTwin)
     troubles.push_back(
         fmt::format("{}: {}", can::kTwinText, can::forNode(can::kTwinRemedy, finger.bus, finger.node)));
-  if (finger.hasOtherTables)
-    troubles.push_back("its tables are not those of the config (-c; the default finger without it)");
+  if (finger.hasOtherTables) troubles.push_back("its tables are not those of the config (-c)");
+  return troubles;
+}
+
+void addGaugesOutOfUse(const FingerView& finger, std::vector<std::string>& troubles) {
+  const auto gauges = bitNumbers(finger.gauges ? finger.gauges->out_of_use : 0);
+  if (!gauges.empty()) troubles.push_back(fmt::format("gauges out of use: {}", fmt::join(gauges, ", ")));
+}
+
+}  // namespace
+
+std::vector<std::string> troublesOf(const FingerView& finger) {
+  std::vector<std::string> troubles = outwardTroublesOf(finger);
+  for (const int bit : bitNumbers(finger.heartbeat.faults.raw())) {
+    const ValueName* const name = can::findName(kFingerFaultNames, bit);
+    troubles.push_back(fmt::format("fault {}{}{}", wordFor(kFingerFaultNames, bit),
+                                   name != nullptr ? ": " : "", name != nullptr ? name->comment : ""));
+  }
+  addGaugesOutOfUse(finger, troubles);
   return troubles;
 }
 
 std::string warningsText(const FingerView& finger) {
-  std::vector<std::string> warnings = troublesOf(finger);
+  std::vector<std::string> warnings = outwardTroublesOf(finger);
   const auto faults = wordsFor(kFingerFaultNames, finger.heartbeat.faults.raw());
   if (!faults.empty()) warnings.push_back(fmt::format("faults: {}", fmt::join(faults, ", ")));
-  const auto gauges = bitNumbers(finger.gauges ? finger.gauges->out_of_use : 0);
-  if (!gauges.empty()) warnings.push_back(fmt::format("gauges out of use: {}", fmt::join(gauges, ", ")));
+  addGaugesOutOfUse(finger, warnings);
   return fmt::format("{}", fmt::join(warnings, "; "));
 }
 

@@ -100,6 +100,22 @@ Json infoJson(const InfoFrame& info) {
           {"crash", can::nameText(kCrashNames, static_cast<int>(info.crash))}};
 }
 
+const char* nameOf(hal::CanState state) {
+  switch (state) {
+    case hal::CanState::kActive:
+      return "active";
+    case hal::CanState::kWarning:
+      return "warning";
+    case hal::CanState::kPassive:
+      return "passive";
+    case hal::CanState::kBusOff:
+      return "bus_off";
+    case hal::CanState::kDown:
+      break;
+  }
+  return "down";
+}
+
 Json fingerJson(const FingerView& finger) {
   const HeartbeatFrame& heartbeat = finger.heartbeat;
   return {{"node", finger.node},
@@ -111,6 +127,7 @@ Json fingerJson(const FingerView& finger) {
                         ? Json()
                         : Json(can::nameText(kFingerStateNames, static_cast<int>(heartbeat.state)))},
           {"faults", namesOf(kFingerFaultNames, heartbeat.faults.raw())},
+          {"table_crc", finger.isForeign() ? Json() : Json(fmt::format("{:02X}", heartbeat.table_crc))},
           {"uptime_s", knownOrNull(heartbeat.uptime_s)},
           {"temperature_degc", knownOrNull(heartbeat.temperature_degC)},
           {"contacts_per_s", finger.contactsPerSecond},
@@ -137,6 +154,7 @@ Json toJson(const BusView& bus) {
   Json fingers = Json::array();
   for (const FingerView& finger : bus.fingers) fingers.push_back(fingerJson(finger));
   return {{"bus", bus.name},
+          {"bus_state", nameOf(bus.state)},
           {"time_s", static_cast<double>(bus.time_us) / 1e6},
           {"frames_per_s", bus.framesPerSecond},
           {"load", bus.load},

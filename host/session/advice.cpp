@@ -99,8 +99,9 @@ std::string textOf(const Advice& advice, const config::Gauges& gauges) {
     case Advice::Kind::kLeaveAlone:
       return fmt::format("Leave it alone for {:.0f} s.", kGoals.untouched_s);
     case Advice::Kind::kRoll:
-      return fmt::format("Roll it along a table edge {}: now less, now more, rubbing to either side.",
-                         nameOf(gauges, advice.where));
+      return fmt::format(
+          "Roll it along a table edge {}, with light and with firm pressure, and rub it to either side.",
+          nameOf(gauges, advice.where));
     case Advice::Kind::kPress:
       return fmt::format(
           "Press it with a known weight, or on a scale, over gauge {} ({:.0f} deg). Hold it still, then "

@@ -197,7 +197,7 @@ Obeyed Session::obeyHold() {
   held_ = nowHeld(why);
   doubted_.reset();
   if (held_) pressed_ = held_->strains;
-  return {.message = held_ ? "held" : why + ": press it, hold it still, and again",
+  return {.message = held_ ? "held" : why + ": press the finger, hold it still and repeat the command",
           .isRefused = !held_.has_value()};
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 
 namespace strainfinger::system {
 
@@ -29,12 +30,17 @@ class StopSignal {
 
   bool asked() const { return asked_ != 0; }
 
+  /// How often it was asked: the first time may only be taken note of, where stopping does harm.
+  int times() const { return asked_; }
+
  private:
   struct Handled {
     int number;
     void (*previous)(int) = SIG_DFL;
   };
-  static void remember(int) { asked_ = 1; }
+  static void remember(int) {
+    if (asked_ < SIG_ATOMIC_MAX) asked_ = asked_ + 1;
+  }
 
   inline static volatile std::sig_atomic_t asked_ = 0;
   std::array<Handled, 3> handled_{Handled{SIGINT}, Handled{SIGTERM}, Handled{SIGHUP}};

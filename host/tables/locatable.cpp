@@ -68,9 +68,9 @@ bool areWeakOnesFaint(const TableParameters& p) {
 std::string placeOf(const TableParameters& p, const Misplaced& m) {
   const double pitch_deg = 360.0 / p.gauge_count;
   return fmt::format(
-      "{:.3g} N/m pressing at {:.3g} deg from a gauge over {:.3g} m, with {:.3g} times that sideways, are "
-      "found {:.3g} deg away ({} fit), and nothing in the readings tells",
-      m.load_n_per_m, m.offset_pitch * pitch_deg, m.width_m, m.direction, m.error_pitch * pitch_deg,
+      "a contact of {:.3g} N/m normal load and {:.3g} times that tangential load, {:.3g} m wide and {:.3g} "
+      "deg from a gauge, is located {:.3g} deg from its place without a flag ({} fit)",
+      m.load_n_per_m, m.direction, m.width_m, m.offset_pitch * pitch_deg, m.error_pitch * pitch_deg,
       m.mode == firmware::FitMode::kRefined ? "refined" : "three-point");
 }
 
@@ -81,9 +81,10 @@ void requireLocatable(const TableImage& image, const SelfCheck& check) {
   if (!(check.detected_n_per_m <= check.halfScale_n_per_m))
     refuseNoise(
         image.parameters,
-        fmt::format("where the gauges see it worst a contact drowns in noise up to {:.3g} N/m, beyond "
-                    "half of full scale ({:.3g} N/m)",
-                    check.detected_n_per_m, check.halfScale_n_per_m));
+        fmt::format(
+            "where the gauges read least, noise hides contacts of up to {:.3g} N/m, more than half of "
+            "full scale ({:.3g} N/m)",
+            check.detected_n_per_m, check.halfScale_n_per_m));
   if (check.uncertain <= kMostUncertain * check.contacts) return;
   const std::string reason =
       fmt::format("{} of {} contacts have no certain answer", check.uncertain, check.contacts);

@@ -87,6 +87,13 @@ std::string differencesOf(const TableImage& image, const TableImage& wanted) {
     differences += differenceOf(gainsOf(image, areDepthsKnown), gainsOf(wanted, areDepthsKnown)) +
                    (areDepthsKnown ? " (calibration.gain with what calibration.depth_offset_m adds)" : "");
   add(depthsOf(image), depthsOf(wanted));
+  const TableConstants &of = image.constants, &to = wanted.constants;
+  const bool haveSameErrors =
+      of.model_error_q16 == to.model_error_q16 && of.place_error_q32 == to.place_error_q32 &&
+      of.load_scale_error_q16 == to.load_scale_error_q16 && of.moment_error_q16 == to.moment_error_q16;
+  if (differences.empty() && !haveSameErrors)
+    differences =
+        "\n  its standard errors are those of another [tolerance] (depth_m, core_radius_m, poisson_ratio)";
   return differences;
 }
 

@@ -49,7 +49,7 @@ TEST(Main, HelpIsNoError) {
   STRCMP_CONTAINS("\n  locate ", run.out.c_str());
 }
 
-TEST(Main, HelpHasALineForEachCommand) {
+TEST(Main, HelpHasTheFirstLineOfACommand) {
   const Run run = runProgram("--help");
   STRCMP_CONTAINS("\n  tare                        Lets a finger take the zero of its gauges now. ",
                   run.out.c_str());

@@ -161,7 +161,7 @@ TEST(PushCommand, NobodyThere) {
   STRCMP_CONTAINS("no answer", run.err.c_str());
 }
 
-// One whose board reads another number of gauges: it takes every word, and starts in state fault.
+// One whose board reads fewer gauges: it takes every word, and starts in state fault.
 TEST(PushCommand, AFingerThatDoesNotWorkWithTheTablesIsToldFirstWhatTheyAreFor) {
   const Run run = runShell(R"(bus=udp:$((20000 + $$ % 20000))
 /usr/bin/python3 - $bus <<'END' & finger=$!
@@ -189,7 +189,7 @@ status=$?; kill $finger; exit $status)");
   LONGS_EQUAL(6, run.status);
   STRCMP_CONTAINS(
       "took the tables, but does not work with them: state fault, table_crc 00, not DB: they are for 12 "
-      "gauges: where its board reads another number, push those of its own config (-c); else push",
+      "gauges: if its board reads fewer, push the tables of its own config (-c); else push them again",
       run.err.c_str());
 }
 

@@ -224,7 +224,7 @@ TEST(Record, WhatCannotBeComputedAgainIsToldWhy) {
                   recomputed("", rawOfNode2).c_str());
   STRCMP_CONTAINS("nothing to compare: the recording needs RAW of every sample set of node 2",
                   recomputed("[can]\\nnode = 2\\n", rawOfNode2).c_str());
-  STRCMP_CONTAINS("of 20 gauges a bus of 1000000 bit/s takes 862 sample sets a second, and not all 1000",
+  STRCMP_CONTAINS("with 20 gauges a bus of 1000000 bit/s carries 862 sample sets a second, not all 1000",
                   recomputed("[gauges]\\ncount = 20\\n[can]\\nnode = 2\\n", rawOfNode2).c_str());
 }
 

@@ -321,7 +321,8 @@ TEST(RunCommand, NamesAGaugeThatFailedBeforeItsZeroWasTaken) {
 TEST(RunCommand, SaysForHowLongATouchWasNotTold) {
   const char* const faint =
       "schema = 1\n[[touch]]\nstart_s = 0.5\nend_s = 1.5\nangle_deg = 0\nnormal_n_per_m = 0.01\n";
-  STRCMP_CONTAINS("run: touched for 1.000 s without a contact told\n", withScenario("", faint).err.c_str());
+  STRCMP_CONTAINS("run: touched for 1.000 s without a reported contact\n",
+                  withScenario("", faint).err.c_str());
   STRCMP_CONTAINS("\"untold_s\":1.0", withScenario("--json", faint).err.c_str());
 }
 

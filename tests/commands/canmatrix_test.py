@@ -44,7 +44,7 @@ FRAMES = {
     "CONTACT2": (0x200, CONTACT),
     "FORCE2": (0x300, FORCE),
     "HEARTBEAT": (0x700, [
-        ("state", 0, 15, None, "1"), ("protocol", 0, 15, None, "1"), (FAULTS, 0, 511, None, "1"),
+        ("state", 0, 15, None, "1"), ("protocol", 0, 15, None, "1"), (FAULTS, 0, 2 ** len(FAULTS) - 1, None, "1"),
         ("uptime", 0, 65534, 65535, "1"), ("temperature", -127, 127, -128, "1"), ("tx_errors", 0, 14, 15, "16"),
         ("rx_errors", 0, 14, 15, "16"), ("table_crc", 0, 255, None, "1")]),
     "INFO": (0x480, [

@@ -5,6 +5,7 @@ Its lines of truth beside estimate and its frames must be among those of the dem
 those of what `decode` says of it.
 """
 import json
+import re
 import subprocess
 import sys
 import tempfile
@@ -37,6 +38,13 @@ class Readme(unittest.TestCase):
             run = subprocess.run([STRAINFINGER, "run", "-c", config, "--can", "loopback", "--truth"],
                                  capture_output=True, text=True, check=True)
         cls.truth, cls.log = run.stderr.splitlines(), run.stdout.splitlines()
+
+    def test_its_commands_are_those_of_the_program(self):
+        said = subprocess.run([STRAINFINGER, "--help"], capture_output=True, text=True, check=True).stdout
+        commands = set(re.findall(r"^  (\w+) {2,}", said.split("Subcommands:")[1], re.M))
+        table = Path(README).read_text(encoding="utf-8").split("## Commands")[1].split("\n## ")[0]
+        told = {name for row in re.findall(r"^\| (`.*?) \|", table, re.M) for name in re.findall(r"`(\w+)`", row)}
+        self.assertEqual(told, commands)
 
     def test_the_lines_of_truth_are_those_of_the_demo(self):
         lines = shown(" | ")

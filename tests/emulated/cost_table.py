@@ -20,7 +20,7 @@ OF_ANY_KIND = {"m4": 100_000, "m0plus": 12_000}  # updates
 
 SCENES = {
     "idle": "idle: untouched",
-    "drift": "gauges that drift untouched: the dearest set of each half second",
+    "drift": "gauges that drift untouched: the most expensive set of each half second",
     "drift_depths": "the same, depths known",
     "held_line": "a line load held, the codes unchanged",
     "held_line_noise": "the same with noise",
@@ -58,7 +58,7 @@ Instructions of a whole update, from the converter's codes to all frames in the 
 30 N/m pulled by half as much and the tables' noise where nothing else is said). This page is written by the program that counts,
 `cmake --build --preset test --target cost`, and a test compares it with what it counts then.
 
-| instructions: least, median, 95 %, most | Cortex-M4 | bar for its median | Cortex-M0+ | M4 at 170 MHz, estimated |
+| instructions: least, median, 95 %, most | Cortex-M4 | limit for its median | Cortex-M0+ | M4 at 170 MHz, estimated |
 |--|--|--|--|--|
 {scenes}
 
@@ -68,8 +68,8 @@ Instructions of a whole update, from the converter's codes to all frames in the 
 |--|--|--|
 {kinds}
 
-The dearest of all of them takes {dearest:,} instructions on the Cortex-M4, at most {dearest_ms:.2f} ms of the millisecond between two sets at
-1 kHz; the bar is {bar:,}.
+The most expensive update takes {dearest:,} instructions on the Cortex-M4, at most {dearest_ms:.2f} ms of the millisecond between two sets at
+1 kHz; the limit is {bar:,}.
 
 Neither core's floating-point unit is used, and the M0+ has no products of 64 bits and no division. Instructions are counted, cycles
 are not: times take {cycles} cycles an instruction, an assumption for a Cortex-M4 that runs from flash with its accelerator on, to be
@@ -108,7 +108,7 @@ def scene_rows(m4, m0plus):
         median, most = (microseconds(number) for number in spread(m4[key])[1::2])
         bar = f"{MEDIAN_BARS[key]:,}" if key in MEDIAN_BARS else ""
         if key in MISSED:
-            bar += ", missed"
+            bar += ", exceeded"
         yield (f"| {name} | {cells(spread(m4[key]))} | {bar} | {cells(spread(m0plus[key]))} | "
                f"{median:.0f} us, at most {most:.0f} us |")
 

@@ -24,13 +24,13 @@ all the time, and touches are within two pitches of it. Answers count in the las
 
 | column | of all touches, how many end with |
 |--|--|
-| silent | a contact told more than half a pitch (2.5 mm on the default finger) from every true one, and no flag |
+| silent | a contact reported more than half a pitch (2.5 mm on the default finger) from every true one, and no flag |
 | beyond 6 sigma | place or a load off by more than six reported standard errors, and no flag |
-| flagged | a flag: uncertain, or more contacts than the one that is told |
+| flagged | a flag: uncertain, or more contacts than the one that is reported |
 | blamed | a healthy gauge out of use |
-| missed | nothing told |
-| located | every contact told within half a pitch, none besides, no flag |
-| ghosts | a contact told while nothing touched the finger, in the time before |
+| missed | nothing reported |
+| located | every contact reported within half a pitch, no other contact, no flag |
+| ghosts | a contact reported in the untouched time before the touch (`run` counts these as `phantom`) |
 
 "As built": gauges glued 0.5 degrees and 0.05 mm off, gains off by 3 % (standard deviations), the core 0.1 mm thicker,
 Poisson's ratio 0.49; another finger for every six touches. "Calibrated": its own core, ratio, and each gauge's angle, depth and gain

@@ -277,8 +277,10 @@ TEST(Calibrate, KnownLoadsOfWhichTheReadingsBearOutNoneAreRefusedByRow) {
   auto session = study::sessionOf(finger, {.touches = 80}, kSeed);
   for (KnownTouch& touch : session.known)
     if (touch.normal_n_per_m) *touch.normal_n_per_m *= 5;
-  checkComplaint(session.known, session.readings,
-                 "in 5 rows (1, 2, 3, 4, 5), and none of the others is fitted; look at their unit");
+  checkComplaint(
+      session.known, session.readings,
+      "in 5 rows (1, 2, 3, 4, 5) the readings contradict the loads of touches.csv, and none of the others "
+      "is fitted; check their unit");
 }
 
 // Touches that belong to other rows: chance bears some of them out.
@@ -294,8 +296,10 @@ TEST(Calibrate, KnownTouchesThatAreContradictedMoreOftenThanBorneOutAreRefused) 
   for (std::size_t i = 0; i + 1 < wrong.size(); ++i) session.known[wrong[i]] = session.known[wrong[i + 1]];
   session.known[wrong.back()] = first;
   const std::string said = complaintOf(finger, session.known, session.readings);
-  STRCMP_CONTAINS("the angle_deg of touches.csv are not what the readings say in 16 rows (", said.c_str());
-  STRCMP_CONTAINS("), and of the others only 4 are fitted; look at ", said.c_str());
+  STRCMP_CONTAINS("in 16 rows (", said.c_str());
+  STRCMP_CONTAINS(
+      ") the readings contradict the angle_deg of touches.csv, and of the others only 4 are fitted; check ",
+      said.c_str());
   STRCMP_CONTAINS("each touch in its row of strains", said.c_str());
 }
 
@@ -367,9 +371,9 @@ TEST(Calibrate, TouchesThatLeaveAGaugeUntoldAreRefusedByItsName) {
   } catch (const Failure& failure) {
     said = failure.what();
   }
-  STRCMP_CONTAINS("don't tell where these gauges are: 8 (at 180 deg); add touches at ten places",
+  STRCMP_CONTAINS("don't determine the angles of these gauges: 8 (at 180 deg); add touches at ten places",
                   said.c_str());
-  STRCMP_CONTAINS("look at the order in which these gauges are connected", said.c_str());
+  STRCMP_CONTAINS("check the order in which these gauges are connected", said.c_str());
 }
 
 // How so few gauges were built looks like a fault of their wiring.
@@ -421,7 +425,7 @@ TEST(Calibrate, AnotherFingersReadingsAreRefused) {
   const auto session = study::sessionOf(finger, {.touches = 60}, kSeed);
   Eigen::MatrixXd shuffled = session.readings;
   for (int gauge = 0; gauge < 16; ++gauge) shuffled.col(gauge) = session.readings.col(5 * gauge % 16);
-  checkComplaint({}, shuffled, "this finger doesn't explain the readings: ");
+  checkComplaint({}, shuffled, "the model of this finger doesn't explain the readings: ");
 }
 
 TEST(Calibrate, TouchesThatCannotBeAreNamed) {
@@ -456,8 +460,9 @@ TEST(Calibrate, WhatWrongSignsOfEveryOtherGaugeLeaveIsRefused) {
   } catch (const Failure& failure) {
     said = failure.what();
   }
-  STRCMP_CONTAINS("this finger doesn't explain the readings: 4 % of a touch's largest reading are left over",
-                  said.c_str());
+  STRCMP_CONTAINS(
+      "the model of this finger doesn't explain the readings: residuals are 4 % of a touch's largest reading",
+      said.c_str());
   requireExplained(0.02, 0);
 }
 
@@ -483,6 +488,6 @@ TEST(Calibrate, WhatIsLeftUnexplainedInTheEndIsRefused) {
   const auto session = study::sessionOf(paired, {.knownLoads = 0, .knownDirections = 0}, kPairedSeed);
   Eigen::MatrixXd shifted(session.readings.rows(), 16);
   shifted << session.readings.rightCols(15), session.readings.leftCols(1);
-  STRCMP_CONTAINS("% of the rows it makes nothing",
+  STRCMP_CONTAINS("the model of this finger doesn't explain ",
                   complaintOf(session.finger, session.known, shifted).c_str());
 }

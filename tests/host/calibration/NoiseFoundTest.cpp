@@ -58,7 +58,7 @@ TEST(NoiseFound, StrainsThatAreTooSmallAreToldByTheirNoise) {
   const auto found = result();
   CHECK_TRUE(noiseFound(found).has_value());
   DOUBLES_EQUAL(1 / 1.5, noiseFound(found)->ratio, 0.05);
-  STRCMP_CONTAINS("times quieter than gauges.noise_strain = 6e-06 says: is gauges.full_scale_strain, or",
+  STRCMP_CONTAINS("times quieter than gauges.noise_strain = 6e-06: check gauges.full_scale_strain and",
                   textReport(found).c_str());
 }
 

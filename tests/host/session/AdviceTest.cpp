@@ -43,8 +43,8 @@ TEST(Advice, ArcsThatAreNotCoveredAreRolledOver) {
   coverage.touches[20] = 0;
   advises(Kind::kRoll);
   STRCMP_EQUAL(
-      "Roll it along a table edge from gauge 5 to gauge 7 (112 to 158 deg): now less, now more, rubbing to "
-      "either side.",
+      "Roll it along a table edge from gauge 5 to gauge 7 (112 to 158 deg), with light and with firm "
+      "pressure, and rub it to either side.",
       textOf(advice(), gauges).c_str());
 }
 

@@ -103,8 +103,8 @@ TEST(SelfCheck, GaugesTooShallowForTheirSpacingAreRefusedWithWhatToChange) {
   config_.gauges.radius_m = 11.9e-3;
   const std::string message = refusal();
   STRCMP_CONTAINS("contacts cannot be located with these gauges: ", message.c_str());
-  STRCMP_CONTAINS(" deg from a gauge over ", message.c_str());
-  STRCMP_CONTAINS(" times that sideways, are found ", message.c_str());
+  STRCMP_CONTAINS(" m wide and ", message.c_str());
+  STRCMP_CONTAINS(" deg from a gauge, is located ", message.c_str());
   STRCMP_CONTAINS(
       "the gauges lie 0.0008 m below the surface (gauges.radius_m = 0.0119), where they are 0.00499 m apart "
       "(gauges.count = 16): too shallow for their spacing; use more gauges, or deeper ones",
@@ -133,7 +133,7 @@ TEST(SelfCheck, TablesThatCoverTooLittleWidthAreToldOfIt) {
 
 TEST(SelfCheck, NoiseThatDrownsAContactAtHalfOfFullScaleIsRefused) {
   config_.gauges.noise_strain = 5e-4;
-  checkRefusal("a contact drowns in noise up to 60.5 N/m, beyond half of full scale (32.6 N/m)");
+  checkRefusal("noise hides contacts of up to 60.5 N/m, more than half of full scale (32.6 N/m)");
   checkRefusal("gauges.noise_strain = 0.0005 is too large for gauges.full_scale_strain = 0.03");
   CHECK(refusal().find("shallow") == std::string::npos);
 }
@@ -151,9 +151,9 @@ TEST(SelfCheck, AMisplacedContactIsToldWithPlaceLoadDirectionAndMode) {
   SelfCheck result = goodResult();
   result.misplaced = Misplaced{firmware::FitMode::kThreePoint, 7.5, -0.25, 0.002, 0.125, 2};
   STRCMP_CONTAINS(
-      "7.5 N/m pressing at 2.81 deg from a gauge over 0.002 m, with -0.25 times that sideways, are found 45 "
-      "deg away "
-      "(three-point fit), and nothing in the readings tells",
+      "a contact of 7.5 N/m normal load and -0.25 times that tangential load, 0.002 m wide and 2.81 deg from "
+      "a "
+      "gauge, is located 45 deg from its place without a flag (three-point fit)",
       verdictOn(result).c_str());
 }
 
@@ -169,13 +169,13 @@ TEST(SelfCheck, AMisplacedContactIsToldOfRatherThanNoise) {
   SelfCheck result = goodResult();
   result.detected_n_per_m = 2 * result.halfScale_n_per_m;
   result.misplaced = Misplaced{firmware::FitMode::kRefined, 7.5, 0, 0, 0.125, 2};
-  STRCMP_CONTAINS("are found 45 deg away", verdictOn(result).c_str());
+  STRCMP_CONTAINS("is located 45 deg from its place", verdictOn(result).c_str());
 }
 
 TEST(SelfCheck, DetectionThatCannotBeToldIsRefused) {
   SelfCheck result = goodResult();
   result.detected_n_per_m = std::nan("");
-  STRCMP_CONTAINS("drowns in noise", verdictOn(result).c_str());
+  STRCMP_CONTAINS("noise hides contacts", verdictOn(result).c_str());
   result.detected_n_per_m = result.halfScale_n_per_m;
   STRCMP_EQUAL("accepted", verdictOn(result).c_str());
 }

@@ -105,6 +105,33 @@ TEST(TableText, EveryParameterThatDiffersIsNamed) {
   }
 }
 
+TEST(TableText, TablesWithOtherBytesDoNotBelong) {
+  int changed = 0;
+  for (const config::Key& key : config::keys()) {
+    config::FingerConfig other;
+    std::visit(
+        [&](auto slot) {
+          if constexpr (std::is_same_v<std::decay_t<decltype(slot(other))>, double>)
+            slot(other) += slot(other) * 0.9 + 1e-3 * (slot(other) == 0);
+        },
+        key.slot);
+    try {
+      const bool isOther = buildTableImage(other).crc32 != image_.crc32;
+      CHECK_EQUAL_TEXT(isOther, mismatch(image_, other) != "belongs", key.dotted().c_str());
+      changed += isOther;
+    } catch (const Failure&) {  // a relation between keys doesn't hold
+    }
+  }
+  CHECK_TRUE(changed >= 10);
+}
+
+TEST(TableText, TolerancesThatTheStandardErrorsDependOnAreNamed) {
+  config::FingerConfig other;
+  other.tolerance.core_radius_m = 3e-4;
+  STRCMP_CONTAINS("those of another [tolerance] (depth_m, core_radius_m, poisson_ratio)",
+                  mismatch(image_, other).c_str());
+}
+
 TEST(TableText, AllDifferencesAreNamedAtOnce) {
   config::FingerConfig other;
   for (const Change& change : kChanges) change.apply(other);

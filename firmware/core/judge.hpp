@@ -119,7 +119,7 @@ bool isAdmissible(const TableConstants& constants, const Solution& solution);
 bool isWeak(const Solution& solution, const Variances& variances, bool was);
 
 /// The contact is as wide as the tables go: it may be wider, and where it is then is not known.
-constexpr bool isWidest(const ContactState& contact) {
+inline bool isWidest(const ContactState& contact) {
   return contact.moment_q20 > (1 << kMomentBits) - (1 << (kMomentBits - 6));
 }
 

@@ -75,6 +75,12 @@ void rate(Rival& rival, const Variances& variances) {
   rival.isWithinNoise = rival.more < energyOf(variances.noise_q4, threshold::kAmbiguous) / rival.setsCompared;
 }
 
+/// One contact as all gauges read it may be wider than the tables cover: a gauge too many explains that as
+/// well.
+bool mayBeWider(const Ranking& single) {
+  return isWidest(single.best.contact[0]) || (single.anySecond && isWidest(single.second.contact[0]));
+}
+
 /// The reading of a gauge that was left out is far from what the others predict.
 bool isFarOff(const TableImage& tables, const Solution& solution, const ScaledReadings& readings,
               GaugeSet leftOut, Linearisation& scratch) {
@@ -280,10 +286,12 @@ bool Locator::conclude(const TableImage& tables) {
     answer_.doubtful |= i != *best && mayExplain[i] &&
                         saysOther(tables.constants, answer, rankings[i]->best) &&
                         costOf(i) - costOf(*best) < ambiguity(readings.variances);
-  const bool isWithoutOne = *best == kWithoutOne, isSparse = tables.constants.spacing == RingSpacing::kSparse;
+  const bool isWithoutOne = *best == kWithoutOne;
   answer_.several = *best == kPair || (isWithoutOne && !explains[kWithoutOne]);
-  answer_.doubtful |= isWithoutOne && isSparse;
-  if (isWithoutOne && !isSparse && !(mayExplain[kPair] && answer_.doubtful))
+  if (isWithoutOne && (tables.constants.spacing == RingSpacing::kSparse ||
+                       (mayExplain[kSingle] && mayBeWider(search_.single()))))
+    answer_.doubtful = true;
+  else if (isWithoutOne && !(mayExplain[kPair] && answer_.doubtful))
     answer_.suspect = culprit(tables);
   answer_.exchanged = isSecondFirst(answer);
   believe(tables, answer, readings);

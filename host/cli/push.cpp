@@ -55,10 +55,10 @@ struct PushOptions {
 /// In which each finger sends two HEARTBEATs.
 constexpr std::chrono::milliseconds kListen{250};
 
-using Heard = std::map<std::uint8_t, HeartbeatFrame>;
+using Fingers = std::map<std::uint8_t, HeartbeatFrame>;
 
 /// Tables are one finger's: without -n and -c they would go to node 1, whosever they are.
-void requireChosen(const RequestOptions& options, std::uint8_t node, const Heard& heard) {
+void requireChosen(const RequestOptions& options, std::uint8_t node, const Fingers& heard) {
   if (options.node != 0 || options.common.hasConfig()) return;
   std::vector<int> nodes;
   for (const auto& [each, heartbeat] : heard) nodes.push_back(each);
@@ -71,7 +71,7 @@ void requireChosen(const RequestOptions& options, std::uint8_t node, const Heard
 }
 
 /// The default finger's tables, which nobody named, take the place of no others.
-void requireNamed(const PushOptions& options, std::uint8_t node, const Heard& heard,
+void requireNamed(const PushOptions& options, std::uint8_t node, const Fingers& heard,
                   const TableImage& image) {
   const auto at = heard.find(node);
   if (!options.path.empty() || options.request.common.hasConfig() || at == heard.end()) return;
@@ -85,7 +85,7 @@ void requireNamed(const PushOptions& options, std::uint8_t node, const Heard& he
 }
 
 /// What would bring it back is known only by what it was made from.
-void tellReplaced(const can::BusPort& bus, std::uint8_t node, const Heard& heard, const TableImage& image) {
+void tellReplaced(const can::BusPort& bus, std::uint8_t node, const Fingers& heard, const TableImage& image) {
   const auto at = heard.find(node);
   if (at == heard.end() || !can::hasOtherTables(at->second, image.crc32) ||
       at->second.state == FingerState::kFault)
@@ -216,7 +216,7 @@ void runPush(const PushOptions& options) {
   const auto port = can::openBus(options.request.bus, can.bitrate);
   const system::StopSignal stop;
   const auto goOn = [&stop] { return !stop.asked(); };
-  const Heard heard = can::listenForFingers(*port, kListen, goOn);
+  const Fingers heard = can::listenForFingers(*port, kListen, goOn);
   requireChosen(options.request, node, heard);
   requireNamed(options, node, heard, *image);
   requireOneFinger(*port, node, goOn);

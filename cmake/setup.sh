@@ -21,7 +21,7 @@ test=(
   clang libclang-rt-14-dev                                # a second compiler, fuzzing
   qemu-system-x86 busybox-static python3                  # a real vcan where this kernel has none
 )
-bench=("${demo[@]}" "${whole[@]}" "${firmware[@]}" "${emulator[@]}" libbenchmark-dev clang python3)
+bench=("${demo[@]}" "${whole[@]}" "${firmware[@]}" "${emulator[@]}" libbenchmark-dev clang python3 python3-canmatrix)
 
 case ${1-all} in
   demo) packages=("${demo[@]}") ;;

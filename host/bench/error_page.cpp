@@ -1,10 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string_view>
 
-#include "host/base/no_value.hpp"
 #include "host/bench/cells.hpp"
 #include "host/bench/error_pages.hpp"
 
@@ -119,20 +117,25 @@ const ErrorStatistics& rowOf(const std::vector<ErrorCell>& cells, const char* sw
   return found->statistics;
 }
 
-/// The least load of the table from which on every touch is noticed.
-double surelyNoticed_n_per_m(const std::vector<ErrorCell>& cells) {
-  double least = kNoValue;
+/// How many touches from this load on are not noticed, in words.
+std::string unnoticedFrom(const std::vector<ErrorCell>& cells, double least_n_per_m) {
+  int unnoticed = 0, contacts = 0;
   for (const ErrorCell& c : cellsOf(cells, kLoadSweep)) {
-    if (c.statistics.unnoticed > 0)
-      least = kNoValue;
-    else if (std::isnan(least))
-      least = c.setting;
+    if (c.setting < least_n_per_m) continue;
+    unnoticed += c.statistics.unnoticed;
+    contacts += c.statistics.contacts;
   }
-  return least;
+  return fmt::format("{} of {}", unnoticed, contacts);
+}
+
+std::string builtFingers(const ErrorStatistics& built) {
+  return fmt::format("{} fingers, in each row the same, touched {} times with 30 N/m each", kBuiltFingers,
+                     built.contacts / kBuiltFingers);
 }
 
 std::string inShort(const std::vector<ErrorCell>& cells) {
-  const auto &firm = rowOf(cells, kLoadSweep, 30, true), &light = rowOf(cells, kLoadSweep, 5, true);
+  const auto &firm = rowOf(cells, kLoadSweep, 30, true), &light = rowOf(cells, kLoadSweep, 5, true),
+             &faint = rowOf(cells, kLoadSweep, 0.5, true);
   const auto &wide = rowOf(cells, kWidthSweep, 2, false), &wideTold = rowOf(cells, kWidthSweep, 2, true);
   const auto& built = rowOf(cells, kBuiltSweep, 2, false);
   const ErrorCell worst = worstOf(cellsOf(cells, kMapSweep), 1).front();
@@ -142,24 +145,27 @@ std::string inShort(const std::vector<ErrorCell>& cells) {
       "load.\n"
       "* **Loads**: {:.2f} N/m RMS of normal and {:.2f} N/m of tangential load, at 5 N/m as at 30 N/m "
       "({:.2f} and {:.2f}).\n"
-      "* **Weak touches**: from {:g} N/m on every one is noticed; the weaker, the more answers are flagged "
-      "uncertain.\n"
+      "* **Weak touches**: {} of the touches of 0.5 N/m are not noticed, and {} of those of 1 N/m and more; "
+      "the weaker, the more answers are flagged uncertain.\n"
       "* **Weakest spot**: {:+.3f} pitches from a gauge, the load {:.0f} deg from the normal: 95 % of places "
       "are "
       "within {:.3f} mm at 30 N/m, against {:.3f} mm over all places and directions. Over a gauge a small "
       "shift and a small tangential load look alike.\n"
-      "* **Width**: a contact 2 mm wide, as 30 N/m make it, is known to {:.3f} mm RMS, to {:.3f} mm where "
-      "the tables are made for the width; wide contacts are harder: {:.3f} mm at 4 mm.\n"
+      "* **Place of wide contacts**: the place of a contact 2 mm wide at 30 N/m is off by {:.3f} mm RMS, by "
+      "{:.3f} mm where the tables are made for the width; at 4 mm by {:.3f} mm, of the answers that are not "
+      "flagged. The error of the width itself is not in this report.\n"
       "* **As built**: gauges glued 0.5 degrees and 0.05 mm off, gains off by 3 %, the core 0.1 mm thicker, "
       "Poisson's ratio 0.49, nothing calibrated: {:.2f} mm RMS at 2 mm of width, {} of the answers flagged "
-      "uncertain. `strainfinger calibrate` is for that.\n"
+      "uncertain ({}). Of touches of 2 to 40 N/m more are flagged "
+      "([disturbances.csv](disturbances.csv)). `strainfinger calibrate` is for that.\n"
       "* **What it cannot do**: tell contacts apart that are nearer than 2.5 pitches, or where along the "
       "finger a contact is.\n",
       firm.arc_mm.rms(), light.arc_mm.rms(), light.normal_n_per_m.rms(), light.tangential_n_per_m.rms(),
-      firm.normal_n_per_m.rms(), firm.tangential_n_per_m.rms(), surelyNoticed_n_per_m(cells), worst.setting,
-      worst.direction_deg, worst.statistics.arc_mm.quantile(0.95), firm.arc_mm.quantile(0.95),
-      wide.arc_mm.rms(), wideTold.arc_mm.rms(), rowOf(cells, kWidthSweep, 4, false).arc_mm.rms(),
-      built.arc_mm.rms(), share(built.uncertain, built.contacts));
+      firm.normal_n_per_m.rms(), firm.tangential_n_per_m.rms(), share(faint.unnoticed, faint.contacts),
+      unnoticedFrom(cells, 1), worst.setting, worst.direction_deg, worst.statistics.arc_mm.quantile(0.95),
+      firm.arc_mm.quantile(0.95), wide.arc_mm.rms(), wideTold.arc_mm.rms(),
+      rowOf(cells, kWidthSweep, 4, false).arc_mm.rms(), built.arc_mm.rms(),
+      share(built.uncertain, built.contacts), builtFingers(built));
 }
 
 std::string madeBy(const SweepSettings& settings) {
@@ -190,8 +196,10 @@ std::string errorTables(const std::vector<ErrorCell>& cells, const SweepSettings
   text += sweepTable(cells, kNoiseSweep, "Noise of a gauge (16-bit converter)", "microstrain", true, false);
   text += sweepTable(cells, kBitsSweep, "Bits of the converter", "bits", true, false);
   text += sweepTable(cells, kWidthSweep, "Width of the contact", "mm", false, true);
-  text += sweepTable(cells, kBuiltSweep, "Width of the contact on fingers as built, not calibrated", "mm",
-                     false, false);
+  text += sweepTable(cells, kBuiltSweep,
+                     "Width of the contact on fingers as built, not calibrated\n\n" +
+                         builtFingers(rowOf(cells, kBuiltSweep, 2, false)) + ".",
+                     "mm", false, false);
   text += sweepTable(cells, kLengthSweep, "Length of a gauge", "mm", false, true);
   return text + madeBy(settings);
 }

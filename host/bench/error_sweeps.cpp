@@ -66,14 +66,14 @@ class Sweeps {
   }
   /// Some fingers, each touched as often; tables of the drawing, the default model error.
   void asBuilt() {
-    constexpr int kFingers = 10;
     for (const double width_mm : {0.0, 1.0, 2.0, 4.0}) {
       ErrorCell cell{kBuiltSweep, width_mm, "mm", kAnyDirection, kFirm_n_per_m, false, {}};
-      for (int seed = 1; seed <= kFingers; ++seed) {
+      for (int seed = 1; seed <= kBuiltFingers; ++seed) {
         config::FingerConfig finger = fingerAsBuilt(seed);
         finger.contact.width_m = width_mm * 1e-3;
         Trial(finger, {}, settings_.seed)
-            .touchAnywhere(kFirm_n_per_m, (settings_.contacts + kFingers - 1) / kFingers, cell.statistics);
+            .touchAnywhere(kFirm_n_per_m, (settings_.contacts + kBuiltFingers - 1) / kBuiltFingers,
+                           cell.statistics);
       }
       cells_.push_back(std::move(cell));
     }

@@ -16,6 +16,7 @@ inline constexpr const char* kLoadSweep = "load";
 inline constexpr const char* kNoiseSweep = "noise";
 inline constexpr const char* kWidthSweep = "contact width";
 inline constexpr const char* kBuiltSweep = "contact width, finger as built";
+inline constexpr int kBuiltFingers = 10;  ///< of that sweep, in each row the same
 inline constexpr const char* kLengthSweep = "gauge length";
 inline constexpr const char* kBitsSweep = "adc bits";
 

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::string_view kMatrixIntroduction = R"(# What disturbs the finger
 
-Touches of a default finger, one disturbance a row, through the firmware's own pipeline from the converter's codes on; the
-worst rows first, all of them in [disturbances.csv](disturbances.csv). Unless a row says otherwise: line contacts of 2 to 40 N/m, anywhere, pushed within 45 degrees of the
+Touches of a default finger, one disturbance a row, through the firmware's own pipeline from the converter's codes on.
+The table has the worst rows, sorted by `silent`, then by `beyond 6 sigma`; all rows are in [disturbances.csv](disturbances.csv). Unless a row says otherwise: line contacts of 2 to 40 N/m, anywhere, pushed within 45 degrees of the
 normal, on a finger exactly as drawn; tables without model error, the width unknown. A finger is switched on, left alone
 for 0.3 s, and touched six times for 120 sample sets (light touches for 400, contacts that move for 300 or 600, two
 contacts for 600 and more, so that searches end), 40 apart (touches of 5 s: a second apart); a gauge that fails does so
@@ -29,14 +29,17 @@ all the time, and touches are within two pitches of it. Answers count in the las
 | flagged | a flag: uncertain, or more contacts than the one that is reported |
 | blamed | a healthy gauge out of use |
 | missed | nothing reported |
-| located | every contact reported within half a pitch, no other contact, no flag |
+| located | every contact reported within half a pitch, no other contact, no flag (may also be beyond 6 sigma) |
 | ghosts | a contact reported in the untouched time before the touch (`run` counts these as `phantom`) |
 
 "As built": gauges glued 0.5 degrees and 0.05 mm off, gains off by 3 % (standard deviations), the core 0.1 mm thicker,
 Poisson's ratio 0.49; another finger for every six touches. "Calibrated": its own core, ratio, and each gauge's angle, depth and gain
-are known, as a calibration by thousands of touches comes near. "Other fingers" are perfect, and touched by contacts 0 to 2 mm wide. Loads that "tremble" swing about their mean as a sine; those of
+are known exactly, and the model error is 0.05 %. "Other fingers" are perfect, and touched by contacts 0 to 2 mm wide. Loads that "tremble" swing about their mean as a sine; those of
 contacts that "tap" swing to nothing and to twice the mean; contacts that "slide" go along the surface: all are judged by what they
 are in the last sample set, in which a tap may press little.
+
+A share that rests on few touches is uncertain: 1 of 1,500 stands for 0.002 to 0.37 %, 3 of 375 for 0.17 to 2.3 %
+(Clopper-Pearson, 95 % confidence). With another seed such rows may change their order.
 
 )";
 

@@ -53,10 +53,11 @@ inline constexpr int kOtherStart_16 = 6;
 /// [log2] A touch whose second moment has changed by more than this part of the largest while it was followed
 /// has been followed to another answer.
 inline constexpr int kOtherWidthBits = 2;
-/// Up to this model error [2^-16; 1 %] others are then looked for at once. Of 441,000 frames of fast slides
-/// on a finger of 60 mm, 97 were off by more than six of their errors without that, none is with it
-/// (SlidingTest). Beyond it the errors cover both answers, and touches of fingers as built would be flagged
-/// more often (5.4 % of those 4 mm wide, for 4 %: bench_matrix).
+/// Up to this model error [2^-16; 1 %] others are then looked for at once. Of 441,000 frames of 300 fast
+/// slides on a finger of 60 mm, 97 were off by more than six of their errors without that, with it none: so
+/// fewer than 1 % of such slides have any, with 95 % confidence (SlidingTest). Beyond it the errors cover
+/// both answers, and touches of fingers as built would be flagged more often (5.4 % of those 4 mm wide, for 4
+/// %: bench_matrix).
 inline constexpr std::int32_t kWellKnown_q16 = 655;
 /// What an inadmissible answer must take off chi-squared beyond an admissible one to be preferred. It is not
 /// ruled out, because noise may have moved it beyond the friction cone.
@@ -70,7 +71,7 @@ inline constexpr int kFirmMoment_um2 = 360'000;
 /// Below this ratio of a contact's largest reading to the noise's standard deviation [squared] its place is
 /// not sure, as a second contact or a failed gauge would not show, nor on which side of a gauge it is. These
 /// 95 deviations are 1.2 N/m on the default finger. Of 24,000 touches of 0.5 to 2 N/m, perfect and as built
-/// (`bench_matrix --only "0.5 to 2" --touches 4000`), 4 are wrong without a flag with them, 18 with 60.
+/// (`bench_matrix --only "0.5 to 2" --touches 4000`), 1 is wrong without a flag with them, 18 were with 60.
 inline constexpr int kWeakSignal = 9000;
 /// A contact that was weak stays so up to here: its flag does not come and go with the noise of each set.
 inline constexpr int kNoLongerWeakSignal = 10'000;

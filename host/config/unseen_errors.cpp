@@ -30,8 +30,9 @@ constexpr double kMomentErrorPerModelError = 0.5;
 
 /// The model error is meant for gauges that read so much more or less of a line load where they lie
 /// tolerance.depth_m off: 0.068 on the default finger. Near the core, where strains are small, it is more: on
-/// 20 mm, 0.2 mm above the core, 0.2. Without that 30 of 2,000 touches of such fingers as built are beyond
-/// six sigma, with it 4 (closed_loop, AsBuilt).
+/// 20 mm, 0.2 mm above the core, 0.2. Without that the places of 30 of 2,000 touches of such fingers as built
+/// are beyond six sigma, with it of 4, and 5 are more than half a pitch off, all unflagged (closed_loop,
+/// AsBuilt).
 constexpr double kShareOffByDepth = 0.07;
 /// The model error is increased so many times at most. A quarter of those touches are flagged then; with 2.4
 /// times it is more than a third, and as many are wrong.

@@ -236,6 +236,7 @@ void NumberRowReader::parse(const std::string& line, std::vector<double>& row) {
   const std::size_t needed = columns_ + otherNames_.size();
   const auto fields = fieldsOf(line);
   if (!endOfField(fields.back(), 0)) fail(columnOf(fields.back(), line), "a quote is not closed");
+  requireCommas(fields, line);
   for (std::size_t i = 0; i < fields.size(); ++i) {
     if (i == needed)
       fail(columnOf(fields[i], line),
@@ -250,11 +251,21 @@ void NumberRowReader::parse(const std::string& line, std::vector<double>& row) {
     fail(line.size() + 1, fmt::format("{} columns where {} are needed", fields.size(), needed));
 }
 
+/// Before numbers are looked at: of decimal commas between semicolons, parts are numbers, too.
+void NumberRowReader::requireCommas(const std::vector<std::string_view>& fields,
+                                    const std::string& line) const {
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (!places_.empty() && i < places_.size() && places_[i] == columns_) continue;
+    const std::string field = textOf(fields[i]);
+    for (const auto& [separator, name] : kOtherSeparators)
+      if (field.find(separator) != std::string::npos)
+        fail(columnOf(fields[i], line),
+             fmt::format("\"{}\" has {}: separate columns by commas", excerpt(field), name));
+  }
+}
+
 double NumberRowReader::numberOf(const std::string& field, std::size_t column) const {
   if (field.empty() && limit_.mayBeEmpty) return std::numeric_limits<double>::quiet_NaN();
-  for (const auto& [separator, name] : kOtherSeparators)
-    if (field.find(separator) != std::string::npos)
-      fail(column, fmt::format("\"{}\" has {}: separate columns by commas", excerpt(field), name));
   const auto value = signedNumber(field);
   if (const auto point = value ? std::nullopt : withPoint(field))
     fail(column, fmt::format("\"{}\" has a comma: write {} with a point", excerpt(field), *point));

@@ -66,6 +66,7 @@ class NumberRowReader {
   void requireNoMore() const;
   void parse(const std::string& line, std::vector<double>& row);
   double numberOf(const std::string& field, std::size_t column) const;
+  void requireCommas(const std::vector<std::string_view>& fields, const std::string& line) const;
   [[noreturn]] void fail(std::size_t column, const std::string& what) const;
 
   std::istream& stream_;

@@ -193,6 +193,11 @@ void runPaper(const ContactCommand& options, const model::Annulus<double>& annul
       contact::solveByPaper(annulus, request.indenter, request.size.value, options.paperOptions());
   tell("contact: residual {:.2g} m; {} singular values kept, {} of them with an even pressure\n",
        found.residual_m, found.kept, found.keptEven);
+  if (found.keptEven == 0)
+    throw Failure(
+        ExitCode::kFailure,
+        "contact: no singular value of an even pressure is kept, so there is no answer: raise --harmonics, "
+        "or lower --cutoff");
   warn("contact", "--method paper is inaccurate by its nature; --method spectral is not");
   tellErrors(annulus, request, found);
   printPaper(options, annulus, request.size.value, found);
@@ -206,6 +211,11 @@ void tellForces(const contact::Contact& contact, double radius_m) {
   constexpr double kRounding = 1e-12;
   tell("contact: force {:.6g} N/m along the indenter's normal, {:.6g} N/m sidewards\n", along,
        std::abs(sidewards) < kRounding * std::abs(along) ? 0 : sidewards);
+  if (along < 0)
+    warn("contact",
+         "the indenter would have to be pulled: friction presses the surface against it from both sides, and "
+         "the "
+         "normal load is that of the pressure alone");
 }
 
 void runContact(const ContactCommand& options) {

@@ -108,7 +108,9 @@ void runStrain(const StrainOptions& options) {
   constexpr std::array kRows{kErr, kEtt, kErt, kUr, kUt, kTrr, kTrt, kTtt};
   const Eigen::MatrixXd field = computeField(finger.annulus(), options.radius_m, load,
                                              relativeAngles(angles_deg, options.contact_deg), kRows);
-  if (const double most = field.leftCols<3>().cwiseAbs().maxCoeff(); most > kMostLinearStrain)
+  // At the edge of a load they are infinite, which says nothing of the others.
+  const auto strains = field.leftCols<3>().array().abs();
+  if (const double most = strains.isFinite().select(strains, 0).maxCoeff(); most > kMostLinearStrain)
     warn("strain", fmt::format("strains of up to {:.2g}: the model is for small ones", most));
   TableWriter table(stdout, options.common.format(),
                     {"angle_deg", "err", "ett", "ert", "ur_m", "ut_m", "trr_pa", "trt_pa", "ttt_pa"});

@@ -23,8 +23,10 @@
 namespace strainfinger::design {
 namespace {
 
-/// Places within one pitch; an even ring has no others.
+/// Places within one pitch, for what the firmware makes of touches there; an even ring has no others.
 constexpr int kPlaces = 32;
+/// The same for bounds, whose largest value may be within half a degree.
+constexpr int kBoundPlaces = 256;
 /// A finger that flags a touch at more places than not is none for it.
 constexpr double kLeastCertain = 0.5;
 /// Of contact.largest_width_m: the answer to a wider touch may be at the end of the tables.
@@ -37,8 +39,8 @@ config::FingerConfig asDrawn(config::FingerConfig config) {
   return config;
 }
 
-double placeOf(const config::FingerConfig& config, int place) {
-  return config.gauges.angle_rad(0) + 2 * std::numbers::pi / config.gauges.count * place / kPlaces;
+double placeOf(const config::FingerConfig& config, int place, int places) {
+  return config.gauges.angle_rad(0) + 2 * std::numbers::pi / config.gauges.count * place / places;
 }
 
 Bound boundOf(const std::vector<double>& values) { return {medianOf(values), std::ranges::max(values)}; }
@@ -50,8 +52,8 @@ Bounds boundsOf(const config::FingerConfig& config, simulation::Touch touch) {
   std::vector<double> arcs_m, normals, tangentials, widths_m;
   int identifiable = 0;
   double largest_strain = 0;
-  for (int i = 0; i < kPlaces; ++i) {
-    touch.angle_rad = placeOf(config, i);
+  for (int i = 0; i < kBoundPlaces; ++i) {
+    touch.angle_rad = placeOf(config, i, kBoundPlaces);
     const evidence::FittedContact contact = model.describe(touch);
     const evidence::Parameters sigma =
         cramerRaoBound(model, contact, isFitted ? evidence::kWidthUnknown : evidence::kWidthKnown,
@@ -68,7 +70,7 @@ Bounds boundsOf(const config::FingerConfig& config, simulation::Touch touch) {
                 boundOf(normals),
                 boundOf(tangentials),
                 {},
-                static_cast<double>(identifiable) / kPlaces,
+                static_cast<double>(identifiable) / kBoundPlaces,
                 largest_strain};
   if (isFitted && !widths_m.empty()) bounds.width_m = boundOf(widths_m);
   return bounds;
@@ -88,7 +90,7 @@ double certainShare(const config::FingerConfig& config, simulation::Touch touch,
   const evidence::FitModel model(config);
   int certain = 0;
   for (int i = 0; i < kPlaces; ++i) {
-    touch.angle_rad = placeOf(config, i);
+    touch.angle_rad = placeOf(config, i, kPlaces);
     const evidence::FittedContact contact = model.describe(touch);
     std::vector<std::int32_t> readings_q32;
     for (const double strain : model.readings({&contact, 1}))

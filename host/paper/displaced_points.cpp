@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/base/round_scale.hpp"
+#include "host/contact/contact_field.hpp"
 
 namespace strainfinger::paper {
 namespace {
@@ -39,9 +40,12 @@ plot::DataFile displacedPoints(const model::Annulus<double>& annulus, const Disp
     angles_rad.push_back(i * kReach_rad / kPointsEachSide);
   plot::DataFile data{"points", {"radius_m", "angle_rad", "x_m", "y_m", "deformed_x_m", "deformed_y_m"}, {}};
   const double rubber_m = annulus.outer_radius_m - annulus.core_radius_m;
+  // Of thin rubber the next arc would be too near the surface for a sum of harmonics.
+  const double deepest_m = contact::fieldLimit_m(annulus) * (1 - 1e-9);
   for (int arc = 0; arc < kArcs; ++arc) {
-    const double inner_m =
+    const double even_m =
         arc == kArcs - 1 ? annulus.core_radius_m : annulus.outer_radius_m - rubber_m * arc / (kArcs - 1.0);
+    const double inner_m = arc == 0 ? even_m : std::min(even_m, deepest_m);
     const Eigen::MatrixXd field = displacements(inner_m, angles_rad);
     for (std::size_t i = 0; i < angles_rad.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);

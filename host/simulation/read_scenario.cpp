@@ -41,9 +41,9 @@ const Domain& rubDomain() {
   return domain;
 }
 
-/// Up to the diameter of a fingertip.
+/// As the config's contact.width_m.
 const Domain& widthDomain() {
-  static const Domain domain = Domain::between(0, 0.025);
+  static const Domain domain = Domain::between(0, 1);
   return domain;
 }
 

@@ -123,6 +123,31 @@ TEST(AsBuilt, WideTouchesAreToldWithTrueSigmas) {
   check(run({.load_n_per_m = {2, 40}, .width_m = {3e-3, 6e-3}}, touchCount(2000)));
 }
 
+// Of two answers the tables' widest may be the worse one by no more than chance.
+TEST(AsBuilt, MostTouchesWiderThanTheTablesAreFlagged) {
+  const config::FingerConfig config;
+  const evidence::TouchedRing ring(config, 1);
+  const evidence::TouchDraws draws(
+      config.gauges, {.load_n_per_m = {5, 30}, .width_m = {9e-3, 11e-3}, .profile = model::Profile::kUniform},
+      1);
+  StatelessLocator locator(config);
+  const int touches = touchCount(1000);
+  int told = 0, flagged = 0, beyond = 0;
+  for (int i = 0; i < touches; ++i) {
+    const simulation::Touch touch = draws.at(static_cast<std::uint64_t>(i));
+    const auto found = locator.locate(ring.exact(touch));
+    if (found.contacts.empty()) continue;
+    ++told;
+    const evidence::Answer& answer = found.contacts.front();
+    flagged += answer.isFlagged;
+    beyond += !answer.isFlagged && std::abs(shortWay_rad(answer.values[evidence::kAngle], touch.angle_rad)) >
+                                       6 * answer.sigmas[evidence::kAngle];
+  }
+  std::printf("\n%d touches: %d flagged, %d beyond six sigma ", touches, flagged, beyond);
+  CHECK_COMPARE(told, >, 0.99 * touches);
+  CHECK_COMPARE(beyond, <=, allowedCount(0.07, touches));
+}
+
 // A ring 0.2 mm above its core: one that is 0.1 mm thicker takes a third of the strain away.
 TEST(AsBuilt, LoadsReadNearTheCoreAreAsFarOffAsTheySay) {
   constexpr int kPlaces = 64;

@@ -50,7 +50,10 @@ TEST(Decode, OfALogATimeIsRead) {
   STRCMP_EQUAL("10.500000 11.000000 ", timesOf("--from 10.5").c_str());
   STRCMP_EQUAL("10.000000 10.500000 ", timesOf("--to +0.5").c_str());
   STRCMP_EQUAL("10.500000 ", timesOf("--from 1970-01-01T00:00:10.25Z --to 10.75").c_str());
-  STRCMP_EQUAL("", timesOf("--from +2").c_str());
+  const Run outside = runProgram("decode --from +2", log);
+  LONGS_EQUAL(1, outside.status);
+  checkSays("decode: no frame is of that time: they are from 10 s to 11 s", outside);
+  checkRefused("decode --from 3 --to 2", "--from: is later than --to");
   checkSays("decode: skipped 2 of other times\n", runProgram("decode --from 11", log));
   checkRefused("decode --from yesterday", "--from: no time: give seconds as the log has them");
   const Run none = runProgram("decode --from 1", " can0  285   [8]  22 01 1E FF 07 09 81 A3\n");

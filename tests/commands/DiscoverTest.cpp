@@ -43,6 +43,15 @@ TEST(DiscoverCommand, NobodyThereIsTold) {
                   run.err.c_str());
 }
 
+TEST(DiscoverCommand, AFingerThatIsExpectedAndNotThereIsAFailure) {
+  const Run run = withFinger("", R"(
+"$STRAINFINGER" discover --can $BUS --duration 1 --expect 1 >/dev/null; echo $?
+"$STRAINFINGER" discover --can $BUS --duration 1 --expect 1,2,3 | wc -l; echo ${PIPESTATUS[0]}
+"$STRAINFINGER" doctor --can $BUS --duration 1 --expect 1,7 | grep -- '--expect'; echo ${PIPESTATUS[0]})");
+  STRCMP_EQUAL("0\n2\n4\nerror    --expect: node 7 is not heard\n4\n", run.out.c_str());
+  STRCMP_CONTAINS("discover: not heard: node 2, 3 (--expect)", run.err.c_str());
+}
+
 TEST(DiscoverCommand, WithoutABusEveryInterfaceThatIsUpIsListenedTo) {
   const Run none = runShell(interfacesAre(R"([{"ifname":"can7","flags":[],"link_type":"can"}])") +
                             "\"$STRAINFINGER\" discover");

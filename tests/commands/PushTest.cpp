@@ -45,7 +45,7 @@ said_s = 0
 while True:
   if time.monotonic() - said_s > 0.1:
     said_s = time.monotonic()
-    say(0x701, struct.pack("<BHHbBB", 0x22, 0, 523, 25, 0, 0xDD))
+    say(0x701, struct.pack("<BHHbBB", 0x22, 0, 523, 25, 0, 0x2C))
   try:
     heard = hears.recv(16)
   except TimeoutError:
@@ -127,7 +127,7 @@ sys.exit(push.wait() % 256)' "$STRAINFINGER" push --can $BUS -c $other >/dev/nul
 
 TEST(PushCommand, InterruptedItLeavesAFingerThatWaitsForTables) {
   const Run run = withUntouchedFinger(R"(
-"$STRAINFINGER" push --can $BUS & interrupt $!; wait $!; echo "$?"
+"$STRAINFINGER" push --can $BUS & push=$!; interrupt $push; sleep 0.3; kill -HUP $push; wait $push; echo "$?"
 "$STRAINFINGER" doctor --can $BUS --duration 1 | grep -A1 'fault tables'
 "$STRAINFINGER" tare --can $BUS; echo "$?"
 "$STRAINFINGER" push --can $BUS | sed "s/$BUS/BUS/"; "$STRAINFINGER" tare --can $BUS | sed "s/$BUS/BUS/")");
@@ -135,10 +135,46 @@ TEST(PushCommand, InterruptedItLeavesAFingerThatWaitsForTables) {
   STRCMP_CONTAINS("has no tables until they are pushed again", run.err.c_str());
   STRCMP_CONTAINS("what to do: `strainfinger push --can ", run.out.c_str());
   STRCMP_CONTAINS(
-      "tare: Not now: the zero is being taken, or the end of a touch is not said yet, or no samples or no "
-      "tables are there (busy)",
+      "tare: Not now: the zero is being taken, the end of a touch has not been sent yet, or the finger has "
+      "no "
+      "samples or no tables (busy)",
       run.err.c_str());
   STRCMP_CONTAINS("BUS,1,A38B572C,24568\ninterface,node,command,status\nBUS,1,tare,done\n", run.out.c_str());
+}
+
+TEST(PushCommand, OneSignalDoesNotEndItHalfWay) {
+  const Run run = withUntouchedFinger(R"(
+"$STRAINFINGER" push --can $BUS -c $other >/dev/null & push=$!; sleep 1; kill -HUP $push; wait $push; echo "$?"
+"$STRAINFINGER" info --can $BUS -c $other | grep -oE 'state,[a-z_]*')");
+  STRCMP_EQUAL("130\nstate,run\n", run.out.c_str());
+  STRCMP_CONTAINS(
+      "push: goes on to the end, without which the finger has no tables; once more (Ctrl-C) ends it",
+      run.err.c_str());
+}
+
+TEST(PushCommand, TheTablesThatWereThereAreNamed) {
+  const Run run = withUntouchedFinger("\"$STRAINFINGER\" push --can $BUS -c $other");
+  STRCMP_CONTAINS("had tables whose CRC-32 ends with 2C: their file, or the config they were made from",
+                  run.err.c_str());
+}
+
+TEST(PushCommand, AmongSeveralFingersItIsNotGuessedWhichIsMeant) {
+  const Run run = withUntouchedFinger(R"(
+"$STRAINFINGER" run --can $BUS -n 4 --scenario <(echo "schema = 1") 2>/dev/null & other_finger=$!; sleep 1
+"$STRAINFINGER" tables -o $tables 2>/dev/null
+"$STRAINFINGER" push $tables --can $BUS; echo "$?"; kill $other_finger)");
+  STRCMP_EQUAL("2\n", run.out.c_str());
+  STRCMP_CONTAINS("has the fingers 1, 4: say with -n, or with its config (-c), which of them is to get",
+                  run.err.c_str());
+}
+
+TEST(PushCommand, TheDefaultFingersTablesThatNobodyNamedReplaceNoOthers) {
+  const Run run = withFinger(kUntouched + " -c <(printf 'schema = 1\\n[gauges]\\nradius_m = 9.5e-3\\n')",
+                             "sleep 0.5; \"$STRAINFINGER\" push --can $BUS");
+  LONGS_EQUAL(2, run.status);
+  STRCMP_CONTAINS(
+      "has tables of its own (their CRC-32 ends with F1), and these are the default finger's (2C): name",
+      run.err.c_str());
 }
 
 // The first finger to answer would not notice, and both would lose their tables.

@@ -53,6 +53,31 @@ TEST(Record, EndsAfterItsDuration) {
   checkSays("record: warning: nothing was heard on udp:", run);
 }
 
+TEST(Record, GoesOnWithAnotherLogOfWhichNoFrameIsLost) {
+  const Run run = inFolder(
+      "\"$STRAINFINGER\" record --can $bus -o x.log --new-log-every 2 --duration 5 --json >logs & "
+      "recorder=$!\n"
+      "until ls x-*.toml >&- 2>&-; do sleep 0.02; done\n"
+      "\"$STRAINFINGER\" replay in --can $bus; wait $recorder\n"
+      "cat x-*.log | cut -d' ' -f3 | sort | cmp <(cut -d' ' -f3 in | sort) - && echo same; ls x-*.log | wc "
+      "-l\n"
+      "grep -c '^end = ' x-*.toml | cut -d: -f2; grep -o '\"frames\":[0-9]*' logs | cut -d: -f2 | paste -sd+ "
+      "| bc",
+      frames(4000));
+  STRCMP_EQUAL("same\n3\n1\n1\n1\n4000\n", run.out.c_str());
+  checkSays(" 0 missed: x-20", run);
+}
+
+TEST(Record, TablesThatChangeAreTold) {
+  const Run run =
+      inFolder("record; replay in; stop INT; grep table_crc x.toml; \"$STRAINFINGER\" decode in >/dev/null",
+               "(1.000000) can0 705#2200000A000000A7\n(2.000000) can0 705#2200000B0000008F\n");
+  STRCMP_EQUAL("table_crc = \"8F\"\ntable_crc_before = [\"A7\"]\n", run.out.c_str());
+  checkSays("record: warning: node 5: its tables changed meanwhile (last bytes of their CRC-32: A7, 8F)",
+            run);
+  checkSays("decode: can0 node 5: its tables changed meanwhile", run);
+}
+
 TEST(Record, NotesTheConfigAndTheFingers) {
   const Run run = inFolder(
       "printf 'schema = 1\\n[can]\\nnode = 9\\n' >c.toml; record -c c.toml; replay in; stop INT; cat x.toml\n"

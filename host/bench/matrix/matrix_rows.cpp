@@ -24,6 +24,17 @@ class Rows {
       }
   }
 
+  /// The answer may be narrower, and elsewhere.
+  void widerThanTables() {
+    for (const double width_mm : {9, 10, 11}) {
+      Disturbance& row =
+          add(fmt::format("{:g} mm wide, uniform, wider than the tables, model error 5 %", width_mm));
+      row.touches.width_m = {width_mm * 1e-3, width_mm * 1e-3};
+      row.touches.profile = model::Profile::kUniform;
+      row.told = {};
+    }
+  }
+
   void pairs() {
     for (const double apart : {0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 6.0, 8.0})
       for (const double ratio : {1.0, 0.5, 0.25}) pair(apart, ratio, 5, 0);
@@ -272,6 +283,7 @@ std::vector<Disturbance> matrixRows() {
   Rows rows;
   rows.add("nothing wrong");
   rows.widths();
+  rows.widerThanTables();
   rows.pairs();
   rows.motions();
   rows.failures();

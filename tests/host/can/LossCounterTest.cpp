@@ -32,6 +32,9 @@ TEST_GROUP(LossCounter) {
   void force2(int sequence) {
     counter_.count("can0", encode(Force2Frame{{.sequence = static_cast<std::uint8_t>(sequence)}}, 1));
   }
+  void tables(std::uint8_t crc, std::uint16_t uptime_s, FingerState state = FingerState::kRun) {
+    counter_.count("can0", encode(HeartbeatFrame{.state = state, .uptime_s = uptime_s, .table_crc = crc}, 1));
+  }
   void heartbeat(int uptime_s) {
     counter_.count("can0", encode(HeartbeatFrame{.uptime_s = static_cast<std::uint16_t>(uptime_s)}, 1));
   }
@@ -205,6 +208,31 @@ TEST(LossCounter, TwoBoardsOfOneNumberAreNoticed) {
   for (int i = 0; i < 9; ++i)
     counter_.count("can0", encode(InfoFrame{.board = static_cast<std::uint8_t>(i % 2 == 0 ? 7 : 9)}, 1));
   CHECK_TRUE(only().twoSenders);
+}
+
+TEST(LossCounter, TwoFingersOfOtherTablesAreNoticedHoweverLongTheyRun) {
+  for (int i = 0; i < 9; ++i) tables(static_cast<std::uint8_t>(i % 2 == 0 ? 0x2C : 0x8F), 0xFFFE);
+  CHECK_TRUE(only().twoSenders);
+}
+
+TEST(LossCounter, AFingerThatIsSentOtherTablesAgainAndAgainIsOne) {
+  for (int i = 0; i < 9; ++i) {
+    const auto crc = static_cast<std::uint8_t>(i % 2 == 0 ? 0x2C : 0x8F);
+    tables(crc, 0, FingerState::kZeroing);
+    tables(crc, 2);
+    tables(0, 3, FingerState::kFault);
+  }
+  CHECK_FALSE(only().twoSenders);
+}
+
+TEST(LossCounter, TablesThatChangeAreNamed) {
+  tables(0x2C, 100);
+  STRCMP_EQUAL("", tableChangesText(only()).c_str());
+  tables(0, 101, FingerState::kFault);
+  tables(0x2C, 1);
+  STRCMP_EQUAL("", tableChangesText(only()).c_str());
+  tables(0x8F, 2);
+  STRCMP_CONTAINS("(last bytes of their CRC-32: 2C, 8F)", tableChangesText(only()).c_str());
 }
 
 TEST(LossCounter, AFingerThatWasReplacedIsOne) {

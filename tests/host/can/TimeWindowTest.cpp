@@ -60,6 +60,12 @@ TEST(TimeWindow, DatesAreThisMachinesOrUtc) {
   checkMoment("2021-01-04T19:05:22", 1'609'779'922'000'000'000);
   checkMoment("2021-01-04T17:05:22.25Z", 1'609'779'922'250'000'000);
   checkMoment("2024-02-29T00:00:00Z", 1'709'164'800'000'000'000);
+  checkMoment("2021-01-04T18:05:22+01:00", 1'609'779'922'000'000'000);
+  checkMoment("2021-01-04T11:35:22.5-05:30", 1'609'779'922'500'000'000);
+  checkMoment("2021-01-04T17:05Z", 1'609'779'900'000'000'000);
+  checkMoment("2021-01-04T19:05", 1'609'779'900'000'000'000);
+  checkMoment("2021-01-04Z", 1'609'718'400'000'000'000);
+  checkMoment("2021-01-04", 1'609'711'200'000'000'000);
 }
 
 TEST(TimeWindow, OtherTextsAreNoMoments) {
@@ -77,13 +83,15 @@ TEST(TimeWindow, OtherTextsAreNoMoments) {
                            "99999999999999999999",
                            "9300000000",
                            "03:12",
-                           "2021-01-04",
+                           "2021-01",
                            "2021-01-04 17:05:22",
                            "2021-1-4T17:05:22",
                            "2021-02-29T17:05:22",
                            "2021-02-29T17:05:22Z",
                            "2021-01-04T25:05:22",
                            "2021-01-04T17:05:22z",
+                           "2021-01-04T17:05:22+1:00",
+                           "2021-01-04T17:05:22 01:00",
                            "2021-01-04T17:05:22.",
                            "2021-01-04T17:05:22,5",
                            "2021-01-04T17:05:22.5.5",
@@ -101,6 +109,23 @@ TEST(TimeWindow, HasWhatIsBetweenItsEndsAndOnThem) {
   CHECK_TRUE(window.has(2'000'000'000));
   CHECK_TRUE(window.has(3'000'000'000));
   CHECK_FALSE(window.has(3'000'000'001));
+}
+
+TEST(TimeWindow, ThatEndsBeforeItBeginsIsEmpty) {
+  TimeWindow window;
+  CHECK_FALSE(window.isEmpty());
+  window.from = moment("3");
+  window.to = moment("2");
+  CHECK_TRUE(window.isEmpty());
+  window.to = moment("3");
+  CHECK_FALSE(window.isEmpty());
+  window.to = moment("+2");
+  CHECK_FALSE(window.isEmpty());
+}
+
+TEST(TimeWindow, TimesAreDatesWhereTheyCanBe) {
+  STRCMP_EQUAL("12.5 s", timeText(12'500'000'000).c_str());
+  STRCMP_EQUAL("2021-01-04T17:05:22Z", timeText(1'609'779'922'655'421'000).c_str());
 }
 
 TEST(TimeWindow, WithoutEndsItHasAll) {

@@ -261,6 +261,16 @@ TEST(Examine, GaugesLostFramesAndRestartsAreWarnings) {
             "doctor --can can0 --duration 10", of(finger));
 }
 
+TEST(Examine, ZerosThatDriftFastAreAWarning) {
+  FingerView finger = wellFinger();
+  finger.gauges = GaugesFrame{.zero_age_s = 3, .zero_rate_nano_per_s = 2000};
+  checkOnly(Severity::kWarning, "its zeros drift by 2 microstrain a second", "warm", of(finger));
+  for (const std::uint16_t calm : {std::uint16_t{999}, kNotKnown<std::uint16_t>}) {
+    finger.gauges->zero_rate_nano_per_s = calm;
+    CHECK_TRUE(of(finger).front().severity == Severity::kGood);
+  }
+}
+
 TEST(Examine, AFingerThatSendsRawIsTold) {
   FingerView finger = wellFinger();
   finger.rawLoad = 0.0666;

@@ -1,7 +1,10 @@
 #include "host/live/screen.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "host/live/value_text.hpp"
 #include "tests/host/live/views.hpp"
@@ -108,6 +111,30 @@ TEST(Screen, FaultsAndGaugesStandInWords) {
   STRCMP_CONTAINS("faults: gauges, watchdog reset; gauges out of use: 5, 7", textOf(finger).c_str());
 }
 
+TEST(Screen, ForProgramsTroublesSayWhatIsWrongWithTheFinger) {
+  FingerView finger = touchedFinger();
+  CHECK_TRUE(troublesOf(finger).empty());
+  finger.heartbeat.faults = {FingerFault::kTables};
+  finger.gauges->out_of_use = 0x20;
+  const auto troubles = troublesOf(finger);
+  LONGS_EQUAL(2, troubles.size());
+  STRCMP_EQUAL("fault tables: The lookup tables are absent, damaged or of another finger",
+               troubles[0].c_str());
+  STRCMP_EQUAL("gauges out of use: 5", troubles[1].c_str());
+}
+
+TEST(Screen, ThePickedFingerIsShownHoweverLowTheWindow) {
+  std::vector<FingerView> fingers(6, touchedFinger());
+  for (std::size_t i = 0; i < fingers.size(); ++i) fingers[i].node = static_cast<std::uint8_t>(i + 1);
+  for (std::size_t picked = 0; picked < fingers.size(); ++picked) {
+    const auto lines =
+        drawn({.buses = {busWith(fingers)}, .selected = picked}, {.rows = 5, .unicode = false});
+    const std::string mark = fmt::format("> node {}", picked + 1);
+    CHECK_TRUE(std::ranges::any_of(lines, [&](const std::string& line) { return line.starts_with(mark); }));
+    STRCMP_CONTAINS("4 more rows", lines.back().c_str());
+  }
+}
+
 TEST(Screen, ATwinIsSaidToBeThere) {
   FingerView finger = touchedFinger();
   finger.hasTwin = true;
@@ -117,8 +144,7 @@ TEST(Screen, ATwinIsSaidToBeThere) {
 TEST(Screen, TablesOfAnotherConfigAreSaidToBeThat) {
   FingerView finger = touchedFinger();
   finger.hasOtherTables = true;
-  STRCMP_CONTAINS("its tables are not those of the config (-c; the default finger without it)",
-                  textOf(finger, {.columns = 120}).c_str());
+  STRCMP_CONTAINS("its tables are not those of the config (-c)", textOf(finger, {.columns = 120}).c_str());
 }
 
 TEST(Screen, WarningsGoOnInRowsThatAreLeft) {

@@ -90,7 +90,7 @@ TEST(ReadScenario, ATouchMayHaveAWidthAndAProfile) {
 
 TEST(ReadScenario, WidthsAndProfilesThatCantBeAreNamed) {
   checkComplaint(withAngle("0") + "width_m = -1e-3",
-                 "s.toml:7:11: touch.width_m = -0.001 is out of its domain; it must be 0 to 0.025");
+                 "s.toml:7:11: touch.width_m = -0.001 is out of its domain; it must be 0 to 1");
   checkComplaint(
       withAngle("0") + "width_m = 1e-3\nprofile = \"round\"",
       "s.toml:8:11: touch.profile = \"round\" is out of its domain; it must be one of hertz, uniform");

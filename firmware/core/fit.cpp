@@ -364,12 +364,12 @@ bool isConverged(const TableConstants& constants, const Linearisation& linearisa
 }  // namespace
 
 bool isShortTurn(const TableConstants& constants, std::uint32_t turned_q32, int farther) {
-  return apart_q32(turned_q32, 0) <= (std::uint32_t{1} << (32 - kShortTurnBits)) / constants.gauge_count
-                                         << farther;
+  return areWithin_q32(turned_q32, 0,
+                       (std::uint32_t{1} << (32 - kShortTurnBits)) / constants.gauge_count << farther);
 }
 
 bool isInReach(const TableImage& tables, const ContactState& contact, int gauge) {
-  return apart_q32(tables.gauge_angle_q32[index(gauge)], contact.angle_q32) <= tables.constants.reach_q32;
+  return areWithin_q32(tables.gauge_angle_q32[index(gauge)], contact.angle_q32, tables.constants.reach_q32);
 }
 
 void linearise(const TableImage& tables, const Hypothesis& hypothesis, const ContactStates& contacts,

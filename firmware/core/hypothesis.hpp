@@ -38,11 +38,16 @@ constexpr std::uint32_t apart_q32(std::uint32_t a_q32, std::uint32_t b_q32) {
   return std::min(a_q32 - b_q32, b_q32 - a_q32);
 }
 
+/// apart_q32() is at most this, which is less than half a turn; in fewer instructions.
+constexpr bool areWithin_q32(std::uint32_t a_q32, std::uint32_t b_q32, std::uint32_t most_q32) {
+  return a_q32 - b_q32 + most_q32 <= 2 * most_q32;
+}
+
 /// The largest magnitude among these gauges, to within 1.
 inline Number largestOf(std::span<const Number> strains_q32, GaugeSet gauges) {
   Number largest = 0;
-  for (std::size_t i = 0; i < strains_q32.size(); ++i)
-    if (contains(gauges, static_cast<int>(i))) largest = larger(largest, signlessBits(strains_q32[i]));
+  for (std::size_t i = 0; gauges != 0; ++i, gauges >>= 1)
+    if (contains(gauges, 0)) largest = larger(largest, signlessBits(strains_q32[i]));
   return largest;
 }
 

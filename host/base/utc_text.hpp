@@ -23,4 +23,10 @@ inline std::string utcText(std::int64_t time_ns) {
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(system_clock::to_time_t(floor<seconds>(time))));
 }
 
+/// "20261128-140401", of now: for names of files.
+inline std::string utcStamp() {
+  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  return fmt::format("{:%Y%m%d-%H%M%S}", fmt::gmtime(now));
+}
+
 }  // namespace strainfinger

@@ -60,8 +60,6 @@ Reply ask(BusPort& port, std::uint8_t node, const RequestFrame& request, const P
   return reply;
 }
 
-/// A second answer may be one frame that came twice, or one to another program, which hardly happens twice:
-/// so it is asked again before two fingers are told of.
 std::map<std::uint8_t, HeartbeatFrame> listenForFingers(BusPort& port, std::chrono::milliseconds time,
                                                         const std::function<bool()>& goOn) {
   using Clock = std::chrono::steady_clock;
@@ -76,6 +74,8 @@ std::map<std::uint8_t, HeartbeatFrame> listenForFingers(BusPort& port, std::chro
   return heard;
 }
 
+/// A second answer may be one frame that came twice, or one to another program, which hardly happens twice:
+/// so it is asked again before two fingers are told of.
 Reply askWhoIsThere(BusPort& port, std::uint8_t node, const std::function<bool()>& goOn) {
   const auto askOnce = [&] {
     return ask(port, node, countRequest(Count::kErases), {.afterwards = kTwinWithin, .goOn = goOn});

@@ -49,7 +49,10 @@ std::optional<TextFrame> LogReader::next() {
     const bool isInWindow = part_.window.has(time_ns);
     if (!isOfInterface(frame->interface)) continue;
     anyWanted_ = true;
-    if (isInWindow) return frame;
+    last_ns_ = time_ns;
+    if (!isInWindow) continue;
+    anyRead_ = true;
+    return frame;
   }
   return std::nullopt;
 }
@@ -64,6 +67,14 @@ void LogReader::requireInterface() const {
                   fmt::format("{}: no frame of {} in it", lines_.name(), excerpt(part_.interface)));
 }
 
+void LogReader::requireAny() const {
+  requireInterface();
+  if (part_.window.isWhole() || anyRead_ || !anyWanted_) return;
+  throw Failure(ExitCode::kFailure,
+                fmt::format("{}: no frame of it is of that time: it is from {} to {}", lines_.name(),
+                            timeText(first_ns().value_or(0)), timeText(last_ns_)));
+}
+
 std::optional<TextFrame> LogReader::frameOf(std::string_view line) {
   if (const auto plain = parsePlainLine(line)) return plain;
   auto parsed = parseLogLine(line);
@@ -75,9 +86,8 @@ std::optional<TextFrame> LogReader::frameOf(std::string_view line) {
   parsed_ = std::move(std::get<LogLine>(parsed));
   const auto frame = classicFrame(parsed_);
   if (frame) return TextFrame{parsed_.time_ns, parsed_.interface, *frame};
-  if (hasFrame(parsed_) && isOfInterface(parsed_.interface) &&
-      (!parsed_.time_ns || part_.window.has(*parsed_.time_ns)))
-    ++skipped_;
+  const bool isInWindow = !hasFrame(parsed_) || !parsed_.time_ns || part_.window.has(*parsed_.time_ns);
+  if (hasFrame(parsed_) && isInWindow && isOfInterface(parsed_.interface)) ++skipped_;
   return std::nullopt;
 }
 

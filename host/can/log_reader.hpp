@@ -43,6 +43,8 @@ class LogReader {
 
   /// Once all is read: throws Failure(kFailure) where nothing was of the interface that is read.
   void requireInterface() const;
+  /// The same where there were frames, but none of the part that is read.
+  void requireAny() const;
 
   /// Of the log's first frame, whether it is of the part that is read or not; nothing before that.
   std::optional<std::int64_t> first_ns() const { return part_.window.first_ns(); }
@@ -62,7 +64,9 @@ class LogReader {
   bool isWhole_ = true;    ///< the last line ended with a line end
   bool anyFrame_ = false;  ///< was read
   bool isCutOff_ = false;
-  bool anyWanted_ = false;  ///< of the interface that is read, at whatever time
+  bool anyWanted_ = false;    ///< of the interface that is read, at whatever time
+  bool anyRead_ = false;      ///< of the part that is read
+  std::int64_t last_ns_ = 0;  ///< of the frames of the interface
   LogTimes times_{LogTimes::Order::kOfAll};
 };
 

@@ -152,7 +152,7 @@ void LossCounter::countHeartbeat(Stream& stream, const HeartbeatFrame& heartbeat
 /// and starts with them.
 void LossCounter::countTables(Stream& stream, const HeartbeatFrame& heartbeat) {
   std::vector<std::uint8_t>& tables = stream.seen.tables;
-  if (heartbeat.state == FingerState::kFault) return;
+  if (heartbeat.protocol != kProtocolVersion || heartbeat.state == FingerState::kFault) return;
   if (!tables.empty() && tables.back() == heartbeat.table_crc) return;
   if (stream.tablesBefore == heartbeat.table_crc) ++stream.evidence.resumptions;
   if (!tables.empty()) stream.tablesBefore = tables.back();

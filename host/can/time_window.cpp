@@ -43,8 +43,9 @@ std::optional<std::int64_t> takeZone_s(std::string_view& text) {
   }
   constexpr std::size_t kLength = 6;  // "+02:00"
   const std::string_view zone = text.substr(text.size() - std::min(text.size(), kLength));
-  const bool isZone = zone.size() == kLength && (zone[0] == '+' || zone[0] == '-') && isDigit(zone[1]) &&
-                      isDigit(zone[2]) && zone[3] == ':' && isDigit(zone[4]) && isDigit(zone[5]);
+  const bool isZone = zone.size() == kLength && (zone[0] == '+' || zone[0] == '-') && zone[1] >= '0' &&
+                      zone[1] < '2' && isDigit(zone[2]) && zone[3] == ':' && zone[4] >= '0' &&
+                      zone[4] < '6' && isDigit(zone[5]);
   if (!isZone) return std::nullopt;
   text.remove_suffix(kLength);
   const std::int64_t ahead_s = 3600 * *parseNumber<std::int64_t>(zone.substr(1, 2)) +
@@ -79,7 +80,7 @@ std::optional<LogMoment> readMoment(std::string_view text) {
 std::string timeText(std::int64_t time_ns) {
   constexpr std::int64_t kFirstDate_ns = 1'000'000'000'000'000'000;  // September 2001, ten digits of seconds
   return time_ns >= kFirstDate_ns ? utcText(time_ns)
-                                  : fmt::format("{:g} s", 1e-9 * static_cast<double>(time_ns));
+                                  : fmt::format("{:.10g} s", 1e-9 * static_cast<double>(time_ns));
 }
 
 bool TimeWindow::has(std::int64_t time_ns) {

@@ -104,9 +104,10 @@ class Decoder {
   void decodeAll(const std::string& path) {
     if (follow_ && !waitFor(path)) return;
     lines_.emplace(path);
-    window_ = asked_;
-    do decodeFile();
-    while (follow_ && openNext());
+    do {
+      window_ = asked_;
+      decodeFile();
+    } while (follow_ && openNext());
   }
 
   /// Prints what was held back for more of it.
@@ -117,7 +118,7 @@ class Decoder {
 
   /// Throws Failure(kFailure) where there were frames, and none of them was of the time that was asked for.
   void requireAnyInWindow() const {
-    if (!first_ns_ || isAnyInWindow_) return;
+    if (asked_.isWhole() || !first_ns_ || isAnyInWindow_) return;
     throw Failure(ExitCode::kFailure, fmt::format("decode: no frame is of that time: they are from {} to {}",
                                                   can::timeText(*first_ns_), can::timeText(last_ns_)));
   }
@@ -213,11 +214,13 @@ class Decoder {
     tally_.countDropped(line.dropped);
     if (line.kind == can::LineKind::kNothing || line.kind == can::LineKind::kDropped) return;
     tally_.noteForm(line);
+    const auto classic = can::classicFrame(line);
+    if (classic) return take({line.time_ns, line.interface, *classic});
+    if (line.time_ns && !isInWindow(*line.time_ns)) return tally_.countSkipped(SkipReason::kOtherTime);
     if (line.kind == can::LineKind::kError) return tally_.countSkipped(SkipReason::kError);
     if (line.kind == can::LineKind::kRemote) return tally_.countSkipped(SkipReason::kRemote);
     if (line.frame.fd) return tally_.countSkipped(SkipReason::kFd);
-    if (line.frame.extended) return tally_.countSkipped(SkipReason::kExtended);
-    take({line.time_ns, line.interface, *can::classicFrame(line)});
+    tally_.countSkipped(SkipReason::kExtended);
   }
 
   void take(const can::TextFrame& text) {
@@ -225,7 +228,8 @@ class Decoder {
     if (text.time_ns) times_.watch(text.interface, *text.time_ns, *lines_);
     const can::FrameEntry* const entry = can::findFunction(frame.id);
     if (entry != nullptr) noteProtocol(text);
-    if (!isInWindow(text)) return tally_.countSkipped(SkipReason::kOtherTime);
+    if (!window_.isWhole() && !isInWindow(can::requireTime(text, *lines_)))
+      return tally_.countSkipped(SkipReason::kOtherTime);
     if (entry == nullptr && can::findCommand(frame) == nullptr)
       return tally_.countSkipped(decode<RawFrame>(frame) ? SkipReason::kRaw : SkipReason::kOtherIdentifier);
     if (!isWanted(frame)) return tally_.countSkipped(SkipReason::kOtherNode);
@@ -244,13 +248,11 @@ class Decoder {
            std::find(nodes_.begin(), nodes_.end(), can::fingerNode(frame.id)) != nodes_.end();
   }
 
-  bool isInWindow(const can::TextFrame& text) {
-    if (window_.isWhole()) return true;
-    const std::int64_t time_ns = can::requireTime(text, *lines_);
+  bool isInWindow(std::int64_t time_ns) {
     const bool isIn = window_.has(time_ns);
     isAnyInWindow_ |= isIn;
-    if (!first_ns_) first_ns_ = time_ns;
-    last_ns_ = time_ns;
+    first_ns_ = std::min(first_ns_.value_or(time_ns), time_ns);
+    last_ns_ = std::max(last_ns_, time_ns);
     return isIn;
   }
 
@@ -275,7 +277,7 @@ class Decoder {
   }
 
   void tellProtocol(const can::TextFrame& text, const Spoken& spoken) {
-    tally_.noteForeign(text.interface, spoken.heartbeat);
+    if (!decode<HeartbeatFrame>(text.frame)) tally_.noteForeign(text.interface, spoken.heartbeat);
     output_.flush();  // what stands before it
     warn("decode",
          fmt::format("{}: {} node {} {}; what it says from here on is left out", lines_->place(),
@@ -320,7 +322,7 @@ void runDecode(const DecodeOptions& options) {
   decoder.tally().summarise();
   decoder.judgeTimes();
   decoder.tally().requireGood();
-  decoder.requireAnyInWindow();
+  if (!decoder.stopped()) decoder.requireAnyInWindow();
   if (decoder.stopped()) throw Failure(ExitCode::kInterrupted, "decode: interrupted");
 }
 

@@ -31,7 +31,8 @@ constexpr const char* kDoctorHelp =
     "has the config's tables. It listens, and asks fingers for their counts; it changes nothing.\n"
     "A line for each finding (ok, warning or error) with what to do below it; with --json an object "
     "result,where,finding,remedy.\n"
-    "Exit status 0: no error; else that of the first error: 1, 3 no interface, 4 no finger, "
+    "Exit status 0: no error; else that of the first error: 1, 3 no interface, 4 no finger, or one of "
+    "--expect not, "
     "5 another protocol or other tables.";
 
 struct DoctorOptions {

@@ -10,6 +10,7 @@
 #include "host/base/failure.hpp"
 #include "host/base/line_reader.hpp"
 #include "host/base/notice.hpp"
+#include "host/base/utc_text.hpp"
 #include "host/can/open_bus.hpp"
 #include "host/cli/bus_option.hpp"
 #include "host/cli/command.hpp"
@@ -139,8 +140,7 @@ class LiveScreen {
   }
 
   void startRecording() {
-    const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-    const std::string path = fmt::format("strainfinger-{:%Y%m%d-%H%M%S}.log", fmt::gmtime(now));
+    const std::string path = fmt::format("strainfinger-{}.log", utcStamp());
     recording_.emplace(port_, config_, path);
     watch_.setTap([this](const can::TimedFrame& timed) { recording_->take(timed); },
                   [this](const can::OtherFrame& other) { recording_->take(other); });

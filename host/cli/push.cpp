@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -52,6 +53,9 @@ struct PushOptions {
   bool force = false;
 };
 
+/// A terminal that is closed, or a supervisor, sends more than one signal at once.
+constexpr std::chrono::milliseconds kOneEvent{500};
+
 /// In which each finger sends two HEARTBEATs.
 constexpr std::chrono::milliseconds kListen{250};
 
@@ -91,7 +95,7 @@ void tellReplaced(const can::BusPort& bus, std::uint8_t node, const Fingers& hea
       at->second.state == FingerState::kFault)
     return;
   tell(
-      "push: {} node {} had tables whose CRC-32 ends with {:02X}: their file, or the config they were made "
+      "push: {} node {} has tables whose CRC-32 ends with {:02X}: their file, or the config they were made "
       "from, brings them back\n",
       bus.name(), node, at->second.table_crc);
 }
@@ -129,14 +133,19 @@ class Progress {
 can::TablePush send(can::BusPort& port, std::uint8_t node, const TableImage& image, bool force,
                     const system::StopSignal& stop) {
   Progress progress;
-  bool isTold = false;
+  using Clock = std::chrono::steady_clock;
+  std::optional<Clock::time_point> told;
+  int heeded = 0;  // signals
   return can::pushTables(port, node, image, force, [&](int words) {
     progress.show(words);
     if (words == 0 || !stop.asked()) return !stop.asked();
-    if (!std::exchange(isTold, true))
+    if (!told) {
+      told = Clock::now();
       tell("{}push: goes on to the end, without which the finger has no tables; once more (Ctrl-C) ends it\n",
            isatty(STDERR_FILENO) == 1 ? "\r\x1b[K" : "");
-    return stop.times() < 2;
+    }
+    if (Clock::now() - *told < kOneEvent) heeded = stop.times();
+    return stop.times() == heeded;
   });
 }
 
@@ -220,10 +229,10 @@ void runPush(const PushOptions& options) {
   requireChosen(options.request, node, heard);
   requireNamed(options, node, heard, *image);
   requireOneFinger(*port, node, goOn);
+  tellReplaced(*port, node, heard, *image);
   requireWhole(send(*port, node, *image, options.force, stop), *port, node);
   restart(*port, node);
   requireRunning(*port, node, *image, stop);
-  tellReplaced(*port, node, heard, *image);
   if (options.force)
     tell(
         "push: what touches the finger now is part of its zero: `strainfinger tare --can {} -n {}` "

@@ -1,9 +1,9 @@
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <chrono>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -17,6 +17,7 @@
 #include "host/base/notice.hpp"
 #include "host/base/table_writer.hpp"
 #include "host/base/utc_text.hpp"
+#include "host/can/loss_counter.hpp"
 #include "host/can/open_bus.hpp"
 #include "host/can/remedies.hpp"
 #include "host/cli/bus_option.hpp"
@@ -85,9 +86,7 @@ Clock::duration durationOf(double seconds) {
 std::string nextPath(const RecordOptions& options) {
   if (!options.newLogEvery_s) return options.path;
   const std::filesystem::path path(options.path);
-  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  const auto name =
-      fmt::format("{}-{:%Y%m%d-%H%M%S}{}", path.stem().string(), fmt::gmtime(now), path.extension().string());
+  const auto name = fmt::format("{}-{}{}", path.stem().string(), utcStamp(), path.extension().string());
   return (path.parent_path() / name).string();
 }
 
@@ -111,7 +110,7 @@ class Recorder {
     for (Clock::time_point flushAt{}; !stop.asked() && Clock::now() < end;) {
       if (port_.waitReadable(system::StopSignal::kLookEvery))
         std::this_thread::sleep_for(can::BusPort::kGather);
-      while (const auto frame = port_.receiveTimed()) recording_->take(*frame);
+      while (const auto frame = port_.receiveTimed()) take(*frame);
       if (recording_->lookAtBus()) tellOfBus(port_, recording_->isBusThere());
       if (Clock::now() < flushAt) continue;
       recording_->flush();
@@ -123,22 +122,33 @@ class Recorder {
   }
 
  private:
+  void take(const can::TimedFrame& timed) {
+    recording_->take(timed);
+    losses_.count(port_.name(), timed.frame);
+  }
+
   void begin() {
     recording_ = std::make_unique<Recording>(port_, config_, nextPath(options_));
     start_ = Clock::now();
   }
 
-  /// The next log is there before the last one is complete: what can't be begun ends nothing.
+  /// The next log is begun before the last one is complete; if it can't be, the last one is completed all the
+  /// same.
   void beginAnew() {
     const auto last = std::move(recording_);
     const auto lastStart = start_;
+    std::exception_ptr why;
     try {
       begin();
     } catch (...) {
-      last->end();
-      throw;
+      why = std::current_exception();
     }
-    finish(*last, lastStart);
+    try {
+      finish(*last, lastStart);
+    } catch (...) {
+      if (!why) throw;
+    }
+    if (why) std::rethrow_exception(why);
     told_.clear();
   }
 
@@ -169,7 +179,7 @@ class Recorder {
 
   /// Once each, as soon as it is known: a recording may last for weeks.
   void warnOfFingersIn(const Recording& recording) {
-    for (const can::NodeCount& count : recording.counts()) {
+    for (const can::NodeCount& count : losses_.counts()) {
       if (count.twoSenders)
         once(fmt::format("node {}: {}: {}", count.node, can::kTwinText,
                          can::forNode(can::kTwinRemedy, port_.name(), count.node)));
@@ -194,6 +204,7 @@ class Recorder {
   can::BusPort& port_;
   std::optional<std::uint32_t> tables_crc32_;  ///< of the config that was given
   std::optional<TableWriter> table_;
+  can::LossCounter losses_;  ///< of all logs
   std::unique_ptr<Recording> recording_;
   Clock::time_point start_;     ///< of that one
   std::set<std::string> told_;  ///< warnings

@@ -54,7 +54,6 @@ Recording::Recording(can::BusPort& port, const config::FingerConfig& config, con
 void Recording::take(const can::TimedFrame& timed) {
   log_.add(timed.time_ns, port_.name(), timed.frame);
   ++progress_.frames;
-  losses_.count(port_.name(), timed.frame);
   isNew_ |= notes_.note(timed.frame);
 }
 

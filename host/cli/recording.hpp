@@ -7,7 +7,6 @@
 
 #include "host/can/bus_port.hpp"
 #include "host/can/log_writer.hpp"
-#include "host/can/loss_counter.hpp"
 #include "host/cli/recording_notes.hpp"
 #include "host/config/finger_config.hpp"
 
@@ -38,8 +37,6 @@ class Recording {
   /// The last flush(); completes the notes. Throws like it.
   void end();
 
-  /// Of each node what was heard of it.
-  std::vector<can::NodeCount> counts() const { return losses_.counts(); }
   /// See RecordingNotes.
   std::vector<std::uint8_t> nodesOfOtherTables(std::uint32_t tables_crc32) const {
     return notes_.nodesOfOtherTables(tables_crc32);
@@ -58,7 +55,6 @@ class Recording {
   std::string notesPath_;
   can::LogWriter log_;
   RecordingNotes notes_;
-  can::LossCounter losses_;
   RecordingProgress progress_;
   std::uint32_t missedBefore_;  ///< frames that the port had missed when this began
   std::uint32_t timesAway_;     ///< of the port, when it was last looked at

@@ -37,6 +37,12 @@ bool sameFirmware(const HeartbeatFrame& a, const HeartbeatFrame& b) {
 RecordingNotes::RecordingNotes(std::string bus, const config::FingerConfig& config)
     : bus_(std::move(bus)), config_(config::writeConfig(config)) {}
 
+void RecordingNotes::Finger::noteTables(const HeartbeatFrame& of) {
+  if (of.protocol != kProtocolVersion || of.state == FingerState::kFault) return;
+  const auto last = std::exchange(tables, of.table_crc);
+  if (last && *last != of.table_crc && tablesBefore.size() < kMostTables) tablesBefore.push_back(*last);
+}
+
 bool RecordingNotes::note(const CanFrame& frame) {
   if (const auto info = decode<InfoFrame>(frame)) {
     std::optional<InfoFrame>& known = fingers_[*nodeOf(frame.id, FunctionCode::kInfo)].info;
@@ -46,8 +52,7 @@ bool RecordingNotes::note(const CanFrame& frame) {
   if (const auto heartbeat = decode<HeartbeatFrame>(frame)) {
     Finger& finger = fingers_[*nodeOf(frame.id, FunctionCode::kHeartbeat)];
     const auto before = std::exchange(finger.heartbeat, heartbeat);
-    if (before && before->table_crc != heartbeat->table_crc && finger.tablesBefore.size() < kMostTables)
-      finger.tablesBefore.push_back(before->table_crc);
+    finger.noteTables(*heartbeat);
     return !before || !sameFirmware(*before, *heartbeat);
   }
   return false;

@@ -46,7 +46,10 @@ class RecordingNotes {
   struct Finger {
     std::optional<InfoFrame> info;
     std::optional<HeartbeatFrame> heartbeat;
-    std::vector<std::uint8_t> tablesBefore{};  ///< table_crc of earlier HEARTBEATs, in their order
+    std::optional<std::uint8_t> tables{};      ///< last byte of their CRC-32, while it works with some
+    std::vector<std::uint8_t> tablesBefore{};  ///< earlier ones, in their order
+
+    void noteTables(const HeartbeatFrame& of);
   };
   std::string bus_;
   std::string config_;  ///< as text

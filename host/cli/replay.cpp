@@ -99,7 +99,7 @@ LogExtent measure(const ReplayOptions& options) {
   }
   extent.skipped = log.skipped();
   warn("replay", log.warnings());
-  log.requireInterface();
+  log.requireAny();
   if (extent.interfaces.size() > 1)
     warn("replay",
          fmt::format("{}: what it has of several interfaces ({}) all goes to {}: --interface sends "
@@ -160,7 +160,7 @@ void recomputeLog(const ReplayOptions& options) {
       one.watch(options.path, *text);
       return can::TimedFrame{*text->time_ns, text->frame};
     }
-    log.requireInterface();
+    log.requireAny();
     warn("replay", log.warnings());
     return std::nullopt;
   };

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -132,10 +133,15 @@ struct RunOptions {
   std::vector<std::string> faults;
 };
 
-simulation::Scenario scenarioOf(const RunOptions& options) {
+simulation::Scenario scenarioOf(const RunOptions& options, const config::Finger& finger) {
   if (options.scenarioPath.empty()) return simulation::builtInScenario();
   const simulation::Scenario scenario = simulation::readScenarioFile(options.scenarioPath);
   simulation::requireUntouchedStart(scenario, options.scenarioPath);
+  const double round_m = 2 * std::numbers::pi * finger.outer_radius_m;
+  if (scenario.widest_m() > round_m)
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("{}: touch.width_m = {} goes more than once round the finger, {:.3g} m",
+                              options.scenarioPath, scenario.widest_m(), round_m));
   return scenario;
 }
 
@@ -237,7 +243,7 @@ void runOn(Port& port, const config::FingerConfig& config, const RunOptions& opt
   const config::FingerConfig known = knownOf(config, options);
   const auto tables = options.firmware.tablesOf(known);
   options.firmware.warnOfMode("run", *tables);
-  const simulation::Scenario scenario = scenarioOf(options);
+  const simulation::Scenario scenario = scenarioOf(options, config.finger);
   const double end_s = durationOf(options, scenario);
   const auto end_us = static_cast<std::uint64_t>(std::llround(end_s * 1e6));
   simulation::SimulatedFinger finger(config, scenario, *tables, options.firmware.mode(), options.seed, port,

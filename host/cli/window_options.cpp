@@ -14,8 +14,8 @@ void addMoment(CLI::App& command, const char* name, const char* help, std::optio
       ->check([](const std::string& text) {
         return can::readMoment(text) ? ""
                                      : "no time: give seconds as the log has them (1764385920.5), +S after "
-                                       "its first frame (+12.5), or a date (2026-11-29T03:12:00, with a Z "
-                                       "behind it in UTC)";
+                                       "its first frame (+12.5), or a date (2026-11-29T03:12, with a Z "
+                                       "behind it in UTC, with +02:00 in that zone)";
       });
 }
 

@@ -33,7 +33,7 @@ class PageServer {
   /// Readers of events at a time; those beyond are told to come again (503).
   static constexpr int kMostReaders = 64;
 
-  /// Throws Failure(kNoInterface) when it cannot listen there.
+  /// Throws Failure(kFailure) when it cannot listen there.
   explicit PageServer(const PageServerOptions& options);
   ~PageServer();
   PageServer(const PageServer&) = delete;

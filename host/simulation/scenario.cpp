@@ -63,6 +63,13 @@ std::optional<Scenario::Slip> Scenario::firstSlip(double friction_coefficient) c
   return std::nullopt;
 }
 
+double Scenario::widest_m() const {
+  double widest_m = 0;
+  for (const TouchCourse& touch : touches_)
+    if (touch.width_m) widest_m = std::max(widest_m, touch.width_m->largest().value);
+  return widest_m;
+}
+
 double Scenario::duration_s() const {
   double end_s = 0;
   for (const TouchCourse& touch : touches_) end_s = std::max(end_s, touch.end_s);

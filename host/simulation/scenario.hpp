@@ -70,6 +70,9 @@ class Scenario {
   };
   std::optional<Slip> firstSlip(double friction_coefficient) const;
 
+  /// The largest width of a touch; 0 where none has one.
+  double widest_m() const;
+
   /// When it is over, once: without the pause before it begins again.
   double duration_s() const;
 

@@ -145,6 +145,7 @@ TEST(AsBuilt, MostTouchesWiderThanTheTablesAreFlagged) {
   }
   std::printf("\n%d touches: %d flagged, %d beyond six sigma ", touches, flagged, beyond);
   CHECK_COMPARE(told, >, 0.99 * touches);
+  CHECK_COMPARE(flagged, >, 0.88 * touches);
   CHECK_COMPARE(beyond, <=, allowedCount(0.07, touches));
 }
 

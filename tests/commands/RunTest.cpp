@@ -297,6 +297,14 @@ TEST(RunCommand, ThreePointModeSendsOtherFrames) {
   CHECK_FALSE(refined.out == three.out);
 }
 
+TEST(RunCommand, ATouchThatIsWiderThanTheFingerIsLongRoundIsRefused) {
+  const Run run = withScenario(
+      "",
+      "schema = 1\n[[touch]]\nstart_s = 0.5\nend_s = 1\nangle_deg = 0\nnormal_n_per_m = 9\nwidth_m = 0.09\n");
+  LONGS_EQUAL(2, run.status);
+  STRCMP_CONTAINS("touch.width_m = 0.09 goes more than once round the finger, 0.0798 m", run.err.c_str());
+}
+
 TEST(RunCommand, AMissingInterfaceIsSaidWithItsRemedy) {
   const Run run = runProgram("run --can nocan7 --duration 1");
   checkRefused(run, 3, "nocan7");

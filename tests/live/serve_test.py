@@ -242,20 +242,20 @@ class Serve(unittest.TestCase):
     def test_a_port_that_is_taken_is_said_to_be(self):
         port = str(urllib.parse.urlsplit(self.url).port)
         run = subprocess.run([PROGRAM, "serve", "--can", self.bench.bus, "--port", port], capture_output=True, text=True)
-        self.assertEqual(3, run.returncode)
+        self.assertEqual(1, run.returncode)
         self.assertIn(f"cannot listen on 127.0.0.1 port {port}: another program does", run.stderr)
 
     def test_an_address_that_cannot_be_listened_on_is_said_why(self):
         for address, why in (("192.0.2.1", "this machine has no such address"), ("no.such.invalid", "this is no address: ")):
             run = subprocess.run([PROGRAM, "serve", "--can", self.bench.bus, "--port", "0", "--address", address], capture_output=True, text=True)
-            self.assertEqual(3, run.returncode)
+            self.assertEqual(1, run.returncode)
             self.assertIn(f"cannot listen on {address} port 0: {why}", run.stderr)
 
     @unittest.skipIf(int(FIRST_PORT_FOR_ALL.read_text()) <= 80, "here everybody may listen on all ports")
     def test_a_port_for_root_is_said_to_be(self):
         without_right = ["setpriv", "--bounding-set", "-net_bind_service"] if os.geteuid() == 0 else []
         run = subprocess.run([*without_right, PROGRAM, "serve", "--can", self.bench.bus, "--port", "80"], capture_output=True, text=True)
-        self.assertEqual(3, run.returncode)
+        self.assertEqual(1, run.returncode)
         self.assertIn("cannot listen on 127.0.0.1 port 80: ports below 1024 are for root", run.stderr)
 
 

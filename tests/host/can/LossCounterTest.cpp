@@ -233,6 +233,8 @@ TEST(LossCounter, TablesThatChangeAreNamed) {
   STRCMP_EQUAL("", tableChangesText(only()).c_str());
   tables(0x8F, 2);
   STRCMP_CONTAINS("(last bytes of their CRC-32: 2C, 8F)", tableChangesText(only()).c_str());
+  counter_.count("can0", encode(HeartbeatFrame{.protocol = 4, .uptime_s = 3, .table_crc = 0x11}, 1));
+  STRCMP_CONTAINS("(last bytes of their CRC-32: 2C, 8F)", tableChangesText(only()).c_str());
 }
 
 TEST(LossCounter, AFingerThatWasReplacedIsOne) {

@@ -159,16 +159,3 @@ TEST(Recording, AConfigIsNotReplacedByItsNotes) {
 }
 
 TEST(Recording, ALogIsNotNamedLikeItsNotes) { checkRefused(notes_, ExitCode::kUsage, "cannot end in .toml"); }
-
-// Two fingers that beat as one node: their uptimes go on where the other's interrupted them.
-TEST(Recording, TwoFingersOfOneNumberAreNamed) {
-  Recording recording(port_, config_, log_);
-  for (int second = 10; second < 30; ++second) {
-    recording.take(heard(encode(HeartbeatFrame{.uptime_s = static_cast<std::uint16_t>(second)}, 5)));
-    CHECK_TRUE(second > 10 || !recording.counts().front().twoSenders);
-    recording.take(heard(encode(HeartbeatFrame{.uptime_s = static_cast<std::uint16_t>(second + 500)}, 5)));
-  }
-  LONGS_EQUAL(1, recording.counts().size());
-  LONGS_EQUAL(5, recording.counts().front().node);
-  CHECK_TRUE(recording.counts().front().twoSenders);
-}

@@ -43,7 +43,7 @@ constexpr bool areWithin_q32(std::uint32_t a_q32, std::uint32_t b_q32, std::uint
   return a_q32 - b_q32 + most_q32 <= 2 * most_q32;
 }
 
-/// The largest magnitude among these gauges, to within 1.
+/// The largest magnitude among these gauges, of which there are strains, to within 1.
 inline Number largestOf(std::span<const Number> strains_q32, GaugeSet gauges) {
   Number largest = 0;
   for (std::size_t i = 0; gauges != 0; ++i, gauges >>= 1)

@@ -28,8 +28,9 @@ TEST_GROUP_BASE(ReadingsRanges, RangesGroup) {
     forEachWay([&] {
       std::array<Number, 3> strains;
       strains.fill(strain);
-      const ScaledReadings scaled = scaledReadings(
-          constants, strains, allGauges(3), std::numeric_limits<std::uint32_t>::max(), shift, signlessBits(strain));
+      const ScaledReadings scaled =
+          scaledReadings(constants, strains, allGauges(3), std::numeric_limits<std::uint32_t>::max(), shift,
+                         signlessBits(strain));
       CHECK_TRUE(scaled.shift >= 0 && scaled.shift <= 18);
       CHECK_TRUE(scaled.variances.largest_q4 <= 0x7FFFFFFF);
       for (const Short& weight_q14 : std::span(scaled.weight_q14).first(3))

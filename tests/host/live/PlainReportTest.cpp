@@ -61,7 +61,8 @@ TEST(PlainReport, SaysThatABusHasNoFinger) {
 TEST(PlainReport, PrintsAnObjectForEachBus) {
   const std::string text = printed(TableFormat::kJson, {busWith({}), busWith({})});
   const std::string one =
-      "{\"bus\":\"can0\",\"bus_state\":\"active\",\"time_s\":12.3,\"frames_per_s\":1512,\"load\":0.168,\"missed\":0,\"fingers\":[]}\n";
+      "{\"bus\":\"can0\",\"bus_state\":\"active\",\"time_s\":12.3,\"frames_per_s\":1512,\"load\":0.168,"
+      "\"missed\":0,\"fingers\":[]}\n";
   STRCMP_EQUAL((one + one).c_str(), text.c_str());
 }
 

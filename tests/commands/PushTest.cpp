@@ -128,7 +128,7 @@ sys.exit(push.wait() % 256)' "$STRAINFINGER" push --can $BUS -c $other >/dev/nul
 TEST(PushCommand, InterruptedItLeavesAFingerThatWaitsForTables) {
   const Run run = withUntouchedFinger(R"(
 "$STRAINFINGER" push --can $BUS & push=$!
-until "$STRAINFINGER" discover --can $BUS --duration 0.3 | grep -q ,fault,; do :; done
+for i in {1..20}; do "$STRAINFINGER" discover --can $BUS --duration 0.3 | grep -q ,fault, && break; done
 kill -INT $push; sleep 1; kill -HUP $push; wait $push; echo "$?"
 "$STRAINFINGER" doctor --can $BUS --duration 1 | grep -A1 'fault tables'
 "$STRAINFINGER" tare --can $BUS; echo "$?"
@@ -147,7 +147,7 @@ kill -INT $push; sleep 1; kill -HUP $push; wait $push; echo "$?"
 TEST(PushCommand, OneSignalDoesNotEndItHalfWay) {
   const Run run = withUntouchedFinger(R"(
 "$STRAINFINGER" push --can $BUS -c $other >/dev/null & push=$!
-until "$STRAINFINGER" discover --can $BUS --duration 0.3 | grep -q ,fault,; do :; done
+for i in {1..20}; do "$STRAINFINGER" discover --can $BUS --duration 0.3 | grep -q ,fault, && break; done
 kill -HUP $push; kill -TERM $push; wait $push; echo "$?"; sleep 1
 "$STRAINFINGER" discover --can $BUS --duration 0.5 | tail -n 1 | cut -d, -f3,10)");
   STRCMP_EQUAL("130\nrun,F1\n", run.out.c_str());

@@ -96,8 +96,8 @@ std::string locatorMarkdown(const std::vector<MethodResult>& results, const Coun
       "bound\": "
       "RMS error over the Cramer-Rao bound. \"Gross\": answers more than\nhalf a pitch off. \"ns here\": "
       "nanoseconds of a fit on the machine that made this page, at 0.1 % of noise. Processors: instructions "
-      "of "
-      "a fit, median (95 % quantile), at\n0.1 % of noise where the column does not say otherwise. `-`: not "
+      "of a fit, median (95 % quantile), at\n0.1 % of noise where the column does not say otherwise. `-`: "
+      "not "
       "available.\n\n"
       "| method | error / bound at 0.1 % (angle / P / Q) | gross | clean: um of arc (gross) | error / bound "
       "at 1 % | gross | error / bound at 0.1 %, 0.5 to 4 mm wide | gross | ns here |";

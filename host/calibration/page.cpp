@@ -156,8 +156,7 @@ std::string togetherSection(const CalibrationResult& result) {
   if (rows.empty()) return "";
   return heading("Correlated") +
          "<p>The touches determine these only in combination: each alone is less certain than its effect on "
-         "a "
-         "touch.</p>\n" +
+         "a touch.</p>\n" +
          table("correlations", {"", "with", "correlation"}, rows);
 }
 

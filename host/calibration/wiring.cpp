@@ -359,8 +359,8 @@ std::string textOf(const WiringFault& fault) {
     case Kind::kShifted:
       return fmt::format(
           "the gauges are shifted: gauge 0 is where gauge {0} should be, and so on round the ring; connect "
+          "the wire that is at input 0 to input {0}, and every other wire as many inputs further; or leave "
           "the "
-          "wire that is at input 0 to input {0}, and every other wire as many inputs further; or leave the "
           "wires and set gauges.first_angle_deg to where gauge {0} is drawn (for an uneven ring let the list "
           "gauges.angle_deg begin with that angle){1}",
           fault.other, orTheMark(fault));
@@ -374,8 +374,7 @@ std::string textOf(const WiringFault& fault) {
       break;
   }
   return "the gauges are shifted or connected in reverse order, and the touches don't determine which: add a "
-         "touch of known "
-         "angle_deg that is neither at a gauge nor midway between two" +
+         "touch of known angle_deg that is neither at a gauge nor midway between two" +
          orTheMark(fault);
 }
 

@@ -39,8 +39,7 @@ std::string tableChangesText(const NodeCount& node) {
   if (node.tables.size() < 2) return "";
   return fmt::format(
       "its tables changed meanwhile (last bytes of their CRC-32: {:02X}): it was sent others, or another "
-      "finger "
-      "took its place; what it said before and after are to be read with different configs",
+      "finger took its place; what it said before and after are to be read with different configs",
       fmt::join(node.tables, ", "));
 }
 

@@ -42,10 +42,8 @@ namespace {
 
 constexpr const char* kCalibrateHelp =
     "Estimates the finger as it was built from touches by hand, of unknown places and loads: gain, zero, "
-    "angle "
-    "and depth of each gauge, core radius, Poisson's ratio, shear modulus, together with place, loads and "
-    "width "
-    "of every touch.\n"
+    "angle and depth of each gauge, core radius, Poisson's ratio, shear modulus, together with place, loads "
+    "and width of every touch.\n"
     "--can: guided, with the finger on a bus: it says what to do next (leave it alone, roll it here, press "
     "it there with a known load, press it at a mark), shows what is covered and known, and ends when nothing "
     "is left to gain. Keys: l keeps what is held and enters its load, a its angle, u takes the last of these "
@@ -62,8 +60,7 @@ constexpr const char* kCalibrateHelp =
     "finger. A header row, blank lines and # comments are passed over.\n"
     "stdout: one row a gauge; with --summary one row of the rubber's values and of the errors to "
     "expect; with --rows how each row of strains was used; with --correlations the pairs of unknowns that "
-    "are "
-    "strongly correlated. "
+    "are strongly correlated. "
     "stderr: the same in words.\n"
     "-o writes the config with all of it in [finger], [calibration] and gauges.model_error; [tolerance] says "
     "how far a finger may be off the drawing.\n"

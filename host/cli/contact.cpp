@@ -214,8 +214,7 @@ void tellForces(const contact::Contact& contact, double radius_m) {
   if (along < 0)
     warn("contact",
          "the indenter would have to be pulled: friction presses the surface against it from both sides, and "
-         "the "
-         "normal load is that of the pressure alone");
+         "the normal load is that of the pressure alone");
 }
 
 void runContact(const ContactCommand& options) {

@@ -45,10 +45,8 @@ constexpr const char* kDecodeHelp =
     "..).\n"
     "--touches: a row for each touch sample in place of its frames: where, how hard, how wide, how sure. "
     "Fields of lost frames are empty; without its CONTACT a sample has no row. The last row of a touch has "
-    "no "
-    "flag contact. time_s is the time of the CONTACT. A row is printed when it is complete, so rows of "
-    "several "
-    "fingers may be out of order by 0.2 s (more if HEARTBEATs are lost): sort them by time_s.\n"
+    "no flag contact. time_s is the time of the CONTACT. A row is printed when it is complete, so rows of "
+    "several fingers may be out of order by 0.2 s (more if HEARTBEATs are lost): sort them by time_s.\n"
     "Dates (candump -tA) are taken for those of this machine's time zone (TZ).\n"
     "A line that cannot be read is reported as FILE:LINE:COLUMN on stderr, of each file the first 20, and "
     "makes the exit status 1.\n"
@@ -77,8 +75,7 @@ struct DecodeOptions {
     command.add_flag("--touches", touches, "A row a touch sample, not a row a frame");
     command.add_flag("--follow", follow,
                      "Wait for FILE, and for what is yet to be written to it, until Ctrl-C; once its name is "
-                     "another file's "
-                     "(rotation), go on with that, as tail -F does");
+                     "another file's (rotation), go on with that, as tail -F does");
     command.add_flag("--strict", strict, "Stop at the first line that cannot be read");
   }
   CommonOptions common;

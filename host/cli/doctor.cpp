@@ -32,8 +32,10 @@ constexpr const char* kDoctorHelp =
     "A line for each finding (ok, warning or error) with what to do below it; with --json an object "
     "result,where,finding,remedy.\n"
     "Exit status 0: no error; else that of the first error: 1, 3 no interface, 4 no finger, or one of "
-    "--expect not, "
-    "5 another protocol or other tables.";
+    "--expect not, 5 another protocol or other tables.";
+
+constexpr const char* kNotHeardRemedy =
+    "is it powered, and has it this number? `strainfinger discover` lists those that are there";
 
 struct DoctorOptions {
   explicit DoctorOptions(CLI::App& command)
@@ -160,8 +162,7 @@ class Expected {
         std::ranges::all_of(buses, [](const live::BusView& bus) { return bus.fingers.empty(); });
     if (!crc32_ || areAllSilent || std::ranges::any_of(buses, has)) return {};
     return {{Severity::kError, "config", fmt::format("its node {} (can.node) is not heard", node_),
-             "is it powered, and has it this number? `strainfinger discover` lists those that are there",
-             ExitCode::kNoNode}};
+             kNotHeardRemedy, ExitCode::kNoNode}};
   }
 
  private:
@@ -191,8 +192,7 @@ void runDoctor(const DoctorOptions& options) {
   }
   report.add(expected.findingsOn(views));
   for (const int node : missingOf(options.expected, views))
-    report.add({{Severity::kError, "--expect", fmt::format("node {} is not heard", node),
-                 "is it powered, and has it this number? `strainfinger discover` lists those that are there",
+    report.add({{Severity::kError, "--expect", fmt::format("node {} is not heard", node), kNotHeardRemedy,
                  ExitCode::kNoNode}});
   report.end();
 }

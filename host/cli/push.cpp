@@ -74,30 +74,35 @@ void requireChosen(const RequestOptions& options, std::uint8_t node, const Finge
                   options.bus, fmt::join(nodes, ", ")));
 }
 
+/// The last byte of the CRC-32 of the tables with which the finger works, if they are others than these.
+std::optional<std::uint8_t> othersOf(std::uint8_t node, const Fingers& heard, const TableImage& image) {
+  const auto at = heard.find(node);
+  if (at == heard.end() || at->second.state == FingerState::kFault) return std::nullopt;
+  if (!can::hasOtherTables(at->second, image.crc32)) return std::nullopt;
+  return at->second.table_crc;
+}
+
 /// The default finger's tables, which nobody named, take the place of no others.
 void requireNamed(const PushOptions& options, std::uint8_t node, const Fingers& heard,
                   const TableImage& image) {
-  const auto at = heard.find(node);
-  if (!options.path.empty() || options.request.common.hasConfig() || at == heard.end()) return;
-  if (at->second.state == FingerState::kFault || !can::hasOtherTables(at->second, image.crc32)) return;
+  const auto others = othersOf(node, heard, image);
+  if (!others || !options.path.empty() || options.request.common.hasConfig()) return;
   throw Failure(
       ExitCode::kUsage,
       fmt::format("push: {} node {} has tables of its own (their CRC-32 ends with {:02X}), and these are "
                   "the default finger's ({:02X}): name those that it is to get: FILE, or its config (-c); "
                   "`strainfinger tables -o FILE` makes the default finger's",
-                  options.request.bus, node, at->second.table_crc, tableCrcByte(image.crc32)));
+                  options.request.bus, node, *others, tableCrcByte(image.crc32)));
 }
 
 /// What would bring it back is known only by what it was made from.
 void tellReplaced(const can::BusPort& bus, std::uint8_t node, const Fingers& heard, const TableImage& image) {
-  const auto at = heard.find(node);
-  if (at == heard.end() || !can::hasOtherTables(at->second, image.crc32) ||
-      at->second.state == FingerState::kFault)
-    return;
+  const auto others = othersOf(node, heard, image);
+  if (!others) return;
   tell(
       "push: {} node {} has tables whose CRC-32 ends with {:02X}: their file, or the config they were made "
       "from, brings them back\n",
-      bus.name(), node, at->second.table_crc);
+      bus.name(), node, *others);
 }
 
 std::unique_ptr<TableImage> tablesFor(const PushOptions& options) {

@@ -42,8 +42,7 @@ constexpr const char* kRecordHelp =
     "lines; if the disk is full, or the log is removed or cut meanwhile, it says so and ends with status "
     "1.\n"
     "--new-log-every: for weeks: goes on with another log, of which no frame is lost; each has its start "
-    "(UTC) in "
-    "its name, NAME-DATE-TIME.log.\n"
+    "(UTC) in its name, NAME-DATE-TIME.log.\n"
     "--json: an object log,notes,duration_s,frames,missed,gaps for each log, when it is complete.\n"
     "The log is what `decode`, `plot` and `replay` read.";
 
@@ -114,7 +113,7 @@ class Recorder {
       if (recording_->lookAtBus()) tellOfBus(port_, recording_->isBusThere());
       if (Clock::now() < flushAt) continue;
       recording_->flush();
-      warnOfFingers();
+      warnOfFingers(*recording_);
       flushAt = Clock::now() + kFlushPeriod;
       if (options_.newLogEvery_s && Clock::now() - start_ >= durationOf(*options_.newLogEvery_s)) beginAnew();
     }
@@ -168,17 +167,15 @@ class Recorder {
       warn("record",
            fmt::format("nothing was heard on {}: `strainfinger doctor --can {}` looks for the cause",
                        port_.name(), port_.name()));
-    warnOfFingersIn(recording);
+    warnOfFingers(recording);
     if (table_)
       table_->row({recording.path(), recording.notesPath(), duration_s, std::int64_t(progress.frames),
                    std::int64_t(progress.missed), std::int64_t(progress.gaps)});
     std::fflush(stdout);
   }
 
-  void warnOfFingers() { warnOfFingersIn(*recording_); }
-
   /// Once each, as soon as it is known: a recording may last for weeks.
-  void warnOfFingersIn(const Recording& recording) {
+  void warnOfFingers(const Recording& recording) {
     for (const can::NodeCount& count : losses_.counts()) {
       if (count.twoSenders)
         once(fmt::format("node {}: {}: {}", count.node, can::kTwinText,

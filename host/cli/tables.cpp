@@ -69,14 +69,13 @@ void warnOf(const config::FingerConfig& config, const tables::SelfCheck& check) 
                     "deeper ones",
                     config::widestGapInDepths(config), config::kSparse));
   if (const double error = config::unseenErrors(config).modelError; error > config.gauges.model_error)
-    warn("tables", fmt::format("a depth error of tolerance.depth_m = {} m changes the readings of this "
-                               "finger much, as its gauges "
-                               "are near the core or the surface: until it is calibrated, the tables use a "
-                               "model error of {:.2g} "
-                               "instead of gauges.model_error = {}, and more touches are flagged; calibrate "
-                               "the finger, or enter "
-                               "a smaller tolerance.depth_m if it is built more accurately",
-                               config.tolerance.depth_m, error, config.gauges.model_error));
+    warn("tables",
+         fmt::format("a depth error of tolerance.depth_m = {} m changes the readings of this "
+                     "finger much, as its gauges "
+                     "are near the core or the surface: until it is calibrated, the tables use a model error "
+                     "of {:.2g} instead of gauges.model_error = {}, and more touches are flagged; calibrate "
+                     "the finger, or enter a smaller tolerance.depth_m if it is built more accurately",
+                     config.tolerance.depth_m, error, config.gauges.model_error));
   const double most_n = 2 * check.halfScale_n_per_m * config.finger.length_m;
   const double told_n = can::largestValues().normal_n;
   if (most_n > told_n)

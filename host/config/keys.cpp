@@ -51,12 +51,11 @@ std::vector<Key> makeKeys() {
        "largest strain that the converter covers: its range is from minus this to plus this"},
       {"gauges", "adc_bits", slot<&F::gauges, &Gauges::adc_bits>(), Domain::between(8, 16),
        "resolution of the converter in bits: the steps of simulated codes, and the least noise_strain; 12 "
-       "for "
-       "the board in firmware/board"},
+       "for the board in firmware/board"},
       {"gauges", "model_error", slot<&F::gauges, &Gauges::model_error>(), Domain::between(0, 1),
        "standard deviation of the difference between a reading and the model (build tolerances, rubber), as "
-       "a "
-       "fraction of that reading; an eighth of the same for its neighbours' readings and a sixteenth of that "
+       "a fraction of that reading; an eighth of the same for its neighbours' readings and a sixteenth of "
+       "that "
        "for the touch's largest one are added; 0.05: the finger has not been calibrated, and up to twice as "
        "much is used where a depth error of tolerance.depth_m changes its readings much, as near the core; "
        "0: the finger is exactly as configured"},
@@ -114,8 +113,7 @@ std::vector<Key> makeKeys() {
        "calibrate: standard deviation of what taring leaves of a gauge's zero"},
       {"tolerance", "core_radius_m", slot<&F::tolerance, &Tolerance::core_radius_m>(), Domain::above(0, 1),
        "standard deviation of the core's radius from the drawing: used by calibrate, and for the standard "
-       "error "
-       "of loads of a finger that is not calibrated"},
+       "error of loads of a finger that is not calibrated"},
       {"tolerance", "poisson_ratio", slot<&F::tolerance, &Tolerance::poisson_ratio>(), Domain::above(0, 0.5),
        "standard deviation of Poisson's ratio from finger.poisson_ratio: used as core_radius_m"},
       {"tolerance", "shear_modulus", slot<&F::tolerance, &Tolerance::shear_modulus>(), Domain::above(0, 1),

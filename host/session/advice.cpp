@@ -114,8 +114,7 @@ std::string textOf(const Advice& advice, const config::Gauges& gauges) {
       return "Roll it all around while the first fit is made.";
     case Advice::Kind::kMend:
       return "Stop: gauges or wires must be mended first, as said where it says \"no fit yet\". End the "
-             "session "
-             "(q), mend them, and start again with another -o.";
+             "session (q), mend them, and start again with another -o.";
     case Advice::Kind::kDone:
       break;
   }

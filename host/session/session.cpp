@@ -144,8 +144,7 @@ std::string Session::doubtOfLoad(double said_n_per_m, const VectorXd& strains) c
   if (!calibration::isOfAnotherUnit(search_, strains, said_n_per_m)) return {};
   return fmt::format(
       "a finger as in the config reads so under about {:.3g} N/m. Look at the load's unit, finger.length_m "
-      "and "
-      "finger.shear_modulus_pa, and enter it again; the same load is taken then",
+      "and finger.shear_modulus_pa, and enter it again; the same load is taken then",
       search_.guess(strains)[calibration::kNormalLoad]);
 }
 
@@ -158,8 +157,7 @@ std::string Session::doubtOfAngle(double said_deg, const VectorXd& strains) cons
   if (std::abs(std::remainder(said_deg - read_deg, 360)) <= most_deg) return {};
   return fmt::format(
       "the readings say about {:.0f} deg. Look at the mark, gauges.first_angle_deg and the order of the "
-      "gauges, "
-      "and enter it again; the same angle is taken then",
+      "gauges, and enter it again; the same angle is taken then",
       withinATurn_deg(read_deg));
 }
 

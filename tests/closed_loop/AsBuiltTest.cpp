@@ -93,8 +93,7 @@ TEST_GROUP(AsBuilt) {
     for (int seed = 1; seed <= kFingers; ++seed) touch(seed, ranges, count / kFingers, outcome);
     std::printf(
         "\n%d touches of %g to %g N/m, %g to %g mm, on %d fingers: told %d, beyond six sigma %d, in width "
-        "%d, "
-        "silent %d, flagged %d, blamed %d, several %d ",
+        "%d, silent %d, flagged %d, blamed %d, several %d ",
         outcome.touches, ranges.load_n_per_m.least, ranges.load_n_per_m.most, ranges.width_m.least * 1e3,
         ranges.width_m.most * 1e3, kFingers, outcome.told, outcome.beyond, outcome.wide, outcome.silent,
         outcome.flagged, outcome.blamed, outcome.several);

@@ -153,12 +153,10 @@ TEST(Decode, PrintsARowATouch) {
   STRCMP_EQUAL(
       "time_s,interface,node,angle_deg,normal_n,tangential_n,width_m,sigma_angle_deg,sigma_normal_n,"
       "sigma_tangential_n,sigma_width_m,quality_percent,chi,flags,sequence,angle2_deg,normal2_n,tangential2_"
-      "n,"
-      "alternative_deg,contacts,sigma_angle2_deg,sigma_normal2_n,sigma_tangential2_n,quality2_percent,"
+      "n,alternative_deg,contacts,sigma_angle2_deg,sigma_normal2_n,sigma_tangential2_n,quality2_percent,"
       "alternative2_deg\n"
       "1609779922.655421,can0,5,10,0.29,-0.226,0.00204,2.9,0.0035,0.0045,0.00015,97,1.0625,contact+simulated,"
-      "163,"
-      "199.8,0.41,0.035,,2,3.1,0.0045,0.0045,95,\n",
+      "163,199.8,0.41,0.035,,2,3.1,0.0045,0.0045,95,\n",
       run.out.c_str());
 }
 
@@ -420,8 +418,7 @@ TEST(Decode, AFingerOfAnotherProtocolIsToldAtOnceAndHasNoRows) {
     CHECK(rows(run).find("can0") == std::string::npos);
     const std::string warning =
         "decode: warning: stdin:1: can0 node 5 speaks protocol 3, this program 2: use the strainfinger of "
-        "its "
-        "firmware; what it says from here on is left out\n";
+        "its firmware; what it says from here on is left out\n";
     STRCMP_EQUAL(warning.c_str(), run.err.substr(0, warning.size()).c_str());
     CHECK(run.err.find("warning", warning.size()) == std::string::npos);
     checkSays("skipped 5 of fingers that speak another protocol\n", run);

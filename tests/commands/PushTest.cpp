@@ -138,8 +138,7 @@ kill -INT $push; sleep 1; kill -HUP $push; wait $push; echo "$?"
   STRCMP_CONTAINS("what to do: `strainfinger push --can ", run.out.c_str());
   STRCMP_CONTAINS(
       "tare: Not now: the zero is being taken, the end of a touch has not been sent yet, or the finger has "
-      "no "
-      "samples or no tables (busy)",
+      "no samples or no tables (busy)",
       run.err.c_str());
   STRCMP_CONTAINS("BUS,1,A38B572C,24568\ninterface,node,command,status\nBUS,1,tare,done\n", run.out.c_str());
 }

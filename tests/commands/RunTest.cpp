@@ -253,8 +253,7 @@ TEST(RunCommand, RunsOnTablesFromAFile) {
 TEST(RunCommand, RefusesTablesOfAnotherFinger) {
   const Run run = runShell(
       "t=$(mktemp); echo -e 'schema = 1\\n[gauges]\\ncount = 24' | \"$STRAINFINGER\" tables -c /dev/stdin -o "
-      "$t; "
-      "\"$STRAINFINGER\" run --tables $t; status=$?; rm $t; exit $status");
+      "$t; \"$STRAINFINGER\" run --tables $t; status=$?; rm $t; exit $status");
   checkRefused(run, 5, "gauges.count is 24, the config has 16");
 }
 
@@ -285,8 +284,7 @@ TEST(RunCommand, UncalibratedTablesAreNoFiles) {
 TEST(RunCommand, RefusesDamagedTables) {
   const Run run = runShell(
       "t=$(mktemp); \"$STRAINFINGER\" tables -o $t; printf X | dd of=$t bs=1 seek=500 conv=notrunc "
-      "2>/dev/null; "
-      "\"$STRAINFINGER\" run --tables $t; status=$?; rm $t; exit $status");
+      "2>/dev/null; \"$STRAINFINGER\" run --tables $t; status=$?; rm $t; exit $status");
   checkRefused(run, 6, "CRC-32 does not match");
 }
 

@@ -321,8 +321,7 @@ TEST(ValueText, TheLargestThatAFingerCanSayIsThatOrMore) {
 TEST(ValueText, APlainLineHasItAll) {
   STRCMP_EQUAL(
       "12.300 s  can0 node 1  run  angle 0.00 ± 0.50 deg  normal 0.282 ± 0.004 N  tangential -0.100 ± 0.003 "
-      "N  width "
-      "2.04 ± 0.15 mm  500 contacts/s  2 lost  stale zero, simulated",
+      "N  width 2.04 ± 0.15 mm  500 contacts/s  2 lost  stale zero, simulated",
       plainLine(busWith({}), touchedFinger()).c_str());
 }
 

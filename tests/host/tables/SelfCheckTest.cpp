@@ -152,8 +152,7 @@ TEST(SelfCheck, AMisplacedContactIsToldWithPlaceLoadDirectionAndMode) {
   result.misplaced = Misplaced{firmware::FitMode::kThreePoint, 7.5, -0.25, 0.002, 0.125, 2};
   STRCMP_CONTAINS(
       "a contact of 7.5 N/m normal load and -0.25 times that tangential load, 0.002 m wide and 2.81 deg from "
-      "a "
-      "gauge, is located 45 deg from its place without a flag (three-point fit)",
+      "a gauge, is located 45 deg from its place without a flag (three-point fit)",
       verdictOn(result).c_str());
 }
 

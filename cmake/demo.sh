@@ -49,4 +49,4 @@ echo "  candump.log            every frame it sent; finger.tables: the flash ima
 step "Next"
 echo "  $program run --seed 7 --truth >/dev/null                  other noise, another ring of gauges"
 echo "  $program run --scenario mine.toml --truth >/dev/null      your own touches: host/simulation/scenarios/touches.toml says how"
-echo "  cmake --preset host && cmake --build --preset host        all the commands: build/host/strainfinger (this program has those of the bus)"
+echo "  cmake --preset host && cmake --build --preset host        all the commands: build/host/strainfinger (this program has those of a finger, its tables and its logs)"
